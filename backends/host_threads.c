@@ -1,0 +1,165 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The host backend: a pool of POSIX threads. The tasks of a call are numbers that whoever is free takes next, so tiles
+ * of uneven cost even out by themselves (the thesis' dynamic assignment of envelopes to SPEs). The calling thread works
+ * too. Idle threads sleep on a condition variable: a spin would burn a core that a simulation needs. */
+#define _GNU_SOURCE /* sched_getaffinity */
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <unistd.h>
+
+#include "memory.h"
+#include "tasks.h"
+
+/* One call of run: it lives on the caller's stack while it is in the pool's list. */
+typedef struct job {
+    cgt_task *task;
+    void *argument;
+    uint32_t count;
+    atomic_uint next;     /* the first index that nobody took; may run past count by one per worker */
+    uint32_t helpers;     /* workers inside; under the pool's lock */
+    struct job *link;     /* the next job; under the pool's lock */
+} job;
+
+typedef struct pool {
+    pthread_mutex_t lock;
+    pthread_cond_t work; /* a job has come, or stop */
+    pthread_cond_t done; /* a worker has left a job */
+    job *jobs;
+    bool stop;
+    uint32_t workers; /* started, the caller not counted */
+    uint32_t room;    /* length of thread */
+    pthread_t thread[];
+} pool;
+
+static size_t pool_bytes(uint32_t room) { return sizeof(pool) + room * sizeof(pthread_t); }
+
+static void take_tasks(job *j)
+{
+    /* checked before it is taken: a job that many look at cannot count past the end of the type */
+    while (atomic_load_explicit(&j->next, memory_order_relaxed) < j->count) {
+        const uint32_t index = atomic_fetch_add_explicit(&j->next, 1, memory_order_relaxed);
+        if (index >= j->count) return;
+        j->task(j->argument, index);
+    }
+}
+
+static job *find_work(const pool *p)
+{
+    job *j = p->jobs;
+    while (j && atomic_load_explicit(&j->next, memory_order_relaxed) >= j->count) j = j->link;
+    return j;
+}
+
+static void *worker(void *state)
+{
+    pool *p = state;
+    pthread_mutex_lock(&p->lock);
+    while (!p->stop) {
+        job *j = find_work(p);
+        if (!j) {
+            pthread_cond_wait(&p->work, &p->lock);
+            continue;
+        }
+        j->helpers++;
+        pthread_mutex_unlock(&p->lock);
+        take_tasks(j);
+        pthread_mutex_lock(&p->lock);
+        if (--j->helpers == 0) pthread_cond_broadcast(&p->done);
+    }
+    pthread_mutex_unlock(&p->lock);
+    return NULL;
+}
+
+static void remove_job(pool *p, const job *j)
+{
+    job **at = &p->jobs;
+    while (*at != j) at = &(*at)->link;
+    *at = j->link;
+}
+
+static void host_run(void *state, cgt_task *task, void *argument, uint32_t count)
+{
+    pool *p = state;
+    job j = {.task = task, .argument = argument, .count = count};
+    atomic_init(&j.next, 0);
+    pthread_mutex_lock(&p->lock);
+    j.link = p->jobs;
+    p->jobs = &j;
+    pthread_cond_broadcast(&p->work);
+    pthread_mutex_unlock(&p->lock);
+
+    take_tasks(&j);
+
+    /* nobody can enter once it is out of the list; wait for those inside */
+    pthread_mutex_lock(&p->lock);
+    remove_job(p, &j);
+    while (j.helpers) pthread_cond_wait(&p->done, &p->lock);
+    pthread_mutex_unlock(&p->lock);
+}
+
+static void host_destroy(const cgt_memory_hooks *memory, void *state)
+{
+    pool *p = state;
+    if (!p) return;
+    pthread_mutex_lock(&p->lock);
+    p->stop = true;
+    pthread_cond_broadcast(&p->work);
+    pthread_mutex_unlock(&p->lock);
+    for (uint32_t i = 0; i < p->workers; i++) pthread_join(p->thread[i], NULL);
+    pthread_cond_destroy(&p->done);
+    pthread_cond_destroy(&p->work);
+    pthread_mutex_destroy(&p->lock);
+    cgt_free(memory, p, pool_bytes(p->room));
+}
+
+static bool make_locks(pool *p)
+{
+    if (pthread_mutex_init(&p->lock, NULL)) return false;
+    if (pthread_cond_init(&p->work, NULL)) {
+        pthread_mutex_destroy(&p->lock);
+        return false;
+    }
+    if (!pthread_cond_init(&p->done, NULL)) return true;
+    pthread_cond_destroy(&p->work);
+    pthread_mutex_destroy(&p->lock);
+    return false;
+}
+
+static cgt_result host_create(const cgt_memory_hooks *memory, uint32_t threads, void **state)
+{
+    const uint32_t room = threads - 1;
+    pool *p = cgt_allocate(memory, pool_bytes(room));
+    *state = NULL;
+    if (!p) return CGT_ERROR_OUT_OF_MEMORY;
+    p->jobs = NULL;
+    p->stop = false;
+    p->workers = 0;
+    p->room = room;
+    if (!make_locks(p)) {
+        cgt_free(memory, p, pool_bytes(room));
+        return CGT_ERROR_THREADS;
+    }
+    for (; p->workers < room; p->workers++)
+        if (pthread_create(&p->thread[p->workers], NULL, worker, p)) {
+            host_destroy(memory, p);
+            return CGT_ERROR_THREADS;
+        }
+    *state = p;
+    return CGT_OK;
+}
+
+uint32_t cgt_host_cpus(void)
+{
+#ifdef __linux__
+    cpu_set_t set;
+    if (!sched_getaffinity(0, sizeof set, &set) && CPU_COUNT(&set) > 0) return (uint32_t)CPU_COUNT(&set);
+#endif
+    const long cpus = sysconf(_SC_NPROCESSORS_ONLN);
+    return cpus > 0 ? (uint32_t)cpus : 1;
+}
+
+const cgt_backend cgt_backend_host = {"host", host_create, host_run, host_destroy};

@@ -1,0 +1,370 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * libcgt: ray casting of scenes in which every primitive moves every frame.
+ *
+ *   context   threads, memory, log; makes scenes
+ *   scene     geometries over the caller's own arrays
+ *   commit    builds the structure from the arrays as they are now, from scratch
+ *   trace     a camera's frame, or any array of rays, against the committed scene
+ *
+ * A frame is: move your data, cgt_scene_commit, cgt_trace_camera.
+ *
+ * Conventions of every call
+ *   Result   cgt_result. On an error nothing is changed but the text that cgt_error_message returns.
+ *   NULL     allowed only where a text below says so.
+ *   Threads  a scene is changed and committed by one thread at a time, while no thread traces it; a committed
+ *            scene may be traced by any number of threads at once. There is no global state.
+ *   Floats   IEEE single precision. The library expects round-to-nearest; flushing of denormals may be on.
+ *
+ * Structure and traversal follow David R. Chapman, "High Definition Interactive Animated Ray Tracing on CELL
+ * Processor using Coherent Grid Traversal", and Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes
+ * using Coherent Grid Traversal", SIGGRAPH 2006. */
+#ifndef CGT_CGT_H
+#define CGT_CGT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cgt/version.h>
+
+#if defined(CGT_SHARED) && defined(__GNUC__)
+#define CGT_API __attribute__((visibility("default")))
+#else
+#define CGT_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Results ------------------------------------------------------------------------------------------------ */
+
+typedef enum cgt_result {
+    CGT_OK = 0,
+    CGT_ERROR_INVALID_ARGUMENT,    /* a value is outside its documented range; the message names it */
+    CGT_ERROR_OUT_OF_MEMORY,       /* the memory hook returned NULL; nothing is lost, the call may be tried again */
+    CGT_ERROR_TOO_LARGE,           /* a size would overflow, or is beyond a documented limit */
+    CGT_ERROR_TOO_MANY_PRIMITIVES, /* more primitives than the structure can refer to (65,535 in a queue grid) */
+    CGT_ERROR_NOT_COMMITTED,       /* the scene was never committed, or a geometry was changed since */
+    CGT_ERROR_UNSUPPORTED,         /* this CPU or this build lacks what was asked for */
+    CGT_ERROR_THREADS,             /* the system refused a thread or a lock */
+    CGT_ERROR_STOPPED              /* a visitor asked to stop; the frame is incomplete */
+} cgt_result;
+
+/* Returns a sentence for the code, in English, for ever valid. Unknown codes get a sentence too. */
+CGT_API const char *cgt_result_string(cgt_result result);
+
+/* Returns the version of the library that is linked, as "major.minor.patch"; compare with CGT_VERSION_STRING. */
+CGT_API const char *cgt_version(void);
+
+/* ---- Hooks -------------------------------------------------------------------------------------------------- */
+
+/* Memory. allocate returns at least `bytes` bytes aligned to `alignment` (a power of two, at most 64), or NULL.
+ * release gets what allocate returned and the same number of bytes; never NULL. Both are called from the thread
+ * that makes the call into the library, never from a worker thread. */
+typedef struct cgt_memory_hooks {
+    void *user;                                                        /* handed to both; default NULL */
+    void *(*allocate)(void *user, size_t bytes, size_t alignment);     /* default: the C library's */
+    void (*release)(void *user, void *memory, size_t bytes);           /* default: the C library's */
+} cgt_memory_hooks;
+
+typedef enum cgt_log_level { CGT_LOG_ERROR = 0, CGT_LOG_WARNING, CGT_LOG_INFO } cgt_log_level;
+
+/* Log. write gets one line without a line feed; it may be called from any thread that calls the library. */
+typedef struct cgt_log_hook {
+    void *user;                                                           /* handed to write; default NULL */
+    void (*write)(void *user, cgt_log_level level, const char *message); /* default NULL: silent */
+} cgt_log_hook;
+
+/* One piece of work: `index` counts from 0 to count - 1. Pieces are independent of each other. */
+typedef void cgt_task(void *argument, uint32_t index);
+
+/* Tasks. run calls task(argument, index) once for each index below count, in any order, on any threads, and returns
+ * when all have returned. With a runner set the library starts no thread of its own. A runner that runs the tasks
+ * one after another on the calling thread is valid. Results do not depend on the order. */
+typedef struct cgt_task_runner {
+    void *user;                                                                  /* handed to run; default NULL */
+    void (*run)(void *user, cgt_task *task, void *argument, uint32_t count);     /* default NULL: own thread pool */
+} cgt_task_runner;
+
+/* ---- Context ------------------------------------------------------------------------------------------------ */
+
+typedef struct cgt_context cgt_context;
+
+typedef struct cgt_context_options {
+    uint32_t threads;        /* threads that work, the caller's included: 1 starts none; 0 (default) one per CPU that
+                                the process may use; at most 1024. Ignored where tasks.run is set. */
+    const char *variant;     /* name of a row of cgt_variants; NULL (default): the widest that this CPU runs */
+    cgt_memory_hooks memory; /* both functions or neither */
+    cgt_log_hook log;
+    cgt_task_runner tasks;
+} cgt_context_options;
+
+/* Fills in the defaults. Call it first, so that options that come later have theirs. */
+CGT_API void cgt_context_options_init(cgt_context_options *options);
+
+/* Creates a context. options: NULL for the defaults; need not outlive the call. context: gets the handle, or NULL on
+ * an error. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY, UNSUPPORTED (variant), THREADS.
+ * The environment variable CGT_DISABLE_CPU names CPU features to do without, comma-separated (sse4.1); an unknown
+ * name ends the process, so that a test never believes in a mask that is not there. */
+CGT_API cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **context);
+
+/* Gives the context back. It stays until its last scene is released; NULL is ignored. */
+CGT_API void cgt_context_release(cgt_context *context);
+
+/* Copies the message of the last call on this context, or on a scene of it, that failed into text (ended by a zero,
+ * cut to size bytes; NULL with size 0 to ask for the length). Returns the length of the whole message; 0 where no
+ * call has failed. Any thread may call it; where several threads fail at once, one of their messages is kept. */
+CGT_API size_t cgt_error_message(const cgt_context *context, char *text, size_t size);
+
+/* Returns the name of the variant that the context uses, valid as long as the library is loaded. */
+CGT_API const char *cgt_context_variant(const cgt_context *context);
+
+/* Returns the number of threads that work for the context; 0 where the caller's task runner does. */
+CGT_API uint32_t cgt_context_threads(const cgt_context *context);
+
+/* Returns the names of all variants in this build, narrowest first, ended by NULL. A CPU need not run them all. */
+CGT_API const char *const *cgt_variants(void);
+
+/* ---- Scene -------------------------------------------------------------------------------------------------- */
+
+typedef struct cgt_scene cgt_scene;
+
+#define CGT_NONE UINT32_MAX /* the primitive and the geometry of a ray that hits nothing */
+
+/* Spheres in the caller's arrays. The library copies nothing: the arrays stay readable and unchanged from
+ * cgt_scene_commit to the last trace before the next commit. Pointers are aligned as a float is.
+ * A sphere with a NaN, an infinity or a negative radius is skipped and counted; a radius of zero is a point, which
+ * only a ray exactly through it hits. */
+typedef struct cgt_spheres {
+    uint32_t count;        /* spheres; 0 is valid */
+    const float *centers;  /* x, y, z of sphere i at byte i * center_stride; NULL only where count is 0 */
+    size_t center_stride;  /* bytes, a multiple of 4; 0 (default): 12 */
+    const float *radii;    /* radius of sphere i at byte i * radius_stride; NULL: all have `radius` */
+    size_t radius_stride;  /* bytes, a multiple of 4; 0 (default): 4 */
+    float radius;          /* world units, used where radii is NULL; 0 or more */
+} cgt_spheres;
+
+typedef enum cgt_structure {
+    CGT_STRUCTURE_AUTO = 0,  /* chosen from the scene at each commit */
+    CGT_STRUCTURE_QUEUE_GRID /* uniform grid of 32-byte voxels, each a queue of 16 references of 16 bits (Chapman);
+                                at most 65,535 primitives */
+} cgt_structure;
+
+typedef struct cgt_scene_options {
+    cgt_structure structure; /* default AUTO */
+    uint32_t resolution[3];  /* cells along x, y, z, each 1 to 1024 and 16,777,216 in all; 0, 0, 0 (default): chosen
+                                from the scene at each commit */
+} cgt_scene_options;
+
+CGT_API void cgt_scene_options_init(cgt_scene_options *options);
+
+/* Creates an empty scene. options: NULL for the defaults; need not outlive the call. */
+CGT_API cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *options, cgt_scene **scene);
+
+/* Gives the scene back; NULL is ignored. No thread may be using it. */
+CGT_API void cgt_scene_release(cgt_scene *scene);
+
+/* Changes the options from the next commit on. */
+CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options);
+
+/* Adds a geometry; geometry gets its id: the lowest that is free. The struct need not outlive the call, the arrays
+ * that it points to must. The sum of the counts of all geometries stays below 2^32 - 1. */
+CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry);
+
+/* Replaces a geometry: another count, other arrays. Where only the numbers inside the arrays moved, no call but
+ * cgt_scene_commit is needed. */
+CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres);
+
+CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
+
+/* Builds the structure from the arrays as they are now. Uses the context's threads. Memory is kept from one commit
+ * to the next: a scene whose size does not grow allocates nothing. Errors: OUT_OF_MEMORY, TOO_MANY_PRIMITIVES,
+ * TOO_LARGE; after an error the scene counts as not committed. An empty scene is valid: no ray hits it. */
+CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
+
+/* What the last commit found, chose and spent. */
+typedef struct cgt_scene_statistics {
+    cgt_structure structure;      /* what was built; AUTO before the first commit */
+    char reason[128];             /* why, in words */
+    uint32_t geometries;          /* that the scene holds */
+    uint32_t primitives;          /* given, skipped ones included */
+    uint32_t skipped_not_finite;  /* spheres with a NaN or an infinity */
+    uint32_t skipped_radius;      /* spheres with a negative radius */
+    float bounds_min[3];          /* of all that was not skipped, rounded outwards; 0 where there is nothing */
+    float bounds_max[3];
+    uint32_t resolution[3];       /* cells along x, y, z */
+    uint64_t cells;
+    uint64_t references;          /* primitives in cells, counted once per cell, overflow included */
+    uint64_t overflow_references; /* those that found a full queue and went to the overflow list */
+    uint32_t overflow_cells;      /* cells with any of those */
+    uint32_t large_primitives;    /* larger than a cell: more than eight corners to push */
+    size_t bytes;                 /* memory that the scene holds now */
+    size_t local_store_bytes;     /* grid, overflow list and spheres together: what a Cell SPU has to hold */
+    int fits_local_store;         /* 1 where the grid is at most 16x16x16 and local_store_bytes, with 64 KB for
+                                     program and stack, is within 256 KB */
+    double bounds_ms;             /* reading, checking and bounding the primitives */
+    double build_ms;              /* filling the structure */
+    double commit_ms;             /* the whole call */
+} cgt_scene_statistics;
+
+CGT_API cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics);
+
+/* ---- Tracing ------------------------------------------------------------------------------------------------ */
+
+/* What a hit can carry; unasked fields cost nothing. */
+typedef enum cgt_field {
+    CGT_FIELD_T = 1,         /* float: distance in units of the ray's direction; +infinity for none */
+    CGT_FIELD_PRIMITIVE = 2, /* uint32: index in its geometry; CGT_NONE for none */
+    CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_NONE for none */
+    CGT_FIELD_NORMAL = 8     /* 3 floats: outward unit normal; 0, 0, 0 for none */
+} cgt_field;
+
+typedef enum cgt_tile_shape {
+    CGT_TILE_AUTO = 0, /* chosen: square */
+    CGT_TILE_SQUARE,   /* 64x64 pixels */
+    CGT_TILE_STRIP     /* Chapman's: four scanlines of the whole width, written in scanline order; packets are 4x4 */
+} cgt_tile_shape;
+
+typedef enum cgt_loop {
+    CGT_LOOP_AUTO = 0, /* chosen: what measured faster */
+    CGT_LOOP_NESTED,   /* slices, rows and cells as three loops (Wald et al.) */
+    CGT_LOOP_FLATTENED /* one loop that steps all three without a branch (Chapman), right for empty slices and for
+                          bounds that change from slice to slice */
+} cgt_loop;
+
+/* What a trace did. Counting is done only where a statistics pointer is set. */
+typedef struct cgt_trace_statistics {
+    uint64_t rays;            /* asked for */
+    uint64_t invalid_rays;    /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN range:
+                                 they hit nothing */
+    uint64_t hits;            /* rays with a hit; occluded rays in the any-hit form */
+    uint64_t packets;         /* packets traversed: common main axis and sign */
+    uint64_t split_packets;   /* packets that had to be split because their rays disagreed or diverged */
+    uint64_t slices;          /* slices of the grid that a packet entered */
+    uint64_t cells;           /* cells that a packet visited */
+    uint64_t references;      /* references read from cells, overflow included */
+    uint64_t mailbox_skipped; /* references that the mailbox had seen before */
+    uint64_t cull_tests;      /* spheres tested against a packet's frustum */
+    uint64_t culled;          /* spheres that the frustum test rejected */
+    uint64_t packet_tests;    /* spheres tested against the rays of a packet */
+    uint64_t ray_tests;       /* rays tested against a sphere: lanes, padding excluded */
+    uint64_t double_tests;    /* of those, the ones that single precision could not decide */
+    uint64_t early_exits;     /* packets whose hits all lay before the next slice */
+    uint32_t packet_size;     /* 4, 8 or 16 of a camera's frame; 0 for arrays of rays */
+    cgt_tile_shape tile;      /* what was used */
+    cgt_loop loop;            /* what was used */
+    double trace_ms;          /* the whole call */
+} cgt_trace_statistics;
+
+typedef struct cgt_trace_options {
+    uint32_t packet;                  /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): chosen */
+    cgt_tile_shape tile;              /* default AUTO */
+    cgt_loop loop;                    /* default AUTO */
+    int cull;                         /* test spheres against a packet's frustum first; default 1 */
+    int mailbox;                      /* remember the spheres that a packet has met; default 0: measured to cost more
+                                         than it saves */
+    cgt_trace_statistics *statistics; /* gets the counts of this call; NULL (default): nothing is counted */
+} cgt_trace_options;
+
+CGT_API void cgt_trace_options_init(cgt_trace_options *options);
+
+typedef enum cgt_projection { CGT_PERSPECTIVE = 0, CGT_ORTHOGRAPHIC } cgt_projection;
+
+/* A camera. With fwd, right, up its orthonormal axes, h = tan(fov / 2) and a = width / height, the ray of pixel
+ * (x, y), row 0 at the top, is
+ *   perspective   org = eye,  dir = fwd + (2(x + 0.5)/width - 1) h a right + (1 - 2(y + 0.5)/height) h up
+ *   orthographic  org = eye + the same sum of right and up with h = height / 2,  dir = fwd
+ * dir is not normalised; t is in units of dir. */
+typedef struct cgt_camera {
+    cgt_projection projection;
+    float eye[3];
+    float target[3]; /* must differ from eye */
+    float up[3];     /* must not be parallel to target - eye */
+    float fov;       /* perspective: vertical angle in degrees, above 0, below 180; default 45 */
+    float height;    /* orthographic: height of the picture in world units, above 0; default 2 */
+    float t_min;     /* hits before are ignored; 0 (default) or more */
+    float t_max;     /* hits beyond are ignored; default +infinity; not below t_min */
+} cgt_camera;
+
+/* Fills in the defaults: perspective, from (0, 0, 5) to the origin, up (0, 1, 0). */
+CGT_API void cgt_camera_init(cgt_camera *camera);
+
+/* A finished tile. Pointers are NULL where the field was not asked for; pixel (i, j) of the tile, i < width,
+ * j < height, is element j * row_stride + i. Valid during the call only. */
+typedef struct cgt_tile {
+    uint32_t x, y;          /* first pixel in the frame */
+    uint32_t width, height; /* pixels */
+    size_t row_stride;      /* elements */
+    const float *t;
+    const uint32_t *primitive;
+    const uint32_t *geometry;
+    const float *normal[3];
+} cgt_tile;
+
+/* Called once per tile, from the threads that trace, several at once, in any order. Returns 0 to go on; anything
+ * else stops the frame: cgt_trace_camera returns CGT_ERROR_STOPPED. */
+typedef int cgt_tile_visitor(void *user, const cgt_tile *tile);
+
+/* Where a camera's frame goes: into planes, to a visitor while the tile is in cache, or both. */
+typedef struct cgt_frame {
+    uint32_t width, height;     /* pixels, each 1 to 65,536 */
+    size_t row_stride;          /* elements from one row of the planes to the next; 0 (default): width */
+    float *t;                   /* planes of row_stride * height elements, aligned as their type; NULL: not wanted */
+    uint32_t *primitive;
+    uint32_t *geometry;
+    float *normal[3];           /* all three or none */
+    cgt_tile_visitor *visitor;  /* NULL: none */
+    void *visitor_user;         /* handed to the visitor */
+    uint32_t visitor_fields;    /* cgt_field values that the visitor is to get, combined */
+} cgt_frame;
+
+/* Sets all to zero but the size: ask for what you want. */
+CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
+
+/* Traces one ray per pixel to its nearest hit.
+ * The hit is the one that double-precision arithmetic finds on the same float input, never a single-precision guess:
+ * no hit is missed or invented at a silhouette. A hit counts where t_min <= t <= t_max, t rounded to float; of equal
+ * distances the lowest geometry, then primitive id wins. An origin inside a sphere hits its far side; on its
+ * surface, t = 0. t is within 1 ulp of the exact value, or 2^-50 of the distance to the centre where that is more.
+ * The same bits come from any number of threads, tile shape, packet size, loop and variant.
+ * options: NULL for the defaults. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED. Allocates nothing. */
+CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                                    const cgt_trace_options *options);
+
+/* Rays in the caller's arrays: element i of each at byte i * stride. stride 4 (or 0) is structure of arrays; with
+ * sizeof(struct) the pointers go into an array of structs. Directions have any length but zero. */
+typedef struct cgt_rays {
+    uint64_t count;
+    size_t stride;       /* bytes, a multiple of 4; 0 (default): 4 */
+    const float *org[3]; /* x, y, z */
+    const float *dir[3]; /* x, y, z */
+    const float *t_min;  /* NULL: 0 for all. A negative value is used as it is: hits behind the origin count. */
+    const float *t_max;  /* NULL: +infinity for all. Below t_min: the ray hits nothing. */
+} cgt_rays;
+
+/* Hits in the caller's arrays: element i of each at byte i * stride. NULL: not wanted. */
+typedef struct cgt_hits {
+    size_t stride; /* bytes, a multiple of 4; 0 (default): 4 */
+    float *t;
+    uint32_t *primitive;
+    uint32_t *geometry;
+    float *normal[3]; /* all three or none */
+} cgt_hits;
+
+/* Traces rays to their nearest hits, as cgt_trace_camera does. Neighbours in the arrays should be neighbours in
+ * space: they are traced as packets where they are. Allocates nothing. */
+CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
+                                  const cgt_trace_options *options);
+
+/* Sets occluded[i] to 1 where ray i hits anything within its range, else to 0: what cgt_trace_rays would find, but
+ * faster. occluded: rays->count bytes. */
+CGT_API cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
+                                     const cgt_trace_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

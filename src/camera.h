@@ -1,0 +1,31 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A camera, checked and turned into what makes its rays. */
+#ifndef CGT_CAMERA_H
+#define CGT_CAMERA_H
+
+#include <stdbool.h>
+
+#include <cgt/cgt.h>
+
+/* With px = (x + 0.5f) * pixel[0] - 1 and py = 1 - (y + 0.5f) * pixel[1], all in float and unfused, the ray of pixel
+ * (x, y) is the canonical one:
+ *   perspective   org = eye, dir = (fwd + px * right) + py * up
+ *   orthographic  org = (eye + px * right) + py * up, dir = fwd */
+typedef struct cgt_camera_rays {
+    float eye[3];
+    float fwd[3];   /* unit */
+    float right[3]; /* half the picture's width long */
+    float up[3];    /* half the picture's height long */
+    float pixel[2]; /* 2 / width, 2 / height */
+    float t_min, t_max;
+    uint32_t width, height;
+    bool orthographic;
+} cgt_camera_rays;
+
+/* Returns CGT_OK, or INVALID_ARGUMENT with a message of at most 160 characters. */
+cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t height, cgt_camera_rays *rays,
+                              char message[160]);
+
+#endif

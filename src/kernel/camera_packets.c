@@ -1,0 +1,92 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A region of a camera's frame, packet by packet: rays from pixels, hits to planes. */
+#include "kernel.h"
+#include "packet.h"
+
+/* The canonical rays of the pixels (x0 .. x0 + edge - 1, y0 ..), row by row: unfused, in the order of camera.h.
+ * Pixels beyond the region repeat its last column and row and take no part. */
+static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32_t edge, uint32_t columns, uint32_t rows,
+                      packet *p)
+{
+    _Alignas(64) float px[PACKET_MAX_RAYS], py[PACKET_MAX_RAYS];
+    const uint32_t lanes = edge * edge;
+    const vfloat none = spux_vfloat(-INFINITY), t_min = spux_vfloat(c->t_min), t_max = spux_vfloat(c->t_max);
+    const uint32_t shift = (uint32_t)__builtin_ctz(edge);
+    for (uint32_t i = 0; i < lanes; i++) {
+        const uint32_t x = i & (edge - 1), y = i >> shift;
+        const bool inside = x < columns && y < rows;
+        px[i] = ((float)(x0 + (x < columns ? x : columns - 1)) + 0.5f) * c->pixel[0] - 1;
+        py[i] = 1 - ((float)(y0 + (y < rows ? y : rows - 1)) + 0.5f) * c->pixel[1];
+        p->high[i] = inside ? 0 : -INFINITY;
+    }
+    for (uint32_t i = 0; i < lanes; i += CGT_LANES) {
+        const vfloat qx = spux_load(px + i), qy = spux_load(py + i);
+        vfloat dd = spux_vfloat(0);
+        for (int a = 0; a < 3; a++) {
+            const vfloat right = spux_vfloat(c->right[a]), up = spux_vfloat(c->up[a]);
+            const vfloat start = spux_vfloat(c->orthographic ? c->eye[a] : c->fwd[a]);
+            const vfloat sum = spu_add(spu_add(start, spu_mul(qx, right)), spu_mul(qy, up));
+            const vfloat d = c->orthographic ? spux_vfloat(c->fwd[a]) : sum;
+            spux_store(p->org[a] + i, c->orthographic ? sum : spux_vfloat(c->eye[a]));
+            spux_store(p->dir[a] + i, d);
+            dd = spu_add(dd, spu_mul(d, d));
+        }
+        spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
+        spux_store(p->t_min + i, t_min);
+        spux_store(p->t_max + i, t_max);
+        const vmask outside = spu_cmpgt(spux_vfloat(0), spux_load(p->high + i));
+        spux_store(p->low + i, spux_select(t_max, none, outside));
+        spux_store(p->high + i, spux_select(t_max, none, outside));
+        spux_store_uint(p->object + i, spux_vuint(CGT_NONE));
+    }
+    p->lanes = lanes;
+    p->rays = columns * rows;
+    p->common_origin = !c->orthographic;
+}
+
+/* Rays leave the range of the filter together: their lengths differ by the picture's diagonal at most. */
+static bool is_extreme(const cgt_camera_rays *c)
+{
+    for (int a = 0; a < 3; a++) {
+        const float reach = __builtin_fabsf(c->eye[a]) + __builtin_fabsf(c->right[a]) + __builtin_fabsf(c->up[a]);
+        if (!(reach <= PACKET_LARGEST)) return true;
+    }
+    return false;
+}
+
+static void store_rows(const packet_hits *h, uint32_t edge, uint32_t columns, uint32_t rows, const cgt_region *r,
+                       size_t first)
+{
+    for (uint32_t y = 0; y < rows; y++) {
+        const size_t to = first + y * r->row_stride;
+        const uint32_t from = y * edge;
+        if (r->t) memcpy(r->t + to, h->t + from, columns * sizeof(float));
+        if (r->primitive) memcpy(r->primitive + to, h->primitive + from, columns * sizeof(uint32_t));
+        if (r->geometry) memcpy(r->geometry + to, h->geometry + from, columns * sizeof(uint32_t));
+        for (int a = 0; a < 3; a++)
+            if (r->normal[a]) memcpy(r->normal[a] + to, h->normal[a] + from, columns * sizeof(float));
+    }
+}
+
+void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera,
+                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
+{
+    packet p;
+    packet_hits hits;
+    const uint32_t edge = settings->packet;
+    p.any_hit = false;
+    p.extreme = is_extreme(camera);
+    for (uint32_t y = 0; y < region->height; y += edge)
+        for (uint32_t x = 0; x < region->width; x += edge) {
+            const uint32_t columns = region->width - x < edge ? region->width - x : edge;
+            const uint32_t rows = region->height - y < edge ? region->height - y : edge;
+            make_rays(camera, region->x + x, region->y + y, edge, columns, rows, &p);
+            counts->rays += p.rays;
+            CGT_KERNEL(cgt_packet_trace)(grid, &p, settings, counts);
+            const uint32_t found = CGT_KERNEL(cgt_packet_resolve)(grid, &p, settings->fields, &hits);
+            counts->hits += found;
+            store_rows(&hits, edge, columns, rows, region, y * region->row_stride + x);
+        }
+}

@@ -1,0 +1,167 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The frustum of a packet in grid space (Wald et al. 2006, section 3).
+ *
+ * All rays of the packet run along the same main axis w, in the same direction; u and v are the other two axes. Seen
+ * as functions of w the rays are straight lines u(w), v(w). The greatest of several lines at a w between w0 and w1 is
+ * at most what the straight line through their greatest values at w0 and at w1 gives there (it is convex): four such
+ * lines bound the packet between the two planes, whether its rays share an origin, a direction, or nothing. Each is
+ * kept as a lower bound (of u, -u, v, -v), so that one vector of four holds the frustum: as a line over w it gives the
+ * cells of a slice, as a plane it culls spheres. */
+#ifndef CGT_FRUSTUM_H
+#define CGT_FRUSTUM_H
+
+#include "packet.h"
+
+typedef struct frustum {
+    int w, u, v;           /* axes */
+    bool reverse;          /* the rays run towards lower coordinates; slices are counted along the rays */
+    float last[3];         /* resolution - 1 of w, u, v */
+    vec_float4 bound;      /* least u, -u, v, -v at w0, widened by all rounding */
+    vec_float4 step;       /* their change from slice to slice */
+    float w0;              /* plane of the first slice */
+    uint32_t first, end;   /* slices */
+    float w_near;          /* no ray starts before */
+    float plane_error;     /* cells: of the distance from a sphere's centre to a plane */
+    float radius_scale[4]; /* cells that a unit of radius reaches beyond each plane */
+} frustum;
+
+/* Coordinates of grid space along the rays; reverse turns them around. */
+CGT_SPU_INLINE float grid_coordinate(const cgt_queue_grid *g, int axis, bool reverse, float p)
+{
+    const float c = (p - g->org[axis]) * g->rcell[axis];
+    return reverse ? (float)g->resolution[axis] - c : c;
+}
+CGT_SPU_INLINE vfloat grid_coordinates(const cgt_queue_grid *g, int axis, bool reverse, vfloat p)
+{
+    const vfloat c = spu_mul(spu_sub(p, spux_vfloat(g->org[axis])), spux_vfloat(g->rcell[axis]));
+    return reverse ? spu_sub(spux_vfloat((float)g->resolution[axis]), c) : c;
+}
+
+/* Per ray: its slope in cells of u or v per cell of w. */
+CGT_SPU_INLINE vfloat frustum_slope(const cgt_queue_grid *g, const frustum *f, const packet *p, uint32_t i, int axis)
+{
+    const vfloat dw = spux_abs(spux_load(p->dir[f->w] + i)), d = spux_load(p->dir[axis] + i);
+    return spux_div(spu_mul(d, spux_vfloat(g->rcell[axis] / g->rcell[f->w])), dw);
+}
+
+/* Least and greatest u (or v) of all rays at two planes, and the largest number met on the way. */
+typedef struct frustum_span {
+    float low[2], high[2], magnitude;
+} frustum_span;
+
+CGT_SPU_INLINE frustum_span frustum_measure(const cgt_queue_grid *g, const frustum *f, const packet *p, int axis, float w1)
+{
+    vfloat low[2], high[2], magnitude = spux_vfloat(0);
+    const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)};
+    for (int k = 0; k < 2; k++) low[k] = spux_vfloat(INFINITY), high[k] = spux_vfloat(-INFINITY);
+    vfloat o = grid_coordinates(g, axis, false, spux_vfloat(p->org[axis][0]));
+    vfloat ow = grid_coordinates(g, f->w, f->reverse, spux_vfloat(p->org[f->w][0]));
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        if (!p->common_origin) {
+            o = grid_coordinates(g, axis, false, spux_load(p->org[axis] + i));
+            ow = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
+        }
+        const vfloat slope = frustum_slope(g, f, p, i, axis);
+        const vfloat reach = spu_mul(spu_add(spux_abs(ow), spux_vfloat(f->last[0] + 1)), spux_abs(slope));
+        magnitude = spux_max(magnitude, spu_add(spux_abs(o), reach));
+        for (int k = 0; k < 2; k++) {
+            const vfloat x = spu_madd(spu_sub(plane[k], ow), slope, o);
+            low[k] = spux_min(low[k], x);
+            high[k] = spux_max(high[k], x);
+        }
+    }
+    return (frustum_span){{spux_hmin(low[0]), spux_hmin(low[1])}, {spux_hmax(high[0]), spux_hmax(high[1])}, spux_hmax(magnitude)};
+}
+
+/* The coordinate w at which the first ray starts. */
+CGT_SPU_INLINE float frustum_start(const cgt_queue_grid *g, const frustum *f, const packet *p)
+{
+    vfloat least = spux_vfloat(INFINITY);
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const vfloat o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
+        const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), spux_vfloat(g->rcell[f->w]));
+        const vfloat start = spu_madd(spux_load(p->t_min + i), dw, o);
+        const vfloat wide = spu_mul(spux_abs(o), spux_vfloat(0x1p-20f)); /* rounding of o, and of the sum where t_min > 0 */
+        least = spux_min(spu_sub(start, spu_add(wide, spu_mul(spux_abs(start), spux_vfloat(0x1p-20f)))), least);
+    }
+    return spux_hmin(least);
+}
+
+/* The coordinate w beyond which no ray wants a hit any more; -inf where all are closed. */
+CGT_SPU_INLINE float frustum_far(const cgt_queue_grid *g, const frustum *f, const packet *p)
+{
+    vfloat most = spux_vfloat(-INFINITY);
+    const vfloat rcell = spux_vfloat(g->rcell[f->w]);
+    vfloat o = grid_coordinates(g, f->w, f->reverse, spux_vfloat(p->org[f->w][0]));
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        if (!p->common_origin) o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
+        const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), rcell);
+        const vfloat end = spu_madd(spux_load(p->high + i), dw, o);
+        const vfloat wide = spu_mul(spu_add(spux_abs(o), spux_abs(end)), spux_vfloat(0x1p-20f));
+        /* a closed ray's end is -inf and its width +inf: their sum is not a number, and max keeps `most` */
+        most = spux_max(spu_add(end, wide), most);
+    }
+    return spux_hmax(most) + g->slack[f->w];
+}
+
+/* A line of bounds as a plane in world space: how far, in cells of `axis`, a sphere of radius 1 reaches over it. */
+CGT_SPU_INLINE float frustum_radius_scale(const cgt_queue_grid *g, const frustum *f, int axis, float step)
+{
+    const float k = step * g->rcell[f->w] / g->rcell[axis];
+    return g->rcell[axis] * __builtin_sqrtf(1 + k * k) * (1 + 0x1p-20f);
+}
+
+/* Returns false where the packet does not meet the grid. */
+CGT_SPU_INLINE bool frustum_make(const cgt_queue_grid *g, const packet *p, int w, bool reverse, frustum *f)
+{
+    f->w = w;
+    f->u = w == 0 ? 1 : 0; /* x fastest: cells of a row lie side by side where they can */
+    f->v = w == 2 ? 1 : 2;
+    f->reverse = reverse;
+    const int axis[3] = {f->w, f->u, f->v};
+    for (int a = 0; a < 3; a++) f->last[a] = (float)(g->resolution[axis[a]] - 1);
+    f->end = g->resolution[w];
+    f->w_near = frustum_start(g, f, p) - g->slack[w];
+    if (!(f->w_near < (float)f->end)) return false;
+    f->first = f->w_near > 0 ? (uint32_t)f->w_near : 0;
+    f->w0 = (float)f->first;
+    const float w1 = (float)f->end, rlength = 1 / (w1 - f->w0);
+    const frustum_span u = frustum_measure(g, f, p, f->u, w1), v = frustum_measure(g, f, p, f->v, w1);
+    /* 8 roundings to a line's value at a plane, as many again on the way to a slice */
+    const float error_u = u.magnitude * 0x1p-20f + g->slack[f->u], error_v = v.magnitude * 0x1p-20f + g->slack[f->v];
+    f->bound = (vec_float4){u.low[0] - error_u, -u.high[0] - error_u, v.low[0] - error_v, -v.high[0] - error_v};
+    const vec_float4 at_end = {u.low[1] - error_u, -u.high[1] - error_u, v.low[1] - error_v, -v.high[1] - error_v};
+    f->step = spu_mul(spu_sub(at_end, f->bound), spu_splats(rlength));
+    float steepest = 0;
+    for (int k = 0; k < 4; k++) {
+        const float step = spu_extract(f->step, k);
+        f->radius_scale[k] = frustum_radius_scale(g, f, k < 2 ? f->u : f->v, step);
+        steepest = step > steepest ? step : -step > steepest ? -step : steepest;
+    }
+    f->plane_error = (u.magnitude + v.magnitude + (steepest + 1) * (w1 + 1)) * 0x1p-19f;
+    return true;
+}
+
+/* Cells of a slice that the frustum may touch: low and high of u, low and high of v; none where low > high. */
+CGT_SPU_INLINE vec_int4 frustum_slice(const frustum *f, uint32_t slice)
+{
+    const vec_float4 sign = {1, -1, 1, -1};
+    const vec_float4 least = {0, -1, 0, -1};
+    const vec_float4 most = {f->last[1] + 1, f->last[1], f->last[2] + 1, f->last[2]};
+    const vec_float4 near = spu_madd(f->step, spu_splats((float)slice - f->w0), f->bound), far = spu_add(near, f->step);
+    vec_float4 b = spu_mul(spu_sel(near, far, spu_cmpgt(near, far)), sign);
+    b = spu_sel(b, least, spu_cmpgt(least, b));
+    b = spu_sel(b, most, spu_cmpgt(b, most));
+    /* down to a whole number, from -1 up: towards zero after a shift by one */
+    return spu_sub(spu_convts(spu_add(b, spu_splats(1.f)), 0), spu_splats((int32_t)1));
+}
+
+/* The voxel of cell (u, v) = (0, 0) of a slice. */
+CGT_SPU_INLINE uint32_t frustum_slice_cell(const cgt_queue_grid *g, const frustum *f, uint32_t slice)
+{
+    return (f->reverse ? g->resolution[f->w] - 1 - slice : slice) * g->stride[f->w];
+}
+
+#endif

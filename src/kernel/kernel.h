@@ -1,0 +1,48 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What a variant offers: one table of functions. The files of this folder are compiled once per row of the variant
+ * table; CGT_KERNEL puts the variant's name behind a function's, so that cgt_trace_region becomes
+ * cgt_trace_region_sse, and a debugger and grep find it. */
+#ifndef CGT_KERNEL_H
+#define CGT_KERNEL_H
+
+#include "../camera.h"
+#include "../queue_grid.h"
+#include "../trace.h"
+
+/* Where a fill puts references that found a full queue. */
+typedef struct cgt_overflow_list {
+    cgt_overflow *entry;
+    uint32_t count, capacity;
+    uint32_t wanted; /* room that the next object needs, where the fill stopped for lack of it */
+} cgt_overflow_list;
+
+typedef struct cgt_fill_counts {
+    uint64_t references;
+    uint32_t large_primitives;
+} cgt_fill_counts;
+
+typedef struct cgt_kernel {
+    const char *name;
+    uint32_t lanes;
+
+    /* Pushes the valid ones of objects first to end - 1 to the voxels, in ascending order. Returns end, or the object
+     * before which it stopped because the overflow list might not hold what that object spills. */
+    uint32_t (*queue_grid_fill)(const cgt_queue_grid *grid, uint32_t first, uint32_t end, cgt_overflow_list *overflow,
+                                cgt_fill_counts *counts);
+
+    /* Traces the pixels of a region of a camera's frame. */
+    void (*trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
+                         const cgt_region *region, cgt_counts *counts);
+
+    /* Traces rays first to end - 1 of an array; hits is NULL where occluded is not. */
+    void (*trace_rays)(const cgt_queue_grid *grid, const cgt_rays *rays, uint64_t first, uint64_t end,
+                       const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts);
+} cgt_kernel;
+
+#define CGT_KERNEL_JOIN_(name, variant) name##_##variant
+#define CGT_KERNEL_JOIN(name, variant) CGT_KERNEL_JOIN_(name, variant)
+#define CGT_KERNEL(name) CGT_KERNEL_JOIN(name, CGT_VARIANT)
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A packet: up to 256 rays as structure of arrays, with the best hit of each so far.
+ *
+ * Filter, then decide. Single precision finds for a ray and a sphere an interval that surely holds the exact t, or
+ * that there surely is no hit. So a ray's best hit is an interval too, [low, high] with the object that it belongs to:
+ *   a hit whose interval ends before `low`    is certainly nearer: it replaces the best at once
+ *   a hit whose interval starts after `high`  is certainly not
+ *   anything else                             is decided in double (sphere_exact.h), by t, then by the lower object
+ * The winner's t is computed once, at the end. An open ray starts with [t_max, t_max] and no object; a ray that takes
+ * no part has [-inf, -inf]. */
+#ifndef CGT_PACKET_H
+#define CGT_PACKET_H
+
+#include <stdbool.h>
+
+#include "kernel.h"
+#include "vector.h"
+
+#define PACKET_MAX_RAYS 256
+
+typedef struct packet {
+    _Alignas(64) float org[3][PACKET_MAX_RAYS];
+    _Alignas(64) float dir[3][PACKET_MAX_RAYS];
+    _Alignas(64) float rdd[PACKET_MAX_RAYS]; /* 1 / dir.dir */
+    _Alignas(64) float t_min[PACKET_MAX_RAYS];
+    _Alignas(64) float t_max[PACKET_MAX_RAYS];
+    _Alignas(64) float low[PACKET_MAX_RAYS];
+    _Alignas(64) float high[PACKET_MAX_RAYS];
+    _Alignas(64) uint32_t object[PACKET_MAX_RAYS]; /* CGT_NONE: none yet */
+    uint32_t rays;       /* that take part; they need not come first */
+    uint32_t lanes;      /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
+    bool common_origin;  /* org[.][0] is the origin of all */
+    bool any_hit;        /* the first hit found closes a ray */
+    bool extreme;        /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
+} packet;
+
+/* Largest coordinate and the range of direction lengths for which the bounds of the filter hold. */
+#define PACKET_LARGEST 0x1p55f
+#define PACKET_SHORTEST 0x1p-55f
+
+/* Finds the hits of all rays of the packet. */
+void CGT_KERNEL(cgt_packet_trace)(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
+                                  cgt_counts *counts);
+
+/* The hits of a packet, ready to be handed out. */
+typedef struct packet_hits {
+    _Alignas(64) float t[PACKET_MAX_RAYS];
+    _Alignas(64) uint32_t primitive[PACKET_MAX_RAYS];
+    _Alignas(64) uint32_t geometry[PACKET_MAX_RAYS];
+    _Alignas(64) float normal[3][PACKET_MAX_RAYS];
+} packet_hits;
+
+/* Computes the fields (cgt_field values, combined) of the winners in their canonical form; returns how many rays hit. */
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields, packet_hits *hits);
+
+#endif

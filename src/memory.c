@@ -1,0 +1,69 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Memory through the caller's hooks, and buffers that keep what they have. */
+#define _POSIX_C_SOURCE 200809L
+#include "memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void *default_allocate(void *user, size_t bytes, size_t alignment)
+{
+    void *memory = NULL;
+    (void)user;
+    return posix_memalign(&memory, alignment < sizeof(void *) ? sizeof(void *) : alignment, bytes) == 0 ? memory : NULL;
+}
+
+static void default_release(void *user, void *memory, size_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    free(memory);
+}
+
+cgt_memory_hooks cgt_memory_default(void)
+{
+    return (cgt_memory_hooks){.user = NULL, .allocate = default_allocate, .release = default_release};
+}
+
+void *cgt_allocate(const cgt_memory_hooks *hooks, size_t bytes)
+{
+    return hooks->allocate(hooks->user, bytes ? bytes : 1, CGT_ALIGNMENT);
+}
+
+void cgt_free(const cgt_memory_hooks *hooks, void *memory, size_t bytes)
+{
+    if (memory) hooks->release(hooks->user, memory, bytes ? bytes : 1);
+}
+
+static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t bytes, size_t kept)
+{
+    void *memory = cgt_allocate(hooks, bytes);
+    if (!memory) return CGT_ERROR_OUT_OF_MEMORY;
+    if (kept) memcpy(memory, buffer->data, kept);
+    cgt_free(hooks, buffer->data, buffer->bytes);
+    *buffer = (cgt_buffer){memory, bytes};
+    return CGT_OK;
+}
+
+cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
+{
+    if (size && count > SIZE_MAX / size) return CGT_ERROR_TOO_LARGE;
+    return count * size <= buffer->bytes ? CGT_OK : resize(hooks, buffer, count * size, 0);
+}
+
+cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
+{
+    if (size && count > SIZE_MAX / size) return CGT_ERROR_TOO_LARGE;
+    const size_t bytes = count * size, more = buffer->bytes / 2;
+    if (bytes <= buffer->bytes) return CGT_OK;
+    const size_t wanted = buffer->bytes <= SIZE_MAX - more && buffer->bytes + more > bytes ? buffer->bytes + more : bytes;
+    return resize(hooks, buffer, wanted, buffer->bytes);
+}
+
+void cgt_buffer_release(const cgt_memory_hooks *hooks, cgt_buffer *buffer)
+{
+    cgt_free(hooks, buffer->data, buffer->bytes);
+    *buffer = (cgt_buffer){NULL, 0};
+}

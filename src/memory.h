@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * All memory of the library comes through here, so that the caller's hook sees every byte. */
+#ifndef CGT_MEMORY_H
+#define CGT_MEMORY_H
+
+#include <cgt/cgt.h>
+
+#define CGT_ALIGNMENT 64 /* a cache line, and the widest vector */
+
+/* Memory that grows and is kept: capacity only rises, so that a steady state allocates nothing. */
+typedef struct cgt_buffer {
+    void *data;   /* NULL where capacity is 0 */
+    size_t bytes; /* capacity */
+} cgt_buffer;
+
+/* The C library's functions as hooks. */
+cgt_memory_hooks cgt_memory_default(void);
+
+/* Returns bytes (at least 1) of memory aligned to CGT_ALIGNMENT, or NULL. */
+void *cgt_allocate(const cgt_memory_hooks *hooks, size_t bytes);
+void cgt_free(const cgt_memory_hooks *hooks, void *memory, size_t bytes);
+
+/* Makes room for count elements of a size; what the buffer held is lost (reserve) or kept (grow, by at least half
+ * more). CGT_OK, CGT_ERROR_TOO_LARGE where the product overflows, CGT_ERROR_OUT_OF_MEMORY: then the buffer is as it
+ * was. */
+cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
+cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
+void cgt_buffer_release(const cgt_memory_hooks *hooks, cgt_buffer *buffer);
+
+#endif

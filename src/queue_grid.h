@@ -1,0 +1,81 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The queue grid (Chapman, section 3.4): a uniform grid whose voxels are queues of 16 references of 16 bits.
+ *
+ *   byte   0     2     4                     28    30
+ *        +-----+-----+-----+--- . . . ---+-----+-----+
+ *        | new |     |     |             |     | old |      0xffff: no reference
+ *        +-----+-----+-----+--- . . . ---+-----+-----+
+ *
+ * A push shifts the 32 bytes by one reference and writes the new one in front: references fill from the front. Where
+ * the text would lose the oldest of 17 references, it goes to the overflow list, sorted by cell.
+ *
+ * Grid space: g = (p - org) * rcell in real arithmetic on these floats; point p lies in cell floor(g), clamped to the
+ * grid. Whatever computes g in floats widens its answer by `slack` cells, and so finds the cell of every point. */
+#ifndef CGT_QUEUE_GRID_H
+#define CGT_QUEUE_GRID_H
+
+#include <stdbool.h>
+
+#include "memory.h"
+#include "objects.h"
+
+#define CGT_QUEUE_LENGTH 16
+#define CGT_QUEUE_NONE 0xffffu
+#define CGT_QUEUE_MAX_OBJECTS 65535u    /* 0 to 65,534 as references */
+#define CGT_GRID_MAX_RESOLUTION 1024u   /* per axis: a packet keeps the bounds of that many slices */
+#define CGT_GRID_MAX_CELLS (1u << 24)   /* 512 MB of voxels */
+
+typedef struct cgt_voxel {
+    uint16_t reference[CGT_QUEUE_LENGTH];
+} cgt_voxel;
+
+typedef struct cgt_overflow {
+    uint32_t cell;
+    uint32_t reference;
+} cgt_overflow;
+
+typedef struct cgt_queue_grid {
+    cgt_objects objects;
+    float org[3];            /* lower corner, world */
+    float rcell[3];          /* cells per world unit */
+    float slack[3];          /* cells: bound of the rounding of g for any point of any sphere */
+    uint32_t resolution[3];
+    uint32_t stride[3];      /* voxels from one cell to the next along each axis; x fastest */
+    uint32_t cells;
+    bool everything;         /* the numbers are too large or too small for single precision in grid space: no grid,
+                                every ray tests every object in double */
+    cgt_voxel *voxel;        /* cells of them; NULL where there is no object */
+    const cgt_overflow *overflow; /* sorted by cell */
+    uint32_t overflows;
+} cgt_queue_grid;
+
+/* What the pass over the objects found. Lengths in world units. */
+typedef struct cgt_object_summary {
+    uint32_t valid;              /* not skipped */
+    uint32_t skipped_not_finite;
+    uint32_t skipped_radius;
+    float min[3], max[3];        /* outwards rounded */
+    double diameter[4];          /* sums of the powers 0 to 3 of the diameters */
+    float magnitude;             /* largest coordinate of any bound */
+} cgt_object_summary;
+
+/* Chooses origin, resolution and slack. wanted: the caller's resolution, zeros where it is to be chosen. why: gets the
+ * reason in words. Fails with TOO_LARGE where a wanted resolution is beyond the limits. */
+cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *summary, const uint32_t wanted[3],
+                               char why[128]);
+
+/* The first overflow entry of a cell; entries of that cell follow. Returns grid->overflows where it has none. */
+static inline uint32_t cgt_queue_grid_overflow(const cgt_queue_grid *grid, uint32_t cell)
+{
+    uint32_t low = 0, high = grid->overflows;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (grid->overflow[middle].cell < cell) low = middle + 1;
+        else high = middle;
+    }
+    return low < grid->overflows && grid->overflow[low].cell == cell ? low : grid->overflows;
+}
+
+#endif

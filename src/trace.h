@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the tracing calls and the kernels hand to each other. */
+#ifndef CGT_TRACE_H
+#define CGT_TRACE_H
+
+#include <stdbool.h>
+
+#include <cgt/cgt.h>
+
+/* The choices of a call, made: no AUTO left. */
+typedef struct cgt_trace_settings {
+    uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */
+    bool strip;      /* tiles of four scanlines */
+    bool flattened;
+    bool cull;
+    bool mailbox;
+    uint32_t fields; /* cgt_field values that anybody wants */
+} cgt_trace_settings;
+
+/* A region of a camera's frame and where its hits go: pixel (x + i, y + j) to element j * row_stride + i of each
+ * plane; NULL planes are not written. */
+typedef struct cgt_region {
+    uint32_t x, y, width, height;
+    size_t row_stride;
+    float *t;
+    uint32_t *primitive;
+    uint32_t *geometry;
+    float *normal[3];
+} cgt_region;
+
+/* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as
+ * an array. */
+typedef struct cgt_counts {
+    uint64_t rays, invalid_rays, hits, packets, split_packets, slices, cells, references, mailbox_skipped, cull_tests,
+        culled, packet_tests, ray_tests, double_tests, early_exits;
+} cgt_counts;
+
+#define CGT_COUNTS (sizeof(cgt_counts) / sizeof(uint64_t))
+
+#endif

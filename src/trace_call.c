@@ -1,0 +1,82 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the tracing calls share. */
+#include "trace_call.h"
+
+#include <string.h>
+
+/* Measured by `cgt-bench loops`; see docs/bench.md. */
+#define CHOSEN_PACKET 8
+#define CHOSEN_FLATTENED false
+
+void cgt_trace_options_init(cgt_trace_options *options)
+{
+    *options = (cgt_trace_options){.cull = 1};
+}
+
+static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera, cgt_trace_settings *s)
+{
+    if (o->packet != 0 && o->packet != 4 && o->packet != 8 && o->packet != 16)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", o->packet);
+    if ((unsigned)o->tile > CGT_TILE_STRIP) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: tile is unknown");
+    if ((unsigned)o->loop > CGT_LOOP_FLATTENED) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
+    s->strip = camera && o->tile == CGT_TILE_STRIP;
+    if (s->strip && o->packet > 4)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
+    s->packet = s->strip ? 4 : o->packet ? o->packet : CHOSEN_PACKET;
+    s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
+    s->cull = o->cull;
+    s->mailbox = o->mailbox;
+    if (!camera) s->packet = 0;
+    return CGT_OK;
+}
+
+cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
+                           cgt_trace_settings *settings, cgt_trace_counter *counter)
+{
+    cgt_trace_options defaults;
+    cgt_trace_options_init(&defaults);
+    counter->start_ms = cgt_now_ms();
+    for (size_t i = 0; i < CGT_COUNTS; i++) atomic_init(&counter->sum[i], 0);
+    if (!scene->committed)
+        return cgt_fail(scene->context, CGT_ERROR_NOT_COMMITTED, "trace: the scene was not committed since it changed");
+    return choose(scene->context, options ? options : &defaults, camera, settings);
+}
+
+void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
+{
+    uint64_t value[CGT_COUNTS];
+    if (!counter) return;
+    memcpy(value, counts, sizeof value);
+    for (size_t i = 0; i < CGT_COUNTS; i++)
+        if (value[i]) atomic_fetch_add_explicit(&counter->sum[i], value[i], memory_order_relaxed);
+}
+
+void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *settings, cgt_trace_counter *counter)
+{
+    uint64_t value[CGT_COUNTS];
+    cgt_counts c;
+    if (!options || !options->statistics) return;
+    for (size_t i = 0; i < CGT_COUNTS; i++) value[i] = atomic_load_explicit(&counter->sum[i], memory_order_relaxed);
+    memcpy(&c, value, sizeof c);
+    *options->statistics = (cgt_trace_statistics){.rays = c.rays,
+                                                  .invalid_rays = c.invalid_rays,
+                                                  .hits = c.hits,
+                                                  .packets = c.packets,
+                                                  .split_packets = c.split_packets,
+                                                  .slices = c.slices,
+                                                  .cells = c.cells,
+                                                  .references = c.references,
+                                                  .mailbox_skipped = c.mailbox_skipped,
+                                                  .cull_tests = c.cull_tests,
+                                                  .culled = c.culled,
+                                                  .packet_tests = c.packet_tests,
+                                                  .ray_tests = c.ray_tests,
+                                                  .double_tests = c.double_tests,
+                                                  .early_exits = c.early_exits,
+                                                  .packet_size = settings->packet,
+                                                  .tile = settings->strip ? CGT_TILE_STRIP : CGT_TILE_SQUARE,
+                                                  .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED,
+                                                  .trace_ms = cgt_now_ms() - counter->start_ms};
+}

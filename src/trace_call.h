@@ -1,0 +1,25 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the tracing calls share: options to settings, and the counting over threads. */
+#ifndef CGT_TRACE_CALL_H
+#define CGT_TRACE_CALL_H
+
+#include "scene.h"
+
+typedef struct cgt_trace_counter {
+    _Atomic uint64_t sum[CGT_COUNTS]; /* cgt_counts */
+    double start_ms;
+} cgt_trace_counter;
+
+/* Checks that the scene may be traced and makes the choices that the options leave open. */
+cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
+                           cgt_trace_settings *settings, cgt_trace_counter *counter);
+
+/* Adds the counts of one task; counter may be NULL. */
+void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts);
+
+/* Fills in the caller's statistics, where asked for. */
+void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *settings, cgt_trace_counter *counter);
+
+#endif
