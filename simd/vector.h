@@ -16,6 +16,8 @@
  *     spux_cmpge(a, b)            a >= b, false for NaN
  *     spux_select(a, b, m)        b in the lanes where m is true, else a
  *     spux_mask_bits(m)           bit i = lane i
+ *     spux_count_bits(b)          how many lanes of such bits
+ *     spux_not(m)                 the other lanes
  *     spux_hmin, spux_hmax        least and greatest lane
  *
  * CGT_LANES and, for the portable row, CGT_SPU_PORTABLE come from the variant's row in the build. A new width adds its
@@ -43,6 +45,8 @@ typedef vec_uint4 vmask;
 #define spux_cmpge(a, b) cgt_spux_cmpge_f32(a, b)
 #define spux_select(a, b, m) _Generic((a), vec_float4: cgt_spux_select_f32, vec_uint4: cgt_spux_select_u32)(a, b, m)
 #define spux_mask_bits(m) cgt_spux_mask_bits_u32(m)
+#define spux_count_bits(b) ((uint32_t)(UINT64_C(0x4332322132212110) >> (4 * (b)) & 7))
+#define spux_not(m) (~(m))
 #else
 #error "CGT_LANES: no mapping has this width"
 #endif

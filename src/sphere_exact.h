@@ -22,16 +22,16 @@
  * Written without branches so that a loop over rays becomes vector code. */
 static inline double cgt_sphere_exact_t(const float org[3], const float dir[3], float t_min, cgt_sphere q)
 {
-    const double cx = (double)q.x - org[0], cy = (double)q.y - org[1], cz = (double)q.z - org[2], r = q.r;
-    const double dx = dir[0], dy = dir[1], dz = dir[2];
-    const double dd = dx * dx + dy * dy + dz * dz;
-    const double s = (dx * cx + dy * cy + dz * cz) / dd;
+    const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1], cz = (double)q.z - (double)org[2];
+    const double dx = (double)dir[0], dy = (double)dir[1], dz = (double)dir[2], r = (double)q.r;
+    const double rdd = 1 / (dx * dx + dy * dy + dz * dz);
+    const double s = (dx * cx + dy * cy + dz * cz) * rdd;
     const double lx = cx - s * dx, ly = cy - s * dy, lz = cz - s * dz;
     const double h = r * r - (lx * lx + ly * ly + lz * lz);
-    const double half = sqrt(h / dd); /* NaN for a miss, and it stays NaN */
-    const double large = s > 0 ? s + half : s - half;
-    const double product = (cx * cx + cy * cy + cz * cz - r * r) / dd;
-    const double small = large != 0 ? product / large : 0 * half;
+    const double half = sqrt(h * rdd); /* NaN for a miss, and it stays NaN */
+    const double large = s + (s > 0 ? half : -half);
+    const double product = (cx * cx + cy * cy + cz * cz - r * r) * rdd;
+    const double small = product / (large != 0 ? large : 1); /* both are 0 where large is */
     const double near = s > 0 ? small : large, far = s > 0 ? large : small;
     return (float)near >= t_min ? near : far;
 }

@@ -12,7 +12,7 @@
 
 void cgt_trace_options_init(cgt_trace_options *options)
 {
-    *options = (cgt_trace_options){.cull = 1};
+    *options = (cgt_trace_options){.cull = 1, .mailbox = 1};
 }
 
 static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera, cgt_trace_settings *s)

@@ -263,8 +263,8 @@ typedef struct cgt_trace_options {
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
     int cull;                         /* test spheres against a packet's frustum first; default 1 */
-    int mailbox;                      /* remember the spheres that a packet has met; default 0: measured to cost more
-                                         than it saves */
+    int mailbox;                      /* remember the spheres that a packet has met lately; default 1: it halves the
+                                         tests and costs little (docs/bench.md; Chapman expected the opposite) */
     cgt_trace_statistics *statistics; /* gets the counts of this call; NULL (default): nothing is counted */
 } cgt_trace_options;
 

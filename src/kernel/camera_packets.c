@@ -5,24 +5,43 @@
 #include "kernel.h"
 #include "packet.h"
 
+#define PACKET_MAX_EDGE 16
+
+/* Coordinates of the pixels i, i + 1 ... of a packet, row by row. */
+CGT_SPU_INLINE vfloat pixel_columns(const float *px, uint32_t i, uint32_t edge)
+{
+    vfloat v;
+    for (uint32_t k = 0; k < CGT_LANES; k++) v[k] = px[(i + k) & (edge - 1)];
+    return v;
+}
+CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t shift)
+{
+    vfloat v;
+    for (uint32_t k = 0; k < CGT_LANES; k++) v[k] = py[(i + k) >> shift];
+    return v;
+}
+
+/* Pixels beyond the region take no part. */
+static void close_outside(packet *p, uint32_t edge, uint32_t columns, uint32_t rows)
+{
+    for (uint32_t i = 0; i < edge * edge; i++)
+        if (i % edge >= columns || i / edge >= rows) p->low[i] = p->high[i] = -INFINITY;
+}
+
 /* The canonical rays of the pixels (x0 .. x0 + edge - 1, y0 ..), row by row: unfused, in the order of camera.h.
- * Pixels beyond the region repeat its last column and row and take no part. */
+ * Pixels beyond the region repeat its last column and row, and take no part. */
 static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32_t edge, uint32_t columns, uint32_t rows,
                       packet *p)
 {
-    _Alignas(64) float px[PACKET_MAX_RAYS], py[PACKET_MAX_RAYS];
-    const uint32_t lanes = edge * edge;
-    const vfloat none = spux_vfloat(-INFINITY), t_min = spux_vfloat(c->t_min), t_max = spux_vfloat(c->t_max);
-    const uint32_t shift = (uint32_t)__builtin_ctz(edge);
-    for (uint32_t i = 0; i < lanes; i++) {
-        const uint32_t x = i & (edge - 1), y = i >> shift;
-        const bool inside = x < columns && y < rows;
-        px[i] = ((float)(x0 + (x < columns ? x : columns - 1)) + 0.5f) * c->pixel[0] - 1;
-        py[i] = 1 - ((float)(y0 + (y < rows ? y : rows - 1)) + 0.5f) * c->pixel[1];
-        p->high[i] = inside ? 0 : -INFINITY;
+    _Alignas(64) float px[PACKET_MAX_EDGE], py[PACKET_MAX_EDGE];
+    const uint32_t lanes = edge * edge, shift = (uint32_t)__builtin_ctz(edge);
+    const vfloat t_min = spux_vfloat(c->t_min), t_max = spux_vfloat(c->t_max);
+    for (uint32_t k = 0; k < edge; k++) {
+        px[k] = ((float)(x0 + (k < columns ? k : columns - 1)) + 0.5f) * c->pixel[0] - 1;
+        py[k] = 1 - ((float)(y0 + (k < rows ? k : rows - 1)) + 0.5f) * c->pixel[1];
     }
     for (uint32_t i = 0; i < lanes; i += CGT_LANES) {
-        const vfloat qx = spux_load(px + i), qy = spux_load(py + i);
+        const vfloat qx = pixel_columns(px, i, edge), qy = pixel_rows(py, i, shift);
         vfloat dd = spux_vfloat(0);
         for (int a = 0; a < 3; a++) {
             const vfloat right = spux_vfloat(c->right[a]), up = spux_vfloat(c->up[a]);
@@ -36,11 +55,11 @@ static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32
         spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
         spux_store(p->t_min + i, t_min);
         spux_store(p->t_max + i, t_max);
-        const vmask outside = spu_cmpgt(spux_vfloat(0), spux_load(p->high + i));
-        spux_store(p->low + i, spux_select(t_max, none, outside));
-        spux_store(p->high + i, spux_select(t_max, none, outside));
+        spux_store(p->low + i, t_max);
+        spux_store(p->high + i, t_max);
         spux_store_uint(p->object + i, spux_vuint(CGT_NONE));
     }
+    if (columns < edge || rows < edge) close_outside(p, edge, columns, rows);
     p->lanes = lanes;
     p->rays = columns * rows;
     p->common_origin = !c->orthographic;

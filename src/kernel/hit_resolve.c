@@ -9,76 +9,109 @@
 #include "../sphere_exact.h"
 #include "packet.h"
 
+/* The winning spheres, as structure of arrays; a ray without one gets a sphere of radius 0 at the origin. */
 typedef struct winners {
-    cgt_sphere sphere[PACKET_MAX_RAYS];
+    _Alignas(64) float x[PACKET_MAX_RAYS], y[PACKET_MAX_RAYS], z[PACKET_MAX_RAYS], r[PACKET_MAX_RAYS];
+    _Alignas(64) double t[PACKET_MAX_RAYS];
+    uint32_t hits;
+    bool points; /* some sphere has radius 0 */
 } winners;
 
-static uint32_t find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w, bool *all)
+static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w)
 {
-    uint32_t hits = 0;
+    cgt_sphere q = {0, 0, 0, 0};
+    uint32_t before = CGT_NONE;
+    w->hits = 0;
+    w->points = false;
     for (uint32_t i = 0; i < p->lanes; i++) {
-        const bool hit = p->object[i] != CGT_NONE;
-        w->sphere[i] = hit ? cgt_objects_sphere(&grid->objects, p->object[i]) : (cgt_sphere){0, 0, 0, 0};
-        hits += hit;
+        const uint32_t object = p->object[i];
+        if (object != before) { /* neighbours mostly hit the same */
+            before = object;
+            q = object == CGT_NONE ? (cgt_sphere){0, 0, 0, 0} : cgt_objects_sphere(&grid->objects, object);
+            w->points |= object != CGT_NONE && q.r == 0;
+        }
+        w->x[i] = q.x;
+        w->y[i] = q.y;
+        w->z[i] = q.z;
+        w->r[i] = q.r;
+        w->hits += object != CGT_NONE;
     }
-    *all = hits == p->lanes;
-    return hits;
 }
 
 static void find_ids(const cgt_queue_grid *grid, const packet *p, packet_hits *hits)
 {
+    uint32_t before = CGT_NONE, primitive = CGT_NONE, geometry = CGT_NONE;
     for (uint32_t i = 0; i < p->lanes; i++) {
         const uint32_t object = p->object[i];
-        const cgt_sphere_array *a = object == CGT_NONE ? NULL : cgt_objects_array(&grid->objects, object);
-        hits->primitive[i] = a ? object - a->first : CGT_NONE;
-        hits->geometry[i] = a ? a->geometry : CGT_NONE;
+        if (object != before) {
+            const cgt_sphere_array *a = object == CGT_NONE ? NULL : cgt_objects_array(&grid->objects, object);
+            before = object;
+            primitive = a ? object - a->first : CGT_NONE;
+            geometry = a ? a->geometry : CGT_NONE;
+        }
+        hits->primitive[i] = primitive;
+        hits->geometry[i] = geometry;
     }
 }
 
-/* One ray: t where wanted is NULL or not; the unit normal points out of the sphere. A sphere of radius zero has none:
- * it gets the direction back to the origin. */
-static inline double resolve_ray(const packet *p, uint32_t i, cgt_sphere q, bool normal, float n[3])
+static void resolve_t(const packet *p, winners *w, packet_hits *hits)
 {
-    const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
-    const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
-    const double t = cgt_sphere_exact_t(org, dir, p->t_min[i], q);
-    if (!normal) return t;
-    const double x = org[0] + t * dir[0] - q.x, y = org[1] + t * dir[1] - q.y, z = org[2] + t * dir[2] - q.z;
-    const double point = q.r == 0, k = 1 / (q.r + point);
-    const double length = sqrt((double)dir[0] * dir[0] + (double)dir[1] * dir[1] + (double)dir[2] * dir[2]);
-    n[0] = (float)(point ? -dir[0] / length : x * k);
-    n[1] = (float)(point ? -dir[1] / length : y * k);
-    n[2] = (float)(point ? -dir[2] / length : z * k);
-    return t;
-}
-
-static void resolve_t(const packet *p, const winners *w, packet_hits *hits)
-{
-    float none[3];
     for (uint32_t i = 0; i < p->lanes; i++) {
-        const float t = (float)resolve_ray(p, i, w->sphere[i], false, none);
-        hits->t[i] = p->object[i] != CGT_NONE ? t : INFINITY;
+        const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
+        const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
+        w->t[i] = cgt_sphere_exact_t(org, dir, p->t_min[i], (cgt_sphere){w->x[i], w->y[i], w->z[i], w->r[i]});
     }
+    for (uint32_t i = 0; i < p->lanes; i++) hits->t[i] = p->object[i] != CGT_NONE ? (float)w->t[i] : INFINITY;
 }
 
-static void resolve_t_and_normal(const packet *p, const winners *w, packet_hits *hits)
+/* The outward unit normal is the vector from the centre over the radius. */
+static void resolve_normal(const packet *p, const winners *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++) {
-        float n[3];
-        const float t = (float)resolve_ray(p, i, w->sphere[i], true, n);
+        const double t = w->t[i], k = 1 / (double)w->r[i];
+        const double x = (double)p->org[0][i] + t * (double)p->dir[0][i] - (double)w->x[i];
+        const double y = (double)p->org[1][i] + t * (double)p->dir[1][i] - (double)w->y[i];
+        const double z = (double)p->org[2][i] + t * (double)p->dir[2][i] - (double)w->z[i];
         const bool hit = p->object[i] != CGT_NONE;
-        hits->t[i] = hit ? t : INFINITY;
-        for (int a = 0; a < 3; a++) hits->normal[a][i] = hit ? n[a] : 0;
+        hits->normal[0][i] = hit ? (float)(x * k) : 0;
+        hits->normal[1][i] = hit ? (float)(y * k) : 0;
+        hits->normal[2][i] = hit ? (float)(z * k) : 0;
     }
+}
+
+/* A sphere of radius 0 has no normal of its own: it gets the direction back to the ray's origin. */
+static void resolve_points(const packet *p, const winners *w, packet_hits *hits)
+{
+    for (uint32_t i = 0; i < p->lanes; i++) {
+        if (p->object[i] == CGT_NONE || w->r[i] != 0) continue;
+        const double x = (double)p->dir[0][i], y = (double)p->dir[1][i], z = (double)p->dir[2][i];
+        const double k = -1 / sqrt(x * x + y * y + z * z);
+        hits->normal[0][i] = (float)(x * k);
+        hits->normal[1][i] = (float)(y * k);
+        hits->normal[2][i] = (float)(z * k);
+    }
+}
+
+static void fill_none(const packet *p, packet_hits *hits)
+{
+    const size_t bytes = p->lanes * sizeof(float);
+    for (uint32_t i = 0; i < p->lanes; i++) hits->t[i] = INFINITY;
+    memset(hits->primitive, 0xff, bytes); /* CGT_NONE */
+    memset(hits->geometry, 0xff, bytes);
+    for (int a = 0; a < 3; a++) memset(hits->normal[a], 0, bytes);
 }
 
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields, packet_hits *hits)
 {
     winners w;
-    bool all;
-    const uint32_t count = find_spheres(grid, p, &w, &all);
-    if (fields & CGT_FIELD_NORMAL) resolve_t_and_normal(p, &w, hits);
-    else if (fields & CGT_FIELD_T) resolve_t(p, &w, hits);
+    find_spheres(grid, p, &w);
+    if (!w.hits) {
+        fill_none(p, hits);
+        return 0;
+    }
+    if (fields & (CGT_FIELD_T | CGT_FIELD_NORMAL)) resolve_t(p, &w, hits);
+    if (fields & CGT_FIELD_NORMAL) resolve_normal(p, &w, hits);
+    if (fields & CGT_FIELD_NORMAL && w.points) resolve_points(p, &w, hits);
     if (fields & (CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY)) find_ids(grid, p, hits);
-    return count;
+    return w.hits;
 }

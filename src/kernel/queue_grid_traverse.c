@@ -142,7 +142,7 @@ static void test_pending(traversal *v)
         if (v->cull) {
             lanes &= ~outside_frustum(v, &s);
             v->counts->cull_tests += count;
-            v->counts->culled += count - (uint32_t)__builtin_popcount(lanes);
+            v->counts->culled += count - spux_count_bits(lanes);
         }
         if (lanes) test_spheres(v, &s, lanes);
     }
@@ -303,7 +303,7 @@ static void classify(const packet *p, uint32_t *class)
 static bool all_equal(const uint32_t *class, uint32_t count)
 {
     uint32_t differs = 0;
-    for (uint32_t i = 0; i < count; i++) differs |= class[i] ^ class[0];
+    for (uint32_t i = 1; i < count; i++) differs |= class[i] ^ class[0];
     return !differs;
 }
 
@@ -355,6 +355,7 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
 static void trace_coherent(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings, cgt_counts *counts)
 {
     _Alignas(64) uint32_t class[PACKET_MAX_RAYS];
+    class[0] = 0; /* there is at least one ray, which the compiler cannot know */
     classify(p, class);
     if (all_equal(class, p->lanes)) traverse(grid, p, class[0], settings, counts);
     else trace_parts(grid, p, class, 6, settings, counts);

@@ -35,6 +35,7 @@ typedef struct filter_spheres {
     _Alignas(64) float certain[CGT_LANES]; /* 17 eps */
     _Alignas(64) float before[CGT_LANES];  /* e0: from the computed t down to the interval's start */
     _Alignas(64) float gap[CGT_LANES];     /* the interval's length */
+    _Alignas(64) float nearest[CGT_LANES]; /* no ray meets the sphere before this t */
     uint32_t object[CGT_LANES];
 } filter_spheres;
 
@@ -43,13 +44,18 @@ typedef struct filter_packet {
     float org[3];      /* the common origin, or the middle of the box of the origins */
     float org_reach;   /* from there to any origin, as a sum over the axes */
     float rlength;     /* at least 1 / |d| of the shortest direction */
+    float rlength_low; /* at most 1 / |d| of the longest direction */
 } filter_packet;
 
 CGT_SPU_INLINE void filter_packet_make(const packet *p, filter_packet *f)
 {
-    vfloat most = spux_vfloat(0);
-    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) most = spux_max(most, spux_load(p->rdd + i));
+    vfloat most = spux_vfloat(0), least = spux_vfloat(INFINITY);
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        most = spux_max(most, spux_load(p->rdd + i));
+        least = spux_min(least, spux_load(p->rdd + i));
+    }
     f->rlength = __builtin_sqrtf(spux_hmax(most)) * (1 + 0x1p-18f);
+    f->rlength_low = __builtin_sqrtf(spux_hmin(least)) * (1 - 0x1p-18f);
     f->org_reach = 0;
     for (int a = 0; a < 3; a++) {
         f->org[a] = p->org[a][0];
@@ -69,13 +75,21 @@ CGT_SPU_INLINE void filter_packet_make(const packet *p, filter_packet *f)
 CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres *s)
 {
     const vfloat r = spux_load(s->radius);
-    vfloat distance = spux_vfloat(f->org_reach);
-    for (int a = 0; a < 3; a++)
-        distance = spu_add(distance, spux_abs(spu_sub(spux_load(s->center[a]), spux_vfloat(f->org[a]))));
+    vfloat distance = spux_vfloat(f->org_reach), square = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        const vfloat c = spu_sub(spux_load(s->center[a]), spux_vfloat(f->org[a]));
+        distance = spu_add(distance, spux_abs(c));
+        square = spu_madd(c, c, square);
+    }
     const vfloat wide = spu_mul(distance, spux_vfloat(26 * FILTER_U)); /* 26^2 > 640 */
     const vfloat eps = spu_madd(spu_mul(r, spux_vfloat(9 * FILTER_U)), spu_add(distance, r), spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
     const vfloat e0 = spu_mul(spu_add(distance, r), spux_vfloat(18 * FILTER_U * f->rlength));
     const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0.27f * f->rlength));
+    /* 8 roundings each; the distance between surfaces is at least what is left, where anything is */
+    const vfloat near = spu_sub(spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
+                                spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach))));
+    const vmask outside = spu_cmpgt(near, spux_vfloat(0));
+    spux_store(s->nearest, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
     spux_store(s->r2, spu_madd(r, r, eps));
     spux_store(s->certain, spu_mul(eps, spux_vfloat(17)));
     spux_store(s->before, e0);
@@ -108,58 +122,84 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid
     p->object[i] = object;
 }
 
-/* Tests all rays of a packet against sphere k of a vector. Comparisons are written so that what is not a number counts
- * as possible: it is then decided in double. */
+/* One sphere as the vectors of a test. */
+typedef struct filter_sphere {
+    vfloat center[3]; /* seen from the common origin, where there is one */
+    vfloat r2, certain, before, gap, nearest;
+    vuint object;
+} filter_sphere;
+
+CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_spheres *s, int k, bool common_origin)
+{
+    filter_sphere q = {.r2 = spux_vfloat(s->r2[k]),
+                       .certain = spux_vfloat(s->certain[k]),
+                       .before = spux_vfloat(s->before[k]),
+                       .gap = spux_vfloat(s->gap[k]),
+                       .nearest = spux_vfloat(s->nearest[k]),
+                       .object = spux_vuint(s->object[k])};
+    for (int a = 0; a < 3; a++) q.center[a] = spux_vfloat(common_origin ? s->center[a][k] - p->org[a][0] : s->center[a][k]);
+    return q;
+}
+
+/* What a test finds out about the rays of a vector. */
+typedef struct filter_result {
+    vfloat low, high; /* the interval of t */
+    vmask certain;    /* a hit, certainly in the range and nearer than the best */
+    vmask open;       /* to be decided in double: neither certain nor certainly not */
+} filter_result;
+
+/* Returns false where all rays of the vector surely miss. Comparisons are written so that what is not a number stays
+ * open. */
+CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_t i, bool common_origin, filter_result *f)
+{
+    const vfloat zero = spux_vfloat(0), rdd = spux_load(p->rdd + i);
+    const vfloat dx = spux_load(p->dir[0] + i), dy = spux_load(p->dir[1] + i), dz = spux_load(p->dir[2] + i);
+    vfloat cx = q->center[0], cy = q->center[1], cz = q->center[2];
+    if (!common_origin) {
+        cx = spu_sub(cx, spux_load(p->org[0] + i));
+        cy = spu_sub(cy, spux_load(p->org[1] + i));
+        cz = spu_sub(cz, spux_load(p->org[2] + i));
+    }
+    const vfloat mid = spu_mul(spu_madd(dx, cx, spu_madd(dy, cy, spu_mul(dz, cz))), rdd);
+    const vfloat lx = spu_nmsub(mid, dx, cx), ly = spu_nmsub(mid, dy, cy), lz = spu_nmsub(mid, dz, cz);
+    const vfloat h = spu_sub(q->r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
+    /* a miss; or the sphere's nearest point lies beyond the best, which spares the root of a hidden one */
+    const vmask missed = spu_or(spu_cmpgt(zero, h), spu_cmpgt(q->nearest, spux_load(p->high + i)));
+    if (spux_mask_bits(missed) == CGT_ALL_LANES) return false;
+    const vfloat half = spux_sqrt(spu_mul(h, rdd)), t_min = spux_load(p->t_min + i);
+    const vfloat low = spu_sub(spu_sub(mid, half), q->before), high = spu_add(low, q->gap);
+    /* beyond the best; or both roots before the range; or met before */
+    const vmask beyond = spu_cmpgt(low, spux_load(p->high + i));
+    const vmask behind = spu_cmpgt(t_min, spu_add(spu_add(mid, half), q->before));
+    const vmask met = spu_cmpeq(spux_load_uint(p->object + i), q->object);
+    const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spux_cmpge(low, t_min));
+    f->low = low;
+    f->high = high;
+    f->certain = spu_and(spu_cmpgt(h, q->certain), nearer);
+    f->open = spux_not(spu_or(spu_or(spu_or(missed, beyond), spu_or(behind, met)), f->certain));
+    return true;
+}
+
+/* Tests all rays of a packet against sphere k of a vector. Open rays are rare; a second pass finds them again. */
 CGT_SPU_INLINE void filter_test(const cgt_queue_grid *grid, packet *p, const filter_spheres *s, int k, bool common_origin,
                                 bool any_hit, cgt_counts *counts)
 {
-    const vfloat zero = spux_vfloat(0), r2 = spux_vfloat(s->r2[k]), sure = spux_vfloat(s->certain[k]);
-    const vfloat before = spux_vfloat(s->before[k]), gap = spux_vfloat(s->gap[k]);
-    const vfloat x = spux_vfloat(s->center[0][k]), y = spux_vfloat(s->center[1][k]), z = spux_vfloat(s->center[2][k]);
-    const vuint object = spux_vuint(s->object[k]);
-    vfloat cx = x, cy = y, cz = z;
-    if (common_origin) {
-        cx = spu_sub(x, spux_vfloat(p->org[0][0]));
-        cy = spu_sub(y, spux_vfloat(p->org[1][0]));
-        cz = spu_sub(z, spux_vfloat(p->org[2][0]));
-    }
+    const filter_sphere q = filter_sphere_get(p, s, k, common_origin);
+    const vfloat closed = spux_vfloat(-INFINITY);
+    vmask open = spux_vuint(0);
+    filter_result f;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        const vfloat dx = spux_load(p->dir[0] + i), dy = spux_load(p->dir[1] + i), dz = spux_load(p->dir[2] + i);
-        if (!common_origin) {
-            cx = spu_sub(x, spux_load(p->org[0] + i));
-            cy = spu_sub(y, spux_load(p->org[1] + i));
-            cz = spu_sub(z, spux_load(p->org[2] + i));
-        }
-        const vfloat rdd = spux_load(p->rdd + i);
-        const vfloat mid = spu_mul(spu_madd(dx, cx, spu_madd(dy, cy, spu_mul(dz, cz))), rdd);
-        const vfloat lx = spu_nmsub(mid, dx, cx), ly = spu_nmsub(mid, dy, cy), lz = spu_nmsub(mid, dz, cz);
-        const vfloat h = spu_sub(r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
-        const unsigned missed = spux_mask_bits(spu_cmpgt(zero, h));
-        if (missed == CGT_ALL_LANES) continue;
-        const vfloat half = spux_sqrt(spu_mul(h, rdd)), t = spu_sub(spu_sub(mid, half), before);
-        const vfloat high = spux_load(p->high + i), low = spux_load(p->low + i), end = spu_add(t, gap);
-        unsigned possible = ~(missed | spux_mask_bits(spu_cmpgt(t, high))) & CGT_ALL_LANES;
-        if (!possible) continue;
-        const vmask inside = spux_cmpge(t, spux_load(p->t_min + i));
-        const vmask certain = spu_and(spu_and(spu_cmpgt(h, sure), spu_cmpgt(low, end)), inside);
-        if (any_hit) {
-            spux_store(p->low + i, spux_select(low, spux_vfloat(-INFINITY), certain));
-            spux_store(p->high + i, spux_select(high, spux_vfloat(-INFINITY), certain));
-        } else {
-            spux_store(p->low + i, spux_select(low, t, certain));
-            spux_store(p->high + i, spux_select(high, end, certain));
-        }
-        const vuint winner = spux_load_uint(p->object + i);
-        spux_store_uint(p->object + i, spux_select(winner, object, certain));
-        possible &= ~(spux_mask_bits(certain) | spux_mask_bits(spu_cmpeq(winner, object)));
-        if (!possible) continue;
-        /* not behind the start of the range with both its roots */
-        const vfloat far = spu_add(spu_add(mid, half), before);
-        possible &= ~spux_mask_bits(spu_cmpgt(spux_load(p->t_min + i), far));
-        while (possible) {
-            filter_decide(grid, p, i + (uint32_t)__builtin_ctz(possible), s->object[k], counts);
-            possible &= possible - 1;
-        }
+        if (!filter_rays(p, &q, i, common_origin, &f)) continue;
+        spux_store(p->low + i, spux_select(spux_load(p->low + i), any_hit ? closed : f.low, f.certain));
+        spux_store(p->high + i, spux_select(spux_load(p->high + i), any_hit ? closed : f.high, f.certain));
+        spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), q.object, f.certain));
+        open = spu_or(open, f.open);
+    }
+    if (!spux_mask_bits(open)) return;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        if (!filter_rays(p, &q, i, common_origin, &f)) continue;
+        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
+            filter_decide(grid, p, i + (uint32_t)__builtin_ctz(left), s->object[k], counts);
     }
 }
 
