@@ -19,9 +19,9 @@ typedef struct job {
     cgt_task *task;
     void *argument;
     uint32_t count;
-    atomic_uint next;     /* the first index that nobody took; may run past count by one per worker */
-    uint32_t helpers;     /* workers inside; under the pool's lock */
-    struct job *link;     /* the next job; under the pool's lock */
+    atomic_uint next; /* the first index that nobody took; may run past count by one per worker */
+    uint32_t helpers; /* workers inside; under the pool's lock */
+    struct job *link; /* the next job; under the pool's lock */
 } job;
 
 typedef struct pool {
@@ -42,7 +42,8 @@ static void take_tasks(job *j)
     /* checked before it is taken: a job that many look at cannot count past the end of the type */
     while (atomic_load_explicit(&j->next, memory_order_relaxed) < j->count) {
         const uint32_t index = atomic_fetch_add_explicit(&j->next, 1, memory_order_relaxed);
-        if (index >= j->count) return;
+        if (index >= j->count)
+            return;
         j->task(j->argument, index);
     }
 }
@@ -50,7 +51,8 @@ static void take_tasks(job *j)
 static job *find_work(const pool *p)
 {
     job *j = p->jobs;
-    while (j && atomic_load_explicit(&j->next, memory_order_relaxed) >= j->count) j = j->link;
+    while (j && atomic_load_explicit(&j->next, memory_order_relaxed) >= j->count)
+        j = j->link;
     return j;
 }
 
@@ -68,7 +70,8 @@ static void *worker(void *state)
         pthread_mutex_unlock(&p->lock);
         take_tasks(j);
         pthread_mutex_lock(&p->lock);
-        if (--j->helpers == 0) pthread_cond_broadcast(&p->done);
+        if (--j->helpers == 0)
+            pthread_cond_broadcast(&p->done);
     }
     pthread_mutex_unlock(&p->lock);
     return NULL;
@@ -77,7 +80,8 @@ static void *worker(void *state)
 static void remove_job(pool *p, const job *j)
 {
     job **at = &p->jobs;
-    while (*at != j) at = &(*at)->link;
+    while (*at != j)
+        at = &(*at)->link;
     *at = j->link;
 }
 
@@ -97,19 +101,22 @@ static void host_run(void *state, cgt_task *task, void *argument, uint32_t count
     /* nobody can enter once it is out of the list; wait for those inside */
     pthread_mutex_lock(&p->lock);
     remove_job(p, &j);
-    while (j.helpers) pthread_cond_wait(&p->done, &p->lock);
+    while (j.helpers)
+        pthread_cond_wait(&p->done, &p->lock);
     pthread_mutex_unlock(&p->lock);
 }
 
 static void host_destroy(const cgt_memory_hooks *memory, void *state)
 {
     pool *p = state;
-    if (!p) return;
+    if (!p)
+        return;
     pthread_mutex_lock(&p->lock);
     p->stop = true;
     pthread_cond_broadcast(&p->work);
     pthread_mutex_unlock(&p->lock);
-    for (uint32_t i = 0; i < p->workers; i++) pthread_join(p->thread[i], NULL);
+    for (uint32_t i = 0; i < p->workers; i++)
+        pthread_join(p->thread[i], NULL);
     pthread_cond_destroy(&p->done);
     pthread_cond_destroy(&p->work);
     pthread_mutex_destroy(&p->lock);
@@ -118,12 +125,14 @@ static void host_destroy(const cgt_memory_hooks *memory, void *state)
 
 static bool make_locks(pool *p)
 {
-    if (pthread_mutex_init(&p->lock, NULL)) return false;
+    if (pthread_mutex_init(&p->lock, NULL))
+        return false;
     if (pthread_cond_init(&p->work, NULL)) {
         pthread_mutex_destroy(&p->lock);
         return false;
     }
-    if (!pthread_cond_init(&p->done, NULL)) return true;
+    if (!pthread_cond_init(&p->done, NULL))
+        return true;
     pthread_cond_destroy(&p->work);
     pthread_mutex_destroy(&p->lock);
     return false;
@@ -134,7 +143,8 @@ static cgt_result host_create(const cgt_memory_hooks *memory, uint32_t threads, 
     const uint32_t room = threads - 1;
     pool *p = cgt_allocate(memory, pool_bytes(room));
     *state = NULL;
-    if (!p) return CGT_ERROR_OUT_OF_MEMORY;
+    if (!p)
+        return CGT_ERROR_OUT_OF_MEMORY;
     p->jobs = NULL;
     p->stop = false;
     p->workers = 0;
@@ -156,7 +166,8 @@ uint32_t cgt_host_cpus(void)
 {
 #ifdef __linux__
     cpu_set_t set;
-    if (!sched_getaffinity(0, sizeof set, &set) && CPU_COUNT(&set) > 0) return (uint32_t)CPU_COUNT(&set);
+    if (!sched_getaffinity(0, sizeof set, &set) && CPU_COUNT(&set) > 0)
+        return (uint32_t)CPU_COUNT(&set);
 #endif
     const long cpus = sysconf(_SC_NPROCESSORS_ONLN);
     return cpus > 0 ? (uint32_t)cpus : 1;

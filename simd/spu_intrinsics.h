@@ -38,35 +38,47 @@
 #endif
 
 #define spu_splats(a)                                                                                                  \
-    _Generic((a), float: cgt_spu_splats_f32, int32_t: cgt_spu_splats_s32, uint32_t: cgt_spu_splats_u32,                \
-             uint16_t: cgt_spu_splats_u16)(a)
+    _Generic((a), float                                                                                                \
+             : cgt_spu_splats_f32, int32_t                                                                             \
+             : cgt_spu_splats_s32, uint32_t                                                                            \
+             : cgt_spu_splats_u32, uint16_t                                                                            \
+             : cgt_spu_splats_u16)(a)
 #define spu_extract(a, n)                                                                                              \
-    _Generic((a), vec_float4: cgt_spu_extract_f32, vec_int4: cgt_spu_extract_s32, vec_uint4: cgt_spu_extract_u32,      \
-             vec_ushort8: cgt_spu_extract_u16)(a, n)
+    _Generic((a), vec_float4                                                                                           \
+             : cgt_spu_extract_f32, vec_int4                                                                           \
+             : cgt_spu_extract_s32, vec_uint4                                                                          \
+             : cgt_spu_extract_u32, vec_ushort8                                                                        \
+             : cgt_spu_extract_u16)(a, n)
 #define spu_add(a, b)                                                                                                  \
-    _Generic((a), vec_float4: cgt_spu_add_f32, vec_int4: cgt_spu_add_s32, vec_uint4: cgt_spu_add_u32)(a, b)
+    _Generic((a), vec_float4 : cgt_spu_add_f32, vec_int4 : cgt_spu_add_s32, vec_uint4 : cgt_spu_add_u32)(a, b)
 #define spu_sub(a, b)                                                                                                  \
-    _Generic((a), vec_float4: cgt_spu_sub_f32, vec_int4: cgt_spu_sub_s32, vec_uint4: cgt_spu_sub_u32)(a, b)
+    _Generic((a), vec_float4 : cgt_spu_sub_f32, vec_int4 : cgt_spu_sub_s32, vec_uint4 : cgt_spu_sub_u32)(a, b)
 #define spu_mul(a, b) cgt_spu_mul_f32(a, b)
 #define spu_madd(a, b, c) cgt_spu_madd_f32(a, b, c)
 #define spu_msub(a, b, c) cgt_spu_msub_f32(a, b, c)
 #define spu_nmsub(a, b, c) cgt_spu_nmsub_f32(a, b, c)
 #define spu_cmpgt(a, b)                                                                                                \
-    _Generic((a), vec_float4: cgt_spu_cmpgt_f32, vec_int4: cgt_spu_cmpgt_s32, vec_uint4: cgt_spu_cmpgt_u32)(a, b)
+    _Generic((a), vec_float4 : cgt_spu_cmpgt_f32, vec_int4 : cgt_spu_cmpgt_s32, vec_uint4 : cgt_spu_cmpgt_u32)(a, b)
 #define spu_cmpeq(a, b)                                                                                                \
-    _Generic((a), vec_float4: cgt_spu_cmpeq_f32, vec_int4: cgt_spu_cmpeq_s32, vec_uint4: cgt_spu_cmpeq_u32,            \
-             vec_ushort8: cgt_spu_cmpeq_u16)(a, b)
+    _Generic((a), vec_float4                                                                                           \
+             : cgt_spu_cmpeq_f32, vec_int4                                                                             \
+             : cgt_spu_cmpeq_s32, vec_uint4                                                                            \
+             : cgt_spu_cmpeq_u32, vec_ushort8                                                                          \
+             : cgt_spu_cmpeq_u16)(a, b)
 #define spu_and(a, b)                                                                                                  \
-    _Generic((a), vec_float4: cgt_spu_and_f32, vec_int4: cgt_spu_and_s32, vec_uint4: cgt_spu_and_u32,                  \
-             vec_ushort8: cgt_spu_and_u16)(a, b)
+    _Generic((a), vec_float4                                                                                           \
+             : cgt_spu_and_f32, vec_int4                                                                               \
+             : cgt_spu_and_s32, vec_uint4                                                                              \
+             : cgt_spu_and_u32, vec_ushort8                                                                            \
+             : cgt_spu_and_u16)(a, b)
 #define spu_or(a, b)                                                                                                   \
-    _Generic((a), vec_float4: cgt_spu_or_f32, vec_int4: cgt_spu_or_s32, vec_uint4: cgt_spu_or_u32)(a, b)
+    _Generic((a), vec_float4 : cgt_spu_or_f32, vec_int4 : cgt_spu_or_s32, vec_uint4 : cgt_spu_or_u32)(a, b)
 #define spu_xor(a, b)                                                                                                  \
-    _Generic((a), vec_float4: cgt_spu_xor_f32, vec_int4: cgt_spu_xor_s32, vec_uint4: cgt_spu_xor_u32)(a, b)
+    _Generic((a), vec_float4 : cgt_spu_xor_f32, vec_int4 : cgt_spu_xor_s32, vec_uint4 : cgt_spu_xor_u32)(a, b)
 #define spu_andc(a, b)                                                                                                 \
-    _Generic((a), vec_float4: cgt_spu_andc_f32, vec_int4: cgt_spu_andc_s32, vec_uint4: cgt_spu_andc_u32)(a, b)
+    _Generic((a), vec_float4 : cgt_spu_andc_f32, vec_int4 : cgt_spu_andc_s32, vec_uint4 : cgt_spu_andc_u32)(a, b)
 #define spu_sel(a, b, m)                                                                                               \
-    _Generic((a), vec_float4: cgt_spu_sel_f32, vec_int4: cgt_spu_sel_s32, vec_uint4: cgt_spu_sel_u32)(a, b, m)
+    _Generic((a), vec_float4 : cgt_spu_sel_f32, vec_int4 : cgt_spu_sel_s32, vec_uint4 : cgt_spu_sel_u32)(a, b, m)
 /* the scale is a power of two, so that the product is exact unless it leaves the range */
 #define spu_convtf(a, n) spu_mul(cgt_spu_convtf_s32(a), cgt_spu_splats_f32(1.f / (float)(UINT64_C(1) << (n))))
 #define spu_convts(a, n) cgt_spu_convts_f32(spu_mul(a, cgt_spu_splats_f32((float)(UINT64_C(1) << (n)))))

@@ -16,7 +16,7 @@
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #define CGT_SPU_BYTE_FLIP(size) 0u
 #else
-#define CGT_SPU_BYTE_FLIP(size) ((unsigned)(size) - 1u)
+#define CGT_SPU_BYTE_FLIP(size) ((unsigned)(size)-1u)
 #endif
 
 /* ---- splats, extract ---- */
@@ -63,15 +63,33 @@ CGT_SPU_INLINE vec_int4 cgt_spu_and_s32(vec_int4 a, vec_int4 b) { return a & b; 
 CGT_SPU_INLINE vec_int4 cgt_spu_or_s32(vec_int4 a, vec_int4 b) { return a | b; }
 CGT_SPU_INLINE vec_int4 cgt_spu_xor_s32(vec_int4 a, vec_int4 b) { return a ^ b; }
 CGT_SPU_INLINE vec_int4 cgt_spu_andc_s32(vec_int4 a, vec_int4 b) { return a & ~b; }
-CGT_SPU_INLINE vec_float4 cgt_spu_and_f32(vec_float4 a, vec_float4 b) { return (vec_float4)((vec_uint4)a & (vec_uint4)b); }
-CGT_SPU_INLINE vec_float4 cgt_spu_or_f32(vec_float4 a, vec_float4 b) { return (vec_float4)((vec_uint4)a | (vec_uint4)b); }
-CGT_SPU_INLINE vec_float4 cgt_spu_xor_f32(vec_float4 a, vec_float4 b) { return (vec_float4)((vec_uint4)a ^ (vec_uint4)b); }
-CGT_SPU_INLINE vec_float4 cgt_spu_andc_f32(vec_float4 a, vec_float4 b) { return (vec_float4)((vec_uint4)a & ~(vec_uint4)b); }
+CGT_SPU_INLINE vec_float4 cgt_spu_and_f32(vec_float4 a, vec_float4 b)
+{
+    return (vec_float4)((vec_uint4)a & (vec_uint4)b);
+}
+CGT_SPU_INLINE vec_float4 cgt_spu_or_f32(vec_float4 a, vec_float4 b)
+{
+    return (vec_float4)((vec_uint4)a | (vec_uint4)b);
+}
+CGT_SPU_INLINE vec_float4 cgt_spu_xor_f32(vec_float4 a, vec_float4 b)
+{
+    return (vec_float4)((vec_uint4)a ^ (vec_uint4)b);
+}
+CGT_SPU_INLINE vec_float4 cgt_spu_andc_f32(vec_float4 a, vec_float4 b)
+{
+    return (vec_float4)((vec_uint4)a & ~(vec_uint4)b);
+}
 
 /* sel: bits of b where the mask is one, else of a */
 CGT_SPU_INLINE vec_uint4 cgt_spu_sel_u32(vec_uint4 a, vec_uint4 b, vec_uint4 m) { return (a & ~m) | (b & m); }
-CGT_SPU_INLINE vec_int4 cgt_spu_sel_s32(vec_int4 a, vec_int4 b, vec_uint4 m) { return (vec_int4)cgt_spu_sel_u32((vec_uint4)a, (vec_uint4)b, m); }
-CGT_SPU_INLINE vec_float4 cgt_spu_sel_f32(vec_float4 a, vec_float4 b, vec_uint4 m) { return (vec_float4)cgt_spu_sel_u32((vec_uint4)a, (vec_uint4)b, m); }
+CGT_SPU_INLINE vec_int4 cgt_spu_sel_s32(vec_int4 a, vec_int4 b, vec_uint4 m)
+{
+    return (vec_int4)cgt_spu_sel_u32((vec_uint4)a, (vec_uint4)b, m);
+}
+CGT_SPU_INLINE vec_float4 cgt_spu_sel_f32(vec_float4 a, vec_float4 b, vec_uint4 m)
+{
+    return (vec_float4)cgt_spu_sel_u32((vec_uint4)a, (vec_uint4)b, m);
+}
 
 /* ---- convert ---- */
 CGT_SPU_INLINE vec_float4 cgt_spu_convtf_s32(vec_int4 a) { return __builtin_convertvector(a, vec_float4); }
@@ -103,11 +121,7 @@ CGT_SPU_INLINE void cgt_spu_shuffle_bytes(const uint8_t *a, const uint8_t *b, ve
 {
     for (unsigned k = 0; k < 16; k++) {
         const unsigned c = pattern[k], s = c & 15;
-        d[k ^ flip] = c >= 0xe0   ? 0x80
-                      : c >= 0xc0 ? 0xff
-                      : c >= 0x80 ? 0x00
-                      : c & 16    ? b[s ^ flip]
-                                  : a[s ^ flip];
+        d[k ^ flip] = c >= 0xe0 ? 0x80 : c >= 0xc0 ? 0xff : c >= 0x80 ? 0x00 : c & 16 ? b[s ^ flip] : a[s ^ flip];
     }
 }
 CGT_SPU_INLINE vec_ushort8 cgt_spu_shuffle_u16(vec_ushort8 a, vec_ushort8 b, vec_uchar16 pattern)
@@ -133,15 +147,22 @@ CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u32(vec_uint4 m)
 CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u16(vec_ushort8 m)
 {
     unsigned bits = 0;
-    for (unsigned i = 0; i < 8; i++) bits |= m[i] & 1u << i;
+    for (unsigned i = 0; i < 8; i++)
+        bits |= m[i] & 1u << i;
     return bits;
 }
 #endif
 
 /* min, max: b where a and b do not compare */
 #ifndef CGT_SPU_OWN_MIN_MAX
-CGT_SPU_INLINE vec_float4 cgt_spux_min_f32(vec_float4 a, vec_float4 b) { return cgt_spu_sel_f32(b, a, (vec_uint4)(a < b)); }
-CGT_SPU_INLINE vec_float4 cgt_spux_max_f32(vec_float4 a, vec_float4 b) { return cgt_spu_sel_f32(b, a, (vec_uint4)(a > b)); }
+CGT_SPU_INLINE vec_float4 cgt_spux_min_f32(vec_float4 a, vec_float4 b)
+{
+    return cgt_spu_sel_f32(b, a, (vec_uint4)(a < b));
+}
+CGT_SPU_INLINE vec_float4 cgt_spux_max_f32(vec_float4 a, vec_float4 b)
+{
+    return cgt_spu_sel_f32(b, a, (vec_uint4)(a > b));
+}
 #endif
 
 /* ge: a >= b, false where they do not compare (two words on an SPU) */
@@ -158,7 +179,10 @@ CGT_SPU_INLINE vec_float4 cgt_spux_sqrt_f32(vec_float4 a)
 
 /* select by whole lanes: the mask is a comparison's result */
 #ifndef CGT_SPU_OWN_SELECT
-CGT_SPU_INLINE vec_float4 cgt_spux_select_f32(vec_float4 a, vec_float4 b, vec_uint4 m) { return cgt_spu_sel_f32(a, b, m); }
+CGT_SPU_INLINE vec_float4 cgt_spux_select_f32(vec_float4 a, vec_float4 b, vec_uint4 m)
+{
+    return cgt_spu_sel_f32(a, b, m);
+}
 CGT_SPU_INLINE vec_uint4 cgt_spux_select_u32(vec_uint4 a, vec_uint4 b, vec_uint4 m) { return cgt_spu_sel_u32(a, b, m); }
 #endif
 

@@ -40,8 +40,14 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u32(vec_uint4 a)
 }
 
 #define CGT_SPU_OWN_MIN_MAX
-CGT_SPU_INLINE vec_float4 cgt_spux_min_f32(vec_float4 a, vec_float4 b) { return (vec_float4)_mm_min_ps((__m128)a, (__m128)b); }
-CGT_SPU_INLINE vec_float4 cgt_spux_max_f32(vec_float4 a, vec_float4 b) { return (vec_float4)_mm_max_ps((__m128)a, (__m128)b); }
+CGT_SPU_INLINE vec_float4 cgt_spux_min_f32(vec_float4 a, vec_float4 b)
+{
+    return (vec_float4)_mm_min_ps((__m128)a, (__m128)b);
+}
+CGT_SPU_INLINE vec_float4 cgt_spux_max_f32(vec_float4 a, vec_float4 b)
+{
+    return (vec_float4)_mm_max_ps((__m128)a, (__m128)b);
+}
 
 #define CGT_SPU_OWN_SQRT
 CGT_SPU_INLINE vec_float4 cgt_spux_sqrt_f32(vec_float4 a) { return (vec_float4)_mm_sqrt_ps((__m128)a); }
@@ -61,7 +67,8 @@ CGT_SPU_INLINE vec_uint4 cgt_spux_select_u32(vec_uint4 a, vec_uint4 b, vec_uint4
 #define CGT_SPU_OWN_SHUFFLE
 CGT_SPU_INLINE __m128i cgt_spu_shuffle_sse(__m128i a, __m128i b, __m128i c, __m128i flip_position, __m128i flip_value)
 {
-    const __m128i k = _mm_shuffle_epi8(c, flip_position), index = _mm_xor_si128(_mm_and_si128(k, _mm_set1_epi8(15)), flip_value);
+    const __m128i k = _mm_shuffle_epi8(c, flip_position),
+                  index = _mm_xor_si128(_mm_and_si128(k, _mm_set1_epi8(15)), flip_value);
     const __m128i special = _mm_cmplt_epi8(k, _mm_setzero_si128());
     const __m128i from_b = _mm_cmpeq_epi8(_mm_and_si128(k, _mm_set1_epi8(16)), _mm_set1_epi8(16));
     const __m128i ones = _mm_cmpeq_epi8(_mm_and_si128(k, _mm_set1_epi8((char)0xe0)), _mm_set1_epi8((char)0xc0));

@@ -43,7 +43,7 @@ typedef vec_uint4 vmask;
 #define spux_div(a, b) cgt_spux_div_f32(a, b)
 #define spux_sqrt(a) cgt_spux_sqrt_f32(a)
 #define spux_cmpge(a, b) cgt_spux_cmpge_f32(a, b)
-#define spux_select(a, b, m) _Generic((a), vec_float4: cgt_spux_select_f32, vec_uint4: cgt_spux_select_u32)(a, b, m)
+#define spux_select(a, b, m) _Generic((a), vec_float4 : cgt_spux_select_f32, vec_uint4 : cgt_spux_select_u32)(a, b, m)
 #define spux_mask_bits(m) cgt_spux_mask_bits_u32(m)
 #define spux_count_bits(b) ((uint32_t)(UINT64_C(0x4332322132212110) >> (4 * (b)) & 7))
 #define spux_not(m) (~(m))
@@ -80,13 +80,15 @@ CGT_SPU_INLINE void spux_store_uint(uint32_t *p, vuint v)
 CGT_SPU_INLINE float spux_hmin(vfloat a)
 {
     float m = a[0];
-    for (int i = 1; i < CGT_LANES; i++) m = a[i] < m ? a[i] : m;
+    for (int i = 1; i < CGT_LANES; i++)
+        m = a[i] < m ? a[i] : m;
     return m;
 }
 CGT_SPU_INLINE float spux_hmax(vfloat a)
 {
     float m = a[0];
-    for (int i = 1; i < CGT_LANES; i++) m = a[i] > m ? a[i] : m;
+    for (int i = 1; i < CGT_LANES; i++)
+        m = a[i] > m ? a[i] : m;
     return m;
 }
 

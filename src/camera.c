@@ -41,14 +41,22 @@ void cgt_camera_init(cgt_camera *camera)
 /* NULL, or what is wrong. */
 static const char *check(const cgt_camera *c)
 {
-    if (c->projection != CGT_PERSPECTIVE && c->projection != CGT_ORTHOGRAPHIC) return "projection is unknown";
-    if (!finite3(c->eye)) return "eye is not finite";
-    if (!finite3(c->target)) return "target is not finite";
-    if (!finite3(c->up)) return "up is not finite";
-    if (c->projection == CGT_PERSPECTIVE && !(c->fov > 0 && c->fov < 180)) return "fov must be above 0 and below 180 degrees";
-    if (c->projection == CGT_ORTHOGRAPHIC && !(c->height > 0 && isfinite(c->height))) return "height must be above 0 and finite";
-    if (!(c->t_min >= 0)) return "t_min must be 0 or more";
-    if (!(c->t_max >= c->t_min)) return "t_max must not be below t_min";
+    if (c->projection != CGT_PERSPECTIVE && c->projection != CGT_ORTHOGRAPHIC)
+        return "projection is unknown";
+    if (!finite3(c->eye))
+        return "eye is not finite";
+    if (!finite3(c->target))
+        return "target is not finite";
+    if (!finite3(c->up))
+        return "up is not finite";
+    if (c->projection == CGT_PERSPECTIVE && !(c->fov > 0 && c->fov < 180))
+        return "fov must be above 0 and below 180 degrees";
+    if (c->projection == CGT_ORTHOGRAPHIC && !(c->height > 0 && isfinite(c->height)))
+        return "height must be above 0 and finite";
+    if (!(c->t_min >= 0))
+        return "t_min must be 0 or more";
+    if (!(c->t_max >= c->t_min))
+        return "t_max must not be below t_min";
     return NULL;
 }
 
@@ -56,12 +64,15 @@ static const char *make_axes(const cgt_camera *c, vec3 *fwd, vec3 *right, vec3 *
 {
     vec3 f = sub(from(c->target), from(c->eye)), u = from(c->up);
     const double f_length = sqrt(dot(f, f)), u_length = sqrt(dot(u, u));
-    if (!(f_length > 0)) return "target must differ from eye";
-    if (!(u_length > 0)) return "up must not be zero";
+    if (!(f_length > 0))
+        return "target must differ from eye";
+    if (!(u_length > 0))
+        return "up must not be zero";
     f = scale(f, 1 / f_length);
     vec3 r = cross(f, scale(u, 1 / u_length));
     const double r_length = sqrt(dot(r, r)); /* sine of the angle between them */
-    if (!(r_length > 1e-6)) return "up must not be parallel to target - eye";
+    if (!(r_length > 1e-6))
+        return "up must not be parallel to target - eye";
     r = scale(r, 1 / r_length);
     *fwd = f;
     *right = r;
@@ -74,7 +85,8 @@ cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t
 {
     vec3 fwd, right, up;
     const char *wrong = check(camera);
-    if (!wrong) wrong = make_axes(camera, &fwd, &right, &up);
+    if (!wrong)
+        wrong = make_axes(camera, &fwd, &right, &up);
     if (wrong) {
         snprintf(message, 160, "camera: %s", wrong);
         return CGT_ERROR_INVALID_ARGUMENT;
@@ -91,7 +103,8 @@ cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t
     round_to(rays->fwd, fwd);
     round_to(rays->right, scale(right, half * width / height));
     round_to(rays->up, scale(up, half));
-    if (finite3(rays->right) && finite3(rays->up)) return CGT_OK;
+    if (finite3(rays->right) && finite3(rays->up))
+        return CGT_OK;
     snprintf(message, 160, "camera: the picture's width or height leaves the range of float");
     return CGT_ERROR_INVALID_ARGUMENT;
 }

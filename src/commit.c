@@ -16,15 +16,18 @@ static cgt_result list_arrays(cgt_scene *scene)
     const cgt_geometry *geometry = scene->geometry.data;
     const cgt_result result =
         cgt_buffer_reserve(&scene->context->memory, &scene->arrays, scene->geometries, sizeof(cgt_sphere_array));
-    if (result != CGT_OK) return cgt_fail(scene->context, result, "commit: out of memory for %u geometries", scene->geometries);
+    if (result != CGT_OK)
+        return cgt_fail(scene->context, result, "commit: out of memory for %u geometries", scene->geometries);
     cgt_sphere_array *array = scene->arrays.data;
     cgt_objects objects = {.array = array};
     scene->statistics.geometries = 0;
     for (uint32_t id = 0; id < scene->geometries; id++) {
         const cgt_spheres *s = &geometry[id].spheres;
-        if (!geometry[id].used) continue;
+        if (!geometry[id].used)
+            continue;
         scene->statistics.geometries++;
-        if (!s->count) continue;
+        if (!s->count)
+            continue;
         array[objects.arrays++] = (cgt_sphere_array){.center = (const char *)s->centers,
                                                      .radius = (const char *)(s->radii ? s->radii : &s->radius),
                                                      .center_stride = s->center_stride,
@@ -80,7 +83,8 @@ static void summarise_chunk(void *argument, uint32_t index)
         const cgt_sphere_state state = cgt_sphere_check(q);
         s.skipped_not_finite += state == CGT_SPHERE_NOT_FINITE;
         s.skipped_radius += state == CGT_SPHERE_NEGATIVE_RADIUS;
-        if (state == CGT_SPHERE_VALID) add_sphere(&s, q);
+        if (state == CGT_SPHERE_VALID)
+            add_sphere(&s, q);
     }
     job->part[index] = s;
 }
@@ -94,7 +98,8 @@ static void merge_summary(cgt_object_summary *s, const cgt_object_summary *part)
         s->min[a] = fminf(s->min[a], part->min[a]);
         s->max[a] = fmaxf(s->max[a], part->max[a]);
     }
-    for (int k = 1; k < 4; k++) s->diameter[k] += part->diameter[k];
+    for (int k = 1; k < 4; k++)
+        s->diameter[k] += part->diameter[k];
 }
 
 static void summarise(cgt_scene *scene, cgt_object_summary *s)
@@ -103,7 +108,8 @@ static void summarise(cgt_scene *scene, cgt_object_summary *s)
     const uint32_t chunks = (job.objects->count + CHUNK - 1) / CHUNK;
     cgt_run_tasks(scene->context, summarise_chunk, &job, chunks);
     empty_summary(s);
-    for (uint32_t i = 0; i < chunks; i++) merge_summary(s, &job.part[i]);
+    for (uint32_t i = 0; i < chunks; i++)
+        merge_summary(s, &job.part[i]);
     s->diameter[0] = s->valid;
     for (int a = 0; a < 3; a++) {
         /* the sums were rounded to nearest: one step outwards covers it */
@@ -123,12 +129,14 @@ static cgt_result fill(cgt_scene *scene)
                               .capacity = (uint32_t)(scene->overflow[0].bytes / sizeof(cgt_overflow))};
     cgt_fill_counts counts = {0};
     const cgt_result result = cgt_buffer_reserve(&c->memory, &scene->voxels, g->cells, sizeof(cgt_voxel));
-    if (result != CGT_OK) return cgt_fail(c, result, "commit: out of memory for %u voxels of 32 bytes", g->cells);
+    if (result != CGT_OK)
+        return cgt_fail(c, result, "commit: out of memory for %u voxels of 32 bytes", g->cells);
     g->voxel = scene->voxels.data;
     memset(g->voxel, 0xff, g->cells * sizeof(cgt_voxel));
     for (uint32_t object = 0; object < g->objects.count;) {
         object = c->kernel->queue_grid_fill(g, object, g->objects.count, &list, &counts);
-        if (object == g->objects.count) break;
+        if (object == g->objects.count)
+            break;
         const uint64_t wanted = (uint64_t)list.count + list.wanted;
         const cgt_result grown = wanted > UINT32_MAX ? CGT_ERROR_TOO_LARGE
                                                      : cgt_buffer_grow(&c->memory, &scene->overflow[0], (size_t)wanted,
@@ -150,13 +158,15 @@ static cgt_result fill(cgt_scene *scene)
 static void sort_pass(const cgt_overflow *from, cgt_overflow *to, uint32_t count, unsigned shift)
 {
     uint32_t start[4096] = {0}, sum = 0;
-    for (uint32_t i = 0; i < count; i++) start[from[i].cell >> shift & 4095]++;
+    for (uint32_t i = 0; i < count; i++)
+        start[from[i].cell >> shift & 4095]++;
     for (int k = 0; k < 4096; k++) {
         const uint32_t n = start[k];
         start[k] = sum;
         sum += n;
     }
-    for (uint32_t i = 0; i < count; i++) to[start[from[i].cell >> shift & 4095]++] = from[i];
+    for (uint32_t i = 0; i < count; i++)
+        to[start[from[i].cell >> shift & 4095]++] = from[i];
 }
 
 static cgt_result sort_overflow(cgt_scene *scene)
@@ -204,10 +214,11 @@ static void log_commit(const cgt_scene *scene)
     const cgt_scene_statistics *st = &scene->statistics;
     const cgt_log_hook *log = &scene->context->log;
     char text[CGT_MESSAGE_BYTES];
-    if (!log->write) return;
+    if (!log->write)
+        return;
     if (st->skipped_not_finite || st->skipped_radius) {
-        snprintf(text, sizeof text, "commit: of %u spheres %u skipped: not finite, %u skipped: negative radius", st->primitives,
-                 st->skipped_not_finite, st->skipped_radius);
+        snprintf(text, sizeof text, "commit: of %u spheres %u skipped: not finite, %u skipped: negative radius",
+                 st->primitives, st->skipped_not_finite, st->skipped_radius);
         log->write(log->user, CGT_LOG_WARNING, text);
     }
     snprintf(text, sizeof text, "commit: %u spheres, %ux%ux%u cells, %.3f ms; %s", st->primitives, st->resolution[0],
@@ -218,25 +229,30 @@ static void log_commit(const cgt_scene *scene)
 cgt_result cgt_scene_commit(cgt_scene *scene)
 {
     cgt_object_summary summary;
-    if (!scene) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene)
+        return CGT_ERROR_INVALID_ARGUMENT;
     const double start = cgt_now_ms();
     scene->committed = false;
     scene->statistics = (cgt_scene_statistics){0};
     scene->grid = (cgt_queue_grid){0};
     cgt_result result = list_arrays(scene);
-    if (result != CGT_OK) return result;
+    if (result != CGT_OK)
+        return result;
     if (scene->grid.objects.count > CGT_QUEUE_MAX_OBJECTS)
         return cgt_fail(scene->context, CGT_ERROR_TOO_MANY_PRIMITIVES,
-                        "commit: %u primitives: the 16-bit references of a queue grid reach %u", scene->grid.objects.count,
-                        CGT_QUEUE_MAX_OBJECTS);
+                        "commit: %u primitives: the 16-bit references of a queue grid reach %u",
+                        scene->grid.objects.count, CGT_QUEUE_MAX_OBJECTS);
     summarise(scene, &summary);
     const double bounded = cgt_now_ms();
     result = cgt_queue_grid_plan(&scene->grid, &summary, scene->options.resolution, scene->statistics.reason);
-    if (result != CGT_OK) return cgt_fail(scene->context, result, "commit: the resolution is beyond the limits");
+    if (result != CGT_OK)
+        return cgt_fail(scene->context, result, "commit: the resolution is beyond the limits");
     if (summary.valid && result == CGT_OK) {
         result = fill(scene);
-        if (result == CGT_OK && scene->grid.overflows) result = sort_overflow(scene);
-        if (result != CGT_OK) return result;
+        if (result == CGT_OK && scene->grid.overflows)
+            result = sort_overflow(scene);
+        if (result != CGT_OK)
+            return result;
     }
     report(scene, &summary);
     const double end = cgt_now_ms();

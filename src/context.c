@@ -24,7 +24,8 @@ void cgt_context_options_init(cgt_context_options *options) { memset(options, 0,
 
 static cgt_result refuse(const cgt_context_options *o, cgt_result result, const char *message)
 {
-    if (o->log.write) o->log.write(o->log.user, CGT_LOG_ERROR, message);
+    if (o->log.write)
+        o->log.write(o->log.user, CGT_LOG_ERROR, message);
     return result;
 }
 
@@ -33,9 +34,11 @@ static cgt_result check_options(const cgt_context_options *o, const cgt_kernel *
     bool known;
     if (!o->memory.allocate != !o->memory.release)
         return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "memory hooks: both functions are needed, or neither");
-    if (o->threads > MAX_THREADS) return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "threads: at most 1024");
+    if (o->threads > MAX_THREADS)
+        return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "threads: at most 1024");
     *kernel = cgt_variant_find(o->variant, &known);
-    if (*kernel) return CGT_OK;
+    if (*kernel)
+        return CGT_OK;
     return known ? refuse(o, CGT_ERROR_UNSUPPORTED, "variant: this CPU does not run it")
                  : refuse(o, CGT_ERROR_INVALID_ARGUMENT, "variant: not in this build");
 }
@@ -46,11 +49,15 @@ static cgt_result start_threads(cgt_context *c)
         c->threads = 0;
         return CGT_OK;
     }
-    if (!c->threads) c->threads = cgt_host_cpus();
-    if (c->threads > MAX_THREADS) c->threads = MAX_THREADS;
-    if (c->threads == 1) return CGT_OK;
+    if (!c->threads)
+        c->threads = cgt_host_cpus();
+    if (c->threads > MAX_THREADS)
+        c->threads = MAX_THREADS;
+    if (c->threads == 1)
+        return CGT_OK;
     const cgt_result result = cgt_backend_host.create(&c->memory, c->threads, &c->pool);
-    if (result == CGT_OK) c->tasks = (cgt_task_runner){c->pool, cgt_backend_host.run};
+    if (result == CGT_OK)
+        c->tasks = (cgt_task_runner){c->pool, cgt_backend_host.run};
     return result;
 }
 
@@ -58,17 +65,20 @@ cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **
 {
     cgt_context_options defaults;
     const cgt_kernel *kernel;
-    if (!context) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!context)
+        return CGT_ERROR_INVALID_ARGUMENT;
     *context = NULL;
     if (!options) {
         cgt_context_options_init(&defaults);
         options = &defaults;
     }
     cgt_result result = check_options(options, &kernel);
-    if (result != CGT_OK) return result;
+    if (result != CGT_OK)
+        return result;
     const cgt_memory_hooks memory = options->memory.allocate ? options->memory : cgt_memory_default();
     cgt_context *c = cgt_allocate(&memory, sizeof *c);
-    if (!c) return refuse(options, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a context");
+    if (!c)
+        return refuse(options, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a context");
     memset(c, 0, sizeof *c);
     c->memory = memory;
     c->log = options->log;
@@ -94,8 +104,10 @@ void cgt_context_retain(cgt_context *context) { atomic_fetch_add(&context->refer
 
 void cgt_context_release(cgt_context *context)
 {
-    if (!context || atomic_fetch_sub(&context->references, 1) != 1) return;
-    if (context->pool) cgt_backend_host.destroy(&context->memory, context->pool);
+    if (!context || atomic_fetch_sub(&context->references, 1) != 1)
+        return;
+    if (context->pool)
+        cgt_backend_host.destroy(&context->memory, context->pool);
     pthread_mutex_destroy(&context->message_lock);
     const cgt_memory_hooks memory = context->memory;
     cgt_free(&memory, context, sizeof *context);
@@ -111,5 +123,6 @@ void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, u
         context->tasks.run(context->tasks.user, task, argument, count);
         return;
     }
-    for (uint32_t i = 0; i < count; i++) task(argument, i);
+    for (uint32_t i = 0; i < count; i++)
+        task(argument, i);
 }

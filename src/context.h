@@ -32,7 +32,8 @@ void cgt_context_retain(cgt_context *context);
 void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count);
 
 /* Keeps the message, logs it, returns the result. */
-cgt_result cgt_fail(cgt_context *context, cgt_result result, const char *format, ...) __attribute__((format(printf, 3, 4)));
+cgt_result cgt_fail(cgt_context *context, cgt_result result, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Milliseconds of a clock that never goes back. */
 double cgt_now_ms(void);

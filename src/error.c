@@ -34,17 +34,20 @@ cgt_result cgt_fail(cgt_context *context, cgt_result result, const char *format,
     pthread_mutex_lock(&context->message_lock);
     memcpy(context->message, text, sizeof text);
     pthread_mutex_unlock(&context->message_lock);
-    if (context->log.write) context->log.write(context->log.user, CGT_LOG_ERROR, text);
+    if (context->log.write)
+        context->log.write(context->log.user, CGT_LOG_ERROR, text);
     return result;
 }
 
 size_t cgt_error_message(const cgt_context *context, char *text, size_t size)
 {
     cgt_context *c = (cgt_context *)context; /* the lock changes, nothing that the caller sees */
-    if (!c) return 0;
+    if (!c)
+        return 0;
     pthread_mutex_lock(&c->message_lock);
     const size_t length = strlen(c->message);
-    if (text && size) snprintf(text, size, "%s", c->message);
+    if (text && size)
+        snprintf(text, size, "%s", c->message);
     pthread_mutex_unlock(&c->message_lock);
     return length;
 }

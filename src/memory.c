@@ -34,14 +34,17 @@ void *cgt_allocate(const cgt_memory_hooks *hooks, size_t bytes)
 
 void cgt_free(const cgt_memory_hooks *hooks, void *memory, size_t bytes)
 {
-    if (memory) hooks->release(hooks->user, memory, bytes ? bytes : 1);
+    if (memory)
+        hooks->release(hooks->user, memory, bytes ? bytes : 1);
 }
 
 static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t bytes, size_t kept)
 {
     void *memory = cgt_allocate(hooks, bytes);
-    if (!memory) return CGT_ERROR_OUT_OF_MEMORY;
-    if (kept) memcpy(memory, buffer->data, kept);
+    if (!memory)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    if (kept)
+        memcpy(memory, buffer->data, kept);
     cgt_free(hooks, buffer->data, buffer->bytes);
     *buffer = (cgt_buffer){memory, bytes};
     return CGT_OK;
@@ -49,16 +52,20 @@ static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size
 
 cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
 {
-    if (size && count > SIZE_MAX / size) return CGT_ERROR_TOO_LARGE;
+    if (size && count > SIZE_MAX / size)
+        return CGT_ERROR_TOO_LARGE;
     return count * size <= buffer->bytes ? CGT_OK : resize(hooks, buffer, count * size, 0);
 }
 
 cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
 {
-    if (size && count > SIZE_MAX / size) return CGT_ERROR_TOO_LARGE;
+    if (size && count > SIZE_MAX / size)
+        return CGT_ERROR_TOO_LARGE;
     const size_t bytes = count * size, more = buffer->bytes / 2;
-    if (bytes <= buffer->bytes) return CGT_OK;
-    const size_t wanted = buffer->bytes <= SIZE_MAX - more && buffer->bytes + more > bytes ? buffer->bytes + more : bytes;
+    if (bytes <= buffer->bytes)
+        return CGT_OK;
+    const size_t wanted =
+        buffer->bytes <= SIZE_MAX - more && buffer->bytes + more > bytes ? buffer->bytes + more : bytes;
     return resize(hooks, buffer, wanted, buffer->bytes);
 }
 

@@ -29,7 +29,11 @@ typedef struct cgt_sphere {
     float x, y, z, r;
 } cgt_sphere;
 
-typedef enum cgt_sphere_state { CGT_SPHERE_VALID = 0, CGT_SPHERE_NOT_FINITE, CGT_SPHERE_NEGATIVE_RADIUS } cgt_sphere_state;
+typedef enum cgt_sphere_state {
+    CGT_SPHERE_VALID = 0,
+    CGT_SPHERE_NOT_FINITE,
+    CGT_SPHERE_NEGATIVE_RADIUS
+} cgt_sphere_state;
 
 /* Whether a sphere takes part, or why it is skipped. */
 static inline cgt_sphere_state cgt_sphere_check(cgt_sphere q)
@@ -45,8 +49,10 @@ static inline const cgt_sphere_array *cgt_objects_array(const cgt_objects *objec
     uint32_t low = 0, high = objects->arrays;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
-        if (objects->array[middle].first <= object) low = middle;
-        else high = middle;
+        if (objects->array[middle].first <= object)
+            low = middle;
+        else
+            high = middle;
     }
     return &objects->array[low];
 }

@@ -23,9 +23,9 @@
 
 #define CGT_QUEUE_LENGTH 16
 #define CGT_QUEUE_NONE 0xffffu
-#define CGT_QUEUE_MAX_OBJECTS 65535u    /* 0 to 65,534 as references */
-#define CGT_GRID_MAX_RESOLUTION 1024u   /* per axis: a packet keeps the bounds of that many slices */
-#define CGT_GRID_MAX_CELLS (1u << 24)   /* 512 MB of voxels */
+#define CGT_QUEUE_MAX_OBJECTS 65535u  /* 0 to 65,534 as references */
+#define CGT_GRID_MAX_RESOLUTION 1024u /* per axis: a packet keeps the bounds of that many slices */
+#define CGT_GRID_MAX_CELLS (1u << 24) /* 512 MB of voxels */
 
 typedef struct cgt_voxel {
     uint16_t reference[CGT_QUEUE_LENGTH];
@@ -38,27 +38,27 @@ typedef struct cgt_overflow {
 
 typedef struct cgt_queue_grid {
     cgt_objects objects;
-    float org[3];            /* lower corner, world */
-    float rcell[3];          /* cells per world unit */
-    float slack[3];          /* cells: bound of the rounding of g for any point of any sphere */
+    float org[3];   /* lower corner, world */
+    float rcell[3]; /* cells per world unit */
+    float slack[3]; /* cells: bound of the rounding of g for any point of any sphere */
     uint32_t resolution[3];
-    uint32_t stride[3];      /* voxels from one cell to the next along each axis; x fastest */
+    uint32_t stride[3]; /* voxels from one cell to the next along each axis; x fastest */
     uint32_t cells;
-    bool everything;         /* the numbers are too large or too small for single precision in grid space: no grid,
+    bool everything;              /* the numbers are too large or too small for single precision in grid space: no grid,
                                 every ray tests every object in double */
-    cgt_voxel *voxel;        /* cells of them; NULL where there is no object */
+    cgt_voxel *voxel;             /* cells of them; NULL where there is no object */
     const cgt_overflow *overflow; /* sorted by cell */
     uint32_t overflows;
 } cgt_queue_grid;
 
 /* What the pass over the objects found. Lengths in world units. */
 typedef struct cgt_object_summary {
-    uint32_t valid;              /* not skipped */
+    uint32_t valid; /* not skipped */
     uint32_t skipped_not_finite;
     uint32_t skipped_radius;
-    float min[3], max[3];        /* outwards rounded */
-    double diameter[4];          /* sums of the powers 0 to 3 of the diameters */
-    float magnitude;             /* largest coordinate of any bound */
+    float min[3], max[3]; /* outwards rounded */
+    double diameter[4];   /* sums of the powers 0 to 3 of the diameters */
+    float magnitude;      /* largest coordinate of any bound */
 } cgt_object_summary;
 
 /* Chooses origin, resolution and slack. wanted: the caller's resolution, zeros where it is to be chosen. why: gets the
@@ -72,8 +72,10 @@ static inline uint32_t cgt_queue_grid_overflow(const cgt_queue_grid *grid, uint3
     uint32_t low = 0, high = grid->overflows;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        if (grid->overflow[middle].cell < cell) low = middle + 1;
-        else high = middle;
+        if (grid->overflow[middle].cell < cell)
+            low = middle + 1;
+        else
+            high = middle;
     }
     return low < grid->overflows && grid->overflow[low].cell == cell ? low : grid->overflows;
 }

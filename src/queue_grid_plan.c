@@ -43,8 +43,10 @@ static double choose_edge(const cgt_object_summary *summary, const double extent
     double high = fmax(extent[0], fmax(extent[1], extent[2])), low = high * 0x1p-20;
     for (int i = 0; i < 48; i++) {
         const double edge = sqrt(low * high);
-        if (cells_at(extent, edge) <= cells && references_at(summary->diameter, edge) <= references) high = edge;
-        else low = edge;
+        if (cells_at(extent, edge) <= cells && references_at(summary->diameter, edge) <= references)
+            high = edge;
+        else
+            low = edge;
     }
     return high;
 }
@@ -70,7 +72,8 @@ static cgt_result check_wanted(const uint32_t wanted[3])
 {
     uint64_t cells = 1;
     for (int a = 0; a < 3; a++) {
-        if (wanted[a] > CGT_GRID_MAX_RESOLUTION) return CGT_ERROR_TOO_LARGE;
+        if (wanted[a] > CGT_GRID_MAX_RESOLUTION)
+            return CGT_ERROR_TOO_LARGE;
         cells *= wanted[a];
     }
     return cells > CGT_GRID_MAX_CELLS ? CGT_ERROR_TOO_LARGE : CGT_OK;
@@ -81,12 +84,15 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
 {
     double extent[3];
     const cgt_result result = check_wanted(wanted);
-    if (result != CGT_OK) return result;
+    if (result != CGT_OK)
+        return result;
     grid->everything = !(summary->magnitude <= LARGEST_MAGNITUDE);
     if (!summary->valid || grid->everything) {
-        for (int a = 0; a < 3; a++) grid->resolution[a] = grid->stride[a] = 1, grid->rcell[a] = grid->slack[a] = 0;
+        for (int a = 0; a < 3; a++)
+            grid->resolution[a] = grid->stride[a] = 1, grid->rcell[a] = grid->slack[a] = 0;
         grid->cells = 1;
-        snprintf(why, 128, "%s", summary->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
+        snprintf(why, 128, "%s",
+                 summary->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
         return CGT_OK;
     }
     place(grid, summary, extent);
@@ -102,10 +108,12 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
         stride *= grid->resolution[a];
     }
     grid->cells = stride;
-    if (wanted[0]) snprintf(why, 128, "resolution asked for");
+    if (wanted[0])
+        snprintf(why, 128, "resolution asked for");
     else
-        snprintf(why, 128, "queue grid: cell edge %.4g, %.2g cells and about %.2g references an object, mean diameter %.3g",
-                 edge, (double)stride / summary->valid, references_at(summary->diameter, edge) / summary->valid,
+        snprintf(why, 128,
+                 "queue grid: cell edge %.4g, %.2g cells and about %.2g references an object, mean diameter %.3g", edge,
+                 (double)stride / summary->valid, references_at(summary->diameter, edge) / summary->valid,
                  summary->diameter[1] / summary->valid);
     return CGT_OK;
 }

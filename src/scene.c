@@ -21,27 +21,31 @@ static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
     if (o->structure != CGT_STRUCTURE_AUTO && o->structure != CGT_STRUCTURE_QUEUE_GRID)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: structure %d is unknown", (int)o->structure);
     if ((!r[0] || !r[1] || !r[2]) && (r[0] || r[1] || r[2]))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: resolution %ux%ux%u: all three or none", r[0], r[1], r[2]);
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: resolution %ux%ux%u: all three or none", r[0],
+                        r[1], r[2]);
     if (r[0] > CGT_GRID_MAX_RESOLUTION || r[1] > CGT_GRID_MAX_RESOLUTION || r[2] > CGT_GRID_MAX_RESOLUTION ||
         (uint64_t)r[0] * r[1] * r[2] > CGT_GRID_MAX_CELLS)
-        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "scene options: resolution %ux%ux%u: at most %u an axis and %u cells", r[0], r[1],
-                        r[2], CGT_GRID_MAX_RESOLUTION, CGT_GRID_MAX_CELLS);
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "scene options: resolution %ux%ux%u: at most %u an axis and %u cells",
+                        r[0], r[1], r[2], CGT_GRID_MAX_RESOLUTION, CGT_GRID_MAX_CELLS);
     return CGT_OK;
 }
 
 cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *options, cgt_scene **scene)
 {
     cgt_scene_options defaults;
-    if (!context || !scene) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!context || !scene)
+        return CGT_ERROR_INVALID_ARGUMENT;
     *scene = NULL;
     if (!options) {
         cgt_scene_options_init(&defaults);
         options = &defaults;
     }
     const cgt_result result = check_options(context, options);
-    if (result != CGT_OK) return result;
+    if (result != CGT_OK)
+        return result;
     cgt_scene *s = cgt_allocate(&context->memory, sizeof *s);
-    if (!s) return cgt_fail(context, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a scene");
+    if (!s)
+        return cgt_fail(context, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a scene");
     memset(s, 0, sizeof *s);
     s->context = context;
     s->options = *options;
@@ -52,19 +56,23 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
 
 void cgt_scene_release(cgt_scene *scene)
 {
-    if (!scene) return;
+    if (!scene)
+        return;
     cgt_context *context = scene->context;
     cgt_buffer *buffer[] = {&scene->geometry, &scene->arrays, &scene->voxels, &scene->overflow[0], &scene->overflow[1]};
-    for (size_t i = 0; i < sizeof buffer / sizeof buffer[0]; i++) cgt_buffer_release(&context->memory, buffer[i]);
+    for (size_t i = 0; i < sizeof buffer / sizeof buffer[0]; i++)
+        cgt_buffer_release(&context->memory, buffer[i]);
     cgt_free(&context->memory, scene, sizeof *scene);
     cgt_context_release(context);
 }
 
 cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options)
 {
-    if (!scene || !options) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene || !options)
+        return CGT_ERROR_INVALID_ARGUMENT;
     const cgt_result result = check_options(scene->context, options);
-    if (result != CGT_OK) return result;
+    if (result != CGT_OK)
+        return result;
     scene->options = *options;
     scene->committed = false;
     return CGT_OK;
@@ -78,12 +86,16 @@ static bool stride_fits(uint32_t count, size_t stride, size_t element)
 
 static cgt_result check_spheres(cgt_context *c, cgt_spheres *s)
 {
-    if (!s->center_stride) s->center_stride = 3 * sizeof(float);
-    if (!s->radius_stride) s->radius_stride = sizeof(float);
-    if (s->count && !s->centers) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: centers is NULL");
+    if (!s->center_stride)
+        s->center_stride = 3 * sizeof(float);
+    if (!s->radius_stride)
+        s->radius_stride = sizeof(float);
+    if (s->count && !s->centers)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: centers is NULL");
     if ((uintptr_t)s->centers % sizeof(float) || (uintptr_t)s->radii % sizeof(float))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: an array is not aligned as floats are");
-    if (!stride_fits(s->count, s->center_stride, 3 * sizeof(float)) || !stride_fits(s->count, s->radius_stride, sizeof(float)))
+    if (!stride_fits(s->count, s->center_stride, 3 * sizeof(float)) ||
+        !stride_fits(s->count, s->radius_stride, sizeof(float)))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: a stride is not a multiple of 4, or too large");
     if (!s->radii && !(s->radius >= 0 && isfinite(s->radius)))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: radius %g: 0 or more, and finite", (double)s->radius);
@@ -96,7 +108,8 @@ static uint64_t count_with(const cgt_scene *scene, uint32_t id, uint32_t count)
     uint64_t sum = count;
     for (uint32_t i = 0; i < scene->geometries; i++) {
         const cgt_geometry *g = geometry_at(scene, i);
-        if (g && i != id) sum += g->spheres.count;
+        if (g && i != id)
+            sum += g->spheres.count;
     }
     return sum;
 }
@@ -105,14 +118,17 @@ static cgt_result set_spheres(cgt_scene *scene, uint32_t id, const cgt_spheres *
 {
     cgt_spheres checked = *spheres;
     const cgt_result result = check_spheres(scene->context, &checked);
-    if (result != CGT_OK) return result;
+    if (result != CGT_OK)
+        return result;
     const uint64_t sum = count_with(scene, id, checked.count);
     if (sum >= CGT_NONE)
-        return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "spheres: %llu primitives in all: at most 2^32 - 2", (unsigned long long)sum);
+        return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "spheres: %llu primitives in all: at most 2^32 - 2",
+                        (unsigned long long)sum);
     if (id == scene->geometries) {
         const cgt_result grown =
             cgt_buffer_grow(&scene->context->memory, &scene->geometry, (size_t)id + 1, sizeof(cgt_geometry));
-        if (grown != CGT_OK) return cgt_fail(scene->context, grown, "out of memory for geometry %u", id);
+        if (grown != CGT_OK)
+            return cgt_fail(scene->context, grown, "out of memory for geometry %u", id);
         scene->geometries++;
     }
     ((cgt_geometry *)scene->geometry.data)[id] = (cgt_geometry){true, checked};
@@ -123,16 +139,20 @@ static cgt_result set_spheres(cgt_scene *scene, uint32_t id, const cgt_spheres *
 cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry)
 {
     uint32_t id = 0;
-    if (!scene || !spheres || !geometry) return CGT_ERROR_INVALID_ARGUMENT;
-    while (id < scene->geometries && geometry_at(scene, id)) id++;
+    if (!scene || !spheres || !geometry)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    while (id < scene->geometries && geometry_at(scene, id))
+        id++;
     const cgt_result result = set_spheres(scene, id, spheres);
-    if (result == CGT_OK) *geometry = id;
+    if (result == CGT_OK)
+        *geometry = id;
     return result;
 }
 
 cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres)
 {
-    if (!scene || !spheres) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene || !spheres)
+        return CGT_ERROR_INVALID_ARGUMENT;
     if (!geometry_at(scene, geometry))
         return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
     return set_spheres(scene, geometry, spheres);
@@ -140,7 +160,8 @@ cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const c
 
 cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
 {
-    if (!scene) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene)
+        return CGT_ERROR_INVALID_ARGUMENT;
     if (!geometry_at(scene, geometry))
         return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
     ((cgt_geometry *)scene->geometry.data)[geometry].used = false;
@@ -150,7 +171,8 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
 
 cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics)
 {
-    if (!scene || !statistics) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene || !statistics)
+        return CGT_ERROR_INVALID_ARGUMENT;
     *statistics = scene->statistics;
     return CGT_OK;
 }

@@ -22,7 +22,8 @@
  * Written without branches so that a loop over rays becomes vector code. */
 static inline double cgt_sphere_exact_t(const float org[3], const float dir[3], float t_min, cgt_sphere q)
 {
-    const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1], cz = (double)q.z - (double)org[2];
+    const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1],
+                 cz = (double)q.z - (double)org[2];
     const double dx = (double)dir[0], dy = (double)dir[1], dz = (double)dir[2], r = (double)q.r;
     const double rdd = 1 / (dx * dx + dy * dy + dz * dz);
     const double s = (dx * cx + dy * cy + dz * cz) * rdd;

@@ -10,25 +10,26 @@
 #define CHOSEN_PACKET 8
 #define CHOSEN_FLATTENED false
 
-void cgt_trace_options_init(cgt_trace_options *options)
-{
-    *options = (cgt_trace_options){.cull = 1, .mailbox = 1};
-}
+void cgt_trace_options_init(cgt_trace_options *options) { *options = (cgt_trace_options){.cull = 1, .mailbox = 1}; }
 
 static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera, cgt_trace_settings *s)
 {
     if (o->packet != 0 && o->packet != 4 && o->packet != 8 && o->packet != 16)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", o->packet);
-    if ((unsigned)o->tile > CGT_TILE_STRIP) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: tile is unknown");
-    if ((unsigned)o->loop > CGT_LOOP_FLATTENED) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
+    if ((unsigned)o->tile > CGT_TILE_STRIP)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: tile is unknown");
+    if ((unsigned)o->loop > CGT_LOOP_FLATTENED)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
     s->strip = camera && o->tile == CGT_TILE_STRIP;
     if (s->strip && o->packet > 4)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
+                        "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
     s->packet = s->strip ? 4 : o->packet ? o->packet : CHOSEN_PACKET;
     s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;
     s->mailbox = o->mailbox;
-    if (!camera) s->packet = 0;
+    if (!camera)
+        s->packet = 0;
     return CGT_OK;
 }
 
@@ -38,7 +39,8 @@ cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *opti
     cgt_trace_options defaults;
     cgt_trace_options_init(&defaults);
     counter->start_ms = cgt_now_ms();
-    for (size_t i = 0; i < CGT_COUNTS; i++) atomic_init(&counter->sum[i], 0);
+    for (size_t i = 0; i < CGT_COUNTS; i++)
+        atomic_init(&counter->sum[i], 0);
     if (!scene->committed)
         return cgt_fail(scene->context, CGT_ERROR_NOT_COMMITTED, "trace: the scene was not committed since it changed");
     return choose(scene->context, options ? options : &defaults, camera, settings);
@@ -47,18 +49,22 @@ cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *opti
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
 {
     uint64_t value[CGT_COUNTS];
-    if (!counter) return;
+    if (!counter)
+        return;
     memcpy(value, counts, sizeof value);
     for (size_t i = 0; i < CGT_COUNTS; i++)
-        if (value[i]) atomic_fetch_add_explicit(&counter->sum[i], value[i], memory_order_relaxed);
+        if (value[i])
+            atomic_fetch_add_explicit(&counter->sum[i], value[i], memory_order_relaxed);
 }
 
 void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *settings, cgt_trace_counter *counter)
 {
     uint64_t value[CGT_COUNTS];
     cgt_counts c;
-    if (!options || !options->statistics) return;
-    for (size_t i = 0; i < CGT_COUNTS; i++) value[i] = atomic_load_explicit(&counter->sum[i], memory_order_relaxed);
+    if (!options || !options->statistics)
+        return;
+    for (size_t i = 0; i < CGT_COUNTS; i++)
+        value[i] = atomic_load_explicit(&counter->sum[i], memory_order_relaxed);
     memcpy(&c, value, sizeof c);
     *options->statistics = (cgt_trace_statistics){.rays = c.rays,
                                                   .invalid_rays = c.invalid_rays,

@@ -41,7 +41,8 @@ static cgt_region region_in_planes(const frame_job *job, uint32_t x, uint32_t y,
     r.t = f->t ? f->t + first : NULL;
     r.primitive = f->primitive ? f->primitive + first : NULL;
     r.geometry = f->geometry ? f->geometry + first : NULL;
-    for (int a = 0; a < 3; a++) r.normal[a] = f->normal[a] ? f->normal[a] + first : NULL;
+    for (int a = 0; a < 3; a++)
+        r.normal[a] = f->normal[a] ? f->normal[a] + first : NULL;
     return r;
 }
 
@@ -53,13 +54,15 @@ static cgt_region region_in_buffer(const frame_job *job, const cgt_region *plane
     r.t = fields & CGT_FIELD_T ? (float *)buffer[0] : NULL;
     r.primitive = fields & CGT_FIELD_PRIMITIVE ? buffer[1] : NULL;
     r.geometry = fields & CGT_FIELD_GEOMETRY ? buffer[2] : NULL;
-    for (int a = 0; a < 3; a++) r.normal[a] = fields & CGT_FIELD_NORMAL ? (float *)buffer[3 + a] : NULL;
+    for (int a = 0; a < 3; a++)
+        r.normal[a] = fields & CGT_FIELD_NORMAL ? (float *)buffer[3 + a] : NULL;
     return r;
 }
 
 static void copy_rows(void *to, const void *from, const cgt_region *planes, const cgt_region *tile)
 {
-    if (!to) return;
+    if (!to)
+        return;
     for (uint32_t y = 0; y < tile->height; y++)
         memcpy((uint32_t *)to + y * planes->row_stride, (const uint32_t *)from + y * tile->row_stride,
                tile->width * sizeof(uint32_t));
@@ -70,22 +73,24 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
     copy_rows(planes->t, tile->t, planes, tile);
     copy_rows(planes->primitive, tile->primitive, planes, tile);
     copy_rows(planes->geometry, tile->geometry, planes, tile);
-    for (int a = 0; a < 3; a++) copy_rows(planes->normal[a], tile->normal[a], planes, tile);
+    for (int a = 0; a < 3; a++)
+        copy_rows(planes->normal[a], tile->normal[a], planes, tile);
 }
 
 static int call_visitor(const cgt_frame *f, const cgt_region *r)
 {
     const uint32_t wanted = f->visitor_fields;
     const bool normal = wanted & CGT_FIELD_NORMAL;
-    const cgt_tile tile = {.x = r->x,
-                           .y = r->y,
-                           .width = r->width,
-                           .height = r->height,
-                           .row_stride = r->row_stride,
-                           .t = wanted & CGT_FIELD_T ? r->t : NULL,
-                           .primitive = wanted & CGT_FIELD_PRIMITIVE ? r->primitive : NULL,
-                           .geometry = wanted & CGT_FIELD_GEOMETRY ? r->geometry : NULL,
-                           .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL}};
+    const cgt_tile tile = {
+        .x = r->x,
+        .y = r->y,
+        .width = r->width,
+        .height = r->height,
+        .row_stride = r->row_stride,
+        .t = wanted & CGT_FIELD_T ? r->t : NULL,
+        .primitive = wanted & CGT_FIELD_PRIMITIVE ? r->primitive : NULL,
+        .geometry = wanted & CGT_FIELD_GEOMETRY ? r->geometry : NULL,
+        .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL}};
     return f->visitor(f->visitor_user, &tile);
 }
 
@@ -116,14 +121,18 @@ static void trace_tile(void *argument, uint32_t index)
     const uint32_t width = f->width - x < job->tile_width ? f->width - x : job->tile_width;
     const uint32_t height = f->height - y < job->tile_height ? f->height - y : job->tile_height;
     int stop = 0;
-    if (atomic_load_explicit(&job->stopped, memory_order_relaxed)) return;
+    if (atomic_load_explicit(&job->stopped, memory_order_relaxed))
+        return;
     const cgt_region planes = region_in_planes(job, x, y, width, height);
-    if (job->buffered) stop = trace_buffered(job, &planes);
+    if (job->buffered)
+        stop = trace_buffered(job, &planes);
     else {
         trace_into(job, &planes);
-        if (f->visitor) stop = call_visitor(f, &planes);
+        if (f->visitor)
+            stop = call_visitor(f, &planes);
     }
-    if (stop) atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
+    if (stop)
+        atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
 }
 
 static cgt_result check_frame(cgt_context *c, const cgt_frame *f)
@@ -139,7 +148,8 @@ static cgt_result check_frame(cgt_context *c, const cgt_frame *f)
         return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: row_stride times height leaves the address space");
     if (!f->normal[0] != !f->normal[1] || !f->normal[0] != !f->normal[2])
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: normal: all three planes or none");
-    if (f->visitor_fields & ~all) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
+    if (f->visitor_fields & ~all)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
     return CGT_OK;
 }
 
@@ -166,13 +176,17 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     frame_job job = {.scene = scene, .frame = frame};
     cgt_trace_counter counter;
     char message[160];
-    if (!scene || !camera || !frame) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene || !camera || !frame)
+        return CGT_ERROR_INVALID_ARGUMENT;
     cgt_context *c = scene->context;
     cgt_result result = cgt_trace_begin(scene, options, true, &job.settings, &counter);
-    if (result == CGT_OK) result = check_frame(c, frame);
-    if (result != CGT_OK) return result;
+    if (result == CGT_OK)
+        result = check_frame(c, frame);
+    if (result != CGT_OK)
+        return result;
     result = cgt_camera_prepare(camera, frame->width, frame->height, &job.camera, message);
-    if (result != CGT_OK) return cgt_fail(c, result, "%s", message);
+    if (result != CGT_OK)
+        return cgt_fail(c, result, "%s", message);
     cut_tiles(&job);
     job.counter = options && options->statistics ? &counter : NULL;
     atomic_init(&job.stopped, false);

@@ -20,7 +20,8 @@ static void trace_chunk(void *argument, uint32_t index)
 {
     const rays_job *job = argument;
     const cgt_scene *s = job->scene;
-    const uint64_t first = (uint64_t)index * CHUNK, left = job->rays->count - first, end = first + (left < CHUNK ? left : CHUNK);
+    const uint64_t first = (uint64_t)index * CHUNK, left = job->rays->count - first,
+                   end = first + (left < CHUNK ? left : CHUNK);
     cgt_counts counts = {0};
     s->context->kernel->trace_rays(&s->grid, job->rays, first, end, &job->settings, job->hits, job->occluded, &counts);
     cgt_trace_counter_add(job->counter, &counts);
@@ -28,7 +29,8 @@ static void trace_chunk(void *argument, uint32_t index)
 
 static cgt_result check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count)
 {
-    if (stride % sizeof(float)) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: stride is not a multiple of 4", what);
+    if (stride % sizeof(float))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: stride is not a multiple of 4", what);
     if (count > (SIZE_MAX / 2) / (stride ? stride : sizeof(float)) || count / CHUNK >= UINT32_MAX)
         return cgt_fail(c, CGT_ERROR_TOO_LARGE, "%s: count times stride leaves the address space", what);
     return CGT_OK;
@@ -37,7 +39,8 @@ static cgt_result check_stride(cgt_context *c, const char *what, size_t stride, 
 static cgt_result check_rays(cgt_context *c, const cgt_rays *r)
 {
     for (int a = 0; a < 3 && r->count; a++)
-        if (!r->org[a] || !r->dir[a]) return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "rays: org and dir must not be NULL");
+        if (!r->org[a] || !r->dir[a])
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "rays: org and dir must not be NULL");
     return check_stride(c, "rays", r->stride, r->count);
 }
 
@@ -50,8 +53,8 @@ static cgt_result check_hits(cgt_context *c, const cgt_hits *h, uint64_t count)
 
 static uint32_t hit_fields(const cgt_hits *h)
 {
-    return (h->t ? CGT_FIELD_T : 0u) | (h->primitive ? CGT_FIELD_PRIMITIVE : 0u) | (h->geometry ? CGT_FIELD_GEOMETRY : 0u) |
-           (h->normal[0] ? CGT_FIELD_NORMAL : 0u);
+    return (h->t ? CGT_FIELD_T : 0u) | (h->primitive ? CGT_FIELD_PRIMITIVE : 0u) |
+           (h->geometry ? CGT_FIELD_GEOMETRY : 0u) | (h->normal[0] ? CGT_FIELD_NORMAL : 0u);
 }
 
 static cgt_result trace(rays_job *job, const cgt_trace_options *options)
@@ -59,9 +62,12 @@ static cgt_result trace(rays_job *job, const cgt_trace_options *options)
     cgt_context *c = job->scene->context;
     cgt_trace_counter counter;
     cgt_result result = cgt_trace_begin(job->scene, options, false, &job->settings, &counter);
-    if (result == CGT_OK) result = check_rays(c, job->rays);
-    if (result == CGT_OK && job->hits) result = check_hits(c, job->hits, job->rays->count);
-    if (result != CGT_OK) return result;
+    if (result == CGT_OK)
+        result = check_rays(c, job->rays);
+    if (result == CGT_OK && job->hits)
+        result = check_hits(c, job->hits, job->rays->count);
+    if (result != CGT_OK)
+        return result;
     job->settings.fields = job->hits ? hit_fields(job->hits) : 0;
     job->counter = options && options->statistics ? &counter : NULL;
     cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + CHUNK - 1) / CHUNK));
@@ -72,7 +78,8 @@ static cgt_result trace(rays_job *job, const cgt_trace_options *options)
 cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
                           const cgt_trace_options *options)
 {
-    if (!scene || !rays || !hits) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene || !rays || !hits)
+        return CGT_ERROR_INVALID_ARGUMENT;
     rays_job job = {.scene = scene, .rays = rays, .hits = hits};
     return trace(&job, options);
 }
@@ -80,7 +87,8 @@ cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cg
 cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
                              const cgt_trace_options *options)
 {
-    if (!scene || !rays || (!occluded && rays->count)) return CGT_ERROR_INVALID_ARGUMENT;
+    if (!scene || !rays || (!occluded && rays->count))
+        return CGT_ERROR_INVALID_ARGUMENT;
     rays_job job = {.scene = scene, .rays = rays, .occluded = occluded};
     return trace(&job, options);
 }

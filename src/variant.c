@@ -82,7 +82,8 @@ const char *const *cgt_variants(void) { return names; }
 static void disable_unknown(const char *name, size_t length)
 {
     fprintf(stderr, "libcgt: CGT_DISABLE_CPU: no feature \"%.*s\"; there are:", (int)length, name);
-    for (int f = 1; f < FEATURES; f++) fprintf(stderr, " %s", feature_name[f]);
+    for (int f = 1; f < FEATURES; f++)
+        fprintf(stderr, " %s", feature_name[f]);
     fprintf(stderr, "\n");
     abort();
 }
@@ -95,8 +96,10 @@ static bool is_disabled(feature wanted)
     while (list && *list) {
         const size_t length = strcspn(list, ",");
         int f = 1;
-        while (f < FEATURES && (strlen(feature_name[f]) != length || strncmp(feature_name[f], list, length) != 0)) f++;
-        if (f == FEATURES && length) disable_unknown(list, length);
+        while (f < FEATURES && (strlen(feature_name[f]) != length || strncmp(feature_name[f], list, length) != 0))
+            f++;
+        if (f == FEATURES && length)
+            disable_unknown(list, length);
         disabled |= f == (int)wanted;
         list += length + (list[length] == ',');
     }
@@ -108,9 +111,11 @@ const cgt_kernel *cgt_variant_find(const char *name, bool *known)
     const cgt_kernel *found = NULL;
     *known = name == NULL;
     for (size_t i = 0; i < ROWS; i++) {
-        if (name && strcmp(name, table[i].kernel->name) != 0) continue;
+        if (name && strcmp(name, table[i].kernel->name) != 0)
+            continue;
         *known = true;
-        if (!is_disabled(table[i].needs) && cpu_has(table[i].needs)) found = table[i].kernel;
+        if (!is_disabled(table[i].needs) && cpu_has(table[i].needs))
+            found = table[i].kernel;
     }
     return found;
 }

@@ -11,13 +11,15 @@
 CGT_SPU_INLINE vfloat pixel_columns(const float *px, uint32_t i, uint32_t edge)
 {
     vfloat v;
-    for (uint32_t k = 0; k < CGT_LANES; k++) v[k] = px[(i + k) & (edge - 1)];
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        v[k] = px[(i + k) & (edge - 1)];
     return v;
 }
 CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t shift)
 {
     vfloat v;
-    for (uint32_t k = 0; k < CGT_LANES; k++) v[k] = py[(i + k) >> shift];
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        v[k] = py[(i + k) >> shift];
     return v;
 }
 
@@ -25,13 +27,14 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t shift)
 static void close_outside(packet *p, uint32_t edge, uint32_t columns, uint32_t rows)
 {
     for (uint32_t i = 0; i < edge * edge; i++)
-        if (i % edge >= columns || i / edge >= rows) p->low[i] = p->high[i] = -INFINITY;
+        if (i % edge >= columns || i / edge >= rows)
+            p->low[i] = p->high[i] = -INFINITY;
 }
 
 /* The canonical rays of the pixels (x0 .. x0 + edge - 1, y0 ..), row by row: unfused, in the order of camera.h.
  * Pixels beyond the region repeat its last column and row, and take no part. */
-static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32_t edge, uint32_t columns, uint32_t rows,
-                      packet *p)
+static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32_t edge, uint32_t columns,
+                      uint32_t rows, packet *p)
 {
     _Alignas(64) float px[PACKET_MAX_EDGE], py[PACKET_MAX_EDGE];
     const uint32_t lanes = edge * edge, shift = (uint32_t)__builtin_ctz(edge);
@@ -59,7 +62,8 @@ static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32
         spux_store(p->high + i, t_max);
         spux_store_uint(p->object + i, spux_vuint(CGT_NONE));
     }
-    if (columns < edge || rows < edge) close_outside(p, edge, columns, rows);
+    if (columns < edge || rows < edge)
+        close_outside(p, edge, columns, rows);
     p->lanes = lanes;
     p->rays = columns * rows;
     p->common_origin = !c->orthographic;
@@ -70,9 +74,20 @@ static bool is_extreme(const cgt_camera_rays *c)
 {
     for (int a = 0; a < 3; a++) {
         const float reach = __builtin_fabsf(c->eye[a]) + __builtin_fabsf(c->right[a]) + __builtin_fabsf(c->up[a]);
-        if (!(reach <= PACKET_LARGEST)) return true;
+        if (!(reach <= PACKET_LARGEST))
+            return true;
     }
     return false;
+}
+
+/* A row of a packet: whole rows of 4 are common, and too short for a call. */
+CGT_SPU_INLINE void store_row(void *to, const void *from, uint32_t columns)
+{
+    uint32_t k = 0;
+    for (; k + 4 <= columns; k += 4)
+        memcpy((uint32_t *)to + k, (const uint32_t *)from + k, 16);
+    for (; k < columns; k++)
+        memcpy((uint32_t *)to + k, (const uint32_t *)from + k, 4);
 }
 
 static void store_rows(const packet_hits *h, uint32_t edge, uint32_t columns, uint32_t rows, const cgt_region *r,
@@ -81,11 +96,15 @@ static void store_rows(const packet_hits *h, uint32_t edge, uint32_t columns, ui
     for (uint32_t y = 0; y < rows; y++) {
         const size_t to = first + y * r->row_stride;
         const uint32_t from = y * edge;
-        if (r->t) memcpy(r->t + to, h->t + from, columns * sizeof(float));
-        if (r->primitive) memcpy(r->primitive + to, h->primitive + from, columns * sizeof(uint32_t));
-        if (r->geometry) memcpy(r->geometry + to, h->geometry + from, columns * sizeof(uint32_t));
+        if (r->t)
+            store_row(r->t + to, h->t + from, columns);
+        if (r->primitive)
+            store_row(r->primitive + to, h->primitive + from, columns);
+        if (r->geometry)
+            store_row(r->geometry + to, h->geometry + from, columns);
         for (int a = 0; a < 3; a++)
-            if (r->normal[a]) memcpy(r->normal[a] + to, h->normal[a] + from, columns * sizeof(float));
+            if (r->normal[a])
+                store_row(r->normal[a] + to, h->normal[a] + from, columns);
     }
 }
 

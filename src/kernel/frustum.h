@@ -39,32 +39,75 @@ CGT_SPU_INLINE vfloat grid_coordinates(const cgt_queue_grid *g, int axis, bool r
     return reverse ? spu_sub(spux_vfloat((float)g->resolution[axis]), c) : c;
 }
 
-/* Per ray: its slope in cells of u or v per cell of w. */
-CGT_SPU_INLINE vfloat frustum_slope(const cgt_queue_grid *g, const frustum *f, const packet *p, uint32_t i, int axis)
-{
-    const vfloat dw = spux_abs(spux_load(p->dir[f->w] + i)), d = spux_load(p->dir[axis] + i);
-    return spux_div(spu_mul(d, spux_vfloat(g->rcell[axis] / g->rcell[f->w])), dw);
-}
-
-/* Least and greatest u (or v) of all rays at two planes, and the largest number met on the way. */
+/* Least and greatest u (or v) of all rays at the planes w0 and w1, and the largest number met on the way. */
 typedef struct frustum_span {
     float low[2], high[2], magnitude;
 } frustum_span;
 
-CGT_SPU_INLINE frustum_span frustum_measure(const cgt_queue_grid *g, const frustum *f, const packet *p, int axis, float w1)
+/* Slope of ray i: cells of an axis per cell of w. */
+CGT_SPU_INLINE vfloat frustum_slope(const packet *p, uint32_t i, int axis, vfloat ratio, vfloat rdw)
+{
+    return spu_mul(spu_mul(spux_load(p->dir[axis] + i), ratio), rdw);
+}
+CGT_SPU_INLINE vfloat frustum_rdw(const frustum *f, const packet *p, uint32_t i)
+{
+    return spux_div(spux_vfloat(1), spux_abs(spux_load(p->dir[f->w] + i)));
+}
+
+/* From a common origin u(w) grows with the slope beyond the origin's w and falls before it: the least and the greatest
+ * slope are enough. */
+CGT_SPU_INLINE frustum_span frustum_span_of_slopes(float low, float high, float o, float ow, float w0, float w1)
+{
+    const float plane[2] = {w0 - ow, w1 - ow};
+    const float steepest = -low > high ? -low : high;
+    frustum_span s;
+    for (int k = 0; k < 2; k++) {
+        const float a = o + plane[k] * low, b = o + plane[k] * high;
+        s.low[k] = a < b ? a : b;
+        s.high[k] = a < b ? b : a;
+    }
+    s.magnitude = __builtin_fabsf(o) + (__builtin_fabsf(ow) + w1) * steepest;
+    return s;
+}
+
+CGT_SPU_INLINE void frustum_measure_common(const cgt_queue_grid *g, const frustum *f, const packet *p, float w1,
+                                           frustum_span span[2])
+{
+    const int axis[2] = {f->u, f->v};
+    vfloat low[2], high[2], ratio[2];
+    for (int k = 0; k < 2; k++) {
+        low[k] = spux_vfloat(INFINITY);
+        high[k] = spux_vfloat(-INFINITY);
+        ratio[k] = spux_vfloat(g->rcell[axis[k]] / g->rcell[f->w]);
+    }
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const vfloat rdw = frustum_rdw(f, p, i);
+        for (int k = 0; k < 2; k++) {
+            const vfloat slope = frustum_slope(p, i, axis[k], ratio[k], rdw);
+            low[k] = spux_min(low[k], slope);
+            high[k] = spux_max(high[k], slope);
+        }
+    }
+    const float ow = grid_coordinate(g, f->w, f->reverse, p->org[f->w][0]);
+    for (int k = 0; k < 2; k++)
+        span[k] = frustum_span_of_slopes(spux_hmin(low[k]), spux_hmax(high[k]),
+                                         grid_coordinate(g, axis[k], false, p->org[axis[k]][0]), ow, f->w0, w1);
+}
+
+CGT_SPU_INLINE frustum_span frustum_measure_axis(const cgt_queue_grid *g, const frustum *f, const packet *p, int axis,
+                                                 float w1)
 {
     vfloat low[2], high[2], magnitude = spux_vfloat(0);
-    const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)};
-    for (int k = 0; k < 2; k++) low[k] = spux_vfloat(INFINITY), high[k] = spux_vfloat(-INFINITY);
-    vfloat o = grid_coordinates(g, axis, false, spux_vfloat(p->org[axis][0]));
-    vfloat ow = grid_coordinates(g, f->w, f->reverse, spux_vfloat(p->org[f->w][0]));
+    const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)}, ratio = spux_vfloat(g->rcell[axis] / g->rcell[f->w]);
+    for (int k = 0; k < 2; k++) {
+        low[k] = spux_vfloat(INFINITY);
+        high[k] = spux_vfloat(-INFINITY);
+    }
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (!p->common_origin) {
-            o = grid_coordinates(g, axis, false, spux_load(p->org[axis] + i));
-            ow = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
-        }
-        const vfloat slope = frustum_slope(g, f, p, i, axis);
-        const vfloat reach = spu_mul(spu_add(spux_abs(ow), spux_vfloat(f->last[0] + 1)), spux_abs(slope));
+        const vfloat o = grid_coordinates(g, axis, false, spux_load(p->org[axis] + i));
+        const vfloat ow = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
+        const vfloat slope = frustum_slope(p, i, axis, ratio, frustum_rdw(f, p, i));
+        const vfloat reach = spu_mul(spu_add(spux_abs(ow), plane[1]), spux_abs(slope));
         magnitude = spux_max(magnitude, spu_add(spux_abs(o), reach));
         for (int k = 0; k < 2; k++) {
             const vfloat x = spu_madd(spu_sub(plane[k], ow), slope, o);
@@ -72,7 +115,8 @@ CGT_SPU_INLINE frustum_span frustum_measure(const cgt_queue_grid *g, const frust
             high[k] = spux_max(high[k], x);
         }
     }
-    return (frustum_span){{spux_hmin(low[0]), spux_hmin(low[1])}, {spux_hmax(high[0]), spux_hmax(high[1])}, spux_hmax(magnitude)};
+    return (frustum_span){
+        {spux_hmin(low[0]), spux_hmin(low[1])}, {spux_hmax(high[0]), spux_hmax(high[1])}, spux_hmax(magnitude)};
 }
 
 /* The coordinate w at which the first ray starts. */
@@ -83,7 +127,8 @@ CGT_SPU_INLINE float frustum_start(const cgt_queue_grid *g, const frustum *f, co
         const vfloat o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
         const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), spux_vfloat(g->rcell[f->w]));
         const vfloat start = spu_madd(spux_load(p->t_min + i), dw, o);
-        const vfloat wide = spu_mul(spux_abs(o), spux_vfloat(0x1p-20f)); /* rounding of o, and of the sum where t_min > 0 */
+        const vfloat wide =
+            spu_mul(spux_abs(o), spux_vfloat(0x1p-20f)); /* rounding of o, and of the sum where t_min > 0 */
         least = spux_min(spu_sub(start, spu_add(wide, spu_mul(spux_abs(start), spux_vfloat(0x1p-20f)))), least);
     }
     return spux_hmin(least);
@@ -96,7 +141,8 @@ CGT_SPU_INLINE float frustum_far(const cgt_queue_grid *g, const frustum *f, cons
     const vfloat rcell = spux_vfloat(g->rcell[f->w]);
     vfloat o = grid_coordinates(g, f->w, f->reverse, spux_vfloat(p->org[f->w][0]));
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (!p->common_origin) o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
+        if (!p->common_origin)
+            o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
         const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), rcell);
         const vfloat end = spu_madd(spux_load(p->high + i), dw, o);
         const vfloat wide = spu_mul(spu_add(spux_abs(o), spux_abs(end)), spux_vfloat(0x1p-20f));
@@ -113,6 +159,30 @@ CGT_SPU_INLINE float frustum_radius_scale(const cgt_queue_grid *g, const frustum
     return g->rcell[axis] * __builtin_sqrtf(1 + k * k) * (1 + 0x1p-20f);
 }
 
+/* Leaves out slices before and after the grid's part that the frustum passes beside the grid: the lower bound of k, a
+ * line over w, must not be above its limit. One slice more at each end covers the rounding. */
+CGT_SPU_INLINE void frustum_clip(frustum *f)
+{
+    const float limit[4] = {f->last[1] + 1, 0, f->last[2] + 1, 0};
+    float from = 0, to = (float)f->end;
+    for (int k = 0; k < 4; k++) {
+        const float room = limit[k] - f->bound[k], w = f->w0 + room / f->step[k];
+        if (f->step[k] > 0 && w < to)
+            to = w;
+        if (f->step[k] < 0 && w > from)
+            from = w;
+        if (!(f->step[k] > 0) && !(f->step[k] < 0) && room < 0)
+            to = -1;
+    }
+    const float end = to + 2, first = from - 2;
+    if (!(end > 0))
+        f->end = 0;
+    else if (end < (float)f->end)
+        f->end = (uint32_t)end;
+    if (first > (float)f->first)
+        f->first = first < (float)f->end ? (uint32_t)first : f->end;
+}
+
 /* Returns false where the packet does not meet the grid. */
 CGT_SPU_INLINE bool frustum_make(const cgt_queue_grid *g, const packet *p, int w, bool reverse, frustum *f)
 {
@@ -121,15 +191,24 @@ CGT_SPU_INLINE bool frustum_make(const cgt_queue_grid *g, const packet *p, int w
     f->v = w == 2 ? 1 : 2;
     f->reverse = reverse;
     const int axis[3] = {f->w, f->u, f->v};
-    for (int a = 0; a < 3; a++) f->last[a] = (float)(g->resolution[axis[a]] - 1);
+    for (int a = 0; a < 3; a++)
+        f->last[a] = (float)(g->resolution[axis[a]] - 1);
     f->end = g->resolution[w];
     f->w_near = frustum_start(g, f, p) - g->slack[w];
-    if (!(f->w_near < (float)f->end)) return false;
+    if (!(f->w_near < (float)f->end))
+        return false;
     f->first = f->w_near > 0 ? (uint32_t)f->w_near : 0;
     f->w0 = (float)f->first;
     const float w1 = (float)f->end, rlength = 1 / (w1 - f->w0);
-    const frustum_span u = frustum_measure(g, f, p, f->u, w1), v = frustum_measure(g, f, p, f->v, w1);
-    /* 8 roundings to a line's value at a plane, as many again on the way to a slice */
+    frustum_span span[2];
+    if (p->common_origin)
+        frustum_measure_common(g, f, p, w1, span);
+    else {
+        span[0] = frustum_measure_axis(g, f, p, f->u, w1);
+        span[1] = frustum_measure_axis(g, f, p, f->v, w1);
+    }
+    const frustum_span u = span[0], v = span[1];
+    /* 9 roundings to a line's value at a plane, 4 more on the way to a slice */
     const float error_u = u.magnitude * 0x1p-20f + g->slack[f->u], error_v = v.magnitude * 0x1p-20f + g->slack[f->v];
     f->bound = (vec_float4){u.low[0] - error_u, -u.high[0] - error_u, v.low[0] - error_v, -v.high[0] - error_v};
     const vec_float4 at_end = {u.low[1] - error_u, -u.high[1] - error_u, v.low[1] - error_v, -v.high[1] - error_v};
@@ -141,7 +220,8 @@ CGT_SPU_INLINE bool frustum_make(const cgt_queue_grid *g, const packet *p, int w
         steepest = step > steepest ? step : -step > steepest ? -step : steepest;
     }
     f->plane_error = (u.magnitude + v.magnitude + (steepest + 1) * (w1 + 1)) * 0x1p-19f;
-    return true;
+    frustum_clip(f);
+    return f->first < f->end;
 }
 
 /* Cells of a slice that the frustum may touch: low and high of u, low and high of v; none where low > high. */

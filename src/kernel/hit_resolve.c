@@ -61,7 +61,8 @@ static void resolve_t(const packet *p, winners *w, packet_hits *hits)
         const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
         w->t[i] = cgt_sphere_exact_t(org, dir, p->t_min[i], (cgt_sphere){w->x[i], w->y[i], w->z[i], w->r[i]});
     }
-    for (uint32_t i = 0; i < p->lanes; i++) hits->t[i] = p->object[i] != CGT_NONE ? (float)w->t[i] : INFINITY;
+    for (uint32_t i = 0; i < p->lanes; i++)
+        hits->t[i] = p->object[i] != CGT_NONE ? (float)w->t[i] : INFINITY;
 }
 
 /* The outward unit normal is the vector from the centre over the radius. */
@@ -83,7 +84,8 @@ static void resolve_normal(const packet *p, const winners *w, packet_hits *hits)
 static void resolve_points(const packet *p, const winners *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++) {
-        if (p->object[i] == CGT_NONE || w->r[i] != 0) continue;
+        if (p->object[i] == CGT_NONE || w->r[i] != 0)
+            continue;
         const double x = (double)p->dir[0][i], y = (double)p->dir[1][i], z = (double)p->dir[2][i];
         const double k = -1 / sqrt(x * x + y * y + z * z);
         hits->normal[0][i] = (float)(x * k);
@@ -95,10 +97,12 @@ static void resolve_points(const packet *p, const winners *w, packet_hits *hits)
 static void fill_none(const packet *p, packet_hits *hits)
 {
     const size_t bytes = p->lanes * sizeof(float);
-    for (uint32_t i = 0; i < p->lanes; i++) hits->t[i] = INFINITY;
+    for (uint32_t i = 0; i < p->lanes; i++)
+        hits->t[i] = INFINITY;
     memset(hits->primitive, 0xff, bytes); /* CGT_NONE */
     memset(hits->geometry, 0xff, bytes);
-    for (int a = 0; a < 3; a++) memset(hits->normal[a], 0, bytes);
+    for (int a = 0; a < 3; a++)
+        memset(hits->normal[a], 0, bytes);
 }
 
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields, packet_hits *hits)
@@ -109,9 +113,13 @@ uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet
         fill_none(p, hits);
         return 0;
     }
-    if (fields & (CGT_FIELD_T | CGT_FIELD_NORMAL)) resolve_t(p, &w, hits);
-    if (fields & CGT_FIELD_NORMAL) resolve_normal(p, &w, hits);
-    if (fields & CGT_FIELD_NORMAL && w.points) resolve_points(p, &w, hits);
-    if (fields & (CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY)) find_ids(grid, p, hits);
+    if (fields & (CGT_FIELD_T | CGT_FIELD_NORMAL))
+        resolve_t(p, &w, hits);
+    if (fields & CGT_FIELD_NORMAL)
+        resolve_normal(p, &w, hits);
+    if (fields & CGT_FIELD_NORMAL && w.points)
+        resolve_points(p, &w, hits);
+    if (fields & (CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY))
+        find_ids(grid, p, hits);
     return w.hits;
 }

@@ -29,11 +29,11 @@ typedef struct packet {
     _Alignas(64) float low[PACKET_MAX_RAYS];
     _Alignas(64) float high[PACKET_MAX_RAYS];
     _Alignas(64) uint32_t object[PACKET_MAX_RAYS]; /* CGT_NONE: none yet */
-    uint32_t rays;       /* that take part; they need not come first */
-    uint32_t lanes;      /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
-    bool common_origin;  /* org[.][0] is the origin of all */
-    bool any_hit;        /* the first hit found closes a ray */
-    bool extreme;        /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
+    uint32_t rays;                                 /* that take part; they need not come first */
+    uint32_t lanes;     /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
+    bool common_origin; /* org[.][0] is the origin of all */
+    bool any_hit;       /* the first hit found closes a ray */
+    bool extreme;       /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
 } packet;
 
 /* Largest coordinate and the range of direction lengths for which the bounds of the filter hold. */
@@ -53,6 +53,7 @@ typedef struct packet_hits {
 } packet_hits;
 
 /* Computes the fields (cgt_field values, combined) of the winners in their canonical form; returns how many rays hit. */
-uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields, packet_hits *hits);
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields,
+                                        packet_hits *hits);
 
 #endif

@@ -34,7 +34,8 @@ static void find_corners(const cgt_queue_grid *grid, const float center[3][CGT_L
 static void save_oldest(const cgt_queue_grid *grid, uint32_t cell, cgt_overflow_list *overflow)
 {
     const uint16_t oldest = grid->voxel[cell].reference[CGT_QUEUE_LENGTH - 1];
-    if (oldest != CGT_QUEUE_NONE) overflow->entry[overflow->count++] = (cgt_overflow){cell, oldest};
+    if (oldest != CGT_QUEUE_NONE)
+        overflow->entry[overflow->count++] = (cgt_overflow){cell, oldest};
 }
 
 /* Saves the oldest reference of each different cell whose queue is full. */
@@ -42,8 +43,10 @@ static void save_oldest8(const cgt_queue_grid *grid, const uint32_t cell[8], cgt
 {
     for (int k = 0; k < 8; k++) {
         bool seen = false;
-        for (int j = 0; j < k; j++) seen |= cell[j] == cell[k];
-        if (!seen) save_oldest(grid, cell[k], overflow);
+        for (int j = 0; j < k; j++)
+            seen |= cell[j] == cell[k];
+        if (!seen)
+            save_oldest(grid, cell[k], overflow);
     }
 }
 
@@ -56,9 +59,12 @@ static void push_corners(const cgt_queue_grid *grid, const corners *c, int lane,
     const uint32_t z[2] = {(uint32_t)c->low[2][lane] * stride[2], (uint32_t)c->high[2][lane] * stride[2]};
     uint32_t cell[8];
     uint16_t oldest = CGT_QUEUE_NONE;
-    for (int k = 0; k < 8; k++) cell[k] = x[k & 1] + y[k >> 1 & 1] + z[k >> 2];
-    for (int k = 0; k < 8; k++) oldest &= grid->voxel[cell[k]].reference[CGT_QUEUE_LENGTH - 1];
-    if (oldest != CGT_QUEUE_NONE) save_oldest8(grid, cell, overflow);
+    for (int k = 0; k < 8; k++)
+        cell[k] = x[k & 1] + y[k >> 1 & 1] + z[k >> 2];
+    for (int k = 0; k < 8; k++)
+        oldest &= grid->voxel[cell[k]].reference[CGT_QUEUE_LENGTH - 1];
+    if (oldest != CGT_QUEUE_NONE)
+        save_oldest8(grid, cell, overflow);
     queue_push8(grid->voxel, cell, spu_splats((uint16_t)object));
 }
 
@@ -83,7 +89,8 @@ static uint64_t push_bounds(const cgt_queue_grid *grid, const corners *c, int la
             for (int32_t x = c->low[0][lane]; x <= c->high[0][lane]; x++) {
                 const float dx = slab_distance(grid, 0, x, p[0]);
                 /* the bounds' own corners are always taken where squares underflow: room is then 0 and dx * dx too */
-                if (dx * dx > room + 0x1p-20f * reach) continue;
+                if (dx * dx > room + 0x1p-20f * reach)
+                    continue;
                 const uint32_t cell = (uint32_t)x + (uint32_t)y * grid->stride[1] + (uint32_t)z * grid->stride[2];
                 save_oldest(grid, cell, overflow);
                 queue_push1(&grid->voxel[cell], reference);
@@ -95,15 +102,15 @@ static uint64_t push_bounds(const cgt_queue_grid *grid, const corners *c, int la
 }
 
 /* Pushes the spheres of one vector; returns how many of them it got to. */
-static uint32_t push_vector(const cgt_queue_grid *grid, const float center[3][CGT_LANES],
-                            const float radius[CGT_LANES], uint32_t object, uint32_t count,
-                            cgt_overflow_list *overflow, cgt_fill_counts *counts)
+static uint32_t push_vector(const cgt_queue_grid *grid, const float center[3][CGT_LANES], const float radius[CGT_LANES],
+                            uint32_t object, uint32_t count, cgt_overflow_list *overflow, cgt_fill_counts *counts)
 {
     corners c;
     find_corners(grid, center, radius, &c);
     for (uint32_t lane = 0; lane < count; lane++) {
         uint32_t span[3], touched = 1;
-        if (!(radius[lane] >= 0)) continue; /* marked as skipped */
+        if (!(radius[lane] >= 0))
+            continue; /* marked as skipped */
         for (int a = 0; a < 3; a++) {
             span[a] = (uint32_t)(c.high[a][lane] - c.low[a][lane]) + 1;
             touched *= span[a];
@@ -113,7 +120,8 @@ static uint32_t push_vector(const cgt_queue_grid *grid, const float center[3][CG
             overflow->wanted = touched;
             return lane;
         }
-        if (small) push_corners(grid, &c, (int)lane, object + lane, overflow);
+        if (small)
+            push_corners(grid, &c, (int)lane, object + lane, overflow);
         else {
             const float p[3] = {center[0][lane], center[1][lane], center[2][lane]};
             touched = (uint32_t)push_bounds(grid, &c, (int)lane, p, radius[lane], object + lane, overflow);
@@ -138,9 +146,11 @@ uint32_t CGT_KERNEL(cgt_queue_grid_fill)(const cgt_queue_grid *grid, uint32_t fi
             center[2][lane] = valid ? q.z : 0;
             radius[lane] = valid ? q.r : -1;
         }
-        const uint32_t done = push_vector(grid, (const float(*)[CGT_LANES])center, radius, object, count, overflow, counts);
+        const uint32_t done =
+            push_vector(grid, (const float(*)[CGT_LANES])center, radius, object, count, overflow, counts);
         object += done;
-        if (done < count) return object;
+        if (done < count)
+            return object;
     }
     return end;
 }

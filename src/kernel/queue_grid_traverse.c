@@ -42,19 +42,22 @@ CGT_SPU_INLINE void visit_cell(traversal *v, uint32_t cell)
     vec_ushort8 front, back;
     memcpy(&front, voxel->reference, sizeof front);
     memcpy(&back, voxel->reference + 8, sizeof back);
-    const unsigned empty = cgt_spux_mask_bits_u16(spu_cmpeq(front, none)) | cgt_spux_mask_bits_u16(spu_cmpeq(back, none)) << 8;
+    const unsigned empty =
+        cgt_spux_mask_bits_u16(spu_cmpeq(front, none)) | cgt_spux_mask_bits_u16(spu_cmpeq(back, none)) << 8;
     memcpy(v->reference + v->pending, &front, sizeof front);
     memcpy(v->reference + v->pending + 8, &back, sizeof back);
     v->pending += (uint32_t)__builtin_ctz(empty | 1u << CGT_QUEUE_LENGTH);
     v->counts->cells++;
-    if (!empty && v->grid->overflows) collect_overflow(v, cell);
+    if (!empty && v->grid->overflows)
+        collect_overflow(v, cell);
 }
 
 static void collect_overflow(traversal *v, uint32_t cell)
 {
     const cgt_queue_grid *g = v->grid;
     for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++) {
-        if (v->pending >= BATCH_FULL) test_pending(v);
+        if (v->pending >= BATCH_FULL)
+            test_pending(v);
         v->reference[v->pending++] = (uint16_t)g->overflow[i].reference;
     }
 }
@@ -121,11 +124,15 @@ static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
         v->counts->packet_tests++;
         v->counts->ray_tests += p->rays;
         if (p->common_origin) {
-            if (p->any_hit) filter_test(v->grid, v->p, s, k, true, true, v->counts);
-            else filter_test(v->grid, v->p, s, k, true, false, v->counts);
+            if (p->any_hit)
+                filter_test(v->grid, v->p, s, k, true, true, v->counts);
+            else
+                filter_test(v->grid, v->p, s, k, true, false, v->counts);
         } else {
-            if (p->any_hit) filter_test(v->grid, v->p, s, k, false, true, v->counts);
-            else filter_test(v->grid, v->p, s, k, false, false, v->counts);
+            if (p->any_hit)
+                filter_test(v->grid, v->p, s, k, false, true, v->counts);
+            else
+                filter_test(v->grid, v->p, s, k, false, false, v->counts);
         }
     }
 }
@@ -133,8 +140,9 @@ static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
 static void test_pending(traversal *v)
 {
     filter_spheres s;
-    if (v->mailbox) apply_mailbox(v);
     v->counts->references += v->pending;
+    if (v->mailbox)
+        apply_mailbox(v);
     for (uint32_t i = 0; i < v->pending; i += CGT_LANES) {
         const uint32_t count = v->pending - i < CGT_LANES ? v->pending - i : CGT_LANES;
         unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
@@ -144,7 +152,8 @@ static void test_pending(traversal *v)
             v->counts->cull_tests += count;
             v->counts->culled += count - spux_count_bits(lanes);
         }
-        if (lanes) test_spheres(v, &s, lanes);
+        if (lanes)
+            test_spheres(v, &s, lanes);
     }
     v->pending = 0;
 }
@@ -156,7 +165,8 @@ static bool finish_slice(traversal *v, uint32_t slice)
         test_pending(v);
         v->w_far = frustum_far(v->grid, &v->frustum, v->p);
     }
-    if (!(v->w_far < (float)(slice + 1))) return false;
+    if (!(v->w_far < (float)(slice + 1)))
+        return false;
     v->counts->early_exits++;
     return true;
 }
@@ -174,9 +184,11 @@ static void traverse_nested(traversal *v)
         for (int32_t y = b[2]; y <= b[3]; y++)
             for (int32_t x = b[0]; x <= b[1]; x++) {
                 visit_cell(v, cell + (uint32_t)y * stride[f->v] + (uint32_t)x * stride[f->u]);
-                if (v->pending >= BATCH_FULL) test_pending(v);
+                if (v->pending >= BATCH_FULL)
+                    test_pending(v);
             }
-        if (finish_slice(v, slice)) return;
+        if (finish_slice(v, slice))
+            return;
     }
 }
 
@@ -218,8 +230,10 @@ static void traverse_flattened(traversal *v)
         const slice_cells *next = s + slice_ends;
         const int32_t x_next = row_ends ? next->low_u : x + 1, y_next = slice_ends ? next->low_v : y + row_ends;
         if (slice_ends | (v->pending >= BATCH_FULL)) {
-            if (!slice_ends) test_pending(v);
-            else if (finish_slice(v, s->slice)) return;
+            if (!slice_ends)
+                test_pending(v);
+            else if (finish_slice(v, s->slice))
+                return;
         }
         x = x_next;
         y = y_next;
@@ -235,7 +249,8 @@ static void traverse_flattened(traversal *v)
 
 static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *part, uint32_t parts,
                         const cgt_trace_settings *settings, cgt_counts *counts);
-static void trace_coherent(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings, cgt_counts *counts);
+static void trace_coherent(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
+                           cgt_counts *counts);
 
 static bool runs_apart(const traversal *v)
 {
@@ -256,7 +271,8 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
     v.cull = settings->cull;
     v.mailbox = settings->mailbox;
     v.pending = 0;
-    if (!frustum_make(grid, p, (int)(class >> 1), class & 1, &v.frustum)) return;
+    if (!frustum_make(grid, p, (int)(class >> 1), class & 1, &v.frustum))
+        return;
     if (runs_apart(&v)) {
         uint32_t part[PACKET_MAX_RAYS], seen = 0;
         for (uint32_t i = 0; i < p->lanes; i++) {
@@ -269,19 +285,24 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
     counts->packets++;
     filter_packet_make(p, &v.filter);
     v.w_far = frustum_far(grid, &v.frustum, p);
-    if (v.mailbox) memset(v.seen, 0xff, sizeof v.seen);
-    if (settings->flattened) traverse_flattened(&v);
-    else traverse_nested(&v);
+    if (v.mailbox)
+        memset(v.seen, 0xff, sizeof v.seen);
+    if (settings->flattened)
+        traverse_flattened(&v);
+    else
+        traverse_nested(&v);
 }
 
 /* Numbers too large or too small for the bounds of single precision: every ray against every object in double. */
 static void trace_extreme(const cgt_queue_grid *grid, packet *p, cgt_counts *counts)
 {
     for (uint32_t object = 0; object < grid->objects.count; object++) {
-        if (cgt_sphere_check(cgt_objects_sphere(&grid->objects, object)) != CGT_SPHERE_VALID) continue;
+        if (cgt_sphere_check(cgt_objects_sphere(&grid->objects, object)) != CGT_SPHERE_VALID)
+            continue;
         counts->packet_tests++;
         counts->ray_tests += p->rays;
-        for (uint32_t i = 0; i < p->lanes; i++) filter_decide(grid, p, i, object, counts);
+        for (uint32_t i = 0; i < p->lanes; i++)
+            filter_decide(grid, p, i, object, counts);
     }
 }
 
@@ -303,7 +324,8 @@ static void classify(const packet *p, uint32_t *class)
 static bool all_equal(const uint32_t *class, uint32_t count)
 {
     uint32_t differs = 0;
-    for (uint32_t i = 1; i < count; i++) differs |= class[i] ^ class[0];
+    for (uint32_t i = 1; i < count; i++)
+        differs |= class[i] ^ class[0];
     return !differs;
 }
 
@@ -312,7 +334,8 @@ static void extract_part(const packet *p, const uint32_t *part, uint32_t wanted,
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < p->lanes; i++)
-        if (part[i] == wanted && p->high[i] != -INFINITY) from[n++] = i;
+        if (part[i] == wanted && p->high[i] != -INFINITY)
+            from[n++] = i;
     sub->rays = n;
     sub->lanes = (n + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
     for (uint32_t k = 0; k < sub->lanes; k++) {
@@ -341,7 +364,8 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
     counts->split_packets++;
     for (uint32_t k = 0; k < parts; k++) {
         extract_part(p, part, k, &sub, from);
-        if (!sub.rays) continue;
+        if (!sub.rays)
+            continue;
         trace_coherent(grid, &sub, settings, counts);
         for (uint32_t i = 0; i < sub.rays; i++) {
             p->low[from[i]] = sub.low[i];
@@ -352,19 +376,25 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
 }
 
 /* Splits by main axis and sign first. */
-static void trace_coherent(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings, cgt_counts *counts)
+static void trace_coherent(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
+                           cgt_counts *counts)
 {
     _Alignas(64) uint32_t class[PACKET_MAX_RAYS];
     class[0] = 0; /* there is at least one ray, which the compiler cannot know */
     classify(p, class);
-    if (all_equal(class, p->lanes)) traverse(grid, p, class[0], settings, counts);
-    else trace_parts(grid, p, class, 6, settings, counts);
+    if (all_equal(class, p->lanes))
+        traverse(grid, p, class[0], settings, counts);
+    else
+        trace_parts(grid, p, class, 6, settings, counts);
 }
 
 void CGT_KERNEL(cgt_packet_trace)(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
                                   cgt_counts *counts)
 {
-    if (!p->rays || !grid->voxel) return;
-    if (p->extreme || grid->everything) trace_extreme(grid, p, counts);
-    else trace_coherent(grid, p, settings, counts);
+    if (!p->rays || !grid->voxel)
+        return;
+    if (p->extreme || grid->everything)
+        trace_extreme(grid, p, counts);
+    else
+        trace_coherent(grid, p, settings, counts);
 }

@@ -36,8 +36,10 @@ static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k
     p->rdd[k] = 1 / dd;
     p->t_min[k] = t_min;
     p->t_max[k] = t_max;
-    if (zero != 0 || longest == 0 || t_min != t_min || t_max != t_max) return RAY_INVALID;
-    if (t_min > t_max) return RAY_EMPTY_RANGE;
+    if (zero != 0 || longest == 0 || t_min != t_min || t_max != t_max)
+        return RAY_INVALID;
+    if (t_min > t_max)
+        return RAY_EMPTY_RANGE;
     return largest > PACKET_LARGEST || longest > PACKET_LARGEST || longest < PACKET_SHORTEST ? RAY_EXTREME : RAY_OPEN;
 }
 
@@ -65,16 +67,22 @@ static bool make_packet(const ray_source *s, uint64_t first, uint32_t count, pac
     p->extreme = false;
     for (uint32_t k = 0; k < count; k++) {
         state[k] = read_ray(s, first + k, p, k);
-        if (state[k] == RAY_EXTREME && count > 1) return false;
-        if (state[k] == RAY_EXTREME) p->extreme = true;
+        if (state[k] == RAY_EXTREME && count > 1)
+            return false;
+        if (state[k] == RAY_EXTREME)
+            p->extreme = true;
         invalid += state[k] == RAY_INVALID;
-        if (state[k] <= RAY_EXTREME) good = k;
+        if (state[k] <= RAY_EXTREME)
+            good = k;
     }
     for (uint32_t k = 0; k < p->lanes; k++) {
         p->object[k] = CGT_NONE;
-        if (k < count && state[k] <= RAY_EXTREME) p->low[k] = p->high[k] = p->t_max[k], p->rays++;
-        else close_lane(p, k, good);
-        for (int a = 0; a < 3; a++) p->common_origin &= p->org[a][k] == p->org[a][good];
+        if (k < count && state[k] <= RAY_EXTREME)
+            p->low[k] = p->high[k] = p->t_max[k], p->rays++;
+        else
+            close_lane(p, k, good);
+        for (int a = 0; a < 3; a++)
+            p->common_origin &= p->org[a][k] == p->org[a][good];
     }
     counts->invalid_rays += invalid;
     return true;
@@ -85,11 +93,15 @@ static void store_hits(const packet_hits *h, uint64_t first, uint32_t count, con
     const size_t stride = hits->stride ? hits->stride : sizeof(float);
     for (uint32_t k = 0; k < count; k++) {
         const size_t at = (size_t)(first + k) * stride;
-        if (hits->t) memcpy((char *)hits->t + at, &h->t[k], sizeof(float));
-        if (hits->primitive) memcpy((char *)hits->primitive + at, &h->primitive[k], sizeof(uint32_t));
-        if (hits->geometry) memcpy((char *)hits->geometry + at, &h->geometry[k], sizeof(uint32_t));
+        if (hits->t)
+            memcpy((char *)hits->t + at, &h->t[k], sizeof(float));
+        if (hits->primitive)
+            memcpy((char *)hits->primitive + at, &h->primitive[k], sizeof(uint32_t));
+        if (hits->geometry)
+            memcpy((char *)hits->geometry + at, &h->geometry[k], sizeof(uint32_t));
         for (int a = 0; a < 3; a++)
-            if (hits->normal[a]) memcpy((char *)hits->normal[a] + at, &h->normal[a][k], sizeof(float));
+            if (hits->normal[a])
+                memcpy((char *)hits->normal[a] + at, &h->normal[a][k], sizeof(float));
     }
 }
 

@@ -25,7 +25,9 @@
 #include "../sphere_exact.h"
 #include "packet.h"
 
+#ifndef FILTER_U /* a test gives it other values, to find where the bounds break */
 #define FILTER_U 0x1p-24f
+#endif
 
 /* Spheres of one vector, with what the bounds of each come to for this packet. */
 typedef struct filter_spheres {
@@ -44,22 +46,24 @@ typedef struct filter_packet {
     float org[3];      /* the common origin, or the middle of the box of the origins */
     float org_reach;   /* from there to any origin, as a sum over the axes */
     float rlength;     /* at least 1 / |d| of the shortest direction */
-    float rlength_low; /* at most 1 / |d| of the longest direction */
+    float rlength_low; /* at most 1 / |d| of the longest direction; -infinity where hits behind an origin count */
 } filter_packet;
 
 CGT_SPU_INLINE void filter_packet_make(const packet *p, filter_packet *f)
 {
-    vfloat most = spux_vfloat(0), least = spux_vfloat(INFINITY);
+    vfloat most = spux_vfloat(0), least = spux_vfloat(INFINITY), t_min = least;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         most = spux_max(most, spux_load(p->rdd + i));
         least = spux_min(least, spux_load(p->rdd + i));
+        t_min = spux_min(t_min, spux_load(p->t_min + i));
     }
     f->rlength = __builtin_sqrtf(spux_hmax(most)) * (1 + 0x1p-18f);
-    f->rlength_low = __builtin_sqrtf(spux_hmin(least)) * (1 - 0x1p-18f);
+    f->rlength_low = spux_hmin(t_min) < 0 ? -INFINITY : __builtin_sqrtf(spux_hmin(least)) * (1 - 0x1p-18f);
     f->org_reach = 0;
     for (int a = 0; a < 3; a++) {
         f->org[a] = p->org[a][0];
-        if (p->common_origin) continue;
+        if (p->common_origin)
+            continue;
         vfloat low = spux_load(p->org[a]), high = low;
         for (uint32_t i = CGT_LANES; i < p->lanes; i += CGT_LANES) {
             low = spux_min(low, spux_load(p->org[a] + i));
@@ -82,12 +86,14 @@ CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres 
         square = spu_madd(c, c, square);
     }
     const vfloat wide = spu_mul(distance, spux_vfloat(26 * FILTER_U)); /* 26^2 > 640 */
-    const vfloat eps = spu_madd(spu_mul(r, spux_vfloat(9 * FILTER_U)), spu_add(distance, r), spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
+    const vfloat eps = spu_madd(spu_mul(r, spux_vfloat(9 * FILTER_U)), spu_add(distance, r),
+                                spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
     const vfloat e0 = spu_mul(spu_add(distance, r), spux_vfloat(18 * FILTER_U * f->rlength));
     const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0.27f * f->rlength));
     /* 8 roundings each; the distance between surfaces is at least what is left, where anything is */
-    const vfloat near = spu_sub(spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
-                                spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach))));
+    const vfloat near =
+        spu_sub(spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
+                spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach))));
     const vmask outside = spu_cmpgt(near, spux_vfloat(0));
     spux_store(s->nearest, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
     spux_store(s->r2, spu_madd(r, r, eps));
@@ -98,15 +104,17 @@ CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres 
 
 /* Decides in double whether sphere `object` beats the best hit of ray i. */
 __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid *grid, packet *p, uint32_t i,
-                                                             uint32_t object, cgt_counts *counts)
+                                                            uint32_t object, cgt_counts *counts)
 {
     const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
     const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
     const uint32_t winner = p->object[i];
     double t, best;
-    if (winner == object || p->high[i] == -INFINITY) return; /* met before; or the ray takes no part */
+    if (winner == object || p->high[i] == -INFINITY)
+        return; /* met before; or the ray takes no part */
     counts->double_tests++;
-    if (!cgt_sphere_exact_hit(org, dir, p->t_min[i], p->t_max[i], cgt_objects_sphere(&grid->objects, object), &t)) return;
+    if (!cgt_sphere_exact_hit(org, dir, p->t_min[i], p->t_max[i], cgt_objects_sphere(&grid->objects, object), &t))
+        return;
     if (p->any_hit) {
         p->low[i] = p->high[i] = -INFINITY;
         p->object[i] = object;
@@ -114,7 +122,8 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid
     }
     if (winner != CGT_NONE) {
         best = cgt_sphere_exact_t(org, dir, p->t_min[i], cgt_objects_sphere(&grid->objects, winner));
-        if (t > best || (t == best && object > winner)) return;
+        if (t > best || (t == best && object > winner))
+            return;
     }
     const float rounded = (float)t, width = fabsf(rounded) * 0x1p-22f + 0x1p-140f;
     p->low[i] = rounded - width;
@@ -137,7 +146,8 @@ CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_sph
                        .gap = spux_vfloat(s->gap[k]),
                        .nearest = spux_vfloat(s->nearest[k]),
                        .object = spux_vuint(s->object[k])};
-    for (int a = 0; a < 3; a++) q.center[a] = spux_vfloat(common_origin ? s->center[a][k] - p->org[a][0] : s->center[a][k]);
+    for (int a = 0; a < 3; a++)
+        q.center[a] = spux_vfloat(common_origin ? s->center[a][k] - p->org[a][0] : s->center[a][k]);
     return q;
 }
 
@@ -150,7 +160,8 @@ typedef struct filter_result {
 
 /* Returns false where all rays of the vector surely miss. Comparisons are written so that what is not a number stays
  * open. */
-CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_t i, bool common_origin, filter_result *f)
+CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_t i, bool common_origin,
+                                filter_result *f)
 {
     const vfloat zero = spux_vfloat(0), rdd = spux_load(p->rdd + i);
     const vfloat dx = spux_load(p->dir[0] + i), dy = spux_load(p->dir[1] + i), dz = spux_load(p->dir[2] + i);
@@ -165,7 +176,8 @@ CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_
     const vfloat h = spu_sub(q->r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
     /* a miss; or the sphere's nearest point lies beyond the best, which spares the root of a hidden one */
     const vmask missed = spu_or(spu_cmpgt(zero, h), spu_cmpgt(q->nearest, spux_load(p->high + i)));
-    if (spux_mask_bits(missed) == CGT_ALL_LANES) return false;
+    if (spux_mask_bits(missed) == CGT_ALL_LANES)
+        return false;
     const vfloat half = spux_sqrt(spu_mul(h, rdd)), t_min = spux_load(p->t_min + i);
     const vfloat low = spu_sub(spu_sub(mid, half), q->before), high = spu_add(low, q->gap);
     /* beyond the best; or both roots before the range; or met before */
@@ -181,23 +193,26 @@ CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_
 }
 
 /* Tests all rays of a packet against sphere k of a vector. Open rays are rare; a second pass finds them again. */
-CGT_SPU_INLINE void filter_test(const cgt_queue_grid *grid, packet *p, const filter_spheres *s, int k, bool common_origin,
-                                bool any_hit, cgt_counts *counts)
+CGT_SPU_INLINE void filter_test(const cgt_queue_grid *grid, packet *p, const filter_spheres *s, int k,
+                                bool common_origin, bool any_hit, cgt_counts *counts)
 {
     const filter_sphere q = filter_sphere_get(p, s, k, common_origin);
     const vfloat closed = spux_vfloat(-INFINITY);
     vmask open = spux_vuint(0);
     filter_result f;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (!filter_rays(p, &q, i, common_origin, &f)) continue;
+        if (!filter_rays(p, &q, i, common_origin, &f))
+            continue;
         spux_store(p->low + i, spux_select(spux_load(p->low + i), any_hit ? closed : f.low, f.certain));
         spux_store(p->high + i, spux_select(spux_load(p->high + i), any_hit ? closed : f.high, f.certain));
         spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), q.object, f.certain));
         open = spu_or(open, f.open);
     }
-    if (!spux_mask_bits(open)) return;
+    if (!spux_mask_bits(open))
+        return;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (!filter_rays(p, &q, i, common_origin, &f)) continue;
+        if (!filter_rays(p, &q, i, common_origin, &f))
+            continue;
         for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
             filter_decide(grid, p, i + (uint32_t)__builtin_ctz(left), s->object[k], counts);
     }
