@@ -1,0 +1,51 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * cgt-bench: what its sub-commands share.
+ *
+ *   input     the trajectory in memory               bench_input.h
+ *   scene     the library's scene over it            bench_scene.h
+ *   planes    what primary rays found                bench_planes.h
+ *   rays      shadow and ambient-occlusion rays      bench_rays.h
+ *   threads   who makes those rays                   bench_threads.h
+ *   timing    clock and medians                      bench_timing.h
+ *   plan      the configurations that loops compares bench_plan.h
+ *   report    their table and their ratios           bench_report.h */
+#ifndef BENCH_H
+#define BENCH_H
+
+#include <argp.h>
+#include <stdint.h>
+
+#include <cgt/cgt.h>
+
+#include "program.h"
+
+#define BENCH_MOST_PIXELS ((uint64_t)1 << 28)
+
+/* The options that frame and loops share. */
+typedef struct bench_settings {
+    const char *path;
+    cgt_camera camera;
+    uint32_t width, height;
+    uint32_t threads;
+    uint64_t frames; /* 0: all of the file */
+    uint32_t repeat;
+    const char *variant;    /* NULL: the widest that the CPU runs, or in loops: all */
+    uint32_t packet;        /* 0: the library's choice, or in loops: all */
+    uint32_t resolution[3]; /* 0, 0, 0: the library's choice, or in loops: several */
+    float radius;           /* for files without one; 0: the reader's default */
+    int wrapped;
+    int verbose;
+} bench_settings;
+
+void bench_settings_init(bench_settings *settings);
+
+/* Parses the shared options and the one FILE; a child of each sub-command's parser, with settings as its input. */
+extern const struct argp bench_settings_argp;
+
+/* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
+int bench_frame(int argc, char **argv);
+int bench_loops(int argc, char **argv);
+
+#endif

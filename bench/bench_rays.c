@@ -1,0 +1,339 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Shadow and ambient-occlusion rays; bench_rays.h has their definitions. */
+#include "bench_rays.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BLOCK = 4,                  /* pixels along a block's edge */
+    GROUP = BLOCK * BLOCK,      /* hit pixels whose rays lie together */
+    GROUPS_PER_PIECE = 64,      /* groups that one call of a task makes */
+    RAYS_PER_BATCH = 128 * 1024 /* 3 MB of arrays: long enough to share out, short enough to stay in a cache */
+};
+
+struct bench_rays {
+    bench_threads *threads;
+    const bench_camera_axes *axes;
+    const bench_planes *planes;
+    uint32_t block_columns, block_rows;
+    uint64_t *row_first; /* where the hit pixels of a row of blocks begin in hit; block_rows + 1 of them */
+    uint32_t *hit;       /* hit pixels in block order: x + 65536 y */
+    uint64_t hits;
+    uint64_t batch_rays; /* rays that the arrays hold */
+    float *org[3], *dir[3];
+    float *ones; /* the far end of all shadow rays */
+    uint8_t *occluded;
+    /* the batch in work */
+    uint64_t batch_first; /* first hit pixel */
+    uint64_t batch_hits;
+    uint32_t samples;
+    float light[3];
+};
+
+/* ---- The camera's rays --------------------------------------------------------------------------------------- */
+
+static float length3(const float v[3]) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+static void cross3(const float a[3], const float b[3], float c[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        c[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+void bench_camera_axes_init(bench_camera_axes *axes, const cgt_camera *camera, uint32_t width, uint32_t height)
+{
+    const float half = tanf(camera->fov * 0.5f * 3.14159265f / 180.0f);
+    float fwd[3], right[3], up[3];
+
+    for (int i = 0; i < 3; i++)
+        fwd[i] = camera->target[i] - camera->eye[i];
+    const float distance = length3(fwd);
+    for (int i = 0; i < 3; i++)
+        fwd[i] /= distance;
+    cross3(fwd, camera->up, right);
+    const float across = length3(right);
+    for (int i = 0; i < 3; i++)
+        right[i] /= across;
+    cross3(right, fwd, up);
+    for (int i = 0; i < 3; i++) {
+        axes->eye[i] = camera->eye[i];
+        axes->fwd[i] = fwd[i];
+        axes->right[i] = right[i] * half * (float)width / (float)height;
+        axes->up[i] = up[i] * half;
+    }
+    axes->width = width;
+    axes->height = height;
+}
+
+/* Direction of a pixel's camera ray, and the point just before its hit. */
+static void surface_point(const bench_rays *rays, uint32_t x, uint32_t y, float dir[3], float point[3])
+{
+    const bench_camera_axes *axes = rays->axes;
+    const float px = ((float)x + 0.5f) * (2.0f / (float)axes->width) - 1.0f;
+    const float py = 1.0f - ((float)y + 0.5f) * (2.0f / (float)axes->height);
+    const float back = rays->planes->t[(size_t)y * axes->width + x] * 0.9999f;
+
+    for (int i = 0; i < 3; i++) {
+        dir[i] = axes->fwd[i] + px * axes->right[i] + py * axes->up[i];
+        point[i] = axes->eye[i] + back * dir[i];
+    }
+}
+
+/* ---- Memory -------------------------------------------------------------------------------------------------- */
+
+bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *axes, const bench_planes *planes,
+                              uint32_t most_ao)
+{
+    bench_rays *rays = calloc(1, sizeof *rays);
+    if (!rays)
+        return NULL;
+    rays->threads = threads;
+    rays->axes = axes;
+    rays->planes = planes;
+    rays->block_columns = (axes->width + BLOCK - 1) / BLOCK;
+    rays->block_rows = (axes->height + BLOCK - 1) / BLOCK;
+    rays->row_first = calloc((size_t)rays->block_rows + 1, sizeof *rays->row_first);
+    rays->hit = calloc((size_t)axes->width * axes->height, sizeof *rays->hit);
+    rays->batch_rays = (uint64_t)GROUP * (most_ao > 1 ? most_ao : 1);
+    if (rays->batch_rays < RAYS_PER_BATCH)
+        rays->batch_rays = RAYS_PER_BATCH;
+
+    const size_t batch = (size_t)rays->batch_rays;
+    int complete = rays->row_first && rays->hit;
+    for (int i = 0; i < 3; i++) {
+        rays->org[i] = malloc(batch * sizeof(float));
+        rays->dir[i] = malloc(batch * sizeof(float));
+        complete = complete && rays->org[i] && rays->dir[i];
+    }
+    rays->ones = malloc(batch * sizeof(float));
+    rays->occluded = malloc(batch);
+    if (!complete || !rays->ones || !rays->occluded) {
+        bench_rays_release(rays);
+        return NULL;
+    }
+    for (size_t i = 0; i < batch; i++)
+        rays->ones[i] = 1.0f;
+    return rays;
+}
+
+void bench_rays_release(bench_rays *rays)
+{
+    if (!rays)
+        return;
+    free(rays->occluded);
+    free(rays->ones);
+    for (int i = 0; i < 3; i++) {
+        free(rays->dir[i]);
+        free(rays->org[i]);
+    }
+    free(rays->hit);
+    free(rays->row_first);
+    free(rays);
+}
+
+/* ---- The hit pixels, in block order -------------------------------------------------------------------------- */
+
+static void count_block_row(void *argument, uint32_t row)
+{
+    bench_rays *rays = argument;
+    const uint32_t width = rays->axes->width, height = rays->axes->height;
+    uint64_t count = 0;
+
+    for (uint32_t y = row * BLOCK; y < height && y < (row + 1) * BLOCK; y++) {
+        const float *t = rays->planes->t + (size_t)y * width;
+        uint32_t in_row = 0;
+        for (uint32_t x = 0; x < width; x++)
+            in_row += t[x] < INFINITY;
+        count += in_row;
+    }
+    rays->row_first[row + 1] = count;
+}
+
+static void list_block_row(void *argument, uint32_t row)
+{
+    bench_rays *rays = argument;
+    const uint32_t width = rays->axes->width, height = rays->axes->height;
+    const uint32_t y_end = height < (row + 1) * BLOCK ? height : (row + 1) * BLOCK;
+    uint64_t next = rays->row_first[row];
+
+    for (uint32_t x0 = 0; x0 < width; x0 += BLOCK) {
+        const uint32_t x_end = width - x0 < BLOCK ? width : x0 + BLOCK;
+        for (uint32_t y = row * BLOCK; y < y_end; y++) {
+            const float *t = rays->planes->t + (size_t)y * width;
+            for (uint32_t x = x0; x < x_end; x++)
+                if (t[x] < INFINITY)
+                    rays->hit[next++] = x | y << 16;
+        }
+    }
+}
+
+static void find_hits(bench_rays *rays)
+{
+    bench_threads_run(rays->threads, count_block_row, rays, rays->block_rows);
+    rays->row_first[0] = 0;
+    for (uint32_t row = 0; row < rays->block_rows; row++)
+        rays->row_first[row + 1] += rays->row_first[row];
+    rays->hits = rays->row_first[rays->block_rows];
+    bench_threads_run(rays->threads, list_block_row, rays, rays->block_rows);
+}
+
+/* Number of a pixel in the order of blocks: what the hash of its rays starts from. */
+static uint32_t block_order(const bench_rays *rays, uint32_t x, uint32_t y)
+{
+    const uint32_t block = y / BLOCK * rays->block_columns + x / BLOCK;
+    return block * GROUP + (y % BLOCK) * BLOCK + x % BLOCK;
+}
+
+/* ---- Making rays --------------------------------------------------------------------------------------------- */
+
+static void make_shadow_rays(void *argument, uint32_t piece)
+{
+    bench_rays *rays = argument;
+    const uint64_t begin = (uint64_t)piece * GROUPS_PER_PIECE * GROUP;
+    uint64_t end = begin + GROUPS_PER_PIECE * GROUP;
+    if (end > rays->batch_hits)
+        end = rays->batch_hits;
+
+    for (uint64_t i = begin; i < end; i++) {
+        const uint32_t pixel = rays->hit[rays->batch_first + i];
+        float dir[3], point[3];
+        surface_point(rays, pixel & 0xffff, pixel >> 16, dir, point);
+        for (int k = 0; k < 3; k++) {
+            rays->org[k][i] = point[k];
+            rays->dir[k][i] = rays->light[k] - point[k];
+        }
+    }
+}
+
+static uint32_t mix(uint32_t v)
+{
+    v ^= v >> 16;
+    v *= 0x7feb352du;
+    v ^= v >> 15;
+    v *= 0x846ca68bu;
+    return v ^ v >> 16;
+}
+
+/* A point of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. */
+static void octahedron_point(uint32_t seed, float v[3])
+{
+    const uint32_t h = mix(seed), g = mix(h + 0x9e3779b9u);
+    const float x = (float)(h >> 8) * (2 / 16777216.0f) - 1, y = (float)(g >> 8) * (2 / 16777216.0f) - 1;
+    const float z = 1 - fabsf(x) - fabsf(y), fold = z < 0 ? -z : 0;
+    v[0] = x < 0 ? x + fold : x - fold;
+    v[1] = y < 0 ? y + fold : y - fold;
+    v[2] = z;
+}
+
+/* All samples of the pixels of one group, sample by sample: neighbours in the arrays are neighbours in space. */
+static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
+{
+    float point[GROUP][3], normal[GROUP][3], side[GROUP];
+    uint32_t order[GROUP];
+    uint64_t ray = first * rays->samples;
+
+    for (uint32_t k = 0; k < pixels; k++) {
+        const uint32_t pixel = rays->hit[rays->batch_first + first + k], x = pixel & 0xffff, y = pixel >> 16;
+        float dir[3];
+        surface_point(rays, x, y, dir, point[k]);
+        order[k] = block_order(rays, x, y);
+        side[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            normal[k][i] = rays->planes->normal[i][(size_t)y * rays->axes->width + x];
+            side[k] -= dir[i] * normal[k][i];
+        }
+    }
+    for (uint32_t s = 0; s < rays->samples; s++)
+        for (uint32_t k = 0; k < pixels; k++, ray++) {
+            float v[3];
+            octahedron_point(order[k] * 64u + s, v);
+            const float cosine = v[0] * normal[k][0] + v[1] * normal[k][1] + v[2] * normal[k][2];
+            const float sign = cosine * side[k] < 0 ? -1.0f : 1.0f;
+            for (int i = 0; i < 3; i++) {
+                rays->org[i][ray] = point[k][i];
+                rays->dir[i][ray] = sign * v[i];
+            }
+        }
+}
+
+static void make_ao_rays(void *argument, uint32_t piece)
+{
+    bench_rays *rays = argument;
+    for (uint32_t group = 0; group < GROUPS_PER_PIECE; group++) {
+        const uint64_t first = ((uint64_t)piece * GROUPS_PER_PIECE + group) * GROUP;
+        if (first >= rays->batch_hits)
+            return;
+        const uint64_t left = rays->batch_hits - first;
+        make_ao_group(rays, first, left < GROUP ? (uint32_t)left : GROUP);
+    }
+}
+
+/* ---- Passes -------------------------------------------------------------------------------------------------- */
+
+/* The shadow rays of a batch are in the order of the list: back to the plane. */
+static void store_shadows(void *argument, uint32_t piece)
+{
+    bench_rays *rays = argument;
+    const uint64_t begin = (uint64_t)piece * GROUPS_PER_PIECE * GROUP;
+    uint64_t end = begin + GROUPS_PER_PIECE * GROUP;
+    if (end > rays->batch_hits)
+        end = rays->batch_hits;
+    for (uint64_t i = begin; i < end; i++) {
+        const uint32_t pixel = rays->hit[rays->batch_first + i];
+        rays->planes->shadow[(size_t)(pixel >> 16) * rays->axes->width + (pixel & 0xffff)] = rays->occluded[i];
+    }
+}
+
+/* One pass over all hit pixels with `samples` rays each; shadow rays where light is 1. */
+static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, uint32_t samples, int light, uint64_t *occluded)
+{
+    const uint64_t batch = rays->batch_rays / samples / GROUP * GROUP; /* hit pixels: at least one group */
+    const uint64_t per_piece = (uint64_t)GROUPS_PER_PIECE * GROUP;
+
+    *occluded = 0;
+    rays->samples = samples;
+    find_hits(rays);
+    for (rays->batch_first = 0; rays->batch_first < rays->hits; rays->batch_first += rays->batch_hits) {
+        const uint64_t left = rays->hits - rays->batch_first;
+        rays->batch_hits = left < batch ? left : batch;
+        const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
+        bench_threads_run(rays->threads, light ? make_shadow_rays : make_ao_rays, rays, pieces);
+
+        cgt_rays array;
+        memset(&array, 0, sizeof array);
+        array.count = rays->batch_hits * samples;
+        for (int i = 0; i < 3; i++) {
+            array.org[i] = rays->org[i];
+            array.dir[i] = rays->dir[i];
+        }
+        array.t_max = light ? rays->ones : NULL;
+        const cgt_result result = cgt_occluded_rays(scene, &array, rays->occluded, NULL);
+        if (result != CGT_OK)
+            return result;
+        for (uint64_t i = 0; i < array.count; i++)
+            *occluded += rays->occluded[i];
+        if (light)
+            bench_threads_run(rays->threads, store_shadows, rays, pieces);
+    }
+    return CGT_OK;
+}
+
+cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const float light[3], uint64_t *hidden)
+{
+    memcpy(rays->light, light, sizeof rays->light);
+    return trace_pass(rays, scene, 1, 1, hidden);
+}
+
+cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, uint32_t samples, uint64_t *open)
+{
+    uint64_t occluded = 0;
+    const cgt_result result = trace_pass(rays, scene, samples, 0, &occluded);
+    *open = rays->hits * samples - occluded;
+    return result;
+}

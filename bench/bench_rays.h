@@ -1,0 +1,54 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Secondary rays of a finished frame: one shadow ray per hit pixel to a point light, and any number of
+ * ambient-occlusion rays. They are functions of the frame alone, written here in the order of operations that other
+ * programs can repeat, so that two ray tracers can be compared ray by ray.
+ *
+ *   direction of pixel (x, y)   fwd + px right + py up, px = (x + 0.5) (2 / width) - 1,
+ *                               py = 1 - (y + 0.5) (2 / height)
+ *   origin                      eye + 0.9999 t direction: just before the hit
+ *   shadow ray                  towards light - origin, t from 0 to 1
+ *   ambient-occlusion ray s     a hashed point of the octahedron, turned to the side of the surface that the eye sees,
+ *                               t from 0 to infinity; the hash is of 64 o + s, where o numbers the pixels in blocks of
+ *                               4x4, blocks row by row and pixels row by row within a block
+ *
+ * A pass finds the hit pixels, in the order of o, then makes and traces rays batch by batch: the benchmark's threads
+ * fill the arrays of a batch, the library's threads trace it, each as many as the context has. */
+#ifndef BENCH_RAYS_H
+#define BENCH_RAYS_H
+
+#include <stdint.h>
+
+#include <cgt/cgt.h>
+
+#include "bench_planes.h"
+#include "bench_threads.h"
+
+#define BENCH_MOST_AO_RAYS 1024u
+
+/* The axes of a perspective camera; right and up are scaled to half the picture. */
+typedef struct bench_camera_axes {
+    float eye[3], fwd[3], right[3], up[3];
+    uint32_t width, height;
+} bench_camera_axes;
+
+void bench_camera_axes_init(bench_camera_axes *axes, const cgt_camera *camera, uint32_t width, uint32_t height);
+
+typedef struct bench_rays bench_rays;
+
+/* threads, axes and planes are used, not copied; most_ao: the largest number that bench_rays_ao will be asked for.
+ * NULL where memory is refused. */
+bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *axes, const bench_planes *planes,
+                              uint32_t most_ao);
+
+/* NULL is ignored. */
+void bench_rays_release(bench_rays *rays);
+
+/* Traces one shadow ray per hit pixel into planes->shadow; hidden gets the number of those that met something. */
+cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const float light[3], uint64_t *hidden);
+
+/* Traces `samples` ambient-occlusion rays per hit pixel; open gets the number of those that met nothing. */
+cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, uint32_t samples, uint64_t *open);
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A scene over the moving spheres of a trajectory, and how a configuration of the library is named in a table. */
+#ifndef BENCH_SCENE_H
+#define BENCH_SCENE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cgt/cgt.h>
+
+typedef struct bench_scene {
+    cgt_context *context; /* not owned */
+    cgt_scene *scene;
+    const float *xyzr;
+    uint32_t geometry;
+    uint32_t held; /* spheres that the geometry has now */
+} bench_scene;
+
+/* threads: as in cgt_context_options. variant: NULL for the widest. */
+cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context);
+
+/* resolution: 0, 0, 0 for the library's choice. */
+cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *xyzr,
+                              const uint32_t resolution[3]);
+void bench_scene_release(bench_scene *scene);
+
+/* Tells the library that there are `count` spheres, where that changed, and commits. */
+cgt_result bench_scene_commit(bench_scene *scene, uint32_t count);
+
+/* Prints what failed and the library's message. Returns PROGRAM_FAILED. */
+int bench_scene_failed(const cgt_context *context, const char *what, cgt_result result);
+
+/* What can be set of a trace; zero and NULL are the library's choices, cull and mailbox are given as they are. */
+typedef struct bench_choice {
+    const char *variant;
+    uint32_t packet;
+    cgt_tile_shape tile;
+    cgt_loop loop;
+    int cull;
+    int mailbox;
+    const char *grid; /* resolution in words: "16x16x16", "auto*2" */
+} bench_choice;
+
+#define BENCH_NAME_SIZE 160
+
+const char *bench_structure_name(cgt_structure structure);
+const char *bench_loop_name(cgt_loop loop);
+const char *bench_tile_name(cgt_tile_shape tile);
+
+/* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
+void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);
+
+/* The trace options of a choice; statistics NULL where nothing is to be counted. */
+void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options);
+
+#endif

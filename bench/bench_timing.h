@@ -1,0 +1,26 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The clock of cgt-bench, and what it makes of many measurements: medians and quartiles, because a shared machine
+ * has outliers in one direction only. */
+#ifndef BENCH_TIMING_H
+#define BENCH_TIMING_H
+
+#include <stddef.h>
+
+/* Milliseconds of a clock that never goes back. */
+double bench_now_ms(void);
+
+typedef struct bench_spread {
+    double low; /* first quartile */
+    double median;
+    double high; /* third quartile */
+} bench_spread;
+
+/* Sorts the values in place. All zero where count is 0. */
+bench_spread bench_spread_of(double *values, size_t count);
+
+/* Sorts the values in place; the mean of the middle two where count is even; 0 where count is 0. */
+double bench_median(double *values, size_t count);
+
+#endif

@@ -1,0 +1,59 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * cgt-bench: measures the library on moving spheres.
+ *   cgt-bench frame   one frame at a time, as a renderer would: build, primary, shadow, ambient-occlusion rays
+ *   cgt-bench loops   the ways to traverse, against each other */
+#include <string.h>
+
+#include "bench.h"
+
+typedef struct command {
+    const char *name;
+    char *full_name; /* what argp shows as the program's name */
+    int (*run)(int argc, char **argv);
+} command;
+
+static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops";
+static const command commands[] = {{"frame", frame_name, bench_frame}, {"loops", loops_name, bench_loops}};
+
+typedef struct choice {
+    const command *command;
+    int first; /* where the sub-command stands in argv */
+} choice;
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+    choice *chosen = state->input;
+    switch (key) {
+    case ARGP_KEY_ARG:
+        for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+            if (!strcmp(argument, commands[i].name))
+                chosen->command = &commands[i];
+        if (!chosen->command)
+            argp_error(state, "no sub-command %s: frame or loops", argument);
+        chosen->first = state->next - 1;
+        state->next = state->argc; /* the rest is the sub-command's */
+        return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "a sub-command is missing: frame or loops"); return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const struct argp parser = {
+        .parser = parse,
+        .args_doc = "frame FILE [OPTION...]\nloops FILE [OPTION...]",
+        .doc = "Measures libcgt on moving spheres, rebuilding the structure every frame; prints tab-separated values."
+               "\v  frame   times building and tracing, as a renderer spends it\n"
+               "  loops   compares the ways to traverse the structure\n\n"
+               "cgt-bench frame --help and cgt-bench loops --help list the options of each."};
+    choice chosen = {NULL, 0};
+
+    program_init("cgt-bench");
+    if (argp_parse(&parser, argc, argv, ARGP_IN_ORDER, NULL, &chosen))
+        return program_exit(PROGRAM_USAGE);
+    argv[chosen.first] = chosen.command->full_name;
+    return program_exit(chosen.command->run(argc - chosen.first, argv + chosen.first));
+}

@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# cgt_compile_options: how every file of this repository is compiled, whatever CFLAGS says. Target options come after
+# CFLAGS on the command line, so they win.
+include(CheckCCompilerFlag)
+
+add_library(cgt_compile_options INTERFACE)
+target_compile_features(cgt_compile_options INTERFACE c_std_11)
+
+# -fno-fast-math       exact decisions rest on IEEE arithmetic; a -ffast-math in CFLAGS must not reach them
+# -fno-math-errno      sqrt becomes one instruction; nothing here reads errno after it
+# -fno-trapping-math   nothing here reads the exception flags; a selection may then become vector code. Values stay
+# -ffp-contract=off    a fused multiply-add that the compiler chose gives the two edges of a pair different roundings,
+#                      and different bits on machines with and without the instruction: cracks appear, and results
+#                      depend on the variant. Where a kernel wants a fused operation it says so by its name.
+# The order matters: -fno-fast-math switches the others back to their defaults.
+set(cgt_arithmetic_flags -fno-fast-math -fno-math-errno -fno-trapping-math -ffp-contract=off)
+set(cgt_warning_flags -Wall -Wextra -Wshadow)
+if(CGT_WERROR)
+    list(APPEND cgt_warning_flags -Werror)
+endif()
+target_compile_options(cgt_compile_options INTERFACE ${cgt_arithmetic_flags} ${cgt_warning_flags})
+
+if(CGT_SANITIZE)
+    set(cgt_sanitize_flags "-fsanitize=${CGT_SANITIZE}" -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    set(CMAKE_REQUIRED_LINK_OPTIONS "-fsanitize=${CGT_SANITIZE}")
+    check_c_compiler_flag("-fsanitize=${CGT_SANITIZE}" CGT_SANITIZE_WORKS)
+    unset(CMAKE_REQUIRED_LINK_OPTIONS)
+    if(NOT CGT_SANITIZE_WORKS)
+        message(FATAL_ERROR "CGT_SANITIZE=${CGT_SANITIZE}: the compiler does not know these sanitizers, "
+                            "or their run-time library is not installed")
+    endif()
+    add_compile_options(${cgt_sanitize_flags}) # all folders, test programs included
+    add_link_options(${cgt_sanitize_flags})
+endif()
+
+# cgt_use_c11(target...): C11 without extensions, with the options above.
+function(cgt_use_c11)
+    foreach(target IN LISTS ARGN)
+        set_target_properties(${target} PROPERTIES C_STANDARD 11 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+        target_link_libraries(${target} PRIVATE cgt_compile_options)
+    endforeach()
+endfunction()

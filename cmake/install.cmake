@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# Headers, both libraries, the CMake package and the pkg-config file: component "library". All of it is relocatable.
+# Programs are in component "programs", by the CMakeLists.txt of their folders.
+set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
+
+# The headers of the vocabulary (simd/) that users may include as <cgt/...>.
+set(cgt_simd_headers
+    simd/spu_intrinsics.h
+    simd/spu_neon.h
+    simd/spu_portable.h
+    simd/spu_sse.h
+    simd/spu_types.h)
+
+install(FILES include/cgt/cgt.h include/cgt/version.h ${cgt_simd_headers}
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)
+install(TARGETS cgt_static cgt_shared EXPORT cgtTargets
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)
+
+install(EXPORT cgtTargets NAMESPACE cgt:: DESTINATION "${cgt_package_dir}" COMPONENT library)
+configure_package_config_file(cmake/cgtConfig.cmake.in "${PROJECT_BINARY_DIR}/cgtConfig.cmake"
+                              INSTALL_DESTINATION "${cgt_package_dir}" NO_SET_AND_CHECK_MACRO)
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+    set(cgt_compatibility SameMinorVersion)
+else()
+    set(cgt_compatibility SameMajorVersion)
+endif()
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/cgtConfigVersion.cmake" COMPATIBILITY ${cgt_compatibility})
+install(FILES "${PROJECT_BINARY_DIR}/cgtConfig.cmake" "${PROJECT_BINARY_DIR}/cgtConfigVersion.cmake"
+        DESTINATION "${cgt_package_dir}" COMPONENT library)
+
+# The .pc file finds its prefix from its own place, so that the tree can be moved.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+    set(cgt_pc_prefix "${CMAKE_INSTALL_PREFIX}")
+    set(cgt_pc_libdir "${CMAKE_INSTALL_FULL_LIBDIR}")
+    set(cgt_pc_includedir "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+else()
+    file(RELATIVE_PATH cgt_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+    set(cgt_pc_prefix "\${pcfiledir}/${cgt_pc_up}")
+    set(cgt_pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+    set(cgt_pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+configure_file(cmake/cgt.pc.in "${PROJECT_BINARY_DIR}/cgt.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/cgt.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT library)

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# The variant table. All of src/kernel/ is compiled once per row, with the row's flags and
+#     -DCGT_VARIANT=<name>  -DCGT_VARIANT_<NAME>=1  -DCGT_LANES=<lanes>
+# and src/variant.c learns of the row by -DCGT_HAVE_<NAME>=1. Adding a width is adding a row here and one in the
+# table of src/variant.c. Rows go from narrow to wide.
+#
+#   NAME     of the variant and of its object library, cgt_kernel_<name>
+#   LANES    floats in a vector
+#   WHERE    a condition of the preprocessor that the compiler must meet; absent: any machine
+#   FLAGS    of the compiler; they come after CFLAGS, so a -march there does not take them away
+#   DEFINES  further definitions
+include(CheckCCompilerFlag)
+include(CheckCSourceCompiles)
+
+set(CGT_VARIANTS "") # the rows that this compiler can build
+
+function(cgt_variant)
+    cmake_parse_arguments(row "" "NAME;LANES;WHERE" "FLAGS;DEFINES" ${ARGN})
+    if(row_UNPARSED_ARGUMENTS OR NOT row_NAME MATCHES "^[a-z0-9_]+$" OR NOT row_LANES MATCHES "^[0-9]+$")
+        message(FATAL_ERROR "cmake/variants.cmake: bad row: ${ARGN}")
+    endif()
+    string(TOUPPER "${row_NAME}" upper)
+    set(CMAKE_REQUIRED_QUIET ON) # a row that is not for this machine is no failure
+    if(row_WHERE)
+        check_c_source_compiles("#if !(${row_WHERE})\n#error not this machine\n#endif\nint main(void) { return 0; }"
+                                CGT_MACHINE_HAS_${upper})
+        if(NOT CGT_MACHINE_HAS_${upper})
+            return()
+        endif()
+    endif()
+    if(row_FLAGS)
+        string(REPLACE ";" " " flags "${row_FLAGS}")
+        check_c_compiler_flag("${flags}" CGT_COMPILER_HAS_${upper})
+        if(NOT CGT_COMPILER_HAS_${upper})
+            message(STATUS "Variant ${row_NAME}: left out, the compiler refuses ${flags}")
+            return()
+        endif()
+    endif()
+    set(CGT_VARIANTS ${CGT_VARIANTS} ${row_NAME} PARENT_SCOPE)
+    set(CGT_VARIANT_${row_NAME}_FLAGS ${row_FLAGS} PARENT_SCOPE)
+    set(CGT_VARIANT_${row_NAME}_DEFINES ${row_DEFINES} CGT_VARIANT=${row_NAME} CGT_VARIANT_${upper}=1
+                                        CGT_LANES=${row_LANES} PARENT_SCOPE)
+    set(CGT_VARIANT_${row_NAME}_HAVE CGT_HAVE_${upper}=1 PARENT_SCOPE)
+endfunction()
+
+# ---- The table --------------------------------------------------------------------------------------------------
+
+cgt_variant(NAME portable LANES 4 DEFINES CGT_SPU_PORTABLE)
+cgt_variant(NAME sse      LANES 4 WHERE "defined(__x86_64__)"  FLAGS -msse4.1)
+cgt_variant(NAME neon     LANES 4 WHERE "defined(__aarch64__)")
+
+# ---- Its use ----------------------------------------------------------------------------------------------------
+
+# cgt_use_variant(target row): compiles the target as the row says.
+function(cgt_use_variant target row)
+    target_compile_options(${target} PRIVATE ${CGT_VARIANT_${row}_FLAGS})
+    target_compile_definitions(${target} PRIVATE ${CGT_VARIANT_${row}_DEFINES})
+endfunction()
+
+# cgt_list_variants(target): tells the target which rows exist.
+function(cgt_list_variants target)
+    foreach(row IN LISTS CGT_VARIANTS)
+        target_compile_definitions(${target} PRIVATE ${CGT_VARIANT_${row}_HAVE})
+    endforeach()
+endfunction()
+
+string(REPLACE ";" ", " cgt_variants_text "${CGT_VARIANTS}")
+message(STATUS "Variants: ${cgt_variants_text}")

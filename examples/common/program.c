@@ -1,0 +1,305 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the programs share. */
+#define _GNU_SOURCE /* argp */
+#include "program.h"
+
+#include <argp.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static const char *program_name = "cgt";
+static int bar_is_shown; /* the terminal's line holds a progress bar */
+
+/* ---- Start, errors, end ------------------------------------------------------------------------------------- */
+
+static void print_version(FILE *stream, struct argp_state *state)
+{
+    (void)state;
+    fprintf(stream, "%s (libcgt %s)\n", program_name, CGT_VERSION_STRING);
+}
+
+void program_init(const char *name)
+{
+    program_name = name;
+    argp_program_version_hook = print_version;
+    argp_err_exit_status = PROGRAM_USAGE;
+}
+
+static void clear_bar(void)
+{
+    if (bar_is_shown) {
+        fputs("\r\033[K", stderr);
+        bar_is_shown = 0;
+    }
+}
+
+void program_error(const char *format, ...)
+{
+    va_list arguments;
+    fflush(stdout); /* so that both streams stay in order in one log */
+    clear_bar();
+    fprintf(stderr, "%s: ", program_name);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+}
+
+int program_exit(int code)
+{
+    errno = 0;
+    const int failed = fflush(stdout) != 0 || ferror(stdout);
+    if (failed && code == PROGRAM_OK) {
+        program_error("standard output: %s", strerror(errno != 0 ? errno : EIO));
+        return PROGRAM_FAILED;
+    }
+    return code;
+}
+
+/* ---- Numbers ------------------------------------------------------------------------------------------------ */
+
+static int refuse(char *error, size_t error_size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+static int refuse(char *error, size_t error_size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (error != NULL && error_size > 0) {
+        vsnprintf(error, error_size, format, arguments);
+    }
+    va_end(arguments);
+    return -1;
+}
+
+/* Reads decimal digits at *text and moves it behind them. Returns 0, or -1: no digit, or beyond 64 bits. */
+static int scan_u64(const char **text, uint64_t *value)
+{
+    const char *p = *text;
+    uint64_t number = 0;
+    if (*p < '0' || *p > '9') {
+        return -1;
+    }
+    for (; *p >= '0' && *p <= '9'; p++) {
+        const uint64_t digit = (uint64_t)(*p - '0');
+        if (number > (UINT64_MAX - digit) / 10) {
+            return -1;
+        }
+        number = 10 * number + digit;
+    }
+    *text = p;
+    *value = number;
+    return 0;
+}
+
+int program_parse_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size)
+{
+    const char *p = text;
+    uint64_t number = 0;
+    if (scan_u64(&p, &number) || *p != '\0' || number < min || number > max) {
+        return refuse(error, error_size, "'%.80s' is not a whole number from %" PRIu64 " to %" PRIu64, text, min, max);
+    }
+    *value = number;
+    return 0;
+}
+
+int program_parse_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size)
+{
+    uint64_t number = 0;
+    if (program_parse_u64(text, min, max, &number, error, error_size)) {
+        return -1;
+    }
+    *value = (uint32_t)number;
+    return 0;
+}
+
+/* Reads a finite number at *text and moves it behind it. */
+static int scan_float(const char **text, float *value)
+{
+    const char first = **text;
+    char *end;
+    if (!((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.')) {
+        return -1; /* no blanks, nan, inf */
+    }
+    const float number = strtof(*text, &end);
+    if (end == *text || !isfinite(number)) {
+        return -1;
+    }
+    *text = end;
+    *value = number;
+    return 0;
+}
+
+int program_parse_float(const char *text, float min, float max, float *value, char *error, size_t error_size)
+{
+    const char *p = text;
+    float number;
+    if (scan_float(&p, &number) || *p != '\0' || !(number >= min && number <= max)) {
+        return refuse(error, error_size, "'%.80s' is not a number from %g to %g", text, (double)min, (double)max);
+    }
+    *value = number;
+    return 0;
+}
+
+int program_parse_floats(const char *text, size_t count, float *values, char *error, size_t error_size)
+{
+    float numbers[16];
+    const char *p = text;
+    if (count > sizeof numbers / sizeof numbers[0]) {
+        return refuse(error, error_size, "more than 16 numbers cannot be read at once");
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (scan_float(&p, &numbers[i]) || *p != (i + 1 < count ? ',' : '\0')) {
+            return refuse(error, error_size, "'%.200s' is not %zu numbers with commas between them", text, count);
+        }
+        p++;
+    }
+    memcpy(values, numbers, count * sizeof *values);
+    return 0;
+}
+
+int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size)
+{
+    const char *p = text;
+    uint64_t w = 0, h = 0;
+    int wrong = scan_u64(&p, &w) || *p != 'x';
+    if (!wrong) {
+        p++;
+        wrong = scan_u64(&p, &h) || *p != '\0';
+    }
+    if (wrong || w < 1 || h < 1 || w > 65536 || h > 65536) {
+        return refuse(error, error_size, "'%.80s' is not a size like 1280x720 with edges from 1 to 65536", text);
+    }
+    *width = (uint32_t)w;
+    *height = (uint32_t)h;
+    return 0;
+}
+
+/* ---- Camera ------------------------------------------------------------------------------------------------- */
+
+static double length3(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/* Whether up is zero, or so close to the view's direction that no picture would stand upright. */
+static int up_is_parallel(const float view[3], const float up[3])
+{
+    const double v[3] = {(double)view[0], (double)view[1], (double)view[2]};
+    const double u[3] = {(double)up[0], (double)up[1], (double)up[2]};
+    const double c[3] = {v[1] * u[2] - v[2] * u[1], v[2] * u[0] - v[0] * u[2], v[0] * u[1] - v[1] * u[0]};
+    return !(length3(c) > 1e-6 * length3(v) * length3(u));
+}
+
+int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size)
+{
+    float v[10] = {0};
+    if (program_parse_floats(text, 10, v, error, error_size)) {
+        return refuse(error, error_size, "'%.200s' is not ex,ey,ez,tx,ty,tz,ux,uy,uz,fov: ten numbers", text);
+    }
+    const float *const eye = v, *const target = v + 3, *const up = v + 6;
+    const float view[3] = {target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]};
+    if (view[0] == 0.0f && view[1] == 0.0f && view[2] == 0.0f) {
+        return refuse(error, error_size, "eye and target are the same point");
+    }
+    if (up_is_parallel(view, up)) {
+        return refuse(error, error_size, "up is zero, or parallel to the view from eye to target");
+    }
+    if (!(v[9] > 0.0f && v[9] < 180.0f)) {
+        return refuse(error, error_size, "the angle %g is not above 0 and below 180 degrees", (double)v[9]);
+    }
+    camera->projection = CGT_PERSPECTIVE;
+    memcpy(camera->eye, eye, sizeof camera->eye);
+    memcpy(camera->target, target, sizeof camera->target);
+    memcpy(camera->up, up, sizeof camera->up);
+    camera->fov = v[9];
+    return 0;
+}
+
+/* ---- Progress ----------------------------------------------------------------------------------------------- */
+
+#define BAR_WIDTH 30
+#define BAR_EVERY 0.1  /* seconds between two bars on a terminal */
+#define LINE_EVERY 5.0 /* seconds between two lines elsewhere */
+
+double program_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void program_progress_start(program_progress *p, const char *what, const char *unit, double total, int quiet)
+{
+    p->what = what;
+    p->unit = unit;
+    p->total = total;
+    p->start = p->last = program_seconds();
+    p->terminal = isatty(STDERR_FILENO);
+    p->quiet = quiet;
+}
+
+/* Writes " 01:23 left", with hours where there are any. */
+static void write_time_left(char *text, size_t size, double seconds)
+{
+    const double most = 99 * 3600.0;
+    const unsigned s = (unsigned)(seconds < most ? seconds + 0.5 : most);
+    if (s >= 3600) {
+        snprintf(text, size, ", %u:%02u:%02u left", s / 3600, s / 60 % 60, s % 60);
+    } else {
+        snprintf(text, size, ", %02u:%02u left", s / 60, s % 60);
+    }
+}
+
+static void draw_bar(double share)
+{
+    char bar[BAR_WIDTH + 1];
+    const int full = (int)(share * BAR_WIDTH);
+    memset(bar, '.', BAR_WIDTH);
+    memset(bar, '#', (size_t)full);
+    bar[BAR_WIDTH] = '\0';
+    fprintf(stderr, "[%s] ", bar);
+}
+
+void program_progress_update(program_progress *p, double done, double share)
+{
+    const double now = program_seconds();
+    if (p->quiet || now - p->last < (p->terminal ? BAR_EVERY : LINE_EVERY)) {
+        return;
+    }
+    p->last = now;
+    const double seconds = now - p->start;
+    share = share < 0.0 && p->total > 0.0 ? done / p->total : share;
+    share = share > 1.0 ? 1.0 : share;
+    char left[40] = "";
+    if (share > 0.0) {
+        write_time_left(left, sizeof left, seconds * (1.0 - share) / share);
+    }
+    clear_bar();
+    fprintf(stderr, "%s ", p->what);
+    if (p->terminal && share >= 0.0) {
+        draw_bar(share);
+    }
+    if (share >= 0.0) {
+        fprintf(stderr, "%3.0f %%, ", 100.0 * share);
+    }
+    fprintf(stderr, "%.0f %s, %.1f/s%s", done, p->unit, seconds > 0.0 ? done / seconds : 0.0, left);
+    if (p->terminal) {
+        fflush(stderr);
+        bar_is_shown = 1;
+    } else {
+        fputc('\n', stderr);
+    }
+}
+
+void program_progress_end(program_progress *p)
+{
+    if (!p->quiet) {
+        clear_bar();
+    }
+}

@@ -1,0 +1,79 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the programs share: version text, exit codes, numbers and cameras from the command line, progress.
+ * A parser returns 0, or -1 with a sentence in error; hand it to argp_error with the option's name before it:
+ *     if (program_parse_size(arg, &width, &height, error, sizeof error))
+ *         argp_error(state, "-s: %s", error);
+ * argp_error ends the program with PROGRAM_USAGE. A parser that fails changes none of its results. */
+#ifndef PROGRAM_H
+#define PROGRAM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cgt/cgt.h>
+
+/* Exit codes of every program. */
+enum {
+    PROGRAM_OK = 0,
+    PROGRAM_FAILED = 1, /* something went wrong at run time: a file, memory, a damaged input */
+    PROGRAM_USAGE = 2   /* the command line is wrong; nothing was done */
+};
+
+#define PROGRAM_ERROR_SIZE 1024 /* enough for a path, a line number and a sentence */
+
+/* First call of main. Sets up argp: --version prints "NAME (libcgt X.Y.Z)", a wrong option exits with PROGRAM_USAGE.
+ * name: "cgt-render"; must stay valid. Links no part of the library: the version is that of its header. */
+void program_init(const char *name);
+
+/* Prints "NAME: text" and a line feed to standard error, ending a progress bar that is on the terminal's line. */
+void program_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Flushes standard output and returns `code`; PROGRAM_FAILED with a message where the output could not be written
+ * (a full disk, a closed pipe) and code was PROGRAM_OK. Last call of main. */
+int program_exit(int code);
+
+/* A whole number from min to max, decimal digits only. */
+int program_parse_u64(const char *text, uint64_t min, uint64_t max, uint64_t *value, char *error, size_t error_size);
+int program_parse_u32(const char *text, uint32_t min, uint32_t max, uint32_t *value, char *error, size_t error_size);
+
+/* A finite number from min to max, both included. */
+int program_parse_float(const char *text, float min, float max, float *value, char *error, size_t error_size);
+
+/* Exactly `count` finite numbers with commas between them; count is at most 16. */
+int program_parse_floats(const char *text, size_t count, float *values, char *error, size_t error_size);
+
+/* A picture's size, "1280x720": each edge 1 to 65,536 pixels. */
+int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char *error, size_t error_size);
+
+/* A camera, "ex,ey,ez,tx,ty,tz,ux,uy,uz,fov": eye, target, up, vertical angle in degrees. Sets projection, eye,
+ * target, up and fov and leaves the rest of camera as it is. Refuses eye = target, an up that is zero or parallel to
+ * the view, and an angle that is not above 0 and below 180. */
+int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size);
+
+/* Progress on standard error: one line that is rewritten on a terminal, a plain line about every five seconds
+ * elsewhere. Start, then update as often as you like (it limits its own rate), then end. */
+typedef struct program_progress {
+    const char *what; /* "rendering" */
+    const char *unit; /* "frames" */
+    double total;     /* what `done` will be at the end; 0: not known */
+    double start;     /* seconds */
+    double last;      /* seconds, of the last line written */
+    int terminal;
+    int quiet; /* writes nothing */
+} program_progress;
+
+void program_progress_start(program_progress *p, const char *what, const char *unit, double total, int quiet);
+
+/* done: units finished, for the count and the rate. share: 0 to 1, the part of the work that is done, for the bar and
+ * the time left; negative: done / total. */
+void program_progress_update(program_progress *p, double done, double share);
+
+/* Takes the bar off the terminal's line. */
+void program_progress_end(program_progress *p);
+
+/* Seconds of a clock that only goes forwards. */
+double program_seconds(void);
+
+#endif

@@ -1,0 +1,79 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Text for the readers: lines with their numbers, words, and numbers that are read exactly as strtof reads them.
+ *   span    a piece of a line: [begin, end)
+ *   reader  a file, one line at a time, through a buffer that grows to the longest line
+ * The byte at a line's end is zero, so that the C library's functions stop there. Numbers have a decimal point: the
+ * programs stay in the C locale. */
+#ifndef TRAJECTORY_TEXT_H
+#define TRAJECTORY_TEXT_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct text_span {
+    const char *begin;
+    const char *end;
+} text_span;
+
+typedef struct text_reader {
+    FILE *file;
+    char *data; /* capacity + 1 bytes */
+    size_t capacity;
+    size_t begin;  /* the next line starts here */
+    size_t end;    /* bytes in data */
+    uint64_t line; /* number of the line that was read last, from 1 */
+    int at_end;    /* the file has no more bytes than those in data */
+} text_reader;
+
+#define TEXT_LONGEST_LINE ((size_t)1 << 20) /* bytes; longer ones are not text, and must not fill the memory */
+
+void text_reader_init(text_reader *r, FILE *file);
+void text_reader_free(text_reader *r);
+
+/* Forgets what was read, after the file went back to its start. */
+void text_reader_restart(text_reader *r);
+
+/* Reads a line without its line feed (or carriage return and line feed): 1 line read, 0 end of the file, -1 error,
+ * *what gets a sentence. The span is valid until the next call. */
+int text_reader_next(text_reader *r, text_span *line, const char **what);
+
+/* Takes the next word off the front of rest: 1, or 0 where there is none. */
+static inline int text_word(text_span *rest, text_span *word)
+{
+    const char *p = rest->begin;
+    while (p < rest->end && (*p == ' ' || (*p >= '\t' && *p <= '\r'))) {
+        p++;
+    }
+    word->begin = p;
+    while (p < rest->end && *p != ' ' && !(*p >= '\t' && *p <= '\r')) {
+        p++;
+    }
+    word->end = p;
+    rest->begin = p;
+    return word->begin < word->end;
+}
+
+static inline size_t text_length(text_span span) { return (size_t)(span.end - span.begin); }
+
+/* Whether the span is `text`, or begins with it. */
+int text_is(text_span span, const char *text);
+int text_begins(text_span span, const char *text);
+
+/* Whether the span holds nothing but blanks. */
+int text_is_blank(text_span span);
+
+/* Numbers: the whole word, or 0. NaN and infinity are numbers; too large for a float is infinity, as in strtof. Words
+ * must lie in a line of a reader, or have a blank or a zero after them. */
+int text_float(text_span word, float *value);
+int text_double(text_span word, double *value);
+int text_i64(text_span word, int64_t *value);
+int text_u64(text_span word, uint64_t max, uint64_t *value);
+
+/* The word for a message: cut, and without bytes that a terminal would act on. Returns buffer. */
+#define TEXT_QUOTE_SIZE 44
+const char *text_quote(text_span word, char buffer[TEXT_QUOTE_SIZE]);
+
+#endif

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# dependencies.sh PURPOSE...
+# Installs the Debian packages that the purposes below need and that are missing, as root or through sudo, and says
+# which. Where nothing is missing, apt is not called at all. On other systems: install what the table names.
+set -euo pipefail
+
+packages_of() {
+    case $1 in
+    build)  echo gcc libc6-dev make cmake ;;                                       # the library
+    render) echo g++ libopenimageio-dev ;;                                         # cgt-render
+    tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ ;; # tests of this machine's build
+    cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
+                 qemu-user xz-utils ;;                                             # tests of the other machines' builds
+    lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
+    *)      echo "dependencies.sh: unknown purpose '$1': build, render, tests, cross, lint" >&2; return 1 ;;
+    esac
+}
+
+[ $# -gt 0 ] || { echo "usage: dependencies.sh build|render|tests|cross|lint ..." >&2; exit 2; }
+wanted=()
+for purpose in "$@"; do
+    list=$(packages_of "$purpose")
+    read -ra names <<<"$list"
+    wanted+=("${names[@]}")
+done
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "dependencies.sh: this is no Debian system; trusting that these are installed: ${wanted[*]}"
+    exit 0
+fi
+
+missing=()
+for name in "${wanted[@]}"; do
+    status=$(dpkg-query -W -f='${db:Status-Status}\n' "$name" 2>/dev/null || true)
+    grep -qx installed <<<"$status" || [[ " ${missing[*]} " == *" $name "* ]] || missing+=("$name")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+        echo "dependencies.sh: missing, and neither root nor sudo: apt-get install ${missing[*]}" >&2
+        exit 1
+    }
+    as_root=(sudo)
+fi
+echo "dependencies.sh: installing ${missing[*]}"
+"${as_root[@]}" apt-get -q update
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y --no-install-recommends \
+    -o Dpkg::Use-Pty=0 install "${missing[@]}" </dev/null

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# lint.sh [--fix]
+# Looks at every file that git knows or would take: heading, layout (clang-format), spelling (codespell), and the likely
+# mistakes of .clang-tidy on what build/release compiles. --fix lets clang-format write.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/dependencies.sh build render tests lint
+jobs=$(nproc)
+status=0
+fail() {
+    echo "lint.sh: $1"
+    status=1
+}
+
+mapfile -t files < <(git ls-files --cached --others --exclude-standard | LC_ALL=C sort -u |
+    while read -r file; do [ ! -f "$file" ] || echo "$file"; done)
+texts=() code=()
+for file in "${files[@]}"; do
+    case $file in
+    *.c|*.h|*.cpp) code+=("$file") texts+=("$file") ;;
+    *.md|*.sh|*.cmake|*.in|*.txt|.ci/*|NEWS|LICENSE) texts+=("$file") ;;
+    esac
+done
+[ ${#code[@]} -gt 0 ] || { echo "lint.sh: no source file found"; exit 1; }
+
+echo "== heading"
+for file in "${code[@]}"; do
+    head -n 2 "$file" | tr '\n' '~' |
+        grep -q '^/\* SPDX-FileCopyrightText: 2026 The libcgt authors~ \* SPDX-License-Identifier: MIT~' ||
+        fail "$file: no SPDX heading"
+done
+for file in "${texts[@]}"; do
+    case $file in
+    *.sh|*.cmake|*.cmake.in|CMakeLists.txt|*/CMakeLists.txt|.ci/*)
+        head -n 3 "$file" | grep -q '^# SPDX-License-Identifier: MIT$' || fail "$file: no SPDX heading" ;;
+    esac
+done
+
+echo "== layout"
+if [ "${1:-}" = --fix ]; then
+    clang-format-14 -i "${code[@]}"
+fi
+clang-format-14 --dry-run -Werror "${code[@]}" || fail "clang-format would write these otherwise; scripts/lint.sh --fix"
+if grep -nE '[[:space:]]+$' "${texts[@]}"; then
+    fail "space at the end of a line"
+fi
+
+echo "== spelling"
+codespell --ignore-words=scripts/codespell_ignore.txt "${texts[@]}" || fail "codespell"
+
+echo "== likely mistakes"
+mkdir -p build
+# the whole tree, so that every file is in the compile database
+cmake --preset release -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=ON >build/lint.log 2>&1 || {
+    tail -n 30 build/lint.log
+    exit 1
+}
+# Kernels are compiled once per variant; a file is looked at once per entry. One process per file.
+sed -nE 's/^ *"file": "(.*)",?$/\1/p' build/release/compile_commands.json | sort -u >build/lint_files.txt
+[ -s build/lint_files.txt ] || { echo "lint.sh: empty compile database"; exit 1; }
+tr '\n' '\0' <build/lint_files.txt |
+    xargs -0 -n 1 -P "$jobs" clang-tidy-14 --quiet -p build/release 2>build/lint_tidy.log || fail "clang-tidy"
+if grep -E 'error: ' build/lint_tidy.log; then
+    fail "clang-tidy could not read a file"
+fi
+
+[ $status = 0 ] && echo "lint.sh: ${#files[@]} files, nothing to say"
+exit $status

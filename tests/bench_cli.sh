@@ -1,0 +1,240 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# The command line of cgt-bench: tables, counts that can be worked out by hand, hits files, errors and exit codes.
+#   bench_cli.sh CGT_BENCH DATA_DIR [EMULATOR...]
+set -u
+
+bench=$1
+data=$2
+shift 2
+tmp=$(mktemp -d) || exit 1
+trap 'rm -rf "$tmp"' EXIT
+failures=0
+
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+
+# run CODE ARGUMENTS...: runs cgt-bench (under $emulator), output in $tmp/out and $tmp/err, and checks the exit code.
+emulator="$*"
+run() {
+    wanted=$1
+    shift
+    $emulator "$bench" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null
+    got=$?
+    [ "$got" -eq "$wanted" ] || fail "exit code $got, not $wanted: cgt-bench $*: $(head -n 3 "$tmp/err")"
+}
+
+# says WHERE PATTERN: the output or the error text has a line that matches.
+says() {
+    grep -q -e "$2" "$tmp/$1" || fail "no \"$2\" in std$1: $(head -n 3 "$tmp/$1")"
+}
+
+# refuses CODE PATTERN ARGUMENTS...: an error with a text, and nothing on standard output but a table's head.
+refuses() {
+    refused_code=$1
+    refused_text=$2
+    shift 2
+    run "$refused_code" "$@"
+    says err "$refused_text"
+    says err '^cgt-bench'
+    [ "$(grep -c -v '^config' "$tmp/out")" -eq 0 ] || fail "output beside an error: cgt-bench $*"
+}
+
+# cell COLUMN [ROW]: a cell of the table in $tmp/out; rows count from 1 below the head.
+cell() {
+    awk -F '\t' -v name="$1" -v row="${2:-1}" '
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) column = i }
+        NR == row + 1 { print $column }' "$tmp/out"
+}
+
+is() {
+    [ "$2" = "$3" ] || fail "$1 is \"$2\", not \"$3\""
+}
+
+# ---- Scenes ---------------------------------------------------------------------------------------------------------
+
+one='\001\000\000\000'
+two='\002\000\000\000'
+zero='\000\000\000\000'
+f1='\000\000\200\077'  # 1.0f
+f2='\000\000\000\100'  # 2.0f
+nan='\000\000\300\177'
+unit_sphere="$one$zero$zero$zero$f1"
+
+# Two frames of a unit sphere at the origin; the same with a sphere that is not a number; an empty frame, then a sphere.
+printf "CGTFRAM1$one$two$zero$zero$unit_sphere$unit_sphere" >"$tmp/unit.frames"
+printf "CGTFRAM1$one$one$zero$zero$unit_sphere" >"$tmp/single.frames"
+printf "CGTFRAM1$one$one$zero$zero$two$nan$zero$zero$f2$zero$zero$zero$f1" >"$tmp/nan.frames"
+printf "CGTFRAM1$one$two$zero$zero$zero$unit_sphere" >"$tmp/empty_first.frames"
+printf "CGTFRAM1$one$zero$zero$zero" >"$tmp/no_frame.frames"
+printf "CGTFRAM1$one$two$zero$zero$unit_sphere$one$zero" >"$tmp/short.frames"
+printf '2\ncomment\nC 0 0 0\nC 1 here 0\n' >"$tmp/bad.xyz"
+printf 'XYZ' >"$tmp/what.unknown"
+
+head='config	threads	build_ms	primary_ms	shadow_ms	ao_ms	frame_ms	hit_pixels	ao_open'
+front='-c 0,0,-5,0,0,0,0,1,0,45 -s 63x47'
+
+# ---- Help and version -----------------------------------------------------------------------------------------------
+
+run 0 --version
+says out '^cgt-bench (libcgt [0-9]*\.[0-9]*\.[0-9]*)$'
+run 0 --help
+says out 'frame'
+says out 'loops'
+for command in frame loops; do
+    run 0 $command --help
+    says out "Usage: cgt-bench $command"
+    for option in --camera --size --threads --frames --repeat --packet --grid --variant; do
+        says out "$option"
+    done
+done
+refuses 2 'sub-command'
+refuses 2 'no sub-command dance' dance
+refuses 2 'FILE' frame
+refuses 2 'FILE' loops
+
+# ---- frame ----------------------------------------------------------------------------------------------------------
+
+# A unit sphere from five units away: a pixel hits where its ray passes the centre within one unit.
+expected=$(awk 'BEGIN {
+    width = 63; height = 47; slope = sin(atan2(0, -1) / 8) / cos(atan2(0, -1) / 8)
+    for (y = 0; y < height; y++) for (x = 0; x < width; x++) {
+        u = (2 * (x + 0.5) / width - 1) * slope * width / height; v = (1 - 2 * (y + 0.5) / height) * slope
+        if (25 * (u * u + v * v) <= 1 + u * u + v * v) hits++
+    }
+    print hits }')
+run 0 frame "$tmp/unit.frames" $front
+is 'the head of the table' "$(head -n 1 "$tmp/out")" "$head"
+is 'the number of lines' "$(wc -l <"$tmp/out" | tr -d ' ')" 2
+is config "$(cell config)" grid-queue
+is threads "$(cell threads)" 1
+is hit_pixels "$(cell hit_pixels)" "$expected"
+is shadow_ms "$(cell shadow_ms)" 0.000
+is ao_ms "$(cell ao_ms)" 0.000
+is ao_open "$(cell ao_open)" 0
+
+# From outside a lone sphere no ambient-occlusion ray meets anything; with one frame the columns add up.
+run 0 frame "$tmp/single.frames" $front -l 3,4,-5 -a 16 -t 2 -o "$tmp/hits.bin"
+is threads "$(cell threads)" 2
+is ao_open "$(cell ao_open)" $((16 * expected))
+awk -F '\t' 'NR == 2 { sum = $3 + $4 + $5 + $6; exit !($3 >= 0 && $4 > 0 && $5 > 0 && $6 > 0 &&
+    sum - $7 < 0.003 && $7 - sum < 0.003) }' "$tmp/out" || fail "times do not add up: $(tail -n 1 "$tmp/out")"
+
+# The hits file: eight bytes a pixel; t within the sphere, primitive 0, or infinity and all ones.
+is 'the size of the hits file' "$(wc -c <"$tmp/hits.bin" | tr -d ' ')" $((63 * 47 * 8))
+counted=$(od -An -v -tu1 "$tmp/hits.bin" | awk '
+    { for (i = 1; i <= NF; i++) { b[n++] = $i; if (n == 8) { n = 0; pixel() } } }
+    function pixel(  t) {
+        if (b[4] + b[5] + b[6] + b[7] == 4 * 255) { if (b[3] != 127 || b[2] != 128 || b[1] || b[0]) bad++; return }
+        if (b[4] || b[5] || b[6] || b[7]) bad++
+        t = (b[2] % 128 + 128 + b[1] / 256 + b[0] / 65536) / 128 * 2 ^ (b[3] * 2 + int(b[2] / 128) - 127)
+        if (t < 3.99 || t > 5) bad++
+        hits++
+    }
+    END { print hits + 0, bad + 0 }')
+is 'hits and bad pixels of the hits file' "$counted" "$expected 0"
+
+# From inside the sphere every pixel hits it, and no ray gets out.
+run 0 frame "$tmp/unit.frames" -c 0,0,-0.5,0,0,0,0,1,0,90 -s 32x24 -a 4 -l 0,0,0
+is hit_pixels "$(cell hit_pixels)" $((32 * 24))
+is ao_open "$(cell ao_open)" 0
+
+# Threads, packets, tiles and loops change no bit of the hits.
+run 0 frame "$tmp/unit.frames" $front -o "$tmp/reference.bin"
+for options in '-t 2' '-k 4' '-k 8' '-k 16' '--tile strip' '--loop nested' '--loop flattened' '--no-cull' \
+    '--mailbox' '-g 3,4,5' '-r 2'; do
+    run 0 frame "$tmp/unit.frames" $front $options -o "$tmp/hits.bin"
+    cmp -s "$tmp/reference.bin" "$tmp/hits.bin" || fail "other hits with $options"
+done
+is config "$(cell config)" grid-queue
+run 0 frame "$tmp/unit.frames" $front -k 8 -g 3,4,5 --loop nested --no-cull
+is config "$(cell config)" 'grid-queue,packet=8,loop=nested,cull=off,grid=3x4x5'
+
+# --all: the library's choice, then packets and tiles; the same pixels hit in every row.
+run 0 frame "$tmp/unit.frames" $front -a 2 --all
+is 'the number of lines' "$(wc -l <"$tmp/out" | tr -d ' ')" 6
+agree=$(awk -F '\t' -v e="$expected" 'NR > 1 && $8 == e && $9 == 2 * e { n++ } END { print n + 0 }' "$tmp/out")
+is 'rows that agree' "$agree" 5
+
+# Odd scenes: a sphere that is not a number is skipped; an empty frame is a frame.
+run 0 frame "$tmp/nan.frames" $front -v
+is hit_pixels "$(cell hit_pixels)" "$expected"
+says err '2 primitives, 1 skipped'
+run 0 frame "$tmp/empty_first.frames" $front -a 1 -l 0,9,0
+is hit_pixels "$(cell hit_pixels)" "$expected"
+run 0 frame "$tmp/empty_first.frames" $front -n 1 -a 1 -l 0,9,0
+is hit_pixels "$(cell hit_pixels)" 0
+
+# ---- loops ----------------------------------------------------------------------------------------------------------
+
+run 0 loops "$tmp/unit.frames" -c 0,0,-5,0,0,0,0,1,0,45 -s 32x24 -k 8 -g 4,4,4 --variant portable
+is 'the head of the table' "$(head -n 1 "$tmp/out")" "config	variant	loop	cull	mailbox	packet	resolution	build_ms	\
+trace_ms	tests_per_ray	packet_tests	slices	cells	references	ms"
+is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" 8
+is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/out")" 4
+is 'pairs of culling' "$(grep -c '^# cull	' "$tmp/out")" 4
+is 'pairs of mailboxing' "$(grep -c '^# mailbox	' "$tmp/out")" 4
+says out '^# hits	2 frames	8 configurations	30 traces compared	0 different'
+
+# The shipped trajectory: all configurations find the same hits, and culling saves tests.
+trajectory=$(find "$data" -name '*.lammpstrj' | sort | head -n 1)
+if [ -n "$trajectory" ]; then
+    run 0 loops "$trajectory" -c 10,-30,14,10,6,9,0,0,1,45 -s 64x48 -n 10 -t 2
+    says out '	0 different	'
+    variants=$(grep '^grid-queue' "$tmp/out" | cut -f 2 | sort -u | wc -l)
+    is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" $((38 * variants))
+    grep '^# cull	' "$tmp/out" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
+        fail "culling saves nothing: $(grep '^# cull' "$tmp/out" | head -n 2)"
+else
+    fail "no .lammpstrj in $data"
+fi
+
+# ---- Errors ---------------------------------------------------------------------------------------------------------
+
+unit=$tmp/unit.frames
+for command in frame loops; do
+    refuses 1 'missing\.frames' $command "$tmp/missing.frames"
+    refuses 1 'no_frame\.frames' $command "$tmp/no_frame.frames"
+    refuses 1 'short\.frames' $command "$tmp/short.frames"
+    refuses 1 'bad\.xyz:4' $command "$tmp/bad.xyz"
+    refuses 1 'what\.unknown' $command "$tmp/what.unknown"
+    refuses 2 '-s' $command "$unit" -s 0x0
+    refuses 2 '-s' $command "$unit" -s 64
+    refuses 2 '-s' $command "$unit" -s 99999999999x99999999999
+    refuses 2 'pixels' $command "$unit" -s 65536x65536
+    refuses 2 '-c' $command "$unit" -c 0,0,0,0,0,0,0,1,0,45
+    refuses 2 '-c' $command "$unit" -c 0,0,5,0,0,0,0,0,1,45
+    refuses 2 '-c' $command "$unit" -c 0,0,5,0,0,0,0,1,0,180
+    refuses 2 '-c' $command "$unit" -c 0,0,5,0,0,0,0,1,0,0
+    refuses 2 '-k' $command "$unit" -k 5
+    refuses 2 '-g' $command "$unit" -g 4,4
+    refuses 2 '-g' $command "$unit" -g 4,4,4,4
+    refuses 2 '-g' $command "$unit" -g 0,4,4
+    refuses 1 '' $command "$unit" -g 1024,1024,1024
+    refuses 2 '-t' $command "$unit" -t 100000
+    refuses 2 '-n' $command "$unit" -n 0
+    refuses 2 '-r' $command "$unit" -r 0
+    refuses 2 'variant' $command "$unit" --variant abacus
+    refuses 2 'one FILE' $command "$unit" "$unit"
+    refuses 2 '' $command "$unit" --nonsense
+done
+refuses 2 '-a' frame "$unit" -a 1025
+refuses 2 '-a' frame "$unit" -a -1
+refuses 2 '-l' frame "$unit" -l 1,2
+refuses 2 '--loop' frame "$unit" --loop round
+refuses 2 '--tile' frame "$unit" --tile round
+refuses 2 '--all' frame "$unit" --all -k 4
+refuses 1 'no/such/folder' frame "$unit" -o "$tmp/no/such/folder/hits.bin"
+if [ -c /dev/full ]; then
+    run 1 frame "$unit" $front -o /dev/full
+    says err '/dev/full'
+    $emulator "$bench" frame "$unit" $front >/dev/full 2>"$tmp/err"
+    is 'exit code with a full disk' $? 1
+fi
+
+[ "$failures" -eq 0 ] || { echo "$failures failures" >&2; exit 1; }
+echo 'cgt-bench: command line as described'

@@ -1,0 +1,139 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# The command line of cgt-convert: what it writes, what it refuses, and that a run that fails leaves nothing behind.
+#   convert_cli.sh CGT_CONVERT DATA_DIR [EMULATOR...]
+set -u
+
+convert=$1
+data=$2
+shift 2
+tmp=$(mktemp -d) || exit 1
+trap 'rm -rf "$tmp"' EXIT
+out=$tmp/out # the folder that the program writes to
+mkdir "$out" || exit 1
+failures=0
+
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+
+# run CODE ARGUMENTS...: runs cgt-convert (under $emulator) and checks the exit code.
+emulator="$*"
+run() {
+    wanted=$1
+    shift
+    $emulator "$convert" "$@" >"$tmp/stdout" 2>"$tmp/stderr" </dev/null
+    got=$?
+    [ "$got" -eq "$wanted" ] || fail "exit code $got, not $wanted: cgt-convert $*: $(head -n 3 "$tmp/stderr")"
+}
+
+# says out|err PATTERN
+says() {
+    grep -q -e "$2" "$tmp/std$1" || fail "no \"$2\" in std$1: $(head -n 3 "$tmp/std$1")"
+}
+
+# refuses CODE PATTERN ARGUMENTS...: an error with a text, nothing on standard output, the output's folder untouched.
+refuses() {
+    refused_code=$1
+    refused_text=$2
+    shift 2
+    before=$(ls -l "$out")
+    run "$refused_code" "$@"
+    says err "$refused_text"
+    [ -s "$tmp/stdout" ] && fail "text on standard output: cgt-convert $*"
+    [ "$(ls -l "$out")" = "$before" ] || fail "the output's folder changed: cgt-convert $*: $(ls "$out")"
+}
+
+# holds FILE BYTES
+holds() {
+    size=$(wc -c <"$1")
+    [ "$size" -eq "$2" ] || fail "$1 holds $size bytes, not $2"
+}
+
+# ---- What it writes ------------------------------------------------------------------------------------------------
+
+shipped=$data/pour2k.lammpstrj
+run 0 "$shipped" "$out/all.frames"
+says out '76 frames, 0 to 2000 spheres'
+spheres=$(awk '/^ITEM: NUMBER/ { getline; n += $1 } END { print n }' "$shipped")
+holds "$out/all.frames" $((24 + 4 * 76 + 16 * spheres))
+[ -e "$out/all.frames" ] && [ "$(ls "$out" | wc -l)" -eq 1 ] || fail "more than the output: $(ls "$out")"
+
+run 0 -q "$out/all.frames" "$out/again.frames"
+[ -s "$tmp/stdout" ] && fail "-q prints"
+cmp -s "$out/all.frames" "$out/again.frames" || fail "a .frames file changes on its way through"
+
+# Frames 0, 2, 4 of five; each has its number plus one spheres.
+for n in 1 2 3 4 5; do
+    printf '%d\n\n' "$n"
+    i=0
+    while [ "$i" -lt "$n" ]; do
+        echo "C $i $n 0"
+        i=$((i + 1))
+    done
+done >"$tmp/five.xyz"
+run 0 --every=2 "$tmp/five.xyz" "$out/five.frames"
+holds "$out/five.frames" $((24 + 4 * 3 + 16 * 9))
+run 0 --first=1 --last=2 "$tmp/five.xyz" "$out/five.frames"
+says out '2 frames, 2 to 3 spheres'
+holds "$out/five.frames" $((24 + 4 * 2 + 16 * 5))
+
+# The radius, as bytes: 1.7 of carbon, and 0.25 as asked for.
+radius() { od -A n -t x1 -j 40 -N 4 "$1" | tr -d ' \n'; }
+run 0 --last=0 "$tmp/five.xyz" "$out/radius.frames"
+[ "$(radius "$out/radius.frames")" = 9a99d93f ] || fail "radius of carbon: $(radius "$out/radius.frames")"
+run 0 -r 0.25 --last=0 "$tmp/five.xyz" "$out/radius.frames"
+[ "$(radius "$out/radius.frames")" = 0000803e ] || fail "radius 0.25: $(radius "$out/radius.frames")"
+
+# A link stays a link, a mode stays as it was, and a new file gets the usual one.
+ln -s five.frames "$out/link.frames"
+chmod 640 "$out/five.frames"
+run 0 "$tmp/five.xyz" "$out/link.frames"
+[ -h "$out/link.frames" ] || fail "the link was replaced"
+holds "$out/five.frames" $((24 + 4 * 5 + 16 * 15))
+[ "$(ls -l "$out/five.frames" | cut -c 1-10)" = -rw-r----- ] || fail "the mode changed"
+(umask 022 && run 0 "$tmp/five.xyz" "$out/new.frames" && [ "$failures" -eq 0 ]) || fail "a new file"
+[ "$(ls -l "$out/new.frames" | cut -c 1-10)" = -rw-r--r-- ] || fail "the mode of a new file"
+
+# ---- What it refuses ------------------------------------------------------------------------------------------------
+
+head -n 500 "$shipped" >"$tmp/cut.lammpstrj"
+refuses 1 'cut.lammpstrj:500: the file ends after' "$tmp/cut.lammpstrj" "$out/cut.frames"
+refuses 1 'cut.lammpstrj:500: the file ends after' "$tmp/cut.lammpstrj" "$out/all.frames"
+refuses 1 'no frames to convert' --first=5 "$tmp/five.xyz" "$out/none.frames"
+: >"$tmp/empty.xyz"
+refuses 1 'empty.xyz: no frames to convert' "$tmp/empty.xyz" "$out/none.frames"
+refuses 1 'missing.xyz: No such file' "$tmp/missing.xyz" "$out/none.frames"
+refuses 1 'the ending is not one of' "$tmp/five.pdb" "$out/none.frames"
+refuses 1 'No such file' "$tmp/five.xyz" "$out/no/folder/x.frames"
+mkdir "$out/folder.frames"
+refuses 1 'not a regular file' "$tmp/five.xyz" "$out/folder.frames"
+refuses 2 'must end in .frames' "$tmp/five.xyz" "$out/five.lammpstrj"
+refuses 2 'an input and an output are needed' "$tmp/five.xyz"
+refuses 2 'only an input and an output' "$tmp/five.xyz" "$out/a.frames" "$out/b.frames"
+refuses 2 '-r: .*is not a number' -r 0 "$tmp/five.xyz" "$out/a.frames"
+refuses 2 '--every: .*is not a whole number' --every=0 "$tmp/five.xyz" "$out/a.frames"
+refuses 2 '--first 3 is after --last 2' --first=3 --last=2 "$tmp/five.xyz" "$out/a.frames"
+refuses 2 'unrecognized option' --nonsense "$tmp/five.xyz" "$out/a.frames"
+
+# No room: a limit on the size of files, at which writing fails.
+(
+    trap '' XFSZ
+    ulimit -f 8 2>/dev/null || exit 0
+    refuses 1 'File too large' "$shipped" "$out/big.frames"
+    exit "$failures"
+) || fail "a file that cannot grow"
+
+run 0 --help
+says out 'Usage: '
+run 0 --version
+says out '^cgt-convert (libcgt [0-9]*\.[0-9]*\.[0-9]*)$'
+if [ -w /dev/full ]; then
+    $emulator "$convert" --last=0 "$tmp/five.xyz" "$out/five.frames" >/dev/full 2>"$tmp/stderr"
+    [ $? -eq 1 ] || fail "standard output that cannot be written"
+fi
+
+[ "$failures" -eq 0 ] || exit 1

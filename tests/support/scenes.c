@@ -1,0 +1,121 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Contexts, clouds of spheres and scenes for tests. */
+#include "scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- contexts ---- */
+
+const char *variant_next(size_t *index)
+{
+    for (const char *name; (name = cgt_variants()[*index]); ++*index) {
+        cgt_context_options options;
+        cgt_context *context;
+        cgt_context_options_init(&options);
+        options.variant = name;
+        options.threads = 1;
+        const cgt_result result = cgt_context_create(&options, &context);
+        if (result == CGT_ERROR_UNSUPPORTED) continue;
+        assert_int_equal(result, CGT_OK);
+        cgt_context_release(context);
+        ++*index;
+        return name;
+    }
+    return NULL;
+}
+
+cgt_context *context_make(uint32_t threads, const char *variant)
+{
+    cgt_context_options options;
+    cgt_context *context = NULL;
+    cgt_context_options_init(&options);
+    options.threads = threads;
+    options.variant = variant;
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    return context;
+}
+
+const char *context_message(const cgt_context *context)
+{
+    static char text[512];
+    text[0] = 0;
+    cgt_error_message(context, text, sizeof text);
+    return text;
+}
+
+/* ---- clouds ---- */
+
+const char *cloud_name(cloud_kind kind)
+{
+    static const char *const name[CLOUD_KINDS] = {"uniform", "clustered", "planar", "mixed", "far", "lattice", "line"};
+    return name[kind];
+}
+
+static void place_sphere(test_random *r, const cloud *c, cloud_kind kind, const float (*clump)[3], int flat, float q[4])
+{
+    const float size = c->reach / cbrtf((float)c->count + 1);
+    const float *around = kind == CLOUD_CLUSTERED ? clump[random_below(r, 8)] : c->middle;
+    const float reach = kind == CLOUD_CLUSTERED ? 0.05f * c->reach : c->reach;
+    for (int a = 0; a < 3; a++) q[a] = random_float(r, around[a] - reach, around[a] + reach);
+    q[3] = random_float(r, 0.3f, 0.6f) * size;
+    if (kind == CLOUD_PLANAR) q[flat] = c->middle[flat];
+    if (kind == CLOUD_LINE)
+        for (int a = 0; a < 3; a++) q[a] = a == flat ? q[a] : c->middle[a];
+    if (kind == CLOUD_MIXED) {
+        const float factor = random_log(r, 1e-3f, 1e3f); /* the largest would hide all else: few of them */
+        q[3] *= factor > 10 && random_below(r, 20) ? 1 : factor;
+    }
+    if (kind == CLOUD_LATTICE) {
+        for (int a = 0; a < 3; a++) q[a] = rintf(q[a] / size) * size;
+        q[3] = random_below(r, 2) ? size : size / 2;
+    }
+}
+
+cloud cloud_make(test_random *r, cloud_kind kind, uint32_t count)
+{
+    cloud c = {.count = count, .reach = kind == CLOUD_LATTICE ? 8 : random_log(r, 0.5f, 50)};
+    float clump[8][3];
+    const int flat = (int)random_below(r, 3);
+    c.sphere = malloc((count + 1) * sizeof *c.sphere);
+    assert_non_null(c.sphere);
+    for (int a = 0; a < 3; a++) {
+        const float offset = kind == CLOUD_FAR ? random_log(r, 1e3f, 1e5f) : 0;
+        c.middle[a] = kind == CLOUD_LATTICE ? 0 : random_float(r, -1, 1) + offset;
+        for (int k = 0; k < 8; k++) clump[k][a] = c.middle[a] + random_float(r, -1, 1) * c.reach;
+    }
+    for (uint32_t i = 0; i < count; i++) place_sphere(r, &c, kind, (const float(*)[3])clump, flat, c.sphere[i]);
+    return c;
+}
+
+void cloud_free(cloud *c)
+{
+    free(c->sphere);
+    *c = (cloud){0};
+}
+
+/* ---- scenes ---- */
+
+cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count)
+{
+    return (cgt_spheres){.count = count,
+                         .centers = sphere ? sphere[0] : NULL,
+                         .center_stride = sizeof sphere[0],
+                         .radii = sphere ? &sphere[0][3] : NULL,
+                         .radius_stride = sizeof sphere[0]};
+}
+
+cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count)
+{
+    const cgt_spheres spheres = spheres_of(sphere, count);
+    cgt_scene *scene = NULL;
+    uint32_t geometry = CGT_NONE;
+    assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
+    assert_int_equal(geometry, 0);
+    if (cgt_scene_commit(scene) != CGT_OK) fail_msg("%s", context_message(context));
+    return scene;
+}

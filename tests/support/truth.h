@@ -1,0 +1,57 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The truth about rays and spheres: the textbook quadratic, which shares nothing with the library's form, in the widest
+ * arithmetic of the machine. On binary128 the discriminant of float input of like exponents is exact: products of four
+ * 25-bit differences fit 113 bits but for the last sums. */
+#ifndef TRUTH_H
+#define TRUTH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#if defined(__x86_64__) && defined(__SIZEOF_FLOAT128__)
+typedef __float128 truth_real; /* binary128 by the compiler's run-time library */
+#else
+typedef long double truth_real; /* binary128 on AArch64, a pair of doubles on POWER */
+#endif
+
+typedef struct truth_roots {
+    bool hit;             /* the line meets the closed ball */
+    truth_real near, far; /* its parameters, near <= far */
+    double h;             /* r^2 - (distance of centre and line)^2, negative for a miss */
+    double doubt_h;       /* what double precision may err in h */
+    double doubt_t;       /* and in t: 2^-50 of the distance to the centre, more where the ray grazes */
+} truth_roots;
+
+truth_roots truth_sphere(const float org[3], const float dir[3], const float sphere[4]);
+
+/* True where hit or miss is beyond the reach of double precision. */
+bool truth_in_doubt(const truth_roots *roots);
+
+/* True where t is within 1 ulp of the exact parameter, or within what double precision may err. */
+bool truth_accepts(const truth_roots *roots, truth_real exact, float t);
+
+/* True where t is within 1 ulp, or 2^-50 of the distance to the centre: the public header's words, grazing rays or
+ * not. */
+bool truth_accepts_strictly(const float org[3], const float dir[3], const float sphere[4], truth_real exact, float t);
+
+/* ---- A whole scene, by brute force ---- */
+
+typedef struct truth_ray {
+    float org[3], dir[3];
+    float t_min, t_max;
+} truth_ray;
+
+typedef struct truth_scene {
+    const float (*sphere)[4]; /* x, y, z, r in the order of ids */
+    uint32_t count;
+} truth_scene;
+
+#define TRUTH_NONE UINT32_MAX
+
+/* Judges an answer: the number of the sphere (TRUTH_NONE: none) and its t. Returns NULL, or what is wrong. Where double
+ * precision cannot tell, either answer is right; *doubts counts those. Equal spheres: the lower number is right. */
+const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t object, float t, uint64_t *doubts);
+
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Properties over random scenes: every pixel and every ray has the hit that brute force finds, for all kinds of
+ * clouds, cameras and options. A failure names the round; the seed that was printed makes it again. */
+#include "support/scenes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define WIDTH 61 /* no multiple of a packet or a tile */
+#define HEIGHT 47
+
+static cgt_trace_options random_options(test_random *r)
+{
+    cgt_trace_options o;
+    cgt_trace_options_init(&o);
+    o.packet = (uint32_t[]){0, 4, 8, 16}[random_below(r, 4)];
+    o.loop = (cgt_loop)random_below(r, 3);
+    o.cull = (int)random_below(r, 2);
+    o.mailbox = (int)random_below(r, 2);
+    o.tile = o.packet <= 4 ? (cgt_tile_shape)random_below(r, 3) : CGT_TILE_SQUARE;
+    return o;
+}
+
+static cgt_scene_options random_scene_options(test_random *r)
+{
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    if (random_below(r, 2))
+        for (int a = 0; a < 3; a++) o.resolution[a] = 1 + random_below(r, random_below(r, 6) ? 24 : 90);
+    return o;
+}
+
+static uint32_t random_count(test_random *r)
+{
+    return random_below(r, 3) ? random_below(r, 400) : random_below(r, 3001);
+}
+
+static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, uint64_t *doubts)
+{
+    enum { RAYS = 400 };
+    truth_ray ray[RAYS];
+    ray_hit hit[RAYS];
+    const truth_scene truth = {(const float(*)[4])c->sphere, c->count};
+    for (int i = 0; i < RAYS; i++) ray[i] = ray_random(r, c);
+    rays_trace(scene, ray, RAYS, hit, NULL);
+    for (int i = 0; i < RAYS; i++) {
+        const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, doubts);
+        if (wrong)
+            fail_msg("ray %d: %s (sphere %u, t %a): org %a %a %a dir %a %a %a range %a %a", i, wrong, hit[i].primitive,
+                     (double)hit[i].t, (double)ray[i].org[0], (double)ray[i].org[1], (double)ray[i].org[2],
+                     (double)ray[i].dir[0], (double)ray[i].dir[1], (double)ray[i].dir[2], (double)ray[i].t_min,
+                     (double)ray[i].t_max);
+    }
+}
+
+static void nearest_hit_is_that_of_brute_force(void **state)
+{
+    (void)state;
+    const uint32_t rounds = test_scaled(16);
+    uint64_t pixels = 0, hits = 0, doubts = 0;
+    FOR_EACH_VARIANT(variant) {
+        cgt_context *context = context_make(2, variant);
+        for (uint32_t round = 0; round < rounds * CLOUD_KINDS; round++) {
+            test_random r = random_make(round);
+            cloud c = cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), round < CLOUD_KINDS ? round / 2 : random_count(&r));
+            const cgt_scene_options scene_options = random_scene_options(&r);
+            const cgt_trace_options options = random_options(&r);
+            const cgt_camera camera = camera_random(&r, &c);
+            planes p = planes_make(WIDTH, HEIGHT);
+            truth_ray *rays = frame_rays(&camera, WIDTH, HEIGHT);
+            cgt_scene *scene = scene_of(context, &scene_options, (const float(*)[4])c.sphere, c.count);
+            print_message("round %u of %s: %u %s spheres\n", round, variant, c.count, cloud_name((cloud_kind)(round % CLOUD_KINDS)));
+            frame_trace(scene, &camera, &p, &options);
+            doubts += frame_judge(&p, rays, (const float(*)[4])c.sphere, c.count);
+            judge_rays(scene, &c, &r, &doubts);
+            for (size_t i = 0; i < p.elements; i++) hits += p.primitive[i] != CGT_NONE;
+            pixels += p.elements;
+            cgt_scene_release(scene);
+            free(rays);
+            planes_free(&p);
+            cloud_free(&c);
+        }
+        cgt_context_release(context);
+    }
+    print_message("%llu pixels, %llu hits, %llu beyond double precision\n", (unsigned long long)pixels,
+                  (unsigned long long)hits, (unsigned long long)doubts);
+    assert_true(hits > pixels / 10); /* the scenes were there to be seen */
+    assert_true(doubts <= pixels / 10000);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nearest_hit_is_that_of_brute_force)};
+    test_begin("test_properties");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
