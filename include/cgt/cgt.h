@@ -64,16 +64,16 @@ CGT_API const char *cgt_version(void);
  * release gets what allocate returned and the same number of bytes; never NULL. Both are called from the thread
  * that makes the call into the library, never from a worker thread. */
 typedef struct cgt_memory_hooks {
-    void *user;                                                        /* handed to both; default NULL */
-    void *(*allocate)(void *user, size_t bytes, size_t alignment);     /* default: the C library's */
-    void (*release)(void *user, void *memory, size_t bytes);           /* default: the C library's */
+    void *user;                                                    /* handed to both; default NULL */
+    void *(*allocate)(void *user, size_t bytes, size_t alignment); /* default: the C library's */
+    void (*release)(void *user, void *memory, size_t bytes);       /* default: the C library's */
 } cgt_memory_hooks;
 
 typedef enum cgt_log_level { CGT_LOG_ERROR = 0, CGT_LOG_WARNING, CGT_LOG_INFO } cgt_log_level;
 
 /* Log. write gets one line without a line feed; it may be called from any thread that calls the library. */
 typedef struct cgt_log_hook {
-    void *user;                                                           /* handed to write; default NULL */
+    void *user;                                                          /* handed to write; default NULL */
     void (*write)(void *user, cgt_log_level level, const char *message); /* default NULL: silent */
 } cgt_log_hook;
 
@@ -84,8 +84,8 @@ typedef void cgt_task(void *argument, uint32_t index);
  * when all have returned. With a runner set the library starts no thread of its own. A runner that runs the tasks
  * one after another on the calling thread is valid. Results do not depend on the order. */
 typedef struct cgt_task_runner {
-    void *user;                                                                  /* handed to run; default NULL */
-    void (*run)(void *user, cgt_task *task, void *argument, uint32_t count);     /* default NULL: own thread pool */
+    void *user;                                                              /* handed to run; default NULL */
+    void (*run)(void *user, cgt_task *task, void *argument, uint32_t count); /* default NULL: own thread pool */
 } cgt_task_runner;
 
 /* ---- Context ------------------------------------------------------------------------------------------------ */
@@ -138,12 +138,12 @@ typedef struct cgt_scene cgt_scene;
  * A sphere with a NaN, an infinity or a negative radius is skipped and counted; a radius of zero is a point, which
  * only a ray exactly through it hits. */
 typedef struct cgt_spheres {
-    uint32_t count;        /* spheres; 0 is valid */
-    const float *centers;  /* x, y, z of sphere i at byte i * center_stride; NULL only where count is 0 */
-    size_t center_stride;  /* bytes, a multiple of 4; 0 (default): 12 */
-    const float *radii;    /* radius of sphere i at byte i * radius_stride; NULL: all have `radius` */
-    size_t radius_stride;  /* bytes, a multiple of 4; 0 (default): 4 */
-    float radius;          /* world units, used where radii is NULL; 0 or more */
+    uint32_t count;       /* spheres; 0 is valid */
+    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL only where count is 0 */
+    size_t center_stride; /* bytes, a multiple of 4; 0 (default): 12 */
+    const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL: all have `radius` */
+    size_t radius_stride; /* bytes, a multiple of 4; 0 (default): 4 */
+    float radius;         /* world units, used where radii is NULL; 0 or more */
 } cgt_spheres;
 
 typedef enum cgt_structure {
@@ -186,15 +186,15 @@ CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
 /* What the last commit found, chose and spent. */
 typedef struct cgt_scene_statistics {
-    cgt_structure structure;      /* what was built; AUTO before the first commit */
-    char reason[128];             /* why, in words */
-    uint32_t geometries;          /* that the scene holds */
-    uint32_t primitives;          /* given, skipped ones included */
-    uint32_t skipped_not_finite;  /* spheres with a NaN or an infinity */
-    uint32_t skipped_radius;      /* spheres with a negative radius */
-    float bounds_min[3];          /* of all that was not skipped, rounded outwards; 0 where there is nothing */
+    cgt_structure structure;     /* what was built; AUTO before the first commit */
+    char reason[128];            /* why, in words */
+    uint32_t geometries;         /* that the scene holds */
+    uint32_t primitives;         /* given, skipped ones included */
+    uint32_t skipped_not_finite; /* spheres with a NaN or an infinity */
+    uint32_t skipped_radius;     /* spheres with a negative radius */
+    float bounds_min[3];         /* of all that was not skipped, rounded outwards; 0 where there is nothing */
     float bounds_max[3];
-    uint32_t resolution[3];       /* cells along x, y, z */
+    uint32_t resolution[3]; /* cells along x, y, z */
     uint64_t cells;
     uint64_t references;          /* primitives in cells, counted once per cell, overflow included */
     uint64_t overflow_references; /* those that found a full queue and went to the overflow list */
@@ -252,6 +252,8 @@ typedef struct cgt_trace_statistics {
     uint64_t ray_tests;       /* rays tested against a sphere: lanes, padding excluded */
     uint64_t double_tests;    /* of those, the ones that single precision could not decide */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
+    float mean_pixels;        /* a camera's frame: about how many pixels the mean sphere is across, which chooses the
+                                 packet; 0 for arrays of rays */
     uint32_t packet_size;     /* 4, 8 or 16 of a camera's frame; 0 for arrays of rays */
     cgt_tile_shape tile;      /* what was used */
     cgt_loop loop;            /* what was used */
@@ -259,7 +261,8 @@ typedef struct cgt_trace_statistics {
 } cgt_trace_statistics;
 
 typedef struct cgt_trace_options {
-    uint32_t packet;                  /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): chosen */
+    uint32_t packet;                  /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): 16 where
+                                         the mean sphere is 24 pixels across or more, else 8; 4 in strips */
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
     int cull;                         /* test spheres against a packet's frustum first; default 1 */
@@ -309,15 +312,15 @@ typedef int cgt_tile_visitor(void *user, const cgt_tile *tile);
 
 /* Where a camera's frame goes: into planes, to a visitor while the tile is in cache, or both. */
 typedef struct cgt_frame {
-    uint32_t width, height;     /* pixels, each 1 to 65,536 */
-    size_t row_stride;          /* elements from one row of the planes to the next; 0 (default): width */
-    float *t;                   /* planes of row_stride * height elements, aligned as their type; NULL: not wanted */
+    uint32_t width, height; /* pixels, each 1 to 65,536 */
+    size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */
+    float *t;               /* planes of row_stride * height elements, aligned as their type; NULL: not wanted */
     uint32_t *primitive;
     uint32_t *geometry;
-    float *normal[3];           /* all three or none */
-    cgt_tile_visitor *visitor;  /* NULL: none */
-    void *visitor_user;         /* handed to the visitor */
-    uint32_t visitor_fields;    /* cgt_field values that the visitor is to get, combined */
+    float *normal[3];          /* all three or none */
+    cgt_tile_visitor *visitor; /* NULL: none */
+    void *visitor_user;        /* handed to the visitor */
+    uint32_t visitor_fields;   /* cgt_field values that the visitor is to get, combined */
 } cgt_frame;
 
 /* Sets all to zero but the size: ask for what you want. */
