@@ -15,7 +15,7 @@
 #include "bench_scene.h"
 #include "bench_timing.h"
 
-enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_NO_CULL, OPTION_MAILBOX };
+enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX };
 enum { BUILD, PRIMARY, SHADOW, AO, FRAME, COLUMNS };
 
 typedef struct frame_settings {
@@ -27,7 +27,8 @@ typedef struct frame_settings {
     int all;
     cgt_loop loop;
     cgt_tile_shape tile;
-    int cull, mailbox;
+    cgt_cull cull;
+    int mailbox;
 } frame_settings;
 
 typedef struct frame_job {
@@ -52,8 +53,8 @@ static const struct argp_option options[] = {
     {"all", OPTION_ALL, NULL, 0, "one row for each packet size and tile shape", 4},
     {"loop", OPTION_LOOP, "NAME", 0, "nested or flattened", 4},
     {"tile", OPTION_TILE, "NAME", 0, "square or strip", 4},
-    {"no-cull", OPTION_NO_CULL, NULL, 0, "do not test spheres against a packet's frustum", 4},
-    {"mailbox", OPTION_MAILBOX, NULL, 0, "remember the spheres that a packet has met", 4},
+    {"cull", OPTION_CULL, "NAME", 0, "off, frustum or blocks", 4},
+    {"no-mailbox", OPTION_NO_MAILBOX, NULL, 0, "do not remember the spheres that a packet has met", 4},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 /* Index of a name in a list, counted from 1; ends the program where there is none. */
@@ -65,6 +66,15 @@ static int name_index(struct argp_state *state, const char *option, const char *
     if (strcmp(name, second) != 0)
         argp_error(state, "%s: %s or %s, not %s", option, first, second, name);
     return 2;
+}
+
+static cgt_cull cull_by_name(struct argp_state *state, const char *name)
+{
+    for (int cull = CGT_CULL_NONE; cull <= CGT_CULL_BLOCKS; cull++)
+        if (!strcmp(name, bench_cull_name((cgt_cull)cull)))
+            return (cgt_cull)cull;
+    argp_error(state, "--cull: off, frustum or blocks, not %s", name);
+    return CGT_CULL_BLOCKS;
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -93,8 +103,8 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         settings->tile =
             name_index(state, "--tile", argument, "square", "strip") == 1 ? CGT_TILE_SQUARE : CGT_TILE_STRIP;
         return 0;
-    case OPTION_NO_CULL: settings->cull = 0; return 0;
-    case OPTION_MAILBOX: settings->mailbox = 1; return 0;
+    case OPTION_CULL: settings->cull = cull_by_name(state, argument); return 0;
+    case OPTION_NO_MAILBOX: settings->mailbox = 0; return 0;
     case ARGP_KEY_END:
         if (settings->all && (settings->shared.packet || settings->tile != CGT_TILE_AUTO))
             argp_error(state, "--all goes through packets and tiles itself: leave out -k and --tile");
@@ -319,7 +329,8 @@ int bench_frame(int argc, char **argv)
 
     memset(&settings, 0, sizeof settings);
     bench_settings_init(&settings.shared);
-    settings.cull = 1;
+    settings.cull = CGT_CULL_BLOCKS;
+    settings.mailbox = 1;
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
         return PROGRAM_USAGE;
 

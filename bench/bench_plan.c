@@ -19,13 +19,15 @@ static const struct grid {
     double scale;
 } grids[] = {{0, 1.0}, {0, 0.5}, {0, 2.0}, {8, 1.0}, {12, 1.0}, {16, 1.0}, {24, 1.0}, {32, 1.0}};
 
-enum { GRIDS = sizeof grids / sizeof grids[0], PACKETS = 3, SWITCHES = 4, LOOPS = 2 };
+enum { GRIDS = sizeof grids / sizeof grids[0], PACKETS = 3, SWITCHES = 6, LOOPS = 2 };
 enum { MOST_ROWS_PER_GROUP = PACKETS * SWITCHES * LOOPS };
 
 static const uint32_t packets[PACKETS] = {4, 8, 16};
 static const struct {
-    int cull, mailbox;
-} switches[SWITCHES] = {{1, 0}, {0, 0}, {1, 1}, {0, 1}};
+    cgt_cull cull;
+    int mailbox;
+} switches[SWITCHES] = {{CGT_CULL_BLOCKS, 1},  {CGT_CULL_BLOCKS, 0}, {CGT_CULL_FRUSTUM, 1},
+                        {CGT_CULL_FRUSTUM, 0}, {CGT_CULL_NONE, 1},   {CGT_CULL_NONE, 0}};
 static const cgt_loop loops[LOOPS] = {CGT_LOOP_NESTED, CGT_LOOP_FLATTENED};
 
 static void label_group(bench_group *group)
@@ -41,7 +43,7 @@ static void label_group(bench_group *group)
 }
 
 /* A row for each pair of loops: all packets and switches at the first grid, at the others only the library's own
- * packet with culling. */
+ * packet, culling and mailbox. */
 static void add_rows(bench_plan *plan, const bench_settings *settings, int every_switch)
 {
     const size_t group = plan->group_count - 1;

@@ -44,7 +44,7 @@ static void print_row(const bench_plan *plan, const bench_row *row, size_t frame
     const double both = bench_median(scratch, values);
 
     printf("%s\t%s\t%s\t%s\t%s\t%u\t%s\t%.3f\t%.3f", name, group->variant, bench_loop_name(total->loop),
-           row->choice.cull ? "on" : "off", row->choice.mailbox ? "on" : "off", (unsigned)total->packet_size,
+           bench_cull_name(row->choice.cull), row->choice.mailbox ? "on" : "off", (unsigned)total->packet_size,
            resolution_text(group, grid), build, trace);
     printf("\t%.3f\t%.0f\t%.0f\t%.0f\t%.0f\t%.3f\n", per(total->ray_tests, total->rays),
            per(total->packet_tests, frames), per(total->slices, frames), per(total->cells, frames),
@@ -67,7 +67,7 @@ int bench_report_table(const bench_plan *plan, size_t frames)
 /* ---- Ratios -------------------------------------------------------------------------------------------------- */
 
 /* The row that differs from this one in loop, culling or mailbox only; NULL where the plan has none. */
-static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, int cull, int mailbox)
+static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, cgt_cull cull, int mailbox)
 {
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *other = &plan->rows[i];
@@ -100,7 +100,7 @@ static void print_pair(const bench_plan *plan, const char *what, const bench_row
 {
     const bench_group *group = &plan->groups[row->group];
     printf("# %s\t%s\t%s\t%s\t%s\t%u\t%s\t%.3f", what, group->variant, bench_loop_name(row->choice.loop),
-           row->choice.cull ? "on" : "off", row->choice.mailbox ? "on" : "off", (unsigned)row->total.packet_size,
+           bench_cull_name(row->choice.cull), row->choice.mailbox ? "on" : "off", (unsigned)row->total.packet_size,
            group->label, ratio);
 }
 
@@ -137,29 +137,28 @@ static void report_loops(const bench_plan *plan, double *scratch, double *ratios
     print_spread("nested/flattened", ratios, pairs);
 }
 
-/* How many times fewer rays are tested against spheres where the packet's frustum is tested first. */
-static void report_culling(const bench_plan *plan, double *scratch, double *ratios)
+/* How many times fewer rays are tested against spheres with one way of culling than with another. */
+static void report_culling(const bench_plan *plan, cgt_cull with, cgt_cull without, double *scratch, double *ratios)
 {
     size_t pairs = 0;
-    printf("#\n# Ray-sphere tests without culling over those with it (Chapman quotes 4 to 8 from Wald et al.), and "
-           "the times' ratio\n");
-    printf("# what\tvariant\tloop\tcull\tmailbox\tpacket\tresolution\ttests_off/tests_on\ttests_per_ray_off\t"
+    const char *what = with == CGT_CULL_FRUSTUM ? "frustum" : "blocks";
+    printf("#\n# what\tvariant\tloop\tcull\tmailbox\tpacket\tresolution\ttests_off/tests_on\ttests_per_ray_off\t"
            "tests_per_ray_on\ttime_off/time_on\n");
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *on = &plan->rows[i];
-        if (!on->choice.cull)
+        if (on->choice.cull != with)
             continue;
-        const bench_row *off = partner(plan, on, on->choice.loop, 0, on->choice.mailbox);
+        const bench_row *off = partner(plan, on, on->choice.loop, without, on->choice.mailbox);
         if (!off)
             continue;
         const uint64_t tests_on = on->total.ray_tests, tests_off = off->total.ray_tests;
         const double cut = tests_on ? (double)tests_off / (double)tests_on : 0.0;
         ratios[pairs++] = cut;
-        print_pair(plan, "cull", on, cut);
+        print_pair(plan, what, on, cut);
         printf("\t%.3f\t%.3f\t%.3f\n", per(tests_off, off->total.rays), per(tests_on, on->total.rays),
                time_ratio(plan, off, on, scratch).median);
     }
-    print_spread("cull", ratios, pairs);
+    print_spread(what, ratios, pairs);
 }
 
 /* What remembering spheres costs, and how many tests it saves. */
@@ -189,7 +188,11 @@ int bench_report_ratios(const bench_plan *plan)
     double *ratios = calloc(plan->row_count + 1, sizeof *ratios);
     if (scratch && ratios) {
         report_loops(plan, scratch, ratios);
-        report_culling(plan, scratch, ratios);
+        printf("#\n# Ray-sphere tests without the packet's frustum over those with it; Chapman quotes 4 to 8 from Wald "
+               "et al.\n");
+        report_culling(plan, CGT_CULL_FRUSTUM, CGT_CULL_NONE, scratch, ratios);
+        printf("#\n# Ray-sphere tests with the frustum alone over those with the cones of 16 rays too\n");
+        report_culling(plan, CGT_CULL_BLOCKS, CGT_CULL_FRUSTUM, scratch, ratios);
         report_mailbox(plan, scratch, ratios);
     }
     const int failed = !scratch || !ratios;

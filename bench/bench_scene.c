@@ -93,6 +93,11 @@ const char *bench_loop_name(cgt_loop loop)
     return loop == CGT_LOOP_NESTED ? "nested" : loop == CGT_LOOP_FLATTENED ? "flattened" : "auto";
 }
 
+const char *bench_cull_name(cgt_cull cull)
+{
+    return cull == CGT_CULL_NONE ? "off" : cull == CGT_CULL_FRUSTUM ? "frustum" : "blocks";
+}
+
 const char *bench_tile_name(cgt_tile_shape tile)
 {
     return tile == CGT_TILE_SQUARE ? "square" : tile == CGT_TILE_STRIP ? "strip" : "auto";
@@ -117,10 +122,10 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "tile", bench_tile_name(choice->tile));
     if (choice->loop != CGT_LOOP_AUTO)
         append(name, "loop", bench_loop_name(choice->loop));
-    if (!choice->cull)
-        append(name, "cull", "off");
-    if (choice->mailbox)
-        append(name, "mailbox", "on");
+    if (choice->cull != CGT_CULL_BLOCKS)
+        append(name, "cull", bench_cull_name(choice->cull));
+    if (!choice->mailbox)
+        append(name, "mailbox", "off");
     if (choice->grid)
         append(name, "grid", choice->grid);
 }

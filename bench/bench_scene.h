@@ -38,7 +38,7 @@ typedef struct bench_choice {
     uint32_t packet;
     cgt_tile_shape tile;
     cgt_loop loop;
-    int cull;
+    cgt_cull cull;
     int mailbox;
     const char *grid; /* resolution in words: "16x16x16", "auto*2" */
 } bench_choice;
@@ -47,6 +47,7 @@ typedef struct bench_choice {
 
 const char *bench_structure_name(cgt_structure structure);
 const char *bench_loop_name(cgt_loop loop);
+const char *bench_cull_name(cgt_cull cull);
 const char *bench_tile_name(cgt_tile_shape tile);
 
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */

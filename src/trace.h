@@ -15,7 +15,7 @@ typedef struct cgt_trace_settings {
     float pixels;    /* about how many pixels the mean sphere is across */
     bool strip;      /* tiles of four scanlines */
     bool flattened;
-    bool cull;
+    cgt_cull cull;
     bool mailbox;
     uint32_t fields; /* cgt_field values that anybody wants */
 } cgt_trace_settings;

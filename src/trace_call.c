@@ -9,7 +9,10 @@
 /* Measured by `cgt-bench loops`: within 2 % of each other on x86-64; see docs/bench.md. */
 #define CHOSEN_FLATTENED false
 
-void cgt_trace_options_init(cgt_trace_options *options) { *options = (cgt_trace_options){.cull = 1, .mailbox = 1}; }
+void cgt_trace_options_init(cgt_trace_options *options)
+{
+    *options = (cgt_trace_options){.cull = CGT_CULL_BLOCKS, .mailbox = 1};
+}
 
 static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera, cgt_trace_settings *s)
 {
@@ -19,6 +22,8 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: tile is unknown");
     if ((unsigned)o->loop > CGT_LOOP_FLATTENED)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
+    if ((unsigned)o->cull > CGT_CULL_BLOCKS)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: cull is unknown");
     s->strip = camera && o->tile == CGT_TILE_STRIP;
     if (s->strip && o->packet > 4)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,

@@ -145,14 +145,14 @@ is ao_open "$(cell ao_open)" 0
 
 # Threads, packets, tiles and loops change no bit of the hits.
 run 0 frame "$tmp/unit.frames" $front -o "$tmp/reference.bin"
-for options in '-t 2' '-k 4' '-k 8' '-k 16' '--tile strip' '--loop nested' '--loop flattened' '--no-cull' \
-    '--mailbox' '-g 3,4,5' '-r 2'; do
+for options in '-t 2' '-k 4' '-k 8' '-k 16' '--tile strip' '--loop nested' '--loop flattened' '--cull off' '--cull frustum' \
+    '--no-mailbox' '-g 3,4,5' '-r 2'; do
     run 0 frame "$tmp/unit.frames" $front $options -o "$tmp/hits.bin"
     cmp -s "$tmp/reference.bin" "$tmp/hits.bin" || fail "other hits with $options"
 done
 is config "$(cell config)" grid-queue
-run 0 frame "$tmp/unit.frames" $front -k 8 -g 3,4,5 --loop nested --no-cull
-is config "$(cell config)" 'grid-queue,packet=8,loop=nested,cull=off,grid=3x4x5'
+run 0 frame "$tmp/unit.frames" $front -k 8 -g 3,4,5 --loop nested --cull off --no-mailbox
+is config "$(cell config)" 'grid-queue,packet=8,loop=nested,cull=off,mailbox=off,grid=3x4x5'
 
 # --all: the library's choice, then packets and tiles; the same pixels hit in every row.
 run 0 frame "$tmp/unit.frames" $front -a 2 --all
@@ -174,11 +174,12 @@ is hit_pixels "$(cell hit_pixels)" 0
 run 0 loops "$tmp/unit.frames" -c 0,0,-5,0,0,0,0,1,0,45 -s 32x24 -k 8 -g 4,4,4 --variant portable
 is 'the head of the table' "$(head -n 1 "$tmp/out")" "config	variant	loop	cull	mailbox	packet	resolution	build_ms	\
 trace_ms	tests_per_ray	packet_tests	slices	cells	references	ms"
-is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" 8
-is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/out")" 4
-is 'pairs of culling' "$(grep -c '^# cull	' "$tmp/out")" 4
-is 'pairs of mailboxing' "$(grep -c '^# mailbox	' "$tmp/out")" 4
-says out '^# hits	2 frames	8 configurations	30 traces compared	0 different'
+is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" 12
+is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/out")" 6
+is 'pairs of culling by the frustum' "$(grep -c '^# frustum	' "$tmp/out")" 4
+is 'pairs of culling by blocks' "$(grep -c '^# blocks	' "$tmp/out")" 4
+is 'pairs of mailboxing' "$(grep -c '^# mailbox	' "$tmp/out")" 6
+says out '^# hits	2 frames	12 configurations	46 traces compared	0 different'
 
 # The shipped trajectory: all configurations find the same hits, and culling saves tests.
 trajectory=$(find "$data" -name '*.lammpstrj' | sort | head -n 1)
@@ -186,9 +187,9 @@ if [ -n "$trajectory" ]; then
     run 0 loops "$trajectory" -c 10,-30,14,10,6,9,0,0,1,45 -s 64x48 -n 10 -t 2
     says out '	0 different	'
     variants=$(grep '^grid-queue' "$tmp/out" | cut -f 2 | sort -u | wc -l)
-    is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" $((38 * variants))
-    grep '^# cull	' "$tmp/out" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
-        fail "culling saves nothing: $(grep '^# cull' "$tmp/out" | head -n 2)"
+    is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" $((50 * variants))
+    grep '^# frustum	' "$tmp/out" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
+        fail "culling saves nothing: $(grep '^# frustum' "$tmp/out" | head -n 2)"
 else
     fail "no .lammpstrj in $data"
 fi

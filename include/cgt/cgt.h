@@ -234,6 +234,12 @@ typedef enum cgt_loop {
                           bounds that change from slice to slice */
 } cgt_loop;
 
+typedef enum cgt_cull {
+    CGT_CULL_NONE = 0, /* every sphere of a cell meets every ray of the packet */
+    CGT_CULL_FRUSTUM,  /* spheres are first tested against the packet's frustum (Wald et al., Chapman) */
+    CGT_CULL_BLOCKS    /* and then against a cone around every 16 of its rays */
+} cgt_cull;
+
 /* What a trace did. Counting is done only where a statistics pointer is set. */
 typedef struct cgt_trace_statistics {
     uint64_t rays;            /* asked for */
@@ -265,7 +271,7 @@ typedef struct cgt_trace_options {
                                          the mean sphere is 24 pixels across or more, else 8; 4 in strips */
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
-    int cull;                         /* test spheres against a packet's frustum first; default 1 */
+    cgt_cull cull;                    /* default CGT_CULL_BLOCKS */
     int mailbox;                      /* remember the spheres that a packet has met lately; default 1: it halves the
                                          tests and costs little (docs/bench.md; Chapman expected the opposite) */
     cgt_trace_statistics *statistics; /* gets the counts of this call; NULL (default): nothing is counted */

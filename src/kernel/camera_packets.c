@@ -7,19 +7,23 @@
 
 #define PACKET_MAX_EDGE 16
 
-/* Coordinates of the pixels i, i + 1 ... of a packet, row by row. */
+/* Where lane i of a packet lies: blocks of 4x4 pixels in row order, and row by row in each (block_cones.h). */
+CGT_SPU_INLINE uint32_t lane_column(uint32_t i, uint32_t edge) { return (i / 16 * 4 & (edge - 1)) + (i & 3); }
+CGT_SPU_INLINE uint32_t lane_row(uint32_t i, uint32_t edge) { return i / (4 * edge) * 4 + (i >> 2 & 3); }
+
+/* Coordinates of the pixels of lanes i, i + 1 ... */
 CGT_SPU_INLINE vfloat pixel_columns(const float *px, uint32_t i, uint32_t edge)
 {
     vfloat v;
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        v[k] = px[(i + k) & (edge - 1)];
+        v[k] = px[lane_column(i + k, edge)];
     return v;
 }
-CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t shift)
+CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
 {
     vfloat v;
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        v[k] = py[(i + k) >> shift];
+        v[k] = py[lane_row(i + k, edge)];
     return v;
 }
 
@@ -27,24 +31,24 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t shift)
 static void close_outside(packet *p, uint32_t edge, uint32_t columns, uint32_t rows)
 {
     for (uint32_t i = 0; i < edge * edge; i++)
-        if (i % edge >= columns || i / edge >= rows)
+        if (lane_column(i, edge) >= columns || lane_row(i, edge) >= rows)
             p->low[i] = p->high[i] = -INFINITY;
 }
 
-/* The canonical rays of the pixels (x0 .. x0 + edge - 1, y0 ..), row by row: unfused, in the order of camera.h.
+/* The canonical rays of the pixels (x0 .. x0 + edge - 1, y0 ..): unfused, in the order of camera.h.
  * Pixels beyond the region repeat its last column and row, and take no part. */
 static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32_t edge, uint32_t columns,
                       uint32_t rows, packet *p)
 {
     _Alignas(64) float px[PACKET_MAX_EDGE], py[PACKET_MAX_EDGE];
-    const uint32_t lanes = edge * edge, shift = (uint32_t)__builtin_ctz(edge);
+    const uint32_t lanes = edge * edge;
     const vfloat t_min = spux_vfloat(c->t_min), t_max = spux_vfloat(c->t_max);
     for (uint32_t k = 0; k < edge; k++) {
         px[k] = ((float)(x0 + (k < columns ? k : columns - 1)) + 0.5f) * c->pixel[0] - 1;
         py[k] = 1 - ((float)(y0 + (k < rows ? k : rows - 1)) + 0.5f) * c->pixel[1];
     }
     for (uint32_t i = 0; i < lanes; i += CGT_LANES) {
-        const vfloat qx = pixel_columns(px, i, edge), qy = pixel_rows(py, i, shift);
+        const vfloat qx = pixel_columns(px, i, edge), qy = pixel_rows(py, i, edge);
         vfloat dd = spux_vfloat(0);
         for (int a = 0; a < 3; a++) {
             const vfloat right = spux_vfloat(c->right[a]), up = spux_vfloat(c->up[a]);
@@ -80,14 +84,15 @@ static bool is_extreme(const cgt_camera_rays *c)
     return false;
 }
 
-/* A row of a packet: whole rows of 4 are common, and too short for a call. */
-CGT_SPU_INLINE void store_row(void *to, const void *from, uint32_t columns)
+/* A row of a packet: the blocks' rows of four, one after the other. */
+CGT_SPU_INLINE void store_row(void *to, const void *from, uint32_t row, uint32_t edge, uint32_t columns)
 {
+    const uint32_t *start = (const uint32_t *)from + row / 4 * 4 * edge + row % 4 * 4;
     uint32_t k = 0;
     for (; k + 4 <= columns; k += 4)
-        memcpy((uint32_t *)to + k, (const uint32_t *)from + k, 16);
+        memcpy((uint32_t *)to + k, start + k * 4, 16);
     for (; k < columns; k++)
-        memcpy((uint32_t *)to + k, (const uint32_t *)from + k, 4);
+        memcpy((uint32_t *)to + k, start + k / 4 * 16 + k % 4, 4);
 }
 
 static void store_rows(const packet_hits *h, uint32_t edge, uint32_t columns, uint32_t rows, const cgt_region *r,
@@ -95,16 +100,15 @@ static void store_rows(const packet_hits *h, uint32_t edge, uint32_t columns, ui
 {
     for (uint32_t y = 0; y < rows; y++) {
         const size_t to = first + y * r->row_stride;
-        const uint32_t from = y * edge;
         if (r->t)
-            store_row(r->t + to, h->t + from, columns);
+            store_row(r->t + to, h->t, y, edge, columns);
         if (r->primitive)
-            store_row(r->primitive + to, h->primitive + from, columns);
+            store_row(r->primitive + to, h->primitive, y, edge, columns);
         if (r->geometry)
-            store_row(r->geometry + to, h->geometry + from, columns);
+            store_row(r->geometry + to, h->geometry, y, edge, columns);
         for (int a = 0; a < 3; a++)
             if (r->normal[a])
-                store_row(r->normal[a] + to, h->normal[a] + from, columns);
+                store_row(r->normal[a] + to, h->normal[a], y, edge, columns);
     }
 }
 

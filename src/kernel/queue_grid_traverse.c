@@ -22,8 +22,10 @@ typedef struct traversal {
     cgt_counts *counts;
     frustum frustum;
     filter_packet filter;
+    block_cones blocks;
     float w_far; /* no ray wants a hit beyond */
-    bool cull, mailbox;
+    cgt_cull cull;
+    bool mailbox;
     uint32_t pending; /* references collected and not yet tested */
     _Alignas(64) uint16_t reference[BATCH_FULL + CGT_QUEUE_LENGTH];
     uint16_t seen[MAILBOX_SIZE];
@@ -122,17 +124,16 @@ static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
     for (; lanes; lanes &= lanes - 1) {
         const int k = __builtin_ctz(lanes);
         v->counts->packet_tests++;
-        v->counts->ray_tests += p->rays;
         if (p->common_origin) {
             if (p->any_hit)
-                filter_test(v->grid, v->p, s, k, true, true, v->counts);
+                filter_test(v->grid, v->p, s, k, &v->blocks, true, true, v->counts);
             else
-                filter_test(v->grid, v->p, s, k, true, false, v->counts);
+                filter_test(v->grid, v->p, s, k, &v->blocks, true, false, v->counts);
         } else {
             if (p->any_hit)
-                filter_test(v->grid, v->p, s, k, false, true, v->counts);
+                filter_test(v->grid, v->p, s, k, &v->blocks, false, true, v->counts);
             else
-                filter_test(v->grid, v->p, s, k, false, false, v->counts);
+                filter_test(v->grid, v->p, s, k, &v->blocks, false, false, v->counts);
         }
     }
 }
@@ -147,7 +148,7 @@ static void test_pending(traversal *v)
         const uint32_t count = v->pending - i < CGT_LANES ? v->pending - i : CGT_LANES;
         unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
         fetch_spheres(v->grid, v->reference + i, count, &s);
-        if (v->cull) {
+        if (v->cull != CGT_CULL_NONE) {
             lanes &= ~outside_frustum(v, &s);
             v->counts->cull_tests += count;
             v->counts->culled += count - spux_count_bits(lanes);
@@ -284,6 +285,7 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
     }
     counts->packets++;
     filter_packet_make(p, &v.filter);
+    block_cones_make(p, v.cull == CGT_CULL_BLOCKS, &v.blocks);
     v.w_far = frustum_far(grid, &v.frustum, p);
     if (v.mailbox)
         memset(v.seen, 0xff, sizeof v.seen);

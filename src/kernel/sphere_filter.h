@@ -23,7 +23,7 @@
 #define CGT_SPHERE_FILTER_H
 
 #include "../sphere_exact.h"
-#include "packet.h"
+#include "block_cones.h"
 
 #ifndef FILTER_U /* a test gives it other values, to find where the bounds break */
 #define FILTER_U 0x1p-24f
@@ -192,29 +192,45 @@ CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_
     return true;
 }
 
-/* Tests all rays of a packet against sphere k of a vector. Open rays are rare; a second pass finds them again. */
+/* Decides the rays of a block that the filter leaves open. They are rare: they are found a second time here. */
+CGT_SPU_INLINE void filter_decide_block(const cgt_queue_grid *grid, packet *p, const filter_sphere *q, uint32_t object,
+                                        uint32_t first, uint32_t end, bool common_origin, cgt_counts *counts)
+{
+    filter_result f;
+    for (uint32_t i = first; i < end; i += CGT_LANES) {
+        if (!filter_rays(p, q, i, common_origin, &f))
+            continue;
+        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
+            filter_decide(grid, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+    }
+}
+
+/* Tests the rays of the packet's blocks that sphere k of a vector may reach. */
 CGT_SPU_INLINE void filter_test(const cgt_queue_grid *grid, packet *p, const filter_spheres *s, int k,
-                                bool common_origin, bool any_hit, cgt_counts *counts)
+                                block_cones *blocks, bool common_origin, bool any_hit, cgt_counts *counts)
 {
     const filter_sphere q = filter_sphere_get(p, s, k, common_origin);
     const vfloat closed = spux_vfloat(-INFINITY);
-    vmask open = spux_vuint(0);
-    filter_result f;
-    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (!filter_rays(p, &q, i, common_origin, &f))
-            continue;
-        spux_store(p->low + i, spux_select(spux_load(p->low + i), any_hit ? closed : f.low, f.certain));
-        spux_store(p->high + i, spux_select(spux_load(p->high + i), any_hit ? closed : f.high, f.certain));
-        spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), q.object, f.certain));
-        open = spu_or(open, f.open);
-    }
-    if (!spux_mask_bits(open))
-        return;
-    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (!filter_rays(p, &q, i, common_origin, &f))
-            continue;
-        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
-            filter_decide(grid, p, i + (uint32_t)__builtin_ctz(left), s->object[k], counts);
+    const float center[3] = {q.center[0][0], q.center[1][0], q.center[2][0]};
+    uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
+    for (; reached; reached &= reached - 1) {
+        const uint32_t block = (uint32_t)__builtin_ctz(reached), first = block * BLOCK_RAYS, end = block_end(p, block);
+        vmask open = spux_vuint(0), changed = open;
+        filter_result f;
+        counts->ray_tests += end - first;
+        for (uint32_t i = first; i < end; i += CGT_LANES) {
+            if (!filter_rays(p, &q, i, common_origin, &f))
+                continue;
+            spux_store(p->low + i, spux_select(spux_load(p->low + i), any_hit ? closed : f.low, f.certain));
+            spux_store(p->high + i, spux_select(spux_load(p->high + i), any_hit ? closed : f.high, f.certain));
+            spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), q.object, f.certain));
+            open = spu_or(open, f.open);
+            changed = spu_or(changed, f.certain);
+        }
+        if (spux_mask_bits(open))
+            filter_decide_block(grid, p, &q, s->object[k], first, end, common_origin, counts);
+        if (spux_mask_bits(changed))
+            block_far_update(p, blocks, block);
     }
 }
 
