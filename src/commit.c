@@ -192,7 +192,6 @@ static void report(cgt_scene *scene, const cgt_object_summary *s)
     cgt_scene_statistics *st = &scene->statistics;
     const cgt_queue_grid *g = &scene->grid;
     st->structure = CGT_STRUCTURE_QUEUE_GRID;
-    scene->mean_diameter = s->valid ? s->diameter[1] / s->valid : 0;
     st->skipped_not_finite = s->skipped_not_finite;
     st->skipped_radius = s->skipped_radius;
     bool small = true;

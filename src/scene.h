@@ -24,7 +24,6 @@ struct cgt_scene {
     cgt_buffer voxels;      /* cgt_voxel */
     cgt_buffer overflow[2]; /* cgt_overflow: as they came, and room to sort */
     cgt_queue_grid grid;
-    double mean_diameter; /* of the primitives that were not skipped; 0 where there is none */
     cgt_scene_statistics statistics;
 };
 

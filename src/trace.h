@@ -11,8 +11,7 @@
 
 /* The choices of a call, made: no AUTO left. */
 typedef struct cgt_trace_settings {
-    uint32_t packet; /* edge of a camera's packets: 4, 8, 16; 0 while it is not chosen */
-    float pixels;    /* about how many pixels the mean sphere is across */
+    uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */
     bool strip;      /* tiles of four scanlines */
     bool flattened;
     cgt_cull cull;

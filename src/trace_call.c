@@ -6,7 +6,9 @@
 
 #include <string.h>
 
-/* Measured by `cgt-bench loops`: within 2 % of each other on x86-64; see docs/bench.md. */
+/* Measured by `cgt-bench loops` (docs/coherent_grid_traversal.md): the largest packets share the most work, whether a
+ * sphere is 3 pixels across or 40; the loops are within a few per cent of each other on x86-64. */
+#define CHOSEN_PACKET 16
 #define CHOSEN_FLATTENED false
 
 void cgt_trace_options_init(cgt_trace_options *options)
@@ -28,11 +30,12 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
     if (s->strip && o->packet > 4)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
                         "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
-    s->packet = s->strip ? 4 : camera ? o->packet : 0;
+    s->packet = s->strip ? 4 : o->packet ? o->packet : CHOSEN_PACKET;
     s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;
     s->mailbox = o->mailbox;
-    s->pixels = 0;
+    if (!camera)
+        s->packet = 0;
     return CGT_OK;
 }
 
@@ -84,7 +87,6 @@ void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *s
                                                   .ray_tests = c.ray_tests,
                                                   .double_tests = c.double_tests,
                                                   .early_exits = c.early_exits,
-                                                  .mean_pixels = settings->pixels,
                                                   .packet_size = settings->packet,
                                                   .tile = settings->strip ? CGT_TILE_STRIP : CGT_TILE_SQUARE,
                                                   .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED,

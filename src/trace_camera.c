@@ -158,27 +158,6 @@ void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
     *frame = (cgt_frame){.width = width, .height = height};
 }
 
-/* Large packets share more of the traversal, small ones waste fewer tests at silhouettes. Measured by `cgt-bench loops`:
- * 16x16 is a quarter faster at 40 pixels a sphere, 8x8 at 12; 4x4 never. */
-#define PIXELS_FOR_LARGE_PACKETS 24
-
-static void choose_packet(frame_job *job)
-{
-    const cgt_scene_statistics *st = &job->scene->statistics;
-    const cgt_camera_rays *c = &job->camera;
-    double distance = 0, half = 0;
-    for (int a = 0; a < 3; a++) {
-        const double d = 0.5 * st->bounds_min[a] + 0.5 * st->bounds_max[a] - c->eye[a];
-        distance += d * d;
-        half += (double)c->up[a] * c->up[a];
-    }
-    /* half the picture's height in world units at the middle of the scene */
-    half = sqrt(half) * (c->orthographic ? 1 : sqrt(distance));
-    job->settings.pixels = half > 0 ? (float)(job->scene->mean_diameter / half * c->height * 0.5) : 0;
-    if (!job->settings.packet)
-        job->settings.packet = job->settings.pixels >= PIXELS_FOR_LARGE_PACKETS ? 16 : 8;
-}
-
 static void cut_tiles(frame_job *job)
 {
     const cgt_frame *f = job->frame;
@@ -208,7 +187,6 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     result = cgt_camera_prepare(camera, frame->width, frame->height, &job.camera, message);
     if (result != CGT_OK)
         return cgt_fail(c, result, "%s", message);
-    choose_packet(&job);
     cut_tiles(&job);
     job.counter = options && options->statistics ? &counter : NULL;
     atomic_init(&job.stopped, false);

@@ -26,39 +26,21 @@ static bool cpu_has(feature f)
     }
 }
 
-/* Declares a row's functions and gathers them. */
-#define VARIANT(variant)                                                                                               \
-    uint32_t cgt_queue_grid_fill_##variant(const cgt_queue_grid *, uint32_t, uint32_t, cgt_overflow_list *,            \
-                                           cgt_fill_counts *);                                                         \
-    void cgt_trace_region_##variant(const cgt_queue_grid *, const cgt_camera_rays *, const cgt_trace_settings *,       \
-                                    const cgt_region *, cgt_counts *);                                                 \
-    void cgt_trace_rays_##variant(const cgt_queue_grid *, const cgt_rays *, uint64_t, uint64_t,                        \
-                                  const cgt_trace_settings *, const cgt_hits *, uint8_t *, cgt_counts *);              \
-    static const cgt_kernel kernel_##variant = {#variant, 4, cgt_queue_grid_fill_##variant,                            \
-                                                cgt_trace_region_##variant, cgt_trace_rays_##variant};
-
-#ifdef CGT_HAVE_PORTABLE
-VARIANT(portable)
-#endif
-#ifdef CGT_HAVE_SSE
-VARIANT(sse)
-#endif
-#ifdef CGT_HAVE_NEON
-VARIANT(neon)
-#endif
+/* Defined by src/kernel/kernel_table.c, compiled once per row. */
+extern const cgt_kernel cgt_kernel_portable, cgt_kernel_sse, cgt_kernel_neon;
 
 static const struct row {
     const cgt_kernel *kernel;
     feature needs;
 } table[] = {
 #ifdef CGT_HAVE_PORTABLE
-    {&kernel_portable, FEATURE_NONE},
+    {&cgt_kernel_portable, FEATURE_NONE},
 #endif
 #ifdef CGT_HAVE_SSE
-    {&kernel_sse, FEATURE_SSE41},
+    {&cgt_kernel_sse, FEATURE_SSE41},
 #endif
 #ifdef CGT_HAVE_NEON
-    {&kernel_neon, FEATURE_NEON},
+    {&cgt_kernel_neon, FEATURE_NEON},
 #endif
 };
 

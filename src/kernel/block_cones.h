@@ -76,11 +76,20 @@ CGT_SPU_INLINE void block_cone_make(const packet *p, block_cones *b, uint32_t bl
     b->tangent[block] = narrow ? __builtin_sqrtf(sine2) * b->secant[block] : INFINITY;
 }
 
-/* Cones where the rays share their origin; without them only hidden spheres are culled. */
+/* Whether hits behind an origin count: a cone does not hold them. */
+CGT_SPU_INLINE bool block_rays_look_back(const packet *p)
+{
+    vfloat least = spux_vfloat(0);
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+        least = spux_min(least, spux_load(p->t_min + i));
+    return spux_hmin(least) < 0;
+}
+
+/* Cones where the rays share their origin and run forwards; without them only hidden spheres are culled. */
 CGT_SPU_INLINE void block_cones_make(const packet *p, bool cull, block_cones *b)
 {
     b->cull = cull;
-    b->cones = cull && p->common_origin;
+    b->cones = cull && p->common_origin && !block_rays_look_back(p);
     b->blocks = (p->lanes + BLOCK_RAYS - 1) / BLOCK_RAYS;
     for (uint32_t block = 0; block < b->blocks; block++) {
         block_far_update(p, b, block);

@@ -1,0 +1,24 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The row's functions as a table: cgt_kernel_sse and its like, for src/variant.c. */
+#include "kernel.h"
+
+uint32_t CGT_KERNEL(cgt_queue_grid_fill)(const cgt_queue_grid *grid, uint32_t first, uint32_t end,
+                                         cgt_overflow_list *overflow, cgt_fill_counts *counts);
+void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera,
+                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+void CGT_KERNEL(cgt_trace_rays)(const cgt_queue_grid *grid, const cgt_rays *rays, uint64_t first, uint64_t end,
+                                const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
+                                cgt_counts *counts);
+
+#define NAME_(variant) #variant
+#define NAME(variant) NAME_(variant)
+
+const cgt_kernel CGT_KERNEL(cgt_kernel) = {
+    .name = NAME(CGT_VARIANT),
+    .lanes = CGT_LANES,
+    .queue_grid_fill = CGT_KERNEL(cgt_queue_grid_fill),
+    .trace_region = CGT_KERNEL(cgt_trace_region),
+    .trace_rays = CGT_KERNEL(cgt_trace_rays),
+};
