@@ -11,9 +11,9 @@ packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
     render) echo g++ libopenimageio-dev ;;                                         # cgt-render
-    tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ ;; # tests of this machine's build
+    tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ ;; # native tests
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
-                 qemu-user xz-utils ;;                                             # tests of the other machines' builds
+                 qemu-user xz-utils ;;                                             # cross tests
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
     *)      echo "dependencies.sh: unknown purpose '$1': build, render, tests, cross, lint" >&2; return 1 ;;
     esac

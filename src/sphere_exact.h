@@ -18,9 +18,14 @@
 
 #include "objects.h"
 
-/* Returns the parameter of the first hit at or after t_min, as float sees it; NaN where the line misses the sphere.
- * Written without branches so that a loop over rays becomes vector code. */
-static inline double cgt_sphere_exact_t(const float org[3], const float dir[3], float t_min, cgt_sphere q)
+/* The quadratic t^2 - 2 middle t + product = 0 of a line and a sphere, with the square of half the distance of its
+ * roots: negative for a miss. */
+typedef struct cgt_sphere_terms {
+    double middle, product, half2;
+} cgt_sphere_terms;
+
+/* Both steps are written without branches, so that a loop over rays becomes vector code. */
+static inline cgt_sphere_terms cgt_sphere_exact_terms(const float org[3], const float dir[3], cgt_sphere q)
 {
     const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1],
                  cz = (double)q.z - (double)org[2];
@@ -28,13 +33,25 @@ static inline double cgt_sphere_exact_t(const float org[3], const float dir[3], 
     const double rdd = 1 / (dx * dx + dy * dy + dz * dz);
     const double s = (dx * cx + dy * cy + dz * cz) * rdd;
     const double lx = cx - s * dx, ly = cy - s * dy, lz = cz - s * dz;
-    const double h = r * r - (lx * lx + ly * ly + lz * lz);
-    const double half = sqrt(h * rdd); /* NaN for a miss, and it stays NaN */
-    const double large = s + (s > 0 ? half : -half);
-    const double product = (cx * cx + cy * cy + cz * cz - r * r) * rdd;
+    return (cgt_sphere_terms){.middle = s,
+                              .product = (cx * cx + cy * cy + cz * cz - r * r) * rdd,
+                              .half2 = (r * r - (lx * lx + ly * ly + lz * lz)) * rdd};
+}
+
+/* The first root at or after t_min, as float sees it; NaN for a miss. */
+static inline double cgt_sphere_exact_root(double middle, double product, double half2, float t_min)
+{
+    const double half = sqrt(half2); /* NaN for a miss, and it stays NaN */
+    const double large = middle + (middle > 0 ? half : -half);
     const double small = product / (large != 0 ? large : 1); /* both are 0 where large is */
-    const double near = s > 0 ? small : large, far = s > 0 ? large : small;
+    const double near = middle > 0 ? small : large, far = middle > 0 ? large : small;
     return (float)near >= t_min ? near : far;
+}
+
+static inline double cgt_sphere_exact_t(const float org[3], const float dir[3], float t_min, cgt_sphere q)
+{
+    const cgt_sphere_terms e = cgt_sphere_exact_terms(org, dir, q);
+    return cgt_sphere_exact_root(e.middle, e.product, e.half2, t_min);
 }
 
 /* True where that hit exists and lies in the closed range [t_min, t_max], t rounded to float. */

@@ -64,7 +64,8 @@ check include "" "cgt/[a-z_]+\\.h|($standard)\\.h"
 check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_intrinsics\\.h"
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
-check examples "examples examples/common" "cgt/(cgt|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h"
+check examples "examples examples/common" \
+    "cgt/(cgt|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h"
 check bench "bench src simd examples/common examples" "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h"
 
 if [ -s "$bad" ]; then

@@ -4,7 +4,7 @@
 #
 # check_readme.sh SOURCE_DIR STATIC_LIBRARY CC [EMULATOR...]
 # The program of README.md compiles without a warning, runs, and prints the distance that follows from its text: after
-# 100 steps of 0.01 the sphere of radius 0.5 is around the origin, 5 from the eye.
+# 10 steps of 0.1 the sphere of radius 0.5 is around the origin, 5 from the eye.
 set -eu
 source=$1 library=$2 cc=$3
 shift 3

@@ -36,7 +36,8 @@ cmp -s "$work/exported" "$work/declared" || {
 "$objdump" -t "$static" | awk -F '\t' 'NF == 2 {
     n = split($1, left, " "); section = left[n]
     split($2, right, " ")
-    if (section ~ /^(\.(data|bss|tdata|tbss|sdata|sbss)(\.|$)|\*COM\*)/ && section !~ /^\.data\.rel\.ro/ && right[1] !~ /^0+$/)
+    if (section ~ /^(\.(data|bss|tdata|tbss|sdata|sbss)(\.|$)|\*COM\*)/ &&
+        section !~ /^\.data\.rel\.ro/ && right[1] !~ /^0+$/)
         print section, $2
 }' >"$work/variables"
 [ -s "$work/variables" ] && fail "variables that can change in $static" "$work/variables"

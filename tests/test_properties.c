@@ -37,13 +37,23 @@ static uint32_t random_count(test_random *r)
     return random_below(r, 3) ? random_below(r, 400) : random_below(r, 3001);
 }
 
-static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, uint64_t *doubts)
+/* Rays from anywhere; or fans, all from one origin and close to each other, which become coherent packets. */
+static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, bool fan, uint64_t *doubts)
 {
-    enum { RAYS = 400 };
+    enum { RAYS = 384 };
     truth_ray ray[RAYS];
     ray_hit hit[RAYS];
     const truth_scene truth = {(const float(*)[4])c->sphere, c->count};
-    for (int i = 0; i < RAYS; i++) ray[i] = ray_random(r, c);
+    for (int i = 0; i < RAYS; i++) {
+        ray[i] = ray_random(r, c);
+        if (!fan || i % 64 == 0) continue;
+        const truth_ray *first = &ray[i / 64 * 64];
+        const float spread = 0.01f * (float)(1 + i / 64 * 8);
+        for (int a = 0; a < 3; a++) {
+            ray[i].org[a] = first->org[a];
+            ray[i].dir[a] = first->dir[a] * (1 + random_float(r, -spread, spread)) + 0x1p-60f;
+        }
+    }
     rays_trace(scene, ray, RAYS, hit, NULL);
     for (int i = 0; i < RAYS; i++) {
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, doubts);
@@ -74,7 +84,8 @@ static void nearest_hit_is_that_of_brute_force(void **state)
             print_message("round %u of %s: %u %s spheres\n", round, variant, c.count, cloud_name((cloud_kind)(round % CLOUD_KINDS)));
             frame_trace(scene, &camera, &p, &options);
             doubts += frame_judge(&p, rays, (const float(*)[4])c.sphere, c.count);
-            judge_rays(scene, &c, &r, &doubts);
+            judge_rays(scene, &c, &r, false, &doubts);
+            judge_rays(scene, &c, &r, true, &doubts);
             for (size_t i = 0; i < p.elements; i++) hits += p.primitive[i] != CGT_NONE;
             pixels += p.elements;
             cgt_scene_release(scene);

@@ -219,6 +219,7 @@ static void check_framing(const float min[3], const float max[3], const float up
 static void automatic_cameras_show_the_whole_box(void **state)
 {
     const float min[3] = {-5.0f, -3.0f, 0.0f}, max[3] = {5.0f, 4.0f, 30.0f}, up_z[3] = {0, 0, 1}, up_y[3] = {0, 1, 0};
+    const float long_min[3] = {-1.0f, -20.0f, -1.0f}, long_max[3] = {1.0f, 20.0f, 1.0f};
     const float far_min[3] = {1e6f, 2e6f, -3e6f}, far_max[3] = {1.1e6f, 2.2e6f, -2.5e6f};
     (void)state;
     check_framing(min, max, up_z, 16.0 / 9.0, 0.0);
@@ -226,6 +227,7 @@ static void automatic_cameras_show_the_whole_box(void **state)
     check_framing(min, max, up_z, 0.25, 360.0);
     check_framing(min, max, up_z, 16.0 / 9.0, -90.0);
     check_framing(far_min, far_max, up_z, 4.0 / 3.0, 720.0);
+    check_framing(long_min, long_max, up_z, 0.5, 90.0); /* seen from its end first, from its side later */
 }
 
 static void automatic_cameras_of_odd_boxes(void **state)

@@ -231,8 +231,10 @@ static void shading_lights_what_faces_it(void **state)
     hit(&c, 1, 1, 2.0f, 0.8f, 0.6f);
     hit(&c, 2, 1, 2.0f, 1.0f, 0.0f);
     hit(&c, 3, 0, 2.0f, 0.0f, 1.0f);
+    hit(&c, 5, 1, 2.0f, 0.0f, -1.0f); /* from inside: the headlight alone reaches it */
     assert_int_equal(shade_tile(&c.job, &c.tile), 0);
-    assert_int_equal(atomic_load(&c.job.hits), 4);
+    assert_int_equal(atomic_load(&c.job.hits), 5);
+    assert_true(c.pixels[5].r > c.pixels[2].r && c.pixels[5].r < c.pixels[1].r);
     assert_true(c.pixels[0].r > c.pixels[1].r && c.pixels[1].r > c.pixels[2].r && c.pixels[2].r > 0.0f);
     assert_near(c.pixels[0].g / c.pixels[0].r, 2.0, 1e-5); /* the palette's proportions */
     assert_near(c.pixels[0].b / c.pixels[0].r, 3.0, 1e-5);

@@ -258,8 +258,6 @@ typedef struct cgt_trace_statistics {
     uint64_t ray_tests;       /* rays tested against a sphere: lanes, padding excluded */
     uint64_t double_tests;    /* of those, the ones that single precision could not decide */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
-    float mean_pixels;        /* a camera's frame: about how many pixels the mean sphere is across, which chooses the
-                                 packet; 0 for arrays of rays */
     uint32_t packet_size;     /* 4, 8 or 16 of a camera's frame; 0 for arrays of rays */
     cgt_tile_shape tile;      /* what was used */
     cgt_loop loop;            /* what was used */
@@ -267,8 +265,7 @@ typedef struct cgt_trace_statistics {
 } cgt_trace_statistics;
 
 typedef struct cgt_trace_options {
-    uint32_t packet;                  /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): 16 where
-                                         the mean sphere is 24 pixels across or more, else 8; 4 in strips */
+    uint32_t packet;                  /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): 16, in strips 4 */
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
     cgt_cull cull;                    /* default CGT_CULL_BLOCKS */

@@ -20,7 +20,8 @@ typedef struct block_cones {
     _Alignas(64) float axis[3][PACKET_MAX_BLOCKS];
     _Alignas(64) float tangent[PACKET_MAX_BLOCKS]; /* infinity where the block has no cone: never culled */
     _Alignas(64) float secant[PACKET_MAX_BLOCKS];
-    _Alignas(64) float far[PACKET_MAX_BLOCKS]; /* no ray of the block wants a hit beyond this t */
+    _Alignas(64) float far[PACKET_MAX_BLOCKS];   /* no ray of the block wants a hit beyond this t */
+    _Alignas(64) float speed[PACKET_MAX_BLOCKS]; /* cells of the main axis per t of the fastest ray */
     uint32_t blocks;
     bool cull; /* false: all blocks count as reached */
     bool cones;
@@ -85,14 +86,23 @@ CGT_SPU_INLINE bool block_rays_look_back(const packet *p)
     return spux_hmin(least) < 0;
 }
 
+CGT_SPU_INLINE void block_speed_make(const packet *p, block_cones *b, uint32_t block, int w, float rcell)
+{
+    vfloat most = spux_vfloat(0);
+    for (uint32_t i = block * BLOCK_RAYS; i < block_end(p, block); i += CGT_LANES)
+        most = spux_max(most, spux_abs(spux_load(p->dir[w] + i)));
+    b->speed[block] = spux_hmax(most) * rcell;
+}
+
 /* Cones where the rays share their origin and run forwards; without them only hidden spheres are culled. */
-CGT_SPU_INLINE void block_cones_make(const packet *p, bool cull, block_cones *b)
+CGT_SPU_INLINE void block_cones_make(const packet *p, bool cull, int w, float rcell, block_cones *b)
 {
     b->cull = cull;
     b->cones = cull && p->common_origin && !block_rays_look_back(p);
     b->blocks = (p->lanes + BLOCK_RAYS - 1) / BLOCK_RAYS;
     for (uint32_t block = 0; block < b->blocks; block++) {
         block_far_update(p, b, block);
+        block_speed_make(p, b, block, w, rcell);
         if (b->cones)
             block_cone_make(p, b, block);
     }
@@ -102,6 +112,7 @@ CGT_SPU_INLINE void block_cones_make(const packet *p, bool cull, block_cones *b)
             b->axis[k][block] = 0;
         b->tangent[block] = b->secant[block] = 0;
         b->far[block] = -INFINITY;
+        b->speed[block] = 1;
     }
 }
 

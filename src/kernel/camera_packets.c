@@ -11,20 +11,39 @@
 CGT_SPU_INLINE uint32_t lane_column(uint32_t i, uint32_t edge) { return (i / 16 * 4 & (edge - 1)) + (i & 3); }
 CGT_SPU_INLINE uint32_t lane_row(uint32_t i, uint32_t edge) { return i / (4 * edge) * 4 + (i >> 2 & 3); }
 
-/* Coordinates of the pixels of lanes i, i + 1 ... */
+/* Coordinates of the pixels of lanes i, i + 1 ...: four at a time lie in a row. */
 CGT_SPU_INLINE vfloat pixel_columns(const float *px, uint32_t i, uint32_t edge)
 {
     vfloat v;
-    for (uint32_t k = 0; k < CGT_LANES; k++)
-        v[k] = px[lane_column(i + k, edge)];
+    for (uint32_t k = 0; k < CGT_LANES; k += 4)
+        memcpy((char *)&v + k * sizeof(float), px + lane_column(i + k, edge), 4 * sizeof(float));
     return v;
 }
 CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
 {
     vfloat v;
-    for (uint32_t k = 0; k < CGT_LANES; k++)
-        v[k] = py[lane_row(i + k, edge)];
+    for (uint32_t k = 0; k < CGT_LANES; k += 4) {
+        const vec_float4 row = spu_splats(py[lane_row(i + k, edge)]);
+        memcpy((char *)&v + k * sizeof(float), &row, sizeof row);
+    }
     return v;
+}
+
+/* What is the same for all packets of a perspective camera, and the range of t of any. */
+static void make_constants(const cgt_camera_rays *c, uint32_t edge, packet *p)
+{
+    p->lanes = edge * edge;
+    p->common_origin = !c->orthographic;
+    p->from_origin = p->common_origin && c->t_min == 0;
+    p->any_hit = false;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        for (int a = 0; a < 3; a++) {
+            spux_store(p->org[a] + i, spux_vfloat(c->eye[a]));
+            spux_store(p->dir[a] + i, spux_vfloat(c->fwd[a]));
+        }
+        spux_store(p->t_min + i, spux_vfloat(c->t_min));
+        spux_store(p->t_max + i, spux_vfloat(c->t_max));
+    }
 }
 
 /* Pixels beyond the region take no part. */
@@ -41,13 +60,12 @@ static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32
                       uint32_t rows, packet *p)
 {
     _Alignas(64) float px[PACKET_MAX_EDGE], py[PACKET_MAX_EDGE];
-    const uint32_t lanes = edge * edge;
-    const vfloat t_min = spux_vfloat(c->t_min), t_max = spux_vfloat(c->t_max);
+    const vfloat t_max = spux_vfloat(c->t_max);
     for (uint32_t k = 0; k < edge; k++) {
         px[k] = ((float)(x0 + (k < columns ? k : columns - 1)) + 0.5f) * c->pixel[0] - 1;
         py[k] = 1 - ((float)(y0 + (k < rows ? k : rows - 1)) + 0.5f) * c->pixel[1];
     }
-    for (uint32_t i = 0; i < lanes; i += CGT_LANES) {
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const vfloat qx = pixel_columns(px, i, edge), qy = pixel_rows(py, i, edge);
         vfloat dd = spux_vfloat(0);
         for (int a = 0; a < 3; a++) {
@@ -55,22 +73,17 @@ static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32
             const vfloat start = spux_vfloat(c->orthographic ? c->eye[a] : c->fwd[a]);
             const vfloat sum = spu_add(spu_add(start, spu_mul(qx, right)), spu_mul(qy, up));
             const vfloat d = c->orthographic ? spux_vfloat(c->fwd[a]) : sum;
-            spux_store(p->org[a] + i, c->orthographic ? sum : spux_vfloat(c->eye[a]));
-            spux_store(p->dir[a] + i, d);
+            spux_store((c->orthographic ? p->org[a] : p->dir[a]) + i, sum);
             dd = spu_add(dd, spu_mul(d, d));
         }
         spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
-        spux_store(p->t_min + i, t_min);
-        spux_store(p->t_max + i, t_max);
         spux_store(p->low + i, t_max);
         spux_store(p->high + i, t_max);
         spux_store_uint(p->object + i, spux_vuint(CGT_NONE));
     }
     if (columns < edge || rows < edge)
         close_outside(p, edge, columns, rows);
-    p->lanes = lanes;
     p->rays = columns * rows;
-    p->common_origin = !c->orthographic;
 }
 
 /* Rays leave the range of the filter together: their lengths differ by the picture's diagonal at most. */
@@ -118,7 +131,7 @@ void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_r
     packet p;
     packet_hits hits;
     const uint32_t edge = settings->packet;
-    p.any_hit = false;
+    make_constants(camera, edge, &p);
     p.extreme = is_extreme(camera);
     for (uint32_t y = 0; y < region->height; y += edge)
         for (uint32_t x = 0; x < region->width; x += edge) {

@@ -123,6 +123,10 @@ CGT_SPU_INLINE frustum_span frustum_measure_axis(const cgt_queue_grid *g, const 
 CGT_SPU_INLINE float frustum_start(const cgt_queue_grid *g, const frustum *f, const packet *p)
 {
     vfloat least = spux_vfloat(INFINITY);
+    if (p->from_origin) {
+        const float o = grid_coordinate(g, f->w, f->reverse, p->org[f->w][0]);
+        return o - __builtin_fabsf(o) * 0x1p-20f;
+    }
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const vfloat o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
         const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), spux_vfloat(g->rcell[f->w]));
@@ -150,6 +154,13 @@ CGT_SPU_INLINE float frustum_far(const cgt_queue_grid *g, const frustum *f, cons
         most = spux_max(spu_add(end, wide), most);
     }
     return spux_hmax(most) + g->slack[f->w];
+}
+
+/* The same for rays that start at a common origin, from the farthest end of any, in cells from there. */
+CGT_SPU_INLINE float frustum_far_from_origin(const cgt_queue_grid *g, const frustum *f, const packet *p, float reach)
+{
+    const float o = grid_coordinate(g, f->w, f->reverse, p->org[f->w][0]), end = o + reach;
+    return reach == -INFINITY ? reach : end + (__builtin_fabsf(o) + __builtin_fabsf(end)) * 0x1p-20f + g->slack[f->w];
 }
 
 /* A line of bounds as a plane in world space: how far, in cells of `axis`, a sphere of radius 1 reaches over it. */

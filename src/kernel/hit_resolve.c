@@ -17,50 +17,56 @@ typedef struct winners {
     bool points; /* some sphere has radius 0 */
 } winners;
 
+/* Neighbours mostly hit the same sphere: lanes are filled four at a time. Lanes come in fours at any width. */
 static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w)
 {
-    cgt_sphere q = {0, 0, 0, 0};
-    uint32_t before = CGT_NONE;
     w->hits = 0;
     w->points = false;
-    for (uint32_t i = 0; i < p->lanes; i++) {
-        const uint32_t object = p->object[i];
-        if (object != before) { /* neighbours mostly hit the same */
-            before = object;
-            q = object == CGT_NONE ? (cgt_sphere){0, 0, 0, 0} : cgt_objects_sphere(&grid->objects, object);
-            w->points |= object != CGT_NONE && q.r == 0;
+    for (uint32_t i = 0; i < p->lanes;) {
+        const uint32_t object = p->object[i], *o = p->object + i;
+        const bool hit = object != CGT_NONE, four = i % 4 == 0 && o[1] == object && o[2] == object && o[3] == object;
+        const cgt_sphere q = hit ? cgt_objects_sphere(&grid->objects, object) : (cgt_sphere){0, 0, 0, 0};
+        const uint32_t count = four ? 4 : 1;
+        for (uint32_t k = 0; k < count; k++) {
+            w->x[i + k] = q.x;
+            w->y[i + k] = q.y;
+            w->z[i + k] = q.z;
+            w->r[i + k] = q.r;
         }
-        w->x[i] = q.x;
-        w->y[i] = q.y;
-        w->z[i] = q.z;
-        w->r[i] = q.r;
-        w->hits += object != CGT_NONE;
+        w->points |= hit && q.r == 0;
+        w->hits += hit ? count : 0;
+        i += count;
     }
 }
 
 static void find_ids(const cgt_queue_grid *grid, const packet *p, packet_hits *hits)
 {
-    uint32_t before = CGT_NONE, primitive = CGT_NONE, geometry = CGT_NONE;
-    for (uint32_t i = 0; i < p->lanes; i++) {
-        const uint32_t object = p->object[i];
-        if (object != before) {
-            const cgt_sphere_array *a = object == CGT_NONE ? NULL : cgt_objects_array(&grid->objects, object);
-            before = object;
-            primitive = a ? object - a->first : CGT_NONE;
-            geometry = a ? a->geometry : CGT_NONE;
+    for (uint32_t i = 0; i < p->lanes;) {
+        const uint32_t object = p->object[i], *o = p->object + i;
+        const uint32_t count = i % 4 == 0 && o[1] == object && o[2] == object && o[3] == object ? 4 : 1;
+        const cgt_sphere_array *a = object == CGT_NONE ? NULL : cgt_objects_array(&grid->objects, object);
+        for (uint32_t k = 0; k < count; k++) {
+            hits->primitive[i + k] = a ? object - a->first : CGT_NONE;
+            hits->geometry[i + k] = a ? a->geometry : CGT_NONE;
         }
-        hits->primitive[i] = primitive;
-        hits->geometry[i] = geometry;
+        i += count;
     }
 }
 
 static void resolve_t(const packet *p, winners *w, packet_hits *hits)
 {
+    _Alignas(64) double middle[PACKET_MAX_RAYS], product[PACKET_MAX_RAYS], half2[PACKET_MAX_RAYS];
+    /* two loops: all of it at once has more numbers than a machine has registers */
     for (uint32_t i = 0; i < p->lanes; i++) {
         const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
         const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
-        w->t[i] = cgt_sphere_exact_t(org, dir, p->t_min[i], (cgt_sphere){w->x[i], w->y[i], w->z[i], w->r[i]});
+        const cgt_sphere_terms e = cgt_sphere_exact_terms(org, dir, (cgt_sphere){w->x[i], w->y[i], w->z[i], w->r[i]});
+        middle[i] = e.middle;
+        product[i] = e.product;
+        half2[i] = e.half2;
     }
+    for (uint32_t i = 0; i < p->lanes; i++)
+        w->t[i] = cgt_sphere_exact_root(middle[i], product[i], half2[i], p->t_min[i]);
     for (uint32_t i = 0; i < p->lanes; i++)
         hits->t[i] = p->object[i] != CGT_NONE ? (float)w->t[i] : INFINITY;
 }

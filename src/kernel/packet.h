@@ -32,6 +32,7 @@ typedef struct packet {
     uint32_t rays;                                 /* that take part; they need not come first */
     uint32_t lanes;     /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
     bool common_origin; /* org[.][0] is the origin of all */
+    bool from_origin;   /* and all start there: t_min is 0 */
     bool any_hit;       /* the first hit found closes a ray */
     bool extreme;       /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
 } packet;

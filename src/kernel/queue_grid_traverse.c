@@ -159,12 +159,24 @@ static void test_pending(traversal *v)
     v->pending = 0;
 }
 
+/* The coordinate w beyond which no ray wants a hit: by blocks where their rays share an origin and start there. */
+static float far_coordinate(const traversal *v)
+{
+    const packet *p = v->p;
+    vfloat most = spux_vfloat(-INFINITY);
+    if (!p->from_origin)
+        return frustum_far(v->grid, &v->frustum, p);
+    for (uint32_t i = 0; i < v->blocks.blocks; i += CGT_LANES)
+        most = spux_max(spu_mul(spux_load(v->blocks.far + i), spux_load(v->blocks.speed + i)), most);
+    return frustum_far_from_origin(v->grid, &v->frustum, p, spux_hmax(most));
+}
+
 /* After a slice: tests what it held. True where no ray wants anything from the next slice on. */
 static bool finish_slice(traversal *v, uint32_t slice)
 {
     if (v->pending) {
         test_pending(v);
-        v->w_far = frustum_far(v->grid, &v->frustum, v->p);
+        v->w_far = far_coordinate(v);
     }
     if (!(v->w_far < (float)(slice + 1)))
         return false;
@@ -285,8 +297,8 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
     }
     counts->packets++;
     filter_packet_make(p, &v.filter);
-    block_cones_make(p, v.cull == CGT_CULL_BLOCKS, &v.blocks);
-    v.w_far = frustum_far(grid, &v.frustum, p);
+    block_cones_make(p, v.cull == CGT_CULL_BLOCKS, v.frustum.w, grid->rcell[v.frustum.w], &v.blocks);
+    v.w_far = far_coordinate(&v);
     if (v.mailbox)
         memset(v.seen, 0xff, sizeof v.seen);
     if (settings->flattened)
@@ -361,6 +373,7 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
     packet sub;
     uint32_t from[PACKET_MAX_RAYS];
     sub.common_origin = p->common_origin;
+    sub.from_origin = p->from_origin;
     sub.any_hit = p->any_hit;
     sub.extreme = false;
     counts->split_packets++;

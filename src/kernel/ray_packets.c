@@ -64,6 +64,7 @@ static bool make_packet(const ray_source *s, uint64_t first, uint32_t count, pac
     p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
     p->rays = 0;
     p->common_origin = true;
+    p->from_origin = false;
     p->extreme = false;
     for (uint32_t k = 0; k < count; k++) {
         state[k] = read_ray(s, first + k, p, k);

@@ -28,6 +28,20 @@ void test_begin(const char *name)
     fflush(stdout);
 }
 
+bool test_variant_runs(const char *name)
+{
+    cgt_context_options options;
+    cgt_context *context;
+    cgt_context_options_init(&options);
+    options.variant = name;
+    options.threads = 1;
+    const cgt_result result = cgt_context_create(&options, &context);
+    if (result == CGT_OK) cgt_context_release(context);
+    else printf("%s: %s\n", name, cgt_result_string(result));
+    if (result == CGT_OK || result == CGT_ERROR_UNSUPPORTED) return result == CGT_OK;
+    exit(1);
+}
+
 uint32_t test_scaled(uint32_t n)
 {
     const double scaled = n * scale;

@@ -24,6 +24,12 @@
 /* Prints the program's name, seed and scale. Call it first in main. */
 void test_begin(const char *name);
 
+/* Whether this CPU runs a variant; says so where it does not. CGT_VARIANT_NAME is that of the file's own row. */
+bool test_variant_runs(const char *name);
+#define TEST_TEXT_(x) #x
+#define TEST_TEXT(x) TEST_TEXT_(x)
+#define CGT_VARIANT_NAME TEST_TEXT(CGT_VARIANT)
+
 /* n times the scale, at least 1. */
 uint32_t test_scaled(uint32_t n);
 

@@ -1,0 +1,353 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Cameras: what is refused, the rays, and pictures from hard places: along the axes and diagonals, from inside, with
+ * the scene behind, with openings near 0 and 180 degrees, with clipped ranges. Brute force judges the pixels. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static cgt_context *context;
+
+static int open_context(void **state)
+{
+    (void)state;
+    context = context_make(2, NULL);
+    return 0;
+}
+
+static int close_context(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
+/* ---- what is refused ---- */
+
+static void expect_refused(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame, cgt_result expected,
+                           const char *word)
+{
+    cgt_trace_statistics statistics;
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    memset(&statistics, 0x55, sizeof statistics);
+    const cgt_trace_statistics before = statistics;
+    options.statistics = &statistics;
+    const cgt_result result = cgt_trace_camera(scene, camera, frame, &options);
+    if (result != expected) fail_msg("%s: %s", word, cgt_result_string(result));
+    if (!strstr(context_message(context), word)) fail_msg("\"%s\" does not speak of %s", context_message(context), word);
+    assert_memory_equal(&statistics, &before, sizeof statistics);
+}
+
+static void bad_cameras_are_refused(void **state)
+{
+    (void)state;
+    const float sphere[1][4] = {{0, 0, 0, 1}};
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    cgt_camera good, ortho, c;
+    float t[4] = {9, 9, 9, 9};
+    cgt_frame frame;
+    cgt_frame_init(&frame, 2, 2);
+    frame.t = t;
+    cgt_camera_init(&good);
+    ortho = good;
+    ortho.projection = CGT_ORTHOGRAPHIC;
+#define REFUSE(from, change, word)                                                                                     \
+    do {                                                                                                               \
+        c = from;                                                                                                      \
+        change;                                                                                                        \
+        expect_refused(scene, &c, &frame, CGT_ERROR_INVALID_ARGUMENT, word);                                           \
+    } while (0)
+    static const float bad[] = {NAN, INFINITY, -INFINITY};
+    for (int i = 0; i < 3; i++)
+        for (int a = 0; a < 3; a++) {
+            REFUSE(good, c.eye[a] = bad[i], "eye");
+            REFUSE(good, c.target[a] = bad[i], "target");
+            REFUSE(good, c.up[a] = bad[i], "up");
+        }
+    REFUSE(good, memcpy(c.target, c.eye, sizeof c.eye), "target");
+    REFUSE(good, (c.up[1] = 0, c.up[2] = 1), "up");
+    REFUSE(good, (c.up[1] = 0, c.up[2] = -1e-20f), "up");
+    REFUSE(good, (c.up[1] = 1e-8f, c.up[2] = 1), "up");
+    REFUSE(good, c.up[1] = 0, "up");
+    REFUSE(good, c.projection = (cgt_projection)2, "projection");
+    REFUSE(good, c.projection = (cgt_projection)-1, "projection");
+    static const float bad_fov[] = {0, -0.f, -45, 180, 200, 1e30f, NAN, INFINITY};
+    for (size_t i = 0; i < TEST_COUNT(bad_fov); i++) REFUSE(good, c.fov = bad_fov[i], "fov");
+    static const float bad_height[] = {0, -1, NAN, INFINITY};
+    for (size_t i = 0; i < TEST_COUNT(bad_height); i++) REFUSE(ortho, c.height = bad_height[i], "height");
+    REFUSE(good, c.t_min = -1e-30f, "t_min");
+    REFUSE(good, c.t_min = NAN, "t_min");
+    REFUSE(good, c.t_max = NAN, "t_max");
+    REFUSE(good, (c.t_min = 2, c.t_max = 1.5f), "t_max");
+    REFUSE(good, c.t_max = -1, "t_max");
+#undef REFUSE
+    for (int i = 0; i < 4; i++) assert_true(t[i] == 9);
+    good.height = NAN; /* what a projection does not use is not looked at */
+    assert_int_equal(cgt_trace_camera(scene, &good, &frame, NULL), CGT_OK);
+    ortho.fov = 1000;
+    assert_int_equal(cgt_trace_camera(scene, &ortho, &frame, NULL), CGT_OK);
+    cgt_scene_release(scene);
+}
+
+static void bad_frames_are_refused(void **state)
+{
+    (void)state;
+    const float sphere[1][4] = {{0, 0, 0, 1}};
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    cgt_camera camera;
+    cgt_frame good, f;
+    float t[16];
+    cgt_camera_init(&camera);
+    cgt_frame_init(&good, 4, 4);
+    good.t = t;
+#define REFUSE(change, code, word)                                                                                     \
+    do {                                                                                                               \
+        f = good;                                                                                                      \
+        change;                                                                                                        \
+        expect_refused(scene, &camera, &f, code, word);                                                                \
+    } while (0)
+    REFUSE(f.width = 0, CGT_ERROR_INVALID_ARGUMENT, "frame");
+    REFUSE(f.height = 0, CGT_ERROR_INVALID_ARGUMENT, "frame");
+    REFUSE(f.width = 65537, CGT_ERROR_TOO_LARGE, "65,536");
+    REFUSE(f.height = UINT32_MAX, CGT_ERROR_TOO_LARGE, "65,536");
+    REFUSE(f.row_stride = 3, CGT_ERROR_INVALID_ARGUMENT, "row_stride");
+    REFUSE(f.row_stride = SIZE_MAX / 8, CGT_ERROR_TOO_LARGE, "row_stride");
+    REFUSE(f.normal[0] = t, CGT_ERROR_INVALID_ARGUMENT, "normal");
+    REFUSE((f.normal[1] = t, f.normal[2] = t), CGT_ERROR_INVALID_ARGUMENT, "normal");
+    REFUSE(f.visitor_fields = 16, CGT_ERROR_INVALID_ARGUMENT, "visitor_fields");
+#undef REFUSE
+    assert_int_equal(cgt_trace_camera(NULL, &camera, &good, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_trace_camera(scene, NULL, &good, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_trace_camera(scene, &camera, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_scene_release(scene);
+}
+
+/* ---- rays ---- */
+
+typedef long double vec3[3];
+
+static void cross(const vec3 a, const vec3 b, vec3 c)
+{
+    for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static void normalise(vec3 a)
+{
+    const long double length = sqrtl(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    for (int i = 0; i < 3; i++) a[i] /= length;
+}
+
+/* The public formula, in long double. */
+static void formula_ray(const cgt_camera *c, uint32_t width, uint32_t height, uint32_t x, uint32_t y, vec3 org, vec3 dir)
+{
+    vec3 fwd, right, up = {c->up[0], c->up[1], c->up[2]};
+    for (int i = 0; i < 3; i++) fwd[i] = (long double)c->target[i] - c->eye[i];
+    normalise(fwd);
+    cross(fwd, up, right);
+    normalise(right);
+    cross(right, fwd, up);
+    const bool flat = c->projection == CGT_ORTHOGRAPHIC;
+    const long double h = flat ? (long double)c->height / 2 : tanl((long double)c->fov * 3.14159265358979323846264338L / 360);
+    const long double px = (2 * (x + 0.5L) / width - 1) * h * width / height, py = (1 - 2 * (y + 0.5L) / height) * h;
+    for (int i = 0; i < 3; i++) {
+        const long double sum = px * right[i] + py * up[i];
+        org[i] = c->eye[i] + (flat ? sum : 0);
+        dir[i] = fwd[i] + (flat ? 0 : sum);
+    }
+}
+
+static void rays_are_those_of_the_formula(void **state)
+{
+    (void)state;
+    for (uint32_t round = 0; round < test_scaled(400); round++) {
+        test_random r = random_make(round);
+        const cloud c = {.reach = random_log(&r, 0.01f, 1000)};
+        const cgt_camera camera = camera_random(&r, &c);
+        const uint32_t width = 1 + random_below(&r, 40), height = 1 + random_below(&r, 40);
+        truth_ray *rays = frame_rays(&camera, width, height);
+        for (uint32_t i = 0; i < width * height; i++) {
+            vec3 org, dir;
+            formula_ray(&camera, width, height, i % width, i / width, org, dir);
+            /* right and up are at most as long as the opening makes them */
+            const double half = camera.projection == CGT_ORTHOGRAPHIC ? 0.5 * (double)camera.height : tan((double)camera.fov * 3.14159265358979 / 360);
+            const double longest = 1 + half * (1 + (double)width / height);
+            double eye = 0;
+            for (int a = 0; a < 3; a++) eye = fmax(eye, fabs((double)camera.eye[a]));
+            for (int a = 0; a < 3; a++) {
+                assert_true(fabs((double)(rays[i].dir[a] - dir[a])) <= 4 * 0x1p-24 * longest);
+                assert_true(fabs((double)(rays[i].org[a] - org[a])) <= 4 * 0x1p-24 * (longest + eye));
+            }
+        }
+        free(rays);
+    }
+}
+
+static void frames_equal_arrays_of_the_same_rays(void **state)
+{
+    (void)state;
+    static const uint32_t size[][2] = {{1, 1}, {1, 70}, {200, 3}, {64, 64}, {65, 66}, {131, 67}, {17, 5}, {1300, 6}};
+    for (uint32_t round = 0; round < test_scaled(6) * TEST_COUNT(size); round++) {
+        test_random r = random_make(round);
+        cloud c = cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), 300);
+        const cgt_camera camera = camera_random(&r, &c);
+        planes p = planes_make(size[round % TEST_COUNT(size)][0], size[round % TEST_COUNT(size)][1]);
+        truth_ray *rays = frame_rays(&camera, p.width, p.height);
+        ray_hit *hits = malloc(p.elements * sizeof *hits);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        assert_non_null(hits);
+        frame_trace(scene, &camera, &p, NULL);
+        rays_trace(scene, rays, p.elements, hits, NULL);
+        for (size_t i = 0; i < p.elements; i++) {
+            assert_true(same_bits(p.t[i], hits[i].t));
+            assert_int_equal(p.primitive[i], hits[i].primitive);
+            assert_int_equal(p.geometry[i], hits[i].geometry);
+            for (int a = 0; a < 3; a++) assert_true(same_bits(p.normal[a][i], hits[i].normal[a]));
+        }
+        cgt_scene_release(scene);
+        free(hits);
+        free(rays);
+        planes_free(&p);
+        cloud_free(&c);
+    }
+}
+
+/* ---- places ---- */
+
+static uint32_t count_hits(const planes *p)
+{
+    uint32_t hits = 0;
+    for (size_t i = 0; i < p->elements; i++) hits += p->primitive[i] != CGT_NONE;
+    return hits;
+}
+
+/* Traces with either loop and judges; returns the hits. */
+static uint32_t look(const cgt_scene *scene, const cgt_camera *camera, const cloud *c, const planes *p)
+{
+    truth_ray *rays = frame_rays(camera, p->width, p->height);
+    planes other = planes_make(p->width, p->height);
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    options.loop = CGT_LOOP_FLATTENED;
+    frame_trace(scene, camera, p, NULL);
+    frame_trace(scene, camera, &other, &options);
+    assert_true(planes_equal(p, &other));
+    frame_judge(p, rays, (const float(*)[4])c->sphere, c->count);
+    planes_free(&other);
+    free(rays);
+    return count_hits(p);
+}
+
+static void point_camera(cgt_camera *camera, int direction, const float middle[3], float distance)
+{
+    const float d[3] = {(float)(direction % 3 - 1), (float)(direction / 3 % 3 - 1), (float)(direction / 9 - 1)};
+    for (int a = 0; a < 3; a++) {
+        camera->target[a] = middle[a] + (distance == 0 ? d[a] : 0);
+        camera->eye[a] = middle[a] - distance * d[a];
+    }
+    /* the axis that is least along d */
+    memcpy(camera->up, (float[3]){0, 1, 0}, sizeof camera->up);
+    if (d[1] != 0) memcpy(camera->up, d[0] == 0 ? (float[3]){1, 0, 0} : (float[3]){0, 0, d[2] == 0 ? 1.f : -1.f}, sizeof camera->up);
+}
+
+static void along_26_directions(void **state)
+{
+    (void)state;
+    test_random r = random_make(1);
+    planes p = planes_make(33, 21);
+    for (int kind = 0; kind < 3; kind++) {
+        cloud c = cloud_make(&r, kind == 0 ? CLOUD_LATTICE : kind == 1 ? CLOUD_UNIFORM : CLOUD_PLANAR, 200);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        for (int direction = 0; direction < 27; direction++)
+            for (int place = 0; place < 3; place++) { /* outside, at the middle, orthographic from within */
+                cgt_camera camera;
+                if (direction == 13) continue; /* nowhere */
+                cgt_camera_init(&camera);
+                point_camera(&camera, direction, c.middle, place == 0 ? 3 * c.reach : 0);
+                camera.fov = 50;
+                if (place == 2) camera.projection = CGT_ORTHOGRAPHIC, camera.height = 2 * c.reach;
+                const uint32_t hits = look(scene, &camera, &c, &p);
+                assert_true(kind != 1 || hits > 0);
+                if (place) continue;
+                for (int a = 0; a < 3; a++) camera.target[a] = 2 * camera.eye[a] - camera.target[a]; /* turned around */
+                camera.fov = 20;
+                assert_int_equal(look(scene, &camera, &c, &p), 0);
+            }
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    planes_free(&p);
+}
+
+static void wide_and_narrow_openings(void **state)
+{
+    (void)state;
+    static const float fov[] = {1e-4f, 0.1f, 90, 150, 175, 179, 179.9f, 179.999f};
+    planes p = planes_make(40, 27);
+    for (uint32_t round = 0; round < test_scaled(5) * TEST_COUNT(fov); round++) {
+        test_random r = random_make(round);
+        cloud c = cloud_make(&r, CLOUD_UNIFORM, 400);
+        cgt_camera camera = camera_random(&r, &c);
+        camera.projection = CGT_PERSPECTIVE;
+        camera.fov = fov[round % TEST_COUNT(fov)];
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        look(scene, &camera, &c, &p);
+        if (camera.fov > 170) { /* packets whose rays disagree on the main axis were split, and right */
+            cgt_trace_statistics statistics;
+            cgt_trace_options options;
+            cgt_trace_options_init(&options);
+            options.packet = 16;
+            options.statistics = &statistics;
+            frame_trace(scene, &camera, &p, &options);
+            assert_true(statistics.split_packets > 0);
+        }
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    planes_free(&p);
+}
+
+static void ranges_are_clipped(void **state)
+{
+    (void)state;
+    planes p = planes_make(48, 32), whole = planes_make(48, 32);
+    uint32_t fewer = 0, others = 0;
+    for (uint32_t round = 0; round < test_scaled(30); round++) {
+        test_random r = random_make(round);
+        cloud c = cloud_make(&r, CLOUD_UNIFORM, 300);
+        cgt_camera camera = camera_random(&r, &c);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        const uint32_t all = look(scene, &camera, &c, &whole);
+        camera.t_min = random_float(&r, 0, 3) * c.reach;
+        camera.t_max = round % 3 ? camera.t_min + random_float(&r, 0, 2) * c.reach : INFINITY;
+        if (round % 5 == 0 && all) { /* exactly at what a pixel sees */
+            size_t i = random_below(&r, (uint32_t)p.elements);
+            while (whole.primitive[i] == CGT_NONE) i = (i + 1) % p.elements;
+            camera.t_min = camera.t_max = whole.t[i];
+            frame_trace(scene, &camera, &p, NULL);
+            assert_true(p.t[i] == whole.t[i] && p.primitive[i] == whole.primitive[i]);
+        }
+        fewer += look(scene, &camera, &c, &p) < all;
+        for (size_t i = 0; i < p.elements; i++) others += p.primitive[i] != whole.primitive[i] && p.primitive[i] != CGT_NONE;
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    assert_true(fewer > 0 && others > 0); /* clipped away, and what was hidden behind */
+    planes_free(&p);
+    planes_free(&whole);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_cameras_are_refused),       cmocka_unit_test(bad_frames_are_refused),
+        cmocka_unit_test(rays_are_those_of_the_formula), cmocka_unit_test(frames_equal_arrays_of_the_same_rays),
+        cmocka_unit_test(along_26_directions),           cmocka_unit_test(wide_and_narrow_openings),
+        cmocka_unit_test(ranges_are_clipped),
+    };
+    test_begin("test_camera");
+    return cmocka_run_group_tests(tests, open_context, close_context);
+}

@@ -1,0 +1,265 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Contexts: options, variants, messages, the log, life time, and the environment variable that masks the CPU. */
+#define _GNU_SOURCE
+#include "support/scenes.h"
+
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* ---- options ---- */
+
+typedef struct log_record {
+    unsigned lines, errors;
+    bool bad_line; /* empty, or with a line feed */
+    char last[300];
+    cgt_log_level level;
+} log_record;
+
+static void record_log(void *user, cgt_log_level level, const char *message)
+{
+    log_record *log = user;
+    log->lines++;
+    log->errors += level == CGT_LOG_ERROR;
+    log->bad_line |= !*message || strchr(message, '\n');
+    log->level = level;
+    snprintf(log->last, sizeof log->last, "%s", message);
+}
+
+static cgt_context_options logged_options(log_record *log)
+{
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.threads = 1;
+    options.log = (cgt_log_hook){log, record_log};
+    return options;
+}
+
+static void expect_refused(const cgt_context_options *options, log_record *log, cgt_result expected, const char *word)
+{
+    cgt_context *context = (cgt_context *)(void *)log; /* anything but NULL */
+    *log = (log_record){0};
+    assert_int_equal(cgt_context_create(options, &context), expected);
+    assert_null(context);
+    assert_int_equal(log->errors, 1);
+    assert_false(log->bad_line);
+    if (!strstr(log->last, word)) fail_msg("\"%s\" does not speak of %s", log->last, word);
+}
+
+static void *never_allocate(void *user, size_t bytes, size_t alignment)
+{
+    (void)user;
+    fail_msg("allocate was called: %zu bytes, aligned to %zu", bytes, alignment);
+    return NULL;
+}
+
+static void never_release(void *user, void *memory, size_t bytes)
+{
+    (void)user;
+    fail_msg("release was called: %zu bytes at %p", bytes, memory);
+}
+
+static void bad_options_are_refused(void **state)
+{
+    (void)state;
+    log_record log;
+    cgt_context_options options = logged_options(&log);
+    options.variant = "mmx";
+    expect_refused(&options, &log, CGT_ERROR_INVALID_ARGUMENT, "variant");
+    options.variant = "";
+    expect_refused(&options, &log, CGT_ERROR_INVALID_ARGUMENT, "variant");
+    options = logged_options(&log);
+    options.threads = 1025;
+    expect_refused(&options, &log, CGT_ERROR_INVALID_ARGUMENT, "threads");
+    options = logged_options(&log);
+    options.memory.allocate = never_allocate;
+    expect_refused(&options, &log, CGT_ERROR_INVALID_ARGUMENT, "memory");
+    options.memory.allocate = NULL;
+    options.memory.release = never_release;
+    expect_refused(&options, &log, CGT_ERROR_INVALID_ARGUMENT, "memory");
+    assert_int_equal(cgt_context_create(NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+}
+
+static void defaults_take_every_cpu(void **state)
+{
+    (void)state;
+    cgt_context *context = NULL;
+    cpu_set_t set;
+    assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
+    assert_int_equal(sched_getaffinity(0, sizeof set, &set), 0);
+    assert_int_equal(cgt_context_threads(context), CPU_COUNT(&set));
+    cgt_context_release(context);
+    context = context_make(3, NULL);
+    assert_int_equal(cgt_context_threads(context), 3);
+    cgt_context_release(context);
+    cgt_context_release(NULL);
+}
+
+static void variants_are_found_by_name(void **state)
+{
+    (void)state;
+    const char *widest = NULL;
+    assert_string_equal(cgt_variants()[0], "portable");
+    FOR_EACH_VARIANT(variant) {
+        cgt_context *context = context_make(1, variant);
+        assert_string_equal(cgt_context_variant(context), variant);
+        cgt_context_release(context);
+        widest = variant;
+    }
+    cgt_context *context = context_make(1, NULL);
+    assert_string_equal(cgt_context_variant(context), widest);
+    cgt_context_release(context);
+}
+
+static void results_and_version_have_words(void **state)
+{
+    (void)state;
+    for (int i = CGT_OK; i <= CGT_ERROR_STOPPED + 1; i++) {
+        const char *text = cgt_result_string((cgt_result)i);
+        assert_true(text && strlen(text) > 5);
+        for (int k = CGT_OK; k < i; k++) assert_string_not_equal(text, cgt_result_string((cgt_result)k));
+    }
+    assert_string_equal(cgt_result_string((cgt_result)-5), cgt_result_string((cgt_result)12345));
+    assert_string_equal(cgt_version(), CGT_VERSION_STRING);
+}
+
+/* ---- messages ---- */
+
+static void messages_are_kept_and_cut(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    const cgt_context_options options = logged_options(&log);
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    char text[300], cut[8];
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    assert_int_equal(cgt_error_message(context, text, sizeof text), 0);
+    assert_string_equal(text, "");
+    assert_int_equal(cgt_error_message(NULL, NULL, 0), 0);
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 4711), CGT_ERROR_INVALID_ARGUMENT);
+    const size_t length = cgt_error_message(context, NULL, 0);
+    assert_int_equal(cgt_error_message(context, text, sizeof text), length);
+    assert_int_equal(strlen(text), length);
+    assert_non_null(strstr(text, "4711"));
+    assert_string_equal(text, log.last); /* the log got the same words */
+    assert_int_equal(log.level, CGT_LOG_ERROR);
+    memset(cut, 'x', sizeof cut);
+    assert_int_equal(cgt_error_message(context, cut, sizeof cut - 1), length);
+    assert_int_equal(strlen(cut), sizeof cut - 2);
+    assert_int_equal(cut[sizeof cut - 1], 'x');
+    assert_memory_equal(cut, text, sizeof cut - 2);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK); /* a success leaves it */
+    assert_int_equal(cgt_error_message(context, NULL, 0), length);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    assert_false(log.bad_line);
+}
+
+static void log_tells_what_was_skipped(void **state)
+{
+    (void)state;
+    log_record log = {0};
+    const cgt_context_options options = logged_options(&log);
+    cgt_context *context = NULL;
+    const float sphere[2][4] = {{0, 0, 0, 1}, {0, 0, 0, -1}};
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    assert_true(log.lines > 0 && log.level == CGT_LOG_INFO);
+    cgt_scene_release(scene);
+    log = (log_record){0};
+    scene = scene_of(context, NULL, sphere, 2);
+    assert_true(log.lines >= 2 && !log.errors && !log.bad_line);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+static void a_scene_keeps_its_context(void **state)
+{
+    (void)state;
+    const float sphere[1][4] = {{0, 0, 0, 1}};
+    const truth_ray ray = {{0, 0, 5}, {0, 0, -1}, 0, 100};
+    cgt_context *context = context_make(2, NULL);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1), *other = scene_of(context, NULL, sphere, 0);
+    cgt_context_release(context);
+    cgt_scene_release(other);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_true(ray_trace(scene, ray).t == 4);
+    cgt_scene_release(scene);
+    cgt_scene_release(NULL);
+}
+
+/* ---- CGT_DISABLE_CPU, in processes of its own ---- */
+
+/* What a child finds with the mask: 0 the portable variant, 1 another one, 2 an error; -signal where it was ended. */
+static int child_with_mask(const char *mask, const char *variant)
+{
+    fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        cgt_context_options options;
+        cgt_context *context;
+        const struct rlimit no_core = {0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
+        signal(SIGABRT, SIG_DFL);
+        if (!freopen("/dev/null", "w", stderr) || setenv("CGT_DISABLE_CPU", mask, 1)) _exit(9);
+        cgt_context_options_init(&options);
+        options.threads = 1;
+        options.variant = variant;
+        const cgt_result result = cgt_context_create(&options, &context);
+        _exit(result != CGT_OK ? 2 : strcmp(cgt_context_variant(context), "portable") != 0);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+static void features_can_be_masked(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    const int widest = strcmp(cgt_context_variant(context), "portable") != 0;
+    const bool sse = strcmp(cgt_context_variant(context), "sse") == 0;
+    cgt_context_release(context);
+    assert_int_equal(child_with_mask("", NULL), widest);
+    assert_int_equal(child_with_mask("sse4.1,neon", NULL), 0);
+    assert_int_equal(child_with_mask("neon,,sse4.1,", NULL), 0);
+    assert_int_equal(child_with_mask("sse4.1,neon", "portable"), 0);
+    assert_int_equal(child_with_mask("neon", NULL), sse ? 1 : 0);
+    assert_int_equal(child_with_mask("sse4.1", NULL), widest && !sse ? 1 : 0);
+    if (sse) assert_int_equal(child_with_mask("sse4.1", "sse"), 2);
+    if (widest && !sse) assert_int_equal(child_with_mask("neon", "neon"), 2);
+}
+
+static void unknown_features_end_the_process(void **state)
+{
+    (void)state;
+    static const char *const unknown[] = {"sse4", "sse4.11", "SSE4.1", "avx9", "sse4.1 ", "sse4.1,avx9", "avx9,sse4.1", " "};
+    for (size_t i = 0; i < TEST_COUNT(unknown); i++) {
+        assert_int_equal(child_with_mask(unknown[i], NULL), -SIGABRT);
+        assert_int_equal(child_with_mask(unknown[i], "portable"), -SIGABRT);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_options_are_refused),    cmocka_unit_test(defaults_take_every_cpu),
+        cmocka_unit_test(variants_are_found_by_name), cmocka_unit_test(results_and_version_have_words),
+        cmocka_unit_test(messages_are_kept_and_cut),  cmocka_unit_test(log_tells_what_was_skipped),
+        cmocka_unit_test(a_scene_keeps_its_context),  cmocka_unit_test(features_can_be_masked),
+        cmocka_unit_test(unknown_features_end_the_process),
+    };
+    test_begin("test_context");
+    unsetenv("CGT_DISABLE_CPU"); /* these tests set their own */
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,383 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Scenes: checks of arguments, ids of geometries, what makes a scene uncommitted, arrays of every shape, spheres that
+ * are skipped, and what the statistics say. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static cgt_context *context;
+
+static const float one[1][4] = {{0, 0, 0, 1}};
+static const truth_ray ahead = {{0, 0, 5}, {0, 0, -1}, 0, INFINITY};
+
+static int open_context(void **state)
+{
+    (void)state;
+    context = context_make(2, NULL);
+    return 0;
+}
+
+static int close_context(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
+static cgt_scene *empty_scene(void)
+{
+    cgt_scene *scene = NULL;
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    return scene;
+}
+
+static uint32_t add(cgt_scene *scene, cgt_spheres spheres)
+{
+    uint32_t geometry = 12345;
+    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
+    return geometry;
+}
+
+/* ---- arguments ---- */
+
+static void options_are_checked(void **state)
+{
+    (void)state;
+    static const struct {
+        int structure;
+        uint32_t resolution[3];
+        cgt_result expected;
+    } row[] = {{0, {0, 0, 0}, CGT_OK},
+               {1, {1, 1, 1}, CGT_OK},
+               {1, {1024, 128, 128}, CGT_OK},
+               {1, {128, 1024, 128}, CGT_OK},
+               {7, {0, 0, 0}, CGT_ERROR_INVALID_ARGUMENT},
+               {-1, {0, 0, 0}, CGT_ERROR_INVALID_ARGUMENT},
+               {0, {4, 0, 4}, CGT_ERROR_INVALID_ARGUMENT},
+               {0, {0, 4, 4}, CGT_ERROR_INVALID_ARGUMENT},
+               {0, {4, 4, 0}, CGT_ERROR_INVALID_ARGUMENT},
+               {0, {1025, 1, 1}, CGT_ERROR_TOO_LARGE},
+               {0, {1, 1, UINT32_MAX}, CGT_ERROR_TOO_LARGE},
+               {0, {1024, 128, 129}, CGT_ERROR_TOO_LARGE},
+               {0, {1024, 1024, 1024}, CGT_ERROR_TOO_LARGE}};
+    cgt_scene *kept = scene_of(context, NULL, one, 1);
+    for (size_t i = 0; i < TEST_COUNT(row); i++) {
+        cgt_scene_options options;
+        cgt_scene *scene = kept;
+        cgt_scene_options_init(&options);
+        options.structure = (cgt_structure)row[i].structure;
+        memcpy(options.resolution, row[i].resolution, sizeof options.resolution);
+        assert_int_equal(cgt_scene_create(context, &options, &scene), row[i].expected);
+        if (row[i].expected == CGT_OK) cgt_scene_release(scene);
+        else assert_null(scene);
+        if (row[i].expected == CGT_OK) continue;
+        assert_int_equal(cgt_scene_set_options(kept, &options), row[i].expected);
+        assert_true(ray_trace(kept, ahead).t == 4); /* a refusal changes nothing */
+    }
+    cgt_scene_release(kept);
+}
+
+static void null_is_refused(void **state)
+{
+    (void)state;
+    cgt_scene *scene = empty_scene();
+    cgt_scene_statistics statistics;
+    cgt_scene_options options;
+    uint32_t geometry;
+    const cgt_spheres spheres = spheres_of(one, 1);
+    cgt_scene_options_init(&options);
+    assert_int_equal(cgt_scene_create(NULL, NULL, &scene), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_create(context, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_set_options(NULL, &options), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_set_options(scene, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_add_spheres(NULL, &spheres, &geometry), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_add_spheres(scene, NULL, &geometry), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_update_spheres(NULL, 0, &spheres), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_update_spheres(scene, 0, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_remove_geometry(NULL, 0), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_commit(NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_get_statistics(NULL, &statistics), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_get_statistics(scene, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    cgt_scene_release(scene);
+}
+
+static void spheres_are_checked(void **state)
+{
+    (void)state;
+    static _Alignas(16) const float data[64] = {0};
+    const float *const crooked = (const float *)(const void *)((const char *)data + 2);
+    const cgt_spheres good = {.count = 4, .centers = data, .radius = 1};
+    cgt_scene *scene = scene_of(context, NULL, one, 1);
+    cgt_spheres bad[15];
+    uint32_t geometry = 77;
+    for (size_t i = 0; i < TEST_COUNT(bad); i++) bad[i] = good;
+    bad[0].centers = NULL;
+    bad[1].centers = crooked;
+    bad[2].radii = crooked;
+    bad[3].center_stride = 13;
+    bad[4].radii = data, bad[4].radius_stride = 6;
+    bad[5].center_stride = SIZE_MAX - 3;
+    bad[6].center_stride = SIZE_MAX / 8 * 4;
+    bad[7].radii = data, bad[7].radius_stride = SIZE_MAX - 3;
+    bad[8].radius = -1;
+    bad[9].radius = NAN;
+    bad[10].radius = INFINITY;
+    bad[11].radius = -INFINITY;
+    bad[12].count = UINT32_MAX - 1; /* with the one that is there, the sum is 2^32 - 1 */
+    bad[13].count = UINT32_MAX;
+    bad[14].count = UINT32_MAX - 1, bad[14].center_stride = SIZE_MAX / 4 / UINT32_MAX * 4 * 4;
+    for (size_t i = 0; i < TEST_COUNT(bad); i++) {
+        const cgt_result expected = i == 12 || i == 13 ? CGT_ERROR_TOO_LARGE : CGT_ERROR_INVALID_ARGUMENT;
+        if (cgt_scene_add_spheres(scene, &bad[i], &geometry) != expected) fail_msg("row %zu is not refused", i);
+        assert_int_equal(geometry, 77);
+        if (i != 12 && cgt_scene_update_spheres(scene, 0, &bad[i]) != expected) fail_msg("row %zu is not refused", i);
+        assert_true(ray_trace(scene, ahead).t == 4); /* still committed, still the same */
+    }
+    cgt_scene_release(scene);
+}
+
+static void huge_counts_do_not_wrap(void **state)
+{
+    (void)state;
+    cgt_scene *scene = empty_scene();
+    cgt_spheres huge = spheres_of(one, 1u << 31);
+    uint32_t geometry = 0;
+    assert_int_equal(add(scene, huge), 0); /* not read before the commit */
+    assert_int_equal(cgt_scene_commit(scene), CGT_ERROR_TOO_MANY_PRIMITIVES);
+    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
+    huge.count = (1u << 31) - 1; /* 2^32 - 1 in all */
+    assert_int_equal(cgt_scene_add_spheres(scene, &huge, &geometry), CGT_ERROR_TOO_LARGE);
+    huge.count--;
+    assert_int_equal(add(scene, huge), 1);
+    assert_int_equal(cgt_scene_commit(scene), CGT_ERROR_TOO_MANY_PRIMITIVES);
+    cgt_scene_release(scene);
+}
+
+/* ---- ids and commits ---- */
+
+static void lowest_free_id_is_given(void **state)
+{
+    (void)state;
+    cgt_scene *scene = empty_scene();
+    float spheres[6][1][4];
+    for (int i = 0; i < 6; i++) {
+        spheres[i][0][0] = spheres[i][0][1] = 0;
+        spheres[i][0][2] = -10.f * (float)i;
+        spheres[i][0][3] = 1;
+        assert_int_equal(add(scene, spheres_of((const float(*)[4])spheres[i], 1)), i);
+    }
+    assert_int_equal(cgt_scene_remove_geometry(scene, 3), CGT_OK);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 1), CGT_OK);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 6), CGT_ERROR_INVALID_ARGUMENT);
+    const cgt_spheres first = spheres_of((const float(*)[4])spheres[0], 1);
+    assert_int_equal(cgt_scene_update_spheres(scene, 1, &first), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    ray_hit hit = ray_trace(scene, ahead);
+    assert_true(hit.geometry == 2 && hit.primitive == 0 && hit.t == 24);
+    assert_int_equal(add(scene, spheres_of((const float(*)[4])spheres[1], 1)), 0);
+    assert_int_equal(add(scene, spheres_of((const float(*)[4])spheres[0], 1)), 1);
+    assert_int_equal(add(scene, spheres_of(NULL, 0)), 3);
+    assert_int_equal(add(scene, spheres_of(NULL, 0)), 6);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    hit = ray_trace(scene, ahead);
+    assert_true(hit.geometry == 1 && hit.t == 4);
+    cgt_scene_statistics statistics;
+    assert_int_equal(cgt_scene_get_statistics(scene, &statistics), CGT_OK);
+    assert_int_equal(statistics.geometries, 7);
+    assert_int_equal(statistics.primitives, 5);
+    cgt_scene_release(scene);
+}
+
+static void expect_not_committed(const cgt_scene *scene)
+{
+    ray_hit hit;
+    uint8_t occluded = 9;
+    float t = 9;
+    cgt_camera camera;
+    cgt_frame frame;
+    const cgt_rays rays = rays_of(&ahead, 1);
+    const cgt_hits hits = hits_of(&hit);
+    cgt_camera_init(&camera);
+    cgt_frame_init(&frame, 1, 1);
+    frame.t = &t;
+    hit.t = 9;
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_ERROR_NOT_COMMITTED);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, &occluded, NULL), CGT_ERROR_NOT_COMMITTED);
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_ERROR_NOT_COMMITTED);
+    assert_true(hit.t == 9 && occluded == 9 && t == 9);
+    assert_non_null(strstr(context_message(context), "committed"));
+}
+
+static void changes_ask_for_a_commit(void **state)
+{
+    (void)state;
+    float moving[1][4] = {{0, 0, 0, 1}};
+    cgt_scene *scene = empty_scene();
+    expect_not_committed(scene);
+    const cgt_spheres spheres = spheres_of((const float(*)[4])moving, 1);
+    add(scene, spheres);
+    expect_not_committed(scene);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_true(ray_trace(scene, ahead).t == 4);
+    assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
+    expect_not_committed(scene);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    moving[0][2] = -2; /* numbers alone: the commit is all */
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_true(ray_trace(scene, ahead).t == 6);
+    assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
+    expect_not_committed(scene);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_true(ray_trace(scene, ahead).t == INFINITY);
+    cgt_scene_release(scene);
+}
+
+static void options_hold_from_the_next_commit(void **state)
+{
+    (void)state;
+    cgt_scene *scene = scene_of(context, NULL, one, 1);
+    cgt_scene_options options;
+    cgt_scene_statistics statistics;
+    cgt_scene_options_init(&options);
+    options.resolution[0] = 3;
+    options.resolution[1] = 5;
+    options.resolution[2] = 7;
+    assert_int_equal(cgt_scene_set_options(scene, &options), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_int_equal(cgt_scene_get_statistics(scene, &statistics), CGT_OK);
+    assert_memory_equal(statistics.resolution, options.resolution, sizeof options.resolution);
+    assert_int_equal(statistics.cells, 105);
+    assert_true(ray_trace(scene, ahead).t == 4);
+    cgt_scene_release(scene);
+}
+
+static void empty_scenes_are_valid(void **state)
+{
+    (void)state;
+    const float skipped[2][4] = {{NAN, 0, 0, 1}, {0, 0, 0, -1}};
+    cgt_scene_statistics s;
+    cgt_scene *scene = empty_scene();
+    assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
+    assert_int_equal(s.structure, CGT_STRUCTURE_AUTO);
+    for (int round = 0; round < 3; round++) {
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
+        assert_true(s.references == 0 && s.overflow_references == 0 && s.primitives == (round == 2 ? 2 : 0));
+        for (int a = 0; a < 3; a++) assert_true(s.bounds_min[a] == 0 && s.bounds_max[a] == 0);
+        const ray_hit hit = ray_trace(scene, ahead);
+        assert_true(hit.t == INFINITY && hit.primitive == CGT_NONE && hit.geometry == CGT_NONE);
+        assert_true(hit.normal[0] == 0 && hit.normal[1] == 0 && hit.normal[2] == 0);
+        planes p = planes_make(70, 5);
+        cgt_camera camera;
+        cgt_camera_init(&camera);
+        frame_trace(scene, &camera, &p, NULL);
+        for (size_t i = 0; i < p.elements; i++) assert_true(p.t[i] == INFINITY && p.primitive[i] == CGT_NONE);
+        planes_free(&p);
+        add(scene, round == 0 ? spheres_of(NULL, 0) : spheres_of(skipped, 2));
+    }
+    cgt_scene_release(scene);
+}
+
+/* ---- arrays and numbers ---- */
+
+static void arrays_of_any_shape_are_read(void **state)
+{
+    (void)state;
+    enum { N = 300 };
+    test_random r = random_make(1);
+    struct atom { char name[4]; float velocity[3], r, p[3]; } atom[N];
+    float packed[N][3], radii[N], alike[N][4];
+    for (int i = 0; i < N; i++) {
+        for (int a = 0; a < 3; a++) alike[i][a] = atom[i].p[a] = packed[i][a] = random_float(&r, -5, 5);
+        alike[i][3] = atom[i].r = radii[i] = random_float(&r, 0.1f, 0.5f);
+    }
+    const cgt_spheres shape[] = {
+        spheres_of((const float(*)[4])alike, N),
+        {.count = N, .centers = packed[0], .radii = radii},
+        {.count = N, .centers = atom[0].p, .center_stride = sizeof atom[0], .radii = &atom[0].r, .radius_stride = sizeof atom[0]},
+        {.count = N, .centers = atom[0].p, .center_stride = sizeof atom[0], .radii = radii, .radius_stride = 4}};
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    camera.eye[2] = 20;
+    planes expected = planes_make(64, 64), p = planes_make(64, 64);
+    for (size_t i = 0; i < TEST_COUNT(shape); i++) {
+        cgt_scene *scene = empty_scene();
+        add(scene, shape[i]);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        frame_trace(scene, &camera, i ? &p : &expected, NULL);
+        assert_true(i == 0 || planes_equal(&p, &expected));
+        cgt_scene_release(scene);
+    }
+    for (int i = 0; i < N; i++) alike[i][3] = 0.25f;
+    cgt_scene *scene = empty_scene();
+    add(scene, shape[0]);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    frame_trace(scene, &camera, &expected, NULL);
+    const cgt_spheres shared = {.count = N, .centers = packed[0], .radius = 0.25f};
+    assert_int_equal(cgt_scene_update_spheres(scene, 0, &shared), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    frame_trace(scene, &camera, &p, NULL);
+    assert_true(planes_equal(&p, &expected));
+    cgt_scene_release(scene);
+    planes_free(&p);
+    planes_free(&expected);
+}
+
+static void bad_spheres_are_skipped_and_counted(void **state)
+{
+    (void)state;
+    static const float bad[] = {NAN, INFINITY, -INFINITY};
+    test_random r = random_make(2);
+    enum { N = 200 };
+    float sphere[N][4];
+    uint32_t not_finite = 0, negative = 0;
+    for (int i = 0; i < N; i++) {
+        for (int a = 0; a < 3; a++) sphere[i][a] = random_float(&r, -5, 5);
+        sphere[i][3] = i % 50 == 0 ? -0.f : random_float(&r, 0.2f, 0.9f);
+        if (i % 4 == 1) sphere[i][random_below(&r, 4)] = bad[random_below(&r, 3)], not_finite++;
+        if (i % 4 == 3) sphere[i][3] = i % 8 == 3 ? -sphere[i][3] : -0x1p-149f, negative++;
+        if (i % 16 == 5) sphere[i][3] = -1, sphere[i][0] = NAN; /* both: not finite */
+    }
+    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, N);
+    cgt_scene_statistics s;
+    assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
+    assert_int_equal(s.primitives, N);
+    assert_int_equal(s.skipped_not_finite, not_finite);
+    assert_int_equal(s.skipped_radius, negative);
+    for (int a = 0; a < 3; a++) assert_true(s.bounds_min[a] > -6 && s.bounds_max[a] < 6);
+    for (int i = 0; i < N; i += 2)
+        for (int a = 0; a < 3; a++) {
+            assert_true((double)sphere[i][a] - sphere[i][3] >= s.bounds_min[a]);
+            assert_true((double)sphere[i][a] + sphere[i][3] <= s.bounds_max[a]);
+        }
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    camera.eye[2] = 15;
+    planes p = planes_make(80, 60);
+    truth_ray *rays = frame_rays(&camera, 80, 60);
+    frame_trace(scene, &camera, &p, NULL);
+    frame_judge(&p, rays, (const float(*)[4])sphere, N); /* ids count the skipped ones */
+    free(rays);
+    planes_free(&p);
+    cgt_scene_release(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(options_are_checked),          cmocka_unit_test(null_is_refused),
+        cmocka_unit_test(spheres_are_checked),          cmocka_unit_test(huge_counts_do_not_wrap),
+        cmocka_unit_test(lowest_free_id_is_given),      cmocka_unit_test(changes_ask_for_a_commit),
+        cmocka_unit_test(options_hold_from_the_next_commit), cmocka_unit_test(empty_scenes_are_valid),
+        cmocka_unit_test(arrays_of_any_shape_are_read), cmocka_unit_test(bad_spheres_are_skipped_and_counted),
+    };
+    test_begin("test_scene");
+    return cmocka_run_group_tests(tests, open_context, close_context);
+}
