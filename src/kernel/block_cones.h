@@ -18,8 +18,9 @@
 
 typedef struct block_cones {
     _Alignas(64) float axis[3][PACKET_MAX_BLOCKS];
-    _Alignas(64) float tangent[PACKET_MAX_BLOCKS]; /* infinity where the block has no cone: never culled */
+    _Alignas(64) float tangent[PACKET_MAX_BLOCKS];
     _Alignas(64) float secant[PACKET_MAX_BLOCKS];
+    _Alignas(64) float wide[PACKET_MAX_BLOCKS];  /* 0; infinity where the rays are too wide for a cone: never culled */
     _Alignas(64) float far[PACKET_MAX_BLOCKS];   /* no ray of the block wants a hit beyond this t */
     _Alignas(64) float speed[PACKET_MAX_BLOCKS]; /* cells of the main axis per t of the fastest ray */
     uint32_t blocks;
@@ -74,7 +75,8 @@ CGT_SPU_INLINE void block_cone_make(const packet *p, block_cones *b, uint32_t bl
     const float sine2 = block_sine2(p, block, a) * (1 + 0x1p-18f) + 0x1p-40f;
     const bool narrow = sine2 < 0.5f && square > 0x1p-100f && square < 0x1p100f;
     b->secant[block] = narrow ? 1 / __builtin_sqrtf(1 - sine2) * (1 + 0x1p-18f) : 1;
-    b->tangent[block] = narrow ? __builtin_sqrtf(sine2) * b->secant[block] : INFINITY;
+    b->tangent[block] = narrow ? __builtin_sqrtf(sine2) * b->secant[block] : 0;
+    b->wide[block] = narrow ? 0 : INFINITY;
 }
 
 /* Whether hits behind an origin count: a cone does not hold them. */
@@ -110,7 +112,7 @@ CGT_SPU_INLINE void block_cones_make(const packet *p, bool cull, int w, float rc
     for (uint32_t block = b->blocks; block % CGT_LANES; block++) {
         for (int k = 0; k < 3; k++)
             b->axis[k][block] = 0;
-        b->tangent[block] = b->secant[block] = 0;
+        b->tangent[block] = b->secant[block] = b->wide[block] = 0;
         b->far[block] = -INFINITY;
         b->speed[block] = 1;
     }
@@ -134,7 +136,8 @@ CGT_SPU_INLINE uint32_t block_cones_reached(const block_cones *b, const float ce
             const vfloat px = spu_nmsub(s, ax, x), py = spu_nmsub(s, ay, y), pz = spu_nmsub(s, az, z);
             const vfloat p2 = spu_madd(px, px, spu_madd(py, py, spu_mul(pz, pz)));
             const vfloat turn = spu_mul(s, spux_load(b->tangent + i));
-            const vfloat reach = spu_add(spu_madd(r, spux_load(b->secant + i), turn), more);
+            const vfloat reach =
+                spu_add(spu_add(spu_madd(r, spux_load(b->secant + i), turn), more), spux_load(b->wide + i));
             missed = spu_or(missed, spu_or(spu_cmpgt(spux_vfloat(0), reach), spu_cmpgt(p2, spu_mul(reach, reach))));
         }
         reached |= (~spux_mask_bits(missed) & CGT_ALL_LANES) << i;
