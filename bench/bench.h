@@ -47,5 +47,6 @@ extern const struct argp bench_settings_argp;
 /* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
 int bench_frame(int argc, char **argv);
 int bench_loops(int argc, char **argv);
+int bench_make(int argc, char **argv);
 
 #endif

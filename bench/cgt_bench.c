@@ -3,7 +3,8 @@
  *
  * cgt-bench: measures the library on moving spheres.
  *   cgt-bench frame   one frame at a time, as a renderer would: build, primary, shadow, ambient-occlusion rays
- *   cgt-bench loops   the ways to traverse, against each other */
+ *   cgt-bench loops   the ways to traverse, against each other
+ *   cgt-bench make    procedural scenes to measure on */
 #include <string.h>
 
 #include "bench.h"
@@ -14,8 +15,9 @@ typedef struct command {
     int (*run)(int argc, char **argv);
 } command;
 
-static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops";
-static const command commands[] = {{"frame", frame_name, bench_frame}, {"loops", loops_name, bench_loops}};
+static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops", make_name[] = "cgt-bench make";
+static const command commands[] = {
+    {"frame", frame_name, bench_frame}, {"loops", loops_name, bench_loops}, {"make", make_name, bench_make}};
 
 typedef struct choice {
     const command *command;
@@ -31,11 +33,11 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             if (!strcmp(argument, commands[i].name))
                 chosen->command = &commands[i];
         if (!chosen->command)
-            argp_error(state, "no sub-command %s: frame or loops", argument);
+            argp_error(state, "no sub-command %s: frame, loops or make", argument);
         chosen->first = state->next - 1;
         state->next = state->argc; /* the rest is the sub-command's */
         return 0;
-    case ARGP_KEY_NO_ARGS: argp_error(state, "a sub-command is missing: frame or loops"); return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "a sub-command is missing: frame, loops or make"); return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -44,11 +46,12 @@ int main(int argc, char **argv)
 {
     static const struct argp parser = {
         .parser = parse,
-        .args_doc = "frame FILE [OPTION...]\nloops FILE [OPTION...]",
+        .args_doc = "frame FILE [OPTION...]\nloops FILE [OPTION...]\nmake SCENE FILE [OPTION...]",
         .doc = "Measures libcgt on moving spheres, rebuilding the structure every frame; prints tab-separated values."
                "\v  frame   times building and tracing, as a renderer spends it\n"
-               "  loops   compares the ways to traverse the structure\n\n"
-               "cgt-bench frame --help and cgt-bench loops --help list the options of each."};
+               "  loops   compares the ways to traverse the structure\n"
+               "  make    writes a procedural scene\n\n"
+               "cgt-bench frame --help and its like list the options of each."};
     choice chosen = {NULL, 0};
 
     program_init("cgt-bench");

@@ -194,6 +194,16 @@ else
     fail "no .lammpstrj in $data"
 fi
 
+# ---- make -----------------------------------------------------------------------------------------------------------
+
+run 0 make cloud2k "$tmp/cloud.frames" -n 2
+is 'the size of a cloud' "$(wc -c <"$tmp/cloud.frames" | tr -d ' ')" $((24 + 2 * (4 + 2000 * 16)))
+run 0 frame "$tmp/cloud.frames" -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46 -s 64x36
+[ "$(cell hit_pixels)" -gt 1800 ] || fail "a cloud that hides only $(cell hit_pixels) of 2304 pixels"
+refuses 2 'no scene nowhere' make nowhere "$tmp/nowhere.frames"
+refuses 2 'SCENE and FILE' make cloud2k
+refuses 1 'no/folder' make cloud2k "$tmp/no/folder/cloud.frames"
+
 # ---- Errors ---------------------------------------------------------------------------------------------------------
 
 unit=$tmp/unit.frames
