@@ -4,34 +4,7 @@
 #
 # The command line of cgt-bench: tables, counts that can be worked out by hand, hits files, errors and exit codes.
 #   bench_cli.sh CGT_BENCH DATA_DIR [EMULATOR...]
-set -u
-
-bench=$1
-data=$2
-shift 2
-tmp=$(mktemp -d) || exit 1
-trap 'rm -rf "$tmp"' EXIT
-failures=0
-
-fail() {
-    echo "FAILED: $*" >&2
-    failures=$((failures + 1))
-}
-
-# run CODE ARGUMENTS...: runs cgt-bench (under $emulator), output in $tmp/out and $tmp/err, and checks the exit code.
-emulator="$*"
-run() {
-    wanted=$1
-    shift
-    $emulator "$bench" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null
-    got=$?
-    [ "$got" -eq "$wanted" ] || fail "exit code $got, not $wanted: cgt-bench $*: $(head -n 3 "$tmp/err")"
-}
-
-# says WHERE PATTERN: the output or the error text has a line that matches.
-says() {
-    grep -q -e "$2" "$tmp/$1" || fail "no \"$2\" in std$1: $(head -n 3 "$tmp/$1")"
-}
+. "$(dirname "$0")/cli.sh"
 
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, and nothing on standard output but a table's head.
 refuses() {
@@ -41,14 +14,14 @@ refuses() {
     run "$refused_code" "$@"
     says err "$refused_text"
     says err '^cgt-bench'
-    [ "$(grep -c -v '^config' "$tmp/out")" -eq 0 ] || fail "output beside an error: cgt-bench $*"
+    [ "$(grep -c -v '^config' "$tmp/stdout")" -eq 0 ] || fail "output beside an error: cgt-bench $*"
 }
 
-# cell COLUMN [ROW]: a cell of the table in $tmp/out; rows count from 1 below the head.
+# cell COLUMN [ROW]: a cell of the table in $tmp/stdout; rows count from 1 below the head.
 cell() {
     awk -F '\t' -v name="$1" -v row="${2:-1}" '
         NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) column = i }
-        NR == row + 1 { print $column }' "$tmp/out"
+        NR == row + 1 { print $column }' "$tmp/stdout"
 }
 
 is() {
@@ -108,8 +81,8 @@ expected=$(awk 'BEGIN {
     }
     print hits }')
 run 0 frame "$tmp/unit.frames" $front
-is 'the head of the table' "$(head -n 1 "$tmp/out")" "$head"
-is 'the number of lines' "$(wc -l <"$tmp/out" | tr -d ' ')" 2
+is 'the head of the table' "$(head -n 1 "$tmp/stdout")" "$head"
+is 'the number of lines' "$(wc -l <"$tmp/stdout" | tr -d ' ')" 2
 is config "$(cell config)" grid-queue
 is threads "$(cell threads)" 1
 is hit_pixels "$(cell hit_pixels)" "$expected"
@@ -122,7 +95,7 @@ run 0 frame "$tmp/single.frames" $front -l 3,4,-5 -a 16 -t 2 -o "$tmp/hits.bin"
 is threads "$(cell threads)" 2
 is ao_open "$(cell ao_open)" $((16 * expected))
 awk -F '\t' 'NR == 2 { sum = $3 + $4 + $5 + $6; exit !($3 >= 0 && $4 > 0 && $5 > 0 && $6 > 0 &&
-    sum - $7 < 0.003 && $7 - sum < 0.003) }' "$tmp/out" || fail "times do not add up: $(tail -n 1 "$tmp/out")"
+    sum - $7 < 0.003 && $7 - sum < 0.003) }' "$tmp/stdout" || fail "times do not add up: $(tail -n 1 "$tmp/stdout")"
 
 # The hits file: eight bytes a pixel; t within the sphere, primitive 0, or infinity and all ones.
 is 'the size of the hits file' "$(wc -c <"$tmp/hits.bin" | tr -d ' ')" $((63 * 47 * 8))
@@ -156,8 +129,8 @@ is config "$(cell config)" 'grid-queue,packet=8,loop=nested,cull=off,mailbox=off
 
 # --all: the library's choice, then packets and tiles; the same pixels hit in every row.
 run 0 frame "$tmp/unit.frames" $front -a 2 --all
-is 'the number of lines' "$(wc -l <"$tmp/out" | tr -d ' ')" 6
-agree=$(awk -F '\t' -v e="$expected" 'NR > 1 && $8 == e && $9 == 2 * e { n++ } END { print n + 0 }' "$tmp/out")
+is 'the number of lines' "$(wc -l <"$tmp/stdout" | tr -d ' ')" 6
+agree=$(awk -F '\t' -v e="$expected" 'NR > 1 && $8 == e && $9 == 2 * e { n++ } END { print n + 0 }' "$tmp/stdout")
 is 'rows that agree' "$agree" 5
 
 # Odd scenes: a sphere that is not a number is skipped; an empty frame is a frame.
@@ -172,13 +145,13 @@ is hit_pixels "$(cell hit_pixels)" 0
 # ---- loops ----------------------------------------------------------------------------------------------------------
 
 run 0 loops "$tmp/unit.frames" -c 0,0,-5,0,0,0,0,1,0,45 -s 32x24 -k 8 -g 4,4,4 --variant portable
-is 'the head of the table' "$(head -n 1 "$tmp/out")" "config	variant	loop	cull	mailbox	packet	resolution	build_ms	\
+is 'the head of the table' "$(head -n 1 "$tmp/stdout")" "config	variant	loop	cull	mailbox	packet	resolution	build_ms	\
 trace_ms	tests_per_ray	packet_tests	slices	cells	references	ms"
-is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" 12
-is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/out")" 6
-is 'pairs of culling by the frustum' "$(grep -c '^# frustum	' "$tmp/out")" 4
-is 'pairs of culling by blocks' "$(grep -c '^# blocks	' "$tmp/out")" 4
-is 'pairs of mailboxing' "$(grep -c '^# mailbox	' "$tmp/out")" 6
+is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/stdout")" 12
+is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/stdout")" 6
+is 'pairs of culling by the frustum' "$(grep -c '^# frustum	' "$tmp/stdout")" 4
+is 'pairs of culling by blocks' "$(grep -c '^# blocks	' "$tmp/stdout")" 4
+is 'pairs of mailboxing' "$(grep -c '^# mailbox	' "$tmp/stdout")" 6
 says out '^# hits	2 frames	12 configurations	46 traces compared	0 different'
 
 # The shipped trajectory: all configurations find the same hits, and culling saves tests.
@@ -186,10 +159,10 @@ trajectory=$(find "$data" -name '*.lammpstrj' | sort | head -n 1)
 if [ -n "$trajectory" ]; then
     run 0 loops "$trajectory" -c 10,-30,14,10,6,9,0,0,1,45 -s 64x48 -n 10 -t 2
     says out '	0 different	'
-    variants=$(grep '^grid-queue' "$tmp/out" | cut -f 2 | sort -u | wc -l)
-    is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/out")" $((50 * variants))
-    grep '^# frustum	' "$tmp/out" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
-        fail "culling saves nothing: $(grep '^# frustum' "$tmp/out" | head -n 2)"
+    variants=$(grep '^grid-queue' "$tmp/stdout" | cut -f 2 | sort -u | wc -l)
+    is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/stdout")" $((50 * variants))
+    grep '^# frustum	' "$tmp/stdout" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
+        fail "culling saves nothing: $(grep '^# frustum' "$tmp/stdout" | head -n 2)"
 else
     fail "no .lammpstrj in $data"
 fi
@@ -243,7 +216,7 @@ refuses 1 'no/such/folder' frame "$unit" -o "$tmp/no/such/folder/hits.bin"
 if [ -c /dev/full ]; then
     run 1 frame "$unit" $front -o /dev/full
     says err '/dev/full'
-    $emulator "$bench" frame "$unit" $front >/dev/full 2>"$tmp/err"
+    $emulator "$program" frame "$unit" $front >/dev/full 2>"$tmp/stderr"
     is 'exit code with a full disk' $? 1
 fi
 

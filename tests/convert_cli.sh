@@ -4,36 +4,9 @@
 #
 # The command line of cgt-convert: what it writes, what it refuses, and that a run that fails leaves nothing behind.
 #   convert_cli.sh CGT_CONVERT DATA_DIR [EMULATOR...]
-set -u
-
-convert=$1
-data=$2
-shift 2
-tmp=$(mktemp -d) || exit 1
-trap 'rm -rf "$tmp"' EXIT
+. "$(dirname "$0")/cli.sh"
 out=$tmp/out # the folder that the program writes to
 mkdir "$out" || exit 1
-failures=0
-
-fail() {
-    echo "FAILED: $*" >&2
-    failures=$((failures + 1))
-}
-
-# run CODE ARGUMENTS...: runs cgt-convert (under $emulator) and checks the exit code.
-emulator="$*"
-run() {
-    wanted=$1
-    shift
-    $emulator "$convert" "$@" >"$tmp/stdout" 2>"$tmp/stderr" </dev/null
-    got=$?
-    [ "$got" -eq "$wanted" ] || fail "exit code $got, not $wanted: cgt-convert $*: $(head -n 3 "$tmp/stderr")"
-}
-
-# says out|err PATTERN
-says() {
-    grep -q -e "$2" "$tmp/std$1" || fail "no \"$2\" in std$1: $(head -n 3 "$tmp/std$1")"
-}
 
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, nothing on standard output, the output's folder untouched.
 refuses() {
@@ -132,7 +105,7 @@ says out 'Usage: '
 run 0 --version
 says out '^cgt-convert (libcgt [0-9]*\.[0-9]*\.[0-9]*)$'
 if [ -w /dev/full ]; then
-    $emulator "$convert" --last=0 "$tmp/five.xyz" "$out/five.frames" >/dev/full 2>"$tmp/stderr"
+    $emulator "$program" --last=0 "$tmp/five.xyz" "$out/five.frames" >/dev/full 2>"$tmp/stderr"
     [ $? -eq 1 ] || fail "standard output that cannot be written"
 fi
 

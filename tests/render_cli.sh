@@ -4,34 +4,7 @@
 #
 # The command line of cgt-render: pictures, their contents where tools to read them are there, errors, exit codes.
 #   render_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
-set -u
-
-render=$(cd "$(dirname "$1")" && pwd)/$(basename "$1") # absolute: cgt-render runs in a folder of its own
-data=$(cd "$2" && pwd)
-shift 2
-emulator="$*"
-tmp=$(mktemp -d) || exit 1
-trap 'rm -rf "$tmp"' EXIT
-failures=0
-
-fail() {
-    echo "FAILED: $*" >&2
-    failures=$((failures + 1))
-}
-
-# run CODE ARGUMENTS...: runs cgt-render in $tmp, output in $tmp/stdout and $tmp/stderr, and checks the exit code.
-run() {
-    wanted=$1
-    shift
-    (cd "$tmp" && exec $emulator "$render" "$@") >"$tmp/stdout" 2>"$tmp/stderr" </dev/null
-    got=$?
-    [ "$got" -eq "$wanted" ] || fail "exit code $got, not $wanted: cgt-render $*: $(head -n 3 "$tmp/stderr")"
-}
-
-# says out|err PATTERN
-says() {
-    grep -q -e "$2" "$tmp/std$1" || fail "no \"$2\" in std$1: $(head -n 3 "$tmp/std$1")"
-}
+. "$(dirname "$0")/cli.sh"
 
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, nothing on standard output, no picture.
 refuses() {
@@ -147,7 +120,7 @@ says err 'plain.png: the name needs a %04d'
 # A disk that fills up: no half picture stays.
 if (trap '' XFSZ && ulimit -f 4) 2>/dev/null; then
     mkdir -p "$tmp/full"
-    (cd "$tmp" && trap '' XFSZ && ulimit -f 4 && exec $emulator "$render" -o full/%d.png one.xyz) \
+    (cd "$tmp" && trap '' XFSZ && ulimit -f 4 && exec $emulator "$program" -o full/%d.png one.xyz) \
         >/dev/null 2>"$tmp/stderr" </dev/null
     got=$?
     [ $got -eq 1 ] || fail "exit code $got, not 1, with a file size limit: $(head -n 3 "$tmp/stderr")"
@@ -156,7 +129,7 @@ if (trap '' XFSZ && ulimit -f 4) 2>/dev/null; then
 fi
 # An output that nobody can read.
 if [ -c /dev/full ]; then
-    (cd "$tmp" && exec $emulator "$render" -n one.xyz) >/dev/full 2>"$tmp/stderr" </dev/null
+    (cd "$tmp" && exec $emulator "$program" -n one.xyz) >/dev/full 2>"$tmp/stderr" </dev/null
     got=$?
     [ $got -eq 1 ] || fail "exit code $got, not 1, where the summary cannot be written"
     run 1 -n --log-file /dev/full one.xyz
@@ -230,7 +203,7 @@ while [ $i -lt 2000 ]; do
     printf '2\n\nC 0 0 0\nO 1 2 0\n'
     i=$((i + 1))
 done >"$tmp/long.xyz"
-(cd "$tmp" && exec $emulator "$render" -q -s 320x180 -o long/%d.png long.xyz) >"$tmp/stdout" 2>"$tmp/stderr" \
+(cd "$tmp" && exec $emulator "$program" -q -s 320x180 -o long/%d.png long.xyz) >"$tmp/stdout" 2>"$tmp/stderr" \
     </dev/null &
 running=$!
 while [ ! -f "$tmp/long/0.png" ] && kill -0 $running 2>/dev/null; do

@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# What the tests of command lines share. To be read by a script with the arguments PROGRAM DATA_DIR [EMULATOR...]:
+#   . "$(dirname "$0")/cli.sh"
+# Sets program, data, emulator, and tmp, a folder that goes with the script.
+set -u
+program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+name=$(basename "$1")
+data=$(cd "$2" && pwd)
+shift 2
+emulator="$*"
+tmp=$(mktemp -d) || exit 1
+trap 'rm -rf "$tmp"' EXIT
+failures=0
+
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+
+# run CODE ARGUMENTS...: runs the program in $tmp, output in $tmp/stdout and $tmp/stderr, and checks the exit code.
+run() {
+    wanted=$1
+    shift
+    (cd "$tmp" && exec $emulator "$program" "$@") >"$tmp/stdout" 2>"$tmp/stderr" </dev/null
+    got=$?
+    [ "$got" -eq "$wanted" ] || fail "exit code $got, not $wanted: $name $*: $(head -n 3 "$tmp/stderr")"
+}
+
+# says out|err PATTERN: the output or the error text has a line that matches.
+says() {
+    grep -q -e "$2" "$tmp/std$1" || fail "no \"$2\" in std$1: $(head -n 3 "$tmp/std$1")"
+}
