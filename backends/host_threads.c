@@ -14,6 +14,8 @@
 #include "memory.h"
 #include "tasks.h"
 
+#define WORKER_STACK ((size_t)2 << 20)
+
 /* One call of run: it lives on the caller's stack while it is in the pool's list. */
 typedef struct job {
     cgt_task *task;
@@ -138,6 +140,23 @@ static bool make_locks(pool *p)
     return false;
 }
 
+/* Starts workers up to the room for them; false where one could not be started. */
+static bool start_workers(pool *p)
+{
+    pthread_attr_t attributes;
+    bool started = true;
+    if (pthread_attr_init(&attributes))
+        return false;
+    /* some C libraries give threads less than a task takes; where this is refused the default has to do */
+    (void)pthread_attr_setstacksize(&attributes, WORKER_STACK);
+    while (started && p->workers < p->room) {
+        started = !pthread_create(&p->thread[p->workers], &attributes, worker, p);
+        p->workers += started;
+    }
+    pthread_attr_destroy(&attributes);
+    return started;
+}
+
 static cgt_result host_create(const cgt_memory_hooks *memory, uint32_t threads, void **state)
 {
     const uint32_t room = threads - 1;
@@ -153,11 +172,10 @@ static cgt_result host_create(const cgt_memory_hooks *memory, uint32_t threads, 
         cgt_free(memory, p, pool_bytes(room));
         return CGT_ERROR_THREADS;
     }
-    for (; p->workers < room; p->workers++)
-        if (pthread_create(&p->thread[p->workers], NULL, worker, p)) {
-            host_destroy(memory, p);
-            return CGT_ERROR_THREADS;
-        }
+    if (!start_workers(p)) {
+        host_destroy(memory, p);
+        return CGT_ERROR_THREADS;
+    }
     *state = p;
     return CGT_OK;
 }

@@ -82,7 +82,8 @@ typedef void cgt_task(void *argument, uint32_t index);
 
 /* Tasks. run calls task(argument, index) once for each index below count, in any order, on any threads, and returns
  * when all have returned. With a runner set the library starts no thread of its own. A runner that runs the tasks
- * one after another on the calling thread is valid. Results do not depend on the order. */
+ * one after another on the calling thread is valid. Results do not depend on the order. A task takes up to 512 KB of
+ * stack. */
 typedef struct cgt_task_runner {
     void *user;                                                              /* handed to run; default NULL */
     void (*run)(void *user, cgt_task *task, void *argument, uint32_t count); /* default NULL: own thread pool */
@@ -240,7 +241,7 @@ typedef enum cgt_cull {
     CGT_CULL_BLOCKS    /* and then against a cone around every 16 of its rays */
 } cgt_cull;
 
-/* What a trace did. Counting is done only where a statistics pointer is set. */
+/* What a trace did. Handed out only where a statistics pointer is set. */
 typedef struct cgt_trace_statistics {
     uint64_t rays;            /* asked for */
     uint64_t invalid_rays;    /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN range:
@@ -269,8 +270,8 @@ typedef struct cgt_trace_options {
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
     cgt_cull cull;                    /* default CGT_CULL_BLOCKS */
-    int mailbox;                      /* remember the spheres that a packet has met lately; default 1: it halves the
-                                         tests and costs little (docs/bench.md; Chapman expected the opposite) */
+    int mailbox;                      /* remember the spheres that a packet has met lately; default 1: it saves a
+                                         fifth of the time (docs/coherent_grid_traversal.md); Chapman expected a loss */
     cgt_trace_statistics *statistics; /* gets the counts of this call; NULL (default): nothing is counted */
 } cgt_trace_options;
 
