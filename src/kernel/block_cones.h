@@ -7,7 +7,8 @@
  *
  * A cone with unit axis a and half angle alpha, a sphere with centre c (from the apex) and radius r, s = c.a and
  * p = |c - s a|: the centre is p cos(alpha) - s sin(alpha) away from the cone's surface, so the sphere surely misses
- * where p > r / cos(alpha) + s tan(alpha). The right side is widened by 2^-18 of the distance, more than all rounding. */
+ * where p > r / cos(alpha) + s tan(alpha). The right side is widened by 2^-18 of the distance, more than all rounding,
+ * and by 2^-72, where squares underflow. */
 #ifndef CGT_BLOCK_CONES_H
 #define CGT_BLOCK_CONES_H
 
@@ -124,7 +125,7 @@ CGT_SPU_INLINE uint32_t block_cones_reached(const block_cones *b, const float ce
 {
     const vfloat x = spux_vfloat(center[0]), y = spux_vfloat(center[1]), z = spux_vfloat(center[2]);
     const float distance = __builtin_fabsf(center[0]) + __builtin_fabsf(center[1]) + __builtin_fabsf(center[2]);
-    const vfloat r = spux_vfloat(radius), more = spux_vfloat((distance + radius) * 0x1p-18f);
+    const vfloat r = spux_vfloat(radius), more = spux_vfloat((distance + radius) * 0x1p-18f + 0x1p-72f);
     uint32_t reached = 0;
     if (!b->cull)
         return (1u << b->blocks) - 1;

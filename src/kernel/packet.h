@@ -53,7 +53,7 @@ typedef struct packet_hits {
     _Alignas(64) float normal[3][PACKET_MAX_RAYS];
 } packet_hits;
 
-/* Computes the fields (cgt_field values, combined) of the winners in their canonical form; returns how many rays hit. */
+/* Computes the fields (cgt_field values, combined) of the winners canonically. Returns how many rays hit. */
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields,
                                         packet_hits *hits);
 

@@ -8,7 +8,7 @@
  *
  * The cells of the slices are visited in two ways with the same result: by three nested loops, and by Chapman's one
  * loop, which steps cell, row and slice by selection and not by branches. His listing keeps one pair of bounds for all
- * slices and enters slices that hold no cell; here the bounds of every slice are found first, and empty ones left out. */
+ * slices and enters slices that hold no cell; here the bounds of every slice are found first, empty ones left out. */
 #include "frustum.h"
 #include "kernel.h"
 #include "sphere_filter.h"

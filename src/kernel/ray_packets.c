@@ -28,8 +28,9 @@ static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k
         p->org[a][k] = o;
         p->dir[a][k] = d;
         zero += o * 0 + d * 0; /* not a number where o or d is not finite */
-        largest = fmaxf(largest, fabsf(o));
-        longest = fmaxf(longest, fabsf(d));
+        /* selections, not fmaxf: that is a call */
+        largest = fabsf(o) > largest ? fabsf(o) : largest;
+        longest = fabsf(d) > longest ? fabsf(d) : longest;
         dd += d * d;
     }
     const float t_min = r->t_min ? element(s, r->t_min, i) : 0, t_max = r->t_max ? element(s, r->t_max, i) : INFINITY;

@@ -18,6 +18,7 @@
  * is more than 17 eps the hit is certain, its exact h at least that minus 2 eps, and the two roots differ by at most
  * 2 eps / (sqrt(17 eps) + sqrt(15 eps)) < 0.26 sqrt(eps), over |d|. The rest of the interval is
  *   e0       13 u |c| (s) + 13 u sqrt(h) (root) + u |t|: 18 u (|c| + r), over |d|
+ * and, for what underflows (flushed denormals included), 2^-62 where h / d.d does and 2^-122 / d.d where d.c does.
  * A test in the suite checks these against double, and shrinks them until they fail. */
 #ifndef CGT_SPHERE_FILTER_H
 #define CGT_SPHERE_FILTER_H
@@ -88,12 +89,14 @@ CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres 
     const vfloat wide = spu_mul(distance, spux_vfloat(26 * FILTER_U)); /* 26^2 > 640 */
     const vfloat eps = spu_madd(spu_mul(r, spux_vfloat(9 * FILTER_U)), spu_add(distance, r),
                                 spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
-    const vfloat e0 = spu_mul(spu_add(distance, r), spux_vfloat(18 * FILTER_U * f->rlength));
+    const vfloat underflow = spux_vfloat(0x1p-62f + 0x1p-122f * f->rlength * f->rlength);
+    const vfloat e0 = spu_madd(spu_add(distance, r), spux_vfloat(18 * FILTER_U * f->rlength), underflow);
     const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0.27f * f->rlength));
-    /* 8 roundings each; the distance between surfaces is at least what is left, where anything is */
+    /* 8 roundings each, and 2^-74 where squares underflow; the distance between surfaces is at least what is left, where
+     * anything is */
     const vfloat near =
         spu_sub(spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
-                spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach))));
+                spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach + 0x1p-74f))));
     const vmask outside = spu_cmpgt(near, spux_vfloat(0));
     spux_store(s->nearest, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
     spux_store(s->r2, spu_madd(r, r, eps));
@@ -184,7 +187,8 @@ CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_
     const vmask beyond = spu_cmpgt(low, spux_load(p->high + i));
     const vmask behind = spu_cmpgt(t_min, spu_add(spu_add(mid, half), q->before));
     const vmask met = spu_cmpeq(spux_load_uint(p->object + i), q->object);
-    const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spux_cmpge(low, t_min));
+    /* greater, not equal: where h / d.d leaves the range of float, low is -infinity and so may t_min be */
+    const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spu_cmpgt(low, t_min));
     f->low = low;
     f->high = high;
     f->certain = spu_and(spu_cmpgt(h, q->certain), nearer);
