@@ -50,7 +50,8 @@ static void expect_refused(const cgt_context_options *options, log_record *log, 
     assert_null(context);
     assert_int_equal(log->errors, 1);
     assert_false(log->bad_line);
-    if (!strstr(log->last, word)) fail_msg("\"%s\" does not speak of %s", log->last, word);
+    if (!strstr(log->last, word))
+        fail_msg("\"%s\" does not speak of %s", log->last, word);
 }
 
 static void *never_allocate(void *user, size_t bytes, size_t alignment)
@@ -107,7 +108,8 @@ static void variants_are_found_by_name(void **state)
     (void)state;
     const char *widest = NULL;
     assert_string_equal(cgt_variants()[0], "portable");
-    FOR_EACH_VARIANT(variant) {
+    FOR_EACH_VARIANT(variant)
+    {
         cgt_context *context = context_make(1, variant);
         assert_string_equal(cgt_context_variant(context), variant);
         cgt_context_release(context);
@@ -124,7 +126,8 @@ static void results_and_version_have_words(void **state)
     for (int i = CGT_OK; i <= CGT_ERROR_STOPPED + 1; i++) {
         const char *text = cgt_result_string((cgt_result)i);
         assert_true(text && strlen(text) > 5);
-        for (int k = CGT_OK; k < i; k++) assert_string_not_equal(text, cgt_result_string((cgt_result)k));
+        for (int k = CGT_OK; k < i; k++)
+            assert_string_not_equal(text, cgt_result_string((cgt_result)k));
     }
     assert_string_equal(cgt_result_string((cgt_result)-5), cgt_result_string((cgt_result)12345));
     assert_string_equal(cgt_version(), CGT_VERSION_STRING);
@@ -211,7 +214,8 @@ static int child_with_mask(const char *mask, const char *variant)
         const struct rlimit no_core = {0, 0};
         setrlimit(RLIMIT_CORE, &no_core);
         signal(SIGABRT, SIG_DFL);
-        if (!freopen("/dev/null", "w", stderr) || setenv("CGT_DISABLE_CPU", mask, 1)) _exit(9);
+        if (!freopen("/dev/null", "w", stderr) || setenv("CGT_DISABLE_CPU", mask, 1))
+            _exit(9);
         cgt_context_options_init(&options);
         options.threads = 1;
         options.variant = variant;
@@ -236,14 +240,17 @@ static void features_can_be_masked(void **state)
     assert_int_equal(child_with_mask("sse4.1,neon", "portable"), 0);
     assert_int_equal(child_with_mask("neon", NULL), sse ? 1 : 0);
     assert_int_equal(child_with_mask("sse4.1", NULL), widest && !sse ? 1 : 0);
-    if (sse) assert_int_equal(child_with_mask("sse4.1", "sse"), 2);
-    if (widest && !sse) assert_int_equal(child_with_mask("neon", "neon"), 2);
+    if (sse)
+        assert_int_equal(child_with_mask("sse4.1", "sse"), 2);
+    if (widest && !sse)
+        assert_int_equal(child_with_mask("neon", "neon"), 2);
 }
 
 static void unknown_features_end_the_process(void **state)
 {
     (void)state;
-    static const char *const unknown[] = {"sse4", "sse4.11", "SSE4.1", "avx9", "sse4.1 ", "sse4.1,avx9", "avx9,sse4.1", " "};
+    static const char *const unknown[] = {"sse4",    "sse4.11",     "SSE4.1",      "avx9",
+                                          "sse4.1 ", "sse4.1,avx9", "avx9,sse4.1", " "};
     for (size_t i = 0; i < TEST_COUNT(unknown); i++) {
         assert_int_equal(child_with_mask(unknown[i], NULL), -SIGABRT);
         assert_int_equal(child_with_mask(unknown[i], "portable"), -SIGABRT);
@@ -253,10 +260,10 @@ static void unknown_features_end_the_process(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_options_are_refused),    cmocka_unit_test(defaults_take_every_cpu),
-        cmocka_unit_test(variants_are_found_by_name), cmocka_unit_test(results_and_version_have_words),
-        cmocka_unit_test(messages_are_kept_and_cut),  cmocka_unit_test(log_tells_what_was_skipped),
-        cmocka_unit_test(a_scene_keeps_its_context),  cmocka_unit_test(features_can_be_masked),
+        cmocka_unit_test(bad_options_are_refused),          cmocka_unit_test(defaults_take_every_cpu),
+        cmocka_unit_test(variants_are_found_by_name),       cmocka_unit_test(results_and_version_have_words),
+        cmocka_unit_test(messages_are_kept_and_cut),        cmocka_unit_test(log_tells_what_was_skipped),
+        cmocka_unit_test(a_scene_keeps_its_context),        cmocka_unit_test(features_can_be_masked),
         cmocka_unit_test(unknown_features_end_the_process),
     };
     test_begin("test_context");

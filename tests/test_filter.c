@@ -18,9 +18,19 @@ static float filter_u = 0x1p-24f;
 
 #define LANES 16 /* rays per packet: whole vectors at any width */
 
-typedef enum family { GRAZING, CROSSING, INSIDE, AT_SURFACE, LOOKING_BACK, FAMILIES } family;
+typedef enum family {
+    GRAZING,
+    CROSSING,
+    INSIDE,
+    AT_SURFACE,
+    LOOKING_BACK,
+    USUAL_FAMILIES,
+    ANY_SIZE = USUAL_FAMILIES,
+    FAMILIES
+} family;
 
-static const char *const family_name[FAMILIES] = {"grazing", "crossing", "inside", "at the surface", "looking back"};
+static const char *const family_name[FAMILIES] = {"grazing",        "crossing",     "inside",
+                                                  "at the surface", "looking back", "any size"};
 
 /* ---- packets ---- */
 
@@ -35,7 +45,8 @@ static void aim_direction(test_random *r, const aim *to, double beside, float le
     float d[3];
     double side[3], dc = 0, square = 0;
     random_direction(r, d);
-    for (int a = 0; a < 3; a++) dc += d[a] * to->c[a];
+    for (int a = 0; a < 3; a++)
+        dc += d[a] * to->c[a];
     for (int a = 0; a < 3; a++) {
         side[a] = d[a] - dc / to->cc * to->c[a];
         square += side[a] * side[a];
@@ -44,7 +55,8 @@ static void aim_direction(test_random *r, const aim *to, double beside, float le
     const double b = beside * to->r, slant = b * b < to->cc * 0.999999 ? sqrt(1 - b * b / to->cc) : 1e-3;
     const double reach = b / slant / sqrt(square > 1e-12 ? square : 1);
     const double k = length / sqrt(to->cc + b / slant * b / slant);
-    for (int a = 0; a < 3; a++) dir[a] = (float)((to->c[a] + reach * side[a]) * k);
+    for (int a = 0; a < 3; a++)
+        dir[a] = (float)((to->c[a] + reach * side[a]) * k);
 }
 
 static double away(test_random *r, family f)
@@ -61,13 +73,20 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
 {
     float origin[3], d[3];
     const double distance = away(r, f);
-    const bool common = random_below(r, 2);
-    const float length = random_log(r, 1e-3f, 1e3f), offset = random_below(r, 2) ? 1 : random_log(r, 1, 1e4f);
+    const bool common = random_below(r, 2), back = f == LOOKING_BACK || (f == ANY_SIZE && random_below(r, 2));
+    float length = random_log(r, 1e-3f, 1e3f), offset = random_below(r, 2) ? 1 : random_log(r, 1, 1e4f);
     memset(p, 0, sizeof *p);
     sphere[3] = random_log(r, 1e-3f, 1e3f);
-    for (int a = 0; a < 3; a++) sphere[a] = random_float(r, -1, 1) * offset;
+    if (f == ANY_SIZE) { /* products leave the range of float; coordinates stay below 2^55, directions above 2^-55 */
+        sphere[3] = ldexpf(sphere[3], (int)random_below(r, 100) - 80);
+        length = ldexpf(1, (int)random_below(r, 100) - 50);
+        offset *= sphere[3];
+    }
+    for (int a = 0; a < 3; a++)
+        sphere[a] = random_float(r, -1, 1) * offset;
     random_direction(r, d);
-    for (int a = 0; a < 3; a++) origin[a] = (float)(sphere[a] + distance * sphere[3] * d[a]);
+    for (int a = 0; a < 3; a++)
+        origin[a] = (float)(sphere[a] + distance * sphere[3] * d[a]);
     p->lanes = p->rays = LANES;
     p->common_origin = common;
     for (int i = 0; i < LANES; i++) {
@@ -86,7 +105,7 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
             dd += dir[a] * dir[a];
         }
         p->rdd[i] = 1 / dd;
-        p->t_min[i] = f == LOOKING_BACK ? -INFINITY : 0;
+        p->t_min[i] = back ? -INFINITY : 0;
         p->t_max[i] = p->low[i] = p->high[i] = INFINITY;
         p->object[i] = CGT_NONE;
     }
@@ -95,23 +114,29 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
 /* ---- judging ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, open;                    /* open: left to double precision */
-    uint64_t lost, invented, outside;              /* what must not happen */
+    uint64_t lanes, hits, open;       /* open: left to double precision */
+    uint64_t lost, invented, outside; /* what must not happen */
 } tally;
 
-static void judge_lane(const packet *p, int i, const float sphere[4], bool certain, bool open, float low, float high, tally *sum)
+static void judge_lane(const packet *p, int i, const float sphere[4], bool certain, bool open, float low, float high,
+                       tally *sum)
 {
-    const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]}, dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
+    const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]},
+                dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
     const truth_roots roots = truth_sphere(org, dir, sphere);
     const truth_real t = (float)roots.near >= p->t_min[i] ? roots.near : roots.far;
     const bool hit = roots.hit && (float)t >= p->t_min[i];
     sum->lanes++;
     sum->hits += hit;
     sum->open += open;
-    if (open || truth_in_doubt(&roots)) return;
-    if (!certain) sum->lost += hit;
-    else if (!hit) sum->invented++;
-    else sum->outside += !(low <= t && t <= high);
+    if (open || truth_in_doubt(&roots))
+        return;
+    if (!certain)
+        sum->lost += hit;
+    else if (!hit)
+        sum->invented++;
+    else
+        sum->outside += !(low <= t && t <= high);
 }
 
 /* The sphere in one lane of a vector; other spheres beside it. */
@@ -123,7 +148,8 @@ static void judge_packet(test_random *r, const packet *p, const float sphere[4],
     filter_result f;
     filter_packet_make(p, &of_packet);
     for (int i = 0; i < CGT_LANES; i++) {
-        for (int a = 0; a < 3; a++) s.center[a][i] = i == k ? sphere[a] : random_float(r, -10, 10);
+        for (int a = 0; a < 3; a++)
+            s.center[a][i] = i == k ? sphere[a] : random_float(r, -10, 10);
         s.radius[i] = i == k ? sphere[3] : random_float(r, 0, 10);
         s.object[i] = (uint32_t)i;
     }
@@ -168,7 +194,8 @@ static void bounds_hold(void **state)
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
         assert_true(t.hits > t.lanes / 5 && t.open < t.lanes); /* the filter had something to tell */
-        if (f == CROSSING) assert_true(t.open < t.lanes / 2);
+        if (f == CROSSING)
+            assert_true(t.open < t.lanes / 2);
     }
 }
 
@@ -178,16 +205,20 @@ static void bounds_break_where_they_are_tightened(void **state)
     float lost_at = 0, invented_at = 0, outside_at = 0;
     for (float scale = 1; scale > 0x1p-12f; scale *= 0.70710678f) {
         tally sum = {0};
-        for (int f = 0; f < FAMILIES; f++) {
+        for (int f = 0; f < USUAL_FAMILIES; f++) {
             const tally t = judge_family((family)f, test_scaled(4000), scale);
             sum.lost += t.lost;
             sum.invented += t.invented;
             sum.outside += t.outside;
         }
-        if (sum.lost && !lost_at) lost_at = scale;
-        if (sum.invented && !invented_at) invented_at = scale;
-        if (sum.outside && !outside_at) outside_at = scale;
-        if (lost_at && invented_at && outside_at) break;
+        if (sum.lost && !lost_at)
+            lost_at = scale;
+        if (sum.invented && !invented_at)
+            invented_at = scale;
+        if (sum.outside && !outside_at)
+            outside_at = scale;
+        if (lost_at && invented_at && outside_at)
+            break;
     }
     print_message("first failures: a hit lost at %.3g of the bounds, one invented at %.3g, t outside at %.3g\n",
                   (double)lost_at, (double)invented_at, (double)outside_at);
@@ -215,14 +246,17 @@ static void order_of_two_spheres(void **state)
         filter_packet_make(&p, &of_packet);
         memset(&s, 0, sizeof s);
         for (int k = 0; k < 2; k++) {
-            for (int a = 0; a < 3; a++) s.center[a][k] = k ? other[a] : sphere[a];
+            for (int a = 0; a < 3; a++)
+                s.center[a][k] = k ? other[a] : sphere[a];
             s.radius[k] = k ? other[3] : sphere[3];
             s.object[k] = (uint32_t)k;
         }
         filter_spheres_bound(&of_packet, &s);
         for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
-            const filter_sphere first = filter_sphere_get(&p, &s, 0, p.common_origin), second = filter_sphere_get(&p, &s, 1, p.common_origin);
-            if (!filter_rays(&p, &first, i, p.common_origin, &f) || spux_mask_bits(f.certain) != CGT_ALL_LANES) continue;
+            const filter_sphere first = filter_sphere_get(&p, &s, 0, p.common_origin),
+                                second = filter_sphere_get(&p, &s, 1, p.common_origin);
+            if (!filter_rays(&p, &first, i, p.common_origin, &f) || spux_mask_bits(f.certain) != CGT_ALL_LANES)
+                continue;
             spux_store(p.low + i, f.low);
             spux_store(p.high + i, f.high);
             spux_store_uint(p.object + i, spux_vuint(0));
@@ -230,10 +264,12 @@ static void order_of_two_spheres(void **state)
             const unsigned nearer = some ? spux_mask_bits(f.certain) : 0, left = some ? spux_mask_bits(f.open) : 0;
             for (uint32_t lane = 0; lane < CGT_LANES; lane++) {
                 const uint32_t j = i + lane;
-                const float org[3] = {p.org[0][j], p.org[1][j], p.org[2][j]}, dir[3] = {p.dir[0][j], p.dir[1][j], p.dir[2][j]};
+                const float org[3] = {p.org[0][j], p.org[1][j], p.org[2][j]},
+                            dir[3] = {p.dir[0][j], p.dir[1][j], p.dir[2][j]};
                 const truth_roots a = truth_sphere(org, dir, sphere), b = truth_sphere(org, dir, other);
                 const truth_real t = (float)b.near >= 0 ? b.near : b.far; /* the origin may be inside the other one */
-                if (left >> lane & 1) open++;
+                if (left >> lane & 1)
+                    open++;
                 else if (nearer >> lane & 1) {
                     certain++;
                     assert_true(b.hit && t < a.near);
@@ -243,15 +279,18 @@ static void order_of_two_spheres(void **state)
             }
         }
     }
-    print_message("nearer for certain %llu times, left open %llu times\n", (unsigned long long)certain, (unsigned long long)open);
+    print_message("nearer for certain %llu times, left open %llu times\n", (unsigned long long)certain,
+                  (unsigned long long)open);
     assert_true(certain > 100 && open > 100);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds_hold), cmocka_unit_test(bounds_break_where_they_are_tightened),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds_hold),
+                                       cmocka_unit_test(bounds_break_where_they_are_tightened),
                                        cmocka_unit_test(order_of_two_spheres)};
     test_begin("test_filter");
-    if (!test_variant_runs(CGT_VARIANT_NAME)) return TEST_SKIPPED;
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

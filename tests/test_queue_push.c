@@ -46,7 +46,8 @@ static void model_push(queues *q, uint32_t cell, uint16_t reference)
 static void check(const queues *q)
 {
     for (int c = 0; c < CELLS; c++)
-        for (int i = 0; i < CGT_QUEUE_LENGTH; i++) assert_int_equal(q->voxel[c].reference[i], q->model[c][i]);
+        for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
+            assert_int_equal(q->voxel[c].reference[i], q->model[c][i]);
 }
 
 static void six_words_per_push(void **state)
@@ -85,7 +86,8 @@ static void newest_comes_first(void **state)
     assert_int_equal(q.voxel[1].reference[0], 2000);
     assert_int_equal(q.voxel[1].reference[15], 1001); /* 1000, the oldest, is out */
     for (int c = 0; c < CELLS; c++)
-        for (int k = 0; k < CGT_QUEUE_LENGTH && c != 1; k++) assert_int_equal(q.voxel[c].reference[k], CGT_QUEUE_NONE);
+        for (int k = 0; k < CGT_QUEUE_LENGTH && c != 1; k++)
+            assert_int_equal(q.voxel[c].reference[k], CGT_QUEUE_NONE);
 }
 
 static void equal_corners_hold_the_reference_once(void **state)
@@ -99,12 +101,15 @@ static void equal_corners_hold_the_reference_once(void **state)
             uint32_t cell[8];
             const uint32_t kinds = 1 + random_below(&r, CELLS);
             const uint16_t reference = random_below(&r, 2) ? object : (uint16_t)(65534 - object);
-            for (int k = 0; k < 8; k++) cell[k] = random_below(&r, kinds);
+            for (int k = 0; k < 8; k++)
+                cell[k] = random_below(&r, kinds);
             queue_push8(q.voxel, cell, spu_splats(reference));
             for (uint32_t c = 0; c < CELLS; c++) {
                 bool touched = false;
-                for (int k = 0; k < 8; k++) touched |= cell[k] == c;
-                if (touched) model_push(&q, c, reference);
+                for (int k = 0; k < 8; k++)
+                    touched |= cell[k] == c;
+                if (touched)
+                    model_push(&q, c, reference);
             }
             check(&q);
         }
@@ -116,6 +121,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(six_words_per_push), cmocka_unit_test(newest_comes_first),
                                        cmocka_unit_test(equal_corners_hold_the_reference_once)};
     test_begin("test_queue_push");
-    if (!test_variant_runs(CGT_VARIANT_NAME)) return TEST_SKIPPED;
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

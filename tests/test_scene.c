@@ -72,9 +72,12 @@ static void options_are_checked(void **state)
         options.structure = (cgt_structure)row[i].structure;
         memcpy(options.resolution, row[i].resolution, sizeof options.resolution);
         assert_int_equal(cgt_scene_create(context, &options, &scene), row[i].expected);
-        if (row[i].expected == CGT_OK) cgt_scene_release(scene);
-        else assert_null(scene);
-        if (row[i].expected == CGT_OK) continue;
+        if (row[i].expected == CGT_OK)
+            cgt_scene_release(scene);
+        else
+            assert_null(scene);
+        if (row[i].expected == CGT_OK)
+            continue;
         assert_int_equal(cgt_scene_set_options(kept, &options), row[i].expected);
         assert_true(ray_trace(kept, ahead).t == 4); /* a refusal changes nothing */
     }
@@ -115,7 +118,8 @@ static void spheres_are_checked(void **state)
     cgt_scene *scene = scene_of(context, NULL, one, 1);
     cgt_spheres bad[15];
     uint32_t geometry = 77;
-    for (size_t i = 0; i < TEST_COUNT(bad); i++) bad[i] = good;
+    for (size_t i = 0; i < TEST_COUNT(bad); i++)
+        bad[i] = good;
     bad[0].centers = NULL;
     bad[1].centers = crooked;
     bad[2].radii = crooked;
@@ -133,9 +137,11 @@ static void spheres_are_checked(void **state)
     bad[14].count = UINT32_MAX - 1, bad[14].center_stride = SIZE_MAX / 4 / UINT32_MAX * 4 * 4;
     for (size_t i = 0; i < TEST_COUNT(bad); i++) {
         const cgt_result expected = i == 12 || i == 13 ? CGT_ERROR_TOO_LARGE : CGT_ERROR_INVALID_ARGUMENT;
-        if (cgt_scene_add_spheres(scene, &bad[i], &geometry) != expected) fail_msg("row %zu is not refused", i);
+        if (cgt_scene_add_spheres(scene, &bad[i], &geometry) != expected)
+            fail_msg("row %zu is not refused", i);
         assert_int_equal(geometry, 77);
-        if (i != 12 && cgt_scene_update_spheres(scene, 0, &bad[i]) != expected) fail_msg("row %zu is not refused", i);
+        if (i != 12 && cgt_scene_update_spheres(scene, 0, &bad[i]) != expected)
+            fail_msg("row %zu is not refused", i);
         assert_true(ray_trace(scene, ahead).t == 4); /* still committed, still the same */
     }
     cgt_scene_release(scene);
@@ -270,7 +276,8 @@ static void empty_scenes_are_valid(void **state)
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
         assert_true(s.references == 0 && s.overflow_references == 0 && s.primitives == (round == 2 ? 2 : 0));
-        for (int a = 0; a < 3; a++) assert_true(s.bounds_min[a] == 0 && s.bounds_max[a] == 0);
+        for (int a = 0; a < 3; a++)
+            assert_true(s.bounds_min[a] == 0 && s.bounds_max[a] == 0);
         const ray_hit hit = ray_trace(scene, ahead);
         assert_true(hit.t == INFINITY && hit.primitive == CGT_NONE && hit.geometry == CGT_NONE);
         assert_true(hit.normal[0] == 0 && hit.normal[1] == 0 && hit.normal[2] == 0);
@@ -278,7 +285,8 @@ static void empty_scenes_are_valid(void **state)
         cgt_camera camera;
         cgt_camera_init(&camera);
         frame_trace(scene, &camera, &p, NULL);
-        for (size_t i = 0; i < p.elements; i++) assert_true(p.t[i] == INFINITY && p.primitive[i] == CGT_NONE);
+        for (size_t i = 0; i < p.elements; i++)
+            assert_true(p.t[i] == INFINITY && p.primitive[i] == CGT_NONE);
         planes_free(&p);
         add(scene, round == 0 ? spheres_of(NULL, 0) : spheres_of(skipped, 2));
     }
@@ -292,16 +300,24 @@ static void arrays_of_any_shape_are_read(void **state)
     (void)state;
     enum { N = 300 };
     test_random r = random_make(1);
-    struct atom { char name[4]; float velocity[3], r, p[3]; } atom[N];
+    struct atom {
+        char name[4];
+        float velocity[3], r, p[3];
+    } atom[N];
     float packed[N][3], radii[N], alike[N][4];
     for (int i = 0; i < N; i++) {
-        for (int a = 0; a < 3; a++) alike[i][a] = atom[i].p[a] = packed[i][a] = random_float(&r, -5, 5);
+        for (int a = 0; a < 3; a++)
+            alike[i][a] = atom[i].p[a] = packed[i][a] = random_float(&r, -5, 5);
         alike[i][3] = atom[i].r = radii[i] = random_float(&r, 0.1f, 0.5f);
     }
     const cgt_spheres shape[] = {
         spheres_of((const float(*)[4])alike, N),
         {.count = N, .centers = packed[0], .radii = radii},
-        {.count = N, .centers = atom[0].p, .center_stride = sizeof atom[0], .radii = &atom[0].r, .radius_stride = sizeof atom[0]},
+        {.count = N,
+         .centers = atom[0].p,
+         .center_stride = sizeof atom[0],
+         .radii = &atom[0].r,
+         .radius_stride = sizeof atom[0]},
         {.count = N, .centers = atom[0].p, .center_stride = sizeof atom[0], .radii = radii, .radius_stride = 4}};
     cgt_camera camera;
     cgt_camera_init(&camera);
@@ -315,7 +331,8 @@ static void arrays_of_any_shape_are_read(void **state)
         assert_true(i == 0 || planes_equal(&p, &expected));
         cgt_scene_release(scene);
     }
-    for (int i = 0; i < N; i++) alike[i][3] = 0.25f;
+    for (int i = 0; i < N; i++)
+        alike[i][3] = 0.25f;
     cgt_scene *scene = empty_scene();
     add(scene, shape[0]);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
@@ -339,11 +356,15 @@ static void bad_spheres_are_skipped_and_counted(void **state)
     float sphere[N][4];
     uint32_t not_finite = 0, negative = 0;
     for (int i = 0; i < N; i++) {
-        for (int a = 0; a < 3; a++) sphere[i][a] = random_float(&r, -5, 5);
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = random_float(&r, -5, 5);
         sphere[i][3] = i % 50 == 0 ? -0.f : random_float(&r, 0.2f, 0.9f);
-        if (i % 4 == 1) sphere[i][random_below(&r, 4)] = bad[random_below(&r, 3)], not_finite++;
-        if (i % 4 == 3) sphere[i][3] = i % 8 == 3 ? -sphere[i][3] : -0x1p-149f, negative++;
-        if (i % 16 == 5) sphere[i][3] = -1, sphere[i][0] = NAN; /* both: not finite */
+        if (i % 4 == 1)
+            sphere[i][random_below(&r, 4)] = bad[random_below(&r, 3)], not_finite++;
+        if (i % 4 == 3)
+            sphere[i][3] = i % 8 == 3 ? -sphere[i][3] : -0x1p-149f, negative++;
+        if (i % 16 == 5)
+            sphere[i][3] = -1, sphere[i][0] = NAN; /* both: not finite */
     }
     cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, N);
     cgt_scene_statistics s;
@@ -351,7 +372,8 @@ static void bad_spheres_are_skipped_and_counted(void **state)
     assert_int_equal(s.primitives, N);
     assert_int_equal(s.skipped_not_finite, not_finite);
     assert_int_equal(s.skipped_radius, negative);
-    for (int a = 0; a < 3; a++) assert_true(s.bounds_min[a] > -6 && s.bounds_max[a] < 6);
+    for (int a = 0; a < 3; a++)
+        assert_true(s.bounds_min[a] > -6 && s.bounds_max[a] < 6);
     for (int i = 0; i < N; i += 2)
         for (int a = 0; a < 3; a++) {
             assert_true((double)sphere[i][a] - sphere[i][3] >= s.bounds_min[a]);
@@ -372,11 +394,16 @@ static void bad_spheres_are_skipped_and_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(options_are_checked),          cmocka_unit_test(null_is_refused),
-        cmocka_unit_test(spheres_are_checked),          cmocka_unit_test(huge_counts_do_not_wrap),
-        cmocka_unit_test(lowest_free_id_is_given),      cmocka_unit_test(changes_ask_for_a_commit),
-        cmocka_unit_test(options_hold_from_the_next_commit), cmocka_unit_test(empty_scenes_are_valid),
-        cmocka_unit_test(arrays_of_any_shape_are_read), cmocka_unit_test(bad_spheres_are_skipped_and_counted),
+        cmocka_unit_test(options_are_checked),
+        cmocka_unit_test(null_is_refused),
+        cmocka_unit_test(spheres_are_checked),
+        cmocka_unit_test(huge_counts_do_not_wrap),
+        cmocka_unit_test(lowest_free_id_is_given),
+        cmocka_unit_test(changes_ask_for_a_commit),
+        cmocka_unit_test(options_hold_from_the_next_commit),
+        cmocka_unit_test(empty_scenes_are_valid),
+        cmocka_unit_test(arrays_of_any_shape_are_read),
+        cmocka_unit_test(bad_spheres_are_skipped_and_counted),
     };
     test_begin("test_scene");
     return cmocka_run_group_tests(tests, open_context, close_context);

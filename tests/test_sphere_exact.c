@@ -14,7 +14,8 @@ static cgt_context *context; /* of the variant under test */
 
 static void for_each_variant(void (*test)(void))
 {
-    FOR_EACH_VARIANT(variant) {
+    FOR_EACH_VARIANT(variant)
+    {
         context = context_make(1, variant);
         test();
         cgt_context_release(context);
@@ -37,20 +38,23 @@ static tally judge(const float sphere[4], const truth_ray *ray, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, &sum.doubts);
         if (wrong)
-            fail_msg("%s (%s, t %a): sphere %a %a %a r %a, org %a %a %a, dir %a %a %a", wrong, cgt_context_variant(context),
-                     (double)hit[i].t, (double)sphere[0], (double)sphere[1], (double)sphere[2], (double)sphere[3],
-                     (double)ray[i].org[0], (double)ray[i].org[1], (double)ray[i].org[2], (double)ray[i].dir[0],
-                     (double)ray[i].dir[1], (double)ray[i].dir[2]);
-        if (hit[i].primitive == CGT_NONE) continue;
+            fail_msg("%s (%s, t %a): sphere %a %a %a r %a, org %a %a %a, dir %a %a %a", wrong,
+                     cgt_context_variant(context), (double)hit[i].t, (double)sphere[0], (double)sphere[1],
+                     (double)sphere[2], (double)sphere[3], (double)ray[i].org[0], (double)ray[i].org[1],
+                     (double)ray[i].org[2], (double)ray[i].dir[0], (double)ray[i].dir[1], (double)ray[i].dir[2]);
+        if (hit[i].primitive == CGT_NONE)
+            continue;
         sum.hits++;
         const truth_roots roots = truth_sphere(ray[i].org, ray[i].dir, sphere);
         const truth_real exact = (float)roots.near >= ray[i].t_min ? roots.near : roots.far;
-        if (!roots.hit || truth_accepts_strictly(ray[i].org, ray[i].dir, sphere, exact, hit[i].t)) continue;
+        if (!roots.hit || truth_accepts_strictly(ray[i].org, ray[i].dir, sphere, exact, hit[i].t))
+            continue;
         sum.loose++;
         /* grazing: the half chord is less than 2^-12 of the geometric mean of radius and distance */
         const double r = sphere[3];
         double distance = 0;
-        for (int a = 0; a < 3; a++) distance += pow((double)sphere[a] - ray[i].org[a], 2);
+        for (int a = 0; a < 3; a++)
+            distance += pow((double)sphere[a] - ray[i].org[a], 2);
         assert_true(roots.h < 0x1p-24 * r * (sqrt(distance) + r));
     }
     cgt_scene_release(scene);
@@ -67,9 +71,9 @@ static void add_tally(tally *sum, tally t)
 
 static void print_tally(const char *what, tally t)
 {
-    print_message("%s, %s: %llu rays, %llu hits, %llu beyond double, %llu grazing with t off\n", cgt_context_variant(context),
-                  what, (unsigned long long)t.rays, (unsigned long long)t.hits, (unsigned long long)t.doubts,
-                  (unsigned long long)t.loose);
+    print_message("%s, %s: %llu rays, %llu hits, %llu beyond double, %llu grazing with t off\n",
+                  cgt_context_variant(context), what, (unsigned long long)t.rays, (unsigned long long)t.hits,
+                  (unsigned long long)t.doubts, (unsigned long long)t.loose);
 }
 
 /* From org past the sphere's centre, by up to `wide` times the half width of its outline, times a length. */
@@ -89,13 +93,16 @@ static truth_ray aim(test_random *r, const float org[3], const float sphere[4], 
         beside += (double)d[a] * d[a];
     }
     const double rr = (double)sphere[3] * sphere[3], outline = cc > rr * (1 + 1e-7) ? 1 / sqrt(1 - rr / cc) : 1;
-    const double k = random_below(r, 4) ? random_float(r, 0, wide) : wide > 1 ? 1 + 1e-6 * random_float(r, -1, 1) : wide;
+    const double k = random_below(r, 4) ? random_float(r, 0, wide)
+                     : wide > 1         ? 1 + 1e-6 * random_float(r, -1, 1)
+                                        : wide;
     const double reach = k * sphere[3] * outline / sqrt(beside > 0 ? beside : 1);
     for (int a = 0; a < 3; a++) {
         ray.org[a] = org[a];
         ray.dir[a] = (float)((sphere[a] + reach * d[a] - org[a]) * length);
     }
-    if (ray.dir[0] == 0 && ray.dir[1] == 0 && ray.dir[2] == 0) ray.dir[1] = length;
+    if (ray.dir[0] == 0 && ray.dir[1] == 0 && ray.dir[2] == 0)
+        ray.dir[1] = length;
     return ray;
 }
 
@@ -103,7 +110,8 @@ static void any_origin(test_random *r, const float sphere[4], float distance, fl
 {
     float d[3];
     random_direction(r, d);
-    for (int a = 0; a < 3; a++) org[a] = (float)(sphere[a] + (double)distance * sphere[3] * d[a]);
+    for (int a = 0; a < 3; a++)
+        org[a] = (float)(sphere[a] + (double)distance * sphere[3] * d[a]);
 }
 
 /* ---- accuracy ---- */
@@ -115,7 +123,8 @@ static void from_distance(float distance, float low_r, float high_r, const char 
         test_random r = random_make(round);
         truth_ray ray[RAYS];
         float sphere[4], org[3];
-        for (int a = 0; a < 3; a++) sphere[a] = random_float(&r, -3, 3) * (round % 2 ? 1 : high_r);
+        for (int a = 0; a < 3; a++)
+            sphere[a] = random_float(&r, -3, 3) * (round % 2 ? 1 : high_r);
         sphere[3] = random_log(&r, low_r, high_r);
         for (int i = 0; i < RAYS; i++) {
             any_origin(&r, sphere, distance, org);
@@ -160,29 +169,34 @@ static void any_length_rays(void)
     for (uint32_t round = 0; round < test_scaled(20); round++) {
         truth_ray ray[RAYS], scaled[RAYS];
         ray_hit hit[RAYS], scaled_hit[RAYS];
-        for (int i = 0; i < RAYS; i++) ray[i] = aim(&r, (const float[3]){0, 0, 0}, sphere, 1.1f, 1);
+        for (int i = 0; i < RAYS; i++)
+            ray[i] = aim(&r, (const float[3]){0, 0, 0}, sphere, 1.1f, 1);
         rays_trace(scene, ray, RAYS, hit, NULL);
         for (int k = -100; k <= 100; k += 10) {
             for (int i = 0; i < RAYS; i++) {
                 scaled[i] = ray[i];
                 for (int a = 0; a < 3; a++) {
                     scaled[i].dir[a] = ldexpf(ray[i].dir[a], k);
-                    if (ldexpf(scaled[i].dir[a], -k) != ray[i].dir[a]) scaled[i].dir[a] = ray[i].dir[a] = 0;
+                    if (ldexpf(scaled[i].dir[a], -k) != ray[i].dir[a])
+                        scaled[i].dir[a] = ray[i].dir[a] = 0;
                 }
             }
-            if (k < 0) rays_trace(scene, ray, RAYS, hit, NULL); /* some lost a component that would be denormal */
+            if (k < 0)
+                rays_trace(scene, ray, RAYS, hit, NULL); /* some lost a component that would be denormal */
             rays_trace(scene, scaled, RAYS, scaled_hit, NULL);
             for (int i = 0; i < RAYS; i++) {
                 assert_int_equal(scaled_hit[i].primitive, hit[i].primitive);
                 assert_true(same_bits(scaled_hit[i].t, ldexpf(hit[i].t, -k)));
-                for (int a = 0; a < 3; a++) assert_true(same_bits(scaled_hit[i].normal[a], hit[i].normal[a]));
+                for (int a = 0; a < 3; a++)
+                    assert_true(same_bits(scaled_hit[i].normal[a], hit[i].normal[a]));
             }
         }
     }
     cgt_scene_release(scene);
     for (int k = -30; k <= 30; k += 5) { /* 1e-30 to 1e30 */
         truth_ray ray[RAYS];
-        for (int i = 0; i < RAYS; i++) ray[i] = aim(&r, (const float[3]){0, 0, 0}, sphere, 1.05f, (float)pow(10, k) * 0.1f);
+        for (int i = 0; i < RAYS; i++)
+            ray[i] = aim(&r, (const float[3]){0, 0, 0}, sphere, 1.05f, (float)pow(10, k) * 0.1f);
         const tally t = judge(sphere, ray, RAYS);
         assert_true(t.hits > RAYS / 2);
     }
@@ -208,7 +222,8 @@ static float t_of(const float sphere[4], truth_ray ray)
 static void special_places_rays(void)
 {
     const float s[4] = {0, 0, 0, 5}, shifted[4] = {96, -32, 64, 5};
-    static const float away[][3] = {{1, 0, 0}, {3, 4, 0}, {-1, -2, 0.5f}, {4, -3, 0}, {0, 0, 1}, {-4, 3, 1}, {-3, -4, 0}};
+    static const float away[][3] = {{1, 0, 0}, {3, 4, 0},  {-1, -2, 0.5f}, {4, -3, 0},
+                                    {0, 0, 1}, {-4, 3, 1}, {-3, -4, 0}};
     for (size_t i = 0; i < TEST_COUNT(away); i++) { /* an origin on the surface: outwards, inwards, along it */
         const float *d = away[i];
         assert_true(t_of(s, (truth_ray){{3, 4, 0}, {d[0], d[1], d[2]}, 0, INFINITY}) == 0);
@@ -221,7 +236,8 @@ static void special_places_rays(void)
     assert_true(t_of(s, (truth_ray){{0, 0, 7}, {0, 0, 1}, -3, INFINITY}) == -2);      /* asked for */
     assert_true(t_of(s, (truth_ray){{0, 0, 7}, {0, 0, 1}, -100, INFINITY}) == -12);
     /* tangent: one ulp decides */
-    const float tangent[4] = {1, 0, 8, 1}, wider[4] = {1, 0, 8, nextafterf(1, 2)}, thinner[4] = {1, 0, 8, nextafterf(1, 0)};
+    const float tangent[4] = {1, 0, 8, 1}, wider[4] = {1, 0, 8, nextafterf(1, 2)},
+                thinner[4] = {1, 0, 8, nextafterf(1, 0)};
     assert_true(t_of(tangent, (truth_ray){{0, 0, 0}, {0, 0, 1}, 0, INFINITY}) == 8);
     assert_true(t_of(wider, (truth_ray){{0, 0, 0}, {0, 0, 1}, 0, INFINITY}) < 8);
     assert_true(t_of(thinner, (truth_ray){{0, 0, 0}, {0, 0, 1}, 0, INFINITY}) == INFINITY);
@@ -246,14 +262,16 @@ static void zero_radius_rays(void)
         const float k = ldexpf(1, (int)random_below(&r, 8) - 2);
         const bool diagonal = i % 2;
         for (int a = 0; a < 3; a++) {
-            if (diagonal) ray.dir[a] = a == i % 3 ? 0 : random_below(&r, 2) ? 0.5f : -0.5f;
-            else ray.dir[a] = (float)random_below(&r, 64) - 31.5f;
+            if (diagonal)
+                ray.dir[a] = a == i % 3 ? 0 : random_below(&r, 2) ? 0.5f : -0.5f;
+            else
+                ray.dir[a] = (float)random_below(&r, 64) - 31.5f;
             ray.org[a] = point[a] - k * ray.dir[a]; /* exact */
         }
         const float t = t_of(point, ray);
         assert_true(t == k || (t == INFINITY && !diagonal));
         through += t == k;
-        ray.org[i % 3] = nextafterf(ray.org[i % 3], INFINITY);
+        ray.org[i % 3] += 0x1p-10f; /* exact, too */
         assert_true(t_of(point, ray) == INFINITY);
     }
     print_message("%s: %u of %d rays through a point hit it\n", cgt_context_variant(context), through, ROUNDS);
@@ -292,7 +310,8 @@ static void check_range(const cgt_scene *scene, truth_ray ray, float t)
     ray.t_max = INFINITY;
     const float next = ray_trace(scene, ray).t; /* the other root, or none */
     assert_true(next > t);
-    if (next == INFINITY) return;
+    if (next == INFINITY)
+        return;
     ray.t_min = next;
     assert_true(ray_trace(scene, ray).t == next);
     ray.t_min = nextafterf(next, INFINITY);
@@ -305,14 +324,16 @@ static void range_is_closed_rays(void)
     uint32_t hits = 0;
     for (uint32_t round = 0; round < test_scaled(150); round++) {
         float sphere[4], org[3];
-        for (int a = 0; a < 3; a++) sphere[a] = random_float(&r, -100, 100);
+        for (int a = 0; a < 3; a++)
+            sphere[a] = random_float(&r, -100, 100);
         sphere[3] = random_log(&r, 1e-3f, 1e3f);
         cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
         for (int i = 0; i < 16; i++) {
             any_origin(&r, sphere, random_log(&r, 0.1f, 1e4f), org);
             const truth_ray ray = aim(&r, org, sphere, 1, random_log(&r, 1e-3f, 1e3f));
             const float t = ray_trace(scene, ray).t;
-            if (t != INFINITY) check_range(scene, ray, t), hits++;
+            if (t != INFINITY)
+                check_range(scene, ray, t), hits++;
         }
         cgt_scene_release(scene);
     }
@@ -334,12 +355,14 @@ static void ties_rays(void)
     for (uint32_t round = 0; round < test_scaled(40); round++) {
         float sphere[2][N][4], q[4];
         cgt_scene *scene = NULL;
-        for (int a = 0; a < 3; a++) q[a] = random_float(&r, -2, 2);
+        for (int a = 0; a < 3; a++)
+            q[a] = random_float(&r, -2, 2);
         q[3] = random_float(&r, 0.5f, 1);
         for (int g = 0; g < 2; g++)
             for (int i = 0; i < N; i++) {
                 memcpy(sphere[g][i], q, sizeof q);
-                if (random_below(&r, 2)) sphere[g][i][3] *= random_float(&r, 0.2f, 0.9f); /* hidden within the others */
+                if (random_below(&r, 2))
+                    sphere[g][i][3] *= random_float(&r, 0.2f, 0.9f); /* hidden within the others */
             }
         assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
         uint32_t first[2] = {CGT_NONE, CGT_NONE}, id;
@@ -347,12 +370,14 @@ static void ties_rays(void)
             const cgt_spheres spheres = spheres_of((const float(*)[4])sphere[g], N);
             assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
             for (uint32_t i = N; i-- > 0;)
-                if (sphere[g][i][3] == q[3]) first[g] = i;
+                if (sphere[g][i][3] == q[3])
+                    first[g] = i;
         }
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         truth_ray ray[RAYS];
         ray_hit hit[RAYS];
-        for (int i = 0; i < RAYS; i++) ray[i] = aim(&r, (const float[3]){5, 6, 7}, q, 0.99f, 1);
+        for (int i = 0; i < RAYS; i++)
+            ray[i] = aim(&r, (const float[3]){5, 6, 7}, q, 0.99f, 1);
         rays_trace(scene, ray, RAYS, hit, NULL);
         const uint32_t geometry = first[0] == CGT_NONE;
         for (int i = 0; i < RAYS; i++) {
@@ -378,10 +403,12 @@ static void normals_rays(void)
         float sphere[4], org[3];
         truth_ray ray[RAYS];
         ray_hit hit[RAYS];
-        for (int a = 0; a < 3; a++) sphere[a] = random_float(&r, -100, 100);
+        for (int a = 0; a < 3; a++)
+            sphere[a] = random_float(&r, -100, 100);
         sphere[3] = random_log(&r, 1e-2f, 1e3f);
         any_origin(&r, sphere, random_log(&r, 0.01f, 100), org);
-        for (int i = 0; i < RAYS; i++) ray[i] = aim(&r, org, sphere, 0.999f, random_log(&r, 1e-3f, 1e3f));
+        for (int i = 0; i < RAYS; i++)
+            ray[i] = aim(&r, org, sphere, 0.999f, random_log(&r, 1e-3f, 1e3f));
         cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
         rays_trace(scene, ray, RAYS, hit, NULL);
         for (int i = 0; i < RAYS; i++) {
@@ -406,9 +433,12 @@ static void normals_point_outwards(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(near_and_far),    cmocka_unit_test(any_length),
-        cmocka_unit_test(special_places),  cmocka_unit_test(zero_radius),
-        cmocka_unit_test(range_is_closed_at_both_ends), cmocka_unit_test(ties_go_to_the_lowest_id),
+        cmocka_unit_test(near_and_far),
+        cmocka_unit_test(any_length),
+        cmocka_unit_test(special_places),
+        cmocka_unit_test(zero_radius),
+        cmocka_unit_test(range_is_closed_at_both_ends),
+        cmocka_unit_test(ties_go_to_the_lowest_id),
         cmocka_unit_test(normals_point_outwards),
     };
     test_begin("test_sphere_exact");

@@ -16,10 +16,34 @@
 
 /* ---- operands ---- */
 
-static const float edge[] = {0.f, -0.f, 0x1p-149f, -0x1p-149f, 0x1p-126f, -0x1p-126f, 0.5f, -0.5f, 1.f, -1.f, 1.5f, -1.5f,
-                             0x1.fffffep-1f, 0x1p23f, 0x1.000002p23f, -0x1p24f, 0x1p31f, -0x1p31f, 0x1.fffffep30f,
-                             -0x1.000002p31f, 0x1p32f, 0x1.fffffep127f, -0x1.fffffep127f, INFINITY, -INFINITY, NAN};
-static const uint32_t edge_bits[] = {0, 1, 2, 0x7fffffff, 0x80000000, 0x80000001, 0xffffffff, 0xfffffffe, 0x0000ffff, 0xaaaaaaaa};
+static const float edge[] = {0.f,
+                             -0.f,
+                             0x1p-149f,
+                             -0x1p-149f,
+                             0x1p-126f,
+                             -0x1p-126f,
+                             0.5f,
+                             -0.5f,
+                             1.f,
+                             -1.f,
+                             1.5f,
+                             -1.5f,
+                             0x1.fffffep-1f,
+                             0x1p23f,
+                             0x1.000002p23f,
+                             -0x1p24f,
+                             0x1p31f,
+                             -0x1p31f,
+                             0x1.fffffep30f,
+                             -0x1.000002p31f,
+                             0x1p32f,
+                             0x1.fffffep127f,
+                             -0x1.fffffep127f,
+                             INFINITY,
+                             -INFINITY,
+                             NAN};
+static const uint32_t edge_bits[] = {0,          1,          2,          0x7fffffff, 0x80000000,
+                                     0x80000001, 0xffffffff, 0xfffffffe, 0x0000ffff, 0xaaaaaaaa};
 
 static float any_float(test_random *r)
 {
@@ -35,7 +59,10 @@ static uint32_t any_bits(test_random *r)
     return random_below(r, 3) ? (uint32_t)random_bits(r) : edge_bits[random_below(r, TEST_COUNT(edge_bits))];
 }
 
-static vec_float4 any_floats(test_random *r) { return (vec_float4){any_float(r), any_float(r), any_float(r), any_float(r)}; }
+static vec_float4 any_floats(test_random *r)
+{
+    return (vec_float4){any_float(r), any_float(r), any_float(r), any_float(r)};
+}
 static vec_uint4 any_words(test_random *r) { return (vec_uint4){any_bits(r), any_bits(r), any_bits(r), any_bits(r)}; }
 
 /* Equal as results of arithmetic: the bits, where any NaN is as good as another. */
@@ -44,12 +71,14 @@ static bool equal(float a, float b) { return same_bits(a, b) || (isnan(a) && isn
 #define CHECK_FLOAT(word, got, expected)                                                                               \
     do {                                                                                                               \
         const float g_ = (got), e_ = (expected);                                                                       \
-        if (!equal(g_, e_)) fail_msg("%s: %a, expected %a", word, (double)g_, (double)e_);                              \
+        if (!equal(g_, e_))                                                                                            \
+            fail_msg("%s: %a, expected %a", word, (double)g_, (double)e_);                                             \
     } while (0)
 #define CHECK_BITS(word, got, expected)                                                                                \
     do {                                                                                                               \
         const uint32_t g_ = (uint32_t)(got), e_ = (uint32_t)(expected);                                                \
-        if (g_ != e_) fail_msg("%s: 0x%08x, expected 0x%08x", word, g_, e_);                                            \
+        if (g_ != e_)                                                                                                  \
+            fail_msg("%s: 0x%08x, expected 0x%08x", word, g_, e_);                                                     \
     } while (0)
 
 static uint32_t bits_of(float f)
@@ -77,7 +106,8 @@ static void elements_lie_in_order_in_memory(void **state)
         assert_true(mf[i] == (float)(i + 1) && mu[i] == (uint32_t)i + 1);
         assert_true(spu_extract(f, i) == mf[i] && spu_extract(u, i) == mu[i] && spu_extract((vec_int4)u, i) == i + 1);
     }
-    for (int i = 0; i < 8; i++) assert_true(mh[i] == i + 1 && spu_extract(h, i) == i + 1);
+    for (int i = 0; i < 8; i++)
+        assert_true(mh[i] == i + 1 && spu_extract(h, i) == i + 1);
 }
 
 static void splats_fills_every_element(void **state)
@@ -87,8 +117,10 @@ static void splats_fills_every_element(void **state)
     const vec_int4 s = spu_splats((int32_t)-7);
     const vec_uint4 u = spu_splats(UINT32_C(0xdeadbeef));
     const vec_ushort8 h = spu_splats((uint16_t)0xcafe);
-    for (int i = 0; i < 4; i++) assert_true(same_bits(f[i], -0.f) && s[i] == -7 && u[i] == 0xdeadbeef);
-    for (int i = 0; i < 8; i++) assert_int_equal(h[i], 0xcafe);
+    for (int i = 0; i < 4; i++)
+        assert_true(same_bits(f[i], -0.f) && s[i] == -7 && u[i] == 0xdeadbeef);
+    for (int i = 0; i < 8; i++)
+        assert_int_equal(h[i], 0xcafe);
 }
 
 /* ---- arithmetic ---- */
@@ -126,7 +158,8 @@ static void float_arithmetic(void **state)
     for (size_t i = 0; i < TEST_COUNT(edge); i++)
         for (size_t j = 0; j < TEST_COUNT(edge); j++)
             check_arithmetic(spu_splats(edge[i]), spu_splats(edge[j]), any_floats(&r), fused);
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) check_arithmetic(any_floats(&r), any_floats(&r), any_floats(&r), fused);
+    for (uint32_t k = test_scaled(ROUNDS); k; k--)
+        check_arithmetic(any_floats(&r), any_floats(&r), any_floats(&r), fused);
 }
 
 static void integer_arithmetic_wraps(void **state)
@@ -165,8 +198,10 @@ static void float_comparison(void **state)
     (void)state;
     test_random r = random_make(3);
     for (size_t i = 0; i < TEST_COUNT(edge); i++)
-        for (size_t j = 0; j < TEST_COUNT(edge); j++) check_compare(spu_splats(edge[i]), spu_splats(edge[j]));
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) check_compare(any_floats(&r), any_floats(&r));
+        for (size_t j = 0; j < TEST_COUNT(edge); j++)
+            check_compare(spu_splats(edge[i]), spu_splats(edge[j]));
+    for (uint32_t k = test_scaled(ROUNDS); k; k--)
+        check_compare(any_floats(&r), any_floats(&r));
 }
 
 static void integer_comparison_and_bits(void **state)
@@ -179,14 +214,27 @@ static void integer_comparison_and_bits(void **state)
         const vec_float4 fa = (vec_float4)a, fb = (vec_float4)b;
         const vec_ushort8 ha = (vec_ushort8)a, hb = (vec_ushort8)b, heq = spu_cmpeq(ha, hb), hand = spu_and(ha, hb);
         const vec_uint4 gt = spu_cmpgt(a, b), sgt = spu_cmpgt(sa, sb), eq = spu_cmpeq(a, b), seq = spu_cmpeq(sa, sb);
-        const vec_uint4 all[] = {spu_and(a, b), spu_or(a, b), spu_xor(a, b), spu_andc(a, b), spu_sel(a, b, m),
-                                 (vec_uint4)spu_and(sa, sb), (vec_uint4)spu_or(sa, sb), (vec_uint4)spu_xor(sa, sb),
-                                 (vec_uint4)spu_andc(sa, sb), (vec_uint4)spu_sel(sa, sb, m),
-                                 (vec_uint4)spu_and(fa, fb), (vec_uint4)spu_or(fa, fb), (vec_uint4)spu_xor(fa, fb),
-                                 (vec_uint4)spu_andc(fa, fb), (vec_uint4)spu_sel(fa, fb, m), spux_not(a)};
+        const vec_uint4 all[] = {spu_and(a, b),
+                                 spu_or(a, b),
+                                 spu_xor(a, b),
+                                 spu_andc(a, b),
+                                 spu_sel(a, b, m),
+                                 (vec_uint4)spu_and(sa, sb),
+                                 (vec_uint4)spu_or(sa, sb),
+                                 (vec_uint4)spu_xor(sa, sb),
+                                 (vec_uint4)spu_andc(sa, sb),
+                                 (vec_uint4)spu_sel(sa, sb, m),
+                                 (vec_uint4)spu_and(fa, fb),
+                                 (vec_uint4)spu_or(fa, fb),
+                                 (vec_uint4)spu_xor(fa, fb),
+                                 (vec_uint4)spu_andc(fa, fb),
+                                 (vec_uint4)spu_sel(fa, fb, m),
+                                 spux_not(a)};
         for (int i = 0; i < 4; i++) {
-            const uint32_t expected[] = {a[i] & b[i], a[i] | b[i], a[i] ^ b[i], a[i] & ~b[i], (a[i] & ~m[i]) | (b[i] & m[i])};
-            for (int w = 0; w < 15; w++) CHECK_BITS("spu_and, or, xor, andc, sel", all[w][i], expected[w % 5]);
+            const uint32_t expected[] = {a[i] & b[i], a[i] | b[i], a[i] ^ b[i], a[i] & ~b[i],
+                                         (a[i] & ~m[i]) | (b[i] & m[i])};
+            for (int w = 0; w < 15; w++)
+                CHECK_BITS("spu_and, or, xor, andc, sel", all[w][i], expected[w % 5]);
             CHECK_BITS("spux_not", all[15][i], ~a[i]);
             CHECK_BITS("spu_cmpgt", gt[i], a[i] > b[i] ? UINT32_MAX : 0);
             CHECK_BITS("spu_cmpgt signed", sgt[i], sa[i] > sb[i] ? UINT32_MAX : 0);
@@ -214,7 +262,8 @@ static void check_convts(vec_float4 a)
     const vec_int4 d[] = {spu_convts(a, 0), spu_convts(a, 1), spu_convts(a, 8), spu_convts(a, 31)};
     const int n[] = {0, 1, 8, 31};
     for (int w = 0; w < 4; w++)
-        for (int i = 0; i < 4; i++) CHECK_BITS("spu_convts", d[w][i], convts(a[i], n[w]));
+        for (int i = 0; i < 4; i++)
+            CHECK_BITS("spu_convts", d[w][i], convts(a[i], n[w]));
 }
 
 static void float_to_int(void **state)
@@ -223,10 +272,12 @@ static void float_to_int(void **state)
     test_random r = random_make(5);
     const vec_int4 literal = spu_convts(((vec_float4){2.9f, -2.9f, 0x1p31f, -0x1p40f}), 0);
     assert_true(literal[0] == 2 && literal[1] == -2 && literal[2] == INT32_MAX && literal[3] == INT32_MIN);
-    for (size_t i = 0; i < TEST_COUNT(edge); i++) check_convts(spu_splats(edge[i]));
+    for (size_t i = 0; i < TEST_COUNT(edge); i++)
+        check_convts(spu_splats(edge[i]));
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         check_convts(any_floats(&r));
-        check_convts((vec_float4){random_float(&r, -3e9f, 3e9f), random_float(&r, -2, 2), random_log(&r, 1e-3f, 1e12f), 0});
+        check_convts(
+            (vec_float4){random_float(&r, -3e9f, 3e9f), random_float(&r, -2, 2), random_log(&r, 1e-3f, 1e12f), 0});
     }
 }
 
@@ -239,7 +290,8 @@ static void int_to_float(void **state)
         const vec_float4 d[] = {spu_convtf(a, 0), spu_convtf(a, 4), spu_convtf(a, 31)};
         const int n[] = {0, 4, 31};
         for (int w = 0; w < 3; w++)
-            for (int i = 0; i < 4; i++) CHECK_FLOAT("spu_convtf", d[w][i], (float)ldexp((double)(float)a[i], -n[w]));
+            for (int i = 0; i < 4; i++)
+                CHECK_FLOAT("spu_convtf", d[w][i], (float)ldexp((double)(float)a[i], -n[w]));
     }
 }
 
@@ -254,7 +306,8 @@ static void gather_takes_lowest_bits_element_0_first(void **state)
         const vec_uint4 d[] = {spu_gather(a), spu_gather(a | noise), spu_gather(~(a - 1))};
         for (int w = 0; w < 3; w++) {
             CHECK_BITS("spu_gather", d[w][0], bits);
-            for (int i = 1; i < 4; i++) CHECK_BITS("spu_gather, other elements", d[w][i], 0);
+            for (int i = 1; i < 4; i++)
+                CHECK_BITS("spu_gather, other elements", d[w][i], 0);
         }
     }
 }
@@ -266,9 +319,12 @@ static const vec_ushort8 numbered_b = {0x1011, 0x1213, 0x1415, 0x1617, 0x1819, 0
 /* The byte that a selector picks, where get(p) is byte p of a and b. */
 static unsigned selected(unsigned c, vec_ushort8 a, vec_ushort8 b)
 {
-    if (c >= 0xe0) return 0x80;
-    if (c >= 0xc0) return 0xff;
-    if (c >= 0x80) return 0x00;
+    if (c >= 0xe0)
+        return 0x80;
+    if (c >= 0xc0)
+        return 0xff;
+    if (c >= 0x80)
+        return 0x00;
     const unsigned p = c & 31, element = p < 16 ? a[p / 2] : b[p / 2 - 8];
     return p % 2 ? element & 0xff : element >> 8;
 }
@@ -290,9 +346,11 @@ static void shuffle_selects_bytes(void **state)
     const vec_ushort8 same = spu_shuffle(numbered_a, numbered_b, identity_a);
     const vec_ushort8 pushed = spu_shuffle(numbered_a, numbered_b, push);
     const vec_ushort8 fixed = spu_shuffle(numbered_a, numbered_b, constants);
-    for (int i = 0; i < 8; i++) assert_int_equal(same[i], numbered_a[i]);
+    for (int i = 0; i < 8; i++)
+        assert_int_equal(same[i], numbered_a[i]);
     assert_int_equal(pushed[0], numbered_a[0]);
-    for (int i = 1; i < 8; i++) assert_int_equal(pushed[i], numbered_b[i - 1]);
+    for (int i = 1; i < 8; i++)
+        assert_int_equal(pushed[i], numbered_b[i - 1]);
     assert_true(fixed[0] == 0x0000 && fixed[1] == 0xffff && fixed[2] == 0x8080 && fixed[3] == 0x00ff && fixed[4] == 0);
     for (int c = 0; c < 256; c++)
         for (int k = 0; k < 16; k++) {
@@ -328,7 +386,8 @@ static void mask_bits_and_select(void **state)
     }
     for (unsigned bits = 0; bits < 256; bits++) {
         vec_ushort8 m = spu_splats((uint16_t)0);
-        for (int i = 0; i < 8; i++) m[i] = bits >> i & 1 ? 0xffff : 0;
+        for (int i = 0; i < 8; i++)
+            m[i] = bits >> i & 1 ? 0xffff : 0;
         CHECK_BITS("cgt_spux_mask_bits_u16", cgt_spux_mask_bits_u16(m), bits);
     }
 }
@@ -338,7 +397,8 @@ static void load_store_and_lanes(void **state)
     (void)state;
     _Alignas(CGT_VECTOR_BYTES) float from[3 * CGT_LANES], to[3 * CGT_LANES] = {0};
     _Alignas(CGT_VECTOR_BYTES) uint32_t words[CGT_LANES];
-    for (int i = 0; i < 3 * CGT_LANES; i++) from[i] = (float)(i * i) - 5;
+    for (int i = 0; i < 3 * CGT_LANES; i++)
+        from[i] = (float)(i * i) - 5;
     spux_store(to + CGT_LANES, spux_load(from + CGT_LANES));
     spux_store_uint(words, spux_lane_index());
     for (int i = 0; i < CGT_LANES; i++) {
@@ -375,15 +435,22 @@ static void quotient_and_root_are_near(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elements_lie_in_order_in_memory), cmocka_unit_test(splats_fills_every_element),
-        cmocka_unit_test(float_arithmetic),                cmocka_unit_test(integer_arithmetic_wraps),
-        cmocka_unit_test(float_comparison),                cmocka_unit_test(integer_comparison_and_bits),
-        cmocka_unit_test(float_to_int),                    cmocka_unit_test(int_to_float),
+        cmocka_unit_test(elements_lie_in_order_in_memory),
+        cmocka_unit_test(splats_fills_every_element),
+        cmocka_unit_test(float_arithmetic),
+        cmocka_unit_test(integer_arithmetic_wraps),
+        cmocka_unit_test(float_comparison),
+        cmocka_unit_test(integer_comparison_and_bits),
+        cmocka_unit_test(float_to_int),
+        cmocka_unit_test(int_to_float),
         cmocka_unit_test(gather_takes_lowest_bits_element_0_first),
-        cmocka_unit_test(shuffle_selects_bytes),           cmocka_unit_test(mask_bits_and_select),
-        cmocka_unit_test(load_store_and_lanes),            cmocka_unit_test(quotient_and_root_are_near),
+        cmocka_unit_test(shuffle_selects_bytes),
+        cmocka_unit_test(mask_bits_and_select),
+        cmocka_unit_test(load_store_and_lanes),
+        cmocka_unit_test(quotient_and_root_are_near),
     };
     test_begin("test_spu_words");
-    if (!test_variant_runs(CGT_VARIANT_NAME)) return TEST_SKIPPED;
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

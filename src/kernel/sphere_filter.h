@@ -94,9 +94,9 @@ CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres 
     const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0.27f * f->rlength));
     /* 8 roundings each, and 2^-74 where squares underflow; the distance between surfaces is at least what is left, where
      * anything is */
-    const vfloat near =
-        spu_sub(spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
-                spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach + 0x1p-74f))));
+    const vfloat near = spu_sub(
+        spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
+        spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach + 0x1p-74f))));
     const vmask outside = spu_cmpgt(near, spux_vfloat(0));
     spux_store(s->nearest, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
     spux_store(s->r2, spu_madd(r, r, eps));

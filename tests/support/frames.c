@@ -11,6 +11,16 @@
 
 #include "camera.h"
 
+cgt_camera camera_before(const cloud *c)
+{
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    memcpy(camera.eye, c->middle, sizeof camera.eye);
+    memcpy(camera.target, c->middle, sizeof camera.target);
+    camera.eye[2] += 4 * c->reach;
+    return camera;
+}
+
 cgt_camera camera_random(test_random *r, const cloud *c)
 {
     cgt_camera camera;
@@ -39,7 +49,8 @@ planes planes_make(uint32_t width, uint32_t height)
     p.t = (float *)p.memory;
     p.primitive = p.memory + p.elements;
     p.geometry = p.memory + 2 * p.elements;
-    for (int a = 0; a < 3; a++) p.normal[a] = (float *)(p.memory + (3 + (size_t)a) * p.elements);
+    for (int a = 0; a < 3; a++)
+        p.normal[a] = (float *)(p.memory + (3 + (size_t)a) * p.elements);
     return p;
 }
 
@@ -61,7 +72,8 @@ cgt_frame frame_of(const planes *p)
     frame.t = p->t;
     frame.primitive = p->primitive;
     frame.geometry = p->geometry;
-    for (int a = 0; a < 3; a++) frame.normal[a] = p->normal[a];
+    for (int a = 0; a < 3; a++)
+        frame.normal[a] = p->normal[a];
     return frame;
 }
 
@@ -102,7 +114,8 @@ uint64_t frame_judge(const planes *p, const truth_ray *rays, const float (*spher
     uint64_t doubts = 0;
     for (size_t i = 0; i < p->elements; i++) {
         const char *wrong = truth_judge(&scene, &rays[i], p->primitive[i], p->t[i], &doubts);
-        if (!wrong && p->geometry[i] != (p->primitive[i] == CGT_NONE ? CGT_NONE : 0)) wrong = "the geometry is wrong";
+        if (!wrong && p->geometry[i] != (p->primitive[i] == CGT_NONE ? CGT_NONE : 0))
+            wrong = "the geometry is wrong";
         if (wrong)
             fail_msg("pixel %zu: %s (sphere %u, t %a): org %a %a %a dir %a %a %a", i, wrong, p->primitive[i],
                      (double)p->t[i], (double)rays[i].org[0], (double)rays[i].org[1], (double)rays[i].org[2],
@@ -134,12 +147,15 @@ truth_ray ray_random(test_random *r, const cloud *c)
     for (int a = 0; a < 3; a++) {
         ray.org[a] = c->middle[a] + c->reach * random_float(r, -2, 2) * away;
         target[a] = c->middle[a] + c->reach * random_float(r, -1, 1);
-        if (aimed) ray.dir[a] = target[a] - ray.org[a];
+        if (aimed)
+            ray.dir[a] = target[a] - ray.org[a];
         ray.dir[a] *= length;
     }
     if (random_below(r, 8) == 0)
-        for (int a = 0, axis = (int)random_below(r, 3); a < 3; a++) ray.dir[a] = a == axis ? ray.dir[a] : 0;
-    if (ray.dir[0] == 0 && ray.dir[1] == 0 && ray.dir[2] == 0) ray.dir[0] = -1;
+        for (int a = 0, axis = (int)random_below(r, 3); a < 3; a++)
+            ray.dir[a] = a == axis ? ray.dir[a] : 0;
+    if (ray.dir[0] == 0 && ray.dir[1] == 0 && ray.dir[2] == 0)
+        ray.dir[0] = -1;
     if (random_below(r, 4) == 0) {
         const float scale = c->reach / (fabsf(ray.dir[0]) + fabsf(ray.dir[1]) + fabsf(ray.dir[2]));
         ray.t_min = random_float(r, -1, 2) * scale;
@@ -151,7 +167,8 @@ truth_ray ray_random(test_random *r, const cloud *c)
 cgt_hits hits_of(ray_hit *hits)
 {
     cgt_hits h = {.stride = sizeof *hits, .t = &hits->t, .primitive = &hits->primitive, .geometry = &hits->geometry};
-    for (int a = 0; a < 3; a++) h.normal[a] = &hits->normal[a];
+    for (int a = 0; a < 3; a++)
+        h.normal[a] = &hits->normal[a];
     return h;
 }
 

@@ -19,7 +19,8 @@ const char *variant_next(size_t *index)
         options.variant = name;
         options.threads = 1;
         const cgt_result result = cgt_context_create(&options, &context);
-        if (result == CGT_ERROR_UNSUPPORTED) continue;
+        if (result == CGT_ERROR_UNSUPPORTED)
+            continue;
         assert_int_equal(result, CGT_OK);
         cgt_context_release(context);
         ++*index;
@@ -60,17 +61,21 @@ static void place_sphere(test_random *r, const cloud *c, cloud_kind kind, const 
     const float size = c->reach / cbrtf((float)c->count + 1);
     const float *around = kind == CLOUD_CLUSTERED ? clump[random_below(r, 8)] : c->middle;
     const float reach = kind == CLOUD_CLUSTERED ? 0.05f * c->reach : c->reach;
-    for (int a = 0; a < 3; a++) q[a] = random_float(r, around[a] - reach, around[a] + reach);
+    for (int a = 0; a < 3; a++)
+        q[a] = random_float(r, around[a] - reach, around[a] + reach);
     q[3] = random_float(r, 0.3f, 0.6f) * size;
-    if (kind == CLOUD_PLANAR) q[flat] = c->middle[flat];
+    if (kind == CLOUD_PLANAR)
+        q[flat] = c->middle[flat];
     if (kind == CLOUD_LINE)
-        for (int a = 0; a < 3; a++) q[a] = a == flat ? q[a] : c->middle[a];
+        for (int a = 0; a < 3; a++)
+            q[a] = a == flat ? q[a] : c->middle[a];
     if (kind == CLOUD_MIXED) {
         const float factor = random_log(r, 1e-3f, 1e3f); /* the largest would hide all else: few of them */
         q[3] *= factor > 10 && random_below(r, 20) ? 1 : factor;
     }
     if (kind == CLOUD_LATTICE) {
-        for (int a = 0; a < 3; a++) q[a] = rintf(q[a] / size) * size;
+        for (int a = 0; a < 3; a++)
+            q[a] = rintf(q[a] / size) * size;
         q[3] = random_below(r, 2) ? size : size / 2;
     }
 }
@@ -85,9 +90,11 @@ cloud cloud_make(test_random *r, cloud_kind kind, uint32_t count)
     for (int a = 0; a < 3; a++) {
         const float offset = kind == CLOUD_FAR ? random_log(r, 1e3f, 1e5f) : 0;
         c.middle[a] = kind == CLOUD_LATTICE ? 0 : random_float(r, -1, 1) + offset;
-        for (int k = 0; k < 8; k++) clump[k][a] = c.middle[a] + random_float(r, -1, 1) * c.reach;
+        for (int k = 0; k < 8; k++)
+            clump[k][a] = c.middle[a] + random_float(r, -1, 1) * c.reach;
     }
-    for (uint32_t i = 0; i < count; i++) place_sphere(r, &c, kind, (const float(*)[3])clump, flat, c.sphere[i]);
+    for (uint32_t i = 0; i < count; i++)
+        place_sphere(r, &c, kind, (const float(*)[3])clump, flat, c.sphere[i]);
     return c;
 }
 
@@ -116,6 +123,7 @@ cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, cons
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
     assert_int_equal(geometry, 0);
-    if (cgt_scene_commit(scene) != CGT_OK) fail_msg("%s", context_message(context));
+    if (cgt_scene_commit(scene) != CGT_OK)
+        fail_msg("%s", context_message(context));
     return scene;
 }

@@ -12,8 +12,9 @@
 
 /* The next variant of the build that this CPU runs, from *index on; NULL after the last. */
 const char *variant_next(size_t *index);
-#define FOR_EACH_VARIANT(name) for (size_t name##_index_ = 0, name##_once_ = 1; name##_once_; name##_once_ = 0)          \
-    for (const char *name = variant_next(&name##_index_); name; name = variant_next(&name##_index_))
+#define FOR_EACH_VARIANT(name)                                                                                         \
+    for (size_t name##_index_ = 0, name##_once_ = 1; name##_once_; name##_once_ = 0)                                   \
+        for (const char *name = variant_next(&name##_index_); name; name = variant_next(&name##_index_))
 
 cgt_context *context_make(uint32_t threads, const char *variant);
 
@@ -23,13 +24,13 @@ const char *context_message(const cgt_context *context);
 /* ---- clouds of spheres: x, y, z, r ---- */
 
 typedef enum cloud_kind {
-    CLOUD_UNIFORM,    /* in a box, like radii */
-    CLOUD_CLUSTERED,  /* in a few dense clumps */
-    CLOUD_PLANAR,     /* all centres in one plane */
-    CLOUD_MIXED,      /* radii from 1e-3 to 1e3 of the usual */
-    CLOUD_FAR,        /* 1e3 to 1e5 away from the origin */
-    CLOUD_LATTICE,    /* coordinates are whole numbers, many spheres touch or are equal */
-    CLOUD_LINE,       /* along one axis */
+    CLOUD_UNIFORM,   /* in a box, like radii */
+    CLOUD_CLUSTERED, /* in a few dense clumps */
+    CLOUD_PLANAR,    /* all centres in one plane */
+    CLOUD_MIXED,     /* radii from 1e-3 to 1e3 of the usual */
+    CLOUD_FAR,       /* 1e3 to 1e5 away from the origin */
+    CLOUD_LATTICE,   /* coordinates are whole numbers, many spheres touch or are equal */
+    CLOUD_LINE,      /* along one axis */
     CLOUD_KINDS
 } cloud_kind;
 
@@ -52,6 +53,9 @@ cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count);
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count);
 
 /* ---- frames ---- */
+
+/* A camera that sees all of a cloud, from outside along an axis. */
+cgt_camera camera_before(const cloud *c);
 
 /* A camera somewhere around or inside a cloud, of any projection and opening. */
 cgt_camera camera_random(test_random *r, const cloud *c);

@@ -18,8 +18,10 @@ static double scale = 1;
 void test_begin(const char *name)
 {
     const char *seed_text = getenv("CGT_TEST_SEED"), *scale_text = getenv("CGT_TEST_SCALE");
-    if (seed_text && *seed_text) seed = strtoull(seed_text, NULL, 0);
-    if (scale_text && *scale_text) scale = strtod(scale_text, NULL);
+    if (seed_text && *seed_text)
+        seed = strtoull(seed_text, NULL, 0);
+    if (scale_text && *scale_text)
+        scale = strtod(scale_text, NULL);
     if (!(scale > 0)) {
         fprintf(stderr, "%s: CGT_TEST_SCALE=%s: must be above 0\n", name, scale_text);
         exit(2);
@@ -36,9 +38,12 @@ bool test_variant_runs(const char *name)
     options.variant = name;
     options.threads = 1;
     const cgt_result result = cgt_context_create(&options, &context);
-    if (result == CGT_OK) cgt_context_release(context);
-    else printf("%s: %s\n", name, cgt_result_string(result));
-    if (result == CGT_OK || result == CGT_ERROR_UNSUPPORTED) return result == CGT_OK;
+    if (result == CGT_OK)
+        cgt_context_release(context);
+    else
+        printf("%s: %s\n", name, cgt_result_string(result));
+    if (result == CGT_OK || result == CGT_ERROR_UNSUPPORTED)
+        return result == CGT_OK;
     exit(1);
 }
 
@@ -67,10 +72,7 @@ uint32_t random_below(test_random *r, uint32_t count)
 
 static double unit(test_random *r) { return (double)(random_bits(r) >> 11) * 0x1p-53; }
 
-float random_float(test_random *r, float low, float high)
-{
-    return (float)(low + unit(r) * ((double)high - low));
-}
+float random_float(test_random *r, float low, float high) { return (float)(low + unit(r) * ((double)high - low)); }
 
 float random_log(test_random *r, float low, float high)
 {
@@ -95,7 +97,8 @@ void random_direction(test_random *r, float d[3])
             length += (double)d[a] * d[a];
         }
     } while (length > 1 || length < 1e-4);
-    for (int a = 0; a < 3; a++) d[a] = (float)(d[a] / sqrt(length));
+    for (int a = 0; a < 3; a++)
+        d[a] = (float)(d[a] / sqrt(length));
 }
 
 /* Floats in their order as integers. */
@@ -108,7 +111,8 @@ static int64_t ordered(float a)
 
 uint32_t ulp_distance(float a, float b)
 {
-    if (isnan(a) || isnan(b)) return UINT32_MAX;
+    if (isnan(a) || isnan(b))
+        return UINT32_MAX;
     const int64_t d = ordered(a) - ordered(b);
     return (uint32_t)(d < 0 ? -d : d);
 }

@@ -9,9 +9,11 @@
 
 static truth_real square_root(truth_real a)
 {
-    if (!(a > 0)) return 0;
+    if (!(a > 0))
+        return 0;
     truth_real x = (truth_real)sqrtl((long double)a);
-    for (int i = 0; i < 2; i++) x = (x + a / x) / 2; /* 64 bits, or 53, to all of them */
+    for (int i = 0; i < 2; i++)
+        x = (x + a / x) / 2; /* 64 bits, or 53, to all of them */
     return x;
 }
 
@@ -40,7 +42,8 @@ truth_roots truth_sphere(const float org[3], const float dir[3], const float sph
     const double distance = sqrt((double)q.cc), length = sqrt((double)q.dd), r = sphere[3];
     truth_roots roots = {.hit = q.discriminant >= 0, .h = (double)(q.discriminant / q.dd)};
     roots.doubt_h = 0x1p-49 * (distance + r) * r + 0x1p-96 * distance * distance;
-    if (!roots.hit) return roots;
+    if (!roots.hit)
+        return roots;
     const truth_real root = square_root(q.discriminant), sum = q.dc >= 0 ? q.dc + root : q.dc - root;
     const truth_real large = sum / q.dd, small = sum != 0 ? (q.cc - q.rr) / sum : 0;
     roots.near = q.dc >= 0 ? small : large;
@@ -84,7 +87,8 @@ typedef struct judgement {
 /* A first look in double that leaves out what is surely missed: by a margin of 2^-30 of all that enters. */
 static bool surely_missed(const truth_ray *ray, const float sphere[4])
 {
-    const double c[3] = {(double)sphere[0] - ray->org[0], (double)sphere[1] - ray->org[1], (double)sphere[2] - ray->org[2]};
+    const double c[3] = {(double)sphere[0] - ray->org[0], (double)sphere[1] - ray->org[1],
+                         (double)sphere[2] - ray->org[2]};
     const double d[3] = {ray->dir[0], ray->dir[1], ray->dir[2]}, r = sphere[3];
     const double x = c[1] * d[2] - c[2] * d[1], y = c[2] * d[0] - c[0] * d[2], z = c[0] * d[1] - c[1] * d[0];
     const double dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
@@ -105,7 +109,8 @@ static bool is_valid(const float sphere[4])
 static judgement judge_sphere(const truth_ray *ray, const float sphere[4])
 {
     judgement j = {.hit = NO, .t = 0};
-    if (!is_valid(sphere) || surely_missed(ray, sphere)) return j;
+    if (!is_valid(sphere) || surely_missed(ray, sphere))
+        return j;
     j.roots = truth_sphere(ray->org, ray->dir, sphere);
     const bool doubt = truth_in_doubt(&j.roots);
     if (!j.roots.hit) {
@@ -129,29 +134,39 @@ const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t
 {
     judgement mine = {.hit = NO, .t = INFINITY};
     if (object != TRUTH_NONE) {
-        if (object >= scene->count) return "the sphere does not exist";
+        if (object >= scene->count)
+            return "the sphere does not exist";
         mine = judge_sphere(ray, scene->sphere[object]);
-        if (mine.hit == NO) return "the sphere is not hit";
+        if (mine.hit == NO)
+            return "the sphere is not hit";
         const bool accepted = truth_accepts(&mine.roots, mine.t, t) ||
                               (mine.hit == PERHAPS && (truth_accepts(&mine.roots, mine.roots.near, t) ||
                                                        truth_accepts(&mine.roots, mine.roots.far, t)));
-        if (!accepted) return "t is off";
-        if (!(t >= ray->t_min && t <= ray->t_max)) return "t is outside the range";
+        if (!accepted)
+            return "t is off";
+        if (!(t >= ray->t_min && t <= ray->t_max))
+            return "t is outside the range";
         *doubts += mine.hit == PERHAPS;
-    } else if (t != INFINITY) return "no sphere, but a t";
+    } else if (t != INFINITY)
+        return "no sphere, but a t";
     for (uint32_t i = 0; i < scene->count; i++) {
-        if (i == object) continue;
+        if (i == object)
+            continue;
         const judgement other = judge_sphere(ray, scene->sphere[i]);
-        if (other.hit == NO) continue;
+        if (other.hit == NO)
+            continue;
         if (object == TRUTH_NONE) {
-            if (other.hit == YES) return "a hit is missed";
+            if (other.hit == YES)
+                return "a hit is missed";
             ++*doubts;
         } else if (memcmp(scene->sphere[i], scene->sphere[object], sizeof scene->sphere[i]) == 0) {
-            if (i < object) return "an equal sphere of a lower id wins";
+            if (i < object)
+                return "an equal sphere of a lower id wins";
         } else {
             const truth_real nearer = mine.t - other.t;
             if (nearer > 0 && magnitude(nearer) > other.roots.doubt_t + mine.roots.doubt_t) {
-                if (other.hit == YES && mine.hit == YES) return "another sphere is nearer";
+                if (other.hit == YES && mine.hit == YES)
+                    return "another sphere is nearer";
                 ++*doubts;
             }
         }

@@ -1,0 +1,345 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Memory through the caller's hook: every allocation of a whole session fails in turn, and each time there is an error,
+ * nothing is lost or leaked, and the objects work afterwards. In a steady state nothing is allocated. */
+#define _POSIX_C_SOURCE 200809L
+#include "support/scenes.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the hook ---- */
+
+typedef struct block {
+    void *memory;
+    size_t bytes;
+} block;
+
+typedef struct memory {
+    block live[256];
+    size_t blocks, bytes, calls;
+    size_t fail_at; /* the call that returns NULL, counted from 1; 0: none */
+    bool failed;
+    pthread_t caller;
+    const char *wrong;
+} memory;
+
+static void *hook_allocate(void *user, size_t bytes, size_t alignment)
+{
+    memory *m = user;
+    void *p = NULL;
+    if (!pthread_equal(pthread_self(), m->caller))
+        m->wrong = "allocate is called from a worker";
+    if (!alignment || alignment & (alignment - 1) || alignment > 64)
+        m->wrong = "an alignment is none";
+    if (!bytes)
+        m->wrong = "nothing is asked for";
+    if (++m->calls == m->fail_at) {
+        m->failed = true;
+        return NULL;
+    }
+    if (m->blocks == TEST_COUNT(m->live))
+        m->wrong = "more blocks than the test has room for";
+    else if (posix_memalign(&p, alignment < sizeof p ? sizeof p : alignment, bytes) == 0) {
+        memset(p, 0xa5, bytes); /* what it holds is nobody's business */
+        m->live[m->blocks++] = (block){p, bytes};
+        m->bytes += bytes;
+    }
+    return p;
+}
+
+static void hook_release(void *user, void *p, size_t bytes)
+{
+    memory *m = user;
+    if (!pthread_equal(pthread_self(), m->caller))
+        m->wrong = "release is called from a worker";
+    for (size_t i = 0; i < m->blocks; i++)
+        if (m->live[i].memory == p) {
+            if (m->live[i].bytes != bytes)
+                m->wrong = "release gets another size than allocate";
+            m->bytes -= m->live[i].bytes;
+            m->live[i] = m->live[--m->blocks];
+            free(p);
+            return;
+        }
+    m->wrong = p ? "release gets what allocate did not give" : "release gets NULL";
+}
+
+static void check_memory(const memory *m)
+{
+    if (m->wrong)
+        fail_msg("%s", m->wrong);
+}
+
+static cgt_result create(memory *m, uint32_t threads, cgt_context **context)
+{
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.threads = threads;
+    options.memory = (cgt_memory_hooks){m, hook_allocate, hook_release};
+    m->caller = pthread_self();
+    return cgt_context_create(&options, context);
+}
+
+/* ---- a session ---- */
+
+#define GEOMETRIES 9
+#define SIDE 48
+
+static cloud spheres; /* grows from frame to frame: the first quarter of each, then all */
+static float pile[300][4];
+static planes expected[2], got;
+static cgt_camera camera;
+
+/* One call that may fail. Where the hook failed it must say so; then the same call must do. */
+#define TRY(m, call)                                                                                                   \
+    do {                                                                                                               \
+        (m)->failed = false;                                                                                           \
+        const cgt_result first_ = (call);                                                                              \
+        check_memory(m);                                                                                               \
+        if ((m)->failed) {                                                                                             \
+            assert_int_equal(first_, CGT_ERROR_OUT_OF_MEMORY);                                                         \
+            (m)->failed = false;                                                                                       \
+            assert_int_equal((call), CGT_OK);                                                                          \
+            check_memory(m);                                                                                           \
+        } else {                                                                                                       \
+            assert_int_equal(first_, CGT_OK);                                                                          \
+        }                                                                                                              \
+    } while (0)
+
+static void check_frame(const cgt_scene *scene, const planes *want)
+{
+    frame_trace(scene, &camera, &got, NULL);
+    if (want)
+        assert_true(planes_equal(&got, want));
+}
+
+/* After a commit that failed the scene says that it is not committed. */
+static void commit(memory *m, cgt_scene *scene)
+{
+    const cgt_frame frame = frame_of(&got);
+    m->failed = false;
+    const cgt_result first = cgt_scene_commit(scene);
+    if (m->failed) {
+        assert_int_equal(first, CGT_ERROR_OUT_OF_MEMORY);
+        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_ERROR_NOT_COMMITTED);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    } else {
+        assert_int_equal(first, CGT_OK);
+    }
+    check_memory(m);
+}
+
+static void session(memory *m, uint32_t threads, const planes want[2])
+{
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    uint32_t id;
+    TRY(m, create(m, threads, &context));
+    TRY(m, cgt_scene_create(context, NULL, &scene));
+    for (int frame = 0; frame < 2; frame++) {
+        const uint32_t each = spheres.count / GEOMETRIES, count = frame ? each : each / 4;
+        for (uint32_t g = 0; g < GEOMETRIES; g++) {
+            const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere + g * each, count);
+            if (frame == 0)
+                TRY(m, cgt_scene_add_spheres(scene, &s, &id));
+            else
+                TRY(m, cgt_scene_update_spheres(scene, g, &s));
+            assert_true(frame || id == g);
+        }
+        const cgt_spheres s = spheres_of((const float(*)[4])pile, frame ? 300 : 30); /* overflows, and then more */
+        if (frame == 0)
+            TRY(m, cgt_scene_add_spheres(scene, &s, &id));
+        else
+            TRY(m, cgt_scene_update_spheres(scene, GEOMETRIES, &s));
+        commit(m, scene);
+        cgt_scene_statistics st;
+        assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+        assert_true(st.overflow_references > 0);
+        check_frame(scene, want ? &want[frame] : NULL);
+        if (!want)
+            memcpy(expected[frame].memory, got.memory, 6 * got.elements * sizeof(uint32_t));
+    }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    check_memory(m);
+    assert_int_equal(m->blocks, 0);
+    assert_int_equal(m->bytes, 0);
+}
+
+static int make_session(void **state)
+{
+    (void)state;
+    test_random r = random_make(1);
+    spheres = cloud_make(&r, CLOUD_UNIFORM, 900);
+    for (int i = 0; i < 300; i++) {
+        for (int a = 0; a < 3; a++)
+            pile[i][a] = spheres.middle[a] + random_float(&r, -0.01f, 0.01f);
+        pile[i][3] = 0.02f * spheres.reach;
+    }
+    camera = camera_before(&spheres);
+    got = planes_make(SIDE, SIDE);
+    for (int i = 0; i < 2; i++)
+        expected[i] = planes_make(SIDE, SIDE);
+    return 0;
+}
+
+static int free_session(void **state)
+{
+    (void)state;
+    cloud_free(&spheres);
+    planes_free(&got);
+    for (int i = 0; i < 2; i++)
+        planes_free(&expected[i]);
+    return 0;
+}
+
+static void every_allocation_fails_in_turn(void **state)
+{
+    (void)state;
+    for (uint32_t threads = 1; threads <= 3; threads += 2) {
+        memory m = {0};
+        session(&m, threads, NULL); /* counts, and shows what to expect */
+        const size_t calls = m.calls;
+        print_message("%u threads: %zu allocations\n", threads, calls);
+        assert_true(calls >= (threads == 1 ? 8 : 9));
+        for (size_t n = 1; n <= calls + 1; n++) {
+            memory failing = {.fail_at = n};
+            session(&failing, threads, expected);
+            assert_true(failing.calls >= calls);
+        }
+    }
+}
+
+/* Failures one after another: the second try fails too, and the third. */
+static void repeated_failures_lose_nothing(void **state)
+{
+    (void)state;
+    memory m = {0};
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    uint32_t id = 77;
+    assert_int_equal(create(&m, 2, &context), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
+    for (int i = 0; i < 5; i++) {
+        m.fail_at = m.calls + 1;
+        assert_int_equal(cgt_scene_add_spheres(scene, &s, &id), CGT_ERROR_OUT_OF_MEMORY);
+        assert_non_null(strstr(context_message(context), "memory"));
+    }
+    assert_int_equal(id, 77);
+    assert_int_equal(cgt_scene_add_spheres(scene, &s, &id), CGT_OK);
+    assert_int_equal(id, 0);
+    for (int i = 0; i < 5; i++) {
+        m.fail_at = m.calls + 1;
+        assert_int_equal(cgt_scene_commit(scene), CGT_ERROR_OUT_OF_MEMORY);
+    }
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    check_memory(&m);
+    assert_int_equal(m.blocks, 0);
+}
+
+/* ---- steady state ---- */
+
+static void trace_all(const cgt_scene *scene)
+{
+    ray_hit hit[SIDE];
+    uint8_t occluded[SIDE];
+    truth_ray *rays = frame_rays(&camera, SIDE, 1);
+    const cgt_rays r = rays_of(rays, SIDE);
+    frame_trace(scene, &camera, &got, NULL);
+    for (int choice = 0; choice < 12; choice++) {
+        cgt_trace_options o;
+        cgt_trace_statistics st;
+        cgt_trace_options_init(&o);
+        o.tile = choice % 2 ? CGT_TILE_STRIP : CGT_TILE_SQUARE;
+        o.loop = choice / 2 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
+        o.mailbox = choice / 4 % 2;
+        o.statistics = &st;
+        frame_trace(scene, &camera, &got, &o);
+    }
+    rays_trace(scene, rays, SIDE, hit, NULL);
+    assert_int_equal(cgt_occluded_rays(scene, &r, occluded, NULL), CGT_OK);
+    free(rays);
+}
+
+static void steady_state_allocates_nothing(void **state)
+{
+    (void)state;
+    for (uint32_t threads = 1; threads <= 3; threads++) {
+        memory m = {0};
+        cgt_context *context = NULL;
+        cgt_scene *scene = NULL;
+        uint32_t id;
+        assert_int_equal(create(&m, threads, &context), CGT_OK);
+        assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+        const cgt_spheres cloud_spheres = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
+        const cgt_spheres pile_spheres = spheres_of((const float(*)[4])pile, 300);
+        assert_int_equal(cgt_scene_add_spheres(scene, &cloud_spheres, &id), CGT_OK);
+        assert_int_equal(cgt_scene_add_spheres(scene, &pile_spheres, &id), CGT_OK);
+        size_t calls = 0, bytes = 0;
+        float start[300];
+        for (int k = 0; k < 300; k++)
+            start[k] = pile[k][0];
+        for (int i = 0; i < 12; i++) { /* all move, and counts change, through the same four states */
+            for (int k = 0; k < 300; k++)
+                pile[k][0] = start[k] + 0.001f * (float)(i % 4);
+            const cgt_spheres some =
+                spheres_of((const float(*)[4])spheres.sphere, spheres.count - 100 * (uint32_t)(i % 4));
+            assert_int_equal(cgt_scene_update_spheres(scene, 0, &some), CGT_OK);
+            assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+            trace_all(scene);
+            if (i < 4)
+                calls = m.calls, bytes = m.bytes; /* every state was seen */
+            assert_int_equal(m.calls, calls);
+            assert_int_equal(m.bytes, bytes);
+        }
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+        check_memory(&m);
+        assert_int_equal(m.blocks, 0);
+    }
+}
+
+static void statistics_tell_the_bytes(void **state)
+{
+    (void)state;
+    memory m = {0};
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    cgt_scene_statistics st;
+    uint32_t id;
+    assert_int_equal(create(&m, 2, &context), CGT_OK);
+    const size_t without = m.bytes;
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    for (uint32_t count = 10; count <= 900; count += 89) {
+        const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, count);
+        assert_int_equal(count == 10 ? cgt_scene_add_spheres(scene, &s, &id) : cgt_scene_update_spheres(scene, 0, &s),
+                         CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+        assert_int_equal(st.bytes, m.bytes - without);
+    }
+    cgt_scene_release(scene);
+    assert_int_equal(m.bytes, without);
+    cgt_context_release(context);
+    check_memory(&m);
+    assert_int_equal(m.bytes, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_allocation_fails_in_turn),
+        cmocka_unit_test(repeated_failures_lose_nothing),
+        cmocka_unit_test(steady_state_allocates_nothing),
+        cmocka_unit_test(statistics_tell_the_bytes),
+    };
+    test_begin("test_allocation");
+    return cmocka_run_group_tests(tests, make_session, free_session);
+}

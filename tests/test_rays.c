@@ -1,0 +1,463 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Arrays of rays: layouts, rays without order, rays that are invalid or extreme, ranges, and the any-hit form, which
+ * must agree with the nearest-hit form. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RAYS 3000 /* no multiple of a packet */
+
+static cgt_context *context; /* of the variant under test */
+static cgt_scene *scene;
+static cloud spheres;
+static truth_ray ray[RAYS];
+static ray_hit hit[RAYS], again[RAYS];
+
+/* Runs a test for each variant, on each kind of cloud that it asks for. */
+static void for_each_variant(cloud_kind kind, uint32_t count, void (*test)(test_random *r))
+{
+    FOR_EACH_VARIANT(variant)
+    {
+        test_random r = random_make(count + 17 * (uint64_t)kind);
+        context = context_make(2, variant);
+        spheres = cloud_make(&r, kind, count);
+        scene = scene_of(context, NULL, (const float(*)[4])spheres.sphere, count);
+        test(&r);
+        cgt_scene_release(scene);
+        cloud_free(&spheres);
+        cgt_context_release(context);
+    }
+}
+
+static void make_rays(test_random *r)
+{
+    for (int i = 0; i < RAYS; i++)
+        ray[i] = ray_random(r, &spheres);
+}
+
+static bool same_hit(const ray_hit *a, const ray_hit *b) { return memcmp(a, b, sizeof *a) == 0; }
+
+static void expect_no_hit(const ray_hit *h)
+{
+    assert_true(h->t == INFINITY && h->primitive == CGT_NONE && h->geometry == CGT_NONE);
+    for (int a = 0; a < 3; a++)
+        assert_true(h->normal[a] == 0);
+}
+
+static void judge(const truth_ray *rays, const ray_hit *hits, uint32_t count)
+{
+    const truth_scene truth = {(const float(*)[4])spheres.sphere, spheres.count};
+    uint64_t doubts = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const char *wrong = truth_judge(&truth, &rays[i], hits[i].primitive, hits[i].t, &doubts);
+        if (wrong)
+            fail_msg("%s, ray %u: %s (sphere %u, t %a): org %a %a %a dir %a %a %a range %a %a",
+                     cgt_context_variant(context), i, wrong, hits[i].primitive, (double)hits[i].t,
+                     (double)rays[i].org[0], (double)rays[i].org[1], (double)rays[i].org[2], (double)rays[i].dir[0],
+                     (double)rays[i].dir[1], (double)rays[i].dir[2], (double)rays[i].t_min, (double)rays[i].t_max);
+    }
+    assert_true(doubts <= count / 100 + 5);
+}
+
+static uint32_t count_hits(const ray_hit *hits, uint32_t count)
+{
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < count; i++)
+        sum += hits[i].primitive != CGT_NONE;
+    return sum;
+}
+
+/* ---- layouts ---- */
+
+static void layouts_rays(test_random *r)
+{
+    static float soa[8][RAYS], out[4][RAYS];
+    static uint32_t ids[2][RAYS];
+    static struct {
+        double other;
+        ray_hit h;
+        int more;
+    } wide[RAYS];
+    make_rays(r);
+    rays_trace(scene, ray, RAYS, hit, NULL);
+    for (int i = 0; i < RAYS; i++) {
+        for (int a = 0; a < 3; a++)
+            soa[a][i] = ray[i].org[a], soa[3 + a][i] = ray[i].dir[a];
+        soa[6][i] = ray[i].t_min, soa[7][i] = ray[i].t_max;
+    }
+    for (size_t stride = 0; stride <= 4; stride += 4) {
+        const cgt_rays rays = {RAYS, stride, {soa[0], soa[1], soa[2]}, {soa[3], soa[4], soa[5]}, soa[6], soa[7]};
+        const cgt_hits hits = {4 - stride, out[0], ids[0], ids[1], {out[1], out[2], out[3]}};
+        assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+        for (int i = 0; i < RAYS; i++) {
+            const ray_hit h = {out[0][i], ids[0][i], ids[1][i], {out[1][i], out[2][i], out[3][i]}};
+            assert_true(same_hit(&h, &hit[i]));
+        }
+    }
+    memset(wide, 0x11, sizeof wide);
+    cgt_hits hits = hits_of(&wide[0].h);
+    const cgt_rays rays = rays_of(ray, RAYS);
+    hits.stride = sizeof wide[0];
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    for (int i = 0; i < RAYS; i++) {
+        assert_true(same_hit(&wide[i].h, &hit[i]) && wide[i].more == 0x11111111);
+    }
+    hits = (cgt_hits){.primitive = ids[0]}; /* one field, the rest not wanted */
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    for (int i = 0; i < RAYS; i++)
+        assert_int_equal(ids[0][i], hit[i].primitive);
+    hits = (cgt_hits){0};
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+}
+
+static void any_layout(void **state)
+{
+    (void)state;
+    for_each_variant(CLOUD_UNIFORM, 300, layouts_rays);
+}
+
+static void ranges_default_rays(test_random *r)
+{
+    make_rays(r);
+    for (int i = 0; i < RAYS; i++)
+        ray[i].t_min = 0, ray[i].t_max = INFINITY;
+    rays_trace(scene, ray, RAYS, hit, NULL);
+    cgt_rays rays = rays_of(ray, RAYS);
+    const cgt_hits hits = hits_of(again);
+    rays.t_min = rays.t_max = NULL;
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    assert_memory_equal(hit, again, sizeof hit);
+}
+
+static void ranges_default_to_all_ahead(void **state)
+{
+    (void)state;
+    for_each_variant(CLOUD_UNIFORM, 100, ranges_default_rays);
+}
+
+static void arguments_are_checked(void **state)
+{
+    (void)state;
+    context = context_make(1, NULL);
+    const float sphere[1][4] = {{0, 0, 0, 1}};
+    scene = scene_of(context, NULL, sphere, 1);
+    uint8_t occluded[2] = {7, 7};
+    cgt_rays good = rays_of(ray, 1), rays;
+    cgt_hits hits = hits_of(hit), bad = hits;
+    hit[0].t = 7;
+    for (int k = 0; k < 6; k++) {
+        rays = good;
+        *(k < 3 ? &rays.org[k] : &rays.dir[k - 3]) = NULL;
+        assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    }
+    rays = good;
+    rays.stride = 6;
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    bad.stride = 7;
+    assert_int_equal(cgt_trace_rays(scene, &good, &bad, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    bad = hits;
+    bad.normal[1] = NULL;
+    assert_int_equal(cgt_trace_rays(scene, &good, &bad, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    rays = good;
+    rays.count = UINT64_MAX;
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_ERROR_TOO_LARGE);
+    rays.count = UINT64_C(1) << 45, rays.stride = (size_t)1 << 40;
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_trace_rays(NULL, &good, &hits, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_trace_rays(scene, NULL, &hits, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_trace_rays(scene, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_rays(scene, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_rays(NULL, &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    rays = (cgt_rays){0}; /* no rays: nothing is touched */
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, NULL, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+    assert_true(hit[0].t == 7 && occluded[0] == 7);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* ---- which rays ---- */
+
+static void incoherent_rays(test_random *r)
+{
+    for (uint32_t round = 0; round < test_scaled(3); round++) {
+        make_rays(r);
+        rays_trace(scene, ray, RAYS, hit, NULL);
+        judge(ray, hit, RAYS);
+        assert_true(count_hits(hit, RAYS) > RAYS / 200); /* a line of spheres is thin */
+    }
+}
+
+static void rays_without_order(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++)
+        for_each_variant((cloud_kind)kind, 400, incoherent_rays);
+}
+
+/* Fans: one origin, neighbouring directions, in packets that look ahead, back, and to both sides. */
+static void fan_rays(test_random *r)
+{
+    for (uint32_t round = 0; round < test_scaled(8); round++) {
+        for (int i = 0; i < RAYS; i++) {
+            if (i % 64 == 0)
+                ray[i] = ray_random(r, &spheres);
+            if (i % 64 == 0)
+                continue;
+            const float spread = 0.02f * (float)(round + 1);
+            ray[i] = ray[i / 64 * 64];
+            for (int a = 0; a < 3; a++)
+                ray[i].dir[a] += random_float(r, -spread, spread) * ray[i].dir[(a + 1) % 3];
+            if (i % 64 >= 32 && i / 64 % 4 == 0)
+                ray[i].t_min = -ray[i].t_min; /* ranges of their own */
+        }
+        rays_trace(scene, ray, RAYS, hit, NULL);
+        judge(ray, hit, RAYS);
+    }
+}
+
+static void rays_from_common_origins(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++)
+        for_each_variant((cloud_kind)kind, 500, fan_rays);
+}
+
+/* Along the axes, in planes, with zeros of either sign and tiny components, from cell borders. */
+static void axis_rays(test_random *r)
+{
+    static const float part[] = {0, -0.f, 1, -1, 0x1p-140f, -0x1p-149f, 1e-20f};
+    for (int i = 0; i < RAYS; i++) {
+        ray[i] = (truth_ray){.t_min = random_below(r, 4) ? 0 : -INFINITY, .t_max = INFINITY};
+        for (int a = 0; a < 3; a++) {
+            ray[i].org[a] = rintf(random_float(r, -1.5f, 1.5f) * spheres.reach + spheres.middle[a]);
+            ray[i].dir[a] = part[random_below(r, TEST_COUNT(part))];
+        }
+        ray[i].dir[i % 3] = i % 2 ? 1 : -2;
+    }
+    rays_trace(scene, ray, RAYS, hit, NULL);
+    judge(ray, hit, RAYS);
+    assert_true(count_hits(hit, RAYS) > RAYS / 50);
+}
+
+static void rays_along_axes(void **state)
+{
+    (void)state;
+    for_each_variant(CLOUD_LATTICE, 600, axis_rays);
+    for_each_variant(CLOUD_UNIFORM, 300, axis_rays);
+    for_each_variant(CLOUD_PLANAR, 300, axis_rays);
+}
+
+/* ---- invalid and extreme rays among good ones ---- */
+
+static bool make_invalid(truth_ray *q, uint32_t how, float bad)
+{
+    switch (how) {
+    case 0:
+    case 1:
+    case 2: q->org[how] = bad; return true;
+    case 3:
+    case 4:
+    case 5: q->dir[how - 3] = bad; return true;
+    case 6: q->dir[0] = q->dir[1] = q->dir[2] = bad == INFINITY ? 0 : -0.f; return true;
+    case 7: q->t_min = NAN; return true;
+    case 8: q->t_max = NAN; return true;
+    default: q->t_min = 1, q->t_max = nextafterf(1, 0); return false; /* valid, and empty */
+    }
+}
+
+static void invalid_rays(test_random *r)
+{
+    static const float bad[] = {NAN, INFINITY, -INFINITY};
+    uint8_t occluded[RAYS];
+    bool good[RAYS];
+    uint32_t invalid = 0;
+    make_rays(r);
+    for (int i = 0; i < RAYS; i++) {
+        good[i] = random_below(r, 3) != 0;
+        if (!good[i])
+            invalid += make_invalid(&ray[i], random_below(r, 10), bad[random_below(r, 3)]);
+    }
+    cgt_trace_statistics s;
+    cgt_trace_options o;
+    cgt_trace_options_init(&o);
+    o.statistics = &s;
+    rays_trace(scene, ray, RAYS, hit, &o);
+    assert_int_equal(s.rays, RAYS);
+    assert_int_equal(s.invalid_rays, invalid);
+    assert_int_equal(s.hits, count_hits(hit, RAYS));
+    assert_int_equal(s.packet_size, 0);
+    const cgt_rays rays = rays_of(ray, RAYS);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &o), CGT_OK);
+    assert_int_equal(s.invalid_rays, invalid);
+    for (int i = 0; i < RAYS; i++) {
+        if (!good[i])
+            expect_no_hit(&hit[i]);
+        else
+            judge(&ray[i], &hit[i], 1);
+        assert_int_equal(occluded[i], hit[i].primitive != CGT_NONE);
+    }
+    for (int i = 0; i < RAYS; i += 7) { /* alone, without neighbours to lean on */
+        rays_trace(scene, &ray[i], 1, again, NULL);
+        assert_true(same_hit(&again[0], &hit[i]));
+    }
+}
+
+static void invalid_rays_hit_nothing(void **state)
+{
+    (void)state;
+    for_each_variant(CLOUD_UNIFORM, 400, invalid_rays);
+}
+
+/* Any bits at all: no crash, no trap, and the same answer alone as in company. */
+static void garbage_rays(test_random *r)
+{
+    make_rays(r);
+    for (int i = 0; i < RAYS; i++) {
+        if (i % 3 == 0)
+            continue;
+        for (int a = 0; a < 3; a++) {
+            if (random_below(r, 2))
+                ray[i].org[a] = random_any_float(r);
+            if (random_below(r, 2))
+                ray[i].dir[a] = random_any_float(r);
+        }
+        if (random_below(r, 4) == 0)
+            ray[i].t_min = random_any_float(r);
+        if (random_below(r, 4) == 0)
+            ray[i].t_max = random_any_float(r);
+    }
+    rays_trace(scene, ray, RAYS, hit, NULL);
+    for (int i = 0; i < RAYS; i++) {
+        rays_trace(scene, &ray[i], 1, again, NULL);
+        assert_true(same_hit(&again[0], &hit[i]));
+        if (i % 3 == 0)
+            judge(&ray[i], &hit[i], 1);
+        if (hit[i].primitive == CGT_NONE)
+            expect_no_hit(&hit[i]);
+        else
+            assert_true(hit[i].primitive < spheres.count && hit[i].t >= ray[i].t_min && hit[i].t <= ray[i].t_max);
+    }
+}
+
+static void garbage_does_no_harm(void **state)
+{
+    (void)state;
+    for_each_variant(CLOUD_UNIFORM, 100, garbage_rays);
+    for_each_variant(CLOUD_FAR, 100, garbage_rays);
+}
+
+/* Scenes of any size seen from anywhere up to 2^60: where single precision gives up, double must take over. */
+static void extreme_places(void **state)
+{
+    (void)state;
+    FOR_EACH_VARIANT(variant)
+    {
+        context = context_make(1, variant);
+        for (uint32_t round = 0; round < test_scaled(300); round++) {
+            test_random r = random_make(round);
+            const int size = (int)random_below(&r, 150) - 80, offset = size - 10 + (int)random_below(&r, 30);
+            enum { N = 60, SOME = 130 };
+            static float sphere[N][4];
+            for (int i = 0; i < N; i++) {
+                for (int a = 0; a < 3; a++)
+                    sphere[i][a] = ldexpf(random_float(&r, -1, 1), size) + ldexpf((float)a, offset);
+                sphere[i][3] = ldexpf(random_float(&r, 0.05f, 0.5f), size);
+            }
+            spheres = (cloud){.count = N, .sphere = sphere};
+            cgt_scene_options options;
+            cgt_scene_options_init(&options);
+            for (int a = 0; a < 3 && round % 2; a++)
+                options.resolution[a] = 1 + random_below(&r, 60);
+            scene = scene_of(context, &options, (const float(*)[4])sphere, N);
+            for (int i = 0; i < SOME; i++) {
+                const float *to = sphere[random_below(&r, N)];
+                const int from = size + (int)random_below(&r, 40) - 5;
+                /* neither so short nor so long that t leaves the range of float */
+                const int k = (int)random_below(&r, 180) - 90;
+                const float length = ldexpf(1, k < from - 110 ? from - 110 : k > from + 90 ? from + 90 : k);
+                ray[i].t_min = random_below(&r, 4) ? 0 : -INFINITY;
+                ray[i].t_max = INFINITY;
+                for (int a = 0; a < 3; a++) {
+                    ray[i].org[a] = ldexpf(random_float(&r, -1, 1), from);
+                    ray[i].dir[a] =
+                        ldexpf(to[a] + to[3] * random_float(&r, -1.2f, 1.2f) - ray[i].org[a], -from) * length;
+                    if (i % 16 && i / 16 % 2)
+                        ray[i].org[a] = ray[i - 1].org[a];
+                }
+                if (ray[i].dir[0] == 0 && ray[i].dir[1] == 0 && ray[i].dir[2] == 0)
+                    ray[i].dir[2] = length;
+            }
+            rays_trace(scene, ray, SOME, hit, NULL);
+            judge(ray, hit, SOME);
+            cgt_scene_release(scene);
+        }
+        cgt_context_release(context);
+    }
+}
+
+/* ---- any hit ---- */
+
+static void occluded_rays(test_random *r)
+{
+    static uint8_t occluded[RAYS + 1];
+    for (uint32_t round = 0; round < test_scaled(1); round++) {
+        make_rays(r);
+        rays_trace(scene, ray, RAYS, hit, NULL);
+        for (int i = 0; i < RAYS; i += 2) { /* ranges that end at the hit, or just before */
+            if (hit[i].t == INFINITY)
+                continue;
+            ray[i].t_max = i % 4 ? hit[i].t : nextafterf(hit[i].t, -INFINITY);
+        }
+        rays_trace(scene, ray, RAYS, hit, NULL);
+        const cgt_rays rays = rays_of(ray, RAYS);
+        for (uint32_t choice = 0; choice < 12; choice++) {
+            cgt_trace_statistics s;
+            cgt_trace_options o;
+            cgt_trace_options_init(&o);
+            o.statistics = &s;
+            o.cull = (cgt_cull)(choice % 3);
+            o.mailbox = choice / 3 % 2 != 0;
+            o.loop = choice / 6 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
+            memset(occluded, 9, sizeof occluded);
+            assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &o), CGT_OK);
+            for (int i = 0; i < RAYS; i++)
+                assert_int_equal(occluded[i], hit[i].primitive != CGT_NONE);
+            assert_int_equal(occluded[RAYS], 9);
+            assert_int_equal(s.hits, count_hits(hit, RAYS));
+            rays_trace(scene, ray, RAYS, again, &o);
+            assert_memory_equal(hit, again, sizeof hit);
+        }
+    }
+}
+
+static void occluded_is_nearest_exists(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++)
+        for_each_variant((cloud_kind)kind, 350, occluded_rays);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_layout),
+        cmocka_unit_test(ranges_default_to_all_ahead),
+        cmocka_unit_test(arguments_are_checked),
+        cmocka_unit_test(rays_without_order),
+        cmocka_unit_test(rays_from_common_origins),
+        cmocka_unit_test(rays_along_axes),
+        cmocka_unit_test(invalid_rays_hit_nothing),
+        cmocka_unit_test(garbage_does_no_harm),
+        cmocka_unit_test(extreme_places),
+        cmocka_unit_test(occluded_is_nearest_exists),
+    };
+    test_begin("test_rays");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

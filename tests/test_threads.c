@@ -1,0 +1,385 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Threads: how many the library starts, the caller's own task runner, scenes and contexts used by many threads at
+ * once, and a system that refuses threads. The thread sanitizer watches the same tests. */
+#define _POSIX_C_SOURCE 200809L
+#include "support/scenes.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* ---- the system's threads ---- */
+
+/* The linker sends the library's calls here: the call that makes refuse_after 0 fails; negative: none does. */
+static int refuse_after = -1;
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument)
+{
+    if (refuse_after >= 0 && refuse_after-- == 0)
+        return EAGAIN;
+    return __real_pthread_create(thread, attributes, start, argument);
+}
+
+/* Threads of this process; 0 where the system does not tell. */
+static unsigned count_threads(void)
+{
+    unsigned threads = 0;
+    DIR *folder = opendir("/proc/self/task");
+    if (!folder)
+        return 0;
+    for (const struct dirent *entry; (entry = readdir(folder));)
+        threads += entry->d_name[0] != '.';
+    closedir(folder);
+    return threads;
+}
+
+/* A thread that was joined may be listed for a moment longer. */
+static void expect_threads(unsigned expected)
+{
+    const struct timespec moment = {0, 2000000};
+    unsigned threads = count_threads();
+    for (int i = 0; i < 2000 && threads != expected; i++) {
+        nanosleep(&moment, NULL);
+        threads = count_threads();
+    }
+    assert_int_equal(threads, expected);
+}
+
+/* ---- a scene that is worth several tasks ---- */
+
+typedef struct world {
+    cloud spheres;
+    cgt_camera camera;
+    planes expected;
+    truth_ray *rays;
+    ray_hit *hits;
+} world;
+
+#define WIDTH 200
+#define HEIGHT 130
+
+static world make_world(uint64_t stream, uint32_t count)
+{
+    test_random r = random_make(stream);
+    world w = {.spheres = cloud_make(&r, CLOUD_UNIFORM, count), .expected = planes_make(WIDTH, HEIGHT)};
+    w.camera = camera_before(&w.spheres);
+    w.rays = frame_rays(&w.camera, WIDTH, HEIGHT);
+    w.hits = malloc(w.expected.elements * sizeof *w.hits);
+    assert_non_null(w.hits);
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, count);
+    frame_trace(scene, &w.camera, &w.expected, NULL);
+    rays_trace(scene, w.rays, w.expected.elements, w.hits, NULL);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    return w;
+}
+
+static void free_world(world *w)
+{
+    planes_free(&w->expected);
+    free(w->rays);
+    free(w->hits);
+    cloud_free(&w->spheres);
+}
+
+/* Frame, rays and any-hit rays against what they should be; the number of those that differ. For any thread. */
+static unsigned trace_everything(const cgt_scene *scene, const world *w)
+{
+    planes p = {.width = WIDTH, .height = HEIGHT, .elements = (size_t)WIDTH * HEIGHT};
+    const cgt_rays rays = rays_of(w->rays, p.elements);
+    unsigned wrong = 0;
+    p.memory = calloc(6 * p.elements, sizeof *p.memory);
+    ray_hit *hits = calloc(p.elements, sizeof *hits);
+    uint8_t *occluded = calloc(p.elements, 1);
+    p.t = (float *)p.memory;
+    p.primitive = p.memory + p.elements;
+    p.geometry = p.memory + 2 * p.elements;
+    for (size_t a = 0; a < 3; a++)
+        p.normal[a] = (float *)(p.memory + (3 + a) * p.elements);
+    const cgt_frame frame = frame_of(&p);
+    const cgt_hits to = hits_of(hits);
+    wrong += cgt_trace_camera(scene, &w->camera, &frame, NULL) != CGT_OK || !planes_equal(&p, &w->expected);
+    wrong += cgt_trace_rays(scene, &rays, &to, NULL) != CGT_OK || memcmp(hits, w->hits, p.elements * sizeof *hits) != 0;
+    wrong += cgt_occluded_rays(scene, &rays, occluded, NULL) != CGT_OK;
+    for (size_t i = 0; i < p.elements; i++)
+        wrong += occluded[i] != (w->hits[i].primitive != CGT_NONE);
+    free(occluded);
+    free(hits);
+    free(p.memory);
+    return wrong;
+}
+
+/* ---- how many threads there are ---- */
+
+typedef struct watch {
+    pthread_t caller;
+    atomic_uint other_threads, tiles;
+    atomic_uint most_threads; /* that the process had while tiles were visited */
+} watch;
+
+static int watch_tile(void *user, const cgt_tile *tile)
+{
+    watch *w = user;
+    const unsigned threads = count_threads();
+    unsigned most = atomic_load(&w->most_threads);
+    (void)tile;
+    while (threads > most && !atomic_compare_exchange_weak(&w->most_threads, &most, threads))
+        continue;
+    if (!pthread_equal(pthread_self(), w->caller))
+        atomic_fetch_add(&w->other_threads, 1);
+    atomic_fetch_add(&w->tiles, 1);
+    return 0;
+}
+
+static void watch_frame(const cgt_scene *scene, const world *w, watch *seen)
+{
+    cgt_frame frame;
+    seen->caller = pthread_self();
+    cgt_frame_init(&frame, WIDTH, HEIGHT);
+    frame.visitor = watch_tile;
+    frame.visitor_user = seen;
+    frame.visitor_fields = CGT_FIELD_T;
+    assert_int_equal(cgt_trace_camera(scene, &w->camera, &frame, NULL), CGT_OK);
+    assert_int_equal(seen->tiles, 4 * 3);
+}
+
+static void one_thread_starts_none(void **state)
+{
+    (void)state;
+    const unsigned before = count_threads();
+    if (!before)
+        skip();
+    world w = make_world(1, 20000);
+    watch seen = {0};
+    cgt_context *context = context_make(1, NULL);
+    assert_int_equal(cgt_context_threads(context), 1);
+    assert_int_equal(count_threads(), before);
+    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+    watch_frame(scene, &w, &seen);
+    assert_int_equal(seen.other_threads, 0);
+    assert_int_equal(seen.most_threads, before);
+    assert_int_equal(trace_everything(scene, &w), 0);
+    assert_int_equal(count_threads(), before);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    free_world(&w);
+}
+
+static void a_pool_starts_one_less_and_ends_them(void **state)
+{
+    (void)state;
+    static const unsigned threads[] = {2, 3, 7, 16};
+    const unsigned before = count_threads();
+    if (!before)
+        skip();
+    world w = make_world(2, 1000);
+    for (size_t i = 0; i < TEST_COUNT(threads); i++) {
+        watch seen = {0};
+        cgt_context *context = context_make(threads[i], NULL);
+        assert_int_equal(count_threads(), before + threads[i] - 1);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+        watch_frame(scene, &w, &seen);
+        assert_int_equal(seen.most_threads, before + threads[i] - 1); /* no more during the work */
+        assert_int_equal(trace_everything(scene, &w), 0);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+        expect_threads(before);
+    }
+    free_world(&w);
+}
+
+static void refused_threads_are_an_error(void **state)
+{
+    (void)state;
+    const unsigned before = count_threads();
+    for (int n = 0; n < 5; n++) {
+        cgt_context_options options;
+        cgt_context *context = (cgt_context *)(void *)&options;
+        cgt_context_options_init(&options);
+        options.threads = 6;
+        refuse_after = n;
+        assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_THREADS);
+        assert_int_equal(refuse_after, -1);
+        assert_null(context);
+        if (before)
+            expect_threads(before);
+    }
+    refuse_after = 5; /* six threads are five besides the caller's: the sixth call would fail */
+    cgt_context_release(context_make(6, NULL));
+    assert_int_equal(refuse_after, 0);
+    refuse_after = -1;
+}
+
+/* ---- the caller's runner ---- */
+
+typedef struct runner {
+    unsigned runs, tasks;
+    uint32_t last_count;
+    pthread_t caller;
+    bool elsewhere; /* run was called on another thread than the library was */
+} runner;
+
+static void run_even_then_odd(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    runner *r = user;
+    r->runs++;
+    r->tasks += count;
+    r->last_count = count;
+    r->elsewhere |= !pthread_equal(pthread_self(), r->caller);
+    for (uint32_t start = 0; start < 2; start++)
+        for (uint32_t i = start; i < count; i += 2)
+            task(argument, i);
+}
+
+static void a_runner_does_all_the_work(void **state)
+{
+    (void)state;
+    const unsigned before = count_threads();
+    world w = make_world(3, 30000);
+    runner r = {.caller = pthread_self()};
+    watch seen = {0};
+    cgt_context_options options;
+    cgt_context *context = NULL;
+    cgt_context_options_init(&options);
+    options.threads = 8; /* ignored */
+    options.tasks = (cgt_task_runner){&r, run_even_then_odd};
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    assert_int_equal(cgt_context_threads(context), 0);
+    assert_int_equal(count_threads(), before);
+    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+    assert_true(r.runs > 0);
+    const unsigned runs = r.runs, tasks = r.tasks;
+    watch_frame(scene, &w, &seen);
+    assert_int_equal(seen.other_threads, 0);
+    assert_int_equal(r.runs, runs + 1);
+    assert_int_equal(r.tasks, tasks + 4 * 3);
+    assert_int_equal(trace_everything(scene, &w), 0);
+    assert_false(r.elsewhere);
+    assert_int_equal(count_threads(), before);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    free_world(&w);
+}
+
+/* ---- many callers ---- */
+
+#define CALLERS 6
+
+typedef struct caller {
+    pthread_t thread;
+    cgt_context *context; /* shared, or NULL: one of its own */
+    cgt_scene *scene;     /* shared, or NULL: one of its own */
+    const world *world;
+    unsigned rounds, wrong;
+} caller;
+
+/* Commits and traces; what is wrong is counted, since cmocka is for the main thread. */
+static void *call(void *argument)
+{
+    caller *c = argument;
+    cgt_context *context = c->context;
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.threads = 2;
+    if (!context && cgt_context_create(&options, &context) != CGT_OK)
+        c->wrong++;
+    for (unsigned round = 0; round < c->rounds && !c->wrong; round++) {
+        cgt_scene *scene = c->scene;
+        const cgt_spheres spheres = spheres_of((const float(*)[4])c->world->spheres.sphere, c->world->spheres.count);
+        const cgt_spheres bad = {.count = 1};
+        uint32_t id;
+        char message[64];
+        if (!scene) {
+            c->wrong += cgt_scene_create(context, NULL, &scene) != CGT_OK;
+            c->wrong += cgt_scene_add_spheres(scene, &spheres, &id) != CGT_OK;
+            c->wrong += cgt_scene_add_spheres(scene, &bad, &id) != CGT_ERROR_INVALID_ARGUMENT; /* messages at once */
+            c->wrong += cgt_error_message(context, message, sizeof message) == 0;
+            c->wrong += cgt_scene_commit(scene) != CGT_OK;
+        }
+        c->wrong += trace_everything(scene, c->world);
+        if (!c->scene)
+            cgt_scene_release(scene);
+    }
+    if (!c->context)
+        cgt_context_release(context);
+    return NULL;
+}
+
+static void run_callers(caller *c)
+{
+    for (int i = 0; i < CALLERS; i++)
+        assert_int_equal(pthread_create(&c[i].thread, NULL, call, &c[i]), 0);
+    for (int i = 0; i < CALLERS; i++)
+        assert_int_equal(pthread_join(c[i].thread, NULL), 0);
+    for (int i = 0; i < CALLERS; i++)
+        assert_int_equal(c[i].wrong, 0);
+}
+
+static void many_threads_trace_one_scene(void **state)
+{
+    (void)state;
+    world w = make_world(4, 800);
+    for (uint32_t threads = 1; threads <= 3; threads++) {
+        cgt_context *context = context_make(threads, NULL);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+        caller c[CALLERS] = {0};
+        for (int i = 0; i < CALLERS; i++)
+            c[i] = (caller){.context = context, .scene = scene, .world = &w, .rounds = test_scaled(10)};
+        run_callers(c);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+    free_world(&w);
+}
+
+static void many_threads_have_scenes_of_one_context(void **state)
+{
+    (void)state;
+    world w[2] = {make_world(5, 9000), make_world(6, 300)};
+    cgt_context *context = context_make(3, NULL);
+    caller c[CALLERS] = {0};
+    for (int i = 0; i < CALLERS; i++)
+        c[i] = (caller){.context = context, .world = &w[i % 2], .rounds = test_scaled(10)};
+    run_callers(c);
+    cgt_context_release(context);
+    for (int i = 0; i < 2; i++)
+        free_world(&w[i]);
+}
+
+static void many_threads_have_contexts(void **state)
+{
+    (void)state;
+    const unsigned before = count_threads();
+    world w[2] = {make_world(7, 9000), make_world(8, 300)};
+    caller c[CALLERS] = {0};
+    for (int i = 0; i < CALLERS; i++)
+        c[i] = (caller){.world = &w[i % 2], .rounds = test_scaled(10)};
+    run_callers(c);
+    for (int i = 0; i < 2; i++)
+        free_world(&w[i]);
+    if (before)
+        expect_threads(before);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_thread_starts_none),       cmocka_unit_test(a_pool_starts_one_less_and_ends_them),
+        cmocka_unit_test(refused_threads_are_an_error), cmocka_unit_test(a_runner_does_all_the_work),
+        cmocka_unit_test(many_threads_trace_one_scene), cmocka_unit_test(many_threads_have_scenes_of_one_context),
+        cmocka_unit_test(many_threads_have_contexts),
+    };
+    test_begin("test_threads");
+    /* a sanitizer starts a thread of its own with the first of the program's: let it come before the counting */
+    cgt_context_release(context_make(2, NULL));
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,363 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The same bits from every choice: variant, threads, order of tasks, tile, packet, loop, culling, mailbox and
+ * resolution change how the hits are found, never what they are; and from every machine, by a hash that all share.
+ * Then what the statistics of a trace say. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    ++*(unsigned *)user;
+    while (count-- > 0)
+        task(argument, count);
+}
+
+/* ---- one picture, many ways ---- */
+
+typedef struct picture {
+    cloud spheres;
+    cgt_camera camera;
+    planes expected, got;
+    unsigned compared;
+} picture;
+
+static picture picture_make(uint64_t stream, cloud_kind kind, uint32_t count, uint32_t width, uint32_t height)
+{
+    test_random r = random_make(stream);
+    picture p = {.spheres = cloud_make(&r, kind, count)};
+    p.camera = camera_random(&r, &p.spheres);
+    p.expected = planes_make(width, height);
+    p.got = planes_make(width, height);
+    cgt_context *context = context_make(1, "portable");
+    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+    frame_trace(scene, &p.camera, &p.expected, NULL);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    return p;
+}
+
+static void picture_free(picture *p)
+{
+    planes_free(&p->expected);
+    planes_free(&p->got);
+    cloud_free(&p->spheres);
+}
+
+static void compare(picture *p, const cgt_scene *scene, const cgt_trace_options *o, const char *where)
+{
+    frame_trace(scene, &p->camera, &p->got, o);
+    p->compared++;
+    if (!planes_equal(&p->got, &p->expected))
+        fail_msg("%s: packet %u, tile %d, loop %d, cull %d, mailbox %d: other bits", where, o->packet, (int)o->tile,
+                 (int)o->loop, (int)o->cull, o->mailbox);
+}
+
+static void compare_all_options(picture *p, const cgt_scene *scene, const char *where)
+{
+    for (uint32_t choice = 0; choice < 4 * 2 * 3 * 2; choice++) {
+        cgt_trace_options o;
+        cgt_trace_options_init(&o);
+        o.packet = (const uint32_t[]){4, 8, 16, 0}[choice % 4]; /* the last: strips */
+        o.tile = o.packet ? CGT_TILE_SQUARE : CGT_TILE_STRIP;
+        o.loop = choice / 4 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
+        o.cull = (cgt_cull)(choice / 8 % 3);
+        o.mailbox = (int)(choice / 24);
+        compare(p, scene, &o, where);
+    }
+}
+
+static void every_option_gives_the_same_bits(void **state)
+{
+    (void)state;
+    for (uint32_t round = 0; round < (test_scaled(2) + 1) * CLOUD_KINDS / 2; round++) {
+        picture p = picture_make(round, (cloud_kind)(round % CLOUD_KINDS), 600, 97, 53);
+        FOR_EACH_VARIANT(variant)
+        {
+            cgt_context *context = context_make(1, variant);
+            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+            compare_all_options(&p, scene, variant);
+            cgt_scene_release(scene);
+            cgt_context_release(context);
+        }
+        assert_true(p.compared >= 48);
+        picture_free(&p);
+    }
+}
+
+static void every_resolution_gives_the_same_bits(void **state)
+{
+    (void)state;
+    static const uint32_t resolution[][3] = {{1, 1, 1},   {2, 3, 5},   {16, 16, 16},
+                                             {100, 1, 1}, {1, 200, 3}, {64, 70, 80}};
+    for (uint32_t round = 0; round < CLOUD_KINDS; round++) {
+        picture p = picture_make(100 + round, (cloud_kind)round, 300, 66, 35);
+        FOR_EACH_VARIANT(variant)
+        {
+            cgt_context *context = context_make(2, variant);
+            for (size_t i = 0; i < TEST_COUNT(resolution); i++) {
+                cgt_scene_options scene_options;
+                cgt_trace_options o;
+                cgt_scene_options_init(&scene_options);
+                cgt_trace_options_init(&o);
+                memcpy(scene_options.resolution, resolution[i], sizeof resolution[i]);
+                cgt_scene *scene =
+                    scene_of(context, &scene_options, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+                compare(&p, scene, &o, variant);
+                o.loop = CGT_LOOP_FLATTENED;
+                o.packet = 4;
+                compare(&p, scene, &o, variant);
+                cgt_scene_release(scene);
+            }
+            cgt_context_release(context);
+        }
+        picture_free(&p);
+    }
+}
+
+static void any_threads_give_the_same_bits(void **state)
+{
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 3, 8, 0}; /* the last: the caller's runner, backwards */
+    for (uint32_t round = 0; round < test_scaled(4); round++) {
+        picture p = picture_make(200 + round, CLOUD_UNIFORM, 20000, 1300, 70);
+        for (size_t i = 0; i < TEST_COUNT(threads); i++) {
+            cgt_context_options options;
+            cgt_context *context = NULL;
+            unsigned runs = 0;
+            cgt_context_options_init(&options);
+            options.threads = threads[i];
+            if (!threads[i])
+                options.tasks = (cgt_task_runner){&runs, run_backwards};
+            assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+            for (int tile = 0; tile < 3; tile++) {
+                cgt_trace_options o;
+                cgt_trace_options_init(&o);
+                o.tile = (cgt_tile_shape)tile;
+                compare(&p, scene, &o, threads[i] ? "threads" : "backwards");
+            }
+            assert_int_equal(runs, threads[i] ? 0 : 4); /* the commit, 3 frames */
+            cgt_scene_release(scene);
+            cgt_context_release(context);
+        }
+        picture_free(&p);
+    }
+}
+
+/* A program may run with denormals flushed to zero. */
+static void flushed_denormals_give_the_same_bits(void **state)
+{
+    (void)state;
+#ifdef __SSE__
+    for (uint32_t round = 0; round < CLOUD_KINDS; round++) {
+        picture p = picture_make(250 + round, (cloud_kind)round, 300, 66, 35);
+        FOR_EACH_VARIANT(variant)
+        {
+            cgt_context *context = context_make(1, variant);
+            const unsigned before = _mm_getcsr();
+            cgt_trace_options o;
+            cgt_trace_options_init(&o);
+            _mm_setcsr(before | 0x8040); /* flush results, take operands for zero */
+            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+            frame_trace(scene, &p.camera, &p.got, &o);
+            _mm_setcsr(before);
+            assert_true(planes_equal(&p.got, &p.expected));
+            cgt_scene_release(scene);
+            cgt_context_release(context);
+        }
+        picture_free(&p);
+    }
+#else
+    skip();
+#endif
+}
+
+/* ---- every machine ---- */
+
+/* Numbers that need no library and no rounding: the same scene everywhere, whatever the seed of this run. */
+static float fixed_number(uint32_t *state, int bits)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (float)((int32_t)(*state >> 8) - (1 << 23)) * ldexpf(1, bits - 23);
+}
+
+static uint64_t hash(uint64_t h, uint32_t word)
+{
+    for (int i = 0; i < 4; i++)
+        h = (h ^ (word >> 8 * i & 255)) * UINT64_C(1099511628211);
+    return h;
+}
+
+static uint32_t bits_of(float f)
+{
+    uint32_t u;
+    memcpy(&u, &f, sizeof u);
+    return u;
+}
+
+static void every_machine_gives_the_same_bits(void **state)
+{
+    (void)state;
+    enum { N = 700, RAYS = 3000 };
+    uint32_t s = 12345;
+    static float sphere[N][4];
+    static truth_ray ray[RAYS];
+    static ray_hit hit[RAYS];
+    for (int i = 0; i < N; i++) {
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = fixed_number(&s, 4);
+        sphere[i][3] = 0.25f + fabsf(fixed_number(&s, 0));
+    }
+    for (int i = 0; i < RAYS; i++) {
+        for (int a = 0; a < 3; a++) {
+            ray[i].org[a] = fixed_number(&s, 5);
+            ray[i].dir[a] = fixed_number(&s, 3) - ray[i].org[a];
+        }
+        ray[i].t_min = 0;
+        ray[i].t_max = INFINITY;
+    }
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(2, variant);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, N);
+        uint64_t h = UINT64_C(14695981039346656037);
+        uint32_t hits = 0;
+        rays_trace(scene, ray, RAYS, hit, NULL);
+        for (int i = 0; i < RAYS; i++) {
+            h = hash(hash(h, bits_of(hit[i].t)), hit[i].primitive);
+            for (int a = 0; a < 3; a++)
+                h = hash(h, bits_of(hit[i].normal[a]));
+            hits += hit[i].primitive != CGT_NONE;
+        }
+        print_message("%s: %u of %d rays hit, hash 0x%016llx\n", variant, hits, RAYS, (unsigned long long)h);
+        assert_true(
+            h == UINT64_C(0x4319d82b8ef8f186)); /* found on x86-64; it changes with the form of sphere_exact.h alone */
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+}
+
+/* ---- options and statistics ---- */
+
+static void bad_options_are_refused(void **state)
+{
+    (void)state;
+    const float sphere[1][4] = {{0, 0, 0, 1}};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    cgt_camera camera;
+    float t = 7;
+    cgt_frame frame;
+    cgt_camera_init(&camera);
+    cgt_frame_init(&frame, 1, 1);
+    frame.t = &t;
+    for (int i = 0; i < 10; i++) {
+        static const char *const word[] = {"packet", "packet", "packet", "tile",   "tile",
+                                           "loop",   "loop",   "cull",   "strips", "strips"};
+        cgt_trace_options o;
+        cgt_trace_options_init(&o);
+        if (i < 3)
+            o.packet = (const uint32_t[]){1, 5, 32}[i];
+        if (i == 3)
+            o.tile = (cgt_tile_shape)3;
+        if (i == 4)
+            o.tile = (cgt_tile_shape)-1;
+        if (i == 5)
+            o.loop = (cgt_loop)3;
+        if (i == 6)
+            o.loop = (cgt_loop)-1;
+        if (i == 7)
+            o.cull = (cgt_cull)3;
+        if (i >= 8)
+            o.tile = CGT_TILE_STRIP, o.packet = i == 8 ? 8 : 16;
+        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(context_message(context), word[i]));
+        assert_true(t == 7);
+    }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+static cgt_trace_statistics count(const cgt_scene *scene, picture *p, cgt_trace_options o)
+{
+    cgt_trace_statistics s;
+    memset(&s, 0xee, sizeof s);
+    o.statistics = &s;
+    frame_trace(scene, &p->camera, &p->got, &o);
+    assert_true(planes_equal(&p->got, &p->expected));
+    assert_int_equal(s.rays, p->got.elements);
+    uint64_t hits = 0;
+    for (size_t i = 0; i < p->got.elements; i++)
+        hits += p->got.primitive[i] != CGT_NONE;
+    assert_int_equal(s.hits, hits);
+    assert_int_equal(s.invalid_rays, 0);
+    assert_int_equal(s.loop, o.loop == CGT_LOOP_AUTO ? s.loop : o.loop);
+    assert_int_equal(s.tile, o.tile == CGT_TILE_AUTO ? CGT_TILE_SQUARE : o.tile);
+    assert_int_equal(s.packet_size, o.tile == CGT_TILE_STRIP ? 4 : o.packet ? o.packet : s.packet_size);
+    assert_true(s.trace_ms >= 0 && s.packets > 0 && s.slices >= s.packets && s.cells > 0 && s.references > 0);
+    assert_true(s.culled <= s.cull_tests && s.mailbox_skipped <= s.references && s.double_tests <= s.ray_tests);
+    assert_true(s.packet_tests + s.culled + s.mailbox_skipped == s.references);
+    assert_true(s.early_exits <= s.packets);
+    assert_true(o.cull != CGT_CULL_NONE ? s.cull_tests == s.references - s.mailbox_skipped : s.cull_tests == 0);
+    assert_true(o.mailbox ? s.mailbox_skipped > 0 : s.mailbox_skipped == 0);
+    return s;
+}
+
+static void statistics_add_up(void **state)
+{
+    (void)state;
+    picture p = picture_make(300, CLOUD_UNIFORM, 2000, 160, 90);
+    uint64_t tests[2][3];
+    for (uint32_t threads = 1; threads <= 3; threads += 2) {
+        cgt_context *context = context_make(threads, NULL);
+        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+        for (int cull = 0; cull < 3; cull++) {
+            cgt_trace_options o;
+            cgt_trace_options_init(&o);
+            o.cull = (cgt_cull)cull;
+            const cgt_trace_statistics s = count(scene, &p, o);
+            tests[threads / 2][cull] = s.ray_tests;
+            o.mailbox = !o.mailbox;
+            count(scene, &p, o);
+            o.loop = CGT_LOOP_FLATTENED;
+            count(scene, &p, o);
+            o.loop = CGT_LOOP_NESTED;
+            for (o.packet = 4; o.packet <= 16; o.packet *= 2)
+                count(scene, &p, o);
+            o.packet = 0;
+            o.tile = CGT_TILE_STRIP;
+            count(scene, &p, o);
+        }
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+    for (int cull = 0; cull < 3; cull++)
+        assert_int_equal(tests[0][cull], tests[1][cull]); /* threads do not count */
+    print_message("ray tests: %llu without culling, %llu by frustum, %llu by blocks\n", (unsigned long long)tests[0][0],
+                  (unsigned long long)tests[0][1], (unsigned long long)tests[0][2]);
+    assert_true(tests[0][0] > tests[0][1] && tests[0][1] > tests[0][2]);
+    picture_free(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_option_gives_the_same_bits),
+        cmocka_unit_test(every_resolution_gives_the_same_bits),
+        cmocka_unit_test(any_threads_give_the_same_bits),
+        cmocka_unit_test(every_machine_gives_the_same_bits),
+        cmocka_unit_test(flushed_denormals_give_the_same_bits),
+        cmocka_unit_test(bad_options_are_refused),
+        cmocka_unit_test(statistics_add_up),
+    };
+    test_begin("test_trace_options");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

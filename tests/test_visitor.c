@@ -1,0 +1,272 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Where a frame goes: planes with and without a row stride, any set of fields, visitors that get tiles while they are
+ * traced, both at once; and visitors that stop. Every way has the bits of the others. */
+#include "support/scenes.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define WIDTH 150
+#define HEIGHT 71
+
+static cgt_context *context;
+static cgt_scene *scene;
+static cloud spheres;
+static cgt_camera camera;
+static planes expected;
+
+static int open_scene(void **state)
+{
+    (void)state;
+    test_random r = random_make(1);
+    context = context_make(3, NULL);
+    spheres = cloud_make(&r, CLOUD_UNIFORM, 800);
+    scene = scene_of(context, NULL, (const float(*)[4])spheres.sphere, spheres.count);
+    camera = camera_before(&spheres);
+    expected = planes_make(WIDTH, HEIGHT);
+    frame_trace(scene, &camera, &expected, NULL);
+    uint32_t hits = 0;
+    for (size_t i = 0; i < expected.elements; i++)
+        hits += expected.primitive[i] != CGT_NONE;
+    return hits > expected.elements / 10 ? 0 : -1;
+}
+
+static int close_scene(void **state)
+{
+    (void)state;
+    planes_free(&expected);
+    cgt_scene_release(scene);
+    cloud_free(&spheres);
+    cgt_context_release(context);
+    return 0;
+}
+
+/* ---- planes ---- */
+
+static void rows_may_lie_apart(void **state)
+{
+    (void)state;
+    enum { STRIDE = WIDTH + 13 };
+    for (int tile = CGT_TILE_AUTO; tile <= CGT_TILE_STRIP; tile++) {
+        uint32_t *memory = malloc((size_t)6 * STRIDE * HEIGHT * sizeof *memory);
+        cgt_trace_options o;
+        cgt_frame frame;
+        assert_non_null(memory);
+        memset(memory, 0x3c, (size_t)6 * STRIDE * HEIGHT * sizeof *memory);
+        cgt_trace_options_init(&o);
+        o.tile = (cgt_tile_shape)tile;
+        cgt_frame_init(&frame, WIDTH, HEIGHT);
+        frame.row_stride = STRIDE;
+        frame.t = (float *)memory;
+        frame.primitive = memory + STRIDE * HEIGHT;
+        frame.geometry = memory + 2 * STRIDE * HEIGHT;
+        for (int a = 0; a < 3; a++)
+            frame.normal[a] = (float *)(memory + (3 + a) * STRIDE * HEIGHT);
+        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_OK);
+        for (int plane = 0; plane < 6; plane++)
+            for (int y = 0; y < HEIGHT; y++) {
+                const uint32_t *row = memory + (plane * HEIGHT + y) * STRIDE;
+                assert_memory_equal(row, expected.memory + (plane * HEIGHT + y) * WIDTH, WIDTH * sizeof *row);
+                for (int x = WIDTH; x < STRIDE; x++)
+                    assert_int_equal(row[x], 0x3c3c3c3c); /* between the rows */
+            }
+        free(memory);
+    }
+}
+
+/* A frame with the planes of some fields. */
+static cgt_frame frame_with(const planes *p, uint32_t fields)
+{
+    cgt_frame frame = frame_of(p);
+    if (!(fields & CGT_FIELD_T))
+        frame.t = NULL;
+    if (!(fields & CGT_FIELD_PRIMITIVE))
+        frame.primitive = NULL;
+    if (!(fields & CGT_FIELD_GEOMETRY))
+        frame.geometry = NULL;
+    if (!(fields & CGT_FIELD_NORMAL))
+        frame.normal[0] = frame.normal[1] = frame.normal[2] = NULL;
+    return frame;
+}
+
+/* The planes of the fields are as expected, those of the others as they were. */
+static void check_planes(const planes *p, uint32_t fields)
+{
+    static const uint32_t field[6] = {CGT_FIELD_T,      CGT_FIELD_PRIMITIVE, CGT_FIELD_GEOMETRY,
+                                      CGT_FIELD_NORMAL, CGT_FIELD_NORMAL,    CGT_FIELD_NORMAL};
+    for (size_t plane = 0; plane < 6; plane++) {
+        const uint32_t *got = p->memory + plane * p->elements;
+        if (fields & field[plane])
+            assert_memory_equal(got, expected.memory + plane * p->elements, p->elements * sizeof *got);
+        else
+            for (size_t i = 0; i < p->elements; i++)
+                assert_int_equal(got[i], 0x5a5a5a5a);
+    }
+}
+
+/* ---- visitors ---- */
+
+typedef struct visit {
+    planes tiles;                     /* what the tiles held */
+    atomic_uint seen[WIDTH * HEIGHT]; /* visits of each pixel */
+    atomic_uint calls, wrong;         /* what is wrong is counted: cmocka is for the main thread */
+    uint32_t fields, tile_width, tile_height;
+    unsigned stop_at; /* the call that stops; 0: none */
+} visit;
+
+static void keep(visit *v, uint32_t *to, const void *from, const cgt_tile *tile, uint32_t field)
+{
+    if ((from != NULL) != ((v->fields & field) != 0))
+        atomic_fetch_add(&v->wrong, 1);
+    if (!from)
+        return;
+    for (uint32_t j = 0; j < tile->height; j++)
+        memcpy(to + (tile->y + j) * WIDTH + tile->x, (const uint32_t *)from + j * tile->row_stride,
+               tile->width * sizeof(uint32_t));
+}
+
+static int visit_tile(void *user, const cgt_tile *tile)
+{
+    visit *v = user;
+    const unsigned call = atomic_fetch_add(&v->calls, 1) + 1;
+    if (v->stop_at && call >= v->stop_at)
+        return -1;
+    if (tile->x % v->tile_width || tile->y % v->tile_height || !tile->width || !tile->height ||
+        tile->width > v->tile_width || tile->height > v->tile_height || tile->row_stride < tile->width ||
+        tile->x + tile->width > WIDTH || tile->y + tile->height > HEIGHT) {
+        atomic_fetch_add(&v->wrong, 1);
+        return 1;
+    }
+    for (uint32_t j = 0; j < tile->height; j++)
+        for (uint32_t i = 0; i < tile->width; i++)
+            atomic_fetch_add(&v->seen[(tile->y + j) * WIDTH + tile->x + i], 1);
+    keep(v, (uint32_t *)v->tiles.t, tile->t, tile, CGT_FIELD_T);
+    keep(v, v->tiles.primitive, tile->primitive, tile, CGT_FIELD_PRIMITIVE);
+    keep(v, v->tiles.geometry, tile->geometry, tile, CGT_FIELD_GEOMETRY);
+    for (int a = 0; a < 3; a++)
+        keep(v, (uint32_t *)v->tiles.normal[a], tile->normal[a], tile, CGT_FIELD_NORMAL);
+    return 0;
+}
+
+static visit *visit_make(uint32_t fields, cgt_tile_shape shape)
+{
+    visit *v = calloc(1, sizeof *v);
+    assert_non_null(v);
+    v->tiles = planes_make(WIDTH, HEIGHT);
+    memset(v->tiles.memory, 0x5a, 6 * v->tiles.elements * sizeof(uint32_t));
+    v->fields = fields;
+    v->tile_width = shape == CGT_TILE_STRIP ? 1280 : 64;
+    v->tile_height = shape == CGT_TILE_STRIP ? 4 : 64;
+    return v;
+}
+
+static void visit_free(visit *v)
+{
+    planes_free(&v->tiles);
+    free(v);
+}
+
+static void any_fields_to_planes_and_visitors(void **state)
+{
+    (void)state;
+    planes p = planes_make(WIDTH, HEIGHT);
+    for (uint32_t plane_fields = 0; plane_fields < 16; plane_fields++)
+        for (uint32_t visitor_fields = 0; visitor_fields < 16; visitor_fields++)
+            for (int tile = CGT_TILE_SQUARE; tile <= CGT_TILE_STRIP; tile++) {
+                visit *v = visit_make(visitor_fields, (cgt_tile_shape)tile);
+                cgt_frame frame = frame_with(&p, plane_fields);
+                cgt_trace_options o;
+                cgt_trace_options_init(&o);
+                o.tile = (cgt_tile_shape)tile;
+                frame.visitor = visit_tile;
+                frame.visitor_user = v;
+                frame.visitor_fields = visitor_fields;
+                memset(p.memory, 0x5a, 6 * p.elements * sizeof(uint32_t));
+                assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_OK);
+                assert_int_equal(v->wrong, 0);
+                assert_int_equal(v->calls, tile == CGT_TILE_STRIP ? (HEIGHT + 3) / 4 : 3 * 2);
+                for (int i = 0; i < WIDTH * HEIGHT; i++)
+                    assert_int_equal(v->seen[i], 1);
+                check_planes(&p, plane_fields);
+                check_planes(&v->tiles, visitor_fields);
+                visit_free(v);
+            }
+    planes_free(&p);
+}
+
+static void fields_without_a_visitor_are_ignored(void **state)
+{
+    (void)state;
+    planes p = planes_make(WIDTH, HEIGHT);
+    cgt_frame frame = frame_with(&p, CGT_FIELD_PRIMITIVE);
+    frame.visitor_fields = CGT_FIELD_NORMAL;
+    memset(p.memory, 0x5a, 6 * p.elements * sizeof(uint32_t));
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+    check_planes(&p, CGT_FIELD_PRIMITIVE);
+    frame.primitive = NULL; /* nothing wanted at all */
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+    planes_free(&p);
+}
+
+static void a_visitor_stops_the_frame(void **state)
+{
+    (void)state;
+    for (int tile = CGT_TILE_SQUARE; tile <= CGT_TILE_STRIP; tile++)
+        for (unsigned stop_at = 1; stop_at <= 6; stop_at += 5) {
+            visit *v = visit_make(CGT_FIELD_T, (cgt_tile_shape)tile);
+            cgt_trace_options o;
+            cgt_frame frame;
+            cgt_trace_options_init(&o);
+            o.tile = (cgt_tile_shape)tile;
+            cgt_frame_init(&frame, WIDTH, HEIGHT);
+            frame.visitor = visit_tile;
+            frame.visitor_user = v;
+            frame.visitor_fields = CGT_FIELD_T;
+            v->stop_at = stop_at;
+            assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_ERROR_STOPPED);
+            assert_non_null(strstr(context_message(context), "visitor"));
+            /* after the first that stopped, only those under way on other threads */
+            assert_in_range(v->calls, stop_at, stop_at + 2);
+            visit_free(v);
+        }
+    planes p = planes_make(WIDTH, HEIGHT);
+    frame_trace(scene, &camera, &p, NULL); /* the scene is as good as before */
+    assert_true(planes_equal(&p, &expected));
+    planes_free(&p);
+}
+
+/* One tile's planes lie within the frame's where no copy is needed; strips are Chapman's lines of the whole width. */
+static void strips_span_the_width(void **state)
+{
+    (void)state;
+    visit *v = visit_make(CGT_FIELD_T, CGT_TILE_STRIP);
+    cgt_trace_options o;
+    cgt_frame frame;
+    cgt_trace_options_init(&o);
+    o.tile = CGT_TILE_STRIP;
+    cgt_frame_init(&frame, WIDTH, HEIGHT);
+    frame.visitor = visit_tile;
+    frame.visitor_user = v;
+    frame.visitor_fields = CGT_FIELD_T;
+    v->tile_width = WIDTH; /* no other start than 0 then */
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_OK);
+    assert_int_equal(v->wrong, 0);
+    assert_int_equal(v->calls, (HEIGHT + 3) / 4);
+    visit_free(v);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_may_lie_apart),
+        cmocka_unit_test(any_fields_to_planes_and_visitors),
+        cmocka_unit_test(fields_without_a_visitor_are_ignored),
+        cmocka_unit_test(a_visitor_stops_the_frame),
+        cmocka_unit_test(strips_span_the_width),
+    };
+    test_begin("test_visitor");
+    return cmocka_run_group_tests(tests, open_scene, close_scene);
+}
