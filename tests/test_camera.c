@@ -336,7 +336,7 @@ static void ranges_are_clipped(void **state)
     (void)state;
     planes p = planes_make(48, 32), whole = planes_make(48, 32);
     uint32_t fewer = 0, others = 0;
-    for (uint32_t round = 0; round < 6 + test_scaled(24); round++) {
+    for (uint32_t round = 0; round < 16 + test_scaled(14); round++) {
         test_random r = random_make(round);
         cloud c = cloud_make(&r, CLOUD_UNIFORM, 300);
         cgt_camera camera = camera_random(&r, &c);
