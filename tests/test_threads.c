@@ -41,7 +41,20 @@ static unsigned count_threads(void)
     return threads;
 }
 
-/* A thread that was joined may be listed for a moment longer. */
+/* The same once it has stayed for a while: a thread that was joined may be listed for a moment longer. */
+static unsigned count_settled_threads(void)
+{
+    const struct timespec moment = {0, 5000000};
+    unsigned threads = count_threads();
+    for (int same = 0, i = 0; same < 10 && i < 1000; i++) {
+        nanosleep(&moment, NULL);
+        const unsigned now = count_threads();
+        same = now == threads ? same + 1 : 0;
+        threads = now;
+    }
+    return threads;
+}
+
 static void expect_threads(unsigned expected)
 {
     const struct timespec moment = {0, 2000000};
@@ -155,7 +168,7 @@ static void watch_frame(const cgt_scene *scene, const world *w, watch *seen)
 static void one_thread_starts_none(void **state)
 {
     (void)state;
-    const unsigned before = count_threads();
+    const unsigned before = count_settled_threads();
     if (!before)
         skip();
     world w = make_world(1, 20000);
@@ -178,7 +191,7 @@ static void a_pool_starts_one_less_and_ends_them(void **state)
 {
     (void)state;
     static const unsigned threads[] = {2, 3, 7, 16};
-    const unsigned before = count_threads();
+    const unsigned before = count_settled_threads();
     if (!before)
         skip();
     world w = make_world(2, 1000);
@@ -200,7 +213,7 @@ static void a_pool_starts_one_less_and_ends_them(void **state)
 static void refused_threads_are_an_error(void **state)
 {
     (void)state;
-    const unsigned before = count_threads();
+    const unsigned before = count_settled_threads();
     for (int n = 0; n < 5; n++) {
         cgt_context_options options;
         cgt_context *context = (cgt_context *)(void *)&options;
@@ -243,7 +256,7 @@ static void run_even_then_odd(void *user, cgt_task *task, void *argument, uint32
 static void a_runner_does_all_the_work(void **state)
 {
     (void)state;
-    const unsigned before = count_threads();
+    const unsigned before = count_settled_threads();
     world w = make_world(3, 30000);
     runner r = {.caller = pthread_self()};
     watch seen = {0};
@@ -358,7 +371,7 @@ static void many_threads_have_scenes_of_one_context(void **state)
 static void many_threads_have_contexts(void **state)
 {
     (void)state;
-    const unsigned before = count_threads();
+    const unsigned before = count_settled_threads();
     world w[2] = {make_world(7, 9000), make_world(8, 300)};
     caller c[CALLERS] = {0};
     for (int i = 0; i < CALLERS; i++)
