@@ -280,7 +280,7 @@ static void invalid_rays(test_random *r)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY};
     uint8_t occluded[MOST_RAYS];
-    bool good[MOST_RAYS];
+    bool good[MOST_RAYS] = {false};
     uint32_t invalid = 0;
     make_rays(r);
     for (uint32_t i = 0; i < rays_used; i++) {

@@ -38,7 +38,7 @@ static inline const char *scratch_path(const char *ending)
     }
     char *path = scratch_paths[scratch_count];
     const char *folder = getenv("TMPDIR");
-    snprintf(path, sizeof scratch_paths[0], "%s/cgt-test-XXXXXX%s", folder != NULL ? folder : "/tmp", ending);
+    snprintf(path, sizeof scratch_paths[0], "%s/cgt-test-XXXXXX%s", folder != NULL ? folder : P_tmpdir, ending);
     const int descriptor = mkstemps(path, (int)strlen(ending));
     assert_true(descriptor >= 0);
     close(descriptor);
