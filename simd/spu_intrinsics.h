@@ -13,7 +13,7 @@
  *   spu_cmpgt, cmpeq        all ones where true, else zero; false where a float is NaN
  *   spu_and, or, xor, andc  bits; andc is a & ~b
  *   spu_sel(a, b, m)        bits of b where m is one, else of a
- *   spu_convtf(a, n)        int to float, divided by 2^n
+ *   spu_convtf(a, n)        int to float, divided by 2^n, n from 0 to 127
  *   spu_convts(a, n)        float times 2^n to int, towards zero, saturated
  *   spu_gather(a)           lowest bits of the elements, element 0 highest, in element 0
  *   spu_shuffle(a, b, c)    bytes of a and b as the pattern c says, in the SPU's byte order on every host
@@ -80,8 +80,8 @@
 #define spu_sel(a, b, m)                                                                                               \
     _Generic((a), vec_float4 : cgt_spu_sel_f32, vec_int4 : cgt_spu_sel_s32, vec_uint4 : cgt_spu_sel_u32)(a, b, m)
 /* the scale is a power of two, so that the product is exact unless it leaves the range */
-#define spu_convtf(a, n) spu_mul(cgt_spu_convtf_s32(a), cgt_spu_splats_f32(1.f / (float)(UINT64_C(1) << (n))))
-#define spu_convts(a, n) cgt_spu_convts_f32(spu_mul(a, cgt_spu_splats_f32((float)(UINT64_C(1) << (n)))))
+#define spu_convtf(a, n) spu_mul(cgt_spu_convtf_s32(a), cgt_spu_splats_f32(__builtin_ldexpf(1.f, -(n))))
+#define spu_convts(a, n) cgt_spu_convts_f32(spu_mul(a, cgt_spu_splats_f32(__builtin_ldexpf(1.f, n))))
 #define spu_gather(a) cgt_spu_gather_u32(a)
 #define spu_shuffle(a, b, c) cgt_spu_shuffle_u16(a, b, c)
 

@@ -8,7 +8,7 @@
  *   spu_*                 the SPU's words on these types (spu_intrinsics.h)
  *   spux_*                words that the SPU lacks or does in several, defined on every variant:
  *     spux_vfloat(x) vint vuint   x in every lane of the variant's width
- *     spux_load, spux_store       aligned to the vector; spux_load_u, spux_store_u: to an element
+ *     spux_load, spux_store       aligned to the vector; spux_load_uint, spux_store_uint for vuint
  *     spux_lane_index()           0, 1, 2 ...
  *     spux_min, spux_max          b where a and b do not compare
  *     spux_abs                    sign bit cleared

@@ -128,7 +128,8 @@ static cgt_result fill(cgt_scene *scene)
     cgt_overflow_list list = {.entry = scene->overflow[0].data,
                               .capacity = (uint32_t)(scene->overflow[0].bytes / sizeof(cgt_overflow))};
     cgt_fill_counts counts = {0};
-    const cgt_result result = cgt_buffer_reserve(&c->memory, &scene->voxels, g->cells, sizeof(cgt_voxel));
+    const cgt_result result = cgt_buffer_reserve(
+        &c->memory, &scene->voxels, g->cells > g->most_cells ? g->cells : g->most_cells, sizeof(cgt_voxel));
     if (result != CGT_OK)
         return cgt_fail(c, result, "commit: out of memory for %u voxels of 32 bytes", g->cells);
     g->voxel = scene->voxels.data;

@@ -50,23 +50,27 @@ static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size
     return CGT_OK;
 }
 
+/* Half more than the buffer has, or what is wanted. */
+static size_t more_than(const cgt_buffer *buffer, size_t bytes)
+{
+    const size_t more = buffer->bytes / 2;
+    return buffer->bytes <= SIZE_MAX - more && buffer->bytes + more > bytes ? buffer->bytes + more : bytes;
+}
+
 cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
 {
     if (size && count > SIZE_MAX / size)
         return CGT_ERROR_TOO_LARGE;
-    return count * size <= buffer->bytes ? CGT_OK : resize(hooks, buffer, count * size, 0);
+    return count * size <= buffer->bytes ? CGT_OK : resize(hooks, buffer, more_than(buffer, count * size), 0);
 }
 
 cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
 {
     if (size && count > SIZE_MAX / size)
         return CGT_ERROR_TOO_LARGE;
-    const size_t bytes = count * size, more = buffer->bytes / 2;
-    if (bytes <= buffer->bytes)
+    if (count * size <= buffer->bytes)
         return CGT_OK;
-    const size_t wanted =
-        buffer->bytes <= SIZE_MAX - more && buffer->bytes + more > bytes ? buffer->bytes + more : bytes;
-    return resize(hooks, buffer, wanted, buffer->bytes);
+    return resize(hooks, buffer, more_than(buffer, count * size), buffer->bytes);
 }
 
 void cgt_buffer_release(const cgt_memory_hooks *hooks, cgt_buffer *buffer)

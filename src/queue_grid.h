@@ -44,6 +44,7 @@ typedef struct cgt_queue_grid {
     uint32_t resolution[3];
     uint32_t stride[3]; /* voxels from one cell to the next along each axis; x fastest */
     uint32_t cells;
+    uint32_t most_cells;          /* that any arrangement of as many objects is given: room for them is reserved */
     bool everything;              /* the numbers are too large or too small for single precision in grid space: no grid,
                                 every ray tests every object in double */
     cgt_voxel *voxel;             /* cells of them; NULL where there is no object */

@@ -35,10 +35,12 @@ static double references_at(const double power[4], double edge)
     return power[0] + k * (3 * power[1] + k * (3 * power[2] + k * power[3]));
 }
 
+static double most_cells(uint32_t objects) { return fmin(fmax(CELLS_PER_OBJECT * objects, 1), CGT_GRID_MAX_CELLS); }
+
 /* The smallest edge for which both limits hold, to 1 part in 2^20. */
 static double choose_edge(const cgt_object_summary *summary, const double extent[3])
 {
-    const double cells = fmin(fmax(CELLS_PER_OBJECT * summary->valid, 1), CGT_GRID_MAX_CELLS);
+    const double cells = most_cells(summary->valid);
     const double references = REFERENCES_PER_OBJECT * summary->valid + 1024;
     double high = fmax(extent[0], fmax(extent[1], extent[2])), low = high * 0x1p-20;
     for (int i = 0; i < 48; i++) {
@@ -90,7 +92,7 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
     if (!summary->valid || grid->everything) {
         for (int a = 0; a < 3; a++)
             grid->resolution[a] = grid->stride[a] = 1, grid->rcell[a] = grid->slack[a] = 0;
-        grid->cells = 1;
+        grid->cells = grid->most_cells = 1;
         snprintf(why, 128, "%s",
                  summary->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
         return CGT_OK;
@@ -108,6 +110,7 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
         stride *= grid->resolution[a];
     }
     grid->cells = stride;
+    grid->most_cells = wanted[0] ? stride : (uint32_t)most_cells(grid->objects.count);
     if (wanted[0])
         snprintf(why, 128, "resolution asked for");
     else

@@ -54,12 +54,14 @@ static inline double cgt_sphere_exact_t(const float org[3], const float dir[3], 
     return cgt_sphere_exact_root(e.middle, e.product, e.half2, t_min);
 }
 
-/* True where that hit exists and lies in the closed range [t_min, t_max], t rounded to float. */
+/* True where that hit exists and lies in the closed range [t_min, t_max], t rounded to float; a t that rounds to
+ * infinity is none. */
 static inline bool cgt_sphere_exact_hit(const float org[3], const float dir[3], float t_min, float t_max, cgt_sphere q,
                                         double *t)
 {
     *t = cgt_sphere_exact_t(org, dir, t_min, q);
-    return (float)*t >= t_min && (float)*t <= t_max; /* false for NaN */
+    const float rounded = (float)*t;
+    return rounded >= t_min && rounded <= t_max && rounded < INFINITY; /* false for NaN */
 }
 
 #endif

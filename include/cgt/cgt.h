@@ -136,8 +136,8 @@ typedef struct cgt_scene cgt_scene;
 
 /* Spheres in the caller's arrays. The library copies nothing: the arrays stay readable and unchanged from
  * cgt_scene_commit to the last trace before the next commit. Pointers are aligned as a float is.
- * A sphere with a NaN, an infinity or a negative radius is skipped and counted; a radius of zero is a point, which
- * only a ray exactly through it hits. */
+ * A sphere with a NaN, an infinity or a negative radius is skipped and counted; a radius of zero is a point, hit
+ * where double precision finds the ray's distance from it to be exactly zero. */
 typedef struct cgt_spheres {
     uint32_t count;       /* spheres; 0 is valid */
     const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL only where count is 0 */
@@ -167,7 +167,7 @@ CGT_API cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_option
 /* Gives the scene back; NULL is ignored. No thread may be using it. */
 CGT_API void cgt_scene_release(cgt_scene *scene);
 
-/* Changes the options from the next commit on. */
+/* Changes the options from the next commit on; until then the scene counts as not committed. */
 CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options);
 
 /* Adds a geometry; geometry gets its id: the lowest that is free. The struct need not outlive the call, the arrays
@@ -181,7 +181,8 @@ CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry,
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
 /* Builds the structure from the arrays as they are now. Uses the context's threads. Memory is kept from one commit
- * to the next: a scene whose size does not grow allocates nothing. Errors: OUT_OF_MEMORY, TOO_MANY_PRIMITIVES,
+ * to the next and grows by half: a scene whose count does not grow allocates nothing, once its overflow list, where it
+ * has one, has found its size. Errors: OUT_OF_MEMORY, TOO_MANY_PRIMITIVES,
  * TOO_LARGE; after an error the scene counts as not committed. An empty scene is valid: no ray hits it. */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
@@ -225,7 +226,7 @@ typedef enum cgt_field {
 typedef enum cgt_tile_shape {
     CGT_TILE_AUTO = 0, /* chosen: square */
     CGT_TILE_SQUARE,   /* 64x64 pixels */
-    CGT_TILE_STRIP     /* Chapman's: four scanlines of the whole width, written in scanline order; packets are 4x4 */
+    CGT_TILE_STRIP     /* Chapman's: four scanlines, 1,280 pixels at most, written in scanline order; packets are 4x4 */
 } cgt_tile_shape;
 
 typedef enum cgt_loop {
@@ -256,7 +257,7 @@ typedef struct cgt_trace_statistics {
     uint64_t cull_tests;      /* spheres tested against a packet's frustum */
     uint64_t culled;          /* spheres that the frustum test rejected */
     uint64_t packet_tests;    /* spheres tested against the rays of a packet */
-    uint64_t ray_tests;       /* rays tested against a sphere: lanes, padding excluded */
+    uint64_t ray_tests;       /* rays tested against a sphere, by whole blocks of 16 */
     uint64_t double_tests;    /* of those, the ones that single precision could not decide */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
     uint32_t packet_size;     /* 4, 8 or 16 of a camera's frame; 0 for arrays of rays */
@@ -334,7 +335,8 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  * The hit is the one that double-precision arithmetic finds on the same float input, never a single-precision guess:
  * no hit is missed or invented at a silhouette. A hit counts where t_min <= t <= t_max, t rounded to float; of equal
  * distances the lowest geometry, then primitive id wins. An origin inside a sphere hits its far side; on its
- * surface, t = 0. t is within 1 ulp of the exact value, or 2^-50 of the distance to the centre where that is more.
+ * surface, t = 0. t is within 1 ulp of the exact value; where more, within 2^-50 of the distance c to the centre, or,
+ * for a ray that grazes a sphere of radius r, of 2^-25 sqrt(r c). A t beyond the range of float is no hit.
  * The same bits come from any number of threads, tile shape, packet size, loop and variant.
  * options: NULL for the defaults. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED. Allocates nothing. */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
