@@ -121,6 +121,9 @@ static void summarise(cgt_scene *scene, cgt_object_summary *s)
 
 /* ---- 4 ---- */
 
+/* Room in the overflow list to begin with: a push asks for as much as it might spill, though it rarely spills. */
+#define LEAST_OVERFLOW 1024
+
 static cgt_result fill(cgt_scene *scene)
 {
     cgt_context *c = scene->context;
@@ -138,7 +141,8 @@ static cgt_result fill(cgt_scene *scene)
         object = c->kernel->queue_grid_fill(g, object, g->objects.count, &list, &counts);
         if (object == g->objects.count)
             break;
-        const uint64_t wanted = (uint64_t)list.count + list.wanted;
+        const uint64_t needed = (uint64_t)list.count + list.wanted;
+        const uint64_t wanted = needed < LEAST_OVERFLOW ? LEAST_OVERFLOW : needed;
         const cgt_result grown = wanted > UINT32_MAX ? CGT_ERROR_TOO_LARGE
                                                      : cgt_buffer_grow(&c->memory, &scene->overflow[0], (size_t)wanted,
                                                                        sizeof(cgt_overflow));

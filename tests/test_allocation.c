@@ -306,6 +306,47 @@ static void steady_state_allocates_nothing(void **state)
     }
 }
 
+/* The same number of spheres in ever other places: the grid's shape changes, its memory does not. Spheres smaller than
+ * their spacing overflow no queue. */
+static void moving_without_growing_allocates_nothing(void **state)
+{
+    (void)state;
+    enum { COUNT = 900 };
+    static float sphere[COUNT][4];
+    memory m = {0};
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    uint32_t id;
+    size_t first = 0, shapes = 0, cells = 0;
+    test_random r = random_make(77);
+    assert_int_equal(create(&m, 2, &context), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    const cgt_spheres spheres_moving = spheres_of((const float(*)[4])sphere, COUNT);
+    assert_int_equal(cgt_scene_add_spheres(scene, &spheres_moving, &id), CGT_OK);
+    for (int step = 0; step < 40; step++) {
+        const float size[3] = {random_float(&r, 5, 60), random_float(&r, 5, 60), random_float(&r, 5, 60)};
+        for (int i = 0; i < COUNT; i++) {
+            for (int a = 0; a < 3; a++)
+                sphere[i][a] = random_float(&r, 0, size[a]);
+            sphere[i][3] = 0.05f;
+        }
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        cgt_scene_statistics st;
+        assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+        if (st.overflow_references)
+            continue;
+        shapes += st.cells != cells;
+        cells = st.cells;
+        if (!first)
+            first = m.calls;
+        assert_int_equal(m.calls, first);
+    }
+    assert_true(shapes > 10);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    check_memory(&m);
+}
+
 static void statistics_tell_the_bytes(void **state)
 {
     (void)state;
@@ -335,9 +376,8 @@ static void statistics_tell_the_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_allocation_fails_in_turn),
-        cmocka_unit_test(repeated_failures_lose_nothing),
-        cmocka_unit_test(steady_state_allocates_nothing),
+        cmocka_unit_test(every_allocation_fails_in_turn), cmocka_unit_test(repeated_failures_lose_nothing),
+        cmocka_unit_test(steady_state_allocates_nothing), cmocka_unit_test(moving_without_growing_allocates_nothing),
         cmocka_unit_test(statistics_tell_the_bytes),
     };
     test_begin("test_allocation");
