@@ -192,13 +192,18 @@ static uint32_t block_order(const bench_rays *rays, uint32_t x, uint32_t y)
 
 /* ---- Making rays --------------------------------------------------------------------------------------------- */
 
+/* The hits of the batch that a piece of work is for. */
+static uint64_t piece_begin(uint32_t piece) { return (uint64_t)piece * GROUPS_PER_PIECE * GROUP; }
+static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
+{
+    const uint64_t end = piece_begin(piece) + GROUPS_PER_PIECE * GROUP;
+    return end < rays->batch_hits ? end : rays->batch_hits;
+}
+
 static void make_shadow_rays(void *argument, uint32_t piece)
 {
     bench_rays *rays = argument;
-    const uint64_t begin = (uint64_t)piece * GROUPS_PER_PIECE * GROUP;
-    uint64_t end = begin + GROUPS_PER_PIECE * GROUP;
-    if (end > rays->batch_hits)
-        end = rays->batch_hits;
+    const uint64_t begin = piece_begin(piece), end = piece_end(rays, piece);
 
     for (uint64_t i = begin; i < end; i++) {
         const uint32_t pixel = rays->hit[rays->batch_first + i];
@@ -280,10 +285,7 @@ static void make_ao_rays(void *argument, uint32_t piece)
 static void store_shadows(void *argument, uint32_t piece)
 {
     bench_rays *rays = argument;
-    const uint64_t begin = (uint64_t)piece * GROUPS_PER_PIECE * GROUP;
-    uint64_t end = begin + GROUPS_PER_PIECE * GROUP;
-    if (end > rays->batch_hits)
-        end = rays->batch_hits;
+    const uint64_t begin = piece_begin(piece), end = piece_end(rays, piece);
     for (uint64_t i = begin; i < end; i++) {
         const uint32_t pixel = rays->hit[rays->batch_first + i];
         rays->planes->shadow[(size_t)(pixel >> 16) * rays->axes->width + (pixel & 0xffff)] = rays->occluded[i];

@@ -131,10 +131,9 @@ static cgt_result fill(cgt_scene *scene)
     cgt_overflow_list list = {.entry = scene->overflow[0].data,
                               .capacity = (uint32_t)(scene->overflow[0].bytes / sizeof(cgt_overflow))};
     cgt_fill_counts counts = {0};
-    const cgt_result result = cgt_buffer_reserve(
-        &c->memory, &scene->voxels, g->cells > g->most_cells ? g->cells : g->most_cells, sizeof(cgt_voxel));
+    const cgt_result result = cgt_buffer_reserve(&c->memory, &scene->voxels, g->most_cells, sizeof(cgt_voxel));
     if (result != CGT_OK)
-        return cgt_fail(c, result, "commit: out of memory for %u voxels of 32 bytes", g->cells);
+        return cgt_fail(c, result, "commit: out of memory for %u voxels of 32 bytes", g->most_cells);
     g->voxel = scene->voxels.data;
     memset(g->voxel, 0xff, g->cells * sizeof(cgt_voxel));
     for (uint32_t object = 0; object < g->objects.count;) {
@@ -252,7 +251,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     result = cgt_queue_grid_plan(&scene->grid, &summary, scene->options.resolution, scene->statistics.reason);
     if (result != CGT_OK)
         return cgt_fail(scene->context, result, "commit: the resolution is beyond the limits");
-    if (summary.valid && result == CGT_OK) {
+    if (summary.valid) {
         result = fill(scene);
         if (result == CGT_OK && scene->grid.overflows)
             result = sort_overflow(scene);

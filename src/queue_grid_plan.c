@@ -110,7 +110,7 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
         stride *= grid->resolution[a];
     }
     grid->cells = stride;
-    grid->most_cells = wanted[0] ? stride : (uint32_t)most_cells(grid->objects.count);
+    grid->most_cells = wanted[0] ? stride : (uint32_t)fmax(stride, most_cells(grid->objects.count));
     if (wanted[0])
         snprintf(why, 128, "resolution asked for");
     else
