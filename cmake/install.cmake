@@ -5,13 +5,34 @@
 # Programs are in component "programs", by the CMakeLists.txt of their folders.
 set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 
-# The headers of the vocabulary (simd/) that users may include as <cgt/...>.
+# The headers of the vocabulary (simd/), usable without the library: as <cgt/spu_intrinsics.h>, and with the folder cgt
+# itself in the include path as <spu_intrinsics.h>, so that SPU source finds it.
 set(cgt_simd_headers
+    simd/spu_arithmetic_mode.h
+    simd/spu_channels.h
+    simd/spu_exact.h
+    simd/spu_exact_aarch64.h
+    simd/spu_exact_estimate.h
+    simd/spu_exact_fast.h
+    simd/spu_exact_portable.h
+    simd/spu_exact_x86.h
+    simd/spu_float_model.h
+    simd/spu_host.h
     simd/spu_intrinsics.h
+    simd/spu_mfcio.h
     simd/spu_neon.h
     simd/spu_portable.h
+    simd/spu_portable_byte.h
+    simd/spu_portable_element.h
+    simd/spu_portable_extension.h
+    simd/spu_portable_float.h
+    simd/spu_portable_integer.h
+    simd/spu_portable_logic.h
+    simd/spu_portable_shift.h
     simd/spu_sse.h
-    simd/spu_types.h)
+    simd/spu_types.h
+    simd/spu_words.h
+    simd/vec_types.h)
 
 install(FILES include/cgt/cgt.h include/cgt/version.h ${cgt_simd_headers}
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)

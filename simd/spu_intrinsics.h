@@ -1,32 +1,34 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The door to the spu_* vocabulary. On an SPU it is the compiler's own header; elsewhere a mapping gives the same
- * names, types, lane order and results. The words that libcgt's kernels speak are here:
+ * The door to the spu_* vocabulary: the generic intrinsics of the SPU's C language extension. On an SPU it is the
+ * compiler's own header; elsewhere a mapping gives the same names, types, lane order and results, so that SPU source
+ * compiles on today's machines. Source that asks `#ifdef __SPU__`: compile it with -D__SPU__ -DCGT_SPU_HOST.
  *
- *   spu_splats(x)           x in every element
- *   spu_extract(a, n)       element n
- *   spu_add, sub, mul       element by element
- *   spu_madd(a, b, c)       a * b + c     fused where the mapping has it (SPU, NEON)
- *   spu_msub(a, b, c)       a * b - c     likewise
- *   spu_nmsub(a, b, c)      c - a * b     likewise
- *   spu_cmpgt, cmpeq        all ones where true, else zero; false where a float is NaN
- *   spu_and, or, xor, andc  bits; andc is a & ~b
- *   spu_sel(a, b, m)        bits of b where m is one, else of a
- *   spu_convtf(a, n)        int to float, divided by 2^n, n from 0 to 127
- *   spu_convts(a, n)        float times 2^n to int, towards zero, saturated
- *   spu_gather(a)           lowest bits of the elements, element 0 highest, in element 0
- *   spu_shuffle(a, b, c)    bytes of a and b as the pattern c says, in the SPU's byte order on every host
+ * The mapping: CGT_SPU_PORTABLE forces plain C; else SSE4.1 or AArch64 NEON where the compiler is told that it may use
+ * them; else plain C.
  *
- * The mapping: CGT_SPU_PORTABLE forces plain C; else SSE4.1 or AArch64 NEON where the compiler is told that it may
- * use them; else plain C. */
-#ifndef CGT_SPU_INTRINSICS_H
+ * Floating point: IEEE arithmetic of the host, faster than an SPU's and not the same; CGT_SPU_FUSED and
+ * CGT_SPU_FUSED_DOUBLE say whether madd, msub, nmsub and nmadd round once (1), as on an SPU, or twice (0). With
+ * CGT_SPU_EXACT defined, single precision is the SPU's, bit by bit: see spu_exact.h, and spu_arithmetic_mode.h for the
+ * two calls that go around it.
+ *
+ * Elements are in the order of the SPU on every host, each in the host's byte order. Words that look at bytes (shuffle,
+ * the quadword's shifts) count them as an SPU does, by the type of the operand; spu_types.h says what casts do.
+ *
+ * A macro picks the typed function, cgt_spu_WORD_TYPE, by the type of an operand. It evaluates each operand once; a
+ * wrong type does not compile. The words, their overloads and what they cost are in docs/spu.md, their table in
+ * spu_words.h.
+ *
+ * Thread safety: no word keeps state, but for the host interface of spu_channels.h, which is per thread. */
+#if defined(__SPU__) && !defined(CGT_SPU_HOST)
+#include_next <spu_intrinsics.h> /* before any guard: where a file beside this one asks for it, it is next to itself */
+#elif !defined(CGT_SPU_INTRINSICS_H)
 #define CGT_SPU_INTRINSICS_H
 
-#if defined(__SPU__)
-#include_next <spu_intrinsics.h>
-#else
-
+#if defined(CGT_SPU_EXACT)
+#include "spu_exact.h"
+#endif
 #if defined(CGT_SPU_PORTABLE)
 #include "spu_portable.h"
 #elif defined(__SSE4_1__)
@@ -37,53 +39,183 @@
 #include "spu_portable.h"
 #endif
 
-#define spu_splats(a)                                                                                                  \
-    _Generic((a), float                                                                                                \
-             : cgt_spu_splats_f32, int32_t                                                                             \
-             : cgt_spu_splats_s32, uint32_t                                                                            \
-             : cgt_spu_splats_u32, uint16_t                                                                            \
-             : cgt_spu_splats_u16)(a)
-#define spu_extract(a, n)                                                                                              \
-    _Generic((a), vec_float4                                                                                           \
-             : cgt_spu_extract_f32, vec_int4                                                                           \
-             : cgt_spu_extract_s32, vec_uint4                                                                          \
-             : cgt_spu_extract_u32, vec_ushort8                                                                        \
-             : cgt_spu_extract_u16)(a, n)
-#define spu_add(a, b)                                                                                                  \
-    _Generic((a), vec_float4 : cgt_spu_add_f32, vec_int4 : cgt_spu_add_s32, vec_uint4 : cgt_spu_add_u32)(a, b)
-#define spu_sub(a, b)                                                                                                  \
-    _Generic((a), vec_float4 : cgt_spu_sub_f32, vec_int4 : cgt_spu_sub_s32, vec_uint4 : cgt_spu_sub_u32)(a, b)
-#define spu_mul(a, b) cgt_spu_mul_f32(a, b)
-#define spu_madd(a, b, c) cgt_spu_madd_f32(a, b, c)
-#define spu_msub(a, b, c) cgt_spu_msub_f32(a, b, c)
-#define spu_nmsub(a, b, c) cgt_spu_nmsub_f32(a, b, c)
-#define spu_cmpgt(a, b)                                                                                                \
-    _Generic((a), vec_float4 : cgt_spu_cmpgt_f32, vec_int4 : cgt_spu_cmpgt_s32, vec_uint4 : cgt_spu_cmpgt_u32)(a, b)
-#define spu_cmpeq(a, b)                                                                                                \
-    _Generic((a), vec_float4                                                                                           \
-             : cgt_spu_cmpeq_f32, vec_int4                                                                             \
-             : cgt_spu_cmpeq_s32, vec_uint4                                                                            \
-             : cgt_spu_cmpeq_u32, vec_ushort8                                                                          \
-             : cgt_spu_cmpeq_u16)(a, b)
-#define spu_and(a, b)                                                                                                  \
-    _Generic((a), vec_float4                                                                                           \
-             : cgt_spu_and_f32, vec_int4                                                                               \
-             : cgt_spu_and_s32, vec_uint4                                                                              \
-             : cgt_spu_and_u32, vec_ushort8                                                                            \
-             : cgt_spu_and_u16)(a, b)
-#define spu_or(a, b)                                                                                                   \
-    _Generic((a), vec_float4 : cgt_spu_or_f32, vec_int4 : cgt_spu_or_s32, vec_uint4 : cgt_spu_or_u32)(a, b)
-#define spu_xor(a, b)                                                                                                  \
-    _Generic((a), vec_float4 : cgt_spu_xor_f32, vec_int4 : cgt_spu_xor_s32, vec_uint4 : cgt_spu_xor_u32)(a, b)
-#define spu_andc(a, b)                                                                                                 \
-    _Generic((a), vec_float4 : cgt_spu_andc_f32, vec_int4 : cgt_spu_andc_s32, vec_uint4 : cgt_spu_andc_u32)(a, b)
-#define spu_sel(a, b, m)                                                                                               \
-    _Generic((a), vec_float4 : cgt_spu_sel_f32, vec_int4 : cgt_spu_sel_s32, vec_uint4 : cgt_spu_sel_u32)(a, b, m)
-/* the scale is a power of two, so that the product is exact unless it leaves the range */
-#define spu_convtf(a, n) spu_mul(cgt_spu_convtf_s32(a), cgt_spu_splats_f32(__builtin_ldexpf(1.f, -(n))))
-#define spu_convts(a, n) cgt_spu_convts_f32(spu_mul(a, cgt_spu_splats_f32(__builtin_ldexpf(1.f, n))))
-#define spu_gather(a) cgt_spu_gather_u32(a)
-#define spu_shuffle(a, b, c) cgt_spu_shuffle_u16(a, b, c)
+#include "spu_arithmetic_mode.h"
 
+/* Kernels at eight or sixteen lanes: the words that they use know the wide types too. */
+#if defined(CGT_LANES) && CGT_LANES == 16
+#include "spu_avx512.h"
+#elif defined(CGT_LANES) && CGT_LANES == 8
+#include "spu_avx2.h"
+#else
+#define CGT_SPU_WIDE_F(word)
+#define CGT_SPU_WIDE_S(word)
+#define CGT_SPU_WIDE_SU(word)
+#define CGT_SPU_WIDE_FSU(word)
+#define CGT_SPU_WIDE_FSUM(word)
 #endif
+
+/* ---- picking: by the type of x, among the types for which a word exists; `wide` adds the wide ones ---- */
+
+/* clang-format off */
+#define CGT_SPU_OF_HALFWORDS(word) vec_ushort8: cgt_spu_##word##_u16, vec_short8: cgt_spu_##word##_s16
+#define CGT_SPU_OF_WORDS(word) vec_uint4: cgt_spu_##word##_u32, vec_int4: cgt_spu_##word##_s32
+#define CGT_SPU_OF_BYTES(word) vec_uchar16: cgt_spu_##word##_u8, vec_char16: cgt_spu_##word##_s8
+#define CGT_SPU_OF_FLOATS(word) vec_float4: cgt_spu_##word##_f32, vec_double2: cgt_spu_##word##_f64
+#define CGT_SPU_OF_LONGS(word) vec_ullong2: cgt_spu_##word##_u64, vec_llong2: cgt_spu_##word##_s64
+#define CGT_SPU_OF_INTS(word) CGT_SPU_OF_BYTES(word), CGT_SPU_OF_HALFWORDS(word), CGT_SPU_OF_WORDS(word)
+#define CGT_SPU_OF_ALL(word) CGT_SPU_OF_INTS(word), CGT_SPU_OF_LONGS(word), CGT_SPU_OF_FLOATS(word)
+
+#define CGT_SPU_PICK_ALL(word, wide, x) _Generic((x), wide CGT_SPU_OF_ALL(word))
+#define CGT_SPU_PICK_FLOATS(word, wide, x) _Generic((x), wide CGT_SPU_OF_FLOATS(word))
+#define CGT_SPU_PICK_WORDS32(word, wide, x) _Generic((x), wide CGT_SPU_OF_WORDS(word))
+
+/* Scalar operands, by their exact type; long has the width that it has on the host, char is unsigned as on an SPU. */
+#if __SIZEOF_LONG__ == 8
+#define CGT_SPU_OF_LONG(word) long: cgt_spu_##word##_s64, unsigned long: cgt_spu_##word##_u64
+#else
+#define CGT_SPU_OF_LONG(word) long: cgt_spu_##word##_s32, unsigned long: cgt_spu_##word##_u32
+#endif
+#define CGT_SPU_PICK_SCALAR(word, x)                                                                                        \
+    _Generic((x), float: cgt_spu_##word##_f32, double: cgt_spu_##word##_f64,                                           \
+             signed char: cgt_spu_##word##_s8, unsigned char: cgt_spu_##word##_u8, char: cgt_spu_##word##_u8,          \
+             short: cgt_spu_##word##_s16, unsigned short: cgt_spu_##word##_u16,                                        \
+             int: cgt_spu_##word##_s32, unsigned: cgt_spu_##word##_u32, CGT_SPU_OF_LONG(word),                         \
+             long long: cgt_spu_##word##_s64, unsigned long long: cgt_spu_##word##_u64)
+
+/* Words whose second operand is a vector or a scalar. Where b is a scalar, a picks; a pair that is neither ends at a
+ * function that takes no operands, whose name says what is wrong. */
+struct cgt_spu_no_operand;
+void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
+#define CGT_SPU_HALFWORDS_X(word)                                                                                      \
+    vec_ushort8: cgt_spu_##word##_u16_x, vec_short8: cgt_spu_##word##_s16_x
+#define CGT_SPU_WORDS_X(word) vec_uint4: cgt_spu_##word##_u32_x, vec_int4: cgt_spu_##word##_s32_x
+#define CGT_SPU_BYTES_X(word) vec_uchar16: cgt_spu_##word##_u8_x, vec_char16: cgt_spu_##word##_s8_x
+#define CGT_SPU_ELSE_NONE default: cgt_spu_operands_have_no_such_overload
+
+/* b, a vector of a's type, for the types of `list`; or a scalar */
+#define CGT_SPU_PICK_OR_INT(word, list, wide, a, b)                                                                         \
+    _Generic((b), wide list(word), default:                                                                            \
+             _Generic((a), CGT_SPU_BYTES_X(word), CGT_SPU_HALFWORDS_X(word), CGT_SPU_WORDS_X(word), CGT_SPU_ELSE_NONE))
+#define CGT_SPU_LIST_SUM(word)                                                                                         \
+    CGT_SPU_OF_HALFWORDS(word), CGT_SPU_OF_WORDS(word), CGT_SPU_OF_FLOATS(word)
+#define CGT_SPU_PICK_SUM(word, wide, a, b)                                                                                  \
+    _Generic((b), wide CGT_SPU_LIST_SUM(word), default:                                                                \
+             _Generic((a), CGT_SPU_HALFWORDS_X(word), CGT_SPU_WORDS_X(word), CGT_SPU_ELSE_NONE))
+#define CGT_SPU_LIST_COMPARE(word) CGT_SPU_OF_INTS(word), CGT_SPU_OF_FLOATS(word)
+/* a shift: a picks, then whether the count is a vector of the type that goes with a, or a scalar */
+#define CGT_SPU_COUNTED(word, type, vec, n) _Generic((n), vec: cgt_spu_##word##_##type, default: cgt_spu_##word##_##type##_x)
+#define CGT_SPU_PICK_SHIFT(word, wide, count16, count32, a, n)                                                         \
+    _Generic((a), wide vec_ushort8: CGT_SPU_COUNTED(word, u16, count16, n),                                            \
+             vec_short8: CGT_SPU_COUNTED(word, s16, count16, n), vec_uint4: CGT_SPU_COUNTED(word, u32, count32, n),    \
+             vec_int4: CGT_SPU_COUNTED(word, s32, count32, n))
+
+/* ---- scalars and elements ---- */
+
+#define spu_splats(a) CGT_SPU_PICK_SCALAR(splats, a)(a)
+#define spu_extract(a, position) CGT_SPU_PICK_ALL(extract, , a)(a, position)
+#define spu_insert(a, b, position) CGT_SPU_PICK_ALL(insert, , b)(a, b, position)
+#define spu_promote(a, position) CGT_SPU_PICK_SCALAR(promote, a)(a, position)
+
+/* ---- conversion ---- */
+
+#define spu_convtf(a, scale) CGT_SPU_PICK_WORDS32(convtf, CGT_SPU_WIDE_SU(convtf), a)(a, scale)
+#define spu_convts(a, scale) _Generic((a), CGT_SPU_WIDE_F(convts) vec_float4: cgt_spu_convts_f32)(a, scale)
+#define spu_convtu(a, scale) _Generic((a), vec_float4: cgt_spu_convtu_f32)(a, scale)
+#define spu_extend(a)                                                                                                  \
+    _Generic((a), vec_char16: cgt_spu_extend_s8, vec_short8: cgt_spu_extend_s16, vec_int4: cgt_spu_extend_s32,         \
+             vec_float4: cgt_spu_extend_f32)(a)
+#define spu_roundtf(a) _Generic((a), vec_double2: cgt_spu_roundtf_f64)(a)
+
+/* ---- arithmetic ---- */
+
+#define spu_add(a, b) CGT_SPU_PICK_SUM(add, CGT_SPU_WIDE_FSU(add), a, b)(a, b)
+/* a scalar stands first: the vector from which it is not taken is b */
+#define spu_sub(a, b)                                                                                                  \
+    _Generic((a), CGT_SPU_WIDE_FSU(sub) CGT_SPU_LIST_SUM(sub), default:                                                \
+             _Generic((b), CGT_SPU_HALFWORDS_X(sub), CGT_SPU_WORDS_X(sub), CGT_SPU_ELSE_NONE))(a, b)
+#define spu_addx(a, b, c) CGT_SPU_PICK_WORDS32(addx, , a)(a, b, c)
+#define spu_subx(a, b, c) CGT_SPU_PICK_WORDS32(subx, , a)(a, b, c)
+#define spu_genc(a, b) CGT_SPU_PICK_WORDS32(genc, , a)(a, b)
+#define spu_gencx(a, b, c) CGT_SPU_PICK_WORDS32(gencx, , a)(a, b, c)
+#define spu_genb(a, b) CGT_SPU_PICK_WORDS32(genb, , a)(a, b)
+#define spu_genbx(a, b, c) CGT_SPU_PICK_WORDS32(genbx, , a)(a, b, c)
+#define spu_mul(a, b) CGT_SPU_PICK_FLOATS(mul, CGT_SPU_WIDE_F(mul), a)(a, b)
+#define spu_madd(a, b, c)                                                                                              \
+    _Generic((a), CGT_SPU_WIDE_F(madd) CGT_SPU_OF_FLOATS(madd), vec_short8: cgt_spu_madd_s16)(a, b, c)
+#define spu_msub(a, b, c) CGT_SPU_PICK_FLOATS(msub, CGT_SPU_WIDE_F(msub), a)(a, b, c)
+#define spu_nmsub(a, b, c) CGT_SPU_PICK_FLOATS(nmsub, CGT_SPU_WIDE_F(nmsub), a)(a, b, c)
+#define spu_nmadd(a, b, c) _Generic((a), vec_double2: cgt_spu_nmadd_f64)(a, b, c)
+#define spu_mule(a, b) _Generic((a), CGT_SPU_OF_HALFWORDS(mule))(a, b)
+#define spu_mulo(a, b)                                                                                                 \
+    _Generic((b), CGT_SPU_OF_HALFWORDS(mulo), default:                                                                 \
+             _Generic((a), CGT_SPU_HALFWORDS_X(mulo), CGT_SPU_ELSE_NONE))(a, b)
+#define spu_mulh(a, b) _Generic((a), vec_short8: cgt_spu_mulh_s16)(a, b)
+#define spu_mulsr(a, b) _Generic((a), vec_short8: cgt_spu_mulsr_s16)(a, b)
+#define spu_mhhadd(a, b, c) _Generic((a), CGT_SPU_OF_HALFWORDS(mhhadd))(a, b, c)
+#define spu_re(a) _Generic((a), CGT_SPU_WIDE_F(re) vec_float4: cgt_spu_re_f32)(a)
+#define spu_rsqrte(a) _Generic((a), CGT_SPU_WIDE_F(rsqrte) vec_float4: cgt_spu_rsqrte_f32)(a)
+#define spu_absd(a, b) _Generic((a), vec_uchar16: cgt_spu_absd_u8)(a, b)
+#define spu_avg(a, b) _Generic((a), vec_uchar16: cgt_spu_avg_u8)(a, b)
+#define spu_sumb(a, b) _Generic((a), vec_uchar16: cgt_spu_sumb_u8)(a, b)
+
+/* ---- comparison ---- */
+
+#define spu_cmpeq(a, b) CGT_SPU_PICK_OR_INT(cmpeq, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpeq), a, b)(a, b)
+#define spu_cmpgt(a, b) CGT_SPU_PICK_OR_INT(cmpgt, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpgt), a, b)(a, b)
+#define spu_cmpabseq(a, b) CGT_SPU_PICK_FLOATS(cmpabseq, , a)(a, b)
+#define spu_cmpabsgt(a, b) CGT_SPU_PICK_FLOATS(cmpabsgt, CGT_SPU_WIDE_F(cmpabsgt), a)(a, b)
+#define spu_testsv(a, classes) _Generic((a), vec_double2: cgt_spu_testsv_f64)(a, classes)
+
+/* ---- bits and masks ---- */
+
+#define spu_cntb(a) _Generic((a), CGT_SPU_OF_BYTES(cntb))(a)
+#define spu_cntlz(a) _Generic((a), CGT_SPU_OF_WORDS(cntlz), vec_float4: cgt_spu_cntlz_f32)(a)
+#define spu_gather(a) _Generic((a), CGT_SPU_OF_INTS(gather), vec_float4: cgt_spu_gather_f32)(a)
+#define spu_maskb(a) cgt_spu_maskb((unsigned)(a))
+#define spu_maskh(a) cgt_spu_maskh((unsigned)(a))
+#define spu_maskw(a) cgt_spu_maskw((unsigned)(a))
+#define spu_sel(a, b, m) CGT_SPU_PICK_ALL(sel, CGT_SPU_WIDE_FSU(sel), a)(a, b, m)
+#define spu_shuffle(a, b, pattern) CGT_SPU_PICK_ALL(shuffle, , a)(a, b, pattern)
+
+/* ---- logic ---- */
+
+#define spu_and(a, b) CGT_SPU_PICK_OR_INT(and, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(and), a, b)(a, b)
+#define spu_or(a, b) CGT_SPU_PICK_OR_INT(or, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(or), a, b)(a, b)
+#define spu_xor(a, b) CGT_SPU_PICK_OR_INT(xor, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(xor), a, b)(a, b)
+#define spu_andc(a, b) CGT_SPU_PICK_ALL(andc, CGT_SPU_WIDE_FSUM(andc), a)(a, b)
+#define spu_orc(a, b) CGT_SPU_PICK_ALL(orc, , a)(a, b)
+#define spu_nand(a, b) CGT_SPU_PICK_ALL(nand, , a)(a, b)
+#define spu_nor(a, b) CGT_SPU_PICK_ALL(nor, CGT_SPU_WIDE_FSUM(nor), a)(a, b)
+#define spu_eqv(a, b) CGT_SPU_PICK_ALL(eqv, , a)(a, b)
+#define spu_orx(a) CGT_SPU_PICK_WORDS32(orx, , a)(a)
+
+/* ---- shifts and rotations of elements; from the element's width on nothing or the sign is left ---- */
+
+#define spu_sl(a, count) CGT_SPU_PICK_SHIFT(sl, CGT_SPU_WIDE_SU(sl), vec_ushort8, vec_uint4, a, count)(a, count)
+#define spu_sr(a, count) CGT_SPU_PICK_SHIFT(sr, , vec_ushort8, vec_uint4, a, count)(a, count)
+#define spu_sra(a, count) CGT_SPU_PICK_SHIFT(sra, , vec_ushort8, vec_uint4, a, count)(a, count)
+#define spu_rl(a, count) CGT_SPU_PICK_SHIFT(rl, , vec_short8, vec_int4, a, count)(a, count)
+#define spu_rlmask(a, count) CGT_SPU_PICK_SHIFT(rlmask, CGT_SPU_WIDE_SU(rlmask), vec_short8, vec_int4, a, count)(a, count)
+#define spu_rlmaska(a, count) CGT_SPU_PICK_SHIFT(rlmaska, CGT_SPU_WIDE_SU(rlmaska), vec_short8, vec_int4, a, count)(a, count)
+
+/* ---- shifts and rotations of the quadword ---- */
+
+#define spu_slqw(a, count) CGT_SPU_PICK_ALL(slqw, , a)(a, count)
+#define spu_slqwbyte(a, count) CGT_SPU_PICK_ALL(slqwbyte, , a)(a, count)
+#define spu_slqwbytebc(a, count) CGT_SPU_PICK_ALL(slqwbytebc, , a)(a, count)
+#define spu_srqw(a, count) CGT_SPU_PICK_ALL(srqw, , a)(a, count)
+#define spu_srqwbyte(a, count) CGT_SPU_PICK_ALL(srqwbyte, , a)(a, count)
+#define spu_srqwbytebc(a, count) CGT_SPU_PICK_ALL(srqwbytebc, , a)(a, count)
+#define spu_rlqw(a, count) CGT_SPU_PICK_ALL(rlqw, , a)(a, count)
+#define spu_rlqwbyte(a, count) CGT_SPU_PICK_ALL(rlqwbyte, , a)(a, count)
+#define spu_rlqwbytebc(a, count) CGT_SPU_PICK_ALL(rlqwbytebc, , a)(a, count)
+#define spu_rlmaskqw(a, count) CGT_SPU_PICK_ALL(rlmaskqw, , a)(a, count)
+#define spu_rlmaskqwbyte(a, count) CGT_SPU_PICK_ALL(rlmaskqwbyte, , a)(a, count)
+#define spu_rlmaskqwbytebc(a, count) CGT_SPU_PICK_ALL(rlmaskqwbytebc, , a)(a, count)
+/* clang-format on */
+
+#ifndef CGT_LANES /* a kernel has no channels, and its object no symbols of theirs */
+#include "spu_channels.h"
+#endif
+
 #endif

@@ -1,25 +1,400 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The mapping to SSE4.1. The compiler's vectors already become SSE instructions; here are the words for which one
- * instruction exists that it would not find. Little-endian only, as x86 is. */
+ * The mapping to SSE4.1, and to what later machines add where the compiler is told that it may use it (FMA, AVX2,
+ * AVX-512). The compiler's vectors already become SSE instructions; here are the words for which instructions exist that
+ * it would not find. Little-endian only, as x86 is.
+ *
+ * Where operands may be constants the code is in the compiler's vectors and shuffles, not in intrinsics, so that it
+ * folds: a shuffle with a constant pattern costs three instructions, a quadword shift by a constant count one. */
 #ifndef CGT_SPU_SSE_H
 #define CGT_SPU_SSE_H
 
-#include <smmintrin.h>
+#include <immintrin.h>
 
 #include "spu_types.h"
 
-#define CGT_SPU_OWN_CONVTS
+/* byte k of the result is byte index[k] of a, zero where the index has its top bit set */
+CGT_SPU_INLINE vec_uchar16 cgt_sse_bytes(vec_uchar16 a, vec_uchar16 index)
+{
+    return (vec_uchar16)_mm_shuffle_epi8((__m128i)a, (__m128i)index);
+}
+/* the same for an index below 16; folds where both are constant */
+CGT_SPU_INLINE vec_uchar16 cgt_sse_permute(vec_uchar16 a, vec_uchar16 index)
+{
+#if defined(__clang__)
+    return cgt_sse_bytes(a, index);
+#else
+    return __builtin_shuffle(a, index);
+#endif
+}
+
+/* ---- floating point ---- */
+
+#if defined(__FMA__)
+#define CGT_SPU_OWN_MADD
+#define CGT_SPU_FUSED 1
+#define CGT_SPU_FUSED_DOUBLE 1
+#define CGT_SPU_X(word, instruction)                                                                                   \
+    CGT_SPU_INLINE vec_double2 cgt_spu_##word##_f64(vec_double2 a, vec_double2 b, vec_double2 c)                       \
+    {                                                                                                                  \
+        return (vec_double2)instruction((__m128d)a, (__m128d)b, (__m128d)c);                                           \
+    }
+CGT_SPU_X(madd, _mm_fmadd_pd)
+CGT_SPU_X(msub, _mm_fmsub_pd)
+CGT_SPU_X(nmsub, _mm_fnmadd_pd)
+#undef CGT_SPU_X
+/* the sum is rounded, then negated: not vfnmsub, whose zero has the other sign */
+CGT_SPU_INLINE vec_double2 cgt_spu_nmadd_f64(vec_double2 a, vec_double2 b, vec_double2 c)
+{
+    return -cgt_spu_madd_f64(a, b, c);
+}
+#ifndef CGT_SPU_OWN_FLOAT
+#define CGT_SPU_X(word, instruction)                                                                                   \
+    CGT_SPU_INLINE vec_float4 cgt_spu_##word##_f32(vec_float4 a, vec_float4 b, vec_float4 c)                           \
+    {                                                                                                                  \
+        return (vec_float4)instruction((__m128)a, (__m128)b, (__m128)c);                                               \
+    }
+CGT_SPU_X(madd, _mm_fmadd_ps)
+CGT_SPU_X(msub, _mm_fmsub_ps)
+CGT_SPU_X(nmsub, _mm_fnmadd_ps)
+#undef CGT_SPU_X
+#endif
+#endif
+
+/* estimates: relative error at most 1.5 * 2^-12; the bits differ between makers of processors */
+#define CGT_SPU_OWN_ESTIMATE
+#ifndef CGT_SPU_OWN_FLOAT
+CGT_SPU_INLINE vec_float4 cgt_spu_re_f32(vec_float4 a) { return (vec_float4)_mm_rcp_ps((__m128)a); }
+CGT_SPU_INLINE vec_float4 cgt_spu_rsqrte_f32(vec_float4 a) /* of the magnitude, as on an SPU */
+{
+    return (vec_float4)_mm_rsqrt_ps(_mm_andnot_ps(_mm_set1_ps(-0.f), (__m128)a));
+}
+#endif
+
 /* cvttps gives 0x80000000 for whatever does not fit: flip that to the largest int where the operand was large, and to
  * 0 where it was NaN */
-CGT_SPU_INLINE vec_int4 cgt_spu_convts_f32(vec_float4 a)
+#define CGT_SPU_OWN_CONVTS
+CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a)
 {
-    const __m128i d = _mm_cvttps_epi32((__m128)a);
-    const __m128i large = _mm_castps_si128(_mm_cmpge_ps((__m128)a, _mm_set1_ps(2147483648.f)));
-    const __m128i number = _mm_castps_si128(_mm_cmpord_ps((__m128)a, (__m128)a));
-    return (vec_int4)_mm_and_si128(_mm_xor_si128(d, large), number);
+    const vec_int4 d = (vec_int4)_mm_cvttps_epi32((__m128)a);
+    return (d ^ (vec_int4)(a >= 2147483648.f)) & (vec_int4)(a == a);
 }
+/* numbers from 2^31 on are converted without it, and get it back as the top bit */
+CGT_SPU_INLINE vec_uint4 cgt_spu_to_uint_f32(vec_float4 a)
+{
+#if defined(__AVX512VL__)
+    return (vec_uint4)_mm_cvttps_epu32(_mm_max_ps((__m128)a, _mm_setzero_ps())); /* too large: all ones */
+#else
+    const vec_float4 positive = (vec_float4)_mm_max_ps((__m128)a, _mm_setzero_ps()); /* 0 for NaN */
+    const vec_uint4 large = (vec_uint4)(positive >= 2147483648.f);
+    const vec_float4 rest = positive - (vec_float4)(large & 0x4f000000);
+    const vec_uint4 d = (vec_uint4)_mm_cvttps_epi32((__m128)rest);
+    return (d ^ (large & 0x80000000u)) | (vec_uint4)(positive >= 4294967296.f);
+#endif
+}
+#define CGT_SPU_OWN_CONVTF
+CGT_SPU_INLINE vec_float4 cgt_spu_to_float_s32(vec_int4 a) { return (vec_float4)_mm_cvtepi32_ps((__m128i)a); }
+CGT_SPU_INLINE vec_float4 cgt_spu_to_float_u32(vec_uint4 a)
+{
+#if defined(__AVX512VL__)
+    return (vec_float4)_mm_cvtepu32_ps((__m128i)a);
+#else
+    /* both halves are exact, and so is their sum before it is rounded */
+    const vec_float4 high = (vec_float4)_mm_cvtepi32_ps((__m128i)(a >> 16)),
+                     low = (vec_float4)_mm_cvtepi32_ps((__m128i)(a & 0xffff));
+    return high * 65536.f + low;
+#endif
+}
+
+#define CGT_SPU_OWN_ROUNDTF
+CGT_SPU_INLINE vec_float4 cgt_spu_roundtf_f64(vec_double2 a)
+{
+    return (vec_float4)_mm_unpacklo_ps(_mm_cvtpd_ps((__m128d)a), _mm_setzero_ps());
+}
+
+/* ---- integers ---- */
+
+/* Products of halfwords: pmaddwd multiplies pairs and adds; with one of each pair zero it is a product alone. Unsigned
+ * ones are put together from their two halves. */
+#define CGT_SPU_OWN_MULTIPLY
+CGT_SPU_INLINE vec_int4 cgt_spu_mulo_s16(vec_short8 a, vec_short8 b)
+{
+    return (vec_int4)_mm_madd_epi16((__m128i)a, (__m128i)((vec_uint4)b & 0xffff0000u));
+}
+CGT_SPU_INLINE vec_int4 cgt_spu_mule_s16(vec_short8 a, vec_short8 b)
+{
+    return (vec_int4)_mm_madd_epi16((__m128i)a, (__m128i)((vec_uint4)b & 0x0000ffffu));
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_mulo_u16(vec_ushort8 a, vec_ushort8 b)
+{
+    const __m128i low = _mm_mullo_epi16((__m128i)a, (__m128i)b), high = _mm_mulhi_epu16((__m128i)a, (__m128i)b);
+    return (vec_uint4)_mm_blend_epi16(_mm_srli_epi32(low, 16), high, 0xaa);
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_mule_u16(vec_ushort8 a, vec_ushort8 b)
+{
+    const __m128i low = _mm_mullo_epi16((__m128i)a, (__m128i)b), high = _mm_mulhi_epu16((__m128i)a, (__m128i)b);
+    return (vec_uint4)_mm_blend_epi16(low, _mm_slli_epi32(high, 16), 0xaa);
+}
+CGT_SPU_INLINE vec_int4 cgt_spu_mulh_s16(vec_short8 a, vec_short8 b)
+{
+    /* only the low half of the product stays: it comes out in the even place, and the odd place is its own */
+    const __m128i product = _mm_mullo_epi16((__m128i)a, _mm_srli_epi32((__m128i)b, 16));
+    return (vec_int4)_mm_slli_epi32(product, 16);
+}
+
+#define CGT_SPU_OWN_EXTEND
+CGT_SPU_INLINE vec_short8 cgt_spu_extend_s8(vec_char16 a) { return (vec_short8)a >> 8; }
+CGT_SPU_INLINE vec_int4 cgt_spu_extend_s16(vec_short8 a) { return (vec_int4)a >> 16; }
+CGT_SPU_INLINE vec_llong2 cgt_spu_extend_s32(vec_int4 a)
+{
+    return (vec_llong2)_mm_cvtepi32_epi64(_mm_shuffle_epi32((__m128i)a, 0x0d));
+}
+
+/* ---- bytes and bits ---- */
+
+#define CGT_SPU_OWN_BYTE
+CGT_SPU_INLINE vec_uchar16 cgt_spu_absd_u8(vec_uchar16 a, vec_uchar16 b)
+{
+    return (vec_uchar16)_mm_or_si128(_mm_subs_epu8((__m128i)a, (__m128i)b), _mm_subs_epu8((__m128i)b, (__m128i)a));
+}
+CGT_SPU_INLINE vec_uchar16 cgt_spu_avg_u8(vec_uchar16 a, vec_uchar16 b)
+{
+    return (vec_uchar16)_mm_avg_epu8((__m128i)a, (__m128i)b);
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_sumb_u8(vec_uchar16 a, vec_uchar16 b)
+{
+    const __m128i one = _mm_set1_epi8(1), pair = _mm_set1_epi16(1);
+    const __m128i sum_a = _mm_madd_epi16(_mm_maddubs_epi16((__m128i)a, one), pair);
+    const __m128i sum_b = _mm_madd_epi16(_mm_maddubs_epi16((__m128i)b, one), pair);
+    return (vec_ushort8)_mm_or_si128(sum_b, _mm_slli_epi32(sum_a, 16));
+}
+/* ones of each half of a byte, from a table of sixteen */
+CGT_SPU_INLINE vec_uchar16 cgt_spu_cntb_u8(vec_uchar16 a)
+{
+    const vec_uchar16 ones = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+    return cgt_sse_bytes(ones, a & 15) + cgt_sse_bytes(ones, (vec_uchar16)((vec_ushort8)a >> 4) & 15);
+}
+
+#if defined(__AVX512CD__) && defined(__AVX512VL__)
+#define CGT_SPU_OWN_CNTLZ
+CGT_SPU_INLINE vec_uint4 cgt_spu_cntlz_u32(vec_uint4 a) { return (vec_uint4)_mm_lzcnt_epi32((__m128i)a); }
+#else
+#define CGT_SPU_OWN_CNTLZ
+/* The exponent of a number as float tells its highest bit. Bits that could round it up to the next power of two are
+ * cleared first: those whose upper neighbour is set. Zero has the exponent field 0, and ends at 158: limit it. */
+CGT_SPU_INLINE vec_uint4 cgt_spu_cntlz_u32(vec_uint4 a)
+{
+    const vec_uint4 top = a & ~(a >> 1);
+    const vec_int4 exponent = (vec_int4)_mm_cvtepi32_ps((__m128i)top) >> 23; /* negative where the sign bit is set */
+    const vec_int4 zeros = 158 - exponent;
+    const __m128i clamped = _mm_min_epi32((__m128i)zeros, _mm_set1_epi32(32));
+    return (vec_uint4)clamped & ~((vec_uint4)((vec_int4)a >> 31));
+}
+#endif
+
+#define CGT_SPU_OWN_MASKB
+CGT_SPU_INLINE vec_uchar16 cgt_spu_maskb(unsigned a)
+{
+    const vec_uchar16 bit = {128, 64, 32, 16, 8, 4, 2, 1, 128, 64, 32, 16, 8, 4, 2, 1};
+    const vec_uchar16 high_low = {1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
+    const vec_uchar16 bits = cgt_sse_bytes((vec_uchar16)_mm_cvtsi32_si128((int)a), high_low);
+    return (vec_uchar16)((bits & bit) == bit);
+}
+
+#define CGT_SPU_OWN_ORX
+CGT_SPU_INLINE vec_uint4 cgt_spu_orx_u32(vec_uint4 a)
+{
+    const __m128i b = _mm_or_si128((__m128i)a, _mm_srli_si128((__m128i)a, 8));
+    return (vec_uint4)_mm_blend_epi16(_mm_setzero_si128(), _mm_or_si128(b, _mm_srli_si128(b, 4)), 0x03);
+}
+
+/* movemask puts element 0 lowest: turn the elements round first */
+#define CGT_SPU_OWN_GATHER
+CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u32(vec_uint4 a)
+{
+    const __m128i reversed = _mm_shuffle_epi32((__m128i)a, 0x1b);
+    const int bits = _mm_movemask_ps(_mm_castsi128_ps(_mm_slli_epi32(reversed, 31)));
+    return (vec_uint4)_mm_cvtsi32_si128(bits);
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u16(vec_ushort8 a)
+{
+    const vec_uchar16 low_bytes = {14, 12, 10, 8, 6, 4, 2, 0, 128, 128, 128, 128, 128, 128, 128, 128};
+    const vec_uchar16 reversed = cgt_sse_bytes((vec_uchar16)a, low_bytes);
+    return (vec_uint4)_mm_cvtsi32_si128(_mm_movemask_epi8(_mm_slli_epi16((__m128i)reversed, 7)));
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u8(vec_uchar16 a)
+{
+    const vec_uchar16 backwards = {15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0};
+    const vec_uchar16 reversed = cgt_sse_bytes(a, backwards);
+    return (vec_uint4)_mm_cvtsi32_si128(_mm_movemask_epi8(_mm_slli_epi16((__m128i)reversed, 7)));
+}
+
+/* Two byte shuffles and an or: a byte with its top bit set gives zero, so each half of the table takes its own bytes. */
+#define CGT_SPU_OWN_SHUFFLE
+CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, vec_uchar16 pattern, unsigned flip)
+{
+    const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const vec_uchar16 c = flip ? cgt_sse_permute(pattern, iota ^ (unsigned char)flip) : pattern;
+#if !defined(__clang__)
+    /* a constant pattern without constant bytes: the compiler knows the best instructions */
+    const unsigned long long special_bytes = (((vec_ullong2)c)[0] | ((vec_ullong2)c)[1]) & 0x8080808080808080u;
+    if (__builtin_constant_p(special_bytes) && !special_bytes)
+        return __builtin_shuffle(a, b, (c & 31) ^ (unsigned char)flip);
+#endif
+    const vec_uchar16 special = (vec_uchar16)(c > 0x7f), index = (c & 15) ^ (unsigned char)flip;
+    const vec_uchar16 from_b = (vec_uchar16)((c & 16) != 0), family = c & 0xe0;
+    const vec_uchar16 constant = (vec_uchar16)(family == 0xc0) | ((vec_uchar16)(family == 0xe0) & 0x80);
+    return constant | cgt_sse_bytes(a, index | special | from_b) | cgt_sse_bytes(b, index | special | ~from_b);
+}
+
+/* ---- shifts ---- */
+
+/* By one count the instructions do what the SPU does: from the width on, zeros or sign bits. */
+#define CGT_SPU_OWN_SHIFT
+#define CGT_SPU_X(type, vec, bits)                                                                                     \
+    CGT_SPU_INLINE vec cgt_spu_left_##type##_x(vec a, unsigned n)                                                      \
+    {                                                                                                                  \
+        return (vec)_mm_sll_epi##bits((__m128i)a, _mm_cvtsi32_si128((int)n));                                          \
+    }                                                                                                                  \
+    CGT_SPU_INLINE vec cgt_spu_right_##type##_x(vec a, unsigned n)                                                     \
+    {                                                                                                                  \
+        return (vec)_mm_srl_epi##bits((__m128i)a, _mm_cvtsi32_si128((int)n));                                          \
+    }                                                                                                                  \
+    CGT_SPU_INLINE vec cgt_spu_right_signed_##type##_x(vec a, unsigned n)                                              \
+    {                                                                                                                  \
+        return (vec)_mm_sra_epi##bits((__m128i)a, _mm_cvtsi32_si128((int)n));                                          \
+    }
+CGT_SPU_X(u16, vec_ushort8, 16)
+CGT_SPU_X(u32, vec_uint4, 32)
+#undef CGT_SPU_X
+/* By a count of each element's own */
+#if defined(__AVX2__)
+CGT_SPU_INLINE vec_uint4 cgt_spu_left_u32(vec_uint4 a, vec_uint4 n)
+{
+    return (vec_uint4)_mm_sllv_epi32((__m128i)a, (__m128i)n);
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_right_u32(vec_uint4 a, vec_uint4 n)
+{
+    return (vec_uint4)_mm_srlv_epi32((__m128i)a, (__m128i)n);
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_right_signed_u32(vec_uint4 a, vec_uint4 n)
+{
+    return (vec_uint4)_mm_srav_epi32((__m128i)a, (__m128i)n);
+}
+#else
+/* left: a product by a power of two, made as a float's exponent; 2^31 comes out as the conversion's 0x80000000, and
+ * counts from 32 on have an operand that does not fit either: clear them */
+CGT_SPU_INLINE vec_uint4 cgt_spu_left_u32(vec_uint4 a, vec_uint4 n)
+{
+    const vec_uint4 power = (vec_uint4)_mm_cvttps_epi32((__m128)((n << 23) + 0x3f800000));
+    return a * power & (vec_uint4)((vec_int4)n < 32);
+}
+/* right: each element apart, by the instruction that reads its count from 64 bits */
+#define CGT_SPU_X(name, instruction)                                                                                   \
+    CGT_SPU_INLINE vec_uint4 cgt_spu_##name##_u32(vec_uint4 a, vec_uint4 n)                                            \
+    {                                                                                                                  \
+        const __m128i low = _mm_cvtepu32_epi64((__m128i)n),                                                            \
+                      high = _mm_unpackhi_epi32((__m128i)n, _mm_setzero_si128());                                      \
+        const __m128i x = instruction((__m128i)a, low), z = instruction((__m128i)a, high);                             \
+        const __m128i y = instruction((__m128i)a, _mm_unpackhi_epi64(low, low));                                       \
+        const __m128i w = instruction((__m128i)a, _mm_unpackhi_epi64(high, high));                                     \
+        return (vec_uint4)_mm_blend_epi16(_mm_blend_epi16(x, y, 0x0c), _mm_blend_epi16(z, w, 0xc0), 0xf0);             \
+    }
+CGT_SPU_X(right, _mm_srl_epi32)
+CGT_SPU_X(right_signed, _mm_sra_epi32)
+#undef CGT_SPU_X
+#endif
+#if defined(__AVX512BW__) && defined(__AVX512VL__)
+CGT_SPU_INLINE vec_ushort8 cgt_spu_left_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    return (vec_ushort8)_mm_sllv_epi16((__m128i)a, (__m128i)n);
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_right_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    return (vec_ushort8)_mm_srlv_epi16((__m128i)a, (__m128i)n);
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_right_signed_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    return (vec_ushort8)_mm_srav_epi16((__m128i)a, (__m128i)n);
+}
+#else
+/* 2^n for n in 0 .. 15, else 0, from two tables of its bytes */
+CGT_SPU_INLINE vec_ushort8 cgt_sse_power_of_two(vec_ushort8 n)
+{
+    const vec_uchar16 low = {1, 2, 4, 8, 16, 32, 64, 128}, high = {0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 4, 8, 16, 32, 64, 128};
+    const vec_uchar16 outside = (vec_uchar16)(n > 15) & 0x80, k = (vec_uchar16)n | outside;
+    return ((vec_ushort8)cgt_sse_bytes(low, k) & 0xff) | (vec_ushort8)cgt_sse_bytes(high, k) << 8;
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_left_u16(vec_ushort8 a, vec_ushort8 n) { return a * cgt_sse_power_of_two(n); }
+/* right: the upper half of the product by 2^(16 - n) */
+CGT_SPU_INLINE vec_ushort8 cgt_spu_right_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    const __m128i high = _mm_mulhi_epu16((__m128i)a, (__m128i)cgt_sse_power_of_two(16 - n));
+    return (vec_ushort8)_mm_blendv_epi8(high, (__m128i)a, (__m128i)(n == 0));
+}
+/* a negative number's complement is shifted without its sign */
+CGT_SPU_INLINE vec_ushort8 cgt_spu_right_signed_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    const vec_ushort8 sign = (vec_ushort8)((vec_short8)a >> 15);
+    return cgt_spu_right_u16(a ^ sign, n) ^ sign;
+}
+#endif
+
+/* ---- the quadword ---- */
+
+/* Byte p of the SPU's quadword lies at p ^ flip: positions are turned on the way in and on the way out. What comes from
+ * outside gets an index with the top bit set. */
+#define CGT_SPU_OWN_QUAD
+CGT_SPU_INLINE vec_uchar16 cgt_sse_positions(unsigned size)
+{
+    const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return iota ^ (unsigned char)(size - 1);
+}
+CGT_SPU_INLINE vec_ullong2 cgt_sse_fetch(vec_ullong2 a, vec_uchar16 from, unsigned size)
+{
+    const vec_uchar16 outside = (vec_uchar16)(from > 15);
+    return (vec_ullong2)cgt_sse_bytes((vec_uchar16)a, (from ^ (unsigned char)(size - 1)) | outside);
+}
+CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_left_bytes(vec_ullong2 a, unsigned n, unsigned size)
+{
+    return cgt_sse_fetch(a, cgt_sse_positions(size) + (unsigned char)n, size);
+}
+CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_right_bytes(vec_ullong2 a, unsigned n, unsigned size)
+{
+    return cgt_sse_fetch(a, cgt_sse_positions(size) - (unsigned char)n, size);
+}
+CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bytes(vec_ullong2 a, unsigned n, unsigned size)
+{
+    return cgt_sse_fetch(a, (cgt_sse_positions(size) + (unsigned char)n) & 15, size);
+}
+
+/* By bits: in words of 64 bits, highest first. carry is what comes over from the neighbour. */
+CGT_SPU_INLINE __m128i cgt_sse_reorder(__m128i a, unsigned size)
+{
+    const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    return size == 8 ? a : (__m128i)cgt_sse_bytes((vec_uchar16)a, iota ^ (unsigned char)(8 - size));
+}
+CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_left_bits(vec_ullong2 a, unsigned n, unsigned size)
+{
+    const __m128i x = cgt_sse_reorder((__m128i)a, size), left = _mm_cvtsi32_si128((int)n);
+    const __m128i carry = _mm_srl_epi64(_mm_srli_si128(x, 8), _mm_cvtsi32_si128(64 - (int)n));
+    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(_mm_sll_epi64(x, left), carry), size);
+}
+CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_right_bits(vec_ullong2 a, unsigned n, unsigned size)
+{
+    const __m128i x = cgt_sse_reorder((__m128i)a, size), right = _mm_cvtsi32_si128((int)n);
+    const __m128i carry = _mm_sll_epi64(_mm_slli_si128(x, 8), _mm_cvtsi32_si128(64 - (int)n));
+    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(_mm_srl_epi64(x, right), carry), size);
+}
+CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bits(vec_ullong2 a, unsigned n, unsigned size)
+{
+    const __m128i x = cgt_sse_reorder((__m128i)a, size), left = _mm_cvtsi32_si128((int)n);
+    const __m128i carry = _mm_srl_epi64(_mm_shuffle_epi32(x, 0x4e), _mm_cvtsi32_si128(64 - (int)n));
+    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(_mm_sll_epi64(x, left), carry), size);
+}
+
+/* ---- extensions ---- */
 
 #define CGT_SPU_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u32(vec_uint4 m)
@@ -29,14 +404,6 @@ CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u32(vec_uint4 m)
 CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u16(vec_ushort8 m)
 {
     return (unsigned)_mm_movemask_epi8(_mm_packs_epi16((__m128i)m, _mm_setzero_si128()));
-}
-
-#define CGT_SPU_OWN_GATHER
-CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u32(vec_uint4 a)
-{
-    const __m128i reversed = _mm_shuffle_epi32((__m128i)a, 0x1b);
-    const int bits = _mm_movemask_ps(_mm_castsi128_ps(_mm_slli_epi32(reversed, 31)));
-    return (vec_uint4)_mm_cvtsi32_si128(bits);
 }
 
 #define CGT_SPU_OWN_MIN_MAX
@@ -60,29 +427,6 @@ CGT_SPU_INLINE vec_float4 cgt_spux_select_f32(vec_float4 a, vec_float4 b, vec_ui
 CGT_SPU_INLINE vec_uint4 cgt_spux_select_u32(vec_uint4 a, vec_uint4 b, vec_uint4 m)
 {
     return (vec_uint4)_mm_blendv_epi8((__m128i)a, (__m128i)b, (__m128i)m);
-}
-
-/* Two byte shuffles and an or: a byte with its top bit set gives zero, so each half of the table takes its own bytes.
- * The pattern is turned from the SPU's byte order first; that part leaves the loop where the pattern is constant. */
-#define CGT_SPU_OWN_SHUFFLE
-CGT_SPU_INLINE __m128i cgt_spu_shuffle_sse(__m128i a, __m128i b, __m128i c, __m128i flip_position, __m128i flip_value)
-{
-    const __m128i k = _mm_shuffle_epi8(c, flip_position),
-                  index = _mm_xor_si128(_mm_and_si128(k, _mm_set1_epi8(15)), flip_value);
-    const __m128i special = _mm_cmplt_epi8(k, _mm_setzero_si128());
-    const __m128i from_b = _mm_cmpeq_epi8(_mm_and_si128(k, _mm_set1_epi8(16)), _mm_set1_epi8(16));
-    const __m128i ones = _mm_cmpeq_epi8(_mm_and_si128(k, _mm_set1_epi8((char)0xe0)), _mm_set1_epi8((char)0xc0));
-    const __m128i sign = _mm_cmpeq_epi8(_mm_and_si128(k, _mm_set1_epi8((char)0xe0)), _mm_set1_epi8((char)0xe0));
-    const __m128i constant = _mm_or_si128(ones, _mm_and_si128(sign, _mm_set1_epi8((char)0x80)));
-    const __m128i index_a = _mm_or_si128(index, _mm_or_si128(special, from_b));
-    const __m128i index_b = _mm_or_si128(index, _mm_or_si128(special, _mm_xor_si128(from_b, _mm_set1_epi8(-1))));
-    return _mm_or_si128(constant, _mm_or_si128(_mm_shuffle_epi8(a, index_a), _mm_shuffle_epi8(b, index_b)));
-}
-CGT_SPU_INLINE vec_ushort8 cgt_spu_shuffle_u16(vec_ushort8 a, vec_ushort8 b, vec_uchar16 pattern)
-{
-    return (vec_ushort8)cgt_spu_shuffle_sse((__m128i)a, (__m128i)b, (__m128i)pattern,
-                                            _mm_setr_epi8(1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14),
-                                            _mm_set1_epi8(1));
 }
 
 #include "spu_portable.h"

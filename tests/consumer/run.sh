@@ -5,6 +5,7 @@
 # run.sh SOURCE_DIR BUILD_DIR CMAKE CC toolchain=FILE [EMULATOR...]
 # Installs the library, moves it to another place, and there
 #   compiles each installed header alone, as C and, but for the C-only vocabulary, as C++
+#   compiles and runs a program written for an SPU with the vocabulary alone, in each of its forms
 #   builds and runs a project that uses find_package(cgt), with static and shared library
 #   builds and runs the same program through pkg-config, static and shared
 set -eu
@@ -27,12 +28,13 @@ count=0
 for header in "$prefix"/include/cgt/*.h; do
     name=cgt/${header##*/}
     case $name in
-    cgt/spu_sse.h|cgt/spu_neon.h) continue ;; # of one machine; spu_intrinsics.h includes the one that fits
+    # of one machine, and parts of others: spu_intrinsics.h includes what fits
+    cgt/spu_sse.h|cgt/spu_neon.h|cgt/spu_portable_*|cgt/spu_exact_*) continue ;;
     esac
     printf '#include <%s>\n#include <%s>\nextern int cgt_header_alone;\n' "$name" "$name" >"$work/alone.c"
     "$cc" -std=c11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
     case $name in
-    cgt/spu_*) ;; # _Generic: C only
+    cgt/spu_*|cgt/vec_types.h) ;; # _Generic: C only
     *)  if command -v "$cxx" >/dev/null; then
             "$cxx" -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
         else
@@ -42,6 +44,14 @@ for header in "$prefix"/include/cgt/*.h; do
     count=$((count + 1))
 done
 [ "$count" -ge 2 ]
+
+echo "== SPU source"
+for flags in "" -DCGT_SPU_PORTABLE -DCGT_SPU_EXACT "-DCGT_SPU_EXACT -DCGT_SPU_PORTABLE" "-D__SPU__ -DCGT_SPU_HOST"; do
+    # shellcheck disable=SC2086 # flags are several words
+    "$cc" -std=c11 -O1 -Wall -Wextra -Wpedantic -Werror $flags -I"$prefix/include/cgt" \
+        "$source/tests/consumer/spu_source.c" -o "$work/spu_source"
+    "$@" "$work/spu_source"
+done
 
 echo "== find_package"
 "$cmake" -S "$source/tests/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$cc" \

@@ -1,0 +1,79 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The SPU's single precision, bit by bit: the words of type f32 that compute, for a host that has other floats. They
+ * take the place of a mapping's own where CGT_SPU_EXACT is defined. What the SPU computes is said, and computed in
+ * integers, in spu_float_model.h. Three forms give the same bits:
+ *
+ *   portable   element by element through the model; needs no mode           (CGT_SPU_PORTABLE, other hosts, -ffast-math)
+ *   x86        SSE4.1, with FMA3 where the compiler may use it                spu_exact_x86.h
+ *   AArch64    NEON                                                           spu_exact_aarch64.h
+ *
+ * The fast forms hold between cgt_spu_enter_arithmetic and cgt_spu_leave_arithmetic (spu_arithmetic_mode.h), which let
+ * the host truncate and take denormals for zero. Then an operation gives the SPU's result but for two cases:
+ *
+ *   zero           can come out as -0: x + 0 makes it +0, and changes nothing else when truncating
+ *   exponent 255   of an operand is an infinity or NaN to the host, and then its result is one too; a result that needs
+ *                  it ends at the host's largest number. A result at or beyond that number is taken from the model.
+ *
+ * The compiler knows neither of the mode nor that it switches. CGT_SPU_HOLD makes values opaque to it: it is an empty
+ * volatile asm that claims to change them. Held operands cannot be folded as constants, in another rounding; a held
+ * result cannot be merged with what follows, by reassociation or contraction. And as the compiler keeps volatile asms
+ * in their order, that of the mode switch among them, an operation between two of them stays on its side of the switch. */
+#ifndef CGT_SPU_EXACT_H
+#define CGT_SPU_EXACT_H
+
+#include "spu_arithmetic_mode.h"
+
+#if defined(CGT_SPU_EXACT_X86)
+#include <immintrin.h>
+#elif defined(CGT_SPU_EXACT_AARCH64)
+#include <arm_neon.h>
+#endif
+
+#include "spu_float_model.h"
+#include "spu_types.h"
+
+/* the mapping leaves out its own: all single-precision arithmetic, comparison, estimates and conversion */
+#define CGT_SPU_OWN_FLOAT
+
+/* ---- through the model, element by element ---- */
+
+#define CGT_SPU_EXACT_ASIDE static __attribute__((noinline, unused)) /* not a part of every caller's code */
+
+CGT_SPU_EXACT_ASIDE vec_uint4 cgt_spu_exact_each1(uint32_t (*word)(uint32_t), vec_uint4 a)
+{
+    return (vec_uint4){word(a[0]), word(a[1]), word(a[2]), word(a[3])};
+}
+CGT_SPU_EXACT_ASIDE vec_uint4 cgt_spu_exact_each2(uint32_t (*word)(uint32_t, uint32_t), vec_uint4 a, vec_uint4 b)
+{
+    return (vec_uint4){word(a[0], b[0]), word(a[1], b[1]), word(a[2], b[2]), word(a[3], b[3])};
+}
+CGT_SPU_EXACT_ASIDE vec_uint4 cgt_spu_exact_each3(uint32_t (*word)(uint32_t, uint32_t, uint32_t), vec_uint4 a,
+                                                  vec_uint4 b, vec_uint4 c)
+{
+    return (vec_uint4){word(a[0], b[0], c[0]), word(a[1], b[1], c[1]), word(a[2], b[2], c[2]), word(a[3], b[3], c[3])};
+}
+CGT_SPU_EXACT_ASIDE vec_uint4 cgt_spu_exact_each_scaled(uint32_t (*word)(uint32_t, int), vec_uint4 a, int n)
+{
+    return (vec_uint4){word(a[0], n), word(a[1], n), word(a[2], n), word(a[3], n)};
+}
+
+#if defined(CGT_SPU_EXACT_X86)
+#include "spu_exact_x86.h"
+#include "spu_exact_fast.h"
+#include "spu_exact_estimate.h"
+#elif defined(CGT_SPU_EXACT_AARCH64)
+#include "spu_exact_aarch64.h"
+#include "spu_exact_fast.h"
+#include "spu_exact_estimate.h"
+#else
+#include "spu_exact_portable.h"
+#endif
+
+/* ---- an estimate is a line and its value ---- */
+
+CGT_SPU_INLINE vec_float4 cgt_spu_re_f32(vec_float4 a) { return cgt_spu_fi_f32(a, cgt_spu_frest_f32(a)); }
+CGT_SPU_INLINE vec_float4 cgt_spu_rsqrte_f32(vec_float4 a) { return cgt_spu_fi_f32(a, cgt_spu_frsqest_f32(a)); }
+
+#endif
