@@ -7,11 +7,14 @@ set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 
 # The headers of the vocabulary (simd/) that users may include as <cgt/...>.
 set(cgt_simd_headers
+    simd/spu_avx2.h
+    simd/spu_avx512.h
     simd/spu_intrinsics.h
     simd/spu_neon.h
     simd/spu_portable.h
     simd/spu_sse.h
-    simd/spu_types.h)
+    simd/spu_types.h
+    simd/spu_wide.h)
 
 install(FILES include/cgt/cgt.h include/cgt/version.h ${cgt_simd_headers}
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/cgt" COMPONENT library)

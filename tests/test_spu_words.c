@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "vector.h"
+#include "spu_intrinsics.h"
 
 #define ROUNDS 20000
 
@@ -80,13 +80,6 @@ static bool equal(float a, float b) { return same_bits(a, b) || (isnan(a) && isn
         if (g_ != e_)                                                                                                  \
             fail_msg("%s: 0x%08x, expected 0x%08x", word, g_, e_);                                                     \
     } while (0)
-
-static uint32_t bits_of(float f)
-{
-    uint32_t u;
-    memcpy(&u, &f, sizeof u);
-    return u;
-}
 
 /* ---- elements ---- */
 
@@ -182,14 +175,10 @@ static void integer_arithmetic_wraps(void **state)
 
 static void check_compare(vec_float4 a, vec_float4 b)
 {
-    const vec_uint4 gt = spu_cmpgt(a, b), eq = spu_cmpeq(a, b), ge = spux_cmpge(a, b);
-    const vfloat least = spux_min(a, b), most = spux_max(a, b);
+    const vec_uint4 gt = spu_cmpgt(a, b), eq = spu_cmpeq(a, b);
     for (int i = 0; i < 4; i++) {
         CHECK_BITS("spu_cmpgt", gt[i], a[i] > b[i] ? UINT32_MAX : 0);
         CHECK_BITS("spu_cmpeq", eq[i], a[i] == b[i] ? UINT32_MAX : 0);
-        CHECK_BITS("spux_cmpge", ge[i], a[i] >= b[i] ? UINT32_MAX : 0);
-        CHECK_BITS("spux_min", bits_of(least[i]), bits_of(a[i] < b[i] ? a[i] : b[i]));
-        CHECK_BITS("spux_max", bits_of(most[i]), bits_of(a[i] > b[i] ? a[i] : b[i]));
     }
 }
 
@@ -228,14 +217,12 @@ static void integer_comparison_and_bits(void **state)
                                  (vec_uint4)spu_or(fa, fb),
                                  (vec_uint4)spu_xor(fa, fb),
                                  (vec_uint4)spu_andc(fa, fb),
-                                 (vec_uint4)spu_sel(fa, fb, m),
-                                 spux_not(a)};
+                                 (vec_uint4)spu_sel(fa, fb, m)};
         for (int i = 0; i < 4; i++) {
             const uint32_t expected[] = {a[i] & b[i], a[i] | b[i], a[i] ^ b[i], a[i] & ~b[i],
                                          (a[i] & ~m[i]) | (b[i] & m[i])};
             for (int w = 0; w < 15; w++)
                 CHECK_BITS("spu_and, or, xor, andc, sel", all[w][i], expected[w % 5]);
-            CHECK_BITS("spux_not", all[15][i], ~a[i]);
             CHECK_BITS("spu_cmpgt", gt[i], a[i] > b[i] ? UINT32_MAX : 0);
             CHECK_BITS("spu_cmpgt signed", sgt[i], sa[i] > sb[i] ? UINT32_MAX : 0);
             CHECK_BITS("spu_cmpeq", eq[i], a[i] == b[i] ? UINT32_MAX : 0);
@@ -362,76 +349,6 @@ static void shuffle_selects_bytes(void **state)
         check_shuffle((vec_ushort8)any_words(&r), (vec_ushort8)any_words(&r), (vec_uchar16)any_words(&r));
 }
 
-/* ---- the words of vector.h ---- */
-
-static void mask_bits_and_select(void **state)
-{
-    (void)state;
-    test_random r = random_make(8);
-    for (uint32_t bits = 0; bits <= CGT_ALL_LANES; bits++) {
-        _Alignas(CGT_VECTOR_BYTES) uint32_t lane[CGT_LANES], x[CGT_LANES], y[CGT_LANES];
-        for (int i = 0; i < CGT_LANES; i++) {
-            lane[i] = bits >> i & 1 ? UINT32_MAX : 0;
-            x[i] = any_bits(&r);
-            y[i] = any_bits(&r);
-        }
-        const vuint m = spux_load_uint(lane), a = spux_load_uint(x), b = spux_load_uint(y);
-        const vuint u = spux_select(a, b, (vmask)m), f = (vuint)spux_select((vfloat)a, (vfloat)b, (vmask)m);
-        CHECK_BITS("spux_mask_bits", spux_mask_bits((vmask)m), bits);
-        CHECK_BITS("spux_count_bits", spux_count_bits(bits), __builtin_popcount(bits));
-        for (int i = 0; i < CGT_LANES; i++) {
-            CHECK_BITS("spux_select", u[i], bits >> i & 1 ? y[i] : x[i]);
-            CHECK_BITS("spux_select of floats", f[i], bits >> i & 1 ? y[i] : x[i]);
-        }
-    }
-    for (unsigned bits = 0; bits < 256; bits++) {
-        vec_ushort8 m = spu_splats((uint16_t)0);
-        for (int i = 0; i < 8; i++)
-            m[i] = bits >> i & 1 ? 0xffff : 0;
-        CHECK_BITS("cgt_spux_mask_bits_u16", cgt_spux_mask_bits_u16(m), bits);
-    }
-}
-
-static void load_store_and_lanes(void **state)
-{
-    (void)state;
-    _Alignas(CGT_VECTOR_BYTES) float from[3 * CGT_LANES], to[3 * CGT_LANES] = {0};
-    _Alignas(CGT_VECTOR_BYTES) uint32_t words[CGT_LANES];
-    for (int i = 0; i < 3 * CGT_LANES; i++)
-        from[i] = (float)(i * i) - 5;
-    spux_store(to + CGT_LANES, spux_load(from + CGT_LANES));
-    spux_store_uint(words, spux_lane_index());
-    for (int i = 0; i < CGT_LANES; i++) {
-        assert_true(to[i] == 0 && to[CGT_LANES + i] == from[CGT_LANES + i] && to[2 * CGT_LANES + i] == 0);
-        assert_int_equal(words[i], i);
-        assert_true(spux_vfloat(2.5f)[i] == 2.5f && spux_vint(-3)[i] == -3 && spux_vuint(9u)[i] == 9);
-        CHECK_BITS("spux_abs", bits_of(spux_abs(spux_vfloat(-0.f))[i]), 0);
-        CHECK_BITS("spux_abs", bits_of(spux_abs(spux_vfloat(-NAN))[i]), bits_of(NAN) & 0x7fffffff);
-    }
-    for (int i = 0; i < CGT_LANES; i++) { /* the extreme in every lane */
-        vfloat v = spux_vfloat(1);
-        v[i] = -3;
-        assert_true(spux_hmin(v) == -3 && spux_hmax(v) == 1);
-        v[i] = 7;
-        assert_true(spux_hmin(v) == 1 && spux_hmax(v) == 7);
-    }
-}
-
-static void quotient_and_root_are_near(void **state)
-{
-    (void)state;
-    test_random r = random_make(9);
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
-        const float a = random_log(&r, 1e-18f, 1e18f), b = random_log(&r, 1e-18f, 1e18f);
-        const float quotient = spu_extract(spux_div(spux_vfloat(-a), spux_vfloat(b)), 3);
-        const float root = spu_extract(spux_sqrt(spux_vfloat(a)), 2);
-        assert_true(fabs(quotient / -((double)a / b) - 1) <= 0x1p-21);
-        assert_true(fabs(root / sqrt((double)a) - 1) <= 0x1p-21);
-    }
-    assert_true(spux_hmax(spux_sqrt(spux_vfloat(0))) == 0);
-    assert_true(spux_hmin(spux_sqrt(spux_vfloat(4))) == 2);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -445,9 +362,6 @@ int main(void)
         cmocka_unit_test(int_to_float),
         cmocka_unit_test(gather_takes_lowest_bits_element_0_first),
         cmocka_unit_test(shuffle_selects_bytes),
-        cmocka_unit_test(mask_bits_and_select),
-        cmocka_unit_test(load_store_and_lanes),
-        cmocka_unit_test(quotient_and_root_are_near),
     };
     test_begin("test_spu_words");
     if (!test_variant_runs(CGT_VARIANT_NAME))
