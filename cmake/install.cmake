@@ -9,6 +9,8 @@ set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 # itself in the include path as <spu_intrinsics.h>, so that SPU source finds it.
 set(cgt_simd_headers
     simd/spu_arithmetic_mode.h
+    simd/spu_avx2.h
+    simd/spu_avx512.h
     simd/spu_channels.h
     simd/spu_exact.h
     simd/spu_exact_aarch64.h
@@ -24,13 +26,13 @@ set(cgt_simd_headers
     simd/spu_portable.h
     simd/spu_portable_byte.h
     simd/spu_portable_element.h
-    simd/spu_portable_extension.h
     simd/spu_portable_float.h
     simd/spu_portable_integer.h
     simd/spu_portable_logic.h
     simd/spu_portable_shift.h
     simd/spu_sse.h
     simd/spu_types.h
+    simd/spu_wide.h
     simd/spu_words.h
     simd/vec_types.h)
 

@@ -50,6 +50,9 @@ endfunction()
 cgt_variant(NAME portable LANES 4 DEFINES CGT_SPU_PORTABLE)
 cgt_variant(NAME sse      LANES 4 WHERE "defined(__x86_64__)"  FLAGS -msse4.1)
 cgt_variant(NAME neon     LANES 4 WHERE "defined(__aarch64__)")
+cgt_variant(NAME avx2     LANES 8 WHERE "defined(__x86_64__)"  FLAGS -mavx2 -mfma -mbmi)
+cgt_variant(NAME avx512   LANES 16 WHERE "defined(__x86_64__)" FLAGS -mavx2 -mfma -mbmi -mavx512f -mavx512bw -mavx512dq
+                                                                     -mavx512vl -mprefer-vector-width=512)
 
 # ---- Its use ----------------------------------------------------------------------------------------------------
 

@@ -41,18 +41,7 @@
 
 #include "spu_arithmetic_mode.h"
 
-/* Kernels at eight or sixteen lanes: the words that they use know the wide types too. */
-#if defined(CGT_LANES) && CGT_LANES == 16
-#include "spu_avx512.h"
-#elif defined(CGT_LANES) && CGT_LANES == 8
-#include "spu_avx2.h"
-#else
-#define CGT_SPU_WIDE_F(word)
-#define CGT_SPU_WIDE_S(word)
-#define CGT_SPU_WIDE_SU(word)
-#define CGT_SPU_WIDE_FSU(word)
-#define CGT_SPU_WIDE_FSUM(word)
-#endif
+#include "spu_wide.h" /* in kernels at eight or sixteen lanes the words know the wide types too */
 
 /* ---- picking: by the type of x, among the types for which a word exists; `wide` adds the wide ones ---- */
 

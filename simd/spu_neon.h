@@ -235,23 +235,6 @@ CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bits(vec_ullong2 a, unsigned n, u
     return (vec_ullong2)cgt_neon_reorder(d, size);
 }
 
-/* ---- extensions ---- */
-
-#define CGT_SPU_OWN_MASK_BITS
-CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u32(vec_uint4 m)
-{
-    const uint32x4_t weight = {1, 2, 4, 8};
-    return vaddvq_u32(vandq_u32((uint32x4_t)m, weight));
-}
-CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u16(vec_ushort8 m)
-{
-    const uint16x8_t weight = {1, 2, 4, 8, 16, 32, 64, 128};
-    return vaddvq_u16(vandq_u16((uint16x8_t)m, weight));
-}
-
-#define CGT_SPU_OWN_SQRT
-CGT_SPU_INLINE vec_float4 cgt_spux_sqrt_f32(vec_float4 a) { return (vec_float4)vsqrtq_f32((float32x4_t)a); }
-
 #include "spu_portable.h"
 
 #endif

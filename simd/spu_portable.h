@@ -47,6 +47,4 @@
 
 #include "spu_portable_shift.h"
 
-#include "spu_portable_extension.h"
-
 #endif

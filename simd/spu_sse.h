@@ -394,41 +394,6 @@ CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bits(vec_ullong2 a, unsigned n, u
     return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(_mm_sll_epi64(x, left), carry), size);
 }
 
-/* ---- extensions ---- */
-
-#define CGT_SPU_OWN_MASK_BITS
-CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u32(vec_uint4 m)
-{
-    return (unsigned)_mm_movemask_ps(_mm_castsi128_ps((__m128i)m));
-}
-CGT_SPU_INLINE unsigned cgt_spux_mask_bits_u16(vec_ushort8 m)
-{
-    return (unsigned)_mm_movemask_epi8(_mm_packs_epi16((__m128i)m, _mm_setzero_si128()));
-}
-
-#define CGT_SPU_OWN_MIN_MAX
-CGT_SPU_INLINE vec_float4 cgt_spux_min_f32(vec_float4 a, vec_float4 b)
-{
-    return (vec_float4)_mm_min_ps((__m128)a, (__m128)b);
-}
-CGT_SPU_INLINE vec_float4 cgt_spux_max_f32(vec_float4 a, vec_float4 b)
-{
-    return (vec_float4)_mm_max_ps((__m128)a, (__m128)b);
-}
-
-#define CGT_SPU_OWN_SQRT
-CGT_SPU_INLINE vec_float4 cgt_spux_sqrt_f32(vec_float4 a) { return (vec_float4)_mm_sqrt_ps((__m128)a); }
-
-#define CGT_SPU_OWN_SELECT
-CGT_SPU_INLINE vec_float4 cgt_spux_select_f32(vec_float4 a, vec_float4 b, vec_uint4 m)
-{
-    return (vec_float4)_mm_blendv_ps((__m128)a, (__m128)b, _mm_castsi128_ps((__m128i)m));
-}
-CGT_SPU_INLINE vec_uint4 cgt_spux_select_u32(vec_uint4 a, vec_uint4 b, vec_uint4 m)
-{
-    return (vec_uint4)_mm_blendv_epi8((__m128i)a, (__m128i)b, (__m128i)m);
-}
-
 #include "spu_portable.h"
 
 #endif

@@ -4,49 +4,73 @@
  * The vocabulary at the width of a variant: what a kernel includes.
  *
  *   vfloat, vint, vuint   CGT_LANES elements
- *   vmask                 the result of a comparison
- *   spu_*                 the SPU's words on these types (spu_intrinsics.h)
- *   spux_*                words that the SPU lacks or does in several, defined on every variant:
- *     spux_vfloat(x) vint vuint   x in every lane of the variant's width
- *     spux_load, spux_store       aligned to the vector; spux_load_uint, spux_store_uint for vuint
- *     spux_lane_index()           0, 1, 2 ...
- *     spux_min, spux_max          b where a and b do not compare
- *     spux_abs                    sign bit cleared
- *     spux_div, spux_sqrt         relative error at most 2^-21
- *     spux_cmpge(a, b)            a >= b, false for NaN
- *     spux_select(a, b, m)        b in the lanes where m is true, else a
- *     spux_mask_bits(m)           bit i = lane i
- *     spux_count_bits(b)          how many lanes of such bits
- *     spux_not(m)                 the other lanes
- *     spux_hmin, spux_hmax        least and greatest lane
+ *   vmask                 the result of a comparison. Of some widths it is a vector, of others a k register: only words
+ *                         look inside, operators of C do not
+ *   spu_*                 the SPU's words on these types (spu_intrinsics.h): add, sub, mul, madd, msub, nmsub, re,
+ *                         rsqrte, cmpgt, cmpeq, cmpabsgt, and, or, xor, andc, nor, sel, convtf, convts; and, or, xor,
+ *                         andc, nor take masks too. Words of 16 bytes (spu_splats, spu_shuffle ...) stay on four lanes
+ *   spux_*                words that the SPU lacks or does in several, on every variant with the same result, lane by
+ *                         lane. T is any of vfloat, vint, vuint; W float or uint (the word ends in _uint then)
+ *
+ *   spux_vfloat(x) vint vuint     x in every lane
+ *   spux_lane_index()             0, 1, 2 ...
+ *
+ *   spux_load(p), store(p, v)     W, aligned to the vector
+ *   spux_load_unaligned(p), store_unaligned(p, v)   W, aligned to the element
+ *   spux_load_mask(p, m)          W, aligned to the element; 0 where m is false, and memory there is not touched
+ *   spux_store_mask(p, v, m)      likewise; memory where m is false keeps its content, and need not exist
+ *   spux_gather(base, i)          W; base[i] by a vint of indices. Not spu_gather, which gathers bits
+ *   spux_load_records4(base, stride, d)   CGT_LANES records of 4 floats, record k at base + k * stride floats, to the
+ *                                         four vectors d[0] to d[3], one per element of the record
+ *   spux_load_records4_at(base, at, d)    the same, record k at base + at[k]
+ *
+ *   spux_min, max(a, b)           T; b where a and b do not compare; which of two zeros is open
+ *   spux_abs(a)                   float, sign bit cleared
+ *   spux_div(a, b), sqrt(a)       float, relative error at most 2^-21
+ *   spux_sl, sr, sra(a, n)        shifts of vint and vuint by n bits, n modulo 64: left, right with zeros, right with
+ *                                 the sign
+ *   spux_cmpge(a, b)              float, a >= b, false for NaN
+ *   spux_select(a, b, m)          T; b in the lanes where m is true, else a
+ *
+ *   spux_not(m)                   the other lanes
+ *   spux_any, all, none(m)        bool
+ *   spux_mask_none, mask_all()    no lane, every lane
+ *   spux_mask_first(n)            lanes 0 to n - 1
+ *   spux_mask_bits(m)             bit i = lane i
+ *   spux_mask_from_bits(b)        the reverse; bits beyond the lanes are ignored
+ *   spux_mask_bits8(m)            bit i = element i of a comparison of eight halfwords
+ *   spux_count_bits(b)            how many lanes of such bits
+ *
+ *   spux_permute(a, i)            T; lane k is a's lane i[k] modulo CGT_LANES, i a vuint
+ *   spux_compress(a, m)           T; the lanes where m is true side by side from lane 0, then zeros
+ *   spux_compress_store(p, a, m)  W; stores those alone to p and returns how many they are
+ *   spux_hmin, hmax(a)            float and vuint: least and greatest lane; open where a lane is NaN
+ *   spux_transpose(row)           vfloat row[CGT_LANES] as a square matrix, in place
+ *   spux_transpose4, 8, 16(from, from_stride, to, to_stride)   a square matrix of floats in memory to another place,
+ *                                 rows so many floats apart, aligned to the element
  *
  * CGT_LANES and, for the portable row, CGT_SPU_PORTABLE come from the variant's row in the build. A new width adds its
- * types and typed functions in a mapping file and a block here. */
+ * types and typed functions in mapping files of its own (spu_avx2.h, spux_avx2.h) and a line here and in spu_wide.h. */
 #ifndef CGT_VECTOR_H
 #define CGT_VECTOR_H
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "spu_intrinsics.h"
 
+#ifndef CGT_SPU_INLINE /* an SPU's own header is not ours */
+#define CGT_SPU_INLINE static inline __attribute__((always_inline, unused))
+#endif
+
 #if CGT_LANES == 4
-typedef vec_float4 vfloat;
-typedef vec_int4 vint;
-typedef vec_uint4 vuint;
-typedef vec_uint4 vmask;
-#define spux_vfloat(x) cgt_spu_splats_f32(x)
-#define spux_vint(x) cgt_spu_splats_s32(x)
-#define spux_vuint(x) cgt_spu_splats_u32(x)
-#define spux_lane_index() ((vuint){0, 1, 2, 3})
-#define spux_min(a, b) cgt_spux_min_f32(a, b)
-#define spux_max(a, b) cgt_spux_max_f32(a, b)
-#define spux_div(a, b) cgt_spux_div_f32(a, b)
-#define spux_sqrt(a) cgt_spux_sqrt_f32(a)
-#define spux_cmpge(a, b) cgt_spux_cmpge_f32(a, b)
-#define spux_select(a, b, m) _Generic((a), vec_float4 : cgt_spux_select_f32, vec_uint4 : cgt_spux_select_u32)(a, b, m)
-#define spux_mask_bits(m) cgt_spux_mask_bits_u32(m)
-#define spux_count_bits(b) ((uint32_t)(UINT64_C(0x4332322132212110) >> (4 * (b)) & 7))
-#define spux_not(m) (~(m))
+#include "spux_four.h"
+#elif CGT_LANES == 8
+#include "spux_avx2.h"
+#elif CGT_LANES == 16
+#include "spux_avx512.h"
 #else
 #error "CGT_LANES: no mapping has this width"
 #endif
@@ -54,42 +78,136 @@ typedef vec_uint4 vmask;
 #define CGT_VECTOR_BYTES (4 * CGT_LANES)
 #define CGT_ALL_LANES ((1u << CGT_LANES) - 1)
 
-#define spux_abs(a) spu_andc(a, spux_vfloat(-0.f))
+/* ---- one word for several types ---- */
 
-CGT_SPU_INLINE vfloat spux_load(const float *p)
+CGT_SPU_INLINE vint cgt_spux_select_s32w(vint a, vint b, vmask m)
 {
-    vfloat v;
-    memcpy(&v, __builtin_assume_aligned(p, CGT_VECTOR_BYTES), sizeof v);
-    return v;
+    return (vint)cgt_spux_select_u32w((vuint)a, (vuint)b, m);
 }
-CGT_SPU_INLINE vuint spux_load_uint(const uint32_t *p)
+CGT_SPU_INLINE vint cgt_spux_sl_s32w(vint a, unsigned n) { return (vint)cgt_spux_sl_u32w((vuint)a, n); }
+CGT_SPU_INLINE vint cgt_spux_sr_s32w(vint a, unsigned n) { return (vint)cgt_spux_sr_u32w((vuint)a, n); }
+CGT_SPU_INLINE vuint cgt_spux_sra_u32w(vuint a, unsigned n) { return (vuint)cgt_spux_sra_s32w((vint)a, n); }
+CGT_SPU_INLINE vfloat cgt_spux_permute_f32w(vfloat a, vuint i) { return (vfloat)cgt_spux_permute_w((vuint)a, i); }
+CGT_SPU_INLINE vint cgt_spux_permute_s32w(vint a, vuint i) { return (vint)cgt_spux_permute_w((vuint)a, i); }
+CGT_SPU_INLINE vuint cgt_spux_permute_u32w(vuint a, vuint i) { return cgt_spux_permute_w(a, i); }
+CGT_SPU_INLINE vfloat cgt_spux_compress_f32w(vfloat a, vmask m) { return (vfloat)cgt_spux_compress_w((vuint)a, m); }
+CGT_SPU_INLINE vint cgt_spux_compress_s32w(vint a, vmask m) { return (vint)cgt_spux_compress_w((vuint)a, m); }
+CGT_SPU_INLINE vuint cgt_spux_compress_u32w(vuint a, vmask m) { return cgt_spux_compress_w(a, m); }
+
+/* clang-format off */
+#define CGT_SPUX_SU(word) vint : cgt_spux_##word##_s32w, vuint : cgt_spux_##word##_u32w
+#define CGT_SPUX_FU(word) vfloat : cgt_spux_##word##_f32w, vuint : cgt_spux_##word##_u32w
+#define CGT_SPUX_FSU(word) vfloat : cgt_spux_##word##_f32w, CGT_SPUX_SU(word)
+#define spux_min(a, b) _Generic((a), CGT_SPUX_FSU(min))(a, b)
+#define spux_max(a, b) _Generic((a), CGT_SPUX_FSU(max))(a, b)
+#define spux_sl(a, n) _Generic((a), CGT_SPUX_SU(sl))(a, n)
+#define spux_sr(a, n) _Generic((a), CGT_SPUX_SU(sr))(a, n)
+#define spux_sra(a, n) _Generic((a), CGT_SPUX_SU(sra))(a, n)
+#define spux_select(a, b, m) _Generic((a), CGT_SPUX_FSU(select))(a, b, m)
+#define spux_permute(a, i) _Generic((a), CGT_SPUX_FSU(permute))(a, i)
+#define spux_compress(a, m) _Generic((a), CGT_SPUX_FSU(compress))(a, m)
+#define spux_hmin(a) _Generic((a), CGT_SPUX_FU(hmin))(a)
+#define spux_hmax(a) _Generic((a), CGT_SPUX_FU(hmax))(a)
+/* clang-format on */
+
+/* ---- words made of words ---- */
+
+CGT_SPU_INLINE vfloat spux_abs(vfloat a) { return spu_andc(a, spux_vfloat(-0.f)); }
+CGT_SPU_INLINE bool spux_none(vmask m) { return !spux_any(m); }
+
+CGT_SPU_INLINE vfloat spux_load(const float *p) { return (vfloat)cgt_spux_load_w(p); }
+CGT_SPU_INLINE vuint spux_load_uint(const uint32_t *p) { return cgt_spux_load_w(p); }
+CGT_SPU_INLINE void spux_store(float *p, vfloat v) { cgt_spux_store_w(p, (vuint)v); }
+CGT_SPU_INLINE void spux_store_uint(uint32_t *p, vuint v) { cgt_spux_store_w(p, v); }
+CGT_SPU_INLINE vfloat spux_load_unaligned(const float *p) { return (vfloat)cgt_spux_load_unaligned_w(p); }
+CGT_SPU_INLINE vuint spux_load_unaligned_uint(const uint32_t *p) { return cgt_spux_load_unaligned_w(p); }
+CGT_SPU_INLINE void spux_store_unaligned(float *p, vfloat v) { cgt_spux_store_unaligned_w(p, (vuint)v); }
+CGT_SPU_INLINE void spux_store_unaligned_uint(uint32_t *p, vuint v) { cgt_spux_store_unaligned_w(p, v); }
+CGT_SPU_INLINE vfloat spux_load_mask(const float *p, vmask m) { return (vfloat)cgt_spux_load_mask_w(p, m); }
+CGT_SPU_INLINE vuint spux_load_mask_uint(const uint32_t *p, vmask m) { return cgt_spux_load_mask_w(p, m); }
+CGT_SPU_INLINE void spux_store_mask(float *p, vfloat v, vmask m) { cgt_spux_store_mask_w(p, (vuint)v, m); }
+CGT_SPU_INLINE void spux_store_mask_uint(uint32_t *p, vuint v, vmask m) { cgt_spux_store_mask_w(p, v, m); }
+CGT_SPU_INLINE vfloat spux_gather(const float *base, vint i) { return (vfloat)cgt_spux_gather_w(base, i); }
+CGT_SPU_INLINE vuint spux_gather_uint(const uint32_t *base, vint i) { return cgt_spux_gather_w(base, i); }
+
+/* packed in a register first: stores that compress are slow on some CPUs */
+CGT_SPU_INLINE uint32_t spux_compress_store_uint(uint32_t *p, vuint a, vmask m)
 {
-    vuint v;
-    memcpy(&v, __builtin_assume_aligned(p, CGT_VECTOR_BYTES), sizeof v);
-    return v;
+    const uint32_t count = spux_count_bits(spux_mask_bits(m));
+    cgt_spux_store_mask_w(p, cgt_spux_compress_w(a, m), spux_mask_first(count));
+    return count;
 }
-CGT_SPU_INLINE void spux_store(float *p, vfloat v)
+CGT_SPU_INLINE uint32_t spux_compress_store(float *p, vfloat a, vmask m)
 {
-    memcpy(__builtin_assume_aligned(p, CGT_VECTOR_BYTES), &v, sizeof v);
-}
-CGT_SPU_INLINE void spux_store_uint(uint32_t *p, vuint v)
-{
-    memcpy(__builtin_assume_aligned(p, CGT_VECTOR_BYTES), &v, sizeof v);
+    const uint32_t count = spux_count_bits(spux_mask_bits(m));
+    cgt_spux_store_mask_w(p, cgt_spux_compress_w((vuint)a, m), spux_mask_first(count));
+    return count;
 }
 
-CGT_SPU_INLINE float spux_hmin(vfloat a)
+/* ---- records and matrices ---- */
+
+CGT_SPU_INLINE void spux_load_records4(const float *base, size_t stride, vfloat d[4])
 {
-    float m = a[0];
-    for (int i = 1; i < CGT_LANES; i++)
-        m = a[i] < m ? a[i] : m;
-    return m;
+    const float *p[CGT_LANES];
+    for (int k = 0; k < CGT_LANES; k++)
+        p[k] = base + (size_t)k * stride;
+    cgt_spux_load_records4_w(p, d);
 }
-CGT_SPU_INLINE float spux_hmax(vfloat a)
+CGT_SPU_INLINE void spux_load_records4_at(const float *base, const uint32_t at[CGT_LANES], vfloat d[4])
 {
-    float m = a[0];
-    for (int i = 1; i < CGT_LANES; i++)
-        m = a[i] > m ? a[i] : m;
-    return m;
+    const float *p[CGT_LANES];
+    for (int k = 0; k < CGT_LANES; k++)
+        p[k] = base + at[k];
+    cgt_spux_load_records4_w(p, d);
+}
+
+/* The lower left CGT_LANES of a larger matrix at a time. */
+CGT_SPU_INLINE void cgt_spux_transpose_blocks(const float *from, size_t from_stride, float *to, size_t to_stride,
+                                              size_t edge)
+{
+    for (size_t y = 0; y < edge; y += CGT_LANES)
+        for (size_t x = 0; x < edge; x += CGT_LANES) {
+            vfloat row[CGT_LANES];
+            for (size_t k = 0; k < CGT_LANES; k++)
+                row[k] = spux_load_unaligned(from + (y + k) * from_stride + x);
+            spux_transpose(row);
+            for (size_t k = 0; k < CGT_LANES; k++)
+                spux_store_unaligned(to + (x + k) * to_stride + y, row[k]);
+        }
+}
+/* Less than a vector has lanes: rows with zeros behind them. */
+CGT_SPU_INLINE void cgt_spux_transpose_corner(const float *from, size_t from_stride, float *to, size_t to_stride,
+                                              size_t edge)
+{
+    const vmask inside = spux_mask_first((unsigned)edge);
+    vfloat row[CGT_LANES];
+    for (size_t k = 0; k < CGT_LANES; k++)
+        row[k] = k < edge ? spux_load_mask(from + k * from_stride, inside) : spux_vfloat(0);
+    spux_transpose(row);
+    for (size_t k = 0; k < edge; k++)
+        spux_store_mask(to + k * to_stride, row[k], inside);
+}
+#if CGT_LANES == 4
+#define CGT_SPUX_TRANSPOSE8 cgt_spux_transpose_blocks
+#define CGT_SPUX_TRANSPOSE4 cgt_spux_transpose_blocks
+#elif CGT_LANES == 8
+#define CGT_SPUX_TRANSPOSE8 cgt_spux_transpose_blocks
+#define CGT_SPUX_TRANSPOSE4 cgt_spux_transpose_corner
+#else
+#define CGT_SPUX_TRANSPOSE8 cgt_spux_transpose_corner
+#define CGT_SPUX_TRANSPOSE4 cgt_spux_transpose_corner
+#endif
+CGT_SPU_INLINE void spux_transpose4(const float *from, size_t from_stride, float *to, size_t to_stride)
+{
+    CGT_SPUX_TRANSPOSE4(from, from_stride, to, to_stride, 4);
+}
+CGT_SPU_INLINE void spux_transpose8(const float *from, size_t from_stride, float *to, size_t to_stride)
+{
+    CGT_SPUX_TRANSPOSE8(from, from_stride, to, to_stride, 8);
+}
+CGT_SPU_INLINE void spux_transpose16(const float *from, size_t from_stride, float *to, size_t to_stride)
+{
+    cgt_spux_transpose_blocks(from, from_stride, to, to_stride, 16);
 }
 
 #endif

@@ -29,18 +29,28 @@ static cgt_result refuse(const cgt_context_options *o, cgt_result result, const 
     return result;
 }
 
+static cgt_result find_variant(const cgt_context_options *o, const cgt_kernel **kernel)
+{
+    cgt_variant_state state;
+    *kernel = cgt_variant_find(o->variant, &state);
+    switch (state) {
+    case CGT_VARIANT_RUNS: return CGT_OK;
+    case CGT_VARIANT_DISABLED:
+        return refuse(o, CGT_ERROR_UNSUPPORTED,
+                      o->variant ? "variant: CGT_DISABLE_CPU disables it" : "variant: CGT_DISABLE_CPU leaves none");
+    case CGT_VARIANT_UNSUPPORTED:
+        return refuse(o, CGT_ERROR_UNSUPPORTED, "variant: this CPU lacks instructions that it needs");
+    default: return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "variant: not in this build");
+    }
+}
+
 static cgt_result check_options(const cgt_context_options *o, const cgt_kernel **kernel)
 {
-    bool known;
     if (!o->memory.allocate != !o->memory.release)
         return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "memory hooks: both functions are needed, or neither");
     if (o->threads > MAX_THREADS)
         return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "threads: at most 1024");
-    *kernel = cgt_variant_find(o->variant, &known);
-    if (*kernel)
-        return CGT_OK;
-    return known ? refuse(o, CGT_ERROR_UNSUPPORTED, "variant: this CPU does not run it")
-                 : refuse(o, CGT_ERROR_INVALID_ARGUMENT, "variant: not in this build");
+    return find_variant(o, kernel);
 }
 
 static cgt_result start_threads(cgt_context *c)

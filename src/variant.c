@@ -1,46 +1,67 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The variant table as the library sees it: one row per row of cmake/variants.cmake, narrowest first. */
+ * The variant table as the library sees it: one row per row of cmake/variants.cmake, narrowest first, those included
+ * that this build leaves out: CGT_DISABLE_CPU knows their names on every machine. */
 #include "variant.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* CPU features that a row may need, by the names that CGT_DISABLE_CPU takes. */
-typedef enum feature { FEATURE_NONE, FEATURE_SSE41, FEATURE_NEON, FEATURES } feature;
-static const char *const feature_name[FEATURES] = {"", "sse4.1", "neon"};
-
-static bool cpu_has(feature f)
+/* Whether the CPU has, and the system saves, what the flags of a row ask for. */
+static bool any_cpu(void) { return true; }
+#ifdef CGT_HAVE_SSE
+static bool cpu_has_sse(void) { return __builtin_cpu_supports("sse4.1"); }
+#endif
+#ifdef CGT_HAVE_AVX2
+static bool cpu_has_avx2(void)
 {
-    switch (f) {
-    case FEATURE_NONE: return true;
-#if defined(__x86_64__)
-    case FEATURE_SSE41: return __builtin_cpu_supports("sse4.1");
-#endif
-#if defined(__aarch64__)
-    case FEATURE_NEON: return true; /* part of the architecture */
-#endif
-    default: return false;
-    }
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
 }
+#endif
+#ifdef CGT_HAVE_AVX512
+static bool cpu_has_avx512(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+           __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
+#endif
 
 /* Defined by src/kernel/kernel_table.c, compiled once per row. */
-extern const cgt_kernel cgt_kernel_portable, cgt_kernel_sse, cgt_kernel_neon;
+extern const cgt_kernel cgt_kernel_portable, cgt_kernel_sse, cgt_kernel_neon, cgt_kernel_avx2, cgt_kernel_avx512;
 
 static const struct row {
-    const cgt_kernel *kernel;
-    feature needs;
+    const char *name;
+    const cgt_kernel *kernel; /* NULL: not in this build */
+    bool (*runs)(void);
 } table[] = {
 #ifdef CGT_HAVE_PORTABLE
-    {&cgt_kernel_portable, FEATURE_NONE},
+    {"portable", &cgt_kernel_portable, any_cpu},
+#else
+    {"portable", NULL, any_cpu},
 #endif
 #ifdef CGT_HAVE_SSE
-    {&cgt_kernel_sse, FEATURE_SSE41},
+    {"sse", &cgt_kernel_sse, cpu_has_sse},
+#else
+    {"sse", NULL, any_cpu},
 #endif
 #ifdef CGT_HAVE_NEON
-    {&cgt_kernel_neon, FEATURE_NEON},
+    {"neon", &cgt_kernel_neon, any_cpu}, /* part of the architecture */
+#else
+    {"neon", NULL, any_cpu},
+#endif
+#ifdef CGT_HAVE_AVX2
+    {"avx2", &cgt_kernel_avx2, cpu_has_avx2},
+#else
+    {"avx2", NULL, any_cpu},
+#endif
+#ifdef CGT_HAVE_AVX512
+    {"avx512", &cgt_kernel_avx512, cpu_has_avx512},
+#else
+    {"avx512", NULL, any_cpu},
 #endif
 };
 
@@ -56,6 +77,12 @@ static const char *const names[ROWS + 1] = {
 #ifdef CGT_HAVE_NEON
     "neon",
 #endif
+#ifdef CGT_HAVE_AVX2
+    "avx2",
+#endif
+#ifdef CGT_HAVE_AVX512
+    "avx512",
+#endif
     NULL,
 };
 
@@ -63,41 +90,47 @@ const char *const *cgt_variants(void) { return names; }
 
 static void disable_unknown(const char *name, size_t length)
 {
-    fprintf(stderr, "libcgt: CGT_DISABLE_CPU: no feature \"%.*s\"; there are:", (int)length, name);
-    for (int f = 1; f < FEATURES; f++)
-        fprintf(stderr, " %s", feature_name[f]);
+    fprintf(stderr, "libcgt: CGT_DISABLE_CPU: no variant \"%.*s\"; there are:", (int)length, name);
+    for (size_t i = 0; i < ROWS; i++)
+        fprintf(stderr, " %s", table[i].name);
     fprintf(stderr, "\n");
     abort();
 }
 
-/* Reads CGT_DISABLE_CPU each time: a context is made rarely, and nothing global is kept. */
-static bool is_disabled(feature wanted)
+/* Reads CGT_DISABLE_CPU each time: a context is made rarely, and nothing global is kept. Row i is bit i. */
+static unsigned disabled_rows(void)
 {
     const char *list = getenv("CGT_DISABLE_CPU");
-    bool disabled = false;
+    unsigned disabled = 0;
     while (list && *list) {
         const size_t length = strcspn(list, ",");
-        int f = 1;
-        while (f < FEATURES && (strlen(feature_name[f]) != length || strncmp(feature_name[f], list, length) != 0))
-            f++;
-        if (f == FEATURES && length)
+        size_t i = 0;
+        while (i < ROWS && (strlen(table[i].name) != length || strncmp(table[i].name, list, length) != 0))
+            i++;
+        if (i < ROWS)
+            disabled |= 1u << i;
+        else if (length)
             disable_unknown(list, length);
-        disabled |= f == (int)wanted;
         list += length + (list[length] == ',');
     }
     return disabled;
 }
 
-const cgt_kernel *cgt_variant_find(const char *name, bool *known)
+const cgt_kernel *cgt_variant_find(const char *name, cgt_variant_state *state)
 {
-    const cgt_kernel *found = NULL;
-    *known = name == NULL;
-    for (size_t i = 0; i < ROWS; i++) {
-        if (name && strcmp(name, table[i].kernel->name) != 0)
+    const unsigned disabled = disabled_rows();
+    *state = CGT_VARIANT_ABSENT;
+    for (size_t i = ROWS; i-- > 0;) {
+        if (!table[i].kernel || (name && strcmp(name, table[i].name) != 0))
             continue;
-        *known = true;
-        if (!is_disabled(table[i].needs) && cpu_has(table[i].needs))
-            found = table[i].kernel;
+        if (disabled >> i & 1)
+            *state = CGT_VARIANT_DISABLED;
+        else if (!table[i].runs())
+            *state = CGT_VARIANT_UNSUPPORTED;
+        else {
+            *state = CGT_VARIANT_RUNS;
+            return table[i].kernel;
+        }
     }
-    return found;
+    return NULL;
 }

@@ -7,8 +7,15 @@
 
 #include "kernel/kernel.h"
 
-/* The named variant, or the widest that runs where name is NULL. NULL where there is none of that name, or this CPU
- * lacks what it needs; *known tells which. */
-const cgt_kernel *cgt_variant_find(const char *name, bool *known);
+typedef enum cgt_variant_state {
+    CGT_VARIANT_RUNS = 0,
+    CGT_VARIANT_ABSENT,      /* not in this build */
+    CGT_VARIANT_UNSUPPORTED, /* the CPU lacks what it needs */
+    CGT_VARIANT_DISABLED     /* by CGT_DISABLE_CPU */
+} cgt_variant_state;
+
+/* The named variant, or the widest that runs where name is NULL. Where there is none the result is NULL, and *state
+ * tells why. A name in CGT_DISABLE_CPU that no variant has ends the process. */
+const cgt_kernel *cgt_variant_find(const char *name, cgt_variant_state *state);
 
 #endif

@@ -202,55 +202,81 @@ static void a_scene_keeps_its_context(void **state)
 
 /* ---- CGT_DISABLE_CPU, in processes of its own ---- */
 
-/* What a child finds with the mask: 0 the portable variant, 1 another one, 2 an error; -signal where it was ended. */
+#define REFUSED 100 /* by UNSUPPORTED, with a message that names the mask */
+
+static void keep_message(void *user, cgt_log_level level, const char *message)
+{
+    (void)level;
+    snprintf(user, 200, "%s", message);
+}
+
+/* What a child finds with the mask: the variant's place in cgt_variants, or REFUSED; -signal where it was ended. */
 static int child_with_mask(const char *mask, const char *variant)
 {
     fflush(NULL);
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
+        char message[200] = "";
         cgt_context_options options;
         cgt_context *context;
         const struct rlimit no_core = {0, 0};
         setrlimit(RLIMIT_CORE, &no_core);
         signal(SIGABRT, SIG_DFL);
         if (!freopen("/dev/null", "w", stderr) || setenv("CGT_DISABLE_CPU", mask, 1))
-            _exit(9);
+            _exit(99);
         cgt_context_options_init(&options);
         options.threads = 1;
         options.variant = variant;
+        options.log = (cgt_log_hook){message, keep_message};
         const cgt_result result = cgt_context_create(&options, &context);
-        _exit(result != CGT_OK ? 2 : strcmp(cgt_context_variant(context), "portable") != 0);
+        if (result == CGT_ERROR_UNSUPPORTED && strstr(message, "CGT_DISABLE_CPU"))
+            _exit(REFUSED);
+        int place = 0;
+        while (result == CGT_OK && strcmp(cgt_variants()[place], cgt_context_variant(context)) != 0)
+            place++;
+        _exit(result == CGT_OK ? place : 98);
     }
     int status = 0;
     assert_int_equal(waitpid(child, &status, 0), child);
     return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-static void features_can_be_masked(void **state)
+static void variants_can_be_masked(void **state)
 {
     (void)state;
-    cgt_context *context = context_make(1, NULL);
-    const int widest = strcmp(cgt_context_variant(context), "portable") != 0;
-    const bool sse = strcmp(cgt_context_variant(context), "sse") == 0;
-    cgt_context_release(context);
+    int place[8], running = 0;
+    for (int i = 0; cgt_variants()[i]; i++)
+        if (test_variant_runs(cgt_variants()[i]))
+            place[running++] = i;
+    const int widest = place[running - 1];
+    assert_int_equal(place[0], 0);
     assert_int_equal(child_with_mask("", NULL), widest);
-    assert_int_equal(child_with_mask("sse4.1,neon", NULL), 0);
-    assert_int_equal(child_with_mask("neon,,sse4.1,", NULL), 0);
-    assert_int_equal(child_with_mask("sse4.1,neon", "portable"), 0);
-    assert_int_equal(child_with_mask("neon", NULL), sse ? 1 : 0);
-    assert_int_equal(child_with_mask("sse4.1", NULL), widest && !sse ? 1 : 0);
-    if (sse)
-        assert_int_equal(child_with_mask("sse4.1", "sse"), 2);
-    if (widest && !sse)
-        assert_int_equal(child_with_mask("neon", "neon"), 2);
+    assert_int_equal(child_with_mask(",,", NULL), widest);
+    assert_int_equal(child_with_mask("avx512,avx2,sse,neon", NULL), 0);
+    assert_int_equal(child_with_mask("neon,,sse,avx512,avx2,", NULL), 0);
+    assert_int_equal(child_with_mask("avx512,avx2,sse,neon", "portable"), 0);
+    assert_int_equal(child_with_mask("portable,avx512,avx2,sse,neon", NULL), REFUSED);
+    assert_int_equal(child_with_mask("portable", "portable"), REFUSED);
+    assert_int_equal(child_with_mask("portable", NULL), running > 1 ? widest : REFUSED);
+    /* without the wider ones each is the widest; without itself the one before it is, and itself is refused */
+    char mask[100] = "";
+    for (int k = running - 1; k > 0; k--) {
+        const char *name = cgt_variants()[place[k]];
+        assert_int_equal(child_with_mask(mask, NULL), place[k]);
+        assert_int_equal(child_with_mask(mask, name), place[k]);
+        snprintf(mask + strlen(mask), sizeof mask - strlen(mask), "%s%s", *mask ? "," : "", name);
+        assert_int_equal(child_with_mask(mask, NULL), place[k - 1]);
+        assert_int_equal(child_with_mask(mask, name), REFUSED);
+        assert_int_equal(child_with_mask(name, name), REFUSED);
+    }
 }
 
-static void unknown_features_end_the_process(void **state)
+static void unknown_variants_end_the_process(void **state)
 {
     (void)state;
-    static const char *const unknown[] = {"sse4",    "sse4.11",     "SSE4.1",      "avx9",
-                                          "sse4.1 ", "sse4.1,avx9", "avx9,sse4.1", " "};
+    static const char *const unknown[] = {"sse4.1", "sse4",     "SSE",      "avx9", "avx51",   "avx5122",
+                                          "sse ",   "sse,avx9", "avx9,sse", " ",    "sse:avx2"};
     for (size_t i = 0; i < TEST_COUNT(unknown); i++) {
         assert_int_equal(child_with_mask(unknown[i], NULL), -SIGABRT);
         assert_int_equal(child_with_mask(unknown[i], "portable"), -SIGABRT);
@@ -263,8 +289,8 @@ int main(void)
         cmocka_unit_test(bad_options_are_refused),          cmocka_unit_test(defaults_take_every_cpu),
         cmocka_unit_test(variants_are_found_by_name),       cmocka_unit_test(results_and_version_have_words),
         cmocka_unit_test(messages_are_kept_and_cut),        cmocka_unit_test(log_tells_what_was_skipped),
-        cmocka_unit_test(a_scene_keeps_its_context),        cmocka_unit_test(features_can_be_masked),
-        cmocka_unit_test(unknown_features_end_the_process),
+        cmocka_unit_test(a_scene_keeps_its_context),        cmocka_unit_test(variants_can_be_masked),
+        cmocka_unit_test(unknown_variants_end_the_process),
     };
     test_begin("test_context");
     unsetenv("CGT_DISABLE_CPU"); /* these tests set their own */

@@ -107,8 +107,9 @@ CGT_API void cgt_context_options_init(cgt_context_options *options);
 
 /* Creates a context. options: NULL for the defaults; need not outlive the call. context: gets the handle, or NULL on
  * an error. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY, UNSUPPORTED (variant), THREADS.
- * The environment variable CGT_DISABLE_CPU names CPU features to do without, comma-separated (sse4.1); an unknown
- * name ends the process, so that a test never believes in a mask that is not there. */
+ * The environment variable CGT_DISABLE_CPU names variants to do without, comma-separated (avx512,avx2): they count as
+ * if the CPU did not run them. A name that no variant of any build has ends the process, so that a test never believes
+ * in a mask that is not there. */
 CGT_API cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **context);
 
 /* Gives the context back. It stays until its last scene is released; NULL is ignored. */

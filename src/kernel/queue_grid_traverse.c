@@ -45,7 +45,7 @@ CGT_SPU_INLINE void visit_cell(traversal *v, uint32_t cell)
     memcpy(&front, voxel->reference, sizeof front);
     memcpy(&back, voxel->reference + 8, sizeof back);
     const unsigned empty =
-        cgt_spux_mask_bits_u16(spu_cmpeq(front, none)) | cgt_spux_mask_bits_u16(spu_cmpeq(back, none)) << 8;
+        spux_mask_bits8(spu_cmpeq(front, none)) | spux_mask_bits8(spu_cmpeq(back, none)) << 8;
     memcpy(v->reference + v->pending, &front, sizeof front);
     memcpy(v->reference + v->pending + 8, &back, sizeof back);
     v->pending += (uint32_t)__builtin_ctz(empty | 1u << CGT_QUEUE_LENGTH);

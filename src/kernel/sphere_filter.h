@@ -179,7 +179,7 @@ CGT_SPU_INLINE bool filter_rays(const packet *p, const filter_sphere *q, uint32_
     const vfloat h = spu_sub(q->r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
     /* a miss; or the sphere's nearest point lies beyond the best, which spares the root of a hidden one */
     const vmask missed = spu_or(spu_cmpgt(zero, h), spu_cmpgt(q->nearest, spux_load(p->high + i)));
-    if (spux_mask_bits(missed) == CGT_ALL_LANES)
+    if (spux_all(missed))
         return false;
     const vfloat half = spux_sqrt(spu_mul(h, rdd)), t_min = spux_load(p->t_min + i);
     const vfloat low = spu_sub(spu_sub(mid, half), q->before), high = spu_add(low, q->gap);
@@ -219,7 +219,7 @@ CGT_SPU_INLINE void filter_test(const cgt_queue_grid *grid, packet *p, const fil
     uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
     for (; reached; reached &= reached - 1) {
         const uint32_t block = (uint32_t)__builtin_ctz(reached), first = block * BLOCK_RAYS, end = block_end(p, block);
-        vmask open = spux_vuint(0), changed = open;
+        vmask open = spux_mask_none(), changed = open;
         filter_result f;
         counts->ray_tests += end - first;
         for (uint32_t i = first; i < end; i += CGT_LANES) {
@@ -231,9 +231,9 @@ CGT_SPU_INLINE void filter_test(const cgt_queue_grid *grid, packet *p, const fil
             open = spu_or(open, f.open);
             changed = spu_or(changed, f.certain);
         }
-        if (spux_mask_bits(open))
+        if (spux_any(open))
             filter_decide_block(grid, p, &q, s->object[k], first, end, common_origin, counts);
-        if (spux_mask_bits(changed))
+        if (spux_any(changed))
             block_far_update(p, blocks, block);
     }
 }

@@ -1,0 +1,128 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The words on eight lanes: AVX2 with FMA. Lane by lane they do what the words do on four lanes of the same machine;
+ * madd, msub and nmsub are fused. A mask is a vuint, all ones where true, else zero. */
+#ifndef CGT_SPU_AVX2_H
+#define CGT_SPU_AVX2_H
+
+#if !defined(__AVX2__) || !defined(__FMA__)
+#error "CGT_LANES is 8: the compiler must be told of AVX2 and FMA (-mavx2 -mfma)"
+#endif
+
+#include <immintrin.h>
+
+#include "spu_types.h"
+
+typedef float vfloat __attribute__((vector_size(32)));
+typedef int32_t vint __attribute__((vector_size(32)));
+typedef uint32_t vuint __attribute__((vector_size(32)));
+typedef vuint vmask;
+
+/* clang-format off */
+#define CGT_SPU_WIDE_F(word) vfloat : cgt_spu_##word##_f32w,
+#define CGT_SPU_WIDE_SU(word) vint : cgt_spu_##word##_s32w, vuint : cgt_spu_##word##_u32w,
+#define CGT_SPU_WIDE_FSU(word) CGT_SPU_WIDE_F(word) CGT_SPU_WIDE_SU(word)
+#define CGT_SPU_WIDE_FSUM(word) CGT_SPU_WIDE_FSU(word)
+/* clang-format on */
+
+/* ---- arithmetic ---- */
+CGT_SPU_INLINE vfloat cgt_spu_add_f32w(vfloat a, vfloat b) { return a + b; }
+CGT_SPU_INLINE vint cgt_spu_add_s32w(vint a, vint b) { return (vint)((vuint)a + (vuint)b); }
+CGT_SPU_INLINE vuint cgt_spu_add_u32w(vuint a, vuint b) { return a + b; }
+CGT_SPU_INLINE vfloat cgt_spu_sub_f32w(vfloat a, vfloat b) { return a - b; }
+CGT_SPU_INLINE vint cgt_spu_sub_s32w(vint a, vint b) { return (vint)((vuint)a - (vuint)b); }
+CGT_SPU_INLINE vuint cgt_spu_sub_u32w(vuint a, vuint b) { return a - b; }
+CGT_SPU_INLINE vfloat cgt_spu_mul_f32w(vfloat a, vfloat b) { return a * b; }
+CGT_SPU_INLINE vfloat cgt_spu_madd_f32w(vfloat a, vfloat b, vfloat c)
+{
+    return (vfloat)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+}
+CGT_SPU_INLINE vfloat cgt_spu_msub_f32w(vfloat a, vfloat b, vfloat c)
+{
+    return (vfloat)_mm256_fmsub_ps((__m256)a, (__m256)b, (__m256)c);
+}
+CGT_SPU_INLINE vfloat cgt_spu_nmsub_f32w(vfloat a, vfloat b, vfloat c)
+{
+    return (vfloat)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
+}
+
+/* estimates: relative error at most 1.5 * 2^-12, of other bits on CPUs of other makers */
+CGT_SPU_INLINE vfloat cgt_spu_re_f32w(vfloat a) { return (vfloat)_mm256_rcp_ps((__m256)a); }
+CGT_SPU_INLINE vfloat cgt_spu_rsqrte_f32w(vfloat a)
+{
+    return (vfloat)_mm256_rsqrt_ps(_mm256_andnot_ps(_mm256_set1_ps(-0.f), (__m256)a));
+}
+
+/* ---- compare ---- */
+CGT_SPU_INLINE vmask cgt_spu_cmpgt_f32w(vfloat a, vfloat b) { return (vmask)(a > b); }
+CGT_SPU_INLINE vmask cgt_spu_cmpgt_s32w(vint a, vint b) { return (vmask)(a > b); }
+CGT_SPU_INLINE vmask cgt_spu_cmpgt_u32w(vuint a, vuint b) { return (vmask)(a > b); }
+CGT_SPU_INLINE vmask cgt_spu_cmpeq_f32w(vfloat a, vfloat b) { return (vmask)(a == b); }
+CGT_SPU_INLINE vmask cgt_spu_cmpeq_s32w(vint a, vint b) { return (vmask)(a == b); }
+CGT_SPU_INLINE vmask cgt_spu_cmpeq_u32w(vuint a, vuint b) { return (vmask)(a == b); }
+CGT_SPU_INLINE vmask cgt_spu_cmpabsgt_f32w(vfloat a, vfloat b)
+{
+    const __m256 sign = _mm256_set1_ps(-0.f);
+    return (vmask)((vfloat)_mm256_andnot_ps(sign, (__m256)a) > (vfloat)_mm256_andnot_ps(sign, (__m256)b));
+}
+
+/* ---- bits ---- */
+CGT_SPU_INLINE vuint cgt_spu_and_u32w(vuint a, vuint b) { return a & b; }
+CGT_SPU_INLINE vuint cgt_spu_or_u32w(vuint a, vuint b) { return a | b; }
+CGT_SPU_INLINE vuint cgt_spu_xor_u32w(vuint a, vuint b) { return a ^ b; }
+CGT_SPU_INLINE vuint cgt_spu_andc_u32w(vuint a, vuint b) { return a & ~b; }
+CGT_SPU_INLINE vuint cgt_spu_nor_u32w(vuint a, vuint b) { return ~(a | b); }
+CGT_SPU_INLINE vint cgt_spu_and_s32w(vint a, vint b) { return a & b; }
+CGT_SPU_INLINE vint cgt_spu_or_s32w(vint a, vint b) { return a | b; }
+CGT_SPU_INLINE vint cgt_spu_xor_s32w(vint a, vint b) { return a ^ b; }
+CGT_SPU_INLINE vint cgt_spu_andc_s32w(vint a, vint b) { return a & ~b; }
+CGT_SPU_INLINE vint cgt_spu_nor_s32w(vint a, vint b) { return ~(a | b); }
+CGT_SPU_INLINE vfloat cgt_spu_and_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a & (vuint)b); }
+CGT_SPU_INLINE vfloat cgt_spu_or_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a | (vuint)b); }
+CGT_SPU_INLINE vfloat cgt_spu_xor_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a ^ (vuint)b); }
+CGT_SPU_INLINE vfloat cgt_spu_andc_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a & ~(vuint)b); }
+CGT_SPU_INLINE vfloat cgt_spu_nor_f32w(vfloat a, vfloat b) { return (vfloat)(~((vuint)a | (vuint)b)); }
+
+/* sel: bits of b where m is one, else of a */
+CGT_SPU_INLINE vuint cgt_spu_sel_u32w(vuint a, vuint b, vuint m) { return (a & ~m) | (b & m); }
+CGT_SPU_INLINE vint cgt_spu_sel_s32w(vint a, vint b, vuint m) { return (vint)cgt_spu_sel_u32w((vuint)a, (vuint)b, m); }
+CGT_SPU_INLINE vfloat cgt_spu_sel_f32w(vfloat a, vfloat b, vuint m)
+{
+    return (vfloat)cgt_spu_sel_u32w((vuint)a, (vuint)b, m);
+}
+
+/* ---- convert ---- */
+
+/* 2^n for n from -127 to 127, from its bits */
+CGT_SPU_INLINE vfloat cgt_spu_power_w(int n)
+{
+    const uint32_t bits = n > -127 ? (uint32_t)(n + 127) << 23 : UINT32_C(1) << 22;
+    return (vfloat)_mm256_castsi256_ps(_mm256_set1_epi32((int)bits));
+}
+
+/* convtf: rounded once to float, then divided by 2^n */
+CGT_SPU_INLINE vfloat cgt_spu_convtf_s32w(vint a, int n)
+{
+    return __builtin_convertvector(a, vfloat) * cgt_spu_power_w(-n);
+}
+CGT_SPU_INLINE vfloat cgt_spu_convtf_u32w(vuint a, int n)
+{
+    /* two halves that a float holds exactly; their sum rounds once */
+    const vfloat high = (vfloat)_mm256_cvtepi32_ps(_mm256_srli_epi32((__m256i)a, 16));
+    const vfloat low = (vfloat)_mm256_cvtepi32_ps(_mm256_and_si256((__m256i)a, _mm256_set1_epi32(0xffff)));
+    return (high * (vfloat)_mm256_set1_ps(65536.f) + low) * cgt_spu_power_w(-n);
+}
+
+/* convts: times 2^n, towards zero, saturated; NaN gives 0. cvttps gives 0x80000000 for whatever does not fit: flip that
+ * to the largest int where the operand was large, and to 0 where it was NaN. */
+CGT_SPU_INLINE vint cgt_spu_convts_f32w(vfloat a, int n)
+{
+    const __m256 x = (__m256)(a * cgt_spu_power_w(n));
+    const __m256i d = _mm256_cvttps_epi32(x);
+    const __m256i large = _mm256_castps_si256(_mm256_cmp_ps(x, _mm256_set1_ps(2147483648.f), _CMP_GE_OQ));
+    const __m256i number = _mm256_castps_si256(_mm256_cmp_ps(x, x, _CMP_ORD_Q));
+    return (vint)_mm256_and_si256(_mm256_xor_si256(d, large), number);
+}
+
+#endif

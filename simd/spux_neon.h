@@ -1,0 +1,46 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Words of vector.h on four lanes for which AArch64 NEON has an instruction. fmin and fmax are not among them: they do
+ * not give b where a and b do not compare. */
+#ifndef CGT_SPUX_NEON_H
+#define CGT_SPUX_NEON_H
+
+#include <arm_neon.h>
+
+#define CGT_SPUX_OWN_MASK_BITS
+CGT_SPU_INLINE unsigned spux_mask_bits(vmask m)
+{
+    const uint32x4_t weight = {1, 2, 4, 8};
+    return vaddvq_u32(vandq_u32((uint32x4_t)m, weight));
+}
+CGT_SPU_INLINE unsigned spux_mask_bits8(vec_ushort8 m)
+{
+    const uint16x8_t weight = {1, 2, 4, 8, 16, 32, 64, 128};
+    return vaddvq_u16(vandq_u16((uint16x8_t)m, weight));
+}
+
+#define CGT_SPUX_OWN_SQRT
+CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)vsqrtq_f32((float32x4_t)a); }
+
+/* Bytes 4n to 4n + 3 for each lane number n. */
+#define CGT_SPUX_OWN_PERMUTE
+CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
+{
+    const uint32x4_t lane = vandq_u32((uint32x4_t)index, vdupq_n_u32(3));
+    const uint32x4_t bytes = vmlaq_n_u32(vdupq_n_u32(0x03020100), lane, 0x04040404);
+    return (vuint)vqtbl1q_u8((uint8x16_t)a, vreinterpretq_u8_u32(bytes));
+}
+
+#define CGT_SPUX_OWN_TRANSPOSE
+CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
+{
+    const float32x4x2_t a = vtrnq_f32((float32x4_t)r[0], (float32x4_t)r[1]);
+    const float32x4x2_t b = vtrnq_f32((float32x4_t)r[2], (float32x4_t)r[3]);
+    for (int j = 0; j < 2; j++) {
+        d[j] = (vfloat)vcombine_f32(vget_low_f32(a.val[j]), vget_low_f32(b.val[j]));
+        d[2 + j] = (vfloat)vcombine_f32(vget_high_f32(a.val[j]), vget_high_f32(b.val[j]));
+    }
+}
+
+#endif

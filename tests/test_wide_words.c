@@ -1,0 +1,819 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The vocabulary at the width of the variant that this is compiled for. The SPU's words are compared lane by lane with
+ * the same words on four lanes, which have a test against their definition of their own; what vector.h adds (spux_*)
+ * is compared with plain C. Words that touch memory do so beside pages that cannot be touched. */
+#define _GNU_SOURCE
+#include "support/test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include "vector.h"
+
+#define ROUNDS 20000
+#define FOURS (CGT_LANES / 4)
+
+/* One vector, as a whole, as vectors of four and as elements. */
+typedef union lanes {
+    vfloat f;
+    vint s;
+    vuint u;
+    vec_float4 f4[FOURS];
+    vec_int4 s4[FOURS];
+    vec_uint4 u4[FOURS];
+    float fe[CGT_LANES];
+    int32_t se[CGT_LANES];
+    uint32_t ue[CGT_LANES];
+} lanes;
+
+/* ---- operands ---- */
+
+static const float edge[] = {0.f,
+                             -0.f,
+                             0x1p-149f,
+                             -0x1p-149f,
+                             0x1.fffffcp-127f,
+                             0x1p-126f,
+                             -0x1p-126f,
+                             0.5f,
+                             -0.5f,
+                             1.f,
+                             -1.f,
+                             1.5f,
+                             0x1.fffffep-1f,
+                             0x1.000002p23f,
+                             -0x1p24f,
+                             0x1p31f,
+                             -0x1p31f,
+                             0x1.fffffep30f,
+                             -0x1.000002p31f,
+                             0x1p32f,
+                             0x1.fffffep127f,
+                             -0x1.fffffep127f,
+                             INFINITY,
+                             -INFINITY,
+                             NAN,
+                             -NAN};
+static const uint32_t edge_bits[] = {0,          1,          2,          0x7fffffff, 0x80000000,
+                                     0x80000001, 0xffffffff, 0xfffffffe, 0x0000ffff, 0xaaaaaaaa};
+
+static lanes any_floats(test_random *r)
+{
+    lanes a;
+    for (int i = 0; i < CGT_LANES; i++)
+        switch (random_below(r, 4)) {
+        case 0: a.fe[i] = edge[random_below(r, TEST_COUNT(edge))]; break;
+        case 1: a.fe[i] = random_any_float(r); break;
+        default: a.fe[i] = random_float(r, -100, 100);
+        }
+    return a;
+}
+static lanes any_words(test_random *r)
+{
+    lanes a;
+    for (int i = 0; i < CGT_LANES; i++)
+        a.ue[i] = random_below(r, 3) ? (uint32_t)random_bits(r) : edge_bits[random_below(r, TEST_COUNT(edge_bits))];
+    return a;
+}
+/* Lane i holds edge number first + i: over all of `first`, every edge meets every lane. */
+static lanes edges(size_t first)
+{
+    lanes a;
+    for (size_t i = 0; i < CGT_LANES; i++)
+        a.fe[i] = edge[(first + i) % TEST_COUNT(edge)];
+    return a;
+}
+static unsigned any_bits(test_random *r) { return (unsigned)random_bits(r) & CGT_ALL_LANES; }
+
+/* ---- comparison ---- */
+
+static void check_bits(const char *word, const lanes *got, const lanes *expected)
+{
+    for (int i = 0; i < CGT_LANES; i++)
+        if (got->ue[i] != expected->ue[i])
+            fail_msg("%s, lane %d: 0x%08x, expected 0x%08x", word, i, got->ue[i], expected->ue[i]);
+}
+/* As results of arithmetic: any NaN is as good as another. */
+static void check_floats(const char *word, const lanes *got, const lanes *expected)
+{
+    for (int i = 0; i < CGT_LANES; i++)
+        if (got->ue[i] != expected->ue[i] && !(isnan(got->fe[i]) && isnan(expected->fe[i])))
+            fail_msg("%s, lane %d: %a, expected %a", word, i, (double)got->fe[i], (double)expected->fe[i]);
+}
+static void check_mask(const char *word, vmask got, const lanes *expected)
+{
+    const unsigned bits = spux_mask_bits(got);
+    for (int i = 0; i < CGT_LANES; i++)
+        if (expected->ue[i] != (bits >> i & 1 ? UINT32_MAX : 0))
+            fail_msg("%s, lane %d: %u, expected 0x%08x", word, i, bits >> i & 1, expected->ue[i]);
+    assert_int_equal(bits >> (CGT_LANES - 1) >> 1, 0);
+}
+static void check_number(const char *word, uint32_t got, uint32_t expected)
+{
+    if (got != expected)
+        fail_msg("%s: 0x%x, expected 0x%x", word, got, expected);
+}
+
+/* The word at both widths on operands of one type (f, s, u): d and e. */
+#define WORD1(word, t)                                                                                                 \
+    d.t = spu_##word(a.t);                                                                                             \
+    for (int g = 0; g < FOURS; g++)                                                                                    \
+    e.t##4 [g] = spu_##word(a.t##4 [g])
+#define WORD2(word, t)                                                                                                 \
+    d.t = spu_##word(a.t, b.t);                                                                                        \
+    for (int g = 0; g < FOURS; g++)                                                                                    \
+    e.t##4 [g] = spu_##word(a.t##4 [g], b.t##4 [g])
+#define COMPARE(word, t)                                                                                               \
+    do {                                                                                                               \
+        for (int g = 0; g < FOURS; g++)                                                                                \
+            e.u4[g] = (vec_uint4)spu_##word(a.t##4 [g], b.t##4 [g]);                                                   \
+        check_mask("spu_" #word " " #t, spu_##word(a.t, b.t), &e);                                                     \
+    } while (0)
+
+/* ---- the SPU's words ---- */
+
+/* Wide madd, msub, nmsub are fused; those on four lanes are where the mapping has it. */
+static void check_fused(const lanes a, const lanes b, const lanes c)
+{
+    lanes d[3], e[3];
+    d[0].f = spu_madd(a.f, b.f, c.f);
+    d[1].f = spu_msub(a.f, b.f, c.f);
+    d[2].f = spu_nmsub(a.f, b.f, c.f);
+    for (int i = 0; i < CGT_LANES; i++) {
+        e[0].fe[i] = fmaf(a.fe[i], b.fe[i], c.fe[i]);
+        e[1].fe[i] = fmaf(a.fe[i], b.fe[i], -c.fe[i]);
+        e[2].fe[i] = fmaf(-a.fe[i], b.fe[i], c.fe[i]);
+    }
+    if (CGT_LANES == 4)
+        for (int g = 0; g < FOURS; g++) {
+            e[0].f4[g] = spu_madd(a.f4[g], b.f4[g], c.f4[g]);
+            e[1].f4[g] = spu_msub(a.f4[g], b.f4[g], c.f4[g]);
+            e[2].f4[g] = spu_nmsub(a.f4[g], b.f4[g], c.f4[g]);
+        }
+    check_floats("spu_madd", &d[0], &e[0]);
+    check_floats("spu_msub", &d[1], &e[1]);
+    check_floats("spu_nmsub", &d[2], &e[2]);
+}
+
+static void check_float_words(const lanes a, const lanes b, const lanes c)
+{
+    lanes d, e;
+    WORD2(add, f);
+    check_floats("spu_add", &d, &e);
+    WORD2(sub, f);
+    check_floats("spu_sub", &d, &e);
+    WORD2(mul, f);
+    check_floats("spu_mul", &d, &e);
+    check_fused(a, b, c);
+    COMPARE(cmpgt, f);
+    COMPARE(cmpeq, f);
+    COMPARE(cmpabsgt, f);
+    WORD2(and, f);
+    check_bits("spu_and f", &d, &e);
+    WORD2(or, f);
+    check_bits("spu_or f", &d, &e);
+    WORD2(xor, f);
+    check_bits("spu_xor f", &d, &e);
+    WORD2(andc, f);
+    check_bits("spu_andc f", &d, &e);
+    WORD2(nor, f);
+    check_bits("spu_nor f", &d, &e);
+    d.f = spu_sel(a.f, b.f, c.u);
+    for (int g = 0; g < FOURS; g++)
+        e.f4[g] = spu_sel(a.f4[g], b.f4[g], c.u4[g]);
+    check_bits("spu_sel f", &d, &e);
+}
+
+static void float_words(void **state)
+{
+    (void)state;
+    test_random r = random_make(1);
+    for (size_t i = 0; i < TEST_COUNT(edge); i++)
+        for (size_t j = 0; j < TEST_COUNT(edge); j++)
+            check_float_words(edges(i), edges(j), edges(i + 2 * j + random_below(&r, 99)));
+    for (uint32_t k = test_scaled(ROUNDS); k; k--)
+        check_float_words(any_floats(&r), any_floats(&r), any_floats(&r));
+}
+
+static void wide_madd_rounds_once(void **state)
+{
+    (void)state;
+    const float a = 0x1.000002p0f, c = -0x1.000004p0f,
+                d = spux_hmin(spu_madd(spux_vfloat(a), spux_vfloat(a), spux_vfloat(c)));
+    if (CGT_LANES > 4)
+        assert_true(d == 0x1p-46f);
+    else
+        assert_true(d == 0x1p-46f || d == 0);
+}
+
+static void check_int_words(const lanes a, const lanes b, const lanes m)
+{
+    lanes d, e;
+#define BITS(word)                                                                                                     \
+    WORD2(word, u);                                                                                                    \
+    check_bits("spu_" #word " u", &d, &e);                                                                             \
+    WORD2(word, s);                                                                                                    \
+    check_bits("spu_" #word " s", &d, &e)
+    BITS(add);
+    BITS(sub);
+    BITS(and);
+    BITS(or);
+    BITS(xor);
+    BITS(andc);
+    BITS(nor);
+    COMPARE(cmpgt, u);
+    COMPARE(cmpgt, s);
+    COMPARE(cmpeq, u);
+    COMPARE(cmpeq, s);
+    d.u = spu_sel(a.u, b.u, m.u);
+    for (int g = 0; g < FOURS; g++)
+        e.u4[g] = spu_sel(a.u4[g], b.u4[g], m.u4[g]);
+    check_bits("spu_sel u", &d, &e);
+    d.s = spu_sel(a.s, b.s, m.u);
+    check_bits("spu_sel s", &d, &e);
+}
+
+static void int_words(void **state)
+{
+    (void)state;
+    test_random r = random_make(2);
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        const lanes a = any_words(&r);
+        check_int_words(a, random_below(&r, 4) ? any_words(&r) : a, any_words(&r));
+    }
+}
+
+#define CONVTS(n)                                                                                                      \
+    d.s = spu_convts(a.f, n);                                                                                          \
+    for (int g = 0; g < FOURS; g++)                                                                                    \
+        e.s4[g] = spu_convts(a.f4[g], n);                                                                              \
+    check_bits("spu_convts " #n, &d, &e)
+#define CONVTF(n)                                                                                                      \
+    d.f = spu_convtf(i.s, n);                                                                                          \
+    for (int g = 0; g < FOURS; g++)                                                                                    \
+        e.f4[g] = spu_convtf(i.s4[g], n);                                                                              \
+    check_bits("spu_convtf s " #n, &d, &e);                                                                            \
+    d.f = spu_convtf(i.u, n);                                                                                          \
+    for (int g = 0; g < FOURS; g++)                                                                                    \
+        e.f4[g] = spu_convtf(i.u4[g], n);                                                                              \
+    check_bits("spu_convtf u " #n, &d, &e)
+
+static void check_conversions(const lanes a, const lanes i)
+{
+    lanes d, e;
+    CONVTS(0);
+    CONVTS(1);
+    CONVTS(16);
+    CONVTS(31);
+    CONVTS(127);
+    CONVTF(0);
+    CONVTF(1);
+    CONVTF(16);
+    CONVTF(31);
+    CONVTF(126);
+    CONVTF(127);
+}
+
+static void conversions(void **state)
+{
+    (void)state;
+    test_random r = random_make(3);
+    for (size_t k = 0; k < TEST_COUNT(edge); k++)
+        check_conversions(edges(k), any_words(&r));
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        lanes a = any_floats(&r);
+        a.fe[random_below(&r, CGT_LANES)] = random_float(&r, -3e9f, 3e9f);
+        check_conversions(a, any_words(&r));
+    }
+}
+
+static void estimates_are_near(void **state)
+{
+    (void)state;
+    test_random r = random_make(4);
+    double worst[2] = {0, 0};
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        lanes a, re, root;
+        for (int i = 0; i < CGT_LANES; i++)
+            a.fe[i] = random_log(&r, 1e-30f, 1e30f) * (random_below(&r, 2) ? 1.f : -1.f);
+        re.f = spu_re(a.f);
+        root.f = spu_rsqrte(a.f); /* of the absolute value, as on the SPU */
+        for (int i = 0; i < CGT_LANES; i++) {
+            const double errors[2] = {fabs(re.fe[i] * (double)a.fe[i] - 1),
+                                      fabs(root.fe[i] * sqrt(fabs((double)a.fe[i])) - 1)};
+            for (int w = 0; w < 2; w++)
+                worst[w] = errors[w] > worst[w] ? errors[w] : worst[w];
+        }
+    }
+    print_message("largest relative errors: re 2^%.2f, rsqrte 2^%.2f\n", log2(worst[0] + 1e-30),
+                  log2(worst[1] + 1e-30));
+    const double bound = CGT_LANES == 16 ? 0x1p-14 : CGT_LANES == 8 ? 1.5 * 0x1p-12 : 0x1p-11;
+    assert_true(worst[0] <= bound && worst[1] <= bound);
+}
+
+/* ---- masks ---- */
+
+static void masks(void **state)
+{
+    (void)state;
+    test_random r = random_make(5);
+    check_number("mask_none", spux_mask_bits(spux_mask_none()), 0);
+    check_number("mask_all", spux_mask_bits(spux_mask_all()), CGT_ALL_LANES);
+    for (unsigned n = 0; n <= CGT_LANES; n++)
+        check_number("mask_first", spux_mask_bits(spux_mask_first(n)), (1u << n) - 1);
+    for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
+        const unsigned other = any_bits(&r);
+        const vmask m = spux_mask_from_bits(bits), o = spux_mask_from_bits(other);
+        check_number("mask_from_bits", spux_mask_bits(m), bits);
+        check_number("mask_from_bits, more", spux_mask_bits(spux_mask_from_bits(bits | 1u << CGT_LANES)), bits);
+        check_number("not", spux_mask_bits(spux_not(m)), ~bits & CGT_ALL_LANES);
+        check_number("any", spux_any(m), bits != 0);
+        check_number("none", spux_none(m), bits == 0);
+        check_number("all", spux_all(m), bits == CGT_ALL_LANES);
+        check_number("count_bits", spux_count_bits(bits), (uint32_t)__builtin_popcount(bits));
+        check_number("and", spux_mask_bits(spu_and(m, o)), bits & other);
+        check_number("or", spux_mask_bits(spu_or(m, o)), bits | other);
+        check_number("xor", spux_mask_bits(spu_xor(m, o)), bits ^ other);
+        check_number("andc", spux_mask_bits(spu_andc(m, o)), bits & ~other);
+        check_number("nor", spux_mask_bits(spu_nor(m, o)), ~(bits | other) & CGT_ALL_LANES);
+    }
+    for (unsigned bits = 0; bits < 256; bits++) {
+        uint16_t half[8];
+        vec_ushort8 m;
+        for (int i = 0; i < 8; i++)
+            half[i] = bits >> i & 1 ? 0xffff : 0;
+        memcpy(&m, half, sizeof m);
+        check_number("mask_bits8", spux_mask_bits8(m), bits);
+    }
+}
+
+static void selection(void **state)
+{
+    (void)state;
+    test_random r = random_make(6);
+    for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
+        const lanes a = any_words(&r), b = any_words(&r);
+        const vmask m = spux_mask_from_bits(bits);
+        lanes d, e;
+        for (int i = 0; i < CGT_LANES; i++)
+            e.ue[i] = bits >> i & 1 ? b.ue[i] : a.ue[i];
+        d.u = spux_select(a.u, b.u, m);
+        check_bits("spux_select u", &d, &e);
+        d.s = spux_select(a.s, b.s, m);
+        check_bits("spux_select s", &d, &e);
+        d.f = spux_select(a.f, b.f, m);
+        check_bits("spux_select f", &d, &e);
+    }
+}
+
+/* ---- arithmetic of vector.h ---- */
+
+static void check_extremes(const lanes a, const lanes b)
+{
+    lanes d, e, ge;
+    for (int i = 0; i < CGT_LANES; i++) {
+        e.fe[i] = a.fe[i] < b.fe[i] ? a.fe[i] : b.fe[i];
+        ge.ue[i] = a.fe[i] >= b.fe[i] ? UINT32_MAX : 0;
+    }
+    check_mask("spux_cmpge", spux_cmpge(a.f, b.f), &ge);
+    d.f = spux_min(a.f, b.f);
+    check_bits("spux_min f", &d, &e);
+    for (int i = 0; i < CGT_LANES; i++)
+        e.fe[i] = a.fe[i] > b.fe[i] ? a.fe[i] : b.fe[i];
+    d.f = spux_max(a.f, b.f);
+    check_bits("spux_max f", &d, &e);
+    d.f = spux_abs(a.f);
+    for (int i = 0; i < CGT_LANES; i++)
+        e.ue[i] = a.ue[i] & 0x7fffffff;
+    check_bits("spux_abs", &d, &e);
+}
+
+static void check_int_extremes(const lanes a, const lanes b)
+{
+    lanes d, e;
+#define EXTREME(word, t, op)                                                                                           \
+    d.t = spux_##word(a.t, b.t);                                                                                       \
+    for (int i = 0; i < CGT_LANES; i++)                                                                                \
+        e.t##e[i] = a.t##e[i] op b.t##e[i] ? a.t##e[i] : b.t##e[i];                                                    \
+    check_bits("spux_" #word " " #t, &d, &e)
+    EXTREME(min, u, <);
+    EXTREME(max, u, >);
+    EXTREME(min, s, <);
+    EXTREME(max, s, >);
+}
+
+static void extremes(void **state)
+{
+    (void)state;
+    test_random r = random_make(7);
+    for (size_t i = 0; i < TEST_COUNT(edge); i++)
+        for (size_t j = 0; j < TEST_COUNT(edge); j++)
+            check_extremes(edges(i), edges(j));
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        check_extremes(any_floats(&r), any_floats(&r));
+        check_int_extremes(any_words(&r), any_words(&r));
+    }
+}
+
+static void quotient_and_root_are_near(void **state)
+{
+    (void)state;
+    test_random r = random_make(8);
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        lanes a, b, quotient, root;
+        for (int i = 0; i < CGT_LANES; i++) {
+            a.fe[i] = random_log(&r, 1e-18f, 1e18f);
+            b.fe[i] = -random_log(&r, 1e-18f, 1e18f);
+        }
+        quotient.f = spux_div(a.f, b.f);
+        root.f = spux_sqrt(a.f);
+        for (int i = 0; i < CGT_LANES; i++) {
+            assert_true(fabs(quotient.fe[i] / ((double)a.fe[i] / b.fe[i]) - 1) <= 0x1p-21);
+            assert_true(fabs(root.fe[i] / sqrt((double)a.fe[i]) - 1) <= 0x1p-21);
+        }
+    }
+    assert_true(spux_hmax(spux_sqrt(spux_vfloat(0))) == 0);
+    assert_true(spux_hmin(spux_sqrt(spux_vfloat(4))) == 2);
+}
+
+static void shifts(void **state)
+{
+    (void)state;
+    test_random r = random_make(9);
+    for (uint32_t n = 0; n < 200; n++) {
+        const lanes a = any_words(&r);
+        const uint32_t k = n & 63;
+        lanes left, right, sign, d;
+        for (int i = 0; i < CGT_LANES; i++) {
+            left.ue[i] = k < 32 ? a.ue[i] << k : 0;
+            right.ue[i] = k < 32 ? a.ue[i] >> k : 0;
+            sign.se[i] = (int32_t)(a.se[i] < 0 ? ~(~a.ue[i] >> (k < 32 ? k : 31)) : a.ue[i] >> (k < 32 ? k : 31));
+        }
+        d.u = spux_sl(a.u, n);
+        check_bits("spux_sl u", &d, &left);
+        d.s = spux_sl(a.s, n);
+        check_bits("spux_sl s", &d, &left);
+        d.u = spux_sr(a.u, n);
+        check_bits("spux_sr u", &d, &right);
+        d.s = spux_sr(a.s, n);
+        check_bits("spux_sr s", &d, &right);
+        d.u = spux_sra(a.u, n);
+        check_bits("spux_sra u", &d, &sign);
+        d.s = spux_sra(a.s, n);
+        check_bits("spux_sra s", &d, &sign);
+    }
+}
+
+/* ---- between lanes ---- */
+
+static void splats_and_lanes(void **state)
+{
+    (void)state;
+    const lanes f = {.f = spux_vfloat(2.5f)}, s = {.s = spux_vint(-3)}, u = {.u = spux_vuint(0xdeadbeef)};
+    const lanes index = {.u = spux_lane_index()};
+    for (int i = 0; i < CGT_LANES; i++)
+        assert_true(f.fe[i] == 2.5f && s.se[i] == -3 && u.ue[i] == 0xdeadbeef && index.ue[i] == (uint32_t)i);
+}
+
+static void permutation(void **state)
+{
+    (void)state;
+    test_random r = random_make(10);
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        const lanes a = any_words(&r);
+        lanes index = any_words(&r), d, e;
+        for (int i = 0; i < CGT_LANES; i++) {
+            if (k % 2)
+                index.ue[i] %= CGT_LANES;
+            e.ue[i] = a.ue[index.ue[i] % CGT_LANES];
+        }
+        d.u = spux_permute(a.u, index.u);
+        check_bits("spux_permute u", &d, &e);
+        d.s = spux_permute(a.s, index.u);
+        check_bits("spux_permute s", &d, &e);
+        d.f = spux_permute(a.f, index.u);
+        check_bits("spux_permute f", &d, &e);
+    }
+}
+
+static void compression(void **state)
+{
+    (void)state;
+    test_random r = random_make(11);
+    for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
+        const lanes a = any_words(&r);
+        const vmask m = spux_mask_from_bits(bits);
+        lanes d, e = {.u = spux_vuint(0)};
+        int n = 0;
+        for (int i = 0; i < CGT_LANES; i++)
+            if (bits >> i & 1)
+                e.ue[n++] = a.ue[i];
+        d.u = spux_compress(a.u, m);
+        check_bits("spux_compress u", &d, &e);
+        d.s = spux_compress(a.s, m);
+        check_bits("spux_compress s", &d, &e);
+        d.f = spux_compress(a.f, m);
+        check_bits("spux_compress f", &d, &e);
+    }
+}
+
+static void least_and_greatest_lane(void **state)
+{
+    (void)state;
+    test_random r = random_make(12);
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        const lanes u = any_words(&r);
+        lanes f;
+        for (int i = 0; i < CGT_LANES; i++)
+            f.fe[i] = random_below(&r, 20) ? random_float(&r, -10, 10) : random_below(&r, 2) ? INFINITY : -INFINITY;
+        f.fe[random_below(&r, CGT_LANES)] *= 8;
+        float low = f.fe[0], high = f.fe[0];
+        uint32_t least = u.ue[0], most = u.ue[0];
+        for (int i = 1; i < CGT_LANES; i++) {
+            low = f.fe[i] < low ? f.fe[i] : low;
+            high = f.fe[i] > high ? f.fe[i] : high;
+            least = u.ue[i] < least ? u.ue[i] : least;
+            most = u.ue[i] > most ? u.ue[i] : most;
+        }
+        assert_true(spux_hmin(f.f) == low && spux_hmax(f.f) == high);
+        assert_true(spux_hmin(u.u) == least && spux_hmax(u.u) == most);
+    }
+}
+
+/* ---- memory ---- */
+
+/* A page that can be touched between two that cannot. */
+typedef struct guarded {
+    char *first, *end;
+    size_t page;
+} guarded;
+
+static guarded guarded_make(void)
+{
+    guarded g = {.page = (size_t)sysconf(_SC_PAGESIZE)};
+    char *p = mmap(NULL, 3 * g.page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(p != MAP_FAILED);
+    assert_int_equal(mprotect(p + g.page, g.page, PROT_READ | PROT_WRITE), 0);
+    g.first = p + g.page;
+    g.end = g.first + g.page;
+    return g;
+}
+static void guarded_free(const guarded *g) { munmap(g->first - g->page, 3 * g->page); }
+static void guarded_fill(const guarded *g, test_random *r)
+{
+    for (char *p = g->first; p < g->end; p += sizeof(uint32_t)) {
+        const uint32_t word = (uint32_t)random_bits(r);
+        memcpy(p, &word, sizeof word);
+    }
+}
+static uint32_t word_at(const char *p)
+{
+    uint32_t word;
+    memcpy(&word, p, sizeof word);
+    return word;
+}
+
+static void whole_loads_and_stores(void **state)
+{
+    (void)state;
+    test_random r = random_make(13);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    for (size_t k = 0; k < 2 * CGT_LANES; k++) {
+        char *const places[] = {g.first + 4 * k, g.end - CGT_VECTOR_BYTES - 4 * k};
+        for (int w = 0; w < 2; w++) {
+            char *p = places[w];
+            const lanes a = any_words(&r);
+            lanes d, e;
+            memcpy(&e, p, sizeof e);
+            d.f = spux_load_unaligned((const float *)p);
+            check_bits("spux_load_unaligned", &d, &e);
+            d.u = spux_load_unaligned_uint((const uint32_t *)p);
+            check_bits("spux_load_unaligned_uint", &d, &e);
+            if ((uintptr_t)p % CGT_VECTOR_BYTES == 0) {
+                d.f = spux_load((const float *)p);
+                check_bits("spux_load", &d, &e);
+                d.u = spux_load_uint((const uint32_t *)p);
+                check_bits("spux_load_uint", &d, &e);
+                spux_store((float *)p, a.f);
+                memcpy(&d, p, sizeof d);
+                check_bits("spux_store", &d, &a);
+                spux_store_uint((uint32_t *)p, e.u);
+                memcpy(&d, p, sizeof d);
+                check_bits("spux_store_uint", &d, &e);
+            }
+            spux_store_unaligned((float *)p, a.f);
+            memcpy(&d, p, sizeof d);
+            check_bits("spux_store_unaligned", &d, &a);
+            spux_store_unaligned_uint((uint32_t *)p, e.u);
+            memcpy(&d, p, sizeof d);
+            check_bits("spux_store_unaligned_uint", &d, &e);
+        }
+    }
+    guarded_free(&g);
+}
+
+/* A masked load and store at p, where every true lane lies in the page. */
+static void check_masked(const guarded *g, char *p, unsigned bits, test_random *r)
+{
+    const vmask m = spux_mask_from_bits(bits);
+    const lanes a = any_words(r);
+    lanes d, e;
+    for (int i = 0; i < CGT_LANES; i++)
+        e.ue[i] = bits >> i & 1 ? word_at(p + 4 * i) : 0;
+    d.f = spux_load_mask((const float *)p, m);
+    check_bits("spux_load_mask", &d, &e);
+    d.u = spux_load_mask_uint((const uint32_t *)p, m);
+    check_bits("spux_load_mask_uint", &d, &e);
+    for (int w = 0; w < 2; w++) {
+        char before[3 * CGT_VECTOR_BYTES];
+        char *const low = p - CGT_VECTOR_BYTES < g->first ? g->first : p - CGT_VECTOR_BYTES;
+        char *const high = p + 2 * CGT_VECTOR_BYTES > g->end ? g->end : p + 2 * CGT_VECTOR_BYTES;
+        memcpy(before, low, (size_t)(high - low));
+        if (w)
+            spux_store_mask((float *)p, a.f, m);
+        else
+            spux_store_mask_uint((uint32_t *)p, a.u, m);
+        for (char *q = low; q < high; q += 4) {
+            const ptrdiff_t lane = (q - p) / 4;
+            const bool written = q >= p && lane < CGT_LANES && bits >> lane & 1;
+            check_number("spux_store_mask", word_at(q), written ? a.ue[lane] : word_at(before + (q - low)));
+        }
+        memcpy(low, before, (size_t)(high - low));
+    }
+}
+
+static void masked_lanes_are_not_touched(void **state)
+{
+    (void)state;
+    test_random r = random_make(14);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    for (unsigned n = 0; n <= CGT_LANES; n++) {
+        const unsigned first = (1u << n) - 1, last = CGT_ALL_LANES & ~first;
+        check_masked(&g, g.end - 4 * n, first, &r);                       /* the rest lies beyond the page */
+        check_masked(&g, g.end - 4 * n, first & any_bits(&r), &r);        /* or is not wanted */
+        check_masked(&g, g.first - 4 * n, last, &r);                      /* the first ones lie before it */
+        check_masked(&g, g.first - 4 * n, last & any_bits(&r), &r);       /* */
+        check_masked(&g, g.first + 4 * n, any_bits(&r), &r);              /* all lie in it */
+        check_masked(&g, g.first + g.page / 2 + 4 * n, any_bits(&r), &r); /* */
+    }
+    for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits += bits < 256 ? 1 : 97)
+        check_masked(&g, g.first + g.page / 2 + 4 * (bits % 7), bits, &r);
+    guarded_free(&g);
+}
+
+static void compressed_store_ends_where_it_says(void **state)
+{
+    (void)state;
+    test_random r = random_make(15);
+    const guarded g = guarded_make();
+    for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
+        const unsigned count = (unsigned)__builtin_popcount(bits);
+        const lanes a = any_words(&r);
+        const vmask m = spux_mask_from_bits(bits);
+        for (int w = 0; w < 2; w++) {
+            char *p = w ? g.end - 4 * count : g.first + 64;
+            memset(p, 0x5a, 4 * count + (w ? 0 : 64));
+            check_number("spux_compress_store",
+                         w ? spux_compress_store((float *)p, a.f, m) : spux_compress_store_uint((uint32_t *)p, a.u, m),
+                         count);
+            for (unsigned i = 0, n = 0; i < CGT_LANES; i++)
+                if (bits >> i & 1)
+                    check_number("spux_compress_store", word_at(p + 4 * n++), a.ue[i]);
+            if (!w)
+                check_number("spux_compress_store, behind", word_at(p + 4 * count), 0x5a5a5a5a);
+        }
+    }
+    guarded_free(&g);
+}
+
+static void gathering(void **state)
+{
+    (void)state;
+    test_random r = random_make(16);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    const int32_t words = (int32_t)(g.page / 4);
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        const int32_t base = (int32_t)random_below(&r, (uint32_t)words);
+        lanes index, d, e;
+        for (int i = 0; i < CGT_LANES; i++) {
+            const int32_t at = random_below(&r, 8) ? (int32_t)random_below(&r, (uint32_t)words) : i % 2 ? 0 : words - 1;
+            index.se[i] = at - base;
+            e.ue[i] = word_at(g.first + 4 * at);
+        }
+        d.f = spux_gather((const float *)g.first + base, index.s);
+        check_bits("spux_gather", &d, &e);
+        d.u = spux_gather_uint((const uint32_t *)g.first + base, index.s);
+        check_bits("spux_gather_uint", &d, &e);
+    }
+    guarded_free(&g);
+}
+
+/* ---- records and matrices ---- */
+
+static void records(void **state)
+{
+    (void)state;
+    test_random r = random_make(17);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    for (size_t stride = 4; stride < 10; stride++) {
+        const float *base =
+            (const float *)(g.end - 4 * ((CGT_LANES - 1) * stride + 4)); /* the last one ends the page */
+        uint32_t at[CGT_LANES];
+        lanes d[4], e;
+        vfloat got[4];
+        spux_load_records4(base, stride, got);
+        for (int a = 0; a < 4; a++) {
+            d[a].f = got[a];
+            for (size_t k = 0; k < CGT_LANES; k++)
+                e.ue[k] = word_at((const char *)(base + k * stride + (size_t)a));
+            check_bits("spux_load_records4", &d[a], &e);
+        }
+        for (int k = 0; k < CGT_LANES; k++)
+            at[k] = random_below(&r, (uint32_t)(g.page / 4 - 3));
+        at[random_below(&r, CGT_LANES)] = (uint32_t)(g.page / 4 - 4);
+        spux_load_records4_at((const float *)g.first, at, got);
+        for (int a = 0; a < 4; a++) {
+            d[a].f = got[a];
+            for (int k = 0; k < CGT_LANES; k++)
+                e.ue[k] = word_at(g.first + 4 * (at[k] + (uint32_t)a));
+            check_bits("spux_load_records4_at", &d[a], &e);
+        }
+    }
+    guarded_free(&g);
+}
+
+static void transposes(void **state)
+{
+    (void)state;
+    enum { EDGE = 16, STRIDE = 19 };
+    static const size_t sizes[] = {4, 8, 16};
+    for (size_t w = 0; w < TEST_COUNT(sizes); w++) {
+        float from[EDGE * STRIDE], to[EDGE * STRIDE + 1];
+        const size_t n = sizes[w];
+        for (int i = 0; i < EDGE * STRIDE; i++) {
+            from[i] = (float)(i + 1);
+            to[i] = -1;
+        }
+        switch (n) {
+        case 4: spux_transpose4(from, STRIDE, to + 1, EDGE); break;
+        case 8: spux_transpose8(from, STRIDE, to + 1, EDGE); break;
+        default: spux_transpose16(from, STRIDE, to + 1, EDGE);
+        }
+        assert_true(to[0] == -1);
+        for (size_t y = 0; y < EDGE; y++)
+            for (size_t x = 0; x < EDGE; x++)
+                assert_true(to[1 + y * EDGE + x] == (x < n && y < n ? from[x * STRIDE + y] : -1));
+    }
+    vfloat row[CGT_LANES];
+    lanes l;
+    for (int y = 0; y < CGT_LANES; y++) {
+        for (int x = 0; x < CGT_LANES; x++)
+            l.fe[x] = (float)(100 * y + x);
+        row[y] = l.f;
+    }
+    spux_transpose(row);
+    for (int y = 0; y < CGT_LANES; y++) {
+        l.f = row[y];
+        for (int x = 0; x < CGT_LANES; x++)
+            assert_true(l.fe[x] == (float)(100 * x + y));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(float_words),
+        cmocka_unit_test(wide_madd_rounds_once),
+        cmocka_unit_test(int_words),
+        cmocka_unit_test(conversions),
+        cmocka_unit_test(estimates_are_near),
+        cmocka_unit_test(masks),
+        cmocka_unit_test(selection),
+        cmocka_unit_test(extremes),
+        cmocka_unit_test(quotient_and_root_are_near),
+        cmocka_unit_test(shifts),
+        cmocka_unit_test(splats_and_lanes),
+        cmocka_unit_test(permutation),
+        cmocka_unit_test(compression),
+        cmocka_unit_test(least_and_greatest_lane),
+        cmocka_unit_test(whole_loads_and_stores),
+        cmocka_unit_test(masked_lanes_are_not_touched),
+        cmocka_unit_test(compressed_store_ends_where_it_says),
+        cmocka_unit_test(gathering),
+        cmocka_unit_test(records),
+        cmocka_unit_test(transposes),
+    };
+    test_begin("test_wide_words");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
