@@ -145,6 +145,13 @@ CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
     d[3] = (vfloat)_mm256_shuffle_ps(high01, high23, 0xee);
 }
 
+CGT_SPU_INLINE void spux_transpose_fours(vuint v[2])
+{
+    const __m256i a = (__m256i)v[0], b = (__m256i)v[1];
+    v[0] = (vuint)_mm256_permute2x128_si256(a, b, 0x20);
+    v[1] = (vuint)_mm256_permute2x128_si256(a, b, 0x31);
+}
+
 CGT_SPU_INLINE void spux_transpose(vfloat row[8])
 {
     vfloat t[8];

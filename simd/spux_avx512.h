@@ -141,6 +141,18 @@ CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
     d[3] = (vfloat)_mm512_shuffle_ps(high01, high23, 0xee);
 }
 
+CGT_SPU_INLINE void spux_transpose_fours(vuint v[4])
+{
+    const __m512i even01 = _mm512_shuffle_i32x4((__m512i)v[0], (__m512i)v[1], 0x88);
+    const __m512i even23 = _mm512_shuffle_i32x4((__m512i)v[2], (__m512i)v[3], 0x88);
+    const __m512i odd01 = _mm512_shuffle_i32x4((__m512i)v[0], (__m512i)v[1], 0xdd);
+    const __m512i odd23 = _mm512_shuffle_i32x4((__m512i)v[2], (__m512i)v[3], 0xdd);
+    v[0] = (vuint)_mm512_shuffle_i32x4(even01, even23, 0x88);
+    v[1] = (vuint)_mm512_shuffle_i32x4(odd01, odd23, 0x88);
+    v[2] = (vuint)_mm512_shuffle_i32x4(even01, even23, 0xdd);
+    v[3] = (vuint)_mm512_shuffle_i32x4(odd01, odd23, 0xdd);
+}
+
 /* Quarters of 4x4, then the quarters among each other. */
 CGT_SPU_INLINE void spux_transpose(vfloat row[16])
 {
@@ -148,14 +160,10 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[16])
     for (int g = 0; g < 16; g += 4)
         cgt_spux_transpose4_w(row + g, t + g);
     for (int j = 0; j < 4; j++) {
-        const __m512 even01 = _mm512_shuffle_f32x4((__m512)t[j], (__m512)t[4 + j], 0x88);
-        const __m512 even23 = _mm512_shuffle_f32x4((__m512)t[8 + j], (__m512)t[12 + j], 0x88);
-        const __m512 odd01 = _mm512_shuffle_f32x4((__m512)t[j], (__m512)t[4 + j], 0xdd);
-        const __m512 odd23 = _mm512_shuffle_f32x4((__m512)t[8 + j], (__m512)t[12 + j], 0xdd);
-        row[j] = (vfloat)_mm512_shuffle_f32x4(even01, even23, 0x88);
-        row[4 + j] = (vfloat)_mm512_shuffle_f32x4(odd01, odd23, 0x88);
-        row[8 + j] = (vfloat)_mm512_shuffle_f32x4(even01, even23, 0xdd);
-        row[12 + j] = (vfloat)_mm512_shuffle_f32x4(odd01, odd23, 0xdd);
+        vuint v[4] = {(vuint)t[j], (vuint)t[4 + j], (vuint)t[8 + j], (vuint)t[12 + j]};
+        spux_transpose_fours(v);
+        for (int g = 0; g < 4; g++)
+            row[4 * g + j] = (vfloat)v[g];
     }
 }
 

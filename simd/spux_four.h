@@ -186,6 +186,7 @@ CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
         d[j] = (vfloat){r[0][j], r[1][j], r[2][j], r[3][j]};
 }
 #endif
+CGT_SPU_INLINE void spux_transpose_fours(vuint v[1]) { (void)v; }
 CGT_SPU_INLINE void spux_transpose(vfloat row[4])
 {
     vfloat t[4];

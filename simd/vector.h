@@ -46,6 +46,7 @@
  *   spux_compress_store(p, a, m)  W; stores those alone to p and returns how many they are
  *   spux_hmin, hmax(a)            float and vuint: least and greatest lane; open where a lane is NaN
  *   spux_transpose(row)           vfloat row[CGT_LANES] as a square matrix, in place
+ *   spux_transpose_fours(v)       vuint v[CGT_LANES / 4] as a square matrix of groups of four lanes, in place
  *   spux_transpose4, 8, 16(from, from_stride, to, to_stride)   a square matrix of floats in memory to another place,
  *                                 rows so many floats apart, aligned to the element
  *

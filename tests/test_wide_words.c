@@ -774,7 +774,16 @@ static void transposes(void **state)
                 assert_true(to[1 + y * EDGE + x] == (x < n && y < n ? from[x * STRIDE + y] : -1));
     }
     vfloat row[CGT_LANES];
+    vuint fours[FOURS];
     lanes l;
+    for (uint32_t k = 0; k < FOURS; k++)
+        fours[k] = spu_add(spux_lane_index(), spux_vuint(100 * k));
+    spux_transpose_fours(fours);
+    for (uint32_t k = 0; k < FOURS; k++) {
+        l.u = fours[k];
+        for (uint32_t i = 0; i < CGT_LANES; i++)
+            check_number("spux_transpose_fours", l.ue[i], 100 * (i / 4) + 4 * k + i % 4);
+    }
     for (int y = 0; y < CGT_LANES; y++) {
         for (int x = 0; x < CGT_LANES; x++)
             l.fe[x] = (float)(100 * y + x);

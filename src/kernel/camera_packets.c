@@ -11,22 +11,16 @@
 CGT_SPU_INLINE uint32_t lane_column(uint32_t i, uint32_t edge) { return (i / 16 * 4 & (edge - 1)) + (i & 3); }
 CGT_SPU_INLINE uint32_t lane_row(uint32_t i, uint32_t edge) { return i / (4 * edge) * 4 + (i >> 2 & 3); }
 
-/* Coordinates of the pixels of lanes i, i + 1 ...: four at a time lie in a row. */
+/* Coordinates of the pixels of a vector's lanes, the first of which is i: its fours lie in one row each. px and py are
+ * read a vector long from any place. */
 CGT_SPU_INLINE vfloat pixel_columns(const float *px, uint32_t i, uint32_t edge)
 {
-    vfloat v;
-    for (uint32_t k = 0; k < CGT_LANES; k += 4)
-        memcpy((char *)&v + k * sizeof(float), px + lane_column(i + k, edge), 4 * sizeof(float));
-    return v;
+    const vuint column = spu_and(spux_lane_index(), spux_vuint(3));
+    return spux_permute(spux_load_unaligned(px + lane_column(i, edge)), column);
 }
 CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
 {
-    vfloat v;
-    for (uint32_t k = 0; k < CGT_LANES; k += 4) {
-        const vec_float4 row = spu_splats(py[lane_row(i + k, edge)]);
-        memcpy((char *)&v + k * sizeof(float), &row, sizeof row);
-    }
-    return v;
+    return spux_permute(spux_load_unaligned(py + lane_row(i, edge)), spux_sr(spux_lane_index(), 2));
 }
 
 /* What is the same for all packets of a perspective camera, and the range of t of any. */
@@ -59,7 +53,7 @@ static void close_outside(packet *p, uint32_t edge, uint32_t columns, uint32_t r
 static void make_rays(const cgt_camera_rays *c, uint32_t x0, uint32_t y0, uint32_t edge, uint32_t columns,
                       uint32_t rows, packet *p)
 {
-    _Alignas(64) float px[PACKET_MAX_EDGE], py[PACKET_MAX_EDGE];
+    float px[PACKET_MAX_EDGE + CGT_LANES] = {0}, py[PACKET_MAX_EDGE + CGT_LANES] = {0};
     const vfloat t_max = spux_vfloat(c->t_max);
     for (uint32_t k = 0; k < edge; k++) {
         px[k] = ((float)(x0 + (k < columns ? k : columns - 1)) + 0.5f) * c->pixel[0] - 1;
@@ -108,21 +102,44 @@ CGT_SPU_INLINE void store_row(void *to, const void *from, uint32_t row, uint32_t
         memcpy((uint32_t *)to + k, start + k / 4 * 16 + k % 4, 4);
 }
 
-static void store_rows(const packet_hits *h, uint32_t edge, uint32_t columns, uint32_t rows, const cgt_region *r,
-                       size_t first)
+/* The fours of a vector are rows of one block; FOURS vectors of blocks side by side are rows of a vector's length. */
+#define FOURS (CGT_LANES / 4)
+
+CGT_SPU_INLINE void store_whole_plane(uint32_t *to, size_t row_stride, const uint32_t *from, uint32_t edge)
 {
-    for (uint32_t y = 0; y < rows; y++) {
-        const size_t to = first + y * r->row_stride;
-        if (r->t)
-            store_row(r->t + to, h->t, y, edge, columns);
-        if (r->primitive)
-            store_row(r->primitive + to, h->primitive, y, edge, columns);
-        if (r->geometry)
-            store_row(r->geometry + to, h->geometry, y, edge, columns);
-        for (int a = 0; a < 3; a++)
-            if (r->normal[a])
-                store_row(r->normal[a] + to, h->normal[a], y, edge, columns);
+    for (uint32_t y = 0; y < edge; y += FOURS)
+        for (uint32_t x = 0; x < edge; x += CGT_LANES) {
+            const uint32_t *block = from + y / 4 * 4 * edge + y % 4 * 4 + x * 4;
+            vuint v[FOURS];
+            for (uint32_t k = 0; k < FOURS; k++)
+                v[k] = spux_load_uint(block + 16 * k);
+            spux_transpose_fours(v);
+            for (uint32_t k = 0; k < FOURS; k++)
+                spux_store_unaligned_uint(to + (y + k) * row_stride + x, v[k]);
+        }
+}
+
+static void store_plane(void *plane, const void *from, uint32_t edge, uint32_t columns, uint32_t rows,
+                        const cgt_region *r, size_t first)
+{
+    if (!plane)
+        return;
+    if (columns == edge && rows == edge && edge % CGT_LANES == 0) {
+        store_whole_plane((uint32_t *)plane + first, r->row_stride, from, edge);
+        return;
     }
+    for (uint32_t y = 0; y < rows; y++)
+        store_row((uint32_t *)plane + first + y * r->row_stride, from, y, edge, columns);
+}
+
+static void store_planes(const packet_hits *h, uint32_t edge, uint32_t columns, uint32_t rows, const cgt_region *r,
+                         size_t first)
+{
+    store_plane(r->t, h->t, edge, columns, rows, r, first);
+    store_plane(r->primitive, h->primitive, edge, columns, rows, r, first);
+    store_plane(r->geometry, h->geometry, edge, columns, rows, r, first);
+    for (int a = 0; a < 3; a++)
+        store_plane(r->normal[a], h->normal[a], edge, columns, rows, r, first);
 }
 
 void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera,
@@ -142,6 +159,6 @@ void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_r
             CGT_KERNEL(cgt_packet_trace)(grid, &p, settings, counts);
             const uint32_t found = CGT_KERNEL(cgt_packet_resolve)(grid, &p, settings->fields, &hits);
             counts->hits += found;
-            store_rows(&hits, edge, columns, rows, region, y * region->row_stride + x);
+            store_planes(&hits, edge, columns, rows, region, y * region->row_stride + x);
         }
 }

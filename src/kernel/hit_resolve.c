@@ -9,6 +9,8 @@
 #include "../sphere_exact.h"
 #include "packet.h"
 
+#define RESOLVE_RAYS 16u
+
 /* The winning spheres, as structure of arrays; a ray without one gets a sphere of radius 0 at the origin. */
 typedef struct winners {
     _Alignas(64) float x[PACKET_MAX_RAYS], y[PACKET_MAX_RAYS], z[PACKET_MAX_RAYS], r[PACKET_MAX_RAYS];
@@ -17,64 +19,65 @@ typedef struct winners {
     bool points; /* some sphere has radius 0 */
 } winners;
 
-/* Neighbours mostly hit the same sphere: lanes are filled four at a time. Lanes come in fours at any width. */
-static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w)
+/* Neighbours mostly hit the same sphere: each different one of a vector is looked up once. */
+static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w, packet_hits *hits)
 {
     w->hits = 0;
     w->points = false;
-    for (uint32_t i = 0; i < p->lanes;) {
-        const uint32_t object = p->object[i], *o = p->object + i;
-        const bool hit = object != CGT_NONE, four = i % 4 == 0 && o[1] == object && o[2] == object && o[3] == object;
-        const cgt_sphere q = hit ? cgt_objects_sphere(&grid->objects, object) : (cgt_sphere){0, 0, 0, 0};
-        const uint32_t count = four ? 4 : 1;
-        for (uint32_t k = 0; k < count; k++) {
-            w->x[i + k] = q.x;
-            w->y[i + k] = q.y;
-            w->z[i + k] = q.z;
-            w->r[i + k] = q.r;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
+        vfloat x = spux_vfloat(0), y = x, z = x, r = x;
+        vuint primitive = none, geometry = none;
+        unsigned left = ~spux_mask_bits(spu_cmpeq(object, none)) & CGT_ALL_LANES;
+        w->hits += spux_count_bits(left);
+        while (left) {
+            const uint32_t winner = p->object[i + (uint32_t)__builtin_ctz(left)];
+            const cgt_sphere_array *a = cgt_objects_array(&grid->objects, winner);
+            const cgt_sphere q = cgt_objects_sphere(&grid->objects, winner);
+            const vmask same = spu_cmpeq(object, spux_vuint(winner));
+            x = spux_select(x, spux_vfloat(q.x), same);
+            y = spux_select(y, spux_vfloat(q.y), same);
+            z = spux_select(z, spux_vfloat(q.z), same);
+            r = spux_select(r, spux_vfloat(q.r), same);
+            primitive = spux_select(primitive, spux_vuint(winner - a->first), same);
+            geometry = spux_select(geometry, spux_vuint(a->geometry), same);
+            w->points |= q.r == 0;
+            left &= ~spux_mask_bits(same);
         }
-        w->points |= hit && q.r == 0;
-        w->hits += hit ? count : 0;
-        i += count;
+        spux_store(w->x + i, x);
+        spux_store(w->y + i, y);
+        spux_store(w->z + i, z);
+        spux_store(w->r + i, r);
+        spux_store_uint(hits->primitive + i, primitive);
+        spux_store_uint(hits->geometry + i, geometry);
     }
 }
 
-static void find_ids(const cgt_queue_grid *grid, const packet *p, packet_hits *hits)
-{
-    for (uint32_t i = 0; i < p->lanes;) {
-        const uint32_t object = p->object[i], *o = p->object + i;
-        const uint32_t count = i % 4 == 0 && o[1] == object && o[2] == object && o[3] == object ? 4 : 1;
-        const cgt_sphere_array *a = object == CGT_NONE ? NULL : cgt_objects_array(&grid->objects, object);
-        for (uint32_t k = 0; k < count; k++) {
-            hits->primitive[i + k] = a ? object - a->first : CGT_NONE;
-            hits->geometry[i + k] = a ? a->geometry : CGT_NONE;
-        }
-        i += count;
-    }
-}
+/* The steps below work on some rays at a time, first to first + count - 1. */
 
-static void resolve_t(const packet *p, winners *w, packet_hits *hits)
+CGT_SPU_INLINE void resolve_t(const packet *p, uint32_t first, uint32_t count, winners *w, packet_hits *hits)
 {
-    _Alignas(64) double middle[PACKET_MAX_RAYS], product[PACKET_MAX_RAYS], half2[PACKET_MAX_RAYS];
+    _Alignas(64) double middle[RESOLVE_RAYS], product[RESOLVE_RAYS], half2[RESOLVE_RAYS];
     /* two loops: all of it at once has more numbers than a machine has registers */
-    for (uint32_t i = 0; i < p->lanes; i++) {
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = first + k;
         const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
         const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
         const cgt_sphere_terms e = cgt_sphere_exact_terms(org, dir, (cgt_sphere){w->x[i], w->y[i], w->z[i], w->r[i]});
-        middle[i] = e.middle;
-        product[i] = e.product;
-        half2[i] = e.half2;
+        middle[k] = e.middle;
+        product[k] = e.product;
+        half2[k] = e.half2;
     }
-    for (uint32_t i = 0; i < p->lanes; i++)
-        w->t[i] = cgt_sphere_exact_root(middle[i], product[i], half2[i], p->t_min[i]);
-    for (uint32_t i = 0; i < p->lanes; i++)
+    for (uint32_t k = 0; k < count; k++)
+        w->t[first + k] = cgt_sphere_exact_root(middle[k], product[k], half2[k], p->t_min[first + k]);
+    for (uint32_t i = first; i < first + count; i++)
         hits->t[i] = p->object[i] != CGT_NONE ? (float)w->t[i] : INFINITY;
 }
 
 /* The outward unit normal is the vector from the centre over the radius. */
-static void resolve_normal(const packet *p, const winners *w, packet_hits *hits)
+CGT_SPU_INLINE void resolve_normal(const packet *p, uint32_t first, uint32_t count, const winners *w, packet_hits *hits)
 {
-    for (uint32_t i = 0; i < p->lanes; i++) {
+    for (uint32_t i = first; i < first + count; i++) {
         const double t = w->t[i], k = 1 / (double)w->r[i];
         const double x = (double)p->org[0][i] + t * (double)p->dir[0][i] - (double)w->x[i];
         const double y = (double)p->org[1][i] + t * (double)p->dir[1][i] - (double)w->y[i];
@@ -84,6 +87,31 @@ static void resolve_normal(const packet *p, const winners *w, packet_hits *hits)
         hits->normal[1][i] = hit ? (float)(y * k) : 0;
         hits->normal[2][i] = hit ? (float)(z * k) : 0;
     }
+}
+
+CGT_SPU_INLINE void resolve_none(uint32_t first, uint32_t count, packet_hits *hits)
+{
+    for (uint32_t i = first; i < first + count; i++) {
+        hits->t[i] = INFINITY;
+        for (int a = 0; a < 3; a++)
+            hits->normal[a][i] = 0;
+    }
+}
+
+CGT_SPU_INLINE void resolve_rays(const packet *p, uint32_t first, uint32_t count, uint32_t fields, winners *w,
+                                 packet_hits *hits)
+{
+    uint32_t any = 0;
+    for (uint32_t i = first; i < first + count; i++)
+        any |= p->object[i] ^ CGT_NONE;
+    if (!any) {
+        resolve_none(first, count, hits);
+        return;
+    }
+    if (fields & (CGT_FIELD_T | CGT_FIELD_NORMAL))
+        resolve_t(p, first, count, w, hits);
+    if (fields & CGT_FIELD_NORMAL)
+        resolve_normal(p, first, count, w, hits);
 }
 
 /* A sphere of radius 0 has no normal of its own: it gets the direction back to the ray's origin. */
@@ -114,18 +142,17 @@ static void fill_none(const packet *p, packet_hits *hits)
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields, packet_hits *hits)
 {
     winners w;
-    find_spheres(grid, p, &w);
+    find_spheres(grid, p, &w, hits);
     if (!w.hits) {
         fill_none(p, hits);
         return 0;
     }
-    if (fields & (CGT_FIELD_T | CGT_FIELD_NORMAL))
-        resolve_t(p, &w, hits);
-    if (fields & CGT_FIELD_NORMAL)
-        resolve_normal(p, &w, hits);
+    uint32_t i = 0;
+    for (; i + RESOLVE_RAYS <= p->lanes; i += RESOLVE_RAYS) /* a length that the compiler knows */
+        resolve_rays(p, i, RESOLVE_RAYS, fields, &w, hits);
+    if (i < p->lanes)
+        resolve_rays(p, i, p->lanes - i, fields, &w, hits);
     if (fields & CGT_FIELD_NORMAL && w.points)
         resolve_points(p, &w, hits);
-    if (fields & (CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY))
-        find_ids(grid, p, hits);
     return w.hits;
 }
