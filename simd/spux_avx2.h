@@ -27,10 +27,6 @@ CGT_SPU_INLINE vmask spux_mask_all(void) { return (vmask)_mm256_set1_epi32(-1); 
 CGT_SPU_INLINE vmask spux_not(vmask m) { return ~m; }
 CGT_SPU_INLINE uint32_t spux_count_bits(unsigned bits) { return (uint32_t)__builtin_popcount(bits); }
 CGT_SPU_INLINE bool spux_any(vmask m) { return _mm256_movemask_ps((__m256)m) != 0; }
-CGT_SPU_INLINE unsigned spux_mask_bits8(vec_ushort8 m)
-{
-    return (unsigned)_mm_movemask_epi8(_mm_packs_epi16((__m128i)m, _mm_setzero_si128()));
-}
 CGT_SPU_INLINE bool spux_all(vmask m) { return _mm256_movemask_ps((__m256)m) == 0xff; }
 
 /* ---- arithmetic ---- */
@@ -103,6 +99,13 @@ CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
     const __m256i place = _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28);
     const __m256i index = _mm256_srlv_epi32(_mm256_set1_epi32((int)lanes), place);
     return cgt_spux_permute_w(a, (vuint)index) & spux_mask_first(spux_count_bits(bits));
+}
+
+/* two bits a halfword; beyond the last one lies a sentinel */
+CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
+{
+    const __m256i equal = _mm256_cmpeq_epi16(_mm256_loadu_si256((const void *)p), _mm256_set1_epi16((short)x));
+    return (uint32_t)__builtin_ctzll((uint32_t)_mm256_movemask_epi8(equal) | UINT64_C(1) << 32) / 2;
 }
 
 CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)

@@ -23,7 +23,6 @@ CGT_SPU_INLINE vmask spux_mask_all(void) { return (vmask){0xffff}; }
 CGT_SPU_INLINE vmask spux_not(vmask m) { return (vmask){_knot_mask16(m.bits)}; }
 CGT_SPU_INLINE uint32_t spux_count_bits(unsigned bits) { return (uint32_t)__builtin_popcount(bits); }
 CGT_SPU_INLINE bool spux_any(vmask m) { return !_kortestz_mask16_u8(m.bits, m.bits); }
-CGT_SPU_INLINE unsigned spux_mask_bits8(vec_ushort8 m) { return _mm_movepi16_mask((__m128i)m); }
 CGT_SPU_INLINE bool spux_all(vmask m) { return _kortestc_mask16_u8(m.bits, m.bits); }
 
 /* ---- arithmetic ---- */
@@ -87,6 +86,12 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {
     return (vuint)_mm512_maskz_compress_epi32(m.bits, (__m512i)a);
+}
+
+CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
+{
+    const __m256i v = _mm256_loadu_si256((const void *)p);
+    return (uint32_t)__builtin_ctz(_mm256_cmpeq_epi16_mask(v, _mm256_set1_epi16((short)x)) | 1u << 16);
 }
 
 /* Upper and lower half; _mm512_extractf32x8_ps and the reductions of gcc 12 warn of a value that they leave open. */

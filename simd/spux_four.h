@@ -31,13 +31,6 @@ CGT_SPU_INLINE vuint spux_lane_index(void) { return (vuint){0, 1, 2, 3}; }
 /* ---- masks ---- */
 #ifndef CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return (m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8); }
-CGT_SPU_INLINE unsigned spux_mask_bits8(vec_ushort8 m)
-{
-    unsigned bits = 0;
-    for (unsigned i = 0; i < 8; i++)
-        bits |= m[i] & 1u << i;
-    return bits;
-}
 #endif
 CGT_SPU_INLINE vmask spux_mask_from_bits(unsigned bits)
 {
@@ -156,6 +149,16 @@ CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
     }
     return (vuint){lane[0], lane[1], lane[2], lane[3]};
 }
+
+#ifndef CGT_SPUX_OWN_FIND16
+CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
+{
+    uint32_t i = 0;
+    while (i < 16 && p[i] != x)
+        i++;
+    return i;
+}
+#endif
 
 CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)
 {

@@ -14,11 +14,6 @@ CGT_SPU_INLINE unsigned spux_mask_bits(vmask m)
     const uint32x4_t weight = {1, 2, 4, 8};
     return vaddvq_u32(vandq_u32((uint32x4_t)m, weight));
 }
-CGT_SPU_INLINE unsigned spux_mask_bits8(vec_ushort8 m)
-{
-    const uint16x8_t weight = {1, 2, 4, 8, 16, 32, 64, 128};
-    return vaddvq_u16(vandq_u16((uint16x8_t)m, weight));
-}
 
 #define CGT_SPUX_OWN_SQRT
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)vsqrtq_f32((float32x4_t)a); }
@@ -30,6 +25,17 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     const uint32x4_t lane = vandq_u32((uint32x4_t)index, vdupq_n_u32(3));
     const uint32x4_t bytes = vmlaq_n_u32(vdupq_n_u32(0x03020100), lane, 0x04040404);
     return (vuint)vqtbl1q_u8((uint8x16_t)a, vreinterpretq_u8_u32(bytes));
+}
+
+/* four bits a halfword */
+#define CGT_SPUX_OWN_FIND16
+CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
+{
+    const uint16x8_t wanted = vdupq_n_u16(x), front = vceqq_u16(vld1q_u16(p), wanted),
+                     back = vceqq_u16(vld1q_u16(p + 8), wanted);
+    const uint8x16_t bytes = vcombine_u8(vmovn_u16(front), vmovn_u16(back));
+    const uint64_t bits = vget_lane_u64(vreinterpret_u64_u8(vshrn_n_u16(vreinterpretq_u16_u8(bytes), 4)), 0);
+    return bits ? (uint32_t)__builtin_ctzll(bits) / 4 : 16;
 }
 
 #define CGT_SPUX_OWN_TRANSPOSE

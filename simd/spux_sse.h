@@ -9,10 +9,6 @@
 
 #define CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return (unsigned)_mm_movemask_ps((__m128)m); }
-CGT_SPU_INLINE unsigned spux_mask_bits8(vec_ushort8 m)
-{
-    return (unsigned)_mm_movemask_epi8(_mm_packs_epi16((__m128i)m, _mm_setzero_si128()));
-}
 
 #define CGT_SPUX_OWN_MIN_MAX
 CGT_SPU_INLINE vfloat cgt_spux_min_f32w(vfloat a, vfloat b) { return (vfloat)_mm_min_ps((__m128)a, (__m128)b); }
@@ -42,6 +38,15 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     const __m128i lane = _mm_and_si128((__m128i)index, _mm_set1_epi32(3));
     const __m128i first = _mm_mullo_epi32(lane, _mm_set1_epi32(0x04040404));
     return (vuint)_mm_shuffle_epi8((__m128i)a, _mm_add_epi8(first, _mm_set1_epi32(0x03020100)));
+}
+
+#define CGT_SPUX_OWN_FIND16
+CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
+{
+    const __m128i wanted = _mm_set1_epi16((short)x);
+    const __m128i front = _mm_cmpeq_epi16(_mm_loadu_si128((const void *)p), wanted);
+    const __m128i back = _mm_cmpeq_epi16(_mm_loadu_si128((const void *)(p + 8)), wanted);
+    return (uint32_t)__builtin_ctz((unsigned)_mm_movemask_epi8(_mm_packs_epi16(front, back)) | 1u << 16);
 }
 
 #define CGT_SPUX_OWN_TRANSPOSE

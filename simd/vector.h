@@ -38,13 +38,13 @@
  *   spux_mask_first(n)            lanes 0 to n - 1
  *   spux_mask_bits(m)             bit i = lane i
  *   spux_mask_from_bits(b)        the reverse; bits beyond the lanes are ignored
- *   spux_mask_bits8(m)            bit i = element i of a comparison of eight halfwords
  *   spux_count_bits(b)            how many lanes of such bits
  *
  *   spux_permute(a, i)            T; lane k is a's lane i[k] modulo CGT_LANES, i a vuint
  *   spux_compress(a, m)           T; the lanes where m is true side by side from lane 0, then zeros
  *   spux_compress_store(p, a, m)  W; stores those alone to p and returns how many they are
  *   spux_hmin, hmax(a)            float and vuint: least and greatest lane; open where a lane is NaN
+ *   spux_find16(p, x)             which of the 16 halfwords at p, aligned to the element, is the first x; 16 for none
  *   spux_transpose(row)           vfloat row[CGT_LANES] as a square matrix, in place
  *   spux_transpose_fours(v)       vuint v[CGT_LANES / 4] as a square matrix of groups of four lanes, in place
  *   spux_transpose4, 8, 16(from, from_stride, to, to_stride)   a square matrix of floats in memory to another place,

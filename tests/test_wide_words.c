@@ -342,14 +342,6 @@ static void masks(void **state)
         check_number("andc", spux_mask_bits(spu_andc(m, o)), bits & ~other);
         check_number("nor", spux_mask_bits(spu_nor(m, o)), ~(bits | other) & CGT_ALL_LANES);
     }
-    for (unsigned bits = 0; bits < 256; bits++) {
-        uint16_t half[8];
-        vec_ushort8 m;
-        for (int i = 0; i < 8; i++)
-            half[i] = bits >> i & 1 ? 0xffff : 0;
-        memcpy(&m, half, sizeof m);
-        check_number("mask_bits8", spux_mask_bits8(m), bits);
-    }
 }
 
 static void selection(void **state)
@@ -716,6 +708,25 @@ static void gathering(void **state)
     guarded_free(&g);
 }
 
+static void halfwords_are_found(void **state)
+{
+    (void)state;
+    test_random r = random_make(18);
+    const guarded g = guarded_make();
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        const uint16_t x = (uint16_t)(random_below(&r, 2) ? random_bits(&r) : 0xffff);
+        const unsigned present = (unsigned)random_bits(&r) & (unsigned)random_bits(&r) & (unsigned)random_bits(&r);
+        uint16_t *p = (uint16_t *)(k % 2 ? g.first : g.end - 32) + (k % 4 == 1);
+        uint32_t first = 16;
+        for (uint32_t i = 16; i-- > 0;) {
+            p[i] = present >> i & 1 ? x : (uint16_t)(x ^ 1u << random_below(&r, 16));
+            first = present >> i & 1 ? i : first;
+        }
+        check_number("spux_find16", spux_find16(p, x), first);
+    }
+    guarded_free(&g);
+}
+
 /* ---- records and matrices ---- */
 
 static void records(void **state)
@@ -818,6 +829,7 @@ int main(void)
         cmocka_unit_test(masked_lanes_are_not_touched),
         cmocka_unit_test(compressed_store_ends_where_it_says),
         cmocka_unit_test(gathering),
+        cmocka_unit_test(halfwords_are_found),
         cmocka_unit_test(records),
         cmocka_unit_test(transposes),
     };

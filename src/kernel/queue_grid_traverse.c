@@ -40,17 +40,11 @@ static void test_pending(traversal *v);
 CGT_SPU_INLINE void visit_cell(traversal *v, uint32_t cell)
 {
     const cgt_voxel *voxel = &v->grid->voxel[cell];
-    const vec_ushort8 none = spu_splats((uint16_t)CGT_QUEUE_NONE);
-    vec_ushort8 front, back;
-    memcpy(&front, voxel->reference, sizeof front);
-    memcpy(&back, voxel->reference + 8, sizeof back);
-    const unsigned empty =
-        spux_mask_bits8(spu_cmpeq(front, none)) | spux_mask_bits8(spu_cmpeq(back, none)) << 8;
-    memcpy(v->reference + v->pending, &front, sizeof front);
-    memcpy(v->reference + v->pending + 8, &back, sizeof back);
-    v->pending += (uint32_t)__builtin_ctz(empty | 1u << CGT_QUEUE_LENGTH);
+    const uint32_t length = spux_find16(voxel->reference, CGT_QUEUE_NONE);
+    memcpy(v->reference + v->pending, voxel->reference, sizeof voxel->reference);
+    v->pending += length;
     v->counts->cells++;
-    if (!empty && v->grid->overflows)
+    if (length == CGT_QUEUE_LENGTH && v->grid->overflows)
         collect_overflow(v, cell);
 }
 
