@@ -5,9 +5,10 @@
  * take the place of a mapping's own where CGT_SPU_EXACT is defined. What the SPU computes is said, and computed in
  * integers, in spu_float_model.h. Three forms give the same bits:
  *
- *   portable   element by element through the model; needs no mode           (CGT_SPU_PORTABLE, other hosts, -ffast-math)
- *   x86        SSE4.1, with FMA3 where the compiler may use it                spu_exact_x86.h
- *   AArch64    NEON                                                           spu_exact_aarch64.h
+ *   portable   element by element through the model, no mode needed: spu_exact_portable.h; for CGT_SPU_PORTABLE, other
+ *              hosts, and -ffast-math
+ *   x86        SSE4.1, with FMA3 where the compiler may use it: spu_exact_x86.h
+ *   AArch64    NEON: spu_exact_aarch64.h
  *
  * The fast forms hold between cgt_spu_enter_arithmetic and cgt_spu_leave_arithmetic (spu_arithmetic_mode.h), which let
  * the host truncate and take denormals for zero. Then an operation gives the SPU's result but for two cases:
@@ -16,10 +17,12 @@
  *   exponent 255   of an operand is an infinity or NaN to the host, and then its result is one too; a result that needs
  *                  it ends at the host's largest number. A result at or beyond that number is taken from the model.
  *
- * The compiler knows neither of the mode nor that it switches. CGT_SPU_HOLD makes values opaque to it: it is an empty
- * volatile asm that claims to change them. Held operands cannot be folded as constants, in another rounding; a held
+ * The compiler knows neither of the mode nor that it switches. CGT_SPU_HOLD makes a value opaque to it: it is an empty
+ * volatile asm that claims to change it. Held operands cannot be folded as constants, in another rounding; a held
  * result cannot be merged with what follows, by reassociation or contraction. And as the compiler keeps volatile asms
- * in their order, that of the mode switch among them, an operation between two of them stays on its side of the switch. */
+ * in their order, that of the mode switch among them, an operation between two of them stays on its side of the
+ * switch. What that costs: a word with a result that nobody uses is computed all the same, and so is one whose operands
+ * a loop does not change, each time. */
 #ifndef CGT_SPU_EXACT_H
 #define CGT_SPU_EXACT_H
 
@@ -36,6 +39,7 @@
 
 /* the mapping leaves out its own: all single-precision arithmetic, comparison, estimates and conversion */
 #define CGT_SPU_OWN_FLOAT
+#define CGT_SPU_FUSED 1
 
 /* ---- through the model, element by element ---- */
 

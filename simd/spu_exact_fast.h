@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact words on a host whose floating-point unit truncates and flushes in the mode of spu_arithmetic_mode.h. A part
- * of spu_exact.h, which says what is corrected and why values are held. A host gives, in that mode:
+ * The exact words on a host whose floating-point unit truncates and flushes in the mode of spu_arithmetic_mode.h. A
+ * part of spu_exact.h, which says what is corrected and why values are held. A host gives, in that mode:
  *
  *   CGT_SPU_HOLD(v)                   an empty volatile asm that claims to change v
  *   cgt_spu_exact_is_outside(r)       an element is at or beyond the host's largest number, or NaN

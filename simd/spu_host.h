@@ -76,8 +76,8 @@ typedef struct cgt_spu_thread {
 extern __attribute__((visibility("default"))) __thread cgt_spu_thread cgt_spu_thread_state;
 
 /* C has no definition that all source files share and that is emitted only where it is used. So the function that is
- * emitted where it is used carries the definition: 32 zero bytes in a section of which the linker keeps one, as of a C++
- * inline variable. Where the function is inlined more than once, the assembler takes the first. */
+ * emitted where it is used carries the definition: 32 zero bytes in a section of which the linker keeps one, as of an
+ * inline variable of C++. Where the function is inlined more than once, the assembler takes the first. */
 #define CGT_SPU_THREAD_BYTES 32
 __attribute__((unused)) static inline cgt_spu_thread *cgt_spu_this_thread(void)
 {

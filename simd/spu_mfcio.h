@@ -275,7 +275,9 @@ CGT_SPU_CONTROL void cgt_mfc_order(const char *word, unsigned tag, unsigned comm
 #define spu_write_srr0(srr0) spu_writech(SPU_WrSRR0, srr0)
 #define spu_read_srr0() spu_readch(SPU_RdSRR0)
 
-/* ---- critical sections: interrupts off between begin and end, for programs that define SPU_MFCIO_INTERRUPT_SAFE ---- */
+/* ---- critical sections ---- */
+
+/* interrupts are off between begin and end in programs that define SPU_MFCIO_INTERRUPT_SAFE */
 
 CGT_SPU_CONTROL unsigned int mfc_begin_critical_section(void)
 {

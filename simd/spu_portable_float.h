@@ -8,7 +8,9 @@
 
 /* madd, msub, nmsub, nmadd: 1 where the mapping has an instruction that rounds once, as an SPU does */
 #ifndef CGT_SPU_OWN_MADD
+#ifndef CGT_SPU_FUSED
 #define CGT_SPU_FUSED 0
+#endif
 #define CGT_SPU_FUSED_DOUBLE 0
 #define CGT_SPU_X(type, vec)                                                                                           \
     CGT_SPU_INLINE vec cgt_spu_madd_##type(vec a, vec b, vec c) { return a * b + c; }                                  \

@@ -23,21 +23,21 @@ CGT_SPU_X(u16, vec_ushort8, vec_short8, 16)
 CGT_SPU_X(u32, vec_uint4, vec_int4, 32)
 #undef CGT_SPU_X
 /* the same by one count for all elements */
-#define CGT_SPU_X(type, vec)                                                                                           \
+#define CGT_SPU_X(type, vec, element)                                                                                  \
     CGT_SPU_INLINE vec cgt_spu_left_##type##_x(vec a, unsigned n)                                                      \
     {                                                                                                                  \
-        return cgt_spu_left_##type(a, (vec)cgt_spu_splats_##type(n));                                                  \
+        return cgt_spu_left_##type(a, cgt_spu_splats_##type((element)n));                                              \
     }                                                                                                                  \
     CGT_SPU_INLINE vec cgt_spu_right_##type##_x(vec a, unsigned n)                                                     \
     {                                                                                                                  \
-        return cgt_spu_right_##type(a, (vec)cgt_spu_splats_##type(n));                                                 \
+        return cgt_spu_right_##type(a, cgt_spu_splats_##type((element)n));                                             \
     }                                                                                                                  \
     CGT_SPU_INLINE vec cgt_spu_right_signed_##type##_x(vec a, unsigned n)                                              \
     {                                                                                                                  \
-        return cgt_spu_right_signed_##type(a, (vec)cgt_spu_splats_##type(n));                                          \
+        return cgt_spu_right_signed_##type(a, cgt_spu_splats_##type((element)n));                                      \
     }
-CGT_SPU_X(u16, vec_ushort8)
-CGT_SPU_X(u32, vec_uint4)
+CGT_SPU_X(u16, vec_ushort8, unsigned short)
+CGT_SPU_X(u32, vec_uint4, unsigned)
 #undef CGT_SPU_X
 #endif
 

@@ -78,7 +78,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_rsqrte_f32(vec_float4 a) /* of the magnitude, 
 CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a)
 {
     const vec_int4 d = (vec_int4)_mm_cvttps_epi32((__m128)a);
-    return (d ^ (vec_int4)(a >= 2147483648.f)) & (vec_int4)(a == a);
+    return (d ^ (vec_int4)(a >= 2147483648.f)) & (vec_int4)_mm_cmpord_ps((__m128)a, (__m128)a);
 }
 /* numbers from 2^31 on are converted without it, and get it back as the top bit */
 CGT_SPU_INLINE vec_uint4 cgt_spu_to_uint_f32(vec_float4 a)
