@@ -143,6 +143,10 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_mhhadd(a, b, c) _Generic((a), CGT_SPU_OF_HALFWORDS(mhhadd))(a, b, c)
 #define spu_re(a) _Generic((a), CGT_SPU_WIDE_F(re) vec_float4: cgt_spu_re_f32)(a)
 #define spu_rsqrte(a) _Generic((a), CGT_SPU_WIDE_F(rsqrte) vec_float4: cgt_spu_rsqrte_f32)(a)
+/* the estimates in the SPU's two instructions, on quadwords: SPU source uses these three even where it is generic */
+#define si_frest(a) ((qword)cgt_spu_frest_f32((vec_float4)(a)))
+#define si_frsqest(a) ((qword)cgt_spu_frsqest_f32((vec_float4)(a)))
+#define si_fi(a, b) ((qword)cgt_spu_fi_f32((vec_float4)(a), (vec_float4)(b)))
 #define spu_absd(a, b) _Generic((a), vec_uchar16: cgt_spu_absd_u8)(a, b)
 #define spu_avg(a, b) _Generic((a), vec_uchar16: cgt_spu_avg_u8)(a, b)
 #define spu_sumb(a, b) _Generic((a), vec_uchar16: cgt_spu_sumb_u8)(a, b)
@@ -165,6 +169,11 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_maskw(a) cgt_spu_maskw((unsigned)(a))
 #define spu_sel(a, b, m) CGT_SPU_PICK_ALL(sel, CGT_SPU_WIDE_FSU(sel), a)(a, b, m)
 #define spu_shuffle(a, b, pattern) CGT_SPU_PICK_ALL(shuffle, , a)(a, b, pattern)
+
+/* No word of an SPU, where a cast does it: the cast of a to a vector type with the SPU's result on hosts of either byte
+ * order. It matters where the element sizes differ. */
+#define spux_cast(type, a)                                                                                             \
+    ((type)cgt_spu_cast_bytes((vec_uchar16)(a), (unsigned)sizeof((a)[0]), (unsigned)sizeof(((type){0})[0])))
 
 /* ---- logic ---- */
 

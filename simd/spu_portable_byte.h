@@ -125,4 +125,12 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, v
 CGT_SPU_EACH(CGT_SPU_X)
 #undef CGT_SPU_X
 
+/* A cast between element sizes as an SPU does it: bytes keep their place in the quadword, not in memory. */
+CGT_SPU_INLINE vec_uchar16 cgt_spu_cast_bytes(vec_uchar16 a, unsigned from, unsigned to)
+{
+    const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const unsigned flip = CGT_SPU_BYTE_FLIP(from) ^ CGT_SPU_BYTE_FLIP(to);
+    return flip ? cgt_spu_shuffle_bytes(a, a, iota ^ (unsigned char)flip, 0) : a;
+}
+
 #endif

@@ -12,7 +12,8 @@
  *
  * A cast between two of these types keeps the 16 bytes of memory. On a host of big-endian byte order that is what an SPU
  * does; on a little-endian one it is the same only between types of one element size: (vec_uint4)(vec_float4) is, while
- * element 0 of (vec_uint4)(vec_double2) is the low half of the first double here and the high half on an SPU. */
+ * element 0 of (vec_uint4)(vec_double2) is the low half of the first double here and the high half on an SPU. spux_cast of
+ * spu_intrinsics.h does it the SPU's way. */
 #ifndef CGT_SPU_TYPES_H
 #define CGT_SPU_TYPES_H
 

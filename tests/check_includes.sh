@@ -61,7 +61,7 @@ check() {
 }
 
 check include "" "cgt/[a-z_]+\\.h|($standard)\\.h"
-check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_intrinsics\\.h"
+check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|mfcio)\\.h"
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples examples/common" \
