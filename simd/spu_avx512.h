@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The words on sixteen lanes: AVX-512 F, BW, DQ and VL. Lane by lane they do what the words do on four lanes of the same
- * machine; madd, msub and nmsub are fused. A mask has a type of its own, which lives in a k register: it is no vector
- * and no number. */
+ * The words on sixteen lanes: AVX-512 F, BW, DQ and VL. Lane by lane they do what the words do on four lanes of the
+ * same machine; madd, msub and nmsub are fused. A mask has a type of its own, which lives in a k register: it is no
+ * vector and no number. */
 #ifndef CGT_SPU_AVX512_H
 #define CGT_SPU_AVX512_H
 

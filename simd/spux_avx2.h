@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The words of vector.h that the SPU lacks, on eight lanes of AVX2. Words that move data are written for vuint; vector.h
- * gives the other types their shells. */
+ * The words of vector.h that the SPU lacks, on eight lanes of AVX2. Words that move data are written for vuint;
+ * vector.h gives the other types their shells. */
 #ifndef CGT_SPUX_AVX2_H
 #define CGT_SPUX_AVX2_H
 
@@ -88,8 +88,8 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     return (vuint)_mm256_permutevar8x32_epi32((__m256i)a, (__m256i)index);
 }
 
-/* Lane numbers, four bits each, of the true ones of four lanes; a table of 16 would be cheaper for a whole vector only
- * with 256 entries: two look-ups are put behind one another instead. */
+/* The table holds the numbers of the true ones of four lanes, four bits each: two look-ups, one behind the other, where
+ * a table for all eight lanes would have 256 entries. */
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {
     static const uint16_t packed[16] = {0x0000, 0x0000, 0x0001, 0x0010, 0x0002, 0x0020, 0x0021, 0x0210,

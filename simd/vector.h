@@ -162,7 +162,7 @@ CGT_SPU_INLINE void spux_load_records4_at(const float *base, const uint32_t at[C
     cgt_spux_load_records4_w(p, d);
 }
 
-/* The lower left CGT_LANES of a larger matrix at a time. */
+/* A larger matrix by squares of CGT_LANES. */
 CGT_SPU_INLINE void cgt_spux_transpose_blocks(const float *from, size_t from_stride, float *to, size_t to_stride,
                                               size_t edge)
 {

@@ -1,0 +1,299 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The words of vector.h that touch memory, for the variant that this is compiled for, beside pages that cannot be
+ * touched; and those that move records and matrices. */
+#define _GNU_SOURCE
+#include "support/lanes.h"
+
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+/* ---- memory ---- */
+
+/* A page that can be touched between two that cannot. */
+typedef struct guarded {
+    char *first, *end;
+    size_t page;
+} guarded;
+
+static guarded guarded_make(void)
+{
+    guarded g = {.page = (size_t)sysconf(_SC_PAGESIZE)};
+    char *p = mmap(NULL, 3 * g.page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(p != MAP_FAILED);
+    assert_int_equal(mprotect(p + g.page, g.page, PROT_READ | PROT_WRITE), 0);
+    g.first = p + g.page;
+    g.end = g.first + g.page;
+    return g;
+}
+static void guarded_free(const guarded *g) { munmap(g->first - g->page, 3 * g->page); }
+static void guarded_fill(const guarded *g, test_random *r)
+{
+    for (char *p = g->first; p < g->end; p += sizeof(uint32_t)) {
+        const uint32_t word = (uint32_t)random_bits(r);
+        memcpy(p, &word, sizeof word);
+    }
+}
+static uint32_t word_at(const char *p)
+{
+    uint32_t word;
+    memcpy(&word, p, sizeof word);
+    return word;
+}
+
+static void whole_loads_and_stores(void **state)
+{
+    (void)state;
+    test_random r = random_make(13);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    for (size_t k = 0; k < 2 * CGT_LANES; k++) {
+        char *const places[] = {g.first + 4 * k, g.end - CGT_VECTOR_BYTES - 4 * k};
+        for (int w = 0; w < 2; w++) {
+            char *p = places[w];
+            const lanes a = any_words(&r);
+            lanes d, e;
+            memcpy(&e, p, sizeof e);
+            d.f = spux_load_unaligned((const float *)p);
+            check_bits("spux_load_unaligned", &d, &e);
+            d.u = spux_load_unaligned_uint((const uint32_t *)p);
+            check_bits("spux_load_unaligned_uint", &d, &e);
+            if ((uintptr_t)p % CGT_VECTOR_BYTES == 0) {
+                d.f = spux_load((const float *)p);
+                check_bits("spux_load", &d, &e);
+                d.u = spux_load_uint((const uint32_t *)p);
+                check_bits("spux_load_uint", &d, &e);
+                spux_store((float *)p, a.f);
+                memcpy(&d, p, sizeof d);
+                check_bits("spux_store", &d, &a);
+                spux_store_uint((uint32_t *)p, e.u);
+                memcpy(&d, p, sizeof d);
+                check_bits("spux_store_uint", &d, &e);
+            }
+            spux_store_unaligned((float *)p, a.f);
+            memcpy(&d, p, sizeof d);
+            check_bits("spux_store_unaligned", &d, &a);
+            spux_store_unaligned_uint((uint32_t *)p, e.u);
+            memcpy(&d, p, sizeof d);
+            check_bits("spux_store_unaligned_uint", &d, &e);
+        }
+    }
+    guarded_free(&g);
+}
+
+/* A masked load and store at p, where every true lane lies in the page. */
+static void check_masked(const guarded *g, char *p, unsigned bits, test_random *r)
+{
+    const vmask m = spux_mask_from_bits(bits);
+    const lanes a = any_words(r);
+    lanes d, e;
+    for (int i = 0; i < CGT_LANES; i++)
+        e.ue[i] = bits >> i & 1 ? word_at(p + 4 * i) : 0;
+    d.f = spux_load_mask((const float *)p, m);
+    check_bits("spux_load_mask", &d, &e);
+    d.u = spux_load_mask_uint((const uint32_t *)p, m);
+    check_bits("spux_load_mask_uint", &d, &e);
+    for (int w = 0; w < 2; w++) {
+        char before[3 * CGT_VECTOR_BYTES];
+        char *const low = p - CGT_VECTOR_BYTES < g->first ? g->first : p - CGT_VECTOR_BYTES;
+        char *const high = p + 2 * CGT_VECTOR_BYTES > g->end ? g->end : p + 2 * CGT_VECTOR_BYTES;
+        memcpy(before, low, (size_t)(high - low));
+        if (w)
+            spux_store_mask((float *)p, a.f, m);
+        else
+            spux_store_mask_uint((uint32_t *)p, a.u, m);
+        for (char *q = low; q < high; q += 4) {
+            const ptrdiff_t lane = (q - p) / 4;
+            const bool written = q >= p && lane < CGT_LANES && bits >> lane & 1;
+            check_number("spux_store_mask", word_at(q), written ? a.ue[lane] : word_at(before + (q - low)));
+        }
+        memcpy(low, before, (size_t)(high - low));
+    }
+}
+
+static void masked_lanes_are_not_touched(void **state)
+{
+    (void)state;
+    test_random r = random_make(14);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    for (unsigned n = 0; n <= CGT_LANES; n++) {
+        const unsigned first = (1u << n) - 1, last = CGT_ALL_LANES & ~first;
+        check_masked(&g, g.end - 4 * n, first, &r);                       /* the rest lies beyond the page */
+        check_masked(&g, g.end - 4 * n, first & any_bits(&r), &r);        /* or is not wanted */
+        check_masked(&g, g.first - 4 * n, last, &r);                      /* the first ones lie before it */
+        check_masked(&g, g.first - 4 * n, last & any_bits(&r), &r);       /* */
+        check_masked(&g, g.first + 4 * n, any_bits(&r), &r);              /* all lie in it */
+        check_masked(&g, g.first + g.page / 2 + 4 * n, any_bits(&r), &r); /* */
+    }
+    for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits += bits < 256 ? 1 : 97)
+        check_masked(&g, g.first + g.page / 2 + 4 * (bits % 7), bits, &r);
+    guarded_free(&g);
+}
+
+static void compressed_store_ends_where_it_says(void **state)
+{
+    (void)state;
+    test_random r = random_make(15);
+    const guarded g = guarded_make();
+    for (unsigned bits = 0; bits <= CGT_ALL_LANES; bits++) {
+        const unsigned count = (unsigned)__builtin_popcount(bits);
+        const lanes a = any_words(&r);
+        const vmask m = spux_mask_from_bits(bits);
+        for (int w = 0; w < 2; w++) {
+            char *p = w ? g.end - 4 * count : g.first + 64;
+            memset(p, 0x5a, 4 * count + (w ? 0 : 64));
+            check_number("spux_compress_store",
+                         w ? spux_compress_store((float *)p, a.f, m) : spux_compress_store_uint((uint32_t *)p, a.u, m),
+                         count);
+            for (unsigned i = 0, n = 0; i < CGT_LANES; i++)
+                if (bits >> i & 1)
+                    check_number("spux_compress_store", word_at(p + 4 * n++), a.ue[i]);
+            if (!w)
+                check_number("spux_compress_store, behind", word_at(p + 4 * count), 0x5a5a5a5a);
+        }
+    }
+    guarded_free(&g);
+}
+
+static void gathering(void **state)
+{
+    (void)state;
+    test_random r = random_make(16);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    const int32_t words = (int32_t)(g.page / 4);
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        const int32_t base = (int32_t)random_below(&r, (uint32_t)words);
+        lanes index, d, e;
+        for (int i = 0; i < CGT_LANES; i++) {
+            const int32_t at = random_below(&r, 8) ? (int32_t)random_below(&r, (uint32_t)words) : i % 2 ? 0 : words - 1;
+            index.se[i] = at - base;
+            e.ue[i] = word_at(g.first + 4 * at);
+        }
+        d.f = spux_gather((const float *)g.first + base, index.s);
+        check_bits("spux_gather", &d, &e);
+        d.u = spux_gather_uint((const uint32_t *)g.first + base, index.s);
+        check_bits("spux_gather_uint", &d, &e);
+    }
+    guarded_free(&g);
+}
+
+static void halfwords_are_found(void **state)
+{
+    (void)state;
+    test_random r = random_make(18);
+    const guarded g = guarded_make();
+    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
+        const uint16_t x = (uint16_t)(random_below(&r, 2) ? random_bits(&r) : 0xffff);
+        const unsigned present = (unsigned)random_bits(&r) & (unsigned)random_bits(&r) & (unsigned)random_bits(&r);
+        uint16_t *p = (uint16_t *)(k % 2 ? g.first : g.end - 32) + (k % 4 == 1);
+        uint32_t first = 16;
+        for (uint32_t i = 16; i-- > 0;) {
+            p[i] = present >> i & 1 ? x : (uint16_t)(x ^ 1u << random_below(&r, 16));
+            first = present >> i & 1 ? i : first;
+        }
+        check_number("spux_find16", spux_find16(p, x), first);
+    }
+    guarded_free(&g);
+}
+
+/* ---- records and matrices ---- */
+
+static void records(void **state)
+{
+    (void)state;
+    test_random r = random_make(17);
+    const guarded g = guarded_make();
+    guarded_fill(&g, &r);
+    for (size_t stride = 4; stride < 10; stride++) {
+        const float *base =
+            (const float *)(g.end - 4 * ((CGT_LANES - 1) * stride + 4)); /* the last one ends the page */
+        uint32_t at[CGT_LANES];
+        lanes d[4], e;
+        vfloat got[4];
+        spux_load_records4(base, stride, got);
+        for (int a = 0; a < 4; a++) {
+            d[a].f = got[a];
+            for (size_t k = 0; k < CGT_LANES; k++)
+                e.ue[k] = word_at((const char *)(base + k * stride + (size_t)a));
+            check_bits("spux_load_records4", &d[a], &e);
+        }
+        for (int k = 0; k < CGT_LANES; k++)
+            at[k] = random_below(&r, (uint32_t)(g.page / 4 - 3));
+        at[random_below(&r, CGT_LANES)] = (uint32_t)(g.page / 4 - 4);
+        spux_load_records4_at((const float *)g.first, at, got);
+        for (int a = 0; a < 4; a++) {
+            d[a].f = got[a];
+            for (int k = 0; k < CGT_LANES; k++)
+                e.ue[k] = word_at(g.first + 4 * (at[k] + (uint32_t)a));
+            check_bits("spux_load_records4_at", &d[a], &e);
+        }
+    }
+    guarded_free(&g);
+}
+
+static void transposes(void **state)
+{
+    (void)state;
+    enum { EDGE = 16, STRIDE = 19 };
+    static const size_t sizes[] = {4, 8, 16};
+    for (size_t w = 0; w < TEST_COUNT(sizes); w++) {
+        float from[EDGE * STRIDE], to[EDGE * STRIDE + 1];
+        const size_t n = sizes[w];
+        for (int i = 0; i < EDGE * STRIDE; i++) {
+            from[i] = (float)(i + 1);
+            to[i] = -1;
+        }
+        switch (n) {
+        case 4: spux_transpose4(from, STRIDE, to + 1, EDGE); break;
+        case 8: spux_transpose8(from, STRIDE, to + 1, EDGE); break;
+        default: spux_transpose16(from, STRIDE, to + 1, EDGE);
+        }
+        assert_true(to[0] == -1);
+        for (size_t y = 0; y < EDGE; y++)
+            for (size_t x = 0; x < EDGE; x++)
+                assert_true(to[1 + y * EDGE + x] == (x < n && y < n ? from[x * STRIDE + y] : -1));
+    }
+    vfloat row[CGT_LANES];
+    vuint fours[FOURS];
+    lanes l;
+    for (uint32_t k = 0; k < FOURS; k++)
+        fours[k] = spu_add(spux_lane_index(), spux_vuint(100 * k));
+    spux_transpose_fours(fours);
+    for (uint32_t k = 0; k < FOURS; k++) {
+        l.u = fours[k];
+        for (uint32_t i = 0; i < CGT_LANES; i++)
+            check_number("spux_transpose_fours", l.ue[i], 100 * (i / 4) + 4 * k + i % 4);
+    }
+    for (int y = 0; y < CGT_LANES; y++) {
+        for (int x = 0; x < CGT_LANES; x++)
+            l.fe[x] = (float)(100 * y + x);
+        row[y] = l.f;
+    }
+    spux_transpose(row);
+    for (int y = 0; y < CGT_LANES; y++) {
+        l.f = row[y];
+        for (int x = 0; x < CGT_LANES; x++)
+            assert_true(l.fe[x] == (float)(100 * x + y));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(whole_loads_and_stores),
+        cmocka_unit_test(masked_lanes_are_not_touched),
+        cmocka_unit_test(compressed_store_ends_where_it_says),
+        cmocka_unit_test(gathering),
+        cmocka_unit_test(halfwords_are_found),
+        cmocka_unit_test(records),
+        cmocka_unit_test(transposes),
+    };
+    test_begin("test_wide_memory");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
