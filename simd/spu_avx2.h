@@ -118,7 +118,10 @@ CGT_SPU_INLINE vfloat cgt_spu_convtf_u32w(vuint a, int n)
  * to the largest int where the operand was large, and to 0 where it was NaN. */
 CGT_SPU_INLINE vint cgt_spu_convts_f32w(vfloat a, int n)
 {
-    const __m256 x = (__m256)(a * cgt_spu_power_w(n));
+    __m256 x = (__m256)(a * cgt_spu_power_w(n));
+#if !defined(__clang__)
+    __asm__("" : "+x"(x)); /* GCC folds a constant that does not fit another way than the instruction does */
+#endif
     const __m256i d = _mm256_cvttps_epi32(x);
     const __m256i large = _mm256_castps_si256(_mm256_cmp_ps(x, _mm256_set1_ps(2147483648.f), _CMP_GE_OQ));
     const __m256i number = _mm256_castps_si256(_mm256_cmp_ps(x, x, _CMP_ORD_Q));

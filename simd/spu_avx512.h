@@ -145,7 +145,10 @@ CGT_SPU_INLINE vfloat cgt_spu_convtf_u32w(vuint a, int n)
  * the small ones, and replaced for the large ones. */
 CGT_SPU_INLINE vint cgt_spu_convts_f32w(vfloat a, int n)
 {
-    const __m512 x = (__m512)(a * cgt_spu_power_w(n));
+    __m512 x = (__m512)(a * cgt_spu_power_w(n));
+#if !defined(__clang__)
+    __asm__("" : "+v"(x)); /* GCC folds a constant that does not fit another way than the instruction does */
+#endif
     const __mmask16 number = _mm512_cmp_ps_mask(x, x, _CMP_ORD_Q);
     const __mmask16 large = _mm512_cmp_ps_mask(x, _mm512_set1_ps(2147483648.f), _CMP_GE_OQ);
     const __m512i d = _mm512_maskz_cvttps_epi32(number, x);

@@ -189,12 +189,12 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 
 /* ---- shifts and rotations of elements; from the element's width on nothing or the sign is left ---- */
 
-#define spu_sl(a, count) CGT_SPU_PICK_SHIFT(sl, CGT_SPU_WIDE_SU(sl), vec_ushort8, vec_uint4, a, count)(a, count)
+#define spu_sl(a, count) CGT_SPU_PICK_SHIFT(sl, , vec_ushort8, vec_uint4, a, count)(a, count)
 #define spu_sr(a, count) CGT_SPU_PICK_SHIFT(sr, , vec_ushort8, vec_uint4, a, count)(a, count)
 #define spu_sra(a, count) CGT_SPU_PICK_SHIFT(sra, , vec_ushort8, vec_uint4, a, count)(a, count)
 #define spu_rl(a, count) CGT_SPU_PICK_SHIFT(rl, , vec_short8, vec_int4, a, count)(a, count)
-#define spu_rlmask(a, count) CGT_SPU_PICK_SHIFT(rlmask, CGT_SPU_WIDE_SU(rlmask), vec_short8, vec_int4, a, count)(a, count)
-#define spu_rlmaska(a, count) CGT_SPU_PICK_SHIFT(rlmaska, CGT_SPU_WIDE_SU(rlmaska), vec_short8, vec_int4, a, count)(a, count)
+#define spu_rlmask(a, count) CGT_SPU_PICK_SHIFT(rlmask, , vec_short8, vec_int4, a, count)(a, count)
+#define spu_rlmaska(a, count) CGT_SPU_PICK_SHIFT(rlmaska, , vec_short8, vec_int4, a, count)(a, count)
 
 /* ---- shifts and rotations of the quadword ---- */
 

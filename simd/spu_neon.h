@@ -38,9 +38,10 @@ CGT_SPU_INLINE vec_double2 cgt_spu_msub_f64(vec_double2 a, vec_double2 b, vec_do
 {
     return (vec_double2)vfmaq_f64(vnegq_f64((float64x2_t)c), (float64x2_t)a, (float64x2_t)b);
 }
+/* rounded, then negated, as the SPU's doubles are */
 CGT_SPU_INLINE vec_double2 cgt_spu_nmsub_f64(vec_double2 a, vec_double2 b, vec_double2 c)
 {
-    return (vec_double2)vfmsq_f64((float64x2_t)c, (float64x2_t)a, (float64x2_t)b);
+    return -cgt_spu_msub_f64(a, b, c);
 }
 CGT_SPU_INLINE vec_double2 cgt_spu_nmadd_f64(vec_double2 a, vec_double2 b, vec_double2 c)
 {

@@ -12,15 +12,15 @@
 #define CGT_SPU_FUSED 0
 #endif
 #define CGT_SPU_FUSED_DOUBLE 0
-#define CGT_SPU_X(type, vec)                                                                                           \
-    CGT_SPU_INLINE vec cgt_spu_madd_##type(vec a, vec b, vec c) { return a * b + c; }                                  \
-    CGT_SPU_INLINE vec cgt_spu_msub_##type(vec a, vec b, vec c) { return a * b - c; }                                  \
-    CGT_SPU_INLINE vec cgt_spu_nmsub_##type(vec a, vec b, vec c) { return c - a * b; }
 #ifndef CGT_SPU_OWN_FLOAT
-CGT_SPU_X(f32, vec_float4)
+CGT_SPU_INLINE vec_float4 cgt_spu_madd_f32(vec_float4 a, vec_float4 b, vec_float4 c) { return a * b + c; }
+CGT_SPU_INLINE vec_float4 cgt_spu_msub_f32(vec_float4 a, vec_float4 b, vec_float4 c) { return a * b - c; }
+CGT_SPU_INLINE vec_float4 cgt_spu_nmsub_f32(vec_float4 a, vec_float4 b, vec_float4 c) { return c - a * b; }
 #endif
-CGT_SPU_X(f64, vec_double2)
-#undef CGT_SPU_X
+CGT_SPU_INLINE vec_double2 cgt_spu_madd_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return a * b + c; }
+CGT_SPU_INLINE vec_double2 cgt_spu_msub_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return a * b - c; }
+/* the SPU's doubles are rounded, then negated: another zero than c - a * b has */
+CGT_SPU_INLINE vec_double2 cgt_spu_nmsub_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return -(a * b - c); }
 CGT_SPU_INLINE vec_double2 cgt_spu_nmadd_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return -(a * b + c); }
 #endif
 

@@ -42,9 +42,12 @@ CGT_SPU_INLINE vec_uchar16 cgt_sse_permute(vec_uchar16 a, vec_uchar16 index)
     }
 CGT_SPU_X(madd, _mm_fmadd_pd)
 CGT_SPU_X(msub, _mm_fmsub_pd)
-CGT_SPU_X(nmsub, _mm_fnmadd_pd)
 #undef CGT_SPU_X
-/* the sum is rounded, then negated: not vfnmsub, whose zero has the other sign */
+/* rounded, then negated, as the SPU's doubles are: not vfnmadd and vfnmsub, whose zeros have the other sign */
+CGT_SPU_INLINE vec_double2 cgt_spu_nmsub_f64(vec_double2 a, vec_double2 b, vec_double2 c)
+{
+    return -cgt_spu_msub_f64(a, b, c);
+}
 CGT_SPU_INLINE vec_double2 cgt_spu_nmadd_f64(vec_double2 a, vec_double2 b, vec_double2 c)
 {
     return -cgt_spu_madd_f64(a, b, c);
@@ -72,12 +75,20 @@ CGT_SPU_INLINE vec_float4 cgt_spu_rsqrte_f32(vec_float4 a) /* of the magnitude, 
 }
 #endif
 
-/* cvttps gives 0x80000000 for whatever does not fit: flip that to the largest int where the operand was large, and to
- * 0 where it was NaN */
+/* cvttps gives 0x80000000 for whatever does not fit. GCC folds constants another way, so they are hidden from it. */
+CGT_SPU_INLINE vec_int4 cgt_sse_truncate(vec_float4 a)
+{
+#if !defined(__clang__)
+    __asm__("" : "+x"(a));
+#endif
+    return (vec_int4)_mm_cvttps_epi32((__m128)a);
+}
+
+/* What does not fit: flip that to the largest int where the operand was large, and to 0 where it was NaN. */
 #define CGT_SPU_OWN_CONVTS
 CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a)
 {
-    const vec_int4 d = (vec_int4)_mm_cvttps_epi32((__m128)a);
+    const vec_int4 d = cgt_sse_truncate(a);
     return (d ^ (vec_int4)(a >= 2147483648.f)) & (vec_int4)_mm_cmpord_ps((__m128)a, (__m128)a);
 }
 /* numbers from 2^31 on are converted without it, and get it back as the top bit */
@@ -89,7 +100,7 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_to_uint_f32(vec_float4 a)
     const vec_float4 positive = (vec_float4)_mm_max_ps((__m128)a, _mm_setzero_ps()); /* 0 for NaN */
     const vec_uint4 large = (vec_uint4)(positive >= 2147483648.f);
     const vec_float4 rest = positive - (vec_float4)(large & 0x4f000000);
-    const vec_uint4 d = (vec_uint4)_mm_cvttps_epi32((__m128)rest);
+    const vec_uint4 d = (vec_uint4)cgt_sse_truncate(rest);
     return (d ^ (large & 0x80000000u)) | (vec_uint4)(positive >= 4294967296.f);
 #endif
 }
@@ -287,7 +298,7 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_right_signed_u32(vec_uint4 a, vec_uint4 n)
  * counts from 32 on have an operand that does not fit either: clear them */
 CGT_SPU_INLINE vec_uint4 cgt_spu_left_u32(vec_uint4 a, vec_uint4 n)
 {
-    const vec_uint4 power = (vec_uint4)_mm_cvttps_epi32((__m128)((n << 23) + 0x3f800000));
+    const vec_uint4 power = (vec_uint4)cgt_sse_truncate((vec_float4)((n << 23) + 0x3f800000));
     return a * power & (vec_uint4)((vec_int4)n < 32);
 }
 /* right: each element apart, by the instruction that reads its count from 64 bits */

@@ -1,456 +1,246 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every word of the vocabulary against its scalar definition, for the mapping of the variant that this is compiled
- * for. The definitions are those of the SPU language extension, with IEEE floats: they know nothing of the mappings.
- * The literal vectors say what byte order, element order and bit order are. */
+ * Every typed overload of every word (the table simd/spu_words.h) against its scalar definition, for the mapping of the
+ * variant that this is compiled for: on edge operands, on all pairs of them, and on random ones. Each call also says
+ * that the result has the type of the table and that each operand is evaluated once.
+ *
+ * With CGT_SPU_EXACT single precision follows the SPU's arithmetic, which test_spu_arithmetic.c knows: the overloads
+ * that compute with floats are counted here, not called. */
 #include "support/test.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "spu_operands.h"
+#include "spu_overloads.h"
 
-#include "vector.h"
+#define RANDOM_ROUNDS 6000
+#define LONG_LIST 64 /* a longer list of edges meets random partners, not all the edges of its partner */
 
-#define ROUNDS 20000
+/* ---- one function per overload ---- */
 
-/* ---- operands ---- */
+/* Calls the word, counts how often it evaluates each operand. */
+typedef spu_quad spu_call(const spu_quad operand[3], int evaluated[3]);
 
-static const float edge[] = {0.f,
-                             -0.f,
-                             0x1p-149f,
-                             -0x1p-149f,
-                             0x1p-126f,
-                             -0x1p-126f,
-                             0.5f,
-                             -0.5f,
-                             1.f,
-                             -1.f,
-                             1.5f,
-                             -1.5f,
-                             0x1.fffffep-1f,
-                             0x1p23f,
-                             0x1.000002p23f,
-                             -0x1p24f,
-                             0x1p31f,
-                             -0x1p31f,
-                             0x1.fffffep30f,
-                             -0x1.000002p31f,
-                             0x1p32f,
-                             0x1.fffffep127f,
-                             -0x1.fffffep127f,
-                             INFINITY,
-                             -INFINITY,
-                             NAN};
-static const uint32_t edge_bits[] = {0,          1,          2,          0x7fffffff, 0x80000000,
-                                     0x80000001, 0xffffffff, 0xfffffffe, 0x0000ffff, 0xaaaaaaaa};
-
-static float any_float(test_random *r)
-{
-    switch (random_below(r, 4)) {
-    case 0: return edge[random_below(r, TEST_COUNT(edge))];
-    case 1: return random_any_float(r);
-    default: return random_float(r, -100, 100);
+/* The type of the result is checked on plain operands: clang warns of side effects in what _Generic looks at. */
+#define HAS_TYPE(call, type) _Static_assert(_Generic((call), TYPE_##type : 1, default : 0), "the result is no " #type)
+#define CALL1(word, r, a)                                                                                              \
+    static spu_quad call_##word##_##r##_##a(const spu_quad operand[3], int evaluated[3])                               \
+    {                                                                                                                  \
+        const TYPE_##a x = load_##a(&operand[0]);                                                                      \
+        HAS_TYPE(spu_##word(x), r);                                                                                    \
+        return store_##r(spu_##word((evaluated[0]++, x)));                                                             \
     }
-}
-
-static uint32_t any_bits(test_random *r)
-{
-    return random_below(r, 3) ? (uint32_t)random_bits(r) : edge_bits[random_below(r, TEST_COUNT(edge_bits))];
-}
-
-static vec_float4 any_floats(test_random *r)
-{
-    return (vec_float4){any_float(r), any_float(r), any_float(r), any_float(r)};
-}
-static vec_uint4 any_words(test_random *r) { return (vec_uint4){any_bits(r), any_bits(r), any_bits(r), any_bits(r)}; }
-
-/* Equal as results of arithmetic: the bits, where any NaN is as good as another. */
-static bool equal(float a, float b) { return same_bits(a, b) || (isnan(a) && isnan(b)); }
-
-#define CHECK_FLOAT(word, got, expected)                                                                               \
-    do {                                                                                                               \
-        const float g_ = (got), e_ = (expected);                                                                       \
-        if (!equal(g_, e_))                                                                                            \
-            fail_msg("%s: %a, expected %a", word, (double)g_, (double)e_);                                             \
-    } while (0)
-#define CHECK_BITS(word, got, expected)                                                                                \
-    do {                                                                                                               \
-        const uint32_t g_ = (uint32_t)(got), e_ = (uint32_t)(expected);                                                \
-        if (g_ != e_)                                                                                                  \
-            fail_msg("%s: 0x%08x, expected 0x%08x", word, g_, e_);                                                     \
-    } while (0)
-
-static uint32_t bits_of(float f)
-{
-    uint32_t u;
-    memcpy(&u, &f, sizeof u);
-    return u;
-}
-
-/* ---- elements ---- */
-
-static void elements_lie_in_order_in_memory(void **state)
-{
-    (void)state;
-    const vec_float4 f = {1, 2, 3, 4};
-    const vec_uint4 u = {1, 2, 3, 4};
-    const vec_ushort8 h = {1, 2, 3, 4, 5, 6, 7, 8};
-    float mf[4];
-    uint32_t mu[4];
-    uint16_t mh[8];
-    memcpy(mf, &f, 16);
-    memcpy(mu, &u, 16);
-    memcpy(mh, &h, 16);
-    for (int i = 0; i < 4; i++) {
-        assert_true(mf[i] == (float)(i + 1) && mu[i] == (uint32_t)i + 1);
-        assert_true(spu_extract(f, i) == mf[i] && spu_extract(u, i) == mu[i] && spu_extract((vec_int4)u, i) == i + 1);
+#define CALL2(word, r, a, b)                                                                                           \
+    static spu_quad call_##word##_##r##_##a##_##b(const spu_quad operand[3], int evaluated[3])                         \
+    {                                                                                                                  \
+        const TYPE_##a x = load_##a(&operand[0]);                                                                      \
+        const TYPE_##b y = load_##b(&operand[1]);                                                                      \
+        HAS_TYPE(spu_##word(x, y), r);                                                                                 \
+        return store_##r(spu_##word((evaluated[0]++, x), (evaluated[1]++, y)));                                        \
     }
-    for (int i = 0; i < 8; i++)
-        assert_true(mh[i] == i + 1 && spu_extract(h, i) == i + 1);
-}
-
-static void splats_fills_every_element(void **state)
-{
-    (void)state;
-    const vec_float4 f = spu_splats(-0.f);
-    const vec_int4 s = spu_splats((int32_t)-7);
-    const vec_uint4 u = spu_splats(UINT32_C(0xdeadbeef));
-    const vec_ushort8 h = spu_splats((uint16_t)0xcafe);
-    for (int i = 0; i < 4; i++)
-        assert_true(same_bits(f[i], -0.f) && s[i] == -7 && u[i] == 0xdeadbeef);
-    for (int i = 0; i < 8; i++)
-        assert_int_equal(h[i], 0xcafe);
-}
-
-/* ---- arithmetic ---- */
-
-/* Whether madd, msub, nmsub round once (SPU, NEON) or twice; a mapping does one or the other for all operands. */
-static bool is_fused(void)
-{
-    const vec_float4 a = spu_splats(0x1.000002p0f), c = spu_splats(-0x1.000004p0f);
-    const float d = spu_extract(spu_madd(a, a, c), 0);
-    assert_true(d == 0 || d == 0x1p-46f);
-    return d != 0;
-}
-
-static void check_arithmetic(vec_float4 a, vec_float4 b, vec_float4 c, bool fused)
-{
-    const vec_float4 add = spu_add(a, b), sub = spu_sub(a, b), mul = spu_mul(a, b);
-    const vec_float4 madd = spu_madd(a, b, c), msub = spu_msub(a, b, c), nmsub = spu_nmsub(a, b, c);
-    for (int i = 0; i < 4; i++) {
-        const float product = a[i] * b[i];
-        CHECK_FLOAT("spu_add", add[i], a[i] + b[i]);
-        CHECK_FLOAT("spu_sub", sub[i], a[i] - b[i]);
-        CHECK_FLOAT("spu_mul", mul[i], product);
-        CHECK_FLOAT("spu_madd", madd[i], fused ? fmaf(a[i], b[i], c[i]) : product + c[i]);
-        CHECK_FLOAT("spu_msub", msub[i], fused ? fmaf(a[i], b[i], -c[i]) : product - c[i]);
-        CHECK_FLOAT("spu_nmsub", nmsub[i], fused ? fmaf(-a[i], b[i], c[i]) : c[i] - product);
+#define CALL3(word, r, a, b, c)                                                                                        \
+    static spu_quad call_##word##_##r##_##a##_##b##_##c(const spu_quad operand[3], int evaluated[3])                   \
+    {                                                                                                                  \
+        const TYPE_##a x = load_##a(&operand[0]);                                                                      \
+        const TYPE_##b y = load_##b(&operand[1]);                                                                      \
+        const TYPE_##c z = load_##c(&operand[2]);                                                                      \
+        HAS_TYPE(spu_##word(x, y, z), r);                                                                              \
+        return store_##r(spu_##word((evaluated[0]++, x), (evaluated[1]++, y), (evaluated[2]++, z)));                   \
     }
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wunevaluated-expression"
+#endif
+CGT_SPU_WORDS(CALL1, CALL2, CALL3)
+
+#define CALL_NAME1(word, r, a) call_##word##_##r##_##a,
+#define CALL_NAME2(word, r, a, b) call_##word##_##r##_##a##_##b,
+#define CALL_NAME3(word, r, a, b, c) call_##word##_##r##_##a##_##b##_##c,
+static spu_call *const calls[] = {CGT_SPU_WORDS(CALL_NAME1, CALL_NAME2, CALL_NAME3)};
+static const spu_row rows[] = {CGT_SPU_WORDS(SPU_ROW1, SPU_ROW2, SPU_ROW3)};
+
+/* ---- a form with its operands' roles ---- */
+
+typedef struct overload {
+    spu_form form;
+    spu_role role[3];
+    const spu_reference *reference;
+    spu_call *call;
+    test_random random;
+    bool has_failed;
+} overload;
+
+/* Shifts and rotations have their count second, the words of one element their index last. */
+static spu_role role_of(const spu_row *r, int operand)
+{
+    if (r->operand[operand] >= TOKEN_n_scale)
+        return SPU_0_TO_127;
+    const bool shifts = spu_is_word_of(r->word, " sl sr sra rl rlmask rlmaska slqw slqwbyte slqwbytebc srqw srqwbyte "
+                                                "srqwbytebc rlqw rlqwbyte rlqwbytebc rlmaskqw rlmaskqwbyte "
+                                                "rlmaskqwbytebc ");
+    const bool has_index = spu_is_word_of(r->word, " extract insert promote ");
+    return (shifts && operand == 1) || (has_index && operand == r->operands - 1) ? SPU_COUNT : SPU_DATA;
 }
 
-static void float_arithmetic(void **state)
+static overload overload_of(size_t i)
 {
-    (void)state;
-    test_random r = random_make(1);
-    const bool fused = is_fused();
-    print_message("madd is %s\n", fused ? "fused" : "not fused");
-    for (size_t i = 0; i < TEST_COUNT(edge); i++)
-        for (size_t j = 0; j < TEST_COUNT(edge); j++)
-            check_arithmetic(spu_splats(edge[i]), spu_splats(edge[j]), any_floats(&r), fused);
-    for (uint32_t k = test_scaled(ROUNDS); k; k--)
-        check_arithmetic(any_floats(&r), any_floats(&r), any_floats(&r), fused);
+    overload o = {.form = spu_form_of(&rows[i]), .call = calls[i], .random = random_make(i + 1)};
+    for (int k = 0; k < o.form.operands; k++)
+        o.role[k] = role_of(&rows[i], k);
+    o.reference = spu_reference_find(o.form.word);
+    return o;
 }
 
-static void integer_arithmetic_wraps(void **state)
+/* ---- one comparison ---- */
+
+/* After its first failure an overload is left alone: the test goes on with the others of the word. */
+static void check(overload *o, const spu_quad in[3])
 {
-    (void)state;
-    test_random r = random_make(2);
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
-        const vec_uint4 a = any_words(&r), b = any_words(&r), add = spu_add(a, b), sub = spu_sub(a, b);
-        const vec_int4 sadd = spu_add((vec_int4)a, (vec_int4)b), ssub = spu_sub((vec_int4)a, (vec_int4)b);
-        for (int i = 0; i < 4; i++) {
-            CHECK_BITS("spu_add", add[i], a[i] + b[i]);
-            CHECK_BITS("spu_sub", sub[i], a[i] - b[i]);
-            CHECK_BITS("spu_add signed", sadd[i], a[i] + b[i]);
-            CHECK_BITS("spu_sub signed", ssub[i], a[i] - b[i]);
+    if (o->has_failed)
+        return;
+    int evaluated[3] = {0};
+    const spu_quad got = o->call(in, evaluated);
+    const spu_quad expected = spu_reference_result(o->reference, &o->form, in);
+    const int wrong = spu_reference_mismatch(o->reference, &o->form, in, &got, &expected);
+    if (wrong >= 0)
+        spu_report(&o->form, in, &got, &expected, wrong);
+    o->has_failed = wrong >= 0;
+    for (int k = 0; k < 3; k++)
+        if (evaluated[k] != (k < o->form.operands)) {
+            print_error("spu_%s evaluates operand %d %d times\n", o->form.text, k + 1, evaluated[k]);
+            o->has_failed = true;
         }
-    }
 }
 
-/* ---- comparison and bits ---- */
+/* ---- the operands that an overload meets ---- */
 
-static void check_compare(vec_float4 a, vec_float4 b)
+/* Random operands, which often share elements with the first: equal values are what comparisons and borrows turn on. */
+static void randomize(overload *o, spu_quad in[3])
 {
-    const vec_uint4 gt = spu_cmpgt(a, b), eq = spu_cmpeq(a, b), ge = spux_cmpge(a, b);
-    const vfloat least = spux_min(a, b), most = spux_max(a, b);
-    for (int i = 0; i < 4; i++) {
-        CHECK_BITS("spu_cmpgt", gt[i], a[i] > b[i] ? UINT32_MAX : 0);
-        CHECK_BITS("spu_cmpeq", eq[i], a[i] == b[i] ? UINT32_MAX : 0);
-        CHECK_BITS("spux_cmpge", ge[i], a[i] >= b[i] ? UINT32_MAX : 0);
-        CHECK_BITS("spux_min", bits_of(least[i]), bits_of(a[i] < b[i] ? a[i] : b[i]));
-        CHECK_BITS("spux_max", bits_of(most[i]), bits_of(a[i] > b[i] ? a[i] : b[i]));
-    }
+    for (int k = 0; k < o->form.operands; k++)
+        in[k] = spu_random(&o->random, o->form.operand[k], o->role[k], k ? &in[0] : NULL);
 }
 
-static void float_comparison(void **state)
-{
-    (void)state;
-    test_random r = random_make(3);
-    for (size_t i = 0; i < TEST_COUNT(edge); i++)
-        for (size_t j = 0; j < TEST_COUNT(edge); j++)
-            check_compare(spu_splats(edge[i]), spu_splats(edge[j]));
-    for (uint32_t k = test_scaled(ROUNDS); k; k--)
-        check_compare(any_floats(&r), any_floats(&r));
-}
+static uint32_t edges(const overload *o, int k) { return spu_edge_count(o->form.operand[k], o->role[k]); }
 
-static void integer_comparison_and_bits(void **state)
+static void check_edges_of(overload *o, int k, uint32_t partners)
 {
-    (void)state;
-    test_random r = random_make(4);
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
-        const vec_uint4 a = any_words(&r), b = random_below(&r, 4) ? any_words(&r) : a, m = any_words(&r);
-        const vec_int4 sa = (vec_int4)a, sb = (vec_int4)b;
-        const vec_float4 fa = (vec_float4)a, fb = (vec_float4)b;
-        const vec_ushort8 ha = (vec_ushort8)a, hb = (vec_ushort8)b, heq = spu_cmpeq(ha, hb), hand = spu_and(ha, hb);
-        const vec_uint4 gt = spu_cmpgt(a, b), sgt = spu_cmpgt(sa, sb), eq = spu_cmpeq(a, b), seq = spu_cmpeq(sa, sb);
-        const vec_uint4 all[] = {spu_and(a, b),
-                                 spu_or(a, b),
-                                 spu_xor(a, b),
-                                 spu_andc(a, b),
-                                 spu_sel(a, b, m),
-                                 (vec_uint4)spu_and(sa, sb),
-                                 (vec_uint4)spu_or(sa, sb),
-                                 (vec_uint4)spu_xor(sa, sb),
-                                 (vec_uint4)spu_andc(sa, sb),
-                                 (vec_uint4)spu_sel(sa, sb, m),
-                                 (vec_uint4)spu_and(fa, fb),
-                                 (vec_uint4)spu_or(fa, fb),
-                                 (vec_uint4)spu_xor(fa, fb),
-                                 (vec_uint4)spu_andc(fa, fb),
-                                 (vec_uint4)spu_sel(fa, fb, m),
-                                 spux_not(a)};
-        for (int i = 0; i < 4; i++) {
-            const uint32_t expected[] = {a[i] & b[i], a[i] | b[i], a[i] ^ b[i], a[i] & ~b[i],
-                                         (a[i] & ~m[i]) | (b[i] & m[i])};
-            for (int w = 0; w < 15; w++)
-                CHECK_BITS("spu_and, or, xor, andc, sel", all[w][i], expected[w % 5]);
-            CHECK_BITS("spux_not", all[15][i], ~a[i]);
-            CHECK_BITS("spu_cmpgt", gt[i], a[i] > b[i] ? UINT32_MAX : 0);
-            CHECK_BITS("spu_cmpgt signed", sgt[i], sa[i] > sb[i] ? UINT32_MAX : 0);
-            CHECK_BITS("spu_cmpeq", eq[i], a[i] == b[i] ? UINT32_MAX : 0);
-            CHECK_BITS("spu_cmpeq signed", seq[i], a[i] == b[i] ? UINT32_MAX : 0);
+    spu_quad in[3];
+    for (uint32_t e = 0; e < edges(o, k); e++)
+        for (uint32_t n = 0; n < partners; n++) {
+            randomize(o, in);
+            in[k] = spu_edge(o->form.operand[k], o->role[k], e);
+            check(o, in);
         }
-        for (int i = 0; i < 8; i++) {
-            CHECK_BITS("spu_cmpeq 16", heq[i], ha[i] == hb[i] ? 0xffff : 0);
-            CHECK_BITS("spu_and 16", hand[i], ha[i] & hb[i]);
+}
+
+static void check_pairs_of_edges(overload *o, int k, int l)
+{
+    spu_quad in[3];
+    if (edges(o, k) > LONG_LIST || edges(o, l) > LONG_LIST)
+        return;
+    for (uint32_t e = 0; e < edges(o, k); e++)
+        for (uint32_t f = 0; f < edges(o, l); f++) {
+            randomize(o, in);
+            in[k] = spu_edge(o->form.operand[k], o->role[k], e);
+            in[l] = spu_edge(o->form.operand[l], o->role[l], f);
+            check(o, in);
         }
-    }
 }
 
-/* ---- conversion ---- */
-
-/* Times 2^n, towards zero, saturated; NaN gives 0. In double, where the product is exact. */
-static int32_t convts(float a, int n)
+/* All codes of a pattern in all places. */
+static void check_shuffle_codes(overload *o)
 {
-    const double x = ldexp((double)a, n);
-    return isnan(x) ? 0 : x >= 2147483647.0 ? INT32_MAX : x <= -2147483648.0 ? INT32_MIN : (int32_t)x;
-}
-
-static void check_convts(vec_float4 a)
-{
-    const vec_int4 d[] = {spu_convts(a, 0), spu_convts(a, 1), spu_convts(a, 8), spu_convts(a, 31)};
-    const int n[] = {0, 1, 8, 31};
-    for (int w = 0; w < 4; w++)
-        for (int i = 0; i < 4; i++)
-            CHECK_BITS("spu_convts", d[w][i], convts(a[i], n[w]));
-}
-
-static void float_to_int(void **state)
-{
-    (void)state;
-    test_random r = random_make(5);
-    const vec_int4 literal = spu_convts(((vec_float4){2.9f, -2.9f, 0x1p31f, -0x1p40f}), 0);
-    assert_true(literal[0] == 2 && literal[1] == -2 && literal[2] == INT32_MAX && literal[3] == INT32_MIN);
-    for (size_t i = 0; i < TEST_COUNT(edge); i++)
-        check_convts(spu_splats(edge[i]));
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
-        check_convts(any_floats(&r));
-        check_convts(
-            (vec_float4){random_float(&r, -3e9f, 3e9f), random_float(&r, -2, 2), random_log(&r, 1e-3f, 1e12f), 0});
-    }
-}
-
-static void int_to_float(void **state)
-{
-    (void)state;
-    test_random r = random_make(6);
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
-        const vec_int4 a = (vec_int4)any_words(&r);
-        const vec_float4 d[] = {spu_convtf(a, 0), spu_convtf(a, 4), spu_convtf(a, 31)};
-        const int n[] = {0, 4, 31};
-        for (int w = 0; w < 3; w++)
-            for (int i = 0; i < 4; i++)
-                CHECK_FLOAT("spu_convtf", d[w][i], (float)ldexp((double)(float)a[i], -n[w]));
-    }
-}
-
-/* ---- gather, shuffle ---- */
-
-static void gather_takes_lowest_bits_element_0_first(void **state)
-{
-    (void)state;
-    for (uint32_t bits = 0; bits < 16; bits++) {
-        const vec_uint4 a = {bits >> 3 & 1, bits >> 2 & 1, bits >> 1 & 1, bits & 1};
-        const vec_uint4 noise = {0xfffffffe, 0x12345678, 0x80000000, 0};
-        const vec_uint4 d[] = {spu_gather(a), spu_gather(a | noise), spu_gather(~(a - 1))};
-        for (int w = 0; w < 3; w++) {
-            CHECK_BITS("spu_gather", d[w][0], bits);
-            for (int i = 1; i < 4; i++)
-                CHECK_BITS("spu_gather, other elements", d[w][i], 0);
-        }
-    }
-}
-
-/* Byte p of a holds p and byte p of b 16 + p, most significant byte of an element first. */
-static const vec_ushort8 numbered_a = {0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0a0b, 0x0c0d, 0x0e0f};
-static const vec_ushort8 numbered_b = {0x1011, 0x1213, 0x1415, 0x1617, 0x1819, 0x1a1b, 0x1c1d, 0x1e1f};
-
-/* The byte that a selector picks, where get(p) is byte p of a and b. */
-static unsigned selected(unsigned c, vec_ushort8 a, vec_ushort8 b)
-{
-    if (c >= 0xe0)
-        return 0x80;
-    if (c >= 0xc0)
-        return 0xff;
-    if (c >= 0x80)
-        return 0x00;
-    const unsigned p = c & 31, element = p < 16 ? a[p / 2] : b[p / 2 - 8];
-    return p % 2 ? element & 0xff : element >> 8;
-}
-
-static void check_shuffle(vec_ushort8 a, vec_ushort8 b, vec_uchar16 c)
-{
-    const vec_ushort8 d = spu_shuffle(a, b, c);
-    for (int i = 0; i < 8; i++)
-        CHECK_BITS("spu_shuffle", d[i], selected(c[2 * i], a, b) << 8 | selected(c[2 * i + 1], a, b));
-}
-
-static void shuffle_selects_bytes(void **state)
-{
-    (void)state;
-    test_random r = random_make(7);
-    const vec_uchar16 identity_a = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    const vec_uchar16 push = {0, 1, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29};
-    const vec_uchar16 constants = {0x80, 0xbf, 0xc0, 0xdf, 0xe0, 0xff, 0x9f, 0xc5, 0, 0, 0, 0, 0, 0, 0, 0};
-    const vec_ushort8 same = spu_shuffle(numbered_a, numbered_b, identity_a);
-    const vec_ushort8 pushed = spu_shuffle(numbered_a, numbered_b, push);
-    const vec_ushort8 fixed = spu_shuffle(numbered_a, numbered_b, constants);
-    for (int i = 0; i < 8; i++)
-        assert_int_equal(same[i], numbered_a[i]);
-    assert_int_equal(pushed[0], numbered_a[0]);
-    for (int i = 1; i < 8; i++)
-        assert_int_equal(pushed[i], numbered_b[i - 1]);
-    assert_true(fixed[0] == 0x0000 && fixed[1] == 0xffff && fixed[2] == 0x8080 && fixed[3] == 0x00ff && fixed[4] == 0);
-    for (int c = 0; c < 256; c++)
+    spu_quad in[3];
+    for (int code = 0; code < 256; code++) {
+        randomize(o, in);
         for (int k = 0; k < 16; k++) {
-            vec_uchar16 pattern = identity_a;
-            pattern[k] = (uint8_t)c;
-            check_shuffle(numbered_a, numbered_b, pattern);
+            for (int i = 0; i < 16; i++)
+                in[2].byte[i] = (uint8_t)(i == k ? code : i);
+            check(o, in);
         }
-    for (uint32_t k = test_scaled(ROUNDS); k; k--)
-        check_shuffle((vec_ushort8)any_words(&r), (vec_ushort8)any_words(&r), (vec_uchar16)any_words(&r));
-}
-
-/* ---- the words of vector.h ---- */
-
-static void mask_bits_and_select(void **state)
-{
-    (void)state;
-    test_random r = random_make(8);
-    for (uint32_t bits = 0; bits <= CGT_ALL_LANES; bits++) {
-        _Alignas(CGT_VECTOR_BYTES) uint32_t lane[CGT_LANES], x[CGT_LANES], y[CGT_LANES];
-        for (int i = 0; i < CGT_LANES; i++) {
-            lane[i] = bits >> i & 1 ? UINT32_MAX : 0;
-            x[i] = any_bits(&r);
-            y[i] = any_bits(&r);
-        }
-        const vuint m = spux_load_uint(lane), a = spux_load_uint(x), b = spux_load_uint(y);
-        const vuint u = spux_select(a, b, (vmask)m), f = (vuint)spux_select((vfloat)a, (vfloat)b, (vmask)m);
-        CHECK_BITS("spux_mask_bits", spux_mask_bits((vmask)m), bits);
-        CHECK_BITS("spux_count_bits", spux_count_bits(bits), __builtin_popcount(bits));
-        for (int i = 0; i < CGT_LANES; i++) {
-            CHECK_BITS("spux_select", u[i], bits >> i & 1 ? y[i] : x[i]);
-            CHECK_BITS("spux_select of floats", f[i], bits >> i & 1 ? y[i] : x[i]);
-        }
-    }
-    for (unsigned bits = 0; bits < 256; bits++) {
-        vec_ushort8 m = spu_splats((uint16_t)0);
-        for (int i = 0; i < 8; i++)
-            m[i] = bits >> i & 1 ? 0xffff : 0;
-        CHECK_BITS("cgt_spux_mask_bits_u16", cgt_spux_mask_bits_u16(m), bits);
     }
 }
 
-static void load_store_and_lanes(void **state)
+static void check_overload(overload *o)
 {
-    (void)state;
-    _Alignas(CGT_VECTOR_BYTES) float from[3 * CGT_LANES], to[3 * CGT_LANES] = {0};
-    _Alignas(CGT_VECTOR_BYTES) uint32_t words[CGT_LANES];
-    for (int i = 0; i < 3 * CGT_LANES; i++)
-        from[i] = (float)(i * i) - 5;
-    spux_store(to + CGT_LANES, spux_load(from + CGT_LANES));
-    spux_store_uint(words, spux_lane_index());
-    for (int i = 0; i < CGT_LANES; i++) {
-        assert_true(to[i] == 0 && to[CGT_LANES + i] == from[CGT_LANES + i] && to[2 * CGT_LANES + i] == 0);
-        assert_int_equal(words[i], i);
-        assert_true(spux_vfloat(2.5f)[i] == 2.5f && spux_vint(-3)[i] == -3 && spux_vuint(9u)[i] == 9);
-        CHECK_BITS("spux_abs", bits_of(spux_abs(spux_vfloat(-0.f))[i]), 0);
-        CHECK_BITS("spux_abs", bits_of(spux_abs(spux_vfloat(-NAN))[i]), bits_of(NAN) & 0x7fffffff);
+    spu_quad in[3];
+    for (int k = 0; k < o->form.operands; k++) {
+        check_edges_of(o, k, 4);
+        for (int l = 0; l < k; l++)
+            check_pairs_of_edges(o, l, k);
     }
-    for (int i = 0; i < CGT_LANES; i++) { /* the extreme in every lane */
-        vfloat v = spux_vfloat(1);
-        v[i] = -3;
-        assert_true(spux_hmin(v) == -3 && spux_hmax(v) == 1);
-        v[i] = 7;
-        assert_true(spux_hmin(v) == 1 && spux_hmax(v) == 7);
+    if (!strcmp(o->form.word, "shuffle"))
+        check_shuffle_codes(o);
+    for (uint32_t n = test_scaled(RANDOM_ROUNDS); n; n--) {
+        randomize(o, in);
+        check(o, in);
     }
 }
 
-static void quotient_and_root_are_near(void **state)
+/* ---- one test per word ---- */
+
+static uint32_t called, counted; /* overloads */
+
+/* state is the word */
+static void every_overload_of(void **state)
 {
-    (void)state;
-    test_random r = random_make(9);
-    for (uint32_t k = test_scaled(ROUNDS); k; k--) {
-        const float a = random_log(&r, 1e-18f, 1e18f), b = random_log(&r, 1e-18f, 1e18f);
-        const float quotient = spu_extract(spux_div(spux_vfloat(-a), spux_vfloat(b)), 3);
-        const float root = spu_extract(spux_sqrt(spux_vfloat(a)), 2);
-        assert_true(fabs(quotient / -((double)a / b) - 1) <= 0x1p-21);
-        assert_true(fabs(root / sqrt((double)a) - 1) <= 0x1p-21);
+    bool has_failed = false;
+    for (size_t i = 0; i < TEST_COUNT(rows); i++) {
+        if (strcmp(rows[i].word, *state) != 0)
+            continue;
+        counted++;
+        if (spu_is_left_to_exact(&rows[i]))
+            continue;
+        overload o = overload_of(i);
+        if (!o.reference)
+            fail_msg("spu_%s has no definition", o.form.word);
+        called++;
+        check_overload(&o);
+        has_failed |= o.has_failed;
     }
-    assert_true(spux_hmax(spux_sqrt(spux_vfloat(0))) == 0);
-    assert_true(spux_hmin(spux_sqrt(spux_vfloat(4))) == 2);
+    assert_false(has_failed);
+}
+
+/* The words in the order of the table; a word may stand in several rows that are not neighbours. */
+static uint32_t list_words(const char *words[], uint32_t capacity)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < TEST_COUNT(rows); i++) {
+        uint32_t w = 0;
+        while (w < count && strcmp(words[w], rows[i].word) != 0)
+            w++;
+        if (w == count && count < capacity)
+            words[count++] = rows[i].word;
+    }
+    return count;
+}
+
+/* Last of all tests. */
+static void nothing_is_left_out(void **state)
+{
+    const char *words[SPU_WORDS + 1];
+    const uint32_t count = list_words(words, SPU_WORDS + 1);
+    (void)state;
+    assert_int_equal(TEST_COUNT(rows), SPU_OVERLOADS);
+    assert_int_equal(count, SPU_WORDS);
+    assert_int_equal(spu_reference_count(), SPU_WORDS);
+    print_message("%s: %u overloads of %u words, %u of them called\n", CGT_VARIANT_NAME, counted, count, called);
+    assert_int_equal(counted, SPU_OVERLOADS);
+#ifndef CGT_SPU_EXACT
+    assert_int_equal(called, SPU_OVERLOADS);
+#endif
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elements_lie_in_order_in_memory),
-        cmocka_unit_test(splats_fills_every_element),
-        cmocka_unit_test(float_arithmetic),
-        cmocka_unit_test(integer_arithmetic_wraps),
-        cmocka_unit_test(float_comparison),
-        cmocka_unit_test(integer_comparison_and_bits),
-        cmocka_unit_test(float_to_int),
-        cmocka_unit_test(int_to_float),
-        cmocka_unit_test(gather_takes_lowest_bits_element_0_first),
-        cmocka_unit_test(shuffle_selects_bytes),
-        cmocka_unit_test(mask_bits_and_select),
-        cmocka_unit_test(load_store_and_lanes),
-        cmocka_unit_test(quotient_and_root_are_near),
-    };
+    static const char *words[SPU_WORDS];
+    struct CMUnitTest tests[SPU_WORDS + 1];
     test_begin("test_spu_words");
     if (!test_variant_runs(CGT_VARIANT_NAME))
         return TEST_SKIPPED;
+    const uint32_t count = list_words(words, SPU_WORDS);
+    for (uint32_t w = 0; w < SPU_WORDS; w++)
+        tests[w] = (struct CMUnitTest){w < count ? words[w] : "absent", every_overload_of, NULL, NULL,
+                                       (void *)(uintptr_t)(w < count ? words[w] : "")};
+    tests[SPU_WORDS] = (struct CMUnitTest)cmocka_unit_test(nothing_is_left_out);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
