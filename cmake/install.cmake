@@ -23,6 +23,7 @@ set(cgt_simd_headers
     simd/spu_intrinsics.h
     simd/spu_mfcio.h
     simd/spu_neon.h
+    simd/spu_operand_check.h
     simd/spu_portable.h
     simd/spu_portable_byte.h
     simd/spu_portable_element.h

@@ -41,6 +41,7 @@
 
 #include "spu_arithmetic_mode.h"
 
+#include "spu_operand_check.h"
 #include "spu_wide.h" /* in kernels at eight or sixteen lanes the words know the wide types too */
 
 /* ---- picking: by the type of x, among the types for which a word exists; `wide` adds the wide ones ---- */
@@ -117,46 +118,46 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 
 /* ---- arithmetic ---- */
 
-#define spu_add(a, b) CGT_SPU_PICK_SUM(add, CGT_SPU_WIDE_FSU(add), a, b)(a, b)
+#define spu_add(a, b) CGT_SPU_PICK_SUM(add, CGT_SPU_WIDE_FSU(add), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
 /* a scalar stands first: the vector from which it is not taken is b */
 #define spu_sub(a, b)                                                                                                  \
     _Generic((a), CGT_SPU_WIDE_FSU(sub) CGT_SPU_LIST_SUM(sub), default:                                                \
-             _Generic((b), CGT_SPU_HALFWORDS_X(sub), CGT_SPU_WORDS_X(sub), CGT_SPU_ELSE_NONE))(a, b)
-#define spu_addx(a, b, c) CGT_SPU_PICK_WORDS32(addx, , a)(a, b, c)
-#define spu_subx(a, b, c) CGT_SPU_PICK_WORDS32(subx, , a)(a, b, c)
-#define spu_genc(a, b) CGT_SPU_PICK_WORDS32(genc, , a)(a, b)
-#define spu_gencx(a, b, c) CGT_SPU_PICK_WORDS32(gencx, , a)(a, b, c)
-#define spu_genb(a, b) CGT_SPU_PICK_WORDS32(genb, , a)(a, b)
-#define spu_genbx(a, b, c) CGT_SPU_PICK_WORDS32(genbx, , a)(a, b, c)
-#define spu_mul(a, b) CGT_SPU_PICK_FLOATS(mul, CGT_SPU_WIDE_F(mul), a)(a, b)
+             _Generic((b), CGT_SPU_HALFWORDS_X(sub), CGT_SPU_WORDS_X(sub), CGT_SPU_ELSE_NONE))(a, CGT_SPU_OPERAND_LIKE(a, b))
+#define spu_addx(a, b, c) CGT_SPU_PICK_WORDS32(addx, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_subx(a, b, c) CGT_SPU_PICK_WORDS32(subx, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_genc(a, b) CGT_SPU_PICK_WORDS32(genc, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_gencx(a, b, c) CGT_SPU_PICK_WORDS32(gencx, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_genb(a, b) CGT_SPU_PICK_WORDS32(genb, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_genbx(a, b, c) CGT_SPU_PICK_WORDS32(genbx, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_mul(a, b) CGT_SPU_PICK_FLOATS(mul, CGT_SPU_WIDE_F(mul), a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_madd(a, b, c)                                                                                              \
-    _Generic((a), CGT_SPU_WIDE_F(madd) CGT_SPU_OF_FLOATS(madd), vec_short8: cgt_spu_madd_s16)(a, b, c)
-#define spu_msub(a, b, c) CGT_SPU_PICK_FLOATS(msub, CGT_SPU_WIDE_F(msub), a)(a, b, c)
-#define spu_nmsub(a, b, c) CGT_SPU_PICK_FLOATS(nmsub, CGT_SPU_WIDE_F(nmsub), a)(a, b, c)
-#define spu_nmadd(a, b, c) _Generic((a), vec_double2: cgt_spu_nmadd_f64)(a, b, c)
-#define spu_mule(a, b) _Generic((a), CGT_SPU_OF_HALFWORDS(mule))(a, b)
+    _Generic((a), CGT_SPU_WIDE_F(madd) CGT_SPU_OF_FLOATS(madd), vec_short8: cgt_spu_madd_s16)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_ADDEND(a, c))
+#define spu_msub(a, b, c) CGT_SPU_PICK_FLOATS(msub, CGT_SPU_WIDE_F(msub), a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_nmsub(a, b, c) CGT_SPU_PICK_FLOATS(nmsub, CGT_SPU_WIDE_F(nmsub), a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_nmadd(a, b, c) _Generic((a), vec_double2: cgt_spu_nmadd_f64)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_mule(a, b) _Generic((a), CGT_SPU_OF_HALFWORDS(mule))(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_mulo(a, b)                                                                                                 \
     _Generic((b), CGT_SPU_OF_HALFWORDS(mulo), default:                                                                 \
-             _Generic((a), CGT_SPU_HALFWORDS_X(mulo), CGT_SPU_ELSE_NONE))(a, b)
-#define spu_mulh(a, b) _Generic((a), vec_short8: cgt_spu_mulh_s16)(a, b)
-#define spu_mulsr(a, b) _Generic((a), vec_short8: cgt_spu_mulsr_s16)(a, b)
-#define spu_mhhadd(a, b, c) _Generic((a), CGT_SPU_OF_HALFWORDS(mhhadd))(a, b, c)
+             _Generic((a), CGT_SPU_HALFWORDS_X(mulo), CGT_SPU_ELSE_NONE))(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_mulh(a, b) _Generic((a), vec_short8: cgt_spu_mulh_s16)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_mulsr(a, b) _Generic((a), vec_short8: cgt_spu_mulsr_s16)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_mhhadd(a, b, c) _Generic((a), CGT_SPU_OF_HALFWORDS(mhhadd))(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_ADDEND(a, c))
 #define spu_re(a) _Generic((a), CGT_SPU_WIDE_F(re) vec_float4: cgt_spu_re_f32)(a)
 #define spu_rsqrte(a) _Generic((a), CGT_SPU_WIDE_F(rsqrte) vec_float4: cgt_spu_rsqrte_f32)(a)
 /* the estimates in the SPU's two instructions, on quadwords: SPU source uses these three even where it is generic */
 #define si_frest(a) ((qword)cgt_spu_frest_f32((vec_float4)(a)))
 #define si_frsqest(a) ((qword)cgt_spu_frsqest_f32((vec_float4)(a)))
 #define si_fi(a, b) ((qword)cgt_spu_fi_f32((vec_float4)(a), (vec_float4)(b)))
-#define spu_absd(a, b) _Generic((a), vec_uchar16: cgt_spu_absd_u8)(a, b)
-#define spu_avg(a, b) _Generic((a), vec_uchar16: cgt_spu_avg_u8)(a, b)
-#define spu_sumb(a, b) _Generic((a), vec_uchar16: cgt_spu_sumb_u8)(a, b)
+#define spu_absd(a, b) _Generic((a), vec_uchar16: cgt_spu_absd_u8)(a, CGT_SPU_OPERAND_IS(vec_uchar16, b))
+#define spu_avg(a, b) _Generic((a), vec_uchar16: cgt_spu_avg_u8)(a, CGT_SPU_OPERAND_IS(vec_uchar16, b))
+#define spu_sumb(a, b) _Generic((a), vec_uchar16: cgt_spu_sumb_u8)(a, CGT_SPU_OPERAND_IS(vec_uchar16, b))
 
 /* ---- comparison ---- */
 
-#define spu_cmpeq(a, b) CGT_SPU_PICK_OR_INT(cmpeq, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpeq), a, b)(a, b)
-#define spu_cmpgt(a, b) CGT_SPU_PICK_OR_INT(cmpgt, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpgt), a, b)(a, b)
-#define spu_cmpabseq(a, b) CGT_SPU_PICK_FLOATS(cmpabseq, , a)(a, b)
-#define spu_cmpabsgt(a, b) CGT_SPU_PICK_FLOATS(cmpabsgt, CGT_SPU_WIDE_F(cmpabsgt), a)(a, b)
+#define spu_cmpeq(a, b) CGT_SPU_PICK_OR_INT(cmpeq, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpeq), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_cmpgt(a, b) CGT_SPU_PICK_OR_INT(cmpgt, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpgt), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_cmpabseq(a, b) CGT_SPU_PICK_FLOATS(cmpabseq, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_cmpabsgt(a, b) CGT_SPU_PICK_FLOATS(cmpabsgt, CGT_SPU_WIDE_F(cmpabsgt), a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_testsv(a, classes) _Generic((a), vec_double2: cgt_spu_testsv_f64)(a, classes)
 
 /* ---- bits and masks ---- */
@@ -167,8 +168,8 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_maskb(a) cgt_spu_maskb((unsigned)(a))
 #define spu_maskh(a) cgt_spu_maskh((unsigned)(a))
 #define spu_maskw(a) cgt_spu_maskw((unsigned)(a))
-#define spu_sel(a, b, m) CGT_SPU_PICK_ALL(sel, CGT_SPU_WIDE_FSU(sel), a)(a, b, m)
-#define spu_shuffle(a, b, pattern) CGT_SPU_PICK_ALL(shuffle, , a)(a, b, pattern)
+#define spu_sel(a, b, m) CGT_SPU_PICK_ALL(sel, CGT_SPU_WIDE_FSU(sel), a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_MASK(a, m))
+#define spu_shuffle(a, b, pattern) CGT_SPU_PICK_ALL(shuffle, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_IS(vec_uchar16, pattern))
 
 /* No word of an SPU, where a cast does it: the cast of a to a vector type with the SPU's result on hosts of either byte
  * order. It matters where the element sizes differ. */
@@ -177,14 +178,14 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 
 /* ---- logic ---- */
 
-#define spu_and(a, b) CGT_SPU_PICK_OR_INT(and, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(and), a, b)(a, b)
-#define spu_or(a, b) CGT_SPU_PICK_OR_INT(or, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(or), a, b)(a, b)
-#define spu_xor(a, b) CGT_SPU_PICK_OR_INT(xor, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(xor), a, b)(a, b)
-#define spu_andc(a, b) CGT_SPU_PICK_ALL(andc, CGT_SPU_WIDE_FSUM(andc), a)(a, b)
-#define spu_orc(a, b) CGT_SPU_PICK_ALL(orc, , a)(a, b)
-#define spu_nand(a, b) CGT_SPU_PICK_ALL(nand, , a)(a, b)
-#define spu_nor(a, b) CGT_SPU_PICK_ALL(nor, CGT_SPU_WIDE_FSUM(nor), a)(a, b)
-#define spu_eqv(a, b) CGT_SPU_PICK_ALL(eqv, , a)(a, b)
+#define spu_and(a, b) CGT_SPU_PICK_OR_INT(and, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(and), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_or(a, b) CGT_SPU_PICK_OR_INT(or, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(or), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_xor(a, b) CGT_SPU_PICK_OR_INT(xor, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(xor), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_andc(a, b) CGT_SPU_PICK_ALL(andc, CGT_SPU_WIDE_FSUM(andc), a)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_orc(a, b) CGT_SPU_PICK_ALL(orc, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_nand(a, b) CGT_SPU_PICK_ALL(nand, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_nor(a, b) CGT_SPU_PICK_ALL(nor, CGT_SPU_WIDE_FSUM(nor), a)(a, CGT_SPU_OPERAND_SAME(a, b))
+#define spu_eqv(a, b) CGT_SPU_PICK_ALL(eqv, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_orx(a) CGT_SPU_PICK_WORDS32(orx, , a)(a)
 
 /* ---- shifts and rotations of elements; from the element's width on nothing or the sign is left ---- */

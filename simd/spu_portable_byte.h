@@ -130,6 +130,7 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_cast_bytes(vec_uchar16 a, unsigned from, unsi
 {
     const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     const unsigned flip = CGT_SPU_BYTE_FLIP(from) ^ CGT_SPU_BYTE_FLIP(to);
+    (void)from, (void)to; /* big-endian */
     return flip ? cgt_spu_shuffle_bytes(a, a, iota ^ (unsigned char)flip, 0) : a;
 }
 

@@ -12,16 +12,34 @@
 #define CGT_SPU_FUSED 0
 #endif
 #define CGT_SPU_FUSED_DOUBLE 0
-#ifndef CGT_SPU_OWN_FLOAT
-CGT_SPU_INLINE vec_float4 cgt_spu_madd_f32(vec_float4 a, vec_float4 b, vec_float4 c) { return a * b + c; }
-CGT_SPU_INLINE vec_float4 cgt_spu_msub_f32(vec_float4 a, vec_float4 b, vec_float4 c) { return a * b - c; }
-CGT_SPU_INLINE vec_float4 cgt_spu_nmsub_f32(vec_float4 a, vec_float4 b, vec_float4 c) { return c - a * b; }
+/* A product that the compiler may not fuse with what follows, as it otherwise does by default where the machine can. */
+#if !defined(__FP_FAST_FMAF)
+#define CGT_SPU_ROUNDED(product)
+#elif defined(__x86_64__)
+#define CGT_SPU_ROUNDED(product) __asm__("" : "+x"(product))
+#elif defined(__aarch64__)
+#define CGT_SPU_ROUNDED(product) __asm__("" : "+w"(product))
+#else
+#define CGT_SPU_ROUNDED(product) __asm__("" : "+m"(product))
 #endif
-CGT_SPU_INLINE vec_double2 cgt_spu_madd_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return a * b + c; }
-CGT_SPU_INLINE vec_double2 cgt_spu_msub_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return a * b - c; }
+#define CGT_SPU_X(word, type, vec, sum)                                                                                \
+    CGT_SPU_INLINE vec cgt_spu_##word##_##type(vec a, vec b, vec c)                                                    \
+    {                                                                                                                  \
+        vec ab = a * b;                                                                                                \
+        CGT_SPU_ROUNDED(ab);                                                                                           \
+        return sum;                                                                                                    \
+    }
+#ifndef CGT_SPU_OWN_FLOAT
+CGT_SPU_X(madd, f32, vec_float4, ab + c)
+CGT_SPU_X(msub, f32, vec_float4, ab - c)
+CGT_SPU_X(nmsub, f32, vec_float4, c - ab)
+#endif
+CGT_SPU_X(madd, f64, vec_double2, ab + c)
+CGT_SPU_X(msub, f64, vec_double2, ab - c)
 /* the SPU's doubles are rounded, then negated: another zero than c - a * b has */
-CGT_SPU_INLINE vec_double2 cgt_spu_nmsub_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return -(a * b - c); }
-CGT_SPU_INLINE vec_double2 cgt_spu_nmadd_f64(vec_double2 a, vec_double2 b, vec_double2 c) { return -(a * b + c); }
+CGT_SPU_X(nmsub, f64, vec_double2, -(ab - c))
+CGT_SPU_X(nmadd, f64, vec_double2, -(ab + c))
+#undef CGT_SPU_X
 #endif
 
 /* ---- single precision ---- */
