@@ -23,7 +23,8 @@ extern struct cgt_spu_operand_types_do_not_match {
  * of a's type */
 #define CGT_SPU_OPERAND_SAME(a, b) CGT_SPU_OF_TYPE(CGT_SPU_TYPE_OF(a), b)
 #define CGT_SPU_OPERAND_IS(type, b) CGT_SPU_OF_TYPE(type, b)
-#define CGT_SPU_OPERAND_LIKE(a, b) CGT_SPU_OF_TYPE(CGT_SPU_TYPE_OF(__builtin_choose_expr(sizeof(a) < 16, (b), (a))), b)
+#define CGT_SPU_OPERAND_LIKE(a, b)                                                                                     \
+    CGT_SPU_OF_TYPE(CGT_SPU_TYPE_OF(__builtin_choose_expr(sizeof(__typeof__(a)) < 16, (b), (a))), b)
 #define CGT_SPU_OPERAND_MASK(a, m)                                                                                     \
     CGT_SPU_OF_TYPE(CGT_SPU_TYPE_OF(_Generic((a), vec_uchar16                                                          \
                                              : (vec_uchar16){0}, vec_char16                                            \

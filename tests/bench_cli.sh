@@ -177,6 +177,49 @@ refuses 2 'no scene nowhere' make nowhere "$tmp/nowhere.frames"
 refuses 2 'SCENE and FILE' make cloud2k
 refuses 1 'no/folder' make cloud2k "$tmp/no/folder/cloud.frames"
 
+# ---- simd -----------------------------------------------------------------------------------------------------------
+
+run 0 simd --help
+for option in --variant --word --repeat --list; do
+    says out "$option"
+done
+
+# The list has all 455 overloads of the vocabulary's table, per variant, and a native form for nearly all.
+run 0 simd --list
+is 'the head of the list' "$(head -n 1 "$tmp/stdout")" 'variant	word	overload	count	lanes	native'
+for variant in $(awk -F '\t' 'NR > 1 && $1 !~ /[+#]/ { print $1 }' "$tmp/stdout" | sort -u); do
+    is "overloads of $variant" "$(awk -F '\t' -v v="$variant" '$1 == v && $2 ~ /^spu_/ && $3 !~ /v(float|u?int|mask)/ {
+        print $2 $3 }' "$tmp/stdout" | sort -u | wc -l | tr -d ' ')" 455
+    grep -q "^$variant+exact	spu_madd	(f32 f32 f32) f32	" "$tmp/stdout" || fail "$variant: no exact spu_madd"
+done
+grep -q '^portable	spu_add	(x' "$tmp/stdout" && fail 'spu_add with a scalar first'
+is 'a literal scale' "$(awk -F '\t' '$1 == "portable" && $2 == "spu_convts" { print $3, $4, $5 }' "$tmp/stdout")" \
+    '(f32 n_scale) s32 constant 4'
+
+# Every row, briefly: times are above 0, lanes and ratio follow from them, and all native forms give the words' results.
+run 0 simd -r 1
+awk -F '\t' '
+    NR == 1 { if ($0 != "variant\tword\toverload\tcount\tlanes\tns_per_word\tns_per_lane\tnative_ns_per_word\tratio\treason") bad++ }
+    NR > 1 && !/^#/ {
+        rows++
+        if (NF != 10 || !($6 > 0) || $6 - $5 * $7 > 0.001 * $5 || $5 * $7 - $6 > 0.001 * $5) bad++
+        if ($8 != "-" && ($6 / $8 - $9 > 0.02 * $9 + 0.02 || $9 - $6 / $8 > 0.02 * $9 + 0.02)) bad++
+        if ($8 != "-" && $9 > 1.11 && $10 == "") bad++
+    }
+    END { exit !(rows > 600) || bad }' "$tmp/stdout" || fail 'the table of cgt-bench simd'
+is 'other results' "$(grep -c '^#.*	0 with another result$' "$tmp/stdout")" "$(grep -c '^#.*another result$' "$tmp/stdout")"
+grep -q 'another result' "$tmp/stdout" || fail 'no summary of a variant'
+
+# Words and variants by name; with spu_ or without.
+run 0 simd -r 1 -v portable -w add -w spux_min
+is 'rows of two words' "$(awk -F '\t' '!/^#/ && NR > 1 { print $2 }' "$tmp/stdout" | sort | uniq -c | tr -s ' \n' ' ')" \
+    ' 11 spu_add 3 spux_min '
+is 'variants' "$(awk -F '\t' '!/^#/ && NR > 1 { print $1 }' "$tmp/stdout" | sort -u | tr '\n' ' ')" 'portable portable+exact '
+refuses 2 'no word nothing' simd -w add -w nothing
+refuses 2 'abacus' simd -v abacus
+refuses 2 '-r' simd -r 0
+refuses 2 'FILE' simd "$tmp/unit.frames"
+
 # ---- Errors ---------------------------------------------------------------------------------------------------------
 
 unit=$tmp/unit.frames

@@ -28,9 +28,9 @@ static void check_fused(const lanes a, const lanes b, const lanes c)
     d[1].f = spu_msub(a.f, b.f, c.f);
     d[2].f = spu_nmsub(a.f, b.f, c.f);
     for (int i = 0; i < CGT_LANES; i++) {
-        e[0].fe[i] = fmaf(a.fe[i], b.fe[i], c.fe[i]);
-        e[1].fe[i] = fmaf(a.fe[i], b.fe[i], -c.fe[i]);
-        e[2].fe[i] = fmaf(-a.fe[i], b.fe[i], c.fe[i]);
+        e[0].ef[i] = fmaf(a.ef[i], b.ef[i], c.ef[i]);
+        e[1].ef[i] = fmaf(a.ef[i], b.ef[i], -c.ef[i]);
+        e[2].ef[i] = fmaf(-a.ef[i], b.ef[i], c.ef[i]);
     }
     if (CGT_LANES == 4)
         for (int g = 0; g < FOURS; g++) {
@@ -170,7 +170,7 @@ static void conversions(void **state)
         check_conversions(edges(k), any_words(&r));
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         lanes a = any_floats(&r);
-        a.fe[random_below(&r, CGT_LANES)] = random_float(&r, -3e9f, 3e9f);
+        a.ef[random_below(&r, CGT_LANES)] = random_float(&r, -3e9f, 3e9f);
         check_conversions(a, any_words(&r));
     }
 }
@@ -183,12 +183,12 @@ static void estimates_are_near(void **state)
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         lanes a, re, root;
         for (int i = 0; i < CGT_LANES; i++)
-            a.fe[i] = random_log(&r, 1e-30f, 1e30f) * (random_below(&r, 2) ? 1.f : -1.f);
+            a.ef[i] = random_log(&r, 1e-30f, 1e30f) * (random_below(&r, 2) ? 1.f : -1.f);
         re.f = spu_re(a.f);
         root.f = spu_rsqrte(a.f); /* of the absolute value, as on the SPU */
         for (int i = 0; i < CGT_LANES; i++) {
-            const double errors[2] = {fabs(re.fe[i] * (double)a.fe[i] - 1),
-                                      fabs(root.fe[i] * sqrt(fabs((double)a.fe[i])) - 1)};
+            const double errors[2] = {fabs(re.ef[i] * (double)a.ef[i] - 1),
+                                      fabs(root.ef[i] * sqrt(fabs((double)a.ef[i])) - 1)};
             for (int w = 0; w < 2; w++)
                 worst[w] = errors[w] > worst[w] ? errors[w] : worst[w];
         }
@@ -236,7 +236,7 @@ static void selection(void **state)
         const vmask m = spux_mask_from_bits(bits);
         lanes d, e;
         for (int i = 0; i < CGT_LANES; i++)
-            e.ue[i] = bits >> i & 1 ? b.ue[i] : a.ue[i];
+            e.eu[i] = bits >> i & 1 ? b.eu[i] : a.eu[i];
         d.u = spux_select(a.u, b.u, m);
         check_bits("spux_select u", &d, &e);
         d.s = spux_select(a.s, b.s, m);
@@ -252,19 +252,19 @@ static void check_extremes(const lanes a, const lanes b)
 {
     lanes d, e, ge;
     for (int i = 0; i < CGT_LANES; i++) {
-        e.fe[i] = a.fe[i] < b.fe[i] ? a.fe[i] : b.fe[i];
-        ge.ue[i] = a.fe[i] >= b.fe[i] ? UINT32_MAX : 0;
+        e.ef[i] = a.ef[i] < b.ef[i] ? a.ef[i] : b.ef[i];
+        ge.eu[i] = a.ef[i] >= b.ef[i] ? UINT32_MAX : 0;
     }
     check_mask("spux_cmpge", spux_cmpge(a.f, b.f), &ge);
     d.f = spux_min(a.f, b.f);
     check_bits("spux_min f", &d, &e);
     for (int i = 0; i < CGT_LANES; i++)
-        e.fe[i] = a.fe[i] > b.fe[i] ? a.fe[i] : b.fe[i];
+        e.ef[i] = a.ef[i] > b.ef[i] ? a.ef[i] : b.ef[i];
     d.f = spux_max(a.f, b.f);
     check_bits("spux_max f", &d, &e);
     d.f = spux_abs(a.f);
     for (int i = 0; i < CGT_LANES; i++)
-        e.ue[i] = a.ue[i] & 0x7fffffff;
+        e.eu[i] = a.eu[i] & 0x7fffffff;
     check_bits("spux_abs", &d, &e);
 }
 
@@ -274,7 +274,7 @@ static void check_int_extremes(const lanes a, const lanes b)
 #define EXTREME(word, t, op)                                                                                           \
     d.t = spux_##word(a.t, b.t);                                                                                       \
     for (int i = 0; i < CGT_LANES; i++)                                                                                \
-        e.t##e[i] = a.t##e[i] op b.t##e[i] ? a.t##e[i] : b.t##e[i];                                                    \
+        e.e##t[i] = a.e##t[i] op b.e##t[i] ? a.e##t[i] : b.e##t[i];                                                    \
     check_bits("spux_" #word " " #t, &d, &e)
     EXTREME(min, u, <);
     EXTREME(max, u, >);
@@ -302,14 +302,14 @@ static void quotient_and_root_are_near(void **state)
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         lanes a, b, quotient, root;
         for (int i = 0; i < CGT_LANES; i++) {
-            a.fe[i] = random_log(&r, 1e-18f, 1e18f);
-            b.fe[i] = -random_log(&r, 1e-18f, 1e18f);
+            a.ef[i] = random_log(&r, 1e-18f, 1e18f);
+            b.ef[i] = -random_log(&r, 1e-18f, 1e18f);
         }
         quotient.f = spux_div(a.f, b.f);
         root.f = spux_sqrt(a.f);
         for (int i = 0; i < CGT_LANES; i++) {
-            assert_true(fabs(quotient.fe[i] / ((double)a.fe[i] / b.fe[i]) - 1) <= 0x1p-21);
-            assert_true(fabs(root.fe[i] / sqrt((double)a.fe[i]) - 1) <= 0x1p-21);
+            assert_true(fabs(quotient.ef[i] / ((double)a.ef[i] / b.ef[i]) - 1) <= 0x1p-21);
+            assert_true(fabs(root.ef[i] / sqrt((double)a.ef[i]) - 1) <= 0x1p-21);
         }
     }
     assert_true(spux_hmax(spux_sqrt(spux_vfloat(0))) == 0);
@@ -325,9 +325,9 @@ static void shifts(void **state)
         const uint32_t k = n & 63;
         lanes left, right, sign, d;
         for (int i = 0; i < CGT_LANES; i++) {
-            left.ue[i] = k < 32 ? a.ue[i] << k : 0;
-            right.ue[i] = k < 32 ? a.ue[i] >> k : 0;
-            sign.se[i] = (int32_t)(a.se[i] < 0 ? ~(~a.ue[i] >> (k < 32 ? k : 31)) : a.ue[i] >> (k < 32 ? k : 31));
+            left.eu[i] = k < 32 ? a.eu[i] << k : 0;
+            right.eu[i] = k < 32 ? a.eu[i] >> k : 0;
+            sign.es[i] = (int32_t)(a.es[i] < 0 ? ~(~a.eu[i] >> (k < 32 ? k : 31)) : a.eu[i] >> (k < 32 ? k : 31));
         }
         d.u = spux_sl(a.u, n);
         check_bits("spux_sl u", &d, &left);
@@ -352,7 +352,7 @@ static void splats_and_lanes(void **state)
     const lanes f = {.f = spux_vfloat(2.5f)}, s = {.s = spux_vint(-3)}, u = {.u = spux_vuint(0xdeadbeef)};
     const lanes index = {.u = spux_lane_index()};
     for (int i = 0; i < CGT_LANES; i++)
-        assert_true(f.fe[i] == 2.5f && s.se[i] == -3 && u.ue[i] == 0xdeadbeef && index.ue[i] == (uint32_t)i);
+        assert_true(f.ef[i] == 2.5f && s.es[i] == -3 && u.eu[i] == 0xdeadbeef && index.eu[i] == (uint32_t)i);
 }
 
 static void permutation(void **state)
@@ -364,8 +364,8 @@ static void permutation(void **state)
         lanes index = any_words(&r), d, e;
         for (int i = 0; i < CGT_LANES; i++) {
             if (k % 2)
-                index.ue[i] %= CGT_LANES;
-            e.ue[i] = a.ue[index.ue[i] % CGT_LANES];
+                index.eu[i] %= CGT_LANES;
+            e.eu[i] = a.eu[index.eu[i] % CGT_LANES];
         }
         d.u = spux_permute(a.u, index.u);
         check_bits("spux_permute u", &d, &e);
@@ -387,7 +387,7 @@ static void compression(void **state)
         int n = 0;
         for (int i = 0; i < CGT_LANES; i++)
             if (bits >> i & 1)
-                e.ue[n++] = a.ue[i];
+                e.eu[n++] = a.eu[i];
         d.u = spux_compress(a.u, m);
         check_bits("spux_compress u", &d, &e);
         d.s = spux_compress(a.s, m);
@@ -405,15 +405,15 @@ static void least_and_greatest_lane(void **state)
         const lanes u = any_words(&r);
         lanes f;
         for (int i = 0; i < CGT_LANES; i++)
-            f.fe[i] = random_below(&r, 20) ? random_float(&r, -10, 10) : random_below(&r, 2) ? INFINITY : -INFINITY;
-        f.fe[random_below(&r, CGT_LANES)] *= 8;
-        float low = f.fe[0], high = f.fe[0];
-        uint32_t least = u.ue[0], most = u.ue[0];
+            f.ef[i] = random_below(&r, 20) ? random_float(&r, -10, 10) : random_below(&r, 2) ? INFINITY : -INFINITY;
+        f.ef[random_below(&r, CGT_LANES)] *= 8;
+        float low = f.ef[0], high = f.ef[0];
+        uint32_t least = u.eu[0], most = u.eu[0];
         for (int i = 1; i < CGT_LANES; i++) {
-            low = f.fe[i] < low ? f.fe[i] : low;
-            high = f.fe[i] > high ? f.fe[i] : high;
-            least = u.ue[i] < least ? u.ue[i] : least;
-            most = u.ue[i] > most ? u.ue[i] : most;
+            low = f.ef[i] < low ? f.ef[i] : low;
+            high = f.ef[i] > high ? f.ef[i] : high;
+            least = u.eu[i] < least ? u.eu[i] : least;
+            most = u.eu[i] > most ? u.eu[i] : most;
         }
         assert_true(spux_hmin(f.f) == low && spux_hmax(f.f) == high);
         assert_true(spux_hmin(u.u) == least && spux_hmax(u.u) == most);

@@ -22,9 +22,9 @@ typedef union lanes {
     vec_float4 f4[FOURS];
     vec_int4 s4[FOURS];
     vec_uint4 u4[FOURS];
-    float fe[CGT_LANES];
-    int32_t se[CGT_LANES];
-    uint32_t ue[CGT_LANES];
+    float ef[CGT_LANES];
+    int32_t es[CGT_LANES];
+    uint32_t eu[CGT_LANES];
 } lanes;
 
 /* ---- operands ---- */
@@ -63,9 +63,9 @@ static inline lanes any_floats(test_random *r)
     lanes a;
     for (int i = 0; i < CGT_LANES; i++)
         switch (random_below(r, 4)) {
-        case 0: a.fe[i] = edge[random_below(r, TEST_COUNT(edge))]; break;
-        case 1: a.fe[i] = random_any_float(r); break;
-        default: a.fe[i] = random_float(r, -100, 100);
+        case 0: a.ef[i] = edge[random_below(r, TEST_COUNT(edge))]; break;
+        case 1: a.ef[i] = random_any_float(r); break;
+        default: a.ef[i] = random_float(r, -100, 100);
         }
     return a;
 }
@@ -73,7 +73,7 @@ static inline lanes any_words(test_random *r)
 {
     lanes a;
     for (int i = 0; i < CGT_LANES; i++)
-        a.ue[i] = random_below(r, 3) ? (uint32_t)random_bits(r) : edge_bits[random_below(r, TEST_COUNT(edge_bits))];
+        a.eu[i] = random_below(r, 3) ? (uint32_t)random_bits(r) : edge_bits[random_below(r, TEST_COUNT(edge_bits))];
     return a;
 }
 /* Lane i holds edge number first + i: over all of `first`, every edge meets every lane. */
@@ -81,7 +81,7 @@ static inline lanes edges(size_t first)
 {
     lanes a;
     for (size_t i = 0; i < CGT_LANES; i++)
-        a.fe[i] = edge[(first + i) % TEST_COUNT(edge)];
+        a.ef[i] = edge[(first + i) % TEST_COUNT(edge)];
     return a;
 }
 static inline unsigned any_bits(test_random *r) { return (unsigned)random_bits(r) & CGT_ALL_LANES; }
@@ -91,22 +91,22 @@ static inline unsigned any_bits(test_random *r) { return (unsigned)random_bits(r
 static inline void check_bits(const char *word, const lanes *got, const lanes *expected)
 {
     for (int i = 0; i < CGT_LANES; i++)
-        if (got->ue[i] != expected->ue[i])
-            fail_msg("%s, lane %d: 0x%08x, expected 0x%08x", word, i, got->ue[i], expected->ue[i]);
+        if (got->eu[i] != expected->eu[i])
+            fail_msg("%s, lane %d: 0x%08x, expected 0x%08x", word, i, got->eu[i], expected->eu[i]);
 }
 /* As results of arithmetic: any NaN is as good as another. */
 static inline void check_floats(const char *word, const lanes *got, const lanes *expected)
 {
     for (int i = 0; i < CGT_LANES; i++)
-        if (got->ue[i] != expected->ue[i] && !(isnan(got->fe[i]) && isnan(expected->fe[i])))
-            fail_msg("%s, lane %d: %a, expected %a", word, i, (double)got->fe[i], (double)expected->fe[i]);
+        if (got->eu[i] != expected->eu[i] && !(isnan(got->ef[i]) && isnan(expected->ef[i])))
+            fail_msg("%s, lane %d: %a, expected %a", word, i, (double)got->ef[i], (double)expected->ef[i]);
 }
 static inline void check_mask(const char *word, vmask got, const lanes *expected)
 {
     const unsigned bits = spux_mask_bits(got);
     for (int i = 0; i < CGT_LANES; i++)
-        if (expected->ue[i] != (bits >> i & 1 ? UINT32_MAX : 0))
-            fail_msg("%s, lane %d: %u, expected 0x%08x", word, i, bits >> i & 1, expected->ue[i]);
+        if (expected->eu[i] != (bits >> i & 1 ? UINT32_MAX : 0))
+            fail_msg("%s, lane %d: %u, expected 0x%08x", word, i, bits >> i & 1, expected->eu[i]);
     assert_int_equal(bits >> (CGT_LANES - 1) >> 1, 0);
 }
 static inline void check_number(const char *word, uint32_t got, uint32_t expected)
