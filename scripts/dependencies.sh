@@ -12,14 +12,15 @@ packages_of() {
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
     render) echo g++ libopenimageio-dev ;;                                         # cgt-render
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ ;; # native tests
+    clang)  echo clang ;;                                                          # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh
-    *)      echo "dependencies.sh: unknown purpose '$1': build, render, tests, cross, lint" >&2; return 1 ;;
+    *)      echo "dependencies.sh: unknown purpose '$1': build, render, tests, clang, cross, lint" >&2; return 1 ;;
     esac
 }
 
-[ $# -gt 0 ] || { echo "usage: dependencies.sh build|render|tests|cross|lint ..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: dependencies.sh build|render|tests|clang|cross|lint ..." >&2; exit 2; }
 wanted=()
 for purpose in "$@"; do
     list=$(packages_of "$purpose")

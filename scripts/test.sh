@@ -2,20 +2,21 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# test.sh [SUITE]...      SUITE: release, asan-ubsan, tsan, aarch64, ppc64; without any: all of them
+# test.sh [SUITE]...      SUITE: release, native, clang, asan-ubsan, tsan, aarch64, ppc64; without any: all of them
 # Installs what the tests need, builds each suite's preset of CMakePresets.json and runs ctest on it. The last line
 # counts the tests of all suites; the exit code is 0 where none failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 suites=("$@")
-[ ${#suites[@]} -gt 0 ] || suites=(release asan-ubsan tsan aarch64 ppc64)
+[ ${#suites[@]} -gt 0 ] || suites=(release native clang asan-ubsan tsan aarch64 ppc64)
 
 purposes=(build render tests)
 for suite in "${suites[@]}"; do
     case $suite in
-    release|asan-ubsan|tsan) ;;
+    release|native|asan-ubsan|tsan) ;;
+    clang) purposes+=(clang) ;;
     aarch64|ppc64) purposes+=(cross) ;;
-    *) echo "test.sh: unknown suite '$suite': release, asan-ubsan, tsan, aarch64, ppc64" >&2; exit 2 ;;
+    *) echo "test.sh: unknown suite '$suite': release, native, clang, asan-ubsan, tsan, aarch64, ppc64" >&2; exit 2 ;;
     esac
 done
 scripts/dependencies.sh "${purposes[@]}"
@@ -28,6 +29,8 @@ settings_of() {
     case $1 in
     release)       echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=ON ;;
     asan-ubsan)    echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=ON ;;
+    # another compiler, other flags: of the library, not of the programs' C++
+    native|clang)  echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=OFF ;;
     # Embree and OpenImageIO bring threads of their own that the sanitizer cannot see into
     tsan)          echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF ;;
     # Debian has neither Embree nor OpenImageIO for a cross build
