@@ -255,15 +255,18 @@ static void order_of_two_spheres(void **state)
         for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
             const filter_sphere first = filter_sphere_get(&p, &s, 0, p.common_origin),
                                 second = filter_sphere_get(&p, &s, 1, p.common_origin);
-            if (!filter_rays(&p, &first, i, p.common_origin, &f) || spux_mask_bits(f.certain) != CGT_ALL_LANES)
+            if (!filter_rays(&p, &first, i, p.common_origin, &f))
                 continue;
-            spux_store(p.low + i, f.low);
-            spux_store(p.high + i, f.high);
-            spux_store_uint(p.object + i, spux_vuint(0));
+            const unsigned hit = spux_mask_bits(f.certain);
+            spux_store(p.low + i, spux_select(spux_load(p.low + i), f.low, f.certain));
+            spux_store(p.high + i, spux_select(spux_load(p.high + i), f.high, f.certain));
+            spux_store_uint(p.object + i, spux_select(spux_load_uint(p.object + i), spux_vuint(0), f.certain));
             const bool some = filter_rays(&p, &second, i, p.common_origin, &f);
             const unsigned nearer = some ? spux_mask_bits(f.certain) : 0, left = some ? spux_mask_bits(f.open) : 0;
             for (uint32_t lane = 0; lane < CGT_LANES; lane++) {
                 const uint32_t j = i + lane;
+                if (!(hit >> lane & 1))
+                    continue;
                 const float org[3] = {p.org[0][j], p.org[1][j], p.org[2][j]},
                             dir[3] = {p.dir[0][j], p.dir[1][j], p.dir[2][j]};
                 const truth_roots a = truth_sphere(org, dir, sphere), b = truth_sphere(org, dir, other);
