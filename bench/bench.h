@@ -10,7 +10,8 @@
  *   threads   who makes those rays                   bench_threads.h
  *   timing    clock and medians                      bench_timing.h
  *   plan      the configurations that loops compares bench_plan.h
- *   report    their table and their ratios           bench_report.h */
+ *   report    their table and their ratios           bench_report.h
+ *   simd      words of the vocabulary, per variant   simd/simd_rows.h */
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -48,5 +49,6 @@ extern const struct argp bench_settings_argp;
 int bench_frame(int argc, char **argv);
 int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
+int bench_simd(int argc, char **argv);
 
 #endif

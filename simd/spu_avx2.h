@@ -108,10 +108,10 @@ CGT_SPU_INLINE vfloat cgt_spu_convtf_s32w(vint a, int n)
 }
 CGT_SPU_INLINE vfloat cgt_spu_convtf_u32w(vuint a, int n)
 {
-    /* two halves that a float holds exactly; their sum rounds once */
-    const vfloat high = (vfloat)_mm256_cvtepi32_ps(_mm256_srli_epi32((__m256i)a, 16));
-    const vfloat low = (vfloat)_mm256_cvtepi32_ps(_mm256_and_si256((__m256i)a, _mm256_set1_epi32(0xffff)));
-    return (high * (vfloat)_mm256_set1_ps(65536.f) + low) * cgt_spu_power_w(-n);
+    /* the halves as lowest bits of 2^23 and 2^39; what is too much is taken off exactly, and the sum is rounded once */
+    const __m256i low = _mm256_blend_epi16((__m256i)a, _mm256_set1_epi32(0x4b000000), 0xaa);
+    const __m256i high = _mm256_blend_epi16(_mm256_srli_epi32((__m256i)a, 16), _mm256_set1_epi32(0x53000000), 0xaa);
+    return (((vfloat)high - 0x1.0001p39f) + (vfloat)low) * cgt_spu_power_w(-n);
 }
 
 /* convts: times 2^n, towards zero, saturated; NaN gives 0. cvttps gives 0x80000000 for whatever does not fit: flip that

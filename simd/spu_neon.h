@@ -76,6 +76,7 @@ CGT_SPU_INLINE vec_int4 cgt_spu_mulo_s16(vec_short8 a, vec_short8 b)
     const int16x8_t x = (int16x8_t)a, y = (int16x8_t)b;
     return (vec_int4)vmull_s16(vget_low_s16(vuzp2q_s16(x, x)), vget_low_s16(vuzp2q_s16(y, y)));
 }
+CGT_SPU_INLINE vec_int4 cgt_spu_mulsr_s16(vec_short8 a, vec_short8 b) { return cgt_spu_mulo_s16(a, b) >> 16; }
 CGT_SPU_INLINE vec_int4 cgt_spu_mule_s16(vec_short8 a, vec_short8 b)
 {
     return (vec_int4)vmull_s16(vmovn_s32((int32x4_t)a), vmovn_s32((int32x4_t)b));
@@ -145,8 +146,16 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u8(vec_uchar16 a)
 CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, vec_uchar16 pattern, unsigned flip)
 {
     const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+#if defined(__clang__)
     const vec_uchar16 c =
         flip ? (vec_uchar16)vqtbl1q_u8((uint8x16_t)pattern, (uint8x16_t)(iota ^ (unsigned char)flip)) : pattern;
+#else
+    const vec_uchar16 c = flip ? __builtin_shuffle(pattern, iota ^ (unsigned char)flip) : pattern;
+    /* a constant pattern without constant bytes: the compiler knows the best instructions */
+    const unsigned long long special_bytes = (((vec_ullong2)c)[0] | ((vec_ullong2)c)[1]) & 0x8080808080808080u;
+    if (__builtin_constant_p(special_bytes) && !special_bytes)
+        return __builtin_shuffle(a, b, (c & 31) ^ (unsigned char)flip);
+#endif
     const vec_uchar16 special = (vec_uchar16)(c > 0x7f), index = ((c & 31) ^ (unsigned char)flip) | special;
     const vec_uchar16 family = c & 0xe0;
     const vec_uchar16 constant = (vec_uchar16)(family == 0xc0) | ((vec_uchar16)(family == 0xe0) & 0x80);
@@ -189,6 +198,12 @@ CGT_SPU_X(u32, vec_uint4, unsigned)
 #define CGT_SPU_OWN_QUAD
 CGT_SPU_INLINE vec_ullong2 cgt_neon_bytes(vec_ullong2 a, vec_uchar16 index)
 {
+#if !defined(__clang__)
+    /* a constant rotation: the compiler knows the best instruction */
+    const unsigned long long outside = (((vec_ullong2)index)[0] | ((vec_ullong2)index)[1]) & 0xf0f0f0f0f0f0f0f0u;
+    if (__builtin_constant_p(outside) && !outside)
+        return (vec_ullong2)__builtin_shuffle((vec_uchar16)a, index);
+#endif
     return (vec_ullong2)vqtbl1q_u8((uint8x16_t)a, (uint8x16_t)index);
 }
 CGT_SPU_INLINE vec_uchar16 cgt_neon_flip(vec_uchar16 positions, unsigned size)

@@ -27,17 +27,19 @@ CGT_SPU_X(s32, vec_int4, signed int, vec_uint4)
 /* ---- carries and borrows, for sums of several words; of the third operand the lowest bit counts ---- */
 
 CGT_SPU_INLINE vec_uint4 cgt_spu_addx_u32(vec_uint4 a, vec_uint4 b, vec_uint4 c) { return a + b + (c & 1); }
-CGT_SPU_INLINE vec_uint4 cgt_spu_subx_u32(vec_uint4 a, vec_uint4 b, vec_uint4 c) { return a + ~b + (c & 1); }
+CGT_SPU_INLINE vec_uint4 cgt_spu_subx_u32(vec_uint4 a, vec_uint4 b, vec_uint4 c) { return a - b - (~c & 1); }
+#ifndef CGT_SPU_OWN_CARRY
+CGT_SPU_INLINE vec_uint4 cgt_spu_genb_u32(vec_uint4 a, vec_uint4 b) { return (vec_uint4)(a >= b) & 1; }
 CGT_SPU_INLINE vec_uint4 cgt_spu_genc_u32(vec_uint4 a, vec_uint4 b) { return (vec_uint4)(~a < b) & 1; }
 CGT_SPU_INLINE vec_uint4 cgt_spu_gencx_u32(vec_uint4 a, vec_uint4 b, vec_uint4 c)
 {
     return ((vec_uint4)(~a < b) | ((vec_uint4)(~a == b) & c)) & 1;
 }
-CGT_SPU_INLINE vec_uint4 cgt_spu_genb_u32(vec_uint4 a, vec_uint4 b) { return (vec_uint4)(a >= b) & 1; }
 CGT_SPU_INLINE vec_uint4 cgt_spu_genbx_u32(vec_uint4 a, vec_uint4 b, vec_uint4 c)
 {
     return ((vec_uint4)(a > b) | ((vec_uint4)(a == b) & c)) & 1;
 }
+#endif
 #define CGT_SPU_X2(word)                                                                                               \
     CGT_SPU_INLINE vec_int4 cgt_spu_##word##_s32(vec_int4 a, vec_int4 b)                                               \
     {                                                                                                                  \
@@ -93,7 +95,9 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_mulo_u16_x(vec_ushort8 a, unsigned short b)
 {
     return cgt_spu_mulo_u16(a, cgt_spu_splats_u16(b));
 }
+#ifndef CGT_SPU_OWN_MULTIPLY
 CGT_SPU_INLINE vec_int4 cgt_spu_mulsr_s16(vec_short8 a, vec_short8 b) { return cgt_spu_mulo_s16(a, b) >> 16; }
+#endif
 CGT_SPU_INLINE vec_int4 cgt_spu_madd_s16(vec_short8 a, vec_short8 b, vec_int4 c)
 {
     return cgt_spu_add_s32(cgt_spu_mulo_s16(a, b), c);

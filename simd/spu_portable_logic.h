@@ -5,6 +5,12 @@
 #ifndef CGT_SPU_PORTABLE_LOGIC_H
 #define CGT_SPU_PORTABLE_LOGIC_H
 
+#ifndef CGT_SPU_OWN_COMPLEMENTS
+#define CGT_SPU_ORC(mask, a, b) ((a) | ~(b))
+#define CGT_SPU_NAND(mask, a, b) (~((a) & (b)))
+#define CGT_SPU_NOR(mask, a, b) (~((a) | (b)))
+#define CGT_SPU_EQV(mask, a, b) (~((a) ^ (b)))
+#endif
 #define CGT_SPU_BITWISE(word, type, vec, mask, expression)                                                             \
     CGT_SPU_INLINE vec cgt_spu_##word##_##type(vec v, vec w)                                                           \
     {                                                                                                                  \
@@ -16,10 +22,10 @@
     CGT_SPU_BITWISE(or, type, vec, mask, a | b)                                                                        \
     CGT_SPU_BITWISE(xor, type, vec, mask, a ^ b)                                                                       \
     CGT_SPU_BITWISE(andc, type, vec, mask, a & ~b)                                                                     \
-    CGT_SPU_BITWISE(orc, type, vec, mask, a | ~b)                                                                      \
-    CGT_SPU_BITWISE(nand, type, vec, mask, ~(a & b))                                                                   \
-    CGT_SPU_BITWISE(nor, type, vec, mask, ~(a | b))                                                                    \
-    CGT_SPU_BITWISE(eqv, type, vec, mask, ~(a ^ b))                                                                    \
+    CGT_SPU_BITWISE(orc, type, vec, mask, CGT_SPU_ORC(mask, a, b))                                                     \
+    CGT_SPU_BITWISE(nand, type, vec, mask, CGT_SPU_NAND(mask, a, b))                                                   \
+    CGT_SPU_BITWISE(nor, type, vec, mask, CGT_SPU_NOR(mask, a, b))                                                     \
+    CGT_SPU_BITWISE(eqv, type, vec, mask, CGT_SPU_EQV(mask, a, b))                                                     \
     /* bits of b where the mask is one, else of a */                                                                   \
     CGT_SPU_INLINE vec cgt_spu_sel_##type(vec v, vec w, mask m)                                                        \
     {                                                                                                                  \

@@ -41,6 +41,18 @@ CGT_SPU_X(u32, vec_uint4, unsigned)
 #undef CGT_SPU_X
 #endif
 
+/* by counts in 0 .. width - 1 */
+#ifndef CGT_SPU_OWN_ROTATE
+CGT_SPU_INLINE vec_ushort8 cgt_spu_rotate_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    return cgt_spu_left_u16(a, n) | cgt_spu_right_u16(a, 16 - n);
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_rotate_u32(vec_uint4 a, vec_uint4 n)
+{
+    return cgt_spu_left_u32(a, n) | cgt_spu_right_u32(a, 32 - n);
+}
+#endif
+
 #define CGT_SPU_X(type, vec, uns, uvec, svec, width)                                                                   \
     CGT_SPU_INLINE vec cgt_spu_sl_##type(vec a, uvec n)                                                                \
     {                                                                                                                  \
@@ -58,8 +70,7 @@ CGT_SPU_X(u32, vec_uint4, unsigned)
     CGT_SPU_INLINE vec cgt_spu_rlmaska_##type(vec a, svec n) { return cgt_spu_sra_##type(a, -(uvec)n); }               \
     CGT_SPU_INLINE vec cgt_spu_rl_##type(vec a, svec n)                                                                \
     {                                                                                                                  \
-        const uvec k = (uvec)n & (width - 1);                                                                          \
-        return (vec)(cgt_spu_left_##uns((uvec)a, k) | cgt_spu_right_##uns((uvec)a, width - k));                        \
+        return (vec)cgt_spu_rotate_##uns((uvec)a, (uvec)n & (width - 1));                                              \
     }                                                                                                                  \
     CGT_SPU_INLINE vec cgt_spu_sl_##type##_x(vec a, unsigned n)                                                        \
     {                                                                                                                  \

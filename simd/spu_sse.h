@@ -111,10 +111,10 @@ CGT_SPU_INLINE vec_float4 cgt_spu_to_float_u32(vec_uint4 a)
 #if defined(__AVX512VL__)
     return (vec_float4)_mm_cvtepu32_ps((__m128i)a);
 #else
-    /* both halves are exact, and so is their sum before it is rounded */
-    const vec_float4 high = (vec_float4)_mm_cvtepi32_ps((__m128i)(a >> 16)),
-                     low = (vec_float4)_mm_cvtepi32_ps((__m128i)(a & 0xffff));
-    return high * 65536.f + low;
+    /* the halves as lowest bits of 2^23 and 2^39; what is too much is taken off exactly, and the sum is rounded once */
+    const __m128i low = _mm_blend_epi16((__m128i)a, _mm_set1_epi32(0x4b000000), 0xaa);
+    const __m128i high = _mm_blend_epi16((__m128i)(a >> 16), _mm_set1_epi32(0x53000000), 0xaa);
+    return ((vec_float4)high - 0x1.0001p39f) + (vec_float4)low;
 #endif
 }
 
@@ -127,7 +127,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_roundtf_f64(vec_double2 a)
 /* ---- integers ---- */
 
 /* Products of halfwords: pmaddwd multiplies pairs and adds; with one of each pair zero it is a product alone. Unsigned
- * ones are put together from their two halves. */
+ * ones are products of words. */
 #define CGT_SPU_OWN_MULTIPLY
 CGT_SPU_INLINE vec_int4 cgt_spu_mulo_s16(vec_short8 a, vec_short8 b)
 {
@@ -139,19 +139,47 @@ CGT_SPU_INLINE vec_int4 cgt_spu_mule_s16(vec_short8 a, vec_short8 b)
 }
 CGT_SPU_INLINE vec_uint4 cgt_spu_mulo_u16(vec_ushort8 a, vec_ushort8 b)
 {
-    const __m128i low = _mm_mullo_epi16((__m128i)a, (__m128i)b), high = _mm_mulhi_epu16((__m128i)a, (__m128i)b);
-    return (vec_uint4)_mm_blend_epi16(_mm_srli_epi32(low, 16), high, 0xaa);
+    return ((vec_uint4)a >> 16) * ((vec_uint4)b >> 16);
 }
 CGT_SPU_INLINE vec_uint4 cgt_spu_mule_u16(vec_ushort8 a, vec_ushort8 b)
 {
-    const __m128i low = _mm_mullo_epi16((__m128i)a, (__m128i)b), high = _mm_mulhi_epu16((__m128i)a, (__m128i)b);
-    return (vec_uint4)_mm_blend_epi16(low, _mm_slli_epi32(high, 16), 0xaa);
+    return ((vec_uint4)a & 0xffff) * ((vec_uint4)b & 0xffff);
 }
+/* only the low half of the product stays, in the odd place: that is where the even halfword of a goes */
 CGT_SPU_INLINE vec_int4 cgt_spu_mulh_s16(vec_short8 a, vec_short8 b)
 {
-    /* only the low half of the product stays: it comes out in the even place, and the odd place is its own */
-    const __m128i product = _mm_mullo_epi16((__m128i)a, _mm_srli_epi32((__m128i)b, 16));
-    return (vec_int4)_mm_slli_epi32(product, 16);
+    return (vec_int4)_mm_mullo_epi16(_mm_slli_epi32((__m128i)a, 16), (__m128i)b);
+}
+CGT_SPU_INLINE vec_int4 cgt_spu_mulsr_s16(vec_short8 a, vec_short8 b)
+{
+    return (vec_int4)_mm_mulhi_epi16((__m128i)a, (__m128i)b) >> 16;
+}
+
+#define CGT_SPU_OWN_CARRY
+CGT_SPU_INLINE vec_uint4 cgt_spu_genc_u32(vec_uint4 a, vec_uint4 b)
+{
+    const __m128i sum = (__m128i)(a + b); /* below a where it has overflowed */
+    return (vec_uint4)_mm_andnot_si128(_mm_cmpeq_epi32(_mm_max_epu32(sum, (__m128i)a), sum), _mm_set1_epi32(1));
+}
+CGT_SPU_INLINE vec_uint4 cgt_spu_genb_u32(vec_uint4 a, vec_uint4 b)
+{
+    const __m128i larger = _mm_max_epu32((__m128i)a, (__m128i)b);
+    return (vec_uint4)_mm_srli_epi32(_mm_cmpeq_epi32(larger, (__m128i)a), 31);
+}
+/* where a is not below b, except equal without c */
+CGT_SPU_INLINE vec_uint4 cgt_spu_genbx_u32(vec_uint4 a, vec_uint4 b, vec_uint4 c)
+{
+    const __m128i some = _mm_cmpeq_epi32(_mm_max_epu32((__m128i)a, (__m128i)b), (__m128i)a);
+    const __m128i except = _mm_andnot_si128((__m128i)c, _mm_cmpeq_epi32((__m128i)a, (__m128i)b));
+    return (vec_uint4)_mm_and_si128(_mm_andnot_si128(except, some), _mm_set1_epi32(1));
+}
+/* where ~a is below b, or equal with c */
+CGT_SPU_INLINE vec_uint4 cgt_spu_gencx_u32(vec_uint4 a, vec_uint4 b, vec_uint4 c)
+{
+    const __m128i x = _mm_xor_si128((__m128i)a, _mm_set1_epi32(-1));
+    const __m128i none = _mm_cmpeq_epi32(_mm_max_epu32(x, (__m128i)b), x);
+    const __m128i met = _mm_and_si128(_mm_cmpeq_epi32(x, (__m128i)b), (__m128i)c);
+    return (vec_uint4)_mm_andnot_si128(_mm_andnot_si128(met, none), _mm_set1_epi32(1));
 }
 
 #define CGT_SPU_OWN_EXTEND
@@ -159,7 +187,11 @@ CGT_SPU_INLINE vec_short8 cgt_spu_extend_s8(vec_char16 a) { return (vec_short8)a
 CGT_SPU_INLINE vec_int4 cgt_spu_extend_s16(vec_short8 a) { return (vec_int4)a >> 16; }
 CGT_SPU_INLINE vec_llong2 cgt_spu_extend_s32(vec_int4 a)
 {
+#if defined(__AVX512VL__)
+    return (vec_llong2)_mm_srai_epi64((__m128i)a, 32);
+#else
     return (vec_llong2)_mm_cvtepi32_epi64(_mm_shuffle_epi32((__m128i)a, 0x0d));
+#endif
 }
 
 /* ---- bytes and bits ---- */
@@ -193,14 +225,14 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_cntlz_u32(vec_uint4 a) { return (vec_uint4)_mm_
 #else
 #define CGT_SPU_OWN_CNTLZ
 /* The exponent of a number as float tells its highest bit. Bits that could round it up to the next power of two are
- * cleared first: those whose upper neighbour is set. Zero has the exponent field 0, and ends at 158: limit it. */
+ * cleared first: those whose upper neighbour is set. Zero has the exponent field 0, and ends at 158: limit it. With the
+ * sign bit set the field is above 158: saturate at 0. */
 CGT_SPU_INLINE vec_uint4 cgt_spu_cntlz_u32(vec_uint4 a)
 {
     const vec_uint4 top = a & ~(a >> 1);
-    const vec_int4 exponent = (vec_int4)_mm_cvtepi32_ps((__m128i)top) >> 23; /* negative where the sign bit is set */
-    const vec_int4 zeros = 158 - exponent;
-    const __m128i clamped = _mm_min_epi32((__m128i)zeros, _mm_set1_epi32(32));
-    return (vec_uint4)clamped & ~((vec_uint4)((vec_int4)a >> 31));
+    const vec_uint4 exponent = (vec_uint4)_mm_cvtepi32_ps((__m128i)top) >> 23;
+    const __m128i zeros = _mm_subs_epu16(_mm_set1_epi32(158), (__m128i)exponent);
+    return (vec_uint4)_mm_min_epi16(zeros, _mm_set1_epi32(32));
 }
 #endif
 
@@ -216,8 +248,8 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_maskb(unsigned a)
 #define CGT_SPU_OWN_ORX
 CGT_SPU_INLINE vec_uint4 cgt_spu_orx_u32(vec_uint4 a)
 {
-    const __m128i b = _mm_or_si128((__m128i)a, _mm_srli_si128((__m128i)a, 8));
-    return (vec_uint4)_mm_blend_epi16(_mm_setzero_si128(), _mm_or_si128(b, _mm_srli_si128(b, 4)), 0x03);
+    const __m128i b = _mm_or_si128((__m128i)a, _mm_shuffle_epi32((__m128i)a, 0x4e));
+    return (vec_uint4)_mm_blend_epi16(_mm_setzero_si128(), _mm_or_si128(b, _mm_shuffle_epi32(b, 0xb1)), 0x03);
 }
 
 /* movemask puts element 0 lowest: turn the elements round first */
@@ -253,10 +285,11 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, v
     if (__builtin_constant_p(special_bytes) && !special_bytes)
         return __builtin_shuffle(a, b, (c & 31) ^ (unsigned char)flip);
 #endif
-    const vec_uchar16 special = (vec_uchar16)(c > 0x7f), index = (c & 15) ^ (unsigned char)flip;
-    const vec_uchar16 from_b = (vec_uchar16)((c & 16) != 0), family = c & 0xe0;
-    const vec_uchar16 constant = (vec_uchar16)(family == 0xc0) | ((vec_uchar16)(family == 0xe0) & 0x80);
-    return constant | cgt_sse_bytes(a, index | special | from_b) | cgt_sse_bytes(b, index | special | ~from_b);
+    const vec_uchar16 constants = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0x80, 0x80};
+    const vec_uchar16 constant = cgt_sse_permute(constants, (vec_uchar16)((vec_ushort8)c >> 4) & 15);
+    /* pshufb looks at the lowest four bits and, for zero, at the top one: so bit 4, which says b, goes up there */
+    const vec_uchar16 index = c ^ (unsigned char)flip, which = (vec_uchar16)((vec_ushort8)c << 3);
+    return constant | cgt_sse_bytes(a, index | (which & 0x80)) | cgt_sse_bytes(b, index | (~which & 0x80));
 }
 
 /* ---- shifts ---- */
@@ -329,6 +362,27 @@ CGT_SPU_INLINE vec_ushort8 cgt_spu_right_signed_u16(vec_ushort8 a, vec_ushort8 n
 {
     return (vec_ushort8)_mm_srav_epi16((__m128i)a, (__m128i)n);
 }
+#elif defined(__AVX2__)
+/* the two halfwords of a word apart */
+CGT_SPU_INLINE vec_ushort8 cgt_sse_halfwords(vec_uint4 even, vec_uint4 odd)
+{
+    return (vec_ushort8)_mm_blend_epi16((__m128i)even, (__m128i)odd, 0xaa);
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_left_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    const vec_uint4 x = (vec_uint4)a, k = (vec_uint4)n;
+    return cgt_sse_halfwords(cgt_spu_left_u32(x, k & 0xffff), cgt_spu_left_u32(x & 0xffff0000u, k >> 16));
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_right_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    const vec_uint4 x = (vec_uint4)a, k = (vec_uint4)n;
+    return cgt_sse_halfwords(cgt_spu_right_u32(x & 0xffff, k & 0xffff), cgt_spu_right_u32(x, k >> 16));
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_right_signed_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    const vec_uint4 x = (vec_uint4)a, k = (vec_uint4)n, even = (vec_uint4)((vec_int4)(x << 16) >> 16);
+    return cgt_sse_halfwords(cgt_spu_right_signed_u32(even, k & 0xffff), cgt_spu_right_signed_u32(x, k >> 16));
+}
 #else
 /* 2^n for n in 0 .. 15, else 0, from two tables of its bytes */
 CGT_SPU_INLINE vec_ushort8 cgt_sse_power_of_two(vec_ushort8 n)
@@ -352,6 +406,34 @@ CGT_SPU_INLINE vec_ushort8 cgt_spu_right_signed_u16(vec_ushort8 a, vec_ushort8 n
 }
 #endif
 
+#if defined(__AVX512VL__)
+#define CGT_SPU_OWN_ROTATE
+CGT_SPU_INLINE vec_uint4 cgt_spu_rotate_u32(vec_uint4 a, vec_uint4 n)
+{
+    return (vec_uint4)_mm_rolv_epi32((__m128i)a, (__m128i)n);
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_rotate_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    return cgt_spu_left_u16(a, n) | cgt_spu_right_u16(a, 16 - n);
+}
+#elif !defined(__AVX2__)
+/* both halves of the product by 2^n */
+#define CGT_SPU_OWN_ROTATE
+CGT_SPU_INLINE vec_uint4 cgt_spu_rotate_u32(vec_uint4 a, vec_uint4 n)
+{
+    const vec_uint4 power = (vec_uint4)cgt_sse_truncate((vec_float4)((n << 23) + 0x3f800000));
+    const __m128i even = _mm_mul_epu32((__m128i)a, (__m128i)power);
+    const __m128i odd = _mm_mul_epu32(_mm_srli_epi64((__m128i)a, 32), _mm_srli_epi64((__m128i)power, 32));
+    const __m128i low = _mm_blend_epi16(even, _mm_slli_epi64(odd, 32), 0xcc);
+    return (vec_uint4)_mm_or_si128(low, _mm_blend_epi16(_mm_srli_epi64(even, 32), odd, 0xcc));
+}
+CGT_SPU_INLINE vec_ushort8 cgt_spu_rotate_u16(vec_ushort8 a, vec_ushort8 n)
+{
+    const vec_ushort8 power = cgt_sse_power_of_two(n);
+    return (vec_ushort8)_mm_or_si128((__m128i)(a * power), _mm_mulhi_epu16((__m128i)a, (__m128i)power));
+}
+#endif
+
 /* ---- the quadword ---- */
 
 /* Byte p of the SPU's quadword lies at p ^ flip: positions are turned on the way in and on the way out. What comes from
@@ -367,43 +449,102 @@ CGT_SPU_INLINE vec_ullong2 cgt_sse_fetch(vec_ullong2 a, vec_uchar16 from, unsign
     const vec_uchar16 outside = (vec_uchar16)(from > 15);
     return (vec_ullong2)cgt_sse_bytes((vec_uchar16)a, (from ^ (unsigned char)(size - 1)) | outside);
 }
+/* By a count that is not known: positions of bytes p + n, from sixteen neighbours in memory. */
+CGT_SPU_INLINE vec_ullong2 cgt_sse_fetch_window(vec_ullong2 a, const unsigned char *window, unsigned size)
+{
+    vec_uchar16 from;
+    __builtin_memcpy(&from, window, sizeof from);
+    if (size > 1)
+        from = cgt_sse_permute(from, cgt_sse_positions(size)) ^ (unsigned char)(size - 1);
+    return (vec_ullong2)cgt_sse_bytes((vec_uchar16)a, from);
+}
+#define CGT_SSE_OUTSIDE 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128
+#define CGT_SSE_INSIDE 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15
+CGT_SPU_INLINE vec_ullong2 cgt_sse_move(vec_ullong2 a, int n, unsigned size)
+{
+    static const unsigned char window[] = {CGT_SSE_OUTSIDE, CGT_SSE_OUTSIDE, CGT_SSE_INSIDE, CGT_SSE_OUTSIDE,
+                                           CGT_SSE_OUTSIDE};
+    if (__builtin_constant_p(n))
+        return cgt_sse_fetch(a, cgt_sse_positions(size) + (unsigned char)n, size);
+    return cgt_sse_fetch_window(a, window + 32 + n, size);
+}
 CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_left_bytes(vec_ullong2 a, unsigned n, unsigned size)
 {
-    return cgt_sse_fetch(a, cgt_sse_positions(size) + (unsigned char)n, size);
+    return cgt_sse_move(a, (int)n, size);
 }
 CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_right_bytes(vec_ullong2 a, unsigned n, unsigned size)
 {
-    return cgt_sse_fetch(a, cgt_sse_positions(size) - (unsigned char)n, size);
+    return cgt_sse_move(a, -(int)n, size);
 }
 CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bytes(vec_ullong2 a, unsigned n, unsigned size)
 {
-    return cgt_sse_fetch(a, (cgt_sse_positions(size) + (unsigned char)n) & 15, size);
+    static const unsigned char window[] = {CGT_SSE_INSIDE, CGT_SSE_INSIDE};
+    if (__builtin_constant_p(n))
+        return cgt_sse_fetch(a, (cgt_sse_positions(size) + (unsigned char)n) & 15, size);
+    return cgt_sse_fetch_window(a, window + n, size);
 }
 
-/* By bits: in words of 64 bits, highest first. carry is what comes over from the neighbour. */
+/* By bits: each element by itself, and with what comes over from its neighbour. Bytes, for which there is no shift, turn
+ * into words of 64 bits, highest first, and back. */
 CGT_SPU_INLINE __m128i cgt_sse_reorder(__m128i a, unsigned size)
 {
     const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    return size == 8 ? a : (__m128i)cgt_sse_bytes((vec_uchar16)a, iota ^ (unsigned char)(8 - size));
+    return size > 1 ? a : (__m128i)cgt_sse_bytes((vec_uchar16)a, iota ^ 7);
+}
+CGT_SPU_INLINE __m128i cgt_sse_elements_left(__m128i a, unsigned n, unsigned size)
+{
+    const __m128i count = _mm_cvtsi32_si128((int)n);
+    return size == 2 ? _mm_sll_epi16(a, count) : size == 4 ? _mm_sll_epi32(a, count) : _mm_sll_epi64(a, count);
+}
+CGT_SPU_INLINE __m128i cgt_sse_elements_right(__m128i a, unsigned n, unsigned size)
+{
+    const __m128i count = _mm_cvtsi32_si128((int)n);
+    return size == 2 ? _mm_srl_epi16(a, count) : size == 4 ? _mm_srl_epi32(a, count) : _mm_srl_epi64(a, count);
+}
+/* of elements of `size` bytes each takes the place of the one before it, or after it */
+CGT_SPU_INLINE __m128i cgt_sse_advance(__m128i a, unsigned size)
+{
+    return size == 2 ? _mm_srli_si128(a, 2) : size == 4 ? _mm_srli_si128(a, 4) : _mm_srli_si128(a, 8);
+}
+CGT_SPU_INLINE __m128i cgt_sse_fall_back(__m128i a, unsigned size)
+{
+    return size == 2 ? _mm_slli_si128(a, 2) : size == 4 ? _mm_slli_si128(a, 4) : _mm_slli_si128(a, 8);
+}
+CGT_SPU_INLINE __m128i cgt_sse_advance_around(__m128i a, unsigned size)
+{
+    return size == 2 ? _mm_alignr_epi8(a, a, 2) : size == 4 ? _mm_shuffle_epi32(a, 0x39) : _mm_shuffle_epi32(a, 0x4e);
 }
 CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_left_bits(vec_ullong2 a, unsigned n, unsigned size)
 {
-    const __m128i x = cgt_sse_reorder((__m128i)a, size), left = _mm_cvtsi32_si128((int)n);
-    const __m128i carry = _mm_srl_epi64(_mm_srli_si128(x, 8), _mm_cvtsi32_si128(64 - (int)n));
-    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(_mm_sll_epi64(x, left), carry), size);
+    const __m128i x = cgt_sse_reorder((__m128i)a, size),
+                  over = cgt_sse_elements_right(x, (size > 1 ? 8 * size : 64) - n, size);
+    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(cgt_sse_elements_left(x, n, size), cgt_sse_advance(over, size)),
+                                        size);
 }
 CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_right_bits(vec_ullong2 a, unsigned n, unsigned size)
 {
-    const __m128i x = cgt_sse_reorder((__m128i)a, size), right = _mm_cvtsi32_si128((int)n);
-    const __m128i carry = _mm_sll_epi64(_mm_slli_si128(x, 8), _mm_cvtsi32_si128(64 - (int)n));
-    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(_mm_srl_epi64(x, right), carry), size);
+    const __m128i x = cgt_sse_reorder((__m128i)a, size),
+                  over = cgt_sse_elements_left(x, (size > 1 ? 8 * size : 64) - n, size);
+    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(cgt_sse_elements_right(x, n, size), cgt_sse_fall_back(over, size)),
+                                        size);
 }
 CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bits(vec_ullong2 a, unsigned n, unsigned size)
 {
-    const __m128i x = cgt_sse_reorder((__m128i)a, size), left = _mm_cvtsi32_si128((int)n);
-    const __m128i carry = _mm_srl_epi64(_mm_shuffle_epi32(x, 0x4e), _mm_cvtsi32_si128(64 - (int)n));
-    return (vec_ullong2)cgt_sse_reorder(_mm_or_si128(_mm_sll_epi64(x, left), carry), size);
+    const __m128i x = cgt_sse_reorder((__m128i)a, size),
+                  over = cgt_sse_elements_right(x, (size > 1 ? 8 * size : 64) - n, size);
+    return (vec_ullong2)cgt_sse_reorder(
+        _mm_or_si128(cgt_sse_elements_left(x, n, size), cgt_sse_advance_around(over, size)), size);
 }
+
+/* GCC makes a complement an instruction that waits for the register's last value */
+#if defined(__AVX512VL__) && !defined(__clang__)
+#define CGT_SPU_OWN_COMPLEMENTS
+#define CGT_SSE_TABLE(mask, a, b, table) ((mask)_mm_ternarylogic_epi32((__m128i)(a), (__m128i)(a), (__m128i)(b), table))
+#define CGT_SPU_ORC(mask, a, b) CGT_SSE_TABLE(mask, a, b, 0xf5)
+#define CGT_SPU_NAND(mask, a, b) CGT_SSE_TABLE(mask, a, b, 0x5f)
+#define CGT_SPU_NOR(mask, a, b) CGT_SSE_TABLE(mask, a, b, 0x05)
+#define CGT_SPU_EQV(mask, a, b) CGT_SSE_TABLE(mask, a, b, 0xa5)
+#endif
 
 #include "spu_portable.h"
 

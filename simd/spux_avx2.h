@@ -26,8 +26,8 @@ CGT_SPU_INLINE vmask spux_mask_none(void) { return (vmask)_mm256_setzero_si256()
 CGT_SPU_INLINE vmask spux_mask_all(void) { return (vmask)_mm256_set1_epi32(-1); }
 CGT_SPU_INLINE vmask spux_not(vmask m) { return ~m; }
 CGT_SPU_INLINE uint32_t spux_count_bits(unsigned bits) { return (uint32_t)__builtin_popcount(bits); }
-CGT_SPU_INLINE bool spux_any(vmask m) { return _mm256_movemask_ps((__m256)m) != 0; }
-CGT_SPU_INLINE bool spux_all(vmask m) { return _mm256_movemask_ps((__m256)m) == 0xff; }
+CGT_SPU_INLINE bool spux_any(vmask m) { return !_mm256_testz_si256((__m256i)m, (__m256i)m); }
+CGT_SPU_INLINE bool spux_all(vmask m) { return _mm256_testc_si256((__m256i)m, _mm256_set1_epi32(-1)); }
 
 /* ---- arithmetic ---- */
 CGT_SPU_INLINE vfloat cgt_spux_min_f32w(vfloat a, vfloat b) { return (vfloat)_mm256_min_ps((__m256)a, (__m256)b); }

@@ -44,8 +44,10 @@ CGT_SPU_INLINE uint32_t spux_count_bits(unsigned bits)
 {
     return (uint32_t)(UINT64_C(0x4332322132212110) >> (4 * bits) & 7);
 }
+#ifndef CGT_SPUX_OWN_ANY_ALL
 CGT_SPU_INLINE bool spux_any(vmask m) { return spux_mask_bits(m) != 0; }
 CGT_SPU_INLINE bool spux_all(vmask m) { return spux_mask_bits(m) == 15; }
+#endif
 
 /* ---- arithmetic ---- */
 #ifndef CGT_SPUX_OWN_MIN_MAX
@@ -160,6 +162,7 @@ CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
 }
 #endif
 
+#ifndef CGT_SPUX_OWN_HORIZONTAL
 CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)
 {
     const float x = a[1] < a[0] ? a[1] : a[0], y = a[3] < a[2] ? a[3] : a[2];
@@ -180,6 +183,7 @@ CGT_SPU_INLINE uint32_t cgt_spux_hmax_u32w(vuint a)
     const uint32_t x = a[1] > a[0] ? a[1] : a[0], y = a[3] > a[2] ? a[3] : a[2];
     return y > x ? y : x;
 }
+#endif
 
 /* ---- transposes ---- */
 #ifndef CGT_SPUX_OWN_TRANSPOSE

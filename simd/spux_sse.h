@@ -10,6 +10,10 @@
 #define CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return (unsigned)_mm_movemask_ps((__m128)m); }
 
+#define CGT_SPUX_OWN_ANY_ALL
+CGT_SPU_INLINE bool spux_any(vmask m) { return !_mm_testz_si128((__m128i)m, (__m128i)m); }
+CGT_SPU_INLINE bool spux_all(vmask m) { return _mm_testc_si128((__m128i)m, _mm_set1_epi32(-1)); }
+
 #define CGT_SPUX_OWN_MIN_MAX
 CGT_SPU_INLINE vfloat cgt_spux_min_f32w(vfloat a, vfloat b) { return (vfloat)_mm_min_ps((__m128)a, (__m128)b); }
 CGT_SPU_INLINE vfloat cgt_spux_max_f32w(vfloat a, vfloat b) { return (vfloat)_mm_max_ps((__m128)a, (__m128)b); }
@@ -17,6 +21,28 @@ CGT_SPU_INLINE vint cgt_spux_min_s32w(vint a, vint b) { return (vint)_mm_min_epi
 CGT_SPU_INLINE vint cgt_spux_max_s32w(vint a, vint b) { return (vint)_mm_max_epi32((__m128i)a, (__m128i)b); }
 CGT_SPU_INLINE vuint cgt_spux_min_u32w(vuint a, vuint b) { return (vuint)_mm_min_epu32((__m128i)a, (__m128i)b); }
 CGT_SPU_INLINE vuint cgt_spux_max_u32w(vuint a, vuint b) { return (vuint)_mm_max_epu32((__m128i)a, (__m128i)b); }
+
+#define CGT_SPUX_OWN_HORIZONTAL
+CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)
+{
+    const __m128 two = _mm_min_ps((__m128)a, _mm_movehl_ps((__m128)a, (__m128)a));
+    return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 0x55)));
+}
+CGT_SPU_INLINE float cgt_spux_hmax_f32w(vfloat a)
+{
+    const __m128 two = _mm_max_ps((__m128)a, _mm_movehl_ps((__m128)a, (__m128)a));
+    return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 0x55)));
+}
+CGT_SPU_INLINE uint32_t cgt_spux_hmin_u32w(vuint a)
+{
+    const __m128i two = _mm_min_epu32((__m128i)a, _mm_shuffle_epi32((__m128i)a, 0x4e));
+    return (uint32_t)_mm_cvtsi128_si32(_mm_min_epu32(two, _mm_shuffle_epi32(two, 0xb1)));
+}
+CGT_SPU_INLINE uint32_t cgt_spux_hmax_u32w(vuint a)
+{
+    const __m128i two = _mm_max_epu32((__m128i)a, _mm_shuffle_epi32((__m128i)a, 0x4e));
+    return (uint32_t)_mm_cvtsi128_si32(_mm_max_epu32(two, _mm_shuffle_epi32(two, 0xb1)));
+}
 
 #define CGT_SPUX_OWN_SQRT
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm_sqrt_ps((__m128)a); }

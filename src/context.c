@@ -74,7 +74,7 @@ static cgt_result start_threads(cgt_context *c)
 cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **context)
 {
     cgt_context_options defaults;
-    const cgt_kernel *kernel;
+    const cgt_kernel *kernel = NULL;
     if (!context)
         return CGT_ERROR_INVALID_ARGUMENT;
     *context = NULL;
