@@ -106,6 +106,15 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, v
 {
     unsigned char x[32], z[16];
     vec_uchar16 d;
+#if !defined(__clang__)
+    /* a constant pattern without constant bytes: the compiler knows the best instructions. clang finds them itself. */
+    const unsigned long long special = (((vec_ullong2)pattern)[0] | ((vec_ullong2)pattern)[1]) & 0x8080808080808080u;
+    if (__builtin_constant_p(special) && !special) {
+        const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+        const vec_uchar16 c = __builtin_shuffle(pattern, iota ^ (unsigned char)flip);
+        return __builtin_shuffle(a, b, (c & 31) ^ (unsigned char)flip);
+    }
+#endif
     memcpy(x, &a, 16);
     memcpy(x + 16, &b, 16);
     for (unsigned k = 0; k < 16; k++) {

@@ -104,17 +104,20 @@ CGT_SPU_INLINE vec_float4 cgt_spu_convtf_u32(vec_uint4 a, int n)
 #ifndef CGT_SPU_OWN_CONVTS
 CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a)
 {
-    vec_int4 d;
-    for (int i = 0; i < 4; i++)
-        d[i] = a[i] >= 2147483648.f ? INT32_MAX : a[i] <= -2147483648.f ? INT32_MIN : a[i] == a[i] ? (int32_t)a[i] : 0;
-    return d;
+    /* only what fits is converted: C leaves the rest open */
+    const vec_int4 large = (vec_int4)(a >= 2147483648.f), small = (vec_int4)(a < -2147483648.f);
+    const vec_int4 fits = (vec_int4)(a == a) & ~(large | small);
+    const vec_int4 d = __builtin_convertvector((vec_float4)((vec_int4)a & fits), vec_int4);
+    return d | (large & INT32_MAX) | (small & INT32_MIN);
 }
+/* from 2^31 on without it; it comes back as the top bit */
 CGT_SPU_INLINE vec_uint4 cgt_spu_to_uint_f32(vec_float4 a)
 {
-    vec_uint4 d;
-    for (int i = 0; i < 4; i++)
-        d[i] = a[i] >= 4294967296.f ? UINT32_MAX : a[i] > 0 ? (uint32_t)a[i] : 0;
-    return d;
+    const vec_int4 positive = (vec_int4)(a > 0.f), upper = (vec_int4)(a >= 2147483648.f);
+    const vec_int4 large = (vec_int4)(a >= 4294967296.f);
+    const vec_float4 rest = (vec_float4)((vec_int4)a & positive & ~large) - (vec_float4)(upper & ~large & 0x4f000000);
+    const vec_int4 d = __builtin_convertvector(rest, vec_int4);
+    return (vec_uint4)((d ^ (upper & INT32_MIN)) | large);
 }
 #endif
 CGT_SPU_INLINE vec_int4 cgt_spu_convts_f32(vec_float4 a, int n)
