@@ -34,6 +34,7 @@ set(cgt_simd_headers
     simd/spu_sse.h
     simd/spu_types.h
     simd/spu_wide.h
+    simd/spu_wide_vectors.h
     simd/spu_words.h
     simd/vec_types.h)
 

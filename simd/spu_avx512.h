@@ -22,21 +22,13 @@ typedef struct vmask {
     __mmask16 bits;
 } vmask;
 
+#include "spu_wide_vectors.h"
+
 /* clang-format off */
-#define CGT_SPU_WIDE_F(word) vfloat : cgt_spu_##word##_f32w,
-#define CGT_SPU_WIDE_SU(word) vint : cgt_spu_##word##_s32w, vuint : cgt_spu_##word##_u32w,
-#define CGT_SPU_WIDE_FSU(word) CGT_SPU_WIDE_F(word) CGT_SPU_WIDE_SU(word)
 #define CGT_SPU_WIDE_FSUM(word) CGT_SPU_WIDE_FSU(word) vmask : cgt_spu_##word##_maskw,
 /* clang-format on */
 
 /* ---- arithmetic ---- */
-CGT_SPU_INLINE vfloat cgt_spu_add_f32w(vfloat a, vfloat b) { return a + b; }
-CGT_SPU_INLINE vint cgt_spu_add_s32w(vint a, vint b) { return (vint)((vuint)a + (vuint)b); }
-CGT_SPU_INLINE vuint cgt_spu_add_u32w(vuint a, vuint b) { return a + b; }
-CGT_SPU_INLINE vfloat cgt_spu_sub_f32w(vfloat a, vfloat b) { return a - b; }
-CGT_SPU_INLINE vint cgt_spu_sub_s32w(vint a, vint b) { return (vint)((vuint)a - (vuint)b); }
-CGT_SPU_INLINE vuint cgt_spu_sub_u32w(vuint a, vuint b) { return a - b; }
-CGT_SPU_INLINE vfloat cgt_spu_mul_f32w(vfloat a, vfloat b) { return a * b; }
 CGT_SPU_INLINE vfloat cgt_spu_madd_f32w(vfloat a, vfloat b, vfloat c)
 {
     return (vfloat)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
@@ -90,21 +82,6 @@ CGT_SPU_INLINE vmask cgt_spu_cmpabsgt_f32w(vfloat a, vfloat b)
 }
 
 /* ---- bits ---- */
-CGT_SPU_INLINE vuint cgt_spu_and_u32w(vuint a, vuint b) { return a & b; }
-CGT_SPU_INLINE vuint cgt_spu_or_u32w(vuint a, vuint b) { return a | b; }
-CGT_SPU_INLINE vuint cgt_spu_xor_u32w(vuint a, vuint b) { return a ^ b; }
-CGT_SPU_INLINE vuint cgt_spu_andc_u32w(vuint a, vuint b) { return a & ~b; }
-CGT_SPU_INLINE vuint cgt_spu_nor_u32w(vuint a, vuint b) { return ~(a | b); }
-CGT_SPU_INLINE vint cgt_spu_and_s32w(vint a, vint b) { return a & b; }
-CGT_SPU_INLINE vint cgt_spu_or_s32w(vint a, vint b) { return a | b; }
-CGT_SPU_INLINE vint cgt_spu_xor_s32w(vint a, vint b) { return a ^ b; }
-CGT_SPU_INLINE vint cgt_spu_andc_s32w(vint a, vint b) { return a & ~b; }
-CGT_SPU_INLINE vint cgt_spu_nor_s32w(vint a, vint b) { return ~(a | b); }
-CGT_SPU_INLINE vfloat cgt_spu_and_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a & (vuint)b); }
-CGT_SPU_INLINE vfloat cgt_spu_or_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a | (vuint)b); }
-CGT_SPU_INLINE vfloat cgt_spu_xor_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a ^ (vuint)b); }
-CGT_SPU_INLINE vfloat cgt_spu_andc_f32w(vfloat a, vfloat b) { return (vfloat)((vuint)a & ~(vuint)b); }
-CGT_SPU_INLINE vfloat cgt_spu_nor_f32w(vfloat a, vfloat b) { return (vfloat)(~((vuint)a | (vuint)b)); }
 CGT_SPU_INLINE vmask cgt_spu_and_maskw(vmask a, vmask b) { return (vmask){_kand_mask16(a.bits, b.bits)}; }
 CGT_SPU_INLINE vmask cgt_spu_or_maskw(vmask a, vmask b) { return (vmask){_kor_mask16(a.bits, b.bits)}; }
 CGT_SPU_INLINE vmask cgt_spu_xor_maskw(vmask a, vmask b) { return (vmask){_kxor_mask16(a.bits, b.bits)}; }
@@ -123,13 +100,6 @@ CGT_SPU_INLINE vfloat cgt_spu_sel_f32w(vfloat a, vfloat b, vuint m)
 }
 
 /* ---- convert ---- */
-
-/* 2^n for n from -127 to 127, from its bits */
-CGT_SPU_INLINE vfloat cgt_spu_power_w(int n)
-{
-    const uint32_t bits = n > -127 ? (uint32_t)(n + 127) << 23 : UINT32_C(1) << 22;
-    return (vfloat)_mm512_castsi512_ps(_mm512_set1_epi32((int)bits));
-}
 
 /* convtf: rounded once to float, then divided by 2^n */
 CGT_SPU_INLINE vfloat cgt_spu_convtf_s32w(vint a, int n)

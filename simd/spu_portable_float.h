@@ -106,7 +106,7 @@ CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a)
 {
     /* only what fits is converted: C leaves the rest open */
     const vec_int4 large = (vec_int4)(a >= 2147483648.f), small = (vec_int4)(a < -2147483648.f);
-    const vec_int4 fits = (vec_int4)(a == a) & ~(large | small);
+    const vec_int4 fits = (vec_int4)(a >= -2147483648.f) & ~large; /* no NaN */
     const vec_int4 d = __builtin_convertvector((vec_float4)((vec_int4)a & fits), vec_int4);
     return d | (large & INT32_MAX) | (small & INT32_MIN);
 }

@@ -41,31 +41,10 @@
 #include "headers/tgammad2.h"
 #include "headers/truncd2.h"
 
-#include <math.h>
-
-#include "client.h"
-
-/* ---- one loop and one truth per function ---- */
-
-#define FUNCTION(name, result, call, value)                                                                            \
-    static void run_##name(const void *xs, const void *ys, void *outs, size_t vectors)                                 \
-    {                                                                                                                  \
-        const vec_double2 *const x = xs, *const y = ys;                                                                \
-        const vec_llong2 *const n = ys;                                                                                \
-        result *const out = outs;                                                                                      \
-        for (size_t i = 0; i < vectors; i++)                                                                           \
-            out[i] = call;                                                                                             \
-        (void)x, (void)y, (void)n;                                                                                     \
-    }                                                                                                                  \
-    static long double true_##name(long double x, long double y)                                                       \
-    {                                                                                                                  \
-        (void)x, (void)y;                                                                                              \
-        return value;                                                                                                  \
-    }
-#define OF_X(name, value) FUNCTION(name, vec_double2, _##name(x[i]), value)
-#define OF_X_Y(name, value) FUNCTION(name, vec_double2, _##name(x[i], y[i]), value)
-#define OF_X_N(name, value) FUNCTION(name, vec_double2, _##name(x[i], n[i]), value)
-#define MASK_OF_X(name, value) FUNCTION(name, vec_ullong2, _##name(x[i]), value)
+#define CLIENT_FLOATS vec_double2
+#define CLIENT_INTS vec_llong2
+#define CLIENT_MASKS vec_ullong2
+#include "functions.h"
 
 static inline vec_double2 sine(vec_double2 x)
 {
