@@ -45,6 +45,7 @@ static const reason reasons[] = {
     {"*", "spu_testsv", "*", ANY_COUNT,
      "any of seven classes; the native form knows that all that is not finite "
      "is meant"},
+    {"sse", "spu_cmpgt", "u8", ANY_COUNT, "the compiler's own comparison: subtracts and compares with zero twice"},
     {"avx512", "spu_cmpgt", "u8 u16 u32", ANY_COUNT,
      "the compiler's own comparison, which does without mask registers"},
     {"*", "spu_gather", "*", ANY_COUNT, "the SPU's order of bits, and the result in a vector"},
