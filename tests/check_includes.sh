@@ -68,6 +68,10 @@ check examples "examples examples/common" \
     "cgt/(cgt|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h"
 check bench "bench src simd examples/common examples" "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h"
 
+# What names an instruction set is in simd alone.
+grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends examples bench \
+    --include='*.[ch]' | sed 's/$/  <- an intrinsic outside simd/' >>"$bad" || true
+
 if [ -s "$bad" ]; then
     cat "$bad"
     exit 1

@@ -6,8 +6,9 @@
  * allow. The portable variant has none of its own: it stands beside that of the
  * machine.
  *
- * The forms are in simd_native_sse.h, simd_native_neon.h and
- * simd_native_wide.h, each included twice: lines of
+ * The forms are in simd/native, as all that names an instruction set is in
+ * simd: native_sse.h, native_neon.h and native_wide.h, each included twice:
+ * lines of
  *
  *   N1(same, word, result, a, expression)                with operands a, b, c
  *   N2(same, word, result, a, b, expression), N3(...)
@@ -32,11 +33,11 @@ const simd_table SIMD_JOIN(native, CGT_VARIANT) = {SIMD_TEXT(CGT_VARIANT), CGT_L
 #else
 
 #if defined(__SSE4_1__)
-#include "simd_native_sse_parts.h"
+#include "native/native_sse_parts.h"
 #else
-#include "simd_native_neon_parts.h"
+#include "native/native_neon_parts.h"
 #endif
-#include "simd_native_wide_parts.h"
+#include "native/native_wide_parts.h"
 
 /* ---- functions ---- */
 
@@ -48,13 +49,13 @@ const simd_table SIMD_JOIN(native, CGT_VARIANT) = {SIMD_TEXT(CGT_VARIANT), CGT_L
 #define K2(same, word, R, A, B, expression) SIMD_LOOP1(literal_##word##_##A##_##B, R, A, expression)
 #define K3(same, word, R, A, B, C, expression) SIMD_LOOP2(literal_##word##_##A##_##B##_##C, R, A, B, expression)
 #if defined(__SSE4_1__)
-#include "simd_native_sse.h"
+#include "native/native_sse.h"
 #else
-#include "simd_native_neon.h"
+#include "native/native_neon.h"
 #endif
 #undef SIMD_VECTORS
 #define SIMD_VECTORS (SIMD_BYTES / (4 * CGT_LANES))
-#include "simd_native_wide.h"
+#include "native/native_wide.h"
 #undef N1
 #undef N2
 #undef N3
@@ -81,11 +82,11 @@ const simd_table SIMD_JOIN(native, CGT_VARIANT) = {SIMD_TEXT(CGT_VARIANT), CGT_L
 /* clang-format off */
 static const simd_row rows[] = {
 #if defined(__SSE4_1__)
-#include "simd_native_sse.h"
+#include "native/native_sse.h"
 #else
-#include "simd_native_neon.h"
+#include "native/native_neon.h"
 #endif
-#include "simd_native_wide.h"
+#include "native/native_wide.h"
 };
 /* clang-format on */
 

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: types, and what several of the forms of simd_native_neon.h
+ * cgt-bench simd: types, and what several of the forms of native_neon.h
  * need. */
-#ifndef SIMD_NATIVE_NEON_PARTS_H
-#define SIMD_NATIVE_NEON_PARTS_H
+#ifndef CGT_NATIVE_NEON_PARTS_H
+#define CGT_NATIVE_NEON_PARTS_H
 
 typedef uint8x16_t SIMD_TYPE_u8;
 typedef int8x16_t SIMD_TYPE_s8;

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: types of the forms of simd_native_wide.h, and instructions by
+ * cgt-bench simd: types of the forms of native_wide.h, and instructions by
  * the width of the variant.
  *
  *   W(op)    _mm_op, _mm256_op, _mm512_op
  *   SI(op)   the same of whole registers, _mm_op_si128 ... */
-#ifndef SIMD_NATIVE_WIDE_PARTS_H
-#define SIMD_NATIVE_WIDE_PARTS_H
+#ifndef CGT_NATIVE_WIDE_PARTS_H
+#define CGT_NATIVE_WIDE_PARTS_H
 
 #define FLOATS ((const float *)(const void *)m->table)
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: forms by hand for SSE4.1, and AVX2, FMA and AVX-512 where the variant has them. simd_native.c says
- * what the lines are; it includes this file twice. */
+ * cgt-bench simd: forms by hand for SSE4.1, and AVX2, FMA and AVX-512 where the variant has them.
+ * bench/simd/simd_native.c says what the lines are; it includes this file twice. */
 
 /* clang-format off */
 

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: types, and what several of the forms of simd_native_sse.h
+ * cgt-bench simd: types, and what several of the forms of native_sse.h
  * need. */
-#ifndef SIMD_NATIVE_SSE_PARTS_H
-#define SIMD_NATIVE_SSE_PARTS_H
+#ifndef CGT_NATIVE_SSE_PARTS_H
+#define CGT_NATIVE_SSE_PARTS_H
 
 typedef __m128i SIMD_TYPE_u8, SIMD_TYPE_s8, SIMD_TYPE_u16, SIMD_TYPE_s16;
 typedef __m128i SIMD_TYPE_u32, SIMD_TYPE_s32, SIMD_TYPE_u64, SIMD_TYPE_s64;

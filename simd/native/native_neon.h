@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: forms by hand for AArch64 NEON. simd_native.c says what the lines are; it includes this file
- * twice. */
+ * cgt-bench simd: forms by hand for AArch64 NEON. bench/simd/simd_native.c says what the lines are; it includes this
+ * file twice. */
 
 /* clang-format off */
 
