@@ -69,6 +69,23 @@ CGT_SPU_INLINE vfloat cgt_spu_sel_f32w(vfloat a, vfloat b, vuint m)
     return (vfloat)cgt_spu_sel_u32w((vuint)a, (vuint)b, m);
 }
 
+/* ---- shifts: by one count for all lanes; from 32 on it pushes out all bits ---- */
+CGT_SPU_INLINE vuint cgt_spu_sl_u32w(vuint a, unsigned n)
+{
+    return (vuint)_mm256_sll_epi32((__m256i)a, _mm_cvtsi32_si128((int)(n & 63)));
+}
+CGT_SPU_INLINE vuint cgt_spu_sr_u32w(vuint a, unsigned n)
+{
+    return (vuint)_mm256_srl_epi32((__m256i)a, _mm_cvtsi32_si128((int)(n & 63)));
+}
+CGT_SPU_INLINE vint cgt_spu_sra_s32w(vint a, unsigned n)
+{
+    return (vint)_mm256_sra_epi32((__m256i)a, _mm_cvtsi32_si128((int)(n & 63)));
+}
+CGT_SPU_INLINE vint cgt_spu_sl_s32w(vint a, unsigned n) { return (vint)cgt_spu_sl_u32w((vuint)a, n); }
+CGT_SPU_INLINE vint cgt_spu_sr_s32w(vint a, unsigned n) { return (vint)cgt_spu_sr_u32w((vuint)a, n); }
+CGT_SPU_INLINE vuint cgt_spu_sra_u32w(vuint a, unsigned n) { return (vuint)cgt_spu_sra_s32w((vint)a, n); }
+
 /* ---- convert ---- */
 
 /* convtf: rounded once to float, then divided by 2^n */

@@ -65,7 +65,7 @@
 #else
 #define CGT_SPU_OF_LONG(word) long: cgt_spu_##word##_s32, unsigned long: cgt_spu_##word##_u32
 #endif
-#define CGT_SPU_PICK_SCALAR(word, x)                                                                                        \
+#define CGT_SPU_PICK_SCALAR(word, x)                                                                                   \
     _Generic((x), float: cgt_spu_##word##_f32, double: cgt_spu_##word##_f64,                                           \
              signed char: cgt_spu_##word##_s8, unsigned char: cgt_spu_##word##_u8, char: cgt_spu_##word##_u8,          \
              short: cgt_spu_##word##_s16, unsigned short: cgt_spu_##word##_u16,                                        \
@@ -83,17 +83,18 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define CGT_SPU_ELSE_NONE default: cgt_spu_operands_have_no_such_overload
 
 /* b, a vector of a's type, for the types of `list`; or a scalar */
-#define CGT_SPU_PICK_OR_INT(word, list, wide, a, b)                                                                         \
+#define CGT_SPU_PICK_OR_INT(word, list, wide, a, b)                                                                    \
     _Generic((b), wide list(word), default:                                                                            \
              _Generic((a), CGT_SPU_BYTES_X(word), CGT_SPU_HALFWORDS_X(word), CGT_SPU_WORDS_X(word), CGT_SPU_ELSE_NONE))
 #define CGT_SPU_LIST_SUM(word)                                                                                         \
     CGT_SPU_OF_HALFWORDS(word), CGT_SPU_OF_WORDS(word), CGT_SPU_OF_FLOATS(word)
-#define CGT_SPU_PICK_SUM(word, wide, a, b)                                                                                  \
+#define CGT_SPU_PICK_SUM(word, wide, a, b)                                                                             \
     _Generic((b), wide CGT_SPU_LIST_SUM(word), default:                                                                \
              _Generic((a), CGT_SPU_HALFWORDS_X(word), CGT_SPU_WORDS_X(word), CGT_SPU_ELSE_NONE))
 #define CGT_SPU_LIST_COMPARE(word) CGT_SPU_OF_INTS(word), CGT_SPU_OF_FLOATS(word)
 /* a shift: a picks, then whether the count is a vector of the type that goes with a, or a scalar */
-#define CGT_SPU_COUNTED(word, type, vec, n) _Generic((n), vec: cgt_spu_##word##_##type, default: cgt_spu_##word##_##type##_x)
+#define CGT_SPU_COUNTED(word, type, vec, n)                                                                            \
+    _Generic((n), vec: cgt_spu_##word##_##type, default: cgt_spu_##word##_##type##_x)
 #define CGT_SPU_PICK_SHIFT(word, wide, count16, count32, a, n)                                                         \
     _Generic((a), wide vec_ushort8: CGT_SPU_COUNTED(word, u16, count16, n),                                            \
              vec_short8: CGT_SPU_COUNTED(word, s16, count16, n), vec_uint4: CGT_SPU_COUNTED(word, u32, count32, n),    \
@@ -122,7 +123,8 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 /* a scalar stands first: the vector from which it is not taken is b */
 #define spu_sub(a, b)                                                                                                  \
     _Generic((a), CGT_SPU_WIDE_FSU(sub) CGT_SPU_LIST_SUM(sub), default:                                                \
-             _Generic((b), CGT_SPU_HALFWORDS_X(sub), CGT_SPU_WORDS_X(sub), CGT_SPU_ELSE_NONE))(a, CGT_SPU_OPERAND_LIKE(a, b))
+             _Generic((b), CGT_SPU_HALFWORDS_X(sub), CGT_SPU_WORDS_X(sub), CGT_SPU_ELSE_NONE))                         \
+    (a, CGT_SPU_OPERAND_LIKE(a, b))
 #define spu_addx(a, b, c) CGT_SPU_PICK_WORDS32(addx, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
 #define spu_subx(a, b, c) CGT_SPU_PICK_WORDS32(subx, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
 #define spu_genc(a, b) CGT_SPU_PICK_WORDS32(genc, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
@@ -131,17 +133,22 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_genbx(a, b, c) CGT_SPU_PICK_WORDS32(genbx, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
 #define spu_mul(a, b) CGT_SPU_PICK_FLOATS(mul, CGT_SPU_WIDE_F(mul), a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_madd(a, b, c)                                                                                              \
-    _Generic((a), CGT_SPU_WIDE_F(madd) CGT_SPU_OF_FLOATS(madd), vec_short8: cgt_spu_madd_s16)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_ADDEND(a, c))
-#define spu_msub(a, b, c) CGT_SPU_PICK_FLOATS(msub, CGT_SPU_WIDE_F(msub), a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
-#define spu_nmsub(a, b, c) CGT_SPU_PICK_FLOATS(nmsub, CGT_SPU_WIDE_F(nmsub), a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
-#define spu_nmadd(a, b, c) _Generic((a), vec_double2: cgt_spu_nmadd_f64)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+    _Generic((a), CGT_SPU_WIDE_F(madd) CGT_SPU_OF_FLOATS(madd), vec_short8: cgt_spu_madd_s16)                          \
+    (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_ADDEND(a, c))
+#define spu_msub(a, b, c) CGT_SPU_PICK_FLOATS(msub, CGT_SPU_WIDE_F(msub), a)                                           \
+    (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_nmsub(a, b, c) CGT_SPU_PICK_FLOATS(nmsub, CGT_SPU_WIDE_F(nmsub), a)                                        \
+    (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
+#define spu_nmadd(a, b, c) _Generic((a), vec_double2: cgt_spu_nmadd_f64)                                               \
+    (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_SAME(a, c))
 #define spu_mule(a, b) _Generic((a), CGT_SPU_OF_HALFWORDS(mule))(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_mulo(a, b)                                                                                                 \
     _Generic((b), CGT_SPU_OF_HALFWORDS(mulo), default:                                                                 \
              _Generic((a), CGT_SPU_HALFWORDS_X(mulo), CGT_SPU_ELSE_NONE))(CGT_SPU_OPERAND_LIKE(b, a), b)
 #define spu_mulh(a, b) _Generic((a), vec_short8: cgt_spu_mulh_s16)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_mulsr(a, b) _Generic((a), vec_short8: cgt_spu_mulsr_s16)(a, CGT_SPU_OPERAND_SAME(a, b))
-#define spu_mhhadd(a, b, c) _Generic((a), CGT_SPU_OF_HALFWORDS(mhhadd))(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_ADDEND(a, c))
+#define spu_mhhadd(a, b, c) _Generic((a), CGT_SPU_OF_HALFWORDS(mhhadd))                                                \
+    (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_ADDEND(a, c))
 #define spu_re(a) _Generic((a), CGT_SPU_WIDE_F(re) vec_float4: cgt_spu_re_f32)(a)
 #define spu_rsqrte(a) _Generic((a), CGT_SPU_WIDE_F(rsqrte) vec_float4: cgt_spu_rsqrte_f32)(a)
 /* the estimates in the SPU's two instructions, on quadwords: SPU source uses these three even where it is generic */
@@ -154,8 +161,10 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 
 /* ---- comparison ---- */
 
-#define spu_cmpeq(a, b) CGT_SPU_PICK_OR_INT(cmpeq, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpeq), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
-#define spu_cmpgt(a, b) CGT_SPU_PICK_OR_INT(cmpgt, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpgt), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_cmpeq(a, b) CGT_SPU_PICK_OR_INT(cmpeq, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpeq), a, b)                \
+    (CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_cmpgt(a, b) CGT_SPU_PICK_OR_INT(cmpgt, CGT_SPU_LIST_COMPARE, CGT_SPU_WIDE_FSU(cmpgt), a, b)                \
+    (CGT_SPU_OPERAND_LIKE(b, a), b)
 #define spu_cmpabseq(a, b) CGT_SPU_PICK_FLOATS(cmpabseq, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_cmpabsgt(a, b) CGT_SPU_PICK_FLOATS(cmpabsgt, CGT_SPU_WIDE_F(cmpabsgt), a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_testsv(a, classes) _Generic((a), vec_double2: cgt_spu_testsv_f64)(a, classes)
@@ -168,8 +177,10 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_maskb(a) cgt_spu_maskb((unsigned)(a))
 #define spu_maskh(a) cgt_spu_maskh((unsigned)(a))
 #define spu_maskw(a) cgt_spu_maskw((unsigned)(a))
-#define spu_sel(a, b, m) CGT_SPU_PICK_ALL(sel, CGT_SPU_WIDE_FSU(sel), a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_MASK(a, m))
-#define spu_shuffle(a, b, pattern) CGT_SPU_PICK_ALL(shuffle, , a)(a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_IS(vec_uchar16, pattern))
+#define spu_sel(a, b, m) CGT_SPU_PICK_ALL(sel, CGT_SPU_WIDE_FSU(sel), a)                                               \
+    (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_MASK(a, m))
+#define spu_shuffle(a, b, pattern) CGT_SPU_PICK_ALL(shuffle, , a)                                                      \
+    (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_IS(vec_uchar16, pattern))
 
 /* No word of an SPU, where a cast does it: the cast of a to a vector type with the SPU's result on hosts of either byte
  * order. It matters where the element sizes differ. */
@@ -178,9 +189,11 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 
 /* ---- logic ---- */
 
-#define spu_and(a, b) CGT_SPU_PICK_OR_INT(and, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(and), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_and(a, b) CGT_SPU_PICK_OR_INT(and, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(and), a, b)                           \
+    (CGT_SPU_OPERAND_LIKE(b, a), b)
 #define spu_or(a, b) CGT_SPU_PICK_OR_INT(or, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(or), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
-#define spu_xor(a, b) CGT_SPU_PICK_OR_INT(xor, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(xor), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
+#define spu_xor(a, b) CGT_SPU_PICK_OR_INT(xor, CGT_SPU_OF_ALL, CGT_SPU_WIDE_FSUM(xor), a, b)                           \
+    (CGT_SPU_OPERAND_LIKE(b, a), b)
 #define spu_andc(a, b) CGT_SPU_PICK_ALL(andc, CGT_SPU_WIDE_FSUM(andc), a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_orc(a, b) CGT_SPU_PICK_ALL(orc, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_nand(a, b) CGT_SPU_PICK_ALL(nand, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
@@ -190,9 +203,9 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 
 /* ---- shifts and rotations of elements; from the element's width on nothing or the sign is left ---- */
 
-#define spu_sl(a, count) CGT_SPU_PICK_SHIFT(sl, , vec_ushort8, vec_uint4, a, count)(a, count)
-#define spu_sr(a, count) CGT_SPU_PICK_SHIFT(sr, , vec_ushort8, vec_uint4, a, count)(a, count)
-#define spu_sra(a, count) CGT_SPU_PICK_SHIFT(sra, , vec_ushort8, vec_uint4, a, count)(a, count)
+#define spu_sl(a, count) CGT_SPU_PICK_SHIFT(sl, CGT_SPU_WIDE_SU(sl), vec_ushort8, vec_uint4, a, count)(a, count)
+#define spu_sr(a, count) CGT_SPU_PICK_SHIFT(sr, CGT_SPU_WIDE_SU(sr), vec_ushort8, vec_uint4, a, count)(a, count)
+#define spu_sra(a, count) CGT_SPU_PICK_SHIFT(sra, CGT_SPU_WIDE_SU(sra), vec_ushort8, vec_uint4, a, count)(a, count)
 #define spu_rl(a, count) CGT_SPU_PICK_SHIFT(rl, , vec_short8, vec_int4, a, count)(a, count)
 #define spu_rlmask(a, count) CGT_SPU_PICK_SHIFT(rlmask, , vec_short8, vec_int4, a, count)(a, count)
 #define spu_rlmaska(a, count) CGT_SPU_PICK_SHIFT(rlmaska, , vec_short8, vec_int4, a, count)(a, count)

@@ -40,20 +40,6 @@ CGT_SPU_INLINE vfloat spux_div(vfloat a, vfloat b) { return a / b; }
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm256_sqrt_ps((__m256)a); }
 CGT_SPU_INLINE vmask spux_cmpge(vfloat a, vfloat b) { return (vmask)(a >= b); }
 
-/* counts beyond 31 push out all bits, as in the SPU's shifts */
-CGT_SPU_INLINE vuint cgt_spux_sl_u32w(vuint a, unsigned n)
-{
-    return (vuint)_mm256_sll_epi32((__m256i)a, _mm_cvtsi32_si128((int)(n & 63)));
-}
-CGT_SPU_INLINE vuint cgt_spux_sr_u32w(vuint a, unsigned n)
-{
-    return (vuint)_mm256_srl_epi32((__m256i)a, _mm_cvtsi32_si128((int)(n & 63)));
-}
-CGT_SPU_INLINE vint cgt_spux_sra_s32w(vint a, unsigned n)
-{
-    return (vint)_mm256_sra_epi32((__m256i)a, _mm_cvtsi32_si128((int)(n & 63)));
-}
-
 /* ---- selection ---- */
 CGT_SPU_INLINE vfloat cgt_spux_select_f32w(vfloat a, vfloat b, vmask m)
 {

@@ -39,20 +39,6 @@ CGT_SPU_INLINE vmask spux_cmpge(vfloat a, vfloat b)
     return (vmask){_mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GE_OQ)};
 }
 
-/* counts beyond 31 push out all bits, as in the SPU's shifts */
-CGT_SPU_INLINE vuint cgt_spux_sl_u32w(vuint a, unsigned n)
-{
-    return (vuint)_mm512_sll_epi32((__m512i)a, _mm_cvtsi32_si128((int)(n & 63)));
-}
-CGT_SPU_INLINE vuint cgt_spux_sr_u32w(vuint a, unsigned n)
-{
-    return (vuint)_mm512_srl_epi32((__m512i)a, _mm_cvtsi32_si128((int)(n & 63)));
-}
-CGT_SPU_INLINE vint cgt_spux_sra_s32w(vint a, unsigned n)
-{
-    return (vint)_mm512_sra_epi32((__m512i)a, _mm_cvtsi32_si128((int)(n & 63)));
-}
-
 /* ---- selection ---- */
 CGT_SPU_INLINE vfloat cgt_spux_select_f32w(vfloat a, vfloat b, vmask m)
 {

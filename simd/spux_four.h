@@ -83,11 +83,6 @@ CGT_SPU_INLINE vfloat spux_sqrt(vfloat a)
 #endif
 #endif
 
-/* counts beyond 31 push out all bits, as in the SPU's shifts */
-CGT_SPU_INLINE vuint cgt_spux_sl_u32w(vuint a, unsigned n) { return (n & 63) > 31 ? spux_vuint(0) : a << (n & 31); }
-CGT_SPU_INLINE vuint cgt_spux_sr_u32w(vuint a, unsigned n) { return (n & 63) > 31 ? spux_vuint(0) : a >> (n & 31); }
-CGT_SPU_INLINE vint cgt_spux_sra_s32w(vint a, unsigned n) { return a >> (int32_t)((n & 63) > 31 ? 31 : n & 31); }
-
 /* ---- selection ---- */
 #ifndef CGT_SPUX_OWN_SELECT
 CGT_SPU_INLINE vfloat cgt_spux_select_f32w(vfloat a, vfloat b, vmask m) { return spu_sel(a, b, m); }

@@ -7,8 +7,9 @@
  *   vmask                 the result of a comparison. Of some widths it is a vector, of others a k register: only words
  *                         look inside, operators of C do not
  *   spu_*                 the SPU's words on these types (spu_intrinsics.h): add, sub, mul, madd, msub, nmsub, re,
- *                         rsqrte, cmpgt, cmpeq, cmpabsgt, and, or, xor, andc, nor, sel, convtf, convts; and, or, xor,
- *                         andc, nor take masks too. Words of 16 bytes (spu_splats, spu_shuffle ...) stay on four lanes
+ *                         rsqrte, cmpgt, cmpeq, cmpabsgt, and, or, xor, andc, nor, sel, convtf, convts, and sl, sr, sra
+ *                         by a scalar; and, or, xor, andc, nor take masks too. Words of 16 bytes (spu_splats,
+ *                         spu_shuffle ...) stay on four lanes
  *   spux_*                words that the SPU lacks or does in several, on every variant with the same result, lane by
  *                         lane. T is any of vfloat, vint, vuint; W float or uint (the word ends in _uint then)
  *
@@ -27,8 +28,6 @@
  *   spux_min, max(a, b)           T; b where a and b do not compare; which of two zeros is open
  *   spux_abs(a)                   float, sign bit cleared
  *   spux_div(a, b), sqrt(a)       float, relative error at most 2^-21
- *   spux_sl, sr, sra(a, n)        shifts of vint and vuint by n bits, n modulo 64: left, right with zeros, right with
- *                                 the sign
  *   spux_cmpge(a, b)              float, a >= b, false for NaN
  *   spux_select(a, b, m)          T; b in the lanes where m is true, else a
  *
@@ -85,9 +84,6 @@ CGT_SPU_INLINE vint cgt_spux_select_s32w(vint a, vint b, vmask m)
 {
     return (vint)cgt_spux_select_u32w((vuint)a, (vuint)b, m);
 }
-CGT_SPU_INLINE vint cgt_spux_sl_s32w(vint a, unsigned n) { return (vint)cgt_spux_sl_u32w((vuint)a, n); }
-CGT_SPU_INLINE vint cgt_spux_sr_s32w(vint a, unsigned n) { return (vint)cgt_spux_sr_u32w((vuint)a, n); }
-CGT_SPU_INLINE vuint cgt_spux_sra_u32w(vuint a, unsigned n) { return (vuint)cgt_spux_sra_s32w((vint)a, n); }
 CGT_SPU_INLINE vfloat cgt_spux_permute_f32w(vfloat a, vuint i) { return (vfloat)cgt_spux_permute_w((vuint)a, i); }
 CGT_SPU_INLINE vint cgt_spux_permute_s32w(vint a, vuint i) { return (vint)cgt_spux_permute_w((vuint)a, i); }
 CGT_SPU_INLINE vuint cgt_spux_permute_u32w(vuint a, vuint i) { return cgt_spux_permute_w(a, i); }
@@ -101,9 +97,6 @@ CGT_SPU_INLINE vuint cgt_spux_compress_u32w(vuint a, vmask m) { return cgt_spux_
 #define CGT_SPUX_FSU(word) vfloat : cgt_spux_##word##_f32w, CGT_SPUX_SU(word)
 #define spux_min(a, b) _Generic((a), CGT_SPUX_FSU(min))(a, b)
 #define spux_max(a, b) _Generic((a), CGT_SPUX_FSU(max))(a, b)
-#define spux_sl(a, n) _Generic((a), CGT_SPUX_SU(sl))(a, n)
-#define spux_sr(a, n) _Generic((a), CGT_SPUX_SU(sr))(a, n)
-#define spux_sra(a, n) _Generic((a), CGT_SPUX_SU(sra))(a, n)
 #define spux_select(a, b, m) _Generic((a), CGT_SPUX_FSU(select))(a, b, m)
 #define spux_permute(a, i) _Generic((a), CGT_SPUX_FSU(permute))(a, i)
 #define spux_compress(a, m) _Generic((a), CGT_SPUX_FSU(compress))(a, m)

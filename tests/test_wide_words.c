@@ -329,18 +329,18 @@ static void shifts(void **state)
             right.eu[i] = k < 32 ? a.eu[i] >> k : 0;
             sign.es[i] = (int32_t)(a.es[i] < 0 ? ~(~a.eu[i] >> (k < 32 ? k : 31)) : a.eu[i] >> (k < 32 ? k : 31));
         }
-        d.u = spux_sl(a.u, n);
-        check_bits("spux_sl u", &d, &left);
-        d.s = spux_sl(a.s, n);
-        check_bits("spux_sl s", &d, &left);
-        d.u = spux_sr(a.u, n);
-        check_bits("spux_sr u", &d, &right);
-        d.s = spux_sr(a.s, n);
-        check_bits("spux_sr s", &d, &right);
-        d.u = spux_sra(a.u, n);
-        check_bits("spux_sra u", &d, &sign);
-        d.s = spux_sra(a.s, n);
-        check_bits("spux_sra s", &d, &sign);
+        d.u = spu_sl(a.u, n);
+        check_bits("spu_sl u", &d, &left);
+        d.s = spu_sl(a.s, n);
+        check_bits("spu_sl s", &d, &left);
+        d.u = spu_sr(a.u, n);
+        check_bits("spu_sr u", &d, &right);
+        d.s = spu_sr(a.s, n);
+        check_bits("spu_sr s", &d, &right);
+        d.u = spu_sra(a.u, n);
+        check_bits("spu_sra u", &d, &sign);
+        d.s = spu_sra(a.s, n);
+        check_bits("spu_sra s", &d, &sign);
     }
 }
 

@@ -81,7 +81,6 @@ static const reason reasons[] = {
      "elements within 16 bytes"},
 
     /* extension words */
-    {"*", "spux_sl spux_sr spux_sra", "*", ANY_COUNT, "counts modulo 64; from 32 on nothing or the sign is left"},
     {"avx512", "spux_mask_first", "*", ANY_COUNT, "any count, not only up to 16"},
     {"avx2", "spux_any spux_all", "*", ANY_COUNT, "to a bool and from there to a number"},
     {"neon", "spux_min spux_max", "vfloat", ANY_COUNT, "b where a and b do not compare: fmin gives the other one"},

@@ -92,9 +92,9 @@ typedef vmask SIMD_TYPE_vm;
     X2(spux_min, vu, vu, vu, spux_min(a, b))                                                                           \
     X2(spux_max, vi, vi, vi, spux_max(a, b))                                                                           \
     X2(spux_max, vu, vu, vu, spux_max(a, b))                                                                           \
-    X2(spux_sl, vu, vu, x_u32, spux_sl(a, b))                                                                          \
-    X2(spux_sr, vu, vu, x_u32, spux_sr(a, b))                                                                          \
-    X2(spux_sra, vi, vi, x_u32, spux_sra(a, b))                                                                        \
+    X2(spu_sl, vu, vu, x_u32, spu_sl(a, b))                                                                            \
+    X2(spu_sr, vu, vu, x_u32, spu_sr(a, b))                                                                            \
+    X2(spu_sra, vi, vi, x_u32, spu_sra(a, b))                                                                          \
     X1(spux_any, x_u32, vm, spux_any(a))                                                                               \
     X1(spux_all, x_u32, vm, spux_all(a))                                                                               \
     X1(spux_mask_from_bits, vm, x_u32, spux_mask_from_bits(a))                                                         \

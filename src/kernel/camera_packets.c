@@ -20,7 +20,7 @@ CGT_SPU_INLINE vfloat pixel_columns(const float *px, uint32_t i, uint32_t edge)
 }
 CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
 {
-    return spux_permute(spux_load_unaligned(py + lane_row(i, edge)), spux_sr(spux_lane_index(), 2));
+    return spux_permute(spux_load_unaligned(py + lane_row(i, edge)), spu_sr(spux_lane_index(), 2));
 }
 
 /* What is the same for all packets of a perspective camera, and the range of t of any. */
