@@ -15,7 +15,6 @@ const char *cgt_result_string(cgt_result result)
     case CGT_ERROR_INVALID_ARGUMENT: return "an argument is outside its range";
     case CGT_ERROR_OUT_OF_MEMORY: return "out of memory";
     case CGT_ERROR_TOO_LARGE: return "a size is beyond its limit";
-    case CGT_ERROR_TOO_MANY_PRIMITIVES: return "more primitives than the structure can refer to";
     case CGT_ERROR_NOT_COMMITTED: return "the scene is not committed";
     case CGT_ERROR_UNSUPPORTED: return "not supported by this CPU or this build";
     case CGT_ERROR_THREADS: return "the system refused a thread or a lock";

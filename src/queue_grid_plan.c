@@ -81,6 +81,15 @@ static cgt_result check_wanted(const uint32_t wanted[3])
     return cells > CGT_GRID_MAX_CELLS ? CGT_ERROR_TOO_LARGE : CGT_OK;
 }
 
+/* Beyond 2^100 the filter's products leave the range of float; what is smaller is decided in double. */
+static float scale_of(float magnitude)
+{
+    int exponent = 0;
+    if (magnitude > 0 && magnitude <= LARGEST_MAGNITUDE)
+        frexpf(magnitude, &exponent);
+    return ldexpf(1, exponent < -100 ? 100 : -exponent);
+}
+
 cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *summary, const uint32_t wanted[3],
                                char why[128])
 {
@@ -89,6 +98,8 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
     if (result != CGT_OK)
         return result;
     grid->everything = !(summary->magnitude <= LARGEST_MAGNITUDE);
+    grid->wide = grid->objects.count > CGT_QUEUE_MAX_NARROW;
+    grid->scale = scale_of(summary->magnitude);
     if (!summary->valid || grid->everything) {
         for (int a = 0; a < 3; a++)
             grid->resolution[a] = grid->stride[a] = 1, grid->rcell[a] = grid->slack[a] = 0;

@@ -59,7 +59,8 @@ void cgt_scene_release(cgt_scene *scene)
     if (!scene)
         return;
     cgt_context *context = scene->context;
-    cgt_buffer *buffer[] = {&scene->geometry, &scene->arrays, &scene->voxels, &scene->overflow[0], &scene->overflow[1]};
+    cgt_buffer *buffer[] = {&scene->geometry, &scene->arrays,      &scene->summaries,
+                            &scene->voxels,   &scene->overflow[0], &scene->overflow[1]};
     for (size_t i = 0; i < sizeof buffer / sizeof buffer[0]; i++)
         cgt_buffer_release(&context->memory, buffer[i]);
     cgt_free(&context->memory, scene, sizeof *scene);
@@ -102,6 +103,30 @@ static cgt_result check_spheres(cgt_context *c, cgt_spheres *s)
     return CGT_OK;
 }
 
+static cgt_result check_triangles(cgt_context *c, cgt_triangles *t)
+{
+    if (!t->index_stride)
+        t->index_stride = 3 * sizeof(uint32_t);
+    if (!t->vertex_stride)
+        t->vertex_stride = 3 * sizeof(float);
+    if (t->vertex_count && !t->vertices)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: vertices is NULL");
+    if ((uintptr_t)t->vertices % sizeof(float) || (uintptr_t)t->indices % sizeof(uint32_t))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: an array is not aligned as its elements are");
+    if (!stride_fits(t->vertex_count, t->vertex_stride, 3 * sizeof(float)) ||
+        !stride_fits(t->count, t->index_stride, 3 * sizeof(uint32_t)))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: a stride is not a multiple of 4, or too large");
+    if (!t->indices && t->vertex_count / 3 < t->count)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
+                        "triangles: %u of them without indices need more than %u vertices", t->count, t->vertex_count);
+    return CGT_OK;
+}
+
+static uint32_t primitives_of(const cgt_geometry *g)
+{
+    return g->kind == CGT_KIND_SPHERES ? g->spheres.count : g->triangles.count;
+}
+
 /* The sum of all counts with geometry `id` replaced by count. */
 static uint64_t count_with(const cgt_scene *scene, uint32_t id, uint32_t count)
 {
@@ -109,20 +134,17 @@ static uint64_t count_with(const cgt_scene *scene, uint32_t id, uint32_t count)
     for (uint32_t i = 0; i < scene->geometries; i++) {
         const cgt_geometry *g = geometry_at(scene, i);
         if (g && i != id)
-            sum += g->spheres.count;
+            sum += primitives_of(g);
     }
     return sum;
 }
 
-static cgt_result set_spheres(cgt_scene *scene, uint32_t id, const cgt_spheres *spheres)
+/* Sets geometry `id`, which exists or is the next one, to a checked description. */
+static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry *geometry)
 {
-    cgt_spheres checked = *spheres;
-    const cgt_result result = check_spheres(scene->context, &checked);
-    if (result != CGT_OK)
-        return result;
-    const uint64_t sum = count_with(scene, id, checked.count);
+    const uint64_t sum = count_with(scene, id, primitives_of(geometry));
     if (sum >= CGT_NONE)
-        return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "spheres: %llu primitives in all: at most 2^32 - 2",
+        return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "scene: %llu primitives in all: at most 2^32 - 2",
                         (unsigned long long)sum);
     if (id == scene->geometries) {
         const cgt_result grown =
@@ -131,19 +153,39 @@ static cgt_result set_spheres(cgt_scene *scene, uint32_t id, const cgt_spheres *
             return cgt_fail(scene->context, grown, "out of memory for geometry %u", id);
         scene->geometries++;
     }
-    ((cgt_geometry *)scene->geometry.data)[id] = (cgt_geometry){true, checked};
+    ((cgt_geometry *)scene->geometry.data)[id] = *geometry;
     scene->committed = false;
+    return CGT_OK;
+}
+
+static uint32_t free_id(const cgt_scene *scene)
+{
+    uint32_t id = 0;
+    while (id < scene->geometries && geometry_at(scene, id))
+        id++;
+    return id;
+}
+
+static cgt_result check_update(const cgt_scene *scene, uint32_t id, cgt_kind kind)
+{
+    const cgt_geometry *g = geometry_at(scene, id);
+    if (!g)
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", id);
+    if (g->kind != kind)
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u is one of %s", id,
+                        g->kind == CGT_KIND_SPHERES ? "spheres" : "triangles");
     return CGT_OK;
 }
 
 cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry)
 {
-    uint32_t id = 0;
     if (!scene || !spheres || !geometry)
         return CGT_ERROR_INVALID_ARGUMENT;
-    while (id < scene->geometries && geometry_at(scene, id))
-        id++;
-    const cgt_result result = set_spheres(scene, id, spheres);
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
+    const uint32_t id = free_id(scene);
+    cgt_result result = check_spheres(scene->context, &g.spheres);
+    if (result == CGT_OK)
+        result = set_geometry(scene, id, &g);
     if (result == CGT_OK)
         *geometry = id;
     return result;
@@ -153,9 +195,36 @@ cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const c
 {
     if (!scene || !spheres)
         return CGT_ERROR_INVALID_ARGUMENT;
-    if (!geometry_at(scene, geometry))
-        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
-    return set_spheres(scene, geometry, spheres);
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
+    cgt_result result = check_update(scene, geometry, CGT_KIND_SPHERES);
+    if (result == CGT_OK)
+        result = check_spheres(scene->context, &g.spheres);
+    return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
+}
+
+cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry)
+{
+    if (!scene || !triangles || !geometry)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
+    const uint32_t id = free_id(scene);
+    cgt_result result = check_triangles(scene->context, &g.triangles);
+    if (result == CGT_OK)
+        result = set_geometry(scene, id, &g);
+    if (result == CGT_OK)
+        *geometry = id;
+    return result;
+}
+
+cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles)
+{
+    if (!scene || !triangles)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
+    cgt_result result = check_update(scene, geometry, CGT_KIND_TRIANGLES);
+    if (result == CGT_OK)
+        result = check_triangles(scene->context, &g.triangles);
+    return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
 }
 
 cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)

@@ -10,7 +10,11 @@
 
 typedef struct cgt_geometry {
     bool used;
-    cgt_spheres spheres; /* strides filled in */
+    cgt_kind kind;
+    union { /* strides filled in */
+        cgt_spheres spheres;
+        cgt_triangles triangles;
+    };
 } cgt_geometry;
 
 struct cgt_scene {
@@ -20,8 +24,9 @@ struct cgt_scene {
     uint32_t geometries; /* length of it, free ones included */
     bool committed;      /* nothing changed since the last commit */
 
-    cgt_buffer arrays;      /* cgt_sphere_array of the commit */
-    cgt_buffer voxels;      /* cgt_voxel */
+    cgt_buffer arrays;      /* cgt_object_array of the commit */
+    cgt_buffer summaries;   /* cgt_object_summary, one per chunk of objects */
+    cgt_buffer voxels;      /* cgt_voxel or cgt_wide_voxel */
     cgt_buffer overflow[2]; /* cgt_overflow: as they came, and room to sort */
     cgt_queue_grid grid;
     cgt_scene_statistics statistics;

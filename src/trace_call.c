@@ -26,6 +26,13 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
     if ((unsigned)o->cull > CGT_CULL_BLOCKS)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: cull is unknown");
+    if ((unsigned)o->precision > CGT_PRECISION_EXACT)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: precision is unknown");
+    if ((unsigned)o->triangle_test > CGT_TRIANGLE_ACCELERATED)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: triangle_test is unknown");
+    if (o->triangle_test != CGT_TRIANGLE_WATERTIGHT && o->precision != CGT_PRECISION_FAST)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
+                        "trace options: this triangle_test has no error bound: precision must be FAST");
     s->strip = camera && o->tile == CGT_TILE_STRIP;
     if (s->strip && o->packet > 4)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
@@ -34,6 +41,8 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
     s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;
     s->mailbox = o->mailbox;
+    s->precision = o->precision;
+    s->triangle_test = o->triangle_test;
     if (!camera)
         s->packet = 0;
     return CGT_OK;
@@ -86,6 +95,8 @@ void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *s
                                                   .packet_tests = c.packet_tests,
                                                   .ray_tests = c.ray_tests,
                                                   .double_tests = c.double_tests,
+                                                  .exact_tests = c.exact_tests,
+                                                  .exact_values = c.exact_values,
                                                   .early_exits = c.early_exits,
                                                   .packet_size = settings->packet,
                                                   .tile = settings->strip ? CGT_TILE_STRIP : CGT_TILE_SQUARE,

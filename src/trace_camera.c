@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "float_environment.h"
 #include "scene.h"
 #include "trace_call.h"
 
@@ -29,7 +30,8 @@ typedef struct frame_job {
 static uint32_t plane_fields(const cgt_frame *f)
 {
     return (f->t ? CGT_FIELD_T : 0u) | (f->primitive ? CGT_FIELD_PRIMITIVE : 0u) |
-           (f->geometry ? CGT_FIELD_GEOMETRY : 0u) | (f->normal[0] ? CGT_FIELD_NORMAL : 0u);
+           (f->geometry ? CGT_FIELD_GEOMETRY : 0u) | (f->normal[0] ? CGT_FIELD_NORMAL : 0u) |
+           (f->u ? CGT_FIELD_UV : 0u);
 }
 
 /* A region's planes within larger ones that start at its first pixel's element. */
@@ -43,10 +45,12 @@ static cgt_region region_in_planes(const frame_job *job, uint32_t x, uint32_t y,
     r.geometry = f->geometry ? f->geometry + first : NULL;
     for (int a = 0; a < 3; a++)
         r.normal[a] = f->normal[a] ? f->normal[a] + first : NULL;
+    r.u = f->u ? f->u + first : NULL;
+    r.v = f->v ? f->v + first : NULL;
     return r;
 }
 
-static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes, uint32_t buffer[6][TILE_PIXELS])
+static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes, uint32_t buffer[8][TILE_PIXELS])
 {
     const uint32_t fields = job->settings.fields;
     cgt_region r = *planes;
@@ -56,6 +60,8 @@ static cgt_region region_in_buffer(const frame_job *job, const cgt_region *plane
     r.geometry = fields & CGT_FIELD_GEOMETRY ? buffer[2] : NULL;
     for (int a = 0; a < 3; a++)
         r.normal[a] = fields & CGT_FIELD_NORMAL ? (float *)buffer[3 + a] : NULL;
+    r.u = fields & CGT_FIELD_UV ? (float *)buffer[6] : NULL;
+    r.v = fields & CGT_FIELD_UV ? (float *)buffer[7] : NULL;
     return r;
 }
 
@@ -75,12 +81,14 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
     copy_rows(planes->geometry, tile->geometry, planes, tile);
     for (int a = 0; a < 3; a++)
         copy_rows(planes->normal[a], tile->normal[a], planes, tile);
+    copy_rows(planes->u, tile->u, planes, tile);
+    copy_rows(planes->v, tile->v, planes, tile);
 }
 
 static int call_visitor(const cgt_frame *f, const cgt_region *r)
 {
     const uint32_t wanted = f->visitor_fields;
-    const bool normal = wanted & CGT_FIELD_NORMAL;
+    const bool normal = wanted & CGT_FIELD_NORMAL, uv = wanted & CGT_FIELD_UV;
     const cgt_tile tile = {
         .x = r->x,
         .y = r->y,
@@ -90,7 +98,9 @@ static int call_visitor(const cgt_frame *f, const cgt_region *r)
         .t = wanted & CGT_FIELD_T ? r->t : NULL,
         .primitive = wanted & CGT_FIELD_PRIMITIVE ? r->primitive : NULL,
         .geometry = wanted & CGT_FIELD_GEOMETRY ? r->geometry : NULL,
-        .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL}};
+        .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL},
+        .u = uv ? r->u : NULL,
+        .v = uv ? r->v : NULL};
     return f->visitor(f->visitor_user, &tile);
 }
 
@@ -98,14 +108,17 @@ static void trace_into(const frame_job *job, const cgt_region *r)
 {
     const cgt_scene *s = job->scene;
     cgt_counts counts = {0};
+    fenv_t callers;
+    cgt_float_environment_enter(&callers);
     s->context->kernel->trace_region(&s->grid, &job->camera, &job->settings, r, &counts);
+    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
 /* A function of its own: its stack is taken only where it is needed. */
 __attribute__((noinline)) static int trace_buffered(const frame_job *job, const cgt_region *planes)
 {
-    uint32_t buffer[6][TILE_PIXELS];
+    uint32_t buffer[8][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
     trace_into(job, &tile);
     const int stop = job->frame->visitor ? call_visitor(job->frame, &tile) : 0;
@@ -137,7 +150,7 @@ static void trace_tile(void *argument, uint32_t index)
 
 static cgt_result check_frame(cgt_context *c, const cgt_frame *f)
 {
-    const uint32_t all = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL;
+    const uint32_t all = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
     if (!f->width || !f->height)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: %u x %u pixels: at least 1 x 1", f->width, f->height);
     if (f->width > 65536 || f->height > 65536)
@@ -148,6 +161,8 @@ static cgt_result check_frame(cgt_context *c, const cgt_frame *f)
         return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: row_stride times height leaves the address space");
     if (!f->normal[0] != !f->normal[1] || !f->normal[0] != !f->normal[2])
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: normal: all three planes or none");
+    if (!f->u != !f->v)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: u and v: both planes or none");
     if (f->visitor_fields & ~all)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
     return CGT_OK;

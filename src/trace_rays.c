@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays, nearest hit and any hit: cut into chunks, each a task. */
+#include "float_environment.h"
 #include "scene.h"
 #include "trace_call.h"
 
@@ -23,7 +24,10 @@ static void trace_chunk(void *argument, uint32_t index)
     const uint64_t first = (uint64_t)index * CHUNK, left = job->rays->count - first,
                    end = first + (left < CHUNK ? left : CHUNK);
     cgt_counts counts = {0};
+    fenv_t callers;
+    cgt_float_environment_enter(&callers);
     s->context->kernel->trace_rays(&s->grid, job->rays, first, end, &job->settings, job->hits, job->occluded, &counts);
+    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
@@ -48,13 +52,16 @@ static cgt_result check_hits(cgt_context *c, const cgt_hits *h, uint64_t count)
 {
     if (!h->normal[0] != !h->normal[1] || !h->normal[0] != !h->normal[2])
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "hits: normal: all three arrays or none");
+    if (!h->u != !h->v)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "hits: u and v: both arrays or none");
     return check_stride(c, "hits", h->stride, count);
 }
 
 static uint32_t hit_fields(const cgt_hits *h)
 {
     return (h->t ? CGT_FIELD_T : 0u) | (h->primitive ? CGT_FIELD_PRIMITIVE : 0u) |
-           (h->geometry ? CGT_FIELD_GEOMETRY : 0u) | (h->normal[0] ? CGT_FIELD_NORMAL : 0u);
+           (h->geometry ? CGT_FIELD_GEOMETRY : 0u) | (h->normal[0] ? CGT_FIELD_NORMAL : 0u) |
+           (h->u ? CGT_FIELD_UV : 0u);
 }
 
 static cgt_result trace(rays_job *job, const cgt_trace_options *options)

@@ -123,7 +123,8 @@ static void bad_frames_are_refused(void **state)
     REFUSE(f.row_stride = SIZE_MAX / 8, CGT_ERROR_TOO_LARGE, "row_stride");
     REFUSE(f.normal[0] = t, CGT_ERROR_INVALID_ARGUMENT, "normal");
     REFUSE((f.normal[1] = t, f.normal[2] = t), CGT_ERROR_INVALID_ARGUMENT, "normal");
-    REFUSE(f.visitor_fields = 16, CGT_ERROR_INVALID_ARGUMENT, "visitor_fields");
+    REFUSE(f.visitor_fields = 32, CGT_ERROR_INVALID_ARGUMENT, "visitor_fields");
+    REFUSE(f.u = t, CGT_ERROR_INVALID_ARGUMENT, "u and v");
 #undef REFUSE
     assert_int_equal(cgt_trace_camera(NULL, &camera, &good, NULL), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_trace_camera(scene, NULL, &good, NULL), CGT_ERROR_INVALID_ARGUMENT);

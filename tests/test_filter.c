@@ -146,7 +146,7 @@ static void judge_packet(test_random *r, const packet *p, const float sphere[4],
     filter_packet of_packet;
     filter_spheres s;
     filter_result f;
-    filter_packet_make(p, &of_packet);
+    filter_packet_make(p, 1, &of_packet);
     for (int i = 0; i < CGT_LANES; i++) {
         for (int a = 0; a < 3; a++)
             s.center[a][i] = i == k ? sphere[a] : random_float(r, -10, 10);
@@ -156,7 +156,7 @@ static void judge_packet(test_random *r, const packet *p, const float sphere[4],
     filter_spheres_bound(&of_packet, &s);
     const filter_sphere q = filter_sphere_get(p, &s, k, p->common_origin);
     for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
-        const bool some = filter_rays(p, &q, i, p->common_origin, &f);
+        const bool some = filter_sphere_rays(p, &q, i, p->common_origin, &f);
         const unsigned certain = some ? spux_mask_bits(f.certain) : 0, open = some ? spux_mask_bits(f.open) : 0;
         assert_int_equal(certain & open, 0);
         for (int lane = 0; lane < CGT_LANES; lane++)
@@ -243,7 +243,7 @@ static void order_of_two_spheres(void **state)
         make_packet(&r, CROSSING, &p, sphere);
         memcpy(other, sphere, sizeof other);
         other[random_below(&r, 4)] *= 1 + random_log(&r, 1e-8f, 1e-1f) * (random_below(&r, 2) ? 1.f : -1.f);
-        filter_packet_make(&p, &of_packet);
+        filter_packet_make(&p, 1, &of_packet);
         memset(&s, 0, sizeof s);
         for (int k = 0; k < 2; k++) {
             for (int a = 0; a < 3; a++)
@@ -255,13 +255,13 @@ static void order_of_two_spheres(void **state)
         for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
             const filter_sphere first = filter_sphere_get(&p, &s, 0, p.common_origin),
                                 second = filter_sphere_get(&p, &s, 1, p.common_origin);
-            if (!filter_rays(&p, &first, i, p.common_origin, &f))
+            if (!filter_sphere_rays(&p, &first, i, p.common_origin, &f))
                 continue;
             const unsigned hit = spux_mask_bits(f.certain);
             spux_store(p.low + i, spux_select(spux_load(p.low + i), f.low, f.certain));
             spux_store(p.high + i, spux_select(spux_load(p.high + i), f.high, f.certain));
             spux_store_uint(p.object + i, spux_select(spux_load_uint(p.object + i), spux_vuint(0), f.certain));
-            const bool some = filter_rays(&p, &second, i, p.common_origin, &f);
+            const bool some = filter_sphere_rays(&p, &second, i, p.common_origin, &f);
             const unsigned nearer = some ? spux_mask_bits(f.certain) : 0, left = some ? spux_mask_bits(f.open) : 0;
             for (uint32_t lane = 0; lane < CGT_LANES; lane++) {
                 const uint32_t j = i + lane;

@@ -45,7 +45,6 @@ typedef enum cgt_result {
     CGT_ERROR_INVALID_ARGUMENT,    /* a value is outside its documented range; the message names it */
     CGT_ERROR_OUT_OF_MEMORY,       /* the memory hook returned NULL; nothing is lost, the call may be tried again */
     CGT_ERROR_TOO_LARGE,           /* a size would overflow, or is beyond a documented limit */
-    CGT_ERROR_TOO_MANY_PRIMITIVES, /* more primitives than the structure can refer to (65,535 in a queue grid) */
     CGT_ERROR_NOT_COMMITTED,       /* the scene was never committed, or a geometry was changed since */
     CGT_ERROR_UNSUPPORTED,         /* this CPU or this build lacks what was asked for */
     CGT_ERROR_THREADS,             /* the system refused a thread or a lock */
@@ -137,8 +136,8 @@ typedef struct cgt_scene cgt_scene;
 
 /* Spheres in the caller's arrays. The library copies nothing: the arrays stay readable and unchanged from
  * cgt_scene_commit to the last trace before the next commit. Pointers are aligned as a float is.
- * A sphere with a NaN, an infinity or a negative radius is skipped and counted; a radius of zero is a point, hit
- * where double precision finds the ray's distance from it to be exactly zero. */
+ * A sphere with a NaN, an infinity or a negative radius is skipped and counted; a radius of zero is a point, hit by
+ * the rays that pass exactly through it. */
 typedef struct cgt_spheres {
     uint32_t count;       /* spheres; 0 is valid */
     const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL only where count is 0 */
@@ -148,10 +147,23 @@ typedef struct cgt_spheres {
     float radius;         /* world units, used where radii is NULL; 0 or more */
 } cgt_spheres;
 
+/* Triangles in the caller's arrays, which the library does not copy: as with spheres they stay readable and unchanged
+ * from commit to the last trace. Both sides of a triangle are hit, edges and vertices belong to it, and a ray that runs
+ * in its plane misses it. A triangle with a NaN or an infinity in a vertex is skipped and counted; one without an area,
+ * which no ray can hit, is counted and left out. An index that is not below vertex_count fails the commit. */
+typedef struct cgt_triangles {
+    uint32_t count;          /* triangles; 0 is valid */
+    const uint32_t *indices; /* the three vertices of triangle i at byte i * index_stride; NULL: 3i, 3i + 1, 3i + 2 */
+    size_t index_stride;     /* bytes, a multiple of 4; 0 (default): 12 */
+    uint32_t vertex_count;   /* vertices */
+    const float *vertices;   /* x, y, z of vertex j at byte j * vertex_stride; NULL only where vertex_count is 0 */
+    size_t vertex_stride;    /* bytes, a multiple of 4; 0 (default): 12 */
+} cgt_triangles;
+
 typedef enum cgt_structure {
     CGT_STRUCTURE_AUTO = 0,  /* chosen from the scene at each commit */
-    CGT_STRUCTURE_QUEUE_GRID /* uniform grid of 32-byte voxels, each a queue of 16 references of 16 bits (Chapman);
-                                at most 65,535 primitives */
+    CGT_STRUCTURE_QUEUE_GRID /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
+                                voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
 } cgt_structure;
 
 typedef struct cgt_scene_options {
@@ -179,11 +191,15 @@ CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *sp
  * cgt_scene_commit is needed. */
 CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres);
 
+/* The same for triangles. A geometry keeps its kind: updating it as the other one is INVALID_ARGUMENT. */
+CGT_API cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry);
+CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles);
+
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
 /* Builds the structure from the arrays as they are now. Uses the context's threads. Memory is kept from one commit
  * to the next and grows by half: a scene whose count does not grow allocates nothing, once its overflow list, where it
- * has one, has found its size. Errors: OUT_OF_MEMORY, TOO_MANY_PRIMITIVES,
+ * has one, has found its size. Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY,
  * TOO_LARGE; after an error the scene counts as not committed. An empty scene is valid: no ray hits it. */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
@@ -193,12 +209,15 @@ typedef struct cgt_scene_statistics {
     char reason[128];            /* why, in words */
     uint32_t geometries;         /* that the scene holds */
     uint32_t primitives;         /* given, skipped ones included */
-    uint32_t skipped_not_finite; /* spheres with a NaN or an infinity */
+    uint32_t spheres, triangles; /* of those */
+    uint32_t skipped_not_finite; /* primitives with a NaN or an infinity */
     uint32_t skipped_radius;     /* spheres with a negative radius */
+    uint32_t skipped_degenerate; /* triangles without an area */
     float bounds_min[3];         /* of all that was not skipped, rounded outwards; 0 where there is nothing */
     float bounds_max[3];
     uint32_t resolution[3]; /* cells along x, y, z */
     uint64_t cells;
+    uint32_t reference_bits;      /* of a reference in a voxel: 16 or 32 */
     uint64_t references;          /* primitives in cells, counted once per cell, overflow included */
     uint64_t overflow_references; /* those that found a full queue and went to the overflow list */
     uint32_t overflow_cells;      /* cells with any of those */
@@ -221,7 +240,9 @@ typedef enum cgt_field {
     CGT_FIELD_T = 1,         /* float: distance in units of the ray's direction; +infinity for none */
     CGT_FIELD_PRIMITIVE = 2, /* uint32: index in its geometry; CGT_NONE for none */
     CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_NONE for none */
-    CGT_FIELD_NORMAL = 8     /* 3 floats: outward unit normal; 0, 0, 0 for none */
+    CGT_FIELD_NORMAL = 8,    /* 3 floats: unit normal, outward of a sphere, of a triangle along
+                                (v1 - v0) x (v2 - v0); 0, 0, 0 for none */
+    CGT_FIELD_UV = 16 /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; 0, 0 on a sphere and for none */
 } cgt_field;
 
 typedef enum cgt_tile_shape {
@@ -243,6 +264,21 @@ typedef enum cgt_cull {
     CGT_CULL_BLOCKS    /* and then against a cone around every 16 of its rays */
 } cgt_cull;
 
+/* How right hits are: which ray hits which primitive, and how exact t, u, v and the normal are.
+ * Decisions. ROBUST and EXACT find the hit that exact arithmetic finds on the same float input: none missed at an edge,
+ * a vertex or a silhouette, none invented, the nearest one, and of equal ones the lowest id. FAST decides by single
+ * precision: rays that pass within some units in the last place of an edge or a silhouette may go either way, and
+ * results may differ from variant to variant.
+ * Values, see cgt_trace_camera. */
+typedef enum cgt_precision { CGT_PRECISION_ROBUST = 0, CGT_PRECISION_FAST, CGT_PRECISION_EXACT } cgt_precision;
+
+/* How FAST tests triangles. ROBUST and EXACT need an error bound, which WATERTIGHT has. */
+typedef enum cgt_triangle_test {
+    CGT_TRIANGLE_WATERTIGHT = 0,  /* edge functions of the ray's Pluecker coordinates */
+    CGT_TRIANGLE_MOLLER_TRUMBORE, /* Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997 */
+    CGT_TRIANGLE_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */
+} cgt_triangle_test;
+
 /* What a trace did. Handed out only where a statistics pointer is set. */
 typedef struct cgt_trace_statistics {
     uint64_t rays;            /* asked for */
@@ -255,11 +291,13 @@ typedef struct cgt_trace_statistics {
     uint64_t cells;           /* cells that a packet visited */
     uint64_t references;      /* references read from cells, overflow included */
     uint64_t mailbox_skipped; /* references that the mailbox had seen before */
-    uint64_t cull_tests;      /* spheres tested against a packet's frustum */
-    uint64_t culled;          /* spheres that the frustum test rejected */
-    uint64_t packet_tests;    /* spheres tested against the rays of a packet */
-    uint64_t ray_tests;       /* rays tested against a sphere, by whole blocks of 16 */
-    uint64_t double_tests;    /* of those, the ones that single precision could not decide */
+    uint64_t cull_tests;      /* primitives tested against a packet's frustum */
+    uint64_t culled;          /* primitives that the frustum test rejected */
+    uint64_t packet_tests;    /* primitives tested against the rays of a packet */
+    uint64_t ray_tests;       /* rays tested against a primitive, by whole blocks of 16 */
+    uint64_t double_tests;    /* of those, the ones that single precision could not decide: the ambiguous ones */
+    uint64_t exact_tests;     /* of those, the ones that double precision could not decide either */
+    uint64_t exact_values;    /* hits of which t, u or v were computed in exact arithmetic, since double cancels */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
     uint32_t packet_size;     /* 4, 8 or 16 of a camera's frame; 0 for arrays of rays */
     cgt_tile_shape tile;      /* what was used */
@@ -268,6 +306,8 @@ typedef struct cgt_trace_statistics {
 } cgt_trace_statistics;
 
 typedef struct cgt_trace_options {
+    cgt_precision precision;          /* default ROBUST */
+    cgt_triangle_test triangle_test;  /* default WATERTIGHT; the others only with FAST */
     uint32_t packet;                  /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): 16, in strips 4 */
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
@@ -310,6 +350,7 @@ typedef struct cgt_tile {
     const uint32_t *primitive;
     const uint32_t *geometry;
     const float *normal[3];
+    const float *u, *v;
 } cgt_tile;
 
 /* Called once per tile, from the threads that trace, several at once, in any order. Returns 0 to go on; anything
@@ -324,6 +365,7 @@ typedef struct cgt_frame {
     uint32_t *primitive;
     uint32_t *geometry;
     float *normal[3];          /* all three or none */
+    float *u, *v;              /* both or none */
     cgt_tile_visitor *visitor; /* NULL: none */
     void *visitor_user;        /* handed to the visitor */
     uint32_t visitor_fields;   /* cgt_field values that the visitor is to get, combined */
@@ -333,12 +375,16 @@ typedef struct cgt_frame {
 CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
 
 /* Traces one ray per pixel to its nearest hit.
- * The hit is the one that double-precision arithmetic finds on the same float input, never a single-precision guess:
- * no hit is missed or invented at a silhouette. A hit counts where t_min <= t <= t_max, t rounded to float; of equal
- * distances the lowest geometry, then primitive id wins. An origin inside a sphere hits its far side; on its
- * surface, t = 0. t is within 1 ulp of the exact value; where more, within 2^-50 of the distance c to the centre, or,
- * for a ray that grazes a sphere of radius r, of 2^-25 sqrt(r c). A t beyond the range of float is no hit.
- * The same bits come from any number of threads, tile shape, packet size, loop and variant.
+ * In precisions ROBUST and EXACT the hit is the one that exact arithmetic finds on the same float input, whatever its
+ * scale. A hit counts where t_min <= t <= t_max, t as it is handed out; of equal exact distances the lowest geometry,
+ * then primitive id wins. An origin inside a sphere hits its far side; on its surface, t = 0. A t beyond the range of
+ * float is no hit. t is the exact one rounded to float, at most 0.51 ulp off. The same bits come from any number of
+ * threads, tile shape, packet size, loop and variant.
+ *   ROBUST  u, v and the normal are computed in double and rounded: u and v are within 2^-24 + 2^-45 k, k the product
+ *           of the distances to the triangle's two farther vertices over its area as the ray sees it; the normal
+ *           of a sphere is within 2^-23 + 2^-48 c / r, c the distance to its centre, in both precisions
+ *   EXACT   u and v are within 1 ulp, and the components of a triangle's normal too
+ *   FAST    t, u, v and the normal are what single precision gives; docs/accuracy.md measures how far they are off
  * options: NULL for the defaults. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED. Allocates nothing. */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);
@@ -361,6 +407,7 @@ typedef struct cgt_hits {
     uint32_t *primitive;
     uint32_t *geometry;
     float *normal[3]; /* all three or none */
+    float *u, *v;     /* both or none */
 } cgt_hits;
 
 /* Traces rays to their nearest hits, as cgt_trace_camera does. Neighbours in the arrays should be neighbours in

@@ -24,8 +24,11 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
 }
 
 /* What is the same for all packets of a perspective camera, and the range of t of any. */
-static void make_constants(const cgt_camera_rays *c, uint32_t edge, packet *p)
+static void make_constants(const cgt_camera_rays *c, const cgt_trace_settings *settings, packet *p)
 {
+    const uint32_t edge = settings->packet;
+    p->fast = settings->precision == CGT_PRECISION_FAST;
+    p->triangle_test = settings->triangle_test;
     p->lanes = edge * edge;
     p->common_origin = !c->orthographic;
     p->from_origin = p->common_origin && c->t_min == 0;
@@ -140,6 +143,8 @@ static void store_planes(const packet_hits *h, uint32_t edge, uint32_t columns, 
     store_plane(r->geometry, h->geometry, edge, columns, rows, r, first);
     for (int a = 0; a < 3; a++)
         store_plane(r->normal[a], h->normal[a], edge, columns, rows, r, first);
+    store_plane(r->u, h->u, edge, columns, rows, r, first);
+    store_plane(r->v, h->v, edge, columns, rows, r, first);
 }
 
 void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera,
@@ -148,7 +153,7 @@ void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_r
     packet p;
     packet_hits hits;
     const uint32_t edge = settings->packet;
-    make_constants(camera, edge, &p);
+    make_constants(camera, settings, &p);
     p.extreme = is_extreme(camera);
     for (uint32_t y = 0; y < region->height; y += edge)
         for (uint32_t x = 0; x < region->width; x += edge) {
@@ -157,8 +162,7 @@ void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_r
             make_rays(camera, region->x + x, region->y + y, edge, columns, rows, &p);
             counts->rays += p.rays;
             CGT_KERNEL(cgt_packet_trace)(grid, &p, settings, counts);
-            const uint32_t found = CGT_KERNEL(cgt_packet_resolve)(grid, &p, settings->fields, &hits);
-            counts->hits += found;
+            CGT_KERNEL(cgt_packet_resolve)(grid, &p, settings, &hits, counts);
             store_planes(&hits, edge, columns, rows, region, y * region->row_stride + x);
         }
 }

@@ -2,28 +2,19 @@
  * SPDX-License-Identifier: MIT
  *
  * From the winning object of each ray to the fields of its hit: once per ray, in double, in the order of
- * sphere_exact.h, so that no choice made on the way shows in the bits. Plain loops over the packet: the compiler makes
- * vectors of them, and unfused double arithmetic has one result at any width. */
-#include "kernel.h"
+ * sphere_double.h and triangle_double.h, so that no choice made on the way shows in the bits. Plain loops over the
+ * packet: the compiler makes vectors of them, and unfused double arithmetic has one result at any width. Rays whose
+ * values cancel too much are found on the way, and computed once more in exact arithmetic.
+ * FAST precision hands out what the tests found. */
+#include "resolve_fast.h"
+#include "resolve_spheres.h"
+#include "resolve_triangles.h"
 
-#include "../sphere_exact.h"
-#include "packet.h"
-
-#define RESOLVE_RAYS 16u
-
-/* The winning spheres, as structure of arrays; a ray without one gets a sphere of radius 0 at the origin. */
-typedef struct winners {
-    _Alignas(64) float x[PACKET_MAX_RAYS], y[PACKET_MAX_RAYS], z[PACKET_MAX_RAYS], r[PACKET_MAX_RAYS];
-    _Alignas(64) double t[PACKET_MAX_RAYS];
-    uint32_t hits;
-    bool points; /* some sphere has radius 0 */
-} winners;
+/* ---- the winners ---- */
 
 /* Neighbours mostly hit the same sphere: each different one of a vector is looked up once. */
 static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w, packet_hits *hits)
 {
-    w->hits = 0;
-    w->points = false;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
         vfloat x = spux_vfloat(0), y = x, z = x, r = x;
@@ -32,8 +23,8 @@ static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w
         w->hits += spux_count_bits(left);
         while (left) {
             const uint32_t winner = p->object[i + (uint32_t)__builtin_ctz(left)];
-            const cgt_sphere_array *a = cgt_objects_array(&grid->objects, winner);
-            const cgt_sphere q = cgt_objects_sphere(&grid->objects, winner);
+            const cgt_object_array *a = cgt_objects_array(&grid->objects, winner);
+            const cgt_sphere q = cgt_array_sphere(a, winner - a->first);
             const vmask same = spu_cmpeq(object, spux_vuint(winner));
             x = spux_select(x, spux_vfloat(q.x), same);
             y = spux_select(y, spux_vfloat(q.y), same);
@@ -44,115 +35,111 @@ static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w
             w->points |= q.r == 0;
             left &= ~spux_mask_bits(same);
         }
-        spux_store(w->x + i, x);
-        spux_store(w->y + i, y);
-        spux_store(w->z + i, z);
-        spux_store(w->r + i, r);
+        spux_store(w->sphere[0] + i, x);
+        spux_store(w->sphere[1] + i, y);
+        spux_store(w->sphere[2] + i, z);
+        spux_store(w->sphere[3] + i, r);
         spux_store_uint(hits->primitive + i, primitive);
         spux_store_uint(hits->geometry + i, geometry);
     }
 }
 
-/* The steps below work on some rays at a time, first to first + count - 1. */
-
-CGT_SPU_INLINE void resolve_t(const packet *p, uint32_t first, uint32_t count, winners *w, packet_hits *hits)
+static void set_triangle(winners *w, uint32_t i, const cgt_triangle *q)
 {
-    _Alignas(64) double middle[RESOLVE_RAYS], product[RESOLVE_RAYS], half2[RESOLVE_RAYS];
-    /* two loops: all of it at once has more numbers than a machine has registers */
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = first + k;
-        const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
-        const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
-        const cgt_sphere_terms e = cgt_sphere_exact_terms(org, dir, (cgt_sphere){w->x[i], w->y[i], w->z[i], w->r[i]});
-        middle[k] = e.middle;
-        product[k] = e.product;
-        half2[k] = e.half2;
-    }
-    for (uint32_t k = 0; k < count; k++)
-        w->t[first + k] = cgt_sphere_exact_root(middle[k], product[k], half2[k], p->t_min[first + k]);
-    for (uint32_t i = first; i < first + count; i++)
-        hits->t[i] = p->object[i] != CGT_NONE ? (float)w->t[i] : INFINITY;
-}
-
-/* The outward unit normal is the vector from the centre over the radius. */
-CGT_SPU_INLINE void resolve_normal(const packet *p, uint32_t first, uint32_t count, const winners *w, packet_hits *hits)
-{
-    for (uint32_t i = first; i < first + count; i++) {
-        const double t = w->t[i], k = 1 / (double)w->r[i];
-        const double x = (double)p->org[0][i] + t * (double)p->dir[0][i] - (double)w->x[i];
-        const double y = (double)p->org[1][i] + t * (double)p->dir[1][i] - (double)w->y[i];
-        const double z = (double)p->org[2][i] + t * (double)p->dir[2][i] - (double)w->z[i];
-        const bool hit = p->object[i] != CGT_NONE;
-        hits->normal[0][i] = hit ? (float)(x * k) : 0;
-        hits->normal[1][i] = hit ? (float)(y * k) : 0;
-        hits->normal[2][i] = hit ? (float)(z * k) : 0;
-    }
-}
-
-CGT_SPU_INLINE void resolve_none(uint32_t first, uint32_t count, packet_hits *hits)
-{
-    for (uint32_t i = first; i < first + count; i++) {
-        hits->t[i] = INFINITY;
+    for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
-            hits->normal[a][i] = 0;
+            w->vertex[k][a][i] = q->v[k][a];
+}
+
+/* Triangles, or both kinds; what is not hit, or is of the other kind, gets a shape that computes to something. */
+static void find_shapes(const cgt_queue_grid *grid, const packet *p, winners *w, packet_hits *hits)
+{
+    static const cgt_triangle nothing = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    uint32_t last = CGT_NONE;
+    cgt_shape shape = {.kind = CGT_KIND_TRIANGLES, .triangle = nothing};
+    const cgt_object_array *a = NULL;
+    for (uint32_t i = 0; i < p->lanes; i++) {
+        const uint32_t object = p->object[i];
+        const bool hit = object != CGT_NONE;
+        if (hit && object != last) {
+            a = cgt_objects_array(&grid->objects, object);
+            shape = cgt_array_shape(a, object - a->first);
+            last = object;
+        }
+        const bool sphere = hit && shape.kind == CGT_KIND_SPHERES;
+        hits->primitive[i] = hit ? object - a->first : CGT_NONE;
+        hits->geometry[i] = hit ? a->geometry : CGT_NONE;
+        w->is_sphere[i] = sphere;
+        w->hits += hit;
+        set_triangle(w, i, hit && !sphere ? &shape.triangle : &nothing);
+        w->sphere[0][i] = sphere ? shape.sphere.x : 0;
+        w->sphere[1][i] = sphere ? shape.sphere.y : 0;
+        w->sphere[2][i] = sphere ? shape.sphere.z : 0;
+        w->sphere[3][i] = sphere ? shape.sphere.r : 0;
+        w->points |= sphere && shape.sphere.r == 0;
     }
 }
 
-CGT_SPU_INLINE void resolve_rays(const packet *p, uint32_t first, uint32_t count, uint32_t fields, winners *w,
-                                 packet_hits *hits)
+/* ---- the fields ---- */
+
+static void fill_none(uint32_t first, uint32_t count, uint32_t fields, packet_hits *hits)
+{
+    for (uint32_t i = first; i < first + count; i++)
+        hits->t[i] = INFINITY;
+    if (fields & CGT_FIELD_NORMAL)
+        for (int a = 0; a < 3; a++)
+            memset(hits->normal[a] + first, 0, count * sizeof(float));
+    if (fields & CGT_FIELD_UV) {
+        memset(hits->u + first, 0, count * sizeof(float));
+        memset(hits->v + first, 0, count * sizeof(float));
+    }
+}
+
+/* Rays first to first + count - 1. Each kind's loop writes the rays of its kind. */
+CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
+                                 const cgt_trace_settings *settings, winners *w, packet_hits *hits, cgt_counts *counts)
 {
     uint32_t any = 0;
     for (uint32_t i = first; i < first + count; i++)
         any |= p->object[i] ^ CGT_NONE;
-    if (!any) {
-        resolve_none(first, count, hits);
+    if (!any || objects->triangles || settings->fields & CGT_FIELD_UV)
+        fill_none(first, count, settings->fields, hits);
+    if (!any)
         return;
-    }
-    if (fields & (CGT_FIELD_T | CGT_FIELD_NORMAL))
-        resolve_t(p, first, count, w, hits);
-    if (fields & CGT_FIELD_NORMAL)
-        resolve_normal(p, first, count, w, hits);
+    if (objects->spheres)
+        resolve_spheres(p, first, count, settings, !objects->triangles, w, hits, counts);
+    if (objects->triangles)
+        resolve_triangles(p, first, count, settings, !objects->spheres, w, hits, counts);
 }
 
-/* A sphere of radius 0 has no normal of its own: it gets the direction back to the ray's origin. */
-static void resolve_points(const packet *p, const winners *w, packet_hits *hits)
+static void resolve_all(const cgt_objects *objects, const packet *p, const cgt_trace_settings *settings, winners *w,
+                        packet_hits *hits, cgt_counts *counts)
 {
-    for (uint32_t i = 0; i < p->lanes; i++) {
-        if (p->object[i] == CGT_NONE || w->r[i] != 0)
-            continue;
-        const double x = (double)p->dir[0][i], y = (double)p->dir[1][i], z = (double)p->dir[2][i];
-        const double k = -1 / sqrt(x * x + y * y + z * z);
-        hits->normal[0][i] = (float)(x * k);
-        hits->normal[1][i] = (float)(y * k);
-        hits->normal[2][i] = (float)(z * k);
-    }
-}
-
-static void fill_none(const packet *p, packet_hits *hits)
-{
-    const size_t bytes = p->lanes * sizeof(float);
-    for (uint32_t i = 0; i < p->lanes; i++)
-        hits->t[i] = INFINITY;
-    memset(hits->primitive, 0xff, bytes); /* CGT_NONE */
-    memset(hits->geometry, 0xff, bytes);
-    for (int a = 0; a < 3; a++)
-        memset(hits->normal[a], 0, bytes);
-}
-
-uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields, packet_hits *hits)
-{
-    winners w;
-    find_spheres(grid, p, &w, hits);
-    if (!w.hits) {
-        fill_none(p, hits);
-        return 0;
-    }
     uint32_t i = 0;
     for (; i + RESOLVE_RAYS <= p->lanes; i += RESOLVE_RAYS) /* a length that the compiler knows */
-        resolve_rays(p, i, RESOLVE_RAYS, fields, &w, hits);
+        resolve_rays(objects, p, i, RESOLVE_RAYS, settings, w, hits, counts);
     if (i < p->lanes)
-        resolve_rays(p, i, p->lanes - i, fields, &w, hits);
-    if (fields & CGT_FIELD_NORMAL && w.points)
-        resolve_points(p, &w, hits);
+        resolve_rays(objects, p, i, p->lanes - i, settings, w, hits, counts);
+}
+
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, const cgt_trace_settings *settings,
+                                        packet_hits *hits, cgt_counts *counts)
+{
+    winners w;
+    w.hits = 0;
+    w.points = false;
+    if (grid->objects.triangles)
+        find_shapes(grid, p, &w, hits);
+    else
+        find_spheres(grid, p, &w, hits);
+    counts->hits += w.hits;
+    if (!w.hits)
+        fill_none(0, p->lanes, settings->fields, hits);
+    else if (p->fast && !p->extreme && !grid->everything)
+        resolve_fast(grid, p, settings->fields, &w, hits);
+    else
+        resolve_all(&grid->objects, p, settings, &w, hits, counts);
+    if (settings->fields & CGT_FIELD_NORMAL && w.points)
+        resolve_points(p, !grid->objects.triangles, &w, hits);
     return w.hits;
 }

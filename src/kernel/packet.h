@@ -3,16 +3,18 @@
  *
  * A packet: up to 256 rays as structure of arrays, with the best hit of each so far.
  *
- * Filter, then decide. Single precision finds for a ray and a sphere an interval that surely holds the exact t, or
+ * Filter, then decide. Single precision finds for a ray and a primitive an interval that surely holds the exact t, or
  * that there surely is no hit. So a ray's best hit is an interval too, [low, high] with the object that it belongs to:
  *   a hit whose interval ends before `low`    is certainly nearer: it replaces the best at once
  *   a hit whose interval starts after `high`  is certainly not
- *   anything else                             is decided in double (sphere_exact.h), by t, then by the lower object
- * The winner's t is computed once, at the end. An open ray starts with [t_max, t_max] and no object; a ray that takes
+ *   anything else                             is decided (decide.h) by the exact t, then by the lower object
+ * The winner's t is computed once, at the end. In FAST precision nothing is decided: low and high are the t that single
+ * precision gives, and u and v are kept beside it. An open ray starts with [t_max, t_max] and no object; a ray that takes
  * no part has [-inf, -inf]. */
 #ifndef CGT_PACKET_H
 #define CGT_PACKET_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "kernel.h"
@@ -28,13 +30,19 @@ typedef struct packet {
     _Alignas(64) float t_max[PACKET_MAX_RAYS];
     _Alignas(64) float low[PACKET_MAX_RAYS];
     _Alignas(64) float high[PACKET_MAX_RAYS];
-    _Alignas(64) uint32_t object[PACKET_MAX_RAYS]; /* CGT_NONE: none yet */
+    _Alignas(64) uint32_t object[PACKET_MAX_RAYS];             /* CGT_NONE: none yet */
+    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
+    _Alignas(64) float from[3][PACKET_MAX_RAYS];   /* org seen from the filter's origin; only for triangles of packets
+                                                      without a common origin, and so is the next */
+    _Alignas(64) float moment[3][PACKET_MAX_RAYS]; /* from x dir, times the grid's scale */
     uint32_t rays;                                 /* that take part; they need not come first */
-    uint32_t lanes;     /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
-    bool common_origin; /* org[.][0] is the origin of all */
-    bool from_origin;   /* and all start there: t_min is 0 */
-    bool any_hit;       /* the first hit found closes a ray */
-    bool extreme;       /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
+    uint32_t lanes;                  /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
+    bool common_origin;              /* org[.][0] is the origin of all */
+    bool from_origin;                /* and all start there: t_min is 0 */
+    bool any_hit;                    /* the first hit found closes a ray */
+    bool fast;                       /* FAST precision */
+    cgt_triangle_test triangle_test; /* in FAST precision */
+    bool extreme; /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
 } packet;
 
 /* Largest coordinate and the range of direction lengths for which the bounds of the filter hold. */
@@ -51,10 +59,11 @@ typedef struct packet_hits {
     _Alignas(64) uint32_t primitive[PACKET_MAX_RAYS];
     _Alignas(64) uint32_t geometry[PACKET_MAX_RAYS];
     _Alignas(64) float normal[3][PACKET_MAX_RAYS];
+    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS];
 } packet_hits;
 
-/* Computes the fields (cgt_field values, combined) of the winners canonically. Returns how many rays hit. */
-uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, uint32_t fields,
-                                        packet_hits *hits);
+/* Computes the fields of the winners that the settings ask for, canonically. Counts the hits and returns how many. */
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, const cgt_trace_settings *settings,
+                                        packet_hits *hits, cgt_counts *counts);
 
 #endif

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Coherent grid traversal of a packet (Wald et al. 2006; Chapman, section 3): the frustum marches slice by slice along
- * its main axis; the references in the cells that it touches are collected; a vector of spheres at a time is culled
+ * its main axis; the references in the cells that it touches are collected; a vector of primitives at a time is culled
  * against the frustum; what is left is tested against the rays; the packet is done when every ray's hit lies before
  * the next slice.
  *
@@ -12,6 +12,7 @@
 #include "frustum.h"
 #include "kernel.h"
 #include "sphere_filter.h"
+#include "triangle_tests.h"
 
 #define BATCH_FULL 128
 #define MAILBOX_SIZE 64 /* direct mapped by the low bits of the reference */
@@ -27,8 +28,8 @@ typedef struct traversal {
     cgt_cull cull;
     bool mailbox;
     uint32_t pending; /* references collected and not yet tested */
-    _Alignas(64) uint16_t reference[BATCH_FULL + CGT_QUEUE_LENGTH];
-    uint16_t seen[MAILBOX_SIZE];
+    _Alignas(64) uint32_t reference[BATCH_FULL + CGT_QUEUE_LENGTH];
+    uint32_t seen[MAILBOX_SIZE];
 } traversal;
 
 /* ---- collecting ---- */
@@ -37,11 +38,28 @@ static void collect_overflow(traversal *v, uint32_t cell);
 static void test_pending(traversal *v);
 
 /* A voxel's references fill it from the front: copy all of it, keep the ones that are there. */
+CGT_SPU_INLINE uint32_t copy_narrow(const cgt_voxel *voxel, uint32_t *to)
+{
+    for (int k = 0; k < CGT_QUEUE_LENGTH; k++)
+        to[k] = voxel->reference[k];
+    return spux_find16(voxel->reference, CGT_QUEUE_NONE);
+}
+CGT_SPU_INLINE uint32_t copy_wide(const cgt_wide_voxel *voxel, uint32_t *to)
+{
+    uint32_t none = 1u << CGT_QUEUE_LENGTH;
+    for (uint32_t k = 0; k < CGT_QUEUE_LENGTH; k += CGT_LANES) {
+        const vuint reference = spux_load_uint(voxel->reference + k);
+        spux_store_unaligned_uint(to + k, reference);
+        none |= spux_mask_bits(spu_cmpeq(reference, spux_vuint(CGT_NONE))) << k;
+    }
+    return (uint32_t)__builtin_ctz(none);
+}
+
 CGT_SPU_INLINE void visit_cell(traversal *v, uint32_t cell)
 {
-    const cgt_voxel *voxel = &v->grid->voxel[cell];
-    const uint32_t length = spux_find16(voxel->reference, CGT_QUEUE_NONE);
-    memcpy(v->reference + v->pending, voxel->reference, sizeof voxel->reference);
+    uint32_t *to = v->reference + v->pending;
+    const uint32_t length =
+        v->grid->wide ? copy_wide(&v->grid->wide_voxel[cell], to) : copy_narrow(&v->grid->voxel[cell], to);
     v->pending += length;
     v->counts->cells++;
     if (length == CGT_QUEUE_LENGTH && v->grid->overflows)
@@ -54,7 +72,7 @@ static void collect_overflow(traversal *v, uint32_t cell)
     for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++) {
         if (v->pending >= BATCH_FULL)
             test_pending(v);
-        v->reference[v->pending++] = (uint16_t)g->overflow[i].reference;
+        v->reference[v->pending++] = g->overflow[i].reference;
     }
 }
 
@@ -63,7 +81,7 @@ static void apply_mailbox(traversal *v)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < v->pending; i++) {
-        const uint16_t reference = v->reference[i], slot = reference % MAILBOX_SIZE;
+        const uint32_t reference = v->reference[i], slot = reference % MAILBOX_SIZE;
         const bool seen = v->seen[slot] == reference;
         v->reference[kept] = reference;
         v->seen[slot] = reference;
@@ -75,7 +93,7 @@ static void apply_mailbox(traversal *v)
 
 /* ---- culling ---- */
 
-static void fetch_spheres(const cgt_queue_grid *g, const uint16_t *reference, uint32_t count, filter_spheres *s)
+static void fetch_spheres(const cgt_queue_grid *g, const uint32_t *reference, uint32_t count, filter_spheres *s)
 {
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         /* beyond the end the first is fetched again; its lane is not used */
@@ -89,67 +107,182 @@ static void fetch_spheres(const cgt_queue_grid *g, const uint16_t *reference, ui
     }
 }
 
-/* Lanes whose sphere lies outside the frustum, or before or beyond what its rays still want. */
-static unsigned outside_frustum(const traversal *v, const filter_spheres *s)
+static void fetch_triangles(const cgt_queue_grid *g, const uint32_t *reference, uint32_t count, filter_triangles *s)
+{
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const uint32_t object = reference[k < count ? k : 0];
+        const cgt_triangle q = cgt_objects_triangle(&g->objects, object);
+        for (int i = 0; i < 3; i++)
+            for (int a = 0; a < 3; a++)
+                s->vertex[i][a][k] = q.v[i][a];
+        s->object[k] = object;
+    }
+}
+
+/* Points of a vector in grid space, along the frustum's axes: w along the rays, then u and v. */
+typedef struct frustum_points {
+    vfloat w, uv[2];
+} frustum_points;
+
+CGT_SPU_INLINE frustum_points points_in_frustum(const traversal *v, const float p[3][CGT_LANES])
 {
     const frustum *f = &v->frustum;
-    const cgt_queue_grid *g = v->grid;
+    return (frustum_points){grid_coordinates(v->grid, f->w, f->reverse, spux_load(p[f->w])),
+                            {grid_coordinates(v->grid, f->u, false, spux_load(p[f->u])),
+                             grid_coordinates(v->grid, f->v, false, spux_load(p[f->v]))}};
+}
+
+/* How far inside bound k of the frustum points are, in cells; the errors of both are in `error` of the callers. */
+CGT_SPU_INLINE vfloat inside_bound(const traversal *v, const frustum_points *p, int k)
+{
+    const frustum *f = &v->frustum;
+    const vfloat along = spu_sub(p->w, spux_vfloat(f->w0));
+    const vfloat x = k & 1 ? spu_xor(p->uv[k >> 1], spux_vfloat(-0.f)) : p->uv[k >> 1];
+    return spu_sub(x, spu_madd(spux_vfloat(f->step[k]), along, spux_vfloat(f->bound[k])));
+}
+
+/* Lanes whose sphere lies outside the frustum, or before or beyond what its rays still want. */
+static unsigned spheres_outside(const traversal *v, const filter_spheres *s)
+{
+    const frustum *f = &v->frustum;
     const vfloat r = spux_load(s->radius), error = spux_vfloat(f->plane_error);
-    const vfloat w = grid_coordinates(g, f->w, f->reverse, spux_load(s->center[f->w]));
-    const vfloat uv[2] = {grid_coordinates(g, f->u, false, spux_load(s->center[f->u])),
-                          grid_coordinates(g, f->v, false, spux_load(s->center[f->v]))};
-    const vfloat along = spu_sub(w, spux_vfloat(f->w0)), negative = spux_vfloat(-0.f);
-    const vfloat reach = spu_madd(r, spux_vfloat(g->rcell[f->w] * (1 + 0x1p-20f)), error);
-    vmask outside = spu_or(spu_cmpgt(spu_sub(w, reach), spux_vfloat(v->w_far)),
-                           spu_cmpgt(spux_vfloat(f->w_near), spu_add(w, reach)));
+    const frustum_points p = points_in_frustum(v, (const float(*)[CGT_LANES])s->center);
+    const vfloat reach = spu_madd(r, spux_vfloat(v->grid->rcell[f->w] * (1 + 0x1p-20f)), error);
+    vmask outside = spu_or(spu_cmpgt(spu_sub(p.w, reach), spux_vfloat(v->w_far)),
+                           spu_cmpgt(spux_vfloat(f->w_near), spu_add(p.w, reach)));
     for (int k = 0; k < 4; k++) {
-        const vfloat x = k & 1 ? spu_xor(uv[k >> 1], negative) : uv[k >> 1];
-        const vfloat bound = spu_madd(spux_vfloat(f->step[k]), along, spux_vfloat(f->bound[k]));
-        const vfloat most = spu_add(spu_madd(r, spux_vfloat(f->radius_scale[k]), x), error);
-        outside = spu_or(outside, spu_cmpgt(bound, most));
+        const vfloat most = spu_madd(r, spux_vfloat(f->radius_scale[k]), error);
+        outside = spu_or(outside, spu_cmpgt(spux_vfloat(0), spu_add(inside_bound(v, &p, k), most)));
     }
     return spux_mask_bits(outside);
 }
 
+/* Lanes whose triangle has all three vertices outside the same bound of the frustum, or before or beyond. */
+static unsigned triangles_outside(const traversal *v, const filter_triangles *s)
+{
+    const frustum *f = &v->frustum;
+    const vfloat error = spux_vfloat(f->plane_error);
+    vfloat near, far, inside[4];
+    for (int i = 0; i < 3; i++) {
+        const frustum_points p = points_in_frustum(v, (const float(*)[CGT_LANES])s->vertex[i]);
+        near = i ? spux_min(near, p.w) : p.w;
+        far = i ? spux_max(far, p.w) : p.w;
+        for (int k = 0; k < 4; k++) {
+            const vfloat d = inside_bound(v, &p, k);
+            inside[k] = i ? spux_max(inside[k], d) : d;
+        }
+    }
+    vmask outside = spu_or(spu_cmpgt(spu_sub(near, error), spux_vfloat(v->w_far)),
+                           spu_cmpgt(spux_vfloat(f->w_near), spu_add(far, error)));
+    for (int k = 0; k < 4; k++)
+        outside = spu_or(outside, spu_cmpgt(spux_vfloat(0), spu_add(inside[k], error)));
+    return spux_mask_bits(outside);
+}
+
+/* ---- testing ---- */
+
+/* The modes are constants here, so that each gets a loop of its own. */
+#define FOR_MODE(p, uv, call)                                                                                          \
+    switch ((p)->fast << 2 | (p)->common_origin << 1 | (p)->any_hit) {                                                 \
+    case 0: call(((filter_mode){false, false, true, false})); break;                                                   \
+    case 1: call(((filter_mode){false, true, true, false})); break;                                                    \
+    case 2: call(((filter_mode){true, false, true, false})); break;                                                    \
+    case 3: call(((filter_mode){true, true, true, false})); break;                                                     \
+    case 4: call(((filter_mode){false, false, false, uv})); break;                                                     \
+    case 5: call(((filter_mode){false, true, false, false})); break;                                                   \
+    case 6: call(((filter_mode){true, false, false, uv})); break;                                                      \
+    default: call(((filter_mode){true, true, false, false})); break;                                                   \
+    }
+
 static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
 {
-    const packet *p = v->p;
     filter_spheres_bound(&v->filter, s);
     for (; lanes; lanes &= lanes - 1) {
         const int k = __builtin_ctz(lanes);
         v->counts->packet_tests++;
-        if (p->common_origin) {
-            if (p->any_hit)
-                filter_test(v->grid, v->p, s, k, &v->blocks, true, true, v->counts);
-            else
-                filter_test(v->grid, v->p, s, k, &v->blocks, true, false, v->counts);
-        } else {
-            if (p->any_hit)
-                filter_test(v->grid, v->p, s, k, &v->blocks, false, true, v->counts);
-            else
-                filter_test(v->grid, v->p, s, k, &v->blocks, false, false, v->counts);
-        }
+#define CALL(mode) filter_test_sphere(v->grid, v->p, s, k, &v->blocks, mode, v->counts)
+        FOR_MODE(v->p, false, CALL)
+#undef CALL
     }
+}
+
+static void test_triangles(traversal *v, filter_triangles *s, unsigned lanes)
+{
+    filter_triangles_bound(&v->filter, s);
+    for (; lanes; lanes &= lanes - 1) {
+        const int k = __builtin_ctz(lanes);
+        v->counts->packet_tests++;
+#define CALL(mode) filter_test_triangle(v->grid, v->p, &v->filter, s, k, &v->blocks, mode, v->counts)
+        FOR_MODE(v->p, true, CALL)
+#undef CALL
+    }
+}
+
+/* Counts what culling left, and returns it. */
+static unsigned count_culled(traversal *v, unsigned lanes, unsigned outside, uint32_t count)
+{
+    lanes &= ~outside;
+    v->counts->cull_tests += count;
+    v->counts->culled += count - spux_count_bits(lanes);
+    return lanes;
+}
+
+static void test_sphere_list(traversal *v, const uint32_t *reference, uint32_t length)
+{
+    filter_spheres s;
+    for (uint32_t i = 0; i < length; i += CGT_LANES) {
+        const uint32_t count = length - i < CGT_LANES ? length - i : CGT_LANES;
+        unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
+        fetch_spheres(v->grid, reference + i, count, &s);
+        if (v->cull != CGT_CULL_NONE)
+            lanes = count_culled(v, lanes, spheres_outside(v, &s), count);
+        if (lanes)
+            test_spheres(v, &s, lanes);
+    }
+}
+
+static void test_triangle_list(traversal *v, const uint32_t *reference, uint32_t length)
+{
+    filter_triangles s;
+    for (uint32_t i = 0; i < length; i += CGT_LANES) {
+        const uint32_t count = length - i < CGT_LANES ? length - i : CGT_LANES;
+        unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
+        fetch_triangles(v->grid, reference + i, count, &s);
+        if (v->cull != CGT_CULL_NONE)
+            lanes = count_culled(v, lanes, triangles_outside(v, &s), count);
+        if (lanes)
+            test_triangles(v, &s, lanes);
+    }
+}
+
+/* Spheres to the front, triangles to a list of their own; only scenes of both kinds come here. */
+static void test_mixed_list(traversal *v, uint32_t *reference, uint32_t length)
+{
+    uint32_t triangle[BATCH_FULL + CGT_QUEUE_LENGTH], spheres = 0, triangles = 0;
+    for (uint32_t i = 0; i < length; i++) {
+        const uint32_t object = reference[i];
+        const bool sphere = cgt_objects_array(&v->grid->objects, object)->kind == CGT_KIND_SPHERES;
+        reference[spheres] = object;
+        triangle[triangles] = object;
+        spheres += sphere;
+        triangles += !sphere;
+    }
+    test_sphere_list(v, reference, spheres);
+    test_triangle_list(v, triangle, triangles);
 }
 
 static void test_pending(traversal *v)
 {
-    filter_spheres s;
+    const cgt_objects *objects = &v->grid->objects;
     v->counts->references += v->pending;
     if (v->mailbox)
         apply_mailbox(v);
-    for (uint32_t i = 0; i < v->pending; i += CGT_LANES) {
-        const uint32_t count = v->pending - i < CGT_LANES ? v->pending - i : CGT_LANES;
-        unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
-        fetch_spheres(v->grid, v->reference + i, count, &s);
-        if (v->cull != CGT_CULL_NONE) {
-            lanes &= ~outside_frustum(v, &s);
-            v->counts->cull_tests += count;
-            v->counts->culled += count - spux_count_bits(lanes);
-        }
-        if (lanes)
-            test_spheres(v, &s, lanes);
-    }
+    if (!objects->triangles)
+        test_sphere_list(v, v->reference, v->pending);
+    else if (!objects->spheres)
+        test_triangle_list(v, v->reference, v->pending);
+    else
+        test_mixed_list(v, v->reference, v->pending);
     v->pending = 0;
 }
 
@@ -290,7 +423,9 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
         return;
     }
     counts->packets++;
-    filter_packet_make(p, &v.filter);
+    filter_packet_make(p, grid->scale, &v.filter);
+    if (grid->objects.triangles && !p->common_origin)
+        filter_moments_make(p, &v.filter);
     block_cones_make(p, v.cull == CGT_CULL_BLOCKS, v.frustum.w, grid->rcell[v.frustum.w], &v.blocks);
     v.w_far = far_coordinate(&v);
     if (v.mailbox)
@@ -305,7 +440,8 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
 static void trace_extreme(const cgt_queue_grid *grid, packet *p, cgt_counts *counts)
 {
     for (uint32_t object = 0; object < grid->objects.count; object++) {
-        if (cgt_sphere_check(cgt_objects_sphere(&grid->objects, object)) != CGT_SPHERE_VALID)
+        const cgt_shape shape = cgt_objects_shape(&grid->objects, object);
+        if (cgt_shape_check(&shape) != CGT_OBJECT_VALID)
             continue;
         counts->packet_tests++;
         counts->ray_tests += p->rays;
@@ -358,6 +494,8 @@ static void extract_part(const packet *p, const uint32_t *part, uint32_t wanted,
         sub->low[k] = k < n ? p->low[i] : -INFINITY;
         sub->high[k] = k < n ? p->high[i] : -INFINITY;
         sub->object[k] = p->object[i];
+        sub->u[k] = p->u[i];
+        sub->v[k] = p->v[i];
     }
 }
 
@@ -369,6 +507,8 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
     sub.common_origin = p->common_origin;
     sub.from_origin = p->from_origin;
     sub.any_hit = p->any_hit;
+    sub.fast = p->fast;
+    sub.triangle_test = p->triangle_test;
     sub.extreme = false;
     counts->split_packets++;
     for (uint32_t k = 0; k < parts; k++) {
@@ -380,6 +520,10 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
             p->low[from[i]] = sub.low[i];
             p->high[from[i]] = sub.high[i];
             p->object[from[i]] = sub.object[i];
+            if (p->fast) {
+                p->u[from[i]] = sub.u[i];
+                p->v[from[i]] = sub.v[i];
+            }
         }
     }
 }

@@ -45,4 +45,27 @@ CGT_SPU_INLINE void queue_push1(cgt_voxel *voxel, vec_ushort8 reference)
     CGT_QUEUE_STORE(voxel->reference + 8, CGT_QUEUE_SHUFFLE(front, back, CGT_QUEUE_BACK));
 }
 
+/* ---- 64-byte voxels: references of a word each, four registers long ---- */
+
+#define CGT_QUEUE_WIDE_FRONT ((vec_uchar16){0, 1, 2, 3, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27})
+#define CGT_QUEUE_WIDE_BACK ((vec_uchar16){12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27})
+
+CGT_SPU_INLINE void queue_push1_wide(cgt_wide_voxel *voxel, vec_uint4 reference)
+{
+    vec_uint4 *quarter = (vec_uint4 *)(void *)voxel->reference;
+    const vec_uint4 a = quarter[0], b = quarter[1], c = quarter[2], d = quarter[3];
+    quarter[0] = spu_shuffle(reference, a, CGT_QUEUE_WIDE_FRONT);
+    quarter[1] = spu_shuffle(a, b, CGT_QUEUE_WIDE_BACK);
+    quarter[2] = spu_shuffle(b, c, CGT_QUEUE_WIDE_BACK);
+    quarter[3] = spu_shuffle(c, d, CGT_QUEUE_WIDE_BACK);
+}
+
+/* A queue that begins with the reference has got it: equal cells hold it once. */
+CGT_SPU_INLINE void queue_push8_wide(cgt_wide_voxel *voxel, const uint32_t cell[8], uint32_t reference)
+{
+    for (int k = 0; k < 8; k++)
+        if (voxel[cell[k]].reference[0] != reference)
+            queue_push1_wide(&voxel[cell[k]], spu_splats(reference));
+}
+
 #endif

@@ -104,6 +104,10 @@ static void store_hits(const packet_hits *h, uint64_t first, uint32_t count, con
         for (int a = 0; a < 3; a++)
             if (hits->normal[a])
                 memcpy((char *)hits->normal[a] + at, &h->normal[a][k], sizeof(float));
+        if (hits->u)
+            memcpy((char *)hits->u + at, &h->u[k], sizeof(float));
+        if (hits->v)
+            memcpy((char *)hits->v + at, &h->v[k], sizeof(float));
     }
 }
 
@@ -119,7 +123,7 @@ static void trace_range(const cgt_queue_grid *grid, const ray_source *s, uint64_
     }
     CGT_KERNEL(cgt_packet_trace)(grid, p, settings, counts);
     if (hits) {
-        counts->hits += CGT_KERNEL(cgt_packet_resolve)(grid, p, settings->fields, &h);
+        CGT_KERNEL(cgt_packet_resolve)(grid, p, settings, &h, counts);
         store_hits(&h, first, count, hits);
         return;
     }
@@ -136,6 +140,8 @@ void CGT_KERNEL(cgt_trace_rays)(const cgt_queue_grid *grid, const cgt_rays *rays
     packet p;
     const ray_source s = {rays, rays->stride ? rays->stride : sizeof(float)};
     p.any_hit = hits == NULL;
+    p.fast = settings->precision == CGT_PRECISION_FAST;
+    p.triangle_test = settings->triangle_test;
     counts->rays += end - first;
     for (uint64_t i = first; i < end; i += RAY_PACKET) {
         const uint32_t count = end - i < RAY_PACKET ? (uint32_t)(end - i) : RAY_PACKET;

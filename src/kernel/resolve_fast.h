@@ -1,0 +1,61 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The fields of a packet's hits in FAST precision: t, u and v as the tests left them, normals in single precision. */
+#ifndef CGT_RESOLVE_FAST_H
+#define CGT_RESOLVE_FAST_H
+
+#include "winners.h"
+
+CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const winners *w, packet_hits *hits)
+{
+    const float k = 1 / w->sphere[3][i];
+    for (int a = 0; a < 3; a++)
+        hits->normal[a][i] = (p->org[a][i] + p->high[i] * p->dir[a][i] - w->sphere[a][i]) * k;
+}
+
+/* Edges are scaled, so that their products stay in range. */
+CGT_SPU_INLINE void fast_normal_of_triangle(float scale, uint32_t i, const winners *w, packet_hits *hits)
+{
+    float e1[3], e2[3], n[3], square = 0;
+    for (int a = 0; a < 3; a++) {
+        e1[a] = (w->vertex[1][a][i] - w->vertex[0][a][i]) * scale;
+        e2[a] = (w->vertex[2][a][i] - w->vertex[0][a][i]) * scale;
+    }
+    for (int a = 0; a < 3; a++) {
+        n[a] = e1[(a + 1) % 3] * e2[(a + 2) % 3] - e1[(a + 2) % 3] * e2[(a + 1) % 3];
+        square += n[a] * n[a];
+    }
+    const float k = square > 0 ? 1 / __builtin_sqrtf(square) : 0;
+    for (int a = 0; a < 3; a++)
+        hits->normal[a][i] = n[a] * k;
+}
+
+static void fast_normals(const cgt_queue_grid *grid, const packet *p, const winners *w, packet_hits *hits)
+{
+    for (uint32_t i = 0; i < p->lanes; i++) {
+        if (p->object[i] == CGT_NONE)
+            hits->normal[0][i] = hits->normal[1][i] = hits->normal[2][i] = 0;
+        else if (!grid->objects.triangles || w->is_sphere[i])
+            fast_normal_of_sphere(p, i, w, hits);
+        else
+            fast_normal_of_triangle(grid->scale, i, w, hits);
+    }
+}
+
+static void resolve_fast(const cgt_queue_grid *grid, const packet *p, uint32_t fields, const winners *w,
+                         packet_hits *hits)
+{
+    for (uint32_t i = 0; i < p->lanes; i++)
+        hits->t[i] = p->object[i] != CGT_NONE ? p->high[i] : INFINITY;
+    if (fields & CGT_FIELD_UV)
+        for (uint32_t i = 0; i < p->lanes; i++) {
+            const bool triangle = p->object[i] != CGT_NONE && grid->objects.triangles && !w->is_sphere[i];
+            hits->u[i] = triangle ? p->u[i] : 0;
+            hits->v[i] = triangle ? p->v[i] : 0;
+        }
+    if (fields & CGT_FIELD_NORMAL)
+        fast_normals(grid, p, w, hits);
+}
+
+#endif

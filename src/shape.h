@@ -1,0 +1,29 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * One primitive by value, as the decisions and the resolve take it. */
+#ifndef CGT_SHAPE_H
+#define CGT_SHAPE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct cgt_sphere {
+    float x, y, z, r;
+} cgt_sphere;
+
+typedef struct cgt_triangle {
+    float v[3][3]; /* v[k] is vertex k: x, y, z */
+} cgt_triangle;
+
+typedef enum cgt_kind { CGT_KIND_SPHERES = 0, CGT_KIND_TRIANGLES } cgt_kind;
+
+typedef struct cgt_shape {
+    cgt_kind kind;
+    union {
+        cgt_sphere sphere;
+        cgt_triangle triangle;
+    };
+} cgt_shape;
+
+#endif
