@@ -19,14 +19,16 @@ static double exact_root(const cgt_ray *ray, const cgt_shape *shape, bool far)
 
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
 {
-    cgt_sphere_roots roots = cgt_sphere_double_roots(cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere));
-    if (!roots.safe) {
-        const cgt_shape shape = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
-        roots.near = exact_root(ray, &shape, false);
-        roots.far = exact_root(ray, &shape, true);
+    const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
+    const bool unsafe = cgt_sphere_double_unsafe(e) != 0;
+    const cgt_shape shape = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
+    cgt_sphere_roots root = cgt_sphere_double_roots(e.middle, e.product, e.half2);
+    if (unsafe) {
+        root.near = exact_root(ray, &shape, false);
+        root.far = exact_root(ray, &shape, true);
     }
-    *far = !((float)roots.near >= ray->t_min);
-    return *far ? roots.far : roots.near;
+    *far = !((float)root.near >= ray->t_min);
+    return *far ? root.far : root.near;
 }
 
 double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle)
@@ -52,9 +54,10 @@ void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit)
 static bool line_meets_sphere(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
-    if (e.half2 > e.half2_error)
+    const double error = cgt_sphere_double_half2_error(ray->line.org, ray->line.dir, sphere);
+    if (e.half2 > error)
         return true;
-    if (e.half2 < -e.half2_error)
+    if (e.half2 < -error)
         return false;
     ++*exact;
     return cgt_exact_line_meets_sphere(&ray->line, sphere);

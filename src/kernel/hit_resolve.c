@@ -82,9 +82,9 @@ static void find_shapes(const cgt_queue_grid *grid, const packet *p, winners *w,
 
 /* ---- the fields ---- */
 
-static void fill_none(uint32_t first, uint32_t count, uint32_t fields, packet_hits *hits)
+static void fill_none(size_t first, size_t count, uint32_t fields, packet_hits *hits)
 {
-    for (uint32_t i = first; i < first + count; i++)
+    for (size_t i = first; i < first + count; i++)
         hits->t[i] = INFINITY;
     if (fields & CGT_FIELD_NORMAL)
         for (int a = 0; a < 3; a++)
@@ -96,11 +96,11 @@ static void fill_none(uint32_t first, uint32_t count, uint32_t fields, packet_hi
 }
 
 /* Rays first to first + count - 1. Each kind's loop writes the rays of its kind. */
-CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
+CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, size_t first, size_t count,
                                  const cgt_trace_settings *settings, winners *w, packet_hits *hits, cgt_counts *counts)
 {
     uint32_t any = 0;
-    for (uint32_t i = first; i < first + count; i++)
+    for (size_t i = first; i < first + count; i++)
         any |= p->object[i] ^ CGT_NONE;
     if (!any || objects->triangles || settings->fields & CGT_FIELD_UV)
         fill_none(first, count, settings->fields, hits);
@@ -115,11 +115,12 @@ CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, ui
 static void resolve_all(const cgt_objects *objects, const packet *p, const cgt_trace_settings *settings, winners *w,
                         packet_hits *hits, cgt_counts *counts)
 {
-    uint32_t i = 0;
-    for (; i + RESOLVE_RAYS <= p->lanes; i += RESOLVE_RAYS) /* a length that the compiler knows */
+    const size_t lanes = p->lanes;
+    size_t i = 0;
+    for (; i + RESOLVE_RAYS <= lanes; i += RESOLVE_RAYS) /* a length that the compiler knows */
         resolve_rays(objects, p, i, RESOLVE_RAYS, settings, w, hits, counts);
-    if (i < p->lanes)
-        resolve_rays(objects, p, i, p->lanes - i, settings, w, hits, counts);
+    if (i < lanes)
+        resolve_rays(objects, p, i, lanes - i, settings, w, hits, counts);
 }
 
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, const cgt_trace_settings *settings,

@@ -10,22 +10,21 @@
 #include "../sphere_double.h"
 #include "winners.h"
 
-CGT_SPU_INLINE bool hits_sphere(const packet *p, const winners *w, uint32_t i, bool alone)
+CGT_SPU_INLINE bool hits_sphere(const packet *p, const winners *w, size_t i, bool alone)
 {
     return alone ? p->object[i] != CGT_NONE : w->is_sphere[i] != 0;
 }
 
 /* Rays whose t cancels; they are rare. */
-__attribute__((noinline)) static void resolve_spheres_exactly(const packet *p, uint32_t first, uint32_t count,
-                                                              bool alone, winners *w, cgt_counts *counts)
+__attribute__((noinline)) static void resolve_spheres_exactly(const packet *p, size_t first, size_t count,
+                                                              const uint64_t unsafe[RESOLVE_RAYS], bool alone,
+                                                              winners *w, cgt_counts *counts)
 {
-    for (uint32_t i = first; i < first + count; i++) {
+    for (size_t i = first; i < first + count; i++) {
         const cgt_ray ray = {.line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]},
                                       .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
                              .t_min = p->t_min[i]};
-        if (!hits_sphere(p, w, i, alone))
-            continue;
-        if (cgt_sphere_double_roots(cgt_sphere_double_terms(ray.line.org, ray.line.dir, winner_sphere(w, i))).safe)
+        if (!unsafe[i - first] || !hits_sphere(p, w, i, alone))
             continue;
         bool far;
         w->t[i] = cgt_canonical_sphere_t(&ray, winner_sphere(w, i), &far);
@@ -33,40 +32,43 @@ __attribute__((noinline)) static void resolve_spheres_exactly(const packet *p, u
     }
 }
 
-CGT_SPU_INLINE void resolve_spheres_t(const packet *p, uint32_t first, uint32_t count, bool alone, winners *w,
+CGT_SPU_INLINE void resolve_spheres_t(const packet *p, size_t first, size_t count, bool alone, winners *w,
                                       cgt_counts *counts)
 {
-    _Alignas(64) double middle[RESOLVE_RAYS], product[RESOLVE_RAYS], half2[RESOLVE_RAYS];
-    _Alignas(64) double middle_error2[RESOLVE_RAYS], product_error[RESOLVE_RAYS], half2_error[RESOLVE_RAYS];
-    uint64_t unsafe = 0;
-    /* two loops: all of it at once has more numbers than a machine has registers */
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = first + k;
+    _Alignas(64) double middle[RESOLVE_RAYS], product[RESOLVE_RAYS], half2[RESOLVE_RAYS], size[RESOLVE_RAYS];
+    _Alignas(64) double near[RESOLVE_RAYS], far[RESOLVE_RAYS];
+    uint64_t unsafe[RESOLVE_RAYS], any = 0;
+    /* loops of a few numbers: all of it at once has more than a machine has registers */
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = first + k;
         const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
         const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
         const cgt_sphere_terms e = cgt_sphere_double_terms(org, dir, winner_sphere(w, i));
         middle[k] = e.middle;
         product[k] = e.product;
         half2[k] = e.half2;
-        middle_error2[k] = e.middle_error2;
-        product_error[k] = e.product_error;
-        half2_error[k] = e.half2_error;
+        size[k] = e.size;
     }
-    for (uint32_t k = 0; k < count; k++) {
-        const cgt_sphere_roots r = cgt_sphere_double_roots(
-            (cgt_sphere_terms){middle[k], product[k], half2[k], middle_error2[k], product_error[k], half2_error[k]});
-        w->t[first + k] = (float)r.near >= p->t_min[first + k] ? r.near : r.far;
-        unsafe |= hits_sphere(p, w, first + k, alone) & !r.safe;
+    for (size_t k = 0; k < count; k++) {
+        const cgt_sphere_roots root = cgt_sphere_double_roots(middle[k], product[k], half2[k]);
+        near[k] = root.near;
+        far[k] = root.far;
     }
-    if (unsafe)
-        resolve_spheres_exactly(p, first, count, alone, w, counts);
+    for (size_t k = 0; k < count; k++)
+        w->t[first + k] = (float)near[k] >= p->t_min[first + k] ? near[k] : far[k];
+    for (size_t k = 0; k < count; k++)
+        unsafe[k] = cgt_sphere_double_unsafe((cgt_sphere_terms){middle[k], product[k], half2[k], size[k]});
+    for (size_t k = 0; k < count; k++)
+        any |= hits_sphere(p, w, first + k, alone) ? unsafe[k] : 0;
+    if (any)
+        resolve_spheres_exactly(p, first, count, unsafe, alone, w, counts);
 }
 
 /* The outward unit normal is the vector from the centre over the radius. */
-CGT_SPU_INLINE void resolve_spheres_normal(const packet *p, uint32_t first, uint32_t count, bool alone,
-                                           const winners *w, packet_hits *hits)
+CGT_SPU_INLINE void resolve_spheres_normal(const packet *p, size_t first, size_t count, bool alone, const winners *w,
+                                           packet_hits *hits)
 {
-    for (uint32_t i = first; i < first + count; i++) {
+    for (size_t i = first; i < first + count; i++) {
         const double t = w->t[i], k = 1 / (double)w->sphere[3][i];
         const double x = (double)p->org[0][i] + t * (double)p->dir[0][i] - (double)w->sphere[0][i];
         const double y = (double)p->org[1][i] + t * (double)p->dir[1][i] - (double)w->sphere[1][i];
@@ -78,13 +80,13 @@ CGT_SPU_INLINE void resolve_spheres_normal(const packet *p, uint32_t first, uint
     }
 }
 
-CGT_SPU_INLINE void resolve_spheres(const packet *p, uint32_t first, uint32_t count, const cgt_trace_settings *settings,
+CGT_SPU_INLINE void resolve_spheres(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
                                     bool alone, winners *w, packet_hits *hits, cgt_counts *counts)
 {
     if (!(settings->fields & (CGT_FIELD_T | CGT_FIELD_NORMAL)))
         return;
     resolve_spheres_t(p, first, count, alone, w, counts);
-    for (uint32_t i = first; i < first + count; i++)
+    for (size_t i = first; i < first + count; i++)
         hits->t[i] = hits_sphere(p, w, i, alone) ? (float)w->t[i] : alone ? INFINITY : hits->t[i];
     if (settings->fields & CGT_FIELD_NORMAL)
         resolve_spheres_normal(p, first, count, alone, w, hits);

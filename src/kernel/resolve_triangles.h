@@ -10,7 +10,7 @@
 #include "../triangle_double.h"
 #include "winners.h"
 
-CGT_SPU_INLINE bool hits_triangle(const packet *p, const winners *w, uint32_t i, bool alone)
+CGT_SPU_INLINE bool hits_triangle(const packet *p, const winners *w, size_t i, bool alone)
 {
     return (p->object[i] != CGT_NONE) & (alone || !w->is_sphere[i]);
 }
@@ -20,10 +20,10 @@ typedef struct resolve_unsafe {
     uint32_t t[RESOLVE_RAYS], uv[RESOLVE_RAYS], normal[RESOLVE_RAYS]; /* 0 or 1 */
 } resolve_unsafe;
 
-CGT_SPU_INLINE uint32_t any_unsafe(const uint32_t unsafe[RESOLVE_RAYS], uint32_t count)
+CGT_SPU_INLINE uint32_t any_unsafe(const uint32_t unsafe[RESOLVE_RAYS], size_t count)
 {
     uint32_t any = 0;
-    for (uint32_t k = 0; k < count; k++)
+    for (size_t k = 0; k < count; k++)
         any |= unsafe[k];
     return any;
 }
@@ -42,12 +42,12 @@ CGT_SPU_INLINE void unit_normal(const double n[3], float normal[3])
         normal[a] = (float)(n[a] * k);
 }
 
-__attribute__((noinline)) static void resolve_triangles_exactly(const packet *p, uint32_t first, uint32_t count,
+__attribute__((noinline)) static void resolve_triangles_exactly(const packet *p, size_t first, size_t count,
                                                                 uint32_t fields, const resolve_unsafe *unsafe,
                                                                 const winners *w, packet_hits *hits, cgt_counts *counts)
 {
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = first + k;
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = first + k;
         const cgt_triangle q = winner_triangle(w, i);
         const cgt_ray ray = {.line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]},
                                       .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
@@ -78,11 +78,11 @@ typedef struct resolve_planes {
     _Alignas(64) double n[3][RESOLVE_RAYS];
 } resolve_planes;
 
-CGT_SPU_INLINE void resolve_triangles_planes(const packet *p, uint32_t first, uint32_t count, const winners *w,
+CGT_SPU_INLINE void resolve_triangles_planes(const packet *p, size_t first, size_t count, const winners *w,
                                              resolve_planes *planes)
 {
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = first + k;
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = first + k;
         const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
         const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
         const cgt_triangle q = winner_triangle(w, i);
@@ -97,11 +97,11 @@ CGT_SPU_INLINE void resolve_triangles_planes(const packet *p, uint32_t first, ui
     }
 }
 
-CGT_SPU_INLINE void resolve_triangles_t(const packet *p, uint32_t first, uint32_t count, bool alone, const winners *w,
+CGT_SPU_INLINE void resolve_triangles_t(const packet *p, size_t first, size_t count, bool alone, const winners *w,
                                         const resolve_planes *planes, packet_hits *hits, resolve_unsafe *unsafe)
 {
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = first + k;
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = first + k;
         const bool hit = hits_triangle(p, w, i, alone);
         const cgt_triangle_plane e = {planes->num[k], planes->den[k], planes->num_error[k], planes->den_error[k], {0}};
         hits->t[i] = hit ? (float)(planes->num[k] / planes->den[k]) : hits->t[i];
@@ -109,12 +109,12 @@ CGT_SPU_INLINE void resolve_triangles_t(const packet *p, uint32_t first, uint32_
     }
 }
 
-CGT_SPU_INLINE void resolve_triangles_uv(const packet *p, uint32_t first, uint32_t count, bool alone, bool exact,
+CGT_SPU_INLINE void resolve_triangles_uv(const packet *p, size_t first, size_t count, bool alone, bool exact,
                                          const winners *w, const resolve_planes *planes, packet_hits *hits,
                                          resolve_unsafe *unsafe)
 {
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = first + k;
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = first + k;
         const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
         const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
         const cgt_triangle q = winner_triangle(w, i);
@@ -133,7 +133,7 @@ CGT_SPU_INLINE void resolve_triangles_uv(const packet *p, uint32_t first, uint32
 }
 
 /* |e1|_1 |e2|_1, which bounds what the components of their cross product are made of. */
-CGT_SPU_INLINE double edge_product(const winners *w, uint32_t i)
+CGT_SPU_INLINE double edge_product(const winners *w, size_t i)
 {
     double size[2] = {0, 0};
     for (int k = 0; k < 2; k++)
@@ -142,12 +142,12 @@ CGT_SPU_INLINE double edge_product(const winners *w, uint32_t i)
     return size[0] * size[1];
 }
 
-CGT_SPU_INLINE void resolve_triangles_normal(const packet *p, uint32_t first, uint32_t count, bool alone, bool exact,
+CGT_SPU_INLINE void resolve_triangles_normal(const packet *p, size_t first, size_t count, bool alone, bool exact,
                                              const winners *w, const resolve_planes *planes, packet_hits *hits,
                                              resolve_unsafe *unsafe)
 {
-    for (uint32_t k = 0; k < count; k++) {
-        const uint32_t i = first + k;
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = first + k;
         const double x = planes->n[0][k], y = planes->n[1][k], z = planes->n[2][k];
         const double r = 1 / sqrt(x * x + y * y + z * z);
         const bool hit = hits_triangle(p, w, i, alone);
@@ -162,9 +162,8 @@ CGT_SPU_INLINE void resolve_triangles_normal(const packet *p, uint32_t first, ui
     }
 }
 
-CGT_SPU_INLINE void resolve_triangles(const packet *p, uint32_t first, uint32_t count,
-                                      const cgt_trace_settings *settings, bool alone, const winners *w,
-                                      packet_hits *hits, cgt_counts *counts)
+CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
+                                      bool alone, const winners *w, packet_hits *hits, cgt_counts *counts)
 {
     const uint32_t fields = settings->fields;
     const bool exact = settings->precision == CGT_PRECISION_EXACT;

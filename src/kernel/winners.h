@@ -18,14 +18,14 @@ typedef struct winners {
     bool points; /* some sphere has radius 0 */
 } winners;
 
-CGT_SPU_INLINE cgt_triangle winner_triangle(const winners *w, uint32_t i)
+CGT_SPU_INLINE cgt_triangle winner_triangle(const winners *w, size_t i)
 {
     return (cgt_triangle){{{w->vertex[0][0][i], w->vertex[0][1][i], w->vertex[0][2][i]},
                            {w->vertex[1][0][i], w->vertex[1][1][i], w->vertex[1][2][i]},
                            {w->vertex[2][0][i], w->vertex[2][1][i], w->vertex[2][2][i]}}};
 }
 
-CGT_SPU_INLINE cgt_sphere winner_sphere(const winners *w, uint32_t i)
+CGT_SPU_INLINE cgt_sphere winner_sphere(const winners *w, size_t i)
 {
     return (cgt_sphere){w->sphere[0][i], w->sphere[1][i], w->sphere[2][i], w->sphere[3][i]};
 }
