@@ -43,9 +43,10 @@ typedef struct cgt_overflow {
 
 typedef struct cgt_queue_grid {
     cgt_objects objects;
-    float org[3];   /* lower corner, world */
-    float rcell[3]; /* cells per world unit */
-    float slack[3]; /* cells: bound of the rounding of g for any point of any object */
+    float low[3], high[3]; /* bounds of the objects, rounded outwards */
+    float org[3];          /* lower corner, world */
+    float rcell[3];        /* cells per world unit */
+    float slack[3];        /* cells: bound of the rounding of g for any point of any object */
     uint32_t resolution[3];
     uint32_t stride[3]; /* voxels from one cell to the next along each axis; x fastest */
     uint32_t cells;

@@ -98,6 +98,10 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
     if (result != CGT_OK)
         return result;
     grid->everything = !(summary->magnitude <= LARGEST_MAGNITUDE);
+    for (int a = 0; a < 3; a++) {
+        grid->low[a] = summary->min[a];
+        grid->high[a] = summary->max[a];
+    }
     grid->wide = grid->objects.count > CGT_QUEUE_MAX_NARROW;
     grid->scale = scale_of(summary->magnitude);
     if (!summary->valid || grid->everything) {

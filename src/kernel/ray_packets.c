@@ -3,7 +3,7 @@
  *
  * Arrays of rays: neighbours become packets as they come; the traversal splits those whose rays run apart. */
 #include "kernel.h"
-#include "packet.h"
+#include "ray_box.h"
 
 #define RAY_PACKET 64
 
@@ -17,7 +17,8 @@ static float element(const ray_source *s, const float *array, uint64_t i)
     return *(const float *)(const void *)((const char *)array + i * s->stride);
 }
 
-typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_EMPTY_RANGE, RAY_INVALID } ray_state;
+/* The first two take part. */
+typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_INVALID } ray_state;
 
 static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k)
 {
@@ -57,26 +58,26 @@ static void close_lane(packet *p, uint32_t k, uint32_t good)
     p->low[k] = p->high[k] = -INFINITY;
 }
 
-/* Reads rays first to first + count - 1. Returns false where one of several is extreme: read them apart then. */
-static bool make_packet(const ray_source *s, uint64_t first, uint32_t count, packet *p, cgt_counts *counts)
+/* Rays that miss the bounds of all objects take no part. */
+static void leave_out_outside(const cgt_queue_grid *grid, const packet *p, uint32_t count, ray_state *state)
 {
-    ray_state state[RAY_PACKET];
-    uint32_t good = 0, invalid = 0;
-    p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
-    p->rays = 0;
-    p->common_origin = true;
-    p->from_origin = false;
-    p->extreme = false;
-    for (uint32_t k = 0; k < count; k++) {
-        state[k] = read_ray(s, first + k, p, k);
-        if (state[k] == RAY_EXTREME && count > 1)
-            return false;
-        if (state[k] == RAY_EXTREME)
-            p->extreme = true;
-        invalid += state[k] == RAY_INVALID;
+    for (uint32_t i = 0; i < count; i += CGT_LANES) {
+        const unsigned missed = spux_mask_bits(ray_box_missed(p, i, grid->low, grid->high));
+        for (uint32_t k = i; k < count && k < i + CGT_LANES; k++)
+            if (state[k] == RAY_OPEN && missed >> (k - i) & 1)
+                state[k] = RAY_OUTSIDE;
+    }
+}
+
+/* The rays that take part, and the others made to repeat one of them. */
+static void gather_packet(packet *p, uint32_t count, const ray_state *state)
+{
+    uint32_t good = 0;
+    for (uint32_t k = 0; k < count; k++)
         if (state[k] <= RAY_EXTREME)
             good = k;
-    }
+    p->rays = 0;
+    p->common_origin = true;
     for (uint32_t k = 0; k < p->lanes; k++) {
         p->object[k] = CGT_NONE;
         if (k < count && state[k] <= RAY_EXTREME)
@@ -86,6 +87,31 @@ static bool make_packet(const ray_source *s, uint64_t first, uint32_t count, pac
         for (int a = 0; a < 3; a++)
             p->common_origin &= p->org[a][k] == p->org[a][good];
     }
+}
+
+/* Reads rays first to first + count - 1. Returns false where one of several is extreme: read them apart then. */
+static bool make_packet(const cgt_queue_grid *grid, const ray_source *s, uint64_t first, uint32_t count, packet *p,
+                        cgt_counts *counts)
+{
+    ray_state state[RAY_PACKET];
+    uint32_t invalid = 0;
+    p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
+    p->from_origin = false;
+    p->extreme = false;
+    for (uint32_t k = 0; k < count; k++) {
+        state[k] = read_ray(s, first + k, p, k);
+        if (state[k] == RAY_EXTREME && count > 1)
+            return false;
+        if (state[k] == RAY_EXTREME)
+            p->extreme = true;
+        invalid += state[k] == RAY_INVALID;
+    }
+    if (!p->extreme && !grid->everything) {
+        for (uint32_t k = count; k < p->lanes; k++)
+            close_lane(p, k, 0);
+        leave_out_outside(grid, p, count, state);
+    }
+    gather_packet(p, count, state);
     counts->invalid_rays += invalid;
     return true;
 }
@@ -116,7 +142,7 @@ static void trace_range(const cgt_queue_grid *grid, const ray_source *s, uint64_
                         cgt_counts *counts)
 {
     packet_hits h;
-    if (!make_packet(s, first, count, p, counts)) {
+    if (!make_packet(grid, s, first, count, p, counts)) {
         for (uint32_t k = 0; k < count; k++)
             trace_range(grid, s, first + k, 1, settings, hits, occluded, p, counts);
         return;
