@@ -12,7 +12,7 @@
 
 CGT_SPU_INLINE bool hits_triangle(const packet *p, const winners *w, size_t i, bool alone)
 {
-    return (p->object[i] != CGT_NONE) & (alone || !w->is_sphere[i]);
+    return (p->object[i] != CGT_NONE) & (alone | (w->is_sphere[i] == 0));
 }
 
 /* What the values of some rays have lost more of than they may: they are computed exactly then. */
@@ -113,22 +113,33 @@ CGT_SPU_INLINE void resolve_triangles_uv(const packet *p, size_t first, size_t c
                                          const winners *w, const resolve_planes *planes, packet_hits *hits,
                                          resolve_unsafe *unsafe)
 {
+    _Alignas(64) double side[2][RESOLVE_RAYS], error[2][RESOLVE_RAYS];
+    /* ROBUST does not ask how much of a share is left: any error is below infinity */
+    const double more = exact ? 0 : INFINITY;
     for (size_t k = 0; k < count; k++) {
         const size_t i = first + k;
         const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
         const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
         const cgt_triangle q = winner_triangle(w, i);
         const cgt_triangle_sides s = cgt_triangle_double_sides(org, dir, &q);
-        const bool hit = hits_triangle(p, w, i, alone);
+        side[0][k] = s.w[1];
+        side[1][k] = s.w[2];
+        error[0][k] = s.error[1];
+        error[1][k] = s.error[2];
+    }
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = first + k;
         const double r = 1 / planes->den[k];
-        hits->u[i] = hit ? share_of(s.w[1] * r) : 0;
-        hits->v[i] = hit ? share_of(s.w[2] * r) : 0;
-        const bool den_safe = planes->den_error[k] <= CGT_DOUBLE_SAFE * fabs(planes->den[k]);
-        const bool shares_safe =
-            (s.error[1] <= CGT_DOUBLE_SAFE * fabs(s.w[1])) & (s.error[2] <= CGT_DOUBLE_SAFE * fabs(s.w[2]));
-        /* ROBUST does not ask how much of a share is left */
-        const bool safe = den_safe & (shares_safe | (exact ? 0 : 1));
-        unsafe->uv[k] = hit & !safe;
+        const float u = share_of(side[0][k] * r), v = share_of(side[1][k] * r);
+        const bool hit = hits_triangle(p, w, i, alone);
+        hits->u[i] = hit ? u : 0;
+        hits->v[i] = hit ? v : 0;
+    }
+    for (size_t k = 0; k < count; k++) {
+        const uint32_t den = planes->den_error[k] <= CGT_DOUBLE_SAFE * fabs(planes->den[k]) ? 0 : 1;
+        const uint32_t u = error[0][k] <= CGT_DOUBLE_SAFE * fabs(side[0][k]) + more ? 0 : 1;
+        const uint32_t v = error[1][k] <= CGT_DOUBLE_SAFE * fabs(side[1][k]) + more ? 0 : 1;
+        unsafe->uv[k] = hits_triangle(p, w, first + k, alone) ? den | u | v : 0;
     }
 }
 
