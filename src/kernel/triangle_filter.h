@@ -39,7 +39,7 @@ typedef struct filter_triangles {
     _Alignas(64) float eps[3][CGT_LANES];
     _Alignas(64) float normal[3][CGT_LANES]; /* n over delta */
     _Alignas(64) float num[CGT_LANES];       /* n.a over delta */
-    _Alignas(64) float num_error[CGT_LANES]; /* over D */
+    _Alignas(64) float num_error[CGT_LANES]; /* of num */
     uint32_t object[CGT_LANES];
 } filter_triangles;
 
@@ -142,7 +142,7 @@ CGT_SPU_INLINE filter_triangle filter_triangle_get(const filter_packet *f, const
                                                    bool common_origin)
 {
     filter_triangle q = {.num = spux_vfloat(s->num[k]),
-                         .num_error = spux_vfloat(s->num_error[k] * f->longest),
+                         .num_error = spux_vfloat(s->num_error[k]),
                          .nearest = spux_vfloat(s->nearest[k]),
                          .longest = spux_vfloat(f->longest),
                          .object = spux_vuint(s->object[k])};
