@@ -208,7 +208,10 @@ static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
 
 static void test_triangles(traversal *v, filter_triangles *s, unsigned lanes)
 {
-    filter_triangles_bound(&v->filter, s);
+    if (v->p->fast)
+        filter_triangles_prepare_fast(&v->filter, s);
+    else
+        filter_triangles_bound(&v->filter, s);
     for (; lanes; lanes &= lanes - 1) {
         const int k = __builtin_ctz(lanes);
         v->counts->packet_tests++;

@@ -36,10 +36,9 @@ typedef struct filter_triangles {
     _Alignas(64) float nearest[CGT_LANES];          /* no ray meets it before this t */
     _Alignas(64) float edge[3][3][CGT_LANES];       /* [k][a]: edge k, opposite vertex k, over eps_k */
     _Alignas(64) float edge_cross[3][3][CGT_LANES]; /* b x edge k, over eps_k */
-    _Alignas(64) float eps[3][CGT_LANES];
-    _Alignas(64) float normal[3][CGT_LANES]; /* n over delta */
-    _Alignas(64) float num[CGT_LANES];       /* n.a over delta */
-    _Alignas(64) float num_error[CGT_LANES]; /* of num */
+    _Alignas(64) float normal[3][CGT_LANES];        /* n over delta */
+    _Alignas(64) float num[CGT_LANES];              /* n.a over delta */
+    _Alignas(64) float num_error[CGT_LANES];        /* of num */
     uint32_t object[CGT_LANES];
 } filter_triangles;
 
@@ -61,10 +60,12 @@ CGT_SPU_INLINE void filter_triangles_enclose(filter_triangles *s)
     spux_store(s->radius, spu_madd(spux_sqrt(square), spux_vfloat(1 + 0x1p-18f), wide));
 }
 
-CGT_SPU_INLINE vfloat filter_length(const vfloat v[3])
+CGT_SPU_INLINE vfloat filter_dot(const vfloat p[3], const vfloat q[3])
 {
-    return spux_sqrt(spu_madd(v[0], v[0], spu_madd(v[1], v[1], spu_mul(v[2], v[2]))));
+    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
 }
+
+CGT_SPU_INLINE vfloat filter_length(const vfloat v[3]) { return spux_sqrt(filter_dot(v, v)); }
 
 /* 1 over a length, 0 where it is out of range. */
 CGT_SPU_INLINE vfloat filter_reciprocal(vfloat length, vmask *wild)
@@ -113,7 +114,6 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
     for (int k = 0; k < 3; k++) {
         const vfloat eps = spu_mul(spu_mul(length[k], reach), spux_vfloat(13 * FILTER_U * (1 + 0x1p-18f)));
         reps[k] = filter_reciprocal(eps, &wild);
-        spux_store(s->eps[k], eps);
     }
     for (int k = 0; k < 3; k++) {
         filter_cross(v[(k + 1) % 3], e[k], cross);
@@ -122,18 +122,59 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
     }
     filter_cross(e[0], e[1], cross);
     filter_store_scaled(s->normal, cross, rdelta, wild);
-    const vfloat unscale = spux_vfloat(1 / f->scale), *a = v[0];
-    const vfloat num = spu_madd(spux_load(s->normal[0]), a[0],
-                                spu_madd(spux_load(s->normal[1]), a[1], spu_mul(spux_load(s->normal[2]), a[2])));
+    const vfloat unscale = spux_vfloat(1 / f->scale);
+    const vfloat n[3] = {spux_load(s->normal[0]), spux_load(s->normal[1]), spux_load(s->normal[2])};
+    const vfloat num = filter_dot(n, v[0]);
     spux_store(s->num, spux_select(spu_mul(num, unscale), spux_vfloat(0), wild));
     spux_store(s->num_error, spu_madd(spu_mul(reach, unscale), spux_vfloat(1.2f), spux_vfloat(0x1p-126f)));
+}
+
+/* For FAST precision: no bounds, no scales. Two triangles that share an edge must find the same side of it for every
+ * ray: an edge is taken from its lower end to its higher one, by coordinates, whichever way the triangle runs along it,
+ * and its sign is put on at the end. Then both compute the same numbers, with or without fused operations. */
+CGT_SPU_INLINE vmask filter_above(const vfloat p[3], const vfloat q[3])
+{
+    const vmask x = spu_cmpgt(p[0], q[0]), y = spu_cmpgt(p[1], q[1]), z = spu_cmpgt(p[2], q[2]);
+    const vmask same_x = spu_cmpeq(p[0], q[0]), same_y = spu_cmpeq(p[1], q[1]);
+    return spu_or(x, spu_and(same_x, spu_or(y, spu_and(same_y, z))));
+}
+
+CGT_SPU_INLINE void filter_triangles_prepare_fast(const filter_packet *f, filter_triangles *s)
+{
+    const vfloat scale = spux_vfloat(f->scale), minus = spux_vfloat(-0.f), plus = spux_vfloat(0);
+    vfloat v[3][3], e[3][3], cross[3];
+    filter_triangles_enclose(s);
+    filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++)
+            v[k][a] = spu_mul(spu_sub(spux_load(s->vertex[k][a]), spux_vfloat(f->org[a])), scale);
+    for (int k = 0; k < 3; k++) {
+        const vfloat *p = v[(k + 1) % 3], *q = v[(k + 2) % 3];
+        const vmask swap = filter_above(p, q);
+        const vfloat sign = spux_select(plus, minus, swap);
+        vfloat low[3], edge[3];
+        for (int a = 0; a < 3; a++) {
+            low[a] = spux_select(p[a], q[a], swap);
+            edge[a] = spu_sub(spux_select(q[a], p[a], swap), low[a]);
+            e[k][a] = spu_xor(edge[a], sign);
+            spux_store(s->edge[k][a], e[k][a]);
+        }
+        filter_cross(low, edge, cross);
+        for (int a = 0; a < 3; a++)
+            spux_store(s->edge_cross[k][a], spu_xor(cross[a], sign));
+    }
+    filter_cross(e[0], e[1], cross);
+    for (int a = 0; a < 3; a++)
+        spux_store(s->normal[a], cross[a]);
+    spux_store(s->num, spu_mul(filter_dot(cross, v[0]), spux_vfloat(1 / f->scale)));
+    spux_store(s->num_error, plus);
 }
 
 /* ---- the test ---- */
 
 /* One triangle as the vectors of a test. */
 typedef struct filter_triangle {
-    vfloat edge[3][3], edge_cross[3][3], normal[3], eps[3];
+    vfloat edge[3][3], edge_cross[3][3], normal[3];
     vfloat num, num_error, nearest, longest;
     vuint object;
 } filter_triangle;
@@ -148,7 +189,6 @@ CGT_SPU_INLINE filter_triangle filter_triangle_get(const filter_packet *f, const
                          .object = spux_vuint(s->object[k])};
     for (int a = 0; a < 3; a++) {
         q.normal[a] = spux_vfloat(s->normal[a][k]);
-        q.eps[a] = spux_vfloat(s->eps[a][k]);
         for (int i = 0; i < 3; i++) {
             q.edge_cross[i][a] = spux_vfloat(s->edge_cross[i][a][k]);
             if (!common_origin)
@@ -156,11 +196,6 @@ CGT_SPU_INLINE filter_triangle filter_triangle_get(const filter_packet *f, const
         }
     }
     return q;
-}
-
-CGT_SPU_INLINE vfloat filter_dot(const vfloat p[3], const vfloat q[3])
-{
-    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
 }
 
 CGT_SPU_INLINE void filter_triangle_sides(const packet *p, const filter_triangle *q, uint32_t i, bool common_origin,
@@ -234,11 +269,10 @@ CGT_SPU_INLINE bool filter_triangle_rays_fast(const packet *p, const void *primi
         return false;
     filter_triangle_plane(p, q, i, common_origin, &num, &den);
     const vfloat t = spu_mul(num, spux_div(spux_vfloat(1), den));
-    const vfloat w1 = spu_mul(w[1], q->eps[1]), w2 = spu_mul(w[2], q->eps[2]);
-    const vfloat sum = spu_madd(w[0], q->eps[0], spu_add(w1, w2));
+    const vfloat sum = spu_add(w[0], spu_add(w[1], w[2]));
     f->low = f->high = t;
-    f->u = spux_div(w1, sum);
-    f->v = spux_div(w2, sum);
+    f->u = spux_div(w[1], sum);
+    f->v = spux_div(w[2], sum);
     f->certain = spu_and(hit, filter_fast_nearer(p, i, t, q->object));
     f->open = spux_mask_none();
     return true;
