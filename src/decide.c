@@ -87,7 +87,7 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
         return false;
     cgt_decide_t(ray, hit);
     const float rounded = (float)hit->t;
-    return rounded >= ray->t_min && rounded <= ray->t_max && rounded < INFINITY;
+    return rounded >= ray->t_min && rounded <= ray->t_max && fabsf(rounded) < INFINITY;
 }
 
 /* ---- order ---- */

@@ -11,7 +11,7 @@ CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const win
 {
     const float k = 1 / w->sphere[3][i];
     for (int a = 0; a < 3; a++)
-        hits->normal[a][i] = (p->org[a][i] + p->high[i] * p->dir[a][i] - w->sphere[a][i]) * k;
+        hits->normal[a][i] = ((p->org[a][i] - w->sphere[a][i]) + p->high[i] * p->dir[a][i]) * k;
 }
 
 /* Edges are scaled, so that their products stay in range. */

@@ -64,15 +64,16 @@ CGT_SPU_INLINE void resolve_spheres_t(const packet *p, size_t first, size_t coun
         resolve_spheres_exactly(p, first, count, unsafe, alone, w, counts);
 }
 
-/* The outward unit normal is the vector from the centre over the radius. */
+/* The outward unit normal is the vector from the centre over the radius. Origin and centre may both be far away: their
+ * difference comes first. */
 CGT_SPU_INLINE void resolve_spheres_normal(const packet *p, size_t first, size_t count, bool alone, const winners *w,
                                            packet_hits *hits)
 {
     for (size_t i = first; i < first + count; i++) {
         const double t = w->t[i], k = 1 / (double)w->sphere[3][i];
-        const double x = (double)p->org[0][i] + t * (double)p->dir[0][i] - (double)w->sphere[0][i];
-        const double y = (double)p->org[1][i] + t * (double)p->dir[1][i] - (double)w->sphere[1][i];
-        const double z = (double)p->org[2][i] + t * (double)p->dir[2][i] - (double)w->sphere[2][i];
+        const double x = ((double)p->org[0][i] - (double)w->sphere[0][i]) + t * (double)p->dir[0][i];
+        const double y = ((double)p->org[1][i] - (double)w->sphere[1][i]) + t * (double)p->dir[1][i];
+        const double z = ((double)p->org[2][i] - (double)w->sphere[2][i]) + t * (double)p->dir[2][i];
         const bool hit = hits_sphere(p, w, i, alone);
         hits->normal[0][i] = hit ? (float)(x * k) : alone ? 0 : hits->normal[0][i];
         hits->normal[1][i] = hit ? (float)(y * k) : alone ? 0 : hits->normal[1][i];
