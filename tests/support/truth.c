@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static truth_real square_root(truth_real a)
+truth_real truth_square_root(truth_real a)
 {
     if (!(a > 0))
         return 0;
@@ -44,7 +44,7 @@ truth_roots truth_sphere(const float org[3], const float dir[3], const float sph
     roots.doubt_h = 0x1p-49 * (distance + r) * r + 0x1p-96 * distance * distance;
     if (!roots.hit)
         return roots;
-    const truth_real root = square_root(q.discriminant), sum = q.dc >= 0 ? q.dc + root : q.dc - root;
+    const truth_real root = truth_square_root(q.discriminant), sum = q.dc >= 0 ? q.dc + root : q.dc - root;
     const truth_real large = sum / q.dd, small = sum != 0 ? (q.cc - q.rr) / sum : 0;
     roots.near = q.dc >= 0 ? small : large;
     roots.far = q.dc >= 0 ? large : small;

@@ -1,0 +1,34 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Random numbers by streams, and distances between floats; for the tests and for cgt-bench. */
+#ifndef RANDOM_H
+#define RANDOM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Random numbers: one stream per use, so that a test's numbers do not depend on the others'. */
+typedef struct test_random {
+    uint64_t state;
+} test_random;
+
+/* The seed of all streams that are made from now on; RANDOM_DEFAULT_SEED without a call. */
+#define RANDOM_DEFAULT_SEED UINT64_C(20260117)
+void random_seed(uint64_t of_all);
+
+test_random random_make(uint64_t stream);
+uint64_t random_bits(test_random *r);
+uint32_t random_below(test_random *r, uint32_t count); /* 0 .. count - 1 */
+float random_float(test_random *r, float low, float high);
+float random_log(test_random *r, float low, float high); /* evenly over the orders of magnitude; low above 0 */
+float random_any_float(test_random *r);                  /* any 32 bits, NaN and infinities included */
+void random_direction(test_random *r, float d[3]);       /* about unit length, no preferred direction */
+
+/* Steps of float from a to b, 0 for equal values (+0 and -0 are equal); UINT32_MAX where one is NaN. */
+uint32_t ulp_distance(float a, float b);
+
+/* The same bits, so that NaN equals itself. */
+bool same_bits(float a, float b);
+
+#endif
