@@ -52,6 +52,13 @@ macro(cgt_find_ORACLE)
     endif()
 endmacro()
 
+macro(cgt_find_MESHES)
+    cgt_import(cgt_assimp assimp/cimport.h assimp)
+    if(TARGET cgt_assimp)
+        set(CGT_HAVE_MESHES ON)
+    endif()
+endmacro()
+
 macro(cgt_find_RENDER)
     include(CheckLanguage)
     check_language(CXX)

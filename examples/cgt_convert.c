@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-convert: any trajectory that the readers know, to .frames. The output is written beside its final name and moved
- * there when it is whole, so that a run that fails leaves what was there before. */
+ * cgt-convert: any trajectory or mesh that the readers know, to .frames. The output is written beside its final name
+ * and moved there when it is whole, so that a run that fails leaves what was there before. */
 #define _GNU_SOURCE /* argp */
 #include "program.h"
 #include "trajectory.h"
@@ -28,14 +28,17 @@ typedef struct convert_options {
 } convert_options;
 
 typedef struct convert_counts {
+    trajectory_kind kind;
+    uint32_t triangles;
     uint64_t frames;
-    uint64_t spheres;
-    uint32_t fewest, most; /* spheres of a frame */
+    uint64_t items;        /* spheres or vertices in all of them */
+    uint32_t fewest, most; /* of a frame */
+    int normals;           /* there are some, and .frames has no place for them */
 } convert_counts;
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
-enum { OPTION_WRAPPED = 256, OPTION_FIRST, OPTION_LAST, OPTION_EVERY };
+enum { OPTION_WRAPPED = 256, OPTION_FIRST, OPTION_LAST, OPTION_EVERY, OPTION_FPS, OPTION_CLIP };
 
 static const struct argp_option option_table[] = {
     {"radius", 'r', "R", 0,
@@ -46,6 +49,8 @@ static const struct argp_option option_table[] = {
      "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones "
      "(xu yu zu) where a file has both",
      0},
+    {"clip", OPTION_CLIP, "NAME", 0, "Animation clip of a mesh, by its name or number from 0 (default: the first)", 0},
+    {"fps", OPTION_FPS, "RATE", 0, "Frames per second of the clip (default: 30)", 0},
     {"first", OPTION_FIRST, "N", 0, "First frame to convert, counted from 0 (default: 0)", 0},
     {"last", OPTION_LAST, "N", 0, "Last frame to convert (default: the file's last)", 0},
     {"every", OPTION_EVERY, "N", 0, "Convert every Nth frame (default: 1)", 0},
@@ -58,6 +63,7 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
     convert_options *const o = state->input;
     char error[PROGRAM_ERROR_SIZE];
     int wrong = 0;
+    float fps = 0.0f;
     const char *name = "";
     switch (key) {
     case 'r':
@@ -66,6 +72,12 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
         break;
     case 'q': o->quiet = 1; break;
     case OPTION_WRAPPED: o->reading.wrapped = 1; break;
+    case OPTION_CLIP: o->reading.clip = arg; break;
+    case OPTION_FPS:
+        name = "--fps";
+        wrong = program_parse_float(arg, 1e-3f, 1e6f, &fps, error, sizeof error);
+        o->reading.fps = (double)fps;
+        break;
     case OPTION_FIRST:
         name = "--first";
         wrong = program_parse_u64(arg, 0, UINT32_MAX, &o->first, error, sizeof error);
@@ -98,9 +110,11 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
 }
 
 static const char documentation[] =
-    "Converts a trajectory of spheres to .frames.\v"
-    "INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz) or .frames; OUTPUT ends in .frames. An existing "
-    "OUTPUT is replaced when the new one is complete, and left alone otherwise.\n\n"
+    "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
+    "INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp reads (.obj, .ply, "
+    ".gltf, .dae, .x, .ifc and others) in a build that has it; OUTPUT ends in .frames, which keeps the triangles of a "
+    "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, and left alone "
+    "otherwise.\n\n"
     "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.";
 
 static const struct argp parser = {option_table, parse_option, "INPUT OUTPUT.frames", documentation, NULL, NULL, NULL};
@@ -221,86 +235,156 @@ static int output_end(output_file *file, int code)
 
 /* ---- Converting --------------------------------------------------------------------------------------------- */
 
-static int copy_frame(trajectory *t, frames_writer *w, convert_counts *counts, char *error, size_t error_size)
+typedef struct conversion {
+    const convert_options *options;
+    trajectory *from;
+    const char *name;      /* of the file that is written */
+    frames_writer *writer; /* NULL before the first frame, which says what kind it is */
+    convert_counts counts;
+    char error[PROGRAM_ERROR_SIZE];
+} conversion;
+
+static int write_frame(conversion *c, const trajectory_frame *frame)
+{
+    const int spheres = frame->kind == TRAJECTORY_SPHERES;
+    if (c->writer == NULL) {
+        c->writer =
+            spheres ? frames_writer_open(c->name, c->error, sizeof c->error)
+                    : frames_writer_open_triangles(c->name, frame->index, frame->triangles, c->error, sizeof c->error);
+    }
+    if (c->writer == NULL) {
+        return -1;
+    }
+    return spheres ? frames_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)
+                   : frames_writer_add_vertices(c->writer, frame->position, frame->count, c->error, sizeof c->error);
+}
+
+static int copy_frame(conversion *c)
 {
     trajectory_frame frame;
-    const int got = trajectory_read(t, &frame, error, error_size);
+    const int got = trajectory_read(c->from, &frame, c->error, sizeof c->error);
     if (got <= 0) {
         return got;
     }
-    if (frames_writer_add(w, frame.xyzr, frame.count, error, error_size)) {
+    if (write_frame(c, &frame)) {
         return -1;
     }
-    counts->fewest = counts->frames == 0 || frame.count < counts->fewest ? frame.count : counts->fewest;
-    counts->most = frame.count > counts->most ? frame.count : counts->most;
-    counts->frames++;
-    counts->spheres += frame.count;
+    convert_counts *const n = &c->counts;
+    n->kind = frame.kind;
+    n->triangles = frame.triangles;
+    n->normals |= frame.vertex_normal != NULL;
+    n->fewest = n->frames == 0 || frame.count < n->fewest ? frame.count : n->fewest;
+    n->most = frame.count > n->most ? frame.count : n->most;
+    n->frames++;
+    n->items += frame.count;
     return 1;
 }
 
 /* Copies the frames that were asked for. Returns 0 or -1 with a text. */
-static int copy_frames(const convert_options *o, trajectory *t, frames_writer *w, convert_counts *counts, char *error,
-                       size_t error_size)
+static int copy_frames(conversion *c)
 {
+    const convert_options *const o = c->options;
     program_progress progress;
     program_progress_start(&progress, "converting", "frames", 0.0, o->quiet);
     int got = 1;
     for (uint64_t number = 0; number <= o->last && got > 0; number++) {
         const int wanted = number >= o->first && (number - o->first) % o->every == 0;
-        got = wanted ? copy_frame(t, w, counts, error, error_size) : trajectory_skip(t, error, error_size);
-        program_progress_update(&progress, (double)counts->frames, trajectory_progress(t));
+        got = wanted ? copy_frame(c) : trajectory_skip(c->from, c->error, sizeof c->error);
+        program_progress_update(&progress, (double)c->counts.frames, trajectory_progress(c->from));
     }
     program_progress_end(&progress);
     return got < 0 ? -1 : 0;
 }
 
-/* Reads from t into the file `name`. Returns the exit code. */
-static int convert(const convert_options *o, trajectory *t, const char *name, convert_counts *counts)
+/* Writes the file. Returns the exit code. */
+static int convert(conversion *c)
 {
-    char error[PROGRAM_ERROR_SIZE];
-    frames_writer *w = frames_writer_open(name, error, sizeof error);
-    if (w == NULL) {
-        program_error("%s", error);
-        return PROGRAM_FAILED;
-    }
-    const int failed = copy_frames(o, t, w, counts, error, sizeof error);
+    const int failed = copy_frames(c);
     if (failed) {
-        program_error("%s", error);
+        program_error("%s", c->error);
     }
-    if (frames_writer_close(w, error, sizeof error) && !failed) {
-        program_error("%s", error);
+    if (frames_writer_close(c->writer, c->error, sizeof c->error) && !failed) {
+        program_error("%s", c->error);
         return PROGRAM_FAILED;
     }
-    if (!failed && counts->frames == 0) {
-        program_error("%s: no frames to convert: %s", o->input,
-                      o->first > 0 ? "the file ends before --first" : "the file is empty");
+    if (!failed && c->counts.frames == 0) {
+        program_error("%s: no frames to convert: %s", c->options->input,
+                      c->options->first > 0 ? "the file ends before --first" : "the file is empty");
         return PROGRAM_FAILED;
     }
     return failed ? PROGRAM_FAILED : PROGRAM_OK;
 }
 
+/* ---- What it says ------------------------------------------------------------------------------------------- */
+
+/* What of a mesh is not in the output. */
+static void report_losses(const char *input, const trajectory_mesh *mesh, int normals)
+{
+    const struct {
+        uint64_t count;
+        const char *what;
+    } losses[] = {
+        {mesh->points, "points left out"},
+        {mesh->lines, "lines left out"},
+        {mesh->lost_triangles, "triangles lost with polygons that cross themselves"},
+        {mesh->unshown, "meshes left out, which no node shows"},
+        {mesh->unused, "vertices left out, which no triangle has"},
+        {mesh->degenerate, "triangles without an area"},
+        {mesh->still_channels, "animations of single vertices not played"},
+    };
+    for (size_t i = 0; i < sizeof losses / sizeof losses[0]; i++) {
+        if (losses[i].count > 0) {
+            printf("%s: %" PRIu64 " %s\n", input, losses[i].count, losses[i].what);
+        }
+    }
+    if (mesh->warnings > 0) {
+        printf("%s: %" PRIu32 " warnings of assimp's; the first: %s\n", input, mesh->warnings, mesh->warning);
+    }
+    if (normals) {
+        printf("%s: vertex normals left out\n", input);
+    }
+}
+
+static void report(const conversion *c, double seconds)
+{
+    const convert_counts *const n = &c->counts;
+    const trajectory_mesh *const mesh = trajectory_get_mesh(c->from);
+    const int spheres = n->kind == TRAJECTORY_SPHERES;
+    const double bytes =
+        24.0 + 4.0 * (double)n->frames + 12.0 * (double)n->triangles + (spheres ? 16.0 : 12.0) * (double)n->items;
+    if (mesh != NULL) {
+        printf("%s: %" PRIu32 " meshes shown %" PRIu32 " times, %" PRIu32 " bones, %" PRIu32 " clips\n",
+               c->options->input, mesh->meshes, mesh->instances, mesh->bones, mesh->clips);
+        report_losses(c->options->input, mesh, n->normals);
+    }
+    printf("%s: %" PRIu64 " frames, ", c->options->output, n->frames);
+    if (!spheres) {
+        printf("%" PRIu32 " triangles, ", n->triangles);
+    }
+    printf("%" PRIu32 " to %" PRIu32 " %s, %.1f MB, %.2f s\n", n->fewest, n->most, spheres ? "spheres" : "vertices",
+           1e-6 * bytes, seconds);
+}
+
 static int run(const convert_options *o)
 {
-    char error[PROGRAM_ERROR_SIZE];
-    convert_counts counts = {0};
+    conversion c = {.options = o};
     output_file file = {0};
     const double start = program_seconds();
-    trajectory *t = trajectory_open(o->input, &o->reading, error, sizeof error);
-    if (t == NULL) {
-        program_error("%s", error);
+    c.from = trajectory_open(o->input, &o->reading, c.error, sizeof c.error);
+    if (c.from == NULL) {
+        program_error("%s", c.error);
         return PROGRAM_FAILED;
     }
     int code = PROGRAM_FAILED;
     if (output_begin(o->output, &file) == 0) {
-        code = convert(o, t, file.temporary, &counts);
+        c.name = file.temporary;
+        code = convert(&c);
     }
     code = output_end(&file, code);
-    trajectory_close(t);
     if (code == PROGRAM_OK && !o->quiet) {
-        printf("%s: %" PRIu64 " frames, %" PRIu32 " to %" PRIu32 " spheres, %.1f MB, %.2f s\n", o->output,
-               counts.frames, counts.fewest, counts.most,
-               1e-6 * (24.0 + 4.0 * (double)counts.frames + 16.0 * (double)counts.spheres), program_seconds() - start);
+        report(&c, program_seconds() - start);
     }
+    trajectory_close(c.from);
     return code;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-render: the moving spheres of a trajectory as pictures. Each frame: read, colour, commit (the structure is built
+ * cgt-render: the moving spheres or triangles of a trajectory as pictures. Each frame: read, colour, commit (the structure is built
  * from the arrays as they are), trace with a visitor that shades each tile while it is in cache, write. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
@@ -37,18 +37,55 @@ static void install_signals(void)
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
-static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *stats)
+/* Whether the command line asks for what a file of this kind cannot give. The kind is known with the first frame. */
+static int check_kind(const renderer *r)
 {
+    const render_options *o = &r->options;
     const trajectory_frame *frame = &r->source.frame;
-    /* The spheres are where the reader put them: x, y, z, radius of one after those of the other. */
+    const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
+    const char *wrong = NULL;
+    if (triangles && r->coloring.by == COLORING_TYPE && !frame->type)
+        wrong = "--color type: the triangles of this file have no types; id, speed, height or RRGGBB will do";
+    else if (triangles && (o->reading.radius > 0.0f || o->reading.wrapped))
+        wrong = "--radius and --wrapped are for spheres, and this is a file of triangles";
+    else if (!triangles && (o->reading.fps > 0.0 || o->reading.clip))
+        wrong = "--fps and --clip are for meshes, and this is a file of spheres";
+    if (wrong)
+        program_error("%s: %s", o->input, wrong);
+    return wrong ? -1 : 0;
+}
+
+/* The spheres are where the reader put them: x, y, z, radius of one after those of the other. */
+static cgt_result take_spheres(renderer *r, const trajectory_frame *frame)
+{
     const cgt_spheres spheres = {.count = frame->count,
                                  .centers = frame->xyzr,
                                  .center_stride = 4 * sizeof(float),
                                  .radii = frame->count ? frame->xyzr + 3 : NULL,
                                  .radius_stride = 4 * sizeof(float)};
-    cgt_result result = cgt_scene_update_spheres(r->scene, r->geometry, &spheres);
+    return r->has_geometry ? cgt_scene_update_spheres(r->scene, r->geometry, &spheres)
+                           : cgt_scene_add_spheres(r->scene, &spheres, &r->geometry);
+}
+
+static cgt_result take_triangles(renderer *r, const trajectory_frame *frame)
+{
+    const cgt_triangles triangles = {
+        .count = frame->triangles, .indices = frame->index, .vertex_count = frame->count, .vertices = frame->position};
+    r->job.triangle = frame->index;
+    r->job.vertex_normal = frame->vertex_normal;
+    return r->has_geometry ? cgt_scene_update_triangles(r->scene, r->geometry, &triangles)
+                           : cgt_scene_add_triangles(r->scene, &triangles, &r->geometry);
+}
+
+static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *stats)
+{
+    const trajectory_frame *frame = &r->source.frame;
+    const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
+    cgt_result result = triangles ? take_triangles(r, frame) : take_spheres(r, frame);
     if (result)
-        return render_fail_library(r, "take the spheres", result);
+        return render_fail_library(r, triangles ? "take the triangles" : "take the spheres", result);
+    r->has_geometry = 1;
+    r->report.kind = frame->kind;
     const double begin = program_seconds();
     result = cgt_scene_commit(r->scene);
     record->build_ms = (program_seconds() - begin) * 1e3;
@@ -56,9 +93,10 @@ static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *
         result = cgt_scene_get_statistics(r->scene, stats);
     if (result)
         return render_fail_library(r, "build", result);
-    record->spheres = frame->count;
+    record->primitives = frame_primitives(frame);
     record->skipped_not_finite = stats->skipped_not_finite;
     record->skipped_radius = stats->skipped_radius;
+    record->skipped_degenerate = stats->skipped_degenerate;
     return 0;
 }
 
@@ -72,6 +110,8 @@ static int trace_frame(renderer *r, frame_record *record, cgt_trace_statistics *
     camera_path_at(&r->path, r->has_survey ? (double)r->rendered / total : 0.0, &job->camera);
     job->index = r->coloring.index;
     job->palette = (const float(*)[3])r->coloring.palette;
+    job->palette_steps = COLORING_STEPS;
+    job->mix = r->coloring.per_vertex;
     shade_begin(job);
     cgt_frame_init(&frame, job->width * job->samples, job->height * job->samples);
     frame.visitor = shade_tile;
@@ -118,9 +158,11 @@ static int render_frame(renderer *r, frame_record *record)
     cgt_scene_statistics scene;
     cgt_trace_statistics traced;
     memset(&traced, 0, sizeof traced);
+    if (!r->has_geometry && check_kind(r))
+        return -1;
     const double begin = program_seconds();
     if (coloring_apply(&r->coloring, &r->source.frame, r->source.speed)) {
-        program_error("out of memory for the colours of %" PRIu32 " spheres", r->source.frame.count);
+        program_error("out of memory for the colours of %" PRIu32 " primitives", frame_primitives(&r->source.frame));
         return -1;
     }
     record->color_ms = (program_seconds() - begin) * 1e3;
@@ -184,7 +226,7 @@ static int write_contact_sheet(renderer *r)
 
 static void print_summary(const renderer *r)
 {
-    static const char *const names[] = {"auto", "type", "id", "speed"};
+    static const char *const names[] = {"auto", "type", "id", "speed", "height", "one for all"};
     const render_options *o = &r->options;
     const cgt_camera *c = &r->path.start;
     char name[4096];
@@ -199,7 +241,7 @@ static void print_summary(const renderer *r)
            (double)c->eye[1], (double)c->eye[2], (double)c->target[0], (double)c->target[1], (double)c->target[2],
            (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);
     printf("colour            %s", names[r->coloring.by]);
-    if (r->coloring.by != COLORING_TYPE)
+    if (r->coloring.by != COLORING_TYPE && r->coloring.by != COLORING_PLAIN)
         printf(" from %g to %g", (double)r->coloring.min, (double)r->coloring.max);
     if (r->coloring.by == COLORING_SPEED)
         printf(", %s", r->source.speed_from == SPEED_FROM_VELOCITY ? "the file's velocities" : "by change of position");

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "camera_path.h"
 #include "contact_sheet.h"
 #include "program.h"
 
@@ -30,7 +31,9 @@ enum {
     OPTION_LOG_FILE,
     OPTION_STATS,
     OPTION_VARIANT,
-    OPTION_WRAPPED
+    OPTION_WRAPPED,
+    OPTION_FPS,
+    OPTION_CLIP
 };
 
 static const struct argp_option table[] = {
@@ -46,27 +49,31 @@ static const struct argp_option table[] = {
     {"sheet-grid", OPTION_SHEET_GRID, "CxR", 0, "Columns and rows of the contact sheet; default 4x3", 0},
     {NULL, 0, NULL, 0, "Camera:", 2},
     {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", 0,
-     "Eye, target, up, vertical angle in degrees; default: one that shows all spheres of all frames", 0},
+     "Eye, target, up, vertical angle in degrees; default: one that shows all of all frames", 0},
     {"orbit", OPTION_ORBIT, "DEGREES", 0, "Turn around the target by so much during the run", 0},
-    {"view", OPTION_VIEW, "X,Y,Z", 0, "Without -c: direction from the scene to the eye; default 0.5,-1,0.45 for up z",
-     0},
-    {"up", OPTION_UP, "x|y|z", 0, "Without -c: the axis that points up; default z", 0},
+    {"view", OPTION_VIEW, "X,Y,Z", 0,
+     "Without -c: direction from the scene to the eye; default 0.5,-1,0.45 for up z, 0.5,0.45,1 for up y", 0},
+    {"up", OPTION_UP, "x|y|z", 0, "Without -c: the axis that points up; default z for spheres, y for triangles", 0},
     {"fov", OPTION_FOV, "DEGREES", 0, "Without -c: vertical angle; default 30", 0},
     {NULL, 0, NULL, 0, "Colours and light:", 3},
     {"color", 'k', "BY", 0,
-     "type, id, speed, or auto (default): type where the file has several, else speed where spheres move, else id", 0},
-    {"colormap", OPTION_COLORMAP, "NAME", 0, "For id and speed: viridis (default) or plasma", 0},
+     "type, id, speed, height, one colour as RRGGBB, or auto (default): type where the file has several, else for "
+     "spheres speed where they move, else id, for triangles dcd3c4",
+     0},
+    {"colormap", OPTION_COLORMAP, "NAME", 0, "For id, speed and height: viridis (default) or plasma", 0},
     {"range", OPTION_RANGE, "MIN,MAX", 0,
      "Values of the map's ends; default: what the run has, for speeds 0 to the value that 99 % stay below", 0},
     {"light", OPTION_LIGHT, "X,Y,Z", 0, "Direction towards the light; default: over the first camera's left shoulder",
      0},
-    {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Colour behind the spheres; default 3a3f47", 0},
+    {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Colour behind it all; default 3a3f47", 0},
     {NULL, 0, NULL, 0, "Input:", 4},
     {"first", OPTION_FIRST, "N", 0, "First frame to render, counted from 0", 0},
     {"last", OPTION_LAST, "N", 0, "Last frame to render", 0},
     {"every", OPTION_EVERY, "N", 0, "Render every Nth frame", 0},
     {"radius", 'r', "R", 0, "Radius of spheres whose file gives none; default 0.5, or by element in .xyz", 0},
     {"wrapped", OPTION_WRAPPED, NULL, 0, "Prefer coordinates wrapped into the box where a file has both kinds", 0},
+    {"fps", OPTION_FPS, "N", 0, "Frames per second of a mesh's animation; default 30", 0},
+    {"clip", OPTION_CLIP, "NAME", 0, "Animation of a mesh, by its name or its number from 0; default: the first", 0},
     {NULL, 0, NULL, 0, "Running:", 5},
     {"threads", 't', "N", 0, "Threads that build and trace; 0 (default): one per CPU", 0},
     {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
@@ -117,9 +124,11 @@ static int parse_axis(const char *text, float up[3], char *error, size_t error_s
     return 0;
 }
 
-static int parse_background(const char *text, uint8_t rgb[3], char *error, size_t error_size)
+static int is_rgb(const char *text) { return strlen(text) == 6 && strspn(text, "0123456789abcdefABCDEF") == 6; }
+
+static int parse_rgb(const char *text, uint8_t rgb[3], char *error, size_t error_size)
 {
-    if (strlen(text) != 6 || strspn(text, "0123456789abcdefABCDEF") != 6) {
+    if (!is_rgb(text)) {
         snprintf(error, error_size, "\"%s\" is not of the form RRGGBB, in hexadecimal", text);
         return -1;
     }
@@ -144,17 +153,26 @@ static int parse_range(const char *text, render_options *o, char *error, size_t 
     return 0;
 }
 
-static int parse_color(const char *text, coloring_by *by, char *error, size_t error_size)
+static int parse_color(const char *text, render_options *o, char *error, size_t error_size)
 {
-    static const char *const names[] = {"auto", "type", "id", "speed"};
-    static const coloring_by values[] = {COLORING_AUTO, COLORING_TYPE, COLORING_ID, COLORING_SPEED};
+    static const char *const names[] = {"auto", "type", "id", "speed", "height"};
+    static const coloring_by values[] = {COLORING_AUTO, COLORING_TYPE, COLORING_ID, COLORING_SPEED, COLORING_HEIGHT};
+    uint8_t rgb[3];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strcmp(text, names[i]) == 0) {
-            *by = values[i];
+            o->by = values[i];
             return 0;
         }
-    snprintf(error, error_size, "\"%s\" is not type, id, speed or auto", text);
-    return -1;
+    if (!is_rgb(text)) {
+        snprintf(error, error_size, "\"%s\" is not type, id, speed, height, auto or a colour as RRGGBB", text);
+        return -1;
+    }
+    if (parse_rgb(text, rgb, error, error_size))
+        return -1;
+    o->by = COLORING_PLAIN;
+    for (int c = 0; c < 3; c++)
+        o->plain[c] = (float)rgb[c] / 255.0f;
+    return 0;
 }
 
 static int parse_output(const char *text, render_options *o, char *error, size_t error_size)
@@ -229,13 +247,22 @@ static int parse_picture(int key, const char *arg, parse_state *s, char *error, 
     case OPTION_VIEW: s->has_view = 1; return parse_direction(arg, o->view, error, size);
     case OPTION_UP: s->has_up = 1; return parse_axis(arg, o->up, error, size);
     case OPTION_FOV: s->has_fov = 1; return program_parse_float(arg, 0.1f, 170.0f, &o->fov, error, size);
-    case 'k': return parse_color(arg, &o->by, error, size);
+    case 'k': return parse_color(arg, o, error, size);
     case OPTION_COLORMAP: return parse_colormap(arg, &o->map, error, size);
     case OPTION_RANGE: return parse_range(arg, o, error, size);
     case OPTION_LIGHT: o->has_light = 1; return parse_direction(arg, o->light, error, size);
-    case OPTION_BACKGROUND: return parse_background(arg, o->background, error, size);
+    case OPTION_BACKGROUND: return parse_rgb(arg, o->background, error, size);
     default: return 1;
     }
+}
+
+static int parse_fps(const char *text, double *fps, char *error, size_t error_size)
+{
+    float value;
+    if (program_parse_float(text, 1e-3f, 1e6f, &value, error, error_size))
+        return -1;
+    *fps = (double)value;
+    return 0;
 }
 
 /* Options that say what is read and how the program runs. Results as parse_picture. */
@@ -248,6 +275,8 @@ static int parse_run(int key, const char *arg, parse_state *s, char *error, size
     case OPTION_EVERY: return program_parse_u64(arg, 1, UINT64_MAX - 1, &o->range.every, error, size);
     case 'r': return program_parse_float(arg, FLT_MIN, 1e30f, &o->reading.radius, error, size);
     case OPTION_WRAPPED: o->reading.wrapped = 1; return 0;
+    case OPTION_FPS: return parse_fps(arg, &o->reading.fps, error, size);
+    case OPTION_CLIP: o->reading.clip = arg; return 0;
     case 't': return program_parse_u32(arg, 0, 1024, &o->threads, error, size);
     case OPTION_VARIANT: o->variant = arg; return 0;
     case OPTION_STATS: o->stats = 1; return 0;
@@ -266,13 +295,34 @@ static const char *option_name(int key)
     return "option";
 }
 
+static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
+
+void render_options_axes(render_options *options, trajectory_kind kind)
+{
+    float *up = options->up, *view = options->view;
+    if (is_zero(up)) {
+        const int axis = kind == TRAJECTORY_TRIANGLES ? 1 : 2;
+        up[axis] = 1.0f;
+        if (!is_zero(view) && camera_path_is_along(view, up)) {
+            up[axis] = 0.0f;
+            up[3 - axis] = 1.0f;
+        }
+    }
+    if (!is_zero(view))
+        return;
+    const int axis = up[0] != 0.0f ? 0 : up[1] != 0.0f ? 1 : 2;
+    view[axis] = 0.45f;
+    view[(axis + 1) % 3] = axis == 2 ? 0.5f : 1.0f;
+    view[(axis + 2) % 3] = axis == 2 ? -1.0f : 0.5f;
+}
+
 /* What only the whole command line can tell. */
 static void finish(struct argp_state *state, parse_state *s)
 {
     render_options *o = s->options;
     char error[PROGRAM_ERROR_SIZE];
     if (!o->input)
-        argp_error(state, "no trajectory: give a .lammpstrj, .xyz or .frames file");
+        argp_error(state, "no trajectory: give a .lammpstrj, .xyz or .frames file, or a mesh");
     if (s->no_images && o->output_count)
         argp_error(state, "--output and --no-images exclude each other");
     if (!s->no_images && !o->output_count && parse_output("out/frame_%04d.png", o, error, sizeof error))
@@ -285,17 +335,7 @@ static void finish(struct argp_state *state, parse_state *s)
                    o->samples, o->samples, RENDER_MAX_EDGE, (unsigned long long)RENDER_MAX_PIXELS);
     if (o->has_camera && (s->has_view || s->has_up || s->has_fov))
         argp_error(state, "--view, --up and --fov are for the automatic camera: leave them or --camera out");
-    /* From the side and a little above, whatever axis is up. */
-    if (!s->has_view) {
-        const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
-        o->view[axis] = 0.45f;
-        o->view[(axis + 1) % 3] = axis == 2 ? 0.5f : 1.0f;
-        o->view[(axis + 2) % 3] = axis == 2 ? -1.0f : 0.5f;
-    }
-    const float *v = o->view, *u = o->up; /* u is an axis */
-    const float side = v[0] * v[0] * (1.0f - u[0]) + v[1] * v[1] * (1.0f - u[1]) + v[2] * v[2] * (1.0f - u[2]);
-    const float length = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    if (!(side > 1e-8f * length))
+    if (s->has_view && s->has_up && camera_path_is_along(o->view, o->up))
         argp_error(state, "--view: the direction must not be along the axis that points up");
 }
 
@@ -327,7 +367,8 @@ void render_options_parse(render_options *options, int argc, char **argv)
         table,
         parse_key,
         "TRAJECTORY",
-        "Renders the moving spheres of a trajectory: LAMMPS dump text (.lammpstrj), .xyz or .frames.\v"
+        "Renders the moving spheres or triangles of a trajectory: LAMMPS dump text (.lammpstrj), .xyz or .frames; or a "
+        "mesh with its animation: .obj, .ply, .gltf, .dae, .x, .ifc and others.\v"
         "The structure is built anew for every frame. Exit codes: 0 all was rendered, 1 something failed, 2 the "
         "command line is wrong.\n\n"
         "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj",
@@ -337,6 +378,7 @@ void render_options_parse(render_options *options, int argc, char **argv)
     parse_state state = {options, 0, 0, 0, 0};
     memset(options, 0, sizeof *options);
     trajectory_options_init(&options->reading);
+    options->reading.fps = 0.0; /* the reader's default, and not given */
     cgt_camera_init(&options->camera);
     options->range = (frame_range){0, UINT64_MAX - 1, 1};
     options->sheet_columns = 4;
@@ -344,8 +386,8 @@ void render_options_parse(render_options *options, int argc, char **argv)
     options->width = 1280;
     options->height = 720;
     options->samples = 1;
-    options->up[2] = 1.0f;
     options->fov = 30.0f;
+    memcpy(options->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof options->plain);
     memcpy(options->background, (const uint8_t[]){0x3a, 0x3f, 0x47}, sizeof options->background);
     argp_parse(&parser, argc, argv, 0, NULL, &state);
 }

@@ -9,6 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char *unit_of(const render_report *report)
+{
+    return report->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres";
+}
+
 int render_report_open(render_report *report, const char *log_path, char *error, size_t error_size)
 {
     memset(report, 0, sizeof *report);
@@ -20,7 +25,7 @@ int render_report_open(render_report *report, const char *log_path, char *error,
         snprintf(error, error_size, "%s: cannot write: %s", log_path, strerror(errno));
         return -1;
     }
-    fprintf(report->log, "frame\tstep\tspheres\tskipped\thits\tread_ms\tcolor_ms\tbuild_ms\ttrace_ms\twrite_ms\n");
+    fprintf(report->log, "frame\tstep\tprimitives\tskipped\thits\tread_ms\tcolor_ms\tbuild_ms\ttrace_ms\twrite_ms\n");
     return 0;
 }
 
@@ -40,6 +45,8 @@ static void add_counts(cgt_trace_statistics *sum, const cgt_trace_statistics *on
     sum->packet_tests += one->packet_tests;
     sum->ray_tests += one->ray_tests;
     sum->double_tests += one->double_tests;
+    sum->exact_tests += one->exact_tests;
+    sum->exact_values += one->exact_values;
     sum->early_exits += one->early_exits;
     sum->packet_size = one->packet_size;
     sum->tile = one->tile;
@@ -48,8 +55,8 @@ static void add_counts(cgt_trace_statistics *sum, const cgt_trace_statistics *on
 
 static void write_log(FILE *log, const frame_record *f)
 {
-    fprintf(log, "%" PRIu64 "\t%" PRId64 "\t%" PRIu32 "\t%" PRIu32 "\t%" PRIu64, f->number, f->step, f->spheres,
-            f->skipped_not_finite + f->skipped_radius, f->hits);
+    fprintf(log, "%" PRIu64 "\t%" PRId64 "\t%" PRIu32 "\t%" PRIu32 "\t%" PRIu64, f->number, f->step, f->primitives,
+            f->skipped_not_finite + f->skipped_radius + f->skipped_degenerate, f->hits);
     fprintf(log, "\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\n", f->read_ms, f->color_ms, f->build_ms, f->trace_ms, f->write_ms);
 }
 
@@ -143,46 +150,47 @@ static void print_stats(const render_report *report, FILE *to)
             s->resolution[2], s->reason);
     fprintf(to,
             "references        %" PRIu64 ", %" PRIu64 " of them overflow in %" PRIu32 " cells; %" PRIu32
-            " spheres larger than a cell\n",
-            s->references, s->overflow_references, s->overflow_cells, s->large_primitives);
+            " %s larger than a cell\n",
+            s->references, s->overflow_references, s->overflow_cells, s->large_primitives, unit_of(report));
     fprintf(to, "memory            %zu bytes; on a Cell SPU %zu bytes: %s its 256 KB\n", s->bytes, s->local_store_bytes,
             s->fits_local_store ? "fits into" : "does not fit into");
-    fprintf(to, "                  (the frame with the most spheres; below: per frame)\n");
+    fprintf(to, "                  (the frame with the most %s; below: per frame)\n", unit_of(report));
     fprintf(to, "packets           %.0f of %" PRIu32 "x%" PRIu32 " rays, %.0f split, %.0f left early\n",
             (double)t->packets / n, t->packet_size, t->packet_size, (double)t->split_packets / n,
             (double)t->early_exits / n);
     fprintf(to, "slices, cells     %.0f slices, %.0f cells, %.0f references\n", (double)t->slices / n,
             (double)t->cells / n, (double)t->references / n);
-    fprintf(to, "culling           %.0f spheres tested, %.0f culled\n", (double)t->cull_tests / n,
+    fprintf(to, "culling           %.0f %s tested, %.0f culled\n", (double)t->cull_tests / n, unit_of(report),
             (double)t->culled / n);
-    fprintf(to, "tests             %.0f spheres against packets, %.0f against rays (%.2f a ray), %.0f in double\n",
-            (double)t->packet_tests / n, (double)t->ray_tests / n, (double)t->ray_tests / rays,
-            (double)t->double_tests / n);
+    fprintf(to, "tests             %.0f %s against packets, %.0f against rays (%.2f a ray)\n",
+            (double)t->packet_tests / n, unit_of(report), (double)t->ray_tests / n, (double)t->ray_tests / rays);
+    fprintf(to, "decided           %.0f tests in double, %.0f exactly; %.0f values exactly\n",
+            (double)t->double_tests / n, (double)t->exact_tests / n, (double)t->exact_values / n);
 }
 
 void render_report_print(const render_report *report, uint64_t rays, uint32_t images, FILE *to)
 {
     uint32_t least = UINT32_MAX, most = 0;
-    uint64_t not_finite = 0, negative = 0, hits = 0;
+    uint64_t not_finite = 0, negative = 0, flat = 0, hits = 0;
     if (report->count == 0)
         return;
     for (size_t i = 0; i < report->count; i++) {
         const frame_record *f = &report->frames[i];
-        least = f->spheres < least ? f->spheres : least;
-        most = f->spheres > most ? f->spheres : most;
+        least = f->primitives < least ? f->primitives : least;
+        most = f->primitives > most ? f->primitives : most;
         not_finite += f->skipped_not_finite;
         negative += f->skipped_radius;
+        flat += f->skipped_degenerate;
         hits += f->hits;
     }
     fprintf(to, "frames            %9zu\n", report->count);
-    fprintf(to, "spheres           %9" PRIu32 "%s", least, most == least ? "\n" : "");
+    fprintf(to, "%-18s%9" PRIu32 "%s", unit_of(report), least, most == least ? "\n" : "");
     if (most != least)
         fprintf(to, " to %" PRIu32 "\n", most);
-    if (not_finite + negative)
-        fprintf(to,
-                "skipped spheres   %9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64
-                " with a negative radius\n",
-                not_finite + negative, not_finite, negative);
+    if (not_finite + negative + flat)
+        fprintf(to, "skipped %-10s%9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64 " %s\n",
+                unit_of(report), not_finite + negative + flat, not_finite, negative + flat,
+                report->kind == TRAJECTORY_TRIANGLES ? "without an area" : "with a negative radius");
     print_times(report, rays, hits, images, to);
     if (report->has_stats)
         print_stats(report, to);

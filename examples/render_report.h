@@ -11,12 +11,14 @@
 
 #include <cgt/cgt.h>
 
+#include "trajectory.h"
+
 /* One frame. All times are of this program's own clock. */
 typedef struct frame_record {
     uint64_t number; /* in the file */
     int64_t step;
-    uint32_t spheres;
-    uint32_t skipped_not_finite, skipped_radius;
+    uint32_t primitives; /* spheres or triangles */
+    uint32_t skipped_not_finite, skipped_radius, skipped_degenerate;
     uint64_t hits;   /* rays */
     double read_ms;  /* reading, with the speeds from positions */
     double color_ms; /* values to palette entries */
@@ -26,13 +28,14 @@ typedef struct frame_record {
 } frame_record;
 
 typedef struct render_report {
+    trajectory_kind kind; /* what primitives are; set before the first frame is added */
     const char *log_path; /* NULL: no log */
     FILE *log;
     frame_record *frames;
     size_t count, capacity;
     int has_stats;
     cgt_trace_statistics traced; /* sums over the frames, where has_stats */
-    cgt_scene_statistics scene;  /* of the frame with the most spheres, where has_stats */
+    cgt_scene_statistics scene;  /* of the frame with the most primitives, where has_stats */
 } render_report;
 
 /* Starts a report; log_path: NULL for none. Returns 0, or -1 with a text. */

@@ -56,7 +56,8 @@ static int make_folders(renderer *r)
 static int needs_survey(const render_options *o)
 {
     int needs = !o->has_camera || o->orbit != 0.0f || o->contact_sheet || o->by == COLORING_AUTO;
-    needs |= o->by != COLORING_TYPE && !o->has_range;
+    needs |= o->by != COLORING_TYPE && o->by != COLORING_PLAIN && !o->has_range;
+    needs |= o->by == COLORING_HEIGHT; /* the axis that is up depends on the kind of the file */
     for (uint32_t i = 0; i < o->output_count; i++)
         needs |= !o->outputs[i].numbered;
     return needs;
@@ -90,36 +91,59 @@ static int open_input(renderer *r)
     if (survey_run(&r->source, &r->survey, o->quiet, r->stop, r->error, sizeof r->error))
         return render_fail(r);
     r->has_survey = 1;
+    render_options_axes(&r->options, r->survey.kind);
     return check_survey(r);
 }
 
 /* What the colours say, and the values of their ends. */
+static coloring_by choose_coloring(const renderer *r)
+{
+    const survey *s = &r->survey;
+    if (r->options.by != COLORING_AUTO)
+        return r->options.by;
+    if (s->has_type && s->type_max > s->type_min)
+        return COLORING_TYPE;
+    if (s->kind == TRAJECTORY_TRIANGLES)
+        return COLORING_PLAIN;
+    return survey_speed_quantile(s, 1.0) > 0.0f ? COLORING_SPEED : COLORING_ID;
+}
+
+/* The values of the map's ends, from the survey. */
+static void choose_range(const renderer *r, coloring_by by, int axis, float *min, float *max)
+{
+    const survey *s = &r->survey;
+    const float fastest = survey_speed_quantile(s, 0.99);
+    if (by == COLORING_SPEED) {
+        *min = 0.0f;
+        *max = fastest > 0.0f ? fastest : survey_speed_quantile(s, 1.0);
+    } else if (by == COLORING_ID && s->id_min <= s->id_max) {
+        *min = (float)s->id_min;
+        *max = (float)s->id_max;
+    } else if (by == COLORING_HEIGHT && s->drawable) {
+        *min = s->bounds_min[axis];
+        *max = s->bounds_max[axis];
+    }
+}
+
 static int choose_colors(renderer *r)
 {
     const render_options *o = &r->options;
-    const survey *s = &r->survey;
+    const coloring_by by = choose_coloring(r);
+    const int axis = o->up[0] != 0.0f ? 0 : o->up[1] != 0.0f ? 1 : 2;
     float min = o->range_min, max = o->range_max;
-    const float fastest = survey_speed_quantile(s, 0.99);
-    coloring_by by = o->by;
-    if (by == COLORING_AUTO)
-        by = s->has_type && s->type_max > s->type_min ? COLORING_TYPE
-             : survey_speed_quantile(s, 1.0) > 0.0f   ? COLORING_SPEED
-                                                      : COLORING_ID;
-    if (!o->has_range && by == COLORING_SPEED) {
-        min = 0.0f;
-        max = fastest > 0.0f ? fastest : survey_speed_quantile(s, 1.0);
-    } else if (!o->has_range && by == COLORING_ID && s->id_min <= s->id_max) {
-        min = (float)s->id_min;
-        max = (float)s->id_max;
-    }
+    if (!o->has_range)
+        choose_range(r, by, axis, &min, &max);
     if (by != COLORING_SPEED) {
         speed_release(r->source.tracker);
         r->source.tracker = NULL;
     }
-    if (coloring_init(&r->coloring, by, o->map, min, max) == 0)
-        return 0;
-    program_error("out of memory");
-    return -1;
+    if (by == COLORING_PLAIN ? coloring_init_plain(&r->coloring, o->plain)
+                             : coloring_init(&r->coloring, by, o->map, min, max)) {
+        program_error("out of memory");
+        return -1;
+    }
+    r->coloring.axis = axis;
+    return 0;
 }
 
 static int choose_camera(renderer *r)
@@ -203,7 +227,6 @@ static int prepare_pictures(renderer *r)
 
 static int create_scene(renderer *r)
 {
-    const cgt_spheres none = {.radius = 0.5f};
     cgt_context_options options;
     cgt_context_options_init(&options);
     options.threads = r->options.threads;
@@ -217,8 +240,6 @@ static int create_scene(renderer *r)
         return -1;
     }
     result = cgt_scene_create(r->context, NULL, &r->scene);
-    if (!result)
-        result = cgt_scene_add_spheres(r->scene, &none, &r->geometry);
     return result ? render_fail_library(r, "make a scene", result) : 0;
 }
 

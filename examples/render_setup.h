@@ -33,6 +33,7 @@ typedef struct renderer {
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
+    int has_geometry; /* made from the first frame, which says what there is */
     uint32_t geometry;
     render_report report;
     uint64_t rendered; /* frames */

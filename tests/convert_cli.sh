@@ -71,6 +71,47 @@ holds "$out/five.frames" $((24 + 4 * 5 + 16 * 15))
 (umask 022 && run 0 "$tmp/five.xyz" "$out/new.frames" && [ "$failures" -eq 0 ]) || fail "a new file"
 [ "$(ls -l "$out/new.frames" | cut -c 1-10)" = -rw-r--r-- ] || fail "the mode of a new file"
 
+# ---- Meshes --------------------------------------------------------------------------------------------------------
+
+# A square that a build without assimp can read, too: two triangles, frames of four and five vertices. Bytes in octal.
+frames_mesh() {
+    printf 'CGTFRAM1\002\000\000\000\002\000\000\000\002\000\000\000\000\000\000\000'
+    printf '\000\000\000\000\001\000\000\000\002\000\000\000\000\000\000\000\002\000\000\000\003\000\000\000'
+    printf '\004\000\000\000' && head -c 48 /dev/zero
+    printf '\005\000\000\000' && head -c 60 /dev/zero
+}
+frames_mesh >"$tmp/square.frames"
+run 0 "$tmp/square.frames" "$out/square.frames"
+says out '2 frames, 2 triangles, 4 to 5 vertices'
+cmp -s "$tmp/square.frames" "$out/square.frames" || fail "a .frames file of triangles changes on its way through"
+run 0 --first=1 "$tmp/square.frames" "$out/square.frames"
+holds "$out/square.frames" $((24 + 24 + 4 + 60))
+
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nl 1 2\n' >"$tmp/square.obj"
+run_any() { (cd "$tmp" && exec $emulator "$program" "$@") >"$tmp/stdout" 2>"$tmp/stderr" </dev/null; }
+if ! run_any "$tmp/square.obj" "$out/obj.frames" && grep -q 'assimp, which this build does not have' "$tmp/stderr"; then
+    echo "this build has no assimp: meshes are refused"
+else
+    run 0 "$tmp/square.obj" "$out/obj.frames"
+    says out '1 meshes shown 1 times, 0 bones, 0 clips'
+    says out ': 1 lines left out'
+    says out ': vertex normals left out'
+    says out '1 frames, 2 triangles, 4 to 4 vertices'
+    holds "$out/obj.frames" $((24 + 24 + 4 + 48))
+    run 0 -q "$tmp/square.obj" "$out/obj.frames"
+    [ -s "$tmp/stdout" ] && fail "-q prints"
+    rm "$out/obj.frames"
+    refuses 1 "no clip 'walk': the file has no animation" --clip=walk "$tmp/square.obj" "$out/obj.frames"
+    walker=/usr/share/assimp/models/X/Testwuson.X
+    if [ -r "$walker" ]; then
+        run 0 --clip=Wuson_Walk --fps=10 --every=2 "$walker" "$out/walk.frames"
+        says out '19 frames, 3732 triangles'
+        refuses 1 "there are 0 'Wuson_Run'" --clip=fly "$walker" "$out/fly.frames"
+    else
+        echo "not here: $walker"
+    fi
+fi
+
 # ---- What it refuses ------------------------------------------------------------------------------------------------
 
 head -n 500 "$shipped" >"$tmp/cut.lammpstrj"
@@ -89,6 +130,7 @@ refuses 2 'an input and an output are needed' "$tmp/five.xyz"
 refuses 2 'only an input and an output' "$tmp/five.xyz" "$out/a.frames" "$out/b.frames"
 refuses 2 '-r: .*is not a number' -r 0 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 '--every: .*is not a whole number' --every=0 "$tmp/five.xyz" "$out/a.frames"
+refuses 2 '--fps: .*is not a number' --fps=0 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 '--first 3 is after --last 2' --first=3 --last=2 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 'unrecognized option' --nonsense "$tmp/five.xyz" "$out/a.frames"
 

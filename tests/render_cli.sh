@@ -52,6 +52,26 @@ printf '0\nnothing\n0\nstill nothing\n' >"$tmp/nothing.xyz"
 printf '1\nfar\nC 3e38 0 0\n1\nfar\nC -3e38 0 0\n' >"$tmp/huge.xyz"
 camera=0,0,5,0,0,0,0,1,0,45
 
+# A square from -1 to 1 in the plane z = 0, as two triangles, with a third that has no area; in the second frame its
+# upper edge has moved. The same as a mesh with normals that lean to the left and to the right.
+zero='\000\000\000\000'
+one='\001\000\000\000'
+two='\002\000\000\000'
+three='\003\000\000\000'
+four='\004\000\000\000'
+f1='\000\000\200\077'  # 1.0f
+f2='\000\000\000\100'  # 2.0f
+m1='\000\000\200\277'  # -1.0f
+square="$zero$one$two$zero$two$three$zero$zero$one"
+lower="$m1$m1$zero$f1$m1$zero"
+printf "CGTFRAM1$two$two$three$zero$square$four$lower$f1$f1$zero$m1$f1$zero$four$lower$f1$f2$zero$m1$f2$zero" \
+    >"$tmp/square.frames"
+{
+    printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn -0.6 0 0.8\nvn 0.6 0 0.8\n'
+    printf 'f 1//1 2//2 3//2\nf 1//1 3//2 4//1\n'
+} >"$tmp/leaning.obj"
+sed -e '/^vn/d' -e 's|//[12]||g' "$tmp/leaning.obj" >"$tmp/flat.obj"
+
 # ---- Help, version, the wrong command line --------------------------------------------------------------------------
 
 run 0 --help
@@ -72,12 +92,15 @@ for wrong in 0,0,0,0,0,0,0,1,0,45 0,0,5,0,0,0,0,0,1,45 0,0,5,0,0,0,0,0,0,45 0,0,
     0,0,5,0,0,0,0,1,0,180 0,0,5,0,0,0,0,1,0,-5 1,2,3 nan,0,5,0,0,0,0,1,0,45 0,0,5,0,0,0,0,1,0,45,6 ''; do
     refuses 2 '--camera: ' -c "$wrong" small.xyz
 done
-refuses 2 '--view: ' --view 0,0,1 small.xyz
+refuses 2 '--view: ' --up z --view 0,0,1 small.xyz
+refuses 2 '--view: ' --up z --view 0,0,1e30 small.xyz
 refuses 2 '--view: ' --view 0,0,0 small.xyz
 refuses 2 '--up: ' --up w small.xyz
 refuses 2 '--fov: ' --fov 180 small.xyz
 refuses 2 'automatic camera' --fov 20 -c $camera small.xyz
 refuses 2 '--color: ' -k taste small.xyz
+refuses 2 '--color: ' -k 12345 small.xyz
+refuses 2 '--fps: ' --fps 0 small.xyz
 refuses 2 '--colormap: ' --colormap jet small.xyz
 refuses 2 '--range: ' --range 2,1 small.xyz
 refuses 2 '--background: ' --background 12345g small.xyz
@@ -102,6 +125,10 @@ refuses 1 'empty.xyz' empty.xyz
 refuses 1 'there is no frame' --first 6 small.xyz
 refuses 1 'too large for an automatic camera' huge.xyz
 refuses 1 'variant' --variant no-such-variant small.xyz
+refuses 1 'square.frames: --color type' -k type square.frames
+refuses 1 'square.frames: --radius' -r 1 square.frames
+refuses 1 'small.xyz: --fps and --clip' --fps 24 small.xyz
+refuses 1 'small.xyz: --fps and --clip' --clip walk -k type -c $camera small.xyz
 # In one pass the frames before the damage are rendered; the exit code still tells.
 run 1 -c $camera -k type -s 32x18 -o pass/%d.png truncated.xyz
 says err 'truncated.xyz:14'
@@ -196,6 +223,43 @@ says out '^structure '
 says out '^tests '
 no_parts
 
+# ---- Triangles ------------------------------------------------------------------------------------------------------
+
+run 0 -s 64x36 -o triangles/%d.png square.frames
+count triangles 2
+says out '^triangles  *3$'
+says out '^skipped triangles  *2 .* 0 not finite, 2 without an area'
+says out '^colour  *one for all'
+cmp -s "$tmp/triangles/0.png" "$tmp/triangles/1.png" && fail "no triangle moved"
+automatic=$(sed -n 's/^camera *-c //p' "$tmp/stdout")
+case $automatic in *,0,1,0,30) ;; *) fail "y is not up of triangles: $automatic" ;; esac
+run 0 -s 64x36 -o plain.png --last 0 -c "$automatic" -k dcd3c4 square.frames
+cmp -s "$tmp/triangles/0.png" "$tmp/plain.png" || fail "-k RRGGBB is not the colour that it says"
+for by in height id speed 0000ff; do
+    run 0 -s 64x36 -o "by_$by/%d.png" -c "$automatic" -k $by square.frames
+    cmp -s "$tmp/by_$by/0.png" "$tmp/plain.png" && fail "-k $by changes nothing"
+done
+run 0 -s 64x36 -t 3 -o t3.png --last 0 -c "$automatic" square.frames
+cmp -s "$tmp/t3.png" "$tmp/plain.png" || fail "three threads draw other triangles"
+run 0 -s 64x36 -n --view 0,1,0 square.frames # from above: another axis is up
+run 0 -s 64x36 -n --view 0,0,1 small.xyz
+run 0 -s 64x36 -o high/%d.png -k height --up y small.xyz
+
+# Both sides look alike; the normals of vertices bend the light, where the build reads meshes.
+run 0 -s 65x65 -o front.png --last 0 -c 0,0,5,0,0,0,0,1,0,45 square.frames
+run 0 -s 65x65 -o back.png --last 0 -c 0,0,-5,0,0,0,0,1,0,45 square.frames
+cmp -s "$tmp/front.png" "$tmp/back.png" || fail "the back of a square is not as its front"
+if (cd "$tmp" && $emulator "$program" -q -s 65x65 -o flat.png -c 0,0,5,0,0,0,0,1,0,45 flat.obj) >/dev/null 2>"$tmp/stderr"
+then
+    cmp -s "$tmp/front.png" "$tmp/flat.png" || fail "the mesh and the .frames of one square differ"
+    run 0 -s 65x65 -o leaning.png -c 0,0,5,0,0,0,0,1,0,45 leaning.obj
+    cmp -s "$tmp/leaning.png" "$tmp/flat.png" && fail "the normals of vertices change nothing"
+    run 0 -n --fps 24 leaning.obj
+else
+    says err 'assimp'
+fi
+no_parts
+
 # ---- A signal ends the run after the frame that it is in ------------------------------------------------------------
 
 i=0
@@ -238,6 +302,10 @@ if command -v oiiotool >/dev/null 2>&1; then
         fail "the middle is not a lit orange at depth 4: $middle"
     echo "$corner" | awk '{ exit !($1 == 1 && $2 == 0 && $3 == 0 && $4 == "inf" && $5 == 1) }' ||
         fail "the corner is not background at no depth: $corner"
+    # The square from 5: depth 5, and its two triangles meet in the middle, on their common edge: the first one's.
+    run 0 -s 65x65 -c $camera -o 'look.exr' --last 0 square.frames
+    middle=$(pixel 32 32)
+    echo "$middle" | awk '{ exit !($1 > 0.4 && $4 == 5 && $5 == 0) }' || fail "the square is not at depth 5: $middle"
     oiiotool --info "$tmp/new/folder/f_005.png" | grep -q '64 x *36, 3 channel, uint8 png' ||
         fail "f_005.png is not 64x36 of 8 bits"
     oiiotool --info "$tmp/new/sheet.png" | grep -q '296 x *96' || fail "the contact sheet is not 4x2 of 64x36"

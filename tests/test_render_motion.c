@@ -112,6 +112,31 @@ static void speeds_take_velocities(void **state)
     speed_release(s.tracker);
 }
 
+/* Vertices keep their places; whatever ids the triangles may have. */
+static void speeds_of_vertices(void **state)
+{
+    const float a[6] = {0, 0, 0, 1, 1, 1}, b[6] = {3, 4, 0, 1, 1, 1};
+    const uint32_t index[3] = {0, 1, 0}, id[1] = {7};
+    trajectory_frame frame = {.kind = TRAJECTORY_TRIANGLES,
+                              .count = 2,
+                              .triangles = 1,
+                              .index = index,
+                              .position = a,
+                              .id = id,
+                              .box_min = {1, 1, 1}};
+    speed_case s = {speed_create(), NULL, SPEED_FROM_VELOCITY};
+    (void)state;
+    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    assert_true(isnan(s.speeds[0]) && isnan(s.speeds[1]));
+    frame.position = b;
+    frame.step = 2;
+    assert_int_equal(speed_next(s.tracker, &frame, &s.speeds, &s.source), 0);
+    assert_near(s.speeds[0], 2.5, 1e-7);
+    assert_near(s.speeds[1], 0.0, 0.0);
+    assert_int_equal(s.source, SPEED_FROM_POSITIONS);
+    speed_release(s.tracker);
+}
+
 /* Many ids in another order each frame: every one is found, by the distance that only it has moved. */
 static void speeds_of_many_shuffled_ids(void **state)
 {
@@ -276,6 +301,7 @@ int main(void)
         cmocka_unit_test(speeds_go_the_short_way_round_the_box),
         cmocka_unit_test(speeds_without_ids_keep_places),
         cmocka_unit_test(speeds_take_velocities),
+        cmocka_unit_test(speeds_of_vertices),
         cmocka_unit_test(speeds_of_many_shuffled_ids),
         cmocka_unit_test(quantiles_are_close),
         cmocka_unit_test(automatic_cameras_show_the_whole_box),

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The parts that cgt-render is made of: colours, shading, names, contact sheets, progress. */
+ * The parts that cgt-render is made of: colours, names, contact sheets, progress. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,6 @@
 #include "contact_sheet.h"
 #include "out_path.h"
 #include "program.h"
-#include "shade.h"
 #include "srgb.h"
 
 static void assert_near(double a, double b, double within)
@@ -168,115 +167,44 @@ static void values_find_their_entries(void **state)
     coloring_free(&c);
 }
 
-/* ---- Shading ------------------------------------------------------------------------------------------------ */
-
-typedef struct tile_case {
-    float t[16], normal[3][16];
-    uint32_t primitive[16];
-    cgt_tile tile;
-    shade_job job;
-    uint8_t rgb[16 * 3];
-    image_pixel pixels[16];
-    srgb_tables tables;
-    uint16_t index[2];
-    float palette[2][3];
-} tile_case;
-
-/* A frame of 4x4 hits, all of them misses; light and eye in front. */
-static void set_up(tile_case *c, uint32_t samples)
+/* Height is that of a sphere's centre, or of each vertex; ids and types are the triangles', of which there are two. */
+static void triangles_find_their_entries(void **state)
 {
-    memset(c, 0, sizeof *c);
-    for (int i = 0; i < 16; i++) {
-        c->t[i] = INFINITY;
-        c->primitive[i] = CGT_NONE;
-    }
-    c->tile = (cgt_tile){.width = 4,
-                         .height = 4,
-                         .row_stride = 4,
-                         .t = c->t,
-                         .primitive = c->primitive,
-                         .normal = {c->normal[0], c->normal[1], c->normal[2]}};
-    srgb_tables_init(&c->tables);
-    c->index[1] = 1;
-    for (int k = 0; k < 3; k++)
-        c->palette[1][k] = 0.25f * (float)(k + 1);
-    c->job.width = c->job.height = 4 / samples;
-    c->job.samples = samples;
-    c->job.rgb = c->rgb;
-    c->job.pixels = c->pixels;
-    c->job.index = c->index;
-    c->job.palette = (const float(*)[3])c->palette;
-    c->job.light[2] = 1.0f;
-    c->job.tables = &c->tables;
-    c->job.background[0] = 0.5f;
-    cgt_camera_init(&c->job.camera);
-    c->job.camera.fov = 0.01f; /* all rays go along -z, nearly */
-    shade_begin(&c->job);
-}
-
-static void hit(tile_case *c, int pixel, uint32_t primitive, float t, float nx, float nz)
-{
-    c->primitive[pixel] = primitive;
-    c->t[pixel] = t;
-    c->normal[0][pixel] = nx;
-    c->normal[2][pixel] = nz;
-}
-
-static void shading_lights_what_faces_it(void **state)
-{
-    static tile_case c;
+    const float xyzr[8] = {9, 0, 9, 1, 0, 9, 0, 1};
+    const float position[12] = {0, -1, 0, 1, 0, 0, 0, 3, 0, 5, NAN, 5}, speeds[4] = {0, 1, 3, NAN};
+    const uint32_t index[6] = {0, 1, 2, 1, 2, 3}, types[2] = {1, 2};
+    const trajectory_frame spheres = {.count = 2, .xyzr = xyzr};
+    const trajectory_frame frame = {
+        .kind = TRAJECTORY_TRIANGLES, .count = 4, .triangles = 2, .index = index, .position = position, .type = types};
+    coloring c;
     (void)state;
-    set_up(&c, 1);
-    hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
-    hit(&c, 1, 1, 2.0f, 0.8f, 0.6f);
-    hit(&c, 2, 1, 2.0f, 1.0f, 0.0f);
-    hit(&c, 3, 0, 2.0f, 0.0f, 1.0f);
-    hit(&c, 5, 1, 2.0f, 0.0f, -1.0f); /* from inside: the headlight alone reaches it */
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
-    assert_int_equal(atomic_load(&c.job.hits), 5);
-    assert_true(c.pixels[5].r > c.pixels[2].r && c.pixels[5].r < c.pixels[1].r);
-    assert_true(c.pixels[0].r > c.pixels[1].r && c.pixels[1].r > c.pixels[2].r && c.pixels[2].r > 0.0f);
-    assert_near(c.pixels[0].g / c.pixels[0].r, 2.0, 1e-5); /* the palette's proportions */
-    assert_near(c.pixels[0].b / c.pixels[0].r, 3.0, 1e-5);
-    assert_near(c.pixels[3].r, 0.0, 0.0); /* a black sphere stays black */
-    assert_near(c.pixels[4].r, 0.5, 0.0); /* nothing hit */
-    assert_int_equal(c.pixels[4].id, CGT_NONE);
-    assert_true(isinf(c.pixels[4].z));
-    assert_int_equal(c.rgb[4 * 3], 188); /* 0.5 in sRGB */
-    assert_int_equal(c.rgb[4 * 3 + 1], 0);
-    assert_near(c.rgb[0], srgb_from_linear(c.pixels[0].r) * 255.0f, 1.0);
-}
-
-static void shading_averages_light_and_keeps_the_nearest(void **state)
-{
-    static tile_case one, four;
-    (void)state;
-    set_up(&one, 1);
-    hit(&one, 0, 1, 3.0f, 0.0f, 1.0f);
-    assert_int_equal(shade_tile(&one.job, &one.tile), 0);
-    set_up(&four, 2);
-    hit(&four, 0, 1, 3.0f, 0.0f, 1.0f);
-    hit(&four, 5, 0, 2.0f, 0.0f, 1.0f);
-    assert_int_equal(shade_tile(&four.job, &four.tile), 0);
-    assert_near(four.pixels[0].r, (one.pixels[0].r + 0.0f + 0.5f + 0.5f) / 4.0f, 1e-6);
-    assert_int_equal(four.pixels[0].id, 0);
-    assert_near(four.pixels[0].z, 2.0, 0.0);
-    assert_int_equal(four.pixels[3].id, CGT_NONE);
-    assert_int_equal(atomic_load(&four.job.hits), 2);
-}
-
-static void shading_stops_when_told_to(void **state)
-{
-    static tile_case c;
-    volatile sig_atomic_t stop = 1;
-    (void)state;
-    set_up(&c, 2);
-    c.job.stop = &stop;
-    assert_int_not_equal(shade_tile(&c.job, &c.tile), 0);
-    stop = 0;
-    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
-    c.tile.x = 1; /* would split a block of samples */
-    assert_int_not_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_equal(coloring_init(&c, COLORING_HEIGHT, NULL, -1.0f, 3.0f), 0);
+    c.axis = 1;
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_true(c.per_vertex);
+    assert_int_equal(c.index[0], 0);
+    assert_near(c.index[1], (COLORING_STEPS - 1) / 4.0, 0.51);
+    assert_int_equal(c.index[2], COLORING_STEPS - 1);
+    assert_int_equal(c.index[3], COLORING_UNKNOWN);
+    assert_int_equal(coloring_apply(&c, &spheres, NULL), 0);
+    assert_false(c.per_vertex);
+    assert_near(c.index[0], (COLORING_STEPS - 1) / 4.0, 0.51);
+    assert_int_equal(c.index[1], COLORING_STEPS - 1);
+    coloring_free(&c);
+    assert_int_equal(coloring_init(&c, COLORING_SPEED, NULL, 0.0f, 3.0f), 0);
+    assert_int_equal(coloring_apply(&c, &frame, speeds), 0);
+    assert_true(c.per_vertex && c.index[2] == COLORING_STEPS - 1 && c.index[3] == COLORING_UNKNOWN);
+    coloring_free(&c);
+    assert_int_equal(coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_true(!c.per_vertex && c.index[0] == 0 && c.index[1] == 1);
+    coloring_free(&c);
+    assert_int_equal(coloring_init_plain(&c, (const float[]){0.5f, 1.0f, 0.0f}), 0);
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_true(!c.per_vertex && c.index[0] == 0 && c.index[1] == 0);
+    assert_near(c.palette[0][0], 0.21404114, 1e-6);
+    assert_true(c.palette[0][1] == 1.0f && c.palette[0][2] == 0.0f);
+    coloring_free(&c);
 }
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
@@ -429,9 +357,7 @@ int main(void)
         cmocka_unit_test(viridis_rises_in_lightness),
         cmocka_unit_test(kinds_differ_and_repeat),
         cmocka_unit_test(values_find_their_entries),
-        cmocka_unit_test(shading_lights_what_faces_it),
-        cmocka_unit_test(shading_averages_light_and_keeps_the_nearest),
-        cmocka_unit_test(shading_stops_when_told_to),
+        cmocka_unit_test(triangles_find_their_entries),
         cmocka_unit_test(names_follow_patterns),
         cmocka_unit_test(sheets_take_evenly_spaced_frames),
         cmocka_unit_test(sheets_refuse_nonsense),

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .frames: the bytes, reading what was written, damage. The bytes are spelt out, so that a machine of the other byte
+ * .frames of spheres: the bytes, reading what was written, damage. The bytes are spelt out, so that a machine of the other byte
  * order has to agree. */
 #define _GNU_SOURCE
 #include <stdarg.h>
@@ -25,13 +25,6 @@ static const unsigned char two_frames[] = {
     1,   0,   0,   0,   0,   0,   0x80, 0x3f, 0, 0, 0, 0xc0, 0, 0, 0, 0x3f, 0, 0, 0x40, 0x40,             /* one */
 };
 
-static void put_u32(unsigned char *bytes, size_t at, uint32_t value)
-{
-    for (size_t i = 0; i < 4; i++) {
-        bytes[at + i] = (unsigned char)(value >> (8 * i));
-    }
-}
-
 static void bytes_are_little_endian(void **state)
 {
     (void)state;
@@ -43,6 +36,7 @@ static void bytes_are_little_endian(void **state)
     assert_int_equal(f.count, 1);
     assert_true(f.number == 1 && f.step == 1);
     scratch_expect_sphere(&f, 0, 1, -2, 0.5f, 3);
+    assert_true(f.kind == TRAJECTORY_SPHERES && f.triangles == 0 && f.index == NULL && f.position == NULL);
     assert_true(f.id == NULL && f.type == NULL && f.velocity == NULL && f.box_min[0] > f.box_max[0]);
     scratch_expect_end(t);
 
@@ -125,38 +119,26 @@ static void no_frames_at_all(void **state)
     scratch_expect_end(scratch_open(path, NULL));
 }
 
-/* A number that a header may not hold, and what is said of it. */
 static void headers_are_checked(void **state)
 {
     (void)state;
-    static const struct {
-        size_t at;
-        uint32_t value;
-        unsigned frames;
-        const char *what;
-    } changes[] = {
+    static const scratch_change changes[] = {
         {4, 0x324d4152, 0, "not a .frames file"},
-        {8, 2, 0, "triangles are not supported here"},
+        {8, 2, 2, "data follow the 2 frames"}, /* a sphere has a number more than a vertex */
         {8, 0x01000000, 0, "kind 16777216 is neither"},
         {12, 0, 0, "the header says 0 frames, but data follow"},
         {12, 1, 1, "data follow the 1 frames"},
         {12, 3, 2, "frame 2: the file ends in the count"},
         {12, 0xffffffff, 0, "4294967295 frames cannot lie in 24 bytes"},
-        {16, 1, 0, "must end in zeros"},
-        {20, 1, 0, "must end in zeros"},
+        {16, 1, 0, "a file of spheres says 1 triangles"},
+        {20, 1, 0, "the header must end in zeros"},
         {24, 1, 1, "frame 1: the file ends before the last of 1077936128 spheres"}, /* 3.0f is taken for a count */
         {28, 2, 1, "frame 1: the file ends before the last of 2 spheres"},
         {28, 0x7fffffff, 1, "frame 1: the file ends before the last of 2147483647 spheres"},
         {28, 0xffffffff, 1, "frame 1: 4294967295 spheres are more than the limit of 2147483648"},
         {28, 0, 2, "data follow the 2 frames"},
     };
-    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
-        unsigned char bytes[sizeof two_frames];
-        memcpy(bytes, two_frames, sizeof bytes);
-        put_u32(bytes, changes[i].at, changes[i].value);
-        const char *path = scratch_bytes(FRAMES, bytes, sizeof bytes);
-        scratch_expect_error(path, NULL, changes[i].frames, changes[i].what);
-    }
+    scratch_expect_errors(two_frames, sizeof two_frames, changes, sizeof changes / sizeof changes[0]);
 }
 
 static void every_truncation_is_noticed(void **state)
@@ -182,7 +164,7 @@ static void skipping_notices_damage(void **state)
     unsigned char bytes[24 + 20 + 20 - 1] = {0};
     memcpy(bytes, two_frames, 24);
     memcpy(bytes + 24, two_frames + 28, 20);
-    put_u32(bytes, 44, 1);
+    scratch_put_u32(bytes, 44, 1);
     t = scratch_open(scratch_bytes(FRAMES, bytes, sizeof bytes), NULL);
     assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
     assert_int_equal(trajectory_skip(t, error, sizeof error), -1);
@@ -206,7 +188,7 @@ static void pipes_are_read(void **state)
     unsigned char bytes[sizeof two_frames];
     for (int damage = 0; damage < 2; damage++) {
         memcpy(bytes, two_frames, sizeof bytes);
-        put_u32(bytes, 28, damage ? 0x7fffffff : 1);
+        scratch_put_u32(bytes, 28, damage ? 0x7fffffff : 1);
         const char *path = scratch_path(FRAMES);
         assert_int_equal(unlink(path), 0);
         assert_int_equal(mkfifo(path, 0600), 0);

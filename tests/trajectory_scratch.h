@@ -136,4 +136,35 @@ static inline void scratch_expect_error(const char *path, const trajectory_optio
     }
 }
 
+/* ---- .frames, byte by byte ----------------------------------------------------------------------------------- */
+
+static inline void scratch_put_u32(unsigned char *bytes, size_t at, uint32_t value)
+{
+    for (size_t i = 0; i < 4; i++) {
+        bytes[at + i] = (unsigned char)(value >> (8 * i));
+    }
+}
+
+/* A number that a file may not hold where it is, and what is said of it after so many frames. */
+typedef struct scratch_change {
+    size_t at;
+    uint32_t value;
+    unsigned frames;
+    const char *what;
+} scratch_change;
+
+/* Each change alone makes a good .frames file a bad one. */
+static inline void scratch_expect_errors(const unsigned char *good, size_t size, const scratch_change *changes,
+                                         size_t count)
+{
+    unsigned char *bytes = malloc(size);
+    assert_non_null(bytes);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(bytes, good, size);
+        scratch_put_u32(bytes, changes[i].at, changes[i].value);
+        scratch_expect_error(scratch_bytes(".frames", bytes, size), NULL, changes[i].frames, changes[i].what);
+    }
+    free(bytes);
+}
+
 #endif

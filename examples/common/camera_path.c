@@ -131,3 +131,16 @@ int camera_path_frame(camera_path *path, const float min[3], const float max[3],
     }
     return 0;
 }
+
+int camera_path_is_along(const float v[3], const float axis[3])
+{
+    float along = 0.0f, length = 0.0f, largest = 0.0f;
+    for (int c = 0; c < 3; c++)
+        largest = fmaxf(largest, fabsf(v[c]));
+    for (int c = 0; c < 3; c++) { /* by the largest first: squares of any finite floats stay finite */
+        const float x = v[c] / largest;
+        length += x * x;
+        along += x * x * axis[c];
+    }
+    return !(length - along > 1e-8f * length);
+}

@@ -25,4 +25,7 @@ int camera_path_frame(camera_path *path, const float min[3], const float max[3],
 /* The camera at share 0 to 1 of the run. Share 0 is exactly the start. */
 void camera_path_at(const camera_path *path, double share, cgt_camera *camera);
 
+/* Whether a direction, of any length but zero, runs along an axis of the coordinates, or nearly: 1 or 0. */
+int camera_path_is_along(const float direction[3], const float axis[3]);
+
 #endif

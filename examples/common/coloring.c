@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The colour of each sphere; see coloring.h. */
+ * The colour of each sphere or triangle; see coloring.h. */
 #include "coloring.h"
 
 #include <stdlib.h>
@@ -22,6 +22,7 @@ int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, f
     c->by = by;
     c->min = min;
     c->max = max;
+    c->axis = 2;
     c->capacity = 1;
     c->index = calloc(1, sizeof *c->index);
     if (!c->index)
@@ -40,6 +41,14 @@ int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, f
     return 0;
 }
 
+int coloring_init_plain(coloring *c, const float srgb[3])
+{
+    if (coloring_init(c, COLORING_PLAIN, NULL, 0.0f, 0.0f))
+        return -1;
+    set_entry(c, 0, srgb);
+    return 0;
+}
+
 void coloring_free(coloring *c)
 {
     free(c->index);
@@ -51,7 +60,7 @@ static int reserve(coloring *c, uint32_t count)
 {
     if (count <= c->capacity)
         return 0;
-    /* Cannot overflow: the frame itself holds sixteen bytes for each of these two. */
+    /* Cannot overflow: the frame itself holds at least twelve bytes for each of these two. */
     uint16_t *index = realloc(c->index, (size_t)count * sizeof *index);
     if (!index)
         return -1;
@@ -73,17 +82,27 @@ static uint16_t entry_of(const coloring *c, double value)
     return step < COLORING_STEPS - 1 ? (uint16_t)step : COLORING_STEPS - 1;
 }
 
+/* The entry of primitive i, or of vertex i. */
+static uint16_t entry_at(const coloring *c, const trajectory_frame *frame, const float *speeds, uint32_t i)
+{
+    switch (c->by) {
+    case COLORING_TYPE: return (uint16_t)(frame->type ? (frame->type[i] + COLORMAP_TYPES - 1) % COLORMAP_TYPES : 0);
+    case COLORING_ID: return entry_of(c, (double)(frame->id ? frame->id[i] : i));
+    case COLORING_SPEED: return speeds ? entry_of(c, (double)speeds[i]) : COLORING_UNKNOWN;
+    case COLORING_HEIGHT: return entry_of(c, (double)frame_place(frame, i)[c->axis]);
+    case COLORING_AUTO:
+    case COLORING_PLAIN: break;
+    }
+    return 0;
+}
+
 int coloring_apply(coloring *c, const trajectory_frame *frame, const float *speeds)
 {
-    if (reserve(c, frame->count))
+    c->per_vertex = frame->kind == TRAJECTORY_TRIANGLES && (c->by == COLORING_SPEED || c->by == COLORING_HEIGHT);
+    const uint32_t count = c->per_vertex ? frame->count : frame_primitives(frame);
+    if (reserve(c, count))
         return -1;
-    for (uint32_t i = 0; i < frame->count; i++) {
-        if (c->by == COLORING_TYPE)
-            c->index[i] = (uint16_t)(frame->type ? (frame->type[i] + COLORMAP_TYPES - 1) % COLORMAP_TYPES : 0);
-        else if (c->by == COLORING_ID)
-            c->index[i] = entry_of(c, (double)(frame->id ? frame->id[i] : i));
-        else
-            c->index[i] = speeds ? entry_of(c, (double)speeds[i]) : COLORING_UNKNOWN;
-    }
+    for (uint32_t i = 0; i < count; i++)
+        c->index[i] = entry_at(c, frame, speeds, i);
     return 0;
 }

@@ -59,7 +59,7 @@ static int read_frame(frame_source *source, char *error, size_t error_size)
         return result;
     if (speed_next(source->tracker, &source->frame, &source->speed, &source->speed_from) == 0)
         return 1;
-    snprintf(error, error_size, "out of memory for the speeds of %u spheres", (unsigned)source->frame.count);
+    snprintf(error, error_size, "out of memory for the speeds of frame %llu", (unsigned long long)source->frame.number);
     return -1;
 }
 
@@ -78,40 +78,64 @@ int frame_source_next(frame_source *source, char *error, size_t error_size)
     return 0;
 }
 
-static int drawable(const float sphere[4])
+static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
+
+/* Takes the box of half edge `reach` around a point into the bounds. */
+static void bound_point(survey *s, const float p[3], float reach)
 {
-    return isfinite(sphere[0]) && isfinite(sphere[1]) && isfinite(sphere[2]) && isfinite(sphere[3]) &&
-           sphere[3] >= 0.0f;
+    for (int c = 0; c < 3; c++) {
+        s->bounds_min[c] = fminf(s->bounds_min[c], p[c] - reach);
+        s->bounds_max[c] = fmaxf(s->bounds_max[c], p[c] + reach);
+    }
 }
 
-static void survey_sphere(survey *s, const trajectory_frame *frame, uint32_t i)
+static void survey_sphere(survey *s, const float sphere[4])
 {
-    const float *sphere = frame->xyzr + 4 * (size_t)i;
+    if (!finite_point(sphere) || !isfinite(sphere[3]) || sphere[3] < 0.0f)
+        return;
+    s->drawable++;
+    bound_point(s, sphere, sphere[3]);
+}
+
+/* Vertices that no triangle uses are not seen, and do not count. */
+static void survey_triangle(survey *s, const float *position, const uint32_t index[3])
+{
+    const float *vertex[3];
+    for (int k = 0; k < 3; k++) {
+        vertex[k] = position + 3 * (size_t)index[k];
+        if (!finite_point(vertex[k]))
+            return;
+    }
+    s->drawable++;
+    for (int k = 0; k < 3; k++)
+        bound_point(s, vertex[k], 0.0f);
+}
+
+static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
+{
     const uint32_t id = frame->id ? frame->id[i] : i;
     s->id_min = id < s->id_min ? id : s->id_min;
     s->id_max = id > s->id_max ? id : s->id_max;
-    if (frame->type) {
-        s->type_min = frame->type[i] < s->type_min ? frame->type[i] : s->type_min;
-        s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
-    }
-    if (!drawable(sphere))
+    if (!frame->type)
         return;
-    s->drawable++;
-    for (int c = 0; c < 3; c++) {
-        s->bounds_min[c] = fminf(s->bounds_min[c], sphere[c] - sphere[3]);
-        s->bounds_max[c] = fmaxf(s->bounds_max[c], sphere[c] + sphere[3]);
-    }
+    s->type_min = frame->type[i] < s->type_min ? frame->type[i] : s->type_min;
+    s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
 }
 
 static void survey_frame(survey *s, const frame_source *source)
 {
     const trajectory_frame *frame = &source->frame;
+    const uint32_t primitives = frame_primitives(frame);
     s->frames++;
-    s->count_min = frame->count < s->count_min ? frame->count : s->count_min;
-    s->count_max = frame->count > s->count_max ? frame->count : s->count_max;
+    s->kind = frame->kind;
     s->has_type |= frame->type != NULL;
-    for (uint32_t i = 0; i < frame->count; i++)
-        survey_sphere(s, frame, i);
+    for (uint32_t i = 0; i < primitives; i++) {
+        survey_names(s, frame, i);
+        if (frame->kind == TRAJECTORY_TRIANGLES)
+            survey_triangle(s, frame->position, frame->index + 3 * (size_t)i);
+        else
+            survey_sphere(s, frame->xyzr + 4 * (size_t)i);
+    }
     for (uint32_t i = 0; source->speed && i < frame->count; i++) {
         uint32_t bits;
         if (!isfinite(source->speed[i]))
@@ -128,7 +152,7 @@ int survey_run(frame_source *source, survey *result, int quiet, const volatile s
     program_progress progress;
     int state;
     memset(result, 0, sizeof *result);
-    result->count_min = result->id_min = result->type_min = UINT32_MAX;
+    result->id_min = result->type_min = UINT32_MAX;
     for (int c = 0; c < 3; c++) {
         result->bounds_min[c] = INFINITY;
         result->bounds_max[c] = -INFINITY;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The frames of a run: those that were chosen of a trajectory, with the speeds of their spheres. And a survey of them,
- * for what has to be known before the first picture: bounds, ranges, how many there are. */
+ * The frames of a run: those that were chosen of a trajectory, with the speeds of their spheres or vertices. And a
+ * survey of them, for what has to be known before the first picture: bounds, ranges, how many there are. */
 #ifndef FRAME_SOURCE_H
 #define FRAME_SOURCE_H
 
@@ -24,9 +24,15 @@ typedef struct frame_source {
     speed_tracker *tracker; /* NULL: speeds are not wanted */
     uint64_t next;          /* number of the file's next frame */
     trajectory_frame frame; /* the one that was read last */
-    const float *speed;     /* per sphere, NaN where not known; NULL where speeds are not wanted */
+    const float *speed;     /* per sphere or vertex, NaN where not known; NULL where speeds are not wanted */
     speed_source speed_from;
 } frame_source;
+
+/* What a frame has to draw: spheres, or triangles. */
+static inline uint32_t frame_primitives(const trajectory_frame *frame)
+{
+    return frame->kind == TRAJECTORY_TRIANGLES ? frame->triangles : frame->count;
+}
 
 /* Opens a file. want_speed: 0 or 1. Returns 0, or -1 with a text. */
 int frame_source_open(frame_source *source, const char *path, const trajectory_options *options,
@@ -41,14 +47,20 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size);
 /* Gives it all back; a source that was never opened is all zero and may be closed. */
 void frame_source_close(frame_source *source);
 
+/* Where a sphere or a vertex of a frame is. */
+static inline const float *frame_place(const trajectory_frame *frame, uint32_t i)
+{
+    return frame->kind == TRAJECTORY_TRIANGLES ? frame->position + 3 * (size_t)i : frame->xyzr + 4 * (size_t)i;
+}
+
 enum { SURVEY_BINS = 4096 }; /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
 
 typedef struct survey {
-    uint64_t frames;     /* chosen frames */
-    uint64_t drawable;   /* spheres in all of them that can be drawn: finite, no negative radius */
-    float bounds_min[3]; /* of those spheres; min above max where there are none */
+    uint64_t frames;      /* chosen frames */
+    trajectory_kind kind; /* of the file, where frames is above 0 */
+    uint64_t drawable;    /* spheres or triangles in all of them that can be drawn: finite, no negative radius */
+    float bounds_min[3];  /* of those; min above max where there are none */
     float bounds_max[3];
-    uint32_t count_min, count_max;
     uint32_t id_min, id_max; /* indices where the file has no ids */
     uint32_t type_min, type_max;
     int has_type;    /* some frame has types */

@@ -50,20 +50,79 @@ void shade_begin(shade_job *job)
 
 uint32_t shade_fields(const shade_job *job)
 {
-    return (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_NORMAL | (job->pixels ? (uint32_t)CGT_FIELD_T : 0u);
+    return (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_NORMAL | (job->pixels ? (uint32_t)CGT_FIELD_T : 0u) |
+           (job->vertex_normal || job->mix ? (uint32_t)CGT_FIELD_UV : 0u);
 }
 
-/* Brightness of `count` hits of row y of the frame, from x on; n are their normals, zero where nothing was hit. */
-static void brightness(const shade_job *job, uint32_t x, uint32_t y, uint32_t count, const float *const n[3],
-                       float out[RUN])
+/* Directions of the rays of a run: of the first one, and from each to the next. */
+typedef struct run_rays {
+    float first[3], step[3];
+} run_rays;
+
+/* Those of row y of the frame, from x on. */
+static run_rays rays_from(const shade_job *job, uint32_t x, uint32_t y)
 {
+    run_rays rays;
     const float step = 2.0f / (float)(job->width * job->samples);
     const float v = 1.0f - 2.0f * ((float)y + 0.5f) / (float)(job->height * job->samples);
     const float u = ((float)x + 0.5f) * step - 1.0f;
-    float base[3];
+    for (int c = 0; c < 3; c++) {
+        rays.first[c] = job->forward[c] + v * job->up[c] + u * job->right[c];
+        rays.step[c] = job->right[c] * step;
+    }
+    return rays;
+}
+
+/* The mix of a triangle's vertex normals at (u, v), each taken as a unit vector. Returns 0 where that says nothing:
+ * no length, or no number. */
+static int mixed_normal(const shade_job *job, uint32_t primitive, float u, float v, float n[3])
+{
+    const uint32_t *vertex = job->triangle + 3 * (size_t)primitive;
+    const float share[3] = {1.0f - u - v, u, v};
+    n[0] = n[1] = n[2] = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        const float *at = job->vertex_normal + 3 * (size_t)vertex[k];
+        const float square = dot(at, at), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
+        for (int c = 0; c < 3; c++)
+            n[c] += at[c] * scale;
+    }
+    const float square = dot(n, n);
+    if (!(square > 1e-6f) || isinf(square))
+        return 0;
     for (int c = 0; c < 3; c++)
-        base[c] = job->forward[c] + v * job->up[c] + u * job->right[c];
-    const float rx = job->right[0] * step, ry = job->right[1] * step, rz = job->right[2] * step;
+        n[c] /= sqrtf(square);
+    return 1;
+}
+
+/* The normals that the triangles of a run are lit with, from element `at` of the tile on: all on the eye's side. */
+static void triangle_normals(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count,
+                             const run_rays *rays, float out[3][RUN])
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t primitive = tile->primitive[at + i];
+        float own[3], mixed[3], away = 0.0f;
+        for (int c = 0; c < 3; c++) {
+            own[c] = primitive == CGT_NONE ? 0.0f : tile->normal[c][at + i];
+            away += own[c] * (rays->first[c] + (float)i * rays->step[c]);
+        }
+        const float *n = own;
+        int turn = away > 0.0f;
+        if (job->vertex_normal && primitive != CGT_NONE &&
+            mixed_normal(job, primitive, tile->u[at + i], tile->v[at + i], mixed)) {
+            turn = (dot(own, mixed) < 0.0f) != turn;
+            n = mixed;
+        }
+        for (int c = 0; c < 3; c++)
+            out[c][i] = turn ? -n[c] : n[c];
+    }
+}
+
+/* Brightness of `count` hits; n are their normals, zero where nothing was hit. */
+static void brightness(const shade_job *job, const run_rays *rays, uint32_t count, const float *const n[3],
+                       float out[RUN])
+{
+    const float *const base = rays->first;
+    const float rx = rays->step[0], ry = rays->step[1], rz = rays->step[2];
     const float lx = job->light[0], ly = job->light[1], lz = job->light[2];
     const float *const nx = n[0], *const ny = n[1], *const nz = n[2];
     for (uint32_t i = 0; i < count; i++) {
@@ -76,10 +135,28 @@ static void brightness(const shade_job *job, uint32_t x, uint32_t y, uint32_t co
     }
 }
 
-/* Adds the light of `count` hits to the pixels that they belong to. Returns how many hits there are. */
-static uint32_t gather(const shade_job *job, uint32_t count, const uint32_t *primitive, const float *bright,
+/* The entry of the palette for a hit, element `at` of the tile. */
+static uint32_t entry_of(const shade_job *job, const cgt_tile *tile, size_t at)
+{
+    if (!job->mix)
+        return job->index[tile->primitive[at]];
+    const uint32_t *vertex = job->triangle + 3 * (size_t)tile->primitive[at];
+    const float u = tile->u[at], v = tile->v[at], share[3] = {1.0f - u - v, u, v};
+    float sum = 0.5f;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t entry = job->index[vertex[k]];
+        if (entry >= job->palette_steps)
+            return entry;
+        sum += share[k] * (float)entry;
+    }
+    return sum > 0.0f ? sum < (float)job->palette_steps ? (uint32_t)sum : job->palette_steps - 1 : 0;
+}
+
+/* Adds the light of `count` hits from element `at` on to the pixels that they belong to. Returns how many there are. */
+static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count, const float *bright,
                        float sum[RUN][3])
 {
+    const uint32_t *primitive = tile->primitive + at;
     const unsigned shift = job->samples == 4 ? 2 : job->samples - 1; /* a division for each hit would show */
     uint32_t hits = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -89,7 +166,7 @@ static uint32_t gather(const shade_job *job, uint32_t count, const uint32_t *pri
                 pixel[c] += job->background[c];
             continue;
         }
-        const float *color = job->palette[job->index[primitive[i]]];
+        const float *color = job->palette[entry_of(job, tile, at + i)];
         for (int c = 0; c < 3; c++)
             pixel[c] += color[c] * bright[i];
         hits++;
@@ -137,7 +214,7 @@ static void fill_background(const shade_job *job, size_t first, uint32_t pixels)
 /* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */
 static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i, uint32_t j, uint32_t count)
 {
-    float bright[RUN], sum[RUN][3];
+    float bright[RUN], sum[RUN][3], turned[3][RUN];
     uint32_t hits = 0;
     const uint32_t n = job->samples;
     const size_t first = (size_t)((tile->y + j) / n) * job->width + (tile->x + i) / n;
@@ -148,9 +225,13 @@ static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i
     memset(sum, 0, sizeof sum[0] * (count / n));
     for (uint32_t row = 0; row < n; row++) {
         const size_t at = (j + row) * tile->row_stride + i;
-        const float *const normal[3] = {tile->normal[0] + at, tile->normal[1] + at, tile->normal[2] + at};
-        brightness(job, tile->x + i, tile->y + j + row, count, normal, bright);
-        hits += gather(job, count, tile->primitive + at, bright, sum);
+        const run_rays rays = rays_from(job, tile->x + i, tile->y + j + row);
+        const float *const sphere[3] = {tile->normal[0] + at, tile->normal[1] + at, tile->normal[2] + at};
+        const float *const triangle[3] = {turned[0], turned[1], turned[2]};
+        if (job->triangle)
+            triangle_normals(job, tile, at, count, &rays, turned);
+        brightness(job, &rays, count, job->triangle ? triangle : sphere, bright);
+        hits += gather(job, tile, at, count, bright, sum);
     }
     const float share = 1.0f / (float)(n * n);
     for (uint32_t k = 0; k < count / n; k++) {

@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hits to pixels, tile by tile while the hits are in cache: a visitor for cgt_trace_camera. Matt spheres (Lambert)
- * under a directional light, with a headlight at the eye that fills the shadows' side. Sums are of linear light. */
+ * Hits to pixels, tile by tile while the hits are in cache: a visitor for cgt_trace_camera. Matt spheres and triangles
+ * (Lambert) under a directional light, with a headlight at the eye that fills the shadows' side. Triangles are lit on
+ * the side that the eye sees, with the normals of their vertices where there are some. Sums are of linear light. */
 #ifndef SHADE_H
 #define SHADE_H
 
@@ -23,8 +24,12 @@ typedef struct shade_job {
     uint32_t samples;       /* 1, 2 or 4: edge of the block of hits that a pixel is the mean of; divides any tile */
     uint8_t *rgb;           /* 3 * width * height: sRGB */
     image_pixel *pixels;    /* width * height: linear, with depth and primitive of the nearest hit; NULL: not wanted */
-    const uint16_t *index;  /* per primitive: entry of palette */
-    const float (*palette)[3];         /* linear colours */
+    const uint16_t *index;  /* per primitive: entry of palette; per vertex where mix is set */
+    int mix;                /* triangles: 1: the entry of a hit is mixed of those of its triangle's vertices */
+    const float (*palette)[3];         /* linear colours; those that are mixed lie in order, up to palette_steps */
+    uint32_t palette_steps;            /* entries from here on are not mixed: a hit takes the one of its vertices */
+    const uint32_t *triangle;          /* per primitive: its three vertices; NULL: primitives are spheres */
+    const float *vertex_normal;        /* per vertex: three floats, of any length; NULL: triangles are flat */
     float background[3];               /* linear */
     float light[3];                    /* unit vector towards the light */
     cgt_camera camera;                 /* what the frame was traced with */

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frame_source.h"
+
 struct speed_tracker {
     uint32_t capacity; /* spheres that the arrays hold */
     float *speed;
@@ -66,6 +68,12 @@ static int reserve(speed_tracker *t, uint32_t count)
     return 0;
 }
 
+/* What tells spheres apart; vertices keep their places. */
+static const uint32_t *ids(const trajectory_frame *frame)
+{
+    return frame->kind == TRAJECTORY_TRIANGLES ? NULL : frame->id;
+}
+
 static size_t slot_of(const speed_tracker *t, uint32_t id)
 {
     return (size_t)((id * UINT64_C(0x9E3779B97F4A7C15)) >> 32) & (t->slot_count - 1);
@@ -99,9 +107,9 @@ static int make_slots(speed_tracker *t)
 /* Where sphere i of frame was in the frame before; UINT32_MAX where it was not. */
 static uint32_t last_index(const speed_tracker *t, const trajectory_frame *frame, uint32_t i)
 {
-    if (!frame->id || !t->last_has_id)
-        return i < t->last_count && frame->count >= t->last_count && !frame->id == !t->last_has_id ? i : UINT32_MAX;
-    const uint32_t id = frame->id[i];
+    if (!ids(frame) || !t->last_has_id)
+        return i < t->last_count && frame->count >= t->last_count && !ids(frame) == !t->last_has_id ? i : UINT32_MAX;
+    const uint32_t id = ids(frame)[i];
     if (i < t->last_count && t->last_id[i] == id)
         return i;
     if (!t->slots_valid)
@@ -127,8 +135,8 @@ static double distance(const float *a, const float *b, const double edge[3])
 
 static int ids_moved(const speed_tracker *t, const trajectory_frame *frame)
 {
-    return frame->id && frame->count && t->last_has_id &&
-           (frame->count > t->last_count || memcmp(frame->id, t->last_id, frame->count * sizeof(uint32_t)) != 0);
+    return ids(frame) && frame->count && t->last_has_id &&
+           (frame->count > t->last_count || memcmp(ids(frame), t->last_id, frame->count * sizeof(uint32_t)) != 0);
 }
 
 static int from_positions(speed_tracker *t, const trajectory_frame *frame)
@@ -148,7 +156,7 @@ static int from_positions(speed_tracker *t, const trajectory_frame *frame)
         t->speed[i] = NAN;
         if (last == UINT32_MAX)
             continue;
-        const double moved = distance(t->last_xyz + 3 * (size_t)last, frame->xyzr + 4 * (size_t)i, edge);
+        const double moved = distance(t->last_xyz + 3 * (size_t)last, frame_place(frame, i), edge);
         if (isfinite(moved / steps))
             t->speed[i] = (float)(moved / steps);
     }
@@ -168,10 +176,10 @@ static void from_velocity(speed_tracker *t, const trajectory_frame *frame)
 static void remember(speed_tracker *t, const trajectory_frame *frame)
 {
     for (uint32_t i = 0; i < frame->count; i++)
-        memcpy(t->last_xyz + 3 * (size_t)i, frame->xyzr + 4 * (size_t)i, 3 * sizeof(float));
-    t->last_has_id = frame->id != NULL;
-    if (frame->id && frame->count)
-        memcpy(t->last_id, frame->id, frame->count * sizeof(uint32_t));
+        memcpy(t->last_xyz + 3 * (size_t)i, frame_place(frame, i), 3 * sizeof(float));
+    t->last_has_id = ids(frame) != NULL;
+    if (ids(frame) && frame->count)
+        memcpy(t->last_id, ids(frame), frame->count * sizeof(uint32_t));
     t->last_count = frame->count;
     t->last_step = frame->step;
     t->has_last = 1;

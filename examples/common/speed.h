@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * How fast each sphere moves: from the file's velocities where it has them, else from where the sphere of the same id
- * was one frame before. */
+ * was one frame before. The same for the vertices of triangles. */
 #ifndef SPEED_H
 #define SPEED_H
 
@@ -22,7 +22,7 @@ void speed_release(speed_tracker *tracker);
 /* Forgets the frame before: the next one is the first. */
 void speed_restart(speed_tracker *tracker);
 
-/* Takes the next frame; *speeds gets one value per sphere, valid until the next call. NaN where it is not known: the
+/* Takes the next frame; *speeds gets one value per sphere or vertex, valid until the next call. NaN where it is not known: the
  * sphere is new, its numbers are not finite, or the steps do not rise. A sphere that leaves the simulation box on one
  * side and comes back on the other has moved the short way. Where the file has no ids a sphere keeps its place, and
  * nothing is known after a frame that had more. Returns 0, or -1 where there is no memory. */

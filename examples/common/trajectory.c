@@ -16,9 +16,10 @@
 #include <sys/stat.h>
 
 #define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
+#define DEFAULT_FPS 30.0
 
 static const trajectory_format *const formats[] = {&trajectory_format_lammps, &trajectory_format_xyz,
-                                                   &trajectory_format_frames};
+                                                   &trajectory_format_frames, &trajectory_format_mesh};
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
@@ -95,18 +96,18 @@ int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count)
     return 1;
 }
 
-/* Grows one array to `capacity` elements of `bytes` each. */
-static int grow(void *array, size_t capacity, size_t bytes)
+int trajectory_grow(void *array, size_t capacity, size_t bytes)
 {
-    void **const pointer = array;
+    void *old;
+    memcpy(&old, array, sizeof old);
     if (capacity > SIZE_MAX / bytes) {
         return -1;
     }
-    void *const larger = realloc(*pointer, capacity * bytes);
+    void *const larger = realloc(old, capacity * bytes);
     if (larger == NULL) {
         return -1;
     }
-    *pointer = larger;
+    memcpy(array, &larger, sizeof larger);
     return 0;
 }
 
@@ -121,25 +122,38 @@ int trajectory_reserve(trajectory *t, size_t count, size_t expected)
     capacity = capacity > expected ? expected : capacity;
     capacity = capacity < count ? count : capacity;
     capacity = capacity == 0 ? 1 : capacity;
-    if (grow(&s->xyzr, capacity, 4 * sizeof *s->xyzr) || grow(&s->id, capacity, sizeof *s->id) ||
-        grow(&s->type, capacity, sizeof *s->type) || grow(&s->velocity, capacity, 3 * sizeof *s->velocity)) {
+    if (trajectory_grow(&s->xyzr, capacity, 4 * sizeof *s->xyzr) || trajectory_grow(&s->id, capacity, sizeof *s->id) ||
+        trajectory_grow(&s->type, capacity, sizeof *s->type) ||
+        trajectory_grow(&s->velocity, capacity, 3 * sizeof *s->velocity)) {
         return trajectory_fail(t, t->text.line, "not enough memory for %zu spheres", capacity);
     }
     s->capacity = capacity;
     return 1;
 }
 
-void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count)
+static void fill_frame(const trajectory *t, trajectory_frame *frame, trajectory_kind kind, uint32_t count)
 {
     memset(frame, 0, sizeof *frame);
     frame->number = t->next;
+    frame->kind = kind;
     frame->step = (int64_t)t->next;
     frame->count = count;
-    frame->xyzr = t->store.xyzr;
     for (int axis = 0; axis < 3; axis++) {
         frame->box_min[axis] = 1.0f;
         frame->box_max[axis] = -1.0f;
     }
+}
+
+void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count)
+{
+    fill_frame(t, frame, TRAJECTORY_SPHERES, count);
+    frame->xyzr = t->store.xyzr;
+}
+
+void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uint32_t count, uint32_t triangles)
+{
+    fill_frame(t, frame, TRAJECTORY_TRIANGLES, count);
+    frame->triangles = triangles;
 }
 
 /* ---- Opening and closing ------------------------------------------------------------------------------------ */
@@ -149,20 +163,62 @@ void trajectory_options_init(trajectory_options *options)
     options->radius = 0.0f;
     options->wrapped = 0;
     options->max_count = DEFAULT_MAX_COUNT;
+    options->fps = DEFAULT_FPS;
+    options->clip = NULL;
+}
+
+/* Returns the path's ending with its dot, or NULL: there is none, or nothing before it. */
+static const char *find_ending(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    return dot != NULL && dot > path ? dot : NULL;
+}
+
+static int has_ending(const trajectory_format *format, const char *ending)
+{
+    if (format->knows != NULL) {
+        return format->knows(ending);
+    }
+    for (const char *const *own = format->endings; *own != NULL; own++) {
+        if (strcasecmp(ending, *own) == 0) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 static const trajectory_format *find_format(const char *path)
 {
-    const size_t length = strlen(path);
-    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
-        for (const char *const *ending = formats[f]->endings; *ending != NULL; ending++) {
-            const size_t size = strlen(*ending);
-            if (length > size && strcasecmp(path + length - size, *ending) == 0) {
-                return formats[f];
-            }
+    const char *ending = find_ending(path);
+    for (size_t f = 0; ending != NULL && f < sizeof formats / sizeof formats[0]; f++) {
+        if (has_ending(formats[f], ending)) {
+            return formats[f];
         }
     }
     return NULL;
+}
+
+/* Copies the options, with what 0 stands for in its place. Returns 0, or -1: no memory. */
+static int copy_options(trajectory_options *copy, const trajectory_options *options)
+{
+    trajectory_options_init(copy);
+    if (options == NULL) {
+        return 0;
+    }
+    *copy = *options;
+    if (copy->max_count == 0) {
+        copy->max_count = DEFAULT_MAX_COUNT;
+    }
+    if (copy->max_count >= UINT32_MAX) {
+        copy->max_count = UINT32_MAX - 1;
+    }
+    if (copy->fps == 0.0) {
+        copy->fps = DEFAULT_FPS;
+    }
+    copy->clip = options->clip != NULL ? strdup(options->clip) : NULL;
+    return options->clip != NULL && copy->clip == NULL ? -1 : 0;
 }
 
 /* Returns a trajectory with all that does not need the file, or NULL: no memory. */
@@ -175,17 +231,7 @@ static trajectory *new_trajectory(const char *path, const trajectory_format *for
     t->format = format;
     t->path = strdup(path);
     t->state = calloc(1, format->state_size);
-    trajectory_options_init(&t->options);
-    if (options != NULL) {
-        t->options = *options;
-    }
-    if (t->options.max_count == 0) {
-        t->options.max_count = DEFAULT_MAX_COUNT;
-    }
-    if (t->options.max_count >= UINT32_MAX) {
-        t->options.max_count = UINT32_MAX - 1;
-    }
-    if (t->path == NULL || t->state == NULL) {
+    if (copy_options(&t->options, options) || t->path == NULL || t->state == NULL) {
         trajectory_close(t);
         return NULL;
     }
@@ -212,11 +258,18 @@ trajectory *trajectory_open(const char *path, const trajectory_options *options,
 {
     const trajectory_format *format = find_format(path);
     if (format == NULL) {
-        path_error(path, "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames", error, error_size);
+        path_error(path,
+                   "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that can be "
+                   "read here",
+                   error, error_size);
         return NULL;
     }
     if (options != NULL && !(options->radius >= 0.0f && isfinite(options->radius))) {
         path_error(path, "the radius for files without one must be 0 or more", error, error_size);
+        return NULL;
+    }
+    if (options != NULL && !(options->fps >= 0.0 && isfinite(options->fps))) {
+        path_error(path, "the frames per second must be 0 or more", error, error_size);
         return NULL;
     }
     trajectory *t = new_trajectory(path, format, options);
@@ -249,8 +302,14 @@ void trajectory_close(trajectory *t)
     free(t->store.type);
     free(t->store.velocity);
     free(t->state);
+    free((char *)t->options.clip);
     free(t->path);
     free(t);
+}
+
+const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
+{
+    return t->format->mesh != NULL ? t->format->mesh(t) : NULL;
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
@@ -315,6 +374,9 @@ int trajectory_count_frames(trajectory *t, uint64_t *frames, char *error, size_t
 
 double trajectory_progress(const trajectory *t)
 {
+    if (t->format->progress != NULL) {
+        return t->format->progress(t);
+    }
     if (!t->regular || t->file_size == 0) {
         return -1.0;
     }

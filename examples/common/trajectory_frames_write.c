@@ -12,13 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KIND_SPHERES 1u
 #define FRAMES_AT 12 /* offset of the number of frames */
-#define CHUNK 4096u  /* floats encoded at a time */
+#define CHUNK 4096u  /* numbers encoded at a time */
 
 struct frames_writer {
     FILE *file;
     char *path;
+    trajectory_kind kind;
+    uint32_t needed; /* vertices that the index refers to */
     uint32_t frames;
     int failed;
     char message[1024];
@@ -62,14 +63,15 @@ static int write_u32(frames_writer *w, uint32_t value)
     return write_bytes(w, bytes, sizeof bytes);
 }
 
-static int write_floats(frames_writer *w, const float *values, size_t count)
+/* Writes numbers of 32 bits each, floats or whole ones. */
+static int write_numbers(frames_writer *w, const void *values, size_t count)
 {
     unsigned char bytes[4 * CHUNK];
     for (size_t done = 0; done < count;) {
         const size_t part = count - done < CHUNK ? count - done : CHUNK;
         for (size_t i = 0; i < part; i++) {
             uint32_t bits;
-            memcpy(&bits, values + done + i, sizeof bits);
+            memcpy(&bits, (const unsigned char *)values + 4 * (done + i), sizeof bits);
             u32_to_bytes(bits, bytes + 4 * i);
         }
         if (write_bytes(w, bytes, 4 * part)) {
@@ -80,7 +82,8 @@ static int write_floats(frames_writer *w, const float *values, size_t count)
     return 0;
 }
 
-static int start(frames_writer *w)
+/* Opens the file and writes the header. */
+static int start(frames_writer *w, uint32_t triangles)
 {
     errno = 0;
     w->file = fopen(w->path, "wb");
@@ -90,8 +93,8 @@ static int start(frames_writer *w)
     if (fseeko(w->file, 0, SEEK_CUR) != 0) {
         return fail(w, "cannot hold .frames: the number of frames has to be written at the end, into the header");
     }
-    return write_bytes(w, "CGTFRAM1", 8) || write_u32(w, KIND_SPHERES) || write_u32(w, 0) || write_u32(w, 0) ||
-                   write_u32(w, 0)
+    return write_bytes(w, "CGTFRAM1", 8) || write_u32(w, (uint32_t)w->kind) || write_u32(w, 0) ||
+                   write_u32(w, triangles) || write_u32(w, 0)
                ? -1
                : 0;
 }
@@ -105,7 +108,20 @@ static void release(frames_writer *w)
     free(w);
 }
 
-frames_writer *frames_writer_open(const char *path, char *error, size_t error_size)
+/* Sets how many vertices the index needs. */
+static int check_index(frames_writer *w, const uint32_t *index, uint32_t triangles)
+{
+    for (size_t i = 0; i < 3 * (size_t)triangles; i++) {
+        if (index[i] == UINT32_MAX) {
+            return fail(w, "an index of a triangle is out of range");
+        }
+        w->needed = index[i] >= w->needed ? index[i] + 1 : w->needed;
+    }
+    return 0;
+}
+
+static frames_writer *open_writer(const char *path, trajectory_kind kind, const uint32_t *index, uint32_t triangles,
+                                  char *error, size_t error_size)
 {
     frames_writer *w = calloc(1, sizeof *w);
     if (w == NULL || (w->path = strdup(path)) == NULL) {
@@ -115,7 +131,8 @@ frames_writer *frames_writer_open(const char *path, char *error, size_t error_si
         }
         return NULL;
     }
-    if (start(w)) {
+    w->kind = kind;
+    if (check_index(w, index, triangles) || start(w, triangles) || write_numbers(w, index, 3 * (size_t)triangles)) {
         copy_message(w, error, error_size);
         release(w);
         return NULL;
@@ -123,17 +140,47 @@ frames_writer *frames_writer_open(const char *path, char *error, size_t error_si
     return w;
 }
 
-int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size)
+frames_writer *frames_writer_open(const char *path, char *error, size_t error_size)
 {
+    return open_writer(path, TRAJECTORY_SPHERES, NULL, 0, error, error_size);
+}
+
+frames_writer *frames_writer_open_triangles(const char *path, const uint32_t *index, uint32_t triangles, char *error,
+                                            size_t error_size)
+{
+    return open_writer(path, TRAJECTORY_TRIANGLES, index, triangles, error, error_size);
+}
+
+/* Adds a frame of `count` items of `floats` numbers each. */
+static int add_frame(frames_writer *w, trajectory_kind kind, const float *values, size_t floats, uint32_t count,
+                     char *error, size_t error_size)
+{
+    if (!w->failed && kind != w->kind) {
+        fail(w, w->kind == TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
+                                              : "a file of triangles cannot hold spheres");
+    }
+    if (!w->failed && count < w->needed) {
+        fail(w, "a frame has fewer vertices than its triangles need");
+    }
     if (!w->failed && w->frames == UINT32_MAX) {
         fail(w, "more than 4294967295 frames");
     }
-    if (w->failed || write_u32(w, count) || write_floats(w, xyzr, 4 * (size_t)count)) {
+    if (w->failed || write_u32(w, count) || write_numbers(w, values, floats * count)) {
         copy_message(w, error, error_size);
         return -1;
     }
     w->frames++;
     return 0;
+}
+
+int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size)
+{
+    return add_frame(w, TRAJECTORY_SPHERES, xyzr, 4, count, error, error_size);
+}
+
+int frames_writer_add_vertices(frames_writer *w, const float *xyz, uint32_t count, char *error, size_t error_size)
+{
+    return add_frame(w, TRAJECTORY_TRIANGLES, xyz, 3, count, error, error_size);
 }
 
 int frames_writer_close(frames_writer *w, char *error, size_t error_size)

@@ -21,11 +21,14 @@ typedef struct trajectory_store {
     float *velocity;
 } trajectory_store;
 
-/* Each returns 1 done, 0 end of the file, -1 error through trajectory_fail. */
+/* Each of begin, read and skip returns 1 done, 0 end of the file, -1 error through trajectory_fail. */
 typedef struct trajectory_format {
-    const char *const *endings;  /* ended by NULL */
-    size_t state_size;           /* bytes that the format needs for itself */
-    int (*begin)(trajectory *t); /* after opening and after rewinding: 1 or -1 */
+    const char *const *endings;                          /* ended by NULL; NULL where knows is set */
+    int (*knows)(const char *ending);                    /* whether the format has this ending, ".obj" */
+    const trajectory_mesh *(*mesh)(const trajectory *t); /* NULL where the format is no mesh */
+    double (*progress)(const trajectory *t);             /* NULL: as far as the file has been read */
+    size_t state_size;                                   /* bytes that the format needs for itself */
+    int (*begin)(trajectory *t);                         /* after opening and after rewinding: 1 or -1 */
     int (*read)(trajectory *t, trajectory_frame *frame);
     int (*skip)(trajectory *t);
     void (*end)(trajectory *t); /* gives back what state points to */
@@ -49,6 +52,7 @@ struct trajectory {
 extern const trajectory_format trajectory_format_lammps;
 extern const trajectory_format trajectory_format_xyz;
 extern const trajectory_format trajectory_format_frames;
+extern const trajectory_format trajectory_format_mesh; /* in builds without assimp: refuses them */
 
 /* Notes an error, "path:line: text" or "path: text" where line is 0. Returns -1. */
 int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -62,11 +66,18 @@ int trajectory_line_inside(trajectory *t, text_span *line, const char *where);
 /* A frame's count, checked against the options. Returns 1 or -1. */
 int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count);
 
+/* Grows *array, a pointer to an array, to `capacity` elements of `bytes` bytes each. Returns 0, or -1: no memory; the
+ * array is as it was. */
+int trajectory_grow(void *array, size_t capacity, size_t bytes);
+
 /* Makes room for `count` spheres, and for more where that saves growing again, but not beyond `expected`. All four
  * arrays are there afterwards, even for 0. Returns 1 or -1. */
 int trajectory_reserve(trajectory *t, size_t count, size_t expected);
 
-/* Sets all fields for a frame of the store with nothing optional in it. */
+/* Sets all fields for a frame of `count` spheres in the store with nothing optional in it. */
 void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count);
+
+/* The same for triangles: no spheres, and index, position and the like left to the caller. */
+void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uint32_t count, uint32_t triangles);
 
 #endif
