@@ -11,6 +11,8 @@
  *   timing    clock and medians                      bench_timing.h
  *   plan      the configurations that loops compares bench_plan.h
  *   report    their table and their ratios           bench_report.h
+ *   accuracy  time and error of every configuration  bench_accuracy.h
+ *   pareto    time against error, and its pictures   bench_pareto.h
  *   simd      words of the vocabulary, per variant   simd/simd_rows.h */
 #ifndef BENCH_H
 #define BENCH_H
@@ -46,9 +48,11 @@ void bench_settings_init(bench_settings *settings);
 extern const struct argp bench_settings_argp;
 
 /* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
+int bench_accuracy(int argc, char **argv);
 int bench_frame(int argc, char **argv);
 int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
+int bench_pareto(int argc, char **argv);
 int bench_simd(int argc, char **argv);
 
 #endif

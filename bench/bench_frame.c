@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench frame: for each frame of a trajectory, moves the spheres, then measures commit, primary rays, and on
+ * cgt-bench frame: for each frame of a trajectory, moves the spheres or vertices, then measures commit, primary rays, and on
  * request shadow and ambient-occlusion rays. One row of medians per configuration. The first frame warms up. */
 #include <errno.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@
 #include "bench_scene.h"
 #include "bench_timing.h"
 
-enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX };
+enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX, OPTION_TEST };
 enum { BUILD, PRIMARY, SHADOW, AO, FRAME, COLUMNS };
 
 typedef struct frame_settings {
@@ -29,6 +29,9 @@ typedef struct frame_settings {
     cgt_tile_shape tile;
     cgt_cull cull;
     int mailbox;
+    cgt_precision precision;
+    int precision_given;
+    cgt_triangle_test test;
 } frame_settings;
 
 typedef struct frame_job {
@@ -54,7 +57,9 @@ static const struct argp_option options[] = {
     {"loop", OPTION_LOOP, "NAME", 0, "nested or flattened", 4},
     {"tile", OPTION_TILE, "NAME", 0, "square or strip", 4},
     {"cull", OPTION_CULL, "NAME", 0, "off, frustum or blocks", 4},
-    {"no-mailbox", OPTION_NO_MAILBOX, NULL, 0, "do not remember the spheres that a packet has met", 4},
+    {"no-mailbox", OPTION_NO_MAILBOX, NULL, 0, "do not remember what a packet has met", 4},
+    {"precision", 'p', "NAME", 0, "robust (the library's default), fast or exact; of all rays", 4},
+    {"test", OPTION_TEST, "NAME", 0, "of triangles with -p fast: watertight, moller-trumbore or accelerated", 4},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 /* Index of a name in a list, counted from 1; ends the program where there is none. */
@@ -105,7 +110,18 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case OPTION_CULL: settings->cull = cull_by_name(state, argument); return 0;
     case OPTION_NO_MAILBOX: settings->mailbox = 0; return 0;
+    case 'p':
+        if (bench_precision_find(argument, &settings->precision))
+            argp_error(state, "-p: robust, fast or exact, not %s", argument);
+        settings->precision_given = 1;
+        return 0;
+    case OPTION_TEST:
+        if (bench_triangle_test_find(argument, &settings->test))
+            argp_error(state, "--test: watertight, moller-trumbore or accelerated, not %s", argument);
+        return 0;
     case ARGP_KEY_END:
+        if (settings->test != CGT_TRIANGLE_WATERTIGHT && settings->precision != CGT_PRECISION_FAST)
+            argp_error(state, "--test %s: only with -p fast", bench_triangle_test_name(settings->test));
         if (settings->all && (settings->shared.packet || settings->tile != CGT_TILE_AUTO))
             argp_error(state, "--all goes through packets and tiles itself: leave out -k and --tile");
         return 0;
@@ -121,7 +137,11 @@ static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t cou
 {
     const frame_settings *settings = job->settings;
     cgt_frame frame;
+    cgt_trace_options secondary;
     uint64_t hidden = 0;
+    cgt_trace_options_init(&secondary); /* arrays of rays have no packets to choose; the rest is the library's choice */
+    secondary.precision = trace->precision;
+    secondary.triangle_test = trace->triangle_test;
     bench_planes_frame(&job->planes, &frame);
     ms[SHADOW] = ms[AO] = 0.0;
 
@@ -135,12 +155,12 @@ static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t cou
     }
     if (result == CGT_OK && settings->lit) {
         start = bench_now_ms();
-        result = bench_rays_shadow(job->rays, scene->scene, settings->light, &hidden);
+        result = bench_rays_shadow(job->rays, scene->scene, &secondary, settings->light, &hidden);
         ms[SHADOW] = bench_now_ms() - start;
     }
     if (result == CGT_OK && settings->ao) {
         start = bench_now_ms();
-        result = bench_rays_ao(job->rays, scene->scene, settings->ao, open);
+        result = bench_rays_ao(job->rays, scene->scene, &secondary, settings->ao, open);
         ms[AO] = bench_now_ms() - start;
     }
     ms[FRAME] = ms[BUILD] + ms[PRIMARY] + ms[SHADOW] + ms[AO];
@@ -191,7 +211,8 @@ static cgt_result describe(frame_job *job, const bench_scene *scene, const bench
             cgt_context_variant(job->context), bench_structure_name(built.structure), built.reason,
             (unsigned)built.resolution[0], (unsigned)built.resolution[1], (unsigned)built.resolution[2],
             (unsigned)traced.packet_size, bench_tile_name(traced.tile), bench_loop_name(traced.loop),
-            (unsigned)built.primitives, (unsigned)(built.skipped_not_finite + built.skipped_radius), built.bytes,
+            (unsigned)built.primitives,
+            (unsigned)(built.skipped_not_finite + built.skipped_radius + built.skipped_degenerate), built.bytes,
             (double)traced.ray_tests / (double)(traced.rays ? traced.rays : 1));
     return CGT_OK;
 }
@@ -219,6 +240,7 @@ static int run_row(frame_job *job, const bench_choice *choice)
 
     cgt_result result = bench_scene_create(&scene, job->context, job->input.moving, shared->resolution);
     if (result == CGT_OK) {
+        bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
         bench_choice_options(choice, NULL, &trace);
         result = measure_frames(job, &scene, &trace, &measured, &open);
     }
@@ -250,7 +272,10 @@ static int run_rows(frame_job *job)
                            .tile = settings->tile,
                            .loop = settings->loop,
                            .cull = settings->cull,
-                           .mailbox = settings->mailbox};
+                           .mailbox = settings->mailbox,
+                           .precision = settings->precision,
+                           .precision_named = settings->precision_given,
+                           .test = settings->test};
     if (cells[0]) {
         snprintf(grid, sizeof grid, "%ux%ux%u", (unsigned)cells[0], (unsigned)cells[1], (unsigned)cells[2]);
         choice.grid = grid;
@@ -321,8 +346,9 @@ int bench_frame(int argc, char **argv)
         .parser = parse,
         .args_doc = "FILE",
         .children = children,
-        .doc = "Measures a frame as a renderer would spend it. FILE is a trajectory: .frames, .lammpstrj or .xyz. "
-               "Every frame the spheres move, the scene is committed and traced. Prints a row of medians over the "
+        .doc = "Measures a frame as a renderer would spend it. FILE is a trajectory of spheres or triangles: .frames, "
+               ".lammpstrj, .xyz, or a mesh. Every frame they move, the scene is committed and traced. Prints a row of "
+               "medians over the "
                "frames in milliseconds; the first frame warms up and does not count."};
     frame_settings settings;
     frame_job job;

@@ -8,9 +8,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "trajectory.h"
+/* Bytes of a sphere or a vertex. */
+static size_t element_bytes(const bench_input *input)
+{
+    return (input->kind == TRAJECTORY_TRIANGLES ? 3 : 4) * sizeof(float);
+}
 
-enum { SPHERE_BYTES = 4 * sizeof(float) };
+/* Takes what is the same in all frames from the first one. 0, or -1 where memory is refused. */
+static int take_kind(bench_input *input, const trajectory_frame *frame)
+{
+    input->kind = frame->kind;
+    if (frame->kind != TRAJECTORY_TRIANGLES)
+        return 0;
+    /* The product cannot overflow: the reader holds as many bytes. */
+    const size_t bytes = (size_t)frame->triangles * 3 * sizeof *input->index;
+    input->index = malloc(bytes + 1);
+    if (!input->index)
+        return -1;
+    memcpy(input->index, frame->index, bytes);
+    input->triangles = frame->triangles;
+    return 0;
+}
 
 /* Adds a copy of a frame; room is what the two arrays hold. 0, or -1 where memory is refused. */
 static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *room)
@@ -23,19 +41,21 @@ static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *
         if (!count)
             return -1;
         input->count = count;
-        float **xyzr = realloc(input->xyzr, wanted * sizeof *xyzr);
-        if (!xyzr)
+        float **data = realloc(input->data, wanted * sizeof *data);
+        if (!data)
             return -1;
-        input->xyzr = xyzr;
+        input->data = data;
         *room = wanted;
     }
     /* The product cannot overflow: the reader holds as many bytes. */
-    float *copy = malloc(((size_t)frame->count + 1) * SPHERE_BYTES);
+    const size_t bytes = (size_t)frame->count * element_bytes(input);
+    float *copy = malloc(bytes + element_bytes(input));
     if (!copy)
         return -1;
-    memcpy(copy, frame->xyzr, (size_t)frame->count * SPHERE_BYTES);
+    if (bytes)
+        memcpy(copy, frame->kind == TRAJECTORY_TRIANGLES ? frame->position : frame->xyzr, bytes);
     input->count[input->frames] = frame->count;
-    input->xyzr[input->frames] = copy;
+    input->data[input->frames] = copy;
     input->frames++;
     if (frame->count > input->most)
         input->most = frame->count;
@@ -52,8 +72,9 @@ static int load_frames(bench_input *input, trajectory *source, uint64_t frames, 
             return -1;
         if (got == 0)
             break;
-        if (add_frame(input, &frame, &room)) {
-            snprintf(error, error_size, "out of memory at frame %zu: %u spheres", input->frames, (unsigned)frame.count);
+        if ((input->frames == 0 && take_kind(input, &frame)) || add_frame(input, &frame, &room)) {
+            snprintf(error, error_size, "out of memory at frame %zu: %u %s", input->frames, (unsigned)frame.count,
+                     frame.kind == TRAJECTORY_TRIANGLES ? "vertices" : "spheres");
             return -1;
         }
     }
@@ -78,7 +99,7 @@ int bench_input_load(bench_input *input, const char *path, uint64_t frames, floa
         failed = -1;
     }
     if (!failed) {
-        input->moving = calloc((size_t)input->most + 1, SPHERE_BYTES);
+        input->moving = calloc((size_t)input->most + 1, element_bytes(input));
         if (!input->moving) {
             snprintf(error, error_size, "%s: out of memory", path);
             failed = -1;
@@ -92,8 +113,9 @@ int bench_input_load(bench_input *input, const char *path, uint64_t frames, floa
 void bench_input_release(bench_input *input)
 {
     for (size_t i = 0; i < input->frames; i++)
-        free(input->xyzr[i]);
-    free(input->xyzr);
+        free(input->data[i]);
+    free(input->data);
+    free(input->index);
     free(input->count);
     free(input->moving);
     memset(input, 0, sizeof *input);
@@ -101,6 +123,6 @@ void bench_input_release(bench_input *input)
 
 uint32_t bench_input_move(const bench_input *input, size_t frame)
 {
-    memcpy(input->moving, input->xyzr[frame], (size_t)input->count[frame] * SPHERE_BYTES);
+    memcpy(input->moving, input->data[frame], (size_t)input->count[frame] * element_bytes(input));
     return input->count[frame];
 }

@@ -172,7 +172,10 @@ static int prepare(loops_job *job)
         program_error("out of memory");
         return PROGRAM_FAILED;
     }
-    return bench_plan_create(&job->plan, settings, job->input.moving, frames * settings->repeat);
+    const int code = bench_plan_create(&job->plan, settings, job->input.moving, frames * settings->repeat);
+    for (size_t i = 0; code == PROGRAM_OK && i < job->plan.group_count; i++)
+        bench_scene_set_triangles(&job->plan.groups[i].scene, job->input.index, job->input.triangles);
+    return code;
 }
 
 static int report(const loops_job *job)
@@ -198,7 +201,8 @@ int bench_loops(int argc, char **argv)
         .args_doc = "FILE",
         .children = children,
         .doc = "Compares the ways to traverse: nested and flattened loops, culling, mailboxing, packet sizes, grid "
-               "resolutions, in every variant that the CPU runs. FILE is a trajectory: .frames, .lammpstrj or .xyz. "
+               "resolutions, in every variant that the CPU runs. FILE is a trajectory: .frames, .lammpstrj, .xyz, or a "
+               "mesh. "
                "The configurations take turns frame by frame. -k, -g and --variant narrow the list. Fails where "
                "any of them finds other hits than the first."};
     bench_settings settings;

@@ -293,7 +293,8 @@ static void store_shadows(void *argument, uint32_t piece)
 }
 
 /* One pass over all hit pixels with `samples` rays each; shadow rays where light is 1. */
-static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, uint32_t samples, int light, uint64_t *occluded)
+static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                             uint32_t samples, int light, uint64_t *occluded)
 {
     const uint64_t batch = rays->batch_rays / samples / GROUP * GROUP; /* hit pixels: at least one group */
     const uint64_t per_piece = (uint64_t)GROUPS_PER_PIECE * GROUP;
@@ -315,7 +316,7 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, uint32_t 
             array.dir[i] = rays->dir[i];
         }
         array.t_max = light ? rays->ones : NULL;
-        const cgt_result result = cgt_occluded_rays(scene, &array, rays->occluded, NULL);
+        const cgt_result result = cgt_occluded_rays(scene, &array, rays->occluded, options);
         if (result != CGT_OK)
             return result;
         for (uint64_t i = 0; i < array.count; i++)
@@ -326,16 +327,18 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, uint32_t 
     return CGT_OK;
 }
 
-cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const float light[3], uint64_t *hidden)
+cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                             const float light[3], uint64_t *hidden)
 {
     memcpy(rays->light, light, sizeof rays->light);
-    return trace_pass(rays, scene, 1, 1, hidden);
+    return trace_pass(rays, scene, options, 1, 1, hidden);
 }
 
-cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, uint32_t samples, uint64_t *open)
+cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options, uint32_t samples,
+                         uint64_t *open)
 {
     uint64_t occluded = 0;
-    const cgt_result result = trace_pass(rays, scene, samples, 0, &occluded);
+    const cgt_result result = trace_pass(rays, scene, options, samples, 0, &occluded);
     *open = rays->hits * samples - occluded;
     return result;
 }

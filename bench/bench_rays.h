@@ -45,10 +45,13 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
 /* NULL is ignored. */
 void bench_rays_release(bench_rays *rays);
 
-/* Traces one shadow ray per hit pixel into planes->shadow; hidden gets the number of those that met something. */
-cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const float light[3], uint64_t *hidden);
+/* Traces one shadow ray per hit pixel into planes->shadow; hidden gets the number of those that met something.
+ * options: of the traces; NULL for the library's. */
+cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                             const float light[3], uint64_t *hidden);
 
 /* Traces `samples` ambient-occlusion rays per hit pixel; open gets the number of those that met nothing. */
-cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, uint32_t samples, uint64_t *open);
+cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options, uint32_t samples,
+                         uint64_t *open);
 
 #endif

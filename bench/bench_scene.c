@@ -18,35 +18,18 @@ cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_conte
     return cgt_context_create(&options, context);
 }
 
-static cgt_spheres spheres_of(const bench_scene *scene, uint32_t count)
-{
-    cgt_spheres spheres;
-    memset(&spheres, 0, sizeof spheres);
-    spheres.count = count;
-    spheres.centers = scene->xyzr;
-    spheres.center_stride = 4 * sizeof(float);
-    spheres.radii = scene->xyzr + 3;
-    spheres.radius_stride = 4 * sizeof(float);
-    return spheres;
-}
-
-cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *xyzr, const uint32_t resolution[3])
+cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *moving,
+                              const uint32_t resolution[3])
 {
     cgt_scene_options options;
     memset(scene, 0, sizeof *scene);
     scene->context = context;
-    scene->xyzr = xyzr;
+    scene->moving = moving;
     cgt_scene_options_init(&options);
     memcpy(options.resolution, resolution, sizeof options.resolution);
-    cgt_result result = cgt_scene_create(context, &options, &scene->scene);
-    if (result != CGT_OK) {
-        scene->scene = NULL;
-        return result;
-    }
-    const cgt_spheres spheres = spheres_of(scene, 0);
-    result = cgt_scene_add_spheres(scene->scene, &spheres, &scene->geometry);
+    const cgt_result result = cgt_scene_create(context, &options, &scene->scene);
     if (result != CGT_OK)
-        bench_scene_release(scene);
+        scene->scene = NULL;
     return result;
 }
 
@@ -56,13 +39,38 @@ void bench_scene_release(bench_scene *scene)
     scene->scene = NULL;
 }
 
+void bench_scene_set_triangles(bench_scene *scene, const uint32_t *index, uint32_t triangles)
+{
+    scene->index = index;
+    scene->triangles = triangles;
+}
+
+static cgt_result take_spheres(bench_scene *scene, uint32_t count)
+{
+    const cgt_spheres spheres = {.count = count,
+                                 .centers = scene->moving,
+                                 .center_stride = 4 * sizeof(float),
+                                 .radii = scene->moving + 3,
+                                 .radius_stride = 4 * sizeof(float)};
+    return scene->has_geometry ? cgt_scene_update_spheres(scene->scene, scene->geometry, &spheres)
+                               : cgt_scene_add_spheres(scene->scene, &spheres, &scene->geometry);
+}
+
+static cgt_result take_triangles(bench_scene *scene, uint32_t vertices)
+{
+    const cgt_triangles triangles = {
+        .count = scene->triangles, .indices = scene->index, .vertex_count = vertices, .vertices = scene->moving};
+    return scene->has_geometry ? cgt_scene_update_triangles(scene->scene, scene->geometry, &triangles)
+                               : cgt_scene_add_triangles(scene->scene, &triangles, &scene->geometry);
+}
+
 cgt_result bench_scene_commit(bench_scene *scene, uint32_t count)
 {
-    if (count != scene->held) {
-        const cgt_spheres spheres = spheres_of(scene, count);
-        const cgt_result result = cgt_scene_update_spheres(scene->scene, scene->geometry, &spheres);
+    if (!scene->has_geometry || count != scene->held) {
+        const cgt_result result = scene->index ? take_triangles(scene, count) : take_spheres(scene, count);
         if (result != CGT_OK)
             return result;
+        scene->has_geometry = 1;
         scene->held = count;
     }
     return cgt_scene_commit(scene->scene);
@@ -103,6 +111,36 @@ const char *bench_tile_name(cgt_tile_shape tile)
     return tile == CGT_TILE_SQUARE ? "square" : tile == CGT_TILE_STRIP ? "strip" : "auto";
 }
 
+static const char *const precisions[] = {
+    [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact"};
+static const char *const triangle_tests[] = {[CGT_TRIANGLE_WATERTIGHT] = "watertight",
+                                             [CGT_TRIANGLE_MOLLER_TRUMBORE] = "moller-trumbore",
+                                             [CGT_TRIANGLE_ACCELERATED] = "accelerated"};
+
+const char *bench_precision_name(cgt_precision precision) { return precisions[precision]; }
+
+const char *bench_triangle_test_name(cgt_triangle_test test) { return triangle_tests[test]; }
+
+int bench_precision_find(const char *name, cgt_precision *precision)
+{
+    for (size_t i = 0; i < sizeof precisions / sizeof precisions[0]; i++)
+        if (!strcmp(name, precisions[i])) {
+            *precision = (cgt_precision)i;
+            return 0;
+        }
+    return -1;
+}
+
+int bench_triangle_test_find(const char *name, cgt_triangle_test *test)
+{
+    for (size_t i = 0; i < sizeof triangle_tests / sizeof triangle_tests[0]; i++)
+        if (!strcmp(name, triangle_tests[i])) {
+            *test = (cgt_triangle_test)i;
+            return 0;
+        }
+    return -1;
+}
+
 static void append(char name[BENCH_NAME_SIZE], const char *key, const char *value)
 {
     const size_t length = strlen(name);
@@ -126,6 +164,10 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "cull", bench_cull_name(choice->cull));
     if (!choice->mailbox)
         append(name, "mailbox", "off");
+    if (choice->precision_named || choice->precision != CGT_PRECISION_ROBUST)
+        append(name, "precision", bench_precision_name(choice->precision));
+    if (choice->test != CGT_TRIANGLE_WATERTIGHT)
+        append(name, "test", bench_triangle_test_name(choice->test));
     if (choice->grid)
         append(name, "grid", choice->grid);
 }
@@ -138,5 +180,7 @@ void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *stat
     options->loop = choice->loop;
     options->cull = choice->cull;
     options->mailbox = choice->mailbox;
+    options->precision = choice->precision;
+    options->triangle_test = choice->test;
     options->statistics = statistics;
 }

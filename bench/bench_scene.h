@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A scene over the moving spheres of a trajectory, and how a configuration of the library is named in a table. */
+ * A scene over the moving spheres or triangles of a trajectory, and how a configuration of the library is named in a table. */
 #ifndef BENCH_SCENE_H
 #define BENCH_SCENE_H
 
@@ -13,20 +13,26 @@
 typedef struct bench_scene {
     cgt_context *context; /* not owned */
     cgt_scene *scene;
-    const float *xyzr;
+    const float *moving;   /* x, y, z and radius of each sphere, or x, y, z of each vertex */
+    const uint32_t *index; /* three vertices of each triangle; NULL: spheres */
+    uint32_t triangles;
+    int has_geometry; /* made by the first commit */
     uint32_t geometry;
-    uint32_t held; /* spheres that the geometry has now */
+    uint32_t held; /* spheres or vertices that the geometry has now */
 } bench_scene;
 
 /* threads: as in cgt_context_options. variant: NULL for the widest. */
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context);
 
-/* resolution: 0, 0, 0 for the library's choice. */
-cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *xyzr,
+/* A scene over `moving`, of spheres. resolution: 0, 0, 0 for the library's choice. */
+cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *moving,
                               const uint32_t resolution[3]);
 void bench_scene_release(bench_scene *scene);
 
-/* Tells the library that there are `count` spheres, where that changed, and commits. */
+/* Before the first commit: `moving` holds vertices of these triangles. index NULL: it holds spheres, as without. */
+void bench_scene_set_triangles(bench_scene *scene, const uint32_t *index, uint32_t triangles);
+
+/* Tells the library that there are `count` spheres or vertices, where that changed, and commits. */
 cgt_result bench_scene_commit(bench_scene *scene, uint32_t count);
 
 /* Prints what failed and the library's message. Returns PROGRAM_FAILED. */
@@ -40,6 +46,9 @@ typedef struct bench_choice {
     cgt_loop loop;
     cgt_cull cull;
     int mailbox;
+    cgt_precision precision;
+    int precision_named; /* 1: the name says the default precision, too */
+    cgt_triangle_test test;
     const char *grid; /* resolution in words: "16x16x16", "auto*2" */
 } bench_choice;
 
@@ -49,6 +58,12 @@ const char *bench_structure_name(cgt_structure structure);
 const char *bench_loop_name(cgt_loop loop);
 const char *bench_cull_name(cgt_cull cull);
 const char *bench_tile_name(cgt_tile_shape tile);
+const char *bench_precision_name(cgt_precision precision);
+const char *bench_triangle_test_name(cgt_triangle_test test);
+
+/* The value of a name, as above: 0, or -1 where there is none. */
+int bench_precision_find(const char *name, cgt_precision *precision);
+int bench_triangle_test_find(const char *name, cgt_triangle_test *test);
 
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);

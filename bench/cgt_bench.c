@@ -1,11 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench: measures the library on moving spheres.
- *   cgt-bench frame   one frame at a time, as a renderer would: build, primary, shadow, ambient-occlusion rays
- *   cgt-bench loops   the ways to traverse, against each other
- *   cgt-bench make    procedural scenes to measure on
- *   cgt-bench simd    the words of the vocabulary beside native instructions */
+ * cgt-bench: measures the library on moving spheres and triangles.
+ *   cgt-bench accuracy  speed against error, judged by exact arithmetic
+ *   cgt-bench frame     one frame at a time, as a renderer would: build, primary, shadow, ambient-occlusion rays
+ *   cgt-bench loops     the ways to traverse, against each other
+ *   cgt-bench make      procedural scenes to measure on
+ *   cgt-bench pareto    time against error of whole frames, drawn
+ *   cgt-bench simd      the words of the vocabulary beside native instructions */
 #include <string.h>
 
 #include "bench.h"
@@ -16,12 +18,12 @@ typedef struct command {
     int (*run)(int argc, char **argv);
 } command;
 
+static char accuracy_name[] = "cgt-bench accuracy";
 static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops", make_name[] = "cgt-bench make";
-static char simd_name[] = "cgt-bench simd";
-static const command commands[] = {{"frame", frame_name, bench_frame},
-                                   {"loops", loops_name, bench_loops},
-                                   {"make", make_name, bench_make},
-                                   {"simd", simd_name, bench_simd}};
+static char pareto_name[] = "cgt-bench pareto", simd_name[] = "cgt-bench simd";
+static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy}, {"frame", frame_name, bench_frame},
+                                   {"loops", loops_name, bench_loops},          {"make", make_name, bench_make},
+                                   {"pareto", pareto_name, bench_pareto},       {"simd", simd_name, bench_simd}};
 
 typedef struct choice {
     const command *command;
@@ -37,11 +39,13 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             if (!strcmp(argument, commands[i].name))
                 chosen->command = &commands[i];
         if (!chosen->command)
-            argp_error(state, "no sub-command %s: frame, loops, make or simd", argument);
+            argp_error(state, "no sub-command %s: accuracy, frame, loops, make, pareto or simd", argument);
         chosen->first = state->next - 1;
         state->next = state->argc; /* the rest is the sub-command's */
         return 0;
-    case ARGP_KEY_NO_ARGS: argp_error(state, "a sub-command is missing: frame, loops, make or simd"); return 0;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "a sub-command is missing: accuracy, frame, loops, make, pareto or simd");
+        return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -50,12 +54,17 @@ int main(int argc, char **argv)
 {
     static const struct argp parser = {
         .parser = parse,
-        .args_doc = "frame FILE [OPTION...]\nloops FILE [OPTION...]\nmake SCENE FILE [OPTION...]\nsimd [OPTION...]",
-        .doc = "Measures libcgt on moving spheres, rebuilding the structure every frame; prints tab-separated values."
-               "\v  frame   times building and tracing, as a renderer spends it\n"
-               "  loops   compares the ways to traverse the structure\n"
-               "  make    writes a procedural scene\n"
-               "  simd    times the words of the vocabulary beside native instructions\n\n"
+        .args_doc = "accuracy [FILE...] [OPTION...]\nframe FILE [OPTION...]\nloops FILE [OPTION...]\n"
+                    "make SCENE FILE [OPTION...]\n"
+                    "pareto FILE... -o PREFIX [OPTION...]\nsimd [OPTION...]",
+        .doc = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame; prints "
+               "tab-separated values."
+               "\v  accuracy  sets time against error on hard cases, judged by exact arithmetic\n"
+               "  frame     times building and tracing, as a renderer spends it\n"
+               "  loops     compares the ways to traverse the structure\n"
+               "  make      writes a procedural scene\n"
+               "  pareto    sets time against error, and draws it\n"
+               "  simd      times the words of the vocabulary beside native instructions\n\n"
                "cgt-bench frame --help and its like list the options of each."};
     choice chosen = {NULL, 0};
 

@@ -15,7 +15,7 @@ typedef vec_int4 vint;
 typedef vec_uint4 vuint;
 typedef vec_uint4 vmask;
 
-#if defined(__SPU__) || defined(CGT_SPU_PORTABLE)
+#if defined(__SPU__) || defined(CGT_SPU_PORTABLE) || defined(CGT_SPU_EXACT)
 #elif defined(__SSE4_1__)
 #include "spux_sse.h"
 #elif defined(__aarch64__) && !defined(__AARCH64EB__)
@@ -58,8 +58,9 @@ CGT_SPU_INLINE vint cgt_spux_max_s32w(vint a, vint b) { return spu_sel(b, a, spu
 CGT_SPU_INLINE vuint cgt_spux_min_u32w(vuint a, vuint b) { return spu_sel(b, a, spu_cmpgt(b, a)); }
 CGT_SPU_INLINE vuint cgt_spux_max_u32w(vuint a, vuint b) { return spu_sel(b, a, spu_cmpgt(a, b)); }
 #endif
-#if defined(__SPU__)
-/* one step of Newton's after the estimates, which are good to 12 bits; the root of 0 is 0 */
+#if defined(__SPU__) || defined(CGT_SPU_EXACT)
+/* on an SPU, and in its arithmetic elsewhere: one step of Newton's after the estimates, which are good to 12 bits; the
+ * root of 0 is 0 */
 CGT_SPU_INLINE vfloat spux_div(vfloat a, vfloat b)
 {
     const vfloat r = spu_re(b), y = spu_madd(spu_nmsub(b, r, spux_vfloat(1)), r, r), q = spu_mul(a, y);

@@ -37,6 +37,9 @@ f1='\000\000\200\077'  # 1.0f
 f2='\000\000\000\100'  # 2.0f
 nan='\000\000\300\177'
 unit_sphere="$one$zero$zero$zero$f1"
+three='\003\000\000\000'
+four='\004\000\000\000'
+m1='\000\000\200\277'  # -1.0f
 
 # Two frames of a unit sphere at the origin; the same with a sphere that is not a number; an empty frame, then a sphere.
 printf "CGTFRAM1$one$two$zero$zero$unit_sphere$unit_sphere" >"$tmp/unit.frames"
@@ -46,6 +49,12 @@ printf "CGTFRAM1$one$two$zero$zero$zero$unit_sphere" >"$tmp/empty_first.frames"
 printf "CGTFRAM1$one$zero$zero$zero" >"$tmp/no_frame.frames"
 printf "CGTFRAM1$one$two$zero$zero$unit_sphere$one$zero" >"$tmp/short.frames"
 printf '2\ncomment\nC 0 0 0\nC 1 here 0\n' >"$tmp/bad.xyz"
+# A square from -1 to 1 in the plane z = 0, as two triangles; the same with a vertex that is not a number.
+square="$zero$one$two$zero$two$three"
+corners="$m1$m1$zero$f1$m1$zero$f1$f1$zero"
+printf "CGTFRAM1$two$two$two$zero$square$four$corners$m1$f1$zero$four$corners$m1$f1$zero" >"$tmp/square.frames"
+printf "CGTFRAM1$two$one$two$zero$square$four$corners$nan$f1$zero" >"$tmp/square_nan.frames"
+printf "CGTFRAM1$two$one$two$zero$zero$one$two$zero$two$four$four$corners$m1$f1$zero" >"$tmp/square_index.frames"
 printf 'XYZ' >"$tmp/what.unknown"
 
 head='config	threads	build_ms	primary_ms	shadow_ms	ao_ms	frame_ms	hit_pixels	ao_open'
@@ -67,7 +76,10 @@ for command in frame loops; do
 done
 refuses 2 'sub-command'
 refuses 2 'no sub-command dance' dance
+run 0 pareto --help
+says out 'Usage: cgt-bench pareto'
 refuses 2 'FILE' frame
+refuses 2 'FILE' pareto
 refuses 2 'FILE' loops
 
 # ---- frame ----------------------------------------------------------------------------------------------------------
@@ -142,6 +154,39 @@ is hit_pixels "$(cell hit_pixels)" "$expected"
 run 0 frame "$tmp/empty_first.frames" $front -n 1 -a 1 -l 0,9,0
 is hit_pixels "$(cell hit_pixels)" 0
 
+# Triangles: the square hides the pixels whose rays pass the plane within it, edges and the diagonal included; from one
+# side as from the other. Nothing is beside it: no ambient-occlusion ray meets anything.
+in_square=$(awk 'BEGIN {
+    width = 63; height = 47; slope = sin(atan2(0, -1) / 8) / cos(atan2(0, -1) / 8)
+    for (y = 0; y < height; y++) for (x = 0; x < width; x++) {
+        u = (2 * (x + 0.5) / width - 1) * slope * width / height; v = (1 - 2 * (y + 0.5) / height) * slope
+        if (5 * u <= 1 && 5 * u >= -1 && 5 * v <= 1 && 5 * v >= -1) hits++
+    }
+    print hits }')
+for camera in 0,0,-5,0,0,0,0,1,0,45 0,0,5,0,0,0,0,1,0,45; do
+    run 0 frame "$tmp/square.frames" -c $camera -s 63x47 -a 4 -l 0,0,-9 -o "$tmp/square.bin"
+    is hit_pixels "$(cell hit_pixels)" "$in_square"
+    is ao_open "$(cell ao_open)" $((4 * in_square))
+done
+for options in '-t 2' '-k 4' '-k 16' '--tile strip' '--loop flattened' '--cull off' '--no-mailbox' '-g 3,4,5' '-p robust' \
+    '-p exact'; do
+    run 0 frame "$tmp/square.frames" -c $camera -s 63x47 $options -o "$tmp/hits.bin"
+    cmp -s "$tmp/square.bin" "$tmp/hits.bin" || fail "other hits of triangles with $options"
+done
+run 0 frame "$tmp/square.frames" $front -p robust
+is config "$(cell config)" 'grid-queue,precision=robust'
+for test in watertight moller-trumbore accelerated; do
+    run 0 frame "$tmp/square.frames" $front -p fast --test $test
+    [ "$(cell hit_pixels)" -gt $((in_square * 9 / 10)) ] || fail "only $(cell hit_pixels) hits with -p fast --test $test"
+done
+is config "$(cell config)" 'grid-queue,precision=fast,test=accelerated'
+run 0 frame "$tmp/square_nan.frames" $front -v
+says err '2 primitives, 1 skipped'
+[ "$(cell hit_pixels)" -gt $((in_square * 4 / 10)) ] || fail "half a square has $(cell hit_pixels) pixels"
+refuses 1 'square_index\.frames' frame "$tmp/square_index.frames"
+run 0 loops "$tmp/square.frames" $front -k 8 -g 4,4,4 --variant portable
+says out '^# hits	2 frames	12 configurations	46 traces compared	0 different'
+
 # ---- loops ----------------------------------------------------------------------------------------------------------
 
 run 0 loops "$tmp/unit.frames" -c 0,0,-5,0,0,0,0,1,0,45 -s 32x24 -k 8 -g 4,4,4 --variant portable
@@ -173,9 +218,71 @@ run 0 make cloud2k "$tmp/cloud.frames" -n 2
 is 'the size of a cloud' "$(wc -c <"$tmp/cloud.frames" | tr -d ' ')" $((24 + 2 * (4 + 2000 * 16)))
 run 0 frame "$tmp/cloud.frames" -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46 -s 64x36
 [ "$(cell hit_pixels)" -gt 1800 ] || fail "a cloud that hides only $(cell hit_pixels) of 2304 pixels"
+run 0 make blobs2k "$tmp/blobs.frames" -n 2
+is 'the size of blobs' "$(wc -c <"$tmp/blobs.frames" | tr -d ' ')" $((24 + 2000 * 12 + 2 * (4 + 20 * 10 * 6 * 12)))
+run 0 frame "$tmp/blobs.frames" -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46 -s 64x36
+[ "$(cell hit_pixels)" -gt 800 ] || fail "blobs that hide only $(cell hit_pixels) of 2304 pixels"
+
 refuses 2 'no scene nowhere' make nowhere "$tmp/nowhere.frames"
 refuses 2 'SCENE and FILE' make cloud2k
 refuses 1 'no/folder' make cloud2k "$tmp/no/folder/cloud.frames"
+
+# ---- pareto ---------------------------------------------------------------------------------------------------------
+
+# A fake gnuplot in front of the real one: whether that is there does not matter, nor how long it takes.
+mkdir "$tmp/fake" "$tmp/empty"
+printf '#!/bin/sh\ncat "$1" >"drawn_$1"\n' >"$tmp/fake/gnuplot"
+printf '#!/bin/sh\nexit 3\n' >"$tmp/empty/gnuplot"
+chmod +x "$tmp/fake/gnuplot" "$tmp/empty/gnuplot"
+real_path=$PATH
+PATH=$tmp/fake:$real_path
+run 0 pareto "$tmp/cloud.frames" "$tmp/blobs.frames" -o out -s 64x36 -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46 -n 1
+for script in out.gnuplot out_tests.gnuplot; do
+    cmp -s "$tmp/$script" "$tmp/drawn_$script" || fail "gnuplot did not get $script"
+done
+grep -v '^#' "$tmp/stdout" | cmp -s - "$tmp/out.tsv" || fail 'standard output and out.tsv differ'
+is 'the head of the table' "$(head -n 1 "$tmp/out.tsv")" "scene	config	variant	precision	test	threads	build_ms	trace_ms	ms	\
+rays	hits	missed	invented	wrong	wrong_share	t_ulp_median	t_ulp_p99	t_ulp_worst	cost_percent	trace_cost_percent"
+variants=$(cut -f 3 "$tmp/out.tsv" | sed 1d | sort -u | wc -l)
+is 'rows of spheres' "$(grep -c '^cloud	' "$tmp/out.tsv")" $((3 * variants))
+is 'rows of triangles' "$(grep -c '^blobs	' "$tmp/out.tsv")" $((5 * variants))
+awk -F '\t' '
+    NR > 1 { if (NF != 20 || $10 != 64 * 36 || !($8 > 0) || !($9 > 0)) bad++ }
+    $4 == "exact" || $4 == "robust" { if ($12 + $13 + $14 + $15 || $18 > 1) bad++ }
+    $4 == "exact" { if ($18 != 0) bad++ }
+    $4 == "fast" && ($5 == "-" || $5 == "watertight") { if ($19 != 0 || $20 != 0) bad++ }
+    $4 == "fast" { if ($12 + $13 + $14 > 230) bad++ }
+    END { exit bad }' "$tmp/out.tsv" || fail "the table of cgt-bench pareto: $(cat "$tmp/out.tsv")"
+# The tests alone: each in every variant, and in the SPU's arithmetic; none is far from exact arithmetic.
+is 'rows of tests' "$(sed 1d "$tmp/out_tests.tsv" | wc -l | tr -d ' ')" $((4 * (variants + 1)))
+awk -F '\t' '
+    NR > 1 { if (NF != 13 || !($5 > 0) || !($7 > $6 / 20) || $7 > $6 / 2 || $8 + $9 > $6 / 50000) bad++
+             if ($11 > 2 || $12 > 20 || $12 > $13) bad++ }
+    $4 == "spu" { spu++ }
+    END { exit bad || spu != 4 }' "$tmp/out_tests.tsv" || fail "the tests of cgt-bench pareto: $(cat "$tmp/out_tests.tsv")"
+PATH=$tmp/empty:$real_path
+run 1 pareto "$tmp/unit.frames" -o failed $front
+says err 'gnuplot failed on failed\.gnuplot'
+is 'lines of the table without a picture' "$(wc -l <"$tmp/failed.tsv" | tr -d ' ')" $((3 * variants + 1))
+rm "$tmp/empty/gnuplot"
+if [ -z "$emulator" ]; then
+    PATH=$tmp/empty
+    run 1 pareto "$tmp/unit.frames" -o without $front
+    PATH=$real_path
+    says err 'cannot run gnuplot'
+    [ -s "$tmp/without.tsv" ] || fail 'no table where gnuplot is missing'
+fi
+PATH=$real_path
+if command -v gnuplot >/dev/null 2>&1; then
+    run 0 pareto "$tmp/unit.frames" "$tmp/square.frames" -o "a picture's name" $front
+    ! grep -q -v 'left out' "$tmp/stderr" || fail "gnuplot says: $(cat "$tmp/stderr")"
+    grep -q '</svg>' "$tmp/a picture's name.svg" || fail 'no whole SVG'
+    [ "$(head -c 4 "$tmp/a picture's name.png" | tail -c 3)" = PNG ] || fail 'no PNG'
+fi
+refuses 2 'PREFIX is missing' pareto "$tmp/unit.frames"
+refuses 1 'no/folder' pareto "$tmp/unit.frames" -o no/folder/x
+refuses 1 'missing\.frames' pareto "$tmp/unit.frames" "$tmp/missing.frames" -o x $front
+[ ! -e "$tmp/x.tsv" ] || fail 'a table beside an error'
 
 # ---- simd -----------------------------------------------------------------------------------------------------------
 
@@ -255,6 +362,9 @@ refuses 2 '-l' frame "$unit" -l 1,2
 refuses 2 '--loop' frame "$unit" --loop round
 refuses 2 '--tile' frame "$unit" --tile round
 refuses 2 '--all' frame "$unit" --all -k 4
+refuses 2 '-p' frame "$unit" -p vague
+refuses 2 '--test' frame "$unit" -p fast --test hasty
+refuses 2 'only with -p fast' frame "$unit" --test accelerated
 refuses 1 'no/such/folder' frame "$unit" -o "$tmp/no/such/folder/hits.bin"
 if [ -c /dev/full ]; then
     run 1 frame "$unit" $front -o /dev/full
