@@ -13,7 +13,7 @@ jobs=$(nproc)
 echo "demo.sh: building build/release"
 log=build/demo.log
 mkdir -p build
-if ! { cmake --preset release -DCGT_BUILD_EXAMPLES=ON -DCGT_BUILD_RENDER=ON &&
+if ! { cmake --preset release -DCGT_BUILD_EXAMPLES=ON -DCGT_BUILD_MESHES=ON -DCGT_BUILD_RENDER=ON &&
     cmake --build --preset release --target cgt-render -j "$jobs"; } >"$log" 2>&1; then
     tail -n 40 "$log" >&2
     echo "demo.sh: the build failed; the whole log is $log" >&2

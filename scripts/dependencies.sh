@@ -10,8 +10,9 @@ set -euo pipefail
 packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
-    render) echo g++ libopenimageio-dev ;;                                         # cgt-render
-    tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ ;; # native tests
+    render) echo g++ libopenimageio-dev libassimp-dev ;;                           # cgt-render, meshes
+    tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
+                 assimp-testmodels glmark2-data gnuplot-nox ;;                     # native tests
     clang)  echo clang ;;                                                          # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests

@@ -54,7 +54,7 @@ codespell --ignore-words=scripts/codespell_ignore.txt "${texts[@]}" || fail "cod
 echo "== likely mistakes"
 mkdir -p build
 # the whole tree, so that every file is in the compile database
-cmake --preset release -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=ON >build/lint.log 2>&1 || {
+cmake --preset release -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_MESHES=ON -DCGT_BUILD_RENDER=ON >build/lint.log 2>&1 || {
     tail -n 30 build/lint.log
     exit 1
 }

@@ -26,16 +26,15 @@ passed=0 failed=0 skipped=0 broken=()
 
 # What a suite cannot do without is ON, so that nothing is left out in silence.
 settings_of() {
+    local oracle=ON meshes=ON render=OFF
     case $1 in
-    release)       echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=ON ;;
-    asan-ubsan)    echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=ON ;;
-    # another compiler, other flags: of the library, not of the programs' C++
-    native|clang)  echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_RENDER=OFF ;;
-    # Embree and OpenImageIO bring threads of their own that the sanitizer cannot see into
-    tsan)          echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF ;;
-    # Debian has neither Embree nor OpenImageIO for a cross build
-    aarch64|ppc64) echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF ;;
+    release|asan-ubsan) render=ON ;;
+    native|clang) ;; # another compiler, other flags: of the library, not of the programs' C++
+    tsan) oracle=OFF meshes=OFF ;; # Embree, assimp and OpenImageIO bring threads that the sanitizer cannot see into
+    aarch64|ppc64) oracle=OFF meshes=OFF ;; # Debian has none of them for a cross build
     esac
+    echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=$oracle -DCGT_BUILD_MESHES=$meshes \
+        -DCGT_BUILD_RENDER=$render
 }
 
 # The thread sanitizer of gcc 12 dies at start where the kernel spreads addresses wider than it knows; without that

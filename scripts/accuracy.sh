@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# accuracy.sh [FOLDER]
+# Makes the tables and plots of docs/accuracy.md again, from a release build with its tests (scripts/test.sh release
+# leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/accuracy. About ten minutes
+# on a quiet machine; figures of a busy one mean little.
+#   VARIANT  the instruction set whose hard cases are listed; default: the widest that this CPU runs
+set -euo pipefail
+cd "$(dirname "$0")/.."
+bin=build/release/bin
+tests=build/release/tests
+out=${1:-out/accuracy}
+mkdir -p "$out"
+
+models=/usr/share/assimp/models
+bunny=/usr/share/glmark2/models/bunny.obj
+[ -x "$bin/cgt-bench" ] || { echo "accuracy.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
+[ -r "$bunny" ] || { echo "accuracy.sh: no $bunny: apt-get install glmark2-data assimp-testmodels" >&2; exit 1; }
+
+scene() { # NAME COMMAND...
+    local file=$out/$1.frames
+    shift
+    [ -s "$file" ] || "$@" "$file" >&2
+}
+scene cloud2k "$bin/cgt-bench" make cloud2k
+scene blobs2k "$bin/cgt-bench" make blobs2k
+scene bunny "$bin/cgt-convert" "$bunny"
+scene house "$bin/cgt-convert" "$models/IFC/AC14-FZK-Haus.ifc"
+
+cloud_camera=0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46
+bunny_camera=0.9,0.9,4.4,-0.02,-0.06,0,0,1,0,30
+house_camera=8.6,1.65,-0.9,5,1.35,-5,0,1,0,72
+
+echo "accuracy.sh: hard cases" >&2
+"$bin/cgt-bench" accuracy -j "$out/hard.json" >"$out/hard.tsv"
+variant=${VARIANT:-$(sed -n 's/.*variant=\([a-z0-9]*\),precision=robust.*/\1/p' "$out/hard.tsv" | tail -n 1)}
+
+echo "accuracy.sh: real scenes" >&2
+{
+    "$bin/cgt-bench" accuracy --case=cloud2k -c "$cloud_camera" "$out/cloud2k.frames"
+    "$bin/cgt-bench" accuracy --case=bunny -c "$bunny_camera" "$out/bunny.frames"
+    "$bin/cgt-bench" accuracy --case=house -c "$house_camera" "$out/house.frames"
+} | awk -F'\t' '/^#/ { next } $1 == "case" && seen++ { next } { print }' >"$out/real.tsv"
+
+echo "accuracy.sh: time against error" >&2
+"$bin/cgt-bench" pareto -n 8 -r 5 -c "$cloud_camera" -o "$out/pareto_spheres" "$out/cloud2k.frames" >/dev/null
+"$bin/cgt-bench" pareto -n 8 -r 5 -o "$out/pareto_triangles" "$out/blobs2k.frames" >/dev/null
+
+echo "accuracy.sh: beside Embree" >&2
+if [ -x "$tests/oracle_hard_embree" ]; then
+    CGT_TABLE=$out/embree.tsv "$tests/oracle_hard_embree" >/dev/null
+fi
+
+exec awk -F'\t' -v variant="$variant" -f scripts/accuracy_tables.awk \
+    part=hard "$out/hard.tsv" part=real "$out/real.tsv" part=spheres "$out/pareto_spheres.tsv" \
+    part=triangles "$out/pareto_triangles.tsv" part=tests "$out/pareto_triangles_tests.tsv"

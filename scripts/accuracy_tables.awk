@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# The tab-separated results of scripts/accuracy.sh as Markdown. `part` names what the next file is.
+
+function column(name) { return name in at ? $(at[name]) : "" }
+function larger(a, b) { return a + 0 > b + 0 ? a : b }
+
+# "robust", "fast,test=accelerated": what a row's configuration says after its variant
+function mode_of(config) { sub(/^.*precision=/, "", config); return config }
+function variant_of(config) { sub(/^.*variant=/, "", config); sub(/,.*$/, "", config); return config }
+
+FNR == 1 { section = ""; header = 1 }
+
+# commented sections behind the table: "# name", then "# columns", then "# rows"
+/^#$/ { next }
+/^# [a-z]+$/ { section = substr($0, 3); header = 1; next }
+/^# / { sub(/^# /, "") }
+
+header {
+    split("", at)
+    for (i = 1; i <= NF; i++) at[$i] = i
+    header = 0
+    next
+}
+
+part == "hard" && section == "" {
+    config = column("config")
+    if (variant_of(config) != variant) next
+    row = column("case")
+    sub(/: .*/, "", row)
+    mode = mode_of(config)
+    if (!(row in rows)) { rows[row] = 1; order[++count] = row }
+    rays[row, mode] += column("rays")
+    missed[row, mode] += column("missed"); invented[row, mode] += column("invented"); wrong[row, mode] += column("wrong")
+    if (mode == "robust") {
+        t_worst[row] = larger(t_worst[row], column("t_ulp_worst"))
+        ambiguous[row] += column("ambiguous") * column("rays")
+        exact[row] += column("exact_share") * column("rays")
+    }
+    if (mode == "exact") uv_worst[row] = larger(uv_worst[row], column("uv_ulp_worst"))
+    next
+}
+
+part == "hard" && section == "modes" {
+    modes[++mode_count] = sprintf("| %s | %s | %.3g | %s | %s | %s | %s | %s/%s/%s |", column("config"), column("rays"),
+        column("direction_truth_worst"), column("direction_ulp_worst"), column("other_hits"), column("other_bits"),
+        column("t_truth_ulp_worst"), column("missed"), column("invented"), column("wrong"))
+    next
+}
+
+part == "hard" && section == "structure" {
+    config = column("config")
+    if (variant_of(config) != variant) next
+    mode = mode_of(config)
+    if (!(mode in structure)) structures[++structure_count] = mode
+    structure[mode] += column("rays")
+    grid[mode] += column("grid_missed") + column("grid_invented") + column("grid_wrong")
+    brute[mode] += column("brute_missed") + column("brute_invented") + column("brute_wrong")
+    next
+}
+
+part == "real" && section == "" {
+    config = column("config")
+    real[++real_count] = sprintf("| %s | %s | %s | %.0f | %s/%s/%s | %s / %s / %s | %s | %s | %s |", column("case"),
+        variant_of(config), mode_of(config), column("ns_per_ray"), column("missed"), column("invented"), column("wrong"),
+        column("t_ulp_median"), column("t_ulp_p99"), column("t_ulp_worst"), column("uv_ulp_worst"),
+        column("normal_angle_worst"), column("ambiguous"))
+    next
+}
+
+(part == "spheres" || part == "triangles") && section == "" {
+    price[++price_count] = sprintf("| %s | %s | %s | %s | %s | %s | %.2f | %s | %s |", column("scene"), column("variant"),
+        column("precision"), column("test"), column("ms"), column("cost_percent"), column("wrong_share") * 1e6,
+        column("t_ulp_p99"), column("t_ulp_worst"))
+    next
+}
+
+part == "tests" && section == "" {
+    tests[++test_count] = sprintf("| %s | %s | %s | %s | %s | %.2f | %s / %s / %s |", column("test"), column("variant"),
+        column("arithmetic"), column("ns_per_test"), column("tests"), column("wrong_share") * 1e6,
+        column("t_ulp_median"), column("t_ulp_p99"), column("t_ulp_worst"))
+    next
+}
+
+function errors(row, mode) {
+    if (!((row, mode) in rays)) return "-"
+    return missed[row, mode] "/" invented[row, mode] "/" wrong[row, mode]
+}
+
+function print_lines(line, lines,   i) { for (i = 1; i <= lines; i++) print line[i] }
+
+END {
+    print "## Hard cases, " variant "\n"
+    print "| row | rays | FAST, watertight | FAST, Möller-Trumbore | FAST, accelerated | ROBUST | EXACT | t, ulp | u, v, ulp |" \
+          " ambiguous | exact |"
+    print "|---|---|---|---|---|---|---|---|---|---|---|"
+    for (i = 1; i <= count; i++) {
+        row = order[i]
+        printf "| %s | %d | %s | %s | %s | %s | %s | %s | %s | %.2g %% | %.2g %% |\n", row, rays[row, "robust"],
+            errors(row, "fast"), errors(row, "fast,test=moller-trumbore"), errors(row, "fast,test=accelerated"),
+            errors(row, "robust"), errors(row, "exact"), t_worst[row], uv_worst[row],
+            100 * ambiguous[row] / rays[row, "robust"], 100 * exact[row] / rays[row, "robust"]
+    }
+    print "\n## Structure and kernel, " variant "\n"
+    print "| precision | rays | wrong through the grid | wrong by brute force with the same kernel |\n|---|---|---|---|"
+    for (i = 1; i <= structure_count; i++)
+        printf "| %s | %d | %d | %d |\n", structures[i], structure[structures[i]], grid[structures[i]], brute[structures[i]]
+    print "\n## Modes of execution\n"
+    print "| mode | rays | direction off the truth | directions that differ, ulp | other primitives | other bits |" \
+          " t off the truth, ulp | missed/invented/wrong |"
+    print "|---|---|---|---|---|---|---|---|"
+    print_lines(modes, mode_count)
+    print "\n## Real scenes\n"
+    print "| scene | variant | precision | ns a ray | missed/invented/wrong | t: median / 99 % / worst, ulp | u, v worst, ulp |" \
+          " normal worst, rad | ambiguous |"
+    print "|---|---|---|---|---|---|---|---|---|"
+    print_lines(real, real_count)
+    print "\n## The price, whole frames\n"
+    print "| scene | variant | precision | test | ms | % over FAST | wrong pixels per million | t 99 %, ulp | t worst, ulp |"
+    print "|---|---|---|---|---|---|---|---|---|"
+    print_lines(price, price_count)
+    print "\n## Tests alone\n"
+    print "| test | variant | arithmetic | ns a test | tests | wrong per million | t: median / 99 % / worst, ulp |"
+    print "|---|---|---|---|---|---|---|"
+    print_lines(tests, test_count)
+}
