@@ -373,5 +373,14 @@ if [ -c /dev/full ]; then
     is 'exit code with a full disk' $? 1
 fi
 
+# accuracy: ROBUST and EXACT are right about every ray, and the same rows go to JSON
+run 0 accuracy -r 200 -n 1 -V portable --case slab -j "$tmp/accuracy.json"
+says out 'precision=robust'
+awk -F'\t' '/^#/ { exit } $2 ~ /precision=(robust|exact)/ { rows++; wrong += $6 + $7 + $8 }
+    END { exit !(rows > 0 && wrong == 0) }' "$tmp/stdout"
+is 'decisions of ROBUST and EXACT' $? 0
+grep -q '"missed"' "$tmp/accuracy.json"
+is 'rows as JSON' $? 0
+
 [ "$failures" -eq 0 ] || { echo "$failures failures" >&2; exit 1; }
 echo 'cgt-bench: command line as described'

@@ -130,7 +130,7 @@ static void rays_through_the_trajectory(void **state)
         ray[i] = ray_random(&r, &c);
     cgt_context *context = context_make(2, NULL);
     cgt_scene *scene = scene_of(context, NULL, sphere, f.count);
-    const cgt_rays rays = rays_of(ray, count);
+    const cgt_rays rays = ray_array(ray, count);
     rays_trace(scene, ray, count, hit, NULL);
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
     for (uint32_t i = 0; i < count; i++) {

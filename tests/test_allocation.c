@@ -251,7 +251,7 @@ static void trace_all(const cgt_scene *scene)
     ray_hit hit[SIDE];
     uint8_t occluded[SIDE];
     truth_ray *rays = frame_rays(&camera, SIDE, 1);
-    const cgt_rays r = rays_of(rays, SIDE);
+    const cgt_rays r = ray_array(rays, SIDE);
     frame_trace(scene, &camera, &got, NULL);
     for (int choice = 0; choice < 12; choice++) {
         cgt_trace_options o;

@@ -101,7 +101,7 @@ static void layouts_rays(test_random *r)
     }
     memset(wide, 0x11, sizeof wide);
     cgt_hits hits = hits_of(&wide[0].h);
-    const cgt_rays rays = rays_of(ray, rays_used);
+    const cgt_rays rays = ray_array(ray, rays_used);
     hits.stride = sizeof wide[0];
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
     for (uint32_t i = 0; i < rays_used; i++) {
@@ -127,7 +127,7 @@ static void ranges_default_rays(test_random *r)
     for (uint32_t i = 0; i < rays_used; i++)
         ray[i].t_min = 0, ray[i].t_max = INFINITY;
     rays_trace(scene, ray, rays_used, hit, NULL);
-    cgt_rays rays = rays_of(ray, rays_used);
+    cgt_rays rays = ray_array(ray, rays_used);
     const cgt_hits hits = hits_of(again);
     rays.t_min = rays.t_max = NULL;
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
@@ -147,7 +147,7 @@ static void arguments_are_checked(void **state)
     const float sphere[1][4] = {{0, 0, 0, 1}};
     scene = scene_of(context, NULL, sphere, 1);
     uint8_t occluded[2] = {7, 7};
-    cgt_rays good = rays_of(ray, 1), rays;
+    cgt_rays good = ray_array(ray, 1), rays;
     cgt_hits hits = hits_of(hit), bad = hits;
     hit[0].t = 7;
     for (int k = 0; k < 6; k++) {
@@ -297,7 +297,7 @@ static void invalid_rays(test_random *r)
     assert_int_equal(s.invalid_rays, invalid);
     assert_int_equal(s.hits, count_hits(hit, rays_used));
     assert_int_equal(s.packet_size, 0);
-    const cgt_rays rays = rays_of(ray, rays_used);
+    const cgt_rays rays = ray_array(ray, rays_used);
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &o), CGT_OK);
     assert_int_equal(s.invalid_rays, invalid);
     for (uint32_t i = 0; i < rays_used; i++) {
@@ -420,7 +420,7 @@ static void occluded_rays(test_random *r)
             ray[i].t_max = i % 4 ? hit[i].t : nextafterf(hit[i].t, -INFINITY);
         }
         rays_trace(scene, ray, rays_used, hit, NULL);
-        const cgt_rays rays = rays_of(ray, rays_used);
+        const cgt_rays rays = ray_array(ray, rays_used);
         for (uint32_t choice = 0; choice < 12; choice++) {
             cgt_trace_statistics s;
             cgt_trace_options o;

@@ -206,7 +206,7 @@ static void expect_not_committed(const cgt_scene *scene)
     float t = 9;
     cgt_camera camera;
     cgt_frame frame;
-    const cgt_rays rays = rays_of(&ahead, 1);
+    const cgt_rays rays = ray_array(&ahead, 1);
     const cgt_hits hits = hits_of(&hit);
     cgt_camera_init(&camera);
     cgt_frame_init(&frame, 1, 1);

@@ -108,7 +108,7 @@ static void free_world(world *w)
 static unsigned trace_everything(const cgt_scene *scene, const world *w)
 {
     planes p = {.width = WIDTH, .height = HEIGHT, .elements = (size_t)WIDTH * HEIGHT};
-    const cgt_rays rays = rays_of(w->rays, p.elements);
+    const cgt_rays rays = ray_array(w->rays, p.elements);
     unsigned wrong = 0;
     p.memory = calloc(6 * p.elements, sizeof *p.memory);
     ray_hit *hits = calloc(p.elements, sizeof *hits);

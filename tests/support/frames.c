@@ -93,18 +93,8 @@ truth_ray *frame_rays(const cgt_camera *camera, uint32_t width, uint32_t height)
     assert_non_null(rays);
     assert_int_equal(cgt_camera_prepare(camera, width, height, &c, message), CGT_OK);
     for (uint32_t y = 0; y < height; y++)
-        for (uint32_t x = 0; x < width; x++) {
-            truth_ray *ray = &rays[(size_t)y * width + x];
-            const float px = ((float)x + 0.5f) * c.pixel[0] - 1, py = 1 - ((float)y + 0.5f) * c.pixel[1];
-            for (int a = 0; a < 3; a++) {
-                const float start = c.orthographic ? c.eye[a] : c.fwd[a];
-                const float right = px * c.right[a], sum = start + right, up = py * c.up[a];
-                ray->org[a] = c.orthographic ? sum + up : c.eye[a];
-                ray->dir[a] = c.orthographic ? c.fwd[a] : sum + up;
-            }
-            ray->t_min = camera->t_min;
-            ray->t_max = camera->t_max;
-        }
+        for (uint32_t x = 0; x < width; x++)
+            rays[(size_t)y * width + x] = camera_ray(&c, x, y);
     return rays;
 }
 
@@ -125,16 +115,6 @@ uint64_t frame_judge(const planes *p, const truth_ray *rays, const float (*spher
 }
 
 /* ---- rays ---- */
-
-cgt_rays rays_of(const truth_ray *rays, uint64_t count)
-{
-    cgt_rays r = {.count = count, .stride = sizeof *rays, .t_min = &rays->t_min, .t_max = &rays->t_max};
-    for (int a = 0; a < 3; a++) {
-        r.org[a] = &rays->org[a];
-        r.dir[a] = &rays->dir[a];
-    }
-    return r;
-}
 
 truth_ray ray_random(test_random *r, const cloud *c)
 {
@@ -175,7 +155,7 @@ cgt_hits hits_of(ray_hit *hits)
 void rays_trace(const cgt_scene *scene, const truth_ray *rays, uint64_t count, ray_hit *hits,
                 const cgt_trace_options *options)
 {
-    const cgt_rays r = rays_of(rays, count);
+    const cgt_rays r = ray_array(rays, count);
     const cgt_hits h = hits_of(hits);
     memset(hits, 0x77, (size_t)count * sizeof *hits);
     assert_int_equal(cgt_trace_rays(scene, &r, &h, options), CGT_OK);

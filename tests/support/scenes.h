@@ -6,7 +6,7 @@
 #define SCENES_H
 
 #include "test.h"
-#include "truth.h"
+#include "ray_arrays.h"
 
 /* ---- contexts ---- */
 
@@ -85,9 +85,6 @@ truth_ray *frame_rays(const cgt_camera *camera, uint32_t width, uint32_t height)
 uint64_t frame_judge(const planes *p, const truth_ray *rays, const float (*sphere)[4], uint32_t count);
 
 /* ---- rays ---- */
-
-/* Rays as an array of structs. */
-cgt_rays rays_of(const truth_ray *rays, uint64_t count);
 
 /* A ray towards a cloud from anywhere, or through it without a target; a few have ranges. */
 truth_ray ray_random(test_random *r, const cloud *c);
