@@ -11,7 +11,8 @@
  * Bounds, with e = 2^-53 and all relative to d.d; the steps are those of kernel/sphere_filter.h, products of two floats
  * being exact here:
  *   s        13 e |c| |d|
- *   h        9 e r (|c| + r) + 640 e^2 |c|^2, which decides hit or miss; at most 14 e (c.c + r^2)
+ *   h        9 e r (|c| + r) + 640 e^2 |c|^2, which decides hit or miss; at most 14 e (c.c + r^2). It holds up to
+ *            the silhouette; beyond, where h is negative, the error grows with |l| and h faster
  *   product  8 e (c.c + r^2)
  * A root is safe where it errs by at most 2^-31 of itself. The root that is a sum, s + half, takes h's error over
  * 2 half: that is at most 2^-32 of it where (c.c + r^2) 14 e 2^32 <= (s + half) half, and then s is right to far less,

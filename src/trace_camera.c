@@ -199,7 +199,10 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
         result = check_frame(c, frame);
     if (result != CGT_OK)
         return result;
+    fenv_t callers;
+    cgt_float_environment_enter(&callers);
     result = cgt_camera_prepare(camera, frame->width, frame->height, &job.camera, message);
+    cgt_float_environment_leave(&callers);
     if (result != CGT_OK)
         return cgt_fail(c, result, "%s", message);
     cut_tiles(&job);

@@ -19,9 +19,9 @@
  *   n.a, n.from  u + 5 u + 3 u + 1 u: 1.2 delta (|a| + |from|)
  * Edge vectors are divided by eps_k and n by delta, so that the bound of all is the length of the longest direction.
  * With D = that length and |d.n| > 4 D: t = num / den errs by at most (num's error + |t| D) / (|den| - D), which
- * is 4/3 of the same over |den|, and 2^-20 of t for division and rounding.
- * Coordinates are scaled by a power of two that brings the scene near 1. Where a length leaves [2^-100, 2^100] all the
- * same, the triangle's numbers are set to zero: then every ray is open.
+ * is 4/3 of the same over |den|, and 2^-20 of t for division and rounding, and 2^-126 where they underflow.
+ * Coordinates are scaled by a power of two that brings the scene near 1. Where a length, or that of the scaled directions,
+ * leaves [2^-100, 2^100] all the same, the triangle's numbers are set to zero: then every ray is open.
  * A test in the suite checks these against exact arithmetic, and shrinks them until they fail. */
 #ifndef CGT_TRIANGLE_FILTER_H
 #define CGT_TRIANGLE_FILTER_H
@@ -95,7 +95,8 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
 {
     const vfloat scale = spux_vfloat(f->scale), from = spux_vfloat(f->org_reach * f->scale);
     vfloat v[3][3], e[3][3], length[3], farthest = spux_vfloat(0), cross[3];
-    vmask wild = spux_mask_none();
+    /* the rays' Pluecker coordinates are scaled too */
+    vmask wild = spu_cmpgt(spux_vfloat(f->longest * f->scale), spux_vfloat(0x1p100f));
     filter_triangles_enclose(s);
     filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
     for (int k = 0; k < 3; k++) {
@@ -241,7 +242,7 @@ CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive,
     filter_triangle_plane(p, q, i, common_origin, &num, &den);
     const vfloat r = spux_div(spux_vfloat(1), den), t = spu_mul(num, r), size = spux_abs(t);
     const vfloat error = spu_mul(spu_madd(size, bound, q->num_error), spu_mul(spux_abs(r), spux_vfloat(1.34f)));
-    const vfloat width = spu_madd(size, spux_vfloat(0x1p-20f), error);
+    const vfloat width = spu_madd(size, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-126f)));
     const vfloat low = spu_sub(t, width), high = spu_add(t, width), t_min = spux_load(p->t_min + i);
     const vmask steep = spu_cmpgt(spux_abs(den), spu_mul(bound, spux_vfloat(4)));
     const vmask beyond = spu_cmpgt(low, spux_load(p->high + i)), behind = spu_cmpgt(t_min, high);
