@@ -79,7 +79,8 @@ static void find_directions(modes_job *job)
     for (int a = 0; a < 3; a++)
         up[a] = right[(a + 1) % 3] * fwd[(a + 2) % 3] - right[(a + 2) % 3] * fwd[(a + 1) % 3];
     for (uint32_t i = 0; i < PIXELS; i++) {
-        const long double x = 2 * (i % EDGE + 0.5L) / EDGE - 1, y = 1 - 2 * (i / EDGE + 0.5L) / EDGE;
+        const uint32_t column = i % EDGE, row = i / EDGE;
+        const long double x = 2 * (column + 0.5L) / EDGE - 1, y = 1 - 2 * (row + 0.5L) / EDGE;
         for (int a = 0; a < 3; a++)
             job->direction[i][a] = fwd[a] + x * half * right[a] + y * half * up[a];
     }

@@ -84,7 +84,7 @@ static int take_frame(accuracy_subject *subject, const trajectory_frame *frame)
 static int read_frame(accuracy_subject *subject, const char *path, uint64_t number)
 {
     char error[PROGRAM_ERROR_SIZE] = "";
-    trajectory_frame frame;
+    trajectory_frame frame = {0};
     int code = PROGRAM_FAILED, got = 1;
     trajectory *file = trajectory_open(path, NULL, error, sizeof error);
     for (uint64_t i = 0; file && got == 1 && i < number; i++)

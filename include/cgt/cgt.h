@@ -42,13 +42,13 @@ extern "C" {
 
 typedef enum cgt_result {
     CGT_OK = 0,
-    CGT_ERROR_INVALID_ARGUMENT,    /* a value is outside its documented range; the message names it */
-    CGT_ERROR_OUT_OF_MEMORY,       /* the memory hook returned NULL; nothing is lost, the call may be tried again */
-    CGT_ERROR_TOO_LARGE,           /* a size would overflow, or is beyond a documented limit */
-    CGT_ERROR_NOT_COMMITTED,       /* the scene was never committed, or a geometry was changed since */
-    CGT_ERROR_UNSUPPORTED,         /* this CPU or this build lacks what was asked for */
-    CGT_ERROR_THREADS,             /* the system refused a thread or a lock */
-    CGT_ERROR_STOPPED              /* a visitor asked to stop; the frame is incomplete */
+    CGT_ERROR_INVALID_ARGUMENT, /* a value is outside its documented range; the message names it */
+    CGT_ERROR_OUT_OF_MEMORY,    /* the memory hook returned NULL; nothing is lost, the call may be tried again */
+    CGT_ERROR_TOO_LARGE,        /* a size would overflow, or is beyond a documented limit */
+    CGT_ERROR_NOT_COMMITTED,    /* the scene was never committed, or a geometry was changed since */
+    CGT_ERROR_UNSUPPORTED,      /* this CPU or this build lacks what was asked for */
+    CGT_ERROR_THREADS,          /* the system refused a thread or a lock */
+    CGT_ERROR_STOPPED           /* a visitor asked to stop; the frame is incomplete */
 } cgt_result;
 
 /* Returns a sentence for the code, in English, for ever valid. Unknown codes get a sentence too. */
