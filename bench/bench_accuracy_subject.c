@@ -76,7 +76,8 @@ static int take_frame(accuracy_subject *subject, const trajectory_frame *frame)
     g->sphere = malloc(((size_t)frame->count + 1) * sizeof *g->sphere);
     if (!g->sphere)
         return out_of_memory(subject);
-    memcpy(g->sphere, frame->xyzr, (size_t)frame->count * sizeof *g->sphere);
+    if (frame->xyzr)
+        memcpy(g->sphere, frame->xyzr, (size_t)frame->count * sizeof *g->sphere);
     g->spheres = frame->count;
     return PROGRAM_OK;
 }

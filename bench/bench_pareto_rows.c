@@ -34,9 +34,10 @@ typedef struct lane {
     const char *name;
     cgt_context *context;
     bench_scene scene;
+    double *times; /* what the next two point into */
     double *build_ms;
     double *trace_ms[MOST_WAYS];
-    pareto_error *error[MOST_WAYS];
+    pareto_error *error; /* one for each way */
 } lane;
 
 typedef struct scene_job {
@@ -82,7 +83,7 @@ static int compare_frame(scene_job *job, size_t frame)
             const bench_planes *into = l == 0 && w == 0 ? &job->truth : &job->planes;
             result = trace_way(job, at, w, into, &ms);
             if (result == CGT_OK)
-                pareto_error_add(at->error[w], &job->truth, into);
+                pareto_error_add(&at->error[w], &job->truth, into);
         }
         if (result != CGT_OK)
             return bench_scene_failed(at->context, job->path, result);
@@ -167,12 +168,27 @@ static int add_rows(scene_job *job, pareto_table *table, size_t scene)
                              .ms = median_of(job, at->trace_ms[w], at->build_ms),
                              .cost = median_cost(job, at->trace_ms[w], at->trace_ms[FAST_WAY], at->build_ms),
                              .trace_cost = median_cost(job, at->trace_ms[w], at->trace_ms[FAST_WAY], NULL),
-                             .error = *at->error[w]};
+                             .error = at->error[w]};
     }
     return PROGRAM_OK;
 }
 
 /* ---- Preparing ----------------------------------------------------------------------------------------------- */
+
+/* What is there is given back with the lane. */
+static int make_room(lane *at, size_t ways, size_t values)
+{
+    at->times = values <= SIZE_MAX / sizeof(double) ? calloc(ways + 1, values * sizeof(double)) : NULL;
+    at->error = calloc(ways, sizeof *at->error);
+    if (!at->times || !at->error) {
+        program_error("out of memory for %zu measurements", values);
+        return PROGRAM_FAILED;
+    }
+    at->build_ms = at->times;
+    for (size_t w = 0; w < ways; w++)
+        at->trace_ms[w] = at->times + (w + 1) * values;
+    return PROGRAM_OK;
+}
 
 static int add_lane(scene_job *job, const char *name, size_t values)
 {
@@ -191,15 +207,7 @@ static int add_lane(scene_job *job, const char *name, size_t values)
     if (result != CGT_OK)
         return bench_scene_failed(at->context, job->path, result);
     bench_scene_set_triangles(&at->scene, job->input.index, job->input.triangles);
-    int complete = (at->build_ms = calloc(values, sizeof(double))) != NULL;
-    for (size_t w = 0; w < job->way_count; w++) {
-        at->trace_ms[w] = calloc(values, sizeof(double));
-        at->error[w] = calloc(1, sizeof *at->error[w]);
-        complete = complete && at->trace_ms[w] && at->error[w];
-    }
-    if (!complete)
-        program_error("out of memory for %zu measurements", values);
-    return complete ? PROGRAM_OK : PROGRAM_FAILED;
+    return make_room(at, job->way_count, values);
 }
 
 static int prepare(scene_job *job)
@@ -232,11 +240,8 @@ static void release(scene_job *job)
         lane *at = &job->lanes[l];
         bench_scene_release(&at->scene);
         cgt_context_release(at->context);
-        free(at->build_ms);
-        for (size_t w = 0; w < MOST_WAYS; w++) {
-            free(at->trace_ms[w]);
-            free(at->error[w]);
-        }
+        free(at->times);
+        free(at->error);
     }
     free(job->scratch);
     bench_planes_release(&job->planes);

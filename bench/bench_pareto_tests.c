@@ -80,9 +80,11 @@ static void make_rays(test_case *c, uint64_t *state)
     forward[0] += forward[0] < 0.0f ? -0.5f : 0.5f;
     for (int a = 0; a < 3; a++)
         up[a] = forward[(a + 1) % 3] * right[(a + 2) % 3] - forward[(a + 2) % 3] * right[(a + 1) % 3];
-    for (int i = 0; i < PARETO_RAYS; i++)
+    for (int i = 0; i < PARETO_RAYS; i++) {
+        const int column = i % EDGE, row = i / EDGE;
         for (int a = 0; a < 3; a++)
-            c->dir[i][a] = forward[a] + step * ((float)(i % EDGE) * right[a] + (float)(i / EDGE) * up[a]);
+            c->dir[i][a] = forward[a] + step * ((float)column * right[a] + (float)row * up[a]);
+    }
 }
 
 static void make_primitives(test_case *c, uint64_t *state)

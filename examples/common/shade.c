@@ -138,7 +138,7 @@ static void brightness(const shade_job *job, const run_rays *rays, uint32_t coun
 /* The entry of the palette for a hit, element `at` of the tile. */
 static uint32_t entry_of(const shade_job *job, const cgt_tile *tile, size_t at)
 {
-    if (!job->mix)
+    if (!job->mix || !job->triangle)
         return job->index[tile->primitive[at]];
     const uint32_t *vertex = job->triangle + 3 * (size_t)tile->primitive[at];
     const float u = tile->u[at], v = tile->v[at], share[3] = {1.0f - u - v, u, v};
