@@ -176,16 +176,16 @@ static int add_rows(scene_job *job, pareto_table *table, size_t scene)
 /* ---- Preparing ----------------------------------------------------------------------------------------------- */
 
 /* What is there is given back with the lane. */
-static int make_room(lane *at, size_t ways, size_t values)
+static int make_room(lane *at, size_t count, size_t values)
 {
-    at->times = values <= SIZE_MAX / sizeof(double) ? calloc(ways + 1, values * sizeof(double)) : NULL;
-    at->error = calloc(ways, sizeof *at->error);
+    at->times = values <= SIZE_MAX / sizeof(double) ? calloc(count + 1, values * sizeof(double)) : NULL;
+    at->error = calloc(count, sizeof *at->error);
     if (!at->times || !at->error) {
         program_error("out of memory for %zu measurements", values);
         return PROGRAM_FAILED;
     }
     at->build_ms = at->times;
-    for (size_t w = 0; w < ways; w++)
+    for (size_t w = 0; w < count; w++)
         at->trace_ms[w] = at->times + (w + 1) * values;
     return PROGRAM_OK;
 }

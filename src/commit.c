@@ -332,7 +332,7 @@ static void log_commit(const cgt_scene *scene)
 
 static cgt_result build(cgt_scene *scene)
 {
-    cgt_object_summary summary;
+    cgt_object_summary summary = {0};
     const double start = cgt_now_ms();
     cgt_result result = list_arrays(scene);
     if (result == CGT_OK)

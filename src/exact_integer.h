@@ -103,6 +103,7 @@ static inline void cgt_exact_add_sizes(cgt_exact_integer *out, const cgt_exact_i
     const uint32_t size = a->size, common = b->size;
     cgt_exact_two_limbs sum = 0;
     for (uint32_t i = 0; i < size; i++) {
+        /* NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign): it cannot follow that limbs below size are set */
         sum += a->limb[i];
         sum += i < common ? b->limb[i] : 0;
         out->limb[i] = (cgt_exact_limb)sum;
@@ -172,6 +173,7 @@ static inline void cgt_exact_multiply(cgt_exact_integer *out, const cgt_exact_in
         cgt_exact_two_limbs sum = 0;
         for (uint32_t j = 0; j < b->size; j++) {
             sum += (cgt_exact_two_limbs)a->limb[i] * b->limb[j];
+            /* NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign): the same */
             sum += i ? out->limb[i + j] : 0; /* the first row writes */
             out->limb[i + j] = (cgt_exact_limb)sum;
             sum >>= CGT_EXACT_LIMB_BITS;

@@ -1,138 +1,159 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Embree as an independent opinion: the shipped trajectory and random scenes, pixel by pixel. Where the two disagree,
- * the truth in wide arithmetic says who is wrong. That must never be libcgt; how often it is Embree is printed. */
-#include "support/scenes.h"
+ * Embree as an independent opinion: the shipped trajectory, closed meshes and random scenes, pixel by pixel. Where the
+ * two disagree, exact arithmetic says who is wrong. That must never be libcgt; how often it is Embree is printed. */
+#include "support/test.h"
 
-#include <embree3/rtcore.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "embree_opinion.h"
+#include "embree_scene.h"
+#include "picture.h"
+#include "random_soup.h"
+#include "support/hard_run.h"
 #include "trajectory.h"
 
 #define WIDTH 320
 #define HEIGHT 180
 
-/* ---- Embree ---- */
-
-static RTCDevice device;
-
-static void report_error(void *user, enum RTCError code, const char *text)
-{
-    (void)user;
-    print_error("Embree: error %d: %s\n", (int)code, text);
-}
-
-static RTCScene embree_scene(const float (*sphere)[4], uint32_t count)
-{
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    if (count) {
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-        float *buffer =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sizeof sphere[0], count);
-        assert_non_null(buffer);
-        memcpy(buffer, sphere, count * sizeof sphere[0]);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
-        rtcReleaseGeometry(geometry);
-    }
-    rtcCommitScene(scene);
-    assert_int_equal(rtcGetDeviceError(device), RTC_ERROR_NONE);
-    return scene;
-}
-
-/* The primitive and t that Embree finds. */
-static uint32_t embree_trace(RTCScene scene, const truth_ray *ray, float *t)
-{
-    struct RTCIntersectContext context;
-    struct RTCRayHit query = {.ray = {.org_x = ray->org[0],
-                                      .org_y = ray->org[1],
-                                      .org_z = ray->org[2],
-                                      .dir_x = ray->dir[0],
-                                      .dir_y = ray->dir[1],
-                                      .dir_z = ray->dir[2],
-                                      .tnear = ray->t_min,
-                                      .tfar = ray->t_max,
-                                      .mask = UINT32_MAX},
-                              .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .primID = RTC_INVALID_GEOMETRY_ID}};
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    rtcIntersect1(scene, &context, &query);
-    const bool hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-    *t = hit ? query.ray.tfar : INFINITY;
-    return hit ? query.hit.primID : TRUTH_NONE;
-}
-
 /* ---- comparison ---- */
 
 typedef struct tally {
-    uint64_t rays, hits, same, missed, invented, other_sphere, t_off;
+    uint64_t rays, hits, same, missed, invented, other, t_off;
 } tally;
 
-/* Judges ours by the truth where it is not Embree's, and says what Embree's then is. */
-static void judge(const truth_scene *truth, const truth_ray *ray, uint32_t ours, float our_t, uint32_t theirs, float t,
-                  tally *sum)
+/* What both ray casters look at, and what the oracle decides by. */
+typedef struct subject {
+    const hard_scene *scene;
+    hard_truth truth; /* only the scene: the oracle is asked where there is something to decide */
+    embree_scene embree;
+} subject;
+
+static subject subject_make(const hard_scene *s)
 {
-    uint64_t doubts = 0;
+    subject w = {.scene = s};
+    hard_scene without_rays = *s;
+    without_rays.rays = 0;
+    assert_true(hard_truth_make(&without_rays, &w.truth));
+    assert_true(embree_scene_make(s, RTC_SCENE_FLAG_ROBUST, &w.embree));
+    return w;
+}
+
+static void subject_free(subject *w)
+{
+    hard_truth_free(&w->truth);
+    embree_scene_free(&w->embree);
+}
+
+static void fail_ray(const truth_ray *ray, const full_hit *ours, const full_hit *theirs, const char *what)
+{
+    fail_msg("%s: geometry %d, primitive %d at %a; Embree: geometry %d, primitive %d at %a; org %a %a %a dir %a %a %a",
+             what, (int)ours->geometry, (int)ours->primitive, (double)ours->t, (int)theirs->geometry,
+             (int)theirs->primitive, (double)theirs->t, (double)ray->org[0], (double)ray->org[1], (double)ray->org[2],
+             (double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]);
+}
+
+/* Ours must be the hit of exact arithmetic; what Embree's then is. */
+static void judge_difference(const subject *w, const truth_ray *ray, const full_hit *ours, const full_hit *theirs,
+                             tally *sum)
+{
+    static const char *const name[] = {"right", "missed", "invented", "wrong"};
+    oracle_hit exact;
+    const oracle_verdict verdict = oracle_judge(&w->truth.scene, ray, ours->geometry, ours->primitive, &exact);
+    if (verdict != ORACLE_RIGHT)
+        fail_ray(ray, ours, theirs, name[verdict]);
+    if (exact.index != ORACLE_NONE && oracle_ulp(exact.t, ours->t) > 0.51)
+        fail_ray(ray, ours, theirs, "t is off");
+    sum->missed += theirs->geometry == CGT_NONE;
+    sum->invented += ours->geometry == CGT_NONE;
+    sum->other += ours->geometry != CGT_NONE && theirs->geometry != CGT_NONE;
+}
+
+/* The same primitive, and other numbers: ours must be within the bounds of cgt.h. u and v of ROBUST are a rounding off,
+ * and what double loses where the triangle is seen from far or from the side: here less than another rounding. */
+static void judge_values(const subject *w, const truth_ray *ray, const full_hit *ours, const full_hit *theirs,
+                         tally *sum)
+{
+    oracle_hit exact;
+    const oracle_primitive *named = opinion_named(&w->truth.scene, ours);
+    if (!named || !oracle_hits(named, ray, &exact))
+        fail_ray(ray, ours, theirs, "both are wrong");
+    if (!(oracle_ulp(exact.t, ours->t) <= 0.51))
+        fail_ray(ray, ours, theirs, "t is off");
+    for (int k = 0; k < 2; k++)
+        if (!(fabs((double)(exact.uv[k] - (truth_real)ours->uv[k])) <= 0x1p-23))
+            fail_ray(ray, ours, theirs, "u or v is off");
+    sum->t_off += oracle_ulp(exact.t, theirs->t) > 1;
+}
+
+static void judge(const subject *w, const truth_ray *ray, const full_hit *ours, tally *sum)
+{
+    const full_hit theirs = embree_trace(&w->embree, ray);
+    const bool same = ours->geometry == theirs.geometry && ours->primitive == theirs.primitive;
     sum->rays++;
-    sum->hits += ours != TRUTH_NONE;
-    if (ours != theirs) {
-        const char *wrong = truth_judge(truth, ray, ours, our_t, &doubts);
-        if (wrong)
-            fail_msg("%s: sphere %u at %a, Embree: sphere %u at %a", wrong, ours, (double)our_t, theirs, (double)t);
-        if (theirs == TRUTH_NONE)
-            sum->missed++;
-        else if (ours == TRUTH_NONE)
-            sum->invented++;
-        else
-            sum->other_sphere++;
-        return;
-    }
-    sum->same++;
-    if (ours == TRUTH_NONE || t == our_t)
-        return;
-    const truth_roots roots = truth_sphere(ray->org, ray->dir, truth->sphere[ours]);
-    const truth_real exact = (float)roots.near >= ray->t_min ? roots.near : roots.far;
-    if (!truth_accepts(&roots, exact, our_t))
-        fail_msg("t is off: sphere %u at %a, Embree at %a", ours, (double)our_t, (double)t);
-    sum->t_off += !truth_accepts(&roots, exact, t);
+    sum->hits += ours->geometry != CGT_NONE;
+    sum->same += same;
+    if (!same)
+        judge_difference(w, ray, ours, &theirs, sum);
+    else if (ours->t != theirs.t || ours->uv[0] != theirs.uv[0] || ours->uv[1] != theirs.uv[1])
+        judge_values(w, ray, ours, &theirs, sum);
 }
 
-static void compare(const cgt_scene *scene, const cgt_camera *camera, const float (*sphere)[4], uint32_t count,
-                    tally *sum)
+/* A frame of the scene. */
+static void compare(cgt_context *context, hard_scene *s, const cgt_camera *camera, tally *sum)
 {
-    const truth_scene truth = {sphere, count};
-    planes p = planes_make(WIDTH, HEIGHT);
-    truth_ray *rays = frame_rays(camera, WIDTH, HEIGHT);
-    RTCScene theirs = embree_scene(sphere, count);
-    frame_trace(scene, camera, &p, NULL);
-    for (size_t i = 0; i < p.elements; i++) {
-        float t;
-        const uint32_t primitive = embree_trace(theirs, &rays[i], &t);
-        judge(&truth, &rays[i], p.primitive[i], p.t[i], primitive, t, sum);
-    }
-    rtcReleaseScene(theirs);
-    free(rays);
-    planes_free(&p);
+    picture q = picture_make(WIDTH, HEIGHT);
+    cgt_scene *scene;
+    if (hard_commit(context, s, NULL, &scene) != CGT_OK)
+        fail_msg("%s", context_message(context));
+    picture_aim(s, camera, WIDTH, HEIGHT);
+    picture_trace(scene, camera, NULL, &q);
+    subject w = subject_make(s);
+    for (uint32_t i = 0; i < s->rays; i++)
+        judge(&w, &s->ray[i], &q.hit[i], sum);
+    subject_free(&w);
+    cgt_scene_release(scene);
+    picture_free(&q);
 }
 
-static void print_tally(const char *what, const tally *t)
+/* share: of the rays, one in so many may differ. Two programs that look at the same scene agree nearly everywhere:
+ * else one of them sees another scene. */
+static void print_tally(const char *what, const tally *t, uint64_t share)
 {
-    print_message("%s: %llu rays, %llu hits; Embree: %llu same, %llu missed, %llu invented, %llu another sphere, "
+    print_message("%s: %llu rays, %llu hits; Embree: %llu same, %llu missed, %llu invented, %llu another primitive, "
                   "%llu of the same with t beyond 1 ulp\n",
                   what, (unsigned long long)t->rays, (unsigned long long)t->hits, (unsigned long long)t->same,
-                  (unsigned long long)t->missed, (unsigned long long)t->invented, (unsigned long long)t->other_sphere,
+                  (unsigned long long)t->missed, (unsigned long long)t->invented, (unsigned long long)t->other,
                   (unsigned long long)t->t_off);
     assert_true(t->hits > t->rays / 200);
-    /* two programs that look at the same scene agree nearly everywhere: else one of them sees another scene */
-    assert_true(t->same > t->rays - t->rays / 200);
-    assert_int_equal(t->same + t->missed + t->invented + t->other_sphere, t->rays);
+    assert_true(t->same > t->rays - t->rays / share);
+    assert_int_equal(t->same + t->missed + t->invented + t->other, t->rays);
 }
 
 /* ---- scenes ---- */
+
+static hard_scene scene_of_spheres(const float (*sphere)[4], uint32_t count)
+{
+    hard_scene s = {.place = {.scale = 1}};
+    for (uint32_t i = 0; i < count; i++)
+        hard_raw_sphere(&s, sphere[i]);
+    assert_false(s.failed);
+    return s;
+}
+
+static cgt_camera look(const float eye[3], const float target[3], const float up[3], float fov)
+{
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    memcpy(camera.eye, eye, sizeof camera.eye);
+    memcpy(camera.target, target, sizeof camera.target);
+    memcpy(camera.up, up, sizeof camera.up);
+    camera.fov = fov;
+    return camera;
+}
 
 static void trajectory_frames(void **state)
 {
@@ -145,26 +166,22 @@ static void trajectory_frames(void **state)
     trajectory_frame f;
     tally sum = {0};
     while (trajectory_read(file, &f, error, sizeof error) == 1) {
-        cgt_camera camera;
         if (f.number % 12 != 3)
             continue;
-        cgt_camera_init(&camera);
-        memcpy(camera.eye, (float[3]){30 - 0.2f * (float)f.number, -18, 14}, sizeof camera.eye);
-        memcpy(camera.target, (float[3]){10, 6, 4}, sizeof camera.target);
-        memcpy(camera.up, (float[3]){0, 0, 1}, sizeof camera.up);
-        camera.fov = 40;
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])f.xyzr, f.count);
-        compare(scene, &camera, (const float(*)[4])f.xyzr, f.count, &sum);
-        cgt_scene_release(scene);
+        const cgt_camera camera =
+            look((float[3]){30 - 0.2f * (float)f.number, -18, 14}, (float[3]){10, 6, 4}, (float[3]){0, 0, 1}, 40);
+        hard_scene s = scene_of_spheres((const float(*)[4])f.xyzr, f.count);
+        compare(context, &s, &camera, &sum);
+        hard_scene_free(&s);
     }
     assert_string_equal(error, "");
     assert_int_equal(sum.rays, 7 * WIDTH * HEIGHT);
-    print_tally("trajectory", &sum);
+    print_tally("trajectory", &sum, 200);
     cgt_context_release(context);
     trajectory_close(file);
 }
 
-static void random_scenes(void **state)
+static void random_spheres(void **state)
 {
     (void)state;
     static const cloud_kind kind[] = {CLOUD_UNIFORM, CLOUD_CLUSTERED, CLOUD_PLANAR, CLOUD_MIXED};
@@ -174,21 +191,72 @@ static void random_scenes(void **state)
         for (uint32_t round = 0; round < test_scaled(4); round++) {
             test_random r = random_make(round * TEST_COUNT(kind) + k);
             cloud c = cloud_make(&r, kind[k], 2000);
-            cgt_camera camera;
-            float d[3];
-            cgt_camera_init(&camera);
+            float d[3], eye[3], up[3];
             random_direction(&r, d);
-            for (int a = 0; a < 3; a++) {
-                camera.eye[a] = c.middle[a] + 3 * c.reach * d[a];
-                camera.target[a] = c.middle[a];
-            }
-            random_direction(&r, camera.up);
-            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
-            compare(scene, &camera, (const float(*)[4])c.sphere, c.count, &sum);
-            cgt_scene_release(scene);
+            random_direction(&r, up);
+            for (int a = 0; a < 3; a++)
+                eye[a] = c.middle[a] + 3 * c.reach * d[a];
+            const cgt_camera camera = look(eye, c.middle, up, 45);
+            hard_scene s = scene_of_spheres((const float(*)[4])c.sphere, c.count);
+            compare(context, &s, &camera, &sum);
+            hard_scene_free(&s);
             cloud_free(&c);
         }
-        print_tally(cloud_name(kind[k]), &sum);
+        print_tally(cloud_name(kind[k]), &sum, 200);
+    }
+    cgt_context_release(context);
+}
+
+/* From inside and from outside, near the origin and where float is coarse. */
+static void closed_meshes(void **state)
+{
+    (void)state;
+    static const hard_place place[] = {HARD_HERE, HARD_FAR};
+    cgt_context *context = context_make(2, NULL);
+    for (int kind = 0; kind < CLOSED_KINDS; kind++) {
+        tally sum = {0};
+        for (uint32_t i = 0; i < 4; i++) {
+            hard_scene s = {.place = place[i / 2], .random = random_make(100 * (uint64_t)kind + i)};
+            double from[3], to[3];
+            float eye[3], target[3], up[3];
+            hard_closed_mesh(&s, (closed_kind)kind, 24);
+            closed_mesh_inside(&(closed_mesh){.kind = (closed_kind)kind}, &s.random, from);
+            hard_direction(&s, to);
+            for (int a = 0; a < 3; a++) {
+                to[a] += from[a];
+                if (i % 2) /* the other way round, from farther out */
+                    to[a] = 4 * to[a] - 3 * from[a];
+            }
+            hard_put(&s, i % 2 ? to : from, eye);
+            hard_put(&s, i % 2 ? from : to, target);
+            random_direction(&s.random, up);
+            const cgt_camera camera = look(eye, target, up, i % 2 ? 45 : 90);
+            const uint64_t hits = sum.hits;
+            compare(context, &s, &camera, &sum);
+            if (i % 2 == 0 && sum.hits - hits != WIDTH * HEIGHT)
+                fail_msg("%s: %llu of %u pixels hit from inside", closed_mesh_name((closed_kind)kind),
+                         (unsigned long long)(sum.hits - hits), WIDTH * HEIGHT);
+            hard_scene_free(&s);
+        }
+        print_tally(closed_mesh_name((closed_kind)kind), &sum, 20);
+    }
+    cgt_context_release(context);
+}
+
+static void random_triangles(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(2, NULL);
+    for (int kind = 0; kind < SOUP_KINDS; kind++) {
+        tally sum = {0};
+        for (uint32_t round = 0; round < test_scaled(4); round++) {
+            hard_scene s = soup_make((soup_kind)kind, 5000 + 10 * (uint64_t)kind + round, 2000);
+            cgt_camera camera = soup_camera(&s);
+            camera.fov = 70;
+            compare(context, &s, &camera, &sum);
+            hard_scene_free(&s);
+        }
+        print_tally(soup_name((soup_kind)kind), &sum, 20);
     }
     cgt_context_release(context);
 }
@@ -200,10 +268,11 @@ static void outlines_from_afar(void **state)
     const uint32_t count = test_scaled(60000);
     test_random r = random_make(1000);
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 300);
-    const truth_scene truth = {(const float(*)[4])c.sphere, c.count};
+    hard_scene s = scene_of_spheres((const float(*)[4])c.sphere, c.count);
     cgt_context *context = context_make(2, NULL);
-    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
-    RTCScene theirs = embree_scene((const float(*)[4])c.sphere, c.count);
+    cgt_scene *scene;
+    assert_int_equal(hard_commit(context, &s, NULL, &scene), CGT_OK);
+    subject w = subject_make(&s);
     tally sum = {0};
     for (uint32_t i = 0; i < count; i++) {
         const float *q = c.sphere[random_below(&r, c.count)];
@@ -222,17 +291,17 @@ static void outlines_from_afar(void **state)
             ray.org[a] = (float)(q[a] - away * d[a]);
             ray.dir[a] = (float)(q[a] + rim * (e[a] - de * d[a]) - ray.org[a]);
         }
-        float t;
-        const uint32_t primitive = embree_trace(theirs, &ray, &t);
-        const ray_hit hit = ray_trace(scene, ray);
-        judge(&truth, &ray, hit.primitive, hit.t, primitive, t, &sum);
+        full_hit hit;
+        assert_int_equal(trace_array(scene, &ray, 1, &hit, NULL), CGT_OK);
+        judge(&w, &ray, &hit, &sum);
     }
     print_message("outlines from afar: %llu rays, %llu hits; Embree: %llu missed, %llu invented, %llu another sphere\n",
                   (unsigned long long)sum.rays, (unsigned long long)sum.hits, (unsigned long long)sum.missed,
-                  (unsigned long long)sum.invented, (unsigned long long)sum.other_sphere);
+                  (unsigned long long)sum.invented, (unsigned long long)sum.other);
     assert_true(sum.hits > count / 3);
-    assert_true(sum.missed + sum.invented + sum.other_sphere > 0); /* the rays were hard */
-    rtcReleaseScene(theirs);
+    assert_true(sum.missed + sum.invented + sum.other > 0); /* the rays were hard */
+    subject_free(&w);
+    hard_scene_free(&s);
     cgt_scene_release(scene);
     cgt_context_release(context);
     cloud_free(&c);
@@ -240,16 +309,13 @@ static void outlines_from_afar(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(trajectory_frames), cmocka_unit_test(random_scenes),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(trajectory_frames), cmocka_unit_test(random_spheres),
+                                       cmocka_unit_test(closed_meshes), cmocka_unit_test(random_triangles),
                                        cmocka_unit_test(outlines_from_afar)};
     test_begin("oracle_embree");
-    device = rtcNewDevice("threads=1");
-    if (!device) {
-        print_error("Embree: no device: error %d\n", (int)rtcGetDeviceError(NULL));
+    if (!embree_begin())
         return 1;
-    }
-    rtcSetDeviceErrorFunction(device, report_error, NULL);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    rtcReleaseDevice(device);
+    embree_end();
     return failed;
 }

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# fuzz.sh [SECONDS] [TARGET]...      SECONDS: 600; TARGET: scene, trajectory, mesh; without any: all of them
+# Builds the fuzz targets of tests/fuzz with clang, libFuzzer and the address and undefined-behaviour sanitizers in
+# build/fuzz, and runs one after another for the given time each, from the corpus of the repository. What is found new
+# goes to build/fuzz/corpus; an input that fails goes to build/fuzz/findings, and ends the run with exit code 1.
+#   again       build/fuzz/fuzz/fuzzer_scene build/fuzz/findings/crash-...
+#   smaller     build/fuzz/fuzz/fuzzer_scene -minimize_crash=1 -runs=10000 build/fuzz/findings/crash-...
+#   to keep     build/fuzz/fuzz/fuzzer_scene -merge=1 tests/fuzz/corpus/scene build/fuzz/corpus/scene
+set -euo pipefail
+cd "$(dirname "$0")/.."
+seconds=${1:-600}
+[[ $seconds =~ ^[1-9][0-9]*$ ]] || { echo "fuzz.sh: '$seconds' is no number of seconds" >&2; exit 2; }
+shift $(($# > 0 ? 1 : 0))
+targets=("$@")
+[ ${#targets[@]} -gt 0 ] || targets=(scene trajectory mesh)
+for target in "${targets[@]}"; do
+    [ -d "tests/fuzz/corpus/$target" ] || { echo "fuzz.sh: unknown target '$target'" >&2; exit 2; }
+done
+
+scripts/dependencies.sh build render tests clang
+build=build/fuzz
+cmake -S . -B $build -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
+    "-DCMAKE_C_FLAGS_DEBUG=-O1 -g" "-DCGT_SANITIZE=address,undefined" -DCGT_BUILD_FUZZERS=ON -DCGT_BUILD_TESTS=ON \
+    -DCGT_BUILD_MESHES=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF -DCGT_BUILD_BENCH=OFF
+cmake --build $build -j "$(nproc)" --target "${targets[@]/#/fuzzer_}"
+mkdir -p $build/findings
+
+status=0
+for target in "${targets[@]}"; do
+    found=$build/corpus/$target
+    mkdir -p "$found"
+    options=(-max_total_time="$seconds" -max_len=2048 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1
+             -artifact_prefix="$build/findings/")
+    [ ! -f "tests/fuzz/$target.dict" ] || options+=(-dict="tests/fuzz/$target.dict")
+    echo "==== $target: $seconds s"
+    if ! $build/fuzz/fuzzer_"$target" "${options[@]}" "$found" "tests/fuzz/corpus/$target" >"$build/$target.log" 2>&1
+    then
+        status=1
+        grep -vE '^#[0-9]|^[[:space:]]*NEW_FUNC' "$build/$target.log" | tail -n 60
+    fi
+    grep -E '^stat::(number_of_executed_units|average_exec_per_sec)' "$build/$target.log" || true
+done
+[ $status -ne 0 ] || echo "fuzz.sh: nothing found"
+exit $status

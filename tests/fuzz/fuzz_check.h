@@ -1,0 +1,41 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What must hold of every answer, whatever the scene and the rays; and the options with which they are asked for. */
+#ifndef FUZZ_CHECK_H
+#define FUZZ_CHECK_H
+
+#include "fuzz_model.h"
+#include "support/oracle.h"
+#include "support/random.h"
+#include "support/ray_arrays.h"
+
+/* Options for a trace, some of them beyond what is documented: *legal says whether the call may go well. */
+cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
+
+/* A camera's frame and an array of rays are checked in the same way. */
+typedef struct fuzz_answers {
+    const truth_ray *ray;
+    uint32_t count;
+    full_hit *robust, *exact, *other; /* by ROBUST and EXACT with the defaults, and by any options */
+} fuzz_answers;
+
+fuzz_answers fuzz_answers_make(const truth_ray *ray, uint32_t count);
+void fuzz_answers_free(fuzz_answers *a);
+
+/* A hit names a primitive that exists and is not skipped, in the ray's range, without a NaN; a miss is all misses. */
+void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit *hit, cgt_precision precision);
+
+/* The counts of a call fit each other and the hits. */
+void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s);
+
+/* ROBUST and EXACT name the same hits; `other` is in its precision what the defaults give. */
+void fuzz_check_same(const fuzz_answers *a, cgt_precision precision_of_other);
+
+/* Judges ROBUST and EXACT by exact arithmetic. */
+void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a);
+
+/* Whether a ray hits nothing because it is not one. */
+bool fuzz_ray_is_invalid(const truth_ray *ray);
+
+#endif

@@ -1,0 +1,234 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Bytes as a file for the trajectory readers. The readers open paths by their endings, so the bytes go to a scratch file
+ * in TMPDIR, one per ending and process, which goes when the process ends well. */
+#define _DEFAULT_SOURCE /* mkdtemp */
+#include "fuzz_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define MOST_FRAMES 64u /* that are looked at; a few bytes may stand for a clip of any length */
+#define ERROR_BYTES 1024
+
+/* ---- scratch files: the input, and the frames that were read, written as .frames ---- */
+
+#define MOST_PATHS 16
+typedef struct scratch {
+    char folder[512];
+    char path[MOST_PATHS][600];
+    int paths;
+} scratch;
+static scratch files;
+
+static void remove_scratch(void)
+{
+    for (int i = 0; i < files.paths; i++)
+        unlink(files.path[i]);
+    rmdir(files.folder);
+}
+
+static const char *scratch_path(const char *name, const char *ending)
+{
+    char path[sizeof files.path[0]];
+    if (!files.folder[0]) {
+        const char *parent = getenv("TMPDIR");
+        snprintf(files.folder, sizeof files.folder, "%s/cgt-fuzz-XXXXXX", parent ? parent : P_tmpdir);
+        FUZZ_CHECK(mkdtemp(files.folder), "no scratch folder %s", files.folder);
+        atexit(remove_scratch);
+    }
+    snprintf(path, sizeof path, "%s/%s%s", files.folder, name, ending);
+    for (int i = 0; i < files.paths; i++)
+        if (!strcmp(files.path[i], path))
+            return files.path[i];
+    FUZZ_CHECK(files.paths < MOST_PATHS, "more endings than scratch files");
+    return strcpy(files.path[files.paths++], path);
+}
+
+static void fill(const char *path, const uint8_t *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    FUZZ_CHECK(file && fwrite(bytes, 1, size, file) == size && !fclose(file), "%s: cannot be written", path);
+}
+
+/* ---- frames ---- */
+
+/* FNV-1a; two frames of one file with the same number are the same where it is. */
+static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+{
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ ((const uint8_t *)bytes)[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}
+
+/* Of what a .frames file keeps. */
+static uint64_t hash_shapes(const trajectory_frame *f)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    hash = hash_bytes(hash, &f->count, sizeof f->count);
+    if (f->kind == TRAJECTORY_SPHERES)
+        return hash_bytes(hash, f->xyzr, (size_t)f->count * 16);
+    hash = hash_bytes(hash, f->index, (size_t)f->triangles * 12);
+    return hash_bytes(hash, f->position, (size_t)f->count * 12);
+}
+
+/* Of all that a frame has. */
+static uint64_t hash_frame(const trajectory_frame *f)
+{
+    uint64_t hash = hash_bytes(hash_shapes(f), &f->step, sizeof f->step);
+    hash = f->vertex_normal ? hash_bytes(hash, f->vertex_normal, (size_t)f->count * 12) : hash;
+    hash = f->id ? hash_bytes(hash, f->id, (size_t)f->count * 4) : hash;
+    hash = f->type ? hash_bytes(hash, f->type, (size_t)f->count * 4) : hash;
+    hash = f->velocity ? hash_bytes(hash, f->velocity, (size_t)f->count * 12) : hash;
+    hash = hash_bytes(hash, f->box_min, sizeof f->box_min);
+    return hash_bytes(hash, f->box_max, sizeof f->box_max);
+}
+
+static void check_frame(const trajectory_frame *f, uint64_t number, const trajectory_options *o)
+{
+    const uint64_t most = o->max_count ? o->max_count : UINT64_C(1) << 31;
+    FUZZ_CHECK(f->number == number, "frame %llu says that it is %llu", (unsigned long long)number,
+               (unsigned long long)f->number);
+    FUZZ_CHECK(f->count <= most && f->triangles <= most, "frame: more than the limit");
+    if (f->kind == TRAJECTORY_SPHERES) {
+        FUZZ_CHECK(f->xyzr && !f->triangles && !f->index && !f->position && !f->vertex_normal, "frame: of spheres?");
+        return;
+    }
+    FUZZ_CHECK(f->kind == TRAJECTORY_TRIANGLES && !f->xyzr, "frame: of what?");
+    FUZZ_CHECK((f->position || !f->count) && (f->index || !f->triangles), "frame: arrays are missing");
+    for (size_t i = 0; i < 3 * (size_t)f->triangles; i++)
+        FUZZ_CHECK(f->index[i] < f->count, "frame: index %zu is %u of %u", i, f->index[i], f->count);
+}
+
+/* ---- a file ---- */
+
+/* What one pass over a file has found. */
+typedef struct pass {
+    uint32_t frames; /* MOST_FRAMES: there may be more */
+    int end;         /* 0 end of the file, -1 error; 1: neither was reached */
+    uint64_t whole[MOST_FRAMES], shapes[MOST_FRAMES];
+    char error[ERROR_BYTES];
+} pass;
+
+static void check_error(const char *path, const char *error)
+{
+    FUZZ_CHECK(!strncmp(error, path, strlen(path)) && error[strlen(path)] == ':', "the error \"%s\" has no path",
+               error);
+    FUZZ_CHECK(strlen(error) > strlen(path) + 2, "the error \"%s\" says nothing", error);
+}
+
+/* After an error every call repeats it; after the end there is no frame. */
+static void check_end(trajectory *t, const char *path, const pass *p)
+{
+    char error[ERROR_BYTES] = "";
+    trajectory_frame frame;
+    if (p->end == 1)
+        return;
+    FUZZ_CHECK(trajectory_read(t, &frame, error, sizeof error) == p->end, "%s: the end is not the end", path);
+    if (p->end == 0)
+        return;
+    check_error(path, p->error);
+    FUZZ_CHECK(!strcmp(p->error, error), "\"%s\", then \"%s\"", p->error, error);
+    FUZZ_CHECK(trajectory_skip(t, error, sizeof error) == -1 && !strcmp(p->error, error), "skip goes past an error");
+}
+
+static void read_all(trajectory *t, const char *path, const trajectory_options *o, frames_writer **copy,
+                     const char *copy_path, pass *p)
+{
+    trajectory_frame frame;
+    char error[ERROR_BYTES] = "";
+    *p = (pass){.end = 1};
+    while (p->frames < MOST_FRAMES && (p->end = trajectory_read(t, &frame, p->error, sizeof p->error)) == 1) {
+        check_frame(&frame, p->frames, o);
+        p->whole[p->frames] = hash_frame(&frame);
+        p->shapes[p->frames] = hash_shapes(&frame);
+        const double progress = trajectory_progress(t);
+        FUZZ_CHECK(progress <= 1, "progress %g", progress);
+        const bool spheres = frame.kind == TRAJECTORY_SPHERES;
+        if (copy && !*copy) {
+            *copy = spheres
+                        ? frames_writer_open(copy_path, error, sizeof error)
+                        : frames_writer_open_triangles(copy_path, frame.index, frame.triangles, error, sizeof error);
+            FUZZ_CHECK(*copy, "%s", error);
+        }
+        if (copy)
+            FUZZ_CHECK(!(spheres ? frames_writer_add(*copy, frame.xyzr, frame.count, error, sizeof error)
+                                 : frames_writer_add_vertices(*copy, frame.position, frame.count, error, sizeof error)),
+                       "%s", error);
+        p->frames++;
+    }
+    check_end(t, path, p);
+}
+
+/* Skipping meets at least the frames that reading meets; where nothing was wrong, just those. */
+static void skip_all(trajectory *t, const char *path, const pass *p)
+{
+    char error[ERROR_BYTES] = "";
+    uint64_t counted = 0;
+    uint32_t frames = 0;
+    int got = 1;
+    FUZZ_CHECK(!trajectory_rewind(t, error, sizeof error), "%s", error);
+    while (frames < MOST_FRAMES && (got = trajectory_skip(t, error, sizeof error)) == 1)
+        frames++;
+    FUZZ_CHECK(frames >= p->frames && (p->end == -1 || frames == p->frames), "%u frames skipped of %u", frames,
+               p->frames);
+    if (got == 1)
+        return; /* counting them all may take for ever, and rightly so */
+    FUZZ_CHECK(p->end == -1 || got == 0, "skip: %s", error);
+    if (got == -1)
+        check_error(path, error);
+    FUZZ_CHECK(!trajectory_rewind(t, error, sizeof error), "%s", error);
+    FUZZ_CHECK(trajectory_count_frames(t, &counted, error, sizeof error) == got, "count: %s", error);
+    FUZZ_CHECK(got == -1 || counted == frames, "%llu frames counted of %u", (unsigned long long)counted, frames);
+}
+
+static void read_again(trajectory *t, const char *path, const trajectory_options *o, const pass *first)
+{
+    char error[ERROR_BYTES] = "";
+    pass again;
+    FUZZ_CHECK(!trajectory_rewind(t, error, sizeof error), "%s", error);
+    read_all(t, path, o, NULL, NULL, &again);
+    FUZZ_CHECK(again.frames == first->frames && again.end == first->end, "read twice: %u frames, then %d; %u, then %d",
+               first->frames, first->end, again.frames, again.end);
+    FUZZ_CHECK(!memcmp(again.whole, first->whole, sizeof again.whole), "read twice, the frames differ");
+}
+
+/* The copy holds what was read. */
+static void read_copy(const char *path, const pass *first)
+{
+    char error[ERROR_BYTES] = "";
+    trajectory_options o;
+    pass copy;
+    trajectory_options_init(&o);
+    trajectory *t = trajectory_open(path, &o, error, sizeof error);
+    FUZZ_CHECK(t, "the copy: %s", error);
+    read_all(t, path, &o, NULL, NULL, &copy);
+    FUZZ_CHECK(copy.frames == first->frames && copy.end != -1, "the copy has %u frames of %u, and ends with \"%s\"",
+               copy.frames, first->frames, copy.error);
+    FUZZ_CHECK(!memcmp(copy.shapes, first->shapes, sizeof copy.shapes), "the copy differs");
+    trajectory_close(t);
+}
+
+void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const trajectory_options *options)
+{
+    char error[ERROR_BYTES] = "";
+    const char *const path = scratch_path("input", ending), *const copy_path = scratch_path("copy", ".frames");
+    pass first;
+    frames_writer *copy = NULL;
+    fill(path, bytes, size);
+    trajectory *t = trajectory_open(path, options, error, sizeof error);
+    if (!t) {
+        check_error(path, error);
+        return;
+    }
+    read_all(t, path, options, &copy, copy_path, &first);
+    read_again(t, path, options, &first);
+    skip_all(t, path, &first);
+    trajectory_close(t);
+    FUZZ_CHECK(!frames_writer_close(copy, error, sizeof error), "%s", error);
+    if (first.frames)
+        read_copy(copy_path, &first);
+}

@@ -1,0 +1,15 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Bytes as a file for the trajectory readers, and what must hold of every file, good or bad. */
+#ifndef FUZZ_FILE_H
+#define FUZZ_FILE_H
+
+#include "fuzz.h"
+#include "trajectory.h"
+
+/* Writes the bytes to a file with this ending; reads it to its end or its first error, again after a rewind, and by
+ * skipping; writes the frames as .frames and reads those. */
+void fuzz_file(const char *ending, const uint8_t *bytes, size_t size, const trajectory_options *options);
+
+#endif

@@ -1,0 +1,22 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A memory hook that fails when told to, and that checks what it is given back. */
+#ifndef FUZZ_MEMORY_H
+#define FUZZ_MEMORY_H
+
+#include <pthread.h>
+#include <stdbool.h>
+
+#include <cgt/cgt.h>
+
+typedef struct fuzz_memory {
+    size_t blocks, bytes; /* that are out */
+    uint32_t fail_after;  /* the call that returns NULL, counted from 1; 0: none. It fails once. */
+    bool failed;          /* it has failed since this was last cleared */
+    pthread_t caller;     /* the only thread that may call */
+} fuzz_memory;
+
+cgt_memory_hooks fuzz_memory_hooks(fuzz_memory *memory);
+
+#endif

@@ -1,0 +1,276 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Arrays of rays: nearest hit and any hit, with any options and strides, by another variant and grid, and the truth. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fuzz_check.h"
+
+#define MOST_RAYS 40u
+
+/* ---- rays that are worth it ---- */
+
+/* A vertex, a point of an edge, or of a sphere; any point where the scene has nothing. */
+static void any_target(fuzz_model *m, float p[3])
+{
+    const fuzz_geometry *g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
+    const uint8_t which = fuzz_byte(&m->bytes);
+    const uint32_t count = g->used && fuzz_indices_are_good(g) ? fuzz_count(g) : 0;
+    float vertex[3][3], sphere[4];
+    if (!count) {
+        for (int k = 0; k < 3; k++)
+            p[k] = fuzz_float(&m->bytes);
+    } else if (g->triangular) {
+        fuzz_triangle_at(g, which % count, vertex);
+        const uint8_t how = fuzz_byte(&m->bytes);
+        const float at = (float)(how / 9 % 5) / 4;
+        for (int k = 0; k < 3; k++)
+            p[k] = vertex[how % 3][k] + at * (vertex[how / 3 % 3][k] - vertex[how % 3][k]);
+    } else {
+        fuzz_sphere_at(g, which % count, sphere);
+        const uint8_t how = fuzz_byte(&m->bytes);
+        memcpy(p, sphere, 3 * sizeof *p);
+        if (how % 4 < 3)
+            p[how % 4] += how & 4 ? sphere[3] : -sphere[3];
+    }
+}
+
+static truth_ray any_ray(fuzz_model *m, const truth_ray *before)
+{
+    const uint8_t kind = fuzz_byte(&m->bytes);
+    truth_ray ray = *before;
+    if (kind % 8 == 0) { /* a neighbour of the last one */
+        ray.dir[kind / 8 % 3] = nextafterf(ray.dir[kind / 8 % 3], kind & 128 ? INFINITY : -INFINITY);
+        return ray;
+    }
+    if (kind % 8 == 1)
+        any_target(m, ray.org);
+    for (int k = 0; k < 3 && kind % 8 > 4; k++)
+        ray.org[k] = fuzz_float(&m->bytes);
+    float target[3];
+    any_target(m, target);
+    for (int k = 0; k < 3; k++)
+        ray.dir[k] = kind % 8 == 7 ? fuzz_float(&m->bytes) : target[k] - ray.org[k];
+    return ray;
+}
+
+/* ranges: bit 0: t_min may be other than 0, bit 1: t_max may be other than infinity */
+static uint32_t make_rays(fuzz_model *m, uint32_t ranges, truth_ray ray[MOST_RAYS])
+{
+    const uint32_t count = fuzz_below(&m->bytes, MOST_RAYS + 1);
+    truth_ray last = {.org = {0, 0, 4}, .dir = {0, 0, -1}, .t_max = INFINITY};
+    for (uint32_t i = 0; i < count; i++) {
+        last = any_ray(m, &last);
+        last.t_min = ranges & 1 ? fuzz_float(&m->bytes) : 0;
+        last.t_max = ranges & 2 ? fuzz_float(&m->bytes) : INFINITY;
+        ray[i] = last;
+    }
+    return count;
+}
+
+/* ---- arrays of any stride, each a block that ends with its last element ---- */
+
+#define INPUTS 8
+#define OUTPUTS 8
+
+typedef struct arrays {
+    size_t stride; /* as in the call: 0 for 4 */
+    uint32_t count;
+    char *block[INPUTS];
+} arrays;
+
+static arrays make_arrays(fuzz_model *m, uint32_t count)
+{
+    static const size_t strides[] = {0, 4, 8, 12, 20, 32};
+    arrays a = {.stride = strides[fuzz_below(&m->bytes, 6)], .count = count};
+    const size_t bytes = count ? (count - 1) * (a.stride ? a.stride : 4) + 4 : 0;
+    for (int i = 0; i < INPUTS; i++)
+        a.block[i] = memset(fuzz_allocate(bytes), 0xcd, bytes);
+    return a;
+}
+
+static void free_arrays(arrays *a)
+{
+    for (int i = 0; i < INPUTS; i++)
+        free(a->block[i]);
+}
+
+static char *element(const arrays *a, int array, uint32_t i)
+{
+    return a->block[array] + i * (a->stride ? a->stride : 4);
+}
+
+static cgt_rays rays_in(const arrays *a, const truth_ray *ray, uint32_t ranges)
+{
+    for (uint32_t i = 0; i < a->count; i++)
+        for (int k = 0; k < INPUTS; k++)
+            memcpy(element(a, k, i), (const float *)(const void *)&ray[i] + k, sizeof(float));
+    const float *at[INPUTS];
+    for (int k = 0; k < INPUTS; k++)
+        at[k] = (const float *)(const void *)a->block[k];
+    return (cgt_rays){.count = a->count,
+                      .stride = a->stride,
+                      .org = {at[0], at[1], at[2]},
+                      .dir = {at[3], at[4], at[5]},
+                      .t_min = ranges & 1 ? at[6] : NULL,
+                      .t_max = ranges & 2 ? at[7] : NULL};
+}
+
+/* The arrays in the order of full_hit; only those of the wanted fields are handed out. */
+static cgt_hits hits_in(const arrays *a, uint32_t fields)
+{
+    void *at[OUTPUTS];
+    const uint32_t of[OUTPUTS] = {CGT_FIELD_T,      CGT_FIELD_PRIMITIVE, CGT_FIELD_GEOMETRY, CGT_FIELD_NORMAL,
+                                  CGT_FIELD_NORMAL, CGT_FIELD_NORMAL,    CGT_FIELD_UV,       CGT_FIELD_UV};
+    for (int k = 0; k < OUTPUTS; k++)
+        at[k] = fields & of[k] ? a->block[k] : NULL;
+    return (cgt_hits){.stride = a->stride,
+                      .t = at[0],
+                      .primitive = at[1],
+                      .geometry = at[2],
+                      .normal = {at[3], at[4], at[5]},
+                      .u = at[6],
+                      .v = at[7]};
+}
+
+/* Takes the answers out of the arrays; a field that was not asked for is as in `like`. Nothing else may be written. */
+static void take_hits(const arrays *a, uint32_t fields, const full_hit *like, full_hit *hit)
+{
+    const cgt_hits h = hits_in(a, fields);
+    const void *const at[OUTPUTS] = {h.t, h.primitive, h.geometry, h.normal[0], h.normal[1], h.normal[2], h.u, h.v};
+    const size_t step = a->stride ? a->stride : 4;
+    for (uint32_t i = 0; i < a->count; i++)
+        hit[i] = like[i];
+    for (int k = 0; k < OUTPUTS; k++)
+        for (uint32_t i = 0; i < a->count; i++) {
+            if (at[k])
+                memcpy((float *)(void *)&hit[i] + k, element(a, k, i), sizeof(float));
+            for (size_t gap = at[k] ? 4 : 0; gap < (i + 1 < a->count ? step : 4); gap++)
+                FUZZ_CHECK((uint8_t)element(a, k, i)[gap] == 0xcd, "hits: a byte between the elements is written");
+        }
+}
+
+/* ---- calls ---- */
+
+static void must(fuzz_model *m, cgt_result result, bool legal)
+{
+    FUZZ_CHECK((result == CGT_OK) == legal, "trace: %s", cgt_result_string(result));
+    if (result != CGT_OK)
+        fuzz_check_error(m, result);
+}
+
+static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
+{
+    cgt_trace_statistics statistics;
+    cgt_trace_options o;
+    cgt_trace_options_init(&o);
+    o.statistics = &statistics;
+    must(m, trace_array(m->scene, a->ray, a->count, a->robust, &o), true);
+    fuzz_check_hits(m, a, a->robust, o.precision);
+    fuzz_check_counts(a, a->robust, &statistics);
+    o.precision = CGT_PRECISION_EXACT;
+    must(m, trace_array(m->scene, a->ray, a->count, a->exact, &o), true);
+    fuzz_check_hits(m, a, a->exact, o.precision);
+    fuzz_check_counts(a, a->exact, &statistics);
+}
+
+static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *rays, const cgt_trace_options *o)
+{
+    uint8_t *occluded = memset(fuzz_allocate(a->count), 0x77, a->count);
+    must(m, cgt_occluded_rays(m->scene, rays, occluded, o), true);
+    for (uint32_t i = 0; i < a->count; i++)
+        FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_NONE), "ray %u: any hit says %u, nearest hit %u.%u", i,
+                   occluded[i], a->other[i].geometry, a->other[i].primitive);
+    fuzz_check_counts(a, a->other, o->statistics);
+    free(occluded);
+}
+
+static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
+{
+    bool legal;
+    cgt_trace_statistics statistics;
+    cgt_trace_options o = fuzz_options(m, false, &legal);
+    o.statistics = &statistics;
+    const uint32_t fields = o.precision == CGT_PRECISION_FAST ? 31 : fuzz_below(&m->bytes, 32);
+    arrays in = make_arrays(m, a->count), out = make_arrays(m, a->count);
+    const cgt_rays rays = rays_in(&in, a->ray, ranges);
+    const cgt_hits hits = hits_in(&out, fields);
+    must(m, cgt_trace_rays(m->scene, &rays, &hits, &o), legal);
+    if (legal) {
+        take_hits(&out, fields, o.precision == CGT_PRECISION_EXACT ? a->exact : a->robust, a->other);
+        fuzz_check_hits(m, a, a->other, o.precision);
+        fuzz_check_counts(a, a->other, &statistics);
+        fuzz_check_same(a, o.precision);
+        check_any_hit(m, a, &rays, &o);
+    }
+    free_arrays(&in);
+    free_arrays(&out);
+}
+
+/* ---- the same by another variant, grid and number of threads ---- */
+
+/* Adds the geometries under the ids that they have; empty ones hold the places between. */
+static void copy_scene(const fuzz_model *m, cgt_scene *scene)
+{
+    const cgt_spheres nothing = {0};
+    uint32_t id;
+    for (uint32_t i = 0; i < FUZZ_GEOMETRIES; i++) {
+        const fuzz_geometry *g = &m->geometry[i];
+        const cgt_result result = g->triangular ? cgt_scene_add_triangles(scene, &g->triangles, &id)
+                                                : cgt_scene_add_spheres(scene, g->used ? &g->spheres : &nothing, &id);
+        FUZZ_CHECK(result == CGT_OK && id == i, "a scene cannot be made again: %s", cgt_result_string(result));
+    }
+    FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a scene cannot be committed again");
+}
+
+static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a)
+{
+    cgt_context_options options;
+    cgt_scene_options grid;
+    cgt_context *context;
+    cgt_scene *scene;
+    const char *const *const names = cgt_variants();
+    uint32_t variants = 0;
+    while (names[variants])
+        variants++;
+    cgt_context_options_init(&options);
+    options.variant = names[fuzz_below(&m->bytes, variants)];
+    options.threads = 1;
+    cgt_scene_options_init(&grid);
+    grid.resolution[0] = 1 + fuzz_below(&m->bytes, 9);
+    grid.resolution[1] = 1 + fuzz_below(&m->bytes, 9);
+    grid.resolution[2] = 1 + fuzz_below(&m->bytes, 9);
+    const cgt_result result = cgt_context_create(&options, &context);
+    FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_result_string(result));
+    if (result != CGT_OK)
+        return;
+    FUZZ_CHECK(cgt_scene_create(context, &grid, &scene) == CGT_OK, "no second scene");
+    copy_scene(m, scene);
+    FUZZ_CHECK(trace_array(scene, a->ray, a->count, a->other, NULL) == CGT_OK, "the second scene cannot be traced");
+    fuzz_check_same(a, CGT_PRECISION_ROBUST);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+void fuzz_trace_rays(fuzz_model *m)
+{
+    truth_ray ray[MOST_RAYS];
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const uint32_t ranges = how % 8 < 4 ? 0 : how % 4, count = make_rays(m, ranges, ray);
+    fuzz_answers a = fuzz_answers_make(ray, count);
+    if (!m->committed) {
+        const cgt_result result = trace_array(m->scene, ray, count, a.robust, NULL);
+        FUZZ_CHECK(result == CGT_ERROR_NOT_COMMITTED, "trace: %s", cgt_result_string(result));
+        fuzz_check_error(m, result);
+    } else {
+        trace_defaults(m, &a);
+        trace_other(m, &a, ranges);
+        if (how & 8)
+            trace_elsewhere(m, &a);
+        if (how & 16)
+            fuzz_check_truth(m, &a);
+    }
+    fuzz_answers_free(&a);
+}

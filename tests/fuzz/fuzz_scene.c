@@ -1,0 +1,230 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Fuzz target: bytes as a script of calls of the public interface. A context with any variant, up to three threads and a
+ * memory hook that fails when told to; a scene with a few geometries of tens of primitives, good and bad; commits;
+ * rays and frames. After each call everything that cgt.h promises of it is checked: results, messages, ids, hits,
+ * statistics, and that all memory comes back. */
+#include "fuzz_check.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- hooks ---- */
+
+static void on_log(void *user, cgt_log_level level, const char *message)
+{
+    fuzz_model *const m = user;
+    FUZZ_CHECK((unsigned)level <= CGT_LOG_INFO && message[0] && !strchr(message, '\n'), "log: \"%s\"", message);
+    m->log_lines++;
+}
+
+/* A valid runner: one after another, the last one first. */
+static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    (void)user;
+    for (uint32_t i = count; i-- > 0;)
+        task(argument, i);
+}
+
+void fuzz_check_error(fuzz_model *m, cgt_result result)
+{
+    char text[8];
+    FUZZ_CHECK(cgt_error_message(m->context, NULL, 0) > 0, "no message for: %s", cgt_result_string(result));
+    FUZZ_CHECK(cgt_error_message(m->context, text, sizeof text) > 0 && text[0] && memchr(text, 0, sizeof text),
+               "a message is cut without an end");
+    FUZZ_CHECK(result != CGT_ERROR_OUT_OF_MEMORY || m->memory.failed, "out of memory, but no allocation has failed");
+    m->memory.failed = false;
+}
+
+/* ---- context and scene ---- */
+
+static bool create_context(fuzz_model *m)
+{
+    cgt_context_options o;
+    const char *const *const names = cgt_variants();
+    const uint8_t threads = fuzz_byte(&m->bytes), variant = fuzz_byte(&m->bytes);
+    uint32_t variants = 0;
+    while (names[variants])
+        variants++;
+    cgt_context_options_init(&o);
+    o.threads = threads < 192 ? 1 : threads < 250 ? 1 + threads % 3 : 2000;
+    if (threads % 4 == 3)
+        o.tasks.run = run_backwards;
+    o.variant = variant < 64 ? NULL : variant < 250 ? names[variant % variants] : "none";
+    o.memory = fuzz_memory_hooks(&m->memory);
+    o.log = (cgt_log_hook){m, on_log};
+    const bool legal = o.threads <= 1024 && variant < 250;
+    cgt_result result = cgt_context_create(&o, &m->context);
+    if (result == CGT_ERROR_OUT_OF_MEMORY && m->memory.failed) {
+        FUZZ_CHECK(!m->context && !m->memory.blocks, "a context that failed leaves something");
+        m->memory.failed = false;
+        result = cgt_context_create(&o, &m->context);
+    }
+    if (result == CGT_ERROR_UNSUPPORTED) /* this CPU */
+        return false;
+    FUZZ_CHECK((result == CGT_OK) == legal && !m->context == !legal, "context: %s", cgt_result_string(result));
+    return legal;
+}
+
+/* Resolutions that take little memory and time, or that must be refused. */
+static cgt_scene_options any_grid(fuzz_model *m, bool *legal)
+{
+    static const uint32_t edges[] = {1, 2, 3, 4, 5, 7, 8, 16, 33, 64, 1024, 1025, 0, CGT_NONE};
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    const uint8_t how = fuzz_byte(&m->bytes);
+    o.structure = how == 255 ? (cgt_structure)9 : (cgt_structure)(how & 1);
+    *legal = how != 255;
+    if (how & 2)
+        return o;
+    uint64_t cells = 1;
+    for (int a = 0; a < 3; a++) {
+        uint32_t edge = edges[fuzz_below(&m->bytes, sizeof edges / sizeof edges[0])];
+        if (edge && edge <= 1024 && cells * edge > 8192)
+            edge = 1;
+        *legal &= edge && edge <= 1024;
+        cells *= edge && edge <= 1024 ? edge : 1;
+        o.resolution[a] = edge;
+    }
+    *legal |= how != 255 && !o.resolution[0] && !o.resolution[1] && !o.resolution[2];
+    return o;
+}
+
+/* Options that are refused give way to the defaults. */
+static void create_scene(fuzz_model *m)
+{
+    bool legal;
+    const cgt_scene_options o = any_grid(m, &legal);
+    cgt_result result = cgt_scene_create(m->context, &o, &m->scene);
+    FUZZ_CHECK(legal || (result != CGT_OK && result != CGT_ERROR_OUT_OF_MEMORY), "scene: %s",
+               cgt_result_string(result));
+    for (int i = 0; i < 2 && result != CGT_OK; i++) {
+        FUZZ_CHECK(!m->scene, "scene: an object after an error");
+        fuzz_check_error(m, result);
+        result = cgt_scene_create(m->context, legal ? &o : NULL, &m->scene);
+    }
+    FUZZ_CHECK(result == CGT_OK && m->scene, "scene: %s", cgt_result_string(result));
+}
+
+static void set_options(fuzz_model *m)
+{
+    bool legal;
+    const cgt_scene_options o = any_grid(m, &legal);
+    const cgt_result result = cgt_scene_set_options(m->scene, &o);
+    FUZZ_CHECK((result == CGT_OK) == legal, "scene options: %s", cgt_result_string(result));
+    if (legal)
+        m->committed = false;
+    else
+        fuzz_check_error(m, result);
+}
+
+/* ---- commit ---- */
+
+static void check_statistics(const fuzz_model *m)
+{
+    cgt_scene_statistics s;
+    uint32_t geometries = 0, spheres = 0, triangles = 0;
+    for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++) {
+        const fuzz_geometry *g = &m->geometry[id];
+        geometries += g->used;
+        *(g->triangular ? &triangles : &spheres) += fuzz_count(g);
+    }
+    FUZZ_CHECK(cgt_scene_get_statistics(m->scene, &s) == CGT_OK, "no statistics");
+    FUZZ_CHECK(s.geometries == geometries && s.spheres == spheres && s.triangles == triangles &&
+                   s.primitives == spheres + triangles,
+               "statistics: %u geometries, %u spheres, %u triangles, %u primitives", s.geometries, s.spheres,
+               s.triangles, s.primitives);
+    FUZZ_CHECK((uint64_t)s.skipped_not_finite + s.skipped_radius + s.skipped_degenerate <= s.primitives &&
+                   s.skipped_radius <= spheres && s.skipped_degenerate <= triangles,
+               "statistics: %u, %u, %u skipped of %u", s.skipped_not_finite, s.skipped_radius, s.skipped_degenerate,
+               s.primitives);
+    FUZZ_CHECK(s.cells == (uint64_t)s.resolution[0] * s.resolution[1] * s.resolution[2], "statistics: cells");
+    FUZZ_CHECK(s.overflow_references <= s.references && s.overflow_cells <= s.overflow_references &&
+                   s.large_primitives <= s.primitives && s.bytes <= m->memory.bytes,
+               "statistics: the counts do not fit each other");
+    for (int a = 0; a < 3; a++)
+        FUZZ_CHECK(s.bounds_min[a] <= s.bounds_max[a], "statistics: bounds %a to %a", (double)s.bounds_min[a],
+                   (double)s.bounds_max[a]);
+    FUZZ_CHECK(memchr(s.reason, 0, sizeof s.reason), "statistics: the reason has no end");
+}
+
+bool fuzz_commit(fuzz_model *m)
+{
+    bool good = true;
+    for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
+        good &= fuzz_indices_are_good(&m->geometry[id]);
+    cgt_result result = cgt_scene_commit(m->scene);
+    if (result == CGT_ERROR_OUT_OF_MEMORY) {
+        fuzz_check_error(m, result);
+        result = cgt_scene_commit(m->scene);
+    }
+    FUZZ_CHECK(result == (good ? CGT_OK : CGT_ERROR_INVALID_ARGUMENT), "commit: %s", cgt_result_string(result));
+    m->committed = result == CGT_OK;
+    if (m->committed)
+        check_statistics(m);
+    else
+        fuzz_check_error(m, result);
+    return m->committed;
+}
+
+/* ---- the script ---- */
+
+static void replace_scene(fuzz_model *m)
+{
+    cgt_scene_release(m->scene);
+    m->scene = NULL;
+    for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
+        fuzz_release_geometry(&m->geometry[id]);
+    m->committed = false;
+    create_scene(m);
+}
+
+/* Adding, committing and tracing are most of what there is to do. */
+static void step(fuzz_model *m)
+{
+    switch (fuzz_byte(&m->bytes) % 16) {
+    case 0:
+    case 1:
+    case 2: fuzz_add(m); break;
+    case 3: fuzz_update(m); break;
+    case 4: fuzz_remove(m); break;
+    case 5: fuzz_move(m); break;
+    case 6: set_options(m); break;
+    case 7: replace_scene(m); break;
+    case 8: m->memory.fail_after = fuzz_below(&m->bytes, 16); break;
+    case 9:
+    case 10: fuzz_commit(m); break;
+    case 11: fuzz_trace_rays(m); break;
+    case 12:
+    case 13:
+        fuzz_commit(m);
+        fuzz_trace_rays(m);
+        break;
+    case 14: fuzz_trace_camera(m); break;
+    default:
+        fuzz_commit(m);
+        fuzz_trace_camera(m);
+        break;
+    }
+}
+
+#define MOST_STEPS 64
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_model m = {.bytes = fuzz_bytes_of(data, size)};
+    m.memory.fail_after = fuzz_below(&m.bytes, 8);
+    if (create_context(&m)) {
+        create_scene(&m);
+        for (int i = 0; i < MOST_STEPS && m.bytes.left; i++)
+            step(&m);
+        for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
+            fuzz_release_geometry(&m.geometry[id]);
+        cgt_context_release(m.context); /* it stays until its last scene goes */
+        cgt_scene_release(m.scene);
+    }
+    FUZZ_CHECK(!m.memory.blocks && !m.memory.bytes, "%zu blocks of %zu bytes are left", m.memory.blocks,
+               m.memory.bytes);
+    return 0;
+}

@@ -1,0 +1,19 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Fuzz target: the first byte chooses the kind of file and the options, the rest is the file. */
+#include "fuzz_file.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const char *const endings[] = {".lammpstrj", ".xyz", ".frames"};
+    trajectory_options options;
+    fuzz_bytes b = fuzz_bytes_of(data, size);
+    const uint8_t how = fuzz_byte(&b);
+    trajectory_options_init(&options);
+    options.radius = how & 16 ? 0.25f : 0;
+    options.wrapped = (how & 32) != 0;
+    options.max_count = how & 64 ? 3 : 0;
+    fuzz_file(endings[how % 4 % 3], b.at, b.left, &options);
+    return 0;
+}
