@@ -105,7 +105,8 @@ static void write_table(const pareto_table *table, const pareto_settings *settin
 
 static void write_tests(const pareto_tests *tests, FILE *to)
 {
-    fprintf(to, "config\ttest\tvariant\tarithmetic\tns_per_test\ttests\thits\tmissed\tinvented\twrong_share\t"
+    fprintf(to, "config\ttest\tvariant\tarithmetic\tns_per_test\t"
+                "tests\thits\tmissed\tinvented\twrong_share\t"
                 "t_ulp_median\tt_ulp_p99\tt_ulp_worst\n");
     for (size_t i = 0; i < tests->count; i++) {
         const pareto_test_row *row = &tests->rows[i];

@@ -4,7 +4,7 @@
  * The thesis' accelerated triangle: 48 bytes that project a triangle onto the coordinate plane that it faces most (Wald,
  * "Realtime Ray Tracing and Interactive Global Illumination", 2004, section 7.2). With k that axis and u, v the next
  * two, the line meets the plane at
- *   t = (nd - o_k - nu o_u - nv o_v) / (d_k + nu d_u + nv d_v)
+ *   t = (nw - o_k - nu o_u - nv o_v) / (d_k + nu d_u + nv d_v)
  * and there h_u, h_v give the shares of the second and the third vertex:
  *   share1 = bnu h_u + bnv h_v + bd    share2 = cnu h_u + cnv h_v + cd
  *
@@ -17,7 +17,7 @@
 #include "shape.h"
 
 typedef struct cgt_accelerated_triangle {
-    float nu, nv, nd;
+    float nu, nv, nw;
     uint32_t k;
     float bnu, bnv, bd;
     float cnu, cnv, cd;
@@ -42,7 +42,7 @@ static inline cgt_accelerated_triangle cgt_accelerated_triangle_make(const cgt_t
     const float *p = q->v[0], nu = n[u] / n[k], nv = n[v] / n[k], r = b[u] * c[v] - b[v] * c[u];
     return (cgt_accelerated_triangle){.nu = nu,
                                       .nv = nv,
-                                      .nd = p[k] + nu * p[u] + nv * p[v],
+                                      .nw = p[k] + nu * p[u] + nv * p[v],
                                       .k = k,
                                       .bnu = -b[v] / r,
                                       .bnv = b[u] / r,

@@ -67,9 +67,9 @@ static inline cgt_sphere cgt_array_sphere(const cgt_object_array *a, uint32_t i)
 
 static inline void cgt_array_corners(const cgt_object_array *a, uint32_t i, uint32_t corner[3])
 {
-    const uint32_t *index = (const uint32_t *)(const void *)(a->index + (size_t)i * a->index_stride);
+    const uint32_t *index = a->index ? (const uint32_t *)(const void *)(a->index + (size_t)i * a->index_stride) : NULL;
     for (uint32_t k = 0; k < 3; k++)
-        corner[k] = a->index ? index[k] : 3 * i + k;
+        corner[k] = index ? index[k] : 3 * i + k;
 }
 
 static inline cgt_triangle cgt_array_triangle(const cgt_object_array *a, uint32_t i)

@@ -108,11 +108,14 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid
         .t_min = p->t_min[i],
         .t_max = p->t_max[i]};
     const uint32_t winner = p->object[i];
+    uint64_t exact = 0;
     if (winner == object || p->high[i] == -INFINITY)
         return; /* met before; or the ray takes no part */
     counts->double_tests++;
     cgt_decided_hit hit = {.shape = cgt_objects_shape(&grid->objects, object)};
-    if (!cgt_decide_hit(&ray, &hit, &counts->exact_tests))
+    const bool meets = cgt_decide_hit(&ray, &hit, &exact), met_exactly = exact != 0;
+    counts->exact_tests += met_exactly;
+    if (!meets)
         return;
     if (p->any_hit) {
         p->low[i] = p->high[i] = -INFINITY;
@@ -122,7 +125,8 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid
     if (winner != CGT_NONE) {
         cgt_decided_hit best = {.shape = cgt_objects_shape(&grid->objects, winner)};
         cgt_decide_t(&ray, &best);
-        const int order = cgt_decide_order(&ray, &hit, &best, &counts->exact_tests);
+        const int order = cgt_decide_order(&ray, &hit, &best, &exact);
+        counts->exact_tests += exact && !met_exactly; /* once a test */
         if (order > 0 || (order == 0 && object > winner))
             return;
     }

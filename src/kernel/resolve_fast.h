@@ -9,9 +9,9 @@
 
 CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const winners *w, packet_hits *hits)
 {
-    const float k = 1 / w->sphere[3][i];
+    const double k = 1 / (double)w->sphere[3][i]; /* finite for denormal radii too */
     for (int a = 0; a < 3; a++)
-        hits->normal[a][i] = ((p->org[a][i] - w->sphere[a][i]) + p->high[i] * p->dir[a][i]) * k;
+        hits->normal[a][i] = (float)((double)((p->org[a][i] - w->sphere[a][i]) + p->high[i] * p->dir[a][i]) * k);
 }
 
 /* Edges are scaled, so that their products stay in range. */

@@ -271,9 +271,11 @@ CGT_SPU_INLINE bool filter_triangle_rays_fast(const packet *p, const void *primi
     filter_triangle_plane(p, q, i, common_origin, &num, &den);
     const vfloat t = spu_mul(num, spux_div(spux_vfloat(1), den));
     const vfloat sum = spu_add(w[0], spu_add(w[1], w[2]));
+    /* all three may be 0 where the exact ones are only small: any share will do then, but a number */
+    const vfloat divisor = spux_select(sum, spux_vfloat(1), spu_cmpeq(sum, zero));
     f->low = f->high = t;
-    f->u = spux_div(w[1], sum);
-    f->v = spux_div(w[2], sum);
+    f->u = spux_div(w[1], divisor);
+    f->v = spux_div(w[2], divisor);
     f->certain = spu_and(hit, filter_fast_nearer(p, i, t, q->object));
     f->open = spux_mask_none();
     return true;

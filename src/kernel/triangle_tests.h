@@ -87,7 +87,7 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
     const vfloat du = spux_load(p->dir[ku] + i), dv = spux_load(p->dir[kv] + i);
     (void)common_origin;
     const vfloat num =
-        spu_sub(spu_sub(spux_vfloat(q->nd), spux_load(p->org[k] + i)), spu_madd(nu, ou, spu_mul(nv, ov)));
+        spu_sub(spu_sub(spux_vfloat(q->nw), spux_load(p->org[k] + i)), spu_madd(nu, ou, spu_mul(nv, ov)));
     const vfloat den = spu_madd(nu, du, spu_madd(nv, dv, spux_load(p->dir[k] + i)));
     const vfloat t = spu_mul(num, spux_div(spux_vfloat(1), den));
     const vfloat hu = spu_madd(t, du, ou), hv = spu_madd(t, dv, ov);
