@@ -52,6 +52,10 @@ uint32_t name_table_find(name_table *names, text_span name, const char **what)
         *what = "the name is longer than 15 characters";
         return 0;
     }
+    if (memchr(name.begin, '\0', length)) {
+        *what = "the name has a zero byte in it";
+        return 0;
+    }
     if (names->count == NAMES_MOST) {
         *what = "more than 1024 different names";
         return 0;
