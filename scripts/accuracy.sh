@@ -49,10 +49,12 @@ echo "accuracy.sh: time against error" >&2
 "$bin/cgt-bench" pareto -n 8 -r 5 -o "$out/pareto_triangles" "$out/blobs2k.frames" >/dev/null
 
 echo "accuracy.sh: beside Embree" >&2
+: >"$out/embree.tsv"
 if [ -x "$tests/oracle_hard_embree" ]; then
-    CGT_TABLE=$out/embree.tsv "$tests/oracle_hard_embree" >/dev/null
+    CGT_TABLE=$out/embree.tsv "$tests/oracle_hard_embree" >/dev/null 2>&1
 fi
 
 exec awk -F'\t' -v variant="$variant" -f scripts/accuracy_tables.awk \
     part=hard "$out/hard.tsv" part=real "$out/real.tsv" part=spheres "$out/pareto_spheres.tsv" \
-    part=triangles "$out/pareto_triangles.tsv" part=tests "$out/pareto_triangles_tests.tsv"
+    part=triangles "$out/pareto_triangles.tsv" part=tests "$out/pareto_triangles_tests.tsv" \
+    part=embree "$out/embree.tsv"

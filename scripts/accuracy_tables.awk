@@ -12,6 +12,9 @@ function variant_of(config) { sub(/^.*variant=/, "", config); sub(/,.*$/, "", co
 
 FNR == 1 { section = ""; header = 1 }
 
+# comments before the table
+part == "embree" && /^#/ { header = 1; next }
+
 # commented sections behind the table: "# name", then "# columns", then "# rows"
 /^#$/ { next }
 /^# [a-z]+$/ { section = substr($0, 3); header = 1; next }
@@ -42,10 +45,19 @@ part == "hard" && section == "" {
     next
 }
 
+# modes that agree in everything are one line
 part == "hard" && section == "modes" {
-    modes[++mode_count] = sprintf("| %s | %s | %.3g | %s | %s | %s | %s | %s/%s/%s |", column("config"), column("rays"),
-        column("direction_truth_worst"), column("direction_ulp_worst"), column("other_hits"), column("other_bits"),
-        column("t_truth_ulp_worst"), column("missed"), column("invented"), column("wrong"))
+    config = column("config")
+    result = sprintf("%.3g | %s | %s | %s | %s | %s/%s/%s |", column("direction_truth_worst"),
+        column("direction_ulp_worst"), column("other_hits"), column("other_bits"), column("t_truth_ulp_worst"),
+        column("missed"), column("invented"), column("wrong"))
+    key = mode_of(config) SUBSEP result
+    if (!(key in mode_count)) { modes[++mode_lines] = key; mode_rays[key] = column("rays") }
+    mode_count[key]++
+    name = variant_of(config)
+    if (index(mode_variants[key] ",", name ",") == 0) {
+        mode_variants[key] = mode_variants[key] (mode_variants[key] == "" ? "" : ", ") name
+    }
     next
 }
 
@@ -62,10 +74,14 @@ part == "hard" && section == "structure" {
 
 part == "real" && section == "" {
     config = column("config")
-    real[++real_count] = sprintf("| %s | %s | %s | %.0f | %s/%s/%s | %s / %s / %s | %s | %s | %s |", column("case"),
-        variant_of(config), mode_of(config), column("ns_per_ray"), column("missed"), column("invented"), column("wrong"),
+    if (variant_of(config) != variant) next
+    name = column("case")
+    sub(/^.*\//, "", name)
+    sub(/\.frames$/, "", name)
+    real[++real_count] = sprintf("| %s | %s | %.0f | %s/%s/%s | %.2f / %.2f / %.2f | %s | %.2g | %.2g %% |", name,
+        mode_of(config), column("ns_per_ray"), column("missed"), column("invented"), column("wrong"),
         column("t_ulp_median"), column("t_ulp_p99"), column("t_ulp_worst"), column("uv_ulp_worst"),
-        column("normal_angle_worst"), column("ambiguous"))
+        column("normal_angle_worst"), 100 * column("ambiguous"))
     next
 }
 
@@ -73,6 +89,17 @@ part == "real" && section == "" {
     price[++price_count] = sprintf("| %s | %s | %s | %s | %s | %s | %.2f | %s | %s |", column("scene"), column("variant"),
         column("precision"), column("test"), column("ms"), column("cost_percent"), column("wrong_share") * 1e6,
         column("t_ulp_p99"), column("t_ulp_worst"))
+    next
+}
+
+part == "embree" && section == "" {
+    row = column("row")
+    config = column("config")
+    key = row SUBSEP config
+    if (!(row in embree_rows)) { embree_rows[row] = 1; embree_order[++embree_count] = row }
+    e_rays[key] += column("rays")
+    e_missed[key] += column("missed"); e_invented[key] += column("invented"); e_wrong[key] += column("wrong")
+    e_t[key] = larger(e_t[key], column("t_ulp_worst"))
     next
 }
 
@@ -86,6 +113,10 @@ part == "tests" && section == "" {
 function errors(row, mode) {
     if (!((row, mode) in rays)) return "-"
     return missed[row, mode] "/" invented[row, mode] "/" wrong[row, mode]
+}
+
+function embree_errors(row, config) {
+    return e_missed[row, config] + 0 "/" e_invented[row, config] + 0 "/" e_wrong[row, config] + 0
 }
 
 function print_lines(line, lines,   i) { for (i = 1; i <= lines; i++) print line[i] }
@@ -107,14 +138,30 @@ END {
     for (i = 1; i <= structure_count; i++)
         printf "| %s | %d | %d | %d |\n", structures[i], structure[structures[i]], grid[structures[i]], brute[structures[i]]
     print "\n## Modes of execution\n"
-    print "| mode | rays | direction off the truth | directions that differ, ulp | other primitives | other bits |" \
-          " t off the truth, ulp | missed/invented/wrong |"
-    print "|---|---|---|---|---|---|---|---|"
-    print_lines(modes, mode_count)
+    print "| precision | variants | modes | rays each | direction off the truth | directions that differ, ulp |" \
+          " other primitives | other bits | t off the truth, ulp | missed/invented/wrong |"
+    print "|---|---|---|---|---|---|---|---|---|---|"
+    for (i = 1; i <= mode_lines; i++) {
+        split(modes[i], piece, SUBSEP)
+        printf "| %s | %s | %d | %d | %s\n", piece[1], mode_variants[modes[i]], mode_count[modes[i]], mode_rays[modes[i]],
+            piece[2]
+    }
+    if (embree_count) {
+        print "\n## Beside Embree\n"
+        print "| row | Embree: rays | errors | t worst, ulp | Embree robust: errors | t worst, ulp | libcgt: rays |" \
+              " ROBUST: errors | t worst, ulp | EXACT: errors |\n|---|---|---|---|---|---|---|---|---|---|"
+    }
+    for (i = 1; i <= embree_count; i++) {
+        row = embree_order[i]
+        printf "| %s | %d | %s | %s | %s | %s | %d | %s | %s | %s |\n", row, e_rays[row, "embree"],
+            embree_errors(row, "embree"), e_t[row, "embree"], embree_errors(row, "embree,robust"), e_t[row, "embree,robust"],
+            e_rays[row, "libcgt,precision=robust"], embree_errors(row, "libcgt,precision=robust"),
+            e_t[row, "libcgt,precision=robust"], embree_errors(row, "libcgt,precision=exact")
+    }
     print "\n## Real scenes\n"
-    print "| scene | variant | precision | ns a ray | missed/invented/wrong | t: median / 99 % / worst, ulp | u, v worst, ulp |" \
+    print "| scene | precision | ns a ray | missed/invented/wrong | t: median / 99 % / worst, ulp | u, v worst, ulp |" \
           " normal worst, rad | ambiguous |"
-    print "|---|---|---|---|---|---|---|---|---|"
+    print "|---|---|---|---|---|---|---|---|"
     print_lines(real, real_count)
     print "\n## The price, whole frames\n"
     print "| scene | variant | precision | test | ms | % over FAST | wrong pixels per million | t 99 %, ulp | t worst, ulp |"

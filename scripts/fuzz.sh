@@ -23,10 +23,12 @@ done
 scripts/dependencies.sh build render tests clang
 build=build/fuzz
 cmake -S . -B $build -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
-    "-DCMAKE_C_FLAGS_DEBUG=-O1 -g" "-DCGT_SANITIZE=address,undefined" -DCGT_BUILD_FUZZERS=ON -DCGT_BUILD_TESTS=ON \
+    "-DCMAKE_C_FLAGS_DEBUG=-O2 -g" "-DCGT_SANITIZE=address,undefined" -DCGT_BUILD_FUZZERS=ON -DCGT_BUILD_TESTS=ON \
     -DCGT_BUILD_MESHES=ON -DCGT_BUILD_ORACLE=OFF -DCGT_BUILD_RENDER=OFF -DCGT_BUILD_BENCH=OFF
 cmake --build $build -j "$(nproc)" --target "${targets[@]/#/fuzzer_}"
 mkdir -p $build/findings
+[ -n "${TMPDIR:-}" ] || [ ! -w /dev/shm ] || export TMPDIR=/dev/shm # the readers' targets write files all the time
+export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 
 status=0
 for target in "${targets[@]}"; do

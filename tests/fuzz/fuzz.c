@@ -13,12 +13,12 @@
 
 _Noreturn void fuzz_fail(const char *file, int line, const char *format, ...)
 {
+    char text[1024];
     va_list arguments;
     va_start(arguments, format);
-    fprintf(stderr, "%s:%d: ", file, line);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    fprintf(stderr, "%s:%d: %s\n", file, line, text);
     abort();
 }
 

@@ -162,7 +162,7 @@ static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camer
     fuzz_check_counts(&a, a.other, &statistics);
     o->statistics = NULL;
     trace_as_array(m, &a);
-    fuzz_check_same(&a, o->precision);
+    fuzz_check_same(m, &a, o->precision);
     if ((how & 3) == 3)
         fuzz_check_truth(m, &a);
     fuzz_answers_free(&a);

@@ -30,7 +30,7 @@ void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit 
 void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s);
 
 /* ROBUST and EXACT name the same hits; `other` is in its precision what the defaults give. */
-void fuzz_check_same(const fuzz_answers *a, cgt_precision precision_of_other);
+void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision precision_of_other);
 
 /* Judges ROBUST and EXACT by exact arithmetic. */
 void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a);

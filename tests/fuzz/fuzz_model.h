@@ -50,6 +50,9 @@ bool fuzz_indices_are_good(const fuzz_geometry *g);
 
 /* ---- fuzz_scene.c ---- */
 
+/* The name of one of the build's variants. */
+const char *fuzz_variant(uint8_t number);
+
 /* Checks a call that failed: it has a message, and it had a reason where it says that memory was short. */
 void fuzz_check_error(fuzz_model *m, cgt_result result);
 

@@ -202,7 +202,7 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
         take_hits(&out, fields, o.precision == CGT_PRECISION_EXACT ? a->exact : a->robust, a->other);
         fuzz_check_hits(m, a, a->other, o.precision);
         fuzz_check_counts(a, a->other, &statistics);
-        fuzz_check_same(a, o.precision);
+        fuzz_check_same(m, a, o.precision);
         check_any_hit(m, a, &rays, &o);
     }
     free_arrays(&in);
@@ -231,12 +231,8 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a)
     cgt_scene_options grid;
     cgt_context *context;
     cgt_scene *scene;
-    const char *const *const names = cgt_variants();
-    uint32_t variants = 0;
-    while (names[variants])
-        variants++;
     cgt_context_options_init(&options);
-    options.variant = names[fuzz_below(&m->bytes, variants)];
+    options.variant = fuzz_variant(fuzz_byte(&m->bytes));
     options.threads = 1;
     cgt_scene_options_init(&grid);
     grid.resolution[0] = 1 + fuzz_below(&m->bytes, 9);
@@ -249,7 +245,7 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a)
     FUZZ_CHECK(cgt_scene_create(context, &grid, &scene) == CGT_OK, "no second scene");
     copy_scene(m, scene);
     FUZZ_CHECK(trace_array(scene, a->ray, a->count, a->other, NULL) == CGT_OK, "the second scene cannot be traced");
-    fuzz_check_same(a, CGT_PRECISION_ROBUST);
+    fuzz_check_same(m, a, CGT_PRECISION_ROBUST);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

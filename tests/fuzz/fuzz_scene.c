@@ -39,19 +39,25 @@ void fuzz_check_error(fuzz_model *m, cgt_result result)
 
 /* ---- context and scene ---- */
 
-static bool create_context(fuzz_model *m)
+const char *fuzz_variant(uint8_t number)
 {
-    cgt_context_options o;
     const char *const *const names = cgt_variants();
-    const uint8_t threads = fuzz_byte(&m->bytes), variant = fuzz_byte(&m->bytes);
     uint32_t variants = 0;
     while (names[variants])
         variants++;
+    FUZZ_CHECK(variants, "a build without a variant");
+    return names[number % variants];
+}
+
+static bool create_context(fuzz_model *m)
+{
+    cgt_context_options o;
+    const uint8_t threads = fuzz_byte(&m->bytes), variant = fuzz_byte(&m->bytes);
     cgt_context_options_init(&o);
     o.threads = threads < 192 ? 1 : threads < 250 ? 1 + threads % 3 : 2000;
     if (threads % 4 == 3)
         o.tasks.run = run_backwards;
-    o.variant = variant < 64 ? NULL : variant < 250 ? names[variant % variants] : "none";
+    o.variant = variant < 64 ? NULL : variant < 250 ? fuzz_variant(variant) : "none";
     o.memory = fuzz_memory_hooks(&m->memory);
     o.log = (cgt_log_hook){m, on_log};
     const bool legal = o.threads <= 1024 && variant < 250;
