@@ -15,7 +15,8 @@
  *   NULL     allowed only where a text below says so.
  *   Threads  a scene is changed and committed by one thread at a time, while no thread traces it; a committed
  *            scene may be traced by any number of threads at once. There is no global state.
- *   Floats   IEEE single precision. The library expects round-to-nearest; flushing of denormals may be on.
+ *   Floats   IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
+ *            tracing work in the default environment and give the caller's back.
  *
  * Structure and traversal follow David R. Chapman, "High Definition Interactive Animated Ray Tracing on CELL
  * Processor using Coherent Grid Traversal", and Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes
@@ -223,7 +224,7 @@ typedef struct cgt_scene_statistics {
     uint32_t overflow_cells;      /* cells with any of those */
     uint32_t large_primitives;    /* larger than a cell: more than eight corners to push */
     size_t bytes;                 /* memory that the scene holds now */
-    size_t local_store_bytes;     /* grid, overflow list and spheres together: what a Cell SPU has to hold */
+    size_t local_store_bytes;     /* grid, overflow list and primitives together: what a Cell SPU has to hold */
     int fits_local_store;         /* 1 where the grid is at most 16x16x16 and local_store_bytes, with 64 KB for
                                      program and stack, is within 256 KB */
     double bounds_ms;             /* reading, checking and bounding the primitives */
@@ -259,8 +260,8 @@ typedef enum cgt_loop {
 } cgt_loop;
 
 typedef enum cgt_cull {
-    CGT_CULL_NONE = 0, /* every sphere of a cell meets every ray of the packet */
-    CGT_CULL_FRUSTUM,  /* spheres are first tested against the packet's frustum (Wald et al., Chapman) */
+    CGT_CULL_NONE = 0, /* every primitive of a cell meets every ray of the packet */
+    CGT_CULL_FRUSTUM,  /* primitives are first tested against the packet's frustum (Wald et al., Chapman) */
     CGT_CULL_BLOCKS    /* and then against a cone around every 16 of its rays */
 } cgt_cull;
 
@@ -312,7 +313,7 @@ typedef struct cgt_trace_options {
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
     cgt_cull cull;                    /* default CGT_CULL_BLOCKS */
-    int mailbox;                      /* remember the spheres that a packet has met lately; default 1: it saves a
+    int mailbox;                      /* remember the primitives that a packet has met lately; default 1: it saves a
                                          fifth of the time (docs/coherent_grid_traversal.md); Chapman expected a loss */
     cgt_trace_statistics *statistics; /* gets the counts of this call; NULL (default): nothing is counted */
 } cgt_trace_options;
