@@ -77,7 +77,7 @@ static void judge_difference(const subject *w, const truth_ray *ray, const full_
 static void judge_values(const subject *w, const truth_ray *ray, const full_hit *ours, const full_hit *theirs,
                          tally *sum)
 {
-    oracle_hit exact;
+    oracle_hit exact = {.index = ORACLE_NONE};
     const oracle_primitive *named = opinion_named(&w->truth.scene, ours);
     if (!named || !oracle_hits(named, ray, &exact))
         fail_ray(ray, ours, theirs, "both are wrong");

@@ -239,7 +239,7 @@ static void test_rays(void **state)
 {
     const soup_kind kind = *(const soup_kind *)*state;
     const uint32_t scaled = test_scaled(RAYS), rays = scaled < 200 ? 200 : scaled;
-    full_hit *expected = malloc(rays * sizeof *expected), *got = malloc(rays * sizeof *got);
+    full_hit *expected = calloc(rays, sizeof *expected), *got = calloc(rays, sizeof *got);
     uint8_t *occluded = malloc(rays);
     uint32_t hits = 0;
     assert_true(expected && got && occluded);

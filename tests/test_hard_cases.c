@@ -461,8 +461,11 @@ int main(void)
     struct CMUnitTest *tests = calloc(cases + OTHER_TESTS, sizeof *tests);
     char(*name)[160] = calloc(cases, sizeof *name);
     test_begin("test_hard_cases");
-    if (!tests || !name)
+    if (!tests || !name) {
+        free(tests);
+        free(name);
         return 1;
+    }
     tests[0] = (struct CMUnitTest)cmocka_unit_test(test_rows_have_cases);
     tests[1] = (struct CMUnitTest)cmocka_unit_test(test_cases_are_deterministic);
     tests[2] = (struct CMUnitTest)cmocka_unit_test(test_range_ends_at_found_t);
