@@ -13,7 +13,7 @@ packages_of() {
     render) echo g++ libopenimageio-dev libassimp-dev ;;                           # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox ;;                     # native tests
-    clang)  echo clang ;;                                                          # the tests by another compiler
+    clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler
     cross)  echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross \
                  qemu-user xz-utils ;;                                             # cross tests
     lint)   echo clang-format-14 clang-tidy-14 codespell ;;                        # scripts/lint.sh

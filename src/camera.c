@@ -80,6 +80,15 @@ static const char *make_axes(const cgt_camera *c, vec3 *fwd, vec3 *right, vec3 *
     return NULL;
 }
 
+/* The corners' origins are farther out than any pixel's. */
+static bool origins_are_finite(const cgt_camera_rays *r)
+{
+    for (int a = 0; a < 3; a++)
+        if (!isfinite(fabsf(r->eye[a]) + fabsf(r->right[a]) + fabsf(r->up[a])))
+            return false;
+    return true;
+}
+
 cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t height, cgt_camera_rays *rays,
                               char message[160])
 {
@@ -103,7 +112,7 @@ cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t
     round_to(rays->fwd, fwd);
     round_to(rays->right, scale(right, half * width / height));
     round_to(rays->up, scale(up, half));
-    if (finite3(rays->right) && finite3(rays->up))
+    if (finite3(rays->right) && finite3(rays->up) && (!orthographic || origins_are_finite(rays)))
         return CGT_OK;
     snprintf(message, 160, "camera: the picture's width or height leaves the range of float");
     return CGT_ERROR_INVALID_ARGUMENT;

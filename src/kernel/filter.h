@@ -193,13 +193,13 @@ CGT_SPU_INLINE void filter_blocks(const cgt_queue_grid *grid, packet *p, filter_
     }
 }
 
-/* In FAST precision: nearer than the best so far, or as near and of a lower id. t is in the ray's range. */
+/* In FAST precision: nearer than the best so far, or as near and of a lower id. t is in the ray's range, and finite. */
 CGT_SPU_INLINE vmask filter_fast_nearer(const packet *p, uint32_t i, vfloat t, vuint object)
 {
     const vfloat best = spux_load(p->high + i);
     const vmask lower = spu_cmpgt(spux_load_uint(p->object + i), object);
-    return spu_and(spux_cmpge(t, spux_load(p->t_min + i)),
-                   spu_or(spu_cmpgt(best, t), spu_and(spu_cmpeq(best, t), lower)));
+    const vmask inside = spu_and(spux_cmpge(t, spux_load(p->t_min + i)), spu_cmpgt(spux_vfloat(INFINITY), spux_abs(t)));
+    return spu_and(inside, spu_or(spu_cmpgt(best, t), spu_and(spu_cmpeq(best, t), lower)));
 }
 
 #endif
