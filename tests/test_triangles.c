@@ -63,8 +63,9 @@ static void any_layout(void **state)
     static uint32_t index[COUNT][3];
     make_input(1);
     for (uint32_t i = 0; i < 3 * COUNT; i++) { /* vertices in reverse order */
+        const uint32_t from = 3 * COUNT - 1 - i;
         memset(&packed[i], 0xff, sizeof packed[i]);
-        memcpy(packed[i].position, given[0][3 * COUNT - 1 - i], sizeof packed[i].position);
+        memcpy(packed[i].position, given[from / 3][from % 3], sizeof packed[i].position);
     }
     for (uint32_t i = 0; i < COUNT; i++)
         for (uint32_t k = 0; k < 3; k++) {
