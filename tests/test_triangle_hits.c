@@ -15,28 +15,12 @@ static triangle given[COUNT];
 static truth_ray ray[RAYS];
 static full_hit expected[RAYS], hit[RAYS];
 
-static cgt_trace_options with_precision(cgt_precision precision)
-{
-    cgt_trace_options options;
-    cgt_trace_options_init(&options);
-    options.precision = precision;
-    return options;
-}
-
 static cgt_scene *make_scene(cgt_context *context, uint64_t stream)
 {
     test_random r = random_make(stream);
     random_triangles(&r, 0.8f, given, COUNT);
     random_rays(&r, ray, RAYS);
     return scene_of_triangles(context, NULL, (const triangle *)given, COUNT);
-}
-
-static uint32_t count_hits(const full_hit *of, uint32_t count)
-{
-    uint32_t hits = 0;
-    for (uint32_t i = 0; i < count; i++)
-        hits += of[i].geometry != CGT_NONE;
-    return hits;
 }
 
 /* ---- values ---- */
@@ -338,9 +322,9 @@ static void rays_in_a_triangles_plane_miss(void **state)
         cgt_context *context = context_make(1, variant);
         cgt_scene *scene = scene_of_triangles(context, NULL, &t, 1);
         trace_all(scene, in_plane, TEST_COUNT(in_plane), hit, NULL);
-        assert_int_equal(count_hits(hit, TEST_COUNT(in_plane)), 0);
+        assert_int_equal(hits_in(hit, TEST_COUNT(in_plane)), 0);
         trace_all(scene, through, TEST_COUNT(through), hit, NULL);
-        assert_int_equal(count_hits(hit, TEST_COUNT(through)), TEST_COUNT(through));
+        assert_int_equal(hits_in(hit, TEST_COUNT(through)), TEST_COUNT(through));
         assert_true(hit[4].t == 0 && hit[5].t == 1 && hit[6].t == -1);
         cgt_scene_release(scene);
         cgt_context_release(context);
@@ -370,7 +354,7 @@ static void occluded_is_nearest_exists(void **state)
             assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &options), CGT_OK);
             for (int i = 0; i < RAYS; i++)
                 assert_int_equal(occluded[i], hit[i].geometry != CGT_NONE);
-            assert_int_equal(s.hits, count_hits(hit, RAYS));
+            assert_int_equal(s.hits, hits_in(hit, RAYS));
             assert_int_equal(s.rays, RAYS);
             cgt_scene_release(scene);
         }

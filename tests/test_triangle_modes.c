@@ -16,28 +16,12 @@ static triangle given[COUNT];
 static truth_ray ray[RAYS];
 static full_hit expected[RAYS], hit[RAYS];
 
-static cgt_trace_options with_precision(cgt_precision precision)
-{
-    cgt_trace_options options;
-    cgt_trace_options_init(&options);
-    options.precision = precision;
-    return options;
-}
-
 static cgt_scene *make_scene(cgt_context *context, uint64_t stream)
 {
     test_random r = random_make(stream);
     random_triangles(&r, 0.8f, given, COUNT);
     random_rays(&r, ray, RAYS);
     return scene_of_triangles(context, NULL, (const triangle *)given, COUNT);
-}
-
-static uint32_t count_hits(const full_hit *of, uint32_t count)
-{
-    uint32_t hits = 0;
-    for (uint32_t i = 0; i < count; i++)
-        hits += of[i].geometry != CGT_NONE;
-    return hits;
 }
 
 /* ---- counts ---- */
@@ -296,7 +280,7 @@ static void rounding_modes_change_nothing(void **state)
             cgt_context *context = context_make(threads, variant);
             cgt_scene *scene = scaled_scene(context, 900, 0);
             run_all(scene, 1, &plain);
-            assert_true(count_hits(plain.hit, RAYS) > RAYS / 4);
+            assert_true(hits_in(plain.hit, RAYS) > RAYS / 4);
             for (size_t m = 0; m < TEST_COUNT(modes); m++) {
                 assert_int_equal(fesetround(modes[m]), 0);
                 run_all(scene, 1, &other);
@@ -329,7 +313,7 @@ static void flushed_denormals_change_nothing(void **state)
                 cgt_scene *scene = scaled_scene(context, 950, scales[k]);
                 const float scale = ldexpf(1, scales[k]);
                 run_all(scene, scale, &plain);
-                assert_true(count_hits(plain.hit, RAYS) > RAYS / 8);
+                assert_true(hits_in(plain.hit, RAYS) > RAYS / 8);
                 set_flush(true);
                 run_all(scene, scale, &other);
                 const bool kept = flushes();

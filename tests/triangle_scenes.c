@@ -83,3 +83,19 @@ void trace_all(const cgt_scene *scene, const truth_ray *ray, uint32_t count, ful
     memset(hit, 0x77, count * sizeof *hit);
     assert_int_equal(trace_array(scene, ray, count, hit, options), CGT_OK);
 }
+
+cgt_trace_options with_precision(cgt_precision precision)
+{
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    options.precision = precision;
+    return options;
+}
+
+uint32_t hits_in(const full_hit *of, uint32_t count)
+{
+    uint32_t hits = 0;
+    for (uint32_t i = 0; i < count; i++)
+        hits += of[i].geometry != CGT_NONE;
+    return hits;
+}

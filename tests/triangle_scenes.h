@@ -33,4 +33,10 @@ void random_rays(test_random *r, truth_ray *ray, uint32_t count);
 void trace_all(const cgt_scene *scene, const truth_ray *ray, uint32_t count, full_hit *hit,
                const cgt_trace_options *options);
 
+/* The defaults but for the precision. */
+cgt_trace_options with_precision(cgt_precision precision);
+
+/* How many of them hit something. */
+uint32_t hits_in(const full_hit *of, uint32_t count);
+
 #endif
