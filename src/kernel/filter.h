@@ -19,9 +19,11 @@
 typedef struct filter_packet {
     float org[3];      /* the common origin, or the middle of the box of the origins */
     float org_reach;   /* from there to any origin, as a sum over the axes */
+    float reach[3];    /* and along each */
     float rlength;     /* at least 1 / |d| of the shortest direction */
     float rlength_low; /* at most 1 / |d| of the longest direction; -infinity where hits behind an origin count */
     float longest;     /* at least the length of the longest direction */
+    float share[3];    /* along each axis: the largest component of any direction over that, rounded up */
     float scale;       /* a power of two that brings the scene's coordinates near 1 */
 } filter_packet;
 
@@ -40,6 +42,13 @@ CGT_SPU_INLINE void filter_packet_make(const packet *p, float scale, filter_pack
     f->longest = (1 + 0x1p-18f) / __builtin_sqrtf(spux_hmin(least));
     f->org_reach = 0;
     for (int a = 0; a < 3; a++) {
+        vfloat largest = spux_vfloat(0);
+        for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+            largest = spux_max(largest, spux_abs(spux_load(p->dir[a] + i)));
+        f->share[a] = spux_hmax(largest) / f->longest * (1 + 0x1p-18f);
+        f->reach[a] = 0;
+    }
+    for (int a = 0; a < 3; a++) {
         f->org[a] = p->org[a][0];
         if (p->common_origin)
             continue;
@@ -50,7 +59,8 @@ CGT_SPU_INLINE void filter_packet_make(const packet *p, float scale, filter_pack
         }
         const float l = spux_hmin(low), h = spux_hmax(high);
         f->org[a] = 0.5f * l + 0.5f * h;
-        f->org_reach += (h - l) * 0.5f * (1 + 0x1p-18f) + (h > -l ? h : -l) * 0x1p-22f;
+        f->reach[a] = (h - l) * 0.5f * (1 + 0x1p-18f) + (h > -l ? h : -l) * 0x1p-22f;
+        f->org_reach += f->reach[a];
     }
 }
 

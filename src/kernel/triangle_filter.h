@@ -9,14 +9,18 @@
  * of them. An edge's vector comes from its two vertices, not from their difference to the origin: the error of w_k is
  * then in proportion to the edge, and so the uncertain band beside an edge as wide as the rounding of a vertex.
  *
- * Bounds, with u = 2^-24, |b| and |from| the largest of a triangle and of the rays, first order; they hold for fused
- * and unfused arithmetic. A cross product's terms have together at most sqrt(2) times the product of the lengths.
+ * Bounds, with u = 2^-24, first order; they hold for fused and unfused arithmetic. A determinant is a sum of products of
+ * three components, and its error that many u of the sum of their sizes, P(p, q, r) = sum over the axes of
+ * |p_x| (|q_y| |r_z| + |q_z| |r_y|). far is the largest |b| plus the largest |from|, component by component, and d the
+ * largest of the packet: scenes that are long in one direction have tighter bounds than lengths would give.
  *   b, e, from   u each;  e and a factor of 1/eps 2 u
- *   d.(b x e)    u (b) + 2 u (e) + u + u (cross) + 3 u (dot) = 8 u;  9 u with the last sum: 13 u |d||b||e|
- *   m.e          u (from) + 2 u (m) + 2 u (e) + 3 u = 8 u, likewise: 13 u |d||from||e|
- *   eps_k        13 u |e_k| (|b| + |from|), times |d|
- *   n            2 u + 2 u, and u for a factor;  d.n  8 u sqrt(2): delta = 12 u |e0||e1|, times |d|
- *   n.a, n.from  u + 5 u + 3 u + 1 u: 1.2 delta (|a| + |from|)
+ *   d.(b x e)    u (b) + 2 u (e) + u + u (cross) + 3 u (dot) = 8 u;  9 u with the last sum
+ *   m.e          u (from) + 2 u (m) + 2 u (e) + 3 u = 8 u, likewise
+ *   eps_k        9 u P(d, far, e_k)
+ *   n            2 u + 2 u, and u for a factor;  d.n  8 u: delta = 8 u P(d, e0, e1)
+ *   n.a, n.from  u + 5 u + 3 u + 1 u: 10 u P(far, e0, e1)
+ * Each is enlarged by 2^-7 for what is of second order, and is at least 2^-20 of what lengths give, so that it does not
+ * vanish beside axis-parallel edges. d is taken relative to the longest direction.
  * Edge vectors are divided by eps_k and n by delta, so that the bound of all is the length of the longest direction.
  * With D = that length and |d.n| > 4 D: t = num / den errs by at most (num's error + |t| D) / (|den| - D), which
  * is 4/3 of the same over |den|, and 2^-20 of t for division and rounding, and 2^-126 where they underflow.
@@ -90,6 +94,25 @@ CGT_SPU_INLINE void filter_store_scaled(float to[3][CGT_LANES], const vfloat v[3
         spux_store(to[a], spux_select(spu_mul(v[a], k), spux_vfloat(0), wild));
 }
 
+/* P(p, q, r), see above. */
+CGT_SPU_INLINE vfloat filter_permanent(const vfloat p[3], const vfloat q[3], const vfloat r[3])
+{
+    vfloat sum = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        const vfloat qb = spux_abs(q[(a + 1) % 3]), qc = spux_abs(q[(a + 2) % 3]);
+        const vfloat rb = spux_abs(r[(a + 1) % 3]), rc = spux_abs(r[(a + 2) % 3]);
+        sum = spu_madd(spux_abs(p[a]), spu_madd(qb, rc, spu_mul(qc, rb)), sum);
+    }
+    return sum;
+}
+
+/* `roundings` u of the sum of sizes, and not less than 2^-20 of that of the lengths. */
+CGT_SPU_INLINE vfloat filter_triangles_error(float roundings, vfloat sizes, vfloat lengths)
+{
+    const float u = roundings * FILTER_U * (1 + 0x1p-7f);
+    return spu_mul(spux_max(sizes, spu_mul(lengths, spux_vfloat(0x1p-20f))), spux_vfloat(u));
+}
+
 /* The bounds of a vector of triangles. */
 CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triangles *s)
 {
@@ -109,13 +132,20 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
         length[k] = filter_length(e[k]);
     }
     const vfloat reach = spu_mul(spu_add(farthest, from), spux_vfloat(1 + 0x1p-18f));
-    const vfloat delta = spu_mul(spu_mul(length[0], length[1]), spux_vfloat(12 * FILTER_U * (1 + 0x1p-18f)));
+    const vfloat d[3] = {spux_vfloat(f->share[0]), spux_vfloat(f->share[1]), spux_vfloat(f->share[2])};
+    vfloat far[3], reps[3];
+    for (int a = 0; a < 3; a++) {
+        const vfloat most = spux_max(spux_abs(v[0][a]), spux_max(spux_abs(v[1][a]), spux_abs(v[2][a])));
+        far[a] = spu_add(most, spux_vfloat(f->reach[a] * f->scale));
+    }
+    const vfloat delta = filter_triangles_error(8, filter_permanent(d, e[0], e[1]), spu_mul(length[0], length[1]));
     const vfloat rdelta = filter_reciprocal(delta, &wild);
-    vfloat reps[3];
     for (int k = 0; k < 3; k++) {
-        const vfloat eps = spu_mul(spu_mul(length[k], reach), spux_vfloat(13 * FILTER_U * (1 + 0x1p-18f)));
+        const vfloat eps = filter_triangles_error(9, filter_permanent(d, far, e[k]), spu_mul(length[k], reach));
         reps[k] = filter_reciprocal(eps, &wild);
     }
+    const vfloat num_error =
+        filter_triangles_error(10, filter_permanent(far, e[0], e[1]), spu_mul(spu_mul(length[0], length[1]), reach));
     for (int k = 0; k < 3; k++) {
         filter_cross(v[(k + 1) % 3], e[k], cross);
         filter_store_scaled(s->edge_cross[k], cross, reps[k], wild);
@@ -127,7 +157,7 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
     const vfloat n[3] = {spux_load(s->normal[0]), spux_load(s->normal[1]), spux_load(s->normal[2])};
     const vfloat num = filter_dot(n, v[0]);
     spux_store(s->num, spux_select(spu_mul(num, unscale), spux_vfloat(0), wild));
-    spux_store(s->num_error, spu_madd(spu_mul(reach, unscale), spux_vfloat(1.2f), spux_vfloat(0x1p-126f)));
+    spux_store(s->num_error, spu_madd(spu_mul(num_error, rdelta), unscale, spux_vfloat(0x1p-126f)));
 }
 
 /* For FAST precision: no bounds, no scales. Two triangles that share an edge must find the same side of it for every
