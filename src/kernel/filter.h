@@ -23,7 +23,7 @@ typedef struct filter_packet {
     float rlength;     /* at least 1 / |d| of the shortest direction */
     float rlength_low; /* at most 1 / |d| of the longest direction; -infinity where hits behind an origin count */
     float longest;     /* at least the length of the longest direction */
-    float share[3];    /* along each axis: the largest component of any direction over that, rounded up */
+    float share[3];    /* along each axis: the largest component of any direction over its length bound, rounded up */
     float scale;       /* a power of two that brings the scene's coordinates near 1 */
 } filter_packet;
 
@@ -84,14 +84,19 @@ CGT_SPU_INLINE void filter_nearest(const filter_packet *f, const float center[3]
     spux_store(nearest, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
 }
 
-/* The Pluecker coordinates of the rays, seen from the filter's origin: for triangles, where there is no common one. */
-CGT_SPU_INLINE void filter_moments_make(packet *p, const filter_packet *f)
+/* For triangles, where there is no common origin: the Pluecker coordinates of the rays, seen from the filter's origin,
+ * and each ray's own length in place of the longest, since such directions may be of any. */
+CGT_SPU_INLINE void filter_moments_make(packet *p, filter_packet *f)
 {
+    vfloat share[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         vfloat from[3], d[3];
+        const vfloat rlength = spu_mul(spux_sqrt(spux_load(p->rdd + i)), spux_vfloat(1 + 0x1p-18f));
+        spux_store(p->length + i, spux_div(spux_vfloat(1 + 0x1p-17f), rlength));
         for (int a = 0; a < 3; a++) {
             from[a] = spu_sub(spux_load(p->org[a] + i), spux_vfloat(f->org[a]));
             d[a] = spu_mul(spux_load(p->dir[a] + i), spux_vfloat(f->scale));
+            share[a] = spux_max(share[a], spu_mul(spux_abs(spux_load(p->dir[a] + i)), rlength));
             spux_store(p->from[a] + i, from[a]);
         }
         for (int a = 0; a < 3; a++) {
@@ -99,6 +104,8 @@ CGT_SPU_INLINE void filter_moments_make(packet *p, const filter_packet *f)
             spux_store(p->moment[a] + i, spu_msub(from[b], d[c], spu_mul(from[c], d[b])));
         }
     }
+    for (int a = 0; a < 3; a++)
+        f->share[a] = spux_hmax(share[a]);
 }
 
 /* What a test finds out about the rays of a vector. */

@@ -32,8 +32,9 @@ typedef struct packet {
     _Alignas(64) float high[PACKET_MAX_RAYS];
     _Alignas(64) uint32_t object[PACKET_MAX_RAYS];             /* CGT_NONE: none yet */
     _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
-    _Alignas(64) float from[3][PACKET_MAX_RAYS];   /* org seen from the filter's origin; only for triangles of packets
-                                                      without a common origin, and so is the next */
+    /* only for triangles of packets without a common origin: */
+    _Alignas(64) float length[PACKET_MAX_RAYS];    /* of dir, rounded up */
+    _Alignas(64) float from[3][PACKET_MAX_RAYS];   /* org seen from the filter's origin */
     _Alignas(64) float moment[3][PACKET_MAX_RAYS]; /* from x dir, times the grid's scale */
     uint32_t rays;                                 /* that take part; they need not come first */
     uint32_t lanes;                  /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */

@@ -20,8 +20,8 @@
  *   n            2 u + 2 u, and u for a factor;  d.n  8 u: delta = 8 u P(d, e0, e1)
  *   n.a, n.from  u + 5 u + 3 u + 1 u: 10 u P(far, e0, e1)
  * Each is enlarged by 2^-7 for what is of second order, and is at least 2^-20 of what lengths give, so that it does not
- * vanish beside axis-parallel edges. d is taken relative to the longest direction.
- * Edge vectors are divided by eps_k and n by delta, so that the bound of all is the length of the longest direction.
+ * vanish beside axis-parallel edges. d is taken relative to its length (of the longest, with a common origin).
+ * Edge vectors are divided by eps_k and n by delta, so that the bound of all is that length.
  * With D = that length and |d.n| > 4 D: t = num / den errs by at most (num's error + |t| D) / (|den| - D), which
  * is 4/3 of the same over |den|, and 2^-20 of t for division and rounding, and 2^-126 where they underflow.
  * Coordinates are scaled by a power of two that brings the scene near 1. Where a length, or that of the scaled directions,
@@ -260,7 +260,8 @@ CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive,
                                          filter_result *f)
 {
     const filter_triangle *q = primitive;
-    const vfloat bound = q->longest, minus = spu_xor(bound, spux_vfloat(-0.f));
+    const vfloat bound = common_origin ? q->longest : spux_load(p->length + i);
+    const vfloat minus = spu_xor(bound, spux_vfloat(-0.f));
     vfloat w[3], num, den;
     filter_triangle_sides(p, q, i, common_origin, w);
     const vfloat least = spux_min(w[0], spux_min(w[1], w[2])), most = spux_max(w[0], spux_max(w[1], w[2]));
