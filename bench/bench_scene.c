@@ -91,6 +91,8 @@ const char *bench_structure_name(cgt_structure structure)
 {
     switch (structure) {
     case CGT_STRUCTURE_QUEUE_GRID: return "grid-queue";
+    case CGT_STRUCTURE_KD: return "kd";
+    case CGT_STRUCTURE_KD_ROPES: return "kd-ropes";
     case CGT_STRUCTURE_AUTO: break;
     }
     return "none";

@@ -21,6 +21,7 @@
 
 #include "memory.h"
 #include "objects.h"
+#include "summary.h"
 
 #define CGT_QUEUE_LENGTH 16
 #define CGT_QUEUE_NONE 0xffffu
@@ -42,36 +43,20 @@ typedef struct cgt_overflow {
 } cgt_overflow;
 
 typedef struct cgt_queue_grid {
-    cgt_objects objects;
-    float low[3], high[3]; /* bounds of the objects, rounded outwards */
-    float org[3];          /* lower corner, world */
-    float rcell[3];        /* cells per world unit */
-    float slack[3];        /* cells: bound of the rounding of g for any point of any object */
+    const cgt_objects *objects;
+    float org[3];   /* lower corner, world */
+    float rcell[3]; /* cells per world unit */
+    float slack[3]; /* cells: bound of the rounding of g for any point of any object */
     uint32_t resolution[3];
     uint32_t stride[3]; /* voxels from one cell to the next along each axis; x fastest */
     uint32_t cells;
     uint32_t most_cells;          /* that any arrangement of as many objects is given: room for them is reserved */
-    bool everything;              /* the numbers are too large or too small for single precision in grid space: no grid,
-                                every ray tests every object in double */
     bool wide;                    /* wide voxels */
-    float scale;                  /* a power of two: the largest coordinate times it is between 1/2 and 2 */
     cgt_voxel *voxel;             /* cells of them; NULL where there is no object */
     cgt_wide_voxel *wide_voxel;   /* the same memory */
     const cgt_overflow *overflow; /* sorted by cell */
     uint32_t overflows;
 } cgt_queue_grid;
-
-/* What the pass over the objects found. Lengths in world units. */
-typedef struct cgt_object_summary {
-    uint32_t valid; /* not skipped */
-    uint32_t skipped_not_finite;
-    uint32_t skipped_radius;
-    uint32_t skipped_degenerate;
-    uint32_t bad_index;   /* the first object with an index out of range; CGT_NONE: none */
-    float min[3], max[3]; /* outwards rounded */
-    double diameter[4];   /* sums of the powers 0 to 3 of the diameters */
-    float magnitude;      /* largest coordinate of any bound */
-} cgt_object_summary;
 
 static inline size_t cgt_queue_grid_voxel_bytes(const cgt_queue_grid *grid)
 {

@@ -12,8 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Beyond this, squares of coordinates leave the range of float: no grid then. */
-#define LARGEST_MAGNITUDE 0x1p55f
 /* Measured by `cgt-bench loops`: flat between half and twice these. Chapman and Wald et al. take 5 cells an object;
  * culling by whole vectors favours larger cells. */
 #define CELLS_PER_OBJECT 2.0
@@ -81,15 +79,6 @@ static cgt_result check_wanted(const uint32_t wanted[3])
     return cells > CGT_GRID_MAX_CELLS ? CGT_ERROR_TOO_LARGE : CGT_OK;
 }
 
-/* Beyond 2^100 the filter's products leave the range of float; what is smaller is decided in double. */
-static float scale_of(float magnitude)
-{
-    int exponent = 0;
-    if (magnitude > 0 && magnitude <= LARGEST_MAGNITUDE)
-        frexpf(magnitude, &exponent);
-    return ldexpf(1, exponent < -100 ? 100 : -exponent);
-}
-
 cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *summary, const uint32_t wanted[3],
                                char why[128])
 {
@@ -97,21 +86,7 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
     const cgt_result result = check_wanted(wanted);
     if (result != CGT_OK)
         return result;
-    grid->everything = !(summary->magnitude <= LARGEST_MAGNITUDE);
-    for (int a = 0; a < 3; a++) {
-        grid->low[a] = summary->min[a];
-        grid->high[a] = summary->max[a];
-    }
-    grid->wide = grid->objects.count > CGT_QUEUE_MAX_NARROW;
-    grid->scale = scale_of(summary->magnitude);
-    if (!summary->valid || grid->everything) {
-        for (int a = 0; a < 3; a++)
-            grid->resolution[a] = grid->stride[a] = 1, grid->rcell[a] = grid->slack[a] = 0;
-        grid->cells = grid->most_cells = 1;
-        snprintf(why, 128, "%s",
-                 summary->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
-        return CGT_OK;
-    }
+    grid->wide = grid->objects->count > CGT_QUEUE_MAX_NARROW;
     place(grid, summary, extent);
     const double edge = wanted[0] ? 0 : choose_edge(summary, extent);
     uint32_t stride = 1;
@@ -125,7 +100,7 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *s
         stride *= grid->resolution[a];
     }
     grid->cells = stride;
-    grid->most_cells = wanted[0] ? stride : (uint32_t)fmax(stride, most_cells(grid->objects.count));
+    grid->most_cells = wanted[0] ? stride : (uint32_t)fmax(stride, most_cells(grid->objects->count));
     if (wanted[0])
         snprintf(why, 128, "resolution asked for");
     else

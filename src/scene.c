@@ -9,7 +9,7 @@
 
 static cgt_geometry *geometry_at(const cgt_scene *scene, uint32_t id)
 {
-    cgt_geometry *geometry = scene->geometry.data;
+    cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
     return id < scene->geometries && geometry[id].used ? &geometry[id] : NULL;
 }
 
@@ -18,8 +18,17 @@ void cgt_scene_options_init(cgt_scene_options *options) { memset(options, 0, siz
 static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
 {
     const uint32_t *r = o->resolution;
-    if (o->structure != CGT_STRUCTURE_AUTO && o->structure != CGT_STRUCTURE_QUEUE_GRID)
+    if ((unsigned)o->structure > CGT_STRUCTURE_KD_ROPES)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: structure %d is unknown", (int)o->structure);
+    if ((unsigned)o->rays > CGT_RAYS_INCOHERENT)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: rays %d is unknown", (int)o->rays);
+    if ((unsigned)o->kd_builder > CGT_KD_BUILDER_SWEEP)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_builder %d is unknown", (int)o->kd_builder);
+    if ((unsigned)o->kd_layout > CGT_KD_LAYOUT_MIXED)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_layout %d is unknown", (int)o->kd_layout);
+    if (o->kd_break_level > CGT_KD_MAX_DEPTH)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_break_level %u: at most %u",
+                        o->kd_break_level, CGT_KD_MAX_DEPTH);
     if ((!r[0] || !r[1] || !r[2]) && (r[0] || r[1] || r[2]))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: resolution %ux%ux%u: all three or none", r[0],
                         r[1], r[2]);
@@ -59,10 +68,8 @@ void cgt_scene_release(cgt_scene *scene)
     if (!scene)
         return;
     cgt_context *context = scene->context;
-    cgt_buffer *buffer[] = {&scene->geometry, &scene->arrays,      &scene->summaries,
-                            &scene->voxels,   &scene->overflow[0], &scene->overflow[1]};
-    for (size_t i = 0; i < sizeof buffer / sizeof buffer[0]; i++)
-        cgt_buffer_release(&context->memory, buffer[i]);
+    for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
+        cgt_buffer_release(&context->memory, &scene->buffer[i]);
     cgt_free(&context->memory, scene, sizeof *scene);
     cgt_context_release(context);
 }
@@ -147,13 +154,13 @@ static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry
         return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "scene: %llu primitives in all: at most 2^32 - 2",
                         (unsigned long long)sum);
     if (id == scene->geometries) {
-        const cgt_result grown =
-            cgt_buffer_grow(&scene->context->memory, &scene->geometry, (size_t)id + 1, sizeof(cgt_geometry));
+        const cgt_result grown = cgt_buffer_grow(&scene->context->memory, &scene->buffer[CGT_BUFFER_GEOMETRY],
+                                                 (size_t)id + 1, sizeof(cgt_geometry));
         if (grown != CGT_OK)
             return cgt_fail(scene->context, grown, "out of memory for geometry %u", id);
         scene->geometries++;
     }
-    ((cgt_geometry *)scene->geometry.data)[id] = *geometry;
+    ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[id] = *geometry;
     scene->committed = false;
     return CGT_OK;
 }
@@ -233,7 +240,7 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
         return CGT_ERROR_INVALID_ARGUMENT;
     if (!geometry_at(scene, geometry))
         return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
-    ((cgt_geometry *)scene->geometry.data)[geometry].used = false;
+    ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[geometry].used = false;
     scene->committed = false;
     return CGT_OK;
 }

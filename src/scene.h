@@ -6,7 +6,7 @@
 #define CGT_SCENE_H
 
 #include "context.h"
-#include "queue_grid.h"
+#include "world.h"
 
 typedef struct cgt_geometry {
     bool used;
@@ -17,18 +17,28 @@ typedef struct cgt_geometry {
     };
 } cgt_geometry;
 
+/* Memory that a scene keeps from commit to commit. */
+typedef enum cgt_scene_buffer {
+    CGT_BUFFER_GEOMETRY = 0, /* cgt_geometry, by id */
+    CGT_BUFFER_ARRAYS,       /* cgt_object_array of the commit */
+    CGT_BUFFER_SUMMARIES,    /* cgt_object_summary, one per chunk of objects */
+    CGT_BUFFER_VOXELS,       /* cgt_voxel or cgt_wide_voxel */
+    CGT_BUFFER_OVERFLOW,     /* cgt_overflow, as they came */
+    CGT_BUFFER_OVERFLOW_SORTING,
+    CGT_BUFFER_KD_NODES,
+    CGT_BUFFER_KD_REFERENCES,
+    CGT_BUFFER_KD_LEAVES,
+    CGT_BUFFER_KD_WORK, /* what the builder needs while it runs */
+    CGT_SCENE_BUFFERS
+} cgt_scene_buffer;
+
 struct cgt_scene {
     cgt_context *context;
     cgt_scene_options options;
-    cgt_buffer geometry; /* cgt_geometry, by id */
-    uint32_t geometries; /* length of it, free ones included */
+    cgt_buffer buffer[CGT_SCENE_BUFFERS];
+    uint32_t geometries; /* in CGT_BUFFER_GEOMETRY, free ones included */
     bool committed;      /* nothing changed since the last commit */
-
-    cgt_buffer arrays;      /* cgt_object_array of the commit */
-    cgt_buffer summaries;   /* cgt_object_summary, one per chunk of objects */
-    cgt_buffer voxels;      /* cgt_voxel or cgt_wide_voxel */
-    cgt_buffer overflow[2]; /* cgt_overflow: as they came, and room to sort */
-    cgt_queue_grid grid;
+    cgt_world world;
     cgt_scene_statistics statistics;
 };
 

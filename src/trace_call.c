@@ -26,6 +26,8 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
     if ((unsigned)o->cull > CGT_CULL_BLOCKS)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: cull is unknown");
+    if ((unsigned)o->kd_traversal > CGT_KD_TRAVERSAL_PACKET)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: kd_traversal is unknown");
     if ((unsigned)o->precision > CGT_PRECISION_EXACT)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: precision is unknown");
     if ((unsigned)o->triangle_test > CGT_TRIANGLE_ACCELERATED)
@@ -41,6 +43,7 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
     s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;
     s->mailbox = o->mailbox;
+    s->kd_traversal = o->kd_traversal == CGT_KD_TRAVERSAL_AUTO ? CGT_KD_TRAVERSAL_PACKET : o->kd_traversal;
     s->precision = o->precision;
     s->triangle_test = o->triangle_test;
     if (!camera)
@@ -88,6 +91,11 @@ void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *s
                                                   .split_packets = c.split_packets,
                                                   .slices = c.slices,
                                                   .cells = c.cells,
+                                                  .nodes = c.nodes,
+                                                  .leaves = c.leaves,
+                                                  .rope_steps = c.rope_steps,
+                                                  .exact_steps = c.exact_steps,
+                                                  .rope_loops = c.rope_loops,
                                                   .references = c.references,
                                                   .mailbox_skipped = c.mailbox_skipped,
                                                   .cull_tests = c.cull_tests,

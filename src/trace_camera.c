@@ -110,7 +110,7 @@ static void trace_into(const frame_job *job, const cgt_region *r)
     cgt_counts counts = {0};
     fenv_t callers;
     cgt_float_environment_enter(&callers);
-    s->context->kernel->trace_region(&s->grid, &job->camera, &job->settings, r, &counts);
+    s->context->kernel->trace_region(&s->world, &job->camera, &job->settings, r, &counts);
     cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }

@@ -26,7 +26,7 @@ static void trace_chunk(void *argument, uint32_t index)
     cgt_counts counts = {0};
     fenv_t callers;
     cgt_float_environment_enter(&callers);
-    s->context->kernel->trace_rays(&s->grid, job->rays, first, end, &job->settings, job->hits, job->occluded, &counts);
+    s->context->kernel->trace_rays(&s->world, job->rays, first, end, &job->settings, job->hits, job->occluded, &counts);
     cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }

@@ -78,7 +78,7 @@ static void check_order(const cgt_queue_grid *g, uint64_t *references, uint32_t 
         for (int i = used; i < CGT_QUEUE_LENGTH; i++)
             assert_int_equal(q[i], CGT_QUEUE_NONE);
         for (int i = 0; i < used; i++)
-            assert_true(q[i] < g->objects.count && (i == 0 || q[i] < q[i - 1]));
+            assert_true(q[i] < g->objects->count && (i == 0 || q[i] < q[i - 1]));
         *references += (uint64_t)used;
         const uint32_t first = cgt_queue_grid_overflow(g, cell);
         if (first == g->overflows)
@@ -120,7 +120,7 @@ static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint3
 static cgt_scene_statistics check_grid(const cgt_scene *scene, const float (*sphere)[4], uint32_t count,
                                        uint64_t stream)
 {
-    const cgt_queue_grid *g = &scene->grid;
+    const cgt_queue_grid *g = &scene->world.grid;
     cgt_scene_statistics s;
     test_random r = random_make(stream);
     uint64_t references = 0;

@@ -149,7 +149,7 @@ static cgt_scene *gridded(cgt_context *context, const uint32_t resolution[3], co
 static cgt_scene_statistics check_scene(const cgt_scene *scene, const triangle *t, uint32_t count, uint32_t step,
                                         uint64_t *near)
 {
-    const cgt_queue_grid *g = &scene->grid;
+    const cgt_queue_grid *g = &scene->world.grid;
     cgt_scene_statistics s;
     uint32_t overflow_cells;
     assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
@@ -244,7 +244,7 @@ static void large_triangles_take_few_useless_cells(void **state)
             references += s.references;
             touched += near;
             for (uint32_t i = 0; i < COUNT; i++) {
-                const polygon q = in_grid_space(&scene->grid, (const float(*)[3])t[i]);
+                const polygon q = in_grid_space(&scene->world.grid, (const float(*)[3])t[i]);
                 double cells = 1;
                 for (int a = 0; a < 3; a++)
                     cells *=
@@ -307,7 +307,7 @@ static void references_widen_beyond_65535(void **state)
             uint64_t near;
             cgt_scene *scene = gridded(context, NULL, (const triangle *)t, counts[k]);
             const cgt_scene_statistics s = check_scene(scene, (const triangle *)t, counts[k], k ? 7 : 61, &near);
-            check_triangle(&scene->grid, (const float(*)[3])t[counts[k] - 1], counts[k] - 1);
+            check_triangle(&scene->world.grid, (const float(*)[3])t[counts[k] - 1], counts[k] - 1);
             assert_true(s.overflow_references > 0);
             cgt_scene_release(scene);
         }

@@ -162,15 +162,44 @@ typedef struct cgt_triangles {
 } cgt_triangles;
 
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,  /* chosen from the scene at each commit */
-    CGT_STRUCTURE_QUEUE_GRID /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
-                                voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
+    CGT_STRUCTURE_AUTO = 0,   /* chosen from the scene at each commit */
+    CGT_STRUCTURE_QUEUE_GRID, /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
+                                 voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
+    CGT_STRUCTURE_KD,         /* kd-tree in nodes of 8 bytes, by the surface-area heuristic; traversed with a stack */
+    CGT_STRUCTURE_KD_ROPES    /* the same tree, its leaves linked across their faces (Popov et al. 2007); traversed
+                                 without a stack; 80 bytes a leaf more */
 } cgt_structure;
 
+/* What rays the scene is mostly traced with, for AUTO. */
+typedef enum cgt_ray_kind {
+    CGT_RAYS_CAMERA = 0, /* cgt_trace_camera, or arrays in which neighbours run side by side */
+    CGT_RAYS_INCOHERENT  /* arrays of rays that start anywhere and go anywhere: occlusion, bounces, queries */
+} cgt_ray_kind;
+
+/* How a kd-tree is built. Both minimise the surface-area heuristic (MacDonald, Booth 1990) and give the same tree for
+ * any number of threads. */
+typedef enum cgt_kd_builder {
+    CGT_KD_BUILDER_AUTO = 0, /* BINNED: the scene is rebuilt every frame */
+    CGT_KD_BUILDER_BINNED,   /* candidate planes at the edges of equal bins */
+    CGT_KD_BUILDER_SWEEP     /* all candidate planes, in O(N log N) (Wald, Havran 2006): for scenes that stay */
+} cgt_kd_builder;
+
+/* The order of a kd-tree's nodes in memory (thesis, figure 7.4). */
+typedef enum cgt_kd_layout {
+    CGT_KD_LAYOUT_AUTO = 0, /* what measured best */
+    CGT_KD_LAYOUT_DEPTH_FIRST,
+    CGT_KD_LAYOUT_BREADTH_FIRST,
+    CGT_KD_LAYOUT_MIXED /* breadth first down to the break level, depth first below each node there */
+} cgt_kd_layout;
+
 typedef struct cgt_scene_options {
-    cgt_structure structure; /* default AUTO */
-    uint32_t resolution[3];  /* cells along x, y, z, each 1 to 1024 and 16,777,216 in all; 0, 0, 0 (default): chosen
-                                from the scene at each commit */
+    cgt_structure structure;   /* default AUTO */
+    uint32_t resolution[3];    /* of the grid: cells along x, y, z, each 1 to 1024 and 16,777,216 in all; 0, 0, 0
+                                  (default): chosen from the scene at each commit */
+    cgt_ray_kind rays;         /* default CAMERA */
+    cgt_kd_builder kd_builder; /* default AUTO */
+    cgt_kd_layout kd_layout;   /* default AUTO */
+    uint32_t kd_break_level;   /* of MIXED: levels stored breadth first, 1 to 50; 0 (default): 8 */
 } cgt_scene_options;
 
 CGT_API void cgt_scene_options_init(cgt_scene_options *options);
@@ -223,6 +252,15 @@ typedef struct cgt_scene_statistics {
     uint64_t overflow_references; /* those that found a full queue and went to the overflow list */
     uint32_t overflow_cells;      /* cells with any of those */
     uint32_t large_primitives;    /* larger than a cell: more than eight corners to push */
+    uint32_t kd_nodes;            /* of 8 bytes, inner ones and leaves */
+    uint32_t kd_leaves;           /* of those */
+    uint32_t kd_empty_leaves;     /* of those */
+    uint32_t kd_depth;            /* inner nodes on the longest way from the root to a leaf */
+    uint32_t kd_largest_leaf;     /* primitives */
+    double kd_cost;               /* of the surface-area heuristic for the whole tree, in units of one sphere test */
+    cgt_kd_builder kd_builder;    /* what was used */
+    cgt_kd_layout kd_layout;      /* what was used */
+    size_t structure_bytes;       /* that traversal reads: voxels and overflow list, or nodes, references and ropes */
     size_t bytes;                 /* memory that the scene holds now */
     size_t local_store_bytes;     /* grid, overflow list and primitives together: what a Cell SPU has to hold */
     int fits_local_store;         /* 1 where the grid is at most 16x16x16 and local_store_bytes, with 64 KB for
@@ -259,6 +297,13 @@ typedef enum cgt_loop {
                           bounds that change from slice to slice */
 } cgt_loop;
 
+/* How packets go through a kd-tree. */
+typedef enum cgt_kd_traversal {
+    CGT_KD_TRAVERSAL_AUTO = 0, /* what measured faster */
+    CGT_KD_TRAVERSAL_SINGLE,   /* one ray at a time */
+    CGT_KD_TRAVERSAL_PACKET    /* as many rays as the variant has lanes, of any directions */
+} cgt_kd_traversal;
+
 typedef enum cgt_cull {
     CGT_CULL_NONE = 0, /* every primitive of a cell meets every ray of the packet */
     CGT_CULL_FRUSTUM,  /* primitives are first tested against the packet's frustum (Wald et al., Chapman) */
@@ -290,6 +335,11 @@ typedef struct cgt_trace_statistics {
     uint64_t split_packets;   /* packets that had to be split because their rays disagreed or diverged */
     uint64_t slices;          /* slices of the grid that a packet entered */
     uint64_t cells;           /* cells that a packet visited */
+    uint64_t nodes;           /* inner nodes of a kd-tree that a ray or a packet visited */
+    uint64_t leaves;          /* leaves that a ray or a packet visited */
+    uint64_t rope_steps;      /* from leaf to leaf, by a ray or a packet */
+    uint64_t exact_steps;     /* steps that single precision could not decide: which plane a ray meets first */
+    uint64_t rope_loops;      /* rays that came to a leaf a second time: 0 by construction, and counted */
     uint64_t references;      /* references read from cells, overflow included */
     uint64_t mailbox_skipped; /* references that the mailbox had seen before */
     uint64_t cull_tests;      /* primitives tested against a packet's frustum */
@@ -313,6 +363,7 @@ typedef struct cgt_trace_options {
     cgt_tile_shape tile;              /* default AUTO */
     cgt_loop loop;                    /* default AUTO */
     cgt_cull cull;                    /* default CGT_CULL_BLOCKS */
+    cgt_kd_traversal kd_traversal;    /* default AUTO */
     int mailbox;                      /* remember the primitives that a packet has met lately; default 1: it saves a
                                          fifth of the time (docs/coherent_grid_traversal.md); Chapman expected a loss */
     cgt_trace_statistics *statistics; /* gets the counts of this call; NULL (default): nothing is counted */

@@ -147,7 +147,7 @@ static void store_planes(const packet_hits *h, uint32_t edge, uint32_t columns, 
     store_plane(r->v, h->v, edge, columns, rows, r, first);
 }
 
-void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera,
+void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
     packet p;
@@ -161,8 +161,8 @@ void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_r
             const uint32_t rows = region->height - y < edge ? region->height - y : edge;
             make_rays(camera, region->x + x, region->y + y, edge, columns, rows, &p);
             counts->rays += p.rays;
-            CGT_KERNEL(cgt_packet_trace)(grid, &p, settings, counts);
-            CGT_KERNEL(cgt_packet_resolve)(grid, &p, settings, &hits, counts);
+            CGT_KERNEL(cgt_packet_trace)(world, &p, settings, counts);
+            CGT_KERNEL(cgt_packet_resolve)(world, &p, settings, &hits, counts);
             store_planes(&hits, edge, columns, rows, region, y * region->row_stride + x);
         }
 }

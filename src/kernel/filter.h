@@ -27,7 +27,7 @@ typedef struct filter_packet {
     float scale;       /* a power of two that brings the scene's coordinates near 1 */
 } filter_packet;
 
-/* scale: the grid's. */
+/* scale: the world's. */
 CGT_SPU_INLINE void filter_packet_make(const packet *p, float scale, filter_packet *f)
 {
     vfloat most = spux_vfloat(0), least = spux_vfloat(INFINITY), t_min = least;
@@ -117,7 +117,7 @@ typedef struct filter_result {
 } filter_result;
 
 /* Decides whether object beats the best hit of ray i. */
-__attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid *grid, packet *p, uint32_t i,
+__attribute__((noinline, unused)) static void filter_decide(const cgt_objects *objects, packet *p, uint32_t i,
                                                             uint32_t object, cgt_counts *counts)
 {
     const cgt_ray ray = {
@@ -129,7 +129,7 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid
     if (winner == object || p->high[i] == -INFINITY)
         return; /* met before; or the ray takes no part */
     counts->double_tests++;
-    cgt_decided_hit hit = {.shape = cgt_objects_shape(&grid->objects, object)};
+    cgt_decided_hit hit = {.shape = cgt_objects_shape(objects, object)};
     const bool meets = cgt_decide_hit(&ray, &hit, &exact), met_exactly = exact != 0;
     counts->exact_tests += met_exactly;
     if (!meets)
@@ -140,7 +140,7 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid
         return;
     }
     if (winner != CGT_NONE) {
-        cgt_decided_hit best = {.shape = cgt_objects_shape(&grid->objects, winner)};
+        cgt_decided_hit best = {.shape = cgt_objects_shape(objects, winner)};
         cgt_decide_t(&ray, &best);
         const int order = cgt_decide_order(&ray, &hit, &best, &exact);
         counts->exact_tests += exact && !met_exactly; /* once a test */
@@ -157,7 +157,7 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_queue_grid
 typedef bool filter_test(const packet *p, const void *primitive, uint32_t i, bool common_origin, filter_result *f);
 
 /* Decides the rays of a block that the filter leaves open. They are rare: they are found a second time here. */
-CGT_SPU_INLINE void filter_decide_block(const cgt_queue_grid *grid, packet *p, filter_test *test, const void *primitive,
+CGT_SPU_INLINE void filter_decide_block(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
                                         uint32_t object, uint32_t first, uint32_t end, bool common_origin,
                                         cgt_counts *counts)
 {
@@ -166,7 +166,7 @@ CGT_SPU_INLINE void filter_decide_block(const cgt_queue_grid *grid, packet *p, f
         if (!test(p, primitive, i, common_origin, &f))
             continue;
         for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
-            filter_decide(grid, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+            filter_decide(objects, p, i + (uint32_t)__builtin_ctz(left), object, counts);
     }
 }
 
@@ -179,7 +179,7 @@ typedef struct filter_mode {
 } filter_mode;
 
 /* Tests the rays of the reached blocks (as bits) against a primitive. */
-CGT_SPU_INLINE void filter_blocks(const cgt_queue_grid *grid, packet *p, filter_test *test, const void *primitive,
+CGT_SPU_INLINE void filter_blocks(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
                                   uint32_t object, uint32_t reached, block_cones *blocks, filter_mode mode,
                                   cgt_counts *counts)
 {
@@ -204,7 +204,7 @@ CGT_SPU_INLINE void filter_blocks(const cgt_queue_grid *grid, packet *p, filter_
             changed = spu_or(changed, f.certain);
         }
         if (mode.decides && spux_any(open))
-            filter_decide_block(grid, p, test, primitive, object, first, end, mode.common_origin, counts);
+            filter_decide_block(objects, p, test, primitive, object, first, end, mode.common_origin, counts);
         if (spux_any(changed))
             block_far_update(p, blocks, block);
     }

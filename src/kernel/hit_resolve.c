@@ -13,7 +13,7 @@
 /* ---- the winners ---- */
 
 /* Neighbours mostly hit the same sphere: each different one of a vector is looked up once. */
-static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w, packet_hits *hits)
+static void find_spheres(const cgt_world *world, const packet *p, winners *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
@@ -23,7 +23,7 @@ static void find_spheres(const cgt_queue_grid *grid, const packet *p, winners *w
         w->hits += spux_count_bits(left);
         while (left) {
             const uint32_t winner = p->object[i + (uint32_t)__builtin_ctz(left)];
-            const cgt_object_array *a = cgt_objects_array(&grid->objects, winner);
+            const cgt_object_array *a = cgt_objects_array(&world->objects, winner);
             const cgt_sphere q = cgt_array_sphere(a, winner - a->first);
             const vmask same = spu_cmpeq(object, spux_vuint(winner));
             x = spux_select(x, spux_vfloat(q.x), same);
@@ -52,7 +52,7 @@ static void set_triangle(winners *w, uint32_t i, const cgt_triangle *q)
 }
 
 /* Triangles, or both kinds; what is not hit, or is of the other kind, gets a shape that computes to something. */
-static void find_shapes(const cgt_queue_grid *grid, const packet *p, winners *w, packet_hits *hits)
+static void find_shapes(const cgt_world *world, const packet *p, winners *w, packet_hits *hits)
 {
     static const cgt_triangle nothing = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
     uint32_t last = CGT_NONE;
@@ -62,7 +62,7 @@ static void find_shapes(const cgt_queue_grid *grid, const packet *p, winners *w,
         const uint32_t object = p->object[i];
         const bool hit = object != CGT_NONE;
         if (hit && object != last) {
-            a = cgt_objects_array(&grid->objects, object);
+            a = cgt_objects_array(&world->objects, object);
             shape = cgt_array_shape(a, object - a->first);
             last = object;
         }
@@ -123,24 +123,24 @@ static void resolve_all(const cgt_objects *objects, const packet *p, const cgt_t
         resolve_rays(objects, p, i, lanes - i, settings, w, hits, counts);
 }
 
-uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, const cgt_trace_settings *settings,
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_world *world, const packet *p, const cgt_trace_settings *settings,
                                         packet_hits *hits, cgt_counts *counts)
 {
     winners w;
     w.hits = 0;
     w.points = false;
-    if (grid->objects.triangles)
-        find_shapes(grid, p, &w, hits);
+    if (world->objects.triangles)
+        find_shapes(world, p, &w, hits);
     else
-        find_spheres(grid, p, &w, hits);
+        find_spheres(world, p, &w, hits);
     counts->hits += w.hits;
     if (!w.hits)
         fill_none(0, p->lanes, settings->fields, hits);
-    else if (p->fast && !p->extreme && !grid->everything)
-        resolve_fast(grid, p, settings->fields, &w, hits);
+    else if (p->fast && !p->extreme && !world->everything)
+        resolve_fast(world, p, settings->fields, &w, hits);
     else
-        resolve_all(&grid->objects, p, settings, &w, hits, counts);
+        resolve_all(&world->objects, p, settings, &w, hits, counts);
     if (settings->fields & CGT_FIELD_NORMAL && w.points)
-        resolve_points(p, !grid->objects.triangles, &w, hits);
+        resolve_points(p, !world->objects.triangles, &w, hits);
     return w.hits;
 }

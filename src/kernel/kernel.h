@@ -8,7 +8,7 @@
 #define CGT_KERNEL_H
 
 #include "../camera.h"
-#include "../queue_grid.h"
+#include "../world.h"
 #include "../trace.h"
 
 /* Where a fill puts references that found a full queue. */
@@ -33,11 +33,11 @@ typedef struct cgt_kernel {
                                 cgt_fill_counts *counts);
 
     /* Traces the pixels of a region of a camera's frame. */
-    void (*trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
+    void (*trace_region)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
                          const cgt_region *region, cgt_counts *counts);
 
     /* Traces rays first to end - 1 of an array; hits is NULL where occluded is not. */
-    void (*trace_rays)(const cgt_queue_grid *grid, const cgt_rays *rays, uint64_t first, uint64_t end,
+    void (*trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                        const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts);
 } cgt_kernel;
 

@@ -6,9 +6,9 @@
 
 uint32_t CGT_KERNEL(cgt_queue_grid_fill)(const cgt_queue_grid *grid, uint32_t first, uint32_t end,
                                          cgt_overflow_list *overflow, cgt_fill_counts *counts);
-void CGT_KERNEL(cgt_trace_region)(const cgt_queue_grid *grid, const cgt_camera_rays *camera,
+void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
-void CGT_KERNEL(cgt_trace_rays)(const cgt_queue_grid *grid, const cgt_rays *rays, uint64_t first, uint64_t end,
+void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                                 const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
                                 cgt_counts *counts);
 

@@ -50,9 +50,11 @@ typedef struct packet {
 #define PACKET_LARGEST 0x1p55f
 #define PACKET_SHORTEST 0x1p-55f
 
-/* Finds the hits of all rays of the packet. */
-void CGT_KERNEL(cgt_packet_trace)(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
+/* Finds the hits of all rays of the packet, through whatever structure there is; and through each. */
+void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                                   cgt_counts *counts);
+void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                      cgt_counts *counts);
 
 /* The hits of a packet, ready to be handed out. */
 typedef struct packet_hits {
@@ -64,7 +66,7 @@ typedef struct packet_hits {
 } packet_hits;
 
 /* Computes the fields of the winners that the settings ask for, canonically. Counts the hits and returns how many. */
-uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_queue_grid *grid, const packet *p, const cgt_trace_settings *settings,
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_world *world, const packet *p, const cgt_trace_settings *settings,
                                         packet_hits *hits, cgt_counts *counts);
 
 #endif

@@ -106,7 +106,7 @@ static float slab_distance(const cgt_queue_grid *grid, int axis, int32_t i, floa
 static uint64_t push_large_sphere(const cgt_queue_grid *grid, const corners *c, int lane, uint32_t object,
                                   cgt_overflow_list *overflow)
 {
-    const cgt_sphere q = cgt_objects_sphere(&grid->objects, object);
+    const cgt_sphere q = cgt_objects_sphere(grid->objects, object);
     const float reach = q.r * q.r * (1 + 0x1p-20f);
     uint64_t pushed = 0;
     for (int32_t z = c->low[2][lane]; z <= c->high[2][lane]; z++) {
@@ -131,7 +131,7 @@ static uint64_t push_large_sphere(const cgt_queue_grid *grid, const corners *c, 
 static uint64_t push_large_triangle(const cgt_queue_grid *grid, const corners *c, int lane, uint32_t object,
                                     cgt_overflow_list *overflow)
 {
-    const cgt_triangle q = cgt_objects_triangle(&grid->objects, object);
+    const cgt_triangle q = cgt_objects_triangle(grid->objects, object);
     cgt_triangle_box box;
     double v[3][3], half[3];
     uint64_t pushed = 0;
@@ -176,7 +176,7 @@ static uint32_t push_vector(const cgt_queue_grid *grid, const corners *c, uint32
         if (small)
             push_corners(grid, c, (int)lane, object + lane, overflow);
         else {
-            const bool sphere = cgt_objects_array(&grid->objects, object + lane)->kind == CGT_KIND_SPHERES;
+            const bool sphere = cgt_objects_array(grid->objects, object + lane)->kind == CGT_KIND_SPHERES;
             touched = (uint32_t)(sphere ? push_large_sphere(grid, c, (int)lane, object + lane, overflow)
                                         : push_large_triangle(grid, c, (int)lane, object + lane, overflow));
             counts->large_primitives++;
@@ -210,7 +210,7 @@ static void bound_triangle(corners *c, uint32_t lane, const cgt_triangle *q)
 static void bound_vector(const cgt_queue_grid *grid, uint32_t object, uint32_t count, corners *c)
 {
     for (uint32_t lane = 0; lane < count; lane++) {
-        const cgt_object_array *a = cgt_objects_array(&grid->objects, object + lane);
+        const cgt_object_array *a = cgt_objects_array(grid->objects, object + lane);
         const uint32_t i = object + lane - a->first;
         if (a->kind == CGT_KIND_SPHERES)
             bound_sphere(c, lane, cgt_array_sphere(a, i));

@@ -18,6 +18,7 @@
 #define MAILBOX_SIZE 64 /* direct mapped by the low bits of the reference */
 
 typedef struct traversal {
+    const cgt_world *world;
     const cgt_queue_grid *grid;
     packet *p;
     cgt_counts *counts;
@@ -93,12 +94,12 @@ static void apply_mailbox(traversal *v)
 
 /* ---- culling ---- */
 
-static void fetch_spheres(const cgt_queue_grid *g, const uint32_t *reference, uint32_t count, filter_spheres *s)
+static void fetch_spheres(const cgt_objects *objects, const uint32_t *reference, uint32_t count, filter_spheres *s)
 {
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         /* beyond the end the first is fetched again; its lane is not used */
         const uint32_t object = reference[k < count ? k : 0];
-        const cgt_sphere q = cgt_objects_sphere(&g->objects, object);
+        const cgt_sphere q = cgt_objects_sphere(objects, object);
         s->center[0][k] = q.x;
         s->center[1][k] = q.y;
         s->center[2][k] = q.z;
@@ -107,11 +108,11 @@ static void fetch_spheres(const cgt_queue_grid *g, const uint32_t *reference, ui
     }
 }
 
-static void fetch_triangles(const cgt_queue_grid *g, const uint32_t *reference, uint32_t count, filter_triangles *s)
+static void fetch_triangles(const cgt_objects *objects, const uint32_t *reference, uint32_t count, filter_triangles *s)
 {
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         const uint32_t object = reference[k < count ? k : 0];
-        const cgt_triangle q = cgt_objects_triangle(&g->objects, object);
+        const cgt_triangle q = cgt_objects_triangle(objects, object);
         for (int i = 0; i < 3; i++)
             for (int a = 0; a < 3; a++)
                 s->vertex[i][a][k] = q.v[i][a];
@@ -200,7 +201,7 @@ static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
     for (; lanes; lanes &= lanes - 1) {
         const int k = __builtin_ctz(lanes);
         v->counts->packet_tests++;
-#define CALL(mode) filter_test_sphere(v->grid, v->p, s, k, &v->blocks, mode, v->counts)
+#define CALL(mode) filter_test_sphere(&v->world->objects, v->p, s, k, &v->blocks, mode, v->counts)
         FOR_MODE(v->p, false, CALL)
 #undef CALL
     }
@@ -215,7 +216,7 @@ static void test_triangles(traversal *v, filter_triangles *s, unsigned lanes)
     for (; lanes; lanes &= lanes - 1) {
         const int k = __builtin_ctz(lanes);
         v->counts->packet_tests++;
-#define CALL(mode) filter_test_triangle(v->grid, v->p, &v->filter, s, k, &v->blocks, mode, v->counts)
+#define CALL(mode) filter_test_triangle(&v->world->objects, v->p, &v->filter, s, k, &v->blocks, mode, v->counts)
         FOR_MODE(v->p, true, CALL)
 #undef CALL
     }
@@ -236,7 +237,7 @@ static void test_sphere_list(traversal *v, const uint32_t *reference, uint32_t l
     for (uint32_t i = 0; i < length; i += CGT_LANES) {
         const uint32_t count = length - i < CGT_LANES ? length - i : CGT_LANES;
         unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
-        fetch_spheres(v->grid, reference + i, count, &s);
+        fetch_spheres(&v->world->objects, reference + i, count, &s);
         if (v->cull != CGT_CULL_NONE)
             lanes = count_culled(v, lanes, spheres_outside(v, &s), count);
         if (lanes)
@@ -250,7 +251,7 @@ static void test_triangle_list(traversal *v, const uint32_t *reference, uint32_t
     for (uint32_t i = 0; i < length; i += CGT_LANES) {
         const uint32_t count = length - i < CGT_LANES ? length - i : CGT_LANES;
         unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
-        fetch_triangles(v->grid, reference + i, count, &s);
+        fetch_triangles(&v->world->objects, reference + i, count, &s);
         if (v->cull != CGT_CULL_NONE)
             lanes = count_culled(v, lanes, triangles_outside(v, &s), count);
         if (lanes)
@@ -264,7 +265,7 @@ static void test_mixed_list(traversal *v, uint32_t *reference, uint32_t length)
     uint32_t triangle[BATCH_FULL + CGT_QUEUE_LENGTH], spheres = 0, triangles = 0;
     for (uint32_t i = 0; i < length; i++) {
         const uint32_t object = reference[i];
-        const bool sphere = cgt_objects_array(&v->grid->objects, object)->kind == CGT_KIND_SPHERES;
+        const bool sphere = cgt_objects_array(&v->world->objects, object)->kind == CGT_KIND_SPHERES;
         reference[spheres] = object;
         triangle[triangles] = object;
         spheres += sphere;
@@ -276,7 +277,7 @@ static void test_mixed_list(traversal *v, uint32_t *reference, uint32_t length)
 
 static void test_pending(traversal *v)
 {
-    const cgt_objects *objects = &v->grid->objects;
+    const cgt_objects *objects = &v->world->objects;
     v->counts->references += v->pending;
     if (v->mailbox)
         apply_mailbox(v);
@@ -390,10 +391,8 @@ static void traverse_flattened(traversal *v)
  * from half to twice as many. */
 #define CELLS_PER_RAY 3.f
 
-static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *part, uint32_t parts,
+static void trace_parts(const cgt_world *world, packet *p, const uint32_t *part, uint32_t parts,
                         const cgt_trace_settings *settings, cgt_counts *counts);
-static void trace_coherent(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
-                           cgt_counts *counts);
 
 static bool runs_apart(const traversal *v)
 {
@@ -404,17 +403,18 @@ static bool runs_apart(const traversal *v)
 }
 
 /* Rays with one main axis and sign. */
-static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, const cgt_trace_settings *settings,
+static void traverse(const cgt_world *world, packet *p, uint32_t class, const cgt_trace_settings *settings,
                      cgt_counts *counts)
 {
     traversal v;
-    v.grid = grid;
+    v.world = world;
+    v.grid = &world->grid;
     v.p = p;
     v.counts = counts;
     v.cull = settings->cull;
     v.mailbox = settings->mailbox;
     v.pending = 0;
-    if (!frustum_make(grid, p, (int)(class >> 1), class & 1, &v.frustum))
+    if (!frustum_make(v.grid, p, (int)(class >> 1), class & 1, &v.frustum))
         return;
     if (runs_apart(&v)) {
         uint32_t part[PACKET_MAX_RAYS], seen = 0;
@@ -422,14 +422,14 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
             part[i] = seen >= p->rays / 2;
             seen += p->high[i] != -INFINITY;
         }
-        trace_parts(grid, p, part, 2, settings, counts);
+        trace_parts(world, p, part, 2, settings, counts);
         return;
     }
     counts->packets++;
-    filter_packet_make(p, grid->scale, &v.filter);
-    if (grid->objects.triangles && !p->common_origin)
+    filter_packet_make(p, world->scale, &v.filter);
+    if (world->objects.triangles && !p->common_origin)
         filter_moments_make(p, &v.filter);
-    block_cones_make(p, v.cull == CGT_CULL_BLOCKS, v.frustum.w, grid->rcell[v.frustum.w], &v.blocks);
+    block_cones_make(p, v.cull == CGT_CULL_BLOCKS, v.frustum.w, v.grid->rcell[v.frustum.w], &v.blocks);
     v.w_far = far_coordinate(&v);
     if (v.mailbox)
         memset(v.seen, 0xff, sizeof v.seen);
@@ -437,20 +437,6 @@ static void traverse(const cgt_queue_grid *grid, packet *p, uint32_t class, cons
         traverse_flattened(&v);
     else
         traverse_nested(&v);
-}
-
-/* Numbers too large or too small for the bounds of single precision: every ray against every object in double. */
-static void trace_extreme(const cgt_queue_grid *grid, packet *p, cgt_counts *counts)
-{
-    for (uint32_t object = 0; object < grid->objects.count; object++) {
-        const cgt_shape shape = cgt_objects_shape(&grid->objects, object);
-        if (cgt_shape_check(&shape) != CGT_OBJECT_VALID)
-            continue;
-        counts->packet_tests++;
-        counts->ray_tests += p->rays;
-        for (uint32_t i = 0; i < p->lanes; i++)
-            filter_decide(grid, p, i, object, counts);
-    }
 }
 
 /* Main axis and sign of each ray as a number: 2 * axis + reverse. */
@@ -502,7 +488,7 @@ static void extract_part(const packet *p, const uint32_t *part, uint32_t wanted,
     }
 }
 
-static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *part, uint32_t parts,
+static void trace_parts(const cgt_world *world, packet *p, const uint32_t *part, uint32_t parts,
                         const cgt_trace_settings *settings, cgt_counts *counts)
 {
     packet sub;
@@ -518,7 +504,7 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
         extract_part(p, part, k, &sub, from);
         if (!sub.rays)
             continue;
-        trace_coherent(grid, &sub, settings, counts);
+        CGT_KERNEL(cgt_queue_grid_trace)(world, &sub, settings, counts);
         for (uint32_t i = 0; i < sub.rays; i++) {
             p->low[from[i]] = sub.low[i];
             p->high[from[i]] = sub.high[i];
@@ -532,25 +518,14 @@ static void trace_parts(const cgt_queue_grid *grid, packet *p, const uint32_t *p
 }
 
 /* Splits by main axis and sign first. */
-static void trace_coherent(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
-                           cgt_counts *counts)
+void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                      cgt_counts *counts)
 {
     _Alignas(64) uint32_t class[PACKET_MAX_RAYS];
     class[0] = 0; /* there is at least one ray, which the compiler cannot know */
     classify(p, class);
     if (all_equal(class, p->lanes))
-        traverse(grid, p, class[0], settings, counts);
+        traverse(world, p, class[0], settings, counts);
     else
-        trace_parts(grid, p, class, 6, settings, counts);
-}
-
-void CGT_KERNEL(cgt_packet_trace)(const cgt_queue_grid *grid, packet *p, const cgt_trace_settings *settings,
-                                  cgt_counts *counts)
-{
-    if (!p->rays || !grid->voxel)
-        return;
-    if (p->extreme || grid->everything)
-        trace_extreme(grid, p, counts);
-    else
-        trace_coherent(grid, p, settings, counts);
+        trace_parts(world, p, class, 6, settings, counts);
 }

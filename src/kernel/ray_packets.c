@@ -59,10 +59,10 @@ static void close_lane(packet *p, uint32_t k, uint32_t good)
 }
 
 /* Rays that miss the bounds of all objects take no part. */
-static void leave_out_outside(const cgt_queue_grid *grid, const packet *p, uint32_t count, ray_state *state)
+static void leave_out_outside(const cgt_world *world, const packet *p, uint32_t count, ray_state *state)
 {
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
-        const unsigned missed = spux_mask_bits(ray_box_missed(p, i, grid->low, grid->high));
+        const unsigned missed = spux_mask_bits(ray_box_missed(p, i, world->low, world->high));
         for (uint32_t k = i; k < count && k < i + CGT_LANES; k++)
             if (state[k] == RAY_OPEN && missed >> (k - i) & 1)
                 state[k] = RAY_OUTSIDE;
@@ -90,7 +90,7 @@ static void gather_packet(packet *p, uint32_t count, const ray_state *state)
 }
 
 /* Reads rays first to first + count - 1. Returns false where one of several is extreme: read them apart then. */
-static bool make_packet(const cgt_queue_grid *grid, const ray_source *s, uint64_t first, uint32_t count, packet *p,
+static bool make_packet(const cgt_world *world, const ray_source *s, uint64_t first, uint32_t count, packet *p,
                         cgt_counts *counts)
 {
     ray_state state[RAY_PACKET];
@@ -106,10 +106,10 @@ static bool make_packet(const cgt_queue_grid *grid, const ray_source *s, uint64_
             p->extreme = true;
         invalid += state[k] == RAY_INVALID;
     }
-    if (!p->extreme && !grid->everything) {
+    if (!p->extreme && !world->everything) {
         for (uint32_t k = count; k < p->lanes; k++)
             close_lane(p, k, 0);
-        leave_out_outside(grid, p, count, state);
+        leave_out_outside(world, p, count, state);
     }
     gather_packet(p, count, state);
     counts->invalid_rays += invalid;
@@ -137,19 +137,19 @@ static void store_hits(const packet_hits *h, uint64_t first, uint32_t count, con
     }
 }
 
-static void trace_range(const cgt_queue_grid *grid, const ray_source *s, uint64_t first, uint32_t count,
+static void trace_range(const cgt_world *world, const ray_source *s, uint64_t first, uint32_t count,
                         const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, packet *p,
                         cgt_counts *counts)
 {
     packet_hits h;
-    if (!make_packet(grid, s, first, count, p, counts)) {
+    if (!make_packet(world, s, first, count, p, counts)) {
         for (uint32_t k = 0; k < count; k++)
-            trace_range(grid, s, first + k, 1, settings, hits, occluded, p, counts);
+            trace_range(world, s, first + k, 1, settings, hits, occluded, p, counts);
         return;
     }
-    CGT_KERNEL(cgt_packet_trace)(grid, p, settings, counts);
+    CGT_KERNEL(cgt_packet_trace)(world, p, settings, counts);
     if (hits) {
-        CGT_KERNEL(cgt_packet_resolve)(grid, p, settings, &h, counts);
+        CGT_KERNEL(cgt_packet_resolve)(world, p, settings, &h, counts);
         store_hits(&h, first, count, hits);
         return;
     }
@@ -159,7 +159,7 @@ static void trace_range(const cgt_queue_grid *grid, const ray_source *s, uint64_
     }
 }
 
-void CGT_KERNEL(cgt_trace_rays)(const cgt_queue_grid *grid, const cgt_rays *rays, uint64_t first, uint64_t end,
+void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                                 const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
                                 cgt_counts *counts)
 {
@@ -171,6 +171,6 @@ void CGT_KERNEL(cgt_trace_rays)(const cgt_queue_grid *grid, const cgt_rays *rays
     counts->rays += end - first;
     for (uint64_t i = first; i < end; i += RAY_PACKET) {
         const uint32_t count = end - i < RAY_PACKET ? (uint32_t)(end - i) : RAY_PACKET;
-        trace_range(grid, &s, i, count, settings, hits, occluded, &p, counts);
+        trace_range(world, &s, i, count, settings, hits, occluded, &p, counts);
     }
 }

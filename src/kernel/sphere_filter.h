@@ -149,17 +149,17 @@ CGT_SPU_INLINE uint32_t filter_sphere_reached(const block_cones *blocks, const f
 }
 
 /* Tests the rays of the packet's blocks that sphere k of a vector may reach. */
-CGT_SPU_INLINE void filter_test_sphere(const cgt_queue_grid *grid, packet *p, const filter_spheres *s, int k,
+CGT_SPU_INLINE void filter_test_sphere(const cgt_objects *objects, packet *p, const filter_spheres *s, int k,
                                        block_cones *blocks, filter_mode mode, cgt_counts *counts)
 {
     filter_sphere q = filter_sphere_get(p, s, k, mode.common_origin);
     const uint32_t reached = filter_sphere_reached(blocks, s, k, &q);
     if (mode.decides) {
-        filter_blocks(grid, p, filter_sphere_rays, &q, s->object[k], reached, blocks, mode, counts);
+        filter_blocks(objects, p, filter_sphere_rays, &q, s->object[k], reached, blocks, mode, counts);
         return;
     }
     q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);
-    filter_blocks(grid, p, filter_sphere_rays_fast, &q, s->object[k], reached, blocks, mode, counts);
+    filter_blocks(objects, p, filter_sphere_rays_fast, &q, s->object[k], reached, blocks, mode, counts);
 }
 
 #endif

@@ -99,7 +99,7 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
 /* ---- which one ---- */
 
 /* Tests the rays of the packet's blocks that triangle k of a vector may reach. */
-CGT_SPU_INLINE void filter_test_triangle(const cgt_queue_grid *grid, packet *p, const filter_packet *of_packet,
+CGT_SPU_INLINE void filter_test_triangle(const cgt_objects *objects, packet *p, const filter_packet *of_packet,
                                          const filter_triangles *s, int k, block_cones *blocks, filter_mode mode,
                                          cgt_counts *counts)
 {
@@ -112,16 +112,16 @@ CGT_SPU_INLINE void filter_test_triangle(const cgt_queue_grid *grid, packet *p, 
         return;
     if (mode.decides) {
         const filter_triangle q = filter_triangle_get(of_packet, s, k, mode.common_origin);
-        filter_blocks(grid, p, filter_triangle_rays, &q, object, reached, blocks, mode, counts);
+        filter_blocks(objects, p, filter_triangle_rays, &q, object, reached, blocks, mode, counts);
     } else if (p->triangle_test == CGT_TRIANGLE_MOLLER_TRUMBORE) {
         const moller_trumbore_triangle q = moller_trumbore_get(s, k);
-        filter_blocks(grid, p, moller_trumbore_rays, &q, object, reached, blocks, mode, counts);
+        filter_blocks(objects, p, moller_trumbore_rays, &q, object, reached, blocks, mode, counts);
     } else if (p->triangle_test == CGT_TRIANGLE_ACCELERATED) {
         const accelerated_triangle q = accelerated_get(s, k);
-        filter_blocks(grid, p, accelerated_rays, &q, object, reached, blocks, mode, counts);
+        filter_blocks(objects, p, accelerated_rays, &q, object, reached, blocks, mode, counts);
     } else {
         const filter_triangle q = filter_triangle_get(of_packet, s, k, mode.common_origin);
-        filter_blocks(grid, p, filter_triangle_rays_fast, &q, object, reached, blocks, mode, counts);
+        filter_blocks(objects, p, filter_triangle_rays_fast, &q, object, reached, blocks, mode, counts);
     }
 }
 

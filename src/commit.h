@@ -1,0 +1,17 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The steps of a commit. Each fails with a message. */
+#ifndef CGT_COMMIT_H
+#define CGT_COMMIT_H
+
+#include "scene.h"
+
+/* Reads, checks and bounds all objects. Fails where a triangle's index is out of range. */
+cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *summary);
+
+/* Build a structure over the valid objects, of which there is at least one, and fill in the statistics that are the
+ * structure's own. */
+cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_object_summary *summary);
+
+#endif

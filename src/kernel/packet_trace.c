@@ -1,0 +1,30 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The hits of a packet, through the structure that the commit built. */
+#include "filter.h"
+
+/* Numbers too large or too small for the bounds of single precision: every ray against every object in double. */
+static void trace_extreme(const cgt_world *world, packet *p, cgt_counts *counts)
+{
+    for (uint32_t object = 0; object < world->objects.count; object++) {
+        const cgt_shape shape = cgt_objects_shape(&world->objects, object);
+        if (cgt_shape_check(&shape) != CGT_OBJECT_VALID)
+            continue;
+        counts->packet_tests++;
+        counts->ray_tests += p->rays;
+        for (uint32_t i = 0; i < p->lanes; i++)
+            filter_decide(&world->objects, p, i, object, counts);
+    }
+}
+
+void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                  cgt_counts *counts)
+{
+    if (!p->rays || !world->valid)
+        return;
+    if (p->extreme || world->everything)
+        trace_extreme(world, p, counts);
+    else
+        CGT_KERNEL(cgt_queue_grid_trace)(world, p, settings, counts);
+}

@@ -1,0 +1,25 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What rays are traced against: the objects of a commit, their bounds, and the structure that was built over them. */
+#ifndef CGT_WORLD_H
+#define CGT_WORLD_H
+
+#include "kd_tree.h"
+#include "queue_grid.h"
+
+/* Beyond this, squares of coordinates leave the range of float: no structure then. */
+#define CGT_WORLD_LARGEST 0x1p55f
+
+typedef struct cgt_world {
+    cgt_objects objects;
+    uint32_t valid;          /* objects that were not skipped */
+    float low[3], high[3];   /* bounds of those, rounded outwards */
+    float scale;             /* a power of two: the largest coordinate times it is between 1/2 and 2 */
+    bool everything;         /* coordinates beyond CGT_WORLD_LARGEST: every ray tests every object in double */
+    cgt_structure structure; /* which of the next is built; none where `everything`, or no object is valid */
+    cgt_queue_grid grid;
+    cgt_kd_tree kd;
+} cgt_world;
+
+#endif
