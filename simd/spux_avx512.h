@@ -15,7 +15,13 @@ CGT_SPU_INLINE vuint spux_vuint(uint32_t x) { return (vuint)_mm512_set1_epi32((i
 CGT_SPU_INLINE vuint spux_lane_index(void) { return (vuint){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}; }
 
 /* ---- masks ---- */
-CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return _cvtmask16_u32(m.bits); }
+/* GCC 12 may keep the bits in a mask register, spill 16 of them and reload 32: the empty statement keeps them out. */
+CGT_SPU_INLINE unsigned spux_mask_bits(vmask m)
+{
+    unsigned bits = _cvtmask16_u32(m.bits);
+    __asm__("" : "+r"(bits));
+    return bits;
+}
 CGT_SPU_INLINE vmask spux_mask_from_bits(unsigned bits) { return (vmask){_cvtu32_mask16(bits)}; }
 CGT_SPU_INLINE vmask spux_mask_first(unsigned n) { return spux_mask_from_bits(n < 16 ? (1u << n) - 1 : 0xffff); }
 CGT_SPU_INLINE vmask spux_mask_none(void) { return (vmask){0}; }
