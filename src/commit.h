@@ -13,5 +13,6 @@ cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *summary);
 /* Build a structure over the valid objects, of which there is at least one, and fill in the statistics that are the
  * structure's own. */
 cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_object_summary *summary);
+cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes);
 
 #endif

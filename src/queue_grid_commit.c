@@ -92,9 +92,10 @@ static void report(cgt_scene *scene)
     }
     st->reference_bits = g->wide ? 32 : 16;
     st->cells = g->cells;
-    st->local_store_bytes =
-        (size_t)g->cells * cgt_queue_grid_voxel_bytes(g) + (size_t)g->overflows * sizeof(cgt_overflow) +
-        (size_t)g->objects->spheres * sizeof(cgt_sphere) + (size_t)g->objects->triangles * sizeof(cgt_triangle);
+    st->structure_bytes =
+        (size_t)g->cells * cgt_queue_grid_voxel_bytes(g) + (size_t)g->overflows * sizeof(cgt_overflow);
+    st->local_store_bytes = st->structure_bytes + (size_t)g->objects->spheres * sizeof(cgt_sphere) +
+                            (size_t)g->objects->triangles * sizeof(cgt_triangle);
     st->fits_local_store = small && st->local_store_bytes + (64u << 10) <= 256u << 10;
 }
 

@@ -9,6 +9,8 @@
 
 #include <cgt/cgt.h>
 
+#define CGT_RAYS_CHUNK 4096u /* rays of an array that one task traces */
+
 /* The choices of a call, made: no AUTO left. */
 typedef struct cgt_trace_settings {
     uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */

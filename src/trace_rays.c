@@ -6,8 +6,6 @@
 #include "scene.h"
 #include "trace_call.h"
 
-#define CHUNK 4096u
-
 typedef struct rays_job {
     const cgt_scene *scene;
     const cgt_rays *rays;
@@ -21,8 +19,8 @@ static void trace_chunk(void *argument, uint32_t index)
 {
     const rays_job *job = argument;
     const cgt_scene *s = job->scene;
-    const uint64_t first = (uint64_t)index * CHUNK, left = job->rays->count - first,
-                   end = first + (left < CHUNK ? left : CHUNK);
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, left = job->rays->count - first,
+                   end = first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
     cgt_counts counts = {0};
     fenv_t callers;
     cgt_float_environment_enter(&callers);
@@ -35,7 +33,7 @@ static cgt_result check_stride(cgt_context *c, const char *what, size_t stride, 
 {
     if (stride % sizeof(float))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: stride is not a multiple of 4", what);
-    if (count > (SIZE_MAX / 2) / (stride ? stride : sizeof(float)) || count / CHUNK >= UINT32_MAX)
+    if (count > (SIZE_MAX / 2) / (stride ? stride : sizeof(float)) || count / CGT_RAYS_CHUNK >= UINT32_MAX)
         return cgt_fail(c, CGT_ERROR_TOO_LARGE, "%s: count times stride leaves the address space", what);
     return CGT_OK;
 }
@@ -77,7 +75,7 @@ static cgt_result trace(rays_job *job, const cgt_trace_options *options)
         return result;
     job->settings.fields = job->hits ? hit_fields(job->hits) : 0;
     job->counter = options && options->statistics ? &counter : NULL;
-    cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + CHUNK - 1) / CHUNK));
+    cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
     cgt_trace_end(options, &job->settings, &counter);
     return CGT_OK;
 }

@@ -279,6 +279,55 @@ static void count_fast_errors(subject *s, const cgt_scene *scene)
     }
 }
 
+/* ---- other structures ---- */
+
+typedef struct other_structure {
+    const char *name;
+    cgt_structure structure;
+    cgt_kd_builder builder;
+    cgt_kd_traversal traversal;
+} other_structure;
+
+static const other_structure structures[] = {
+    {"kd, packets", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_PACKET},
+    {"kd, single rays", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_SINGLE},
+    {"ropes, packets", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},
+    {"ropes, single rays", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_SINGLE}};
+
+static void check_structure(subject *s, cgt_context *context, const other_structure *other)
+{
+    const uint32_t rays = s->scene.rays;
+    const char *variant = s->variant;
+    char name[80];
+    cgt_scene *scene;
+    cgt_scene_options made;
+    cgt_trace_options options;
+    cgt_trace_statistics statistics;
+    cgt_scene_options_init(&made);
+    cgt_trace_options_init(&options);
+    made.structure = other->structure;
+    made.kd_builder = other->builder;
+    options.kd_traversal = other->traversal;
+    options.statistics = &statistics;
+    snprintf(name, sizeof name, "%s, %s", variant, other->name);
+    s->variant = name;
+    if (hard_commit_with(context, &s->scene, &made, &scene) != CGT_OK)
+        fail_msg("%s: %s", name, context_message(context));
+    trace(s, scene, s->scene.ray, rays, s->answer, &options);
+    for (uint32_t i = 0; i < rays; i++)
+        check_same_bits(s, i, &s->answer[i], &s->robust[i], "other bits than through the grid");
+    assert_int_equal(statistics.rope_loops, 0);
+    uint8_t *occluded = array(rays, 1);
+    const cgt_rays arrays = ray_array(s->scene.ray, rays);
+    assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, &options), CGT_OK);
+    for (uint32_t i = 0; i < rays; i++)
+        if (occluded[i] != (s->robust[i].geometry != CGT_NONE))
+            fail_ray(s, i, &s->robust[i], occluded[i] ? "occluded, but no hit" : "a hit, but not occluded");
+    free(occluded);
+    cgt_scene_release(scene);
+    s->variant = variant;
+}
+
 /* ---- one variant, one case ---- */
 
 static void check_variant(subject *s, bool first)
@@ -311,6 +360,8 @@ static void check_variant(subject *s, bool first)
     check_orders(s, scene);
     count_fast_errors(s, scene);
     cgt_scene_release(scene);
+    for (size_t k = 0; k < TEST_COUNT(structures); k++)
+        check_structure(s, context, &structures[k]);
 
     if (hard_commit(threaded, &s->scene, NULL, &scene) != CGT_OK)
         fail_msg("%s: %s", s->variant, context_message(threaded));

@@ -18,9 +18,11 @@
  *   Floats   IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *            tracing work in the default environment and give the caller's back.
  *
- * Structure and traversal follow David R. Chapman, "High Definition Interactive Animated Ray Tracing on CELL
- * Processor using Coherent Grid Traversal", and Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes
- * using Coherent Grid Traversal", SIGGRAPH 2006. */
+ * Structures: Chapman's queue grid, and the kd-tree of a thesis on ray casting on the Cell, with a stack or with ropes;
+ * hits are the same bits through each. Papers: David R. Chapman, "High Definition Interactive Animated Ray Tracing on
+ * CELL Processor using Coherent Grid Traversal"; Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes using
+ * Coherent Grid Traversal", SIGGRAPH 2006; Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High
+ * Performance GPU Ray Tracing", 2007. */
 #ifndef CGT_CGT_H
 #define CGT_CGT_H
 
@@ -162,7 +164,7 @@ typedef struct cgt_triangles {
 } cgt_triangles;
 
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,   /* chosen from the scene at each commit */
+    CGT_STRUCTURE_AUTO = 0,   /* chosen from the scene at each commit; a grid where its resolution is given */
     CGT_STRUCTURE_QUEUE_GRID, /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
                                  voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
     CGT_STRUCTURE_KD,         /* kd-tree in nodes of 8 bytes, by the surface-area heuristic; traversed with a stack */
@@ -228,8 +230,8 @@ CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometr
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
 /* Builds the structure from the arrays as they are now. Uses the context's threads. Memory is kept from one commit
- * to the next and grows by half: a scene whose count does not grow allocates nothing, once its overflow list, where it
- * has one, has found its size. Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY,
+ * to the next and grows by half: a scene whose count does not grow allocates nothing, once its overflow list or its
+ * tree has found its size. Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY,
  * TOO_LARGE; after an error the scene counts as not committed. An empty scene is valid: no ray hits it. */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
@@ -338,7 +340,7 @@ typedef struct cgt_trace_statistics {
     uint64_t nodes;           /* inner nodes of a kd-tree that a ray or a packet visited */
     uint64_t leaves;          /* leaves that a ray or a packet visited */
     uint64_t rope_steps;      /* from leaf to leaf, by a ray or a packet */
-    uint64_t exact_steps;     /* steps that single precision could not decide: which plane a ray meets first */
+    uint64_t exact_steps;     /* steps that rounded arithmetic could not decide: which plane a ray meets first */
     uint64_t rope_loops;      /* rays that came to a leaf a second time: 0 by construction, and counted */
     uint64_t references;      /* references read from cells, overflow included */
     uint64_t mailbox_skipped; /* references that the mailbox had seen before */

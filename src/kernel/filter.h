@@ -178,12 +178,51 @@ typedef struct filter_mode {
     bool keep_uv; /* FAST, triangles */
 } filter_mode;
 
+/* The modes are constants here, so that each gets a loop of its own. uv: FAST keeps u and v. */
+#define FILTER_FOR_MODE(p, uv, call)                                                                                   \
+    switch ((p)->fast << 2 | (p)->common_origin << 1 | (p)->any_hit) {                                                 \
+    case 0: call(((filter_mode){false, false, true, false})); break;                                                   \
+    case 1: call(((filter_mode){false, true, true, false})); break;                                                    \
+    case 2: call(((filter_mode){true, false, true, false})); break;                                                    \
+    case 3: call(((filter_mode){true, true, true, false})); break;                                                     \
+    case 4: call(((filter_mode){false, false, false, uv})); break;                                                     \
+    case 5: call(((filter_mode){false, true, false, false})); break;                                                   \
+    case 6: call(((filter_mode){true, false, false, uv})); break;                                                      \
+    default: call(((filter_mode){true, true, false, false})); break;                                                   \
+    }
+
+/* Keeps what a test found out about a vector of rays. */
+CGT_SPU_INLINE void filter_keep(packet *p, uint32_t i, const filter_result *f, vuint object, filter_mode mode)
+{
+    const vfloat closed = spux_vfloat(-INFINITY);
+    spux_store(p->low + i, spux_select(spux_load(p->low + i), mode.any_hit ? closed : f->low, f->certain));
+    spux_store(p->high + i, spux_select(spux_load(p->high + i), mode.any_hit ? closed : f->high, f->certain));
+    spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), object, f->certain));
+    if (mode.keep_uv) {
+        spux_store(p->u + i, spux_select(spux_load(p->u + i), f->u, f->certain));
+        spux_store(p->v + i, spux_select(spux_load(p->v + i), f->v, f->certain));
+    }
+}
+
+/* Tests a vector of rays against a primitive; i is the first. */
+CGT_SPU_INLINE void filter_vector(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
+                                  uint32_t object, uint32_t i, filter_mode mode, cgt_counts *counts)
+{
+    filter_result f;
+    counts->ray_tests += CGT_LANES;
+    if (!test(p, primitive, i, mode.common_origin, &f))
+        return;
+    filter_keep(p, i, &f, spux_vuint(object), mode);
+    if (mode.decides)
+        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
+            filter_decide(objects, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+}
+
 /* Tests the rays of the reached blocks (as bits) against a primitive. */
 CGT_SPU_INLINE void filter_blocks(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
                                   uint32_t object, uint32_t reached, block_cones *blocks, filter_mode mode,
                                   cgt_counts *counts)
 {
-    const vfloat closed = spux_vfloat(-INFINITY);
     const vuint number = spux_vuint(object);
     for (; reached; reached &= reached - 1) {
         const uint32_t block = (uint32_t)__builtin_ctz(reached), first = block * BLOCK_RAYS, end = block_end(p, block);
@@ -193,13 +232,7 @@ CGT_SPU_INLINE void filter_blocks(const cgt_objects *objects, packet *p, filter_
         for (uint32_t i = first; i < end; i += CGT_LANES) {
             if (!test(p, primitive, i, mode.common_origin, &f))
                 continue;
-            spux_store(p->low + i, spux_select(spux_load(p->low + i), mode.any_hit ? closed : f.low, f.certain));
-            spux_store(p->high + i, spux_select(spux_load(p->high + i), mode.any_hit ? closed : f.high, f.certain));
-            spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), number, f.certain));
-            if (mode.keep_uv) {
-                spux_store(p->u + i, spux_select(spux_load(p->u + i), f.u, f.certain));
-                spux_store(p->v + i, spux_select(spux_load(p->v + i), f.v, f.certain));
-            }
+            filter_keep(p, i, &f, number, mode);
             open = spu_or(open, f.open);
             changed = spu_or(changed, f.certain);
         }

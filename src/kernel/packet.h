@@ -55,6 +55,10 @@ void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_t
                                   cgt_counts *counts);
 void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                                       cgt_counts *counts);
+void CGT_KERNEL(cgt_kd_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                              cgt_counts *counts);
+void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                    cgt_counts *counts);
 
 /* The hits of a packet, ready to be handed out. */
 typedef struct packet_hits {

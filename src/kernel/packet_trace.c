@@ -25,6 +25,10 @@ void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_t
         return;
     if (p->extreme || world->everything)
         trace_extreme(world, p, counts);
+    else if (world->structure == CGT_STRUCTURE_KD)
+        CGT_KERNEL(cgt_kd_trace)(world, p, settings, counts);
+    else if (world->structure == CGT_STRUCTURE_KD_ROPES)
+        CGT_KERNEL(cgt_kd_ropes_trace)(world, p, settings, counts);
     else
         CGT_KERNEL(cgt_queue_grid_trace)(world, p, settings, counts);
 }

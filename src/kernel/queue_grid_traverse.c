@@ -94,32 +94,6 @@ static void apply_mailbox(traversal *v)
 
 /* ---- culling ---- */
 
-static void fetch_spheres(const cgt_objects *objects, const uint32_t *reference, uint32_t count, filter_spheres *s)
-{
-    for (uint32_t k = 0; k < CGT_LANES; k++) {
-        /* beyond the end the first is fetched again; its lane is not used */
-        const uint32_t object = reference[k < count ? k : 0];
-        const cgt_sphere q = cgt_objects_sphere(objects, object);
-        s->center[0][k] = q.x;
-        s->center[1][k] = q.y;
-        s->center[2][k] = q.z;
-        s->radius[k] = q.r;
-        s->object[k] = object;
-    }
-}
-
-static void fetch_triangles(const cgt_objects *objects, const uint32_t *reference, uint32_t count, filter_triangles *s)
-{
-    for (uint32_t k = 0; k < CGT_LANES; k++) {
-        const uint32_t object = reference[k < count ? k : 0];
-        const cgt_triangle q = cgt_objects_triangle(objects, object);
-        for (int i = 0; i < 3; i++)
-            for (int a = 0; a < 3; a++)
-                s->vertex[i][a][k] = q.v[i][a];
-        s->object[k] = object;
-    }
-}
-
 /* Points of a vector in grid space, along the frustum's axes: w along the rays, then u and v. */
 typedef struct frustum_points {
     vfloat w, uv[2];
@@ -182,19 +156,6 @@ static unsigned triangles_outside(const traversal *v, const filter_triangles *s)
 
 /* ---- testing ---- */
 
-/* The modes are constants here, so that each gets a loop of its own. */
-#define FOR_MODE(p, uv, call)                                                                                          \
-    switch ((p)->fast << 2 | (p)->common_origin << 1 | (p)->any_hit) {                                                 \
-    case 0: call(((filter_mode){false, false, true, false})); break;                                                   \
-    case 1: call(((filter_mode){false, true, true, false})); break;                                                    \
-    case 2: call(((filter_mode){true, false, true, false})); break;                                                    \
-    case 3: call(((filter_mode){true, true, true, false})); break;                                                     \
-    case 4: call(((filter_mode){false, false, false, uv})); break;                                                     \
-    case 5: call(((filter_mode){false, true, false, false})); break;                                                   \
-    case 6: call(((filter_mode){true, false, false, uv})); break;                                                      \
-    default: call(((filter_mode){true, true, false, false})); break;                                                   \
-    }
-
 static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
 {
     filter_spheres_bound(&v->filter, s);
@@ -202,7 +163,7 @@ static void test_spheres(traversal *v, filter_spheres *s, unsigned lanes)
         const int k = __builtin_ctz(lanes);
         v->counts->packet_tests++;
 #define CALL(mode) filter_test_sphere(&v->world->objects, v->p, s, k, &v->blocks, mode, v->counts)
-        FOR_MODE(v->p, false, CALL)
+        FILTER_FOR_MODE(v->p, false, CALL)
 #undef CALL
     }
 }
@@ -217,7 +178,7 @@ static void test_triangles(traversal *v, filter_triangles *s, unsigned lanes)
         const int k = __builtin_ctz(lanes);
         v->counts->packet_tests++;
 #define CALL(mode) filter_test_triangle(&v->world->objects, v->p, &v->filter, s, k, &v->blocks, mode, v->counts)
-        FOR_MODE(v->p, true, CALL)
+        FILTER_FOR_MODE(v->p, true, CALL)
 #undef CALL
     }
 }
@@ -237,7 +198,7 @@ static void test_sphere_list(traversal *v, const uint32_t *reference, uint32_t l
     for (uint32_t i = 0; i < length; i += CGT_LANES) {
         const uint32_t count = length - i < CGT_LANES ? length - i : CGT_LANES;
         unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
-        fetch_spheres(&v->world->objects, reference + i, count, &s);
+        filter_spheres_fetch(&v->world->objects, reference + i, count, CGT_LANES, &s);
         if (v->cull != CGT_CULL_NONE)
             lanes = count_culled(v, lanes, spheres_outside(v, &s), count);
         if (lanes)
@@ -251,7 +212,7 @@ static void test_triangle_list(traversal *v, const uint32_t *reference, uint32_t
     for (uint32_t i = 0; i < length; i += CGT_LANES) {
         const uint32_t count = length - i < CGT_LANES ? length - i : CGT_LANES;
         unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
-        fetch_triangles(&v->world->objects, reference + i, count, &s);
+        filter_triangles_fetch(&v->world->objects, reference + i, count, CGT_LANES, &s);
         if (v->cull != CGT_CULL_NONE)
             lanes = count_culled(v, lanes, triangles_outside(v, &s), count);
         if (lanes)

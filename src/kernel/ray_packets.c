@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays: neighbours become packets as they come; the traversal splits those whose rays run apart. */
+ * Arrays of rays. Through a grid, neighbours become packets as they come, and the traversal splits those whose rays run
+ * apart. Through a tree, packets are made of neighbours among the rays of like direction. */
 #include "kernel.h"
 #include "ray_box.h"
 
@@ -19,6 +20,14 @@ static float element(const ray_source *s, const float *array, uint64_t i)
 
 /* The first two take part. */
 typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_INVALID } ray_state;
+
+/* Rays in the order in which packets take them: `from` of the array's, counted from its `first`. */
+typedef struct ray_order {
+    uint64_t first;
+    const uint32_t *from; /* NULL: as they come */
+} ray_order;
+
+static uint64_t ray_at(const ray_order *o, uint32_t i) { return o->first + (o->from ? o->from[i] : i); }
 
 static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k)
 {
@@ -89,9 +98,10 @@ static void gather_packet(packet *p, uint32_t count, const ray_state *state)
     }
 }
 
-/* Reads rays first to first + count - 1. Returns false where one of several is extreme: read them apart then. */
-static bool make_packet(const cgt_world *world, const ray_source *s, uint64_t first, uint32_t count, packet *p,
-                        cgt_counts *counts)
+/* Reads rays first to first + count - 1 of the order. Returns false where one of several is extreme: read them apart
+ * then. */
+static bool make_packet(const cgt_world *world, const ray_source *s, const ray_order *order, uint32_t first,
+                        uint32_t count, packet *p, cgt_counts *counts)
 {
     ray_state state[RAY_PACKET];
     uint32_t invalid = 0;
@@ -99,7 +109,7 @@ static bool make_packet(const cgt_world *world, const ray_source *s, uint64_t fi
     p->from_origin = false;
     p->extreme = false;
     for (uint32_t k = 0; k < count; k++) {
-        state[k] = read_ray(s, first + k, p, k);
+        state[k] = read_ray(s, ray_at(order, first + k), p, k);
         if (state[k] == RAY_EXTREME && count > 1)
             return false;
         if (state[k] == RAY_EXTREME)
@@ -116,11 +126,12 @@ static bool make_packet(const cgt_world *world, const ray_source *s, uint64_t fi
     return true;
 }
 
-static void store_hits(const packet_hits *h, uint64_t first, uint32_t count, const cgt_hits *hits)
+static void store_hits(const packet_hits *h, const ray_order *order, uint32_t first, uint32_t count,
+                       const cgt_hits *hits)
 {
     const size_t stride = hits->stride ? hits->stride : sizeof(float);
     for (uint32_t k = 0; k < count; k++) {
-        const size_t at = (size_t)(first + k) * stride;
+        const size_t at = (size_t)ray_at(order, first + k) * stride;
         if (hits->t)
             memcpy((char *)hits->t + at, &h->t[k], sizeof(float));
         if (hits->primitive)
@@ -137,26 +148,65 @@ static void store_hits(const packet_hits *h, uint64_t first, uint32_t count, con
     }
 }
 
-static void trace_range(const cgt_world *world, const ray_source *s, uint64_t first, uint32_t count,
-                        const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, packet *p,
-                        cgt_counts *counts)
+/* The call, as all its packets see it. */
+typedef struct rays_call {
+    const cgt_world *world;
+    ray_source source;
+    const cgt_trace_settings *settings;
+    const cgt_hits *hits;
+    uint8_t *occluded;
+    cgt_counts *counts;
+} rays_call;
+
+static void trace_range(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p)
 {
     packet_hits h;
-    if (!make_packet(world, s, first, count, p, counts)) {
+    if (!make_packet(c->world, &c->source, order, first, count, p, c->counts)) {
         for (uint32_t k = 0; k < count; k++)
-            trace_range(world, s, first + k, 1, settings, hits, occluded, p, counts);
+            trace_range(c, order, first + k, 1, p);
         return;
     }
-    CGT_KERNEL(cgt_packet_trace)(world, p, settings, counts);
-    if (hits) {
-        CGT_KERNEL(cgt_packet_resolve)(world, p, settings, &h, counts);
-        store_hits(&h, first, count, hits);
+    CGT_KERNEL(cgt_packet_trace)(c->world, p, c->settings, c->counts);
+    if (c->hits) {
+        CGT_KERNEL(cgt_packet_resolve)(c->world, p, c->settings, &h, c->counts);
+        store_hits(&h, order, first, count, c->hits);
         return;
     }
     for (uint32_t k = 0; k < count; k++) {
-        occluded[first + k] = p->object[k] != CGT_NONE;
-        counts->hits += p->object[k] != CGT_NONE;
+        c->occluded[ray_at(order, first + k)] = p->object[k] != CGT_NONE;
+        c->counts->hits += p->object[k] != CGT_NONE;
     }
+}
+
+/* ---- rays of like direction together ---- */
+
+#define DIRECTIONS 8u /* octants */
+
+static uint32_t direction_of(const ray_source *s, uint64_t i)
+{
+    const float x = element(s, s->rays->dir[0], i), y = element(s, s->rays->dir[1], i),
+                z = element(s, s->rays->dir[2], i);
+    return (uint32_t)(x < 0) | (uint32_t)(y < 0) << 1 | (uint32_t)(z < 0) << 2;
+}
+
+/* A counting sort by direction: rays of one keep their order. Returns whether there are several. */
+static bool order_rays(const ray_source *s, uint64_t first, uint32_t count, uint32_t *from)
+{
+    uint8_t direction[CGT_RAYS_CHUNK];
+    uint32_t start[DIRECTIONS + 1] = {0}, directions = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        direction[i] = (uint8_t)direction_of(s, first + i);
+        start[direction[i] + 1]++;
+    }
+    for (uint32_t d = 0; d < DIRECTIONS; d++) {
+        directions += start[d + 1] != 0;
+        start[d + 1] += start[d];
+    }
+    if (directions < 2)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        from[start[direction[i]]++] = i;
+    return true;
 }
 
 void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
@@ -164,13 +214,20 @@ void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, ui
                                 cgt_counts *counts)
 {
     packet p;
-    const ray_source s = {rays, rays->stride ? rays->stride : sizeof(float)};
+    uint32_t from[CGT_RAYS_CHUNK];
+    const rays_call c = {.world = world,
+                         .source = {rays, rays->stride ? rays->stride : sizeof(float)},
+                         .settings = settings,
+                         .hits = hits,
+                         .occluded = occluded,
+                         .counts = counts};
+    const uint32_t count = (uint32_t)(end - first);
+    const bool tree = world->structure == CGT_STRUCTURE_KD || world->structure == CGT_STRUCTURE_KD_ROPES;
+    const ray_order order = {first, tree && order_rays(&c.source, first, count, from) ? from : NULL};
     p.any_hit = hits == NULL;
     p.fast = settings->precision == CGT_PRECISION_FAST;
     p.triangle_test = settings->triangle_test;
-    counts->rays += end - first;
-    for (uint64_t i = first; i < end; i += RAY_PACKET) {
-        const uint32_t count = end - i < RAY_PACKET ? (uint32_t)(end - i) : RAY_PACKET;
-        trace_range(world, &s, i, count, settings, hits, occluded, &p, counts);
-    }
+    counts->rays += count;
+    for (uint32_t i = 0; i < count; i += RAY_PACKET)
+        trace_range(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, &p);
 }

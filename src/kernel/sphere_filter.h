@@ -37,6 +37,21 @@ typedef struct filter_spheres {
     uint32_t object[CGT_LANES];
 } filter_spheres;
 
+/* Reads at most a vector of spheres to the first `lanes` lanes; beyond count they repeat the first. */
+CGT_SPU_INLINE void filter_spheres_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
+                                         uint32_t lanes, filter_spheres *s)
+{
+    for (uint32_t k = 0; k < lanes; k++) {
+        const uint32_t object = reference[k < count ? k : 0];
+        const cgt_sphere q = cgt_objects_sphere(objects, object);
+        s->center[0][k] = q.x;
+        s->center[1][k] = q.y;
+        s->center[2][k] = q.z;
+        s->radius[k] = q.r;
+        s->object[k] = object;
+    }
+}
+
 /* The bounds of a vector of spheres. */
 CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres *s)
 {

@@ -46,6 +46,20 @@ typedef struct filter_triangles {
     uint32_t object[CGT_LANES];
 } filter_triangles;
 
+/* Reads at most a vector of triangles to the first `lanes` lanes; beyond count they repeat the first. */
+CGT_SPU_INLINE void filter_triangles_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
+                                           uint32_t lanes, filter_triangles *s)
+{
+    for (uint32_t k = 0; k < lanes; k++) {
+        const uint32_t object = reference[k < count ? k : 0];
+        const cgt_triangle q = cgt_objects_triangle(objects, object);
+        for (int i = 0; i < 3; i++)
+            for (int a = 0; a < 3; a++)
+                s->vertex[i][a][k] = q.v[i][a];
+        s->object[k] = object;
+    }
+}
+
 /* ---- bounds ---- */
 
 /* The box's middle, and a radius from there that surely holds the vertices. */

@@ -98,6 +98,22 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
 
 /* ---- which one ---- */
 
+/* call(test, &q) with the test that the packet asks for and triangle k of a vector as it takes it. */
+#define FILTER_WITH_TRIANGLE(p, of_packet, s, k, mode, call)                                                           \
+    if ((mode).decides) {                                                                                              \
+        const filter_triangle q = filter_triangle_get(of_packet, s, k, (mode).common_origin);                          \
+        call(filter_triangle_rays, &q);                                                                                \
+    } else if ((p)->triangle_test == CGT_TRIANGLE_MOLLER_TRUMBORE) {                                                   \
+        const moller_trumbore_triangle q = moller_trumbore_get(s, k);                                                  \
+        call(moller_trumbore_rays, &q);                                                                                \
+    } else if ((p)->triangle_test == CGT_TRIANGLE_ACCELERATED) {                                                       \
+        const accelerated_triangle q = accelerated_get(s, k);                                                          \
+        call(accelerated_rays, &q);                                                                                    \
+    } else {                                                                                                           \
+        const filter_triangle q = filter_triangle_get(of_packet, s, k, (mode).common_origin);                          \
+        call(filter_triangle_rays_fast, &q);                                                                           \
+    }
+
 /* Tests the rays of the packet's blocks that triangle k of a vector may reach. */
 CGT_SPU_INLINE void filter_test_triangle(const cgt_objects *objects, packet *p, const filter_packet *of_packet,
                                          const filter_triangles *s, int k, block_cones *blocks, filter_mode mode,
@@ -110,19 +126,9 @@ CGT_SPU_INLINE void filter_test_triangle(const cgt_objects *objects, packet *p, 
     const uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
     if (!reached)
         return;
-    if (mode.decides) {
-        const filter_triangle q = filter_triangle_get(of_packet, s, k, mode.common_origin);
-        filter_blocks(objects, p, filter_triangle_rays, &q, object, reached, blocks, mode, counts);
-    } else if (p->triangle_test == CGT_TRIANGLE_MOLLER_TRUMBORE) {
-        const moller_trumbore_triangle q = moller_trumbore_get(s, k);
-        filter_blocks(objects, p, moller_trumbore_rays, &q, object, reached, blocks, mode, counts);
-    } else if (p->triangle_test == CGT_TRIANGLE_ACCELERATED) {
-        const accelerated_triangle q = accelerated_get(s, k);
-        filter_blocks(objects, p, accelerated_rays, &q, object, reached, blocks, mode, counts);
-    } else {
-        const filter_triangle q = filter_triangle_get(of_packet, s, k, mode.common_origin);
-        filter_blocks(objects, p, filter_triangle_rays_fast, &q, object, reached, blocks, mode, counts);
-    }
+#define CALL(test, q) filter_blocks(objects, p, test, q, object, reached, blocks, mode, counts)
+    FILTER_WITH_TRIANGLE(p, of_packet, s, k, mode, CALL)
+#undef CALL
 }
 
 #endif

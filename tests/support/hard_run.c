@@ -30,9 +30,16 @@ cgt_result hard_commit(cgt_context *context, const hard_scene *s, const uint32_t
 {
     cgt_scene_options options;
     cgt_scene_options_init(&options);
+    options.structure = CGT_STRUCTURE_QUEUE_GRID;
     memcpy(options.resolution, resolution ? resolution : s->resolution, sizeof options.resolution);
+    return hard_commit_with(context, s, &options, scene);
+}
+
+cgt_result hard_commit_with(cgt_context *context, const hard_scene *s, const cgt_scene_options *options,
+                            cgt_scene **scene)
+{
     *scene = NULL;
-    cgt_result result = cgt_scene_create(context, &options, scene);
+    cgt_result result = cgt_scene_create(context, options, scene);
     for (uint32_t g = 0; result == CGT_OK && g < s->geometries; g++)
         result = add_geometry(*scene, &s->geometry[g]);
     if (result == CGT_OK)

@@ -13,6 +13,8 @@
 
 /* A committed scene. resolution: NULL for the scene's own. The arrays stay in s. On an error *scene is NULL. */
 cgt_result hard_commit(cgt_context *context, const hard_scene *s, const uint32_t resolution[3], cgt_scene **scene);
+cgt_result hard_commit_with(cgt_context *context, const hard_scene *s, const cgt_scene_options *options,
+                            cgt_scene **scene);
 
 /* Traces the rays of a case that is traced twice with default options, and rewrites them by what was found. */
 cgt_result hard_follow(cgt_context *context, const hard_case *c, hard_scene *s);

@@ -106,6 +106,18 @@ cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count)
                          .radius_stride = sizeof sphere[0]};
 }
 
+cgt_scene_options structure_random(test_random *r)
+{
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    o.structure = (cgt_structure)random_below(r, 4);
+    o.rays = (cgt_ray_kind)random_below(r, 2);
+    o.kd_builder = (cgt_kd_builder)random_below(r, 3);
+    o.kd_layout = (cgt_kd_layout)random_below(r, 4);
+    o.kd_break_level = random_below(r, 51);
+    return o;
+}
+
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count)
 {
     const cgt_spheres spheres = spheres_of(sphere, count);

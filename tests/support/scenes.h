@@ -49,6 +49,9 @@ const char *cloud_name(cloud_kind kind);
 
 cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count);
 
+/* Any structure, AUTO included, of any builder, layout and break level. */
+cgt_scene_options structure_random(test_random *r);
+
 /* A scene of one geometry, committed. options may be NULL. */
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count);
 

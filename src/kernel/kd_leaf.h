@@ -1,0 +1,257 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The objects of a leaf of a tree against rays of a packet: a vector of rays and one object after the other, or one ray
+ * and a vector of objects. FAST precision takes the filters of the grid, whose tests it shares. */
+#ifndef CGT_KD_LEAF_H
+#define CGT_KD_LEAF_H
+
+#include "leaf_lanes.h"
+#include "sphere_filter.h"
+#include "triangle_tests.h"
+
+#define LEAF_MAILBOX 64u /* direct mapped by the low bits of the object */
+
+/* What leaf tests need, made once a packet. */
+typedef struct leaf_tests {
+    const cgt_objects *objects;
+    packet *p;
+    cgt_counts *counts;
+    float scale;
+    bool mailbox;
+    uint32_t seen[LEAF_MAILBOX]; /* objects that the rays in work have met lately */
+    filter_packet filter;        /* in FAST precision */
+    /* of the leaf in work: lanes beyond its count hold what they held before */
+    filter_spheres spheres;
+    filter_triangles triangles;
+} leaf_tests;
+
+CGT_SPU_INLINE void leaf_tests_make(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                    cgt_counts *counts, leaf_tests *l)
+{
+    l->objects = &world->objects;
+    l->p = p;
+    l->counts = counts;
+    l->scale = world->scale;
+    l->mailbox = settings->mailbox;
+    if (world->objects.spheres) {
+        memset(l->spheres.center, 0, sizeof l->spheres.center);
+        memset(l->spheres.radius, 0, sizeof l->spheres.radius);
+    }
+    if (world->objects.triangles)
+        memset(l->triangles.vertex, 0, sizeof l->triangles.vertex);
+    if (!p->fast)
+        return;
+    filter_packet_make(p, world->scale, &l->filter);
+    if (world->objects.triangles && !p->common_origin)
+        filter_moments_make(p, &l->filter);
+}
+
+/* Before other rays. */
+CGT_SPU_INLINE void leaf_mailbox_clear(leaf_tests *l)
+{
+    if (l->mailbox)
+        memset(l->seen, 0xff, sizeof l->seen);
+}
+
+/* Whether the rays in work have met the object; remembers it. */
+CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t object)
+{
+    uint32_t *seen = &l->seen[object % LEAF_MAILBOX];
+    const bool has = *seen == object;
+    *seen = object;
+    l->counts->mailbox_skipped += has;
+    return has;
+}
+
+/* How many of the first objects of a list are of one kind, at most a vector. */
+CGT_SPU_INLINE uint32_t leaf_run(const cgt_objects *objects, const uint32_t *reference, uint32_t count, cgt_kind *kind)
+{
+    const uint32_t most = count < CGT_LANES ? count : CGT_LANES;
+    uint32_t run = 1;
+    *kind = objects->spheres ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES;
+    if (!objects->spheres || !objects->triangles)
+        return most;
+    *kind = cgt_objects_array(objects, reference[0])->kind;
+    while (run < most && cgt_objects_array(objects, reference[run])->kind == *kind)
+        run++;
+    return run;
+}
+
+/* ---- a vector of rays ---- */
+
+/* Keeps what lanes found out about the object that all of them tested. */
+CGT_SPU_INLINE void leaf_keep_vector(leaf_tests *l, uint32_t object, uint32_t i, const lane_hits *q)
+{
+    packet *p = l->p;
+    const vfloat low = spux_load(p->low + i), high = spux_load(p->high + i);
+    const vuint winner = spux_load_uint(p->object + i), number = spux_vuint(object);
+    const vmask nearer = spu_and(q->certain, spu_cmpgt(low, q->high));
+    const vmask settled = spu_or(spu_or(nearer, spu_cmpgt(q->low, high)), spu_cmpeq(winner, number));
+    const vfloat closed = spux_vfloat(-INFINITY);
+    spux_store(p->low + i, spux_select(low, p->any_hit ? closed : q->low, nearer));
+    spux_store(p->high + i, spux_select(high, p->any_hit ? closed : q->high, nearer));
+    spux_store_uint(p->object + i, spux_select(winner, number, nearer));
+    for (unsigned left = spux_mask_bits(spu_andc(spu_or(q->certain, q->open), settled)); left; left &= left - 1)
+        filter_decide(l->objects, p, i + (uint32_t)__builtin_ctz(left), object, l->counts);
+}
+
+static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t object, uint32_t i)
+{
+    const cgt_object_array *a = cgt_objects_array(l->objects, object);
+    lane_hits q;
+    bool some;
+    if (a->kind == CGT_KIND_SPHERES) {
+        const cgt_sphere s = cgt_array_sphere(a, object - a->first);
+        const vfloat center[3] = {spux_vfloat(s.x), spux_vfloat(s.y), spux_vfloat(s.z)};
+        some = lane_sphere(r, center, spux_vfloat(s.r), &q);
+    } else {
+        const cgt_triangle t = cgt_array_triangle(a, object - a->first);
+        vfloat vertex[3][3];
+        for (int k = 0; k < 3; k++)
+            for (int c = 0; c < 3; c++)
+                vertex[k][c] = spux_vfloat(t.v[k][c]);
+        some = lane_triangle(r, (const vfloat(*)[3])vertex, &q);
+    }
+    if (some)
+        leaf_keep_vector(l, object, i, &q);
+}
+
+/* ---- a vector of rays in FAST precision ---- */
+
+static void leaf_fast_spheres(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
+{
+    filter_spheres *s = &l->spheres;
+    filter_spheres_fetch(l->objects, reference, count, count, s);
+    filter_spheres_bound(&l->filter, s);
+    for (uint32_t k = 0; k < count; k++) {
+#define CALL(mode)                                                                                                     \
+    {                                                                                                                  \
+        filter_sphere q = filter_sphere_get(l->p, s, (int)k, (mode).common_origin);                                    \
+        q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);                                                               \
+        filter_vector(l->objects, l->p, filter_sphere_rays_fast, &q, s->object[k], i, mode, l->counts);                \
+    }
+        FILTER_FOR_MODE(l->p, false, CALL)
+#undef CALL
+    }
+}
+
+static void leaf_fast_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
+{
+    filter_triangles *s = &l->triangles;
+    filter_triangles_fetch(l->objects, reference, count, count, s);
+    filter_triangles_prepare_fast(&l->filter, s);
+    for (uint32_t k = 0; k < count; k++) {
+#define TEST(test, q) filter_vector(l->objects, l->p, test, q, s->object[k], i, chosen, l->counts)
+#define CALL(mode)                                                                                                     \
+    {                                                                                                                  \
+        const filter_mode chosen = mode;                                                                               \
+        FILTER_WITH_TRIANGLE(l->p, &l->filter, s, (int)k, chosen, TEST)                                                \
+    }
+        FILTER_FOR_MODE(l->p, true, CALL)
+#undef CALL
+#undef TEST
+    }
+}
+
+static void leaf_test_fast(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
+{
+    l->counts->packet_tests += count;
+    while (count) {
+        cgt_kind kind;
+        const uint32_t run = leaf_run(l->objects, reference, count, &kind);
+        if (kind == CGT_KIND_SPHERES)
+            leaf_fast_spheres(l, reference, run, i);
+        else
+            leaf_fast_triangles(l, reference, run, i);
+        reference += run;
+        count -= run;
+    }
+}
+
+/* Tests rays i to i + CGT_LANES - 1 against all objects of a leaf. r: these rays. Some that do not pass the leaf may be
+ * among them: what they meet, they meet. */
+CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
+                                     uint32_t i)
+{
+    l->counts->references += count;
+    if (l->p->fast) {
+        leaf_test_fast(l, reference, count, i);
+        return;
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        if (l->mailbox && leaf_mailbox_has(l, reference[k]))
+            continue;
+        l->counts->packet_tests++;
+        l->counts->ray_tests += CGT_LANES;
+        leaf_test_one(l, r, reference[k], i);
+    }
+}
+
+/* ---- one ray ---- */
+
+/* Lanes whose interval lies beyond the best hit are out, those before it replace it, the others are decided. */
+static void leaf_keep_ray(leaf_tests *l, uint32_t i, const lane_hits *q, const uint32_t *reference, uint32_t count)
+{
+    packet *p = l->p;
+    const unsigned certain = spux_mask_bits(q->certain), used = CGT_ALL_LANES >> (CGT_LANES - count);
+    const vmask may = spu_andc(spu_or(q->certain, q->open), spu_cmpgt(q->low, spux_vfloat(p->high[i])));
+    _Alignas(64) float low[CGT_LANES], high[CGT_LANES];
+    unsigned left = spux_mask_bits(may) & used;
+    if (!left)
+        return;
+    spux_store(low, q->low);
+    spux_store(high, q->high);
+    for (; left; left &= left - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(left);
+        if (!(certain >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
+            filter_decide(l->objects, p, i, reference[k], l->counts);
+        } else if (high[k] < p->low[i]) {
+            p->low[i] = p->any_hit ? -INFINITY : low[k];
+            p->high[i] = p->any_hit ? -INFINITY : high[k];
+            p->object[i] = reference[k];
+        }
+    }
+}
+
+/* Tests ray i of the packet against all objects of a leaf. r: this ray in every lane. In FAST precision its neighbours
+ * are tested too. */
+CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
+                                  uint32_t i)
+{
+    l->counts->references += count;
+    if (l->p->fast) {
+        leaf_test_fast(l, reference, count, i - i % CGT_LANES);
+        return;
+    }
+    if (l->mailbox && count == 1 && leaf_mailbox_has(l, reference[0]))
+        return;
+    l->counts->packet_tests += count;
+    l->counts->ray_tests += count;
+    while (count) {
+        cgt_kind kind;
+        lane_hits q;
+        bool some;
+        const uint32_t run = leaf_run(l->objects, reference, count, &kind);
+        if (kind == CGT_KIND_SPHERES) {
+            filter_spheres *s = &l->spheres;
+            filter_spheres_fetch(l->objects, reference, run, run, s);
+            const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
+            some = lane_sphere(r, center, spux_load(s->radius), &q);
+        } else {
+            filter_triangles *s = &l->triangles;
+            vfloat vertex[3][3];
+            filter_triangles_fetch(l->objects, reference, run, run, s);
+            for (int k = 0; k < 3; k++)
+                for (int c = 0; c < 3; c++)
+                    vertex[k][c] = spux_load(s->vertex[k][c]);
+            some = lane_triangle(r, (const vfloat(*)[3])vertex, &q);
+        }
+        if (some)
+            leaf_keep_ray(l, i, &q, reference, run);
+        reference += run;
+        count -= run;
+    }
+}
+
+#endif
