@@ -13,7 +13,8 @@
  *   report    their table and their ratios           bench_report.h
  *   accuracy  time and error of every configuration  bench_accuracy.h
  *   pareto    time against error, and its pictures   bench_pareto.h
- *   simd      words of the vocabulary, per variant   simd/simd_rows.h */
+ *   simd      words of the vocabulary, per variant   simd/simd_rows.h
+ *   structures  grids and kd-trees beside each other  bench_structures.h */
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -22,6 +23,7 @@
 
 #include <cgt/cgt.h>
 
+#include "bench_scene.h"
 #include "program.h"
 
 #define BENCH_MOST_PIXELS ((uint64_t)1 << 28)
@@ -47,6 +49,17 @@ void bench_settings_init(bench_settings *settings);
 /* Parses the shared options and the one FILE; a child of each sub-command's parser, with settings as its input. */
 extern const struct argp bench_settings_argp;
 
+/* Options of the structure, that frame and structures share. */
+typedef struct bench_structure_settings {
+    size_t most; /* structures that may be named; set before parsing */
+    cgt_structure asked[4];
+    size_t count; /* 0: none was named */
+    bench_kd_choice kd;
+} bench_structure_settings;
+
+/* A child of the parser, with those settings as its input. */
+extern const struct argp bench_structure_argp;
+
 /* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
 int bench_accuracy(int argc, char **argv);
 int bench_frame(int argc, char **argv);
@@ -54,5 +67,6 @@ int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
 int bench_pareto(int argc, char **argv);
 int bench_simd(int argc, char **argv);
+int bench_structures(int argc, char **argv);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench frame: for each frame of a trajectory, moves the spheres or vertices, then measures commit, primary rays, and on
- * request shadow and ambient-occlusion rays. One row of medians per configuration. The first frame warms up. */
+ * cgt-bench frame: for each frame of a trajectory, moves the spheres or vertices, then measures commit, primary rays,
+ * and on request shadow and ambient-occlusion rays. One row of medians per configuration. The first frame warms up. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,6 +20,7 @@ enum { BUILD, PRIMARY, SHADOW, AO, FRAME, COLUMNS };
 
 typedef struct frame_settings {
     bench_settings shared;
+    bench_structure_settings structure;
     int lit;
     float light[3];
     uint32_t ao;
@@ -88,7 +89,10 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     char error[PROGRAM_ERROR_SIZE] = "";
 
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &settings->shared; return 0;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &settings->shared;
+        state->child_inputs[1] = &settings->structure;
+        return 0;
     case 'l':
         if (program_parse_floats(argument, 3, settings->light, error, sizeof error))
             argp_error(state, "-l: %s", error);
@@ -142,6 +146,7 @@ static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t cou
     cgt_trace_options_init(&secondary); /* arrays of rays have no packets to choose; the rest is the library's choice */
     secondary.precision = trace->precision;
     secondary.triangle_test = trace->triangle_test;
+    secondary.kd_traversal = trace->kd_traversal;
     bench_planes_frame(&job->planes, &frame);
     ms[SHADOW] = ms[AO] = 0.0;
 
@@ -206,12 +211,12 @@ static cgt_result describe(frame_job *job, const bench_scene *scene, const bench
     if (result != CGT_OK)
         return result;
     fprintf(stderr,
-            "variant %s, structure %s (%s), grid %ux%ux%u, packet %u, tile %s, loop %s, %u primitives, "
-            "%u skipped, %zu bytes, %.2f ray tests per ray\n",
+            "variant %s, structure %s (%s), grid %ux%ux%u, kd-tree of %u nodes in %u levels, packet %u, tile %s, "
+            "loop %s, %u primitives, %u skipped, %zu bytes, %.2f ray tests per ray\n",
             cgt_context_variant(job->context), bench_structure_name(built.structure), built.reason,
             (unsigned)built.resolution[0], (unsigned)built.resolution[1], (unsigned)built.resolution[2],
-            (unsigned)traced.packet_size, bench_tile_name(traced.tile), bench_loop_name(traced.loop),
-            (unsigned)built.primitives,
+            (unsigned)built.kd_nodes, (unsigned)built.kd_depth, (unsigned)traced.packet_size,
+            bench_tile_name(traced.tile), bench_loop_name(traced.loop), (unsigned)built.primitives,
             (unsigned)(built.skipped_not_finite + built.skipped_radius + built.skipped_degenerate), built.bytes,
             (double)traced.ray_tests / (double)(traced.rays ? traced.rays : 1));
     return CGT_OK;
@@ -239,6 +244,8 @@ static int run_row(frame_job *job, const bench_choice *choice)
     uint64_t open = 0;
 
     cgt_result result = bench_scene_create(&scene, job->context, job->input.moving, shared->resolution);
+    if (result == CGT_OK)
+        result = bench_scene_structure(&scene, job->settings->structure.asked[0], &choice->kd, shared->resolution);
     if (result == CGT_OK) {
         bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
         bench_choice_options(choice, NULL, &trace);
@@ -275,7 +282,8 @@ static int run_rows(frame_job *job)
                            .mailbox = settings->mailbox,
                            .precision = settings->precision,
                            .precision_named = settings->precision_given,
-                           .test = settings->test};
+                           .test = settings->test,
+                           .kd = settings->structure.kd};
     if (cells[0]) {
         snprintf(grid, sizeof grid, "%ux%ux%u", (unsigned)cells[0], (unsigned)cells[1], (unsigned)cells[2]);
         choice.grid = grid;
@@ -340,7 +348,8 @@ static int prepare(frame_job *job)
 
 int bench_frame(int argc, char **argv)
 {
-    static const struct argp_child children[] = {{&bench_settings_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {
+        {&bench_settings_argp, 0, NULL, 0}, {&bench_structure_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         .options = options,
         .parser = parse,
@@ -355,6 +364,7 @@ int bench_frame(int argc, char **argv)
 
     memset(&settings, 0, sizeof settings);
     bench_settings_init(&settings.shared);
+    settings.structure.most = 1;
     settings.cull = CGT_CULL_BLOCKS;
     settings.mailbox = 1;
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))

@@ -8,6 +8,7 @@
 #include "bench.h"
 
 enum { OPTION_VARIANT = 0x100, OPTION_RADIUS, OPTION_WRAPPED };
+enum { OPTION_BUILDER = 0x180, OPTION_LAYOUT, OPTION_BREAK, OPTION_TRAVERSAL };
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "Scene and camera:", 1},
@@ -147,3 +148,61 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 }
 
 const struct argp bench_settings_argp = {.options = options, .parser = parse};
+
+/* ---- Structure ----------------------------------------------------------------------------------------------- */
+
+static const struct argp_option structure_options[] = {
+    {NULL, 0, NULL, 0, "Structure:", 6},
+    {"structure", 'S', "NAME", 0, "auto (the library's default), grid-queue, kd or kd-ropes", 6},
+    {"kd-builder", OPTION_BUILDER, "NAME", 0, "of kd-trees: binned or sweep", 6},
+    {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
+    {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels that are stored breadth first, 1 to 50", 6},
+    {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single or packet", 6},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+static void add_structure(bench_structure_settings *settings, struct argp_state *state, const char *name)
+{
+    cgt_structure structure = CGT_STRUCTURE_AUTO;
+    if (bench_structure_find(name, &structure))
+        argp_error(state, "--structure: auto, grid-queue, kd or kd-ropes, not %s", name);
+    for (size_t i = 0; i < settings->count; i++)
+        if (settings->asked[i] == structure)
+            return;
+    if (settings->count == settings->most)
+        argp_error(state, "--structure: %s is one more than can be had", name);
+    else
+        settings->asked[settings->count++] = structure;
+}
+
+static error_t parse_structure(int key, char *argument, struct argp_state *state)
+{
+    bench_structure_settings *settings = state->input;
+    bench_kd_choice *kd = &settings->kd;
+    char error[PROGRAM_ERROR_SIZE] = "";
+    switch (key) {
+    case 'S': add_structure(settings, state, argument); return 0;
+    case OPTION_BUILDER:
+        if (bench_kd_builder_find(argument, &kd->builder))
+            argp_error(state, "--kd-builder: auto, binned or sweep, not %s", argument);
+        return 0;
+    case OPTION_LAYOUT:
+        if (bench_kd_layout_find(argument, &kd->layout))
+            argp_error(state, "--kd-layout: auto, depth-first, breadth-first or mixed, not %s", argument);
+        return 0;
+    case OPTION_BREAK:
+        if (program_parse_u32(argument, 1, 50, &kd->break_level, error, sizeof error))
+            argp_error(state, "--kd-break: %s", error);
+        return 0;
+    case OPTION_TRAVERSAL:
+        if (bench_kd_traversal_find(argument, &kd->traversal))
+            argp_error(state, "--kd-traversal: auto, single or packet, not %s", argument);
+        return 0;
+    case ARGP_KEY_END:
+        if (kd->break_level && kd->layout != CGT_KD_LAYOUT_MIXED)
+            argp_error(state, "--kd-break: only with --kd-layout mixed");
+        return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+const struct argp bench_structure_argp = {.options = structure_options, .parser = parse_structure};

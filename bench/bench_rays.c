@@ -32,6 +32,8 @@ struct bench_rays {
     uint64_t batch_hits;
     uint32_t samples;
     float light[3];
+    bench_rays_taker *taker;
+    void *taker_user;
 };
 
 /* ---- The camera's rays --------------------------------------------------------------------------------------- */
@@ -135,6 +137,12 @@ void bench_rays_release(bench_rays *rays)
     free(rays->hit);
     free(rays->row_first);
     free(rays);
+}
+
+void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user)
+{
+    rays->taker = taker;
+    rays->taker_user = user;
 }
 
 /* ---- The hit pixels, in block order -------------------------------------------------------------------------- */
@@ -316,7 +324,8 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
             array.dir[i] = rays->dir[i];
         }
         array.t_max = light ? rays->ones : NULL;
-        const cgt_result result = cgt_occluded_rays(scene, &array, rays->occluded, options);
+        const cgt_result result = rays->taker ? rays->taker(rays->taker_user, &array, rays->occluded)
+                                              : cgt_occluded_rays(scene, &array, rays->occluded, options);
         if (result != CGT_OK)
             return result;
         for (uint64_t i = 0; i < array.count; i++)

@@ -45,6 +45,12 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
 /* NULL is ignored. */
 void bench_rays_release(bench_rays *rays);
 
+/* Takes each batch in place of the library, and sets occluded[i] to 0 or 1 for each ray of it. */
+typedef cgt_result bench_rays_taker(void *user, const cgt_rays *batch, uint8_t *occluded);
+
+/* Batches of the passes to come go to a taker; NULL: to the library. scene and options are not used then. */
+void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user);
+
 /* Traces one shadow ray per hit pixel into planes->shadow; hidden gets the number of those that met something.
  * options: of the traces; NULL for the library's. */
 cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,

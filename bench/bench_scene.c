@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The calls into the library that both sub-commands make, and the names of configurations. */
+ * The calls into the library that sub-commands share, and the names of configurations. */
 #include "bench_scene.h"
 
 #include <stdio.h>
@@ -31,6 +31,19 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
     if (result != CGT_OK)
         scene->scene = NULL;
     return result;
+}
+
+cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, const bench_kd_choice *kd,
+                                 const uint32_t resolution[3])
+{
+    cgt_scene_options options;
+    cgt_scene_options_init(&options);
+    options.structure = structure;
+    options.kd_builder = kd->builder;
+    options.kd_layout = kd->layout;
+    options.kd_break_level = kd->break_level;
+    memcpy(options.resolution, resolution, sizeof options.resolution);
+    return cgt_scene_set_options(scene->scene, &options);
 }
 
 void bench_scene_release(bench_scene *scene)
@@ -87,17 +100,6 @@ int bench_scene_failed(const cgt_context *context, const char *what, cgt_result 
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
-const char *bench_structure_name(cgt_structure structure)
-{
-    switch (structure) {
-    case CGT_STRUCTURE_QUEUE_GRID: return "grid-queue";
-    case CGT_STRUCTURE_KD: return "kd";
-    case CGT_STRUCTURE_KD_ROPES: return "kd-ropes";
-    case CGT_STRUCTURE_AUTO: break;
-    }
-    return "none";
-}
-
 const char *bench_loop_name(cgt_loop loop)
 {
     return loop == CGT_LOOP_NESTED ? "nested" : loop == CGT_LOOP_FLATTENED ? "flattened" : "auto";
@@ -119,28 +121,87 @@ static const char *const triangle_tests[] = {[CGT_TRIANGLE_WATERTIGHT] = "watert
                                              [CGT_TRIANGLE_MOLLER_TRUMBORE] = "moller-trumbore",
                                              [CGT_TRIANGLE_ACCELERATED] = "accelerated"};
 
-const char *bench_precision_name(cgt_precision precision) { return precisions[precision]; }
+static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
+                                         [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
+                                         [CGT_STRUCTURE_KD] = "kd",
+                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes"};
+static const char *const kd_traversals[] = {
+    [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
+static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
+                                         [CGT_KD_LAYOUT_DEPTH_FIRST] = "depth-first",
+                                         [CGT_KD_LAYOUT_BREADTH_FIRST] = "breadth-first",
+                                         [CGT_KD_LAYOUT_MIXED] = "mixed"};
+static const char *const kd_builders[] = {
+    [CGT_KD_BUILDER_AUTO] = "auto", [CGT_KD_BUILDER_BINNED] = "binned", [CGT_KD_BUILDER_SWEEP] = "sweep"};
 
+#define COUNT(names) (sizeof(names) / sizeof *(names))
+
+const char *bench_structure_name(cgt_structure structure)
+{
+    return structure == CGT_STRUCTURE_AUTO ? "none" : structures[structure];
+}
+
+const char *bench_precision_name(cgt_precision precision) { return precisions[precision]; }
 const char *bench_triangle_test_name(cgt_triangle_test test) { return triangle_tests[test]; }
+const char *bench_kd_traversal_name(cgt_kd_traversal traversal) { return kd_traversals[traversal]; }
+const char *bench_kd_layout_name(cgt_kd_layout layout) { return kd_layouts[layout]; }
+const char *bench_kd_builder_name(cgt_kd_builder builder) { return kd_builders[builder]; }
+
+/* Index of a name in a list; -1 where there is none. */
+static int find(const char *name, const char *const *names, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(name, names[i]))
+            return (int)i;
+    return -1;
+}
 
 int bench_precision_find(const char *name, cgt_precision *precision)
 {
-    for (size_t i = 0; i < sizeof precisions / sizeof precisions[0]; i++)
-        if (!strcmp(name, precisions[i])) {
-            *precision = (cgt_precision)i;
-            return 0;
-        }
-    return -1;
+    const int index = find(name, precisions, COUNT(precisions));
+    if (index >= 0)
+        *precision = (cgt_precision)index;
+    return index < 0 ? -1 : 0;
 }
 
 int bench_triangle_test_find(const char *name, cgt_triangle_test *test)
 {
-    for (size_t i = 0; i < sizeof triangle_tests / sizeof triangle_tests[0]; i++)
-        if (!strcmp(name, triangle_tests[i])) {
-            *test = (cgt_triangle_test)i;
-            return 0;
-        }
-    return -1;
+    const int index = find(name, triangle_tests, COUNT(triangle_tests));
+    if (index >= 0)
+        *test = (cgt_triangle_test)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_structure_find(const char *name, cgt_structure *structure)
+{
+    const int index = find(name, structures, COUNT(structures));
+    if (index >= 0)
+        *structure = (cgt_structure)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal)
+{
+    const int index = find(name, kd_traversals, COUNT(kd_traversals));
+    if (index >= 0)
+        *traversal = (cgt_kd_traversal)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_kd_layout_find(const char *name, cgt_kd_layout *layout)
+{
+    const int index = find(name, kd_layouts, COUNT(kd_layouts));
+    if (index >= 0)
+        *layout = (cgt_kd_layout)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_kd_builder_find(const char *name, cgt_kd_builder *builder)
+{
+    const int index = find(name, kd_builders, COUNT(kd_builders));
+    if (index >= 0)
+        *builder = (cgt_kd_builder)index;
+    return index < 0 ? -1 : 0;
 }
 
 static void append(char name[BENCH_NAME_SIZE], const char *key, const char *value)
@@ -149,11 +210,27 @@ static void append(char name[BENCH_NAME_SIZE], const char *key, const char *valu
     snprintf(name + length, BENCH_NAME_SIZE - length, ",%s=%s", key, value);
 }
 
+static void append_kd(char name[BENCH_NAME_SIZE], const bench_kd_choice *kd)
+{
+    char level[16];
+    snprintf(level, sizeof level, "%u", (unsigned)kd->break_level);
+    if (kd->traversal != CGT_KD_TRAVERSAL_AUTO)
+        append(name, "traversal", bench_kd_traversal_name(kd->traversal));
+    if (kd->layout != CGT_KD_LAYOUT_AUTO)
+        append(name, "layout", bench_kd_layout_name(kd->layout));
+    if (kd->break_level)
+        append(name, "break", level);
+    if (kd->builder != CGT_KD_BUILDER_AUTO)
+        append(name, "builder", bench_kd_builder_name(kd->builder));
+}
+
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE])
 {
     char packet[16];
     snprintf(name, BENCH_NAME_SIZE, "%s", bench_structure_name(structure));
     snprintf(packet, sizeof packet, "%u", (unsigned)choice->packet);
+    if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
+        append_kd(name, &choice->kd);
     if (choice->variant)
         append(name, "variant", choice->variant);
     if (choice->packet)
@@ -184,5 +261,6 @@ void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *stat
     options->mailbox = choice->mailbox;
     options->precision = choice->precision;
     options->triangle_test = choice->test;
+    options->kd_traversal = choice->kd.traversal;
     options->statistics = statistics;
 }

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A scene over the moving spheres or triangles of a trajectory, and how a configuration of the library is named in a table. */
+ * A scene over the moving spheres or triangles of a trajectory, and how a configuration of the library is named in a
+ * table. */
 #ifndef BENCH_SCENE_H
 #define BENCH_SCENE_H
 
@@ -38,6 +39,14 @@ cgt_result bench_scene_commit(bench_scene *scene, uint32_t count);
 /* Prints what failed and the library's message. Returns PROGRAM_FAILED. */
 int bench_scene_failed(const cgt_context *context, const char *what, cgt_result result);
 
+/* What can be set of a kd-tree and of its traversal; zero is the library's choice. */
+typedef struct bench_kd_choice {
+    cgt_kd_traversal traversal;
+    cgt_kd_layout layout;
+    uint32_t break_level; /* of MIXED */
+    cgt_kd_builder builder;
+} bench_kd_choice;
+
 /* What can be set of a trace; zero and NULL are the library's choices, cull and mailbox are given as they are. */
 typedef struct bench_choice {
     const char *variant;
@@ -49,12 +58,17 @@ typedef struct bench_choice {
     cgt_precision precision;
     int precision_named; /* 1: the name says the default precision, too */
     cgt_triangle_test test;
-    const char *grid; /* resolution in words: "16x16x16", "auto*2" */
+    const char *grid;   /* resolution in words: "16x16x16", "auto*2" */
+    bench_kd_choice kd; /* said of kd-trees only */
 } bench_choice;
 
 #define BENCH_NAME_SIZE 160
 
+/* AUTO, of a scene that has no structure: "none". */
 const char *bench_structure_name(cgt_structure structure);
+const char *bench_kd_traversal_name(cgt_kd_traversal traversal);
+const char *bench_kd_layout_name(cgt_kd_layout layout);
+const char *bench_kd_builder_name(cgt_kd_builder builder);
 const char *bench_loop_name(cgt_loop loop);
 const char *bench_cull_name(cgt_cull cull);
 const char *bench_tile_name(cgt_tile_shape tile);
@@ -64,11 +78,19 @@ const char *bench_triangle_test_name(cgt_triangle_test test);
 /* The value of a name, as above: 0, or -1 where there is none. */
 int bench_precision_find(const char *name, cgt_precision *precision);
 int bench_triangle_test_find(const char *name, cgt_triangle_test *test);
+int bench_structure_find(const char *name, cgt_structure *structure); /* AUTO is "auto" */
+int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal);
+int bench_kd_layout_find(const char *name, cgt_kd_layout *layout);
+int bench_kd_builder_find(const char *name, cgt_kd_builder *builder);
 
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);
 
 /* The trace options of a choice; statistics NULL where nothing is to be counted. */
 void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options);
+
+/* Changes the scene's structure; resolution: as in bench_scene_create. */
+cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, const bench_kd_choice *kd,
+                                 const uint32_t resolution[3]);
 
 #endif

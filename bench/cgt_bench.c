@@ -7,10 +7,13 @@
  *   cgt-bench loops     the ways to traverse, against each other
  *   cgt-bench make      procedural scenes to measure on
  *   cgt-bench pareto    time against error of whole frames, drawn
- *   cgt-bench simd      the words of the vocabulary beside native instructions */
+ *   cgt-bench simd      the words of the vocabulary beside native instructions
+ *   cgt-bench structures  grids and kd-trees beside each other */
 #include <string.h>
 
 #include "bench.h"
+
+#define SUB_COMMANDS "accuracy, frame, loops, make, pareto, simd or structures"
 
 typedef struct command {
     const char *name;
@@ -21,9 +24,14 @@ typedef struct command {
 static char accuracy_name[] = "cgt-bench accuracy";
 static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops", make_name[] = "cgt-bench make";
 static char pareto_name[] = "cgt-bench pareto", simd_name[] = "cgt-bench simd";
-static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy}, {"frame", frame_name, bench_frame},
-                                   {"loops", loops_name, bench_loops},          {"make", make_name, bench_make},
-                                   {"pareto", pareto_name, bench_pareto},       {"simd", simd_name, bench_simd}};
+static char structures_name[] = "cgt-bench structures";
+static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy},
+                                   {"frame", frame_name, bench_frame},
+                                   {"loops", loops_name, bench_loops},
+                                   {"make", make_name, bench_make},
+                                   {"pareto", pareto_name, bench_pareto},
+                                   {"simd", simd_name, bench_simd},
+                                   {"structures", structures_name, bench_structures}};
 
 typedef struct choice {
     const command *command;
@@ -39,13 +47,11 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             if (!strcmp(argument, commands[i].name))
                 chosen->command = &commands[i];
         if (!chosen->command)
-            argp_error(state, "no sub-command %s: accuracy, frame, loops, make, pareto or simd", argument);
+            argp_error(state, "no sub-command %s: " SUB_COMMANDS, argument);
         chosen->first = state->next - 1;
         state->next = state->argc; /* the rest is the sub-command's */
         return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "a sub-command is missing: accuracy, frame, loops, make, pareto or simd");
-        return 0;
+    case ARGP_KEY_NO_ARGS: argp_error(state, "a sub-command is missing: " SUB_COMMANDS); return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -56,7 +62,8 @@ int main(int argc, char **argv)
         .parser = parse,
         .args_doc = "accuracy [FILE...] [OPTION...]\nframe FILE [OPTION...]\nloops FILE [OPTION...]\n"
                     "make SCENE FILE [OPTION...]\n"
-                    "pareto FILE... -o PREFIX [OPTION...]\nsimd [OPTION...]",
+                    "pareto FILE... -o PREFIX [OPTION...]\nsimd [OPTION...]\n"
+                    "structures FILE... [OPTION...]",
         .doc = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame; prints "
                "tab-separated values."
                "\v  accuracy  sets time against error on hard cases, judged by exact arithmetic\n"
@@ -64,7 +71,8 @@ int main(int argc, char **argv)
                "  loops     compares the ways to traverse the structure\n"
                "  make      writes a procedural scene\n"
                "  pareto    sets time against error, and draws it\n"
-               "  simd      times the words of the vocabulary beside native instructions\n\n"
+               "  simd      times the words of the vocabulary beside native instructions\n"
+               "  structures  compares grids and kd-trees\n\n"
                "cgt-bench frame --help and its like list the options of each."};
     choice chosen = {NULL, 0};
 

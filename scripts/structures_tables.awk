@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# The tab-separated results of scripts/structures.sh as Markdown. `part` names what the next file is.
+
+function column(name) { return name in at ? $(at[name]) : "" }
+
+# a value of the configuration: "packet" of "kd,traversal=packet,layout=mixed"
+function value_of(config, name) {
+    if (!sub("^.*," name "=", "", config)) return ""
+    sub(/,.*/, "", config)
+    return config
+}
+
+function structure_of(config) { sub(/,.*/, "", config); return config }
+
+function row_name(config,   traversal) {
+    traversal = value_of(config, "traversal")
+    return structure_of(config) (traversal == "" ? "" : ", " traversal)
+}
+
+function layout_of(config,   level) {
+    level = value_of(config, "break")
+    return value_of(config, "layout") (level == "" ? "" : ", " level)
+}
+
+function ns(kind,   rays) {
+    rays = column(kind "_rays") + 0
+    return rays > 0 ? sprintf("%.0f", 1e6 * column(kind "_ms") / rays) : "-"
+}
+
+function rounded(name) { return column(name) == "-" ? "-" : sprintf("%.1f", column(name)) }
+function visits(kind) { return rounded(kind "nodes_per_ray") " + " rounded(kind "leaves_per_ray") }
+function kilobytes(bytes) { return sprintf("%.0f", bytes / 1024) }
+
+FNR == 1 {
+    split("", at)
+    for (i = 1; i <= NF; i++) at[$i] = i
+    next
+}
+/^#/ { next }
+
+part == "times" {
+    if (!times) variant = value_of(column("config"), "variant")
+    times_line[++times] = sprintf("| %s | %s | %s | %.2f | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |",
+        column("scene"), column("primitives"), row_name(column("config")), column("build_ms"), ns("primary"),
+        ns("shadow"), ns("ao"), ns("random"), visits(""), rounded("tests_per_ray"), visits("ao_"),
+        rounded("ao_tests_per_ray"), kilobytes(column("bytes")), column("exact_steps"), column("rope_loops"))
+    if (structure_of(column("config")) == "auto")
+        chosen_line[++chosen] = sprintf("| %s | %s | %s |", column("scene"), column("chosen"), column("reason"))
+    # the best of each kind of ray, and what AUTO took
+    scene = column("scene")
+    if (!(scene in seen)) { seen[scene] = 1; scenes[++scene_count] = scene }
+    total = column("frame_ms") + 0
+    if (structure_of(column("config")) == "auto") auto_ms[scene] = total
+    else if (!(scene in best_ms) || total < best_ms[scene]) {
+        best_ms[scene] = total
+        best[scene] = row_name(column("config"))
+    }
+    next
+}
+
+part == "layouts" {
+    layouts_line[++layouts] = sprintf("| %s | %s | %s | %s | %.2f | %s | %s | %s | %s | %.1f |", column("scene"),
+        row_name(column("config")), layout_of(column("config")), value_of(column("config"), "builder"),
+        column("build_ms"), ns("primary"), ns("ao"), ns("random"), kilobytes(column("bytes")), column("kd_cost"))
+    next
+}
+
+# one line for each layout and kind of ray, a column for each of some memories
+part == "fetches" {
+    key = column("scene") SUBSEP column("rays") SUBSEP layout_of(column("config"))
+    if (!(key in fetch_seen)) { fetch_seen[key] = 1; fetch_keys[++fetches] = key }
+    what = column("memory") " " column("block_bytes") " " column("memory_bytes")
+    fetch[key, what] = column("misses_per_ray")
+    fetch_nodes[key] = column("nodes_per_ray")
+    next
+}
+
+function print_lines(line, lines,   j) { for (j = 1; j <= lines; j++) print line[j] }
+
+function fetched(key, what) { return (key, what) in fetch ? sprintf("%.3g", fetch[key, what]) : "-" }
+
+END {
+    print "## Structures, " variant "\n"
+    print "| scene | primitives | structure | build, ms | primary, ns | shadow, ns | ao, ns | random, ns |" \
+          " primary: nodes + leaves | tests | ao: nodes + leaves | tests | KB | exact steps | loops |"
+    print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+    print_lines(times_line, times)
+    print "\n## What AUTO takes\n"
+    print "| scene | structure | why |\n|---|---|---|"
+    print_lines(chosen_line, chosen)
+    print "\n| scene | best of whole frames | ms | AUTO, ms | over the best |\n|---|---|---|---|---|"
+    for (i = 1; i <= scene_count; i++) {
+        scene = scenes[i]
+        if (scene in best_ms && scene in auto_ms && best_ms[scene] > 0)
+            printf "| %s | %s | %.1f | %.1f | %.2f |\n", scene, best[scene], best_ms[scene], auto_ms[scene],
+                auto_ms[scene] / best_ms[scene]
+    }
+    if (layouts) {
+        print "\n## Layouts and builders\n"
+        print "| scene | structure | layout | builder | build, ms | primary, ns | ao, ns | random, ns | KB | cost |"
+        print "|---|---|---|---|---|---|---|---|---|---|"
+        print_lines(layouts_line, layouts)
+    }
+    if (!fetches) exit
+    print "\n## Transfers of nodes, per ray\n"
+    print "| scene | rays | layout | nodes read | lines of 64 B | 128 B, LRU 4 KB | 128 B, LRU 16 KB |" \
+          " 128 B, direct 16 KB | 1 KB, LRU 16 KB | 4 KB, LRU 32 KB |" \
+          " run of 4 KB | run of 16 KB | 8 KB of top, run of 8 KB |"
+    print "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+    for (i = 1; i <= fetches; i++) {
+        key = fetch_keys[i]
+        split(key, piece, SUBSEP)
+        printf "| %s | %s | %s | %.1f | %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", piece[1], piece[2], piece[3],
+            fetch_nodes[key], fetched(key, "ray 64 0"), fetched(key, "lru 128 4096"), fetched(key, "lru 128 16384"),
+            fetched(key, "direct 128 16384"), fetched(key, "lru 1024 16384"), fetched(key, "lru 4096 32768"),
+            fetched(key, "window 4096 4096"), fetched(key, "window 16384 16384"), fetched(key, "top 8192 16384")
+    }
+}
