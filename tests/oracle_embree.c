@@ -102,12 +102,26 @@ static void judge(const subject *w, const truth_ray *ray, const full_hit *ours, 
         judge_values(w, ray, ours, &theirs, sum);
 }
 
+/* Structures take turns from scene to scene. */
+static const cgt_scene_options *next_structure(void)
+{
+    static const cgt_scene_options structure[] = {
+        {.structure = CGT_STRUCTURE_KD},
+        {.structure = CGT_STRUCTURE_QUEUE_GRID},
+        {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
+        {.structure = CGT_STRUCTURE_KD, .kd_builder = CGT_KD_BUILDER_SWEEP, .kd_layout = CGT_KD_LAYOUT_MIXED},
+        {.structure = CGT_STRUCTURE_KD_ROPES, .kd_layout = CGT_KD_LAYOUT_BREADTH_FIRST},
+    };
+    static size_t turn;
+    return &structure[turn++ % TEST_COUNT(structure)];
+}
+
 /* A frame of the scene. */
 static void compare(cgt_context *context, hard_scene *s, const cgt_camera *camera, tally *sum)
 {
     picture q = picture_make(WIDTH, HEIGHT);
     cgt_scene *scene;
-    if (hard_commit(context, s, NULL, &scene) != CGT_OK)
+    if (hard_commit_with(context, s, next_structure(), &scene) != CGT_OK)
         fail_msg("%s", context_message(context));
     picture_aim(s, camera, WIDTH, HEIGHT);
     picture_trace(scene, camera, NULL, &q);
@@ -271,7 +285,7 @@ static void outlines_from_afar(void **state)
     hard_scene s = scene_of_spheres((const float(*)[4])c.sphere, c.count);
     cgt_context *context = context_make(2, NULL);
     cgt_scene *scene;
-    assert_int_equal(hard_commit(context, &s, NULL, &scene), CGT_OK);
+    assert_int_equal(hard_commit_with(context, &s, next_structure(), &scene), CGT_OK);
     subject w = subject_make(&s);
     tally sum = {0};
     for (uint32_t i = 0; i < count; i++) {

@@ -3,7 +3,7 @@
  *
  * Random scenes of triangles and spheres against the exact oracle, structure and kernel apart: in a grid of one cell
  * every primitive meets every ray, so that what is wrong there is the kernel's fault; what differs from it in another
- * grid, packet, tile, loop or cull is the structure's or the traversal's. */
+ * grid, in a tree, packet, tile, loop or cull is the structure's or the traversal's. */
 #include "support/test.h"
 
 #include <math.h>
@@ -22,8 +22,14 @@
 #define ROUNDS 8u
 #define RAYS 3000u
 
-static const uint32_t one_cell[3] = {1, 1, 1};
-static const uint32_t grids[][3] = {{0, 0, 0}, {7, 5, 3}, {40, 40, 40}};
+static const cgt_scene_options one_cell = {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {1, 1, 1}};
+static const cgt_scene_options structures[] = {
+    {.structure = CGT_STRUCTURE_QUEUE_GRID},
+    {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {7, 5, 3}},
+    {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {40, 40, 40}},
+    {.structure = CGT_STRUCTURE_KD},
+    {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
+};
 
 /* ---- the kernel ---- */
 
@@ -34,10 +40,10 @@ typedef struct subject {
     const char *variant;
 } subject;
 
-static cgt_scene *commit(const subject *s, cgt_context *context, const uint32_t resolution[3])
+static cgt_scene *commit(const subject *s, cgt_context *context, const cgt_scene_options *options)
 {
     cgt_scene *scene;
-    if (hard_commit(context, &s->scene, resolution, &scene) != CGT_OK)
+    if (hard_commit_with(context, &s->scene, options, &scene) != CGT_OK)
         fail_msg("%s, %s: %s", soup_name(s->kind), s->variant, context_message(context));
     return scene;
 }
@@ -60,16 +66,18 @@ static void judge_kernel(const subject *s, const full_hit *answers, const char *
 
 /* ---- the structure ---- */
 
-static void check_same(const subject *s, const full_hit *expected, const full_hit *got, const uint32_t grid[3],
+static void check_same(const subject *s, const full_hit *expected, const full_hit *got, const cgt_scene_options *so,
                        const cgt_trace_options *o)
 {
     for (uint32_t i = 0; i < s->scene.rays; i++)
         if (memcmp(&expected[i], &got[i], sizeof *got) != 0)
-            fail_msg("the structure: %s, %s, grid %ux%ux%u, packet %u, tile %d, loop %d, cull %d, mailbox %d, "
-                     "precision %d: ray %u: geometry %d, primitive %d, t %a; in one cell: %d, %d, %a",
-                     s->variant, soup_name(s->kind), grid[0], grid[1], grid[2], o->packet, (int)o->tile, (int)o->loop,
-                     (int)o->cull, o->mailbox, (int)o->precision, i, (int)got[i].geometry, (int)got[i].primitive,
-                     (double)got[i].t, (int)expected[i].geometry, (int)expected[i].primitive, (double)expected[i].t);
+            fail_msg("the structure: %s, %s, structure %d, grid %ux%ux%u, packet %u, tile %d, loop %d, cull %d, "
+                     "traversal %d, mailbox %d, precision %d: ray %u: geometry %d, primitive %d, t %a; in one cell: "
+                     "%d, %d, %a",
+                     s->variant, soup_name(s->kind), (int)so->structure, so->resolution[0], so->resolution[1],
+                     so->resolution[2], o->packet, (int)o->tile, (int)o->loop, (int)o->cull, (int)o->kd_traversal,
+                     o->mailbox, (int)o->precision, i, (int)got[i].geometry, (int)got[i].primitive, (double)got[i].t,
+                     (int)expected[i].geometry, (int)expected[i].primitive, (double)expected[i].t);
 }
 
 /* All ways to trace a frame: 4, 8, 16 in squares and 4 in strips; loops; culls. Where it is slow, evenly spread ones. */
@@ -85,17 +93,18 @@ static cgt_trace_options way(uint32_t number)
     o.loop = loop ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
     o.cull = cull == 0 ? CGT_CULL_NONE : cull == 1 ? CGT_CULL_FRUSTUM : CGT_CULL_BLOCKS;
     o.mailbox = cull % 2 == loop;
+    o.kd_traversal = loop ? CGT_KD_TRAVERSAL_SINGLE : CGT_KD_TRAVERSAL_PACKET;
     return o;
 }
 
-static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const uint32_t grid[3],
+static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const cgt_scene_options *so,
                   const full_hit *expected, picture *q)
 {
     const uint32_t scaled = test_scaled(WAYS), step = scaled >= WAYS ? 1 : scaled < 3 ? 7 : 5; /* prime to the ways */
-    for (uint32_t number = grid[0] % step; number < WAYS; number += step) {
+    for (uint32_t number = (so->resolution[0] + (uint32_t)so->structure) % step; number < WAYS; number += step) {
         const cgt_trace_options o = way(number);
         picture_trace(scene, camera, &o, q);
-        check_same(s, expected, q->hit, grid, &o);
+        check_same(s, expected, q->hit, so, &o);
     }
 }
 
@@ -109,22 +118,22 @@ static void check_frame(const subject *s, const cgt_camera *camera, bool all_opt
     cgt_trace_options_init(&exact);
     exact.precision = CGT_PRECISION_EXACT;
 
-    cgt_scene *scene = commit(s, context, one_cell);
+    cgt_scene *scene = commit(s, context, &one_cell);
     picture_trace(scene, camera, &exact, &q);
     judge_kernel(s, q.hit, "EXACT");
     picture_trace(scene, camera, &robust, &q);
     judge_kernel(s, q.hit, "ROBUST");
     memcpy(answers, q.hit, PIXELS * sizeof *answers);
     if (all_options)
-        sweep(s, scene, camera, one_cell, answers, &q);
+        sweep(s, scene, camera, &one_cell, answers, &q);
     cgt_scene_release(scene);
 
-    for (size_t g = 0; g < TEST_COUNT(grids); g++) {
-        scene = commit(s, context, grids[g]);
+    for (size_t g = 0; g < TEST_COUNT(structures); g++) {
+        scene = commit(s, context, &structures[g]);
         if (all_options)
-            sweep(s, scene, camera, grids[g], answers, &q);
+            sweep(s, scene, camera, &structures[g], answers, &q);
         picture_trace(scene, camera, &robust, &q);
-        check_same(s, answers, q.hit, grids[g], &robust);
+        check_same(s, answers, q.hit, &structures[g], &robust);
         cgt_scene_release(scene);
     }
     cgt_context_release(context);
@@ -191,7 +200,7 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     cgt_trace_options options;
     cgt_context *context = context_make(1, s->variant);
     cgt_trace_options_init(&options);
-    cgt_scene *scene = commit(s, context, one_cell);
+    cgt_scene *scene = commit(s, context, &one_cell);
     options.precision = CGT_PRECISION_EXACT;
     assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, &options), CGT_OK);
     judge_kernel(s, expected, "EXACT");
@@ -199,16 +208,17 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, &options), CGT_OK);
     judge_kernel(s, expected, "ROBUST");
     cgt_scene_release(scene);
-    for (size_t g = 0; g < TEST_COUNT(grids); g++) {
+    for (size_t g = 0; g < TEST_COUNT(structures); g++) {
         const cgt_rays arrays = ray_array(s->scene.ray, rays);
-        scene = commit(s, context, grids[g]);
+        scene = commit(s, context, &structures[g]);
         for (int cull = CGT_CULL_NONE; cull <= CGT_CULL_BLOCKS; cull++)
             for (int loop = CGT_LOOP_NESTED; loop <= CGT_LOOP_FLATTENED; loop++) {
                 options.cull = (cgt_cull)cull;
                 options.loop = (cgt_loop)loop;
+                options.kd_traversal = (cgt_kd_traversal)loop; /* single, packet */
                 memset(got, 0x77, rays * sizeof *got);
                 assert_int_equal(trace_array(scene, s->scene.ray, rays, got, &options), CGT_OK);
-                check_same(s, expected, got, grids[g], &options);
+                check_same(s, expected, got, &structures[g], &options);
             }
         assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, NULL), CGT_OK);
         for (uint32_t i = 0; i < rays; i++)

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Memory through the caller's hook: every allocation of a whole session fails in turn, and each time there is an error,
- * nothing is lost or leaked, and the objects work afterwards. In a steady state nothing is allocated. */
+ * nothing is lost or leaked, and the objects work afterwards. In a steady state nothing is allocated. All of it with the
+ * grid, and with each builder's tree, with ropes and without. */
 #define _POSIX_C_SOURCE 200809L
 #include "support/scenes.h"
 
@@ -84,13 +85,43 @@ static cgt_result create(memory *m, uint32_t threads, cgt_context **context)
     return cgt_context_create(&options, context);
 }
 
+/* ---- structures ---- */
+
+typedef struct choice {
+    const char *name;
+    cgt_structure structure;
+    cgt_kd_builder builder;
+    cgt_kd_layout layout;
+} choice;
+
+static const choice choices[] = {
+    {"grid", CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_LAYOUT_AUTO},
+    {"kd, binned", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_LAYOUT_DEPTH_FIRST},
+    {"kd, sweep", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_BREADTH_FIRST},
+    {"ropes, binned", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_LAYOUT_MIXED},
+    {"ropes, sweep", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_LAYOUT_DEPTH_FIRST},
+};
+#define FOR_EACH_CHOICE(c) for (const choice *c = choices; c < choices + TEST_COUNT(choices); c++)
+
+static cgt_scene_options options_of(const choice *c)
+{
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    o.structure = c->structure;
+    o.kd_builder = c->builder;
+    o.kd_layout = c->layout;
+    return o;
+}
+
 /* ---- a session ---- */
 
 #define GEOMETRIES 9
 #define SIDE 48
+#define TRIANGLES 120
 
 static cloud spheres; /* grows from frame to frame: the first quarter of each, then all */
 static float pile[300][4];
+static float mesh[TRIANGLES][3][3];
 static planes expected[2], got;
 static cgt_camera camera;
 
@@ -117,14 +148,15 @@ static void check_frame(const cgt_scene *scene, const planes *want)
         assert_true(planes_equal(&got, want));
 }
 
-/* After a commit that failed the scene says that it is not committed. */
-static void commit(memory *m, cgt_scene *scene)
+/* After a commit that failed there is a message, and the scene says that it is not committed. */
+static void commit(memory *m, const cgt_context *context, cgt_scene *scene)
 {
     const cgt_frame frame = frame_of(&got);
     m->failed = false;
     const cgt_result first = cgt_scene_commit(scene);
     if (m->failed) {
         assert_int_equal(first, CGT_ERROR_OUT_OF_MEMORY);
+        assert_non_null(strstr(context_message(context), "out of memory"));
         assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_ERROR_NOT_COMMITTED);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     } else {
@@ -133,32 +165,47 @@ static void commit(memory *m, cgt_scene *scene)
     check_memory(m);
 }
 
-static void session(memory *m, uint32_t threads, const planes want[2])
+static void set_spheres(memory *m, cgt_scene *scene, uint32_t geometry, bool add, cgt_spheres s)
 {
+    uint32_t id = geometry;
+    if (add)
+        TRY(m, cgt_scene_add_spheres(scene, &s, &id));
+    else
+        TRY(m, cgt_scene_update_spheres(scene, geometry, &s));
+    assert_int_equal(id, geometry);
+}
+
+static void set_triangles(memory *m, cgt_scene *scene, uint32_t geometry, bool add, uint32_t count)
+{
+    const cgt_triangles t = {.count = count, .vertex_count = 3 * count, .vertices = mesh[0][0]};
+    uint32_t id = geometry;
+    if (add)
+        TRY(m, cgt_scene_add_triangles(scene, &t, &id));
+    else
+        TRY(m, cgt_scene_update_triangles(scene, geometry, &t));
+    assert_int_equal(id, geometry);
+}
+
+/* want: what every structure shows; NULL to find out. */
+static void session(memory *m, const choice *c, uint32_t threads, const planes want[2])
+{
+    const cgt_scene_options options = options_of(c);
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
-    uint32_t id;
     TRY(m, create(m, threads, &context));
-    TRY(m, cgt_scene_create(context, NULL, &scene));
+    TRY(m, cgt_scene_create(context, &options, &scene));
     for (int frame = 0; frame < 2; frame++) {
         const uint32_t each = spheres.count / GEOMETRIES, count = frame ? each : each / 4;
-        for (uint32_t g = 0; g < GEOMETRIES; g++) {
-            const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere + g * each, count);
-            if (frame == 0)
-                TRY(m, cgt_scene_add_spheres(scene, &s, &id));
-            else
-                TRY(m, cgt_scene_update_spheres(scene, g, &s));
-            assert_true(frame || id == g);
-        }
-        const cgt_spheres s = spheres_of((const float(*)[4])pile, frame ? 300 : 30); /* overflows, and then more */
-        if (frame == 0)
-            TRY(m, cgt_scene_add_spheres(scene, &s, &id));
-        else
-            TRY(m, cgt_scene_update_spheres(scene, GEOMETRIES, &s));
-        commit(m, scene);
+        const bool add = frame == 0;
+        for (uint32_t g = 0; g < GEOMETRIES; g++)
+            set_spheres(m, scene, g, add, spheres_of((const float(*)[4])spheres.sphere + g * each, count));
+        set_spheres(m, scene, GEOMETRIES, add, spheres_of((const float(*)[4])pile, frame ? 300 : 30));
+        set_triangles(m, scene, GEOMETRIES + 1, add, frame ? TRIANGLES : 20);
+        commit(m, context, scene);
         cgt_scene_statistics st;
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-        assert_true(st.overflow_references > 0);
+        assert_int_equal(st.structure, c->structure);
+        assert_true(c->structure != CGT_STRUCTURE_QUEUE_GRID || st.overflow_references > 0); /* and then more */
         check_frame(scene, want ? &want[frame] : NULL);
         if (!want)
             memcpy(expected[frame].memory, got.memory, 6 * got.elements * sizeof(uint32_t));
@@ -180,6 +227,12 @@ static int make_session(void **state)
             pile[i][a] = spheres.middle[a] + random_float(&r, -0.01f, 0.01f);
         pile[i][3] = 0.02f * spheres.reach;
     }
+    for (int i = 0; i < TRIANGLES; i++)
+        for (int a = 0; a < 3; a++) {
+            const float at = spheres.middle[a] + random_float(&r, -spheres.reach, spheres.reach);
+            for (int k = 0; k < 3; k++)
+                mesh[i][k][a] = at + random_float(&r, -0.2f, 0.2f) * spheres.reach;
+        }
     camera = camera_before(&spheres);
     got = planes_make(SIDE, SIDE);
     for (int i = 0; i < 2; i++)
@@ -200,30 +253,32 @@ static int free_session(void **state)
 static void every_allocation_fails_in_turn(void **state)
 {
     (void)state;
-    for (uint32_t threads = 1; threads <= 3; threads += 2) {
-        memory m = {0};
-        session(&m, threads, NULL); /* counts, and shows what to expect */
-        const size_t calls = m.calls;
-        print_message("%u threads: %zu allocations\n", threads, calls);
-        assert_true(calls >= (threads == 1 ? 8 : 9));
-        for (size_t n = 1; n <= calls + 1; n++) {
-            memory failing = {.fail_at = n};
-            session(&failing, threads, expected);
-            assert_true(failing.calls >= calls);
+    for (uint32_t threads = 1; threads <= 3; threads += 2)
+        FOR_EACH_CHOICE(c)
+        {
+            memory m = {0};
+            session(&m, c, threads, c == choices && threads == 1 ? NULL : expected); /* counts, and shows the frames */
+            const size_t calls = m.calls;
+            print_message("%s, %u threads: %zu allocations\n", c->name, threads, calls);
+            assert_true(calls >= (threads == 1 ? 8 : 9));
+            for (size_t n = 1; n <= calls + 1; n++) {
+                memory failing = {.fail_at = n};
+                session(&failing, c, threads, expected);
+                assert_true(failing.calls >= calls);
+            }
         }
-    }
 }
 
 /* Failures one after another: the second try fails too, and the third. */
-static void repeated_failures_lose_nothing(void **state)
+static void fail_again_and_again(const choice *c)
 {
-    (void)state;
+    const cgt_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     uint32_t id = 77;
     assert_int_equal(create(&m, 2, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
     for (int i = 0; i < 5; i++) {
         m.fail_at = m.calls + 1;
@@ -244,6 +299,13 @@ static void repeated_failures_lose_nothing(void **state)
     assert_int_equal(m.blocks, 0);
 }
 
+static void repeated_failures_lose_nothing(void **state)
+{
+    (void)state;
+    FOR_EACH_CHOICE(c)
+    fail_again_and_again(c);
+}
+
 /* ---- steady state ---- */
 
 static void trace_all(const cgt_scene *scene)
@@ -253,13 +315,14 @@ static void trace_all(const cgt_scene *scene)
     truth_ray *rays = frame_rays(&camera, SIDE, 1);
     const cgt_rays r = ray_array(rays, SIDE);
     frame_trace(scene, &camera, &got, NULL);
-    for (int choice = 0; choice < 12; choice++) {
+    for (int way = 0; way < 12; way++) {
         cgt_trace_options o;
         cgt_trace_statistics st;
         cgt_trace_options_init(&o);
-        o.tile = choice % 2 ? CGT_TILE_STRIP : CGT_TILE_SQUARE;
-        o.loop = choice / 2 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
-        o.mailbox = choice / 4 % 2;
+        o.tile = way % 2 ? CGT_TILE_STRIP : CGT_TILE_SQUARE;
+        o.loop = way / 2 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
+        o.mailbox = way / 4 % 2;
+        o.kd_traversal = (cgt_kd_traversal)(way % 3);
         o.statistics = &st;
         frame_trace(scene, &camera, &got, &o);
     }
@@ -268,62 +331,73 @@ static void trace_all(const cgt_scene *scene)
     free(rays);
 }
 
-static void steady_state_allocates_nothing(void **state)
+/* All move, and counts change, through the same four states: from the fifth on nothing is new. */
+static void keep_steady(const choice *c, uint32_t threads)
 {
-    (void)state;
-    for (uint32_t threads = 1; threads <= 3; threads++) {
-        memory m = {0};
-        cgt_context *context = NULL;
-        cgt_scene *scene = NULL;
-        uint32_t id;
-        assert_int_equal(create(&m, threads, &context), CGT_OK);
-        assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
-        const cgt_spheres cloud_spheres = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
-        const cgt_spheres pile_spheres = spheres_of((const float(*)[4])pile, 300);
-        assert_int_equal(cgt_scene_add_spheres(scene, &cloud_spheres, &id), CGT_OK);
-        assert_int_equal(cgt_scene_add_spheres(scene, &pile_spheres, &id), CGT_OK);
-        size_t calls = 0, bytes = 0;
-        float start[300];
-        for (int k = 0; k < 300; k++)
-            start[k] = pile[k][0];
-        for (int i = 0; i < 12; i++) { /* all move, and counts change, through the same four states */
-            for (int k = 0; k < 300; k++)
-                pile[k][0] = start[k] + 0.001f * (float)(i % 4);
-            const cgt_spheres some =
-                spheres_of((const float(*)[4])spheres.sphere, spheres.count - 100 * (uint32_t)(i % 4));
-            assert_int_equal(cgt_scene_update_spheres(scene, 0, &some), CGT_OK);
-            assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-            trace_all(scene);
-            if (i < 4)
-                calls = m.calls, bytes = m.bytes; /* every state was seen */
-            assert_int_equal(m.calls, calls);
-            assert_int_equal(m.bytes, bytes);
-        }
-        cgt_scene_release(scene);
-        cgt_context_release(context);
-        check_memory(&m);
-        assert_int_equal(m.blocks, 0);
-    }
-}
-
-/* The same number of spheres in ever other places: the grid's shape changes, its memory does not. Spheres smaller than
- * their spacing overflow no queue. */
-static void moving_without_growing_allocates_nothing(void **state)
-{
-    (void)state;
-    enum { COUNT = 900 };
-    static float sphere[COUNT][4];
+    const cgt_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     uint32_t id;
-    size_t first = 0, shapes = 0, cells = 0;
+    assert_int_equal(create(&m, threads, &context), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+    const cgt_spheres cloud_spheres = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
+    const cgt_spheres pile_spheres = spheres_of((const float(*)[4])pile, 300);
+    const cgt_triangles triangles = {.count = TRIANGLES, .vertex_count = 3 * TRIANGLES, .vertices = mesh[0][0]};
+    assert_int_equal(cgt_scene_add_spheres(scene, &cloud_spheres, &id), CGT_OK);
+    assert_int_equal(cgt_scene_add_spheres(scene, &pile_spheres, &id), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
+    size_t calls = 0, bytes = 0;
+    float start[300];
+    for (int k = 0; k < 300; k++)
+        start[k] = pile[k][0];
+    for (int i = 0; i < 12; i++) {
+        for (int k = 0; k < 300; k++)
+            pile[k][0] = start[k] + 0.001f * (float)(i % 4);
+        const cgt_spheres some = spheres_of((const float(*)[4])spheres.sphere, spheres.count - 100 * (uint32_t)(i % 4));
+        assert_int_equal(cgt_scene_update_spheres(scene, 0, &some), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        trace_all(scene);
+        if (i < 4)
+            calls = m.calls, bytes = m.bytes;
+        assert_int_equal(m.calls, calls);
+        assert_int_equal(m.bytes, bytes);
+    }
+    for (int k = 0; k < 300; k++)
+        pile[k][0] = start[k];
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    check_memory(&m);
+    assert_int_equal(m.blocks, 0);
+}
+
+static void steady_state_allocates_nothing(void **state)
+{
+    (void)state;
+    FOR_EACH_CHOICE(c)
+    for (uint32_t threads = 1; threads <= 3; threads++)
+        keep_steady(c, threads);
+}
+
+/* The same number of spheres in ever other places. The grid's shape changes, its memory does not: spheres smaller than
+ * their spacing overflow no queue. A tree takes memory only where it has more nodes or references than ever. */
+static void move_without_growing(const choice *c)
+{
+    enum { COUNT = 900, STEPS = 40 };
+    static float sphere[COUNT][4];
+    const cgt_scene_options options = options_of(c);
+    memory m = {0};
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    uint32_t id, most_nodes = 0;
+    uint64_t cells = 0, most_references = 0;
+    size_t before = 0, shapes = 0, grown = 0;
     test_random r = random_make(77);
     assert_int_equal(create(&m, 2, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     const cgt_spheres spheres_moving = spheres_of((const float(*)[4])sphere, COUNT);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres_moving, &id), CGT_OK);
-    for (int step = 0; step < 40; step++) {
+    for (int step = 0; step < STEPS; step++) {
         const float size[3] = {random_float(&r, 5, 60), random_float(&r, 5, 60), random_float(&r, 5, 60)};
         for (int i = 0; i < COUNT; i++) {
             for (int a = 0; a < 3; a++)
@@ -333,23 +407,32 @@ static void moving_without_growing_allocates_nothing(void **state)
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         cgt_scene_statistics st;
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-        if (st.overflow_references)
-            continue;
-        shapes += st.cells != cells;
-        cells = st.cells;
-        if (!first)
-            first = m.calls;
-        assert_int_equal(m.calls, first);
+        const bool grid = st.structure == CGT_STRUCTURE_QUEUE_GRID;
+        if (before && !(grid ? st.overflow_references : st.kd_nodes > most_nodes || st.references > most_references))
+            assert_int_equal(m.calls, before);
+        grown += before && m.calls != before;
+        before = m.calls;
+        shapes += grid ? st.cells != cells : st.kd_nodes != cells;
+        cells = grid ? st.cells : st.kd_nodes;
+        most_nodes = st.kd_nodes > most_nodes ? st.kd_nodes : most_nodes;
+        most_references = st.references > most_references ? st.references : most_references;
     }
-    assert_true(shapes > 10);
+    assert_true(shapes > 10 && grown <= 4);
     cgt_scene_release(scene);
     cgt_context_release(context);
     check_memory(&m);
 }
 
-static void statistics_tell_the_bytes(void **state)
+static void moving_without_growing_allocates_nothing(void **state)
 {
     (void)state;
+    FOR_EACH_CHOICE(c)
+    move_without_growing(c);
+}
+
+static void compare_bytes(const choice *c)
+{
+    const cgt_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
@@ -357,7 +440,7 @@ static void statistics_tell_the_bytes(void **state)
     uint32_t id;
     assert_int_equal(create(&m, 2, &context), CGT_OK);
     const size_t without = m.bytes;
-    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     for (uint32_t count = 10; count <= 900; count += 89) {
         const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, count);
         assert_int_equal(count == 10 ? cgt_scene_add_spheres(scene, &s, &id) : cgt_scene_update_spheres(scene, 0, &s),
@@ -365,12 +448,20 @@ static void statistics_tell_the_bytes(void **state)
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
         assert_int_equal(st.bytes, m.bytes - without);
+        assert_true(st.structure_bytes > 0 && st.structure_bytes < st.bytes);
     }
     cgt_scene_release(scene);
     assert_int_equal(m.bytes, without);
     cgt_context_release(context);
     check_memory(&m);
     assert_int_equal(m.bytes, 0);
+}
+
+static void statistics_tell_the_bytes(void **state)
+{
+    (void)state;
+    FOR_EACH_CHOICE(c)
+    compare_bytes(c);
 }
 
 int main(void)

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Properties over random scenes: every pixel and every ray has the hit that brute force finds, for all kinds of
- * clouds, cameras and options. A failure names the round; the seed that was printed makes it again. */
+ * clouds, structures, cameras and options. A failure names the round; the seed that was printed makes it again. */
 #include "support/scenes.h"
 
 #include <stdio.h>
@@ -19,15 +19,15 @@ static cgt_trace_options random_options(test_random *r)
     o.loop = (cgt_loop)random_below(r, 3);
     o.cull = (cgt_cull)random_below(r, 3);
     o.mailbox = (int)random_below(r, 2);
+    o.kd_traversal = (cgt_kd_traversal)random_below(r, 3);
     o.tile = o.packet <= 4 ? (cgt_tile_shape)random_below(r, 3) : CGT_TILE_SQUARE;
     return o;
 }
 
 static cgt_scene_options random_scene_options(test_random *r)
 {
-    cgt_scene_options o;
-    cgt_scene_options_init(&o);
-    if (random_below(r, 2))
+    cgt_scene_options o = structure_random(r);
+    if (o.structure == CGT_STRUCTURE_QUEUE_GRID && random_below(r, 2))
         for (int a = 0; a < 3; a++)
             o.resolution[a] = 1 + random_below(r, random_below(r, 6) ? 24 : 90);
     return o;
@@ -39,7 +39,8 @@ static uint32_t random_count(test_random *r)
 }
 
 /* Rays from anywhere; or fans, all from one origin and close to each other, which become coherent packets. */
-static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, bool fan, uint64_t *doubts)
+static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, bool fan,
+                       const cgt_trace_options *options, uint64_t *doubts)
 {
     enum { RAYS = 384 };
     truth_ray ray[RAYS];
@@ -56,7 +57,7 @@ static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, b
             ray[i].dir[a] = first->dir[a] * (1 + random_float(r, -spread, spread)) + 0x1p-60f;
         }
     }
-    rays_trace(scene, ray, RAYS, hit, NULL);
+    rays_trace(scene, ray, RAYS, hit, options);
     for (int i = 0; i < RAYS; i++) {
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, doubts);
         if (wrong)
@@ -85,12 +86,12 @@ static void nearest_hit_is_that_of_brute_force(void **state)
             planes p = planes_make(WIDTH, HEIGHT);
             truth_ray *rays = frame_rays(&camera, WIDTH, HEIGHT);
             cgt_scene *scene = scene_of(context, &scene_options, (const float(*)[4])c.sphere, c.count);
-            print_message("round %u of %s: %u %s spheres\n", round, variant, c.count,
-                          cloud_name((cloud_kind)(round % CLOUD_KINDS)));
+            print_message("round %u of %s: %u %s spheres, structure %d\n", round, variant, c.count,
+                          cloud_name((cloud_kind)(round % CLOUD_KINDS)), (int)scene_options.structure);
             frame_trace(scene, &camera, &p, &options);
             doubts += frame_judge(&p, rays, (const float(*)[4])c.sphere, c.count);
-            judge_rays(scene, &c, &r, false, &doubts);
-            judge_rays(scene, &c, &r, true, &doubts);
+            judge_rays(scene, &c, &r, false, &options, &doubts);
+            judge_rays(scene, &c, &r, true, &options, &doubts);
             for (size_t i = 0; i < p.elements; i++)
                 hits += p.primitive[i] != CGT_NONE;
             pixels += p.elements;

@@ -18,15 +18,19 @@ static truth_ray ray[MOST_RAYS];
 static ray_hit hit[MOST_RAYS], again[MOST_RAYS];
 static uint32_t rays_used; /* of them, in this run */
 
-/* Runs a test for each variant, on each kind of cloud that it asks for. */
+/* Runs a test for each variant on the kind of cloud that it asks for; structures take turns. */
 static void for_each_variant(cloud_kind kind, uint32_t count, void (*test)(test_random *r))
 {
+    static uint32_t turn;
     FOR_EACH_VARIANT(variant)
     {
         test_random r = random_make(count + 17 * (uint64_t)kind);
+        cgt_scene_options options;
+        cgt_scene_options_init(&options);
+        options.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + turn++ % 3);
         context = context_make(2, variant);
         spheres = cloud_make(&r, kind, count);
-        scene = scene_of(context, NULL, (const float(*)[4])spheres.sphere, count);
+        scene = scene_of(context, &options, (const float(*)[4])spheres.sphere, count);
         test(&r);
         cgt_scene_release(scene);
         cloud_free(&spheres);
@@ -375,9 +379,8 @@ static void extreme_places(void **state)
                 sphere[i][3] = ldexpf(random_float(&r, 0.05f, 0.5f), size);
             }
             spheres = (cloud){.count = N, .sphere = sphere};
-            cgt_scene_options options;
-            cgt_scene_options_init(&options);
-            for (int a = 0; a < 3 && round % 2; a++)
+            cgt_scene_options options = structure_random(&r);
+            for (int a = 0; a < 3 && options.structure == CGT_STRUCTURE_QUEUE_GRID; a++)
                 options.resolution[a] = 1 + random_below(&r, 60);
             scene = scene_of(context, &options, (const float(*)[4])sphere, N);
             for (int i = 0; i < SOME; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The same bits from every choice: variant, threads, order of tasks, tile, packet, loop, culling, mailbox and
+ * The same bits from every choice: variant, threads, order of tasks, structure, tile, packet, loop, culling, mailbox and
  * resolution change how the hits are found, never what they are; and from every machine, by a hash that all share.
  * Then what the statistics of a trace say. */
 #include "support/scenes.h"
@@ -62,8 +62,8 @@ static void compare(picture *p, const cgt_scene *scene, const cgt_trace_options 
     frame_trace(scene, &p->camera, &p->got, o);
     p->compared++;
     if (!planes_equal(&p->got, &p->expected))
-        fail_msg("%s: packet %u, tile %d, loop %d, cull %d, mailbox %d: other bits", where, o->packet, (int)o->tile,
-                 (int)o->loop, (int)o->cull, o->mailbox);
+        fail_msg("%s: packet %u, tile %d, loop %d, cull %d, mailbox %d, traversal %d: other bits", where, o->packet,
+                 (int)o->tile, (int)o->loop, (int)o->cull, o->mailbox, (int)o->kd_traversal);
 }
 
 static void compare_all_options(picture *p, const cgt_scene *scene, const char *where)
@@ -80,6 +80,27 @@ static void compare_all_options(picture *p, const cgt_scene *scene, const char *
     }
 }
 
+static void compare_all_traversals(picture *p, const cgt_scene *scene, const char *where)
+{
+    for (uint32_t choice = 0; choice < 4 * 2 * 2; choice++) {
+        cgt_trace_options o;
+        cgt_trace_options_init(&o);
+        o.packet = (const uint32_t[]){4, 8, 16, 0}[choice % 4]; /* the last: strips */
+        o.tile = o.packet ? CGT_TILE_SQUARE : CGT_TILE_STRIP;
+        o.kd_traversal = choice / 4 % 2 ? CGT_KD_TRAVERSAL_PACKET : CGT_KD_TRAVERSAL_SINGLE;
+        o.mailbox = (int)(choice / 8);
+        compare(p, scene, &o, where);
+    }
+}
+
+static cgt_scene *structured(cgt_context *context, cgt_structure structure, const cloud *spheres)
+{
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    o.structure = structure;
+    return scene_of(context, &o, (const float(*)[4])spheres->sphere, spheres->count);
+}
+
 static void every_option_gives_the_same_bits(void **state)
 {
     (void)state;
@@ -88,12 +109,15 @@ static void every_option_gives_the_same_bits(void **state)
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(1, variant);
-            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+            cgt_scene *scene = structured(context, CGT_STRUCTURE_QUEUE_GRID, &p.spheres);
             compare_all_options(&p, scene, variant);
+            cgt_scene_release(scene);
+            scene = structured(context, round % 2 ? CGT_STRUCTURE_KD : CGT_STRUCTURE_KD_ROPES, &p.spheres);
+            compare_all_traversals(&p, scene, variant);
             cgt_scene_release(scene);
             cgt_context_release(context);
         }
-        assert_true(p.compared >= 48);
+        assert_true(p.compared >= 64);
         picture_free(&p);
     }
 }
@@ -113,6 +137,7 @@ static void every_resolution_gives_the_same_bits(void **state)
                 cgt_trace_options o;
                 cgt_scene_options_init(&scene_options);
                 cgt_trace_options_init(&o);
+                scene_options.structure = CGT_STRUCTURE_QUEUE_GRID;
                 memcpy(scene_options.resolution, resolution[i], sizeof resolution[i]);
                 cgt_scene *scene =
                     scene_of(context, &scene_options, (const float(*)[4])p.spheres.sphere, p.spheres.count);
@@ -231,9 +256,9 @@ static void every_machine_gives_the_same_bits(void **state)
         ray[i].t_max = INFINITY;
     }
     FOR_EACH_VARIANT(variant)
-    {
+    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_KD_ROPES; k++) {
         cgt_context *context = context_make(2, variant);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, N);
+        cgt_scene *scene = structured(context, (cgt_structure)k, &(cloud){.count = N, .sphere = (float(*)[4])sphere});
         uint64_t h = UINT64_C(14695981039346656037);
         uint32_t hits = 0;
         rays_trace(scene, ray, RAYS, hit, NULL);
@@ -243,7 +268,8 @@ static void every_machine_gives_the_same_bits(void **state)
                 h = hash(h, bits_of(hit[i].normal[a]));
             hits += hit[i].primitive != CGT_NONE;
         }
-        print_message("%s: %u of %d rays hit, hash 0x%016llx\n", variant, hits, RAYS, (unsigned long long)h);
+        print_message("%s, structure %d: %u of %d rays hit, hash 0x%016llx\n", variant, k, hits, RAYS,
+                      (unsigned long long)h);
         assert_true(
             h == UINT64_C(0x4319d82b8ef8f186)); /* found on x86-64; it changes with the form of sphere_exact.h alone */
         cgt_scene_release(scene);
@@ -265,9 +291,9 @@ static void bad_options_are_refused(void **state)
     cgt_camera_init(&camera);
     cgt_frame_init(&frame, 1, 1);
     frame.t = &t;
-    for (int i = 0; i < 10; i++) {
-        static const char *const word[] = {"packet", "packet", "packet", "tile",   "tile",
-                                           "loop",   "loop",   "cull",   "strips", "strips"};
+    for (int i = 0; i < 12; i++) {
+        static const char *const word[] = {"packet", "packet", "packet", "tile",   "tile",         "loop",
+                                           "loop",   "cull",   "strips", "strips", "kd_traversal", "kd_traversal"};
         cgt_trace_options o;
         cgt_trace_options_init(&o);
         if (i < 3)
@@ -282,7 +308,9 @@ static void bad_options_are_refused(void **state)
             o.loop = (cgt_loop)-1;
         if (i == 7)
             o.cull = (cgt_cull)3;
-        if (i >= 8)
+        if (i >= 10)
+            o.kd_traversal = (cgt_kd_traversal)(i == 10 ? 3 : -1);
+        if (i == 8 || i == 9)
             o.tile = CGT_TILE_STRIP, o.packet = i == 8 ? 8 : 16;
         assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(context_message(context), word[i]));

@@ -33,9 +33,12 @@ cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     o.tile = (cgt_tile_shape)odd_below(m, 3, legal);
     o.loop = (cgt_loop)odd_below(m, 3, legal);
     o.cull = (cgt_cull)odd_below(m, 3, legal);
-    o.packet = packets[fuzz_below(&m->bytes, 8)];
+    const uint8_t packet = fuzz_byte(&m->bytes);
+    o.packet = packets[packet % 8];
+    o.kd_traversal = (cgt_kd_traversal)(packet < 250 ? packet / 8 % 3 : 3);
     o.mailbox = (int)fuzz_below(&m->bytes, 3) - 1;
-    *legal &= o.packet != 5 && (o.triangle_test == CGT_TRIANGLE_WATERTIGHT || o.precision == CGT_PRECISION_FAST);
+    *legal &= packet < 250 && o.packet != 5;
+    *legal &= (o.triangle_test == CGT_TRIANGLE_WATERTIGHT || o.precision == CGT_PRECISION_FAST);
     *legal &= !camera || o.tile != CGT_TILE_STRIP || o.packet <= 4;
     return o;
 }
@@ -171,6 +174,8 @@ void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_tra
                (unsigned long long)s->cull_tests);
     FUZZ_CHECK(s->mailbox_skipped <= s->references, "%llu skipped of %llu references",
                (unsigned long long)s->mailbox_skipped, (unsigned long long)s->references);
+    FUZZ_CHECK(!s->rope_loops && s->rope_steps <= s->leaves, "%llu loops, %llu rope steps of %llu leaves",
+               (unsigned long long)s->rope_loops, (unsigned long long)s->rope_steps, (unsigned long long)s->leaves);
     FUZZ_CHECK(s->exact_values <= s->hits, "%llu exact values of %llu hits", (unsigned long long)s->exact_values,
                (unsigned long long)s->hits);
 }

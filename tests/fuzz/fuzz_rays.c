@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays: nearest hit and any hit, with any options and strides, by another variant and grid, and the truth. */
+ * Arrays of rays: nearest hit and any hit, with any options and strides, by another variant in a grid, and the truth. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -209,7 +209,7 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
     free_arrays(&out);
 }
 
-/* ---- the same by another variant, grid and number of threads ---- */
+/* ---- the same by another variant, in a grid ---- */
 
 /* Adds the geometries under the ids that they have; empty ones hold the places between. */
 static void copy_scene(const fuzz_model *m, cgt_scene *scene)
@@ -225,19 +225,18 @@ static void copy_scene(const fuzz_model *m, cgt_scene *scene)
     FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a scene cannot be committed again");
 }
 
-static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a)
+static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *variant, const uint32_t resolution[3])
 {
     cgt_context_options options;
     cgt_scene_options grid;
     cgt_context *context;
     cgt_scene *scene;
     cgt_context_options_init(&options);
-    options.variant = fuzz_variant(fuzz_byte(&m->bytes));
+    options.variant = variant;
     options.threads = 1;
     cgt_scene_options_init(&grid);
-    grid.resolution[0] = 1 + fuzz_below(&m->bytes, 9);
-    grid.resolution[1] = 1 + fuzz_below(&m->bytes, 9);
-    grid.resolution[2] = 1 + fuzz_below(&m->bytes, 9);
+    grid.structure = CGT_STRUCTURE_QUEUE_GRID;
+    memcpy(grid.resolution, resolution, sizeof grid.resolution);
     const cgt_result result = cgt_context_create(&options, &context);
     FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_result_string(result));
     if (result != CGT_OK)
@@ -248,6 +247,22 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a)
     fuzz_check_same(m, a, CGT_PRECISION_ROBUST);
     cgt_scene_release(scene);
     cgt_context_release(context);
+}
+
+/* A tree is always held against a grid, of a few cells where the bytes do not say which; a grid when they ask for it. */
+static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
+{
+    uint32_t resolution[3] = {3, 2, 4};
+    cgt_scene_statistics s;
+    const char *variant = NULL;
+    FUZZ_CHECK(cgt_scene_get_statistics(m->scene, &s) == CGT_OK, "no statistics");
+    if (asked) {
+        variant = fuzz_variant(fuzz_byte(&m->bytes));
+        for (int k = 0; k < 3; k++)
+            resolution[k] = 1 + fuzz_below(&m->bytes, 9);
+    }
+    if (asked || s.kd_leaves)
+        trace_elsewhere(m, a, variant, resolution);
 }
 
 void fuzz_trace_rays(fuzz_model *m)
@@ -263,8 +278,7 @@ void fuzz_trace_rays(fuzz_model *m)
     } else {
         trace_defaults(m, &a);
         trace_other(m, &a, ranges);
-        if (how & 8)
-            trace_elsewhere(m, &a);
+        compare_with_grid(m, &a, how & 8);
         if (how & 16)
             fuzz_check_truth(m, &a);
     }

@@ -73,15 +73,26 @@ static bool create_context(fuzz_model *m)
     return legal;
 }
 
-/* Resolutions that take little memory and time, or that must be refused. */
-static cgt_scene_options any_grid(fuzz_model *m, bool *legal)
+/* Structure, builder, layout and kind of rays from one number; the last four of 256 must be refused. */
+static cgt_scene_options any_structure(uint8_t how)
 {
-    static const uint32_t edges[] = {1, 2, 3, 4, 5, 7, 8, 16, 33, 64, 1024, 1025, 0, CGT_NONE};
     cgt_scene_options o;
     cgt_scene_options_init(&o);
+    o.structure = how == 255 ? (cgt_structure)9 : (cgt_structure)((how & 1) + (how >> 1 & 2));
+    o.kd_builder = how == 254 ? (cgt_kd_builder)3 : (cgt_kd_builder)((how >> 3) % 3);
+    o.kd_layout = how == 253 ? (cgt_kd_layout)4 : (cgt_kd_layout)(how >> 5 & 3);
+    o.kd_break_level = how == 252 ? 51 : how % 51;
+    o.rays = (cgt_ray_kind)(how >> 7);
+    return o;
+}
+
+/* Resolutions that take little memory and time, or that must be refused. */
+static cgt_scene_options any_options(fuzz_model *m, bool *legal)
+{
+    static const uint32_t edges[] = {1, 2, 3, 4, 5, 7, 8, 16, 33, 64, 1024, 1025, 0, CGT_NONE};
     const uint8_t how = fuzz_byte(&m->bytes);
-    o.structure = how == 255 ? (cgt_structure)9 : (cgt_structure)(how & 1);
-    *legal = how != 255;
+    cgt_scene_options o = any_structure(how);
+    *legal = how < 252;
     if (how & 2)
         return o;
     uint64_t cells = 1;
@@ -93,7 +104,7 @@ static cgt_scene_options any_grid(fuzz_model *m, bool *legal)
         cells *= edge && edge <= 1024 ? edge : 1;
         o.resolution[a] = edge;
     }
-    *legal |= how != 255 && !o.resolution[0] && !o.resolution[1] && !o.resolution[2];
+    *legal |= how < 252 && !o.resolution[0] && !o.resolution[1] && !o.resolution[2];
     return o;
 }
 
@@ -101,7 +112,7 @@ static cgt_scene_options any_grid(fuzz_model *m, bool *legal)
 static void create_scene(fuzz_model *m)
 {
     bool legal;
-    const cgt_scene_options o = any_grid(m, &legal);
+    const cgt_scene_options o = any_options(m, &legal);
     cgt_result result = cgt_scene_create(m->context, &o, &m->scene);
     FUZZ_CHECK(legal || (result != CGT_OK && result != CGT_ERROR_OUT_OF_MEMORY), "scene: %s",
                cgt_result_string(result));
@@ -116,7 +127,7 @@ static void create_scene(fuzz_model *m)
 static void set_options(fuzz_model *m)
 {
     bool legal;
-    const cgt_scene_options o = any_grid(m, &legal);
+    const cgt_scene_options o = any_options(m, &legal);
     const cgt_result result = cgt_scene_set_options(m->scene, &o);
     FUZZ_CHECK((result == CGT_OK) == legal, "scene options: %s", cgt_result_string(result));
     if (legal)
@@ -126,6 +137,22 @@ static void set_options(fuzz_model *m)
 }
 
 /* ---- commit ---- */
+
+static void check_tree(const cgt_scene_statistics *s)
+{
+    const uint32_t valid = s->primitives - s->skipped_not_finite - s->skipped_radius - s->skipped_degenerate;
+    if (!s->kd_leaves) {
+        FUZZ_CHECK(!s->kd_nodes && !s->kd_empty_leaves && !s->kd_largest_leaf, "statistics: half a tree");
+        return;
+    }
+    FUZZ_CHECK(s->structure == CGT_STRUCTURE_KD || s->structure == CGT_STRUCTURE_KD_ROPES, "statistics: not a tree");
+    FUZZ_CHECK(s->kd_nodes == 2 * s->kd_leaves - 1 && s->kd_empty_leaves < s->kd_leaves && s->kd_depth <= 50 &&
+                   s->kd_largest_leaf >= 1 && s->kd_largest_leaf <= valid,
+               "statistics: %u nodes, %u leaves, %u empty, depth %u, %u of %u in one", s->kd_nodes, s->kd_leaves,
+               s->kd_empty_leaves, s->kd_depth, s->kd_largest_leaf, valid);
+    FUZZ_CHECK(!s->cells && s->structure_bytes >= (size_t)8 * s->kd_nodes && s->structure_bytes <= s->bytes,
+               "statistics: a tree of %zu bytes", s->structure_bytes);
+}
 
 static void check_statistics(const fuzz_model *m)
 {
@@ -152,7 +179,8 @@ static void check_statistics(const fuzz_model *m)
     for (int a = 0; a < 3; a++)
         FUZZ_CHECK(s.bounds_min[a] <= s.bounds_max[a], "statistics: bounds %a to %a", (double)s.bounds_min[a],
                    (double)s.bounds_max[a]);
-    FUZZ_CHECK(memchr(s.reason, 0, sizeof s.reason), "statistics: the reason has no end");
+    FUZZ_CHECK(s.reason[0] && memchr(s.reason, 0, sizeof s.reason), "statistics: no reason, or one without an end");
+    check_tree(&s);
 }
 
 bool fuzz_commit(fuzz_model *m)
