@@ -222,7 +222,7 @@ static void make_task(top *t, const cgt_kd_top_node *n)
 }
 
 /* Adds up what is on each side, and gives each its share of the slots. False where there is no room, or where both
- * sides would have all items. */
+ * sides would have all items. Some side has some. */
 static bool plan_sides(const top *t, cgt_kd_top_node *n)
 {
     cgt_kd_chunk *c = &t->room->chunk[n->first_chunk];
@@ -232,11 +232,12 @@ static bool plan_sides(const top *t, cgt_kd_top_node *n)
             c[k].to[s] = (uint32_t)sum[s];
             sum[s] += c[k].side[s];
         }
-    if (sum[0] + sum[1] > n->room || (sum[0] == n->count && sum[1] == n->count))
+    const uint64_t both = sum[0] + sum[1];
+    if (!both || both > n->room || (sum[0] == n->count && sum[1] == n->count))
         return false;
     for (int s = 0; s < 2; s++)
         n->side[s] = (uint32_t)sum[s];
-    n->side_room[0] = n->side[0] + (uint32_t)((n->room - sum[0] - sum[1]) * sum[0] / (sum[0] + sum[1]));
+    n->side_room[0] = n->side[0] + (uint32_t)((n->room - both) * sum[0] / both);
     n->side_base[0] = n->base;
     n->side_base[1] = n->base + n->side_room[0];
     n->side_room[1] = n->room - n->side_room[0];
