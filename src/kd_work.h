@@ -103,7 +103,7 @@ static inline int32_t cgt_kd_plane_number(float plane)
 
 static inline float cgt_kd_plane_at(int32_t number)
 {
-    const uint32_t bits = number < 0 ? (uint32_t)-number << 2 | 0x80000000u : (uint32_t)number << 2;
+    const uint32_t bits = number < 0 ? (uint32_t)-number * 4 | 0x80000000u : (uint32_t)number * 4;
     float plane;
     memcpy(&plane, &bits, sizeof plane);
     return plane;

@@ -233,7 +233,7 @@ static void test_comparison(void **state)
             *later ^= 1;
             assert_true(structures_results_differ(&a, &b, text, sizeof text));
             snprintf(name, sizeof name, "%s ray %u%s", parts[p].kind, (unsigned)ray, p < 5 ? " (pixel " : ":");
-            if (strncmp(text, name, strlen(name)))
+            if (strncmp(text, name, strlen(name)) != 0)
                 fail_msg("\"%s\" does not begin with \"%s\"", text, name);
             *byte ^= bit;
             *later ^= 1;

@@ -52,7 +52,7 @@ static const uint32_t *references(kd_walk *w, uint32_t node)
     }
     for (uint32_t i = 0; i < count; i++)
         if (w->used[first + i]++)
-            kd_fault(w, "leaf %u: reference %llu is another's", node, (unsigned long long)(first + i));
+            kd_fault(w, "leaf %u: reference %llu is another's", node, (unsigned long long)first + i);
     if (cgt_kd_references(tree, n) != tree->reference + first)
         kd_fault(w, "leaf %u: cgt_kd_references leads elsewhere", node);
     return tree->reference + first;

@@ -54,8 +54,8 @@ void object_bounds(const cgt_objects *objects, uint32_t object, double low[3], d
             low[a] = nextafter((double)center[a] - (double)s.sphere.r, -INFINITY);
             high[a] = nextafter((double)center[a] + (double)s.sphere.r, INFINITY);
         } else {
-            low[a] = fmin(fmin(s.triangle.v[0][a], s.triangle.v[1][a]), s.triangle.v[2][a]);
-            high[a] = fmax(fmax(s.triangle.v[0][a], s.triangle.v[1][a]), s.triangle.v[2][a]);
+            low[a] = (double)fminf(fminf(s.triangle.v[0][a], s.triangle.v[1][a]), s.triangle.v[2][a]);
+            high[a] = (double)fmaxf(fmaxf(s.triangle.v[0][a], s.triangle.v[1][a]), s.triangle.v[2][a]);
         }
     }
 }
