@@ -183,7 +183,7 @@ static void coincident_spheres_overflow(void **state)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
-        const cgt_scene_options options = with_resolution(1, 1, 1);
+        const cgt_scene_options options = with_resolution(1, 1, 1), chosen = with_resolution(0, 0, 0);
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
             cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, counts[k]);
             cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, counts[k], k);
@@ -191,7 +191,7 @@ static void coincident_spheres_overflow(void **state)
             assert_int_equal(s.overflow_references, counts[k] > 16 ? counts[k] - 16 : 0);
             assert_int_equal(s.overflow_cells, counts[k] > 16);
             cgt_scene_release(scene);
-            scene = scene_of(context, NULL, (const float(*)[4])sphere, counts[k]);
+            scene = scene_of(context, &chosen, (const float(*)[4])sphere, counts[k]);
             check_grid(scene, (const float(*)[4])sphere, counts[k], k);
             cgt_scene_release(scene);
         }
@@ -320,7 +320,8 @@ static void references_widen_beyond_65535(void **state)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(2, variant);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, most);
+        const cgt_scene_options grid = with_resolution(0, 0, 0);
+        cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])sphere, most);
         for (uint32_t count = most; count <= most + 1; count++) {
             const cgt_spheres spheres = spheres_of((const float(*)[4])sphere, count);
             cgt_scene_statistics s;
