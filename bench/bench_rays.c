@@ -233,14 +233,15 @@ static uint32_t mix(uint32_t v)
     return v ^ v >> 16;
 }
 
-/* A point of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. */
+/* A point of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. No
+ * branches: half of them would be guessed wrong. */
 static void octahedron_point(uint32_t seed, float v[3])
 {
     const uint32_t h = mix(seed), g = mix(h + 0x9e3779b9u);
     const float x = (float)(h >> 8) * (2 / 16777216.0f) - 1, y = (float)(g >> 8) * (2 / 16777216.0f) - 1;
-    const float z = 1 - fabsf(x) - fabsf(y), fold = z < 0 ? -z : 0;
-    v[0] = x < 0 ? x + fold : x - fold;
-    v[1] = y < 0 ? y + fold : y - fold;
+    const float z = 1 - fabsf(x) - fabsf(y), fold = -z > 0 ? -z : 0;
+    v[0] = x - copysignf(fold, x);
+    v[1] = y - copysignf(fold, y);
     v[2] = z;
 }
 
@@ -267,7 +268,7 @@ static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
             float v[3];
             octahedron_point(order[k] * 64u + s, v);
             const float cosine = v[0] * normal[k][0] + v[1] * normal[k][1] + v[2] * normal[k][2];
-            const float sign = cosine * side[k] < 0 ? -1.0f : 1.0f;
+            const float sign = 1 - 2 * (float)(cosine * side[k] < 0);
             for (int i = 0; i < 3; i++) {
                 rays->org[i][ray] = point[k][i];
                 rays->dir[i][ray] = sign * v[i];

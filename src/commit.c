@@ -48,6 +48,7 @@ static cgt_result list_arrays(cgt_scene *scene)
         if (!a.count)
             continue;
         a.first = objects.count;
+        a.others = objects.spheres;
         a.geometry = id;
         array[objects.arrays++] = a;
         objects.count += a.count;

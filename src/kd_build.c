@@ -8,7 +8,7 @@
 #include "float_environment.h"
 #include "kd_work.h"
 
-const cgt_kd_costs cgt_kd_default_costs = {.inner = 3, .test = {1, 1.5}, .empty_cut_off = 0.1};
+const cgt_kd_costs cgt_kd_default_costs = {.inner = 3, .test = {1, 0.5}, .empty_cut_off = 0.1};
 
 #define OBJECTS_PER_CHUNK 8192u
 #define MOST_OBJECTS (1u << 27) /* slices of nodes and references are numbered by 32 bits */

@@ -6,6 +6,7 @@
 
 #include "commit.h"
 #include "kd_build.h"
+#include "leaf_triangle.h"
 
 #define DEFAULT_BREAK_LEVEL 8u
 
@@ -55,6 +56,8 @@ cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes)
     if (result == CGT_OK)
         result = cgt_kd_flatten(scene->context, &memory, &raw, st->kd_layout,
                                 o->kd_break_level ? o->kd_break_level : DEFAULT_BREAK_LEVEL, ropes, &scene->world.kd);
+    if (result == CGT_OK && scene->world.objects.triangles)
+        result = cgt_leaf_triangles_make(scene->context, &scene->buffer[CGT_BUFFER_LEAF_TRIANGLES], &scene->world);
     if (result == CGT_OK)
         report(scene, &raw);
     return result;

@@ -227,11 +227,11 @@ static cgt_result reserve(cgt_context *context, const cgt_kd_memory *memory, fla
     const cgt_memory_hooks *hooks = &context->memory;
     if (too_deep(f) || all.reference > UINT32_MAX)
         return too_large(context, all.node, all.reference);
-    cgt_result result = cgt_buffer_reserve(hooks, memory->nodes, all.node, sizeof *f->node);
+    cgt_result result = cgt_buffer_reserve_scattered(hooks, memory->nodes, all.node, sizeof *f->node);
     if (result == CGT_OK)
-        result = cgt_buffer_reserve(hooks, memory->references, (size_t)all.reference, sizeof *f->reference);
+        result = cgt_buffer_reserve_scattered(hooks, memory->references, (size_t)all.reference, sizeof *f->reference);
     if (result == CGT_OK && f->ropes)
-        result = cgt_buffer_reserve(hooks, memory->leaves, all.leaf, sizeof *f->leaf);
+        result = cgt_buffer_reserve_scattered(hooks, memory->leaves, all.leaf, sizeof *f->leaf);
     if (result != CGT_OK)
         return cgt_fail(context, result, "kd-tree: out of memory for %u nodes, %llu references, %u leaves", all.node,
                         (unsigned long long)all.reference, all.leaf);

@@ -2,11 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Memory through the caller's hooks, and buffers that keep what they have. */
-#define _POSIX_C_SOURCE 200809L
+#define _DEFAULT_SOURCE /* madvise */
 #include "memory.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+
+#define HUGE_PAGE ((size_t)1 << 21)
 
 static void *default_allocate(void *user, size_t bytes, size_t alignment)
 {
@@ -62,6 +65,23 @@ cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer,
     if (size && count > SIZE_MAX / size)
         return CGT_ERROR_TOO_LARGE;
     return count * size <= buffer->bytes ? CGT_OK : resize(hooks, buffer, more_than(buffer, count * size), 0);
+}
+
+cgt_result cgt_buffer_reserve_scattered(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
+{
+    const void *before = buffer->data;
+    const cgt_result result = cgt_buffer_reserve(hooks, buffer, count, size);
+#ifdef MADV_HUGEPAGE
+    if (buffer->data != before) {
+        char *data = buffer->data;
+        const size_t skipped = (HUGE_PAGE - (uintptr_t)data % HUGE_PAGE) % HUGE_PAGE;
+        if (buffer->bytes >= skipped + HUGE_PAGE) /* where there are none, nothing is lost */
+            (void)madvise(data + skipped, (buffer->bytes - skipped) / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
+    }
+#else
+    (void)before;
+#endif
+    return result;
 }
 
 cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)

@@ -26,6 +26,9 @@ void cgt_free(const cgt_memory_hooks *hooks, void *memory, size_t bytes);
  * least. CGT_OK, CGT_ERROR_TOO_LARGE where the product overflows, CGT_ERROR_OUT_OF_MEMORY: then the buffer is as it
  * was. */
 cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
+/* The same as reserve for what is read here and there: asks for huge pages, so that readers need not wait for page
+ * tables. */
+cgt_result cgt_buffer_reserve_scattered(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
 cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
 void cgt_buffer_release(const cgt_memory_hooks *hooks, cgt_buffer *buffer);
 

@@ -13,6 +13,7 @@
 typedef struct cgt_object_array {
     cgt_kind kind;
     uint32_t first;    /* object of its primitive 0 */
+    uint32_t others;   /* spheres among the objects before a triangle array */
     uint32_t geometry; /* id */
     const char *point; /* x, y, z of centre or vertex i at point + i * point_stride */
     size_t point_stride;
@@ -84,6 +85,12 @@ static inline cgt_triangle cgt_array_triangle(const cgt_object_array *a, uint32_
         q.v[k][2] = p[2];
     }
     return q;
+}
+
+/* Which triangle of all triangles an object is. */
+static inline uint32_t cgt_array_triangle_number(const cgt_object_array *a, uint32_t object)
+{
+    return object - a->others;
 }
 
 static inline cgt_sphere cgt_objects_sphere(const cgt_objects *objects, uint32_t object)

@@ -28,6 +28,7 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_KD_NODES,
     CGT_BUFFER_KD_REFERENCES,
     CGT_BUFFER_KD_LEAVES,
+    CGT_BUFFER_LEAF_TRIANGLES,
     CGT_BUFFER_KD_WORK, /* what the builder needs while it runs */
     CGT_SCENE_BUFFERS
 } cgt_scene_buffer;

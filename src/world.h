@@ -11,6 +11,8 @@
 /* Beyond this, squares of coordinates leave the range of float: no structure then. */
 #define CGT_WORLD_LARGEST 0x1p55f
 
+typedef struct cgt_leaf_triangle cgt_leaf_triangle;
+
 typedef struct cgt_world {
     cgt_objects objects;
     uint32_t valid;          /* objects that were not skipped */
@@ -20,6 +22,7 @@ typedef struct cgt_world {
     cgt_structure structure; /* which of the next is built; none where `everything`, or no object is valid */
     cgt_queue_grid grid;
     cgt_kd_tree kd;
+    const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_triangle_number */
 } cgt_world;
 
 #endif

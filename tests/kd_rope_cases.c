@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "leaf_triangle.h"
+
 /* ---- objects ---- */
 
 static float coordinate(test_random *r, const rope_case *c)
@@ -101,6 +103,7 @@ static void make_objects(test_random *r, rope_case *c)
     if (triangles)
         c->array[o->arrays++] = (cgt_object_array){.kind = CGT_KIND_TRIANGLES,
                                                    .first = spheres,
+                                                   .others = spheres,
                                                    .geometry = 1,
                                                    .point = (const char *)c->vertex,
                                                    .point_stride = sizeof c->vertex[0],
@@ -128,6 +131,7 @@ static void make_tree(test_random *r, cgt_context *context, rope_case *c)
         tree = random_tree_make(r, &c->world, depth, random_below(r, 2));
     }
     assert_int_equal(cgt_kd_flatten(context, &memory, &tree.raw, layout, 3, true, &c->world.kd), CGT_OK);
+    assert_int_equal(cgt_leaf_triangles_make(context, &c->triangles, &c->world), CGT_OK);
     random_tree_free(&tree);
     cgt_buffer_release(&hooks, &work);
 }
@@ -154,6 +158,7 @@ void rope_case_free(rope_case *c)
     cgt_buffer_release(&hooks, &c->nodes);
     cgt_buffer_release(&hooks, &c->references);
     cgt_buffer_release(&hooks, &c->leaves);
+    cgt_buffer_release(&hooks, &c->triangles);
     free(c);
 }
 

@@ -25,7 +25,7 @@ typedef struct rope_case {
     cgt_object_array array[2];
     float sphere[ROPE_MOST_OBJECTS][4];
     float vertex[3 * ROPE_MOST_OBJECTS][3];
-    cgt_buffer nodes, references, leaves;
+    cgt_buffer nodes, references, leaves, triangles;
     rope_place place;
     float unit; /* a power of two: the factor of all coordinates */
 } rope_case;

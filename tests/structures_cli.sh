@@ -101,9 +101,10 @@ is 'layouts' "$(column config | sed 's/kd,layout=//g; s/,builder=binned,variant=
     'depth-first breadth-first mixed,break=8'
 holds 'nodes of a ray' '(c["rays"] in read) ? read[c["rays"]] == c["nodes_per_ray"] :
     (read[c["rays"]] = c["nodes_per_ray"]) > 1'
-holds 'misses' 'c["misses_per_ray"] <= c["nodes_per_ray"] && c["misses_per_ray"] > 0'
+in_memory='c["memory"] == "top" && c["memory_bytes"] >= 8 * (c["kd_nodes"] + 1)'
+holds 'misses' "c[\"misses_per_ray\"] <= c[\"nodes_per_ray\"] && (c[\"misses_per_ray\"] > 0 || $in_memory)"
 holds 'bytes' 'c["bytes_per_ray"] <= 1.00001 * c["misses_per_ray"] * c["block_bytes"] &&
-    c["bytes_per_ray"] > 0.1 * c["misses_per_ray"] * c["block_bytes"]'
+    c["bytes_per_ray"] >= 0.1 * c["misses_per_ray"] * c["block_bytes"]'
 holds 'larger memories' 'c["memory"] != "lru" ? 1 :
     !((k = c["config"] c["rays"] c["block_bytes"]) in last) || c["misses_per_ray"] + 0 <= last[k] + 0 ?
     (last[c["config"] c["rays"] c["block_bytes"]] = c["misses_per_ray"]) != "" : 0'

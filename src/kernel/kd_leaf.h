@@ -10,20 +10,23 @@
 #include "sphere_filter.h"
 #include "triangle_tests.h"
 
-#define LEAF_MAILBOX 64u /* direct mapped by the low bits of the object */
+#define LEAF_TRIANGLE 11  /* fields of a leaf triangle */
+#define LEAF_MAILBOX 256u /* direct mapped by the low bits of the object */
 
 /* What leaf tests need, made once a packet. */
 typedef struct leaf_tests {
     const cgt_objects *objects;
     packet *p;
     cgt_counts *counts;
+    const cgt_leaf_triangle *triangle;
     float scale;
     bool mailbox;
     uint32_t seen[LEAF_MAILBOX]; /* objects that the rays in work have met lately */
     filter_packet filter;        /* in FAST precision */
     /* of the leaf in work: lanes beyond its count hold what they held before */
     filter_spheres spheres;
-    filter_triangles triangles;
+    filter_triangles triangles;                       /* in FAST precision */
+    _Alignas(64) float row[LEAF_TRIANGLE][CGT_LANES]; /* else: fields of leaf triangles */
 } leaf_tests;
 
 CGT_SPU_INLINE void leaf_tests_make(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
@@ -32,14 +35,17 @@ CGT_SPU_INLINE void leaf_tests_make(const cgt_world *world, packet *p, const cgt
     l->objects = &world->objects;
     l->p = p;
     l->counts = counts;
+    l->triangle = world->triangle;
     l->scale = world->scale;
     l->mailbox = settings->mailbox;
     if (world->objects.spheres) {
         memset(l->spheres.center, 0, sizeof l->spheres.center);
         memset(l->spheres.radius, 0, sizeof l->spheres.radius);
     }
-    if (world->objects.triangles)
+    if (world->objects.triangles) {
         memset(l->triangles.vertex, 0, sizeof l->triangles.vertex);
+        memset(l->row, 0, sizeof l->row);
+    }
     if (!p->fast)
         return;
     filter_packet_make(p, world->scale, &l->filter);
@@ -106,12 +112,9 @@ static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t object, ui
         const vfloat center[3] = {spux_vfloat(s.x), spux_vfloat(s.y), spux_vfloat(s.z)};
         some = lane_sphere(r, center, spux_vfloat(s.r), &q);
     } else {
-        const cgt_triangle t = cgt_array_triangle(a, object - a->first);
-        vfloat vertex[3][3];
-        for (int k = 0; k < 3; k++)
-            for (int c = 0; c < 3; c++)
-                vertex[k][c] = spux_vfloat(t.v[k][c]);
-        some = lane_triangle(r, (const vfloat(*)[3])vertex, &q);
+        lane_triangles triangle;
+        lane_triangles_of_one(&l->triangle[cgt_array_triangle_number(a, object)], &triangle);
+        some = lane_triangle(r, &triangle, &q);
     }
     if (some)
         leaf_keep_vector(l, object, i, &q);
@@ -214,6 +217,29 @@ static void leaf_keep_ray(leaf_tests *l, uint32_t i, const lane_hits *q, const u
     }
 }
 
+/* At most a vector of triangles to the first lanes; the others hold what they held before. */
+CGT_SPU_INLINE void leaf_fetch_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, lane_triangles *q)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        const cgt_object_array *a = cgt_objects_array(l->objects, reference[k]);
+        const cgt_leaf_triangle *t = &l->triangle[cgt_array_triangle_number(a, reference[k])];
+        for (int c = 0; c < 3; c++) {
+            l->row[c][k] = t->vertex[c];
+            l->row[3 + c][k] = t->edge[0][c];
+            l->row[6 + c][k] = t->edge[1][c];
+        }
+        l->row[9][k] = t->sum[0];
+        l->row[10][k] = t->sum[1];
+    }
+    for (int a = 0; a < 3; a++) {
+        q->vertex[a] = spux_load(l->row[a]);
+        q->edge[0][a] = spux_load(l->row[3 + a]);
+        q->edge[1][a] = spux_load(l->row[6 + a]);
+    }
+    q->sum[0] = spux_load(l->row[9]);
+    q->sum[1] = spux_load(l->row[10]);
+}
+
 /* Tests ray i of the packet against all objects of a leaf. r: this ray in every lane. In FAST precision its neighbours
  * are tested too. */
 CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
@@ -239,13 +265,9 @@ CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint3
             const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
             some = lane_sphere(r, center, spux_load(s->radius), &q);
         } else {
-            filter_triangles *s = &l->triangles;
-            vfloat vertex[3][3];
-            filter_triangles_fetch(l->objects, reference, run, run, s);
-            for (int k = 0; k < 3; k++)
-                for (int c = 0; c < 3; c++)
-                    vertex[k][c] = spux_load(s->vertex[k][c]);
-            some = lane_triangle(r, (const vfloat(*)[3])vertex, &q);
+            lane_triangles triangles;
+            leaf_fetch_triangles(l, reference, run, &triangles);
+            some = lane_triangle(r, &triangles, &q);
         }
         if (some)
             leaf_keep_ray(l, i, &q, reference, run);

@@ -9,10 +9,14 @@
  * other one loses nothing but a chance to stop early.
  *
  * Exactness: a child is left out for a ray only where the ray surely does not pass its closed box at a t that still
- * counts. The t of a plane is (split - org) * (1 / dir), within 2^-20 of its size and 2^-126 (a difference, a reciprocal
- * within 2^-21, a product), and intervals are widened by that on both sides. A component of the direction that is 0 leaves
- * a ray on the side of its origin, on both where the origin lies in the plane; below 2^-70 of it, where reciprocals
- * leave the range, a ray counts as on both. */
+ * counts. With r = 1 / dir, within 2^-21, the t of a plane is
+ *   one ray:   (split - org) * r, within 2^-20 of its size and 2^-126
+ *   a vector:  split * r - org * r, within 2^-20 of (|split| + |org|) |r| and 2^-120, fused or not, since products and
+ *              sums lose four times 2^-24 of that. Of the root's largest split this is one number for a ray and an axis,
+ *              so that both ends of the interval cost one operation, and wait for nothing but the split
+ * and intervals are widened by that on both sides. A component of the direction that is 0 leaves a ray on the side of its
+ * origin, on both where the origin lies in the plane; below 2^-70, where reciprocals leave the range, a ray counts as on
+ * both. */
 #include "kd_leaf.h"
 #include "ray_box.h"
 
@@ -23,68 +27,79 @@
 
 typedef struct kd_rays {
     vfloat org[3], rdir[3];
-    vmask reverse[3];      /* lanes that come from above */
-    vmask flat[3];         /* lanes whose direction has no such component, or hardly any */
-    vmask zero[3];         /* of those, the ones that have none */
-    unsigned some_flat;    /* axes, as bits */
-    unsigned most_reverse; /* axes along which most rays come from above */
+    vfloat first[3], last[3]; /* -org * rdir, widened both ways */
+    vmask other[3];           /* lanes that reach the children of a split in the other order than most do */
+    vmask flat[3];            /* lanes whose direction has no such component, or hardly any */
+    vmask zero[3];            /* of those, the ones that have none */
+    uint32_t mixed;           /* axes for which any lane is one of these, as bits */
+    uint32_t reverse;         /* axes along which most rays come from above */
 } kd_rays;
 
 typedef struct kd_entry {
     vfloat near, far;
-    uint32_t node;
+    cgt_kd_node node;
 } kd_entry;
 
-CGT_SPU_INLINE void kd_rays_make(const packet *p, uint32_t i, kd_rays *r)
+CGT_SPU_INLINE void kd_rays_make(const packet *p, const cgt_kd_tree *tree, uint32_t i, kd_rays *r)
 {
     const vfloat zero = spux_vfloat(0);
-    r->some_flat = r->most_reverse = 0;
+    r->mixed = r->reverse = 0;
     for (int a = 0; a < 3; a++) {
-        const vfloat d = spux_load(p->dir[a] + i);
-        r->org[a] = spux_load(p->org[a] + i);
-        r->reverse[a] = spu_cmpgt(zero, d);
+        const vfloat d = spux_load(p->dir[a] + i), org = spux_load(p->org[a] + i);
+        const vmask above = spu_cmpgt(zero, d);
+        const bool most = spux_count_bits(spux_mask_bits(above)) > CGT_LANES / 2;
+        const vfloat largest = spux_max(spux_abs(spux_vfloat(tree->low[a])), spux_abs(spux_vfloat(tree->high[a])));
+        r->org[a] = org;
         r->flat[a] = spu_cmpgt(spux_vfloat(PLANE_FLAT), spux_abs(d));
         r->zero[a] = spu_cmpeq(d, zero);
         r->rdir[a] = spux_div(spux_vfloat(1), spux_select(d, spux_vfloat(1), r->flat[a]));
-        r->some_flat |= (unsigned)spux_any(r->flat[a]) << a;
-        r->most_reverse |= (unsigned)(spux_count_bits(spux_mask_bits(r->reverse[a])) > CGT_LANES / 2) << a;
+        r->other[a] = most ? spux_not(above) : above;
+        const vfloat to_plane = spu_mul(spu_add(spux_abs(org), largest), spux_abs(r->rdir[a]));
+        const vfloat wide = spu_madd(to_plane, spux_vfloat(PLANE_WIDE), spux_vfloat(0x1p-120f));
+        const vfloat t = spu_mul(org, r->rdir[a]);
+        r->first[a] = spu_sub(spu_sub(zero, wide), t);
+        r->last[a] = spu_sub(wide, t);
+        r->mixed |= (uint32_t)spux_any(spu_or(r->other[a], r->flat[a])) << a;
+        r->reverse |= (uint32_t)most << a;
     }
 }
 
-/* When the rays cross a split, widened. */
-CGT_SPU_INLINE void kd_plane_times(const kd_rays *r, uint32_t axis, float split, vfloat *low, vfloat *high)
-{
-    const vfloat delta = spu_sub(spux_vfloat(split), r->org[axis]), t = spu_mul(delta, r->rdir[axis]);
-    const vfloat wide = spu_madd(spux_abs(t), spux_vfloat(PLANE_WIDE), spux_vfloat(0x1p-126f));
-    *low = spu_sub(t, wide);
-    *high = spu_add(t, wide);
-    if (!(r->some_flat >> axis & 1))
-        return;
-    /* below the plane for ever, or above, or both; `reverse` is false where there is no component */
-    const vfloat zero = spux_vfloat(0), never = spux_vfloat(INFINITY), ever = spux_vfloat(-INFINITY);
-    const vmask below = spu_and(r->zero[axis], spu_cmpgt(delta, zero));
-    const vmask above = spu_and(r->zero[axis], spu_cmpgt(zero, delta));
-    *low = spux_select(*low, spux_select(ever, never, below), r->flat[axis]);
-    *high = spux_select(*high, spux_select(never, ever, above), r->flat[axis]);
-}
-
-/* The rays' parts on either side of a split. */
+/* The rays' parts in the child that most rays reach first, and in the other one. */
 typedef struct kd_parts {
-    vfloat near[2], far[2]; /* below, above */
-    unsigned some[2];       /* lanes, as bits */
+    vfloat near[2], far[2];
 } kd_parts;
 
-CGT_SPU_INLINE void kd_cut(const kd_rays *r, uint32_t axis, vfloat low, vfloat high, vfloat near, vfloat far,
-                           kd_parts *q)
+/* Where any lane goes another way than most, or along the split. */
+CGT_SPU_INLINE void kd_cut_mixed(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, vfloat low,
+                                 vfloat high, kd_parts *q)
 {
+    /* below the plane for ever, or above, or both; what counts as from below */
+    const vfloat zero = spux_vfloat(0), never = spux_vfloat(INFINITY), ever = spux_vfloat(-INFINITY);
+    const vfloat delta = spu_sub(spux_vfloat(split), r->org[axis]);
+    const vmask below = spu_and(r->zero[axis], spu_cmpgt(delta, zero)), other = r->other[axis];
+    const vmask above = spu_and(r->zero[axis], spu_cmpgt(zero, delta));
+    low = spux_select(low, spux_select(ever, never, below), r->flat[axis]);
+    high = spux_select(high, spux_select(never, ever, above), r->flat[axis]);
     const vfloat first_far = spux_min(high, far), second_near = spux_max(low, near);
-    const vmask reverse = r->reverse[axis];
-    q->near[0] = spux_select(near, second_near, reverse);
-    q->far[0] = spux_select(first_far, far, reverse);
-    q->near[1] = spux_select(second_near, near, reverse);
-    q->far[1] = spux_select(far, first_far, reverse);
-    for (int side = 0; side < 2; side++)
-        q->some[side] = spux_mask_bits(spux_cmpge(q->far[side], q->near[side]));
+    q->near[0] = spux_select(near, second_near, other);
+    q->far[0] = spux_select(first_far, far, other);
+    q->near[1] = spux_select(second_near, near, other);
+    q->far[1] = spux_select(far, first_far, other);
+}
+
+CGT_SPU_INLINE void kd_cut(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, kd_parts *q)
+{
+    const vfloat plane = spux_vfloat(split);
+    const vfloat low = spu_madd(plane, r->rdir[axis], r->first[axis]);
+    const vfloat high = spu_madd(plane, r->rdir[axis], r->last[axis]);
+    if (r->mixed >> axis & 1) {
+        kd_cut_mixed(r, axis, split, near, far, low, high, q);
+        return;
+    }
+    q->near[0] = near;
+    q->far[0] = spux_min(high, far);
+    q->near[1] = spux_max(low, near);
+    q->far[1] = far;
 }
 
 /* The rays' intervals in the box of the root. Rays that take no part get an empty one. */
@@ -106,11 +121,12 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
 {
     packet *p = l->p;
     kd_entry stack[CGT_KD_MAX_DEPTH];
-    uint32_t top = 0, at = 0, nodes = 0;
+    uint32_t top = 0, nodes = 0;
+    cgt_kd_node n = tree->node[0];
     kd_rays r;
     lane_rays of_leaves;
     vfloat near, far;
-    kd_rays_make(p, i, &r);
+    kd_rays_make(p, tree, i, &r);
     kd_enter(p, tree, i, &near, &far);
     if (spux_none(spux_cmpge(far, near)))
         return;
@@ -118,25 +134,30 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     lane_rays_of_packet(p, i, l->scale, &of_leaves);
     l->counts->packets++;
     for (;;) {
-        const cgt_kd_node n = tree->node[at];
         if (!cgt_kd_is_leaf(n)) {
-            const uint32_t axis = cgt_kd_axis(n), lower = n.word[1];
+            const uint32_t axis = cgt_kd_axis(n), first = r.reverse >> axis & 1;
+            /* both children are read before it is known which one comes next: their way from memory and the arithmetic
+             * below go side by side */
+            const cgt_kd_node lower = tree->node[n.word[1]], upper = tree->node[n.word[1] + 1];
             kd_parts q;
-            vfloat low, high;
             nodes++;
-            kd_plane_times(&r, axis, cgt_kd_split(n), &low, &high);
-            kd_cut(&r, axis, low, high, near, far, &q);
-            const uint32_t first = q.some[0] && q.some[1] ? r.most_reverse >> axis & 1 : q.some[0] == 0;
-            if (q.some[0] && q.some[1])
-                stack[top++] = (kd_entry){q.near[!first], q.far[!first], lower + !first};
-            near = q.near[first];
-            far = q.far[first];
-            at = lower + first;
+            kd_cut(&r, axis, cgt_kd_split(n), near, far, &q);
+            if (spux_none(spux_cmpge(q.far[0], q.near[0]))) {
+                near = q.near[1];
+                far = q.far[1];
+                n = first ? lower : upper;
+                continue;
+            }
+            if (spux_any(spux_cmpge(q.far[1], q.near[1])))
+                stack[top++] = (kd_entry){q.near[1], q.far[1], first ? lower : upper};
+            near = q.near[0];
+            far = q.far[0];
+            n = first ? upper : lower;
             continue;
         }
         l->counts->leaves++;
         if (cgt_kd_count(n))
-            leaf_test_vector(l, &of_leaves, cgt_kd_references(tree, &tree->node[at]), cgt_kd_count(n), i);
+            leaf_test_vector(l, &of_leaves, cgt_kd_references(tree, &n), cgt_kd_count(n), i);
         const vfloat best = spux_load(p->high + i);
         do {
             if (!top) {
@@ -147,7 +168,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
             near = stack[top].near;
             far = spux_min(stack[top].far, best);
         } while (spux_none(spux_cmpge(far, near)));
-        at = stack[top].node;
+        n = stack[top].node;
     }
 }
 

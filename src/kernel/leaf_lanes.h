@@ -2,19 +2,28 @@
  * SPDX-License-Identifier: MIT
  *
  * One ray and one object in each lane of a vector, in single precision with derived bounds. Leaves of trees hold few
- * objects and are met by few rays: here nothing is prepared, and either side may be the same in all lanes. The forms are
- * those of sphere_filter.h and triangle_filter.h; the bounds of triangles are coarser, and those of rays their own.
+ * objects and are met by few rays: nothing is prepared for a packet, only what a commit can (leaf_triangle.h), and either
+ * side may be the same in all lanes. The form of spheres is that of sphere_filter.h.
  *
- * Triangles, with b and e_k the vertices from the origin and the edges, times the world's scale, u = 2^-24, |x| the
- * largest component and [x] the sum of their sizes: P(p, q, r) of triangle_filter.h is at most |p| [q] [r]. So
- *   w_k = d.(b x e_k)   within 9 u |d| [b] [e_k]        n = e_0 x e_1; d.n   within 8 u |d| [e_0] [e_1]
- *   n.b                 within 10 u |b| [e_0] [e_1]
- * each enlarged by 2^-7 for what is of second order. What underflows, in a vertex, a product or a sum, is below
+ * Triangles (Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997), with s the ray's origin from
+ * the first vertex, e_1 and e_2 the edges from there, all times the world's scale, u = 2^-24, |x| the largest component
+ * and [x] the sum of their sizes. P(p, q, r) of triangle_filter.h is at most |p| [q] [r] in any order. So
+ *   U = s.(d x e_2)   within 9 u |d| [s] [e_2]        V = d.(s x e_1)   within 9 u |d| [s] [e_1]
+ *   D = e_1.(d x e_2) within 9 u |d| [e_1] [e_2]      T = e_2.(s x e_1) within 9 u [s] [e_1] [e_2]
+ *   W = D - U - V     within the errors of all three, and 2 u of their sizes
+ * each enlarged by 2^-7 for what is of second order. U, V and W are on which side of each edge the line passes: the
+ * signs of triangle_double.h, times scale^2. t = T / D. What underflows, in a vertex, a product or a sum, is below
  * 2^-120 (|d| + 1), which is added. */
 #ifndef CGT_LEAF_LANES_H
 #define CGT_LEAF_LANES_H
 
 #include "filter.h"
+#include "leaf_triangle.h"
+
+/* Bounds of triangles, see above. */
+#define LANE_SIDE (9 * FILTER_U * (1 + 0x1p-7f))
+#define LANE_THIRD (11 * FILTER_U * (1 + 0x1p-7f))
+#define LANE_PLANE (10 * FILTER_U * (1 + 0x1p-7f))
 
 /* The rays of the lanes, all alike or each its own. */
 typedef struct lane_rays {
@@ -22,8 +31,9 @@ typedef struct lane_rays {
     vfloat t_min;
     vfloat rdd;             /* 1 / d.d; only where there are spheres, and so is the next */
     vfloat rlength;         /* 1 / |d|, rounded up */
-    vfloat most, underflow; /* of triangles */
-    vfloat scale, unscale;  /* of the world */
+    vfloat most, underflow; /* of triangles, and so is the next */
+    vfloat scaled_org[3];
+    vfloat scale, unscale; /* of the world */
 } lane_rays;
 
 /* What the tests find: intervals of t, which lanes hit for certain and which may. */
@@ -37,6 +47,8 @@ CGT_SPU_INLINE void lane_rays_finish(lane_rays *r, float scale)
     r->rlength = spu_mul(spux_sqrt(r->rdd), spux_vfloat(1 + 0x1p-18f));
     r->most = spux_max(spux_abs(r->dir[0]), spux_max(spux_abs(r->dir[1]), spux_abs(r->dir[2])));
     r->underflow = spu_madd(r->most, spux_vfloat(0x1p-120f), spux_vfloat(0x1p-120f));
+    for (int a = 0; a < 3; a++)
+        r->scaled_org[a] = spu_mul(r->org[a], spux_vfloat(scale));
     r->scale = spux_vfloat(scale);
     r->unscale = spux_vfloat(1 / scale);
 }
@@ -114,52 +126,62 @@ CGT_SPU_INLINE void lane_cross(const vfloat p[3], const vfloat q[3], vfloat cros
     }
 }
 
-/* Which lanes' lines pass inside all edges for certain, and which outside of one. */
-CGT_SPU_INLINE void lane_sides(const lane_rays *r, vfloat b[3][3], vfloat e[3][3], const vfloat sum[3], vmask *inside,
-                               vmask *outside)
+/* Triangles as the test takes them (leaf_triangle.h). */
+typedef struct lane_triangles {
+    vfloat vertex[3], edge[2][3], sum[2];
+} lane_triangles;
+
+/* The same triangle in every lane. */
+CGT_SPU_INLINE void lane_triangles_of_one(const cgt_leaf_triangle *t, lane_triangles *q)
 {
-    const vfloat farthest = spux_max(lane_sum(b[0]), spux_max(lane_sum(b[1]), lane_sum(b[2])));
-    const vfloat size = spu_mul(spu_mul(r->most, farthest), spux_vfloat(9 * FILTER_U * (1 + 0x1p-7f)));
-    vmask all_above = spux_mask_all(), all_below = all_above, any_above = spux_mask_none(), any_below = any_above;
-    for (int k = 0; k < 3; k++) {
-        vfloat cross[3];
-        lane_cross(b[(k + 1) % 3], e[k], cross);
-        const vfloat w = lane_dot(r->dir, cross), eps = spu_madd(size, sum[k], r->underflow);
-        const vmask above = spu_cmpgt(w, eps), below = spu_cmpgt(spu_xor(eps, spux_vfloat(-0.f)), w);
-        all_above = spu_and(all_above, above);
-        all_below = spu_and(all_below, below);
-        any_above = spu_or(any_above, above);
-        any_below = spu_or(any_below, below);
+    for (int a = 0; a < 3; a++)
+        q->vertex[a] = spux_vfloat(t->vertex[a]);
+    for (int k = 0; k < 2; k++) {
+        for (int a = 0; a < 3; a++)
+            q->edge[k][a] = spux_vfloat(t->edge[k][a]);
+        q->sum[k] = spux_vfloat(t->sum[k]);
     }
-    *inside = spu_or(all_above, all_below);
-    *outside = spu_and(any_above, any_below);
+}
+
+/* Which lanes' lines pass inside all edges for certain, and which outside of one; all[k]: above, below; any[k]. */
+CGT_SPU_INLINE void lane_side(vfloat w, vfloat eps, vmask all[2], vmask any[2])
+{
+    const vmask above = spu_cmpgt(w, eps), below = spu_cmpgt(spu_xor(eps, spux_vfloat(-0.f)), w);
+    all[0] = spu_and(all[0], above);
+    all[1] = spu_and(all[1], below);
+    any[0] = spu_or(any[0], above);
+    any[1] = spu_or(any[1], below);
 }
 
 /* False where all surely miss. */
-CGT_SPU_INLINE bool lane_triangle(const lane_rays *r, const vfloat vertex[3][3], lane_hits *q)
+CGT_SPU_INLINE bool lane_triangle(const lane_rays *r, const lane_triangles *triangle, lane_hits *q)
 {
-    vfloat b[3][3], e[3][3], sum[3], n[3];
-    vmask inside, outside;
-    for (int k = 0; k < 3; k++) {
-        for (int a = 0; a < 3; a++) {
-            b[k][a] = spu_mul(spu_sub(vertex[k][a], r->org[a]), r->scale);
-            e[k][a] = spu_mul(spu_sub(vertex[(k + 2) % 3][a], vertex[(k + 1) % 3][a]), r->scale);
-        }
-        sum[k] = lane_sum(e[k]);
-    }
-    lane_sides(r, b, e, sum, &inside, &outside);
+    const vfloat *e1 = triangle->edge[0], *e2 = triangle->edge[1];
+    vmask all[2] = {spux_mask_all(), spux_mask_all()}, any[2] = {spux_mask_none(), spux_mask_none()};
+    vfloat from[3], across[3], beside[3];
+    for (int a = 0; a < 3; a++)
+        from[a] = spu_sub(r->scaled_org[a], triangle->vertex[a]);
+    lane_cross(r->dir, e2, across);
+    lane_cross(from, e1, beside);
+    const vfloat u = lane_dot(from, across), v = lane_dot(r->dir, beside), den = lane_dot(e1, across);
+    const vfloat size = spu_mul(r->most, lane_sum(from)), edges = spu_mul(triangle->sum[0], triangle->sum[1]);
+    const vfloat eps_u = spu_mul(size, triangle->sum[1]), eps_v = spu_mul(size, triangle->sum[0]);
+    const vfloat eps_den = spu_mul(r->most, edges);
+    lane_side(u, spu_madd(eps_u, spux_vfloat(LANE_SIDE), r->underflow), all, any);
+    lane_side(v, spu_madd(eps_v, spux_vfloat(LANE_SIDE), r->underflow), all, any);
+    lane_side(spu_sub(spu_sub(den, u), v),
+              spu_madd(spu_add(spu_add(eps_u, eps_v), eps_den), spux_vfloat(LANE_THIRD), r->underflow), all, any);
+    const vmask inside = spu_or(all[0], all[1]), outside = spu_and(any[0], any[1]);
     if (spux_all(outside))
         return false;
-    lane_cross(e[0], e[1], n);
-    const vfloat edges = spu_mul(spu_mul(sum[0], sum[1]), spux_vfloat(10 * FILTER_U * (1 + 0x1p-7f)));
-    const vfloat delta = spu_madd(edges, r->most, r->underflow);
-    const vfloat num_error = spu_madd(edges, lane_sum(b[0]), spux_vfloat(0x1p-120f));
-    const vfloat num = lane_dot(n, b[0]), den = lane_dot(r->dir, n), rden = spux_div(r->unscale, den);
-    const vfloat t = spu_mul(num, rden), size = spux_abs(t);
+    const vfloat delta = spu_madd(eps_den, spux_vfloat(LANE_PLANE), r->underflow);
+    const vfloat num_error = spu_madd(spu_mul(edges, spux_vfloat(LANE_PLANE)), lane_sum(from), spux_vfloat(0x1p-120f));
+    const vfloat num = lane_dot(e2, beside), rden = spux_div(r->unscale, den);
+    const vfloat t = spu_mul(num, rden), reach = spux_abs(t);
     /* num and its error are scaled once more often than den */
     const vfloat error =
-        spu_mul(spu_madd(spu_mul(size, r->scale), delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
-    const vfloat width = spu_madd(size, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-126f)));
+        spu_mul(spu_madd(spu_mul(reach, r->scale), delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
+    const vfloat width = spu_madd(reach, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-126f)));
     const vmask steep = spu_cmpgt(spux_abs(den), spu_mul(delta, spux_vfloat(4)));
     q->low = spu_sub(t, width);
     q->high = spu_add(t, width);
