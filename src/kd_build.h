@@ -47,6 +47,6 @@ cgt_result cgt_kd_flatten(cgt_context *context, const cgt_kd_memory *memory, con
                           cgt_kd_layout layout, uint32_t break_level, bool ropes, cgt_kd_tree *tree);
 
 /* Fills in box and ropes of every leaf of a flattened tree; leaf[i].first and .count are there. */
-void cgt_kd_link_leaves(const cgt_kd_tree *tree, cgt_kd_leaf *leaf);
+void cgt_kd_link_leaves(cgt_context *context, const cgt_kd_tree *tree, cgt_kd_leaf *leaf);
 
 #endif

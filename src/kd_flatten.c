@@ -286,6 +286,6 @@ cgt_result cgt_kd_flatten(cgt_context *context, const cgt_kd_memory *memory, con
     tree->leaves = all.leaf;
     tree->leaf = f.leaf;
     if (ropes)
-        cgt_kd_link_leaves(tree, f.leaf);
+        cgt_kd_link_leaves(context, tree, f.leaf);
     return CGT_OK;
 }

@@ -7,7 +7,10 @@
  *
  * What a rope leads to holds the whole face in its closed box. Where a split lies in the plane of the face, and so cuts
  * off a box without thickness, the rope passes that by. */
+#include "float_environment.h"
 #include "kd_build.h"
+
+#define PARTS_DEPTH 6u
 
 /* A node on the way down, its box and where its faces lead. */
 typedef struct linked_node {
@@ -55,25 +58,56 @@ static void link_leaf(const linked_node *from, cgt_kd_leaf *leaf)
     memcpy(leaf->wide_rope, from->wide_rope, sizeof leaf->wide_rope);
 }
 
-void cgt_kd_link_leaves(const cgt_kd_tree *tree, cgt_kd_leaf *leaf)
+typedef struct linking {
+    const cgt_kd_tree *tree;
+    cgt_kd_leaf *leaf;
+    linked_node part[1u << PARTS_DEPTH]; /* inner nodes at this depth: each subtree is a task */
+    uint32_t parts;
+} linking;
+
+/* Links the leaves below a node; those below nodes `levels` further down are left to parts. */
+static void link_below(linking *l, const linked_node *from, uint32_t levels)
 {
-    linked_node stack[CGT_KD_MAX_DEPTH + 1], at;
-    uint32_t top = 1;
-    stack[0].node = 0;
-    memcpy(stack[0].low, tree->low, sizeof tree->low);
-    memcpy(stack[0].high, tree->high, sizeof tree->high);
-    for (uint32_t face = 0; face < 6; face++)
-        stack[0].rope[face] = stack[0].wide_rope[face] = CGT_NONE;
+    linked_node stack[CGT_KD_MAX_DEPTH + 1];
+    uint32_t left[CGT_KD_MAX_DEPTH + 1], top = 1; /* levels to go */
+    stack[0] = *from;
+    left[0] = levels;
     while (top) {
-        at = stack[--top];
-        const cgt_kd_node n = tree->node[at.node];
+        linked_node at = stack[--top];
+        const uint32_t to_go = left[top];
+        const cgt_kd_node n = l->tree->node[at.node];
         for (uint32_t face = 0; face < 6; face++)
-            at.rope[face] = push_down(tree->node, at.rope[face], &at, face);
+            at.rope[face] = push_down(l->tree->node, at.rope[face], &at, face);
         if (cgt_kd_is_leaf(n)) {
-            link_leaf(&at, &leaf[n.word[1]]);
-            continue;
+            link_leaf(&at, &l->leaf[n.word[1]]);
+        } else if (!to_go) {
+            l->part[l->parts++] = at;
+        } else {
+            for (uint32_t side = 2; side-- > 0; top++) {
+                link_child(&at, n, side, &stack[top]);
+                left[top] = to_go - 1;
+            }
         }
-        link_child(&at, n, true, &stack[top++]);
-        link_child(&at, n, false, &stack[top++]);
     }
+}
+
+static void link_part(void *argument, uint32_t index)
+{
+    linking *l = argument;
+    fenv_t callers;
+    cgt_float_environment_enter(&callers); /* comparisons, too, may take denormals for zero */
+    link_below(l, &l->part[index], CGT_KD_MAX_DEPTH);
+    cgt_float_environment_leave(&callers);
+}
+
+void cgt_kd_link_leaves(cgt_context *context, const cgt_kd_tree *tree, cgt_kd_leaf *leaf)
+{
+    linking l = {.tree = tree, .leaf = leaf};
+    linked_node root = {.node = 0};
+    memcpy(root.low, tree->low, sizeof tree->low);
+    memcpy(root.high, tree->high, sizeof tree->high);
+    for (uint32_t face = 0; face < 6; face++)
+        root.rope[face] = root.wide_rope[face] = CGT_NONE;
+    link_below(&l, &root, PARTS_DEPTH);
+    cgt_run_tasks(context, link_part, &l, l.parts);
 }
