@@ -242,10 +242,13 @@ static int run_row(frame_job *job, const bench_choice *choice)
     cgt_trace_options trace;
     size_t measured = 0;
     uint64_t open = 0;
+    /* rays that go anywhere, several for each of the camera's */
+    const cgt_ray_kind rays = job->settings->ao ? CGT_RAYS_INCOHERENT : CGT_RAYS_CAMERA;
 
     cgt_result result = bench_scene_create(&scene, job->context, job->input.moving, shared->resolution);
     if (result == CGT_OK)
-        result = bench_scene_structure(&scene, job->settings->structure.asked[0], &choice->kd, shared->resolution);
+        result =
+            bench_scene_structure(&scene, job->settings->structure.asked[0], rays, &choice->kd, shared->resolution);
     if (result == CGT_OK) {
         bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
         bench_choice_options(choice, NULL, &trace);

@@ -33,12 +33,13 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
     return result;
 }
 
-cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, const bench_kd_choice *kd,
-                                 const uint32_t resolution[3])
+cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
+                                 const bench_kd_choice *kd, const uint32_t resolution[3])
 {
     cgt_scene_options options;
     cgt_scene_options_init(&options);
     options.structure = structure;
+    options.rays = rays;
     options.kd_builder = kd->builder;
     options.kd_layout = kd->layout;
     options.kd_break_level = kd->break_level;

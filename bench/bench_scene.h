@@ -89,8 +89,8 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
 /* The trace options of a choice; statistics NULL where nothing is to be counted. */
 void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options);
 
-/* Changes the scene's structure; resolution: as in bench_scene_create. */
-cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, const bench_kd_choice *kd,
-                                 const uint32_t resolution[3]);
+/* Changes the scene's structure; rays: what AUTO chooses for; resolution: as in bench_scene_create. */
+cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
+                                 const bench_kd_choice *kd, const uint32_t resolution[3]);
 
 #endif

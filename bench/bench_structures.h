@@ -52,6 +52,7 @@ enum {
 /* What is built once per frame; rows of a group trace the same structure, and lie together. */
 typedef struct structures_group {
     cgt_structure structure;
+    cgt_ray_kind rays; /* what AUTO is told */
     bench_kd_choice kd;
     int left_out;               /* the library does not build it */
     cgt_scene_statistics built; /* of the last commit */
@@ -97,7 +98,7 @@ void structures_close(structures_job *job);
 int structures_plan(structures_job *job);
 void structures_plan_release(structures_job *job);
 
-/* The name of a row after the first commit of its group; AUTO's is "auto". */
+/* The name of a row after the first commit of its group; AUTO's is "auto", with the kind of rays that it is told. */
 void structures_row_name(const structures_job *job, const structures_row *row, char name[BENCH_NAME_SIZE]);
 
 /* Builds a group over the frame as it is; leaves the group out with a message where the library has no such

@@ -18,12 +18,13 @@ static void add_row(structures_job *job, cgt_kd_traversal traversal)
     row->traversal = traversal;
 }
 
-static void add_group(structures_job *job, cgt_structure structure, const bench_kd_choice *kd)
+static void add_group(structures_job *job, cgt_structure structure, cgt_ray_kind rays, const bench_kd_choice *kd)
 {
     static const cgt_kd_traversal traversals[] = {CGT_KD_TRAVERSAL_SINGLE, CGT_KD_TRAVERSAL_PACKET};
     const cgt_kd_traversal asked = job->settings->structure.kd.traversal;
     structures_group *group = &job->groups[job->group_count++];
     group->structure = structure;
+    group->rays = rays;
     group->kd = *kd;
     if (structure == CGT_STRUCTURE_QUEUE_GRID || structure == CGT_STRUCTURE_AUTO)
         add_row(job, CGT_KD_TRAVERSAL_AUTO);
@@ -42,7 +43,8 @@ static void add_all(structures_job *job, cgt_structure structure)
                                             CGT_KD_LAYOUT_MIXED};
     for (size_t b = 0; b < sizeof builders / sizeof builders[0]; b++)
         for (size_t l = 0; l < sizeof layouts / sizeof layouts[0]; l++)
-            add_group(job, structure, &(bench_kd_choice){.builder = builders[b], .layout = layouts[l]});
+            add_group(job, structure, CGT_RAYS_CAMERA,
+                      &(bench_kd_choice){.builder = builders[b], .layout = layouts[l]});
 }
 
 static void add_structure(structures_job *job, cgt_structure structure)
@@ -57,7 +59,9 @@ static void add_structure(structures_job *job, cgt_structure structure)
         if (kd.builder == CGT_KD_BUILDER_AUTO)
             kd.builder = CGT_KD_BUILDER_BINNED;
     }
-    add_group(job, structure, &kd);
+    add_group(job, structure, CGT_RAYS_CAMERA, &kd);
+    if (structure == CGT_STRUCTURE_AUTO)
+        add_group(job, structure, CGT_RAYS_INCOHERENT, &kd);
 }
 
 int structures_plan(structures_job *job)
@@ -111,7 +115,8 @@ void structures_row_name(const structures_job *job, const structures_row *row, c
     }
     char without[BENCH_NAME_SIZE]; /* the name of no structure: all behind it is what was set */
     bench_choice_name(&choice, CGT_STRUCTURE_AUTO, without);
-    snprintf(name, BENCH_NAME_SIZE, "auto%s", without + strcspn(without, ","));
+    snprintf(name, BENCH_NAME_SIZE, "auto%s%s", group->rays == CGT_RAYS_INCOHERENT ? ",rays=incoherent" : "",
+             without + strcspn(without, ","));
 }
 
 /* ---- Building ------------------------------------------------------------------------------------------------ */
@@ -120,7 +125,7 @@ cgt_result structures_commit(structures_job *job, structures_group *group, uint3
 {
     const double begin = bench_now_ms();
     cgt_result result =
-        bench_scene_structure(&job->scene, group->structure, &group->kd, job->settings->shared.resolution);
+        bench_scene_structure(&job->scene, group->structure, group->rays, &group->kd, job->settings->shared.resolution);
     if (result == CGT_OK)
         result = bench_scene_commit(&job->scene, count);
     *ms = bench_now_ms() - begin;

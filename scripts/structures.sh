@@ -7,7 +7,7 @@
 # release build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results;
 # default out/structures. Figures of a busy machine mean little. Grids take minutes over the stadium: a small thing in
 # a huge space is what they are not for.
-#   SIZE     pixels of the pictures; default 320x180
+#   SIZE     pixels of the pictures; default 640x360
 #   FRAMES   of each scene; default 3
 #   THREADS  default 1
 #   RAYS     random rays; default 50000
@@ -17,7 +17,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=${BIN:-build/release/bin}
 out=${1:-out/structures}
-size=${SIZE:-320x180}
+size=${SIZE:-640x360}
 frames=${FRAMES:-3}
 threads=${THREADS:-1}
 rays=${RAYS:-50000}
