@@ -77,12 +77,12 @@ do for [form = 1:2] {
   stats layouts using 0 nooutput
   if (STATS_records > 0) {
     set output folder . '/layouts' . ending
-    set multiplot layout 2,2 margins 0.1,0.98,0.17,0.95 spacing 0.08,0.27
+    set multiplot layout 2,2 margins 0.06,0.98,0.2,0.95 spacing 0.07,0.3
     set style data histogram
     set style histogram clustered gap 1
     set format '% h'
     set xrange [*:*]
-    set xtics rotate by 35 right font ',9'
+    set xtics rotate by 50 right font ',9'
     set xlabel ''
     set yrange [0:*]
     set key default

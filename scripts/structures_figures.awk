@@ -59,6 +59,9 @@ part == "times" {
         column("build_ms"), ns("primary"), ns("ao"), ns("random")
 }
 
+# small trees fit in any memory
+part != "times" && column("primitives") < 22000 { next }
+
 # scene, rank, layout, ns an ambient-occlusion ray: of the binned builder, single and packet
 part == "layouts" && column("config") ~ /^kd,.*builder=binned/ {
     layout = layout_of(column("config"))

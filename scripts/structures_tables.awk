@@ -30,8 +30,11 @@ function ns(kind,   rays) {
     return rays > 0 ? sprintf("%.0f", 1e6 * column(kind "_ms") / rays) : "-"
 }
 
-function rounded(name) { return column(name) == "-" ? "-" : sprintf("%.1f", column(name)) }
-function visits(kind) { return rounded(kind "nodes_per_ray") " + " rounded(kind "leaves_per_ray") }
+function milliseconds(value) { return sprintf(value < 10 ? "%.2f" : "%.0f", value) }
+function rounded(name) { return column(name) == "-" ? "-" : sprintf("%.3g", column(name)) }
+function visits(kind) {
+    return rounded(kind "nodes_per_ray") " / " rounded(kind "leaves_per_ray") " / " rounded(kind "tests_per_ray")
+}
 function kilobytes(bytes) { return sprintf("%.0f", bytes / 1024) }
 
 FNR == 1 {
@@ -43,10 +46,12 @@ FNR == 1 {
 
 part == "times" {
     if (!times) variant = value_of(column("config"), "variant")
-    times_line[++times] = sprintf("| %s | %s | %s | %.2f | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |",
-        column("scene"), column("primitives"), row_name(column("config")), column("build_ms"), ns("primary"),
-        ns("shadow"), ns("ao"), ns("random"), visits(""), rounded("tests_per_ray"), visits("ao_"),
-        rounded("ao_tests_per_ray"), kilobytes(column("bytes")), column("exact_steps"), column("rope_loops"))
+    if (structure_of(column("config")) != "auto")
+        times_line[++times] = sprintf("| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |", column("scene"),
+            row_name(column("config")), milliseconds(column("build_ms")), ns("primary"), ns("shadow"), ns("ao"), ns("random"),
+            visits(""), visits("ao_"), kilobytes(column("bytes")))
+    exact_steps += column("exact_steps")
+    loops += column("rope_loops")
     if (structure_of(column("config")) == "auto")
         chosen_line[++chosen] = sprintf("| %s | %s | %s | %s |", column("scene"), row_name(column("config")),
             column("chosen"), column("reason"))
@@ -60,10 +65,18 @@ part == "times" {
     next
 }
 
+# one line for each layout of the binned builder's trees, and for each builder: trees without ropes
 part == "layouts" {
-    layouts_line[++layouts] = sprintf("| %s | %s | %s | %s | %.2f | %s | %s | %s | %s | %.1f |", column("scene"),
-        row_name(column("config")), layout_of(column("config")), value_of(column("config"), "builder"),
-        column("build_ms"), ns("primary"), ns("ao"), ns("random"), kilobytes(column("bytes")), column("kd_cost"))
+    if (structure_of(column("config")) != "kd") next
+    builder = value_of(column("config"), "builder")
+    key = column("scene") SUBSEP (builder == "binned" ? layout_of(column("config")) : builder)
+    what = value_of(column("config"), "traversal")
+    if (builder == "binned" && !((key, "nodes") in layout_ns)) layout_keys[++layouts] = key
+    layout_ns[key, "nodes"] = 1
+    layout_ns[key, what] = ns("primary") " / " ns("ao") " / " ns("random")
+    if (layout_of(column("config")) != "depth-first" || what != "packet") next
+    builder_line[++builders] = sprintf("| %s | %s | %s | %.1f | %s / %s / %s | %s |", column("scene"), builder,
+        milliseconds(column("build_ms")), column("kd_cost"), ns("primary"), ns("ao"), ns("random"), kilobytes(column("bytes")))
     next
 }
 
@@ -94,10 +107,11 @@ function fetched(key, what) { return (key, what) in fetch ? sprintf("%.3g", fetc
 
 END {
     print "## Structures, " variant "\n"
-    print "| scene | primitives | structure | build, ms | primary, ns | shadow, ns | ao, ns | random, ns |" \
-          " primary: nodes + leaves | tests | ao: nodes + leaves | tests | KB | exact steps | loops |"
-    print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+    print "| scene | structure | build, ms | camera, ns | shadow, ns | ambient, ns | random, ns |" \
+          " camera: nodes / leaves / tests | ambient: nodes / leaves / tests | KB |"
+    print "|---|---|---|---|---|---|---|---|---|---|"
     print_lines(times_line, times)
+    printf "\nSteps along ropes that needed exact arithmetic: %d. Loops: %d.\n", exact_steps, loops
     print "\n## What AUTO takes\n"
     print "| scene | told | structure | why |\n|---|---|---|---|"
     print_lines(chosen_line, chosen)
@@ -110,10 +124,17 @@ END {
                     best_ms[scenes[i], kind[k]], auto_ms[scenes[i], kind[k]],
                     auto_ms[scenes[i], kind[k]] / best_ms[scenes[i], kind[k]]
     if (layouts) {
-        print "\n## Layouts and builders\n"
-        print "| scene | structure | layout | builder | build, ms | primary, ns | ao, ns | random, ns | KB | cost |"
-        print "|---|---|---|---|---|---|---|---|---|---|"
-        print_lines(layouts_line, layouts)
+        print "\n## Layouts: camera / ambient / random, ns a ray\n"
+        print "| scene | layout | one ray | packet |\n|---|---|---|---|"
+        for (i = 1; i <= layouts; i++) {
+            split(layout_keys[i], piece, SUBSEP)
+            printf "| %s | %s | %s | %s |\n", piece[1], piece[2], layout_ns[layout_keys[i], "single"],
+                layout_ns[layout_keys[i], "packet"]
+        }
+        print "\n## Builders\n"
+        print "| scene | builder | build, ms | cost | packets: camera / ambient / random, ns a ray | KB |"
+        print "|---|---|---|---|---|---|"
+        print_lines(builder_line, builders)
     }
     if (!fetches) exit
     print "\n## Transfers of nodes, per ray\n"

@@ -151,13 +151,6 @@ static void partition(task *t, const node *n, const cgt_kd_plane *plane, uint32_
     cgt_kd_partition(t->rules, &n->box, plane, n->item, n->count, false, to, counts);
 }
 
-static bool has_room(const task *t, const node *n)
-{
-    const cgt_kd_output *out = t->out;
-    return out->end_node - out->next_node >= 2 && n->count <= t->room &&
-           out->end_reference - out->next_reference >= 2 * (uint64_t)n->count;
-}
-
 #define FEW 6 /* items that are worth a look before they are binned */
 
 static void build(task *t, node n);
@@ -227,7 +220,7 @@ static void build(task *t, node n)
         const cgt_kd_plane plane = cgt_kd_choose_binned(t->rules, &t->bins, &n.box, weight);
         if (plane.axis == 3)
             break;
-        if (n.depth == t->rules->most_depth || !has_room(t, &n)) {
+        if (n.depth == t->rules->most_depth || !cgt_kd_has_room(t->out, n.count, t->room)) {
             t->out->limited++;
             break;
         }

@@ -62,14 +62,6 @@ static cgt_kd_plane choose(const task *t, const node *n)
     return best;
 }
 
-/* Whether there is room for both children, whatever they get; sizes are not known before triangles are clipped. */
-static bool has_room(const task *t, const node *n)
-{
-    const cgt_kd_output *out = t->out;
-    return out->end_node - out->next_node >= 2 && n->count <= t->room &&
-           out->end_reference - out->next_reference >= 2 * (uint64_t)n->count;
-}
-
 /* Items to children; to[larger] is where they are. */
 static void move_items(const task *t, const node *n, const cgt_kd_plane *plane, node child[2])
 {
@@ -168,7 +160,7 @@ static void build(task *t, node n)
         const cgt_kd_plane plane = choose(t, &n);
         if (plane.axis == 3)
             break;
-        if (n.depth == t->rules->most_depth || !has_room(t, &n)) {
+        if (n.depth == t->rules->most_depth || !cgt_kd_has_room(t->out, n.count, t->room)) {
             t->out->limited++;
             break;
         }

@@ -146,6 +146,14 @@ void cgt_kd_make_leaf(const cgt_kd_rules *rules, cgt_kd_output *out, uint32_t no
 uint32_t cgt_kd_make_inner(const cgt_kd_rules *rules, cgt_kd_output *out, uint32_t node, const cgt_kd_box *box,
                            const cgt_kd_plane *plane);
 
+/* Whether there is room for both children of a node, whatever they get; sizes are not known before triangles are
+ * clipped. stack: items that the stack takes. */
+static inline bool cgt_kd_has_room(const cgt_kd_output *out, uint32_t items, size_t stack)
+{
+    return out->end_node - out->next_node >= 2 && items <= stack &&
+           out->end_reference - out->next_reference >= 2 * (uint64_t)items;
+}
+
 /* Leaves a child with as much of the room as it has of the items; the caller sets the ends back. */
 void cgt_kd_share_room(cgt_kd_output *out, uint32_t items, uint32_t others);
 

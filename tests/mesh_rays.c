@@ -81,11 +81,9 @@ static void find_bounds(const hard_scene *s, float low[3], float high[3])
         }
 }
 
-bool mesh_aim_pixels(hard_scene *s, const float eye[3], const float target[3])
+cgt_camera mesh_camera(const hard_scene *s, const float eye[3], const float target[3])
 {
     cgt_camera camera;
-    cgt_camera_rays pixels;
-    char message[160];
     float low[3], high[3];
     find_bounds(s, low, high);
     cgt_camera_init(&camera);
@@ -94,6 +92,14 @@ bool mesh_aim_pixels(hard_scene *s, const float eye[3], const float target[3])
         camera.target[a] = low[a] + target[a] * (high[a] - low[a]);
     }
     memcpy(camera.up, (float[3]){0.03f, 1, 0.02f}, sizeof camera.up);
+    return camera;
+}
+
+bool mesh_aim_pixels(hard_scene *s, const float eye[3], const float target[3])
+{
+    const cgt_camera camera = mesh_camera(s, eye, target);
+    cgt_camera_rays pixels;
+    char message[160];
     if (cgt_camera_prepare(&camera, 1280, 720, &pixels, message) != CGT_OK) {
         fprintf(stderr, "%s\n", message);
         return false;

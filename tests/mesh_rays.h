@@ -7,6 +7,8 @@
 
 #include <stdbool.h>
 
+#include <cgt/cgt.h>
+
 #include "support/hard_scene.h"
 
 /* Whether this build reads such a file, and it is there; says so where not. */
@@ -15,8 +17,10 @@ bool mesh_is_here(const char *path);
 /* Reads the file into a scene without rays, for `rays` of them; false with a message. */
 bool mesh_read(const char *path, uint32_t rays, hard_scene *s);
 
-/* Rays of a picture in squares of 8x8 pixels. Eye and target are given by their place in the bounds, 0 to 1 along each
- * axis. False where the camera is not one. */
+/* A camera whose eye and target are given by their place in the bounds, 0 to 1 along each axis. */
+cgt_camera mesh_camera(const hard_scene *s, const float eye[3], const float target[3]);
+
+/* Rays of such a camera's picture in squares of 8x8 pixels. False where the camera is not one. */
 bool mesh_aim_pixels(hard_scene *s, const float eye[3], const float target[3]);
 
 /* From anywhere in the bounds and around them to vertices and points of edges, rounded. */

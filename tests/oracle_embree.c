@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Embree as an independent opinion: the shipped trajectory, closed meshes and random scenes, pixel by pixel. Where the
- * two disagree, exact arithmetic says who is wrong. That must never be libcgt; how often it is Embree is printed. */
+ * Embree as an independent opinion: the shipped trajectory, closed meshes, real meshes and random scenes, pixel by
+ * pixel. Where the two disagree, exact arithmetic says who is wrong. That must never be libcgt; how often it is Embree
+ * is printed. */
 #include "support/test.h"
 
 #include <math.h>
@@ -11,6 +12,7 @@
 
 #include "embree_opinion.h"
 #include "embree_scene.h"
+#include "mesh_rays.h"
 #include "picture.h"
 #include "random_soup.h"
 #include "support/hard_run.h"
@@ -275,6 +277,85 @@ static void random_triangles(void **state)
     cgt_context_release(context);
 }
 
+/* ---- real meshes ---- */
+
+typedef struct real_mesh {
+    const char *path, *name, *package;
+    float eye[3], target[3]; /* by their place in the bounds */
+} real_mesh;
+
+static const real_mesh meshes[] = {
+    {"/usr/share/glmark2/models/bunny.obj", "bunny", "glmark2-data", {0.7f, 0.8f, 2.6f}, {0.5f, 0.45f, 0.5f}},
+    {"/usr/share/glmark2/models/cat.3ds", "cat", "glmark2-data", {2.1f, 0.7f, 1.9f}, {0.5f, 0.5f, 0.5f}},
+    {"/usr/share/assimp/models/OBJ/spider.obj", "spider", "assimp-testmodels", {0.9f, 2.6f, 1.7f}, {0.5f, 0.4f, 0.5f}},
+    {"/usr/share/assimp/models/OBJ/WusonOBJ.obj", "Wuson", "assimp-testmodels", {1.5f, 0.8f, 2.2f}, {0.5f, 0.5f, 0.5f}},
+    {"/usr/share/assimp/models/IFC/AC14-FZK-Haus.ifc",
+     "house from inside",
+     "assimp-testmodels",
+     {0.45f, 0.25f, 0.4f},
+     {0.9f, 0.28f, 0.7f}}};
+
+/* The same picture through each tree, ray by ray and in packets: where one is right, the others have its bits. */
+static void compare_trees(cgt_context *context, hard_scene *s, const cgt_camera *camera, tally *sum)
+{
+    static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES};
+    static const cgt_kd_builder builder[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};
+    static const cgt_kd_traversal traversal[] = {CGT_KD_TRAVERSAL_SINGLE, CGT_KD_TRAVERSAL_PACKET};
+    picture q = picture_make(WIDTH, HEIGHT);
+    full_hit *first = NULL;
+    picture_aim(s, camera, WIDTH, HEIGHT);
+    subject w = subject_make(s);
+    for (int way = 0; way < 8; way++) {
+        const cgt_scene_options options = {.structure = structure[way / 4], .kd_builder = builder[way / 2 % 2]};
+        cgt_trace_options trace;
+        cgt_scene *scene;
+        cgt_trace_options_init(&trace);
+        trace.kd_traversal = traversal[way % 2];
+        if (hard_commit_with(context, s, &options, &scene) != CGT_OK)
+            fail_msg("%s", context_message(context));
+        picture_trace(scene, camera, &trace, &q);
+        cgt_scene_release(scene);
+        if (first) {
+            for (uint32_t i = 0; i < s->rays; i++)
+                if (memcmp(&first[i], &q.hit[i], sizeof q.hit[i]) != 0)
+                    fail_ray(&s->ray[i], &q.hit[i], &first[i], "not what the first tree finds, here Embree");
+            continue;
+        }
+        for (uint32_t i = 0; i < s->rays; i++)
+            judge(&w, &s->ray[i], &q.hit[i], sum);
+        first = malloc((s->rays + (size_t)1) * sizeof *first);
+        assert_non_null(first);
+        memcpy(first, q.hit, s->rays * sizeof *first);
+    }
+    free(first);
+    subject_free(&w);
+    picture_free(&q);
+}
+
+static void real_meshes(void **state)
+{
+    (void)state;
+    uint32_t here = 0;
+    cgt_context *context = context_make(2, NULL);
+    for (size_t i = 0; i < TEST_COUNT(meshes); i++) {
+        tally sum = {0};
+        hard_scene s;
+        if (!mesh_is_here(meshes[i].path)) {
+            print_message("%s comes with the package %s\n", meshes[i].name, meshes[i].package);
+            continue;
+        }
+        assert_true(mesh_read(meshes[i].path, 1, &s));
+        const cgt_camera camera = mesh_camera(&s, meshes[i].eye, meshes[i].target);
+        compare_trees(context, &s, &camera, &sum);
+        print_tally(meshes[i].name, &sum, 20);
+        hard_scene_free(&s);
+        here++;
+    }
+    cgt_context_release(context);
+    if (!here)
+        skip();
+}
+
 /* Rays from far away at the outlines of spheres: where single precision cannot tell. */
 static void outlines_from_afar(void **state)
 {
@@ -324,8 +405,8 @@ static void outlines_from_afar(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(trajectory_frames), cmocka_unit_test(random_spheres),
-                                       cmocka_unit_test(closed_meshes), cmocka_unit_test(random_triangles),
-                                       cmocka_unit_test(outlines_from_afar)};
+                                       cmocka_unit_test(closed_meshes),     cmocka_unit_test(random_triangles),
+                                       cmocka_unit_test(real_meshes),       cmocka_unit_test(outlines_from_afar)};
     test_begin("oracle_embree");
     if (!embree_begin())
         return 1;

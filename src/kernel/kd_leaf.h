@@ -172,6 +172,17 @@ static void leaf_test_fast(leaf_tests *l, const uint32_t *reference, uint32_t co
     }
 }
 
+/* Objects of a leaf lie here and there: all are asked for before the first is tested. Of several arrays none is: to find
+ * the right one takes as long. */
+CGT_SPU_INLINE void leaf_prefetch(const leaf_tests *l, const uint32_t *reference, uint32_t count)
+{
+    const cgt_object_array *a = l->objects->array;
+    if (l->objects->arrays != 1)
+        return;
+    for (uint32_t k = 0; k < count; k++)
+        __builtin_prefetch(l->triangle ? (const void *)&l->triangle[reference[k]] : cgt_array_point(a, reference[k]));
+}
+
 /* Tests rays i to i + CGT_LANES - 1 against all objects of a leaf. r: these rays. Some that do not pass the leaf may be
  * among them: what they meet, they meet. */
 CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
@@ -182,6 +193,7 @@ CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const ui
         leaf_test_fast(l, reference, count, i);
         return;
     }
+    leaf_prefetch(l, reference, count);
     for (uint32_t k = 0; k < count; k++) {
         if (l->mailbox && leaf_mailbox_has(l, reference[k]))
             continue;

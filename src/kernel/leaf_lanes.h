@@ -12,8 +12,13 @@
  *   D = e_1.(d x e_2) within 9 u |d| [e_1] [e_2]      T = e_2.(s x e_1) within 9 u [s] [e_1] [e_2]
  *   W = D - U - V     within the errors of all three, and 2 u of their sizes
  * each enlarged by 2^-7 for what is of second order. U, V and W are on which side of each edge the line passes: the
- * signs of triangle_double.h, times scale^2. t = T / D. What underflows, in a vertex, a product or a sum, is below
- * 2^-120 (|d| + 1), which is added. */
+ * signs of triangle_double.h, times scale^2. t = T / D, over the scale.
+ *
+ * What underflows, in a vertex, a product or a sum, is below 2^-124, and |d| or [s] may be multiplied with it, or both:
+ * 2^-118 (|d| + 1) ([s] + 1) is added to U, V and W, 2^-118 ([s] + 1) to T, and 2^-118 (|d| + 1) to D. Where [s] is
+ * beyond 2^124, products may overflow: then what is added is infinite, and no sign is certain. What is not finite
+ * compares with nothing, so that such lanes are open.
+ * Where |D| is not above four times its error, t may be anything, and its interval is everything. */
 #ifndef CGT_LEAF_LANES_H
 #define CGT_LEAF_LANES_H
 
@@ -33,10 +38,10 @@ typedef struct lane_rays {
     vfloat rlength;         /* 1 / |d|, rounded up */
     vfloat most, underflow; /* of triangles, and so is the next */
     vfloat scaled_org[3];
-    vfloat scale, unscale; /* of the world */
+    vfloat unscale; /* 1 over the world's scale */
 } lane_rays;
 
-/* What the tests find: intervals of t, which lanes hit for certain and which may. */
+/* What the tests find: which lanes hit for certain, with an interval of t; and which may hit, not before `low`. */
 typedef struct lane_hits {
     vfloat low, high;
     vmask certain, open;
@@ -46,10 +51,9 @@ CGT_SPU_INLINE void lane_rays_finish(lane_rays *r, float scale)
 {
     r->rlength = spu_mul(spux_sqrt(r->rdd), spux_vfloat(1 + 0x1p-18f));
     r->most = spux_max(spux_abs(r->dir[0]), spux_max(spux_abs(r->dir[1]), spux_abs(r->dir[2])));
-    r->underflow = spu_madd(r->most, spux_vfloat(0x1p-120f), spux_vfloat(0x1p-120f));
+    r->underflow = spu_madd(r->most, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
     for (int a = 0; a < 3; a++)
         r->scaled_org[a] = spu_mul(r->org[a], spux_vfloat(scale));
-    r->scale = spux_vfloat(scale);
     r->unscale = spux_vfloat(1 / scale);
 }
 
@@ -164,27 +168,30 @@ CGT_SPU_INLINE bool lane_triangle(const lane_rays *r, const lane_triangles *tria
     lane_cross(r->dir, e2, across);
     lane_cross(from, e1, beside);
     const vfloat u = lane_dot(from, across), v = lane_dot(r->dir, beside), den = lane_dot(e1, across);
-    const vfloat size = spu_mul(r->most, lane_sum(from)), edges = spu_mul(triangle->sum[0], triangle->sum[1]);
+    const vfloat away = lane_sum(from), size = spu_mul(r->most, away),
+                 edges = spu_mul(triangle->sum[0], triangle->sum[1]);
     const vfloat eps_u = spu_mul(size, triangle->sum[1]), eps_v = spu_mul(size, triangle->sum[0]);
     const vfloat eps_den = spu_mul(r->most, edges);
-    lane_side(u, spu_madd(eps_u, spux_vfloat(LANE_SIDE), r->underflow), all, any);
-    lane_side(v, spu_madd(eps_v, spux_vfloat(LANE_SIDE), r->underflow), all, any);
+    const vfloat underflow =
+        spu_madd(spu_mul(away, spux_vfloat(16)), spu_mul(r->underflow, spux_vfloat(0x1p-4f)), r->underflow);
+    lane_side(u, spu_madd(eps_u, spux_vfloat(LANE_SIDE), underflow), all, any);
+    lane_side(v, spu_madd(eps_v, spux_vfloat(LANE_SIDE), underflow), all, any);
     lane_side(spu_sub(spu_sub(den, u), v),
-              spu_madd(spu_add(spu_add(eps_u, eps_v), eps_den), spux_vfloat(LANE_THIRD), r->underflow), all, any);
+              spu_madd(spu_add(spu_add(eps_u, eps_v), eps_den), spux_vfloat(LANE_THIRD), underflow), all, any);
     const vmask inside = spu_or(all[0], all[1]), outside = spu_and(any[0], any[1]);
     if (spux_all(outside))
         return false;
     const vfloat delta = spu_madd(eps_den, spux_vfloat(LANE_PLANE), r->underflow);
-    const vfloat num_error = spu_madd(spu_mul(edges, spux_vfloat(LANE_PLANE)), lane_sum(from), spux_vfloat(0x1p-120f));
-    const vfloat num = lane_dot(e2, beside), rden = spux_div(r->unscale, den);
-    const vfloat t = spu_mul(num, rden), reach = spux_abs(t);
-    /* num and its error are scaled once more often than den */
-    const vfloat error =
-        spu_mul(spu_madd(spu_mul(reach, r->scale), delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
-    const vfloat width = spu_madd(reach, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-126f)));
+    const vfloat num_error =
+        spu_madd(spu_madd(edges, spux_vfloat(LANE_PLANE), spux_vfloat(0x1p-118f)), away, spux_vfloat(0x1p-118f));
+    const vfloat num = lane_dot(e2, beside), rden = spux_div(spux_vfloat(1), den);
+    const vfloat t = spu_mul(num, rden), reach = spux_abs(t), tiny = spux_vfloat(0x1p-126f);
+    const vfloat error = spu_mul(spu_madd(reach, delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
+    const vfloat width = spu_madd(reach, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-124f)));
     const vmask steep = spu_cmpgt(spux_abs(den), spu_mul(delta, spux_vfloat(4)));
-    q->low = spu_sub(t, width);
-    q->high = spu_add(t, width);
+    /* 1 / den is a number near 1 whatever the world's scale: that comes last */
+    q->low = spux_select(spux_vfloat(-INFINITY), spu_msub(spu_sub(t, width), r->unscale, tiny), steep);
+    q->high = spux_select(spux_vfloat(INFINITY), spu_madd(spu_add(t, width), r->unscale, tiny), steep);
     const vmask behind = spu_and(steep, spu_cmpgt(r->t_min, q->high));
     q->certain = spu_and(spu_and(inside, steep), spu_cmpgt(q->low, r->t_min));
     q->open = spux_not(spu_or(spu_or(outside, behind), q->certain));
