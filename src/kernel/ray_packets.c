@@ -3,6 +3,8 @@
  *
  * Arrays of rays. Through a grid, neighbours become packets as they come, and the traversal splits those whose rays run
  * apart. Through a tree, packets are made of neighbours among the rays of like direction. */
+#include <float.h>
+
 #include "kernel.h"
 #include "ray_box.h"
 
@@ -45,7 +47,8 @@ static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k
     }
     const float t_min = r->t_min ? element(s, r->t_min, i) : 0, t_max = r->t_max ? element(s, r->t_max, i) : INFINITY;
     p->rdd[k] = 1 / dd;
-    p->t_min[k] = t_min;
+    /* a t of minus infinity is no hit: where a sphere's first root is one, its second may still be a hit */
+    p->t_min[k] = t_min < -FLT_MAX ? -FLT_MAX : t_min;
     p->t_max[k] = t_max;
     if (zero != 0 || longest == 0 || t_min != t_min || t_max != t_max)
         return RAY_INVALID;
