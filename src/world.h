@@ -6,6 +6,7 @@
 #define CGT_WORLD_H
 
 #include "kd_tree.h"
+#include "loose_grid.h"
 #include "queue_grid.h"
 
 /* Beyond this, squares of coordinates leave the range of float: no structure then. */
@@ -22,6 +23,7 @@ typedef struct cgt_world {
     cgt_structure structure; /* which of the next is built; none where `everything`, or no object is valid */
     cgt_queue_grid grid;
     cgt_kd_tree kd;
+    cgt_loose_grid loose;
     const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_triangle_number */
 } cgt_world;
 

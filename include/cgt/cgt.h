@@ -168,8 +168,10 @@ typedef enum cgt_structure {
     CGT_STRUCTURE_QUEUE_GRID, /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
                                  voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
     CGT_STRUCTURE_KD,         /* kd-tree in nodes of 8 bytes, by the surface-area heuristic; traversed with a stack */
-    CGT_STRUCTURE_KD_ROPES    /* the same tree, its leaves linked across their faces (Popov et al. 2007); traversed
+    CGT_STRUCTURE_KD_ROPES,   /* the same tree, its leaves linked across their faces (Popov et al. 2007); traversed
                                  without a stack; 80 bytes a leaf more */
+    CGT_STRUCTURE_LOOSE_GRID  /* uniform grids, one for each class of sizes; each primitive lies in one cell, that of its
+                                 middle */
 } cgt_structure;
 
 /* What rays the scene is mostly traced with, for AUTO. */
