@@ -126,6 +126,8 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_object_summary *s)
         snprintf(why, bytes, "%s", s->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
         return CGT_OK;
     }
+    if (world->structure == CGT_STRUCTURE_LOOSE_GRID)
+        return cgt_loose_grid_commit(scene, s);
     snprintf(why, bytes, "kd-tree: asked for");
     if (chosen && !scene->options.resolution[0]) /* who asks for cells asks for a grid */
         world->structure = cgt_choose_structure(world, scene->options.rays, why, bytes);

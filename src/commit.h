@@ -7,12 +7,14 @@
 
 #include "scene.h"
 
-/* Reads, checks and bounds all objects. Fails where a triangle's index is out of range. */
+/* Reads, checks and bounds all objects. Fails where a triangle's index is out of range. The loose grid gets size
+ * classes and middles of triangles (CGT_BUFFER_SIZE_CLASSES, CGT_BUFFER_LOOSE_WORK), other structures the diameters. */
 cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *summary);
 
 /* Build a structure over the valid objects, of which there is at least one, and fill in the statistics that are the
  * structure's own. */
 cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_object_summary *summary);
 cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes);
+cgt_result cgt_loose_grid_commit(cgt_scene *scene, const cgt_object_summary *summary);
 
 #endif

@@ -6,8 +6,13 @@
  * and no mailbox, an object is written once, and a row of cells is one run of objects.
  *
  * Objects of like size share a level, a grid of its own: one large object enlarges the cells of its level alone. Levels
- * go from large to small; each takes sizes (the largest of the three half extents) within a factor of 4, the last one
- * all that are smaller. A level without objects is left out. */
+ * go from large to small; each takes sizes (the largest of the three half extents) within a factor of 4, and smaller
+ * ones too where those are few, since a grid for them would cost more than it spares; the sixteenth takes all that are
+ * smaller. A level without objects is left out.
+ *
+ * Memory for an object: 4 bytes of `object` and at most 2 of `start`, 4 for each cell where cells are asked for. What a
+ * commit needs is kept for the next: 8 bytes (20 for a triangle) of keys, middles and pairs, 1.4 of sizes and bins. Few
+ * objects take 13 KB besides. */
 #ifndef CGT_LOOSE_GRID_H
 #define CGT_LOOSE_GRID_H
 
@@ -18,9 +23,11 @@
 typedef struct cgt_loose_level {
     float low[3];     /* corner of the first cell */
     float cell[3];    /* edges of a cell, above 0 */
-    uint32_t size[3]; /* cells along x, y, z, 1 to 1024 each */
+    float rcell[3];   /* 1 / cell, rounded */
+    uint32_t size[3]; /* cells along x, y, z, 1 to 1024 each, 2^24 in all */
     uint32_t first;   /* cell (0, 0, 0) in `start`; x runs fastest, then y, then z */
     uint32_t objects;
+    float least;    /* sizes from here on belong to this level or one before it */
     float reach[3]; /* The bounds of an object in cell i lie within low + i cell - reach and low + (i + 1) cell + reach
                        along each axis, in exact arithmetic of these numbers: what rounding of keys adds is in it */
 } cgt_loose_level;

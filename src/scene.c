@@ -18,7 +18,7 @@ void cgt_scene_options_init(cgt_scene_options *options) { memset(options, 0, siz
 static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
 {
     const uint32_t *r = o->resolution;
-    if ((unsigned)o->structure > CGT_STRUCTURE_KD_ROPES)
+    if ((unsigned)o->structure > CGT_STRUCTURE_LOOSE_GRID)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: structure %d is unknown", (int)o->structure);
     if ((unsigned)o->rays > CGT_RAYS_INCOHERENT)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: rays %d is unknown", (int)o->rays);

@@ -29,7 +29,12 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_KD_REFERENCES,
     CGT_BUFFER_KD_LEAVES,
     CGT_BUFFER_LEAF_TRIANGLES,
-    CGT_BUFFER_KD_WORK, /* what the builder needs while it runs */
+    CGT_BUFFER_KD_WORK,      /* what the builder needs while it runs */
+    CGT_BUFFER_SIZE_CLASSES, /* cgt_size_classes, one per chunk of objects */
+    CGT_BUFFER_LOOSE_START,
+    CGT_BUFFER_LOOSE_OBJECT,
+    CGT_BUFFER_LOOSE_WORK, /* middles of triangles, then cgt_loose_pair of all objects */
+    CGT_BUFFER_LOOSE_BINS, /* where chunks of objects go in each bin */
     CGT_SCENE_BUFFERS
 } cgt_scene_buffer;
 

@@ -5,7 +5,49 @@
 #ifndef CGT_SUMMARY_H
 #define CGT_SUMMARY_H
 
+#include <stdbool.h>
 #include <stdint.h>
+
+/* What structures of several sizes need: the objects by size, the largest half extent of their bounds. Class k holds
+ * the sizes whose float has exponent bits k: within a factor of 2; class 0 those below 2^-126, points among them. */
+#define CGT_SIZE_CLASSES 256u
+
+typedef struct cgt_size_class {
+    uint32_t count;
+    float low[3], high[3]; /* of the middles of the objects' bounds */
+    float half[3];         /* largest half extents of the bounds, seen from those middles, rounded upwards */
+} cgt_size_class;
+
+typedef struct cgt_size_classes {
+    uint32_t used[CGT_SIZE_CLASSES / 32]; /* bit k: class k has objects; without it what it holds is undefined */
+    cgt_size_class of[CGT_SIZE_CLASSES];
+} cgt_size_classes;
+
+/* Adds a class to those that there are; sums and extremes do not depend on the order. */
+static inline void cgt_size_classes_add(cgt_size_classes *to, uint32_t k, const cgt_size_class *c)
+{
+    cgt_size_class *t = &to->of[k];
+    if (!(to->used[k / 32] >> k % 32 & 1)) {
+        to->used[k / 32] |= UINT32_C(1) << k % 32;
+        *t = *c;
+        return;
+    }
+    t->count += c->count;
+    for (int a = 0; a < 3; a++) {
+        t->low[a] = c->low[a] < t->low[a] ? c->low[a] : t->low[a];
+        t->high[a] = c->high[a] > t->high[a] ? c->high[a] : t->high[a];
+        t->half[a] = c->half[a] > t->half[a] ? c->half[a] : t->half[a];
+    }
+}
+
+/* What the pass is to find out besides. With classes it keeps, for each triangle by its number among them, the middle
+ * of its bounds and its size, -1 where it is skipped: so that its vertices, which lie anywhere, are fetched once. */
+typedef struct cgt_summary_wishes {
+    bool diameters;            /* sums of the diameters' powers: in order, so that they take longer than all the rest */
+    cgt_size_classes *classes; /* gets the sizes; NULL: none */
+    float *middle;             /* of triangles: planes of x, y, z and size; NULL where there are no classes */
+    uint32_t triangles;        /* floats of a plane */
+} cgt_summary_wishes;
 
 /* Lengths in world units. */
 typedef struct cgt_object_summary {
@@ -15,7 +57,7 @@ typedef struct cgt_object_summary {
     uint32_t skipped_degenerate;
     uint32_t bad_index;   /* the first object with an index out of range; CGT_NONE: none */
     float min[3], max[3]; /* outwards rounded */
-    double diameter[4];   /* sums of the powers 0 to 3 of the diameters */
+    double diameter[4];   /* sums of the powers 0 to 3 of the diameters; 0 where they were not wished for */
     float magnitude;      /* largest coordinate of any bound */
 } cgt_object_summary;
 

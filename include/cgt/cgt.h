@@ -170,7 +170,7 @@ typedef enum cgt_structure {
     CGT_STRUCTURE_KD,         /* kd-tree in nodes of 8 bytes, by the surface-area heuristic; traversed with a stack */
     CGT_STRUCTURE_KD_ROPES,   /* the same tree, its leaves linked across their faces (Popov et al. 2007); traversed
                                  without a stack; 80 bytes a leaf more */
-    CGT_STRUCTURE_LOOSE_GRID  /* uniform grids, one for each class of sizes; each primitive lies in one cell, that of its
+    CGT_STRUCTURE_LOOSE_GRID /* uniform grids, one for each class of sizes; each primitive lies in one cell, that of its
                                  middle */
 } cgt_structure;
 
@@ -199,7 +199,7 @@ typedef enum cgt_kd_layout {
 typedef struct cgt_scene_options {
     cgt_structure structure;   /* default AUTO */
     uint32_t resolution[3];    /* of the grid: cells along x, y, z, each 1 to 1024 and 16,777,216 in all; 0, 0, 0
-                                  (default): chosen from the scene at each commit */
+                                  (default): chosen from the scene at each commit. A loose grid has one level then */
     cgt_ray_kind rays;         /* default CAMERA */
     cgt_kd_builder kd_builder; /* default AUTO */
     cgt_kd_layout kd_layout;   /* default AUTO */
@@ -249,8 +249,9 @@ typedef struct cgt_scene_statistics {
     uint32_t skipped_degenerate; /* triangles without an area */
     float bounds_min[3];         /* of all that was not skipped, rounded outwards; 0 where there is nothing */
     float bounds_max[3];
-    uint32_t resolution[3]; /* cells along x, y, z */
+    uint32_t resolution[3]; /* cells along x, y, z; of the loose grid's finest level */
     uint64_t cells;
+    uint32_t levels;              /* of the loose grid: classes of sizes */
     uint32_t reference_bits;      /* of a reference in a voxel: 16 or 32 */
     uint64_t references;          /* primitives in cells, counted once per cell, overflow included */
     uint64_t overflow_references; /* those that found a full queue and went to the overflow list */
@@ -264,7 +265,8 @@ typedef struct cgt_scene_statistics {
     double kd_cost;               /* of the surface-area heuristic for the whole tree, in units of one sphere test */
     cgt_kd_builder kd_builder;    /* what was used */
     cgt_kd_layout kd_layout;      /* what was used */
-    size_t structure_bytes;       /* that traversal reads: voxels and overflow list, or nodes, references and ropes */
+    size_t structure_bytes;       /* that traversal reads: voxels and overflow list, cells and references, or nodes,
+                                     references and ropes */
     size_t bytes;                 /* memory that the scene holds now */
     size_t local_store_bytes;     /* grid, overflow list and primitives together: what a Cell SPU has to hold */
     int fits_local_store;         /* 1 where the grid is at most 16x16x16 and local_store_bytes, with 64 KB for

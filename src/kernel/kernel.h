@@ -23,6 +23,14 @@ typedef struct cgt_fill_counts {
     uint32_t large_primitives;
 } cgt_fill_counts;
 
+/* What the cells of objects are found from. A key is a cell of all levels; `skipped` is beyond them. */
+typedef struct cgt_loose_keys {
+    const cgt_loose_grid *grid; /* levels are there */
+    const float *middle;        /* of triangles, see cgt_summary_wishes */
+    uint32_t triangles;
+    uint32_t skipped;
+} cgt_loose_keys;
+
 typedef struct cgt_kernel {
     const char *name;
     uint32_t lanes;
@@ -31,6 +39,15 @@ typedef struct cgt_kernel {
      * before which it stopped because the overflow list might not hold what that object spills. */
     uint32_t (*queue_grid_fill)(const cgt_queue_grid *grid, uint32_t first, uint32_t end, cgt_overflow_list *overflow,
                                 cgt_fill_counts *counts);
+
+    /* Adds objects first to end - 1, all of one array, to a summary, in order, and to what else is wished for. Stops at
+     * the first index that is out of range. */
+    void (*summarise)(const cgt_object_array *array, uint32_t first, uint32_t end, const cgt_summary_wishes *wishes,
+                      cgt_object_summary *summary);
+
+    /* The cells of objects first to end - 1, all of one array, to key[0] and on; skipped ones get job->skipped. */
+    void (*loose_grid_keys)(const cgt_loose_keys *job, const cgt_object_array *array, uint32_t first, uint32_t end,
+                            uint32_t *key);
 
     /* Traces the pixels of a region of a camera's frame. */
     void (*trace_region)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,

@@ -6,6 +6,10 @@
 
 uint32_t CGT_KERNEL(cgt_queue_grid_fill)(const cgt_queue_grid *grid, uint32_t first, uint32_t end,
                                          cgt_overflow_list *overflow, cgt_fill_counts *counts);
+void CGT_KERNEL(cgt_summarise_array)(const cgt_object_array *array, uint32_t first, uint32_t end,
+                                     const cgt_summary_wishes *wishes, cgt_object_summary *summary);
+void CGT_KERNEL(cgt_loose_grid_keys)(const cgt_loose_keys *job, const cgt_object_array *array, uint32_t first,
+                                     uint32_t end, uint32_t *key);
 void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
 void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
@@ -19,6 +23,8 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .name = NAME(CGT_VARIANT),
     .lanes = CGT_LANES,
     .queue_grid_fill = CGT_KERNEL(cgt_queue_grid_fill),
+    .summarise = CGT_KERNEL(cgt_summarise_array),
+    .loose_grid_keys = CGT_KERNEL(cgt_loose_grid_keys),
     .trace_region = CGT_KERNEL(cgt_trace_region),
     .trace_rays = CGT_KERNEL(cgt_trace_rays),
 };

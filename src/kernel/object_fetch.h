@@ -1,0 +1,89 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A vector of primitives from the caller's arrays, at any stride. Records of three numbers are read as four where
+ * another record follows: its bytes are the caller's too. Near the end of an array they are read one by one. */
+#ifndef CGT_OBJECT_FETCH_H
+#define CGT_OBJECT_FETCH_H
+
+#include "kernel.h"
+#include "vector.h"
+
+/* Spheres i to i + count - 1 to the first lanes: x, y, z, radius; zeros beyond. */
+CGT_SPU_INLINE void fetch_spheres(const cgt_object_array *a, uint32_t i, uint32_t count, vfloat d[4])
+{
+    const bool inside = count == CGT_LANES && a->count - i > CGT_LANES;
+    const bool records = a->radius == a->point + 3 * sizeof(float) && a->radius_stride == a->point_stride;
+    if (inside && (records || a->radius_stride == sizeof(float) || !a->radius_stride)) {
+        const float *radius = (const float *)(const void *)(a->radius + (size_t)i * a->radius_stride);
+        spux_load_records4(cgt_array_point(a, i), a->point_stride / sizeof(float), d);
+        if (!records)
+            d[3] = a->radius_stride ? spux_load_unaligned(radius) : spux_vfloat(*radius);
+        return;
+    }
+    _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES] = {{0}};
+    for (uint32_t k = 0; k < count; k++) {
+        const cgt_sphere q = cgt_array_sphere(a, i + k);
+        row[0][k] = q.x;
+        row[1][k] = q.y;
+        row[2][k] = q.z;
+        row[3][k] = q.r;
+    }
+    for (int k = 0; k < 4; k++)
+        d[k] = spux_load(row[k]);
+}
+
+/* The corners of triangles i to i + count - 1, zeros beyond. */
+CGT_SPU_INLINE void fetch_corners(const cgt_object_array *a, uint32_t i, uint32_t count, vuint corner[3])
+{
+    if (a->index && count == CGT_LANES && a->count - i > CGT_LANES) {
+        vfloat d[4];
+        spux_load_records4((const float *)(const void *)(a->index + (size_t)i * a->index_stride),
+                           a->index_stride / sizeof(uint32_t), d);
+        for (int k = 0; k < 3; k++)
+            corner[k] = (vuint)d[k];
+        return;
+    }
+    _Alignas(CGT_VECTOR_BYTES) uint32_t row[3][CGT_LANES] = {{0}};
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t c[3];
+        cgt_array_corners(a, i + k, c);
+        for (int j = 0; j < 3; j++)
+            row[j][k] = c[j];
+    }
+    for (int j = 0; j < 3; j++)
+        corner[j] = spux_load_uint(row[j]);
+}
+
+/* Whether vertices of an array can be told by 32 bits that count floats. */
+CGT_SPU_INLINE bool fetch_vertices_fit(const cgt_object_array *a)
+{
+    return (uint64_t)a->points * (a->point_stride / sizeof(float)) <= UINT32_MAX;
+}
+
+/* Vertices of an array by their numbers, which are in range. before_last: none is the last one, and they fit. */
+CGT_SPU_INLINE void fetch_vertices(const cgt_object_array *a, vuint corner, bool before_last, vfloat v[3])
+{
+    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+    spux_store_uint(at, corner);
+    if (before_last) {
+        const uint32_t stride = (uint32_t)(a->point_stride / sizeof(float));
+        vfloat d[4];
+        for (int k = 0; k < CGT_LANES; k++)
+            at[k] *= stride;
+        spux_load_records4_at((const float *)(const void *)a->point, at, d);
+        for (int k = 0; k < 3; k++)
+            v[k] = d[k];
+        return;
+    }
+    _Alignas(CGT_VECTOR_BYTES) float row[3][CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const float *p = cgt_array_point(a, at[k]);
+        for (int j = 0; j < 3; j++)
+            row[j][k] = p[j];
+    }
+    for (int j = 0; j < 3; j++)
+        v[j] = spux_load(row[j]);
+}
+
+#endif

@@ -1,0 +1,263 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The pass over all objects of a commit, a vector at a time: what is skipped, bounds, sizes. Every number is the one
+ * that the objects one after another give, on any width: sums are taken in their order, in double; extremes have
+ * none. */
+#include "kernel.h"
+
+#include <math.h>
+
+#include "object_fetch.h"
+#include "size_gather.h"
+
+/* What is known of a vector of objects. */
+typedef struct object_bounds {
+    vfloat low[3], high[3];
+    vmask valid;
+} object_bounds;
+
+/* The pass so far. */
+typedef struct object_pass {
+    cgt_object_summary *summary;
+    const cgt_summary_wishes *wishes;
+    vfloat low[3], high[3];
+    size_gather sizes;
+} object_pass;
+
+static void begin_pass(object_pass *p, const cgt_summary_wishes *wishes, cgt_object_summary *summary)
+{
+    p->summary = summary;
+    p->wishes = wishes;
+    for (int a = 0; a < 3; a++) {
+        p->low[a] = spux_vfloat(INFINITY);
+        p->high[a] = spux_vfloat(-INFINITY);
+    }
+    if (wishes->classes)
+        size_gather_clear(&p->sizes);
+}
+
+static void end_pass(const object_pass *p, cgt_kind kind)
+{
+    cgt_object_summary *s = p->summary;
+    for (int a = 0; a < 3; a++) {
+        const float low = spux_hmin(p->low[a]), high = spux_hmax(p->high[a]);
+        s->min[a] = low < s->min[a] ? low : s->min[a];
+        s->max[a] = high > s->max[a] ? high : s->max[a];
+    }
+    if (p->wishes->classes)
+        size_gather_end(&p->sizes, kind == CGT_KIND_SPHERES ? 1 : 3, p->wishes->classes);
+}
+
+CGT_SPU_INLINE void add_bounds(object_pass *p, const object_bounds *b)
+{
+    for (int a = 0; a < 3; a++) {
+        p->low[a] = spux_select(p->low[a], spux_min(p->low[a], b->low[a]), b->valid);
+        p->high[a] = spux_select(p->high[a], spux_max(p->high[a], b->high[a]), b->valid);
+    }
+    p->summary->valid += spux_count_bits(spux_mask_bits(b->valid));
+}
+
+CGT_SPU_INLINE void add_diameter(cgt_object_summary *s, double d)
+{
+    s->diameter[1] += d;
+    s->diameter[2] += d * d;
+    s->diameter[3] += d * d * d;
+}
+
+/* ---- spheres ---- */
+
+/* Which of the spheres take part. */
+CGT_SPU_INLINE vmask check_spheres(const vfloat d[4], vmask there, cgt_object_summary *s)
+{
+    const vfloat infinity = spux_vfloat(INFINITY);
+    vmask finite = there;
+    for (int k = 0; k < 4; k++)
+        finite = spu_and(finite, spu_cmpgt(infinity, spux_abs(d[k])));
+    const vmask valid = spu_andc(finite, spu_cmpgt(spux_vfloat(0), d[3]));
+    s->skipped_not_finite += spux_count_bits(spux_mask_bits(spu_andc(there, finite)));
+    s->skipped_radius += spux_count_bits(spux_mask_bits(spu_andc(finite, valid)));
+    return valid;
+}
+
+static void add_sphere_diameters(cgt_object_summary *s, vfloat radius, vmask valid)
+{
+    _Alignas(CGT_VECTOR_BYTES) float r[CGT_LANES];
+    spux_store(r, radius);
+    for (unsigned left = spux_mask_bits(valid); left; left &= left - 1)
+        add_diameter(s, 2.0 * r[__builtin_ctz(left)]);
+}
+
+static void add_spheres(object_pass *p, const cgt_object_array *a, uint32_t i, uint32_t count)
+{
+    vfloat d[4];
+    object_bounds b;
+    fetch_spheres(a, i, count, d);
+    b.valid = check_spheres(d, spux_mask_first(count), p->summary);
+    for (int k = 0; k < 3; k++) {
+        b.low[k] = spu_sub(d[k], d[3]);
+        b.high[k] = spu_add(d[k], d[3]);
+    }
+    add_bounds(p, &b);
+    if (p->wishes->diameters)
+        add_sphere_diameters(p->summary, d[3], b.valid);
+    if (p->wishes->classes) {
+        const vfloat size = spux_abs(d[3]); /* -0 is a radius too */
+        size_gather_add(&p->sizes, d, &size, 1, size, b.valid);
+    }
+}
+
+/* ---- triangles ---- */
+
+/* Which of the triangles certainly have an area. Differences, products, their difference and the sum of their sizes are
+ * rounded four times each at most, within 2^-24, and underflow loses less than 2^-148: a component of the normal that
+ * is more than 2^-20 of that sum and 2^-120 is not 0. What overflows is infinite on both sides, or not a number, and
+ * the comparison is false. */
+CGT_SPU_INLINE vmask has_area(const vfloat v[3][3])
+{
+    vfloat e1[3], e2[3];
+    vmask some = spux_mask_none();
+    for (int a = 0; a < 3; a++) {
+        e1[a] = spu_sub(v[1][a], v[0][a]);
+        e2[a] = spu_sub(v[2][a], v[0][a]);
+    }
+    for (int a = 0; a < 3; a++) {
+        const vfloat p = spu_mul(e1[a], e2[(a + 1) % 3]), q = spu_mul(e1[(a + 1) % 3], e2[a]);
+        const vfloat least = spu_madd(spu_add(spux_abs(p), spux_abs(q)), spux_vfloat(0x1p-20f), spux_vfloat(0x1p-120f));
+        some = spu_or(some, spu_cmpgt(spux_abs(spu_sub(p, q)), least));
+    }
+    return some;
+}
+
+/* The same, decided. */
+static vmask decide_area(const cgt_object_array *a, uint32_t i, vmask open)
+{
+    unsigned some = 0;
+    for (unsigned left = spux_mask_bits(open); left; left &= left - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(left);
+        const cgt_triangle q = cgt_array_triangle(a, i + k);
+        some |= (unsigned)cgt_triangle_has_area(&q) << k;
+    }
+    return spux_mask_from_bits(some);
+}
+
+CGT_SPU_INLINE vmask check_triangles(const cgt_object_array *a, uint32_t i, const vfloat v[3][3], vmask there,
+                                     cgt_object_summary *s)
+{
+    vfloat zero = spux_vfloat(0); /* finite times zero is zero; infinity and NaN give NaN, and NaN stays */
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++)
+            zero = spu_madd(v[k][j], spux_vfloat(0), zero);
+    const vmask finite = spu_and(there, spu_cmpeq(zero, spux_vfloat(0)));
+    vmask valid = spu_and(finite, has_area(v));
+    const vmask open = spu_andc(finite, valid);
+    if (spux_any(open))
+        valid = spu_or(valid, decide_area(a, i, open));
+    s->skipped_not_finite += spux_count_bits(spux_mask_bits(spu_andc(there, finite)));
+    s->skipped_degenerate += spux_count_bits(spux_mask_bits(spu_andc(finite, valid)));
+    return valid;
+}
+
+/* A triangle's diameter is the mean edge of its bounds: it is flat, and touches fewer cells than they do. */
+static void add_triangle_diameters(cgt_object_summary *s, const object_bounds *b)
+{
+    _Alignas(CGT_VECTOR_BYTES) float low[3][CGT_LANES], high[3][CGT_LANES];
+    for (int a = 0; a < 3; a++) {
+        spux_store(low[a], b->low[a]);
+        spux_store(high[a], b->high[a]);
+    }
+    for (unsigned left = spux_mask_bits(b->valid); left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        double extent = 0;
+        for (int a = 0; a < 3; a++)
+            extent += (double)high[a][k] - (double)low[a][k];
+        add_diameter(s, extent / 3);
+    }
+}
+
+CGT_SPU_INLINE void keep_plane(float *to, vfloat v, uint32_t count)
+{
+    if (count == CGT_LANES)
+        spux_store_unaligned(to, v);
+    else
+        spux_store_mask(to, v, spux_mask_first(count));
+}
+
+/* Middle and size of a vector of triangles, of which `number` is the first. The middle is rounded; what is measured
+ * from there holds all the same. Where a difference is rounded, it is above 2^-125, and 2^-22 of it covers that. */
+CGT_SPU_INLINE void keep_triangles(object_pass *p, const object_bounds *b, uint32_t number, uint32_t count)
+{
+    const size_t plane = p->wishes->triangles;
+    float *to = p->wishes->middle + number;
+    vfloat middle[3], half[3], size = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        middle[a] = spu_add(spu_mul(b->low[a], spux_vfloat(0.5f)), spu_mul(b->high[a], spux_vfloat(0.5f)));
+        const vfloat most = spux_max(spu_sub(b->high[a], middle[a]), spu_sub(middle[a], b->low[a]));
+        half[a] = spux_abs(spu_mul(most, spux_vfloat(1 + 0x1p-22f)));
+        size = spux_max(size, half[a]);
+        keep_plane(to + (size_t)a * plane, middle[a], count);
+    }
+    keep_plane(to + 3 * plane, spux_select(spux_vfloat(-1), size, b->valid), count);
+    size_gather_add(&p->sizes, middle, half, 3, size, b->valid);
+}
+
+/* Fetches vertices. Returns which lanes have an index out of range: then there are none. */
+CGT_SPU_INLINE vmask fetch_triangles(const cgt_object_array *a, uint32_t i, uint32_t count, vfloat v[3][3])
+{
+    vuint corner[3];
+    if (!a->points)
+        return spux_mask_first(count);
+    fetch_corners(a, i, count, corner);
+    const vuint largest = spux_max(corner[0], spux_max(corner[1], corner[2])), last = spux_vuint(a->points - 1);
+    const bool before_last = spux_all(spu_cmpgt(last, largest)) && fetch_vertices_fit(a);
+    if (!before_last) {
+        const vmask bad = spu_cmpgt(largest, last);
+        if (spux_any(bad))
+            return bad;
+    }
+    for (int k = 0; k < 3; k++)
+        fetch_vertices(a, corner[k], before_last, v[k]);
+    return spux_mask_none();
+}
+
+/* Returns false at an index out of range. */
+static bool add_triangles(object_pass *p, const cgt_object_array *a, uint32_t i, uint32_t count)
+{
+    vfloat v[3][3];
+    object_bounds b;
+    const vmask bad = fetch_triangles(a, i, count, v);
+    if (spux_any(bad)) {
+        p->summary->bad_index = a->first + i + (uint32_t)__builtin_ctz(spux_mask_bits(bad));
+        return false;
+    }
+    b.valid = check_triangles(a, i, (const vfloat(*)[3])v, spux_mask_first(count), p->summary);
+    for (int k = 0; k < 3; k++) {
+        b.low[k] = spux_min(v[0][k], spux_min(v[1][k], v[2][k]));
+        b.high[k] = spux_max(v[0][k], spux_max(v[1][k], v[2][k]));
+    }
+    add_bounds(p, &b);
+    if (p->wishes->diameters)
+        add_triangle_diameters(p->summary, &b);
+    if (p->wishes->classes)
+        keep_triangles(p, &b, cgt_array_triangle_number(a, a->first + i), count);
+    return true;
+}
+
+/* ---- the whole ---- */
+
+void CGT_KERNEL(cgt_summarise_array)(const cgt_object_array *array, uint32_t first, uint32_t end,
+                                     const cgt_summary_wishes *wishes, cgt_object_summary *summary)
+{
+    object_pass p;
+    begin_pass(&p, wishes, summary);
+    for (uint32_t object = first; object < end; object += CGT_LANES) {
+        const uint32_t count = end - object < CGT_LANES ? end - object : CGT_LANES;
+        if (array->kind == CGT_KIND_SPHERES)
+            add_spheres(&p, array, object - array->first, count);
+        else if (!add_triangles(&p, array, object - array->first, count))
+            return;
+        if (end - object <= CGT_LANES)
+            break;
+    }
+    end_pass(&p, array->kind);
+}

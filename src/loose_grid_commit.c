@@ -1,0 +1,114 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The loose grid of a commit: planned, every object given its cell, and sorted by cell. */
+#include <stdio.h>
+
+#include "commit.h"
+#include "float_environment.h"
+#include "loose_grid_build.h"
+
+typedef struct keys_job {
+    const cgt_objects *objects;
+    const cgt_kernel *kernel;
+    cgt_loose_keys keys;
+    cgt_loose_sort sort;
+} keys_job;
+
+/* ---- keys ---- */
+
+static void make_keys(void *argument, uint32_t chunk)
+{
+    const keys_job *job = argument;
+    const cgt_objects *o = job->objects;
+    const uint32_t first = chunk * CGT_LOOSE_CHUNK, left = o->count - first;
+    const uint32_t end = left < CGT_LOOSE_CHUNK ? o->count : first + CGT_LOOSE_CHUNK;
+    const cgt_object_array *a = cgt_objects_array(o, first);
+    fenv_t callers;
+    cgt_float_environment_enter(&callers);
+    for (uint32_t object = first; object < end; a++) {
+        const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
+        job->kernel->loose_grid_keys(&job->keys, a, object, stop, job->sort.key + object);
+        object = stop;
+    }
+    cgt_float_environment_leave(&callers);
+    cgt_loose_sort_count(&job->sort, chunk);
+}
+
+/* ---- memory ---- */
+
+/* Room for any arrangement of as many objects, or for more cells where they were asked for. cgt_summarise has reserved
+ * the memory to work in. */
+static cgt_result reserve(cgt_scene *scene, uint32_t chunks)
+{
+    const cgt_memory_hooks *hooks = &scene->context->memory;
+    const cgt_objects *o = &scene->world.objects;
+    const uint64_t most = cgt_loose_grid_most_cells(o->count), cells = scene->world.loose.cells;
+    cgt_result result = cgt_buffer_reserve_scattered(hooks, &scene->buffer[CGT_BUFFER_LOOSE_START],
+                                                     (size_t)(most > cells ? most : cells) + 1, sizeof(uint32_t));
+    if (result == CGT_OK)
+        result =
+            cgt_buffer_reserve_scattered(hooks, &scene->buffer[CGT_BUFFER_LOOSE_OBJECT], o->count, sizeof(uint32_t));
+    if (result == CGT_OK)
+        result = cgt_buffer_reserve(hooks, &scene->buffer[CGT_BUFFER_LOOSE_BINS], chunks,
+                                    (CGT_LOOSE_BINS + 1) * sizeof(uint32_t));
+    if (result != CGT_OK)
+        return cgt_fail(scene->context, result, "commit: out of memory for a loose grid of %u primitives", o->count);
+    return CGT_OK;
+}
+
+/* ---- the whole ---- */
+
+static void report(cgt_scene *scene)
+{
+    cgt_scene_statistics *st = &scene->statistics;
+    const cgt_loose_grid *g = &scene->world.loose;
+    const cgt_loose_level *finest = &g->level[g->levels - 1];
+    for (int a = 0; a < 3; a++)
+        st->resolution[a] = finest->size[a];
+    st->cells = g->cells;
+    st->levels = g->levels;
+    st->references = scene->world.valid;
+    st->reference_bits = 32;
+    st->structure_bytes = ((size_t)g->cells + 1 + scene->world.valid) * sizeof(uint32_t);
+    st->local_store_bytes = st->structure_bytes + (size_t)scene->world.objects.spheres * sizeof(cgt_sphere) +
+                            (size_t)scene->world.objects.triangles * sizeof(cgt_triangle);
+    if (scene->options.resolution[0])
+        snprintf(st->reason, sizeof st->reason, "loose grid: resolution asked for");
+    else
+        snprintf(st->reason, sizeof st->reason, "loose grid: %u levels, %.3g objects a cell, reach %.3g to %.3g",
+                 g->levels, (double)scene->world.valid / g->cells, (double)g->level[0].reach[0],
+                 (double)finest->reach[0]);
+}
+
+cgt_result cgt_loose_grid_commit(cgt_scene *scene, const cgt_object_summary *summary)
+{
+    cgt_world *world = &scene->world;
+    cgt_loose_grid *g = &world->loose;
+    const uint32_t chunks = (uint32_t)(((uint64_t)world->objects.count + CGT_LOOSE_CHUNK - 1) / CGT_LOOSE_CHUNK);
+    cgt_loose_grid_plan(g, scene->buffer[CGT_BUFFER_SIZE_CLASSES].data, scene->options.resolution);
+    const cgt_result result = reserve(scene, chunks);
+    if (result != CGT_OK)
+        return result;
+    void *work = scene->buffer[CGT_BUFFER_LOOSE_WORK].data;
+    keys_job job = {.objects = &world->objects,
+                    .kernel = scene->context->kernel,
+                    .keys = {.grid = g, .middle = work, .triangles = world->objects.triangles},
+                    .sort = {.objects = world->objects.count,
+                             .valid = summary->valid,
+                             .cells = g->cells,
+                             .direct = cgt_loose_sort_is_direct(scene->context, world->objects.count, g->cells),
+                             .pair = work,
+                             .place = scene->buffer[CGT_BUFFER_LOOSE_BINS].data,
+                             .start = scene->buffer[CGT_BUFFER_LOOSE_START].data,
+                             .object = scene->buffer[CGT_BUFFER_LOOSE_OBJECT].data}};
+    cgt_loose_sort_plan(&job.sort);
+    job.keys.skipped = job.sort.direct ? g->cells : job.sort.bins << job.sort.shift;
+    job.sort.key = job.sort.direct ? (uint32_t *)work + (size_t)4 * world->objects.triangles : job.sort.object;
+    cgt_run_tasks(scene->context, make_keys, &job, chunks);
+    cgt_loose_sort_run(&job.sort, scene->context);
+    g->start = job.sort.start;
+    g->object = job.sort.object;
+    report(scene);
+    return CGT_OK;
+}

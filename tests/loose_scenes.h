@@ -1,0 +1,49 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Scenes that are hard on bounds, sizes and cells: spheres and triangles in several geometries, at several strides,
+ * each array in memory of its own that ends where the array does. */
+#ifndef LOOSE_SCENES_H
+#define LOOSE_SCENES_H
+
+#include "support/scenes.h"
+
+typedef enum loose_kind {
+    LOOSE_UNIFORM,
+    LOOSE_CLUSTERED,
+    LOOSE_FLAT,   /* all middles in one plane across z */
+    LOOSE_LINE,   /* along y */
+    LOOSE_ORDERS, /* sizes over 30 orders of magnitude, and points */
+    LOOSE_POINTS,
+    LOOSE_COINCIDENT,
+    LOOSE_LATTICE, /* whole numbers: middles on the cells' planes, degenerate triangles */
+    LOOSE_FAR,     /* small and far from the origin */
+    LOOSE_HUGE,
+    LOOSE_TINY,
+    LOOSE_SPOILED, /* a third is not finite, negative or without an area */
+    LOOSE_STADIUM, /* few large ones, most in a small corner */
+    LOOSE_KINDS
+} loose_kind;
+
+const char *loose_name(loose_kind kind);
+
+typedef enum loose_what { LOOSE_SPHERES, LOOSE_TRIANGLES, LOOSE_BOTH } loose_what;
+
+#define LOOSE_ARRAYS 16
+
+typedef struct loose_scene {
+    void *array[LOOSE_ARRAYS];
+    uint32_t arrays;
+    cgt_spheres spheres[8];
+    cgt_triangles triangles[8];
+    uint32_t geometries;
+    bool sphere[8]; /* which of the two geometry i is */
+} loose_scene;
+
+loose_scene loose_make(test_random *r, loose_kind kind, loose_what what, uint32_t count);
+void loose_free(loose_scene *s);
+
+/* Not committed. */
+cgt_scene *loose_add(const loose_scene *s, cgt_context *context, const cgt_scene_options *options);
+
+#endif
