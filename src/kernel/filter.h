@@ -116,6 +116,25 @@ typedef struct filter_result {
     vmask open;       /* to be decided: neither certain nor certainly not */
 } filter_result;
 
+/* Decides whether the ray hits object before its winner so far (CGT_NONE: none yet), and where. */
+CGT_SPU_INLINE bool filter_beats(const cgt_objects *objects, const cgt_ray *ray, uint32_t winner, uint32_t object,
+                                 double *t, cgt_counts *counts)
+{
+    uint64_t exact = 0;
+    counts->double_tests++;
+    cgt_decided_hit hit = {.shape = cgt_objects_shape(objects, object)};
+    const bool meets = cgt_decide_hit(ray, &hit, &exact), met_exactly = exact != 0;
+    counts->exact_tests += met_exactly;
+    *t = hit.t;
+    if (!meets || winner == CGT_NONE)
+        return meets;
+    cgt_decided_hit best = {.shape = cgt_objects_shape(objects, winner)};
+    cgt_decide_t(ray, &best);
+    const int order = cgt_decide_order(ray, &hit, &best, &exact);
+    counts->exact_tests += exact && !met_exactly; /* once a test */
+    return order < 0 || (order == 0 && object < winner);
+}
+
 /* Decides whether object beats the best hit of ray i. */
 __attribute__((noinline, unused)) static void filter_decide(const cgt_objects *objects, packet *p, uint32_t i,
                                                             uint32_t object, cgt_counts *counts)
@@ -125,32 +144,19 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_objects *o
         .t_min = p->t_min[i],
         .t_max = p->t_max[i]};
     const uint32_t winner = p->object[i];
-    uint64_t exact = 0;
+    double t;
     if (winner == object || p->high[i] == -INFINITY)
         return; /* met before; or the ray takes no part */
-    counts->double_tests++;
-    cgt_decided_hit hit = {.shape = cgt_objects_shape(objects, object)};
-    const bool meets = cgt_decide_hit(&ray, &hit, &exact), met_exactly = exact != 0;
-    counts->exact_tests += met_exactly;
-    if (!meets)
+    if (!filter_beats(objects, &ray, p->any_hit ? CGT_NONE : winner, object, &t, counts))
         return;
+    p->object[i] = object;
     if (p->any_hit) {
         p->low[i] = p->high[i] = -INFINITY;
-        p->object[i] = object;
         return;
     }
-    if (winner != CGT_NONE) {
-        cgt_decided_hit best = {.shape = cgt_objects_shape(objects, winner)};
-        cgt_decide_t(&ray, &best);
-        const int order = cgt_decide_order(&ray, &hit, &best, &exact);
-        counts->exact_tests += exact && !met_exactly; /* once a test */
-        if (order > 0 || (order == 0 && object > winner))
-            return;
-    }
-    const float rounded = (float)hit.t, width = fabsf(rounded) * 0x1p-22f + 0x1p-140f;
+    const float rounded = (float)t, width = fabsf(rounded) * 0x1p-22f + 0x1p-140f;
     p->low[i] = rounded - width;
     p->high[i] = rounded + width;
-    p->object[i] = object;
 }
 
 /* A test of rays i to i + CGT_LANES - 1 against one primitive: false where all surely miss. */

@@ -50,6 +50,13 @@ typedef struct packet {
 #define PACKET_LARGEST 0x1p55f
 #define PACKET_SHORTEST 0x1p-55f
 
+/* A region of a camera's frame: packet by packet through any structure; and tile by tile through a loose grid of spheres,
+ * or packet by packet where tiles do not serve (tile_serves.h). */
+void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
+                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *camera,
+                                const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+
 /* Finds the hits of all rays of the packet, through whatever structure there is; and through each. */
 void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                                   cgt_counts *counts);

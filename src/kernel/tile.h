@@ -1,0 +1,214 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A tile: up to 64x64 pixels of a perspective camera, traced together, with all that is kept of them small enough for
+ * the first cache.
+ *
+ * Per pixel an object and a depth q are kept. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near d.d that is the
+ * same for all objects, a hit's depth is q = t N. The exact q of a pixel's best hit lies in [z, z + gap], where gap is
+ * one number for the whole tile. A pixel without a hit has the end of the camera's range there; a pixel beyond the
+ * region has -infinity, and takes no part.
+ *
+ * Pixels are stored as pairs of rows, interleaved: (x, y) at y / 2 * 128 + 2 x + y % 2. So a vector that starts at any
+ * column holds CGT_LANES / 2 columns of two rows, at every width. */
+#ifndef CGT_TILE_H
+#define CGT_TILE_H
+
+#include "filter.h"
+
+#define TILE_EDGE 64u
+#define TILE_PIXELS (TILE_EDGE * TILE_EDGE)
+#define TILE_PAIR (2 * TILE_EDGE) /* pixels of a pair of rows */
+#define TILE_PAD 16u              /* a window may begin in the last column */
+#define TILE_PARTS 4u             /* parts of 16x16 pixels along an edge */
+
+/* What a tile's arithmetic knows of the camera. The axes are orthogonal but for rounding, which tile_serves.h checks,
+ * and a point c' seen from the eye is c' = z forward + x right / |right| + y up / |up| with z, x, y the products of c'
+ * and `dual`, the rows of the inverse of exactly these axes. So what the axes lack is an error of the metric alone. */
+typedef struct tile_camera {
+    float dual[3][3];
+    float right, up;   /* lengths */
+    float a, b;        /* squares of them */
+    float rright, rup; /* reciprocals */
+} tile_camera;
+
+typedef struct tile {
+    _Alignas(64) float z[TILE_PIXELS + TILE_PAD];
+    _Alignas(64) uint32_t object[TILE_PIXELS + TILE_PAD]; /* CGT_NONE: none yet */
+    _Alignas(64) float px[TILE_PAIR + TILE_PAD];          /* of a pair of rows; NaN where a window leaves the tile */
+    _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];      /* the two rows of a pair by turns */
+    _Alignas(64) float far[TILE_PARTS * TILE_PARTS]; /* beyond this distance a part of 16x16 pixels wants nothing */
+    float rlength[TILE_PARTS * TILE_PARTS];          /* at least 1 / sqrt(N) of any pixel of a part */
+    float farthest, farthest_t;                      /* of all parts, as distance and as t */
+    float column[TILE_EDGE], row[TILE_EDGE];         /* px and py; beyond the region the last ones again */
+    uint32_t columns, rows;                          /* in the region */
+    float gap, wide_gap;                             /* wide: what rounding of differences adds is in it */
+    float most, least;                               /* N of any pixel is between these */
+    float longest;                                   /* at least sqrt(most) */
+    const cgt_camera_rays *rays;
+    tile_camera camera;
+    float axis[3], tangent, secant; /* a cone about all rays, as z, x, y; secant 0: too wide for one */
+} tile;
+
+CGT_SPU_INLINE uint32_t tile_column(uint32_t i) { return (i & (TILE_PAIR - 1)) >> 1; }
+CGT_SPU_INLINE uint32_t tile_row(uint32_t i) { return i / TILE_PAIR * 2 + (i & 1); }
+CGT_SPU_INLINE uint32_t tile_index(uint32_t x, uint32_t y) { return y / 2 * TILE_PAIR + 2 * x + (y & 1); }
+
+CGT_SPU_INLINE double tile_norm(const tile *t, uint32_t i)
+{
+    const double px = (double)t->column[tile_column(i)], py = (double)t->row[tile_row(i)];
+    return 1 + (double)t->camera.a * px * px + (double)t->camera.b * py * py;
+}
+
+CGT_SPU_INLINE void tile_cross(const float p[3], const float q[3], double cross[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        cross[a] = (double)p[b] * (double)q[c] - (double)p[c] * (double)q[b];
+    }
+}
+
+CGT_SPU_INLINE void tile_camera_make(const cgt_camera_rays *c, tile_camera *q)
+{
+    double normal[3][3], right = 0, up = 0, volume = 0;
+    tile_cross(c->right, c->up, normal[0]);
+    tile_cross(c->up, c->fwd, normal[1]);
+    tile_cross(c->fwd, c->right, normal[2]);
+    for (int a = 0; a < 3; a++) {
+        right += (double)c->right[a] * (double)c->right[a];
+        up += (double)c->up[a] * (double)c->up[a];
+        volume += (double)c->fwd[a] * normal[0][a];
+    }
+    const double length[3] = {1, sqrt(right), sqrt(up)};
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++)
+            q->dual[k][a] = (float)(normal[k][a] / volume * length[k]);
+    q->right = (float)length[1];
+    q->up = (float)length[2];
+    q->a = (float)right;
+    q->b = (float)up;
+    q->rright = (float)(1 / length[1]);
+    q->rup = (float)(1 / length[2]);
+}
+
+/* ---- the tables ---- */
+
+CGT_SPU_INLINE void tile_tables_make(tile *t, uint32_t x0, uint32_t y0)
+{
+    const float *pixel = t->rays->pixel;
+    for (uint32_t k = 0; k < TILE_EDGE; k++) { /* in the order of camera.h */
+        t->column[k] = ((float)(x0 + (k < t->columns ? k : t->columns - 1)) + 0.5f) * pixel[0] - 1;
+        t->row[k] = 1 - ((float)(y0 + (k < t->rows ? k : t->rows - 1)) + 0.5f) * pixel[1];
+    }
+    for (uint32_t i = 0; i < TILE_PAIR + TILE_PAD; i++)
+        t->px[i] = i < TILE_PAIR ? t->column[i / 2] : NAN;
+    for (uint32_t y = 0; y < TILE_EDGE; y++)
+        for (uint32_t k = y & 1; k < CGT_LANES; k += 2)
+            t->py[y / 2][k] = t->row[y];
+}
+
+CGT_SPU_INLINE float tile_nearest_square(float a, float b)
+{
+    const float low = fabsf(a) < fabsf(b) ? fabsf(a) : fabsf(b);
+    return (a < 0) != (b < 0) ? 0 : low * low;
+}
+CGT_SPU_INLINE float tile_farthest_square(float a, float b)
+{
+    const float high = fabsf(a) > fabsf(b) ? fabsf(a) : fabsf(b);
+    return high * high;
+}
+
+/* The range of N, of the tile and of its parts, rounded outwards. */
+CGT_SPU_INLINE void tile_norms_make(tile *t)
+{
+    const float *x = t->column, *y = t->row, a = t->camera.a, b = t->camera.b;
+    const uint32_t last = TILE_EDGE - 1;
+    t->most = (1 + a * tile_farthest_square(x[0], x[last]) + b * tile_farthest_square(y[0], y[last])) * (1 + 0x1p-20f);
+    t->least = (1 + a * tile_nearest_square(x[0], x[last]) + b * tile_nearest_square(y[0], y[last])) * (1 - 0x1p-20f);
+    t->longest = sqrtf(t->most) * (1 + 0x1p-20f);
+    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
+        const uint32_t u = k % TILE_PARTS * 16, v = k / TILE_PARTS * 16;
+        const float least = 1 + a * tile_nearest_square(x[u], x[u + 15]) + b * tile_nearest_square(y[v], y[v + 15]);
+        t->rlength[k] = 1 / sqrtf(least) * (1 + 0x1p-20f);
+    }
+}
+
+/* Rays lie in the cone about the axis through the middle that holds those at the corners. The tile's slack in culling
+ * (2^-18) is more than what rounding of the axis comes to. */
+CGT_SPU_INLINE void tile_cone_make(tile *t)
+{
+    const uint32_t last = TILE_EDGE - 1;
+    const float gx[2] = {t->column[0] * t->camera.right, t->column[last] * t->camera.right};
+    const float gy[2] = {t->row[0] * t->camera.up, t->row[last] * t->camera.up};
+    const float mx = 0.5f * (gx[0] + gx[1]), my = 0.5f * (gy[0] + gy[1]), r = 1 / sqrtf(1 + mx * mx + my * my);
+    float sine2 = 0;
+    bool narrow = true;
+    t->axis[0] = r;
+    t->axis[1] = mx * r;
+    t->axis[2] = my * r;
+    for (int k = 0; k < 4; k++) {
+        const float x = gx[k & 1], y = gy[k >> 1], s = r + x * t->axis[1] + y * t->axis[2];
+        const float ez = 1 - s * t->axis[0], ex = x - s * t->axis[1], ey = y - s * t->axis[2];
+        const float square = (ex * ex + ey * ey + ez * ez) / (1 + x * x + y * y);
+        sine2 = square > sine2 ? square : sine2;
+        narrow = narrow && s > 0;
+    }
+    sine2 = sine2 * (1 + 0x1p-18f) + 0x1p-40f;
+    narrow = narrow && sine2 < 0.5f;
+    t->secant = narrow ? 1 / sqrtf(1 - sine2) * (1 + 0x1p-18f) : 0;
+    t->tangent = narrow ? sqrtf(sine2) * t->secant : 0;
+}
+
+/* ---- the pixels ---- */
+
+/* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
+ * there is none. */
+CGT_SPU_INLINE void tile_open(tile *t, float far_t)
+{
+    const bool ends = t->rays->t_max < far_t;
+    for (uint32_t i = 0; i < TILE_PIXELS + TILE_PAD; i += CGT_LANES) {
+        spux_store(t->z + i, spux_vfloat(INFINITY));
+        spux_store_uint(t->object + i, spux_vuint(CGT_NONE));
+    }
+    if (ends)
+        for (uint32_t i = 0; i < TILE_PIXELS; i++)
+            t->z[i] = (float)((double)t->rays->t_max * tile_norm(t, i) * (1 - 0x1p-20));
+    if (t->columns < TILE_EDGE || t->rows < TILE_EDGE)
+        for (uint32_t i = 0; i < TILE_PIXELS; i++)
+            if (tile_column(i) >= t->columns || tile_row(i) >= t->rows)
+                t->z[i] = -INFINITY;
+}
+
+/* Refreshes how far each part still looks. */
+CGT_SPU_INLINE void tile_far_update(tile *t)
+{
+    float farthest = -INFINITY, farthest_t = -INFINITY;
+    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
+        const float *z = t->z + k / TILE_PARTS * 8 * TILE_PAIR + k % TILE_PARTS * 32;
+        vfloat most = spux_vfloat(-INFINITY);
+        for (uint32_t y = 0; y < 8; y++)
+            for (uint32_t x = 0; x < 32; x += CGT_LANES)
+                most = spux_max(most, spux_load(z + y * TILE_PAIR + x));
+        const float depth = spux_hmax(most) + t->wide_gap;
+        t->far[k] = depth * t->rlength[k] * (1 + 0x1p-20f);
+        const float far_t = t->far[k] * t->rlength[k];
+        farthest = t->far[k] > farthest ? t->far[k] : farthest;
+        farthest_t = far_t > farthest_t ? far_t : farthest_t;
+    }
+    t->farthest = farthest;
+    t->farthest_t = farthest_t * (1 + 0x1p-20f);
+}
+
+CGT_SPU_INLINE cgt_ray tile_ray(const tile *t, uint32_t i)
+{
+    const cgt_camera_rays *c = t->rays;
+    const float px = t->column[tile_column(i)], py = t->row[tile_row(i)];
+    cgt_ray ray = {.t_min = c->t_min, .t_max = c->t_max};
+    for (int a = 0; a < 3; a++) {
+        ray.line.org[a] = c->eye[a];
+        ray.line.dir[a] = (c->fwd[a] + px * c->right[a]) + py * c->up[a];
+    }
+    return ray;
+}
+
+#endif

@@ -1,0 +1,341 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Frames by tiles, of the variant that this is compiled for, are those that packets through the queue grid give, bit for
+ * bit; and the march over the grid leaves out nothing that a ray hits. */
+#include "support/hard_run.h"
+#include "support/loose_reference.h"
+#include "support/scenes.h"
+
+#include <string.h>
+
+#include "kernel/tile_march.h"
+
+#include "scene.h"
+#include "tile_serves.h"
+
+static cgt_context *context;
+
+static cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, uint32_t height)
+{
+    cgt_camera_rays rays;
+    char message[160];
+    assert_int_equal(cgt_camera_prepare(camera, width, height, &rays, message), CGT_OK);
+    return rays;
+}
+
+/* ---- frames ---- */
+
+static cgt_region region_of(const planes *p)
+{
+    cgt_region r = {.width = p->width, .height = p->height, .row_stride = p->width};
+    r.t = p->t;
+    r.primitive = p->primitive;
+    r.geometry = p->geometry;
+    for (int a = 0; a < 3; a++)
+        r.normal[a] = p->normal[a];
+    return r;
+}
+
+typedef struct frames_tally {
+    uint32_t frames, served;
+    cgt_counts counts; /* of the served ones */
+} frames_tally;
+
+static void fail_at(const planes *got, const planes *wanted, const cgt_camera_rays *c, const char *what)
+{
+    size_t i = 0;
+    while (i < 6 * got->elements && got->memory[i] == wanted->memory[i])
+        i++;
+    i %= got->elements;
+    fail_msg("%s: %u x %u, pixel %zu: %u at %a, not %u at %a; eye %a %a %a", what, got->width, got->height, i,
+             got->primitive[i], (double)got->t[i], wanted->primitive[i], (double)wanted->t[i], (double)c->eye[0],
+             (double)c->eye[1], (double)c->eye[2]);
+}
+
+/* Both ways over one frame. */
+static void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera, uint32_t width,
+                          uint32_t height, const char *what, frames_tally *tally)
+{
+    const cgt_camera_rays rays = rays_of(camera, width, height);
+    const cgt_trace_settings settings = {.packet = 8,
+                                         .cull = CGT_CULL_BLOCKS,
+                                         .precision = CGT_PRECISION_ROBUST,
+                                         .fields =
+                                             CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL};
+    planes wanted = planes_make(width, height), got = planes_make(width, height);
+    cgt_world world = scene->world;
+    cgt_counts counts = {0}, other = {0};
+    world.loose = grid->grid;
+    memset(wanted.memory, 0x77, 6 * wanted.elements * sizeof(uint32_t));
+    memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
+    const cgt_region to_wanted = region_of(&wanted), to_got = region_of(&got);
+    CGT_KERNEL(cgt_trace_region)(&scene->world, &rays, &settings, &to_wanted, &other);
+    CGT_KERNEL(cgt_trace_tile)(&world, &rays, &settings, &to_got, &counts);
+    if (!planes_equal(&wanted, &got))
+        fail_at(&got, &wanted, &rays, what);
+    assert_int_equal(counts.rays, other.rays);
+    assert_int_equal(counts.hits, other.hits);
+    tally->frames++;
+    if (cgt_tile_serves(&world, &rays, &settings)) {
+        const uint64_t *from = (const uint64_t *)&counts;
+        uint64_t *to = (uint64_t *)&tally->counts;
+        tally->served++;
+        for (size_t i = 0; i < CGT_COUNTS; i++)
+            to[i] += from[i];
+    }
+    planes_free(&wanted);
+    planes_free(&got);
+}
+
+static void print_tally(const char *what, const frames_tally *t)
+{
+    print_message("%s: %u frames, %u by tiles: %llu rays, %llu hits, %llu ray tests, %llu in double, %llu exact\n",
+                  what, t->frames, t->served, (unsigned long long)t->counts.rays, (unsigned long long)t->counts.hits,
+                  (unsigned long long)t->counts.ray_tests, (unsigned long long)t->counts.double_tests,
+                  (unsigned long long)t->counts.exact_tests);
+}
+
+static cgt_scene *queue_scene(const float (*sphere)[4], uint32_t count)
+{
+    cgt_scene_options options;
+    cgt_scene_options_init(&options);
+    options.structure = CGT_STRUCTURE_QUEUE_GRID;
+    return scene_of(context, &options, sphere, count);
+}
+
+static const uint32_t sizes[][2] = {{1, 1}, {3, 70}, {64, 64}, {65, 63}, {100, 65}};
+
+/* A huge one, one about the eye, points, and a copy. */
+static void add_special_spheres(cloud *c, const float eye[3])
+{
+    for (int a = 0; a < 3; a++) {
+        c->sphere[0][a] = c->middle[a] - 30 * c->reach;
+        c->sphere[1][a] = eye[a] + 1e-3f * c->reach;
+    }
+    c->sphere[0][3] = 49 * c->reach;
+    for (uint32_t i = 2; i < 6; i++)
+        c->sphere[i][3] = 0;
+    memcpy(c->sphere[7], c->sphere[6], sizeof c->sphere[7]);
+}
+
+/* Clouds of every kind from outside and from within; ranges; spheres about the eye. */
+static void frames_of_clouds(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++) {
+        test_random r = random_make(300 + (uint64_t)kind);
+        frames_tally tally = {0};
+        for (uint32_t round = 0; round < test_scaled(8); round++) {
+            cloud c = cloud_make(&r, (cloud_kind)kind, 1 + random_below(&r, round % 4 ? 300 : 3000));
+            loose_reference grid;
+            cgt_camera camera = camera_random(&r, &c);
+            if (round % 4 == 1 && c.count > 20)
+                add_special_spheres(&c, camera.eye);
+            cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+            assert_true(loose_reference_make(&scene->world.objects, random_float(&r, 0.5f, 16), &grid));
+            for (uint32_t i = 0; i < 3; i++) {
+                const uint32_t *size = sizes[random_below(&r, TEST_COUNT(sizes))];
+                camera = camera_random(&r, &c);
+                camera.projection = i ? CGT_PERSPECTIVE : camera.projection;
+                if (random_below(&r, 4) == 0)
+                    camera.t_min = c.reach * random_float(&r, 0, 4);
+                if (random_below(&r, 4) == 0)
+                    camera.t_max = camera.t_min + c.reach * random_log(&r, 1e-3f, 100);
+                compare_frame(scene, &grid, &camera, size[0], size[1], cloud_name((cloud_kind)kind), &tally);
+            }
+            loose_reference_free(&grid);
+            cgt_scene_release(scene);
+            cloud_free(&c);
+        }
+        print_tally(cloud_name((cloud_kind)kind), &tally);
+        assert_true(tally.served > 0);
+    }
+}
+
+static void frame_of_many_tiles(void **state)
+{
+    (void)state;
+    test_random r = random_make(320);
+    cloud c = cloud_make(&r, CLOUD_UNIFORM, 2000);
+    loose_reference grid;
+    frames_tally tally = {0};
+    const cgt_camera camera = camera_before(&c);
+    cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+    assert_true(loose_reference_make(&scene->world.objects, 8, &grid));
+    compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
+    print_tally("many tiles", &tally);
+    assert_int_equal(tally.served, 1);
+    /* culling and windows are of use: by far not every object meets every ray */
+    assert_true(tally.counts.ray_tests < tally.counts.rays * 100);
+    loose_reference_free(&grid);
+    cgt_scene_release(scene);
+    cloud_free(&c);
+}
+
+/* Centres without radii beside them, and a radius for all: what no vector load reads. */
+static void frames_of_two_geometries(void **state)
+{
+    (void)state;
+    test_random r = random_make(330);
+    frames_tally tally = {0};
+    for (uint32_t round = 0; round < test_scaled(4); round++) {
+        cloud c = cloud_make(&r, CLOUD_UNIFORM, 400);
+        float center[200][3];
+        uint32_t id;
+        cgt_scene *scene;
+        loose_reference grid;
+        for (uint32_t i = 0; i < 200; i++)
+            memcpy(center[i], c.sphere[200 + i], sizeof center[i]);
+        const cgt_spheres second = {.count = 200, .centers = center[0], .radius = 0.1f * c.reach};
+        cgt_spheres first = spheres_of((const float(*)[4])c.sphere, 200);
+        const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+        assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+        assert_int_equal(cgt_scene_add_spheres(scene, &first, &id), CGT_OK);
+        assert_int_equal(cgt_scene_add_spheres(scene, &second, &id), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        const cgt_camera camera = camera_before(&c);
+        compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_tally("two geometries", &tally);
+    assert_true(tally.served == tally.frames && tally.counts.hits > 0);
+}
+
+/* Cameras where the hard rays start, looking where they look. */
+static void frames_of_hard_cases(void **state)
+{
+    (void)state;
+    frames_tally tally = {0};
+    uint32_t cases = 0;
+    for (size_t i = 0; i < hard_case_count(); i++) {
+        const hard_case *h = hard_case_at(i);
+        hard_scene s;
+        cgt_scene *scene;
+        loose_reference grid;
+        const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+        assert_true(hard_case_make(h, 3 + test_scaled(5), &s));
+        assert_int_equal(hard_commit_with(context, &s, &options, &scene), CGT_OK);
+        if (scene->world.objects.triangles || !scene->world.valid) {
+            cgt_scene_release(scene);
+            hard_scene_free(&s);
+            continue;
+        }
+        cases++;
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        for (uint32_t k = 0; k < s.rays; k++) {
+            cgt_camera camera;
+            cgt_camera_rays rays;
+            char message[160];
+            const truth_ray *ray = &s.ray[k];
+            cgt_camera_init(&camera);
+            for (int a = 0; a < 3; a++) {
+                camera.eye[a] = ray->org[a];
+                camera.target[a] = ray->org[a] + ray->dir[a];
+            }
+            camera.up[0] = 0.3f;
+            camera.fov = k % 3 ? 20.f * (float)(k % 3) : 1;
+            if (cgt_camera_prepare(&camera, 21, 23, &rays, message) == CGT_OK)
+                compare_frame(scene, &grid, &camera, 21, 23, h->name, &tally);
+        }
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        hard_scene_free(&s);
+    }
+    print_tally("hard cases", &tally);
+    assert_true(cases >= 3 && tally.served >= 3);
+}
+
+/* ---- the march ---- */
+
+/* Every object that a ray hits is visited, once, in a slice that is not said to begin beyond the hit. */
+static void march_visits_what_rays_hit(void **state)
+{
+    (void)state;
+    static tile t;
+    uint64_t hits = 0, visits = 0, objects = 0;
+    test_random r = random_make(340);
+    for (uint32_t round = 0; round < 5 + test_scaled(120); round++) {
+        cloud c = cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), 1 + random_below(&r, 400));
+        cgt_camera camera = camera_random(&r, &c);
+        camera.projection = CGT_PERSPECTIVE;
+        loose_reference grid;
+        tile_march m;
+        tile_slice s;
+        float near[401];
+        uint32_t seen[401] = {0};
+        const uint32_t edge = random_below(&r, 3) ? 200 + random_below(&r, 2000) : 12;
+        const cgt_camera_rays rays = rays_of(&camera, edge, edge);
+        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+        assert_true(loose_reference_make(&scene->world.objects, random_float(&r, 0.5f, 8), &grid));
+        t.rays = &rays;
+        t.columns = t.rows = 12;
+        tile_camera_make(&rays, &t.camera);
+        tile_tables_make(&t, random_below(&r, edge - 11), random_below(&r, edge - 11));
+        tile_norms_make(&t);
+        tile_march_make(&t, &grid.grid, &m);
+        float before = 0;
+        while (tile_march_next(&m, &s)) {
+            assert_true((float)s.near_t >= before);
+            before = (float)s.near_t;
+            for (uint32_t i = 0; i < tile_slice_runs(&m, &s); i++) {
+                uint32_t count;
+                const uint32_t *reference = tile_slice_run(&m, &s, i, &count);
+                for (uint32_t k = 0; k < count; k++, visits++) {
+                    near[reference[k]] = before;
+                    seen[reference[k]]++;
+                }
+            }
+        }
+        for (uint32_t k = 0; k < c.count; k++) {
+            assert_true(seen[k] <= 1);
+            for (uint32_t p = 0; p < 144; p++) {
+                uint64_t exact = 0;
+                const cgt_ray ray = tile_ray(&t, tile_index(p % 12, p / 12));
+                cgt_decided_hit hit = {.shape = cgt_objects_shape(&scene->world.objects, k)};
+                if (!cgt_decide_hit(&ray, &hit, &exact))
+                    continue;
+                hits++;
+                assert_int_equal(seen[k], 1);
+                assert_true((double)near[k] <= hit.t * (1 + 1e-6));
+            }
+        }
+        objects += c.count;
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_message("%llu objects, %llu visits, %llu hits\n", (unsigned long long)objects, (unsigned long long)visits,
+                  (unsigned long long)hits);
+    assert_true(hits > 100 && visits < objects);
+}
+
+static int prepare(void **state)
+{
+    (void)state;
+    context = context_make(1, NULL);
+    return context ? 0 : -1;
+}
+
+static int clean_up(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(march_visits_what_rays_hit), cmocka_unit_test(frame_of_many_tiles),
+        cmocka_unit_test(frames_of_clouds),           cmocka_unit_test(frames_of_two_geometries),
+        cmocka_unit_test(frames_of_hard_cases),
+    };
+    test_begin("test_tile_frames");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, prepare, clean_up);
+}

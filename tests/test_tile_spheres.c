@@ -1,0 +1,285 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Spheres over the pixels of a tile, of the variant that this is compiled for: the bounds of single precision hold
+ * against the truth in wide arithmetic. Then they are made tighter, by giving FILTER_U less than the unit roundoff, until
+ * they break. */
+#include "support/test.h"
+#include "support/truth.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "vector.h"
+
+static float filter_u = 0x1p-24f;
+#define FILTER_U filter_u
+#include "kernel/tile_draw.h"
+
+#include "tile_serves.h"
+
+static cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, uint32_t height)
+{
+    cgt_camera_rays rays;
+    char message[160];
+    assert_int_equal(cgt_camera_prepare(camera, width, height, &rays, message), CGT_OK);
+    return rays;
+}
+
+/* ---- one tile ---- */
+
+/* A tile as tile_trace.c makes it. */
+static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y, uint32_t columns, uint32_t rows,
+                    float c, float r)
+{
+    t->rays = rays;
+    t->columns = columns;
+    t->rows = rows;
+    tile_camera_make(rays, &t->camera);
+    tile_tables_make(t, x, y);
+    tile_norms_make(t);
+    tile_cone_make(t);
+    tile_gap_make(t, c, r, 2 * c);
+    tile_open(t, 2 * c);
+    tile_far_update(t);
+}
+
+/* ---- bounds ---- */
+
+typedef struct tally {
+    uint64_t lanes, hits, certain, open, slow;
+    uint64_t lost, invented, outside; /* what must not happen */
+} tally;
+
+/* What the truth says of a sphere at each pixel of a tile, with the depth as tile.h counts it. */
+typedef struct tile_truth {
+    bool hit[TILE_PIXELS];
+    truth_real depth[TILE_PIXELS];
+} tile_truth;
+
+static void find_truth(const tile *t, const float sphere[4], tile_truth *truth)
+{
+    for (uint32_t y = 0; y < t->rows; y++)
+        for (uint32_t x = 0; x < t->columns; x++) {
+            const uint32_t i = tile_index(x, y);
+            const cgt_ray ray = tile_ray(t, i);
+            const truth_roots root = truth_sphere(ray.line.org, ray.line.dir, sphere);
+            const truth_real px = t->column[x], py = t->row[y];
+            truth->hit[i] = root.hit && root.near >= 0;
+            truth->depth[i] = root.near * (1 + t->camera.a * px * px + t->camera.b * py * py);
+        }
+}
+
+/* A sphere over a fresh tile: what it wins is certain, what it queues is open. */
+static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth, tally *sum)
+{
+    static tile_queue queue;
+    static bool open[TILE_PIXELS];
+    const cgt_object_array array = {.kind = CGT_KIND_SPHERES,
+                                    .point = (const char *)sphere,
+                                    .point_stride = 16,
+                                    .radius = (const char *)(sphere + 3),
+                                    .radius_stride = 16,
+                                    .count = 1};
+    const cgt_objects objects = {.array = &array, .arrays = 1, .count = 1, .spheres = 1};
+    const uint32_t reference = 0;
+    const vfloat zero = spux_vfloat(0);
+    vfloat v[4];
+    tile_spheres s;
+    cgt_counts counts = {0};
+    queue.entries = 0;
+    memset(open, 0, sizeof open);
+    tile_spheres_fetch(&objects, tile_sphere_records(&objects), &reference, 1, v, s.object);
+    assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
+    tile_spheres_make(t, v, 1, &s);
+    sum->slow += s.slow & 1;
+    if (s.slow & 1)
+        return;
+    tile_box box;
+    if (s.fast & 1 && tile_clip(t, &s, 0, &box))
+        tile_sphere_draw(&objects, t, &s, 0, box, &queue, &counts);
+    for (uint32_t k = 0; k < queue.entries; k++)
+        open[queue.pixel[k]] = true;
+    for (uint32_t y = 0; y < t->rows; y++)
+        for (uint32_t x = 0; x < t->columns; x++) {
+            const uint32_t i = tile_index(x, y);
+            const bool certain = t->object[i] == 0;
+            sum->lanes++;
+            sum->hits += truth->hit[i];
+            sum->certain += certain;
+            sum->open += open[i];
+            sum->lost += truth->hit[i] && !certain && !open[i];
+            sum->invented += certain && !truth->hit[i];
+            sum->outside += certain && truth->hit[i] &&
+                            !((truth_real)t->z[i] <= truth->depth[i] &&
+                              truth->depth[i] <= (truth_real)t->z[i] + (truth_real)t->gap);
+        }
+}
+
+/* A camera, and a sphere whose silhouette passes a tile of 8x8 pixels somewhere; most often it is the silhouette of one
+ * ray as well as float can tell. */
+static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], float sphere[4])
+{
+    cgt_camera camera;
+    float away[3];
+    const float scale = random_below(r, 3) ? 1 : random_log(r, 1e-6f, 1e6f);
+    const float size = random_below(r, 2) ? random_log(r, 1e-4f, 0.5f) : random_float(r, 0.01f, 0.3f);
+    const float offset = random_below(r, 2) ? 0 : random_log(r, 0.1f, 1e4f);
+    cgt_camera_init(&camera);
+    for (int a = 0; a < 3; a++) {
+        camera.eye[a] = scale * random_float(r, -1, 1) * offset;
+        camera.target[a] = camera.eye[a] + scale * (a == 1 ? 2 : random_float(r, -1, 1));
+    }
+    random_direction(r, camera.up);
+    camera.fov = random_below(r, 2) ? random_float(r, 20, 100) : random_log(r, 0.5f, 160);
+    const uint32_t edge = 8 + random_below(r, random_below(r, 2) ? 1000 : 20);
+    *rays = rays_of(&camera, edge, edge);
+    at[0] = random_below(r, edge - 7);
+    at[1] = random_below(r, edge - 7);
+    const float px = ((float)(at[0] + random_below(r, 8)) + 0.5f) * rays->pixel[0] - 1;
+    const float py = 1 - ((float)(at[1] + random_below(r, 8)) + 0.5f) * rays->pixel[1];
+    float d[3], side[3], along = 0, square = 0;
+    random_direction(r, away);
+    for (int a = 0; a < 3; a++) {
+        d[a] = (rays->fwd[a] + px * rays->right[a]) + py * rays->up[a];
+        along += d[a] * away[a];
+        square += d[a] * d[a];
+    }
+    float length = 0;
+    for (int a = 0; a < 3; a++) {
+        side[a] = away[a] - along / square * d[a];
+        length += side[a] * side[a];
+    }
+    const float distance = scale * random_float(r, 0.5f, 3) / sqrtf(square);
+    const float out = random_below(r, 4) ? 1 : random_float(r, 0, 2);
+    sphere[3] = random_below(r, 20) ? distance * sqrtf(square) * size : 0;
+    for (int a = 0; a < 3; a++)
+        sphere[a] = rays->eye[a] + distance * d[a] + out * sphere[3] * side[a] / sqrtf(length);
+}
+
+static float distance_of(const cgt_camera_rays *rays, const float sphere[4])
+{
+    float square = 0;
+    for (int a = 0; a < 3; a++)
+        square += (sphere[a] - rays->eye[a]) * (sphere[a] - rays->eye[a]);
+    return sqrtf(square) * (1 + 0x1p-20f) + sphere[3];
+}
+
+/* usual: the radius that the tile's gap is for, over the sphere's. */
+static void judge_case(const cgt_camera_rays *rays, const uint32_t at[2], const float sphere[4], float usual,
+                       tile_truth *truth, bool fresh, tally *sum)
+{
+    static tile t;
+    tile_of(&t, rays, at[0], at[1], 8, 8, distance_of(rays, sphere), sphere[3] * usual);
+    if (fresh)
+        find_truth(&t, sphere, truth);
+    judge_sphere(&t, sphere, truth, sum);
+}
+
+static void bounds_hold(void **state)
+{
+    (void)state;
+    static tile_truth truth;
+    test_random r = random_make(360);
+    tally sum = {0};
+    for (uint32_t k = 50 + test_scaled(6000); k; k--) {
+        cgt_camera_rays rays;
+        uint32_t at[2];
+        float sphere[4];
+        make_case(&r, &rays, at, sphere);
+        const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
+        if (cgt_tile_serves_camera(&rays))
+            judge_case(&rays, at, sphere, usual, &truth, true, &sum);
+    }
+    print_message(
+        "%llu lanes, %llu hits, %llu certain, %llu open, %llu spheres slow; lost %llu, invented %llu, outside "
+        "%llu\n",
+        (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
+        (unsigned long long)sum.open, (unsigned long long)sum.slow, (unsigned long long)sum.lost,
+        (unsigned long long)sum.invented, (unsigned long long)sum.outside);
+    assert_int_equal(sum.lost, 0);
+    assert_int_equal(sum.invented, 0);
+    assert_int_equal(sum.outside, 0);
+    assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
+}
+
+/* From 1 down in steps of 2^-1/2. */
+#define STEPS 24
+
+static void check_break(const char *what, const tally *sum, uint64_t count(const tally *), double least)
+{
+    double at = 0, scale = 1;
+    for (int step = 0; step < STEPS && !at; step++, scale *= 0.70710678)
+        if (count(&sum[step]))
+            at = scale;
+    print_message("%s: first at %.3g of the bounds\n", what, at);
+    assert_true(at > least && at < 1);
+}
+
+static uint64_t lost_of(const tally *t) { return t->lost; }
+static uint64_t invented_of(const tally *t) { return t->invented; }
+static uint64_t outside_of(const tally *t) { return t->outside; }
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    static tile_truth truth;
+    test_random r = random_make(380);
+    tally sum[STEPS] = {{0}};
+    for (uint32_t k = 300 + test_scaled(2000); k; k--) {
+        cgt_camera_rays rays;
+        uint32_t at[2];
+        float sphere[4], scale = 0x1p-24f;
+        make_case(&r, &rays, at, sphere);
+        const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
+        if (!cgt_tile_serves_camera(&rays))
+            continue;
+        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+            filter_u = scale;
+            judge_case(&rays, at, sphere, usual, &truth, step == 0, &sum[step]);
+        }
+        filter_u = 0x1p-24f;
+    }
+    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    check_break("a hit lost", sum, lost_of, 0x1p-10);
+    check_break("a hit invented", sum, invented_of, 0x1p-11);
+    check_break("depth outside", sum, outside_of, 0x1p-11);
+}
+
+/* ---- which frames ---- */
+
+static void serves_what_it_can(void **state)
+{
+    (void)state;
+    cgt_camera camera;
+    cgt_camera_init(&camera);
+    cgt_camera_rays rays = rays_of(&camera, 64, 64);
+    assert_true(cgt_tile_serves_camera(&rays));
+    rays.eye[1] = 0x1p56f;
+    assert_false(cgt_tile_serves_camera(&rays));
+    camera.fov = 0.01f;
+    rays = rays_of(&camera, 64, 64);
+    assert_false(cgt_tile_serves_camera(&rays));
+    camera.fov = 179.9f;
+    rays = rays_of(&camera, 64, 64);
+    assert_false(cgt_tile_serves_camera(&rays));
+    camera.fov = 160;
+    rays = rays_of(&camera, 64, 64);
+    assert_true(cgt_tile_serves_camera(&rays));
+    camera.projection = CGT_ORTHOGRAPHIC;
+    rays = rays_of(&camera, 64, 64);
+    assert_false(cgt_tile_serves_camera(&rays));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(serves_what_it_can),
+        cmocka_unit_test(bounds_hold),
+        cmocka_unit_test(bounds_break_where_they_are_tightened),
+    };
+    test_begin("test_tile_spheres");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
