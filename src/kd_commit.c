@@ -38,7 +38,7 @@ static void report(cgt_scene *scene, const cgt_kd_raw *raw)
     st->structure_bytes = tree->nodes * sizeof(cgt_kd_node) + (size_t)tree->references * sizeof(uint32_t) +
                           (tree->leaf ? tree->leaves * sizeof(cgt_kd_leaf) : 0);
     st->local_store_bytes = st->structure_bytes + world->objects.spheres * sizeof(cgt_sphere) +
-                            world->objects.triangles * sizeof(cgt_triangle);
+                            world->objects.triangles * sizeof(cgt_leaf_triangle);
     st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
 }
 

@@ -189,8 +189,8 @@ static void print_and_check(case_family f, const char *form, const tally *t)
     assert_int_equal(t->lost, 0);
     assert_int_equal(t->invented, 0);
     assert_int_equal(t->outside, 0);
-    /* each kind of answer is there; of rays in the plane nothing is certain */
-    assert_true(t->hits >= 3 && t->open >= 3);
+    /* each kind of answer is there; of rays in the plane nothing is certain, and inside hardly any lane is open */
+    assert_true(t->hits >= 3 && (f == CASE_INTERIOR || t->open >= 3));
     assert_true(f == CASE_FLAT || (t->certain >= 3 && t->lanes - t->certain - t->open >= 3));
 }
 

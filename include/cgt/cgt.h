@@ -266,9 +266,10 @@ typedef struct cgt_scene_statistics {
     cgt_kd_builder kd_builder;    /* what was used */
     cgt_kd_layout kd_layout;      /* what was used */
     size_t structure_bytes;       /* that traversal reads: voxels and overflow list, cells and references, or nodes,
-                                     references and ropes */
+                                     references and ropes; without the primitives, and the 48 bytes that a tree keeps of
+                                     each triangle */
     size_t bytes;                 /* memory that the scene holds now */
-    size_t local_store_bytes;     /* grid, overflow list and primitives together: what a Cell SPU has to hold */
+    size_t local_store_bytes;     /* structure and primitives together: what a Cell SPU has to hold */
     int fits_local_store;         /* 1 where the grid is at most 16x16x16 and local_store_bytes, with 64 KB for
                                      program and stack, is within 256 KB */
     double bounds_ms;             /* reading, checking and bounding the primitives */
