@@ -254,7 +254,7 @@ static int free_session(void **state)
 static void every_allocation_fails_in_turn(void **state)
 {
     (void)state;
-    const bool slow = test_scaled(100) < 10; /* emulators: every fourth, on one thread */
+    const bool slow = test_scaled(100) < 10; /* emulators: every sixteenth, on one thread */
     for (uint32_t threads = 1; threads <= (slow ? 1u : 3u); threads += 2)
         FOR_EACH_CHOICE(c)
         {
@@ -263,7 +263,7 @@ static void every_allocation_fails_in_turn(void **state)
             const size_t calls = m.calls;
             print_message("%s, %u threads: %zu allocations\n", c->name, threads, calls);
             assert_true(calls >= (threads == 1 ? 8 : 9));
-            for (size_t n = 1; n <= calls + 1; n += slow ? 4 : 1) {
+            for (size_t n = 1; n <= calls + 1; n += slow ? 16 : 1) {
                 memory failing = {.fail_at = n};
                 session(&failing, c, threads, expected);
                 assert_true(failing.calls >= calls);
