@@ -110,7 +110,10 @@ static void trace_into(const frame_job *job, const cgt_region *r)
     cgt_counts counts = {0};
     fenv_t callers;
     cgt_float_environment_enter(&callers);
-    s->context->kernel->trace_region(&s->world, &job->camera, &job->settings, r, &counts);
+    if (s->world.structure == CGT_STRUCTURE_LOOSE_GRID && !job->settings.strip)
+        s->context->kernel->trace_tile(&s->world, &job->camera, &job->settings, r, &counts);
+    else
+        s->context->kernel->trace_region(&s->world, &job->camera, &job->settings, r, &counts);
     cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }

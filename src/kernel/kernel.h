@@ -53,6 +53,10 @@ typedef struct cgt_kernel {
     void (*trace_region)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
                          const cgt_region *region, cgt_counts *counts);
 
+    /* The same, tile by tile, where tiles serve (tile_serves.h); else as trace_region does. */
+    void (*trace_tile)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
+                       const cgt_region *region, cgt_counts *counts);
+
     /* Traces rays first to end - 1 of an array, at most CGT_RAYS_CHUNK; hits is NULL where occluded is not. */
     void (*trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                        const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts);

@@ -12,6 +12,8 @@ void CGT_KERNEL(cgt_loose_grid_keys)(const cgt_loose_keys *job, const cgt_object
                                      uint32_t end, uint32_t *key);
 void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *camera,
+                                const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
 void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                                 const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
                                 cgt_counts *counts);
@@ -26,5 +28,6 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .summarise = CGT_KERNEL(cgt_summarise_array),
     .loose_grid_keys = CGT_KERNEL(cgt_loose_grid_keys),
     .trace_region = CGT_KERNEL(cgt_trace_region),
+    .trace_tile = CGT_KERNEL(cgt_trace_tile),
     .trace_rays = CGT_KERNEL(cgt_trace_rays),
 };
