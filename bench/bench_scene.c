@@ -125,7 +125,8 @@ static const char *const triangle_tests[] = {[CGT_TRIANGLE_WATERTIGHT] = "watert
 static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
                                          [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
                                          [CGT_STRUCTURE_KD] = "kd",
-                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes"};
+                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
+                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid"};
 static const char *const kd_traversals[] = {
     [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",

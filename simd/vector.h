@@ -18,6 +18,8 @@
  *
  *   spux_load(p), store(p, v)     W, aligned to the vector
  *   spux_load_unaligned(p), store_unaligned(p, v)   W, aligned to the element
+ *   spux_stream(p, v)             W, aligned to the vector: a store that leaves the caches alone where it can
+ *   spux_stream_end()             before what was streamed is handed to another thread
  *   spux_load_mask(p, m)          W, aligned to the element; 0 where m is false, and memory there is not touched
  *   spux_store_mask(p, v, m)      likewise; memory where m is false keeps its content, and need not exist
  *   spux_gather(base, i)          W; base[i] by a vint of indices. Not spu_gather, which gathers bits
@@ -113,6 +115,8 @@ CGT_SPU_INLINE vfloat spux_load(const float *p) { return (vfloat)cgt_spux_load_w
 CGT_SPU_INLINE vuint spux_load_uint(const uint32_t *p) { return cgt_spux_load_w(p); }
 CGT_SPU_INLINE void spux_store(float *p, vfloat v) { cgt_spux_store_w(p, (vuint)v); }
 CGT_SPU_INLINE void spux_store_uint(uint32_t *p, vuint v) { cgt_spux_store_w(p, v); }
+CGT_SPU_INLINE void spux_stream(float *p, vfloat v) { cgt_spux_stream_w(p, (vuint)v); }
+CGT_SPU_INLINE void spux_stream_uint(uint32_t *p, vuint v) { cgt_spux_stream_w(p, v); }
 CGT_SPU_INLINE vfloat spux_load_unaligned(const float *p) { return (vfloat)cgt_spux_load_unaligned_w(p); }
 CGT_SPU_INLINE vuint spux_load_unaligned_uint(const uint32_t *p) { return cgt_spux_load_unaligned_w(p); }
 CGT_SPU_INLINE void spux_store_unaligned(float *p, vfloat v) { cgt_spux_store_unaligned_w(p, (vuint)v); }

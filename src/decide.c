@@ -20,9 +20,10 @@ static double exact_root(const cgt_ray *ray, const cgt_shape *shape, bool far)
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
-    const bool unsafe = cgt_sphere_double_unsafe(e) != 0;
+    const double half = sqrt(e.disc);
+    const bool unsafe = cgt_sphere_double_unsafe(e, half) != 0;
     const cgt_shape shape = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
-    cgt_sphere_roots root = cgt_sphere_double_roots(e.middle, e.product, e.half2);
+    cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
     if (unsafe) {
         root.near = exact_root(ray, &shape, false);
         root.far = exact_root(ray, &shape, true);
@@ -54,10 +55,10 @@ void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit)
 static bool line_meets_sphere(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
-    const double error = cgt_sphere_double_half2_error(ray->line.org, ray->line.dir, sphere);
-    if (e.half2 > error)
+    const double error = cgt_sphere_double_disc_error(ray->line.org, ray->line.dir, sphere);
+    if (e.disc > error)
         return true;
-    if (e.half2 < -error)
+    if (e.disc < -error)
         return false;
     ++*exact;
     return cgt_exact_line_meets_sphere(&ray->line, sphere);

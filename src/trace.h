@@ -34,6 +34,7 @@ typedef struct cgt_region {
     uint32_t *geometry;
     float *normal[3];
     float *u, *v;
+    bool stream; /* nobody reads the planes soon */
 } cgt_region;
 
 /* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as

@@ -39,7 +39,8 @@ static cgt_region region_in_planes(const frame_job *job, uint32_t x, uint32_t y,
 {
     const cgt_frame *f = job->frame;
     const size_t first = (size_t)y * job->row_stride + x;
-    cgt_region r = {.x = x, .y = y, .width = width, .height = height, .row_stride = job->row_stride};
+    cgt_region r = {
+        .x = x, .y = y, .width = width, .height = height, .row_stride = job->row_stride, .stream = !f->visitor};
     r.t = f->t ? f->t + first : NULL;
     r.primitive = f->primitive ? f->primitive + first : NULL;
     r.geometry = f->geometry ? f->geometry + first : NULL;
@@ -55,6 +56,7 @@ static cgt_region region_in_buffer(const frame_job *job, const cgt_region *plane
     const uint32_t fields = job->settings.fields;
     cgt_region r = *planes;
     r.row_stride = planes->width;
+    r.stream = false;
     r.t = fields & CGT_FIELD_T ? (float *)buffer[0] : NULL;
     r.primitive = fields & CGT_FIELD_PRIMITIVE ? buffer[1] : NULL;
     r.geometry = fields & CGT_FIELD_GEOMETRY ? buffer[2] : NULL;

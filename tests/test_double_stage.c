@@ -107,48 +107,49 @@ static void triangles_err_within_bounds(void **state)
     expect_near("d.n", &den, 0x1p-6);
 }
 
-/* What sphere_double.h says of its terms: times d.d, or its square. The tight bound of half2 is one where the line meets
- * the sphere; beyond, where half2 is lost in something larger, all that counts is that it is no hit. */
-static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearness *half2, nearness *rest)
+/* What sphere_double.h says of its terms. The tight bound of the discriminant is one where the line meets the sphere;
+ * beyond, where it is lost in something larger, all that counts is that it is no hit. */
+static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearness *tight_disc, nearness *rest)
 {
     const cgt_sphere sphere = double_case_shape_of(q).sphere;
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->org, ray->dir, sphere);
+    const dyadic one = dyadic_make(1, 0);
     dyadic c[3], d[3];
     difference_of(q->data, ray->org, c);
     for (int a = 0; a < 3; a++)
         d[a] = dyadic_of_float(ray->dir[a]);
     const dyadic r = dyadic_of_float(sphere.r), rr = dyadic_mul(&r, &r), cc = dyadic_dot(c, c), dd = dyadic_dot(d, d);
     const dyadic dc = dyadic_dot(d, c), power = dyadic_sub(&cc, &rr), square = dyadic_mul(&dc, &dc);
-    const dyadic product = dyadic_mul(&dd, &power), disc = dyadic_sub(&square, &product), dd2 = dyadic_mul(&dd, &dd);
+    const dyadic product = dyadic_mul(&dd, &power), disc = dyadic_sub(&square, &product);
     const double length2 = (double)dyadic_real(&dd), distance2 = (double)dyadic_real(&cc);
     const double both = distance2 + (double)sphere.r * sphere.r;
-    const double tight = cgt_sphere_double_half2_error(ray->org, ray->dir, sphere);
+    const double tight = cgt_sphere_double_disc_error(ray->org, ray->dir, sphere);
     if (disc.sign >= 0)
-        note_error(half2, error_of(e.half2, &dd2, &disc) / length2, tight * length2);
+        note_error(tight_disc, error_of(e.disc, &one, &disc), tight);
     else
-        assert_true(e.half2 <= tight);
-    note_error(&rest[0], error_of(e.middle, &dd, &dc), 13 * CGT_DOUBLE_U * sqrt(distance2 * length2));
-    note_error(&rest[1], error_of(e.product, &dd, &power), 8 * CGT_DOUBLE_U * both);
-    note_error(&rest[2], error_of(e.half2, &dd2, &disc) / length2, 14 * CGT_DOUBLE_U * both);
+        assert_true(e.disc <= tight);
+    note_error(&rest[0], error_of(e.middle, &one, &dc), 4 * CGT_DOUBLE_U * sqrt(distance2 * length2));
+    note_error(&rest[1], error_of(e.product, &one, &power), 6 * CGT_DOUBLE_U * both);
+    note_error(&rest[2], error_of(e.disc, &one, &disc), 14 * CGT_DOUBLE_U * both * length2);
 }
 
 static void spheres_err_within_bounds(void **state)
 {
     (void)state;
-    nearness half2 = {0}, rest[3] = {{0}};
+    nearness disc = {0}, rest[3] = {{0}};
     for (int f = 0; f < DOUBLE_FAMILIES; f++) {
         test_random r = random_make(10 + (uint64_t)f);
         for (uint32_t round = 100 + test_scaled(15000); round; round--) {
             oracle_primitive q;
             truth_ray ray;
             double_case_make(&r, (double_family)f, true, &q, &ray);
-            judge_sphere(&q, &ray, &half2, rest);
+            judge_sphere(&q, &ray, &disc, rest);
         }
     }
-    expect_near("half2, tight bound", &half2, 0x1p-7);
+    expect_near("discriminant, tight bound", &disc, 0x1p-7);
     expect_near("middle", &rest[0], 0x1p-6);
     expect_near("product", &rest[1], 0x1p-6);
-    expect_near("half2, any line", &rest[2], 0x1p-6);
+    expect_near("discriminant, any line", &rest[2], 0x1p-6);
 }
 
 /* ---- what is called safe ---- */
@@ -173,12 +174,12 @@ static void safe_values_are(void **state)
             const cgt_shape shape = double_case_shape_of(&q);
             const cgt_sphere_terms e = cgt_sphere_double_terms(ray.org, ray.dir, shape.sphere);
             const cgt_triangle_plane p = cgt_triangle_double_plane(ray.org, ray.dir, &shape.triangle);
-            const bool is_safe = sphere ? !cgt_sphere_double_unsafe(e) : cgt_triangle_double_t_safe(&p);
+            const bool is_safe = sphere ? !cgt_sphere_double_unsafe(e, sqrt(e.disc)) : cgt_triangle_double_t_safe(&p);
             ordinary += f == ANYWHERE;
             unsafe += f == ANYWHERE && !is_safe;
             if (!is_safe)
                 continue;
-            const cgt_sphere_roots both = cgt_sphere_double_roots(e.middle, e.product, e.half2);
+            const cgt_sphere_roots both = cgt_sphere_double_roots(e, sqrt(e.disc));
             const double t[2] = {sphere ? both.near : p.num / p.den, both.far};
             for (int i = 0; i < (sphere ? 2 : 1); i++) /* the bounds of t's numerator and denominator add up */
                 note_error(&safe[sphere], fabs((double)(t[i] - roots[i].t)),

@@ -13,34 +13,65 @@
 /* ---- the winners ---- */
 
 /* Neighbours mostly hit the same sphere: each different one of a vector is looked up once. */
-static void find_spheres(const cgt_world *world, const packet *p, winners *w, packet_hits *hits)
+CGT_SPU_INLINE void look_up_spheres(const cgt_objects *objects, const packet *p, uint32_t i, winners *w,
+                                    packet_hits *hits)
 {
-    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
-        vfloat x = spux_vfloat(0), y = x, z = x, r = x;
-        vuint primitive = none, geometry = none;
-        unsigned left = ~spux_mask_bits(spu_cmpeq(object, none)) & CGT_ALL_LANES;
-        w->hits += spux_count_bits(left);
-        while (left) {
-            const uint32_t winner = p->object[i + (uint32_t)__builtin_ctz(left)];
-            const cgt_object_array *a = cgt_objects_array(&world->objects, winner);
-            const cgt_sphere q = cgt_array_sphere(a, winner - a->first);
-            const vmask same = spu_cmpeq(object, spux_vuint(winner));
-            x = spux_select(x, spux_vfloat(q.x), same);
-            y = spux_select(y, spux_vfloat(q.y), same);
-            z = spux_select(z, spux_vfloat(q.z), same);
-            r = spux_select(r, spux_vfloat(q.r), same);
-            primitive = spux_select(primitive, spux_vuint(winner - a->first), same);
-            geometry = spux_select(geometry, spux_vuint(a->geometry), same);
-            w->points |= q.r == 0;
-            left &= ~spux_mask_bits(same);
-        }
-        spux_store(w->sphere[0] + i, x);
-        spux_store(w->sphere[1] + i, y);
-        spux_store(w->sphere[2] + i, z);
-        spux_store(w->sphere[3] + i, r);
-        spux_store_uint(hits->primitive + i, primitive);
-        spux_store_uint(hits->geometry + i, geometry);
+    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
+    vfloat d[4] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
+    vuint primitive = none, geometry = none;
+    unsigned left = ~spux_mask_bits(spu_cmpeq(object, none)) & CGT_ALL_LANES;
+    while (left) {
+        const uint32_t winner = p->object[i + (uint32_t)__builtin_ctz(left)];
+        const cgt_object_array *a = cgt_objects_array(objects, winner);
+        const cgt_sphere q = cgt_array_sphere(a, winner - a->first);
+        const vmask same = spu_cmpeq(object, spux_vuint(winner));
+        d[0] = spux_select(d[0], spux_vfloat(q.x), same);
+        d[1] = spux_select(d[1], spux_vfloat(q.y), same);
+        d[2] = spux_select(d[2], spux_vfloat(q.z), same);
+        d[3] = spux_select(d[3], spux_vfloat(q.r), same);
+        primitive = spux_select(primitive, spux_vuint(winner - a->first), same);
+        geometry = spux_select(geometry, spux_vuint(a->geometry), same);
+        left &= ~spux_mask_bits(same);
+    }
+    for (int a = 0; a < 4; a++)
+        spux_store(w->sphere[a] + i, d[a]);
+    spux_store_uint(hits->primitive + i, primitive);
+    spux_store_uint(hits->geometry + i, geometry);
+}
+
+/* Spheres that are records of one array, of a vector that has a winner: its other lanes take that one's. */
+CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const float *records, const packet *p, uint32_t i,
+                                 unsigned hit, winners *w, packet_hits *hits)
+{
+    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
+    const vmask missed = spu_cmpeq(object, none);
+    const uint32_t some = p->object[i + (uint32_t)__builtin_ctz(hit)];
+    const uint32_t stride = (uint32_t)(array->point_stride / sizeof(float));
+    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+    vfloat d[4];
+    spux_store_uint(at, spux_select(object, spux_vuint(some), missed));
+    for (int k = 0; k < CGT_LANES; k++)
+        at[k] *= stride;
+    spux_load_records4_at(records, at, d);
+    for (int a = 0; a < 4; a++)
+        spux_store(w->sphere[a] + i, d[a]);
+    spux_store_uint(hits->primitive + i, object);
+    spux_store_uint(hits->geometry + i, spux_select(spux_vuint(array->geometry), none, missed));
+}
+
+CGT_SPU_INLINE void find_spheres(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
+                                 winners *w, packet_hits *hits)
+{
+    const vfloat zero = spux_vfloat(0);
+    const vuint none = spux_vuint(CGT_NONE);
+    for (uint32_t i = first; i < first + count; i += CGT_LANES) {
+        const unsigned hit = ~spux_mask_bits(spu_cmpeq(spux_load_uint(p->object + i), none)) & CGT_ALL_LANES;
+        if (w->records && hit)
+            load_spheres(objects->array, w->records, p, i, hit, w, hits);
+        else
+            look_up_spheres(objects, p, i, w, hits);
+        w->hits += spux_count_bits(hit);
+        w->points |= (spux_mask_bits(spu_cmpeq(spux_load(w->sphere[3] + i), zero)) & hit) != 0;
     }
 }
 
@@ -52,17 +83,18 @@ static void set_triangle(winners *w, uint32_t i, const cgt_triangle *q)
 }
 
 /* Triangles, or both kinds; what is not hit, or is of the other kind, gets a shape that computes to something. */
-static void find_shapes(const cgt_world *world, const packet *p, winners *w, packet_hits *hits)
+static void find_shapes(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count, winners *w,
+                        packet_hits *hits)
 {
     static const cgt_triangle nothing = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
     uint32_t last = CGT_NONE;
     cgt_shape shape = {.kind = CGT_KIND_TRIANGLES, .triangle = nothing};
     const cgt_object_array *a = NULL;
-    for (uint32_t i = 0; i < p->lanes; i++) {
+    for (uint32_t i = first; i < first + count; i++) {
         const uint32_t object = p->object[i];
         const bool hit = object != CGT_NONE;
         if (hit && object != last) {
-            a = cgt_objects_array(&world->objects, object);
+            a = cgt_objects_array(objects, object);
             shape = cgt_array_shape(a, object - a->first);
             last = object;
         }
@@ -80,32 +112,55 @@ static void find_shapes(const cgt_world *world, const packet *p, winners *w, pac
     }
 }
 
+CGT_SPU_INLINE void find_winners(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
+                                 winners *w, packet_hits *hits)
+{
+    if (objects->triangles)
+        find_shapes(objects, p, first, count, w, hits);
+    else
+        find_spheres(objects, p, first, count, w, hits);
+}
+
 /* ---- the fields ---- */
 
-static void fill_none(size_t first, size_t count, uint32_t fields, packet_hits *hits)
+CGT_SPU_INLINE void fill_none(uint32_t first, uint32_t count, uint32_t fields, packet_hits *hits)
 {
-    for (size_t i = first; i < first + count; i++)
-        hits->t[i] = INFINITY;
-    if (fields & CGT_FIELD_NORMAL)
-        for (int a = 0; a < 3; a++)
-            memset(hits->normal[a] + first, 0, count * sizeof(float));
-    if (fields & CGT_FIELD_UV) {
-        memset(hits->u + first, 0, count * sizeof(float));
-        memset(hits->v + first, 0, count * sizeof(float));
+    const vfloat zero = spux_vfloat(0);
+    for (uint32_t i = first; i < first + count; i += CGT_LANES) {
+        spux_store(hits->t + i, spux_vfloat(INFINITY));
+        if (fields & CGT_FIELD_NORMAL)
+            for (int a = 0; a < 3; a++)
+                spux_store(hits->normal[a] + i, zero);
+        if (fields & CGT_FIELD_UV) {
+            spux_store(hits->u + i, zero);
+            spux_store(hits->v + i, zero);
+        }
+    }
+}
+
+CGT_SPU_INLINE void fill_nobody(uint32_t first, uint32_t count, packet_hits *hits)
+{
+    for (uint32_t i = first; i < first + count; i += CGT_LANES) {
+        spux_store_uint(hits->primitive + i, spux_vuint(CGT_NONE));
+        spux_store_uint(hits->geometry + i, spux_vuint(CGT_NONE));
     }
 }
 
 /* Rays first to first + count - 1. Each kind's loop writes the rays of its kind. */
-CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, size_t first, size_t count,
+CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
                                  const cgt_trace_settings *settings, winners *w, packet_hits *hits, cgt_counts *counts)
 {
-    uint32_t any = 0;
-    for (size_t i = first; i < first + count; i++)
-        any |= p->object[i] ^ CGT_NONE;
-    if (!any || objects->triangles || settings->fields & CGT_FIELD_UV)
+    vuint any = spux_vuint(0);
+    for (uint32_t i = first; i < first + count; i += CGT_LANES)
+        any = spu_or(any, spu_xor(spux_load_uint(p->object + i), spux_vuint(CGT_NONE)));
+    const bool none = spux_all(spu_cmpeq(any, spux_vuint(0)));
+    if (none || objects->triangles || settings->fields & CGT_FIELD_UV)
         fill_none(first, count, settings->fields, hits);
-    if (!any)
+    if (none) {
+        fill_nobody(first, count, hits);
         return;
+    }
+    find_winners(objects, p, first, count, w, hits);
     if (objects->spheres)
         resolve_spheres(p, first, count, settings, !objects->triangles, w, hits, counts);
     if (objects->triangles)
@@ -115,8 +170,8 @@ CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, si
 static void resolve_all(const cgt_objects *objects, const packet *p, const cgt_trace_settings *settings, winners *w,
                         packet_hits *hits, cgt_counts *counts)
 {
-    const size_t lanes = p->lanes;
-    size_t i = 0;
+    const uint32_t lanes = p->lanes;
+    uint32_t i = 0;
     for (; i + RESOLVE_RAYS <= lanes; i += RESOLVE_RAYS) /* a length that the compiler knows */
         resolve_rays(objects, p, i, RESOLVE_RAYS, settings, w, hits, counts);
     if (i < lanes)
@@ -126,21 +181,18 @@ static void resolve_all(const cgt_objects *objects, const packet *p, const cgt_t
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_world *world, const packet *p, const cgt_trace_settings *settings,
                                         packet_hits *hits, cgt_counts *counts)
 {
+    const cgt_objects *objects = &world->objects;
     winners w;
     w.hits = 0;
     w.points = false;
-    if (world->objects.triangles)
-        find_shapes(world, p, &w, hits);
-    else
-        find_spheres(world, p, &w, hits);
-    counts->hits += w.hits;
-    if (!w.hits)
-        fill_none(0, p->lanes, settings->fields, hits);
-    else if (p->fast && !p->extreme && !world->everything)
+    w.records = objects->triangles ? NULL : cgt_objects_records(objects);
+    if (p->fast && !p->extreme && !world->everything) {
+        find_winners(objects, p, 0, p->lanes, &w, hits);
         resolve_fast(world, p, settings->fields, &w, hits);
-    else
-        resolve_all(&world->objects, p, settings, &w, hits, counts);
+    } else
+        resolve_all(objects, p, settings, &w, hits, counts);
+    counts->hits += w.hits;
     if (settings->fields & CGT_FIELD_NORMAL && w.points)
-        resolve_points(p, !world->objects.triangles, &w, hits);
+        resolve_points(objects, p, hits);
     return w.hits;
 }

@@ -22,16 +22,17 @@ CGT_SPU_INLINE void tile_double_pair(const tile *t, cgt_sphere q, uint32_t pair,
         for (int a = 0; a < 3; a++)
             dir[a] = (c->fwd[a] + px * c->right[a]) + py * c->up[a];
         const cgt_sphere_terms e = cgt_sphere_double_terms(c->eye, dir, q);
-        const double error = cgt_sphere_double_half2_error(c->eye, dir, q);
-        const cgt_sphere_roots root = cgt_sphere_double_roots(e.middle, e.product, e.half2);
+        const double error = cgt_sphere_double_disc_error(c->eye, dir, q);
+        const double half = sqrt(e.disc);
+        const cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
         const double near = (double)(float)root.near, hit = near >= t_min ? root.near : root.far;
         const double rounded = (double)(float)hit;
         const double x = (double)px, y = (double)py;
         const double norm = 1 + (double)t->camera.a * x * x + (double)t->camera.b * y * y;
         const double inside = rounded >= t_min && rounded <= t_max && rounded < INFINITY ? hit * norm : INFINITY;
-        const double known = e.half2 < -error ? INFINITY : inside;
-        const uint64_t open = cgt_sphere_double_unsafe(e) | !(e.half2 > error || e.half2 < -error);
-        depth[i] = open && !(e.half2 < -error) ? (double)NAN : known;
+        const double known = e.disc < -error ? INFINITY : inside;
+        const uint64_t open = cgt_sphere_double_unsafe(e, half) | !(e.disc > error || e.disc < -error);
+        depth[i] = open && !(e.disc < -error) ? (double)NAN : known;
     }
 }
 

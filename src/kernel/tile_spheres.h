@@ -103,18 +103,6 @@ typedef struct tile_spheres {
     unsigned fast, slow; /* lanes as bits: for tile_sphere_draw, for tile_double.h */
 } tile_spheres;
 
-/* One array whose centre and radius are a record of four floats: NULL where not. */
-CGT_SPU_INLINE const float *tile_sphere_records(const cgt_objects *objects)
-{
-    const cgt_object_array *a = objects->array;
-    const bool record = objects->arrays == 1 && a->first == 0 && a->point_stride % sizeof(float) == 0 &&
-                        a->radius == a->point + 3 * sizeof(float) && a->radius_stride == a->point_stride;
-    /* what a vector of offsets can tell */
-    return record && (uint64_t)a->count * (a->point_stride / sizeof(float)) <= UINT32_MAX
-               ? (const float *)(const void *)a->point
-               : NULL;
-}
-
 /* Reads the spheres of at most a vector of references; lanes beyond count repeat the first. */
 CGT_SPU_INLINE void tile_spheres_fetch(const cgt_objects *objects, const float *records, const uint32_t *reference,
                                        uint32_t count, vfloat sphere[4], uint32_t object[CGT_LANES])

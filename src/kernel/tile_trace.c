@@ -4,12 +4,11 @@
  * A camera's frame tile by tile: spheres of a loose grid, front to back, to the pixels that they may reach. The hits are
  * those that every other way finds. */
 #include "../tile_serves.h"
-#include "camera_packet.h"
 #include "tile_double.h"
 #include "tile_draw.h"
 #include "tile_march.h"
+#include "tile_resolve.h"
 
-#define BLOCK 16u /* pixels along the edge of a packet that is resolved */
 #define DRAWN 32u /* spheres after which it pays to look how far the parts still see */
 
 #define WAITING 256u /* references */
@@ -180,44 +179,13 @@ static void tile_make(tile *t, const cgt_world *world, const cgt_camera_rays *ca
     tile_far_update(t);
 }
 
-/* The winners of a block of pixels in the order of a packet's rays: blocks of 4x4 pixels, two rows of which are eight
- * pixels side by side here, and so are they there. */
-static void block_objects(const tile *t, uint32_t x0, uint32_t y0, packet *p)
-{
-    for (uint32_t i = 0; i < BLOCK * BLOCK; i += 8) {
-        const uint32_t *from = t->object + tile_index(x0 + lane_column(i, BLOCK), y0 + lane_row(i, BLOCK));
-        for (uint32_t k = 0; k < 4; k++) {
-            p->object[i + k] = from[2 * k];
-            p->object[i + 4 + k] = from[2 * k + 1];
-        }
-    }
-}
-
-static void resolve(const cgt_world *world, const tile *t, const cgt_trace_settings *settings, const cgt_region *region,
-                    cgt_counts *counts)
-{
-    packet p;
-    packet_hits hits;
-    camera_packet_begin(t->rays, settings, BLOCK, &p);
-    p.extreme = false;
-    for (uint32_t y = 0; y < region->height; y += BLOCK)
-        for (uint32_t x = 0; x < region->width; x += BLOCK) {
-            const uint32_t columns = region->width - x < BLOCK ? region->width - x : BLOCK;
-            const uint32_t rows = region->height - y < BLOCK ? region->height - y : BLOCK;
-            camera_packet_rays(t->rays, region->x + x, region->y + y, BLOCK, columns, rows, &p);
-            block_objects(t, x, y, &p);
-            CGT_KERNEL(cgt_packet_resolve)(world, &p, settings, &hits, counts);
-            camera_packet_store(&hits, BLOCK, columns, rows, region, y * region->row_stride + x);
-        }
-}
-
 static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
                       const cgt_region *region, cgt_counts *counts)
 {
     tile t;
     tile_work w; /* large: not all of it is set */
     w.world = world;
-    w.records = tile_sphere_records(&world->objects);
+    w.records = cgt_objects_records(&world->objects);
     w.t = &t;
     w.queue.entries = 0;
     w.counts = counts;
@@ -225,7 +193,7 @@ static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, con
     tile_make(&t, world, camera, region);
     march(&w);
     counts->rays += (uint64_t)region->width * region->height;
-    resolve(world, &t, settings, region, counts);
+    tile_resolve(world, &t, settings, region, counts);
 }
 
 /* The part of a region that begins at (x, y) in it. */
