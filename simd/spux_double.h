@@ -32,10 +32,7 @@ CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
 }
 CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a) { return (vdouble)_mm512_sqrt_pd((__m512d)a); }
 #elif CGT_LANES == 8
-CGT_SPU_INLINE vdouble spux_double_low(vfloat a)
-{
-    return (vdouble)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)a));
-}
+CGT_SPU_INLINE vdouble spux_double_low(vfloat a) { return (vdouble)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)a)); }
 CGT_SPU_INLINE vdouble spux_double_high(vfloat a)
 {
     return (vdouble)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)a, 1));

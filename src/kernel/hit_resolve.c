@@ -6,6 +6,7 @@
  * packet: the compiler makes vectors of them, and unfused double arithmetic has one result at any width. Rays whose
  * values cancel too much are found on the way, and computed once more in exact arithmetic.
  * FAST precision hands out what the tests found. */
+#include "object_fetch.h"
 #include "resolve_fast.h"
 #include "resolve_spheres.h"
 #include "resolve_triangles.h"
@@ -83,8 +84,8 @@ static void set_triangle(winners *w, uint32_t i, const cgt_triangle *q)
 }
 
 /* Triangles, or both kinds; what is not hit, or is of the other kind, gets a shape that computes to something. */
-static void find_shapes(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count, winners *w,
-                        packet_hits *hits)
+CGT_SPU_INLINE void look_up_shapes(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
+                                   winners *w, packet_hits *hits)
 {
     static const cgt_triangle nothing = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
     uint32_t last = CGT_NONE;
@@ -112,13 +113,56 @@ static void find_shapes(const cgt_objects *objects, const packet *p, uint32_t fi
     }
 }
 
+/* A vector of triangles of one array, of which some lane, `some`, has a winner: the others take that one. */
+CGT_SPU_INLINE void load_triangles(const cgt_object_array *array, vuint object, vmask missed, uint32_t some, uint32_t i,
+                                   winners *w)
+{
+    const vuint number = spux_select(object, spux_vuint(some), missed);
+    vuint corner[3];
+    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) { /* neighbours mostly hit the same */
+        const cgt_triangle q = cgt_array_triangle(array, some);
+        for (int k = 0; k < 3; k++)
+            for (int a = 0; a < 3; a++)
+                spux_store(w->vertex[k][a] + i, spux_vfloat(q.v[k][a]));
+        return;
+    }
+    const bool fit = fetch_vertices_fit(array);
+    fetch_corners_at(array, number, corner);
+    for (int k = 0; k < 3; k++) {
+        const bool before_last = fit && spux_all(spu_cmpgt(spux_vuint(array->points - 1), corner[k]));
+        vfloat v[3];
+        fetch_vertices(array, corner[k], before_last, v);
+        for (int a = 0; a < 3; a++)
+            spux_store(w->vertex[k][a] + i, v[a]);
+    }
+}
+
+/* Triangles of one array alone. */
+CGT_SPU_INLINE void find_triangles(const cgt_object_array *array, const packet *p, uint32_t first, uint32_t count,
+                                   winners *w, packet_hits *hits)
+{
+    const vuint none = spux_vuint(CGT_NONE);
+    for (uint32_t i = first; i < first + count; i += CGT_LANES) {
+        const vuint object = spux_load_uint(p->object + i);
+        const vmask missed = spu_cmpeq(object, none);
+        const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
+        spux_store_uint(w->is_sphere + i, spux_vuint(0));
+        spux_store_uint(hits->primitive + i, object);
+        spux_store_uint(hits->geometry + i, spux_select(spux_vuint(array->geometry), none, missed));
+        load_triangles(array, object, missed, hit ? p->object[i + (uint32_t)__builtin_ctz(hit)] : 0, i, w);
+        w->hits += spux_count_bits(hit);
+    }
+}
+
 CGT_SPU_INLINE void find_winners(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
                                  winners *w, packet_hits *hits)
 {
-    if (objects->triangles)
-        find_shapes(objects, p, first, count, w, hits);
-    else
+    if (!objects->triangles)
         find_spheres(objects, p, first, count, w, hits);
+    else if (objects->arrays == 1)
+        find_triangles(objects->array, p, first, count, w, hits);
+    else
+        look_up_shapes(objects, p, first, count, w, hits);
 }
 
 /* ---- the fields ---- */

@@ -55,6 +55,32 @@ CGT_SPU_INLINE void fetch_corners(const cgt_object_array *a, uint32_t i, uint32_
         corner[j] = spux_load_uint(row[j]);
 }
 
+/* The corners of any triangles of an array. */
+CGT_SPU_INLINE void fetch_corners_at(const cgt_object_array *a, vuint number, vuint corner[3])
+{
+    const uint32_t stride = (uint32_t)(a->index_stride / sizeof(uint32_t));
+    const bool fit = a->index && (uint64_t)a->count * (a->index_stride / sizeof(uint32_t)) <= UINT32_MAX;
+    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES], row[3][CGT_LANES];
+    spux_store_uint(at, number);
+    if (fit && spux_all(spu_cmpgt(spux_vuint(a->count - 1), number))) { /* another record follows each */
+        vfloat d[4];
+        for (int k = 0; k < CGT_LANES; k++)
+            at[k] *= stride;
+        spux_load_records4_at((const float *)(const void *)a->index, at, d);
+        for (int k = 0; k < 3; k++)
+            corner[k] = (vuint)d[k];
+        return;
+    }
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        uint32_t c[3];
+        cgt_array_corners(a, at[k], c);
+        for (int j = 0; j < 3; j++)
+            row[j][k] = c[j];
+    }
+    for (int j = 0; j < 3; j++)
+        corner[j] = spux_load_uint(row[j]);
+}
+
 /* Whether vertices of an array can be told by 32 bits that count floats. */
 CGT_SPU_INLINE bool fetch_vertices_fit(const cgt_object_array *a)
 {

@@ -8,25 +8,10 @@
 
 #include "../decide.h"
 #include "../triangle_double.h"
+#include "spux_double.h"
 #include "winners.h"
 
-CGT_SPU_INLINE bool hits_triangle(const packet *p, const winners *w, size_t i, bool alone)
-{
-    return (p->object[i] != CGT_NONE) & (alone | (w->is_sphere[i] == 0));
-}
-
-/* What the values of some rays have lost more of than they may: they are computed exactly then. */
-typedef struct resolve_unsafe {
-    uint32_t t[RESOLVE_RAYS], uv[RESOLVE_RAYS], normal[RESOLVE_RAYS]; /* 0 or 1 */
-} resolve_unsafe;
-
-CGT_SPU_INLINE uint32_t any_unsafe(const uint32_t unsafe[RESOLVE_RAYS], size_t count)
-{
-    uint32_t any = 0;
-    for (size_t k = 0; k < count; k++)
-        any |= unsafe[k];
-    return any;
-}
+/* ---- a ray ---- */
 
 /* Between 0 and 1, where the exact value is: rounding may have left it. */
 CGT_SPU_INLINE float share_of(double u)
@@ -35,142 +20,193 @@ CGT_SPU_INLINE float share_of(double u)
     return low < 1 ? low : 1;
 }
 
-CGT_SPU_INLINE void unit_normal(const double n[3], float normal[3])
+/* The shares of the second and third vertex. ROBUST does not ask how much of them is left. Returns whether they had to be
+ * computed exactly. */
+static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_triangle_plane *plane, bool exact,
+                           double share[2])
 {
-    const double k = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (int a = 0; a < 3; a++)
-        normal[a] = (float)(n[a] * k);
+    const cgt_triangle_sides s = cgt_triangle_double_sides(ray->line.org, ray->line.dir, q);
+    bool safe = plane->den_error <= CGT_DOUBLE_SAFE * fabs(plane->den);
+    const double r = 1 / plane->den;
+    for (int k = 1; k < 3; k++) {
+        share[k - 1] = s.w[k] * r;
+        safe = safe && (!exact || s.error[k] <= CGT_DOUBLE_SAFE * fabs(s.w[k]));
+    }
+    if (!safe)
+        cgt_exact_uv(&ray->line, q, share);
+    return !safe;
 }
 
-__attribute__((noinline)) static void resolve_triangles_exactly(const packet *p, size_t first, size_t count,
-                                                                uint32_t fields, const resolve_unsafe *unsafe,
-                                                                const winners *w, packet_hits *hits, cgt_counts *counts)
+/* Of all components together, or in EXACT precision of each: one that is exactly 0 is as good as it gets where its
+ * products are too. */
+static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
 {
-    for (size_t k = 0; k < count; k++) {
-        const size_t i = first + k;
-        const cgt_triangle q = winner_triangle(w, i);
-        const cgt_ray ray = {.line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]},
-                                      .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
-        const bool t = fields & CGT_FIELD_T && unsafe->t[k], uv = fields & CGT_FIELD_UV && unsafe->uv[k];
-        counts->exact_values += t || uv;
-        if (t)
-            hits->t[i] = (float)cgt_canonical_triangle_t(&ray, &q);
-        if (uv) {
-            double share[2];
-            cgt_exact_uv(&ray.line, &q, share);
-            hits->u[i] = share_of(share[0]);
-            hits->v[i] = share_of(share[1]);
-        }
-        if (fields & CGT_FIELD_NORMAL && unsafe->normal[k]) {
-            double n[3];
-            float unit[3];
-            cgt_exact_normal(&q, n);
-            unit_normal(n, unit);
-            for (int a = 0; a < 3; a++)
-                hits->normal[a][i] = unit[a];
-        }
-    }
-}
-
-/* The plane of each ray's triangle, as structure of arrays. */
-typedef struct resolve_planes {
-    _Alignas(64) double num[RESOLVE_RAYS], den[RESOLVE_RAYS], num_error[RESOLVE_RAYS], den_error[RESOLVE_RAYS];
-    _Alignas(64) double n[3][RESOLVE_RAYS];
-} resolve_planes;
-
-CGT_SPU_INLINE void resolve_triangles_planes(const packet *p, size_t first, size_t count, const winners *w,
-                                             resolve_planes *planes)
-{
-    for (size_t k = 0; k < count; k++) {
-        const size_t i = first + k;
-        const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
-        const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
-        const cgt_triangle q = winner_triangle(w, i);
-        const cgt_triangle_plane e = cgt_triangle_double_plane(org, dir, &q);
-        planes->num[k] = e.num;
-        planes->den[k] = e.den;
-        planes->num_error[k] = e.num_error;
-        planes->den_error[k] = e.den_error;
-        planes->n[0][k] = e.n[0];
-        planes->n[1][k] = e.n[1];
-        planes->n[2][k] = e.n[2];
-    }
-}
-
-CGT_SPU_INLINE void resolve_triangles_t(const packet *p, size_t first, size_t count, bool alone, const winners *w,
-                                        const resolve_planes *planes, packet_hits *hits, resolve_unsafe *unsafe)
-{
-    for (size_t k = 0; k < count; k++) {
-        const size_t i = first + k;
-        const bool hit = hits_triangle(p, w, i, alone);
-        const cgt_triangle_plane e = {planes->num[k], planes->den[k], planes->num_error[k], planes->den_error[k], {0}};
-        hits->t[i] = hit ? (float)(planes->num[k] / planes->den[k]) : hits->t[i];
-        unsafe->t[k] = hit & !cgt_triangle_double_t_safe(&e);
-    }
-}
-
-CGT_SPU_INLINE void resolve_triangles_uv(const packet *p, size_t first, size_t count, bool alone, bool exact,
-                                         const winners *w, const resolve_planes *planes, packet_hits *hits,
-                                         resolve_unsafe *unsafe)
-{
-    _Alignas(64) double side[2][RESOLVE_RAYS], error[2][RESOLVE_RAYS];
-    /* ROBUST does not ask how much of a share is left: any error is below infinity */
-    const double more = exact ? 0 : INFINITY;
-    for (size_t k = 0; k < count; k++) {
-        const size_t i = first + k;
-        const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]};
-        const float dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
-        const cgt_triangle q = winner_triangle(w, i);
-        const cgt_triangle_sides s = cgt_triangle_double_sides(org, dir, &q);
-        side[0][k] = s.w[1];
-        side[1][k] = s.w[2];
-        error[0][k] = s.error[1];
-        error[1][k] = s.error[2];
-    }
-    for (size_t k = 0; k < count; k++) {
-        const size_t i = first + k;
-        const double r = 1 / planes->den[k];
-        const float u = share_of(side[0][k] * r), v = share_of(side[1][k] * r);
-        const bool hit = hits_triangle(p, w, i, alone);
-        hits->u[i] = hit ? u : 0;
-        hits->v[i] = hit ? v : 0;
-    }
-    for (size_t k = 0; k < count; k++) {
-        const uint32_t den = planes->den_error[k] <= CGT_DOUBLE_SAFE * fabs(planes->den[k]) ? 0 : 1;
-        const uint32_t u = error[0][k] <= CGT_DOUBLE_SAFE * fabs(side[0][k]) + more ? 0 : 1;
-        const uint32_t v = error[1][k] <= CGT_DOUBLE_SAFE * fabs(side[1][k]) + more ? 0 : 1;
-        unsafe->uv[k] = hits_triangle(p, w, first + k, alone) ? den | u | v : 0;
-    }
-}
-
-/* |e1|_1 |e2|_1, which bounds what the components of their cross product are made of. */
-CGT_SPU_INLINE double edge_product(const winners *w, size_t i)
-{
-    double size[2] = {0, 0};
+    double size[2] = {0, 0}, sum = 0;
+    bool each = true;
     for (int k = 0; k < 2; k++)
         for (int a = 0; a < 3; a++)
-            size[k] += fabs((double)w->vertex[k + 1][a][i] - (double)w->vertex[0][a][i]);
-    return size[0] * size[1];
+            size[k] += fabs((double)q->v[k + 1][a] - (double)q->v[0][a]);
+    const double error = CGT_TRIANGLE_DOUBLE_ERROR * (size[0] * size[1]);
+    for (int a = 0; a < 3; a++) {
+        each = each && error <= CGT_DOUBLE_SAFE * fabs(n[a]);
+        sum += CGT_DOUBLE_SAFE * fabs(n[a]);
+    }
+    return exact ? each : error <= sum;
 }
 
-CGT_SPU_INLINE void resolve_triangles_normal(const packet *p, size_t first, size_t count, bool alone, bool exact,
-                                             const winners *w, const resolve_planes *planes, packet_hits *hits,
-                                             resolve_unsafe *unsafe)
+/* Something of it cancels. */
+__attribute__((noinline)) static void resolve_triangle_ray(const packet *p, size_t i, uint32_t fields, bool exact,
+                                                           const winners *w, packet_hits *hits, cgt_counts *counts)
 {
-    for (size_t k = 0; k < count; k++) {
-        const size_t i = first + k;
-        const double x = planes->n[0][k], y = planes->n[1][k], z = planes->n[2][k];
-        const double r = 1 / sqrt(x * x + y * y + z * z);
-        const bool hit = hits_triangle(p, w, i, alone);
-        hits->normal[0][i] = hit ? (float)(x * r) : hits->normal[0][i];
-        hits->normal[1][i] = hit ? (float)(y * r) : hits->normal[1][i];
-        hits->normal[2][i] = hit ? (float)(z * r) : hits->normal[2][i];
-        /* a component that is exactly 0 is as good as it gets where its products are too */
-        const double error = CGT_TRIANGLE_DOUBLE_ERROR * edge_product(w, i), least = CGT_DOUBLE_SAFE * fabs(x),
-                     least_y = CGT_DOUBLE_SAFE * fabs(y), least_z = CGT_DOUBLE_SAFE * fabs(z);
-        const bool each = (error <= least) & (error <= least_y) & (error <= least_z);
-        unsafe->normal[k] = hit & (exact ? !each : !(error <= least + least_y + least_z));
+    const cgt_triangle q = winner_triangle(w, i);
+    const cgt_ray ray = {
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
+    const cgt_triangle_plane plane = cgt_triangle_double_plane(ray.line.org, ray.line.dir, &q);
+    bool exactly = false;
+    if (fields & CGT_FIELD_T) {
+        hits->t[i] = (float)cgt_canonical_triangle_t(&ray, &q);
+        exactly = !cgt_triangle_double_t_safe(&plane);
     }
+    if (fields & CGT_FIELD_UV) {
+        double share[2];
+        exactly |= resolve_ray_uv(&ray, &q, &plane, exact, share);
+        hits->u[i] = share_of(share[0]);
+        hits->v[i] = share_of(share[1]);
+    }
+    counts->exact_values += exactly;
+    if (fields & CGT_FIELD_NORMAL) {
+        double n[3] = {plane.n[0], plane.n[1], plane.n[2]};
+        if (!normal_is_safe(&q, n, exact))
+            cgt_exact_normal(&q, n);
+        const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int a = 0; a < 3; a++)
+            hits->normal[a][i] = (float)(n[a] * r);
+    }
+}
+
+/* ---- a vector of rays ---- */
+
+/* Half a vector: the steps of cgt_triangle_double_plane, in its order. */
+typedef struct resolve_half_plane {
+    vdouble d[3], org[3], v[3][3];
+    vdouble n[3], num, den, edges, sure_t, sure_den; /* the last two: above 0 where t and den are safe */
+} resolve_half_plane;
+
+#define NORM1(x) (spux_double_abs((x)[0]) + spux_double_abs((x)[1]) + spux_double_abs((x)[2]))
+#define DOT(p, q) ((p)[0] * (q)[0] + (p)[1] * (q)[1] + (p)[2] * (q)[2])
+
+CGT_SPU_INLINE void resolve_half_load(const packet *p, size_t i, const winners *w, resolve_half_plane h[2])
+{
+    for (int a = 0; a < 3; a++) {
+        const vfloat dir = spux_load(p->dir[a] + i), org = spux_load(p->org[a] + i);
+        h[0].d[a] = spux_double_low(dir);
+        h[1].d[a] = spux_double_high(dir);
+        h[0].org[a] = spux_double_low(org);
+        h[1].org[a] = spux_double_high(org);
+        for (int k = 0; k < 3; k++) {
+            const vfloat v = spux_load(w->vertex[k][a] + i);
+            h[0].v[k][a] = spux_double_low(v);
+            h[1].v[k][a] = spux_double_high(v);
+        }
+    }
+}
+
+CGT_SPU_INLINE void resolve_half_plane_make(resolve_half_plane *h)
+{
+    vdouble a[3], e1[3], e2[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = h->v[0][k] - h->org[k];
+        e1[k] = h->v[1][k] - h->v[0][k];
+        e2[k] = h->v[2][k] - h->v[0][k];
+    }
+    for (int k = 0; k < 3; k++)
+        h->n[k] = CGT_CROSS(e1, e2, (k + 1) % 3, (k + 2) % 3);
+    h->edges = NORM1(e1) * NORM1(e2) * CGT_TRIANGLE_DOUBLE_ERROR;
+    h->num = DOT(h->n, a);
+    h->den = DOT(h->d, h->n);
+    h->sure_den = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - h->edges * NORM1(h->d);
+    h->sure_t = spux_double_abs(h->num) * CGT_DOUBLE_SAFE - h->edges * NORM1(a);
+}
+
+/* w1 or w2: the side of the edge from vertex `from` to `to`, as cgt_triangle_double_sides has it; and what is above 0
+ * where it is safe. */
+CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, int to, vdouble *sure)
+{
+    vdouble b[3], e[3];
+    for (int a = 0; a < 3; a++) {
+        b[a] = h->v[from][a] - h->org[a];
+        e[a] = h->v[to][a] - h->v[from][a];
+    }
+    const vdouble side =
+        h->d[0] * CGT_CROSS(b, e, 1, 2) + h->d[1] * CGT_CROSS(b, e, 2, 0) + h->d[2] * CGT_CROSS(b, e, 0, 1);
+    *sure = spux_double_abs(side) * CGT_DOUBLE_SAFE - NORM1(h->d) * CGT_TRIANGLE_DOUBLE_ERROR * NORM1(b) * NORM1(e);
+    return side;
+}
+
+CGT_SPU_INLINE vmask above_0(vdouble low, vdouble high) { return spu_cmpgt(spux_float_of(low, high), spux_vfloat(0)); }
+
+CGT_SPU_INLINE vmask resolve_vector_uv(size_t i, const resolve_half_plane h[2], bool exact, vmask hit,
+                                       packet_hits *hits)
+{
+    const vdouble r[2] = {spux_vdouble(1) / h[0].den, spux_vdouble(1) / h[1].den};
+    float *const to[2] = {hits->u, hits->v};
+    vmask known = above_0(h[0].sure_den, h[1].sure_den);
+    for (int k = 0; k < 2; k++) { /* w1 is of the edge from v2 to v0, w2 from v0 to v1 */
+        const int from = k ? 0 : 2, end = k ? 1 : 0;
+        vdouble sure[2];
+        const vdouble low = resolve_half_side(&h[0], from, end, &sure[0]);
+        const vdouble high = resolve_half_side(&h[1], from, end, &sure[1]);
+        const vfloat share = spux_float_of(low * r[0], high * r[1]), zero = spux_vfloat(0), one = spux_vfloat(1);
+        const vfloat above = spux_select(zero, share, spu_cmpgt(share, zero));
+        spux_store(to[k] + i, spux_select(zero, spux_select(one, above, spu_cmpgt(one, above)), hit));
+        if (exact)
+            known = spu_and(known, above_0(sure[0], sure[1]));
+    }
+    return known;
+}
+
+CGT_SPU_INLINE vmask resolve_vector_normal(size_t i, const resolve_half_plane h[2], bool exact, vmask hit,
+                                           packet_hits *hits)
+{
+    vdouble r[2], sum[2];
+    vmask known = spux_mask_all();
+    for (int k = 0; k < 2; k++) {
+        r[k] = spux_vdouble(1) / spux_double_sqrt(DOT(h[k].n, h[k].n));
+        sum[k] = NORM1(h[k].n) * CGT_DOUBLE_SAFE - h[k].edges;
+    }
+    for (int a = 0; a < 3; a++) {
+        const vfloat n = spux_float_of(h[0].n[a] * r[0], h[1].n[a] * r[1]);
+        spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), n, hit));
+        if (exact)
+            known = spu_and(known, above_0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
+                                           spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
+    }
+    return exact ? known : above_0(sum[0], sum[1]);
+}
+
+/* What is not surely safe here is looked at ray by ray. */
+CGT_SPU_INLINE void resolve_triangles_vector(const packet *p, size_t i, uint32_t fields, bool exact, bool alone,
+                                             const winners *w, packet_hits *hits, cgt_counts *counts)
+{
+    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_NONE));
+    const vmask hit =
+        alone ? spux_not(nobody) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), nobody);
+    resolve_half_plane h[2];
+    vmask known = spux_mask_all();
+    resolve_half_load(p, i, w, h);
+    resolve_half_plane_make(&h[0]);
+    resolve_half_plane_make(&h[1]);
+    if (fields & CGT_FIELD_T) {
+        const vfloat t = spux_float_of(h[0].num / h[0].den, h[1].num / h[1].den);
+        spux_store(hits->t + i, spux_select(spux_load(hits->t + i), t, hit));
+        known = spu_and(above_0(h[0].sure_t, h[1].sure_t), above_0(h[0].sure_den, h[1].sure_den));
+    }
+    if (fields & CGT_FIELD_UV)
+        known = spu_and(known, resolve_vector_uv(i, h, exact, hit, hits));
+    if (fields & CGT_FIELD_NORMAL)
+        known = spu_and(known, resolve_vector_normal(i, h, exact, hit, hits));
+    for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1)
+        resolve_triangle_ray(p, i + (size_t)__builtin_ctz(left), fields, exact, w, hits, counts);
 }
 
 CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
@@ -178,26 +214,13 @@ CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t coun
 {
     const uint32_t fields = settings->fields;
     const bool exact = settings->precision == CGT_PRECISION_EXACT;
-    resolve_planes planes;
-    resolve_unsafe unsafe;
-    uint32_t any = 0;
     if (!(fields & (CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV)))
         return;
-    resolve_triangles_planes(p, first, count, w, &planes);
-    if (fields & CGT_FIELD_T) {
-        resolve_triangles_t(p, first, count, alone, w, &planes, hits, &unsafe);
-        any |= any_unsafe(unsafe.t, count);
-    }
-    if (fields & CGT_FIELD_UV) {
-        resolve_triangles_uv(p, first, count, alone, exact, w, &planes, hits, &unsafe);
-        any |= any_unsafe(unsafe.uv, count);
-    }
-    if (fields & CGT_FIELD_NORMAL) {
-        resolve_triangles_normal(p, first, count, alone, exact, w, &planes, hits, &unsafe);
-        any |= any_unsafe(unsafe.normal, count);
-    }
-    if (any)
-        resolve_triangles_exactly(p, first, count, fields, &unsafe, w, hits, counts);
+    for (size_t i = first; i < first + count; i += CGT_LANES)
+        resolve_triangles_vector(p, i, fields, exact, alone, w, hits, counts);
 }
+
+#undef DOT
+#undef NORM1
 
 #endif
