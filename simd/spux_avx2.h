@@ -154,12 +154,14 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[8])
     }
 }
 
-CGT_SPU_INLINE void cgt_spux_load_records4_w(const float *const p[8], vfloat d[4])
-{
-    vfloat r[4];
-    for (int k = 0; k < 4; k++)
-        r[k] = (vfloat)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[k])), _mm_loadu_ps(p[k + 4]), 1);
-    cgt_spux_transpose4_w(r, d);
-}
+/* Lane k's record at AT(k), an expression: not an array of pointers, which compilers make vectors of. */
+#define CGT_SPUX_LOAD_RECORDS4(AT, d)                                                                                  \
+    do {                                                                                                               \
+        vfloat r_[4];                                                                                                  \
+        for (int k_ = 0; k_ < 4; k_++)                                                                                 \
+            r_[k_] = (vfloat)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(AT(k_))),                        \
+                                                  _mm_loadu_ps(AT(k_ + 4)), 1);                                        \
+        cgt_spux_transpose4_w(r_, d);                                                                                  \
+    } while (0)
 
 #endif

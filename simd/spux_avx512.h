@@ -166,16 +166,17 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[16])
     }
 }
 
-CGT_SPU_INLINE void cgt_spux_load_records4_w(const float *const p[16], vfloat d[4])
-{
-    vfloat r[4];
-    for (int k = 0; k < 4; k++) {
-        __m512 v = _mm512_castps128_ps512(_mm_loadu_ps(p[k]));
-        v = _mm512_insertf32x4(v, _mm_loadu_ps(p[k + 4]), 1);
-        v = _mm512_insertf32x4(v, _mm_loadu_ps(p[k + 8]), 2);
-        r[k] = (vfloat)_mm512_insertf32x4(v, _mm_loadu_ps(p[k + 12]), 3);
-    }
-    cgt_spux_transpose4_w(r, d);
-}
+/* Lane k's record at AT(k), an expression: not an array of pointers, which compilers make vectors of. */
+#define CGT_SPUX_LOAD_RECORDS4(AT, d)                                                                                  \
+    do {                                                                                                               \
+        vfloat r_[4];                                                                                                  \
+        for (int k_ = 0; k_ < 4; k_++) {                                                                               \
+            __m512 v_ = _mm512_castps128_ps512(_mm_loadu_ps(AT(k_)));                                                  \
+            v_ = _mm512_insertf32x4(v_, _mm_loadu_ps(AT(k_ + 4)), 1);                                                  \
+            v_ = _mm512_insertf32x4(v_, _mm_loadu_ps(AT(k_ + 8)), 2);                                                  \
+            r_[k_] = (vfloat)_mm512_insertf32x4(v_, _mm_loadu_ps(AT(k_ + 12)), 3);                                     \
+        }                                                                                                              \
+        cgt_spux_transpose4_w(r_, d);                                                                                  \
+    } while (0)
 
 #endif

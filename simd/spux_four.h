@@ -201,12 +201,13 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[4])
     for (int j = 0; j < 4; j++)
         row[j] = t[j];
 }
-CGT_SPU_INLINE void cgt_spux_load_records4_w(const float *const p[4], vfloat d[4])
-{
-    vfloat r[4];
-    for (int k = 0; k < 4; k++)
-        memcpy(&r[k], p[k], sizeof r[k]);
-    cgt_spux_transpose4_w(r, d);
-}
+/* Lane k's record at AT(k). */
+#define CGT_SPUX_LOAD_RECORDS4(AT, d)                                                                                  \
+    do {                                                                                                               \
+        vfloat r_[4];                                                                                                  \
+        for (int k_ = 0; k_ < 4; k_++)                                                                                 \
+            memcpy(&r_[k_], AT(k_), sizeof r_[k_]);                                                                    \
+        cgt_spux_transpose4_w(r_, d);                                                                                  \
+    } while (0)
 
 #endif

@@ -146,17 +146,15 @@ CGT_SPU_INLINE uint32_t spux_compress_store(float *p, vfloat a, vmask m)
 
 CGT_SPU_INLINE void spux_load_records4(const float *base, size_t stride, vfloat d[4])
 {
-    const float *p[CGT_LANES];
-    for (int k = 0; k < CGT_LANES; k++)
-        p[k] = base + (size_t)k * stride;
-    cgt_spux_load_records4_w(p, d);
+#define CGT_SPUX_AT(k) (base + (size_t)(k)*stride)
+    CGT_SPUX_LOAD_RECORDS4(CGT_SPUX_AT, d);
+#undef CGT_SPUX_AT
 }
 CGT_SPU_INLINE void spux_load_records4_at(const float *base, const uint32_t at[CGT_LANES], vfloat d[4])
 {
-    const float *p[CGT_LANES];
-    for (int k = 0; k < CGT_LANES; k++)
-        p[k] = base + at[k];
-    cgt_spux_load_records4_w(p, d);
+#define CGT_SPUX_AT(k) (base + at[k])
+    CGT_SPUX_LOAD_RECORDS4(CGT_SPUX_AT, d);
+#undef CGT_SPUX_AT
 }
 
 /* A larger matrix by squares of CGT_LANES. */

@@ -121,19 +121,6 @@ static inline cgt_shape cgt_objects_shape(const cgt_objects *objects, uint32_t o
     return cgt_array_shape(a, object - a->first);
 }
 
-/* Where all objects are spheres of one array, each a record of four floats: the first; else NULL. Offsets of records in
- * floats have 32 bits. */
-static inline const float *cgt_objects_records(const cgt_objects *objects)
-{
-    const cgt_object_array *a = objects->array;
-    const bool records = objects->arrays == 1 && a->kind == CGT_KIND_SPHERES && a->first == 0 &&
-                         a->point_stride % sizeof(float) == 0 && a->radius == a->point + 3 * sizeof(float) &&
-                         a->radius_stride == a->point_stride;
-    return records && (uint64_t)a->count * (a->point_stride / sizeof(float)) <= UINT32_MAX
-               ? (const float *)(const void *)a->point
-               : NULL;
-}
-
 static inline cgt_object_state cgt_sphere_check(cgt_sphere q)
 {
     /* finite times zero is zero; infinity and NaN give NaN, and NaN stays */

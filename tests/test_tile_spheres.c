@@ -89,7 +89,7 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     cgt_counts counts = {0};
     queue.entries = 0;
     memset(open, 0, sizeof open);
-    tile_spheres_fetch(&objects, cgt_objects_records(&objects), &reference, 1, v, s.object);
+    tile_spheres_fetch(&objects, &reference, 1, v, s.object);
     assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
     tile_spheres_make(t, v, 1, &s);
     sum->slow += s.slow & 1;

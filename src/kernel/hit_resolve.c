@@ -40,20 +40,16 @@ CGT_SPU_INLINE void look_up_spheres(const cgt_objects *objects, const packet *p,
     spux_store_uint(hits->geometry + i, geometry);
 }
 
-/* Spheres that are records of one array, of a vector that has a winner: its other lanes take that one's. */
-CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const float *records, const packet *p, uint32_t i,
-                                 unsigned hit, winners *w, packet_hits *hits)
+/* Spheres of one array, of a vector that has a winner: its other lanes take that one's. */
+CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const packet *p, uint32_t i, unsigned hit, winners *w,
+                                 packet_hits *hits)
 {
     const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
     const vmask missed = spu_cmpeq(object, none);
-    const uint32_t some = p->object[i + (uint32_t)__builtin_ctz(hit)];
-    const uint32_t stride = (uint32_t)(array->point_stride / sizeof(float));
-    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
     vfloat d[4];
-    spux_store_uint(at, spux_select(object, spux_vuint(some), missed));
-    for (int k = 0; k < CGT_LANES; k++)
-        at[k] *= stride;
-    spux_load_records4_at(records, at, d);
+    spux_store_uint(number, spux_select(object, spux_vuint(p->object[i + (uint32_t)__builtin_ctz(hit)]), missed));
+    fetch_spheres_at(array, number, d);
     for (int a = 0; a < 4; a++)
         spux_store(w->sphere[a] + i, d[a]);
     spux_store_uint(hits->primitive + i, object);
@@ -63,16 +59,14 @@ CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const float *rec
 CGT_SPU_INLINE void find_spheres(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
                                  winners *w, packet_hits *hits)
 {
-    const vfloat zero = spux_vfloat(0);
     const vuint none = spux_vuint(CGT_NONE);
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
         const unsigned hit = ~spux_mask_bits(spu_cmpeq(spux_load_uint(p->object + i), none)) & CGT_ALL_LANES;
-        if (w->records && hit)
-            load_spheres(objects->array, w->records, p, i, hit, w, hits);
+        if (objects->arrays == 1 && hit)
+            load_spheres(objects->array, p, i, hit, w, hits);
         else
             look_up_spheres(objects, p, i, w, hits);
         w->hits += spux_count_bits(hit);
-        w->points |= (spux_mask_bits(spu_cmpeq(spux_load(w->sphere[3] + i), zero)) & hit) != 0;
     }
 }
 
@@ -109,7 +103,6 @@ CGT_SPU_INLINE void look_up_shapes(const cgt_objects *objects, const packet *p, 
         w->sphere[1][i] = sphere ? shape.sphere.y : 0;
         w->sphere[2][i] = sphere ? shape.sphere.z : 0;
         w->sphere[3][i] = sphere ? shape.sphere.r : 0;
-        w->points |= sphere && shape.sphere.r == 0;
     }
 }
 
@@ -228,15 +221,11 @@ uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_world *world, const packet *p,
     const cgt_objects *objects = &world->objects;
     winners w;
     w.hits = 0;
-    w.points = false;
-    w.records = objects->triangles ? NULL : cgt_objects_records(objects);
     if (p->fast && !p->extreme && !world->everything) {
         find_winners(objects, p, 0, p->lanes, &w, hits);
         resolve_fast(world, p, settings->fields, &w, hits);
     } else
         resolve_all(objects, p, settings, &w, hits, counts);
     counts->hits += w.hits;
-    if (settings->fields & CGT_FIELD_NORMAL && w.points)
-        resolve_points(objects, p, hits);
     return w.hits;
 }

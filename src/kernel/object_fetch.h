@@ -33,6 +33,39 @@ CGT_SPU_INLINE void fetch_spheres(const cgt_object_array *a, uint32_t i, uint32_
         d[k] = spux_load(row[k]);
 }
 
+/* Any spheres of an array; lane by lane where offsets are beyond 32 bits, or another record does not follow each. */
+CGT_SPU_INLINE void fetch_spheres_at(const cgt_object_array *a, const uint32_t number[CGT_LANES], vfloat d[4])
+{
+    const bool records = a->radius == a->point + 3 * sizeof(float) && a->radius_stride == a->point_stride;
+    const uint32_t stride = (uint32_t)(a->point_stride / sizeof(float));
+    const bool fit = (uint64_t)a->count * (a->point_stride / sizeof(float)) <= UINT32_MAX;
+    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES];
+    uint32_t last = 0;
+    for (int k = 0; k < CGT_LANES; k++) {
+        at[k] = number[k] * stride;
+        last |= number[k] == a->count - 1;
+    }
+    if (fit && (records || !last)) {
+        spux_load_records4_at(cgt_array_point(a, 0), at, d);
+        if (records)
+            return;
+        for (int k = 0; k < CGT_LANES; k++)
+            row[3][k] = *(const float *)(const void *)(a->radius + (size_t)number[k] * a->radius_stride);
+        d[3] = spux_load(row[3]);
+        return;
+    }
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const cgt_sphere q = cgt_array_sphere(a, number[k]);
+        row[0][k] = q.x;
+        row[1][k] = q.y;
+        row[2][k] = q.z;
+        row[3][k] = q.r;
+    }
+    for (int k = 0; k < 4; k++)
+        d[k] = spux_load(row[k]);
+}
+
 /* The corners of triangles i to i + count - 1, zeros beyond. */
 CGT_SPU_INLINE void fetch_corners(const cgt_object_array *a, uint32_t i, uint32_t count, vuint corner[3])
 {

@@ -7,8 +7,22 @@
 
 #include "winners.h"
 
+/* A sphere of radius 0 has no normal of its own: it gets the direction back to the ray's origin. */
+CGT_SPU_INLINE void fast_normal_of_point(const packet *p, uint32_t i, packet_hits *hits)
+{
+    const double x = (double)p->dir[0][i], y = (double)p->dir[1][i], z = (double)p->dir[2][i];
+    const double k = -1 / sqrt(x * x + y * y + z * z);
+    hits->normal[0][i] = (float)(x * k);
+    hits->normal[1][i] = (float)(y * k);
+    hits->normal[2][i] = (float)(z * k);
+}
+
 CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const winners *w, packet_hits *hits)
 {
+    if (w->sphere[3][i] == 0) {
+        fast_normal_of_point(p, i, hits);
+        return;
+    }
     const double k = 1 / (double)w->sphere[3][i]; /* finite for denormal radii too */
     for (int a = 0; a < 3; a++)
         hits->normal[a][i] = (float)((double)((p->org[a][i] - w->sphere[a][i]) + p->high[i] * p->dir[a][i]) * k);

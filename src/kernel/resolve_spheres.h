@@ -50,61 +50,86 @@ CGT_SPU_INLINE vmask resolve_halves_known(const resolve_half h[2], vfloat t, vfl
     return spu_and(spu_and(safe, outside), spux_cmpge(t, t_min));
 }
 
-/* A ray whose t cancels, or is the far root. */
-__attribute__((noinline)) static void resolve_sphere_ray(const packet *p, size_t i, const winners *w, bool normal,
-                                                         packet_hits *hits, cgt_counts *counts)
+/* t and the unit normal of one sphere's hit. */
+typedef struct resolved_sphere {
+    float t, normal[3];
+} resolved_sphere;
+
+/* A ray whose t cancels, or is the far root, or whose sphere is a point: that has no normal of its own, and gets the
+ * direction back to the ray's origin. */
+__attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(const cgt_ray *ray, cgt_sphere q,
+                                                                            cgt_counts *counts)
 {
-    const cgt_sphere q = winner_sphere(w, i);
-    const double k = 1 / (double)q.r, centre[3] = {q.x, q.y, q.z};
-    const cgt_ray ray = {
-        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
-        .t_min = p->t_min[i]};
-    const cgt_sphere_terms e = cgt_sphere_double_terms(ray.line.org, ray.line.dir, q);
+    const double centre[3] = {q.x, q.y, q.z}, d[3] = {ray->line.dir[0], ray->line.dir[1], ray->line.dir[2]};
+    const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, q);
     bool far;
-    const double t = cgt_canonical_sphere_t(&ray, q, &far);
+    const double t = cgt_canonical_sphere_t(ray, q, &far);
+    const double k = q.r > 0 ? 1 / (double)q.r : -1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    resolved_sphere s = {.t = (float)t};
     counts->exact_values += cgt_sphere_double_unsafe(e, sqrt(e.disc));
-    hits->t[i] = (float)t;
-    for (int a = 0; normal && a < 3; a++)
-        hits->normal[a][i] = (float)((((double)ray.line.org[a] - centre[a]) + t * (double)ray.line.dir[a]) * k);
+    for (int a = 0; a < 3; a++)
+        s.normal[a] = (float)((q.r > 0 ? ((double)ray->line.org[a] - centre[a]) + t * d[a] : d[a]) * k);
+    return s;
 }
 
-/* A vector of rays. The outward unit normal is the vector from the centre over the radius. Origin and centre may both be
- * far away: their difference comes first. */
-CGT_SPU_INLINE void resolve_spheres_vector(const packet *p, size_t i, bool normal, bool alone, const winners *w,
-                                           packet_hits *hits, cgt_counts *counts)
+/* A vector of rays and the spheres that they hit. The outward unit normal is the vector from the centre over the radius.
+ * Origin and centre may both be far away: their difference comes first. Returns the lanes that are right; the others
+ * are for resolve_sphere_ray. */
+CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
+                                            vfloat t_min, bool normal, vfloat *t, vfloat n[3])
+{
+    resolve_half h[2];
+    vdouble o[2][3], c[2][3];
+    for (int a = 0; a < 3; a++) {
+        h[0].d[a] = spux_double_low(dir[a]);
+        h[1].d[a] = spux_double_high(dir[a]);
+        o[0][a] = spux_double_low(org[a]);
+        o[1][a] = spux_double_high(org[a]);
+        c[0][a] = spux_double_low(sphere[a]);
+        c[1][a] = spux_double_high(sphere[a]);
+    }
+    const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
+    resolve_half_t(o[0], c[0], r[0], &h[0]);
+    resolve_half_t(o[1], c[1], r[1], &h[1]);
+    *t = spux_float_of(h[0].t, h[1].t);
+    const vmask known = resolve_halves_known(h, *t, t_min);
+    if (!normal)
+        return known;
+    const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
+    for (int a = 0; a < 3; a++)
+        n[a] = spux_float_of((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1]);
+    return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
+}
+
+/* Lanes of a packet. */
+CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal, bool alone, const winners *w,
+                                          packet_hits *hits, cgt_counts *counts)
 {
     const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_NONE));
     const vmask hit = alone ? spux_not(nobody) : spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(1));
-    vfloat centre[4], org[3], dir[3];
-    resolve_half h[2];
+    vfloat sphere[4], org[3], dir[3], n[3], t;
     for (int a = 0; a < 4; a++)
-        centre[a] = spux_load(w->sphere[a] + i);
+        sphere[a] = spux_load(w->sphere[a] + i);
     for (int a = 0; a < 3; a++) {
         org[a] = spux_load(p->org[a] + i);
         dir[a] = spux_load(p->dir[a] + i);
-        h[0].d[a] = spux_double_low(dir[a]);
-        h[1].d[a] = spux_double_high(dir[a]);
     }
-    const vdouble r[2] = {spux_double_low(centre[3]), spux_double_high(centre[3])};
-    const vdouble o[2][3] = {{spux_double_low(org[0]), spux_double_low(org[1]), spux_double_low(org[2])},
-                             {spux_double_high(org[0]), spux_double_high(org[1]), spux_double_high(org[2])}};
-    const vdouble c[2][3] = {{spux_double_low(centre[0]), spux_double_low(centre[1]), spux_double_low(centre[2])},
-                             {spux_double_high(centre[0]), spux_double_high(centre[1]), spux_double_high(centre[2])}};
-    for (int k = 0; k < 2; k++)
-        resolve_half_t(o[k], c[k], r[k], &h[k]);
-    const vfloat t = spux_float_of(h[0].t, h[1].t);
+    const vmask known = resolve_spheres_vector(org, dir, sphere, spux_load(p->t_min + i), normal, &t, n);
     spux_store(hits->t + i, spux_select(alone ? spux_vfloat(INFINITY) : spux_load(hits->t + i), t, hit));
-    if (normal) {
-        const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
-        for (int a = 0; a < 3; a++) {
-            const vdouble low = (h[0].t * h[0].d[a] - h[0].c[a]) * k[0], high = (h[1].t * h[1].d[a] - h[1].c[a]) * k[1];
-            const vfloat other = alone ? spux_vfloat(0) : spux_load(hits->normal[a] + i);
-            spux_store(hits->normal[a] + i, spux_select(other, spux_float_of(low, high), hit));
-        }
+    for (int a = 0; normal && a < 3; a++) {
+        const vfloat other = alone ? spux_vfloat(0) : spux_load(hits->normal[a] + i);
+        spux_store(hits->normal[a] + i, spux_select(other, n[a], hit));
     }
-    const vmask known = resolve_halves_known(h, t, spux_load(p->t_min + i));
-    for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1)
-        resolve_sphere_ray(p, i + (size_t)__builtin_ctz(left), w, normal, hits, counts);
+    for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1) {
+        const size_t lane = i + (size_t)__builtin_ctz(left);
+        const cgt_ray ray = {.line = {.org = {p->org[0][lane], p->org[1][lane], p->org[2][lane]},
+                                      .dir = {p->dir[0][lane], p->dir[1][lane], p->dir[2][lane]}},
+                             .t_min = p->t_min[lane]};
+        const resolved_sphere s = resolve_sphere_ray(&ray, winner_sphere(w, lane), counts);
+        hits->t[lane] = s.t;
+        for (int a = 0; normal && a < 3; a++)
+            hits->normal[a][lane] = s.normal[a];
+    }
 }
 
 CGT_SPU_INLINE void resolve_spheres(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
@@ -112,27 +137,10 @@ CGT_SPU_INLINE void resolve_spheres(const packet *p, size_t first, size_t count,
 {
     if (settings->fields & CGT_FIELD_NORMAL)
         for (size_t i = first; i < first + count; i += CGT_LANES)
-            resolve_spheres_vector(p, i, true, alone, w, hits, counts);
+            resolve_spheres_lanes(p, i, true, alone, w, hits, counts);
     else if (settings->fields & CGT_FIELD_T)
         for (size_t i = first; i < first + count; i += CGT_LANES)
-            resolve_spheres_vector(p, i, false, alone, w, hits, counts);
-}
-
-/* A sphere of radius 0 has no normal of its own: it gets the direction back to the ray's origin. */
-static void resolve_points(const cgt_objects *objects, const packet *p, packet_hits *hits)
-{
-    for (uint32_t i = 0; i < p->lanes; i++) {
-        if (p->object[i] == CGT_NONE)
-            continue;
-        const cgt_shape shape = cgt_objects_shape(objects, p->object[i]);
-        if (shape.kind != CGT_KIND_SPHERES || shape.sphere.r != 0)
-            continue;
-        const double x = (double)p->dir[0][i], y = (double)p->dir[1][i], z = (double)p->dir[2][i];
-        const double k = -1 / sqrt(x * x + y * y + z * z);
-        hits->normal[0][i] = (float)(x * k);
-        hits->normal[1][i] = (float)(y * k);
-        hits->normal[2][i] = (float)(z * k);
-    }
+            resolve_spheres_lanes(p, i, false, alone, w, hits, counts);
 }
 
 #endif

@@ -45,6 +45,7 @@
 #ifndef CGT_TILE_SPHERES_H
 #define CGT_TILE_SPHERES_H
 
+#include "object_fetch.h"
 #include "sphere_filter.h"
 #include "tile_decide.h"
 
@@ -104,17 +105,16 @@ typedef struct tile_spheres {
 } tile_spheres;
 
 /* Reads the spheres of at most a vector of references; lanes beyond count repeat the first. */
-CGT_SPU_INLINE void tile_spheres_fetch(const cgt_objects *objects, const float *records, const uint32_t *reference,
-                                       uint32_t count, vfloat sphere[4], uint32_t object[CGT_LANES])
+CGT_SPU_INLINE void tile_spheres_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
+                                       vfloat sphere[4], uint32_t object[CGT_LANES])
 {
-    if (records) {
-        const uint32_t stride = (uint32_t)(objects->array->point_stride / sizeof(float));
-        uint32_t at[CGT_LANES];
-        for (uint32_t k = 0; k < CGT_LANES; k++) {
-            object[k] = reference[k < count ? k : 0];
-            at[k] = object[k] * stride;
-        }
-        spux_load_records4_at(records, at, sphere);
+    if (objects->arrays == 1) { /* its first object is 0 */
+        if (count == CGT_LANES)
+            spux_store_uint(object, spux_load_unaligned_uint(reference));
+        else
+            for (uint32_t k = 0; k < CGT_LANES; k++)
+                object[k] = reference[k < count ? k : 0];
+        fetch_spheres_at(objects->array, object, sphere);
         return;
     }
     filter_spheres s;

@@ -16,7 +16,6 @@
 
 typedef struct tile_work {
     const cgt_world *world;
-    const float *records;
     tile *t;
     tile_queue queue;
     cgt_counts *counts;
@@ -56,7 +55,7 @@ static void take(tile_work *w, const uint32_t *reference, uint32_t count)
 {
     vfloat sphere[4];
     tile_spheres s;
-    tile_spheres_fetch(&w->world->objects, w->records, reference, count, sphere, s.object);
+    tile_spheres_fetch(&w->world->objects, reference, count, sphere, s.object);
     tile_spheres_make(w->t, sphere, count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES, &s);
     w->counts->references += count;
     w->counts->cull_tests += count;
@@ -80,14 +79,14 @@ static void take_waiting(tile_work *w, uint32_t count)
 /* References wait until their spheres have come to the cache. */
 static void wait_run(tile_work *w, const uint32_t *reference, uint32_t count)
 {
-    const float *records = w->records;
-    const size_t stride = w->world->objects.array->point_stride / sizeof(float);
+    const cgt_object_array *array = w->world->objects.array;
+    const bool one = w->world->objects.arrays == 1;
     while (count) {
         const uint32_t room = WAITING - w->waits, some = count < room ? count : room;
         for (uint32_t k = 0; k < some; k++) {
             w->waiting[w->waits + k] = reference[k];
-            if (records)
-                __builtin_prefetch(records + reference[k] * stride);
+            if (one)
+                __builtin_prefetch(cgt_array_point(array, reference[k]));
         }
         w->waits += some;
         reference += some;
@@ -185,7 +184,6 @@ static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, con
     tile t;
     tile_work w; /* large: not all of it is set */
     w.world = world;
-    w.records = cgt_objects_records(&world->objects);
     w.t = &t;
     w.queue.entries = 0;
     w.counts = counts;

@@ -13,10 +13,7 @@ typedef struct winners {
     _Alignas(64) float sphere[4][PACKET_MAX_RAYS];    /* x, y, z, r; 0 where no sphere is hit */
     _Alignas(64) float vertex[3][3][PACKET_MAX_RAYS]; /* [k][a]; only in scenes with triangles */
     _Alignas(64) uint32_t is_sphere[PACKET_MAX_RAYS]; /* 0 or 1; only in scenes with triangles */
-    _Alignas(64) double t[PACKET_MAX_RAYS];
     uint32_t hits;
-    bool points;          /* some sphere has radius 0 */
-    const float *records; /* cgt_objects_records, or NULL */
 } winners;
 
 CGT_SPU_INLINE cgt_triangle winner_triangle(const winners *w, size_t i)
