@@ -143,6 +143,14 @@ CGT_SPU_INLINE void spux_transpose_fours(vuint v[2])
     v[1] = (vuint)_mm256_permute2x128_si256(a, b, 0x31);
 }
 
+CGT_SPU_INLINE void spux_unzip(vuint v[2])
+{
+    const __m256 a = (__m256)v[0], b = (__m256)v[1];
+    const __m256d even = (__m256d)_mm256_shuffle_ps(a, b, 0x88), odd = (__m256d)_mm256_shuffle_ps(a, b, 0xdd);
+    v[0] = (vuint)_mm256_permute4x64_pd(even, 0xd8);
+    v[1] = (vuint)_mm256_permute4x64_pd(odd, 0xd8);
+}
+
 CGT_SPU_INLINE void spux_transpose(vfloat row[8])
 {
     vfloat t[8];

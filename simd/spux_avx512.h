@@ -152,6 +152,15 @@ CGT_SPU_INLINE void spux_transpose_fours(vuint v[4])
     v[3] = (vuint)_mm512_shuffle_i32x4(odd01, odd23, 0xdd);
 }
 
+CGT_SPU_INLINE void spux_unzip(vuint v[2])
+{
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+    const __m512i a = (__m512i)v[0], b = (__m512i)v[1];
+    v[0] = (vuint)_mm512_permutex2var_epi32(a, even, b);
+    v[1] = (vuint)_mm512_permutex2var_epi32(a, odd, b);
+}
+
 /* Quarters of 4x4, then the quarters among each other. */
 CGT_SPU_INLINE void spux_transpose(vfloat row[16])
 {

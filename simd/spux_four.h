@@ -194,6 +194,12 @@ CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
 }
 #endif
 CGT_SPU_INLINE void spux_transpose_fours(vuint v[1]) { (void)v; }
+CGT_SPU_INLINE void spux_unzip(vuint v[2])
+{
+    const vuint even = {v[0][0], v[0][2], v[1][0], v[1][2]}, odd = {v[0][1], v[0][3], v[1][1], v[1][3]};
+    v[0] = even;
+    v[1] = odd;
+}
 CGT_SPU_INLINE void spux_transpose(vfloat row[4])
 {
     vfloat t[4];

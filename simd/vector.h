@@ -46,6 +46,7 @@
  *   spux_compress_store(p, a, m)  W; stores those alone to p and returns how many they are
  *   spux_hmin, hmax(a)            float and vuint: least and greatest lane; open where a lane is NaN
  *   spux_find16(p, x)             which of the 16 halfwords at p, aligned to the element, is the first x; 16 for none
+ *   spux_unzip(v)                 vuint v[2]: the even lanes of both, one after the other, to v[0], the odd ones to v[1]
  *   spux_transpose(row)           vfloat row[CGT_LANES] as a square matrix, in place
  *   spux_transpose_fours(v)       vuint v[CGT_LANES / 4] as a square matrix of groups of four lanes, in place
  *   spux_transpose4, 8, 16(from, from_stride, to, to_stride)   a square matrix of floats in memory to another place,

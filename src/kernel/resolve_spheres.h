@@ -11,43 +11,48 @@
 #include "spux_double.h"
 #include "winners.h"
 
-/* What half a vector of rays takes of its quadratics (sphere_double.h), and the vector from the sphere's centre to the
- * hit. The steps are those of sphere_double.h, in its order. */
+/* What half a vector of rays takes of its quadratics (sphere_double.h). The steps are those of sphere_double.h, in its
+ * order. */
 typedef struct resolve_half {
-    vdouble t, half, large, product, middle, square, size;
+    vdouble t, half, product, middle;
     vdouble c[3], d[3];
 } resolve_half;
 
-CGT_SPU_INLINE void resolve_half_t(const vdouble org[3], const vdouble centre[3], vdouble r, resolve_half *h)
+/* product: c.c - r^2; rr: r^2 */
+CGT_SPU_INLINE void resolve_half_of(const vdouble c[3], vdouble product, vdouble rr, resolve_half *h)
 {
-    const vdouble *d = h->d, *c = h->c;
-    for (int a = 0; a < 3; a++)
-        h->c[a] = centre[a] - org[a];
-    const vdouble dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    const vdouble *d = h->d, dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     const vdouble x = c[1] * d[2] - c[2] * d[1], y = c[2] * d[0] - c[0] * d[2], z = c[0] * d[1] - c[1] * d[0];
-    const vdouble rr = r * r;
-    h->square = dd;
     h->middle = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
-    h->product = cc - rr;
-    h->size = cc + rr;
+    h->product = product;
     h->half = spux_double_sqrt(rr * dd - (x * x + y * y + z * z));
-    h->large = h->middle + h->half;
-    h->t = h->product / h->large;
+    h->t = product / (h->middle + h->half);
 }
 
-/* Above 0 in all lanes whose t is the near root, and safe: cgt_sphere_double_unsafe is 0 there. The rest is looked at
- * ray by ray. A number too small for float makes 0 of what is above it, which is as good as not knowing. */
-CGT_SPU_INLINE vmask resolve_halves_known(const resolve_half h[2], vfloat t, vfloat t_min)
+CGT_SPU_INLINE void resolve_half_t(const vdouble org[3], const vdouble centre[3], vdouble r, resolve_half *h)
 {
-    vdouble sum[2], other[2];
-    for (int k = 0; k < 2; k++) {
-        sum[k] = h[k].large * h[k].half - h[k].size * h[k].square * (14 * CGT_DOUBLE_U * 0x1p32);
-        other[k] = spux_double_abs(h[k].product) - h[k].size * (8 * CGT_DOUBLE_U * 0x1p32);
+    const vdouble *c = h->c, rr = r * r;
+    for (int a = 0; a < 3; a++)
+        h->c[a] = centre[a] - org[a];
+    resolve_half_of(c, c[0] * c[0] + c[1] * c[1] + c[2] * c[2] - rr, rr, h);
+}
+
+/* Lanes whose t is the near root, and safe: cgt_sphere_double_unsafe is 0 there. In single precision, with far more room
+ * than that errs by; the rest is looked at ray by ray. Numbers that leave the range of float make no lane known. */
+CGT_SPU_INLINE vmask resolve_halves_known(const resolve_half h[2], const vfloat org[3], const vfloat dir[3],
+                                          const vfloat sphere[4], vfloat t, vfloat t_min)
+{
+    const vfloat middle = spux_float_of(h[0].middle, h[1].middle), half = spux_float_of(h[0].half, h[1].half);
+    const vfloat product = spux_float_of(h[0].product, h[1].product), r = sphere[3];
+    vfloat size = spu_mul(r, r), square = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        const vfloat c = spu_sub(sphere[a], org[a]);
+        size = spu_madd(c, c, size);
+        square = spu_madd(dir[a], dir[a], square);
     }
-    const vfloat zero = spux_vfloat(0), margin = spux_float_of(sum[0], sum[1]);
-    const vmask safe = spu_and(spu_cmpgt(margin, zero), spu_cmpgt(spux_float_of(other[0], other[1]), zero));
-    const vmask outside = spu_cmpgt(spux_float_of(h[0].middle, h[1].middle), zero);
-    return spu_and(spu_and(safe, outside), spux_cmpge(t, t_min));
+    const vfloat sum = spu_mul(spu_add(middle, half), half), room = spu_mul(size, spux_vfloat(0x1p-16f));
+    const vmask safe = spu_and(spu_cmpgt(sum, spu_mul(room, square)), spu_cmpgt(spux_abs(product), room));
+    return spu_and(spu_and(safe, spu_cmpgt(middle, spux_vfloat(0))), spux_cmpge(t, t_min));
 }
 
 /* t and the unit normal of one sphere's hit. */
@@ -92,13 +97,37 @@ CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat di
     resolve_half_t(o[0], c[0], r[0], &h[0]);
     resolve_half_t(o[1], c[1], r[1], &h[1]);
     *t = spux_float_of(h[0].t, h[1].t);
-    const vmask known = resolve_halves_known(h, *t, t_min);
+    const vmask known = resolve_halves_known(h, org, dir, sphere, *t, t_min);
     if (!normal)
         return known;
     const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
     for (int a = 0; a < 3; a++)
         n[a] = spux_float_of((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1]);
     return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
+}
+
+/* The same with one origin and one sphere for all rays. */
+CGT_SPU_INLINE vmask resolve_sphere_vector(const float org[3], const vfloat dir[3], cgt_sphere q, vfloat t_min,
+                                           bool normal, vfloat *t, vfloat n[3])
+{
+    const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1],
+                 cz = (double)q.z - (double)org[2], rr = (double)q.r * (double)q.r, cc = cx * cx + cy * cy + cz * cz;
+    const vdouble c[3] = {spux_vdouble(cx), spux_vdouble(cy), spux_vdouble(cz)}, k = spux_vdouble(1 / (double)q.r);
+    const vfloat from[3] = {spux_vfloat(org[0]), spux_vfloat(org[1]), spux_vfloat(org[2])};
+    const vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
+    resolve_half h[2];
+    for (int i = 0; i < 2; i++) {
+        for (int a = 0; a < 3; a++)
+            h[i].d[a] = i ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
+        resolve_half_of(c, spux_vdouble(cc - rr), spux_vdouble(rr), &h[i]);
+    }
+    *t = spux_float_of(h[0].t, h[1].t);
+    const vmask known = resolve_halves_known(h, from, dir, sphere, *t, t_min);
+    if (!normal)
+        return known;
+    for (int a = 0; a < 3; a++)
+        n[a] = spux_float_of((h[0].t * h[0].d[a] - c[a]) * k, (h[1].t * h[1].d[a] - c[a]) * k);
+    return q.r > 0 ? known : spux_mask_none();
 }
 
 /* Lanes of a packet. */

@@ -13,22 +13,10 @@
 
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
 
-/* The winners of a vector of columns, in both rows of a pair. */
-CGT_SPU_INLINE void tile_pair_winners(const tile *t, uint32_t x, uint32_t y, vuint row[2])
-{
-    const vuint even = spu_sl(spux_lane_index(), 1), odd = spu_or(even, spux_vuint(1));
-    const vmask front = spux_mask_first(CGT_LANES / 2);
-    const uint32_t *from = t->object + tile_index(x, y);
-    const vuint a = spux_load_uint(from), b = spux_load_uint(from + CGT_LANES);
-    row[0] = spux_select(spux_permute(b, even), spux_permute(a, even), front);
-    row[1] = spux_select(spux_permute(b, odd), spux_permute(a, odd), front);
-}
-
-/* The canonical directions of a vector of columns, in the order of camera.h. */
-CGT_SPU_INLINE void tile_directions(const tile *t, uint32_t x, uint32_t y, vfloat dir[3])
+/* The canonical directions of px and py, in the order of camera.h. */
+CGT_SPU_INLINE void tile_directions(const tile *t, vfloat px, vfloat py, vfloat dir[3])
 {
     const cgt_camera_rays *c = t->rays;
-    const vfloat px = spux_load_unaligned(t->column + x), py = spux_vfloat(t->row[y]);
     for (int a = 0; a < 3; a++) {
         const vfloat across = spu_add(spux_vfloat(c->fwd[a]), spu_mul(px, spux_vfloat(c->right[a])));
         dir[a] = spu_add(across, spu_mul(py, spux_vfloat(c->up[a])));
@@ -37,18 +25,29 @@ CGT_SPU_INLINE void tile_directions(const tile *t, uint32_t x, uint32_t y, vfloa
 
 /* ---- spheres of one array ---- */
 
-/* Columns x and on of row y of a plane; a region less wide than a tile ends in the vector, or before. */
-CGT_SPU_INLINE void tile_put(uint32_t *plane, const cgt_region *r, bool stream, uint32_t x, uint32_t y, vuint v)
+/* A row of a vector's columns of a plane; a region less wide than a tile ends among them. */
+CGT_SPU_INLINE void tile_put_row(uint32_t *to, const cgt_region *r, bool stream, uint32_t x, vuint v)
 {
-    if (!plane)
-        return;
-    uint32_t *to = plane + (size_t)y * r->row_stride + x;
     if (stream)
         spux_stream_uint(to, v);
     else if (x + CGT_LANES <= r->width)
         spux_store_unaligned_uint(to, v);
     else
-        spux_store_mask_uint(to, v, spux_mask_first(r->width > x ? r->width - x : 0));
+        spux_store_mask_uint(to, v, spux_mask_first(r->width - x));
+}
+
+/* Columns x and on of rows y and y + 1 of a plane, from two vectors of pixels as the tile has them. */
+CGT_SPU_INLINE void tile_put(uint32_t *plane, const cgt_region *r, bool stream, uint32_t x, uint32_t y, vuint a,
+                             vuint b)
+{
+    vuint row[2] = {a, b};
+    if (!plane)
+        return;
+    uint32_t *to = plane + (size_t)y * r->row_stride + x;
+    spux_unzip(row);
+    tile_put_row(to, r, stream, x, row[0]);
+    if (stream || y + 1 < r->height)
+        tile_put_row(to + r->row_stride, r, stream, x, row[1]);
 }
 
 CGT_SPU_INLINE bool tile_on_lines(const void *plane) { return (uintptr_t)plane % CGT_VECTOR_BYTES == 0; }
@@ -56,15 +55,21 @@ CGT_SPU_INLINE bool tile_on_lines(const void *plane) { return (uintptr_t)plane %
 /* Whether whole vectors may go past the caches. */
 CGT_SPU_INLINE bool tile_streams(const cgt_region *r)
 {
-    return r->stream && r->width == TILE_EDGE && r->row_stride % CGT_LANES == 0 && tile_on_lines(r->t) &&
-           tile_on_lines(r->primitive) && tile_on_lines(r->geometry) && tile_on_lines(r->normal[0]) &&
-           tile_on_lines(r->normal[1]) && tile_on_lines(r->normal[2]) && tile_on_lines(r->u) && tile_on_lines(r->v);
+    return r->stream && r->width == TILE_EDGE && r->height % 2 == 0 && r->row_stride % CGT_LANES == 0 &&
+           tile_on_lines(r->t) && tile_on_lines(r->primitive) && tile_on_lines(r->geometry) &&
+           tile_on_lines(r->normal[0]) && tile_on_lines(r->normal[1]) && tile_on_lines(r->normal[2]) &&
+           tile_on_lines(r->u) && tile_on_lines(r->v);
 }
+
+/* What a vector of pixels gets. */
+typedef struct tile_hits {
+    vuint object;
+    vfloat t, normal[3];
+} tile_hits;
 
 /* The rays of some lanes, one by one. */
 __attribute__((noinline, unused)) static void tile_resolve_rays(const cgt_world *world, const tile *t, unsigned lanes,
-                                                                vuint object, const vfloat dir[3], vfloat *distance,
-                                                                vfloat normal[3], cgt_counts *counts)
+                                                                const vfloat dir[3], tile_hits *h, cgt_counts *counts)
 {
     const cgt_camera_rays *c = t->rays;
     for (; lanes; lanes &= lanes - 1) {
@@ -72,61 +77,73 @@ __attribute__((noinline, unused)) static void tile_resolve_rays(const cgt_world 
         const cgt_ray ray = {
             .line = {.org = {c->eye[0], c->eye[1], c->eye[2]}, .dir = {dir[0][k], dir[1][k], dir[2][k]}},
             .t_min = c->t_min};
-        const resolved_sphere s = resolve_sphere_ray(&ray, cgt_objects_sphere(&world->objects, object[k]), counts);
-        (*distance)[k] = s.t;
+        const resolved_sphere s = resolve_sphere_ray(&ray, cgt_objects_sphere(&world->objects, h->object[k]), counts);
+        h->t[k] = s.t;
         for (int a = 0; a < 3; a++)
-            normal[a][k] = s.normal[a];
+            h->normal[a][k] = s.normal[a];
     }
 }
 
-/* A vector of pixels of a row. wants: t or normals are asked for. */
-CGT_SPU_INLINE void tile_resolve_vector(const cgt_world *world, const tile *t, const cgt_region *r, bool wants,
-                                        bool normals, bool stream, uint32_t x, uint32_t y, vuint object,
-                                        cgt_counts *counts)
+/* Pixels i and on of the tile, hit: lanes that are; their spheres are fetched. */
+CGT_SPU_INLINE void tile_resolve_hit(const cgt_world *world, const tile *t, bool normals, uint32_t i, unsigned hit,
+                                     vmask missed, tile_hits *h, cgt_counts *counts)
 {
     const cgt_object_array *array = world->objects.array;
-    const vuint none = spux_vuint(CGT_NONE);
-    const vmask missed = spu_cmpeq(object, none);
-    const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
-    const vfloat zero = spux_vfloat(0);
-    vfloat distance = spux_vfloat(INFINITY), normal[3] = {zero, zero, zero};
-    if (hit && wants) {
-        _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
-        vfloat sphere[4], org[3], dir[3], n[3] = {zero, zero, zero}, found;
-        spux_store_uint(number, object);
-        spux_store_uint(number, spux_select(object, spux_vuint(number[__builtin_ctz(hit)]), missed));
-        fetch_spheres_at(array, number, sphere);
-        tile_directions(t, x, y, dir);
-        for (int a = 0; a < 3; a++)
-            org[a] = spux_vfloat(t->rays->eye[a]);
-        const vmask known = resolve_spheres_vector(org, dir, sphere, spux_vfloat(t->rays->t_min), normals, &found, n);
-        const unsigned rest = hit & ~spux_mask_bits(known);
-        if (rest)
-            tile_resolve_rays(world, t, rest, object, dir, &found, n, counts);
-        distance = spux_select(found, distance, missed);
-        for (int a = 0; a < 3; a++)
-            normal[a] = spux_select(n[a], zero, missed);
+    const float *eye = t->rays->eye;
+    const uint32_t some = t->object[i + (uint32_t)__builtin_ctz(hit)];
+    const vuint number = spux_select(h->object, spux_vuint(some), missed);
+    const vfloat t_min = spux_vfloat(t->rays->t_min), zero = spux_vfloat(0);
+    vfloat dir[3], n[3] = {zero, zero, zero}, found;
+    vmask known;
+    tile_directions(t, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))), spux_load(t->py[i / TILE_PAIR]), dir);
+    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) /* neighbours mostly hit the same */
+        known = resolve_sphere_vector(eye, dir, cgt_array_sphere(array, some), t_min, normals, &found, n);
+    else {
+        const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
+        _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+        vfloat sphere[4];
+        spux_store_uint(at, number);
+        fetch_spheres_at(array, at, sphere);
+        known = resolve_spheres_vector(org, dir, sphere, t_min, normals, &found, n);
     }
+    h->t = spux_select(found, h->t, missed);
+    for (int a = 0; normals && a < 3; a++)
+        h->normal[a] = spux_select(n[a], zero, missed);
+    const unsigned rest = hit & ~spux_mask_bits(known);
+    if (rest)
+        tile_resolve_rays(world, t, rest, dir, h, counts);
+}
+
+CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, bool wants, bool normals,
+                                             uint32_t i, cgt_counts *counts)
+{
+    const vfloat zero = spux_vfloat(0);
+    tile_hits h = {spux_load_uint(t->object + i), spux_vfloat(INFINITY), {zero, zero, zero}};
+    const vmask missed = spu_cmpeq(h.object, spux_vuint(CGT_NONE));
+    const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
     counts->hits += spux_count_bits(hit);
-    tile_put((uint32_t *)r->t, r, stream, x, y, (vuint)distance);
-    tile_put(r->primitive, r, stream, x, y, object);
-    tile_put(r->geometry, r, stream, x, y, spux_select(spux_vuint(array->geometry), none, missed));
-    for (int a = 0; a < 3; a++)
-        tile_put((uint32_t *)r->normal[a], r, stream, x, y, (vuint)normal[a]);
-    tile_put((uint32_t *)r->u, r, stream, x, y, (vuint)zero);
-    tile_put((uint32_t *)r->v, r, stream, x, y, (vuint)zero);
+    if (hit && wants)
+        tile_resolve_hit(world, t, normals, i, hit, missed, &h, counts);
+    return h;
 }
 
 CGT_SPU_INLINE void tile_resolve_spheres_to(const cgt_world *world, const tile *t, const cgt_region *r, bool wants,
                                             bool normals, bool stream, cgt_counts *counts)
 {
+    const vuint none = spux_vuint(CGT_NONE), geometry = spux_vuint(world->objects.array->geometry);
     for (uint32_t y = 0; y < r->height; y += 2)
         for (uint32_t x = 0; x < r->width; x += CGT_LANES) {
-            vuint row[2];
-            tile_pair_winners(t, x, y, row);
-            tile_resolve_vector(world, t, r, wants, normals, stream, x, y, row[0], counts);
-            if (y + 1 < r->height)
-                tile_resolve_vector(world, t, r, wants, normals, stream, x, y + 1, row[1], counts);
+            const uint32_t i = tile_index(x, y);
+            const tile_hits a = tile_resolve_vector(world, t, wants, normals, i, counts);
+            const tile_hits b = tile_resolve_vector(world, t, wants, normals, i + CGT_LANES, counts);
+            tile_put((uint32_t *)r->t, r, stream, x, y, (vuint)a.t, (vuint)b.t);
+            tile_put(r->primitive, r, stream, x, y, a.object, b.object);
+            tile_put(r->geometry, r, stream, x, y, spux_select(geometry, none, spu_cmpeq(a.object, none)),
+                     spux_select(geometry, none, spu_cmpeq(b.object, none)));
+            for (int k = 0; k < 3; k++)
+                tile_put((uint32_t *)r->normal[k], r, stream, x, y, (vuint)a.normal[k], (vuint)b.normal[k]);
+            tile_put((uint32_t *)r->u, r, stream, x, y, spux_vuint(0), spux_vuint(0));
+            tile_put((uint32_t *)r->v, r, stream, x, y, spux_vuint(0), spux_vuint(0));
         }
 }
 
@@ -148,15 +165,16 @@ CGT_SPU_INLINE void tile_strip_rays(const tile *t, uint32_t y, packet *p)
 {
     for (uint32_t row = 0; row < TILE_STRIP; row += 2)
         for (uint32_t x = 0; x < TILE_EDGE; x += CGT_LANES) {
-            vuint object[2];
-            tile_pair_winners(t, x, y + row, object);
+            const uint32_t *from = t->object + tile_index(x, y + row);
+            vuint object[2] = {spux_load_uint(from), spux_load_uint(from + CGT_LANES)};
+            spux_unzip(object);
             for (uint32_t k = 0; k < 2; k++) {
                 const uint32_t i = (row + k) * TILE_EDGE + x;
                 spux_store_uint(p->object + i, object[k]);
                 if (spux_all(spu_cmpeq(object[k], spux_vuint(CGT_NONE))))
                     continue;
                 vfloat dir[3];
-                tile_directions(t, x, y + row + k, dir);
+                tile_directions(t, spux_load_unaligned(t->column + x), spux_vfloat(t->row[y + row + k]), dir);
                 for (int a = 0; a < 3; a++)
                     spux_store(p->dir[a] + i, dir[a]);
             }
