@@ -11,10 +11,18 @@
 
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context)
 {
+    return bench_context_create_with(threads, variant, NULL, context);
+}
+
+cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
+                                     cgt_context **context)
+{
     cgt_context_options options;
     cgt_context_options_init(&options);
     options.threads = threads;
     options.variant = variant;
+    if (hooks)
+        options.memory = *hooks;
     return cgt_context_create(&options, context);
 }
 
@@ -125,7 +133,8 @@ static const char *const triangle_tests[] = {[CGT_TRIANGLE_WATERTIGHT] = "watert
 static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
                                          [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
                                          [CGT_STRUCTURE_KD] = "kd",
-                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes"};
+                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
+                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid"};
 static const char *const kd_traversals[] = {
     [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
@@ -203,6 +212,15 @@ int bench_kd_builder_find(const char *name, cgt_kd_builder *builder)
     if (index >= 0)
         *builder = (cgt_kd_builder)index;
     return index < 0 ? -1 : 0;
+}
+
+void bench_file_name(const char *path, char name[BENCH_NAME_SIZE])
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(name, BENCH_NAME_SIZE, "%s", slash ? slash + 1 : path);
+    char *dot = strrchr(name, '.');
+    if (dot && dot > name)
+        *dot = '\0';
 }
 
 static void append(char name[BENCH_NAME_SIZE], const char *key, const char *value)
