@@ -11,10 +11,14 @@
  *   timing    clock and medians                      bench_timing.h
  *   plan      the configurations that loops compares bench_plan.h
  *   report    their table and their ratios           bench_report.h
+ *   procedural  scenes made in memory              bench_procedural.h
+ *   memory    what the library allocates           bench_memory.h
  *   accuracy  time and error of every configuration  bench_accuracy.h
  *   pareto    time against error, and its pictures   bench_pareto.h
  *   simd      words of the vocabulary, per variant   simd/simd_rows.h
- *   structures  grids and kd-trees beside each other  bench_structures.h */
+ *   structures  grids and kd-trees beside each other  bench_structures.h
+ *   scaling   time and memory against size         bench_scaling.h
+ *   floor     the machine's limits, and how far off scenes are  bench_floor.h */
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -42,6 +46,7 @@ typedef struct bench_settings {
     float radius;           /* for files without one; 0: the reader's default */
     int wrapped;
     int verbose;
+    int file_optional; /* 1: the sub-command does without a FILE, too; set before parsing */
 } bench_settings;
 
 void bench_settings_init(bench_settings *settings);
@@ -52,7 +57,7 @@ extern const struct argp bench_settings_argp;
 /* Options of the structure, that frame and structures share. */
 typedef struct bench_structure_settings {
     size_t most; /* structures that may be named; set before parsing */
-    cgt_structure asked[4];
+    cgt_structure asked[5];
     size_t count; /* 0: none was named */
     bench_kd_choice kd;
 } bench_structure_settings;
@@ -62,10 +67,12 @@ extern const struct argp bench_structure_argp;
 
 /* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
 int bench_accuracy(int argc, char **argv);
+int bench_floor(int argc, char **argv);
 int bench_frame(int argc, char **argv);
 int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
 int bench_pareto(int argc, char **argv);
+int bench_scaling(int argc, char **argv);
 int bench_simd(int argc, char **argv);
 int bench_structures(int argc, char **argv);
 

@@ -135,7 +135,10 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             argp_error(state, "one FILE only: %s", argument);
         settings->path = argument;
         break;
-    case ARGP_KEY_NO_ARGS: argp_error(state, "FILE is missing"); break;
+    case ARGP_KEY_NO_ARGS:
+        if (!settings->file_optional)
+            argp_error(state, "FILE is missing");
+        break;
     default: return ARGP_ERR_UNKNOWN;
     }
     if (failed) {
@@ -153,7 +156,7 @@ const struct argp bench_settings_argp = {.options = options, .parser = parse};
 
 static const struct argp_option structure_options[] = {
     {NULL, 0, NULL, 0, "Structure:", 6},
-    {"structure", 'S', "NAME", 0, "auto (the library's default), loose-grid, grid-queue, kd or kd-ropes", 6},
+    {"structure", 'S', "NAME", 0, "auto (the library's default), grid-queue, loose-grid, kd or kd-ropes", 6},
     {"kd-builder", OPTION_BUILDER, "NAME", 0, "of kd-trees: binned or sweep", 6},
     {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
     {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels that are stored breadth first, 1 to 50", 6},
@@ -164,7 +167,7 @@ static void add_structure(bench_structure_settings *settings, struct argp_state 
 {
     cgt_structure structure = CGT_STRUCTURE_AUTO;
     if (bench_structure_find(name, &structure))
-        argp_error(state, "--structure: auto, loose-grid, grid-queue, kd or kd-ropes, not %s", name);
+        argp_error(state, "--structure: auto, grid-queue, loose-grid, kd or kd-ropes, not %s", name);
     for (size_t i = 0; i < settings->count; i++)
         if (settings->asked[i] == structure)
             return;

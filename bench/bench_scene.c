@@ -11,10 +11,18 @@
 
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context)
 {
+    return bench_context_create_with(threads, variant, NULL, context);
+}
+
+cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
+                                     cgt_context **context)
+{
     cgt_context_options options;
     cgt_context_options_init(&options);
     options.threads = threads;
     options.variant = variant;
+    if (hooks)
+        options.memory = *hooks;
     return cgt_context_create(&options, context);
 }
 
@@ -204,6 +212,15 @@ int bench_kd_builder_find(const char *name, cgt_kd_builder *builder)
     if (index >= 0)
         *builder = (cgt_kd_builder)index;
     return index < 0 ? -1 : 0;
+}
+
+void bench_file_name(const char *path, char name[BENCH_NAME_SIZE])
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(name, BENCH_NAME_SIZE, "%s", slash ? slash + 1 : path);
+    char *dot = strrchr(name, '.');
+    if (dot && dot > name)
+        *dot = '\0';
 }
 
 static void append(char name[BENCH_NAME_SIZE], const char *key, const char *value)

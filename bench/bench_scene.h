@@ -25,6 +25,10 @@ typedef struct bench_scene {
 /* threads: as in cgt_context_options. variant: NULL for the widest. */
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context);
 
+/* The same, with memory through `hooks`; NULL: the library's own. */
+cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
+                                     cgt_context **context);
+
 /* A scene over `moving`, of spheres. resolution: 0, 0, 0 for the library's choice. */
 cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *moving,
                               const uint32_t resolution[3]);
@@ -82,6 +86,9 @@ int bench_structure_find(const char *name, cgt_structure *structure); /* AUTO is
 int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal);
 int bench_kd_layout_find(const char *name, cgt_kd_layout *layout);
 int bench_kd_builder_find(const char *name, cgt_kd_builder *builder);
+
+/* A file's name without its folder and its ending. */
+void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);
 
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);

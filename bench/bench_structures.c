@@ -79,16 +79,6 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 
 /* ---- One file ------------------------------------------------------------------------------------------------ */
 
-/* A file's name without its folder and its ending. */
-static void name_scene(const char *path, char name[BENCH_NAME_SIZE])
-{
-    const char *slash = strrchr(path, '/');
-    snprintf(name, BENCH_NAME_SIZE, "%s", slash ? slash + 1 : path);
-    char *dot = strrchr(name, '.');
-    if (dot && dot > name)
-        *dot = '\0';
-}
-
 int structures_open(structures_job *job, const structures_settings *settings, const char *path)
 {
     const bench_settings *shared = &settings->shared;
@@ -96,7 +86,7 @@ int structures_open(structures_job *job, const structures_settings *settings, co
     memset(job, 0, sizeof *job);
     job->settings = settings;
     job->path = path;
-    name_scene(path, job->scene_name);
+    bench_file_name(path, job->scene_name);
     if (bench_input_load(&job->input, path, shared->frames, shared->radius, shared->wrapped, error, sizeof error)) {
         program_error("%s", error);
         return PROGRAM_FAILED;

@@ -26,7 +26,7 @@ static void add_group(structures_job *job, cgt_structure structure, cgt_ray_kind
     group->structure = structure;
     group->rays = rays;
     group->kd = *kd;
-    if (structure == CGT_STRUCTURE_QUEUE_GRID || structure == CGT_STRUCTURE_AUTO)
+    if (structure != CGT_STRUCTURE_KD && structure != CGT_STRUCTURE_KD_ROPES)
         add_row(job, CGT_KD_TRAVERSAL_AUTO);
     else if (asked != CGT_KD_TRAVERSAL_AUTO)
         add_row(job, asked);
@@ -66,8 +66,8 @@ static void add_structure(structures_job *job, cgt_structure structure)
 
 int structures_plan(structures_job *job)
 {
-    static const cgt_structure everything[] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES,
-                                               CGT_STRUCTURE_AUTO};
+    static const cgt_structure everything[] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD,
+                                               CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_AUTO};
     const bench_structure_settings *asked = &job->settings->structure;
     const size_t values = job->input.frames * job->settings->shared.repeat;
     for (size_t i = 0; i < (asked->count ? asked->count : sizeof everything / sizeof everything[0]); i++)

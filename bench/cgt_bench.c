@@ -3,17 +3,19 @@
  *
  * cgt-bench: measures the library on moving spheres and triangles.
  *   cgt-bench accuracy  speed against error, judged by exact arithmetic
+ *   cgt-bench floor     what the machine allows, and how far from it scenes are
  *   cgt-bench frame     one frame at a time, as a renderer would: build, primary, shadow, ambient-occlusion rays
  *   cgt-bench loops     the ways to traverse, against each other
  *   cgt-bench make      procedural scenes to measure on
  *   cgt-bench pareto    time against error of whole frames, drawn
+ *   cgt-bench scaling   time and memory against primitives, pixels and threads
  *   cgt-bench simd      the words of the vocabulary beside native instructions
  *   cgt-bench structures  grids and kd-trees beside each other */
 #include <string.h>
 
 #include "bench.h"
 
-#define SUB_COMMANDS "accuracy, frame, loops, make, pareto, simd or structures"
+#define SUB_COMMANDS "accuracy, floor, frame, loops, make, pareto, scaling, simd or structures"
 
 typedef struct command {
     const char *name;
@@ -22,14 +24,17 @@ typedef struct command {
 } command;
 
 static char accuracy_name[] = "cgt-bench accuracy";
+static char floor_name[] = "cgt-bench floor", scaling_name[] = "cgt-bench scaling";
 static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops", make_name[] = "cgt-bench make";
 static char pareto_name[] = "cgt-bench pareto", simd_name[] = "cgt-bench simd";
 static char structures_name[] = "cgt-bench structures";
 static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy},
+                                   {"floor", floor_name, bench_floor},
                                    {"frame", frame_name, bench_frame},
                                    {"loops", loops_name, bench_loops},
                                    {"make", make_name, bench_make},
                                    {"pareto", pareto_name, bench_pareto},
+                                   {"scaling", scaling_name, bench_scaling},
                                    {"simd", simd_name, bench_simd},
                                    {"structures", structures_name, bench_structures}};
 
@@ -60,17 +65,20 @@ int main(int argc, char **argv)
 {
     static const struct argp parser = {
         .parser = parse,
-        .args_doc = "accuracy [FILE...] [OPTION...]\nframe FILE [OPTION...]\nloops FILE [OPTION...]\n"
+        .args_doc = "accuracy [FILE...] [OPTION...]\nfloor [FILE...] [OPTION...]\nframe FILE [OPTION...]\nloops FILE "
+                    "[OPTION...]\n"
                     "make SCENE FILE [OPTION...]\n"
-                    "pareto FILE... -o PREFIX [OPTION...]\nsimd [OPTION...]\n"
+                    "pareto FILE... -o PREFIX [OPTION...]\nscaling [OPTION...]\nsimd [OPTION...]\n"
                     "structures FILE... [OPTION...]",
         .doc = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame; prints "
                "tab-separated values."
                "\v  accuracy  sets time against error on hard cases, judged by exact arithmetic\n"
+               "  floor     measures what the machine allows, and how far from it scenes are\n"
                "  frame     times building and tracing, as a renderer spends it\n"
                "  loops     compares the ways to traverse the structure\n"
                "  make      writes a procedural scene\n"
                "  pareto    sets time against error, and draws it\n"
+               "  scaling   sets time and memory against primitives, pixels and threads\n"
                "  simd      times the words of the vocabulary beside native instructions\n"
                "  structures  compares grids and kd-trees\n\n"
                "cgt-bench frame --help and its like list the options of each."};

@@ -8,10 +8,10 @@ times = folder . '/times.dat'
 layouts = folder . '/layouts.dat'
 fetches = folder . '/fetches.dat'
 
-# structures and traversals: Okabe and Ito's colours; squares are grids, circles stacks, triangles ropes
-array keys[6] = ['grid-queue', 'kd single', 'kd packet', 'kd-ropes single', 'kd-ropes packet', 'auto']
-array colors[6] = ['#000000', '#56b4e9', '#0072b2', '#e69f00', '#d55e00', '#999999']
-array shapes[6] = [5, 6, 7, 8, 9, 2]
+# structures and traversals: Okabe and Ito's colours; squares and diamonds are grids, circles stacks, triangles ropes
+array keys[7] = ['grid-queue', 'kd single', 'kd packet', 'kd-ropes single', 'kd-ropes packet', 'auto', 'loose-grid']
+array colors[7] = ['#000000', '#56b4e9', '#0072b2', '#e69f00', '#d55e00', '#999999', '#009e73']
+array shapes[7] = [5, 6, 7, 8, 9, 2, 13]
 array names[3] = ['primary rays', 'ambient-occlusion rays', 'random rays']
 
 set grid linecolor rgb '#dddddd'
@@ -41,9 +41,9 @@ do for [form = 1:2] {
       set xlabel row == 1 ? 'primitives' : ''
       set ylabel panel == 0 ? 'ns a ray' : ''
       if (row == 0 && panel == 2) { set key at screen 0.875,0.95 left top Left reverse samplen 1 } else { set key off }
-      plot for [k = 1:6] times using (is_of(joined, keys[k]) ? $3 : NaN):(column(5 + panel)) with linespoints \
+      plot for [k = 1:7] times using (is_of(joined, keys[k]) ? $3 : NaN):(column(5 + panel)) with linespoints \
              pointtype shapes[k] linecolor rgb colors[k] title keys[k], \
-           for [k = 1:6] times using (is_of(alone, keys[k]) ? $3 : NaN):(column(5 + panel)) with points \
+           for [k = 1:7] times using (is_of(alone, keys[k]) ? $3 : NaN):(column(5 + panel)) with points \
              pointtype shapes[k] linecolor rgb colors[k] notitle, \
            times using (is_of(alone, 'auto') ? $3 : NaN):(column(5 + panel)):(alone) with labels offset 0,-1 \
              font ',9' notitle
@@ -63,9 +63,9 @@ do for [form = 1:2] {
     set ylabel row == 0 ? 'ms to build' : ''
     if (row == 1) { set key at screen 0.855,0.93 left top Left reverse samplen 1 } else { set key off }
     # single and packet traverse the same tree: one line for both
-    plot for [k in '1 3 5 6'] times using (is_of(joined, keys[int(k)]) ? $3 : NaN):4 with linespoints \
+    plot for [k in '1 3 5 6 7'] times using (is_of(joined, keys[int(k)]) ? $3 : NaN):4 with linespoints \
            pointtype shapes[int(k)] linecolor rgb colors[int(k)] title word(keys[int(k)], 1), \
-         for [k in '1 3 5 6'] times using (is_of(alone, keys[int(k)]) ? $3 : NaN):4 with points \
+         for [k in '1 3 5 6 7'] times using (is_of(alone, keys[int(k)]) ? $3 : NaN):4 with points \
            pointtype shapes[int(k)] linecolor rgb colors[int(k)] notitle, \
          times using (is_of(alone, 'auto') ? $3 : NaN):4:(alone) with labels offset 0,-1 font ',9' notitle
   }

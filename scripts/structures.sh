@@ -12,6 +12,7 @@
 #   THREADS  default 1
 #   RAYS     random rays; default 50000
 #   SCENES   default: all
+#   STRUCTURES  to set beside each other; default: all
 #   BIN      folder of the programs; default build/release/bin
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -22,6 +23,8 @@ frames=${FRAMES:-3}
 threads=${THREADS:-1}
 rays=${RAYS:-50000}
 read -r -a scenes <<<"${SCENES:-cloud2k cloud20k cloud200k cloud1m clusters1m blobs2k stadium blob100k blobs1m}"
+of_structures=()
+for name in ${STRUCTURES:-}; do of_structures+=(-S "$name"); done
 layout_scenes=" cloud20k cloud200k blobs2k blob100k stadium " # in all layouts, by both builders
 mkdir -p "$out"
 [ -x "$bin/cgt-bench" ] || { echo "structures.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
@@ -47,7 +50,7 @@ measure() {
 tables=() layouts=() fetches=()
 for name in "${scenes[@]}"; do
     [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n "$frames" >&2
-    measure "$name" "$name.tsv"
+    measure "$name" "$name.tsv" ${of_structures[@]+"${of_structures[@]}"}
     tables+=("$out/$name.tsv")
     case $layout_scenes in
     *" $name "*)

@@ -4,7 +4,8 @@
 #
 # check_includes.sh SOURCE_DIR
 # Who may include whom: include <- simd <- src <- backends. Programs see the public API and each other's common parts;
-# cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests; tests see all. The library includes nothing of others but C and POSIX.
+# cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests, and compare-embree beside it
+# sees Embree; tests see all. The library includes nothing of others but C and POSIX.
 set -eu
 cd "$1"
 bad=$(mktemp)
@@ -66,7 +67,8 @@ check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples examples/common" \
     "cgt/(cgt|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h"
-check bench "bench src simd examples/common examples tests" "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h"
+check bench "bench src simd examples/common examples tests" \
+    "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
 # What names an instruction set is in simd alone.
 grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends examples bench \

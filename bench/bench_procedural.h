@@ -1,0 +1,49 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Procedural scenes in memory: clouds of spheres and bumpy balls of triangles, every sphere and vertex on a small
+ * closed path. cgt-bench make writes them to files; scaling and floor trace them as they are. The same numbers on every
+ * machine with IEEE arithmetic and the same sinf. */
+#ifndef BENCH_PROCEDURAL_H
+#define BENCH_PROCEDURAL_H
+
+#include <stdint.h>
+
+/* The camera that looks at clouds and balls, as on the command line. */
+#define BENCH_PROCEDURAL_CAMERA "0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46"
+
+typedef struct bench_procedural {
+    uint32_t count;     /* spheres or vertices */
+    uint32_t triangles; /* 0: spheres */
+    uint32_t width;     /* floats of an element: 4, x y z r, of a sphere; 3 of a vertex */
+    float *now;         /* the elements where bench_procedural_move put them last */
+    uint32_t *index;    /* three vertices of each triangle; NULL: spheres */
+    float *rest, *phase;
+    float reach; /* of the paths */
+} bench_procedural;
+
+/* Balls at random places within `spread` of the origin, each of meridians x parallels x 2 triangles. */
+typedef struct bench_balls {
+    uint32_t balls, meridians, parallels;
+    float radius, spread[3];
+    float bowl; /* radius of a bowl around them; 0: none */
+} bench_balls;
+
+/* The functions that make a scene return 0, or -1 where memory is refused or the size is too large; the scene stands at
+ * frame 0 then. */
+
+/* Spheres spread evenly over a box of 3.56 x 2 x 2, their radii 0.3 to 0.5 of the mean spacing; clustered: smaller
+ * ones, in 64 clusters of different sizes, dense in their middles. */
+int bench_procedural_cloud(bench_procedural *scene, uint32_t spheres, int clustered);
+
+int bench_procedural_balls(bench_procedural *scene, const bench_balls *balls);
+
+/* Sixteen balls of about that many triangles in all, or fewer balls where there are few triangles; at least 8. */
+int bench_procedural_mesh(bench_procedural *scene, uint32_t triangles);
+
+void bench_procedural_move(bench_procedural *scene, uint32_t frame);
+
+/* Also after a failure. */
+void bench_procedural_release(bench_procedural *scene);
+
+#endif

@@ -1,0 +1,123 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# performance.sh [FOLDER]
+# Makes the scenes, tables and plots of docs/performance.md again, from a release build with its tests (scripts/test.sh
+# release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/performance.
+# Figures of a busy machine mean little. Embree's columns are made where the build has compare-embree.
+#   STRUCTURE   default auto, the library's default
+#   SIZE        pixels of the pictures; default 1280x720
+#   FRAMES      of each scene; default 6
+#   THREADS     numbers of threads; default: 1 and all CPUs
+#   SCENES      default: all
+#   ISAS        to compare with Embree at, besides the widest; default: avx2 sse4.2 where the CPU has them
+#   PRIMITIVES  range of the growth; default 1000,10000000
+#   PIXELS      range of the growth; default 100000,33000000
+#   AT          primitives where they do not grow; default 200000
+#   STEPS       points for each factor of ten; default 2
+#   ROUNDS      of frames and of limits; default 9
+#   COMPARES    rounds of the comparison with Embree; default 3
+#   IMAGES      folder that gets the plots, too; default: none (docs/images for the text)
+#   BIN         folder of the programs; default build/release/bin
+set -euo pipefail
+cd "$(dirname "$0")/.."
+bin=${BIN:-build/release/bin}
+out=${1:-out/performance}
+structure=${STRUCTURE:-auto}
+size=${SIZE:-1280x720}
+frames=${FRAMES:-6}
+rounds=${ROUNDS:-9}
+steps=${STEPS:-2}
+read -r -a threads <<<"${THREADS:-1 $(nproc)}"
+read -r -a scenes <<<"${SCENES:-cloud2k cloud20k cloud200k cloud1m clusters1m blobs2k blob100k blobs1m}"
+camera=0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46
+mkdir -p "$out"
+[ -x "$bin/cgt-bench" ] || { echo "performance.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
+command -v gnuplot >/dev/null || { echo "performance.sh: no gnuplot: apt-get install gnuplot-nox" >&2; exit 1; }
+
+# table RESULT COMMAND...: a table, whole or not there at all
+table() {
+    local result=$out/$1
+    shift
+    echo "performance.sh: $(basename "$result" .tsv)" >&2
+    "$@" >"$result.part"
+    mv "$result.part" "$result"
+}
+
+# the rows of an instruction set's variant: "avx2" of "avx2", "sse" of "sse4.2"
+variant_of() {
+    case $1 in
+    sse*) echo sse ;;
+    *) echo "$1" ;;
+    esac
+}
+
+files=()
+for name in "${scenes[@]}"; do
+    [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n "$frames" >&2
+    files+=("$out/$name.frames")
+done
+
+# ---- Growth and limits ----------------------------------------------------------------------------------------------
+
+table scaling.tsv "$bin/cgt-bench" scaling -S "$structure" -s "$size" --steps "$steps" --at "${AT:-200000}" \
+    --primitives "${PRIMITIVES:-1000,10000000}" --pixels "${PIXELS:-100000,33000000}"
+parts=(part=scaling "$out/scaling.tsv")
+floors=()
+distinct=$(printf '%s\n' "${threads[@]}" | sort -nu)
+for count in $distinct; do
+    table "floor-$count.tsv" "$bin/cgt-bench" floor "${files[@]}" -S "$structure" -s "$size" -n "$frames" -r "$rounds" \
+        -t "$count" -c "$camera"
+    floors+=("$out/floor-$count.tsv")
+    parts+=(part=floor "$out/floor-$count.tsv")
+done
+
+# ---- Beside Embree --------------------------------------------------------------------------------------------------
+
+compare() { # RESULT THREADS CGT_OPTIONS EMBREE_OPTIONS
+    local result=$1 count=$2 file head=1
+    export CGT_OPTIONS=$3 EMBREE_OPTIONS=$4
+    export STRUCTURE=$structure BIN=$bin ROUNDS=${COMPARES:-3}
+    : >"$result.part"
+    for file in "${files[@]}"; do
+        echo "performance.sh: $(basename "$result" .tsv): $(basename "$file" .frames)" >&2
+        scripts/compare_embree.sh "$file" -c "$camera" -s "$size" -n "$frames" -t "$count" |
+            tail -n "+$head" >>"$result.part"
+        head=2
+    done
+    mv "$result.part" "$result"
+    parts+=(part=embree "$result")
+    compared+=("$result")
+}
+
+compared=()
+if [ -x "$bin/compare-embree" ]; then
+    for count in $distinct; do
+        compare "$out/embree-$count.tsv" "$count" "" ""
+    done
+    here=$(grep -o -w -e avx2 -e sse4_2 /proc/cpuinfo | sort -u | sed 's/_/./')
+    for isa in ${ISAS-$here}; do
+        compare "$out/embree-1-$isa.tsv" 1 "--variant $(variant_of "$isa")" "-i $isa"
+    done
+fi
+
+# ---- Plots ----------------------------------------------------------------------------------------------------------
+
+figures() { # PART FILE...: what gnuplot draws
+    local part=$1
+    shift
+    awk -F'\t' -v part="$part" -f scripts/performance_figures.awk "$@"
+}
+figures growth "$out/scaling.tsv" >"$out/growth.dat"
+figures limit "${floors[0]}" >"$out/limit.dat"
+figures fields "${floors[0]}" >"$out/fields.dat"
+: >"$out/embree.dat"
+[ ${#compared[@]} -eq 0 ] || figures embree "${compared[0]}" >"$out/embree.dat"
+gnuplot -e "folder = '$out'" scripts/performance.gnuplot
+if [ -n "${IMAGES:-}" ]; then
+    for plot in growth memory limit fields embree; do
+        [ ! -s "$out/$plot.png" ] || cp "$out/$plot.png" "$IMAGES/performance_$plot.png"
+    done
+fi
+exec awk -F'\t' -f scripts/performance_tables.awk "${parts[@]}"
