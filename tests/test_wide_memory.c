@@ -6,6 +6,9 @@
 #define _GNU_SOURCE
 #include "support/lanes.h"
 
+#include "spux_double.h"
+
+#include <math.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -236,6 +239,56 @@ static void records(void **state)
     guarded_free(&g);
 }
 
+static void streams_and_parts(void **state)
+{
+    (void)state;
+    _Alignas(CGT_VECTOR_BYTES) uint32_t to[3 * CGT_LANES] = {0};
+    vuint v[2] = {spux_lane_index(), spu_add(spux_lane_index(), spux_vuint(CGT_LANES))};
+    spux_unzip(v);
+    spux_stream_uint(to + CGT_LANES, v[0]);
+    spux_stream((float *)to + 2 * CGT_LANES, (vfloat)v[1]);
+    spux_stream_end();
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        check_number("before what is streamed", to[k], 0);
+        check_number("spux_unzip, even", to[CGT_LANES + k], 2 * k);
+        check_number("spux_unzip, odd", to[2 * CGT_LANES + k], 2 * k + 1);
+    }
+}
+
+/* Each word against C, lane by lane; any bits, and numbers about 1. */
+static void doubles(void **state)
+{
+    (void)state;
+    test_random r = random_make(19);
+    for (int round = 0; round < 2000; round++) {
+        lanes a = any_words(&r), back;
+        double d[CGT_LANES], root[CGT_LANES], size[CGT_LANES], chosen[CGT_LANES];
+        for (int k = 0; k < CGT_LANES; k++)
+            a.ef[k] = round % 2 ? random_float(&r, -2, 2) : a.ef[k] == a.ef[k] ? a.ef[k] : 0;
+        for (int h = 0; h < 2; h++) {
+            const vdouble v = h ? spux_double_high(a.f) : spux_double_low(a.f), third = v / spux_vdouble(3);
+            const vdouble s = spux_double_sqrt(spux_double_abs(third)), b = spux_double_abs(third);
+            const vdouble c = spux_double_select(spux_vdouble(1), spux_vdouble(2), v);
+            for (int k = 0; k < CGT_DOUBLES; k++) {
+                d[h * CGT_DOUBLES + k] = third[k];
+                root[h * CGT_DOUBLES + k] = s[k];
+                size[h * CGT_DOUBLES + k] = b[k];
+                chosen[h * CGT_DOUBLES + k] = c[k];
+            }
+        }
+        vdouble half[2];
+        for (int k = 0; k < CGT_LANES; k++) {
+            const double third = (double)a.ef[k] / 3;
+            assert_true(d[k] == third && size[k] == fabs(third) && root[k] == sqrt(fabs(third)));
+            assert_true(chosen[k] == (a.ef[k] > 0 ? 2 : 1));
+            half[k / CGT_DOUBLES][k % CGT_DOUBLES] = third;
+        }
+        back.f = spux_float_of(half[0], half[1]);
+        for (int k = 0; k < CGT_LANES; k++)
+            assert_true(back.ef[k] == (float)((double)a.ef[k] / 3));
+    }
+}
+
 static void transposes(void **state)
 {
     (void)state;
@@ -292,6 +345,8 @@ int main(void)
         cmocka_unit_test(halfwords_are_found),
         cmocka_unit_test(records),
         cmocka_unit_test(transposes),
+        cmocka_unit_test(streams_and_parts),
+        cmocka_unit_test(doubles),
     };
     test_begin("test_wide_memory");
     if (!test_variant_runs(CGT_VARIANT_NAME))
