@@ -217,10 +217,10 @@ static void make_shadow_rays(void *argument, uint32_t piece)
         const uint32_t pixel = rays->hit[rays->batch_first + i];
         float dir[3], point[3];
         surface_point(rays, pixel & 0xffff, pixel >> 16, dir, point);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             rays->org[k][i] = point[k];
+        for (int k = 0; k < 3 && rays->taker; k++) /* the library makes the same ones of the points */
             rays->dir[k][i] = rays->light[k] - point[k];
-        }
     }
 }
 
@@ -301,6 +301,27 @@ static void store_shadows(void *argument, uint32_t piece)
     }
 }
 
+/* The batch in work. Shadow rays of the library are points and a light to it. */
+static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                              uint64_t count, int light)
+{
+    if (light && !rays->taker) {
+        const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .w = 1};
+        const cgt_points points = {.count = count, .position = {rays->org[0], rays->org[1], rays->org[2]}};
+        return cgt_occluded_light(scene, &lamp, &points, rays->occluded, options);
+    }
+    cgt_rays array;
+    memset(&array, 0, sizeof array);
+    array.count = count;
+    for (int i = 0; i < 3; i++) {
+        array.org[i] = rays->org[i];
+        array.dir[i] = rays->dir[i];
+    }
+    array.t_max = light ? rays->ones : NULL;
+    return rays->taker ? rays->taker(rays->taker_user, &array, rays->occluded)
+                       : cgt_occluded_rays(scene, &array, rays->occluded, options);
+}
+
 /* One pass over all hit pixels with `samples` rays each; shadow rays where light is 1. */
 static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                              uint32_t samples, int light, uint64_t *occluded)
@@ -317,19 +338,11 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
         const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
         bench_threads_run(rays->threads, light ? make_shadow_rays : make_ao_rays, rays, pieces);
 
-        cgt_rays array;
-        memset(&array, 0, sizeof array);
-        array.count = rays->batch_hits * samples;
-        for (int i = 0; i < 3; i++) {
-            array.org[i] = rays->org[i];
-            array.dir[i] = rays->dir[i];
-        }
-        array.t_max = light ? rays->ones : NULL;
-        const cgt_result result = rays->taker ? rays->taker(rays->taker_user, &array, rays->occluded)
-                                              : cgt_occluded_rays(scene, &array, rays->occluded, options);
+        const uint64_t count = rays->batch_hits * samples;
+        const cgt_result result = trace_batch(rays, scene, options, count, light);
         if (result != CGT_OK)
             return result;
-        for (uint64_t i = 0; i < array.count; i++)
+        for (uint64_t i = 0; i < count; i++)
             *occluded += rays->occluded[i];
         if (light)
             bench_threads_run(rays->threads, store_shadows, rays, pieces);

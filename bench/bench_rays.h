@@ -14,7 +14,8 @@
  *                               4x4, blocks row by row and pixels row by row within a block
  *
  * A pass finds the hit pixels, in the order of o, then makes and traces rays batch by batch: the benchmark's threads
- * fill the arrays of a batch, the library's threads trace it, each as many as the context has. */
+ * fill the arrays of a batch, of shadow rays the origins alone, the library's threads trace it, each as many as the
+ * context has. */
 #ifndef BENCH_RAYS_H
 #define BENCH_RAYS_H
 

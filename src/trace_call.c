@@ -64,6 +64,15 @@ cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *opti
     return choose(scene->context, options ? options : &defaults, camera, settings);
 }
 
+cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count)
+{
+    if (stride % sizeof(float))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: stride is not a multiple of 4", what);
+    if (count > (SIZE_MAX / 2) / (stride ? stride : sizeof(float)) || count / CGT_RAYS_CHUNK >= UINT32_MAX)
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "%s: count times stride leaves the address space", what);
+    return CGT_OK;
+}
+
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
 {
     uint64_t value[CGT_COUNTS];

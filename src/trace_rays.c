@@ -29,21 +29,12 @@ static void trace_chunk(void *argument, uint32_t index)
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-static cgt_result check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count)
-{
-    if (stride % sizeof(float))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: stride is not a multiple of 4", what);
-    if (count > (SIZE_MAX / 2) / (stride ? stride : sizeof(float)) || count / CGT_RAYS_CHUNK >= UINT32_MAX)
-        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "%s: count times stride leaves the address space", what);
-    return CGT_OK;
-}
-
 static cgt_result check_rays(cgt_context *c, const cgt_rays *r)
 {
     for (int a = 0; a < 3 && r->count; a++)
         if (!r->org[a] || !r->dir[a])
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "rays: org and dir must not be NULL");
-    return check_stride(c, "rays", r->stride, r->count);
+    return cgt_check_stride(c, "rays", r->stride, r->count);
 }
 
 static cgt_result check_hits(cgt_context *c, const cgt_hits *h, uint64_t count)
@@ -52,7 +43,7 @@ static cgt_result check_hits(cgt_context *c, const cgt_hits *h, uint64_t count)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "hits: normal: all three arrays or none");
     if (!h->u != !h->v)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "hits: u and v: both arrays or none");
-    return check_stride(c, "hits", h->stride, count);
+    return cgt_check_stride(c, "hits", h->stride, count);
 }
 
 static uint32_t hit_fields(const cgt_hits *h)

@@ -289,6 +289,7 @@ typedef struct other_structure {
 } other_structure;
 
 static const other_structure structures[] = {
+    {"loose grid", CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
     {"kd, packets", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_PACKET},
     {"kd, single rays", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_SINGLE},
     {"ropes, packets", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},

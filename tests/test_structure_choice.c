@@ -117,20 +117,23 @@ static void check_as_one_cell(cgt_context *context, const hard_scene *s, const c
 static void a_scene_changes_its_structure(void **state)
 {
     (void)state;
+    static const cgt_structure first[] = {CGT_STRUCTURE_AUTO,      CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
+                                          CGT_STRUCTURE_AUTO,      CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD_ROPES,
+                                          CGT_STRUCTURE_LOOSE_GRID}; /* the fourth is not set */
     const uint32_t steps = 8 + test_scaled(72);
     cgt_context *context = context_make(2, NULL);
     hard_scene s = soup_make(SOUP_MIXED, 17, 700);
     picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
     test_random r = random_make(4711);
     cgt_scene_options o = of_structure(CGT_STRUCTURE_KD_ROPES);
-    uint32_t built[CGT_STRUCTURE_KD_ROPES + 1] = {0};
+    uint32_t built[CGT_STRUCTURE_LOOSE_GRID + 1] = {0};
     cgt_scene *scene;
     assert_int_equal(hard_commit_with(context, &s, &o, &scene), CGT_OK);
     for (uint32_t step = 0; step < steps; step++) {
         const cgt_camera camera = soup_camera(&s);
         if (step % 4 != 3) {
             o = structure_random(&r);
-            o.structure = step < 4 ? (cgt_structure)step : o.structure;
+            o.structure = step < TEST_COUNT(first) ? first[step] : o.structure;
             assert_int_equal(cgt_scene_set_options(scene, &o), CGT_OK);
         }
         if (step % 3)
@@ -141,12 +144,14 @@ static void a_scene_changes_its_structure(void **state)
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         const cgt_scene_statistics st = statistics_of(scene);
         assert_true(o.structure == CGT_STRUCTURE_AUTO || st.structure == o.structure);
-        assert_int_equal(st.kd_leaves == 0, st.structure == CGT_STRUCTURE_QUEUE_GRID);
-        assert_int_equal(st.cells == 0, st.structure != CGT_STRUCTURE_QUEUE_GRID);
+        const bool tree = st.structure == CGT_STRUCTURE_KD || st.structure == CGT_STRUCTURE_KD_ROPES;
+        assert_int_equal(st.kd_leaves != 0, tree);
+        assert_int_equal(st.cells == 0, tree);
+        assert_int_equal(st.levels != 0, st.structure == CGT_STRUCTURE_LOOSE_GRID);
         built[st.structure]++;
         check_as_one_cell(context, &s, scene, &camera, q);
     }
-    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_KD_ROPES; k++)
+    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_LOOSE_GRID; k++)
         assert_true(built[k] > 0);
     for (int k = 0; k < 2; k++)
         picture_free(&q[k]);

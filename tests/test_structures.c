@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every structure finds the same hits, bit for bit: grid, kd-tree and kd-tree with ropes, by each builder, in each
+ * Every structure finds the same hits, bit for bit: grids, kd-tree and kd-tree with ropes, by each builder, in each
  * layout, traversed ray by ray and in packets, with one thread, three, and a task runner that runs backwards. What they
  * are held against is a grid of one cell, in which every primitive meets every ray. */
 #include "structure_scenes.h"
@@ -65,21 +65,26 @@ static const layout layouts[] = {{CGT_KD_LAYOUT_DEPTH_FIRST, 0},
                                  {CGT_KD_LAYOUT_MIXED, 3},
                                  {CGT_KD_LAYOUT_MIXED, 50}};
 #define TREES (2 * 2 * (uint32_t)TEST_COUNT(layouts))
-#define GRIDS 2u
-#define WAYS (TREES + GRIDS)
+static const cgt_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRID},
+                                          {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {5, 9, 7}},
+                                          {.structure = CGT_STRUCTURE_LOOSE_GRID},
+                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
+                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}}};
+#define WAYS (TREES + (uint32_t)TEST_COUNT(grids))
 
 static cgt_scene_options scene_way(uint32_t number)
 {
     cgt_scene_options o;
     cgt_scene_options_init(&o);
-    o.structure = CGT_STRUCTURE_QUEUE_GRID;
     if (number < TREES) {
         o.structure = number % 2 ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD;
         o.kd_builder = number / 2 % 2 ? CGT_KD_BUILDER_SWEEP : CGT_KD_BUILDER_BINNED;
         o.kd_layout = layouts[number / 4].layout;
         o.kd_break_level = layouts[number / 4].break_level;
-    } else if (number == TREES)
-        memcpy(o.resolution, (uint32_t[]){5, 9, 7}, sizeof o.resolution);
+    } else {
+        o.structure = grids[number - TREES].structure;
+        memcpy(o.resolution, grids[number - TREES].resolution, sizeof o.resolution);
+    }
     return o;
 }
 
@@ -209,12 +214,17 @@ static void check_tree(const question *q, const cgt_scene_options *o, const cgt_
     assert_true(q->s.skipped == 0 || skipped == q->s.skipped);
 }
 
+static bool is_tree(const cgt_scene_options *o)
+{
+    return o->structure == CGT_STRUCTURE_KD || o->structure == CGT_STRUCTURE_KD_ROPES;
+}
+
 /* Returns whether there is a structure: not over nothing, nor where coordinates are too large for one. */
 static bool check_commit(const question *q, const cgt_scene *scene, const cgt_scene_options *o)
 {
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-    const bool tree = o->structure != CGT_STRUCTURE_QUEUE_GRID;
+    const bool tree = is_tree(o);
     assert_int_equal(st.structure, o->structure);
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
     assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
@@ -232,7 +242,7 @@ static bool check_commit(const question *q, const cgt_scene *scene, const cgt_sc
 static void check_counts(const cgt_trace_statistics *c, const cgt_scene_options *o, bool there, uint64_t rays,
                          uint64_t hits)
 {
-    const bool tree = there && o->structure != CGT_STRUCTURE_QUEUE_GRID;
+    const bool tree = there && is_tree(o);
     assert_int_equal(c->rays, rays);
     assert_int_equal(c->hits, hits);
     assert_int_equal(c->rope_loops, 0);

@@ -115,6 +115,9 @@ static void every_option_gives_the_same_bits(void **state)
             scene = structured(context, round % 2 ? CGT_STRUCTURE_KD : CGT_STRUCTURE_KD_ROPES, &p.spheres);
             compare_all_traversals(&p, scene, variant);
             cgt_scene_release(scene);
+            scene = structured(context, CGT_STRUCTURE_LOOSE_GRID, &p.spheres);
+            compare_all_options(&p, scene, variant);
+            cgt_scene_release(scene);
             cgt_context_release(context);
         }
         assert_true(p.compared >= 64);
@@ -132,13 +135,13 @@ static void every_resolution_gives_the_same_bits(void **state)
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(2, variant);
-            for (size_t i = 0; i < TEST_COUNT(resolution); i++) {
+            for (size_t i = 0; i < 2 * TEST_COUNT(resolution); i++) {
                 cgt_scene_options scene_options;
                 cgt_trace_options o;
                 cgt_scene_options_init(&scene_options);
                 cgt_trace_options_init(&o);
-                scene_options.structure = CGT_STRUCTURE_QUEUE_GRID;
-                memcpy(scene_options.resolution, resolution[i], sizeof resolution[i]);
+                scene_options.structure = i % 2 ? CGT_STRUCTURE_LOOSE_GRID : CGT_STRUCTURE_QUEUE_GRID;
+                memcpy(scene_options.resolution, resolution[i / 2], sizeof resolution[i / 2]);
                 cgt_scene *scene =
                     scene_of(context, &scene_options, (const float(*)[4])p.spheres.sphere, p.spheres.count);
                 compare(&p, scene, &o, variant);
@@ -256,7 +259,7 @@ static void every_machine_gives_the_same_bits(void **state)
         ray[i].t_max = INFINITY;
     }
     FOR_EACH_VARIANT(variant)
-    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_KD_ROPES; k++) {
+    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_LOOSE_GRID; k++) {
         cgt_context *context = context_make(2, variant);
         cgt_scene *scene = structured(context, (cgt_structure)k, &(cloud){.count = N, .sphere = (float(*)[4])sphere});
         uint64_t h = UINT64_C(14695981039346656037);

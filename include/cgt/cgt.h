@@ -479,6 +479,34 @@ CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, 
 CGT_API cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
                                      const cgt_trace_options *options);
 
+/* A light without extent: at a place, or so far away that it lies in one direction from everywhere. */
+typedef struct cgt_light {
+    float position[3]; /* w = 1: where it is; w = 0: the direction from the scene to it, of any length but zero */
+    float w;           /* 1 or 0 */
+} cgt_light;
+
+/* Points in the caller's arrays, those of a frame's hits for example: element i of each at byte i * stride. */
+typedef struct cgt_points {
+    uint64_t count;
+    size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
+    const float *position[3]; /* x, y, z */
+    const float *t_min;       /* NULL: 0 for all. A little more keeps a point on a surface from finding that surface */
+    const float *t_max;       /* NULL: the way to the light, 1 or +infinity. Below t_min: the point is not occluded,
+                                 and costs nothing */
+} cgt_points;
+
+/* Sets occluded[i] to 1 where anything lies between point i and the light, else to 0. The ray of a point is
+ *   org = position,  dir = light.position - position (w = 1), one float subtraction along each axis, or
+ *                    dir = light.position (w = 0)
+ * and what counts is a hit with t_min <= t <= t_max: t is 0 at the point, and 1 at the light where that has a place. It
+ * starts at the point, so that it begins exactly where the caller says, however far away the light is. The answer is
+ * that of cgt_occluded_rays to these rays, but faster, and there is no array of directions to fill. A point with a NaN
+ * or an infinity, in its range a NaN, or at the very place of the light, is counted as an invalid ray and not occluded.
+ * Neighbours in the arrays should be neighbours in space. Allocates nothing. occluded: points->count bytes. Errors:
+ * INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE. */
+CGT_API cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
+                                      uint8_t *occluded, const cgt_trace_options *options);
+
 #ifdef __cplusplus
 }
 #endif

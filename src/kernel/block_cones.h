@@ -8,7 +8,11 @@
  * A cone with unit axis a and half angle alpha, a sphere with centre c (from the apex) and radius r, s = c.a and
  * p = |c - s a|: the centre is p cos(alpha) - s sin(alpha) away from the cone's surface, so the sphere surely misses
  * where p > r / cos(alpha) + s tan(alpha). The right side is widened by 2^-18 of the distance, more than all rounding,
- * and by 2^-72, where squares underflow. */
+ * and by 2^-72, where squares underflow.
+ *
+ * Rays to a light have cones too, with the light as apex, and axes against the rays. A ray that starts at p has the
+ * direction light - p, each component rounded to within 2^-24 of it, and so passes the light within 2^-24 |d|; up to
+ * there, t = 1, it lies in a cone of the opposite direction that is so much wider. 2^-22 |d| is taken. */
 #ifndef CGT_BLOCK_CONES_H
 #define CGT_BLOCK_CONES_H
 
@@ -21,9 +25,11 @@ typedef struct block_cones {
     _Alignas(64) float axis[3][PACKET_MAX_BLOCKS];
     _Alignas(64) float tangent[PACKET_MAX_BLOCKS];
     _Alignas(64) float secant[PACKET_MAX_BLOCKS];
-    _Alignas(64) float wide[PACKET_MAX_BLOCKS];  /* 0; infinity where the rays are too wide for a cone: never culled */
-    _Alignas(64) float far[PACKET_MAX_BLOCKS];   /* no ray of the block wants a hit beyond this t */
+    _Alignas(64) float wide[PACKET_MAX_BLOCKS]; /* 0, or how far rays pass beside the light; infinity where they are too
+                                                    wide for a cone: never culled */
+    _Alignas(64) float far[PACKET_MAX_BLOCKS];  /* no ray of the block wants a hit beyond this t */
     _Alignas(64) float speed[PACKET_MAX_BLOCKS]; /* cells of the main axis per t of the fastest ray */
+    float apex[3];
     uint32_t blocks;
     bool cull; /* false: all blocks count as reached */
     bool cones;
@@ -59,6 +65,15 @@ CGT_SPU_INLINE float block_sine2(const packet *p, uint32_t block, const float a[
     return spux_hmax(most);
 }
 
+/* At least the length of the longest direction of a block. */
+CGT_SPU_INLINE float block_longest(const packet *p, uint32_t block)
+{
+    vfloat least = spux_vfloat(INFINITY);
+    for (uint32_t i = block * BLOCK_RAYS; i < block_end(p, block); i += CGT_LANES)
+        least = spux_min(least, spux_load(p->rdd + i));
+    return (1 + 0x1p-18f) / __builtin_sqrtf(spux_hmin(least));
+}
+
 CGT_SPU_INLINE void block_cone_make(const packet *p, block_cones *b, uint32_t block)
 {
     const uint32_t first = block * BLOCK_RAYS, last = block_end(p, block) - 1;
@@ -70,14 +85,14 @@ CGT_SPU_INLINE void block_cone_make(const packet *p, block_cones *b, uint32_t bl
     const float scale = 1 / __builtin_sqrtf(square);
     for (int k = 0; k < 3; k++) {
         a[k] *= scale;
-        b->axis[k][block] = a[k];
+        b->axis[k][block] = p->to_light ? -a[k] : a[k];
     }
     /* comparisons that fail for what is not a number: such a block is not culled */
     const float sine2 = block_sine2(p, block, a) * (1 + 0x1p-18f) + 0x1p-40f;
     const bool narrow = sine2 < 0.5f && square > 0x1p-100f && square < 0x1p100f;
     b->secant[block] = narrow ? 1 / __builtin_sqrtf(1 - sine2) * (1 + 0x1p-18f) : 1;
     b->tangent[block] = narrow ? __builtin_sqrtf(sine2) * b->secant[block] : 0;
-    b->wide[block] = narrow ? 0 : INFINITY;
+    b->wide[block] = !narrow ? INFINITY : p->to_light ? block_longest(p, block) * 0x1p-22f : 0;
 }
 
 /* Whether hits behind an origin count: a cone does not hold them. */
@@ -89,6 +104,15 @@ CGT_SPU_INLINE bool block_rays_look_back(const packet *p)
     return spux_hmin(least) < 0;
 }
 
+/* Whether hits beyond the light count: the cone that ends there does not hold them. */
+CGT_SPU_INLINE bool block_rays_pass_light(const packet *p)
+{
+    vfloat most = spux_vfloat(0);
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+        most = spux_max(most, spux_load(p->t_max + i));
+    return spux_hmax(most) > 1;
+}
+
 CGT_SPU_INLINE void block_speed_make(const packet *p, block_cones *b, uint32_t block, int w, float rcell)
 {
     vfloat most = spux_vfloat(0);
@@ -97,11 +121,14 @@ CGT_SPU_INLINE void block_speed_make(const packet *p, block_cones *b, uint32_t b
     b->speed[block] = spux_hmax(most) * rcell;
 }
 
-/* Cones where the rays share their origin and run forwards; without them only hidden spheres are culled. */
+/* Cones where the rays share their origin and run forwards, or end at a light; without them only hidden spheres are
+ * culled. */
 CGT_SPU_INLINE void block_cones_make(const packet *p, bool cull, int w, float rcell, block_cones *b)
 {
     b->cull = cull;
-    b->cones = cull && p->common_origin && !block_rays_look_back(p);
+    b->cones = cull && (p->to_light ? !block_rays_pass_light(p) : p->common_origin && !block_rays_look_back(p));
+    for (int k = 0; k < 3; k++)
+        b->apex[k] = p->to_light ? p->light[k] : p->org[k][0];
     b->blocks = (p->lanes + BLOCK_RAYS - 1) / BLOCK_RAYS;
     for (uint32_t block = 0; block < b->blocks; block++) {
         block_far_update(p, b, block);
@@ -119,12 +146,13 @@ CGT_SPU_INLINE void block_cones_make(const packet *p, bool cull, int w, float rc
     }
 }
 
-/* Blocks, as bits, that a sphere may reach before they have nearer hits. center: from the common origin; nearest: no
- * ray meets the sphere before this t. */
+/* Blocks, as bits, that a sphere may reach before they have nearer hits. nearest: no ray meets the sphere before this
+ * t. */
 CGT_SPU_INLINE uint32_t block_cones_reached(const block_cones *b, const float center[3], float radius, float nearest)
 {
-    const vfloat x = spux_vfloat(center[0]), y = spux_vfloat(center[1]), z = spux_vfloat(center[2]);
-    const float distance = __builtin_fabsf(center[0]) + __builtin_fabsf(center[1]) + __builtin_fabsf(center[2]);
+    const float c[3] = {center[0] - b->apex[0], center[1] - b->apex[1], center[2] - b->apex[2]};
+    const vfloat x = spux_vfloat(c[0]), y = spux_vfloat(c[1]), z = spux_vfloat(c[2]);
+    const float distance = __builtin_fabsf(c[0]) + __builtin_fabsf(c[1]) + __builtin_fabsf(c[2]);
     const vfloat r = spux_vfloat(radius), more = spux_vfloat((distance + radius) * 0x1p-18f + 0x1p-72f);
     uint32_t reached = 0;
     if (!b->cull)

@@ -34,6 +34,7 @@ CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trac
     p->lanes = edge * edge;
     p->common_origin = !c->orthographic;
     p->from_origin = p->common_origin && c->t_min == 0;
+    p->to_light = false;
     p->any_hit = false;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         for (int a = 0; a < 3; a++) {

@@ -14,6 +14,14 @@
 
 #include "packet.h"
 
+/* The space that a frustum lives in: a box in the world, divided along each axis. Point p has coordinates
+ * (p - org) * rcell, in real arithmetic on these floats. What single precision computes is within `slack` of them, for
+ * any point of any object. */
+typedef struct frustum_space {
+    float org[3], rcell[3], slack[3];
+    uint32_t resolution[3];
+} frustum_space;
+
 typedef struct frustum {
     int w, u, v;           /* axes */
     bool reverse;          /* the rays run towards lower coordinates; slices are counted along the rays */
@@ -28,12 +36,12 @@ typedef struct frustum {
 } frustum;
 
 /* Coordinates of grid space along the rays; reverse turns them around. */
-CGT_SPU_INLINE float grid_coordinate(const cgt_queue_grid *g, int axis, bool reverse, float p)
+CGT_SPU_INLINE float grid_coordinate(const frustum_space *g, int axis, bool reverse, float p)
 {
     const float c = (p - g->org[axis]) * g->rcell[axis];
     return reverse ? (float)g->resolution[axis] - c : c;
 }
-CGT_SPU_INLINE vfloat grid_coordinates(const cgt_queue_grid *g, int axis, bool reverse, vfloat p)
+CGT_SPU_INLINE vfloat grid_coordinates(const frustum_space *g, int axis, bool reverse, vfloat p)
 {
     const vfloat c = spu_mul(spu_sub(p, spux_vfloat(g->org[axis])), spux_vfloat(g->rcell[axis]));
     return reverse ? spu_sub(spux_vfloat((float)g->resolution[axis]), c) : c;
@@ -70,7 +78,7 @@ CGT_SPU_INLINE frustum_span frustum_span_of_slopes(float low, float high, float 
     return s;
 }
 
-CGT_SPU_INLINE void frustum_measure_common(const cgt_queue_grid *g, const frustum *f, const packet *p, float w1,
+CGT_SPU_INLINE void frustum_measure_common(const frustum_space *g, const frustum *f, const packet *p, float w1,
                                            frustum_span span[2])
 {
     const int axis[2] = {f->u, f->v};
@@ -94,7 +102,7 @@ CGT_SPU_INLINE void frustum_measure_common(const cgt_queue_grid *g, const frustu
                                          grid_coordinate(g, axis[k], false, p->org[axis[k]][0]), ow, f->w0, w1);
 }
 
-CGT_SPU_INLINE frustum_span frustum_measure_axis(const cgt_queue_grid *g, const frustum *f, const packet *p, int axis,
+CGT_SPU_INLINE frustum_span frustum_measure_axis(const frustum_space *g, const frustum *f, const packet *p, int axis,
                                                  float w1)
 {
     vfloat low[2], high[2], magnitude = spux_vfloat(0);
@@ -120,7 +128,7 @@ CGT_SPU_INLINE frustum_span frustum_measure_axis(const cgt_queue_grid *g, const 
 }
 
 /* The coordinate w at which the first ray starts. */
-CGT_SPU_INLINE float frustum_start(const cgt_queue_grid *g, const frustum *f, const packet *p)
+CGT_SPU_INLINE float frustum_start(const frustum_space *g, const frustum *f, const packet *p)
 {
     vfloat least = spux_vfloat(INFINITY);
     if (p->from_origin) {
@@ -139,7 +147,7 @@ CGT_SPU_INLINE float frustum_start(const cgt_queue_grid *g, const frustum *f, co
 }
 
 /* The coordinate w beyond which no ray wants a hit any more; -inf where all are closed. */
-CGT_SPU_INLINE float frustum_far(const cgt_queue_grid *g, const frustum *f, const packet *p)
+CGT_SPU_INLINE float frustum_far(const frustum_space *g, const frustum *f, const packet *p)
 {
     vfloat most = spux_vfloat(-INFINITY);
     const vfloat rcell = spux_vfloat(g->rcell[f->w]);
@@ -157,14 +165,14 @@ CGT_SPU_INLINE float frustum_far(const cgt_queue_grid *g, const frustum *f, cons
 }
 
 /* The same for rays that start at a common origin, from the farthest end of any, in cells from there. */
-CGT_SPU_INLINE float frustum_far_from_origin(const cgt_queue_grid *g, const frustum *f, const packet *p, float reach)
+CGT_SPU_INLINE float frustum_far_from_origin(const frustum_space *g, const frustum *f, const packet *p, float reach)
 {
     const float o = grid_coordinate(g, f->w, f->reverse, p->org[f->w][0]), end = o + reach;
     return reach == -INFINITY ? reach : end + (__builtin_fabsf(o) + __builtin_fabsf(end)) * 0x1p-20f + g->slack[f->w];
 }
 
 /* A line of bounds as a plane in world space: how far, in cells of `axis`, a sphere of radius 1 reaches over it. */
-CGT_SPU_INLINE float frustum_radius_scale(const cgt_queue_grid *g, const frustum *f, int axis, float step)
+CGT_SPU_INLINE float frustum_radius_scale(const frustum_space *g, const frustum *f, int axis, float step)
 {
     const float k = step * g->rcell[f->w] / g->rcell[axis];
     return g->rcell[axis] * __builtin_sqrtf(1 + k * k) * (1 + 0x1p-20f);
@@ -195,7 +203,7 @@ CGT_SPU_INLINE void frustum_clip(frustum *f)
 }
 
 /* Returns false where the packet does not meet the grid. */
-CGT_SPU_INLINE bool frustum_make(const cgt_queue_grid *g, const packet *p, int w, bool reverse, frustum *f)
+CGT_SPU_INLINE bool frustum_make(const frustum_space *g, const packet *p, int w, bool reverse, frustum *f)
 {
     f->w = w;
     f->u = w == 0 ? 1 : 0; /* x fastest: cells of a row lie side by side where they can */
@@ -208,7 +216,15 @@ CGT_SPU_INLINE bool frustum_make(const cgt_queue_grid *g, const packet *p, int w
     f->w_near = frustum_start(g, f, p) - g->slack[w];
     if (!(f->w_near < (float)f->end))
         return false;
+    /* rays that end within the grid spread no further: those to a light have crossed there */
+    const float w_far = p->from_origin ? INFINITY : frustum_far(g, f, p);
+    if (!(w_far >= 0))
+        return false;
+    if (w_far < (float)f->end)
+        f->end = (uint32_t)w_far + 1;
     f->first = f->w_near > 0 ? (uint32_t)f->w_near : 0;
+    if (f->first >= f->end)
+        return false;
     f->w0 = (float)f->first;
     const float w1 = (float)f->end, rlength = 1 / (w1 - f->w0);
     frustum_span span[2];
@@ -235,13 +251,12 @@ CGT_SPU_INLINE bool frustum_make(const cgt_queue_grid *g, const packet *p, int w
     return f->first < f->end;
 }
 
-/* Cells of a slice that the frustum may touch: low and high of u, low and high of v; none where low > high. */
-CGT_SPU_INLINE vec_int4 frustum_slice(const frustum *f, uint32_t slice)
+/* The cells between the lower bounds of u, -u, v, -v at two planes, or the lower of them where the bounds are lines
+ * between: low and high of u, low and high of v; none where low > high. most: those of the axes, see frustum_most. */
+CGT_SPU_INLINE vec_int4 frustum_cells(vec_float4 near, vec_float4 far, vec_float4 most)
 {
     const vec_float4 sign = {1, -1, 1, -1};
     const vec_float4 least = {0, -1, 0, -1};
-    const vec_float4 most = {f->last[1] + 1, f->last[1], f->last[2] + 1, f->last[2]};
-    const vec_float4 near = spu_madd(f->step, spu_splats((float)slice - f->w0), f->bound), far = spu_add(near, f->step);
     vec_float4 b = spu_mul(spu_sel(near, far, spu_cmpgt(near, far)), sign);
     b = spu_sel(b, least, spu_cmpgt(least, b));
     b = spu_sel(b, most, spu_cmpgt(b, most));
@@ -249,10 +264,17 @@ CGT_SPU_INLINE vec_int4 frustum_slice(const frustum *f, uint32_t slice)
     return spu_sub(spu_convts(spu_add(b, spu_splats(1.f)), 0), spu_splats((int32_t)1));
 }
 
-/* The voxel of cell (u, v) = (0, 0) of a slice. */
-CGT_SPU_INLINE uint32_t frustum_slice_cell(const cgt_queue_grid *g, const frustum *f, uint32_t slice)
+/* The last cells of the axes u and v as frustum_cells takes them. */
+CGT_SPU_INLINE vec_float4 frustum_most(float last_u, float last_v)
 {
-    return (f->reverse ? g->resolution[f->w] - 1 - slice : slice) * g->stride[f->w];
+    return (vec_float4){last_u + 1, last_u, last_v + 1, last_v};
+}
+
+/* Cells of a slice that the frustum may touch. */
+CGT_SPU_INLINE vec_int4 frustum_slice(const frustum *f, uint32_t slice)
+{
+    const vec_float4 near = spu_madd(f->step, spu_splats((float)slice - f->w0), f->bound), far = spu_add(near, f->step);
+    return frustum_cells(near, far, frustum_most(f->last[1], f->last[2]));
 }
 
 #endif

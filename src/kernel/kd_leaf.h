@@ -70,20 +70,6 @@ CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t object)
     return has;
 }
 
-/* How many of the first objects of a list are of one kind, at most a vector. */
-CGT_SPU_INLINE uint32_t leaf_run(const cgt_objects *objects, const uint32_t *reference, uint32_t count, cgt_kind *kind)
-{
-    const uint32_t most = count < CGT_LANES ? count : CGT_LANES;
-    uint32_t run = 1;
-    *kind = objects->spheres ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES;
-    if (!objects->spheres || !objects->triangles)
-        return most;
-    *kind = cgt_objects_array(objects, reference[0])->kind;
-    while (run < most && cgt_objects_array(objects, reference[run])->kind == *kind)
-        run++;
-    return run;
-}
-
 /* ---- a vector of rays ---- */
 
 /* Keeps what lanes found out about the object that all of them tested. */
@@ -205,30 +191,6 @@ CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const ui
 
 /* ---- one ray ---- */
 
-/* Lanes whose interval lies beyond the best hit are out, those before it replace it, the others are decided. */
-static void leaf_keep_ray(leaf_tests *l, uint32_t i, const lane_hits *q, const uint32_t *reference, uint32_t count)
-{
-    packet *p = l->p;
-    const unsigned certain = spux_mask_bits(q->certain), used = CGT_ALL_LANES >> (CGT_LANES - count);
-    const vmask may = spu_andc(spu_or(q->certain, q->open), spu_cmpgt(q->low, spux_vfloat(p->high[i])));
-    _Alignas(64) float low[CGT_LANES], high[CGT_LANES];
-    unsigned left = spux_mask_bits(may) & used;
-    if (!left)
-        return;
-    spux_store(low, q->low);
-    spux_store(high, q->high);
-    for (; left; left &= left - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(left);
-        if (!(certain >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
-            filter_decide(l->objects, p, i, reference[k], l->counts);
-        } else if (high[k] < p->low[i]) {
-            p->low[i] = p->any_hit ? -INFINITY : low[k];
-            p->high[i] = p->any_hit ? -INFINITY : high[k];
-            p->object[i] = reference[k];
-        }
-    }
-}
-
 /* At most a vector of triangles to the first lanes; the others hold what they held before. */
 CGT_SPU_INLINE void leaf_fetch_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, lane_triangles *q)
 {
@@ -282,7 +244,7 @@ CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint3
             some = lane_triangle(r, &triangles, &q);
         }
         if (some)
-            leaf_keep_ray(l, i, &q, reference, run);
+            leaf_keep_ray(l->objects, l->p, i, &q, reference, run, l->counts);
         reference += run;
         count -= run;
     }

@@ -60,6 +60,10 @@ typedef struct cgt_kernel {
     /* Traces rays first to end - 1 of an array, at most CGT_RAYS_CHUNK; hits is NULL where occluded is not. */
     void (*trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                        const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts);
+
+    /* Any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`. */
+    void (*trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
+                        uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
 } cgt_kernel;
 
 #define CGT_KERNEL_JOIN_(name, variant) name##_##variant

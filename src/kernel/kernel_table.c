@@ -17,6 +17,9 @@ void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *c
 void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                                 const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
                                 cgt_counts *counts);
+void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
+                                 uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded,
+                                 cgt_counts *counts);
 
 #define NAME_(variant) #variant
 #define NAME(variant) NAME_(variant)
@@ -30,4 +33,5 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .trace_region = CGT_KERNEL(cgt_trace_region),
     .trace_tile = CGT_KERNEL(cgt_trace_tile),
     .trace_rays = CGT_KERNEL(cgt_trace_rays),
+    .trace_light = CGT_KERNEL(cgt_trace_light),
 };

@@ -198,4 +198,45 @@ CGT_SPU_INLINE bool lane_triangle(const lane_rays *r, const lane_triangles *tria
     return true;
 }
 
+/* ---- one ray and a list ---- */
+
+/* How many of the first objects of a list are of one kind, at most a vector. */
+CGT_SPU_INLINE uint32_t leaf_run(const cgt_objects *objects, const uint32_t *reference, uint32_t count, cgt_kind *kind)
+{
+    const uint32_t most = count < CGT_LANES ? count : CGT_LANES;
+    uint32_t run = 1;
+    *kind = objects->spheres ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES;
+    if (!objects->spheres || !objects->triangles)
+        return most;
+    *kind = cgt_objects_array(objects, reference[0])->kind;
+    while (run < most && cgt_objects_array(objects, reference[run])->kind == *kind)
+        run++;
+    return run;
+}
+
+/* Keeps what ray i found out about the objects of the lanes, at most a vector. Lanes whose interval lies beyond the best
+ * hit are out, those before it replace it, the others are decided. */
+__attribute__((unused)) static void leaf_keep_ray(const cgt_objects *objects, packet *p, uint32_t i, const lane_hits *q,
+                                                  const uint32_t *reference, uint32_t count, cgt_counts *counts)
+{
+    const unsigned certain = spux_mask_bits(q->certain), used = CGT_ALL_LANES >> (CGT_LANES - count);
+    const vmask may = spu_andc(spu_or(q->certain, q->open), spu_cmpgt(q->low, spux_vfloat(p->high[i])));
+    _Alignas(64) float low[CGT_LANES], high[CGT_LANES];
+    unsigned left = spux_mask_bits(may) & used;
+    if (!left)
+        return;
+    spux_store(low, q->low);
+    spux_store(high, q->high);
+    for (; left; left &= left - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(left);
+        if (!(certain >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
+            filter_decide(objects, p, i, reference[k], counts);
+        } else if (high[k] < p->low[i]) {
+            p->low[i] = p->any_hit ? -INFINITY : low[k];
+            p->high[i] = p->any_hit ? -INFINITY : high[k];
+            p->object[i] = reference[k];
+        }
+    }
+}
+
 #endif

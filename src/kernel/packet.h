@@ -37,9 +37,11 @@ typedef struct packet {
     _Alignas(64) float from[3][PACKET_MAX_RAYS];   /* org seen from the filter's origin */
     _Alignas(64) float moment[3][PACKET_MAX_RAYS]; /* from x dir, times the grid's scale */
     uint32_t rays;                                 /* that take part; they need not come first */
-    uint32_t lanes;                  /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
-    bool common_origin;              /* org[.][0] is the origin of all */
-    bool from_origin;                /* and all start there: t_min is 0 */
+    uint32_t lanes;     /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
+    bool common_origin; /* org[.][0] is the origin of all */
+    bool from_origin;   /* and all start there: t_min is 0 */
+    bool to_light;      /* all run from their origins to `light`, where t is 1, but for rounding */
+    float light[3];
     bool any_hit;                    /* the first hit found closes a ray */
     bool fast;                       /* FAST precision */
     cgt_triangle_test triangle_test; /* in FAST precision */
@@ -61,6 +63,8 @@ void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *c
 void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                                   cgt_counts *counts);
 void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                      cgt_counts *counts);
+void CGT_KERNEL(cgt_loose_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                                       cgt_counts *counts);
 void CGT_KERNEL(cgt_kd_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                               cgt_counts *counts);

@@ -155,20 +155,13 @@ CGT_SPU_INLINE bool filter_sphere_rays_fast(const packet *p, const void *primiti
     return true;
 }
 
-/* Blocks of the packet that sphere k of a vector may reach. */
-CGT_SPU_INLINE uint32_t filter_sphere_reached(const block_cones *blocks, const filter_spheres *s, int k,
-                                              const filter_sphere *q)
-{
-    const float center[3] = {q->center[0][0], q->center[1][0], q->center[2][0]};
-    return block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
-}
-
 /* Tests the rays of the packet's blocks that sphere k of a vector may reach. */
 CGT_SPU_INLINE void filter_test_sphere(const cgt_objects *objects, packet *p, const filter_spheres *s, int k,
                                        block_cones *blocks, filter_mode mode, cgt_counts *counts)
 {
     filter_sphere q = filter_sphere_get(p, s, k, mode.common_origin);
-    const uint32_t reached = filter_sphere_reached(blocks, s, k, &q);
+    const float center[3] = {s->center[0][k], s->center[1][k], s->center[2][k]};
+    const uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
     if (mode.decides) {
         filter_blocks(objects, p, filter_sphere_rays, &q, s->object[k], reached, blocks, mode, counts);
         return;

@@ -120,9 +120,7 @@ CGT_SPU_INLINE void filter_test_triangle(const cgt_objects *objects, packet *p, 
                                          cgt_counts *counts)
 {
     const uint32_t object = s->object[k];
-    float center[3];
-    for (int a = 0; a < 3; a++)
-        center[a] = mode.common_origin ? s->center[a][k] - p->org[a][0] : s->center[a][k];
+    const float center[3] = {s->center[0][k], s->center[1][k], s->center[2][k]};
     const uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
     if (!reached)
         return;

@@ -249,7 +249,7 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *va
     cgt_context_release(context);
 }
 
-/* A tree is always held against a grid, of a few cells where the bytes do not say which; a grid when they ask for it. */
+/* A tree or a loose grid is always held against a queue grid, of a few cells where the bytes do not say which; a grid when they ask for it. */
 static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
 {
     uint32_t resolution[3] = {3, 2, 4};
@@ -261,7 +261,7 @@ static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
         for (int k = 0; k < 3; k++)
             resolution[k] = 1 + fuzz_below(&m->bytes, 9);
     }
-    if (asked || s.kd_leaves)
+    if (asked || s.kd_leaves || s.levels)
         trace_elsewhere(m, a, variant, resolution);
 }
 

@@ -79,6 +79,8 @@ static cgt_scene_options any_structure(uint8_t how)
     cgt_scene_options o;
     cgt_scene_options_init(&o);
     o.structure = how == 255 ? (cgt_structure)9 : (cgt_structure)((how & 1) + (how >> 1 & 2));
+    if (o.structure == CGT_STRUCTURE_AUTO && how & 16)
+        o.structure = CGT_STRUCTURE_LOOSE_GRID;
     o.kd_builder = how == 254 ? (cgt_kd_builder)3 : (cgt_kd_builder)((how >> 3) % 3);
     o.kd_layout = how == 253 ? (cgt_kd_layout)4 : (cgt_kd_layout)(how >> 5 & 3);
     o.kd_break_level = how == 252 ? 51 : how % 51;
@@ -172,7 +174,9 @@ static void check_statistics(const fuzz_model *m)
                    s.skipped_radius <= spheres && s.skipped_degenerate <= triangles,
                "statistics: %u, %u, %u skipped of %u", s.skipped_not_finite, s.skipped_radius, s.skipped_degenerate,
                s.primitives);
-    FUZZ_CHECK(s.cells == (uint64_t)s.resolution[0] * s.resolution[1] * s.resolution[2], "statistics: cells");
+    const uint64_t finest = (uint64_t)s.resolution[0] * s.resolution[1] * s.resolution[2];
+    FUZZ_CHECK(s.levels > 1 ? s.cells > finest : s.cells == finest, "statistics: cells");
+    FUZZ_CHECK(!s.levels == (s.structure != CGT_STRUCTURE_LOOSE_GRID || !s.cells), "statistics: levels");
     FUZZ_CHECK(s.overflow_references <= s.references && s.overflow_cells <= s.overflow_references &&
                    s.large_primitives <= s.primitives && s.bytes <= m->memory.bytes,
                "statistics: the counts do not fit each other");

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * FAST precision through trees, by every triangle test: its answers are those of ROBUST but where single precision
+ * FAST precision through trees and the loose grid, by every triangle test: its answers are those of ROBUST but where single precision
  * cannot tell, and close to them in t, u, v and the normal; any hit is found where a nearest one is; nothing is NaN; and
  * closed meshes do not leak at shared edges. */
 #include <math.h>
@@ -13,7 +13,7 @@
 
 enum { RAYS = 1024, TRIANGLES = 150, SPHERES = 50 };
 
-/* ---- ways through trees ---- */
+/* ---- ways through structures ---- */
 
 typedef struct way {
     cgt_structure structure;
@@ -26,6 +26,7 @@ static const way ways[] = {
     {CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},
     {CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_SINGLE},
     {CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_PACKET},
+    {CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
 };
 
 static cgt_scene *commit(cgt_context *context, const hard_scene *s, const way *w)
@@ -294,6 +295,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(fast_is_close_to_robust),
                                        cmocka_unit_test(closed_meshes_do_not_leak)};
-    test_begin("test_fast_trees");
+    test_begin("test_fast_structures");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
