@@ -20,7 +20,7 @@ static inline double cgt_tile_dot(const float a[3], const float b[3])
     return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
 }
 
-/* The bounds of tile_spheres.h hold for axes like these. Comparisons fail for what is not a number. */
+/* The bounds of tile_spheres.h and tile_triangles.h hold for axes like these. Comparisons fail for what is not a number. */
 static inline bool cgt_tile_serves_camera(const cgt_camera_rays *c)
 {
     const double right = sqrt(cgt_tile_dot(c->right, c->right)), up = sqrt(cgt_tile_dot(c->up, c->up));
@@ -38,8 +38,8 @@ static inline bool cgt_tile_serves_camera(const cgt_camera_rays *c)
 static inline bool cgt_tile_serves(const cgt_world *world, const cgt_camera_rays *camera,
                                    const cgt_trace_settings *settings)
 {
-    return world->valid && !world->everything && world->loose.levels && !world->objects.triangles &&
-           settings->precision != CGT_PRECISION_FAST && cgt_tile_serves_camera(camera);
+    return world->valid && !world->everything && world->loose.levels && settings->precision != CGT_PRECISION_FAST &&
+           cgt_tile_serves_camera(camera);
 }
 
 #endif

@@ -9,6 +9,9 @@
  * one number for the whole tile. A pixel without a hit has the end of the camera's range there; a pixel beyond the
  * region has -infinity, and takes no part.
  *
+ * Where a scene has triangles alone, the depth is -1/t: it is linear on the screen, and cheaper. Its exact value lies in
+ * [z, z (1 - TILE_SHARE)] then, which is as wide near the eye as far away. Such tiles are called linear.
+ *
  * Pixels are stored as pairs of rows, interleaved: (x, y) at y / 2 * 128 + 2 x + y % 2. So a vector that starts at any
  * column holds CGT_LANES / 2 columns of two rows, at every width. */
 #ifndef CGT_TILE_H
@@ -21,6 +24,11 @@
 #define TILE_PAIR (2 * TILE_EDGE) /* pixels of a pair of rows */
 #define TILE_PAD 16u              /* a window may begin in the last column */
 #define TILE_PARTS 4u             /* parts of 16x16 pixels along an edge */
+
+/* Of 1/t, in linear tiles: what the best hit's may be less than z says. Less, and planes that are seen at a slant are
+ * too coarse; more, and more layers are too near to each other. */
+#define TILE_SHARE 0x1p-9
+#define TILE_KEPT (1 - TILE_SHARE)
 
 /* What a tile's arithmetic knows of the camera. The axes are orthogonal but for rounding, which tile_serves.h checks,
  * and a point c' seen from the eye is c' = z forward + x right / |right| + y up / |up| with z, x, y the products of c'
@@ -37,14 +45,19 @@ typedef struct tile {
     _Alignas(64) uint32_t object[TILE_PIXELS + TILE_PAD]; /* CGT_NONE: none yet */
     _Alignas(64) float px[TILE_PAIR + TILE_PAD];          /* of a pair of rows; NaN where a window leaves the tile */
     _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];      /* the two rows of a pair by turns */
-    _Alignas(64) float far[TILE_PARTS * TILE_PARTS]; /* beyond this distance a part of 16x16 pixels wants nothing */
-    float rlength[TILE_PARTS * TILE_PARTS];          /* at least 1 / sqrt(N) of any pixel of a part */
-    float farthest, farthest_t;                      /* of all parts, as distance and as t */
-    float column[TILE_EDGE], row[TILE_EDGE];         /* px and py; beyond the region the last ones again */
-    uint32_t columns, rows;                          /* in the region */
-    float gap, wide_gap;                             /* wide: what rounding of differences adds is in it */
-    float most, least;                               /* N of any pixel is between these */
-    float longest;                                   /* at least sqrt(most) */
+    _Alignas(64) float far[TILE_PARTS * TILE_PARTS];     /* beyond this distance a part of 16x16 pixels wants nothing */
+    _Alignas(64) float rlength[TILE_PARTS * TILE_PARTS]; /* at least 1 / sqrt(N) of any pixel of a part */
+    float farthest, farthest_t;                          /* of all parts, as distance and as t */
+    bool linear;                                         /* depths are -1/t; `far` and `farthest` are t then */
+    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS];  /* middles of the parts, as px and py */
+    _Alignas(64) float part_y[TILE_PARTS * TILE_PARTS];
+    _Alignas(64) float part_wide[TILE_PARTS * TILE_PARTS]; /* half their sizes, rounded up */
+    _Alignas(64) float part_high[TILE_PARTS * TILE_PARTS];
+    float column[TILE_EDGE], row[TILE_EDGE]; /* px and py; beyond the region the last ones again */
+    uint32_t columns, rows;                  /* in the region */
+    float gap, wide_gap;                     /* wide: what rounding of differences adds is in it */
+    float most, least;                       /* N of any pixel is between these */
+    float longest;                           /* at least sqrt(most) */
     const cgt_camera_rays *rays;
     tile_camera camera;
     float axis[3], tangent, secant; /* a cone about all rays, as z, x, y; secant 0: too wide for one */
@@ -133,6 +146,17 @@ CGT_SPU_INLINE void tile_norms_make(tile *t)
     }
 }
 
+CGT_SPU_INLINE void tile_parts_make(tile *t)
+{
+    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
+        const float *x = t->column + k % TILE_PARTS * 16, *y = t->row + k / TILE_PARTS * 16;
+        t->part_x[k] = 0.5f * (x[0] + x[15]);
+        t->part_y[k] = 0.5f * (y[0] + y[15]);
+        t->part_wide[k] = 0.5f * fabsf(x[15] - x[0]) + 0x1p-22f;
+        t->part_high[k] = 0.5f * fabsf(y[15] - y[0]) + 0x1p-22f;
+    }
+}
+
 /* Rays lie in the cone about the axis through the middle that holds those at the corners. The tile's slack in culling
  * (2^-18) is more than what rounding of the axis comes to. */
 CGT_SPU_INLINE void tile_cone_make(tile *t)
@@ -161,6 +185,19 @@ CGT_SPU_INLINE void tile_cone_make(tile *t)
 
 /* ---- the pixels ---- */
 
+/* Of a hit at t of pixel i, the depth that is kept: the exact one is in the middle of what it tells. A linear one stays
+ * finite, since -infinity would close the pixel. */
+CGT_SPU_INLINE float tile_depth(const tile *t, uint32_t i, double hit_t)
+{
+    if (!t->linear)
+        return (float)(hit_t * tile_norm(t, i) - 0.5 * (double)t->gap);
+    const double depth = -1 / hit_t * (1 + 0.5 * TILE_SHARE);
+    return hit_t > 0x1p-120 ? (float)depth : -0x1p120f;
+}
+
+/* The exact depth of a best hit is not beyond this. */
+CGT_SPU_INLINE double tile_depth_end(const tile *t, double z) { return t->linear ? z * TILE_KEPT : z + (double)t->gap; }
+
 /* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
  * there is none. */
 CGT_SPU_INLINE void tile_open(tile *t, float far_t)
@@ -172,7 +209,8 @@ CGT_SPU_INLINE void tile_open(tile *t, float far_t)
     }
     if (ends)
         for (uint32_t i = 0; i < TILE_PIXELS; i++)
-            t->z[i] = (float)((double)t->rays->t_max * tile_norm(t, i) * (1 - 0x1p-20));
+            t->z[i] = t->linear ? tile_depth(t, i, (double)t->rays->t_max)
+                                : (float)((double)t->rays->t_max * tile_norm(t, i) * (1 - 0x1p-20));
     if (t->columns < TILE_EDGE || t->rows < TILE_EDGE)
         for (uint32_t i = 0; i < TILE_PIXELS; i++)
             if (tile_column(i) >= t->columns || tile_row(i) >= t->rows)
@@ -184,14 +222,17 @@ CGT_SPU_INLINE void tile_far_update(tile *t)
 {
     float farthest = -INFINITY, farthest_t = -INFINITY;
     for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
-        const float *z = t->z + k / TILE_PARTS * 8 * TILE_PAIR + k % TILE_PARTS * 32;
+        const float *of = t->z + k / TILE_PARTS * 8 * TILE_PAIR + k % TILE_PARTS * 32;
         vfloat most = spux_vfloat(-INFINITY);
         for (uint32_t y = 0; y < 8; y++)
             for (uint32_t x = 0; x < 32; x += CGT_LANES)
-                most = spux_max(most, spux_load(z + y * TILE_PAIR + x));
-        const float depth = spux_hmax(most) + t->wide_gap;
-        t->far[k] = depth * t->rlength[k] * (1 + 0x1p-20f);
-        const float far_t = t->far[k] * t->rlength[k];
+                most = spux_max(most, spux_load(of + y * TILE_PAIR + x));
+        const float z = spux_hmax(most);
+        if (t->linear)
+            t->far[k] = z < 0 ? (z == -INFINITY ? z : -(1 + 0x1p-20f) / (z * (float)TILE_KEPT)) : INFINITY;
+        else
+            t->far[k] = (z + t->wide_gap) * t->rlength[k] * (1 + 0x1p-20f);
+        const float far_t = t->linear ? t->far[k] : t->far[k] * t->rlength[k];
         farthest = t->far[k] > farthest ? t->far[k] : farthest;
         farthest_t = far_t > farthest_t ? far_t : farthest_t;
     }

@@ -17,11 +17,14 @@ typedef struct tile_queue {
     uint32_t object[TILE_QUEUE];
 } tile_queue;
 
-/* The bits of a sphere that is as good as the winner make it a hit; the lower object wins. */
-CGT_SPU_INLINE bool tile_same_sphere(const cgt_objects *objects, uint32_t a, uint32_t b)
+/* The bits of a shape that is as good as the winner make it a hit; the lower object wins. */
+CGT_SPU_INLINE bool tile_same_shape(const cgt_objects *objects, uint32_t a, uint32_t b)
 {
-    const cgt_sphere p = cgt_objects_sphere(objects, a), q = cgt_objects_sphere(objects, b);
-    return !memcmp(&p, &q, sizeof p);
+    const cgt_shape p = cgt_objects_shape(objects, a), q = cgt_objects_shape(objects, b);
+    if (p.kind != q.kind)
+        return false;
+    return p.kind == CGT_KIND_SPHERES ? !memcmp(&p.sphere, &q.sphere, sizeof p.sphere)
+                                      : !memcmp(&p.triangle, &q.triangle, sizeof p.triangle);
 }
 
 CGT_SPU_INLINE void tile_decide(const cgt_objects *objects, tile *t, uint32_t i, uint32_t object, cgt_counts *counts)
@@ -30,7 +33,7 @@ CGT_SPU_INLINE void tile_decide(const cgt_objects *objects, tile *t, uint32_t i,
     double hit_t;
     if (winner == object || t->z[i] == -INFINITY)
         return;
-    if (winner != CGT_NONE && tile_same_sphere(objects, object, winner)) {
+    if (winner != CGT_NONE && tile_same_shape(objects, object, winner)) {
         t->object[i] = object < winner ? object : winner;
         return;
     }
@@ -38,7 +41,7 @@ CGT_SPU_INLINE void tile_decide(const cgt_objects *objects, tile *t, uint32_t i,
     if (!filter_beats(objects, &ray, winner, object, &hit_t, counts))
         return;
     t->object[i] = object;
-    t->z[i] = (float)(hit_t * tile_norm(t, i) - 0.5 * (double)t->gap);
+    t->z[i] = tile_depth(t, i, hit_t);
 }
 
 __attribute__((noinline, unused)) static void tile_flush(const cgt_objects *objects, tile *t, tile_queue *q,

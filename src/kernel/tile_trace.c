@@ -1,26 +1,34 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A camera's frame tile by tile: spheres of a loose grid, front to back, to the pixels that they may reach. The hits are
+ * A camera's frame tile by tile: objects of a loose grid, front to back, to the pixels that they may reach. The hits are
  * those that every other way finds. */
 #include "../tile_serves.h"
+#include "tile_cells.h"
 #include "tile_double.h"
 #include "tile_draw.h"
-#include "tile_march.h"
 #include "tile_resolve.h"
+#include "tile_triangle_draw.h"
 
-#define DRAWN 32u /* spheres after which it pays to look how far the parts still see */
+#define DRAWN 128u /* objects after which it pays to look how far the parts still see */
 
 #define WAITING 256u /* references */
+#define AHEAD 64u    /* references whose vertices are on their way */
+#define FEW 96u      /* references of a slice: to look at cells costs more */
 #define RUNS 16u     /* of references, looked up together */
+
+/* References that wait until what they stand for has come to the cache. */
+typedef struct waiting {
+    uint32_t reference[WAITING];
+    uint32_t count;
+} waiting;
 
 typedef struct tile_work {
     const cgt_world *world;
     tile *t;
     tile_queue queue;
     cgt_counts *counts;
-    uint32_t waiting[WAITING]; /* references */
-    uint32_t waits;
+    waiting spheres, triangles;
     uint32_t drawn; /* since the last refresh */
 } tile_work;
 
@@ -33,86 +41,244 @@ static void settle(tile_work *w)
     w->drawn = 0;
 }
 
-CGT_SPU_INLINE void draw(tile_work *w, const tile_spheres *s)
+/* Counts a vector of references of which some are drawn; refreshes what the tile knows after enough of them. */
+CGT_SPU_INLINE void count_taken(tile_work *w, uint32_t count, uint32_t drawn)
 {
-    const cgt_objects *objects = &w->world->objects;
-    for (unsigned left = s->fast | s->slow; left; left &= left - 1) {
-        const int k = __builtin_ctz(left);
-        tile_box box;
-        if (!tile_clip(w->t, s, k, &box)) {
-            w->counts->culled++;
-            continue;
-        }
-        w->drawn++;
-        if (s->fast >> k & 1)
-            tile_sphere_draw(objects, w->t, s, k, box, &w->queue, w->counts);
-        else
-            tile_double_draw(objects, w->t, s->object[k], box.y0, box.y1, &w->queue, w->counts);
-    }
-}
-
-static void take(tile_work *w, const uint32_t *reference, uint32_t count)
-{
-    vfloat sphere[4];
-    tile_spheres s;
-    tile_spheres_fetch(&w->world->objects, reference, count, sphere, s.object);
-    tile_spheres_make(w->t, sphere, count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES, &s);
     w->counts->references += count;
     w->counts->cull_tests += count;
-    w->counts->culled += count - spux_count_bits(s.fast | s.slow);
-    if (!(s.fast | s.slow))
-        return;
-    draw(w, &s);
+    w->counts->culled += count - drawn;
+    w->drawn += drawn;
     if (w->drawn >= DRAWN)
         settle(w);
 }
 
-/* Takes the first of what waits; the rest moves up. */
-static void take_waiting(tile_work *w, uint32_t count)
+CGT_SPU_INLINE uint32_t draw_spheres(tile_work *w, const tile_spheres *s)
 {
-    for (uint32_t k = 0; k < count; k += CGT_LANES)
-        take(w, w->waiting + k, count - k < CGT_LANES ? count - k : CGT_LANES);
-    w->waits -= count;
-    memmove(w->waiting, w->waiting + count, w->waits * sizeof *w->waiting);
+    const cgt_objects *objects = &w->world->objects;
+    uint32_t drawn = 0;
+    for (unsigned left = s->fast | s->slow; left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        tile_box box;
+        if (!tile_clip(w->t, s, k, &box))
+            continue;
+        drawn++;
+        if (s->fast >> k & 1)
+            tile_sphere_draw(objects, w->t, s, k, box, &w->queue, w->counts);
+        else
+            tile_double_draw(objects, w->t, s->object[k], box, &w->queue, w->counts);
+    }
+    return drawn;
 }
 
-/* References wait until their spheres have come to the cache. */
-static void wait_run(tile_work *w, const uint32_t *reference, uint32_t count)
+/* The bits of the first lanes. */
+CGT_SPU_INLINE unsigned first_lanes(uint32_t count) { return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES; }
+
+static void take_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    vfloat sphere[4];
+    tile_spheres s;
+    tile_spheres_fetch(&w->world->objects, reference, count, sphere, s.object);
+    tile_spheres_make(w->t, sphere, first_lanes(count), &s);
+    count_taken(w, count, s.fast | s.slow ? draw_spheres(w, &s) : 0);
+}
+
+CGT_SPU_INLINE uint32_t draw_triangles(tile_work *w, const tile_triangles *s, bool linear)
+{
+    const cgt_objects *objects = &w->world->objects;
+    uint32_t drawn = 0;
+    for (unsigned left = s->fast; left; left &= left - 1)
+        drawn += tile_triangle_draw(objects, w->t, s, __builtin_ctz(left), linear, &w->queue, w->counts);
+    for (unsigned left = s->slow; left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        const tile_box box = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
+        if (!(tile_window_parts(s, k) & tile_parts_open(w->t, s->nearest[k])))
+            continue;
+        drawn++;
+        tile_double_draw(objects, w->t, s->object[k], box, &w->queue, w->counts);
+    }
+    return drawn;
+}
+
+static void take_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    vfloat vertex[3][3];
+    tile_triangles s;
+    uint32_t drawn = 0;
+    tile_triangles_objects(reference, count, s.object);
+    tile_triangles_fetch(&w->world->objects, s.object, vertex);
+    tile_triangles_make(w->t, vertex, first_lanes(count), &s);
+    if (s.fast | s.slow)
+        drawn = w->t->linear ? draw_triangles(w, &s, true) : draw_triangles(w, &s, false);
+    count_taken(w, count, drawn);
+}
+
+/* Takes a vector of references after the other, each with `take`; what is left over moves up. */
+CGT_SPU_INLINE void take_waiting(tile_work *w, waiting *q, uint32_t count,
+                                 void take(tile_work *, const uint32_t *, uint32_t))
+{
+    for (uint32_t k = 0; k < count; k += CGT_LANES)
+        take(w, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
+    q->count -= count;
+    memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
+}
+
+/* Asks for the vertices of waiting triangles, whose indices have come by now. */
+static void prefetch_vertices(const cgt_object_array *a, const uint32_t *reference, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        const char *index = a->index + (size_t)reference[k] * a->index_stride;
+        uint32_t corner[3];
+        memcpy(corner, index, sizeof corner);
+        for (int i = 0; i < 3; i++)
+            __builtin_prefetch(a->point + corner[i] * a->point_stride);
+    }
+}
+
+/* As take_waiting, with the vertices of some vectors on their way. */
+static void take_waiting_triangles(tile_work *w, uint32_t count)
+{
+    waiting *q = &w->triangles;
+    const cgt_objects *objects = &w->world->objects;
+    const cgt_object_array *a = objects->arrays == 1 && objects->array->index ? objects->array : NULL;
+    uint32_t asked = 0;
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        const uint32_t ask = k + AHEAD < count ? k + AHEAD : count;
+        if (a && ask > asked)
+            prefetch_vertices(a, q->reference + asked, ask - asked);
+        asked = ask;
+        take_triangles(w, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
+    }
+    q->count -= count;
+    memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
+}
+
+static void wait_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
 {
     const cgt_object_array *array = w->world->objects.array;
     const bool one = w->world->objects.arrays == 1;
     while (count) {
-        const uint32_t room = WAITING - w->waits, some = count < room ? count : room;
+        waiting *q = &w->spheres;
+        const uint32_t room = WAITING - q->count, some = count < room ? count : room;
         for (uint32_t k = 0; k < some; k++) {
-            w->waiting[w->waits + k] = reference[k];
+            q->reference[q->count + k] = reference[k];
             if (one)
                 __builtin_prefetch(cgt_array_point(array, reference[k]));
         }
-        w->waits += some;
+        q->count += some;
         reference += some;
         count -= some;
-        if (w->waits == WAITING)
-            take_waiting(w, WAITING / 2);
+        if (q->count == WAITING)
+            take_waiting(w, q, WAITING / 2, take_spheres);
     }
 }
 
-/* The references of a slice: some runs ahead, so that they come to the cache, too. */
+static void wait_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    const cgt_object_array *a = w->world->objects.array;
+    const char *index = w->world->objects.arrays == 1 ? a->index : NULL;
+    while (count) {
+        waiting *q = &w->triangles;
+        const uint32_t room = WAITING - q->count, some = count < room ? count : room;
+        for (uint32_t k = 0; k < some; k++) {
+            q->reference[q->count + k] = reference[k];
+            if (index)
+                __builtin_prefetch(index + (size_t)reference[k] * a->index_stride);
+        }
+        q->count += some;
+        reference += some;
+        count -= some;
+        if (q->count == WAITING)
+            take_waiting_triangles(w, WAITING / 2);
+    }
+}
+
+/* References to both kinds, each to its own list. */
+static void wait_both(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++)
+        if (cgt_objects_array(&w->world->objects, reference[k])->kind == CGT_KIND_SPHERES)
+            wait_spheres(w, reference + k, 1);
+        else
+            wait_triangles(w, reference + k, 1);
+}
+
+static void wait_run(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    if (!w->world->objects.triangles)
+        wait_spheres(w, reference, count);
+    else if (!w->world->objects.spheres)
+        wait_triangles(w, reference, count);
+    else
+        wait_both(w, reference, count);
+}
+
+/* Whole vectors: what is left over comes with the next slice. */
+static void take_vectors(tile_work *w)
+{
+    take_waiting(w, &w->spheres, w->spheres.count / CGT_LANES * CGT_LANES, take_spheres);
+    take_waiting_triangles(w, w->triangles.count / CGT_LANES * CGT_LANES);
+}
+
+/* Runs of references, some looked up ahead, so that they come to the cache, too. */
+typedef struct runs {
+    const uint32_t *reference[RUNS];
+    uint32_t count[RUNS], runs;
+} runs;
+
+static void take_runs(tile_work *w, runs *r)
+{
+    for (uint32_t k = 0; k < r->runs; k++)
+        wait_run(w, r->reference[k], r->count[k]);
+    r->runs = 0;
+}
+
+CGT_SPU_INLINE void add_run(tile_work *w, runs *r, const uint32_t *reference, uint32_t count)
+{
+    const uint32_t last = r->runs - 1;
+    for (uint32_t i = 0; i < count; i += 16)
+        __builtin_prefetch(reference + i);
+    if (r->runs && r->reference[last] + r->count[last] == reference) { /* cells side by side */
+        r->count[last] += count;
+        return;
+    }
+    if (r->runs == RUNS)
+        take_runs(w, r);
+    r->reference[r->runs] = reference;
+    r->count[r->runs++] = count;
+}
+
+/* The references of the cells that the tile wants. */
+static void take_cells(tile_work *w, const tile_march *m, const tile_slice *s, runs *r)
+{
+    const tile_cells c = tile_cells_make(w->t, m, s);
+    const uint32_t *start = m->grid->start;
+    for (uint32_t first = 0; first < c.count; first += CGT_LANES)
+        for (unsigned left = tile_cells_wanted(w->t, &c, first); left; left &= left - 1) {
+            const uint32_t cell = tile_cells_index(&c, first + (uint32_t)__builtin_ctz(left));
+            add_run(w, r, m->grid->object + start[cell], start[cell + 1] - start[cell]);
+        }
+}
+
+/* Runs of whole rows where there are few references, else the cells that are wanted. */
 static void take_slice(tile_work *w, const tile_march *m, const tile_slice *s)
 {
-    const uint32_t runs = tile_slice_runs(m, s);
-    for (uint32_t first = 0; first < runs; first += RUNS) {
-        const uint32_t some = runs - first < RUNS ? runs - first : RUNS;
-        const uint32_t *reference[RUNS];
-        uint32_t count[RUNS];
-        for (uint32_t k = 0; k < some; k++) {
-            reference[k] = tile_slice_run(m, s, first + k, &count[k]);
-            for (uint32_t i = 0; i < count[k]; i += 16)
-                __builtin_prefetch(reference[k] + i);
-        }
-        for (uint32_t k = 0; k < some; k++)
-            wait_run(w, reference[k], count[k]);
+    const uint32_t rows = tile_slice_runs(m, s);
+    uint32_t count, references = 0;
+    runs r;
+    r.runs = 0;
+    for (uint32_t k = 0; k < rows && references < FEW; k++) {
+        tile_slice_run(m, s, k, &count);
+        references += count;
     }
-    take_waiting(w, w->waits / CGT_LANES * CGT_LANES); /* whole vectors: what is left comes with the next slice */
+    if (m->everything || references < FEW)
+        for (uint32_t k = 0; k < rows; k++) {
+            const uint32_t *reference = tile_slice_run(m, s, k, &count);
+            add_run(w, &r, reference, count);
+        }
+    else
+        take_cells(w, m, s, &r);
+    take_runs(w, &r);
+    take_vectors(w);
 }
 
 static void march(tile_work *w)
@@ -130,7 +296,8 @@ static void march(tile_work *w)
         w->counts->slices++;
         take_slice(w, &m, &s);
     }
-    take_waiting(w, w->waits);
+    take_waiting(w, &w->spheres, w->spheres.count, take_spheres);
+    take_waiting_triangles(w, w->triangles.count);
     tile_flush(&w->world->objects, w->t, &w->queue, w->counts);
 }
 
@@ -167,13 +334,17 @@ static void tile_make(tile *t, const cgt_world *world, const cgt_camera_rays *ca
 {
     const float c = farthest_corner(world, camera->eye), far_t = c * (1 + 0x1p-18f);
     t->rays = camera;
+    t->linear = !world->objects.spheres;
     t->columns = r->width;
     t->rows = r->height;
     tile_camera_make(camera, &t->camera);
     tile_tables_make(t, r->x, r->y);
     tile_norms_make(t);
+    tile_parts_make(t);
     tile_cone_make(t);
-    tile_gap_make(t, c, usual_radius(world, c), far_t);
+    tile_gap_make(t, c, world->objects.spheres ? usual_radius(world, c) : 0, far_t);
+    if (world->objects.triangles)
+        tile_gap_widen(t, c);
     tile_open(t, far_t);
     tile_far_update(t);
 }
@@ -187,7 +358,7 @@ static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, con
     w.t = &t;
     w.queue.entries = 0;
     w.counts = counts;
-    w.waits = w.drawn = 0;
+    w.spheres.count = w.triangles.count = w.drawn = 0;
     tile_make(&t, world, camera, region);
     march(&w);
     counts->rays += (uint64_t)region->width * region->height;

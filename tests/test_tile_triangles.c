@@ -1,0 +1,304 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Triangles over the pixels of a tile, of the variant that this is compiled for: the bounds of single precision hold
+ * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_U less than the unit
+ * roundoff, until they break. */
+#include "support/test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "vector.h"
+
+static float filter_u = 0x1p-24f;
+#define FILTER_U filter_u
+#include "kernel/tile_triangle_draw.h"
+
+#include "tile_serves.h"
+
+static void tile_of(tile *t, const cgt_camera_rays *rays, const uint32_t at[2], float c, bool linear)
+{
+    t->rays = rays;
+    t->linear = linear;
+    t->columns = t->rows = 8;
+    tile_camera_make(rays, &t->camera);
+    tile_tables_make(t, at[0], at[1]);
+    tile_norms_make(t);
+    tile_parts_make(t);
+    tile_cone_make(t);
+    tile_gap_make(t, c, 0, 2 * c);
+    tile_gap_widen(t, c);
+    tile_open(t, 2 * c);
+    tile_far_update(t);
+}
+
+/* ---- bounds ---- */
+
+typedef struct tally {
+    uint64_t lanes, hits, certain, open, slow, coarse;
+    uint64_t lost, invented, outside; /* what must not happen */
+} tally;
+
+/* What exact decisions say of a triangle at each pixel of a tile, and its t. */
+typedef struct tile_truth {
+    bool hit[TILE_PIXELS];
+    double hit_t[TILE_PIXELS];
+} tile_truth;
+
+static void find_truth(const tile *t, const cgt_triangle *q, tile_truth *truth)
+{
+    for (uint32_t k = 0; k < t->rows * t->columns; k++) {
+        const uint32_t i = tile_index(k % t->columns, k / t->columns);
+        const cgt_ray ray = tile_ray(t, i);
+        cgt_decided_hit hit = {.shape = {.kind = CGT_KIND_TRIANGLES, .triangle = *q}};
+        uint64_t exact = 0;
+        truth->hit[i] = cgt_decide_hit(&ray, &hit, &exact);
+        truth->hit_t[i] = hit.t;
+    }
+}
+
+static bool depth_holds(const tile *t, uint32_t i, double hit_t)
+{
+    const double depth = t->linear ? -1 / hit_t : hit_t * tile_norm(t, i), rounding = fabs(depth) * 0x1p-40;
+    return (double)t->z[i] <= depth + rounding && depth <= tile_depth_end(t, (double)t->z[i]) + rounding;
+}
+
+/* A triangle over a fresh tile: what it wins is certain, what it queues is open. */
+static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *truth, tally *sum)
+{
+    static tile_queue queue;
+    static bool open[TILE_PIXELS];
+    static const uint32_t index[2][3] = {{0, 1, 2}, {0, 0, 0}};
+    float point[4][3] = {{0}};
+    memcpy(point, q->v, sizeof q->v);
+    const cgt_object_array array = {.kind = CGT_KIND_TRIANGLES,
+                                    .point = (const char *)point,
+                                    .point_stride = 12,
+                                    .index = (const char *)index,
+                                    .index_stride = 12,
+                                    .count = 2,
+                                    .points = 4};
+    const cgt_objects objects = {.array = &array, .arrays = 1, .count = 2, .triangles = 2};
+    const uint32_t reference = 0;
+    vfloat v[3][3];
+    tile_triangles s;
+    cgt_counts counts = {0};
+    queue.entries = 0;
+    memset(open, 0, sizeof open);
+    tile_triangles_objects(&reference, 1, s.object);
+    tile_triangles_fetch(&objects, s.object, v);
+    tile_triangles_make(t, v, 1, &s);
+    sum->slow += s.slow & 1;
+    if (s.slow & 1)
+        return;
+    sum->coarse += s.fast & 1 && s.certain[0] == INFINITY;
+    if (s.fast & 1 && t->linear)
+        tile_triangle_draw(&objects, t, &s, 0, true, &queue, &counts);
+    else if (s.fast & 1)
+        tile_triangle_draw(&objects, t, &s, 0, false, &queue, &counts);
+    for (uint32_t k = 0; k < queue.entries; k++)
+        open[queue.pixel[k]] = true;
+    for (uint32_t k = 0; k < t->rows * t->columns; k++) {
+        const uint32_t i = tile_index(k % t->columns, k / t->columns);
+        const bool certain = t->object[i] == 0;
+        sum->lanes++;
+        sum->hits += truth->hit[i];
+        sum->certain += certain;
+        sum->open += open[i];
+        sum->lost += truth->hit[i] && !certain && !open[i];
+        sum->invented += certain && !truth->hit[i];
+        sum->outside += certain && truth->hit[i] && !depth_holds(t, i, truth->hit_t[i]);
+    }
+}
+
+/* A camera, and a triangle of which an edge or a vertex passes a ray of a tile of 8x8 pixels as well as float can tell.
+ * Its size is from far less than a pixel's to far more than the distance, when it may pass the eye plane. */
+static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
+{
+    cgt_camera camera;
+    char message[160];
+    float e[2][3];
+    const float scale = random_below(r, 3) ? 1 : random_log(r, 1e-6f, 1e6f);
+    const float offset = random_below(r, 2) ? 0 : random_log(r, 0.1f, 1e4f);
+    cgt_camera_init(&camera);
+    for (int a = 0; a < 3; a++) {
+        camera.eye[a] = scale * random_float(r, -1, 1) * offset;
+        camera.target[a] = camera.eye[a] + scale * (a == 1 ? 2 : random_float(r, -1, 1));
+    }
+    random_direction(r, camera.up);
+    camera.fov = random_below(r, 2) ? random_float(r, 20, 100) : random_log(r, 0.5f, 160);
+    const uint32_t edge = 8 + random_below(r, random_below(r, 2) ? 1000 : 20);
+    assert_int_equal(cgt_camera_prepare(&camera, edge, edge, rays, message), CGT_OK);
+    at[0] = random_below(r, edge - 7);
+    at[1] = random_below(r, edge - 7);
+    const float px = ((float)(at[0] + random_below(r, 8)) + 0.5f) * rays->pixel[0] - 1;
+    const float py = 1 - ((float)(at[1] + random_below(r, 8)) + 0.5f) * rays->pixel[1];
+    const float t = scale * random_float(r, 0.5f, 3);
+    const float size = t * (random_below(r, 3) ? random_log(r, 1e-4f, 1) : random_log(r, 1, 100));
+    const float share = random_below(r, 4) ? random_float(r, 0, 1) : 0; /* of the edge, before the ray */
+    const float width = random_below(r, 3) ? 1 : random_log(r, 1e-7f, 1);
+    random_direction(r, e[0]);
+    random_direction(r, e[1]);
+    for (int a = 0; a < 3; a++) {
+        const float p = rays->eye[a] + t * ((rays->fwd[a] + px * rays->right[a]) + py * rays->up[a]);
+        q->v[0][a] = p - share * size * e[0][a];
+        q->v[1][a] = p + (1 - share) * size * e[0][a];
+        q->v[2][a] = p + size * (width * e[1][a] + (width < 1 ? 0.3f * e[0][a] : 0));
+    }
+    if (random_below(r, 2)) /* the other way round */
+        for (int a = 0; a < 3; a++) {
+            const float first = q->v[0][a];
+            q->v[0][a] = q->v[2][a];
+            q->v[2][a] = first;
+        }
+}
+
+static float farthest_of(const cgt_camera_rays *rays, const cgt_triangle *q)
+{
+    float most = 0;
+    for (int k = 0; k < 3; k++) {
+        float square = 0;
+        for (int a = 0; a < 3; a++)
+            square += (q->v[k][a] - rays->eye[a]) * (q->v[k][a] - rays->eye[a]);
+        most = square > most ? square : most;
+    }
+    return sqrtf(most) * (1 + 0x1p-18f);
+}
+
+static void judge_case(const cgt_camera_rays *rays, const uint32_t at[2], const cgt_triangle *q, bool linear,
+                       tile_truth *truth, bool fresh, tally *sum)
+{
+    static tile t;
+    tile_of(&t, rays, at, farthest_of(rays, q), linear);
+    if (fresh)
+        find_truth(&t, q, truth);
+    judge_triangle(&t, q, truth, sum);
+}
+
+static void bounds_hold(void **state)
+{
+    (void)state;
+    static tile_truth truth;
+    test_random r = random_make(410);
+    tally sum = {0};
+    for (uint32_t k = 100 + test_scaled(8000); k; k--) {
+        cgt_camera_rays rays;
+        uint32_t at[2];
+        cgt_triangle q;
+        make_case(&r, &rays, at, &q);
+        if (!cgt_tile_serves_camera(&rays) || !cgt_triangle_has_area(&q))
+            continue;
+        judge_case(&rays, at, &q, true, &truth, true, &sum);
+        judge_case(&rays, at, &q, false, &truth, false, &sum);
+    }
+    print_message("%llu lanes, %llu hits, %llu certain, %llu open; triangles: %llu slow, %llu coarse; lost %llu, "
+                  "invented %llu, outside %llu\n",
+                  (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
+                  (unsigned long long)sum.open, (unsigned long long)sum.slow, (unsigned long long)sum.coarse,
+                  (unsigned long long)sum.lost, (unsigned long long)sum.invented, (unsigned long long)sum.outside);
+    assert_int_equal(sum.lost, 0);
+    assert_int_equal(sum.invented, 0);
+    assert_int_equal(sum.outside, 0);
+    assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
+}
+
+/* From 1 down in steps of 2^-1/2. */
+#define STEPS 24
+
+static void check_break(const char *what, const tally *sum, uint64_t count(const tally *), double least)
+{
+    double at = 0, scale = 1;
+    for (int step = 0; step < STEPS && !at; step++, scale *= 0.70710678)
+        if (count(&sum[step]))
+            at = scale;
+    print_message("%s: first at %.3g of the bounds\n", what, at);
+    assert_true(at > least && at < 1);
+}
+
+static uint64_t lost_of(const tally *t) { return t->lost; }
+static uint64_t invented_of(const tally *t) { return t->invented; }
+static uint64_t outside_of(const tally *t) { return t->outside; }
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    static tile_truth truth;
+    test_random r = random_make(430);
+    tally sum[STEPS] = {{0}};
+    for (uint32_t k = 400 + test_scaled(2000); k; k--) {
+        cgt_camera_rays rays;
+        uint32_t at[2];
+        cgt_triangle q;
+        make_case(&r, &rays, at, &q);
+        if (!cgt_tile_serves_camera(&rays) || !cgt_triangle_has_area(&q))
+            continue;
+        float scale = 0x1p-24f;
+        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+            filter_u = scale;
+            judge_case(&rays, at, &q, k % 2, &truth, step == 0, &sum[step]);
+        }
+        filter_u = 0x1p-24f;
+    }
+    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    check_break("a hit lost", sum, lost_of, 0x1p-8);
+    check_break("a hit invented", sum, invented_of, 0x1p-8);
+    check_break("depth outside", sum, outside_of, 0x1p-10);
+}
+
+/* ---- fetching ---- */
+
+/* The last triangle and the last vertex of an array are followed by nothing: read alone, no byte beyond. */
+static void fetches_every_triangle(void **state)
+{
+    (void)state;
+    test_random r = random_make(450);
+    float point[40][3];
+    uint32_t index[60][3];
+    for (int k = 0; k < 120; k++)
+        point[k / 3][k % 3] = random_float(&r, -1, 1);
+    for (int k = 0; k < 180; k++)
+        index[k / 3][k % 3] = random_below(&r, k < 150 ? 39 : 40);
+    cgt_object_array array = {.kind = CGT_KIND_TRIANGLES,
+                              .first = 7,
+                              .point = (const char *)point,
+                              .point_stride = 12,
+                              .index = (const char *)index,
+                              .index_stride = 12,
+                              .count = 60,
+                              .points = 40};
+    const cgt_objects objects = {.array = &array, .arrays = 1, .count = 67, .triangles = 60};
+    for (uint32_t round = 0; round < 200; round++) {
+        uint32_t object[CGT_LANES], reference[CGT_LANES] = {0};
+        vfloat v[3][3];
+        const uint32_t count = 1 + random_below(&r, CGT_LANES);
+        array.index = round % 4 < 3 ? (const char *)index : NULL; /* then there are 13, and a vertex more */
+        array.count = array.index ? 60 : 13;
+        for (uint32_t k = 0; k < count; k++)
+            reference[k] = 7 + random_below(&r, array.count - (round % 2 ? 0 : array.count / 6));
+        tile_triangles_objects(reference, count, object);
+        tile_triangles_fetch(&objects, object, v);
+        for (uint32_t k = 0; k < CGT_LANES; k++) {
+            assert_int_equal(object[k], reference[k < count ? k : 0]);
+            const cgt_triangle q = cgt_objects_triangle(&objects, object[k]);
+            for (int i = 0; i < 9; i++) {
+                _Alignas(64) float lane[CGT_LANES];
+                spux_store(lane, v[i / 3][i % 3]);
+                assert_true(lane[k] == q.v[i / 3][i % 3]);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fetches_every_triangle),
+        cmocka_unit_test(bounds_hold),
+        cmocka_unit_test(bounds_break_where_they_are_tightened),
+    };
+    test_begin("test_tile_triangles");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

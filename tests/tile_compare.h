@@ -1,0 +1,106 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * One frame by tiles and by packets, of the variant that this is compiled for, compared bit for bit. What fails here
+ * fails the test. */
+#ifndef TILE_COMPARE_H
+#define TILE_COMPARE_H
+
+#include "support/loose_reference.h"
+#include "support/scenes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernel/packet.h"
+
+#include "scene.h"
+#include "tile_serves.h"
+
+static inline cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, uint32_t height)
+{
+    cgt_camera_rays rays;
+    char message[160];
+    assert_int_equal(cgt_camera_prepare(camera, width, height, &rays, message), CGT_OK);
+    return rays;
+}
+
+static inline cgt_region region_of(const planes *p, float *uv)
+{
+    cgt_region r = {.width = p->width, .height = p->height, .row_stride = p->width};
+    r.t = p->t;
+    r.primitive = p->primitive;
+    r.geometry = p->geometry;
+    for (int a = 0; a < 3; a++)
+        r.normal[a] = p->normal[a];
+    r.u = uv;
+    r.v = uv + p->elements;
+    return r;
+}
+
+typedef struct frames_tally {
+    uint32_t frames, served;
+    cgt_counts counts; /* of the served ones */
+} frames_tally;
+
+static inline void fail_at(const planes *got, const planes *wanted, const cgt_camera_rays *c, const char *what)
+{
+    size_t i = 0;
+    while (i < 6 * got->elements && got->memory[i] == wanted->memory[i])
+        i++;
+    if (i == 6 * got->elements)
+        fail_msg("%s: u or v", what);
+    i %= got->elements;
+    fail_msg("%s: %u x %u, pixel %zu: %u at %a, not %u at %a; eye %a %a %a", what, got->width, got->height, i,
+             got->primitive[i], (double)got->t[i], wanted->primitive[i], (double)wanted->t[i], (double)c->eye[0],
+             (double)c->eye[1], (double)c->eye[2]);
+}
+
+/* Both ways over one frame. */
+static inline void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera,
+                                 uint32_t width, uint32_t height, const char *what, frames_tally *tally)
+{
+    const cgt_camera_rays rays = rays_of(camera, width, height);
+    const cgt_trace_settings settings = {.packet = 8,
+                                         .cull = CGT_CULL_BLOCKS,
+                                         .precision = CGT_PRECISION_ROBUST,
+                                         .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY |
+                                                   CGT_FIELD_NORMAL | CGT_FIELD_UV};
+    planes wanted = planes_make(width, height), got = planes_make(width, height);
+    cgt_world world = scene->world;
+    cgt_counts counts = {0}, other = {0};
+    world.loose = grid->grid;
+    memset(wanted.memory, 0x77, 6 * wanted.elements * sizeof(uint32_t));
+    memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
+    float *uv = malloc(4 * wanted.elements * sizeof(float));
+    assert_non_null(uv);
+    memset(uv, 0x66, 4 * wanted.elements * sizeof(float));
+    const cgt_region to_wanted = region_of(&wanted, uv), to_got = region_of(&got, uv + 2 * wanted.elements);
+    CGT_KERNEL(cgt_trace_region)(&scene->world, &rays, &settings, &to_wanted, &other);
+    CGT_KERNEL(cgt_trace_tile)(&world, &rays, &settings, &to_got, &counts);
+    if (!planes_equal(&wanted, &got) || memcmp(uv, uv + 2 * wanted.elements, 2 * wanted.elements * sizeof(float)) != 0)
+        fail_at(&got, &wanted, &rays, what);
+    assert_int_equal(counts.rays, other.rays);
+    assert_int_equal(counts.hits, other.hits);
+    tally->frames++;
+    if (cgt_tile_serves(&world, &rays, &settings)) {
+        const uint64_t *from = (const uint64_t *)&counts;
+        uint64_t *to = (uint64_t *)&tally->counts;
+        tally->served++;
+        for (size_t i = 0; i < CGT_COUNTS; i++)
+            to[i] += from[i];
+    }
+    free(uv);
+    planes_free(&wanted);
+    planes_free(&got);
+}
+
+static inline void print_tally(const char *what, const frames_tally *t)
+{
+    print_message("%s: %u frames, %u by tiles: %llu rays, %llu hits, %llu ray tests, %llu in double, %llu exact\n",
+                  what, t->frames, t->served, (unsigned long long)t->counts.rays, (unsigned long long)t->counts.hits,
+                  (unsigned long long)t->counts.ray_tests, (unsigned long long)t->counts.double_tests,
+                  (unsigned long long)t->counts.exact_tests);
+}
+
+#endif
