@@ -76,9 +76,11 @@ static void put(const tests_bench *bench, tests_frame *f, float x, float y, floa
 static void put_backdrop(const tests_bench *bench, tests_frame *f)
 {
     const float pixels = (bench->triangles ? 1.5f : 0.82f) * EDGE / BACK_EDGE;
-    for (int i = 0; i < BACK; i++)
-        put(bench, f, (2.0f * (float)(i % BACK_EDGE) + 1.0f) / BACK_EDGE - 1.0f,
-            (2.0f * (float)(i / BACK_EDGE) + 1.0f) / BACK_EDGE - 1.0f, 60.0f + 0.25f * (float)i, pixels);
+    for (int i = 0; i < BACK; i++) {
+        const int column = i % BACK_EDGE, row = i / BACK_EDGE;
+        put(bench, f, (2.0f * (float)column + 1.0f) / BACK_EDGE - 1.0f, (2.0f * (float)row + 1.0f) / BACK_EDGE - 1.0f,
+            60.0f + 0.25f * (float)i, pixels);
+    }
 }
 
 /* Each object a twentieth nearer than the one before, so that they are nowhere as deep as each other, at random places

@@ -104,8 +104,8 @@ static void packet_rays(packet *p, const embree_view *view, uint32_t x, uint32_t
     const float sx = 2.0f / (float)axes->width, sy = 2.0f / (float)axes->height;
     const uint32_t n = view->packet, columns = view->width;
     for (uint32_t k = 0; k < n; k++) {
-        const float px = ((float)(x + k % columns) + 0.5f) * sx - 1.0f;
-        const float py = 1.0f - ((float)(y + k / columns) + 0.5f) * sy;
+        const uint32_t column = x + k % columns, row = y + k / columns;
+        const float px = ((float)column + 0.5f) * sx - 1.0f, py = 1.0f - ((float)row + 0.5f) * sy;
         for (uint32_t a = 0; a < 3; a++)
             p->word[(EMBREE_DIR + a) * n + k] = axes->fwd[a] + px * axes->right[a] + py * axes->up[a];
     }

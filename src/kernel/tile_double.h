@@ -94,6 +94,7 @@ __attribute__((noinline, unused)) static void tile_double_draw(const cgt_objects
     counts->packet_tests++;
     for (uint32_t pair = box.y0 / 2; pair <= box.y1 / 2; pair++) {
         tile_double_pair(t, &q, pair, first, end, depth);
+        counts->ray_tests += end - first;
         counts->double_tests += end - first;
         for (uint32_t k = first; k < end; k++) {
             const uint32_t i = pair * TILE_PAIR + k;
@@ -105,6 +106,7 @@ __attribute__((noinline, unused)) static void tile_double_draw(const cgt_objects
                 t->object[i] = object;
                 continue;
             }
+            counts->double_tests--; /* it is counted when it is decided */
             tile_queue_push(objects, t, queue, i, object, counts);
         }
     }
