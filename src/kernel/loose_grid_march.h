@@ -113,11 +113,13 @@ CGT_SPU_INLINE void loose_march_make(const cgt_loose_grid *grid, const frustum_s
 {
     m->grid = grid;
     m->frustum = f;
+    m->level[0] = (loose_march_level){0}; /* there is one, which the compiler cannot know */
     m->low = (float)f->first - f->w0;
     m->high = (float)f->end - f->w0;
     for (uint32_t i = 0; i < grid->levels; i++) {
         const cgt_loose_level *from = &grid->level[i];
         loose_march_level *l = &m->level[i];
+        l->next = l->end = 0;
         l->most = frustum_most((float)(from->size[f->u] - 1), (float)(from->size[f->v] - 1));
         loose_march_lines(m, s, from, 0, l);
         loose_march_lines(m, s, from, 1, l);

@@ -145,6 +145,7 @@ __attribute__((noinline)) static uint32_t traverse(const cgt_world *world, packe
     v.objects.p = p;
     v.objects.counts = counts;
     v.objects.cull = settings->cull;
+    v.objects.frustum = (frustum){0};
     v.counts = counts;
     v.pending = 0;
     loose_space_make(world, &v.objects.space);

@@ -208,6 +208,7 @@ static void traverse(const cgt_world *world, packet *p, uint32_t class, const cg
     v.objects.p = p;
     v.objects.counts = counts;
     v.objects.cull = settings->cull;
+    v.objects.frustum = (frustum){0};
     for (int a = 0; a < 3; a++) {
         v.objects.space.org[a] = g->org[a];
         v.objects.space.rcell[a] = g->rcell[a];
