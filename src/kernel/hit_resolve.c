@@ -111,7 +111,7 @@ CGT_SPU_INLINE void load_triangles(const cgt_object_array *array, vuint object, 
                                    winners *w)
 {
     const vuint number = spux_select(object, spux_vuint(some), missed);
-    vuint corner[3];
+    vfloat vertex[3][3];
     if (spux_all(spu_cmpeq(number, spux_vuint(some)))) { /* neighbours mostly hit the same */
         const cgt_triangle q = cgt_array_triangle(array, some);
         for (int k = 0; k < 3; k++)
@@ -119,15 +119,10 @@ CGT_SPU_INLINE void load_triangles(const cgt_object_array *array, vuint object, 
                 spux_store(w->vertex[k][a] + i, spux_vfloat(q.v[k][a]));
         return;
     }
-    const bool fit = fetch_vertices_fit(array);
-    fetch_corners_at(array, number, corner);
-    for (int k = 0; k < 3; k++) {
-        const bool before_last = fit && spux_all(spu_cmpgt(spux_vuint(array->points - 1), corner[k]));
-        vfloat v[3];
-        fetch_vertices(array, corner[k], before_last, v);
+    fetch_triangles_at(array, number, vertex);
+    for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
-            spux_store(w->vertex[k][a] + i, v[a]);
-    }
+            spux_store(w->vertex[k][a] + i, vertex[k][a]);
 }
 
 /* Triangles of one array alone. */

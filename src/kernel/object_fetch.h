@@ -88,22 +88,38 @@ CGT_SPU_INLINE void fetch_corners(const cgt_object_array *a, uint32_t i, uint32_
         corner[j] = spux_load_uint(row[j]);
 }
 
-/* The corners of any triangles of an array. */
+/* A number times a stride, of each lane. */
+CGT_SPU_INLINE void fetch_offsets(vuint number, uint32_t stride, uint32_t at[CGT_LANES])
+{
+    if (stride == 3) {
+        spux_store_uint(at, spu_add(number, spu_sl(number, 1)));
+        return;
+    }
+    spux_store_uint(at, number);
+    for (int k = 0; k < CGT_LANES; k++)
+        at[k] *= stride;
+}
+
+/* The corners of any triangles of an array; lane by lane where offsets are beyond 32 bits, or another record does not
+ * follow each. */
 CGT_SPU_INLINE void fetch_corners_at(const cgt_object_array *a, vuint number, vuint corner[3])
 {
-    const uint32_t stride = (uint32_t)(a->index_stride / sizeof(uint32_t));
-    const bool fit = a->index && (uint64_t)a->count * (a->index_stride / sizeof(uint32_t)) <= UINT32_MAX;
+    const bool fit = (uint64_t)a->count * (a->index_stride / sizeof(uint32_t)) <= UINT32_MAX;
     _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES], row[3][CGT_LANES];
-    spux_store_uint(at, number);
-    if (fit && spux_all(spu_cmpgt(spux_vuint(a->count - 1), number))) { /* another record follows each */
+    if (!a->index) {
+        for (uint32_t k = 0; k < 3; k++)
+            corner[k] = spu_add(spu_add(number, spu_sl(number, 1)), spux_vuint(k));
+        return;
+    }
+    if (fit && spux_all(spu_cmpgt(spux_vuint(a->count - 1), number))) {
         vfloat d[4];
-        for (int k = 0; k < CGT_LANES; k++)
-            at[k] *= stride;
+        fetch_offsets(number, (uint32_t)(a->index_stride / sizeof(uint32_t)), at);
         spux_load_records4_at((const float *)(const void *)a->index, at, d);
         for (int k = 0; k < 3; k++)
             corner[k] = (vuint)d[k];
         return;
     }
+    spux_store_uint(at, number);
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         uint32_t c[3];
         cgt_array_corners(a, at[k], c);
@@ -124,18 +140,16 @@ CGT_SPU_INLINE bool fetch_vertices_fit(const cgt_object_array *a)
 CGT_SPU_INLINE void fetch_vertices(const cgt_object_array *a, vuint corner, bool before_last, vfloat v[3])
 {
     _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
-    spux_store_uint(at, corner);
     if (before_last) {
-        const uint32_t stride = (uint32_t)(a->point_stride / sizeof(float));
         vfloat d[4];
-        for (int k = 0; k < CGT_LANES; k++)
-            at[k] *= stride;
+        fetch_offsets(corner, (uint32_t)(a->point_stride / sizeof(float)), at);
         spux_load_records4_at((const float *)(const void *)a->point, at, d);
         for (int k = 0; k < 3; k++)
             v[k] = d[k];
         return;
     }
     _Alignas(CGT_VECTOR_BYTES) float row[3][CGT_LANES];
+    spux_store_uint(at, corner);
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         const float *p = cgt_array_point(a, at[k]);
         for (int j = 0; j < 3; j++)
@@ -143,6 +157,16 @@ CGT_SPU_INLINE void fetch_vertices(const cgt_object_array *a, vuint corner, bool
     }
     for (int j = 0; j < 3; j++)
         v[j] = spux_load(row[j]);
+}
+
+/* Any triangles of an array. */
+CGT_SPU_INLINE void fetch_triangles_at(const cgt_object_array *a, vuint number, vfloat vertex[3][3])
+{
+    const bool fit = fetch_vertices_fit(a);
+    vuint corner[3];
+    fetch_corners_at(a, number, corner);
+    for (int k = 0; k < 3; k++)
+        fetch_vertices(a, corner[k], fit && spux_all(spu_cmpgt(spux_vuint(a->points - 1), corner[k])), vertex[k]);
 }
 
 #endif

@@ -37,16 +37,23 @@ static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_
     return !safe;
 }
 
+/* What a component of the plane's normal may be off by. */
+CGT_SPU_INLINE double triangle_edges(const cgt_triangle *q)
+{
+    double size[2] = {0, 0};
+    for (int k = 0; k < 2; k++)
+        for (int a = 0; a < 3; a++)
+            size[k] += fabs((double)q->v[k + 1][a] - (double)q->v[0][a]);
+    return CGT_TRIANGLE_DOUBLE_ERROR * (size[0] * size[1]);
+}
+
 /* Of all components together, or in EXACT precision of each: one that is exactly 0 is as good as it gets where its
  * products are too. */
 static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
 {
-    double size[2] = {0, 0}, sum = 0;
+    const double error = triangle_edges(q);
+    double sum = 0;
     bool each = true;
-    for (int k = 0; k < 2; k++)
-        for (int a = 0; a < 3; a++)
-            size[k] += fabs((double)q->v[k + 1][a] - (double)q->v[0][a]);
-    const double error = CGT_TRIANGLE_DOUBLE_ERROR * (size[0] * size[1]);
     for (int a = 0; a < 3; a++) {
         each = each && error <= CGT_DOUBLE_SAFE * fabs(n[a]);
         sum += CGT_DOUBLE_SAFE * fabs(n[a]);
@@ -54,34 +61,38 @@ static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
     return exact ? each : error <= sum;
 }
 
-/* Something of it cancels. */
-__attribute__((noinline)) static void resolve_triangle_ray(const packet *p, size_t i, uint32_t fields, bool exact,
-                                                           const winners *w, packet_hits *hits, cgt_counts *counts)
+/* The fields of one triangle's hit. */
+typedef struct resolved_triangle {
+    float t, u, v, normal[3];
+} resolved_triangle;
+
+/* A ray of which something cancels. */
+__attribute__((noinline, unused)) static resolved_triangle
+resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, bool exact, cgt_counts *counts)
 {
-    const cgt_triangle q = winner_triangle(w, i);
-    const cgt_ray ray = {
-        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
-    const cgt_triangle_plane plane = cgt_triangle_double_plane(ray.line.org, ray.line.dir, &q);
+    const cgt_triangle_plane plane = cgt_triangle_double_plane(ray->line.org, ray->line.dir, q);
+    resolved_triangle h = {0};
     bool exactly = false;
     if (fields & CGT_FIELD_T) {
-        hits->t[i] = (float)cgt_canonical_triangle_t(&ray, &q);
+        h.t = (float)cgt_canonical_triangle_t(ray, q);
         exactly = !cgt_triangle_double_t_safe(&plane);
     }
     if (fields & CGT_FIELD_UV) {
         double share[2];
-        exactly |= resolve_ray_uv(&ray, &q, &plane, exact, share);
-        hits->u[i] = share_of(share[0]);
-        hits->v[i] = share_of(share[1]);
+        exactly |= resolve_ray_uv(ray, q, &plane, exact, share);
+        h.u = share_of(share[0]);
+        h.v = share_of(share[1]);
     }
     counts->exact_values += exactly;
     if (fields & CGT_FIELD_NORMAL) {
         double n[3] = {plane.n[0], plane.n[1], plane.n[2]};
-        if (!normal_is_safe(&q, n, exact))
-            cgt_exact_normal(&q, n);
+        if (!normal_is_safe(q, n, exact))
+            cgt_exact_normal(q, n);
         const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         for (int a = 0; a < 3; a++)
-            hits->normal[a][i] = (float)(n[a] * r);
+            h.normal[a] = (float)(n[a] * r);
     }
+    return h;
 }
 
 /* ---- a vector of rays ---- */
@@ -95,18 +106,18 @@ typedef struct resolve_half_plane {
 #define NORM1(x) (spux_double_abs((x)[0]) + spux_double_abs((x)[1]) + spux_double_abs((x)[2]))
 #define DOT(p, q) ((p)[0] * (q)[0] + (p)[1] * (q)[1] + (p)[2] * (q)[2])
 
-CGT_SPU_INLINE void resolve_half_load(const packet *p, size_t i, const winners *w, resolve_half_plane h[2])
+/* Rays and the triangles that they hit. */
+CGT_SPU_INLINE void resolve_half_load(const vfloat org[3], const vfloat dir[3], const vfloat vertex[3][3],
+                                      resolve_half_plane h[2])
 {
     for (int a = 0; a < 3; a++) {
-        const vfloat dir = spux_load(p->dir[a] + i), org = spux_load(p->org[a] + i);
-        h[0].d[a] = spux_double_low(dir);
-        h[1].d[a] = spux_double_high(dir);
-        h[0].org[a] = spux_double_low(org);
-        h[1].org[a] = spux_double_high(org);
+        h[0].d[a] = spux_double_low(dir[a]);
+        h[1].d[a] = spux_double_high(dir[a]);
+        h[0].org[a] = spux_double_low(org[a]);
+        h[1].org[a] = spux_double_high(org[a]);
         for (int k = 0; k < 3; k++) {
-            const vfloat v = spux_load(w->vertex[k][a] + i);
-            h[0].v[k][a] = spux_double_low(v);
-            h[1].v[k][a] = spux_double_high(v);
+            h[0].v[k][a] = spux_double_low(vertex[k][a]);
+            h[1].v[k][a] = spux_double_high(vertex[k][a]);
         }
     }
 }
@@ -145,28 +156,35 @@ CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, 
 
 CGT_SPU_INLINE vmask above_0(vdouble low, vdouble high) { return spu_cmpgt(spux_float_of(low, high), spux_vfloat(0)); }
 
-CGT_SPU_INLINE vmask resolve_vector_uv(size_t i, const resolve_half_plane h[2], bool exact, vmask hit,
-                                       packet_hits *hits)
+/* What a vector of rays gets. */
+typedef struct resolved_triangles {
+    vfloat t, u, v, normal[3];
+} resolved_triangles;
+
+CGT_SPU_INLINE vfloat shares_of(vdouble low, vdouble high)
+{
+    const vfloat share = spux_float_of(low, high), zero = spux_vfloat(0), one = spux_vfloat(1);
+    const vfloat above = spux_select(zero, share, spu_cmpgt(share, zero));
+    return spux_select(one, above, spu_cmpgt(one, above));
+}
+
+CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
 {
     const vdouble r[2] = {spux_vdouble(1) / h[0].den, spux_vdouble(1) / h[1].den};
-    float *const to[2] = {hits->u, hits->v};
     vmask known = above_0(h[0].sure_den, h[1].sure_den);
     for (int k = 0; k < 2; k++) { /* w1 is of the edge from v2 to v0, w2 from v0 to v1 */
         const int from = k ? 0 : 2, end = k ? 1 : 0;
         vdouble sure[2];
         const vdouble low = resolve_half_side(&h[0], from, end, &sure[0]);
         const vdouble high = resolve_half_side(&h[1], from, end, &sure[1]);
-        const vfloat share = spux_float_of(low * r[0], high * r[1]), zero = spux_vfloat(0), one = spux_vfloat(1);
-        const vfloat above = spux_select(zero, share, spu_cmpgt(share, zero));
-        spux_store(to[k] + i, spux_select(zero, spux_select(one, above, spu_cmpgt(one, above)), hit));
+        *(k ? &to->v : &to->u) = shares_of(low * r[0], high * r[1]);
         if (exact)
             known = spu_and(known, above_0(sure[0], sure[1]));
     }
     return known;
 }
 
-CGT_SPU_INLINE vmask resolve_vector_normal(size_t i, const resolve_half_plane h[2], bool exact, vmask hit,
-                                           packet_hits *hits)
+CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
 {
     vdouble r[2], sum[2];
     vmask known = spux_mask_all();
@@ -175,8 +193,7 @@ CGT_SPU_INLINE vmask resolve_vector_normal(size_t i, const resolve_half_plane h[
         sum[k] = NORM1(h[k].n) * CGT_DOUBLE_SAFE - h[k].edges;
     }
     for (int a = 0; a < 3; a++) {
-        const vfloat n = spux_float_of(h[0].n[a] * r[0], h[1].n[a] * r[1]);
-        spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), n, hit));
+        to->normal[a] = spux_float_of(h[0].n[a] * r[0], h[1].n[a] * r[1]);
         if (exact)
             known = spu_and(known, above_0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
                                            spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
@@ -184,29 +201,129 @@ CGT_SPU_INLINE vmask resolve_vector_normal(size_t i, const resolve_half_plane h[
     return exact ? known : above_0(sum[0], sum[1]);
 }
 
-/* What is not surely safe here is looked at ray by ray. */
-CGT_SPU_INLINE void resolve_triangles_vector(const packet *p, size_t i, uint32_t fields, bool exact, bool alone,
-                                             const winners *w, packet_hits *hits, cgt_counts *counts)
+/* Returns the lanes that are right; the others are for resolve_triangle_ray. */
+CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat dir[3], const vfloat vertex[3][3],
+                                              uint32_t fields, bool exact, resolved_triangles *to)
+{
+    resolve_half_plane h[2];
+    vmask known = spux_mask_all();
+    resolve_half_load(org, dir, vertex, h);
+    resolve_half_plane_make(&h[0]);
+    resolve_half_plane_make(&h[1]);
+    if (fields & CGT_FIELD_T) {
+        to->t = spux_float_of(h[0].num / h[0].den, h[1].num / h[1].den);
+        known = spu_and(above_0(h[0].sure_t, h[1].sure_t), above_0(h[0].sure_den, h[1].sure_den));
+    }
+    if (fields & CGT_FIELD_UV)
+        known = spu_and(known, resolve_vector_uv(h, exact, to));
+    if (fields & CGT_FIELD_NORMAL)
+        known = spu_and(known, resolve_vector_normal(h, exact, to));
+    return known;
+}
+
+/* A side of one triangle's edge, for half a vector: the cross product is the same for all. */
+typedef struct resolve_edge {
+    double cross[3], error; /* of the side, over the 1-norm of the direction */
+} resolve_edge;
+
+CGT_SPU_INLINE resolve_edge resolve_edge_of(const float org[3], const cgt_triangle *q, int from, int to)
+{
+    double b[3], e[3], size[2] = {0, 0};
+    for (int a = 0; a < 3; a++) {
+        b[a] = (double)q->v[from][a] - (double)org[a];
+        e[a] = (double)q->v[to][a] - (double)q->v[from][a];
+        size[0] += fabs(b[a]);
+        size[1] += fabs(e[a]);
+    }
+    return (resolve_edge){{CGT_CROSS(b, e, 1, 2), CGT_CROSS(b, e, 2, 0), CGT_CROSS(b, e, 0, 1)},
+                          CGT_TRIANGLE_DOUBLE_ERROR * 1.01 * size[0] * size[1]};
+}
+
+/* The same with one origin and one triangle for all rays: its plane, sides and normal are computed once. */
+CGT_SPU_INLINE vmask resolve_triangle_vector(const float org[3], const vfloat dir[3], const cgt_triangle *q,
+                                             uint32_t fields, bool exact, resolved_triangles *to)
+{
+    static const float nowhere[3] = {0, 0, 0};
+    const cgt_triangle_plane plane = cgt_triangle_double_plane(org, nowhere, q);
+    const resolve_edge edge[2] = {resolve_edge_of(org, q, 2, 0), resolve_edge_of(org, q, 0, 1)};
+    const double *n = plane.n;
+    vdouble t[2], side[2][2], sure[2], sure_side[2][2];
+    for (int h = 0; h < 2; h++) {
+        vdouble d[3];
+        for (int a = 0; a < 3; a++)
+            d[a] = h ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
+        const vdouble size = NORM1(d), den = d[0] * n[0] + d[1] * n[1] + d[2] * n[2], r = spux_vdouble(1) / den;
+        t[h] = spux_vdouble(plane.num) / den;
+        sure[h] = spux_double_abs(den) * CGT_DOUBLE_SAFE - size * triangle_edges(q);
+        for (int k = 0; k < 2; k++) {
+            const double *c = edge[k].cross;
+            const vdouble w = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
+            side[k][h] = w * r;
+            sure_side[k][h] = spux_double_abs(w) * CGT_DOUBLE_SAFE - size * edge[k].error;
+        }
+    }
+    vmask known = above_0(sure[0], sure[1]);
+    bool all = !(fields & CGT_FIELD_T) || plane.num_error <= CGT_DOUBLE_SAFE * fabs(plane.num);
+    to->t = spux_float_of(t[0], t[1]);
+    if (fields & CGT_FIELD_UV) {
+        to->u = shares_of(side[0][0], side[0][1]);
+        to->v = shares_of(side[1][0], side[1][1]);
+        for (int k = 0; exact && k < 2; k++)
+            known = spu_and(known, above_0(sure_side[k][0], sure_side[k][1]));
+    }
+    if (fields & CGT_FIELD_NORMAL) {
+        const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        all = all && normal_is_safe(q, n, exact);
+        for (int a = 0; a < 3; a++)
+            to->normal[a] = spux_vfloat((float)(n[a] * r));
+    }
+    return all ? known : spux_mask_none();
+}
+
+__attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields, bool exact,
+                                                            const winners *w, packet_hits *hits, cgt_counts *counts)
+{
+    const cgt_triangle q = winner_triangle(w, i);
+    const cgt_ray ray = {
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
+    const resolved_triangle h = resolve_triangle_ray(&ray, &q, fields, exact, counts);
+    if (fields & CGT_FIELD_T)
+        hits->t[i] = h.t;
+    if (fields & CGT_FIELD_UV) {
+        hits->u[i] = h.u;
+        hits->v[i] = h.v;
+    }
+    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
+        hits->normal[a][i] = h.normal[a];
+}
+
+/* Lanes of a packet. */
+CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t fields, bool exact, bool alone,
+                                            const winners *w, packet_hits *hits, cgt_counts *counts)
 {
     const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_NONE));
     const vmask hit =
         alone ? spux_not(nobody) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), nobody);
-    resolve_half_plane h[2];
-    vmask known = spux_mask_all();
-    resolve_half_load(p, i, w, h);
-    resolve_half_plane_make(&h[0]);
-    resolve_half_plane_make(&h[1]);
-    if (fields & CGT_FIELD_T) {
-        const vfloat t = spux_float_of(h[0].num / h[0].den, h[1].num / h[1].den);
-        spux_store(hits->t + i, spux_select(spux_load(hits->t + i), t, hit));
-        known = spu_and(above_0(h[0].sure_t, h[1].sure_t), above_0(h[0].sure_den, h[1].sure_den));
+    const vfloat zero = spux_vfloat(0);
+    vfloat org[3], dir[3], vertex[3][3];
+    resolved_triangles h = {zero, zero, zero, {zero, zero, zero}};
+    for (int a = 0; a < 3; a++) {
+        org[a] = spux_load(p->org[a] + i);
+        dir[a] = spux_load(p->dir[a] + i);
+        for (int k = 0; k < 3; k++)
+            vertex[k][a] = spux_load(w->vertex[k][a] + i);
     }
-    if (fields & CGT_FIELD_UV)
-        known = spu_and(known, resolve_vector_uv(i, h, exact, hit, hits));
-    if (fields & CGT_FIELD_NORMAL)
-        known = spu_and(known, resolve_vector_normal(i, h, exact, hit, hits));
+    const vmask known = resolve_triangles_vector(org, dir, vertex, fields, exact, &h);
+    if (fields & CGT_FIELD_T)
+        spux_store(hits->t + i, spux_select(spux_load(hits->t + i), h.t, hit));
+    if (fields & CGT_FIELD_UV) {
+        spux_store(hits->u + i, spux_select(spux_load(hits->u + i), h.u, hit));
+        spux_store(hits->v + i, spux_select(spux_load(hits->v + i), h.v, hit));
+    }
+    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
+        spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), h.normal[a], hit));
     for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1)
-        resolve_triangle_ray(p, i + (size_t)__builtin_ctz(left), fields, exact, w, hits, counts);
+        resolve_triangle_lane(p, i + (size_t)__builtin_ctz(left), fields, exact, w, hits, counts);
 }
 
 CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
@@ -217,7 +334,7 @@ CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t coun
     if (!(fields & (CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV)))
         return;
     for (size_t i = first; i < first + count; i += CGT_LANES)
-        resolve_triangles_vector(p, i, fields, exact, alone, w, hits, counts);
+        resolve_triangles_lanes(p, i, fields, exact, alone, w, hits, counts);
 }
 
 #undef DOT

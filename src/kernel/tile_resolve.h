@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * From a tile's winners to the caller's planes. Spheres of one array go from a vector of pixels straight to them; all
+ * From a tile's winners to the caller's planes. Objects of one array go from a vector of pixels straight to them; all
  * else some whole rows at a time as a packet of rays, which lie in it as their pixels do in the planes. */
 #ifndef CGT_TILE_RESOLVE_H
 #define CGT_TILE_RESOLVE_H
@@ -9,6 +9,7 @@
 #include "camera_packet.h"
 #include "object_fetch.h"
 #include "resolve_spheres.h"
+#include "resolve_triangles.h"
 #include "tile.h"
 
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
@@ -23,7 +24,7 @@ CGT_SPU_INLINE void tile_directions(const tile *t, vfloat px, vfloat py, vfloat 
     }
 }
 
-/* ---- spheres of one array ---- */
+/* ---- objects of one array ---- */
 
 /* A row of a vector's columns of a plane; a region less wide than a tile ends among them. */
 CGT_SPU_INLINE void tile_put_row(uint32_t *to, const cgt_region *r, bool stream, uint32_t x, vuint v)
@@ -64,19 +65,24 @@ CGT_SPU_INLINE bool tile_streams(const cgt_region *r)
 /* What a vector of pixels gets. */
 typedef struct tile_hits {
     vuint object;
-    vfloat t, normal[3];
+    vfloat t, u, v, normal[3];
 } tile_hits;
 
-/* The rays of some lanes, one by one. */
-__attribute__((noinline, unused)) static void tile_resolve_rays(const cgt_world *world, const tile *t, unsigned lanes,
-                                                                const vfloat dir[3], tile_hits *h, cgt_counts *counts)
+CGT_SPU_INLINE cgt_ray tile_hit_ray(const tile *t, const vfloat dir[3], int k)
 {
     const cgt_camera_rays *c = t->rays;
+    return (cgt_ray){.line = {.org = {c->eye[0], c->eye[1], c->eye[2]}, .dir = {dir[0][k], dir[1][k], dir[2][k]}},
+                     .t_min = c->t_min};
+}
+
+/* The rays of some lanes, one by one. */
+__attribute__((noinline, unused)) static void tile_resolve_sphere_rays(const cgt_world *world, const tile *t,
+                                                                       unsigned lanes, const vfloat dir[3],
+                                                                       tile_hits *h, cgt_counts *counts)
+{
     for (; lanes; lanes &= lanes - 1) {
         const int k = __builtin_ctz(lanes);
-        const cgt_ray ray = {
-            .line = {.org = {c->eye[0], c->eye[1], c->eye[2]}, .dir = {dir[0][k], dir[1][k], dir[2][k]}},
-            .t_min = c->t_min};
+        const cgt_ray ray = tile_hit_ray(t, dir, k);
         const resolved_sphere s = resolve_sphere_ray(&ray, cgt_objects_sphere(&world->objects, h->object[k]), counts);
         h->t[k] = s.t;
         for (int a = 0; a < 3; a++)
@@ -84,19 +90,36 @@ __attribute__((noinline, unused)) static void tile_resolve_rays(const cgt_world 
     }
 }
 
-/* Pixels i and on of the tile, hit: lanes that are; their spheres are fetched. */
-CGT_SPU_INLINE void tile_resolve_hit(const cgt_world *world, const tile *t, bool normals, uint32_t i, unsigned hit,
-                                     vmask missed, tile_hits *h, cgt_counts *counts)
+__attribute__((noinline, unused)) static void tile_resolve_triangle_rays(const cgt_world *world, const tile *t,
+                                                                         unsigned lanes, const vfloat dir[3],
+                                                                         uint32_t fields, bool exact, tile_hits *h,
+                                                                         cgt_counts *counts)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        const int k = __builtin_ctz(lanes);
+        const cgt_ray ray = tile_hit_ray(t, dir, k);
+        const cgt_triangle q = cgt_objects_triangle(&world->objects, h->object[k]);
+        const resolved_triangle s = resolve_triangle_ray(&ray, &q, fields, exact, counts);
+        h->t[k] = s.t;
+        h->u[k] = s.u;
+        h->v[k] = s.v;
+        for (int a = 0; a < 3; a++)
+            h->normal[a][k] = s.normal[a];
+    }
+}
+
+/* The objects of a vector, `number`, lanes without a hit having that of one that has, `some`. Neighbours mostly hit the
+ * same. */
+CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, bool normals, vuint number,
+                                         uint32_t some, vmask missed, const vfloat dir[3], tile_hits *h,
+                                         cgt_counts *counts)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
-    const uint32_t some = t->object[i + (uint32_t)__builtin_ctz(hit)];
-    const vuint number = spux_select(h->object, spux_vuint(some), missed);
     const vfloat t_min = spux_vfloat(t->rays->t_min), zero = spux_vfloat(0);
-    vfloat dir[3], n[3] = {zero, zero, zero}, found;
+    vfloat n[3] = {zero, zero, zero}, found;
     vmask known;
-    tile_directions(t, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))), spux_load(t->py[i / TILE_PAIR]), dir);
-    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) /* neighbours mostly hit the same */
+    if (spux_all(spu_cmpeq(number, spux_vuint(some))))
         known = resolve_sphere_vector(eye, dir, cgt_array_sphere(array, some), t_min, normals, &found, n);
     else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
@@ -109,53 +132,107 @@ CGT_SPU_INLINE void tile_resolve_hit(const cgt_world *world, const tile *t, bool
     h->t = spux_select(found, h->t, missed);
     for (int a = 0; normals && a < 3; a++)
         h->normal[a] = spux_select(n[a], zero, missed);
-    const unsigned rest = hit & ~spux_mask_bits(known);
+    const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
     if (rest)
-        tile_resolve_rays(world, t, rest, dir, h, counts);
+        tile_resolve_sphere_rays(world, t, rest, dir, h, counts);
 }
 
-CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, bool wants, bool normals,
-                                             uint32_t i, cgt_counts *counts)
+CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t, uint32_t fields, bool exact,
+                                           vuint number, uint32_t some, vmask missed, const vfloat dir[3], tile_hits *h,
+                                           cgt_counts *counts)
+{
+    const cgt_object_array *array = world->objects.array;
+    const float *eye = t->rays->eye;
+    const vfloat zero = spux_vfloat(0);
+    resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
+    vmask known;
+    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) {
+        const cgt_triangle q = cgt_array_triangle(array, some);
+        known = resolve_triangle_vector(eye, dir, &q, fields, exact, &found);
+    } else {
+        const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
+        vfloat vertex[3][3];
+        fetch_triangles_at(array, number, vertex);
+        known = resolve_triangles_vector(org, dir, vertex, fields, exact, &found);
+    }
+    h->t = spux_select(found.t, h->t, missed);
+    h->u = spux_select(found.u, zero, missed);
+    h->v = spux_select(found.v, zero, missed);
+    for (int a = 0; a < 3; a++)
+        h->normal[a] = spux_select(found.normal[a], zero, missed);
+    const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
+    if (rest)
+        tile_resolve_triangle_rays(world, t, rest, dir, fields, exact, h, counts);
+}
+
+/* What is constant over a frame; inlined with constants where that makes loops shorter. */
+typedef struct tile_wish {
+    bool triangles, stream, exact;
+    uint32_t fields; /* t, u v and normals */
+} tile_wish;
+
+CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
+                                             cgt_counts *counts)
 {
     const vfloat zero = spux_vfloat(0);
-    tile_hits h = {spux_load_uint(t->object + i), spux_vfloat(INFINITY), {zero, zero, zero}};
+    tile_hits h = {spux_load_uint(t->object + i), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}};
     const vmask missed = spu_cmpeq(h.object, spux_vuint(CGT_NONE));
     const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
     counts->hits += spux_count_bits(hit);
-    if (hit && wants)
-        tile_resolve_hit(world, t, normals, i, hit, missed, &h, counts);
+    if (!hit || !wish.fields)
+        return h;
+    const uint32_t some = t->object[i + (uint32_t)__builtin_ctz(hit)];
+    const vuint number = spux_select(h.object, spux_vuint(some), missed);
+    vfloat dir[3];
+    tile_directions(t, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))), spux_load(t->py[i / TILE_PAIR]), dir);
+    if (wish.triangles)
+        tile_resolve_triangles(world, t, wish.fields, wish.exact, number, some, missed, dir, &h, counts);
+    else
+        tile_resolve_spheres(world, t, wish.fields & CGT_FIELD_NORMAL, number, some, missed, dir, &h, counts);
     return h;
 }
 
-CGT_SPU_INLINE void tile_resolve_spheres_to(const cgt_world *world, const tile *t, const cgt_region *r, bool wants,
-                                            bool normals, bool stream, cgt_counts *counts)
+CGT_SPU_INLINE void tile_resolve_to(const cgt_world *world, const tile *t, const cgt_region *r, tile_wish wish,
+                                    cgt_counts *counts)
 {
     const vuint none = spux_vuint(CGT_NONE), geometry = spux_vuint(world->objects.array->geometry);
     for (uint32_t y = 0; y < r->height; y += 2)
         for (uint32_t x = 0; x < r->width; x += CGT_LANES) {
             const uint32_t i = tile_index(x, y);
-            const tile_hits a = tile_resolve_vector(world, t, wants, normals, i, counts);
-            const tile_hits b = tile_resolve_vector(world, t, wants, normals, i + CGT_LANES, counts);
-            tile_put((uint32_t *)r->t, r, stream, x, y, (vuint)a.t, (vuint)b.t);
-            tile_put(r->primitive, r, stream, x, y, a.object, b.object);
-            tile_put(r->geometry, r, stream, x, y, spux_select(geometry, none, spu_cmpeq(a.object, none)),
+            const tile_hits a = tile_resolve_vector(world, t, wish, i, counts);
+            const tile_hits b = tile_resolve_vector(world, t, wish, i + CGT_LANES, counts);
+            tile_put((uint32_t *)r->t, r, wish.stream, x, y, (vuint)a.t, (vuint)b.t);
+            tile_put(r->primitive, r, wish.stream, x, y, a.object, b.object);
+            tile_put(r->geometry, r, wish.stream, x, y, spux_select(geometry, none, spu_cmpeq(a.object, none)),
                      spux_select(geometry, none, spu_cmpeq(b.object, none)));
             for (int k = 0; k < 3; k++)
-                tile_put((uint32_t *)r->normal[k], r, stream, x, y, (vuint)a.normal[k], (vuint)b.normal[k]);
-            tile_put((uint32_t *)r->u, r, stream, x, y, spux_vuint(0), spux_vuint(0));
-            tile_put((uint32_t *)r->v, r, stream, x, y, spux_vuint(0), spux_vuint(0));
+                tile_put((uint32_t *)r->normal[k], r, wish.stream, x, y, (vuint)a.normal[k], (vuint)b.normal[k]);
+            tile_put((uint32_t *)r->u, r, wish.stream, x, y, (vuint)a.u, (vuint)b.u);
+            tile_put((uint32_t *)r->v, r, wish.stream, x, y, (vuint)a.v, (vuint)b.v);
         }
 }
 
-__attribute__((noinline, unused)) static void tile_resolve_spheres(const cgt_world *world, const tile *t,
-                                                                   const cgt_region *r, cgt_counts *counts)
+__attribute__((noinline, unused)) static void tile_resolve_array(const cgt_world *world, const tile *t,
+                                                                 const cgt_trace_settings *settings,
+                                                                 const cgt_region *r, cgt_counts *counts)
 {
-    const bool stream = tile_streams(r), normals = r->normal[0] != NULL;
-    if (normals)
-        tile_resolve_spheres_to(world, t, r, true, true, stream, counts);
-    else
-        tile_resolve_spheres_to(world, t, r, r->t != NULL, false, stream, counts);
-    if (stream)
+    tile_wish wish = {.triangles = world->objects.triangles != 0,
+                      .stream = tile_streams(r),
+                      .exact = settings->precision == CGT_PRECISION_EXACT,
+                      .fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u)};
+    if (wish.triangles) {
+        wish.triangles = true;
+        wish.fields |= r->u ? CGT_FIELD_UV : 0u;
+        tile_resolve_to(world, t, r, wish, counts);
+    } else {
+        wish.triangles = false;
+        if (wish.fields & CGT_FIELD_NORMAL) {
+            wish.fields = CGT_FIELD_T | CGT_FIELD_NORMAL;
+            tile_resolve_to(world, t, r, wish, counts);
+        } else
+            tile_resolve_to(world, t, r, wish, counts);
+    }
+    if (wish.stream)
         spux_stream_end();
 }
 
@@ -224,8 +301,8 @@ __attribute__((noinline, unused)) static void tile_resolve(const cgt_world *worl
 {
     packet p;
     packet_hits hits;
-    if (!world->objects.triangles && world->objects.arrays == 1) {
-        tile_resolve_spheres(world, t, region, counts);
+    if (world->objects.arrays == 1) {
+        tile_resolve_array(world, t, settings, region, counts);
         return;
     }
     camera_packet_begin(t->rays, settings, PACKET_MAX_EDGE, &p);

@@ -72,70 +72,21 @@ CGT_SPU_INLINE void tile_gap_widen(tile *t, float c)
 
 /* ---- fetching ---- */
 
-/* A number times a stride, of each lane. */
-CGT_SPU_INLINE void tile_offsets(vuint number, uint32_t stride, uint32_t at[CGT_LANES])
+/* Reads the vertices of a vector of objects; one by one where they are of several arrays. */
+CGT_SPU_INLINE void tile_triangles_fetch(const cgt_objects *objects, const uint32_t object[CGT_LANES],
+                                         vfloat vertex[3][3])
 {
-    if (stride == 3) {
-        spux_store_uint(at, spu_add(number, spu_sl(number, 1)));
+    const cgt_object_array *a = objects->arrays == 1 ? objects->array : cgt_objects_array(objects, object[0]);
+    const vuint number = spu_sub(spux_load_uint(object), spux_vuint(a->first));
+    if (objects->arrays == 1 || spux_all(spu_cmpgt(spux_vuint(a->count), number))) {
+        fetch_triangles_at(a, number, vertex);
         return;
     }
-    spux_store_uint(at, number);
-    for (int k = 0; k < CGT_LANES; k++)
-        at[k] *= stride;
-}
-
-/* Whether vectors can read an array's triangles: words that 32 bits can count. */
-CGT_SPU_INLINE bool tile_triangles_fit(const cgt_object_array *a)
-{
-    const bool words = a->point_stride % sizeof(float) == 0 && a->index_stride % sizeof(uint32_t) == 0;
-    return words && fetch_vertices_fit(a) && (uint64_t)a->count * (a->index_stride / sizeof(uint32_t)) <= UINT32_MAX;
-}
-
-/* One by one. */
-__attribute__((noinline, unused)) static void
-tile_triangles_fetch_singly(const cgt_objects *objects, const uint32_t object[CGT_LANES], vfloat vertex[3][3])
-{
     filter_triangles s;
     filter_triangles_fetch(objects, object, CGT_LANES, CGT_LANES, &s);
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
             vertex[k][i] = spux_load(s.vertex[k][i]);
-}
-
-/* Reads the vertices of a vector of objects. Records of three numbers are read as four: not the last ones. */
-CGT_SPU_INLINE void tile_triangles_fetch(const cgt_objects *objects, const uint32_t object[CGT_LANES],
-                                         vfloat vertex[3][3])
-{
-    const cgt_object_array *a = objects->arrays == 1 ? objects->array : cgt_objects_array(objects, object[0]);
-    const vuint number = spu_sub(spux_load_uint(object), spux_vuint(a->first)), last = spux_vuint(a->count - 2);
-    if (!tile_triangles_fit(a) || a->count < 2 || spux_any(spu_cmpgt(number, last))) {
-        tile_triangles_fetch_singly(objects, object, vertex);
-        return;
-    }
-    const vuint end = spux_vuint(a->points - 1);
-    const uint32_t stride = (uint32_t)(a->point_stride / sizeof(float));
-    uint32_t at[CGT_LANES];
-    vfloat corner[4];
-    if (a->index) {
-        tile_offsets(number, (uint32_t)(a->index_stride / sizeof(uint32_t)), at);
-        spux_load_records4_at((const float *)(const void *)a->index, at, corner);
-    } else {
-        for (uint32_t k = 0; k < 3; k++)
-            corner[k] = (vfloat)spu_add(spu_add(number, spu_sl(number, 1)), spux_vuint(k));
-    }
-    const vmask last_one = spu_or(spu_or(spu_cmpeq((vuint)corner[0], end), spu_cmpeq((vuint)corner[1], end)),
-                                  spu_cmpeq((vuint)corner[2], end));
-    if (spux_any(last_one)) {
-        tile_triangles_fetch_singly(objects, object, vertex);
-        return;
-    }
-    for (int k = 0; k < 3; k++) {
-        vfloat point[4];
-        tile_offsets((vuint)corner[k], stride, at);
-        spux_load_records4_at((const float *)(const void *)a->point, at, point);
-        for (int i = 0; i < 3; i++)
-            vertex[k][i] = point[i];
-    }
 }
 
 /* A vector of references; lanes beyond count repeat the first. */
