@@ -5,9 +5,10 @@
 #ifndef CGT_CHOOSE_STRUCTURE_H
 #define CGT_CHOOSE_STRUCTURE_H
 
-#include "world.h"
+#include <cgt/cgt.h>
 
-/* The structure for the valid objects of a bounded world and the rays to come; why: gets the reason in words. */
-cgt_structure cgt_choose_structure(const cgt_world *world, cgt_ray_kind rays, char *why, size_t bytes);
+/* The structure that is asked for, or AUTO's; the same for all scenes, since the pass over the primitives wants to know.
+ * why: gets AUTO's reason in words, where it is no grid, whose plan has one of its own. */
+cgt_structure cgt_choose_structure(const cgt_scene_options *options, const char **why);
 
 #endif

@@ -118,21 +118,20 @@ static void bound_world(cgt_world *world, const cgt_object_summary *s)
 static cgt_result build_structure(cgt_scene *scene, const cgt_object_summary *s)
 {
     cgt_world *world = &scene->world;
-    char *why = scene->statistics.reason;
+    const char *why = NULL;
+    char *reason = scene->statistics.reason;
     const size_t bytes = sizeof scene->statistics.reason;
-    const bool chosen = scene->options.structure == CGT_STRUCTURE_AUTO;
-    world->structure = chosen ? CGT_STRUCTURE_QUEUE_GRID : scene->options.structure;
+    world->structure = cgt_choose_structure(&scene->options, &why);
     if (!s->valid || world->everything) {
-        snprintf(why, bytes, "%s", s->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
+        snprintf(reason, bytes, "%s",
+                 s->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
         return CGT_OK;
     }
     if (world->structure == CGT_STRUCTURE_LOOSE_GRID)
         return cgt_loose_grid_commit(scene, s);
-    snprintf(why, bytes, "kd-tree: asked for");
-    if (chosen && !scene->options.resolution[0]) /* who asks for cells asks for a grid */
-        world->structure = cgt_choose_structure(world, scene->options.rays, why, bytes);
     if (world->structure == CGT_STRUCTURE_QUEUE_GRID)
         return cgt_queue_grid_commit(scene, s);
+    snprintf(reason, bytes, "%s", why);
     return cgt_kd_commit(scene, world->structure == CGT_STRUCTURE_KD_ROPES);
 }
 

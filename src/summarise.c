@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "choose_structure.h"
 #include "float_environment.h"
 #include "loose_grid_build.h"
 
@@ -92,7 +93,9 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
 {
     const cgt_memory_hooks *hooks = &scene->context->memory;
     const cgt_objects *o = &scene->world.objects;
-    const bool loose = scene->options.structure == CGT_STRUCTURE_LOOSE_GRID;
+    const char *why;
+    const cgt_structure structure = cgt_choose_structure(&scene->options, &why);
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID;
     cgt_buffer *buffer = scene->buffer;
     cgt_result result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_SUMMARIES], chunks, sizeof(cgt_object_summary));
     if (result == CGT_OK && loose)
@@ -103,7 +106,7 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
         return cgt_fail(scene->context, result, "commit: out of memory to bound %u primitives", o->count);
     *job = (summary_job){.objects = o,
                          .kernel = scene->context->kernel,
-                         .wishes = {.diameters = !loose, .triangles = o->triangles},
+                         .wishes = {.diameters = structure == CGT_STRUCTURE_QUEUE_GRID, .triangles = o->triangles},
                          .part = buffer[CGT_BUFFER_SUMMARIES].data};
     if (loose) {
         job->wishes.classes = buffer[CGT_BUFFER_SIZE_CLASSES].data;

@@ -15,6 +15,7 @@
 typedef struct cgt_trace_settings {
     uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */
     bool strip;      /* tiles of four scanlines */
+    bool tiled;      /* nothing is asked about packets: tiles of a loose grid may go without */
     bool flattened;
     cgt_cull cull;
     bool mailbox;
@@ -40,7 +41,7 @@ typedef struct cgt_region {
 /* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as
  * an array. */
 typedef struct cgt_counts {
-    uint64_t rays, invalid_rays, hits, packets, split_packets, slices, cells, nodes, leaves, rope_steps, exact_steps,
+    uint64_t rays, invalid_rays, hits, tiles, packets, split_packets, slices, cells, nodes, leaves, rope_steps, exact_steps,
         rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests, double_tests, exact_tests,
         exact_values, early_exits;
 } cgt_counts;

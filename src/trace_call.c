@@ -39,6 +39,8 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
     if (s->strip && o->packet > 4)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
                         "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
+    s->tiled = camera && !o->packet && o->tile == CGT_TILE_AUTO && o->loop == CGT_LOOP_AUTO &&
+               o->cull == CGT_CULL_BLOCKS && o->mailbox;
     s->packet = s->strip ? 4 : o->packet ? o->packet : CHOSEN_PACKET;
     s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;
@@ -96,6 +98,7 @@ void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *s
     *options->statistics = (cgt_trace_statistics){.rays = c.rays,
                                                   .invalid_rays = c.invalid_rays,
                                                   .hits = c.hits,
+                                                  .tiles = c.tiles,
                                                   .packets = c.packets,
                                                   .split_packets = c.split_packets,
                                                   .slices = c.slices,

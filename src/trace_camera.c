@@ -112,7 +112,7 @@ static void trace_into(const frame_job *job, const cgt_region *r)
     cgt_counts counts = {0};
     fenv_t callers;
     cgt_float_environment_enter(&callers);
-    if (s->world.structure == CGT_STRUCTURE_LOOSE_GRID && !job->settings.strip)
+    if (s->world.structure == CGT_STRUCTURE_LOOSE_GRID && job->settings.tiled)
         s->context->kernel->trace_tile(&s->world, &job->camera, &job->settings, r, &counts);
     else
         s->context->kernel->trace_region(&s->world, &job->camera, &job->settings, r, &counts);

@@ -99,7 +99,7 @@ static void compare(const cgt_object_summary *a, const cgt_object_summary *b, bo
 
 static void check_scene(const loose_scene *s, uint32_t threads, const char *variant)
 {
-    static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_LOOSE_GRID};
+    static const cgt_structure structure[] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_LOOSE_GRID};
     for (size_t k = 0; k < TEST_COUNT(structure); k++) {
         const cgt_scene_options options = {.structure = structure[k]};
         cgt_context *context = context_make(threads, variant);

@@ -164,7 +164,7 @@ typedef struct cgt_triangles {
 } cgt_triangles;
 
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,   /* chosen from the scene at each commit; a grid where its resolution is given */
+    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID; KD for incoherent rays; QUEUE_GRID where a resolution is given */
     CGT_STRUCTURE_QUEUE_GRID, /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
                                  voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
     CGT_STRUCTURE_KD,         /* kd-tree in nodes of 8 bytes, by the surface-area heuristic; traversed with a stack */
@@ -338,6 +338,7 @@ typedef struct cgt_trace_statistics {
     uint64_t invalid_rays;    /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN range:
                                  they hit nothing */
     uint64_t hits;            /* rays with a hit; occluded rays in the any-hit form */
+    uint64_t tiles;           /* tiles of a camera's frame that went through a loose grid as a whole, not by packets */
     uint64_t packets;         /* packets traversed: common main axis and sign */
     uint64_t split_packets;   /* packets that had to be split because their rays disagreed or diverged */
     uint64_t slices;          /* slices of the grid that a packet entered */
@@ -364,14 +365,15 @@ typedef struct cgt_trace_statistics {
 } cgt_trace_statistics;
 
 typedef struct cgt_trace_options {
-    cgt_precision precision;          /* default ROBUST */
-    cgt_triangle_test triangle_test;  /* default WATERTIGHT; the others only with FAST */
-    uint32_t packet;                  /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): 16, in strips 4 */
-    cgt_tile_shape tile;              /* default AUTO */
-    cgt_loop loop;                    /* default AUTO */
-    cgt_cull cull;                    /* default CGT_CULL_BLOCKS */
-    cgt_kd_traversal kd_traversal;    /* default AUTO */
-    int mailbox;                      /* remember the primitives that a packet has met lately; default 1: it saves a
+    cgt_precision precision;         /* default ROBUST */
+    cgt_triangle_test triangle_test; /* default WATERTIGHT; the others only with FAST */
+    uint32_t packet;               /* edge of a camera's packets in pixels: 4, 8, 16; 0 (default): 16, in strips 4; in a
+                                         loose grid whole tiles, unless packet, tile, loop, cull or mailbox is set */
+    cgt_tile_shape tile;           /* default AUTO */
+    cgt_loop loop;                 /* default AUTO */
+    cgt_cull cull;                 /* default CGT_CULL_BLOCKS */
+    cgt_kd_traversal kd_traversal; /* default AUTO */
+    int mailbox;                   /* remember the primitives that a packet has met lately; default 1: it saves a
                                          fifth of the time (docs/coherent_grid_traversal.md); Chapman expected a loss */
     cgt_trace_statistics *statistics; /* gets the counts of this call; NULL (default): nothing is counted */
 } cgt_trace_options;

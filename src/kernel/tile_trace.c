@@ -361,6 +361,7 @@ static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, con
     w.spheres.count = w.triangles.count = w.drawn = 0;
     tile_make(&t, world, camera, region);
     march(&w);
+    counts->tiles++;
     counts->rays += (uint64_t)region->width * region->height;
     tile_resolve(world, &t, settings, region, counts);
 }
