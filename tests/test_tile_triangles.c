@@ -269,7 +269,8 @@ static void fetches_every_triangle(void **state)
                               .points = 40};
     const cgt_objects objects = {.array = &array, .arrays = 1, .count = 67, .triangles = 60};
     for (uint32_t round = 0; round < 200; round++) {
-        uint32_t object[CGT_LANES], reference[CGT_LANES] = {0};
+        _Alignas(CGT_VECTOR_BYTES) uint32_t object[CGT_LANES];
+        uint32_t reference[CGT_LANES] = {0};
         vfloat v[3][3];
         const uint32_t count = 1 + random_below(&r, CGT_LANES);
         array.index = round % 4 < 3 ? (const char *)index : NULL; /* then there are 13, and a vertex more */

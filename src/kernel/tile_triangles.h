@@ -114,7 +114,7 @@ CGT_SPU_INLINE void tile_triangles_fetch(const cgt_objects *objects, const uint3
     }
     const vuint end = spux_vuint(a->points - 1);
     const uint32_t stride = (uint32_t)(a->point_stride / sizeof(float));
-    uint32_t at[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
     vfloat corner[4];
     if (a->index) {
         tile_offsets(number, (uint32_t)(a->index_stride / sizeof(uint32_t)), at);
