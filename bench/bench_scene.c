@@ -34,6 +34,7 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
     scene->context = context;
     scene->moving = moving;
     cgt_scene_options_init(&options);
+    options.structure = CGT_STRUCTURE_QUEUE_GRID;
     memcpy(options.resolution, resolution, sizeof options.resolution);
     const cgt_result result = cgt_scene_create(context, &options, &scene->scene);
     if (result != CGT_OK)

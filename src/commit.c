@@ -159,7 +159,7 @@ static cgt_result build(cgt_scene *scene)
 
 cgt_result cgt_scene_commit(cgt_scene *scene)
 {
-    fenv_t callers;
+    cgt_float_environment callers;
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     scene->committed = false;

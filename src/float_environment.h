@@ -7,14 +7,18 @@
 #ifndef CGT_FLOAT_ENVIRONMENT_H
 #define CGT_FLOAT_ENVIRONMENT_H
 
-#include <fenv.h>
+#include "native/native_environment.h"
 
-static inline void cgt_float_environment_enter(fenv_t *callers)
+typedef native_environment cgt_float_environment;
+
+static inline void cgt_float_environment_enter(cgt_float_environment *callers)
 {
-    fegetenv(callers);
-    fesetenv(FE_DFL_ENV);
+    *callers = native_environment_begin();
 }
 
-static inline void cgt_float_environment_leave(const fenv_t *callers) { fesetenv(callers); }
+static inline void cgt_float_environment_leave(const cgt_float_environment *callers)
+{
+    native_environment_end(*callers);
+}
 
 #endif

@@ -72,7 +72,7 @@ static void count_objects(void *argument, uint32_t index)
 {
     const job *j = argument;
     const uint32_t first = index * OBJECTS_PER_CHUNK, left = j->objects - first;
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     j->room.valid[index] =
         cgt_kd_count_valid(j->rules->objects, first, left < OBJECTS_PER_CHUNK ? j->objects : first + OBJECTS_PER_CHUNK);
@@ -83,7 +83,7 @@ static void collect_objects(void *argument, uint32_t index)
 {
     const job *j = argument;
     const uint32_t first = index * OBJECTS_PER_CHUNK, left = j->objects - first;
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     cgt_kd_collect(j->rules, first, left < OBJECTS_PER_CHUNK ? j->objects : first + OBJECTS_PER_CHUNK, j->all,
                    j->room.item[0] + (j->all ? first : j->room.valid[index]));
@@ -107,7 +107,7 @@ static void collect(cgt_context *context, job *j, uint32_t chunks)
 static void build_subtree(void *argument, uint32_t index)
 {
     const job *j = argument;
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     (j->sweep ? cgt_kd_build_sweep : cgt_kd_build_binned)(j->rules, &j->room.task[index]);
     cgt_float_environment_leave(&callers);

@@ -94,7 +94,7 @@ static void link_below(linking *l, const linked_node *from, uint32_t levels)
 static void link_part(void *argument, uint32_t index)
 {
     linking *l = argument;
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers); /* comparisons, too, may take denormals for zero */
     link_below(l, &l->part[index], CGT_KD_MAX_DEPTH);
     cgt_float_environment_leave(&callers);

@@ -52,7 +52,7 @@ static void bound_chunk(void *argument, uint32_t index)
 {
     const top *t = argument;
     cgt_kd_chunk *c = &t->room->chunk[index];
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     c->low = cgt_all4(INFINITY);
     c->high = cgt_all4(-INFINITY);
@@ -64,7 +64,7 @@ static void bin_chunk(void *argument, uint32_t index)
 {
     const top *t = argument;
     cgt_kd_chunk *c = &t->room->chunk[index];
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     cgt_kd_fill_bins(&c->bins, items_of(t, &t->node[c->node]) + c->first, c->count);
     cgt_float_environment_leave(&callers);
@@ -91,7 +91,7 @@ static void divide_chunk(void *argument, uint32_t index)
     const cgt_kd_top_node *n = &t->node[c->node];
     cgt_kd_item *to[2];
     uint32_t counts[2];
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     for (int s = 0; s < 2; s++)
         to[s] = t->room->item[!n->place] + n->side_base[s] + c->to[s];
@@ -177,7 +177,7 @@ static void sweep_axis(void *argument, uint32_t index)
     const top *t = argument;
     const cgt_kd_top_node *n = &t->node[index / 3];
     char *memory = t->room->sweep + (size_t)n->base * CGT_KD_SWEEP_BYTES;
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     t->axis_plane[index] = cgt_kd_sweep_once(t->rules, &n->box, index % 3, items_of(t, n), n->count,
                                              memory + index % 3 * (size_t)n->room * CGT_KD_SWEEP_AXIS_BYTES);

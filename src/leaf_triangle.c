@@ -33,7 +33,7 @@ static void make_chunk(void *argument, uint32_t index)
     const cgt_objects *o = job->objects;
     const uint32_t first = index * CHUNK, end = o->count - first < CHUNK ? o->count : first + CHUNK;
     const cgt_object_array *a = cgt_objects_array(o, first);
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     for (uint32_t object = first; object < end; object++) {
         if (object - a->first == a->count)

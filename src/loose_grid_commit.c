@@ -24,7 +24,7 @@ static void make_keys(void *argument, uint32_t chunk)
     const uint32_t first = chunk * CGT_LOOSE_CHUNK, left = o->count - first;
     const uint32_t end = left < CGT_LOOSE_CHUNK ? o->count : first + CGT_LOOSE_CHUNK;
     const cgt_object_array *a = cgt_objects_array(o, first);
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     for (uint32_t object = first; object < end; a++) {
         const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;

@@ -24,7 +24,7 @@ static void trace_chunk(void *argument, uint32_t index)
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, left = job->points.count - first,
                    end = first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
     cgt_counts counts = {0};
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     s->context->kernel->trace_light(&s->world, &job->points, job->light, first, end, &job->settings, job->occluded,
                                     &counts);

@@ -35,7 +35,7 @@ static void summarise_chunk(void *argument, uint32_t index)
     const cgt_object_array *a = cgt_objects_array(o, first);
     cgt_summary_wishes wishes = job->wishes;
     cgt_object_summary s;
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     empty_summary(&s);
     if (wishes.classes) {

@@ -110,7 +110,7 @@ static void trace_into(const frame_job *job, const cgt_region *r)
 {
     const cgt_scene *s = job->scene;
     cgt_counts counts = {0};
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     if (s->world.structure == CGT_STRUCTURE_LOOSE_GRID && job->settings.tiled)
         s->context->kernel->trace_tile(&s->world, &job->camera, &job->settings, r, &counts);
@@ -204,7 +204,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
         result = check_frame(c, frame);
     if (result != CGT_OK)
         return result;
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     result = cgt_camera_prepare(camera, frame->width, frame->height, &job.camera, message);
     cgt_float_environment_leave(&callers);

@@ -22,7 +22,7 @@ static void trace_chunk(void *argument, uint32_t index)
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, left = job->rays->count - first,
                    end = first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
     cgt_counts counts = {0};
-    fenv_t callers;
+    cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     s->context->kernel->trace_rays(&s->world, job->rays, first, end, &job->settings, job->hits, job->occluded, &counts);
     cgt_float_environment_leave(&callers);

@@ -95,7 +95,7 @@ expected=$(awk 'BEGIN {
 run 0 frame "$tmp/unit.frames" $front
 is 'the head of the table' "$(head -n 1 "$tmp/stdout")" "$head"
 is 'the number of lines' "$(wc -l <"$tmp/stdout" | tr -d ' ')" 2
-is config "$(cell config)" grid-queue
+is config "$(cell config)" loose-grid
 is threads "$(cell threads)" 1
 is hit_pixels "$(cell hit_pixels)" "$expected"
 is shadow_ms "$(cell shadow_ms)" 0.000
@@ -135,7 +135,7 @@ for options in '-t 2' '-k 4' '-k 8' '-k 16' '--tile strip' '--loop nested' '--lo
     run 0 frame "$tmp/unit.frames" $front $options -o "$tmp/hits.bin"
     cmp -s "$tmp/reference.bin" "$tmp/hits.bin" || fail "other hits with $options"
 done
-is config "$(cell config)" grid-queue
+is config "$(cell config)" loose-grid
 run 0 frame "$tmp/unit.frames" $front -k 8 -g 3,4,5 --loop nested --cull off --no-mailbox
 is config "$(cell config)" 'grid-queue,packet=8,loop=nested,cull=off,mailbox=off,grid=3x4x5'
 
@@ -174,12 +174,12 @@ for options in '-t 2' '-k 4' '-k 16' '--tile strip' '--loop flattened' '--cull o
     cmp -s "$tmp/square.bin" "$tmp/hits.bin" || fail "other hits of triangles with $options"
 done
 run 0 frame "$tmp/square.frames" $front -p robust
-is config "$(cell config)" 'grid-queue,precision=robust'
+is config "$(cell config)" 'loose-grid,precision=robust'
 for test in watertight moller-trumbore accelerated; do
     run 0 frame "$tmp/square.frames" $front -p fast --test $test
     [ "$(cell hit_pixels)" -gt $((in_square * 9 / 10)) ] || fail "only $(cell hit_pixels) hits with -p fast --test $test"
 done
-is config "$(cell config)" 'grid-queue,precision=fast,test=accelerated'
+is config "$(cell config)" 'loose-grid,precision=fast,test=accelerated'
 run 0 frame "$tmp/square_nan.frames" $front -v
 says err '2 primitives, 1 skipped'
 [ "$(cell hit_pixels)" -gt $((in_square * 4 / 10)) ] || fail "half a square has $(cell hit_pixels) pixels"

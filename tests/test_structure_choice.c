@@ -207,7 +207,7 @@ static cgt_scene_statistics choose(const hard_scene *s, cgt_ray_kind rays)
     const cgt_scene_statistics st = statistics_of(scene);
     print_message("%s\n", st.reason);
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
-    assert_int_equal(strstr(st.reason, "kd-tree") != NULL, st.structure != CGT_STRUCTURE_QUEUE_GRID);
+    assert_int_equal(strstr(st.reason, "kd-tree") != NULL, st.kd_leaves != 0);
     picture_free(&q[0]);
     picture_free(&q[1]);
     cgt_scene_release(scene);
@@ -232,14 +232,13 @@ static void rays_that_run_apart_get_a_tree(void **state)
 {
     (void)state;
     hard_scene s = even_cloud(2000);
-    const cgt_structure chosen = choose(&s, CGT_RAYS_INCOHERENT).structure;
-    assert_true(chosen == CGT_STRUCTURE_KD || chosen == CGT_STRUCTURE_KD_ROPES);
-    assert_int_equal(choose(&s, CGT_RAYS_CAMERA).structure, CGT_STRUCTURE_QUEUE_GRID);
+    assert_int_equal(choose(&s, CGT_RAYS_INCOHERENT).structure, CGT_STRUCTURE_KD);
+    assert_int_equal(choose(&s, CGT_RAYS_CAMERA).structure, CGT_STRUCTURE_LOOSE_GRID);
     hard_scene_free(&s);
 }
 
 /* A fine mesh in a coarse one that is hundreds of times as large. */
-static void a_teapot_in_a_stadium_gets_a_tree(void **state)
+static void a_teapot_in_a_stadium_gets_a_level_of_its_own(void **state)
 {
     (void)state;
     hard_scene s = {.place = {.scale = 1}, .random = random_make(6)};
@@ -250,8 +249,9 @@ static void a_teapot_in_a_stadium_gets_a_tree(void **state)
     closed_mesh_free(&stadium);
     closed_mesh_free(&teapot);
     assert_false(s.failed);
-    const cgt_structure chosen = choose(&s, CGT_RAYS_CAMERA).structure;
-    assert_true(chosen == CGT_STRUCTURE_KD || chosen == CGT_STRUCTURE_KD_ROPES);
+    const cgt_scene_statistics st = choose(&s, CGT_RAYS_CAMERA);
+    assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
+    assert_true(st.levels > 1);
     hard_scene_free(&s);
 }
 
@@ -273,7 +273,7 @@ int main(void)
         cmocka_unit_test(a_scene_changes_its_structure),
         cmocka_unit_test(geometries_come_and_go),
         cmocka_unit_test(rays_that_run_apart_get_a_tree),
-        cmocka_unit_test(a_teapot_in_a_stadium_gets_a_tree),
+        cmocka_unit_test(a_teapot_in_a_stadium_gets_a_level_of_its_own),
         cmocka_unit_test(auto_chooses_for_any_scene),
     };
     test_begin("test_structure_choice");
