@@ -140,6 +140,7 @@ static cgt_scene *gridded(cgt_context *context, const uint32_t resolution[3], co
 {
     cgt_scene_options options;
     cgt_scene_options_init(&options);
+    options.structure = CGT_STRUCTURE_QUEUE_GRID;
     if (resolution)
         memcpy(options.resolution, resolution, sizeof options.resolution);
     return scene_of_triangles(context, &options, t, count);
