@@ -8,6 +8,7 @@
  * break: a bound that never broke would be too wide to be of use. */
 #include "lane_cases.h"
 #include "support/scenes.h"
+#include "support/tightened.h"
 
 #include <math.h>
 #include <string.h>
@@ -261,23 +262,6 @@ static void known_cases(void **state)
     }
 }
 
-/* From 1 down in steps of 2^-1/2. */
-#define STEPS 24
-
-static void check_break(const char *what, const tally *sum, uint64_t count(const tally *), double least)
-{
-    double at = 0, scale = 1;
-    for (int step = 0; step < STEPS && !at; step++, scale *= 0.70710678)
-        if (count(&sum[step]))
-            at = scale;
-    print_message("%s: first at %.3g of the bounds\n", what, at);
-    assert_true(at > least && at < 1);
-}
-
-static uint64_t lost_of(const tally *t) { return t->lost; }
-static uint64_t invented_of(const tally *t) { return t->invented; }
-static uint64_t outside_of(const tally *t) { return t->outside; }
-
 static void bounds_break_where_they_are_tightened(void **state)
 {
     const oracle_kind kind = *(const oracle_kind *)*state;
@@ -305,10 +289,11 @@ static void bounds_break_where_they_are_tightened(void **state)
         }
     }
     /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
-    check_break("a hit lost", sum, lost_of, 0x1p-7);
+    check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-7);
     /* spheres are certain only beyond 17 eps */
-    check_break("a hit invented", sum, invented_of, kind == ORACLE_SPHERE ? 0x1p-11 : 0x1p-7);
-    check_break("t outside", sum, outside_of, 0x1p-10);
+    check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented),
+                kind == ORACLE_SPHERE ? 0x1p-11 : 0x1p-7);
+    check_break("t outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
 }
 
 static int prepare(void **state)

@@ -5,6 +5,7 @@
  * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_U less than the unit
  * roundoff, until they break. */
 #include "support/test.h"
+#include "support/tightened.h"
 
 #include <math.h>
 #include <string.h>
@@ -203,23 +204,6 @@ static void bounds_hold(void **state)
     assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
 }
 
-/* From 1 down in steps of 2^-1/2. */
-#define STEPS 24
-
-static void check_break(const char *what, const tally *sum, uint64_t count(const tally *), double least)
-{
-    double at = 0, scale = 1;
-    for (int step = 0; step < STEPS && !at; step++, scale *= 0.70710678)
-        if (count(&sum[step]))
-            at = scale;
-    print_message("%s: first at %.3g of the bounds\n", what, at);
-    assert_true(at > least && at < 1);
-}
-
-static uint64_t lost_of(const tally *t) { return t->lost; }
-static uint64_t invented_of(const tally *t) { return t->invented; }
-static uint64_t outside_of(const tally *t) { return t->outside; }
-
 static void bounds_break_where_they_are_tightened(void **state)
 {
     (void)state;
@@ -241,9 +225,9 @@ static void bounds_break_where_they_are_tightened(void **state)
         filter_u = 0x1p-24f;
     }
     /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
-    check_break("a hit lost", sum, lost_of, 0x1p-8);
-    check_break("a hit invented", sum, invented_of, 0x1p-8);
-    check_break("depth outside", sum, outside_of, 0x1p-10);
+    check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-8);
+    check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-8);
+    check_break("depth outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
 }
 
 /* ---- fetching ---- */

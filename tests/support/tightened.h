@@ -1,0 +1,31 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Bounds made tighter until they fail: a bound that never fails however tight says nothing, and one that fails only when
+ * it is far tighter is wasteful. */
+#ifndef TIGHTENED_H
+#define TIGHTENED_H
+
+#include <string.h>
+
+#include "test.h"
+
+/* From 1 down in steps of 2^-1/2. */
+#define STEPS 24
+
+/* tallies: STEPS structures of `size` bytes, with a uint64_t that counts failures at byte `offset`. The bounds must hold as
+ * they are, and fail before they are as tight as `least`. */
+static inline void check_break(const char *what, const void *tallies, size_t size, size_t offset, double least)
+{
+    double at = 0, scale = 1;
+    for (size_t step = 0; step < STEPS && at == 0; step++, scale *= 0.70710678) {
+        uint64_t count;
+        memcpy(&count, (const char *)tallies + step * size + offset, sizeof count);
+        if (count)
+            at = scale;
+    }
+    print_message("%s: first at %.3g of the bounds\n", what, at);
+    assert_true(at > least && at < 1);
+}
+
+#endif
