@@ -9,7 +9,9 @@
  *   spux_vdouble(x)                x in every lane
  *   spux_double_sqrt(a)            correctly rounded
  *   spux_double_abs(a)
- *   spux_double_select(a, b, x)    b where x is above 0, else a */
+ *   spux_double_select(a, b, x)    b where x is above 0, else a
+ *   spux_double_above0(low, high)  the vmask of what is above 0; where it is so small that a float of it is 0,
+ *                                  either way */
 #ifndef CGT_SPUX_DOUBLE_H
 #define CGT_SPUX_DOUBLE_H
 
@@ -62,5 +64,19 @@ CGT_SPU_INLINE vdouble spux_double_select(vdouble a, vdouble b, vdouble x)
     const cgt_spux_long_w m = (cgt_spux_long_w)(x > spux_vdouble(0));
     return (vdouble)(((cgt_spux_long_w)a & ~m) | ((cgt_spux_long_w)b & m));
 }
+
+#if CGT_LANES == 16
+CGT_SPU_INLINE vmask spux_double_above0(vdouble low, vdouble high)
+{
+    const __m512d zero = _mm512_setzero_pd();
+    return (vmask){_mm512_kunpackb(_mm512_cmp_pd_mask((__m512d)high, zero, _CMP_GT_OQ),
+                                   _mm512_cmp_pd_mask((__m512d)low, zero, _CMP_GT_OQ))};
+}
+#else
+CGT_SPU_INLINE vmask spux_double_above0(vdouble low, vdouble high)
+{
+    return spu_cmpgt(spux_float_of(low, high), spux_vfloat(0));
+}
+#endif
 
 #endif

@@ -179,7 +179,7 @@ static void march_visits_what_rays_hit(void **state)
         loose_reference grid;
         tile_march m;
         tile_slice s;
-        float near[401];
+        float near[401] = {0};
         uint32_t seen[401] = {0};
         const uint32_t edge = random_below(&r, 3) ? 200 + random_below(&r, 2000) : 12;
         const cgt_camera_rays rays = rays_of(&camera, edge, edge);

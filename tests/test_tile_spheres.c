@@ -42,7 +42,6 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y
     tile_cone_make(t);
     tile_gap_make(t, c, r, 2 * c);
     tile_open(t, 2 * c);
-    tile_far_update(t);
 }
 
 /* ---- bounds ---- */

@@ -14,7 +14,7 @@
 /* What half a vector of rays takes of its quadratics (sphere_double.h). The steps are those of sphere_double.h, in its
  * order. */
 typedef struct resolve_half {
-    vdouble t, half, product, middle;
+    vdouble t, half, product, middle, square, size;
     vdouble c[3], d[3];
 } resolve_half;
 
@@ -25,6 +25,7 @@ CGT_SPU_INLINE void resolve_half_of(const vdouble c[3], vdouble product, vdouble
     const vdouble x = c[1] * d[2] - c[2] * d[1], y = c[2] * d[0] - c[0] * d[2], z = c[0] * d[1] - c[1] * d[0];
     h->middle = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
     h->product = product;
+    h->square = dd;
     h->half = spux_double_sqrt(rr * dd - (x * x + y * y + z * z));
     h->t = product / (h->middle + h->half);
 }
@@ -34,25 +35,24 @@ CGT_SPU_INLINE void resolve_half_t(const vdouble org[3], const vdouble centre[3]
     const vdouble *c = h->c, rr = r * r;
     for (int a = 0; a < 3; a++)
         h->c[a] = centre[a] - org[a];
-    resolve_half_of(c, c[0] * c[0] + c[1] * c[1] + c[2] * c[2] - rr, rr, h);
+    const vdouble cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    h->size = cc + rr;
+    resolve_half_of(c, cc - rr, rr, h);
 }
 
-/* Lanes whose t is the near root, and safe: cgt_sphere_double_unsafe is 0 there. In single precision, with far more room
- * than that errs by; the rest is looked at ray by ray. Numbers that leave the range of float make no lane known. */
-CGT_SPU_INLINE vmask resolve_halves_known(const resolve_half h[2], const vfloat org[3], const vfloat dir[3],
-                                          const vfloat sphere[4], vfloat t, vfloat t_min)
+#define SPHERE_ROOM 0x1p-16 /* twice what cgt_sphere_double_unsafe asks for, and more */
+
+/* Lanes whose t is the near root, and safe: cgt_sphere_double_unsafe is 0 there; the rest is looked at ray by ray. least
+ * is SPHERE_ROOM (c.c + r^2). The product, d.d times that of the roots, is above it besides, by `outside`: so the origin
+ * is outside by so much that where t is above 0 the middle is. */
+CGT_SPU_INLINE vmask resolve_halves_known(const resolve_half h[2], const vdouble least[2], vmask outside, vfloat t,
+                                          vfloat t_min)
 {
-    const vfloat middle = spux_float_of(h[0].middle, h[1].middle), half = spux_float_of(h[0].half, h[1].half);
-    const vfloat product = spux_float_of(h[0].product, h[1].product), r = sphere[3];
-    vfloat size = spu_mul(r, r), square = spux_vfloat(0);
-    for (int a = 0; a < 3; a++) {
-        const vfloat c = spu_sub(sphere[a], org[a]);
-        size = spu_madd(c, c, size);
-        square = spu_madd(dir[a], dir[a], square);
-    }
-    const vfloat sum = spu_mul(spu_add(middle, half), half), room = spu_mul(size, spux_vfloat(0x1p-16f));
-    const vmask safe = spu_and(spu_cmpgt(sum, spu_mul(room, square)), spu_cmpgt(spux_abs(product), room));
-    return spu_and(spu_and(safe, spu_cmpgt(middle, spux_vfloat(0))), spux_cmpge(t, t_min));
+    vdouble room[2];
+    for (int i = 0; i < 2; i++)
+        room[i] = (h[i].middle + h[i].half) * h[i].half - least[i] * h[i].square;
+    const vmask ahead = spu_and(spu_cmpgt(t, spux_vfloat(0)), spux_cmpge(t, t_min));
+    return spu_and(spu_and(outside, ahead), spux_double_above0(room[0], room[1]));
 }
 
 /* t and the unit normal of one sphere's hit. */
@@ -97,7 +97,9 @@ CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat di
     resolve_half_t(o[0], c[0], r[0], &h[0]);
     resolve_half_t(o[1], c[1], r[1], &h[1]);
     *t = spux_float_of(h[0].t, h[1].t);
-    const vmask known = resolve_halves_known(h, org, dir, sphere, *t, t_min);
+    const vdouble least[2] = {h[0].size * SPHERE_ROOM, h[1].size * SPHERE_ROOM};
+    const vmask outside = spux_double_above0(h[0].product - least[0], h[1].product - least[1]);
+    const vmask known = resolve_halves_known(h, least, outside, *t, t_min);
     if (!normal)
         return known;
     const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
@@ -106,28 +108,41 @@ CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat di
     return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
 }
 
-/* The same with one origin and one sphere for all rays. */
-CGT_SPU_INLINE vmask resolve_sphere_vector(const float org[3], const vfloat dir[3], cgt_sphere q, vfloat t_min,
-                                           bool normal, vfloat *t, vfloat n[3])
+/* What rays from one origin to one sphere have in common. */
+typedef struct prepared_sphere {
+    double c[3], product, rr, least, reciprocal;
+    bool outside;
+} prepared_sphere;
+
+CGT_SPU_INLINE prepared_sphere prepare_sphere(const float org[3], cgt_sphere q)
 {
     const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1],
-                 cz = (double)q.z - (double)org[2], rr = (double)q.r * (double)q.r, cc = cx * cx + cy * cy + cz * cz;
-    const vdouble c[3] = {spux_vdouble(cx), spux_vdouble(cy), spux_vdouble(cz)}, k = spux_vdouble(1 / (double)q.r);
-    const vfloat from[3] = {spux_vfloat(org[0]), spux_vfloat(org[1]), spux_vfloat(org[2])};
-    const vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
+                 cz = (double)q.z - (double)org[2], r = (double)q.r;
+    const double rr = r * r, cc = cx * cx + cy * cy + cz * cz, least = (cc + rr) * SPHERE_ROOM;
+    return (prepared_sphere){.c = {cx, cy, cz},
+                             .product = cc - rr,
+                             .rr = rr,
+                             .least = least,
+                             .reciprocal = 1 / r,
+                             .outside = (cc - rr > least) & (r > 0)};
+}
+
+/* As resolve_spheres_vector; a point is never known. */
+CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, const vfloat dir[3], vfloat t_min, bool normal,
+                                             vfloat *t, vfloat n[3])
+{
+    const vdouble c[3] = {spux_vdouble(p->c[0]), spux_vdouble(p->c[1]), spux_vdouble(p->c[2])};
+    const vdouble least[2] = {spux_vdouble(p->least), spux_vdouble(p->least)}, k = spux_vdouble(p->reciprocal);
     resolve_half h[2];
     for (int i = 0; i < 2; i++) {
         for (int a = 0; a < 3; a++)
             h[i].d[a] = i ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
-        resolve_half_of(c, spux_vdouble(cc - rr), spux_vdouble(rr), &h[i]);
+        resolve_half_of(c, spux_vdouble(p->product), spux_vdouble(p->rr), &h[i]);
     }
     *t = spux_float_of(h[0].t, h[1].t);
-    const vmask known = resolve_halves_known(h, from, dir, sphere, *t, t_min);
-    if (!normal)
-        return known;
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; normal && a < 3; a++)
         n[a] = spux_float_of((h[0].t * h[0].d[a] - c[a]) * k, (h[1].t * h[1].d[a] - c[a]) * k);
-    return q.r > 0 ? known : spux_mask_none();
+    return resolve_halves_known(h, least, p->outside ? spux_mask_all() : spux_mask_none(), *t, t_min);
 }
 
 /* Lanes of a packet. */

@@ -154,8 +154,6 @@ CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, 
     return side;
 }
 
-CGT_SPU_INLINE vmask above_0(vdouble low, vdouble high) { return spu_cmpgt(spux_float_of(low, high), spux_vfloat(0)); }
-
 /* What a vector of rays gets. */
 typedef struct resolved_triangles {
     vfloat t, u, v, normal[3];
@@ -171,7 +169,7 @@ CGT_SPU_INLINE vfloat shares_of(vdouble low, vdouble high)
 CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
 {
     const vdouble r[2] = {spux_vdouble(1) / h[0].den, spux_vdouble(1) / h[1].den};
-    vmask known = above_0(h[0].sure_den, h[1].sure_den);
+    vmask known = spux_double_above0(h[0].sure_den, h[1].sure_den);
     for (int k = 0; k < 2; k++) { /* w1 is of the edge from v2 to v0, w2 from v0 to v1 */
         const int from = k ? 0 : 2, end = k ? 1 : 0;
         vdouble sure[2];
@@ -179,7 +177,7 @@ CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact
         const vdouble high = resolve_half_side(&h[1], from, end, &sure[1]);
         *(k ? &to->v : &to->u) = shares_of(low * r[0], high * r[1]);
         if (exact)
-            known = spu_and(known, above_0(sure[0], sure[1]));
+            known = spu_and(known, spux_double_above0(sure[0], sure[1]));
     }
     return known;
 }
@@ -195,10 +193,10 @@ CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], bool e
     for (int a = 0; a < 3; a++) {
         to->normal[a] = spux_float_of(h[0].n[a] * r[0], h[1].n[a] * r[1]);
         if (exact)
-            known = spu_and(known, above_0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
-                                           spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
+            known = spu_and(known, spux_double_above0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
+                                                      spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
     }
-    return exact ? known : above_0(sum[0], sum[1]);
+    return exact ? known : spux_double_above0(sum[0], sum[1]);
 }
 
 /* Returns the lanes that are right; the others are for resolve_triangle_ray. */
@@ -212,7 +210,7 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
     resolve_half_plane_make(&h[1]);
     if (fields & CGT_FIELD_T) {
         to->t = spux_float_of(h[0].num / h[0].den, h[1].num / h[1].den);
-        known = spu_and(above_0(h[0].sure_t, h[1].sure_t), above_0(h[0].sure_den, h[1].sure_den));
+        known = spu_and(spux_double_above0(h[0].sure_t, h[1].sure_t), spux_double_above0(h[0].sure_den, h[1].sure_den));
     }
     if (fields & CGT_FIELD_UV)
         known = spu_and(known, resolve_vector_uv(h, exact, to));
@@ -221,12 +219,21 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
     return known;
 }
 
-/* A side of one triangle's edge, for half a vector: the cross product is the same for all. */
-typedef struct resolve_edge {
-    double cross[3], error; /* of the side, over the 1-norm of the direction */
-} resolve_edge;
+/* ---- vectors of rays from one origin to one triangle ---- */
 
-CGT_SPU_INLINE resolve_edge resolve_edge_of(const float org[3], const cgt_triangle *q, int from, int to)
+/* What all rays to a triangle have in common. */
+typedef struct prepared_triangle {
+    double n[3], num, edges;      /* as cgt_triangle_double_plane has them; edges: of den's error, over |d| */
+    double cross[2][3], error[2]; /* of w1 and w2, where u and v are asked for; the error over |d| */
+    float normal[3];
+    bool safe; /* what does not depend on the direction */
+} prepared_triangle;
+
+/* |d| is summed up otherwise than for a single ray: the bound allows for its rounding. */
+#define PREPARED_SLACK 1.01
+
+CGT_SPU_INLINE void prepare_edge(const float org[3], const cgt_triangle *q, int from, int to, double cross[3],
+                                 double *error)
 {
     double b[3], e[3], size[2] = {0, 0};
     for (int a = 0; a < 3; a++) {
@@ -235,49 +242,81 @@ CGT_SPU_INLINE resolve_edge resolve_edge_of(const float org[3], const cgt_triang
         size[0] += fabs(b[a]);
         size[1] += fabs(e[a]);
     }
-    return (resolve_edge){{CGT_CROSS(b, e, 1, 2), CGT_CROSS(b, e, 2, 0), CGT_CROSS(b, e, 0, 1)},
-                          CGT_TRIANGLE_DOUBLE_ERROR * 1.01 * size[0] * size[1]};
+    for (int a = 0; a < 3; a++)
+        cross[a] = CGT_CROSS(b, e, (a + 1) % 3, (a + 2) % 3);
+    *error = CGT_TRIANGLE_DOUBLE_ERROR * PREPARED_SLACK * size[0] * size[1];
 }
 
-/* The same with one origin and one triangle for all rays: its plane, sides and normal are computed once. */
-CGT_SPU_INLINE vmask resolve_triangle_vector(const float org[3], const vfloat dir[3], const cgt_triangle *q,
-                                             uint32_t fields, bool exact, resolved_triangles *to)
+__attribute__((noinline, unused)) static void prepare_triangle(const float org[3], const cgt_triangle *q,
+                                                               uint32_t fields, bool exact, prepared_triangle *to)
 {
     static const float nowhere[3] = {0, 0, 0};
     const cgt_triangle_plane plane = cgt_triangle_double_plane(org, nowhere, q);
-    const resolve_edge edge[2] = {resolve_edge_of(org, q, 2, 0), resolve_edge_of(org, q, 0, 1)};
     const double *n = plane.n;
+    to->num = plane.num;
+    to->edges = triangle_edges(q) * PREPARED_SLACK;
+    to->safe = !(fields & CGT_FIELD_T) || plane.num_error <= CGT_DOUBLE_SAFE * fabs(plane.num);
+    for (int a = 0; a < 3; a++)
+        to->n[a] = n[a];
+    if (fields & CGT_FIELD_UV) {
+        prepare_edge(org, q, 2, 0, to->cross[0], &to->error[0]);
+        prepare_edge(org, q, 0, 1, to->cross[1], &to->error[1]);
+    }
+    if (fields & CGT_FIELD_NORMAL) {
+        const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int a = 0; a < 3; a++)
+            to->normal[a] = (float)(n[a] * r);
+        to->safe = to->safe && normal_is_safe(q, n, exact);
+    }
+}
+
+/* Directions, and their 1-norms. */
+typedef struct resolve_directions {
+    vdouble d[2][3], size[2];
+} resolve_directions;
+
+CGT_SPU_INLINE resolve_directions resolve_directions_of(const vfloat dir[3])
+{
+    resolve_directions r;
+    for (int a = 0; a < 3; a++) {
+        r.d[0][a] = spux_double_low(dir[a]);
+        r.d[1][a] = spux_double_high(dir[a]);
+    }
+    r.size[0] = NORM1(r.d[0]);
+    r.size[1] = NORM1(r.d[1]);
+    return r;
+}
+
+/* As resolve_triangles_vector. */
+CGT_SPU_INLINE vmask resolve_prepared_vector(const prepared_triangle *p, const resolve_directions *of, uint32_t fields,
+                                             bool exact, resolved_triangles *to)
+{
     vdouble t[2], side[2][2], sure[2], sure_side[2][2];
     for (int h = 0; h < 2; h++) {
-        vdouble d[3];
-        for (int a = 0; a < 3; a++)
-            d[a] = h ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
-        const vdouble size = NORM1(d), den = d[0] * n[0] + d[1] * n[1] + d[2] * n[2], r = spux_vdouble(1) / den;
-        t[h] = spux_vdouble(plane.num) / den;
-        sure[h] = spux_double_abs(den) * CGT_DOUBLE_SAFE - size * triangle_edges(q);
-        for (int k = 0; k < 2; k++) {
-            const double *c = edge[k].cross;
-            const vdouble w = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
-            side[k][h] = w * r;
-            sure_side[k][h] = spux_double_abs(w) * CGT_DOUBLE_SAFE - size * edge[k].error;
+        const vdouble *d = of->d[h], den = DOT(d, p->n);
+        t[h] = spux_vdouble(p->num) / den;
+        sure[h] = spux_double_abs(den) * CGT_DOUBLE_SAFE - of->size[h] * p->edges;
+        if (fields & CGT_FIELD_UV) {
+            const vdouble r = spux_vdouble(1) / den;
+            for (int k = 0; k < 2; k++) {
+                const vdouble w = DOT(d, p->cross[k]);
+                side[k][h] = w * r;
+                sure_side[k][h] = spux_double_abs(w) * CGT_DOUBLE_SAFE - of->size[h] * p->error[k];
+            }
         }
     }
-    vmask known = above_0(sure[0], sure[1]);
-    bool all = !(fields & CGT_FIELD_T) || plane.num_error <= CGT_DOUBLE_SAFE * fabs(plane.num);
+    vmask known = spux_double_above0(sure[0], sure[1]);
     to->t = spux_float_of(t[0], t[1]);
     if (fields & CGT_FIELD_UV) {
         to->u = shares_of(side[0][0], side[0][1]);
         to->v = shares_of(side[1][0], side[1][1]);
         for (int k = 0; exact && k < 2; k++)
-            known = spu_and(known, above_0(sure_side[k][0], sure_side[k][1]));
+            known = spu_and(known, spux_double_above0(sure_side[k][0], sure_side[k][1]));
     }
-    if (fields & CGT_FIELD_NORMAL) {
-        const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        all = all && normal_is_safe(q, n, exact);
+    if (fields & CGT_FIELD_NORMAL)
         for (int a = 0; a < 3; a++)
-            to->normal[a] = spux_vfloat((float)(n[a] * r));
-    }
-    return all ? known : spux_mask_none();
+            to->normal[a] = spux_vfloat(p->normal[a]);
+    return p->safe ? known : spux_mask_none();
 }
 
 __attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields, bool exact,

@@ -109,15 +109,18 @@ CGT_SPU_INLINE void tile_camera_make(const cgt_camera_rays *c, tile_camera *q)
 CGT_SPU_INLINE void tile_tables_make(tile *t, uint32_t x0, uint32_t y0)
 {
     const float *pixel = t->rays->pixel;
+    const uint32_t last_column = t->columns - 1, last_row = t->rows - 1;
+    const vmask second = spu_cmpeq(spu_and(spux_lane_index(), spux_vuint(1)), spux_vuint(1));
     for (uint32_t k = 0; k < TILE_EDGE; k++) { /* in the order of camera.h */
-        t->column[k] = ((float)(x0 + (k < t->columns ? k : t->columns - 1)) + 0.5f) * pixel[0] - 1;
-        t->row[k] = 1 - ((float)(y0 + (k < t->rows ? k : t->rows - 1)) + 0.5f) * pixel[1];
+        t->column[k] = ((float)(int32_t)(x0 + (k < last_column ? k : last_column)) + 0.5f) * pixel[0] - 1;
+        t->row[k] = 1 - ((float)(int32_t)(y0 + (k < last_row ? k : last_row)) + 0.5f) * pixel[1];
     }
-    for (uint32_t i = 0; i < TILE_PAIR + TILE_PAD; i++)
-        t->px[i] = i < TILE_PAIR ? t->column[i / 2] : NAN;
-    for (uint32_t y = 0; y < TILE_EDGE; y++)
-        for (uint32_t k = y & 1; k < CGT_LANES; k += 2)
-            t->py[y / 2][k] = t->row[y];
+    for (uint32_t k = 0; k < TILE_EDGE; k++)
+        t->px[2 * k] = t->px[2 * k + 1] = t->column[k];
+    for (uint32_t k = 0; k < TILE_PAD; k++)
+        t->px[TILE_PAIR + k] = NAN;
+    for (uint32_t y = 0; y < TILE_EDGE; y += 2)
+        spux_store(t->py[y / 2], spux_select(spux_vfloat(t->row[y]), spux_vfloat(t->row[y + 1]), second));
 }
 
 CGT_SPU_INLINE float tile_nearest_square(float a, float b)
@@ -198,25 +201,6 @@ CGT_SPU_INLINE float tile_depth(const tile *t, uint32_t i, double hit_t)
 /* The exact depth of a best hit is not beyond this. */
 CGT_SPU_INLINE double tile_depth_end(const tile *t, double z) { return t->linear ? z * TILE_KEPT : z + (double)t->gap; }
 
-/* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
- * there is none. */
-CGT_SPU_INLINE void tile_open(tile *t, float far_t)
-{
-    const bool ends = t->rays->t_max < far_t;
-    for (uint32_t i = 0; i < TILE_PIXELS + TILE_PAD; i += CGT_LANES) {
-        spux_store(t->z + i, spux_vfloat(INFINITY));
-        spux_store_uint(t->object + i, spux_vuint(CGT_NONE));
-    }
-    if (ends)
-        for (uint32_t i = 0; i < TILE_PIXELS; i++)
-            t->z[i] = t->linear ? tile_depth(t, i, (double)t->rays->t_max)
-                                : (float)((double)t->rays->t_max * tile_norm(t, i) * (1 - 0x1p-20));
-    if (t->columns < TILE_EDGE || t->rows < TILE_EDGE)
-        for (uint32_t i = 0; i < TILE_PIXELS; i++)
-            if (tile_column(i) >= t->columns || tile_row(i) >= t->rows)
-                t->z[i] = -INFINITY;
-}
-
 /* Refreshes how far each part still looks. */
 CGT_SPU_INLINE void tile_far_update(tile *t)
 {
@@ -238,6 +222,41 @@ CGT_SPU_INLINE void tile_far_update(tile *t)
     }
     t->farthest = farthest;
     t->farthest_t = farthest_t * (1 + 0x1p-20f);
+}
+
+/* Closes the pixels of a vector that are beyond the region. */
+CGT_SPU_INLINE void tile_close(tile *t, uint32_t first)
+{
+    if (tile_row(first) >= t->rows || tile_column(first) >= t->columns)
+        spux_store(t->z + first, spux_vfloat(-INFINITY));
+    else if (tile_row(first) + 1 >= t->rows || tile_column(first + CGT_LANES - 1) >= t->columns)
+        for (uint32_t i = first; i < first + CGT_LANES; i++)
+            if (tile_column(i) >= t->columns || tile_row(i) >= t->rows)
+                t->z[i] = -INFINITY;
+}
+
+/* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
+ * there is none. */
+CGT_SPU_INLINE void tile_open(tile *t, float far_t)
+{
+    const bool ends = t->rays->t_max < far_t, whole = t->columns == TILE_EDGE && t->rows == TILE_EDGE;
+    for (uint32_t i = 0; i < TILE_PIXELS + TILE_PAD; i += CGT_LANES) {
+        spux_store(t->z + i, spux_vfloat(INFINITY));
+        spux_store_uint(t->object + i, spux_vuint(CGT_NONE));
+    }
+    if (ends)
+        for (uint32_t i = 0; i < TILE_PIXELS; i++)
+            t->z[i] = t->linear ? tile_depth(t, i, (double)t->rays->t_max)
+                                : (float)((double)t->rays->t_max * tile_norm(t, i) * (1 - 0x1p-20));
+    for (uint32_t i = 0; !whole && i < TILE_PIXELS; i += CGT_LANES)
+        tile_close(t, i);
+    if (ends || !whole) {
+        tile_far_update(t);
+        return;
+    }
+    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++)
+        t->far[k] = INFINITY;
+    t->farthest = t->farthest_t = INFINITY;
 }
 
 CGT_SPU_INLINE cgt_ray tile_ray(const tile *t, uint32_t i)

@@ -37,14 +37,15 @@ CGT_SPU_INLINE void tile_put_row(uint32_t *to, const cgt_region *r, bool stream,
         spux_store_mask_uint(to, v, spux_mask_first(r->width - x));
 }
 
-/* Columns x and on of rows y and y + 1 of a plane, from two vectors of pixels as the tile has them. */
-CGT_SPU_INLINE void tile_put(uint32_t *plane, const cgt_region *r, bool stream, uint32_t x, uint32_t y, vuint a,
+/* Columns x and on of rows y and y + 1 of a plane, which begin at `at` in it, from two vectors of pixels as the tile has
+ * them. */
+CGT_SPU_INLINE void tile_put(void *plane, const cgt_region *r, bool stream, size_t at, uint32_t x, uint32_t y, vuint a,
                              vuint b)
 {
     vuint row[2] = {a, b};
     if (!plane)
         return;
-    uint32_t *to = plane + (size_t)y * r->row_stride + x;
+    uint32_t *to = (uint32_t *)plane + at;
     spux_unzip(row);
     tile_put_row(to, r, stream, x, row[0]);
     if (stream || y + 1 < r->height)
@@ -108,20 +109,37 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_rays(const c
     }
 }
 
-/* The objects of a vector, `number`, lanes without a hit having that of one that has, `some`. Neighbours mostly hit the
- * same. */
+/* What vectors of pixels have met, for the next ones: neighbours mostly hit the same. */
+#define TILE_PREPARED 64u /* triangles, a power of two */
+#define TILE_SEVERAL 2u   /* triangles of a vector; more of them are quicker side by side */
+
+typedef struct tile_prepared_sphere {
+    uint32_t number;
+    prepared_sphere sphere;
+} tile_prepared_sphere;
+
+typedef struct tile_prepared {
+    uint32_t number[TILE_PREPARED];
+    prepared_triangle triangle[TILE_PREPARED];
+} tile_prepared;
+
+/* The objects of a vector, `number`, lanes without a hit having that of one that has, `some`. */
 CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, bool normals, vuint number,
-                                         uint32_t some, vmask missed, const vfloat dir[3], tile_hits *h,
-                                         cgt_counts *counts)
+                                         uint32_t some, vmask missed, const vfloat dir[3], tile_prepared_sphere *kept,
+                                         tile_hits *h, cgt_counts *counts)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
     const vfloat t_min = spux_vfloat(t->rays->t_min), zero = spux_vfloat(0);
     vfloat n[3] = {zero, zero, zero}, found;
     vmask known;
-    if (spux_all(spu_cmpeq(number, spux_vuint(some))))
-        known = resolve_sphere_vector(eye, dir, cgt_array_sphere(array, some), t_min, normals, &found, n);
-    else {
+    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) {
+        if (some != kept->number) {
+            kept->number = some;
+            kept->sphere = prepare_sphere(eye, cgt_array_sphere(array, some));
+        }
+        known = resolve_prepared_sphere(&kept->sphere, dir, t_min, normals, &found, n);
+    } else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
         vfloat sphere[4];
@@ -133,23 +151,69 @@ CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, 
     for (int a = 0; normals && a < 3; a++)
         h->normal[a] = spux_select(n[a], zero, missed);
     const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
-    if (rest)
-        tile_resolve_sphere_rays(world, t, rest, dir, h, counts);
+    if (rest) { /* of copies, so that the others stay in registers */
+        const vfloat d[3] = {dir[0], dir[1], dir[2]};
+        tile_hits mended = *h;
+        tile_resolve_sphere_rays(world, t, rest, d, &mended, counts);
+        *h = mended;
+    }
+}
+
+CGT_SPU_INLINE const prepared_triangle *tile_prepare(const cgt_world *world, const tile *t, uint32_t number,
+                                                     uint32_t fields, bool exact, tile_prepared *kept)
+{
+    const uint32_t k = number & (TILE_PREPARED - 1);
+    if (kept->number[k] != number) {
+        const cgt_triangle q = cgt_array_triangle(world->objects.array, number);
+        kept->number[k] = number;
+        prepare_triangle(t->rays->eye, &q, fields, exact, &kept->triangle[k]);
+    }
+    return &kept->triangle[k];
+}
+
+/* How many numbers there are among lanes, or one more than TILE_SEVERAL. */
+CGT_SPU_INLINE uint32_t tile_several(vuint number, unsigned lanes)
+{
+    uint32_t count = 0;
+    for (; lanes && count <= TILE_SEVERAL; count++)
+        lanes &= ~spux_mask_bits(spu_cmpeq(number, spux_vuint(number[__builtin_ctz(lanes)])));
+    return count;
+}
+
+CGT_SPU_INLINE vmask tile_resolve_several(const cgt_world *world, const tile *t, uint32_t fields, bool exact,
+                                          vuint number, unsigned lanes, const vfloat dir[3], tile_prepared *kept,
+                                          resolved_triangles *to)
+{
+    const resolve_directions of = resolve_directions_of(dir);
+    vmask known = spux_mask_none();
+    while (lanes) {
+        const uint32_t some = number[__builtin_ctz(lanes)];
+        const vmask mine = spu_cmpeq(number, spux_vuint(some));
+        resolved_triangles found = *to;
+        known = spu_or(known, spu_and(mine, resolve_prepared_vector(tile_prepare(world, t, some, fields, exact, kept),
+                                                                    &of, fields, exact, &found)));
+        to->t = spux_select(to->t, found.t, mine);
+        to->u = spux_select(to->u, found.u, mine);
+        to->v = spux_select(to->v, found.v, mine);
+        for (int a = 0; a < 3; a++)
+            to->normal[a] = spux_select(to->normal[a], found.normal[a], mine);
+        lanes &= ~spux_mask_bits(mine);
+    }
+    return known;
 }
 
 CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t, uint32_t fields, bool exact,
-                                           vuint number, uint32_t some, vmask missed, const vfloat dir[3], tile_hits *h,
-                                           cgt_counts *counts)
+                                           vuint number, unsigned hit, vmask missed, const vfloat dir[3],
+                                           tile_prepared *kept, tile_hits *h, cgt_counts *counts)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
     const vfloat zero = spux_vfloat(0);
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask known;
-    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) {
-        const cgt_triangle q = cgt_array_triangle(array, some);
-        known = resolve_triangle_vector(eye, dir, &q, fields, exact, &found);
-    } else {
+    if (tile_several(number, hit) <= TILE_SEVERAL)
+        known = tile_resolve_several(world, t, fields, exact, number, hit, dir, kept, &found);
+    else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat vertex[3][3];
         fetch_triangles_at(array, number, vertex);
@@ -161,8 +225,12 @@ CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t
     for (int a = 0; a < 3; a++)
         h->normal[a] = spux_select(found.normal[a], zero, missed);
     const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
-    if (rest)
-        tile_resolve_triangle_rays(world, t, rest, dir, fields, exact, h, counts);
+    if (rest) {
+        const vfloat d[3] = {dir[0], dir[1], dir[2]};
+        tile_hits mended = *h;
+        tile_resolve_triangle_rays(world, t, rest, d, fields, exact, &mended, counts);
+        *h = mended;
+    }
 }
 
 /* What is constant over a frame; inlined with constants where that makes loops shorter. */
@@ -171,14 +239,20 @@ typedef struct tile_wish {
     uint32_t fields; /* t, u v and normals */
 } tile_wish;
 
+/* What is kept from vector to vector. */
+typedef struct tile_kept {
+    tile_prepared_sphere *sphere;
+    tile_prepared *triangles;
+} tile_kept;
+
 CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
-                                             cgt_counts *counts)
+                                             tile_kept kept, uint64_t *hits, cgt_counts *counts)
 {
     const vfloat zero = spux_vfloat(0);
     tile_hits h = {spux_load_uint(t->object + i), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}};
     const vmask missed = spu_cmpeq(h.object, spux_vuint(CGT_NONE));
     const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
-    counts->hits += spux_count_bits(hit);
+    *hits += spux_count_bits(hit);
     if (!hit || !wish.fields)
         return h;
     const uint32_t some = t->object[i + (uint32_t)__builtin_ctz(hit)];
@@ -186,54 +260,94 @@ CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile 
     vfloat dir[3];
     tile_directions(t, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))), spux_load(t->py[i / TILE_PAIR]), dir);
     if (wish.triangles)
-        tile_resolve_triangles(world, t, wish.fields, wish.exact, number, some, missed, dir, &h, counts);
+        tile_resolve_triangles(world, t, wish.fields, wish.exact, number, hit, missed, dir, kept.triangles, &h, counts);
     else
-        tile_resolve_spheres(world, t, wish.fields & CGT_FIELD_NORMAL, number, some, missed, dir, &h, counts);
+        tile_resolve_spheres(world, t, wish.fields & CGT_FIELD_NORMAL, number, some, missed, dir, kept.sphere, &h,
+                             counts);
     return h;
 }
 
-CGT_SPU_INLINE void tile_resolve_to(const cgt_world *world, const tile *t, const cgt_region *r, tile_wish wish,
-                                    cgt_counts *counts)
+CGT_SPU_INLINE void tile_resolve_to(const cgt_world *world, const tile *t, const cgt_region *region, tile_wish wish,
+                                    tile_kept kept, cgt_counts *counts)
 {
     const vuint none = spux_vuint(CGT_NONE), geometry = spux_vuint(world->objects.array->geometry);
+    const cgt_region q = *region, *r = &q; /* a copy: nothing that is stored changes it */
+    const bool stream = wish.stream;
+    uint64_t hits = 0;
     for (uint32_t y = 0; y < r->height; y += 2)
         for (uint32_t x = 0; x < r->width; x += CGT_LANES) {
             const uint32_t i = tile_index(x, y);
-            const tile_hits a = tile_resolve_vector(world, t, wish, i, counts);
-            const tile_hits b = tile_resolve_vector(world, t, wish, i + CGT_LANES, counts);
-            tile_put((uint32_t *)r->t, r, wish.stream, x, y, (vuint)a.t, (vuint)b.t);
-            tile_put(r->primitive, r, wish.stream, x, y, a.object, b.object);
-            tile_put(r->geometry, r, wish.stream, x, y, spux_select(geometry, none, spu_cmpeq(a.object, none)),
+            const size_t at = (size_t)y * r->row_stride + x;
+            const tile_hits a = tile_resolve_vector(world, t, wish, i, kept, &hits, counts);
+            const tile_hits b = tile_resolve_vector(world, t, wish, i + CGT_LANES, kept, &hits, counts);
+            tile_put(r->t, r, stream, at, x, y, (vuint)a.t, (vuint)b.t);
+            tile_put(r->primitive, r, stream, at, x, y, a.object, b.object);
+            tile_put(r->geometry, r, stream, at, x, y, spux_select(geometry, none, spu_cmpeq(a.object, none)),
                      spux_select(geometry, none, spu_cmpeq(b.object, none)));
             for (int k = 0; k < 3; k++)
-                tile_put((uint32_t *)r->normal[k], r, wish.stream, x, y, (vuint)a.normal[k], (vuint)b.normal[k]);
-            tile_put((uint32_t *)r->u, r, wish.stream, x, y, (vuint)a.u, (vuint)b.u);
-            tile_put((uint32_t *)r->v, r, wish.stream, x, y, (vuint)a.v, (vuint)b.v);
+                tile_put(r->normal[k], r, stream, at, x, y, (vuint)a.normal[k], (vuint)b.normal[k]);
+            tile_put(r->u, r, stream, at, x, y, (vuint)a.u, (vuint)b.u);
+            tile_put(r->v, r, stream, at, x, y, (vuint)a.v, (vuint)b.v);
         }
+    counts->hits += hits;
 }
 
-__attribute__((noinline, unused)) static void tile_resolve_array(const cgt_world *world, const tile *t,
-                                                                 const cgt_trace_settings *settings,
-                                                                 const cgt_region *r, cgt_counts *counts)
+/* Constants make the loops shorter. */
+CGT_SPU_INLINE void tile_resolve_streamed(const cgt_world *world, const tile *t, const cgt_region *r, tile_wish wish,
+                                          tile_kept kept, cgt_counts *counts)
 {
-    tile_wish wish = {.triangles = world->objects.triangles != 0,
-                      .stream = tile_streams(r),
-                      .exact = settings->precision == CGT_PRECISION_EXACT,
-                      .fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u)};
-    if (wish.triangles) {
-        wish.triangles = true;
-        wish.fields |= r->u ? CGT_FIELD_UV : 0u;
-        tile_resolve_to(world, t, r, wish, counts);
-    } else {
-        wish.triangles = false;
-        if (wish.fields & CGT_FIELD_NORMAL) {
-            wish.fields = CGT_FIELD_T | CGT_FIELD_NORMAL;
-            tile_resolve_to(world, t, r, wish, counts);
-        } else
-            tile_resolve_to(world, t, r, wish, counts);
-    }
-    if (wish.stream)
+    wish.stream = tile_streams(r);
+    if (wish.stream) {
+        wish.stream = true;
+        tile_resolve_to(world, t, r, wish, kept, counts);
         spux_stream_end();
+    } else {
+        wish.stream = false;
+        tile_resolve_to(world, t, r, wish, kept, counts);
+    }
+}
+
+/* fields: those of the region that there is something to compute for. */
+__attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cgt_world *world, const tile *t,
+                                                                        const cgt_region *r, uint32_t fields,
+                                                                        cgt_counts *counts)
+{
+    tile_prepared_sphere prepared = {.number = CGT_NONE};
+    const tile_kept kept = {.sphere = &prepared};
+    tile_wish wish = {.fields = fields};
+    if (fields & CGT_FIELD_NORMAL) {
+        wish.fields = CGT_FIELD_T | CGT_FIELD_NORMAL;
+        tile_resolve_streamed(world, t, r, wish, kept, counts);
+    } else
+        tile_resolve_streamed(world, t, r, wish, kept, counts);
+}
+
+__attribute__((noinline, unused)) static void tile_resolve_triangle_array(const cgt_world *world, const tile *t,
+                                                                          const cgt_region *r, bool exact,
+                                                                          uint32_t fields, cgt_counts *counts)
+{
+    tile_prepared prepared;
+    const tile_kept kept = {.triangles = &prepared};
+    tile_wish wish = {.triangles = true, .exact = exact, .fields = fields};
+    for (uint32_t k = 0; k < TILE_PREPARED; k++)
+        prepared.number[k] = CGT_NONE;
+    if (fields & CGT_FIELD_UV)
+        tile_resolve_streamed(world, t, r, wish, kept, counts);
+    else {
+        wish.fields &= CGT_FIELD_T | CGT_FIELD_NORMAL;
+        tile_resolve_streamed(world, t, r, wish, kept, counts);
+    }
+}
+
+CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, const cgt_trace_settings *settings,
+                                       const cgt_region *r, cgt_counts *counts)
+{
+    const bool exact = settings->precision == CGT_PRECISION_EXACT;
+    const uint32_t fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u);
+    if (world->objects.triangles)
+        tile_resolve_triangle_array(world, t, r, exact, fields | (r->u ? CGT_FIELD_UV : 0u), counts);
+    else
+        tile_resolve_sphere_array(world, t, r, fields, counts);
 }
 
 /* ---- anything, by rows ---- */

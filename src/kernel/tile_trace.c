@@ -346,7 +346,6 @@ static void tile_make(tile *t, const cgt_world *world, const cgt_camera_rays *ca
     if (world->objects.triangles)
         tile_gap_widen(t, c);
     tile_open(t, far_t);
-    tile_far_update(t);
 }
 
 static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
