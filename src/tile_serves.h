@@ -8,7 +8,6 @@
 #include <math.h>
 
 #include "camera.h"
-#include "trace.h"
 #include "world.h"
 
 /* Half a picture's width and height at distance 1: openings of 0.11 to 165 degrees. */
@@ -35,11 +34,9 @@ static inline bool cgt_tile_serves_camera(const cgt_camera_rays *c)
            right <= CGT_TILE_WIDEST && up <= CGT_TILE_WIDEST && c->t_min >= 0;
 }
 
-static inline bool cgt_tile_serves(const cgt_world *world, const cgt_camera_rays *camera,
-                                   const cgt_trace_settings *settings)
+static inline bool cgt_tile_serves(const cgt_world *world, const cgt_camera_rays *camera)
 {
-    return world->valid && !world->everything && world->loose.levels && settings->precision != CGT_PRECISION_FAST &&
-           cgt_tile_serves_camera(camera);
+    return world->valid && !world->everything && world->loose.levels && cgt_tile_serves_camera(camera);
 }
 
 #endif

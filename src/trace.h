@@ -15,7 +15,7 @@
 typedef struct cgt_trace_settings {
     uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */
     bool strip;      /* tiles of four scanlines */
-    bool tiled;      /* nothing is asked about packets: tiles of a loose grid may go without */
+    bool tiled;      /* nothing is asked about packets and their tests: tiles of a loose grid may go without */
     bool flattened;
     cgt_cull cull;
     bool mailbox;

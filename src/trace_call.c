@@ -40,7 +40,7 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
                         "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
     s->tiled = camera && !o->packet && o->tile == CGT_TILE_AUTO && o->loop == CGT_LOOP_AUTO &&
-               o->cull == CGT_CULL_BLOCKS && o->mailbox;
+               o->cull == CGT_CULL_BLOCKS && o->mailbox && o->triangle_test == CGT_TRIANGLE_WATERTIGHT;
     s->packet = s->strip ? 4 : o->packet ? o->packet : CHOSEN_PACKET;
     s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;

@@ -56,6 +56,41 @@ static inline void fail_at(const planes *got, const planes *wanted, const cgt_ca
              (double)c->eye[1], (double)c->eye[2]);
 }
 
+/* What FAST tiles are off by from ROBUST ones, in pixels that hit a sphere: the same sphere, and t and the normal as near
+ * as resolve_fast_vectors.h says, with room. Other pixels get the same bits. */
+static inline void compare_fast(const cgt_world *world, const cgt_camera_rays *c, const planes *got,
+                                const planes *wanted, const char *what)
+{
+    assert_memory_equal(got->primitive, wanted->primitive, got->elements * sizeof *got->primitive);
+    assert_memory_equal(got->geometry, wanted->geometry, got->elements * sizeof *got->geometry);
+    for (size_t i = 0; i < got->elements; i++) {
+        const bool hit = wanted->primitive[i] != CGT_NONE;
+        const cgt_object_array *a = world->objects.array;
+        while (hit && a->geometry != wanted->geometry[i])
+            a++;
+        double square = 0, dd = 0, off = 0;
+        if (!hit || a->kind != CGT_KIND_SPHERES) {
+            assert_memory_equal(&got->t[i], &wanted->t[i], sizeof(float));
+            continue;
+        }
+        const cgt_sphere q = cgt_array_sphere(a, wanted->primitive[i]);
+        const double centre[3] = {q.x, q.y, q.z};
+        for (int k = 0; k < 3; k++) {
+            const double reach = fabs((double)c->fwd[k]) + fabs((double)c->right[k]) + fabs((double)c->up[k]);
+            const double n = (double)got->normal[k][i] - (double)wanted->normal[k][i];
+            square += (centre[k] - (double)c->eye[k]) * (centre[k] - (double)c->eye[k]);
+            dd += reach * reach;
+            off += n * n;
+        }
+        const double far = sqrt(square) + (double)q.r;
+        const double least = far * 0x1p-18 + sqrt(far * (double)q.r * 0x1p-18);
+        const double t = fabs((double)got->t[i] - (double)wanted->t[i]);
+        if (!(t <= least || t * sqrt(dd) <= least) || !(sqrt(off) * (double)q.r <= least))
+            fail_msg("%s: pixel %zu: FAST has t %a, not %a, and a normal %a off", what, i, (double)got->t[i],
+                     (double)wanted->t[i], sqrt(off));
+    }
+}
+
 /* Both ways over one frame. */
 static inline void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera,
                                  uint32_t width, uint32_t height, const char *what, frames_tally *tally)
@@ -83,7 +118,15 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
     assert_int_equal(counts.rays, other.rays);
     assert_int_equal(counts.hits, other.hits);
     tally->frames++;
-    if (cgt_tile_serves(&world, &rays, &settings)) {
+    if (cgt_tile_serves(&world, &rays)) {
+        cgt_trace_settings fast = settings;
+        cgt_counts fast_counts = {0};
+        fast.precision = CGT_PRECISION_FAST;
+        CGT_KERNEL(cgt_trace_tile)(&world, &rays, &fast, &to_got, &fast_counts);
+        compare_fast(&world, &rays, &got, &wanted, what);
+        assert_int_equal(fast_counts.hits, counts.hits);
+    }
+    if (cgt_tile_serves(&world, &rays)) {
         const uint64_t *from = (const uint64_t *)&counts;
         uint64_t *to = (uint64_t *)&tally->counts;
         tally->served++;

@@ -8,6 +8,7 @@
 
 #include "camera_packet.h"
 #include "object_fetch.h"
+#include "resolve_fast_vectors.h"
 #include "resolve_spheres.h"
 #include "resolve_triangles.h"
 #include "tile.h"
@@ -123,17 +124,24 @@ typedef struct tile_prepared {
     prepared_triangle triangle[TILE_PREPARED];
 } tile_prepared;
 
+/* What is constant over a frame; inlined with constants where that makes loops shorter. */
+typedef struct tile_wish {
+    bool triangles, stream, exact, fast;
+    uint32_t fields; /* t, u v and normals */
+} tile_wish;
+
 /* The objects of a vector, `number`, lanes without a hit having that of one that has, `some`. */
-CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, bool normals, vuint number,
+CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
                                          uint32_t some, vmask missed, const vfloat dir[3], tile_prepared_sphere *kept,
                                          tile_hits *h, cgt_counts *counts)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
     const vfloat t_min = spux_vfloat(t->rays->t_min), zero = spux_vfloat(0);
+    const bool normals = wish.fields & CGT_FIELD_NORMAL;
     vfloat n[3] = {zero, zero, zero}, found;
     vmask known;
-    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) {
+    if (!wish.fast && spux_all(spu_cmpeq(number, spux_vuint(some)))) {
         if (some != kept->number) {
             kept->number = some;
             kept->sphere = prepare_sphere(eye, cgt_array_sphere(array, some));
@@ -145,7 +153,8 @@ CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, 
         vfloat sphere[4];
         spux_store_uint(at, number);
         fetch_spheres_at(array, at, sphere);
-        known = resolve_spheres_vector(org, dir, sphere, t_min, normals, &found, n);
+        known = wish.fast ? resolve_fast_spheres(org, dir, sphere, t_min, normals, &found, n)
+                          : resolve_spheres_vector(org, dir, sphere, t_min, normals, &found, n);
     }
     h->t = spux_select(found, h->t, missed);
     for (int a = 0; normals && a < 3; a++)
@@ -202,13 +211,15 @@ CGT_SPU_INLINE vmask tile_resolve_several(const cgt_world *world, const tile *t,
     return known;
 }
 
-CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t, uint32_t fields, bool exact,
-                                           vuint number, unsigned hit, vmask missed, const vfloat dir[3],
-                                           tile_prepared *kept, tile_hits *h, cgt_counts *counts)
+CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
+                                           unsigned hit, vmask missed, const vfloat dir[3], tile_prepared *kept,
+                                           tile_hits *h, cgt_counts *counts)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
     const vfloat zero = spux_vfloat(0);
+    const uint32_t fields = wish.fields;
+    const bool exact = wish.exact;
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask known;
     if (tile_several(number, hit) <= TILE_SEVERAL)
@@ -233,12 +244,6 @@ CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t
     }
 }
 
-/* What is constant over a frame; inlined with constants where that makes loops shorter. */
-typedef struct tile_wish {
-    bool triangles, stream, exact;
-    uint32_t fields; /* t, u v and normals */
-} tile_wish;
-
 /* What is kept from vector to vector. */
 typedef struct tile_kept {
     tile_prepared_sphere *sphere;
@@ -260,10 +265,9 @@ CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile 
     vfloat dir[3];
     tile_directions(t, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))), spux_load(t->py[i / TILE_PAIR]), dir);
     if (wish.triangles)
-        tile_resolve_triangles(world, t, wish.fields, wish.exact, number, hit, missed, dir, kept.triangles, &h, counts);
+        tile_resolve_triangles(world, t, wish, number, hit, missed, dir, kept.triangles, &h, counts);
     else
-        tile_resolve_spheres(world, t, wish.fields & CGT_FIELD_NORMAL, number, some, missed, dir, kept.sphere, &h,
-                             counts);
+        tile_resolve_spheres(world, t, wish, number, some, missed, dir, kept.sphere, &h, counts);
     return h;
 }
 
@@ -307,31 +311,37 @@ CGT_SPU_INLINE void tile_resolve_streamed(const cgt_world *world, const tile *t,
     }
 }
 
-/* fields: those of the region that there is something to compute for. */
 __attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cgt_world *world, const tile *t,
-                                                                        const cgt_region *r, uint32_t fields,
+                                                                        const cgt_region *r, tile_wish wish,
                                                                         cgt_counts *counts)
 {
     tile_prepared_sphere prepared = {.number = CGT_NONE};
     const tile_kept kept = {.sphere = &prepared};
-    tile_wish wish = {.fields = fields};
-    if (fields & CGT_FIELD_NORMAL) {
+    wish.triangles = false;
+    if (!(wish.fields & CGT_FIELD_NORMAL))
+        tile_resolve_streamed(world, t, r, wish, kept, counts);
+    else {
         wish.fields = CGT_FIELD_T | CGT_FIELD_NORMAL;
-        tile_resolve_streamed(world, t, r, wish, kept, counts);
-    } else
-        tile_resolve_streamed(world, t, r, wish, kept, counts);
+        if (wish.fast) {
+            wish.fast = true;
+            tile_resolve_streamed(world, t, r, wish, kept, counts);
+        } else {
+            wish.fast = false;
+            tile_resolve_streamed(world, t, r, wish, kept, counts);
+        }
+    }
 }
 
 __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const cgt_world *world, const tile *t,
-                                                                          const cgt_region *r, bool exact,
-                                                                          uint32_t fields, cgt_counts *counts)
+                                                                          const cgt_region *r, tile_wish wish,
+                                                                          cgt_counts *counts)
 {
     tile_prepared prepared;
     const tile_kept kept = {.triangles = &prepared};
-    tile_wish wish = {.triangles = true, .exact = exact, .fields = fields};
     for (uint32_t k = 0; k < TILE_PREPARED; k++)
         prepared.number[k] = CGT_NONE;
-    if (fields & CGT_FIELD_UV)
+    wish.triangles = true;
+    if (wish.fields & CGT_FIELD_UV)
         tile_resolve_streamed(world, t, r, wish, kept, counts);
     else {
         wish.fields &= CGT_FIELD_T | CGT_FIELD_NORMAL;
@@ -342,12 +352,14 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const 
 CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, const cgt_trace_settings *settings,
                                        const cgt_region *r, cgt_counts *counts)
 {
-    const bool exact = settings->precision == CGT_PRECISION_EXACT;
-    const uint32_t fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u);
+    const tile_wish wish = {.exact = settings->precision == CGT_PRECISION_EXACT,
+                            .fast = settings->precision == CGT_PRECISION_FAST,
+                            .fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u) |
+                                      (r->u && world->objects.triangles ? CGT_FIELD_UV : 0u)};
     if (world->objects.triangles)
-        tile_resolve_triangle_array(world, t, r, exact, fields | (r->u ? CGT_FIELD_UV : 0u), counts);
+        tile_resolve_triangle_array(world, t, r, wish, counts);
     else
-        tile_resolve_sphere_array(world, t, r, fields, counts);
+        tile_resolve_sphere_array(world, t, r, wish, counts);
 }
 
 /* ---- anything, by rows ---- */
@@ -415,15 +427,18 @@ __attribute__((noinline, unused)) static void tile_resolve(const cgt_world *worl
 {
     packet p;
     packet_hits hits;
+    cgt_trace_settings exactly = *settings;
     if (world->objects.arrays == 1) {
         tile_resolve_array(world, t, settings, region, counts);
         return;
     }
-    camera_packet_begin(t->rays, settings, PACKET_MAX_EDGE, &p);
+    if (settings->precision == CGT_PRECISION_FAST) /* takes what its tests leave in a packet */
+        exactly.precision = CGT_PRECISION_ROBUST;
+    camera_packet_begin(t->rays, &exactly, PACKET_MAX_EDGE, &p);
     p.extreme = false;
     for (uint32_t y = 0; y < region->height; y += TILE_STRIP) {
         tile_strip_rays(t, y, &p);
-        CGT_KERNEL(cgt_packet_resolve)(world, &p, settings, &hits, counts);
+        CGT_KERNEL(cgt_packet_resolve)(world, &p, &exactly, &hits, counts);
         tile_strip_store(&hits, region, y);
     }
     if (region->stream)

@@ -387,7 +387,7 @@ static cgt_region region_part(const cgt_region *r, uint32_t x, uint32_t y)
 void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *camera,
                                 const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
-    if (!cgt_tile_serves(world, camera, settings)) {
+    if (!cgt_tile_serves(world, camera)) {
         CGT_KERNEL(cgt_trace_region)(world, camera, settings, region, counts);
         return;
     }
