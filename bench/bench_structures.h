@@ -61,6 +61,8 @@ typedef struct structures_group {
 typedef struct structures_row {
     size_t group;
     cgt_kd_traversal traversal;
+    cgt_loop loop;                                  /* of a queue grid */
+    uint32_t packet;                                /* of a camera; 0: the library's choice, in a loose grid tiles */
     double *ms[STRUCTURES_COLUMNS];                 /* one value per measured frame */
     cgt_trace_statistics count[STRUCTURES_COLUMNS]; /* of all frames, by kind of ray */
 } structures_row;

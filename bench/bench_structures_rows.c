@@ -9,30 +9,57 @@
 #include "bench_structures.h"
 #include "bench_timing.h"
 
+#define LARGEST_PACKET 16u
+
 /* ---- The list ------------------------------------------------------------------------------------------------ */
 
-static void add_row(structures_job *job, cgt_kd_traversal traversal)
+static structures_row *add_row(structures_job *job)
 {
     structures_row *row = &job->rows[job->row_count++];
     row->group = job->group_count - 1;
-    row->traversal = traversal;
+    row->packet = job->settings->shared.packet;
+    return row;
+}
+
+/* By both loops: the library takes the nested one. */
+static void add_queue_grid(structures_job *job)
+{
+    add_row(job);
+    add_row(job)->loop = CGT_LOOP_FLATTENED;
+}
+
+/* A camera's frame by whole tiles, and by packets; there are none but packets where their size is asked for. */
+static void add_loose_grid(structures_job *job)
+{
+    add_row(job);
+    if (!job->settings->shared.packet)
+        add_row(job)->packet = LARGEST_PACKET;
+}
+
+static void add_tree(structures_job *job)
+{
+    static const cgt_kd_traversal traversals[] = {CGT_KD_TRAVERSAL_SINGLE, CGT_KD_TRAVERSAL_PACKET};
+    const cgt_kd_traversal asked = job->settings->structure.kd.traversal;
+    if (asked != CGT_KD_TRAVERSAL_AUTO)
+        add_row(job)->traversal = asked;
+    else
+        for (size_t i = 0; i < sizeof traversals / sizeof traversals[0]; i++)
+            add_row(job)->traversal = traversals[i];
 }
 
 static void add_group(structures_job *job, cgt_structure structure, cgt_ray_kind rays, const bench_kd_choice *kd)
 {
-    static const cgt_kd_traversal traversals[] = {CGT_KD_TRAVERSAL_SINGLE, CGT_KD_TRAVERSAL_PACKET};
-    const cgt_kd_traversal asked = job->settings->structure.kd.traversal;
     structures_group *group = &job->groups[job->group_count++];
     group->structure = structure;
     group->rays = rays;
     group->kd = *kd;
-    if (structure != CGT_STRUCTURE_KD && structure != CGT_STRUCTURE_KD_ROPES)
-        add_row(job, CGT_KD_TRAVERSAL_AUTO);
-    else if (asked != CGT_KD_TRAVERSAL_AUTO)
-        add_row(job, asked);
-    else
-        for (size_t i = 0; i < sizeof traversals / sizeof traversals[0]; i++)
-            add_row(job, traversals[i]);
+    switch (structure) {
+    case CGT_STRUCTURE_QUEUE_GRID: add_queue_grid(job); break;
+    case CGT_STRUCTURE_LOOSE_GRID: add_loose_grid(job); break;
+    case CGT_STRUCTURE_KD:
+    case CGT_STRUCTURE_KD_ROPES: add_tree(job); break;
+    default: add_row(job); break;
+    }
 }
 
 /* A kd-tree in all layouts by both builders. */
@@ -95,7 +122,8 @@ static bench_choice choice_of(const structures_job *job, const structures_row *r
 {
     const structures_group *group = &job->groups[row->group];
     bench_choice choice = {.variant = job->variant,
-                           .packet = job->settings->shared.packet,
+                           .packet = row->packet,
+                           .loop = row->loop,
                            .cull = CGT_CULL_BLOCKS,
                            .mailbox = 1,
                            .kd = group->kd};

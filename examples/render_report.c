@@ -34,6 +34,7 @@ static void add_counts(cgt_trace_statistics *sum, const cgt_trace_statistics *on
     sum->rays += one->rays;
     sum->invalid_rays += one->invalid_rays;
     sum->hits += one->hits;
+    sum->tiles += one->tiles;
     sum->packets += one->packets;
     sum->split_packets += one->split_packets;
     sum->slices += one->slices;
@@ -148,13 +149,17 @@ static void print_stats(const render_report *report, FILE *to)
     const double n = (double)report->count, rays = t->rays ? (double)t->rays : 1.0;
     fprintf(to, "structure         %" PRIu32 "x%" PRIu32 "x%" PRIu32 " cells; %s\n", s->resolution[0], s->resolution[1],
             s->resolution[2], s->reason);
-    fprintf(to,
-            "references        %" PRIu64 ", %" PRIu64 " of them overflow in %" PRIu32 " cells; %" PRIu32
-            " %s larger than a cell\n",
-            s->references, s->overflow_references, s->overflow_cells, s->large_primitives, unit_of(report));
-    fprintf(to, "memory            %zu bytes; on a Cell SPU %zu bytes: %s its 256 KB\n", s->bytes, s->local_store_bytes,
-            s->fits_local_store ? "fits into" : "does not fit into");
+    fprintf(to, "references        %" PRIu64, s->references);
+    if (s->structure == CGT_STRUCTURE_QUEUE_GRID)
+        fprintf(to, ", %" PRIu64 " of them overflow in %" PRIu32 " cells; %" PRIu32 " %s larger than a cell",
+                s->overflow_references, s->overflow_cells, s->large_primitives, unit_of(report));
+    fprintf(to, "\nmemory            %zu bytes", s->bytes);
+    if (s->structure == CGT_STRUCTURE_QUEUE_GRID)
+        fprintf(to, "; on a Cell SPU %zu bytes: %s its 256 KB", s->local_store_bytes,
+                s->fits_local_store ? "fits into" : "does not fit into");
+    fputc('\n', to);
     fprintf(to, "                  (the frame with the most %s; below: per frame)\n", unit_of(report));
+    fprintf(to, "tiles             %.0f went through the grid as a whole\n", (double)t->tiles / n);
     fprintf(to, "packets           %.0f of %" PRIu32 "x%" PRIu32 " rays, %.0f split, %.0f left early\n",
             (double)t->packets / n, t->packet_size, t->packet_size, (double)t->split_packets / n,
             (double)t->early_exits / n);

@@ -6,12 +6,12 @@
 
 function column(name) { return name in at ? $(at[name]) : "" }
 
-# "kd single", "grid-queue": structure and traversal of a configuration
+# "kd single", "grid-queue", "loose-grid 16": structure and traversal of a configuration
 function key_of(config,   name) {
     name = config
     sub(/,.*/, "", name)
-    if (config ~ /traversal=/) {
-        sub(/^.*traversal=/, "", config)
+    if (config ~ /,(traversal|loop|packet)=/) {
+        sub(/^.*,(traversal|loop|packet)=/, "", config)
         sub(/,.*/, "", config)
         name = name " " config
     }

@@ -14,10 +14,13 @@ function value_of(config, name) {
 
 function structure_of(config) { sub(/,.*/, "", config); return config }
 
-function row_name(config,   traversal, rays) {
+function row_name(config,   traversal, rays, loop, packet) {
     traversal = value_of(config, "traversal")
     rays = value_of(config, "rays")
-    return structure_of(config) (traversal == "" ? "" : ", " traversal) (rays == "" ? "" : ", " rays)
+    loop = value_of(config, "loop")
+    packet = value_of(config, "packet")
+    return structure_of(config) (traversal == "" ? "" : ", " traversal) (rays == "" ? "" : ", " rays) \
+        (loop == "" ? "" : ", " loop) (packet == "" ? "" : ", packets of " packet)
 }
 
 function layout_of(config,   level) {

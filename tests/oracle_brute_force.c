@@ -88,10 +88,12 @@ static void pixels_of_the_trajectory(void **state)
         const cgt_camera camera = place_camera(&f, (int)(k % 4));
         truth_ray *rays = frame_rays(&camera, width, height);
         bool first = true;
+        uint32_t turn = (uint32_t)k;
         FOR_EACH_VARIANT(variant)
         {
+            const cgt_scene_options made = structure_in_turn(turn++);
             cgt_context *context = context_make(2, variant);
-            cgt_scene *scene = scene_of(context, NULL, sphere, f.count);
+            cgt_scene *scene = scene_of(context, &made, sphere, f.count);
             frame_trace(scene, &camera, first ? &p : &other, NULL);
             if (!first)
                 assert_true(planes_equal(&p, &other));
@@ -121,29 +123,38 @@ static void rays_through_the_trajectory(void **state)
     const truth_scene truth = {sphere, f.count};
     const uint32_t count = test_scaled(20000);
     truth_ray *ray = malloc(count * sizeof *ray);
-    ray_hit *hit = malloc(count * sizeof *hit);
+    ray_hit *hit = malloc(count * sizeof *hit), *again = malloc(count * sizeof *again);
     uint8_t *occluded = malloc(count);
     test_random r = random_make(1);
     uint64_t doubts = 0, hits = 0;
-    assert_true(ray && hit && occluded);
+    assert_true(ray && hit && again && occluded);
     for (uint32_t i = 0; i < count; i++)
         ray[i] = ray_random(&r, &c);
     cgt_context *context = context_make(2, NULL);
-    cgt_scene *scene = scene_of(context, NULL, sphere, f.count);
     const cgt_rays rays = ray_array(ray, count);
-    rays_trace(scene, ray, count, hit, NULL);
-    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+    for (uint32_t k = 0; k < CGT_STRUCTURE_LOOSE_GRID; k++) { /* hits are the same bits through each */
+        const cgt_scene_options made = structure_in_turn(k);
+        cgt_scene *scene = scene_of(context, &made, sphere, f.count);
+        rays_trace(scene, ray, count, again, NULL);
+        assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+        for (uint32_t i = 0; i < count; i++)
+            assert_int_equal(occluded[i], again[i].primitive != CGT_NONE);
+        if (k)
+            assert_memory_equal(again, hit, count * sizeof *hit);
+        else
+            memcpy(hit, again, count * sizeof *hit);
+        cgt_scene_release(scene);
+    }
     for (uint32_t i = 0; i < count; i++) {
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, &doubts);
         if (wrong)
             fail_msg("ray %u: %s", i, wrong);
-        assert_int_equal(occluded[i], hit[i].primitive != CGT_NONE);
-        hits += occluded[i];
+        hits += hit[i].primitive != CGT_NONE;
     }
     assert_true(hits > count / 4 && doubts <= count / 1000 + 1);
-    cgt_scene_release(scene);
     cgt_context_release(context);
     free(occluded);
+    free(again);
     free(hit);
     free(ray);
 }

@@ -219,7 +219,8 @@ run 0 -s 5000x1 -o wide.png one.xyz
 run 0 -s 1x3000 -a 2 -o tall.png --contact-sheet tall_sheet.png one.xyz
 is_png tall_sheet.png
 run 0 -n --stats one.xyz
-says out '^structure '
+says out '^structure .*loose grid'
+says out '^tiles  *[1-9]'
 says out '^tests '
 no_parts
 

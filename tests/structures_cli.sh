@@ -28,7 +28,8 @@ run 0 structures "$tmp/cloud.frames" "$tmp/blobs.frames" $small -l 3,4,-5 -a 4 -
 [ ! -s "$tmp/stderr" ] || fail "what is left out, or differs: $(head -n 3 "$tmp/stderr")"
 is scenes "$(column scene)" 'cloud blobs'
 is 'structures and traversals' "$(column config | sed 's/,layout=[a-z-]*//g; s/,variant=[a-z0-9]*//g')" \
-    "grid-queue loose-grid kd,traversal=single,builder=binned kd,traversal=packet,builder=binned \
+    "grid-queue grid-queue,loop=flattened loose-grid loose-grid,packet=16 \
+kd,traversal=single,builder=binned kd,traversal=packet,builder=binned \
 kd-ropes,traversal=single,builder=binned kd-ropes,traversal=packet,builder=binned auto auto,rays=incoherent"
 holds 'rays' 'c["primary_rays"] == 880 && c["random_rays"] == 500 && c["shadow_rays"] > 100 &&
     c["ao_rays"] == 4 * c["shadow_rays"]'
@@ -44,15 +45,20 @@ holds 'what was chosen' 'c["config"] ~ /^auto/ ? c["chosen"] != "none" : c["conf
 # The same tree in other traversals: its size is the same, and one ray at a time tests fewer primitives than packets.
 holds 'the tree of a scene' 'c["config"] !~ /^kd/ ? 1 :
     (c["scene"] in nodes) ? nodes[c["scene"]] == c["kd_nodes"] : (nodes[c["scene"]] = c["kd_nodes"]) > 0'
-is 'rows as JSON' "$(grep -c '"config"' "$tmp/rows.json")" 16
+is 'rows as JSON' "$(grep -c '"config"' "$tmp/rows.json")" 20
 
 # Structures by name, in the order of the command line; a traversal alone; settings in the name.
 run 0 structures "$tmp/cloud.frames" $small -S kd -S grid-queue -S kd --kd-traversal packet --kd-layout mixed \
     --kd-break 5 --variant portable -t 2 -r 2
 is 'rows by name' "$(column config)" \
-    'kd,traversal=packet,layout=mixed,break=5,builder=binned,variant=portable grid-queue,variant=portable'
+    "kd,traversal=packet,layout=mixed,break=5,builder=binned,variant=portable grid-queue,variant=portable \
+grid-queue,variant=portable,loop=flattened"
 holds 'threads' 'c["threads"] == 2'
 holds 'rays that are not asked for' 'c["shadow_ms"] == 0 && c["ao_rays"] == 0 && c["ao_tests_per_ray"] == "-"'
+
+# A loose grid by packets alone, where their size is asked for.
+run 0 structures "$tmp/cloud.frames" $small -n 1 -S loose-grid -k 8 --variant portable
+is 'packets of a size' "$(column config)" 'loose-grid,variant=portable,packet=8'
 
 # All layouts by both builders: one tree per builder, whatever the layout.
 run 0 structures "$tmp/blobs.frames" $small --all -S kd -n 1

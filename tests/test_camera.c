@@ -211,7 +211,8 @@ static void frames_equal_arrays_of_the_same_rays(void **state)
         planes p = planes_make(size[round % TEST_COUNT(size)][0], size[round % TEST_COUNT(size)][1]);
         truth_ray *rays = frame_rays(&camera, p.width, p.height);
         ray_hit *hits = malloc(p.elements * sizeof *hits);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        const cgt_scene_options made = structure_in_turn(round + round / (uint32_t)TEST_COUNT(size));
+        cgt_scene *scene = scene_of(context, &made, (const float(*)[4])c.sphere, c.count);
         assert_non_null(hits);
         frame_trace(scene, &camera, &p, NULL);
         rays_trace(scene, rays, p.elements, hits, NULL);
@@ -278,10 +279,15 @@ static void along_26_directions(void **state)
     planes p = planes_make(33, 21);
     for (uint32_t kind = 0; kind < 3 && kind < test_scaled(3); kind++) {
         cloud c = cloud_make(&r, kind == 0 ? CLOUD_LATTICE : kind == 1 ? CLOUD_UNIFORM : CLOUD_PLANAR, 200);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        cgt_scene *scenes[CGT_STRUCTURE_LOOSE_GRID]; /* one of each structure */
+        for (uint32_t k = 0; k < TEST_COUNT(scenes); k++) {
+            const cgt_scene_options made = structure_in_turn(k);
+            scenes[k] = scene_of(context, &made, (const float(*)[4])c.sphere, c.count);
+        }
         for (int direction = 0; direction < 27; direction++)
             for (int place = 0; place < 3; place++) { /* outside, at the middle, orthographic from within */
                 cgt_camera camera;
+                const cgt_scene *scene = scenes[(size_t)(direction + place) % TEST_COUNT(scenes)];
                 if (direction == 13)
                     continue; /* nowhere */
                 cgt_camera_init(&camera);
@@ -298,7 +304,8 @@ static void along_26_directions(void **state)
                 camera.fov = 20;
                 assert_int_equal(look(scene, &camera, &c, &p), 0);
             }
-        cgt_scene_release(scene);
+        for (size_t k = 0; k < TEST_COUNT(scenes); k++)
+            cgt_scene_release(scenes[k]);
         cloud_free(&c);
     }
     planes_free(&p);
@@ -315,9 +322,11 @@ static void wide_and_narrow_openings(void **state)
         cgt_camera camera = camera_random(&r, &c);
         camera.projection = CGT_PERSPECTIVE;
         camera.fov = fov[round % TEST_COUNT(fov)];
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        const cgt_scene_options made = structure_in_turn(round + round / (uint32_t)TEST_COUNT(fov));
+        const bool grid = made.structure == CGT_STRUCTURE_QUEUE_GRID || made.structure == CGT_STRUCTURE_LOOSE_GRID;
+        cgt_scene *scene = scene_of(context, &made, (const float(*)[4])c.sphere, c.count);
         look(scene, &camera, &c, &p);
-        if (camera.fov > 170) { /* packets whose rays disagree on the main axis were split, and right */
+        if (camera.fov > 170 && grid) { /* packets whose rays disagree on the main axis were split, and right */
             cgt_trace_statistics statistics;
             cgt_trace_options options;
             cgt_trace_options_init(&options);
@@ -341,7 +350,8 @@ static void ranges_are_clipped(void **state)
         test_random r = random_make(round);
         cloud c = cloud_make(&r, CLOUD_UNIFORM, 300);
         cgt_camera camera = camera_random(&r, &c);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        const cgt_scene_options made = structure_in_turn(round);
+        cgt_scene *scene = scene_of(context, &made, (const float(*)[4])c.sphere, c.count);
         const uint32_t all = look(scene, &camera, &c, &whole);
         camera.t_min = random_float(&r, 0, 3) * c.reach;
         camera.t_max = round % 3 ? camera.t_min + random_float(&r, 0, 2) * c.reach : INFINITY;

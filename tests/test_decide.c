@@ -95,9 +95,11 @@ static cgt_scene *scene_of_one(cgt_context *context, const oracle_primitive *q)
 {
     const cgt_spheres sphere = {.count = 1, .centers = q->data, .radii = &q->data[3]};
     const cgt_triangles triangle = {.count = 1, .vertex_count = 3, .vertices = q->data};
+    static uint32_t turn;
+    const cgt_scene_options made = structure_in_turn(turn++);
     cgt_scene *scene;
     uint32_t id;
-    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
     if (q->kind == ORACLE_SPHERE)
         assert_int_equal(cgt_scene_add_spheres(scene, &sphere, &id), CGT_OK);
     else

@@ -146,14 +146,6 @@ static void check_answers(const question *q, const cgt_scene *scene, cgt_trace_o
     *hidden += by_points.hits;
 }
 
-static cgt_scene_options structure_of(uint32_t number)
-{
-    cgt_scene_options o;
-    cgt_scene_options_init(&o);
-    o.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + number % CGT_STRUCTURE_LOOSE_GRID);
-    return o;
-}
-
 /* Every structure, culling and precision with a bound, in turn. */
 static void answers_are_those_of_rays(void **state)
 {
@@ -166,7 +158,7 @@ static void answers_are_those_of_rays(void **state)
             const structure_kind kind = (structure_kind)(number % STRUCTURE_KINDS);
             question q = ask(context[0], kind, 700 + number, number + number / STRUCTURE_KINDS);
             for (uint32_t k = 0; k < CGT_STRUCTURE_LOOSE_GRID; k++) {
-                const cgt_scene_options made = structure_of(k);
+                const cgt_scene_options made = structure_in_turn(k);
                 cgt_trace_options options;
                 cgt_scene *scene;
                 cgt_trace_options_init(&options);
@@ -203,7 +195,7 @@ static void a_ball_throws_a_shadow(void **state)
     for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_LOOSE_GRID; k++)
         for (int fast = 0; fast < 2; fast++) {
             cgt_context *context = context_make(2, variant);
-            const cgt_scene_options made = structure_of((uint32_t)(k - CGT_STRUCTURE_QUEUE_GRID));
+            const cgt_scene_options made = structure_in_turn((uint32_t)(k - CGT_STRUCTURE_QUEUE_GRID));
             cgt_scene *scene = scene_of(context, &made, sphere, 2);
             cgt_trace_options options;
             cgt_trace_options_init(&options);
@@ -289,7 +281,7 @@ static void bad_arguments_are_refused(void **state)
     assert_int_equal(occluded[1], 7);
     points = (cgt_points){.count = 0};
     assert_int_equal(cgt_occluded_light(scene, &light, &points, NULL, NULL), CGT_OK);
-    const cgt_scene_options made = structure_of(0);
+    const cgt_scene_options made = structure_in_turn(0);
     assert_int_equal(cgt_scene_set_options(scene, &made), CGT_OK);
     assert_int_equal(cgt_occluded_light(scene, &light, &good, occluded, NULL), CGT_ERROR_NOT_COMMITTED);
     cgt_scene_release(scene);

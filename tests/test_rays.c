@@ -25,9 +25,7 @@ static void for_each_variant(cloud_kind kind, uint32_t count, void (*test)(test_
     FOR_EACH_VARIANT(variant)
     {
         test_random r = random_make(count + 17 * (uint64_t)kind);
-        cgt_scene_options options;
-        cgt_scene_options_init(&options);
-        options.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + turn++ % 3);
+        const cgt_scene_options options = structure_in_turn(turn++);
         context = context_make(2, variant);
         spheres = cloud_make(&r, kind, count);
         scene = scene_of(context, &options, (const float(*)[4])spheres.sphere, count);

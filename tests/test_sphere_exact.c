@@ -12,6 +12,14 @@
 
 static cgt_context *context; /* of the variant under test */
 
+/* A scene of one sphere; structures take turns. */
+static cgt_scene *scene_of_one(const float sphere[4])
+{
+    static uint32_t turn;
+    const cgt_scene_options made = structure_in_turn(turn++);
+    return scene_of(context, &made, (const float(*)[4])sphere, 1);
+}
+
 static void for_each_variant(void (*test)(void))
 {
     FOR_EACH_VARIANT(variant)
@@ -33,7 +41,7 @@ static tally judge(const float sphere[4], const truth_ray *ray, uint32_t count)
     ray_hit hit[RAYS];
     tally sum = {.rays = count};
     const truth_scene truth = {(const float(*)[4])sphere, 1};
-    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
+    cgt_scene *scene = scene_of_one(sphere);
     rays_trace(scene, ray, count, hit, NULL);
     for (uint32_t i = 0; i < count; i++) {
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, &sum.doubts);
@@ -165,7 +173,7 @@ static void any_length_rays(void)
 {
     test_random r = random_make(100);
     const float sphere[4] = {0.3f, -0.7f, 9.1f, 1.7f};
-    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
+    cgt_scene *scene = scene_of_one(sphere);
     for (uint32_t round = 0; round < test_scaled(20); round++) {
         truth_ray ray[RAYS], scaled[RAYS];
         ray_hit hit[RAYS], scaled_hit[RAYS];
@@ -212,7 +220,7 @@ static void any_length(void **state)
 
 static float t_of(const float sphere[4], truth_ray ray)
 {
-    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
+    cgt_scene *scene = scene_of_one(sphere);
     const ray_hit hit = ray_trace(scene, ray);
     assert_true((hit.primitive == CGT_NONE) == (hit.t == INFINITY));
     cgt_scene_release(scene);
@@ -277,7 +285,7 @@ static void zero_radius_rays(void)
     print_message("%s: %u of %d rays through a point hit it\n", cgt_context_variant(context), through, ROUNDS);
     assert_true(through > ROUNDS * 3 / 4);
     assert_true(t_of(point, (truth_ray){{3, -2, 7}, {0, 1, 0}, 0, INFINITY}) == 0);
-    cgt_scene *scene = scene_of(context, NULL, &point, 1);
+    cgt_scene *scene = scene_of_one(point);
     const ray_hit hit = ray_trace(scene, (truth_ray){{3, -2, 0}, {0, 0, 2}, 0, INFINITY});
     assert_true(hit.t == 3.5f && hit.normal[0] == 0 && hit.normal[1] == 0 && hit.normal[2] == -1);
     cgt_scene_release(scene);
@@ -327,7 +335,7 @@ static void range_is_closed_rays(void)
         for (int a = 0; a < 3; a++)
             sphere[a] = random_float(&r, -100, 100);
         sphere[3] = random_log(&r, 1e-3f, 1e3f);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
+        cgt_scene *scene = scene_of_one(sphere);
         for (int i = 0; i < 16; i++) {
             any_origin(&r, sphere, random_log(&r, 0.1f, 1e4f), org);
             const truth_ray ray = aim(&r, org, sphere, 1, random_log(&r, 1e-3f, 1e3f));
@@ -364,7 +372,8 @@ static void ties_rays(void)
                 if (random_below(&r, 2))
                     sphere[g][i][3] *= random_float(&r, 0.2f, 0.9f); /* hidden within the others */
             }
-        assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+        const cgt_scene_options made = structure_in_turn(round);
+        assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
         uint32_t first[2] = {CGT_NONE, CGT_NONE}, id;
         for (uint32_t g = 0; g < 2; g++) {
             const cgt_spheres spheres = spheres_of((const float(*)[4])sphere[g], N);
@@ -409,7 +418,7 @@ static void normals_rays(void)
         any_origin(&r, sphere, random_log(&r, 0.01f, 100), org);
         for (int i = 0; i < RAYS; i++)
             ray[i] = aim(&r, org, sphere, 0.999f, random_log(&r, 1e-3f, 1e3f));
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, 1);
+        cgt_scene *scene = scene_of_one(sphere);
         rays_trace(scene, ray, RAYS, hit, NULL);
         for (int i = 0; i < RAYS; i++) {
             const truth_roots roots = truth_sphere(ray[i].org, ray[i].dir, sphere);

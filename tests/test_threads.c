@@ -176,7 +176,8 @@ static void one_thread_starts_none(void **state)
     cgt_context *context = context_make(1, NULL);
     assert_int_equal(cgt_context_threads(context), 1);
     assert_int_equal(count_threads(), before);
-    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+    const cgt_scene_options grid = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+    cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])w.spheres.sphere, w.spheres.count);
     watch_frame(scene, &w, &seen);
     assert_int_equal(seen.other_threads, 0);
     assert_int_equal(seen.most_threads, before);
@@ -199,7 +200,8 @@ static void a_pool_starts_one_less_and_ends_them(void **state)
         watch seen = {0};
         cgt_context *context = context_make(threads[i], NULL);
         assert_int_equal(count_threads(), before + threads[i] - 1);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+        const cgt_scene_options made = structure_in_turn((uint32_t)i);
+        cgt_scene *scene = scene_of(context, &made, (const float(*)[4])w.spheres.sphere, w.spheres.count);
         watch_frame(scene, &w, &seen);
         assert_int_equal(seen.most_threads, before + threads[i] - 1); /* no more during the work */
         assert_int_equal(trace_everything(scene, &w), 0);
@@ -268,7 +270,8 @@ static void a_runner_does_all_the_work(void **state)
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     assert_int_equal(cgt_context_threads(context), 0);
     assert_int_equal(count_threads(), before);
-    cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+    const cgt_scene_options grid = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+    cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])w.spheres.sphere, w.spheres.count);
     assert_true(r.runs > 0);
     const unsigned runs = r.runs, tasks = r.tasks;
     watch_frame(scene, &w, &seen);
@@ -309,10 +312,11 @@ static void *call(void *argument)
         cgt_scene *scene = c->scene;
         const cgt_spheres spheres = spheres_of((const float(*)[4])c->world->spheres.sphere, c->world->spheres.count);
         const cgt_spheres bad = {.count = 1};
+        const cgt_scene_options made = structure_in_turn(round);
         uint32_t id;
         char message[64];
         if (!scene) {
-            c->wrong += cgt_scene_create(context, NULL, &scene) != CGT_OK;
+            c->wrong += cgt_scene_create(context, &made, &scene) != CGT_OK;
             c->wrong += cgt_scene_add_spheres(scene, &spheres, &id) != CGT_OK;
             c->wrong += cgt_scene_add_spheres(scene, &bad, &id) != CGT_ERROR_INVALID_ARGUMENT; /* messages at once */
             c->wrong += cgt_error_message(context, message, sizeof message) == 0;
@@ -343,7 +347,8 @@ static void many_threads_trace_one_scene(void **state)
     world w = make_world(4, 800);
     for (uint32_t threads = 1; threads <= 3; threads++) {
         cgt_context *context = context_make(threads, NULL);
-        cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])w.spheres.sphere, w.spheres.count);
+        const cgt_scene_options made = structure_in_turn(threads + 2); /* ropes, the loose grid, the queue grid */
+        cgt_scene *scene = scene_of(context, &made, (const float(*)[4])w.spheres.sphere, w.spheres.count);
         caller c[CALLERS] = {0};
         for (int i = 0; i < CALLERS; i++)
             c[i] = (caller){.context = context, .scene = scene, .world = &w, .rounds = test_scaled(10)};

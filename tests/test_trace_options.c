@@ -171,7 +171,8 @@ static void any_threads_give_the_same_bits(void **state)
             if (!threads[i])
                 options.tasks = (cgt_task_runner){&runs, run_backwards};
             assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+            const cgt_scene_options made = structure_in_turn((uint32_t)i + round);
+            cgt_scene *scene = scene_of(context, &made, (const float(*)[4])p.spheres.sphere, p.spheres.count);
             for (int tile = 0; tile < 3; tile++) {
                 cgt_trace_options o;
                 cgt_trace_options_init(&o);
@@ -193,14 +194,16 @@ static void flushed_denormals_give_the_same_bits(void **state)
 #ifdef __SSE__
     for (uint32_t round = 0; round < CLOUD_KINDS; round++) {
         picture p = picture_make(250 + round, (cloud_kind)round, 300, pixels(66, 35), pixels(35, 21));
+        uint32_t turn = round;
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(1, variant);
             const unsigned before = _mm_getcsr();
             cgt_trace_options o;
             cgt_trace_options_init(&o);
+            const cgt_scene_options made = structure_in_turn(turn++);
             _mm_setcsr(before | 0x8040); /* flush results, take operands for zero */
-            cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])p.spheres.sphere, p.spheres.count);
+            cgt_scene *scene = scene_of(context, &made, (const float(*)[4])p.spheres.sphere, p.spheres.count);
             frame_trace(scene, &p.camera, &p.got, &o);
             _mm_setcsr(before);
             assert_true(planes_equal(&p.got, &p.expected));

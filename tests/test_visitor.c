@@ -12,6 +12,7 @@
 #define WIDTH 150
 #define HEIGHT 71
 
+static cgt_structure structure; /* that the tests go through */
 static cgt_context *context;
 static cgt_scene *scene;
 static cloud spheres;
@@ -24,7 +25,8 @@ static int open_scene(void **state)
     test_random r = random_make(1);
     context = context_make(3, NULL);
     spheres = cloud_make(&r, CLOUD_UNIFORM, 800);
-    scene = scene_of(context, NULL, (const float(*)[4])spheres.sphere, spheres.count);
+    const cgt_scene_options made = {.structure = structure};
+    scene = scene_of(context, &made, (const float(*)[4])spheres.sphere, spheres.count);
     camera = camera_before(&spheres);
     expected = planes_make(WIDTH, HEIGHT);
     frame_trace(scene, &camera, &expected, NULL);
@@ -268,5 +270,8 @@ int main(void)
         cmocka_unit_test(strips_span_the_width),
     };
     test_begin("test_visitor");
-    return cmocka_run_group_tests(tests, open_scene, close_scene);
+    structure = CGT_STRUCTURE_QUEUE_GRID;
+    const int failed = cmocka_run_group_tests_name("queue grid", tests, open_scene, close_scene);
+    structure = CGT_STRUCTURE_AUTO;
+    return failed + cmocka_run_group_tests_name("auto", tests, open_scene, close_scene);
 }

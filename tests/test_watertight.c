@@ -4,7 +4,7 @@
  * Closed meshes do not leak: rays at the points of their edges and at their vertices, from inside and from outside
  * towards the inside, near 0, far from it, tiny and huge. A ray from inside a closed surface meets it, and so does one
  * that leads from outside to a point inside: an answer without a hit is a leak, whoever computes it. Every hundredth
- * answer is judged by the oracle besides. */
+ * answer is judged by the oracle besides. Structures take turns. */
 #include "support/test.h"
 
 #include <math.h>
@@ -50,13 +50,16 @@ typedef struct subject {
 
 static void commit_in_all(subject *w)
 {
+    static uint32_t subjects;
+    uint32_t turn = subjects++;
     w->variants = 0;
     FOR_EACH_VARIANT(variant)
     {
         assert_true(w->variants < MOST_VARIANTS);
         w->variant[w->variants] = variant;
         w->context[w->variants] = context_make(1, variant);
-        if (hard_commit(w->context[w->variants], &w->s, NULL, &w->scene[w->variants]) != CGT_OK)
+        const cgt_scene_options made = structure_in_turn(turn++);
+        if (hard_commit_with(w->context[w->variants], &w->s, &made, &w->scene[w->variants]) != CGT_OK)
             fail_msg("%s: %s", variant, context_message(w->context[w->variants]));
         w->variants++;
     }

@@ -14,8 +14,10 @@ cgt_triangles triangles_of(const triangle *t, uint32_t count)
 
 cgt_scene *scene_begin(cgt_context *context)
 {
+    static uint32_t turn;
+    const cgt_scene_options made = structure_in_turn(turn++);
     cgt_scene *scene;
-    assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
     return scene;
 }
 

@@ -18,11 +18,11 @@
  *   Floats   IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *            tracing work in the default environment and give the caller's back.
  *
- * Structures: Chapman's queue grid, and the kd-tree of a thesis on ray casting on the Cell, with a stack or with ropes;
- * hits are the same bits through each. Papers: David R. Chapman, "High Definition Interactive Animated Ray Tracing on
- * CELL Processor using Coherent Grid Traversal"; Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes using
- * Coherent Grid Traversal", SIGGRAPH 2006; Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High
- * Performance GPU Ray Tracing", 2007. */
+ * Structures: a loose grid, which camera frames go through tile by tile; Chapman's queue grid; and the kd-tree of a
+ * thesis on ray casting on the Cell, with a stack or with ropes. Hits are the same bits through each. Papers: David
+ * R. Chapman, "High Definition Interactive Animated Ray Tracing on CELL Processor using Coherent Grid Traversal";
+ * Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes using Coherent Grid Traversal", SIGGRAPH 2006;
+ * Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", 2007. */
 #ifndef CGT_CGT_H
 #define CGT_CGT_H
 
@@ -164,14 +164,16 @@ typedef struct cgt_triangles {
 } cgt_triangles;
 
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID; KD for incoherent rays; QUEUE_GRID where a resolution is given */
+    CGT_STRUCTURE_AUTO = 0,   /* QUEUE_GRID where a resolution is given; else LOOSE_GRID, or KD for incoherent rays.
+                                 It follows from the options alone, whatever the scene */
     CGT_STRUCTURE_QUEUE_GRID, /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
                                  voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
     CGT_STRUCTURE_KD,         /* kd-tree in nodes of 8 bytes, by the surface-area heuristic; traversed with a stack */
     CGT_STRUCTURE_KD_ROPES,   /* the same tree, its leaves linked across their faces (Popov et al. 2007); traversed
                                  without a stack; 80 bytes a leaf more */
     CGT_STRUCTURE_LOOSE_GRID /* uniform grids, one for each class of sizes; each primitive lies in one cell, that of its
-                                 middle */
+                                 middle: 4 to 6 bytes a primitive, built in linear time. A camera's frame goes through
+                                 it by tiles of 64x64 pixels, see cgt_trace_options.packet */
 } cgt_structure;
 
 /* What rays the scene is mostly traced with, for AUTO. */
@@ -270,8 +272,8 @@ typedef struct cgt_scene_statistics {
                                      each triangle */
     size_t bytes;                 /* memory that the scene holds now */
     size_t local_store_bytes;     /* structure and primitives together: what a Cell SPU has to hold */
-    int fits_local_store;         /* 1 where the grid is at most 16x16x16 and local_store_bytes, with 64 KB for
-                                     program and stack, is within 256 KB */
+    int fits_local_store;         /* of a queue grid or a tree: 1 where the grid is at most 16x16x16 and
+                                     local_store_bytes, with 64 KB for program and stack, is within 256 KB */
     double bounds_ms;             /* reading, checking and bounding the primitives */
     double build_ms;              /* filling the structure */
     double commit_ms;             /* the whole call */
@@ -321,7 +323,8 @@ typedef enum cgt_cull {
  * Decisions. ROBUST and EXACT find the hit that exact arithmetic finds on the same float input: none missed at an edge,
  * a vertex or a silhouette, none invented, the nearest one, and of equal ones the lowest id. FAST decides by single
  * precision: rays that pass within some units in the last place of an edge or a silhouette may go either way, and
- * results may differ from variant to variant.
+ * results may differ from variant to variant. Its camera frames go by packets through every structure, so that in a
+ * loose grid, where the others go by whole tiles, it is the slowest.
  * Values, see cgt_trace_camera. */
 typedef enum cgt_precision { CGT_PRECISION_ROBUST = 0, CGT_PRECISION_FAST, CGT_PRECISION_EXACT } cgt_precision;
 
@@ -332,7 +335,9 @@ typedef enum cgt_triangle_test {
     CGT_TRIANGLE_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */
 } cgt_triangle_test;
 
-/* What a trace did. Handed out only where a statistics pointer is set. */
+/* What a trace did. Handed out only where a statistics pointer is set. Where tiles went through a loose grid as a whole
+ * they count as packets do, but not in packets, cells and mailbox_skipped: each reference that a tile met is a cull
+ * test, what it did not cull is drawn, and each drawing is a packet test. */
 typedef struct cgt_trace_statistics {
     uint64_t rays;            /* asked for */
     uint64_t invalid_rays;    /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN range:
@@ -353,12 +358,12 @@ typedef struct cgt_trace_statistics {
     uint64_t cull_tests;      /* primitives tested against a packet's frustum */
     uint64_t culled;          /* primitives that the frustum test rejected */
     uint64_t packet_tests;    /* primitives tested against the rays of a packet */
-    uint64_t ray_tests;       /* rays tested against a primitive, by whole blocks of 16 */
+    uint64_t ray_tests;       /* rays tested against a primitive, by whole blocks of 16; in tiles by whole vectors */
     uint64_t double_tests;    /* of those, the ones that single precision could not decide: the ambiguous ones */
     uint64_t exact_tests;     /* of those, the ones that double precision could not decide either */
     uint64_t exact_values;    /* hits of which t, u or v were computed in exact arithmetic, since double cancels */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
-    uint32_t packet_size;     /* 4, 8 or 16 of a camera's frame; 0 for arrays of rays */
+    uint32_t packet_size;     /* 4, 8 or 16 of a camera's packets, where there were any; 0 for arrays of rays */
     cgt_tile_shape tile;      /* what was used */
     cgt_loop loop;            /* what was used */
     double trace_ms;          /* the whole call */
@@ -418,7 +423,9 @@ typedef struct cgt_tile {
  * else stops the frame: cgt_trace_camera returns CGT_ERROR_STOPPED. */
 typedef int cgt_tile_visitor(void *user, const cgt_tile *tile);
 
-/* Where a camera's frame goes: into planes, to a visitor while the tile is in cache, or both. */
+/* Where a camera's frame goes: into planes, to a visitor while the tile is in cache, or both. Any planes will do; it is
+ * fastest where all begin at multiples of 64 bytes and row_stride is a multiple of 16 elements: without a visitor,
+ * tiles are then stored past the caches, by whole lines. */
 typedef struct cgt_frame {
     uint32_t width, height; /* pixels, each 1 to 65,536 */
     size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */

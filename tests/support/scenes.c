@@ -118,6 +118,14 @@ cgt_scene_options structure_random(test_random *r)
     return o;
 }
 
+cgt_scene_options structure_in_turn(uint32_t turn)
+{
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    o.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + turn % CGT_STRUCTURE_LOOSE_GRID);
+    return o;
+}
+
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count)
 {
     const cgt_spheres spheres = spheres_of(sphere, count);

@@ -52,6 +52,9 @@ cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count);
 /* Any structure, AUTO included, of any builder, layout and break level. */
 cgt_scene_options structure_random(test_random *r);
 
+/* The defaults with one structure after the other, AUTO left out: what tests go round. */
+cgt_scene_options structure_in_turn(uint32_t turn);
+
 /* A scene of one geometry, committed. options may be NULL. */
 cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, const float (*sphere)[4], uint32_t count);
 

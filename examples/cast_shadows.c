@@ -1,0 +1,188 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Shadows in a C program: a spiral of balls on a floor under a lamp. A camera sees them; the points that it sees are
+ * asked for the lamp, all at once; the picture becomes a PPM file.
+ *   cast-shadows PICTURE.ppm */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cgt/cgt.h>
+
+enum { BALLS = 28, FLOOR = 1, WIDTH = 640, HEIGHT = 384, PIXELS = WIDTH * HEIGHT };
+
+/* Planes on lines of the cache, in rows of whole lines: the library stores such ones fastest. */
+typedef struct picture {
+    _Alignas(64) float t[PIXELS];
+    _Alignas(64) float normal[3][PIXELS];
+    _Alignas(64) uint32_t primitive[PIXELS], geometry[PIXELS];
+    float position[3][PIXELS]; /* where a pixel's ray hits */
+    float t_min[PIXELS], t_max[PIXELS];
+    uint8_t occluded[PIXELS];
+    uint8_t rgb[PIXELS][3];
+} picture;
+
+typedef struct ball {
+    float center[3], radius;
+} ball;
+
+static const float lamp[3] = {3.0f, 6.0f, 2.5f}, eye[3] = {0.0f, 4.0f, 8.0f}; /* the eye looks at the origin */
+
+static cgt_result add_things(cgt_scene *scene, ball *balls)
+{
+    static const float corner[4][3] = {{-7, 0, -7}, {7, 0, -7}, {7, 0, 7}, {-7, 0, 7}};
+    static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    uint32_t id;
+    for (int i = 0; i < BALLS; i++) {
+        const float angle = 0.55f * (float)i, away = 0.25f + 0.11f * (float)i;
+        balls[i].radius = 0.18f + 0.008f * (float)i;
+        balls[i].center[0] = away * cosf(angle);
+        balls[i].center[1] = balls[i].radius + 0.03f * (float)(BALLS - 1 - i);
+        balls[i].center[2] = away * sinf(angle);
+    }
+    const cgt_spheres spheres = {.count = BALLS,
+                                 .centers = balls[0].center,
+                                 .center_stride = sizeof(ball),
+                                 .radii = &balls[0].radius,
+                                 .radius_stride = sizeof(ball)};
+    const cgt_triangles triangles = {.count = 2, .indices = index[0], .vertex_count = 4, .vertices = corner[0]};
+    const cgt_result result = cgt_scene_add_spheres(scene, &spheres, &id);    /* geometry 0 */
+    return result ? result : cgt_scene_add_triangles(scene, &triangles, &id); /* geometry 1: FLOOR */
+}
+
+static cgt_result see(const cgt_scene *scene, const cgt_camera *camera, picture *p)
+{
+    cgt_frame frame;
+    cgt_frame_init(&frame, WIDTH, HEIGHT);
+    frame.t = p->t;
+    frame.primitive = p->primitive;
+    frame.geometry = p->geometry;
+    for (int a = 0; a < 3; a++)
+        frame.normal[a] = p->normal[a];
+    return cgt_trace_camera(scene, camera, &frame, NULL);
+}
+
+/* From t back to places, by the formula of cgt_camera. A pixel without a hit asks for an empty range, which costs
+ * nothing. */
+static void find_positions(const cgt_camera *camera, picture *p)
+{
+    const float length = sqrtf(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
+    const float fwd[3] = {-eye[0] / length, -eye[1] / length, -eye[2] / length};
+    const float right[3] = {1, 0, 0}, up[3] = {0, -fwd[2], fwd[1]};
+    const float h = tanf(camera->fov * 3.14159265f / 360), a = (float)WIDTH / HEIGHT;
+    for (int i = 0; i < PIXELS; i++) {
+        const float x = (2 * ((float)(i % WIDTH) + 0.5f) / WIDTH - 1) * h * a;
+        const float y = (1 - 2 * ((float)(i / WIDTH) + 0.5f) / HEIGHT) * h;
+        const int hit = p->primitive[i] != CGT_NONE;
+        for (int k = 0; k < 3; k++)
+            p->position[k][i] = hit ? eye[k] + p->t[i] * (fwd[k] + x * right[k] + y * up[k]) : 0;
+        p->t_min[i] = 0.001f; /* of the way to the lamp: away from the surface that the point lies on */
+        p->t_max[i] = hit ? 1 : 0;
+    }
+}
+
+static cgt_result ask_for_the_lamp(const cgt_scene *scene, picture *p)
+{
+    const cgt_light light = {.position = {lamp[0], lamp[1], lamp[2]}, .w = 1};
+    const cgt_points points = {.count = PIXELS,
+                               .position = {p->position[0], p->position[1], p->position[2]},
+                               .t_min = p->t_min,
+                               .t_max = p->t_max};
+    return cgt_occluded_light(scene, &light, &points, p->occluded, NULL);
+}
+
+/* Lambert where the lamp is seen, a little light everywhere. */
+static float brightness(const picture *p, int i)
+{
+    float to[3], dot = 0, square = 0;
+    for (int k = 0; k < 3; k++) {
+        to[k] = lamp[k] - p->position[k][i];
+        dot += to[k] * p->normal[k][i];
+        square += to[k] * to[k];
+    }
+    return 0.12f + (p->occluded[i] ? 0 : 0.85f * fabsf(dot) / sqrtf(square)); /* a floor has two sides */
+}
+
+static void draw(picture *p)
+{
+    for (int i = 0; i < PIXELS; i++) {
+        const int hit = p->primitive[i] != CGT_NONE;
+        const float light = hit ? brightness(p, i) : 0.05f, hue = 0.4f * (float)p->primitive[i];
+        for (int k = 0; k < 3; k++) {
+            const int plain = !hit || p->geometry[i] == FLOOR;
+            const float colour = plain ? 0.9f : 0.6f + 0.4f * cosf(hue + 2.1f * (float)k);
+            p->rgb[i][k] = (uint8_t)(255 * sqrtf(light * colour)); /* about what a screen expects */
+        }
+    }
+}
+
+static int store(const picture *p, const char *path)
+{
+    FILE *file = fopen(path, "wb");
+    int good = file && fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
+    good = good && fwrite(p->rgb, sizeof p->rgb, 1, file) == 1;
+    if (file && fclose(file) != 0)
+        good = 0;
+    if (!good)
+        perror(path);
+    return good;
+}
+
+static void report(const picture *p)
+{
+    int hits = 0, dark = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        hits += p->primitive[i] != CGT_NONE;
+        dark += p->occluded[i];
+    }
+    printf("%d of %d points do not see the lamp\n", dark, hits);
+}
+
+int main(int argc, char **argv)
+{
+    static picture p; /* too large for a stack */
+    ball balls[BALLS];
+    cgt_context *context = NULL;
+    cgt_scene *scene = NULL;
+    cgt_camera camera;
+    if (argc != 2) {
+        fputs("usage: cast-shadows PICTURE.ppm\n", stderr);
+        return 2;
+    }
+    cgt_camera_init(&camera);
+    for (int k = 0; k < 3; k++)
+        camera.eye[k] = eye[k];
+    camera.fov = 38;
+
+    cgt_result result = cgt_context_create(NULL, &context);
+    if (!result)
+        result = cgt_scene_create(context, NULL, &scene);
+    if (!result)
+        result = add_things(scene, balls);
+    if (!result)
+        result = cgt_scene_commit(scene);
+    if (!result)
+        result = see(scene, &camera, &p);
+    if (!result) {
+        find_positions(&camera, &p);
+        result = ask_for_the_lamp(scene, &p);
+    }
+    if (result) {
+        char message[256] = "";
+        if (context)
+            cgt_error_message(context, message, sizeof message);
+        fprintf(stderr, "cast-shadows: %s %s\n", cgt_result_string(result), message);
+    } else {
+        draw(&p);
+        report(&p);
+    }
+    const int good = !result && store(&p, argv[1]);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    if (fflush(stdout) != 0) {
+        perror("cast-shadows: standard output");
+        return EXIT_FAILURE;
+    }
+    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}
