@@ -3,13 +3,15 @@
 #
 # What the tests of command lines share. To be read by a script with the arguments PROGRAM DATA_DIR [EMULATOR...]:
 #   . "$(dirname "$0")/cli.sh"
-# Sets program, data, emulator, and tmp, a folder that goes with the script.
+# Sets program, data, emulator, tmp, a folder that goes with the script, and slow: "yes" where CGT_TEST_SCALE is below
+# 0.1, else nothing; there pictures are smaller and frames fewer.
 set -u
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 name=$(basename "$1")
 data=$(cd "$2" && pwd)
 shift 2
 emulator="$*"
+slow=$(awk -v scale="${CGT_TEST_SCALE:-1}" 'BEGIN { if (scale < 0.1) print "yes" }')
 tmp=$(mktemp -d) || exit 1
 trap 'rm -rf "$tmp"' EXIT
 failures=0

@@ -16,8 +16,8 @@
 #include "random_soup.h"
 #include "support/hard_run.h"
 
-#define WIDTH 61u
-#define HEIGHT 43u
+#define WIDTH test_between(31, 61) /* of frames; less where it is slow, and never whole tiles */
+#define HEIGHT test_between(21, 43)
 #define PIXELS (WIDTH * HEIGHT)
 #define ROUNDS 8u
 #define RAYS 3000u
@@ -102,8 +102,11 @@ static cgt_trace_options way(uint32_t number)
 static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const cgt_scene_options *so,
                   const full_hit *expected, picture *q)
 {
-    const uint32_t scaled = test_scaled(WAYS), step = scaled >= WAYS ? 1 : scaled < 3 ? 7 : 5; /* prime to the ways */
-    for (uint32_t number = (so->resolution[0] + (uint32_t)so->structure) % step; number < WAYS; number += step) {
+    const uint32_t scaled = test_scaled(WAYS), step = scaled >= WAYS   ? 1
+                                                      : test_samples() ? 11
+                                                                       : 5; /* prime to the ways */
+    const uint32_t start = test_sample_start(5 * (uint32_t)s->kind + so->resolution[0] + (uint32_t)so->structure, step);
+    for (uint32_t number = start; number < WAYS; number += step) {
         const cgt_trace_options o = way(number);
         picture_trace(scene, camera, &o, q);
         check_same(s, expected, q->hit, so, &o);
@@ -213,15 +216,15 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     for (size_t g = 0; g < TEST_COUNT(structures); g++) {
         const cgt_rays arrays = ray_array(s->scene.ray, rays);
         scene = commit(s, context, &structures[g]);
-        for (int cull = CGT_CULL_NONE; cull <= CGT_CULL_BLOCKS; cull++)
-            for (int loop = CGT_LOOP_NESTED; loop <= CGT_LOOP_FLATTENED; loop++) {
-                options.cull = (cgt_cull)cull;
-                options.loop = (cgt_loop)loop;
-                options.kd_traversal = (cgt_kd_traversal)loop; /* single, packet */
-                memset(got, 0x77, rays * sizeof *got);
-                assert_int_equal(trace_array(scene, s->scene.ray, rays, got, &options), CGT_OK);
-                check_same(s, expected, got, &structures[g], &options);
-            }
+        const uint32_t step = test_samples() ? 4 : 1; /* of culls and loops, where it is slow */
+        for (uint32_t k = test_sample_start((uint32_t)s->kind + (uint32_t)g, step); k < 3 * 2; k += step) {
+            options.cull = (cgt_cull)(CGT_CULL_NONE + k / 2);
+            options.loop = (cgt_loop)(CGT_LOOP_NESTED + k % 2);
+            options.kd_traversal = (cgt_kd_traversal)options.loop; /* single, packet */
+            memset(got, 0x77, rays * sizeof *got);
+            assert_int_equal(trace_array(scene, s->scene.ray, rays, got, &options), CGT_OK);
+            check_same(s, expected, got, &structures[g], &options);
+        }
         assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, NULL), CGT_OK);
         for (uint32_t i = 0; i < rays; i++)
             assert_int_equal(occluded[i], expected[i].geometry != CGT_NONE);
@@ -250,7 +253,7 @@ static void make_rays(hard_scene *s)
 static void test_rays(void **state)
 {
     const soup_kind kind = *(const soup_kind *)*state;
-    const uint32_t scaled = test_scaled(RAYS), rays = scaled < 200 ? 200 : scaled;
+    const uint32_t rays = test_between(150, RAYS);
     full_hit *expected = calloc(rays, sizeof *expected), *got = calloc(rays, sizeof *got);
     uint8_t *occluded = malloc(rays);
     uint32_t hits = 0;

@@ -8,7 +8,9 @@
 . "$(dirname "$0")/table_cli.sh"
 
 camera='-c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46'
-small="$camera -s 40x22 -n 2 --random 500"
+size=40x22 pixels=880 random=500
+[ -z "$slow" ] || size=20x12 pixels=240 random=150
+small="$camera -s $size -n 2 --random $random"
 run 0 make cloud2k "$tmp/cloud.frames" -n 2
 run 0 make blobs2k "$tmp/blobs.frames" -n 2
 
@@ -31,8 +33,8 @@ is 'structures and traversals' "$(column config | sed 's/,layout=[a-z-]*//g; s/,
     "grid-queue grid-queue,loop=flattened loose-grid loose-grid,packet=16 \
 kd,traversal=single,builder=binned kd,traversal=packet,builder=binned \
 kd-ropes,traversal=single,builder=binned kd-ropes,traversal=packet,builder=binned auto auto,rays=incoherent"
-holds 'rays' 'c["primary_rays"] == 880 && c["random_rays"] == 500 && c["shadow_rays"] > 100 &&
-    c["ao_rays"] == 4 * c["shadow_rays"]'
+holds 'rays' 'c["primary_rays"] == '$pixels' && c["random_rays"] == '$random' &&
+    c["shadow_rays"] > '$((pixels / 9))' && c["ao_rays"] == 4 * c["shadow_rays"]'
 holds 'times' 'c["build_ms"] > 0 && c["primary_ms"] > 0 && c["shadow_ms"] > 0 && c["ao_ms"] > 0 && c["random_ms"] > 0'
 holds 'primitives' 'c["primitives"] == 2000 && c["threads"] == 1'
 holds 'nodes and leaves' 'c["chosen"] !~ /^kd/ ? c["nodes_per_ray"] == "-" && c["kd_nodes"] == 0 :

@@ -117,7 +117,8 @@ static cgt_scene_options options_of(const choice *c)
 /* ---- a session ---- */
 
 #define GEOMETRIES 9
-#define SIDE 48
+#define MOST_SIDE 48u
+#define SIDE test_between(16, MOST_SIDE)
 #define TRIANGLES 120
 
 static cloud spheres; /* grows from frame to frame: the first quarter of each, then all */
@@ -254,21 +255,25 @@ static int free_session(void **state)
 static void every_allocation_fails_in_turn(void **state)
 {
     (void)state;
-    const bool slow = test_scaled(100) < 10; /* emulators: every sixteenth, on one thread */
-    for (uint32_t threads = 1; threads <= (slow ? 1u : 3u); threads += 2)
-        FOR_EACH_CHOICE(c)
-        {
-            memory m = {0};
-            session(&m, c, threads, c == choices && threads == 1 ? NULL : expected); /* counts, and shows the frames */
-            const size_t calls = m.calls;
-            print_message("%s, %u threads: %zu allocations\n", c->name, threads, calls);
-            assert_true(calls >= (threads == 1 ? 8 : 9));
-            for (size_t n = 1; n <= calls + 1; n += slow ? 16 : 1) {
-                memory failing = {.fail_at = n};
-                session(&failing, c, threads, expected);
-                assert_true(failing.calls >= calls);
-            }
+    const uint32_t step = test_samples() ? 12 : 1; /* of the allocations, where it is slow */
+    bool shown = false;
+    FOR_EACH_CHOICE(c)
+    for (uint32_t threads = 1; threads <= 3; threads += 2) {
+        const uint32_t number = (uint32_t)(c - choices), start = test_sample_start(7 * number, step);
+        if (test_samples() && (threads == 3) != test_sample_start(number, 2))
+            continue;
+        memory m = {0};
+        session(&m, c, threads, shown ? expected : NULL); /* counts, and shows the frames */
+        shown = true;
+        const size_t calls = m.calls;
+        print_message("%s, %u threads: %zu allocations\n", c->name, threads, calls);
+        assert_true(calls >= (threads == 1 ? 8 : 9));
+        for (size_t n = 1 + start % calls; n <= calls + 1; n += step) {
+            memory failing = {.fail_at = n};
+            session(&failing, c, threads, expected);
+            assert_true(failing.calls >= calls);
         }
+    }
 }
 
 /* Failures one after another: the second try fails too, and the third. */
@@ -310,14 +315,16 @@ static void repeated_failures_lose_nothing(void **state)
 
 /* ---- steady state ---- */
 
-static void trace_all(const cgt_scene *scene)
+/* frame: the same ways each time that it is the same. */
+static void trace_all(const cgt_scene *scene, uint32_t frame)
 {
-    ray_hit hit[SIDE];
-    uint8_t occluded[SIDE];
+    ray_hit hit[MOST_SIDE];
+    uint8_t occluded[MOST_SIDE];
     truth_ray *rays = frame_rays(&camera, SIDE, 1);
     const cgt_rays r = ray_array(rays, SIDE);
     frame_trace(scene, &camera, &got, NULL);
-    for (int way = 0; way < 12; way++) {
+    const uint32_t step = test_samples() ? 5 : 1; /* of the ways; prime to them */
+    for (uint32_t way = test_sample_start(frame, step); way < 12; way += step) {
         cgt_trace_options o;
         cgt_trace_statistics st;
         cgt_trace_options_init(&o);
@@ -353,13 +360,13 @@ static void keep_steady(const choice *c, uint32_t threads)
     float start[300];
     for (int k = 0; k < 300; k++)
         start[k] = pile[k][0];
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < (test_samples() ? 8 : 12); i++) {
         for (int k = 0; k < 300; k++)
             pile[k][0] = start[k] + 0.001f * (float)(i % 4);
         const cgt_spheres some = spheres_of((const float(*)[4])spheres.sphere, spheres.count - 100 * (uint32_t)(i % 4));
         assert_int_equal(cgt_scene_update_spheres(scene, 0, &some), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        trace_all(scene);
+        trace_all(scene, (uint32_t)i % 4);
         if (i < 4)
             calls = m.calls, bytes = m.bytes;
         assert_int_equal(m.calls, calls);
@@ -376,9 +383,10 @@ static void keep_steady(const choice *c, uint32_t threads)
 static void steady_state_allocates_nothing(void **state)
 {
     (void)state;
+    const uint32_t step = test_samples() ? 3 : 1; /* where it is slow, each choice with another number of threads */
     FOR_EACH_CHOICE(c)
-    for (uint32_t threads = 1; threads <= 3; threads++)
-        keep_steady(c, threads);
+    for (uint32_t k = test_sample_start((uint32_t)(c - choices), step); k < 3; k += step)
+        keep_steady(c, 1 + k);
 }
 
 /* The same number of spheres in ever other places. The grid's shape changes, its memory does not: spheres smaller than

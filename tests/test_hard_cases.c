@@ -15,7 +15,8 @@
 #include "support/scenes.h"
 
 #define RAYS 2000u
-#define LEAST_RAYS 400u
+#define SOME_RAYS 400u
+#define FEW_RAYS 100u /* where it is slow; a case that does not show its traits in these has some, then all */
 #define ALONE 50u
 
 /* ---- a case under test ---- */
@@ -29,6 +30,7 @@ typedef struct subject {
     full_hit *robust, *exact; /* of the first variant: the others give the same bits */
     full_hit *answer;
     hard_tally fast; /* errors of FAST, over variants and triangle tests */
+    bool is_easy;    /* in its few rays a trait does not show */
     const char *variant;
 } subject;
 
@@ -53,10 +55,9 @@ static void shuffle(subject *s)
         s->shuffled[i] = s->scene.ray[s->order[i]];
 }
 
-static subject subject_make(const hard_case *hard)
+static subject subject_make(const hard_case *hard, uint32_t rays)
 {
     subject s = {.hard = hard};
-    const uint32_t scaled = test_scaled(RAYS), rays = scaled < LEAST_RAYS ? LEAST_RAYS : scaled;
     assert_true(hard_case_make(hard, rays, &s.scene));
     assert_int_equal(s.scene.rays, rays);
     cgt_context *context = context_make(1, NULL);
@@ -136,7 +137,7 @@ static void check_orders(subject *s, const cgt_scene *scene)
     trace(s, scene, s->shuffled, rays, s->answer, NULL);
     for (uint32_t i = 0; i < rays; i++)
         check_same_bits(s, s->order[i], &s->answer[i], &s->robust[s->order[i]], "other bits in another order");
-    for (uint32_t k = 0; k < ALONE && k < rays; k++) {
+    for (uint32_t k = 0; k < test_between(10, ALONE) && k < rays; k++) {
         const uint32_t i = s->order[k];
         trace(s, scene, &s->scene.ray[i], 1, s->answer, NULL);
         check_same_bits(s, i, s->answer, &s->robust[i], "other bits alone");
@@ -241,13 +242,18 @@ static void check_values(const subject *s)
 
 /* ---- that it is hard ---- */
 
-static void expect(const subject *s, hard_trait trait, bool there, const char *what)
+/* trait: 0 for what every case has. */
+static void expect(subject *s, hard_trait trait, bool there, const char *what)
 {
-    if ((s->hard->traits & trait) && !there)
+    if (there || (trait && !(s->hard->traits & trait)))
+        return;
+    if (s->scene.rays < RAYS)
+        s->is_easy = true;
+    else
         fail_msg("%s: the case shows no %s: it is not hard", s->variant, what);
 }
 
-static void check_traits(const subject *s, const cgt_scene *scene, const cgt_trace_statistics *traced)
+static void check_traits(subject *s, const cgt_scene *scene, const cgt_trace_statistics *traced)
 {
     cgt_scene_statistics built;
     assert_int_equal(cgt_scene_get_statistics(scene, &built), CGT_OK);
@@ -260,8 +266,7 @@ static void check_traits(const subject *s, const cgt_scene *scene, const cgt_tra
     expect(s, HARD_SPREAD, built.references > built.primitives, "primitive in more than one cell");
     expect(s, HARD_SKIPPED, built.skipped_not_finite > 0 && built.skipped_radius > 0, "skipped primitive");
     expect(s, HARD_FLAT, built.skipped_degenerate > 0, "triangle without an area");
-    if (!traced->hits)
-        fail_msg("%s: no ray hits: it is not hard", s->variant);
+    expect(s, (hard_trait)0, traced->hits > 0, "ray that hits");
 }
 
 static void count_fast_errors(subject *s, const cgt_scene *scene)
@@ -329,6 +334,17 @@ static void check_structure(subject *s, cgt_context *context, const other_struct
     s->variant = variant;
 }
 
+/* All of them with the first variant; a sample where it is slow, of each case another. */
+static void check_structures(subject *s, cgt_context *context)
+{
+    uint32_t number = 0;
+    while (hard_case_at(number) != s->hard)
+        number++;
+    const uint32_t step = test_samples() ? 3 : 1;
+    for (uint32_t k = test_sample_start(number, step); k < TEST_COUNT(structures); k += step)
+        check_structure(s, context, &structures[k]);
+}
+
 /* ---- one variant, one case ---- */
 
 static void check_variant(subject *s, bool first)
@@ -361,8 +377,8 @@ static void check_variant(subject *s, bool first)
     check_orders(s, scene);
     count_fast_errors(s, scene);
     cgt_scene_release(scene);
-    for (size_t k = 0; k < TEST_COUNT(structures) && (first || test_scaled(100) == 100); k++)
-        check_structure(s, context, &structures[k]);
+    if (first || test_scaled(100) == 100)
+        check_structures(s, context);
 
     if (hard_commit(threaded, &s->scene, NULL, &scene) != CGT_OK)
         fail_msg("%s: %s", s->variant, context_message(threaded));
@@ -374,9 +390,10 @@ static void check_variant(subject *s, bool first)
     cgt_context_release(context);
 }
 
-static void test_case(void **state)
+/* Returns whether the case is as hard as it says. */
+static bool check_case(const hard_case *hard, uint32_t rays)
 {
-    subject s = subject_make(*state);
+    subject s = subject_make(hard, rays);
     bool first = true;
     FOR_EACH_VARIANT(variant)
     {
@@ -389,7 +406,18 @@ static void test_case(void **state)
     print_message("%u rays; FAST, all tests and variants: %llu missed, %llu invented, %llu wrong\n",
                   (unsigned)s.scene.rays, (unsigned long long)s.fast.missed, (unsigned long long)s.fast.invented,
                   (unsigned long long)s.fast.wrong);
+    const bool is_hard = !s.is_easy;
     subject_free(&s);
+    return is_hard;
+}
+
+static void test_case(void **state)
+{
+    uint32_t rays = test_between(FEW_RAYS, RAYS);
+    while (!check_case(*state, rays)) {
+        assert_true(rays < RAYS);
+        rays = rays < SOME_RAYS ? SOME_RAYS : RAYS;
+    }
 }
 
 /* ---- the list ---- */
@@ -473,7 +501,7 @@ static void test_range_ends_at_found_t(void **state)
     for (size_t i = 0; !hard; i++)
         if (strcmp(hard_case_at(i)->row, "hit at tmin / tmax") == 0)
             hard = hard_case_at(i);
-    assert_true(hard_case_make(hard, LEAST_RAYS, &s));
+    assert_true(hard_case_make(hard, test_between(FEW_RAYS, SOME_RAYS), &s));
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);

@@ -103,7 +103,8 @@ static cgt_trace_options trace_way(uint32_t number, cgt_trace_statistics *statis
 
 /* ---- what is asked, and the answers of one cell ---- */
 
-#define RAYS 640u
+#define MOST_RAYS 640u
+#define RAYS test_between(320, MOST_RAYS)
 #define FRAMES 2 /* perspective, orthographic */
 static const uint32_t sizes[FRAMES][2] = {{37, 21}, {19, 43}};
 
@@ -150,7 +151,7 @@ static question ask(structure_kind kind, uint64_t stream)
 {
     question q = {.s = structure_scene_make(kind, stream)};
     cgt_scene_options one_cell;
-    full_hit hit[RAYS];
+    full_hit hit[MOST_RAYS];
     cgt_scene_options_init(&one_cell);
     one_cell.structure = CGT_STRUCTURE_QUEUE_GRID;
     memcpy(one_cell.resolution, (uint32_t[]){1, 1, 1}, sizeof one_cell.resolution);
@@ -291,7 +292,7 @@ static void trace_strided(const cgt_scene *scene, const truth_ray *ray, uint32_t
 static void check_any_hit(const question *q, const cgt_scene *scene, const cgt_scene_options *so,
                           const cgt_trace_options *to, bool there)
 {
-    uint8_t occluded[RAYS];
+    uint8_t occluded[MOST_RAYS];
     const cgt_rays rays = ray_array(q->s.scene.ray, RAYS);
     memset(occluded, 0x77, sizeof occluded);
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, to), CGT_OK);
@@ -304,7 +305,7 @@ static void check_any_hit(const question *q, const cgt_scene *scene, const cgt_s
 /* FAST may differ, but rarely: it is traced for that, too. */
 static void count_fast(question *q, const cgt_scene *scene, cgt_trace_options o)
 {
-    full_hit hit[RAYS];
+    full_hit hit[MOST_RAYS];
     o.precision = CGT_PRECISION_FAST;
     assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, &o), CGT_OK);
     assert_int_equal(o.statistics->rope_loops, 0);
@@ -317,7 +318,7 @@ static void check_way(question *q, cgt_context *context, uint32_t number, uint32
 {
     const cgt_scene_options so = scene_way(number);
     cgt_trace_statistics counts;
-    full_hit hit[RAYS];
+    full_hit hit[MOST_RAYS];
     cgt_scene *scene = commit(q, context, &so);
     const bool there = check_commit(q, scene, &so);
     for (uint32_t traversal = 0; traversal < 2; traversal++) {
@@ -349,10 +350,10 @@ static void test_kind(void **state)
 {
     const structure_kind kind = *(const structure_kind *)*state;
     const uint32_t scaled = test_scaled(4), rounds = kind == STRUCTURE_LARGE || kind == STRUCTURE_BEYOND ? 1 : scaled;
-    const uint32_t step = test_scaled(10) >= 10 ? 1 : 3; /* prime to the ways */
+    const uint32_t step = test_samples() ? 6 : 1; /* of the ways, where it is slow; prime to them and to the kinds */
     for (uint32_t round = 0; round < rounds; round++) {
         question q = ask(kind, 100 * (uint64_t)kind + round);
-        for (uint32_t number = round % step; number < WAYS; number += step)
+        for (uint32_t number = test_sample_start(round + (uint32_t)kind, step); number < WAYS; number += step)
             check_way(&q, contexts[(number + 7 * round + (uint32_t)kind) % context_count], number, round);
         print_message("%s: %llu of %u rays hit; FAST: %llu of %llu other hits\n", q.s.name, (unsigned long long)q.hits,
                       RAYS, (unsigned long long)q.fast, (unsigned long long)q.fast_rays);

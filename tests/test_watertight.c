@@ -15,9 +15,10 @@
 #include "support/scenes.h"
 
 #define ALL_RAYS 10000000u
-#define CHUNK 1024u /* rays that are traced at once */
-#define JUDGED 100u /* one ray of so many goes to the oracle */
-#define BUNDLE 32u  /* rays of a common origin */
+#define CHUNK 1024u      /* rays that are traced at once, */
+#define LEAST_CHUNK 128u /* and where it is slow */
+#define JUDGED 100u      /* one ray of so many goes to the oracle */
+#define BUNDLE 32u       /* rays of a common origin */
 #define MOST_VARIANTS 8
 
 typedef struct location {
@@ -183,7 +184,9 @@ static void check_mesh(closed_kind kind, const location *at, uint32_t rays, leak
     fast.precision = CGT_PRECISION_FAST;
     fast.triangle_test = CGT_TRIANGLE_MOLLER_TRUMBORE;
     subject_make(&w, kind, at->place, (uint64_t)kind * 100 + (uint64_t)(at - locations));
-    const uint32_t least = (uint32_t)w.variants, scaled = rays / CHUNK + 1, chunks = scaled < least ? least : scaled;
+    const uint32_t least = (uint32_t)w.variants, all = rays / CHUNK + 1, chunks = all < least ? least : all;
+    if (rays / chunks < CHUNK)
+        w.s.wanted = rays / chunks < LEAST_CHUNK ? LEAST_CHUNK : rays / chunks;
     for (uint32_t c = 0; c < chunks; c++) {
         const size_t v = c % w.variants;
         make_rays(&w);

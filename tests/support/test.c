@@ -9,11 +9,11 @@
 #include <stdlib.h>
 
 static double scale = 1;
+static uint64_t seed = RANDOM_DEFAULT_SEED;
 
 void test_begin(const char *name)
 {
     const char *seed_text = getenv("CGT_TEST_SEED"), *scale_text = getenv("CGT_TEST_SCALE");
-    uint64_t seed = RANDOM_DEFAULT_SEED;
     if (seed_text && *seed_text)
         seed = strtoull(seed_text, NULL, 0);
     random_seed(seed);
@@ -49,3 +49,13 @@ uint32_t test_scaled(uint32_t n)
     const double scaled = n * scale;
     return scaled < 1 ? 1 : scaled > 1e9 ? 1000000000u : (uint32_t)scaled;
 }
+
+uint32_t test_between(uint32_t least, uint32_t n)
+{
+    const uint32_t scaled = test_scaled(n);
+    return scaled > n ? n : scaled < least ? least : scaled;
+}
+
+bool test_samples(void) { return scale < 0.1; }
+
+uint32_t test_sample_start(uint32_t number, uint32_t step) { return (uint32_t)((seed + number) % step); }

@@ -35,4 +35,14 @@ bool test_variant_runs(const char *name);
 /* n times the scale, at least 1. */
 uint32_t test_scaled(uint32_t n);
 
+/* The same between bounds: where it is slow no less than least, where it is fast no more than n. */
+uint32_t test_between(uint32_t least, uint32_t n);
+
+/* Whether a test is to take a sample of its cases instead of all: below a scale of 0.1. */
+bool test_samples(void);
+
+/* Where a sample of every step-th case begins, below step. number: which of many such samples it is; they begin
+ * differently, and all begin elsewhere with another seed, so that runs with other seeds see the other cases. */
+uint32_t test_sample_start(uint32_t number, uint32_t step);
+
 #endif
