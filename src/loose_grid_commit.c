@@ -73,6 +73,7 @@ static void report(cgt_scene *scene)
     st->structure_bytes = ((size_t)g->cells + 1 + scene->world.valid) * sizeof(uint32_t);
     st->local_store_bytes = st->structure_bytes + (size_t)scene->world.objects.spheres * sizeof(cgt_sphere) +
                             (size_t)scene->world.objects.triangles * sizeof(cgt_triangle);
+    st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
     if (scene->options.resolution[0])
         snprintf(st->reason, sizeof st->reason, "loose grid: resolution asked for");
     else

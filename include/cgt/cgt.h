@@ -272,8 +272,8 @@ typedef struct cgt_scene_statistics {
                                      each triangle */
     size_t bytes;                 /* memory that the scene holds now */
     size_t local_store_bytes;     /* structure and primitives together: what a Cell SPU has to hold */
-    int fits_local_store;         /* of a queue grid or a tree: 1 where the grid is at most 16x16x16 and
-                                     local_store_bytes, with 64 KB for program and stack, is within 256 KB */
+    int fits_local_store;         /* 1 where local_store_bytes, with 64 KB for program and stack, is within
+                                     256 KB, and a queue grid is at most 16x16x16 */
     double bounds_ms;             /* reading, checking and bounding the primitives */
     double build_ms;              /* filling the structure */
     double commit_ms;             /* the whole call */
@@ -323,8 +323,8 @@ typedef enum cgt_cull {
  * Decisions. ROBUST and EXACT find the hit that exact arithmetic finds on the same float input: none missed at an edge,
  * a vertex or a silhouette, none invented, the nearest one, and of equal ones the lowest id. FAST decides by single
  * precision: rays that pass within some units in the last place of an edge or a silhouette may go either way, and
- * results may differ from variant to variant. Its camera frames go by packets through every structure, so that in a
- * loose grid, where the others go by whole tiles, it is the slowest.
+ * results may differ from variant to variant. (Where a camera's frame goes by tiles through a loose grid, exact
+ * decisions cost so little that FAST makes them too, and saves on t and the normal of spheres alone.)
  * Values, see cgt_trace_camera. */
 typedef enum cgt_precision { CGT_PRECISION_ROBUST = 0, CGT_PRECISION_FAST, CGT_PRECISION_EXACT } cgt_precision;
 
