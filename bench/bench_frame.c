@@ -4,6 +4,7 @@
  * cgt-bench frame: for each frame of a trajectory, moves the spheres or vertices, then measures commit, primary rays,
  * and on request shadow and ambient-occlusion rays. One row of medians per configuration. The first frame warms up. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,7 @@ enum { BUILD, PRIMARY, SHADOW, AO, FRAME, COLUMNS };
 typedef struct frame_settings {
     bench_settings shared;
     bench_structure_settings structure;
+    int orthographic;
     int lit;
     float light[3];
     uint32_t ao;
@@ -53,6 +55,7 @@ static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "Rays and rows:", 4},
     {"light", 'l', "X,Y,Z", 0, "trace a shadow ray from every hit to this point", 4},
     {"ao", 'a', "RAYS", 0, "trace RAYS ambient-occlusion rays from every hit, at most 1024", 4},
+    {"orthographic", 'O', NULL, 0, "parallel rays, as high a picture as the camera sees at its target", 4},
     {"output", 'o', "HITS", 0, "write the hits of the last frame: per pixel float32 t and uint32 primitive", 4},
     {"all", OPTION_ALL, NULL, 0, "one row for each packet size and tile shape", 4},
     {"loop", OPTION_LOOP, "NAME", 0, "nested or flattened", 4},
@@ -102,6 +105,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         if (program_parse_u32(argument, 0, BENCH_MOST_AO_RAYS, &settings->ao, error, sizeof error))
             argp_error(state, "-a: %s", error);
         return 0;
+    case 'O': settings->orthographic = 1; return 0;
     case 'o': settings->output = argument; return 0;
     case OPTION_ALL: settings->all = 1; return 0;
     case OPTION_LOOP:
@@ -124,6 +128,8 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             argp_error(state, "--test: watertight, moller-trumbore or accelerated, not %s", argument);
         return 0;
     case ARGP_KEY_END:
+        if (settings->orthographic && (settings->lit || settings->ao))
+            argp_error(state, "-O: of primary rays alone: leave out -l and -a");
         if (settings->test != CGT_TRIANGLE_WATERTIGHT && settings->precision != CGT_PRECISION_FAST)
             argp_error(state, "--test %s: only with -p fast", bench_triangle_test_name(settings->test));
         if (settings->all && (settings->shared.packet || settings->tile != CGT_TILE_AUTO))
@@ -131,6 +137,15 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
+}
+
+static void make_orthographic(cgt_camera *c)
+{
+    double square = 0.0;
+    for (int a = 0; a < 3; a++)
+        square += ((double)c->target[a] - c->eye[a]) * ((double)c->target[a] - c->eye[a]);
+    c->projection = CGT_ORTHOGRAPHIC;
+    c->height = (float)(2.0 * sqrt(square) * tan(c->fov * 3.14159265358979323846 / 360.0));
 }
 
 /* ---- One row ------------------------------------------------------------------------------------------------- */
@@ -373,6 +388,8 @@ int bench_frame(int argc, char **argv)
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
         return PROGRAM_USAGE;
 
+    if (settings.orthographic)
+        make_orthographic(&settings.shared.camera);
     memset(&job, 0, sizeof job);
     job.settings = &settings;
     int code = prepare(&job);

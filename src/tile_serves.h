@@ -14,9 +14,26 @@
 #define CGT_TILE_NARROWEST 0x1p-10
 #define CGT_TILE_WIDEST 8.0
 
+/* The same of an orthographic picture: squares and their reciprocals stay far from the ends of float's range. */
+#define CGT_TILE_SMALLEST 0x1p-40
+#define CGT_TILE_LARGEST 0x1p40
+
 static inline double cgt_tile_dot(const float a[3], const float b[3])
 {
     return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
+}
+
+static inline bool cgt_tile_between(double length, double least, double most)
+{
+    return length >= least && length <= most;
+}
+
+/* Whether the picture has room for the windows' slack: rounding of the origins is at most half a pixel. Beyond that all
+ * would be left open, and packets are faster. */
+static inline bool cgt_tile_serves_origins(const cgt_camera_rays *c, double right, double up)
+{
+    const double off = (2 * sqrt(cgt_tile_dot(c->eye, c->eye)) + 3 * right + 2 * up) * 0x1p-23;
+    return off <= right * (double)c->pixel[0] && off <= up * (double)c->pixel[1];
 }
 
 /* The bounds of tile_spheres.h and tile_triangles.h hold for axes like these. Comparisons fail for what is not a number. */
@@ -30,8 +47,10 @@ static inline bool cgt_tile_serves_camera(const cgt_camera_rays *c)
     for (int a = 0; a < 3; a++)
         if (!(fabsf(c->eye[a]) <= CGT_WORLD_LARGEST))
             return false;
-    return !c->orthographic && unit && orthogonal && right >= CGT_TILE_NARROWEST && up >= CGT_TILE_NARROWEST &&
-           right <= CGT_TILE_WIDEST && up <= CGT_TILE_WIDEST && c->t_min >= 0;
+    const double least = c->orthographic ? CGT_TILE_SMALLEST : CGT_TILE_NARROWEST;
+    const double most = c->orthographic ? CGT_TILE_LARGEST : CGT_TILE_WIDEST;
+    return unit && orthogonal && cgt_tile_between(right, least, most) && cgt_tile_between(up, least, most) &&
+           (!c->orthographic || cgt_tile_serves_origins(c, right, up)) && c->t_min >= 0;
 }
 
 static inline bool cgt_tile_serves(const cgt_world *world, const cgt_camera_rays *camera)

@@ -168,6 +168,11 @@ for camera in 0,0,-5,0,0,0,0,1,0,45 0,0,5,0,0,0,0,1,0,45; do
     is hit_pixels "$(cell hit_pixels)" "$in_square"
     is ao_open "$(cell ao_open)" $((4 * in_square))
 done
+# Parallel rays see as much of the target's plane, by tiles as by packets.
+for options in '' '-k 8' '-S kd'; do
+    run 0 frame "$tmp/square.frames" -O -c 0,0,-5,0,0,0,0,1,0,45 -s 63x47 $options
+    is hit_pixels "$(cell hit_pixels)" "$in_square"
+done
 for options in '-t 2' '-k 4' '-k 16' '--tile strip' '--loop flattened' '--cull off' '--no-mailbox' '-g 3,4,5' '-p robust' \
     '-p exact'; do
     run 0 frame "$tmp/square.frames" -c $camera -s 63x47 $options -o "$tmp/hits.bin"
@@ -367,6 +372,7 @@ refuses 2 '-a' frame "$unit" -a 1025
 refuses 2 '-a' frame "$unit" -a -1
 refuses 2 '-l' frame "$unit" -l 1,2
 refuses 2 '--loop' frame "$unit" --loop round
+refuses 2 'of primary rays alone' frame "$unit" -O -a 1
 refuses 2 '--tile' frame "$unit" --tile round
 refuses 2 '--all' frame "$unit" --all -k 4
 refuses 2 '-p' frame "$unit" -p vague

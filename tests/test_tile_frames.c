@@ -37,6 +37,7 @@ static void add_special_spheres(cloud *c, const float eye[3])
 static void frames_of_clouds(void **state)
 {
     (void)state;
+    uint32_t parallel = 0;
     for (int kind = 0; kind < CLOUD_KINDS; kind++) {
         test_random r = random_make(300 + (uint64_t)kind);
         frames_tally tally = {0};
@@ -52,6 +53,8 @@ static void frames_of_clouds(void **state)
                 const uint32_t *size = sizes[random_below(&r, TEST_COUNT(sizes))];
                 camera = camera_random(&r, &c);
                 camera.projection = i ? CGT_PERSPECTIVE : camera.projection;
+                if (i == 2)
+                    make_orthographic(&r, c.reach * random_log(&r, 0.01f, 8), &camera);
                 if (random_below(&r, 4) == 0)
                     camera.t_min = c.reach * random_float(&r, 0, 4);
                 if (random_below(&r, 4) == 0)
@@ -64,7 +67,9 @@ static void frames_of_clouds(void **state)
         }
         print_tally(cloud_name((cloud_kind)kind), &tally);
         assert_true(tally.served > 0);
+        parallel += tally.parallel; /* not where origins of float are some pixels apart */
     }
+    assert_true(parallel > 0);
 }
 
 static void frame_of_many_tiles(void **state)
@@ -74,17 +79,50 @@ static void frame_of_many_tiles(void **state)
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 2000);
     loose_reference grid;
     frames_tally tally = {0};
-    const cgt_camera camera = camera_before(&c);
+    cgt_camera camera = camera_before(&c);
     cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
     assert_true(loose_reference_make(&scene->world.objects, 8, &grid));
     compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
+    make_orthographic(&r, 2 * c.reach, &camera);
+    compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
     print_tally("many tiles", &tally);
-    assert_int_equal(tally.served, 1);
+    assert_int_equal(tally.served, 2);
     /* culling and windows are of use: by far not every object meets every ray */
     assert_true(tally.counts.ray_tests < tally.counts.rays * 100);
     loose_reference_free(&grid);
     cgt_scene_release(scene);
     cloud_free(&c);
+}
+
+/* Pictures from far below a pixel of the usual ones to far above the usual scenes, each of its own scene. */
+static void orthographic_frames_at_every_scale(void **state)
+{
+    (void)state;
+    static const int exponent[] = {-36, -24, -8, 8, 24, 36};
+    test_random r = random_make(350);
+    frames_tally tally = {0};
+    for (uint32_t round = 0; round < 6 + test_scaled(18); round++) {
+        const float scale = ldexpf(1, exponent[round % 6]);
+        cloud c = cloud_make(&r, round % 12 < 6 ? CLOUD_UNIFORM : CLOUD_MIXED, 200);
+        loose_reference grid;
+        for (uint32_t i = 0; i < 4 * c.count; i++)
+            c.sphere[i / 4][i % 4] *= scale;
+        for (int a = 0; a < 3; a++)
+            c.middle[a] *= scale;
+        c.reach *= scale;
+        cgt_camera camera = round % 3 ? camera_random(&r, &c) : camera_before(&c);
+        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        make_orthographic(&r, 2 * c.reach, &camera);
+        compare_frame(scene, &grid, &camera, 70, 66, "scales", &tally);
+        camera.height *= 0x1p-6f;
+        compare_frame(scene, &grid, &camera, 70, 66, "scales", &tally);
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_tally("scales", &tally);
+    assert_true(tally.parallel >= tally.frames / 2 && tally.counts.hits > 0);
 }
 
 /* Centres without radii beside them, and a radius for all: what no vector load reads. */
@@ -109,7 +147,9 @@ static void frames_of_two_geometries(void **state)
         assert_int_equal(cgt_scene_add_spheres(scene, &second, &id), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
-        const cgt_camera camera = camera_before(&c);
+        cgt_camera camera = camera_before(&c);
+        compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
+        make_orthographic(&r, c.reach, &camera);
         compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
         loose_reference_free(&grid);
         cgt_scene_release(scene);
@@ -119,11 +159,22 @@ static void frames_of_two_geometries(void **state)
     assert_true(tally.served == tally.frames && tally.counts.hits > 0);
 }
 
-/* Cameras where the hard rays start, looking where they look. */
+/* A picture's height as a share of the world's extent. */
+static float height_of(const cgt_world *world, float share)
+{
+    float most = 0;
+    for (int a = 0; a < 3; a++)
+        most = fmaxf(most, world->high[a] - world->low[a]);
+    const float height = most * share;
+    return height > 0 && height < INFINITY ? height : 1;
+}
+
+/* Cameras where the hard rays start, looking where they look; then orthographic ones there. */
 static void frames_of_hard_cases(void **state)
 {
     (void)state;
     frames_tally tally = {0};
+    test_random r = random_make(335);
     uint32_t cases = 0;
     for (size_t i = 0; i < hard_case_count(); i++) {
         const hard_case *h = hard_case_at(i);
@@ -154,13 +205,16 @@ static void frames_of_hard_cases(void **state)
             camera.fov = k % 3 ? 20.f * (float)(k % 3) : 1;
             if (cgt_camera_prepare(&camera, 21, 23, &rays, message) == CGT_OK)
                 compare_frame(scene, &grid, &camera, 21, 23, h->name, &tally);
+            make_orthographic(&r, height_of(&scene->world, random_log(&r, 1e-3f, 4)), &camera);
+            if (cgt_camera_prepare(&camera, 21, 23, &rays, message) == CGT_OK)
+                compare_frame(scene, &grid, &camera, 21, 23, h->name, &tally);
         }
         loose_reference_free(&grid);
         cgt_scene_release(scene);
         hard_scene_free(&s);
     }
     print_tally("hard cases", &tally);
-    assert_true(cases >= 3 && tally.served >= 3);
+    assert_true(cases >= 3 && tally.served >= 3 && tally.parallel >= 3);
 }
 
 /* ---- the march ---- */
@@ -176,6 +230,8 @@ static void march_visits_what_rays_hit(void **state)
         cloud c = cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), 1 + random_below(&r, 400));
         cgt_camera camera = camera_random(&r, &c);
         camera.projection = CGT_PERSPECTIVE;
+        if (round % 3 == 2)
+            make_orthographic(&r, c.reach * random_float(&r, 0.3f, 4), &camera);
         loose_reference grid;
         tile_march m;
         tile_slice s;
@@ -188,6 +244,7 @@ static void march_visits_what_rays_hit(void **state)
         t.rays = &rays;
         t.columns = t.rows = 12;
         tile_camera_make(&rays, &t.camera);
+        tile_parallel_make(&t);
         tile_tables_make(&t, random_below(&r, edge - 11), random_below(&r, edge - 11));
         tile_norms_make(&t);
         tile_march_make(&t, &grid.grid, &m);
@@ -244,8 +301,11 @@ static int clean_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(march_visits_what_rays_hit), cmocka_unit_test(frame_of_many_tiles),
-        cmocka_unit_test(frames_of_clouds),           cmocka_unit_test(frames_of_two_geometries),
+        cmocka_unit_test(march_visits_what_rays_hit),
+        cmocka_unit_test(frame_of_many_tiles),
+        cmocka_unit_test(frames_of_clouds),
+        cmocka_unit_test(frames_of_two_geometries),
+        cmocka_unit_test(orthographic_frames_at_every_scale),
         cmocka_unit_test(frames_of_hard_cases),
     };
     test_begin("test_tile_frames");

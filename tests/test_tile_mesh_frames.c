@@ -73,15 +73,17 @@ static void frames_of_closed_meshes(void **state)
             hard_put(&s, i % 2 ? from : to, target);
             random_direction(&s.random, up);
             both b = both_of(&s, 4);
-            const cgt_camera camera = looking(eye, target, up, i % 2 ? 45 : 90);
+            cgt_camera camera = looking(eye, target, up, i % 2 ? 45 : 90);
             const frames_tally before = tally;
             compare_frame(b.scene, &b.grid, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
             if (i % 2 == 0 && tally.served > before.served)
                 assert_int_equal(tally.counts.hits - before.counts.hits, size[0] * size[1]);
+            make_orthographic(&s.random, (float)s.place.scale * random_log(&s.random, 0.1f, 4), &camera);
+            compare_frame(b.scene, &b.grid, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
             both_free(&b, &s);
         }
         print_tally(closed_mesh_name((closed_kind)kind), &tally);
-        assert_true(tally.served > 0);
+        assert_true(tally.served > 0 && tally.parallel > 0);
     }
 }
 
@@ -132,6 +134,8 @@ static cgt_camera camera_for(hard_scene *s)
     }
     cgt_camera camera = looking(eye, target, up, random_below(r, 3) ? random_float(r, 20, 120) : random_log(r, 1, 20));
     const float scale = (float)s->place.scale;
+    if (random_below(r, 3) == 0)
+        make_orthographic(r, scale * random_log(r, 0.03f, 6), &camera);
     if (random_below(r, 4) == 0)
         camera.t_min = scale * random_float(r, 0, 2);
     if (random_below(r, 4) == 0)
@@ -151,10 +155,11 @@ static void add_spheres(hard_scene *s, uint32_t count)
 
 static void frames_of_soups(uint64_t stream, bool mixed, const char *what)
 {
-    static const hard_place place[] = {{.scale = 1}, {.scale = 1e4}, {.scale = 1e-3, .offset = {10, -3, 5}}};
+    static const hard_place place[] = {
+        {.scale = 1}, {.scale = 1e4}, {.scale = 1e-3, .offset = {10, -3, 5}}, {.scale = 0x1p-34}, {.scale = 0x1p36}};
     frames_tally tally = {0};
     for (uint32_t round = 0; round < 1 + test_scaled(14); round++) {
-        hard_scene s = {.place = place[round % 3], .random = random_make(stream + round)};
+        hard_scene s = {.place = place[round % 5], .random = random_make(stream + round)};
         add_triangles(&s, 1 + random_below(&s.random, round % 2 ? 40 : 600));
         if (mixed) {
             add_spheres(&s, 1 + random_below(&s.random, 200));
@@ -185,6 +190,40 @@ static void frames_of_both_kinds(void **state)
     frames_of_soups(600, true, "both kinds");
 }
 
+/* ---- large layers ---- */
+
+/* More triangles, all larger than the picture, than are drawn between two looks at how far the tile still sees; little
+ * parts them in depth. */
+static void frames_of_large_layers(void **state)
+{
+    (void)state;
+    frames_tally tally = {0};
+    for (uint32_t round = 0; round < 1 + test_scaled(2); round++) {
+        hard_scene s = {.place = {.scale = 1}, .random = random_make(800 + round)};
+        const float eye[3] = {0.1f, 0.2f, 4}, target[3] = {0, 0, 0}, up[3] = {0, 1, 0};
+        const double apart = (double)random_log(&s.random, 1e-3f, 1);
+        cgt_camera camera = looking(eye, target, up, 30);
+        for (uint32_t i = 0; i < 280; i++) {
+            double v[3][3];
+            for (int k = 0; k < 3; k++) {
+                const double angle = 2.0943951 * k + hard_real(&s, 0, 1), size = hard_real(&s, 5, 40);
+                v[k][0] = size * cos(angle);
+                v[k][1] = size * sin(angle);
+                v[k][2] = apart * hard_real(&s, -1, 1);
+            }
+            hard_triangle(&s, v);
+        }
+        both b = both_of(&s, 4);
+        compare_frame(b.scene, &b.grid, &camera, 100, 65, "large layers", &tally);
+        make_orthographic(&s.random, 3, &camera);
+        compare_frame(b.scene, &b.grid, &camera, 100, 65, "large layers", &tally);
+        both_free(&b, &s);
+    }
+    print_tally("large layers", &tally);
+    assert_int_equal(tally.served, tally.frames);
+    assert_true(tally.counts.hits > 1000);
+}
+
 /* ---- edges through pixels ---- */
 
 /* Height fields whose vertices lie on the rays of every fourth pixel, exactly or to rounding, one behind the other, and
@@ -193,12 +232,13 @@ static void frames_of_edges_on_rays(void **state)
 {
     (void)state;
     frames_tally tally = {0};
-    for (uint32_t round = 0; round < 1 + test_scaled(6); round++) {
+    for (uint32_t round = 0; round < 2 + test_scaled(8); round++) {
         hard_scene s = {.place = {.scale = 1}, .random = random_make(700 + round)};
-        const bool plain = round % 2; /* along an axis */
+        const bool plain = round % 2, parallel = round % 4 > 1; /* plain: along an axis */
         const float eye[3] = {0, 0, plain ? 0.f : 0.3f}, up[3] = {0, 1, plain ? 0.f : 0.2f};
         const float target[3] = {plain ? 0.f : 0.7f, 0, plain ? 1.f : 2.f};
-        const cgt_camera camera = looking(eye, target, up, 90);
+        cgt_camera camera = looking(eye, target, up, 90);
+        camera.projection = parallel ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
         const cgt_camera_rays rays = rays_of(&camera, 64, 64);
         double vertex[2][17][17][3];
         for (int layer = 0; layer < 2; layer++)
@@ -207,9 +247,12 @@ static void frames_of_edges_on_rays(void **state)
                     const float px = ((float)(4 * x) + 0.5f) * rays.pixel[0] - 1;
                     const float py = 1 - ((float)(4 * y) + 0.5f) * rays.pixel[1];
                     const double t = plain ? 1 + random_below(&s.random, 4) : hard_real(&s, 1, 2);
-                    for (int a = 0; a < 3; a++)
+                    const float *from = parallel ? rays.eye : rays.fwd;
+                    for (int a = 0; a < 3; a++) {
+                        const double sum = (double)((from[a] + px * rays.right[a]) + py * rays.up[a]);
                         vertex[layer][y][x][a] =
-                            rays.eye[a] + t * (double)((rays.fwd[a] + px * rays.right[a]) + py * rays.up[a]);
+                            parallel ? sum + t * (double)rays.fwd[a] : (double)rays.eye[a] + t * sum;
+                    }
                 }
         for (int layer = 0; layer < 3; layer++)
             for (int y = 0; y < 16; y++)
@@ -248,9 +291,8 @@ static int clean_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_of_closed_meshes),
-        cmocka_unit_test(frames_of_triangles),
-        cmocka_unit_test(frames_of_both_kinds),
+        cmocka_unit_test(frames_of_closed_meshes), cmocka_unit_test(frames_of_triangles),
+        cmocka_unit_test(frames_of_both_kinds),    cmocka_unit_test(frames_of_large_layers),
         cmocka_unit_test(frames_of_edges_on_rays),
     };
     test_begin("test_tile_mesh_frames");

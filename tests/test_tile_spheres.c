@@ -16,6 +16,7 @@
 static float filter_u = 0x1p-24f;
 #define FILTER_U filter_u
 #include "kernel/tile_draw.h"
+#include "kernel/tile_parallel_spheres.h"
 
 #include "tile_serves.h"
 
@@ -37,10 +38,14 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y
     t->columns = columns;
     t->rows = rows;
     tile_camera_make(rays, &t->camera);
+    tile_parallel_make(t);
     tile_tables_make(t, x, y);
     tile_norms_make(t);
     tile_cone_make(t);
-    tile_gap_make(t, c, r, 2 * c);
+    if (t->parallel)
+        tile_parallel_gap_make(t, c, r, 2 * c);
+    else
+        tile_gap_make(t, c, r, 2 * c);
     tile_open(t, 2 * c);
 }
 
@@ -91,7 +96,10 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     memset(open, 0, sizeof open);
     tile_spheres_fetch(&objects, &reference, 1, v, s.object);
     assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
-    tile_spheres_make(t, v, 1, &s);
+    if (t->parallel)
+        tile_parallel_spheres_make(t, v, 1, &s);
+    else
+        tile_spheres_make(t, v, 1, &s);
     sum->slow += s.slow & 1;
     if (s.slow & 1)
         return;
@@ -118,7 +126,7 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
 
 /* A camera, and a sphere whose silhouette passes a tile of 8x8 pixels somewhere; most often it is the silhouette of one
  * ray as well as float can tell. */
-static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], float sphere[4])
+static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint32_t at[2], float sphere[4])
 {
     cgt_camera camera;
     float away[3];
@@ -132,16 +140,26 @@ static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], flo
     }
     random_direction(r, camera.up);
     camera.fov = random_below(r, 2) ? random_float(r, 20, 100) : random_log(r, 0.5f, 160);
+    if (parallel) {
+        camera.projection = CGT_ORTHOGRAPHIC;
+        camera.height = scale * (random_below(r, 2) ? random_float(r, 0.5f, 4) : random_log(r, 1e-3f, 30));
+        if (random_below(r, 3) == 0) /* along an axis */
+            for (int a = 0; a < 3; a++) {
+                camera.target[a] = camera.eye[a] + (a == 2 ? scale : 0);
+                camera.up[a] = a == 1;
+            }
+    }
     const uint32_t edge = 8 + random_below(r, random_below(r, 2) ? 1000 : 20);
     *rays = rays_of(&camera, edge, edge);
     at[0] = random_below(r, edge - 7);
     at[1] = random_below(r, edge - 7);
     const float px = ((float)(at[0] + random_below(r, 8)) + 0.5f) * rays->pixel[0] - 1;
     const float py = 1 - ((float)(at[1] + random_below(r, 8)) + 0.5f) * rays->pixel[1];
-    float d[3], side[3], along = 0, square = 0;
+    float side[3], along = 0, square = 0;
+    const cgt_exact_ray line = tile_line(rays, parallel, px, py);
+    const float *d = line.dir;
     random_direction(r, away);
     for (int a = 0; a < 3; a++) {
-        d[a] = (rays->fwd[a] + px * rays->right[a]) + py * rays->up[a];
         along += d[a] * away[a];
         square += d[a] * d[a];
     }
@@ -154,7 +172,7 @@ static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], flo
     const float out = random_below(r, 4) ? 1 : random_float(r, 0, 2);
     sphere[3] = random_below(r, 20) ? distance * sqrtf(square) * size : 0;
     for (int a = 0; a < 3; a++)
-        sphere[a] = rays->eye[a] + distance * d[a] + out * sphere[3] * side[a] / sqrtf(length);
+        sphere[a] = line.org[a] + distance * d[a] + out * sphere[3] * side[a] / sqrtf(length);
 }
 
 static float distance_of(const cgt_camera_rays *rays, const float sphere[4])
@@ -176,17 +194,16 @@ static void judge_case(const cgt_camera_rays *rays, const uint32_t at[2], const 
     judge_sphere(&t, sphere, truth, sum);
 }
 
-static void bounds_hold(void **state)
+static void check_bounds(uint64_t stream, bool parallel)
 {
-    (void)state;
     static tile_truth truth;
-    test_random r = random_make(360);
+    test_random r = random_make(stream);
     tally sum = {0};
     for (uint32_t k = 50 + test_scaled(6000); k; k--) {
         cgt_camera_rays rays;
         uint32_t at[2];
         float sphere[4];
-        make_case(&r, &rays, at, sphere);
+        make_case(&r, parallel, &rays, at, sphere);
         const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
         if (cgt_tile_serves_camera(&rays))
             judge_case(&rays, at, sphere, usual, &truth, true, &sum);
@@ -203,17 +220,28 @@ static void bounds_hold(void **state)
     assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
 }
 
-static void bounds_break_where_they_are_tightened(void **state)
+static void bounds_hold(void **state)
 {
     (void)state;
+    check_bounds(360, false);
+}
+
+static void bounds_of_parallel_rays_hold(void **state)
+{
+    (void)state;
+    check_bounds(370, true);
+}
+
+static void check_tightened_bounds(uint64_t stream, bool parallel)
+{
     static tile_truth truth;
-    test_random r = random_make(380);
+    test_random r = random_make(stream);
     tally sum[STEPS] = {{0}};
     for (uint32_t k = 300 + test_scaled(2000); k; k--) {
         cgt_camera_rays rays;
         uint32_t at[2];
         float sphere[4], scale = 0x1p-24f;
-        make_case(&r, &rays, at, sphere);
+        make_case(&r, parallel, &rays, at, sphere);
         const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
         if (!cgt_tile_serves_camera(&rays))
             continue;
@@ -227,6 +255,18 @@ static void bounds_break_where_they_are_tightened(void **state)
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-10);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-11);
     check_break("depth outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-11);
+}
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    check_tightened_bounds(380, false);
+}
+
+static void bounds_of_parallel_rays_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    check_tightened_bounds(390, true);
 }
 
 /* ---- which frames ---- */
@@ -251,6 +291,14 @@ static void serves_what_it_can(void **state)
     assert_true(cgt_tile_serves_camera(&rays));
     camera.projection = CGT_ORTHOGRAPHIC;
     rays = rays_of(&camera, 64, 64);
+    assert_true(cgt_tile_serves_camera(&rays));
+    rays.eye[1] = 0x1p20f; /* origins of float are some pixels apart */
+    assert_false(cgt_tile_serves_camera(&rays));
+    camera.height = 0x1p-41f;
+    rays = rays_of(&camera, 64, 64);
+    assert_false(cgt_tile_serves_camera(&rays));
+    camera.height = 0x1p42f;
+    rays = rays_of(&camera, 64, 64);
     assert_false(cgt_tile_serves_camera(&rays));
 }
 
@@ -259,7 +307,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(serves_what_it_can),
         cmocka_unit_test(bounds_hold),
+        cmocka_unit_test(bounds_of_parallel_rays_hold),
         cmocka_unit_test(bounds_break_where_they_are_tightened),
+        cmocka_unit_test(bounds_of_parallel_rays_break_where_they_are_tightened),
     };
     test_begin("test_tile_spheres");
     if (!test_variant_runs(CGT_VARIANT_NAME))

@@ -14,6 +14,7 @@
 
 static float filter_u = 0x1p-24f;
 #define FILTER_U filter_u
+#include "kernel/tile_parallel_triangles.h"
 #include "kernel/tile_triangle_draw.h"
 
 #include "tile_serves.h"
@@ -24,12 +25,18 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, const uint32_t at[2], 
     t->linear = linear;
     t->columns = t->rows = 8;
     tile_camera_make(rays, &t->camera);
+    tile_parallel_make(t);
     tile_tables_make(t, at[0], at[1]);
     tile_norms_make(t);
     tile_parts_make(t);
     tile_cone_make(t);
-    tile_gap_make(t, c, 0, 2 * c);
-    tile_gap_widen(t, c);
+    if (t->parallel) {
+        tile_parallel_gap_make(t, c, 0, 2 * c);
+        tile_parallel_gap_widen(t, c, at[0] % 2);
+    } else {
+        tile_gap_make(t, c, 0, 2 * c);
+        tile_gap_widen(t, c);
+    }
     tile_open(t, 2 * c);
 }
 
@@ -88,15 +95,20 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
     memset(open, 0, sizeof open);
     tile_triangles_objects(&reference, 1, s.object);
     tile_triangles_fetch(&objects, s.object, v);
-    tile_triangles_make(t, v, 1, &s);
+    if (t->parallel)
+        tile_parallel_triangles_make(t, v, 1, &s);
+    else
+        tile_triangles_make(t, v, 1, &s);
     sum->slow += s.slow & 1;
     if (s.slow & 1)
         return;
     sum->coarse += s.fast & 1 && s.certain[0] == INFINITY;
     if (s.fast & 1 && t->linear)
-        tile_triangle_draw(&objects, t, &s, 0, true, &queue, &counts);
+        tile_triangle_draw(&objects, t, &s, 0, TILE_LINEAR, &queue, &counts);
+    else if (s.fast & 1 && t->parallel)
+        tile_triangle_draw(&objects, t, &s, 0, TILE_PARALLEL, &queue, &counts);
     else if (s.fast & 1)
-        tile_triangle_draw(&objects, t, &s, 0, false, &queue, &counts);
+        tile_triangle_draw(&objects, t, &s, 0, TILE_PERSPECTIVE, &queue, &counts);
     for (uint32_t k = 0; k < queue.entries; k++)
         open[queue.pixel[k]] = true;
     for (uint32_t k = 0; k < t->rows * t->columns; k++) {
@@ -114,7 +126,7 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
 
 /* A camera, and a triangle of which an edge or a vertex passes a ray of a tile of 8x8 pixels as well as float can tell.
  * Its size is from far less than a pixel's to far more than the distance, when it may pass the eye plane. */
-static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
+static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
 {
     cgt_camera camera;
     char message[160];
@@ -128,6 +140,15 @@ static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt
     }
     random_direction(r, camera.up);
     camera.fov = random_below(r, 2) ? random_float(r, 20, 100) : random_log(r, 0.5f, 160);
+    if (parallel) {
+        camera.projection = CGT_ORTHOGRAPHIC;
+        camera.height = scale * (random_below(r, 2) ? random_float(r, 0.5f, 4) : random_log(r, 1e-3f, 30));
+        if (random_below(r, 3) == 0) /* along an axis */
+            for (int a = 0; a < 3; a++) {
+                camera.target[a] = camera.eye[a] + (a == 2 ? scale : 0);
+                camera.up[a] = a == 1;
+            }
+    }
     const uint32_t edge = 8 + random_below(r, random_below(r, 2) ? 1000 : 20);
     assert_int_equal(cgt_camera_prepare(&camera, edge, edge, rays, message), CGT_OK);
     at[0] = random_below(r, edge - 7);
@@ -138,10 +159,16 @@ static void make_case(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt
     const float size = t * (random_below(r, 3) ? random_log(r, 1e-4f, 1) : random_log(r, 1, 100));
     const float share = random_below(r, 4) ? random_float(r, 0, 1) : 0; /* of the edge, before the ray */
     const float width = random_below(r, 3) ? 1 : random_log(r, 1e-7f, 1);
+    const cgt_exact_ray line = tile_line(rays, parallel, px, py);
     random_direction(r, e[0]);
     random_direction(r, e[1]);
+    if (parallel && random_below(r, 4) == 0) { /* nearly along the rays */
+        const float off = random_log(r, 1e-8f, 1e-2f);
+        for (int a = 0; a < 3; a++)
+            e[1][a] = line.dir[a] + off * e[1][a];
+    }
     for (int a = 0; a < 3; a++) {
-        const float p = rays->eye[a] + t * ((rays->fwd[a] + px * rays->right[a]) + py * rays->up[a]);
+        const float p = line.org[a] + t * line.dir[a];
         q->v[0][a] = p - share * size * e[0][a];
         q->v[1][a] = p + (1 - share) * size * e[0][a];
         q->v[2][a] = p + size * (width * e[1][a] + (width < 1 ? 0.3f * e[0][a] : 0));
@@ -176,21 +203,21 @@ static void judge_case(const cgt_camera_rays *rays, const uint32_t at[2], const 
     judge_triangle(&t, q, truth, sum);
 }
 
-static void bounds_hold(void **state)
+static void check_bounds(uint64_t stream, bool parallel)
 {
-    (void)state;
     static tile_truth truth;
-    test_random r = random_make(410);
+    test_random r = random_make(stream);
     tally sum = {0};
     for (uint32_t k = 100 + test_scaled(8000); k; k--) {
         cgt_camera_rays rays;
         uint32_t at[2];
         cgt_triangle q;
-        make_case(&r, &rays, at, &q);
+        make_case(&r, parallel, &rays, at, &q);
         if (!cgt_tile_serves_camera(&rays) || !cgt_triangle_has_area(&q))
             continue;
-        judge_case(&rays, at, &q, true, &truth, true, &sum);
-        judge_case(&rays, at, &q, false, &truth, false, &sum);
+        if (!parallel)
+            judge_case(&rays, at, &q, true, &truth, true, &sum);
+        judge_case(&rays, at, &q, false, &truth, parallel, &sum);
     }
     print_message("%llu lanes, %llu hits, %llu certain, %llu open; triangles: %llu slow, %llu coarse; lost %llu, "
                   "invented %llu, outside %llu\n",
@@ -203,23 +230,34 @@ static void bounds_hold(void **state)
     assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
 }
 
-static void bounds_break_where_they_are_tightened(void **state)
+static void bounds_hold(void **state)
 {
     (void)state;
+    check_bounds(410, false);
+}
+
+static void bounds_of_parallel_rays_hold(void **state)
+{
+    (void)state;
+    check_bounds(420, true);
+}
+
+static void check_tightened_bounds(uint64_t stream, bool parallel)
+{
     static tile_truth truth;
-    test_random r = random_make(430);
+    test_random r = random_make(stream);
     tally sum[STEPS] = {{0}};
     for (uint32_t k = 400 + test_scaled(2000); k; k--) {
         cgt_camera_rays rays;
         uint32_t at[2];
         cgt_triangle q;
-        make_case(&r, &rays, at, &q);
+        make_case(&r, parallel, &rays, at, &q);
         if (!cgt_tile_serves_camera(&rays) || !cgt_triangle_has_area(&q))
             continue;
         float scale = 0x1p-24f;
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             filter_u = scale;
-            judge_case(&rays, at, &q, k % 2, &truth, step == 0, &sum[step]);
+            judge_case(&rays, at, &q, !parallel && k % 2, &truth, step == 0, &sum[step]);
         }
         filter_u = 0x1p-24f;
     }
@@ -227,6 +265,18 @@ static void bounds_break_where_they_are_tightened(void **state)
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-8);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-8);
     check_break("depth outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
+}
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    check_tightened_bounds(430, false);
+}
+
+static void bounds_of_parallel_rays_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    check_tightened_bounds(440, true);
 }
 
 /* ---- fetching ---- */
@@ -279,7 +329,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fetches_every_triangle),
         cmocka_unit_test(bounds_hold),
+        cmocka_unit_test(bounds_of_parallel_rays_hold),
         cmocka_unit_test(bounds_break_where_they_are_tightened),
+        cmocka_unit_test(bounds_of_parallel_rays_break_where_they_are_tightened),
     };
     test_begin("test_tile_triangles");
     if (!test_variant_runs(CGT_VARIANT_NAME))

@@ -52,7 +52,7 @@ typedef struct packet {
 #define PACKET_LARGEST 0x1p55f
 #define PACKET_SHORTEST 0x1p-55f
 
-/* A region of a camera's frame: packet by packet through any structure; and tile by tile through a loose grid of spheres,
+/* A region of a camera's frame: packet by packet through any structure; and tile by tile through a loose grid,
  * or packet by packet where tiles do not serve (tile_serves.h). */
 void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);

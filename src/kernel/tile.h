@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A tile: up to 64x64 pixels of a perspective camera, traced together, with all that is kept of them small enough for
- * the first cache.
+ * A tile: up to 64x64 pixels of a camera, traced together, with all that is kept of them small enough for the first
+ * cache.
  *
  * Per pixel an object and a depth q are kept. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near d.d that is the
  * same for all objects, a hit's depth is q = t N. The exact q of a pixel's best hit lies in [z, z + gap], where gap is
@@ -11,6 +11,8 @@
  *
  * Where a scene has triangles alone, the depth is -1/t: it is linear on the screen, and cheaper. Its exact value lies in
  * [z, z (1 - TILE_SHARE)] then, which is as wide near the eye as far away. Such tiles are called linear.
+ *
+ * Rays of an orthographic camera are parallel; N is 1 for them, and depths are t. Such tiles are called parallel.
  *
  * Pixels are stored as pairs of rows, interleaved: (x, y) at y / 2 * 128 + 2 x + y % 2. So a vector that starts at any
  * column holds CGT_LANES / 2 columns of two rows, at every width. */
@@ -30,13 +32,16 @@
 #define TILE_SHARE 0x1p-9
 #define TILE_KEPT (1 - TILE_SHARE)
 
+/* How a tile's depths come about; a constant where functions are called. */
+typedef enum tile_kind { TILE_PERSPECTIVE, TILE_LINEAR, TILE_PARALLEL } tile_kind;
+
 /* What a tile's arithmetic knows of the camera. The axes are orthogonal but for rounding, which tile_serves.h checks,
  * and a point c' seen from the eye is c' = z forward + x right / |right| + y up / |up| with z, x, y the products of c'
  * and `dual`, the rows of the inverse of exactly these axes. So what the axes lack is an error of the metric alone. */
 typedef struct tile_camera {
     float dual[3][3];
     float right, up;   /* lengths */
-    float a, b;        /* squares of them */
+    float a, b;        /* of N: squares of them, 0 where rays are parallel */
     float rright, rup; /* reciprocals */
 } tile_camera;
 
@@ -49,6 +54,7 @@ typedef struct tile {
     _Alignas(64) float rlength[TILE_PARTS * TILE_PARTS]; /* at least 1 / sqrt(N) of any pixel of a part */
     float farthest, farthest_t;                          /* of all parts, as distance and as t */
     bool linear;                                         /* depths are -1/t; `far` and `farthest` are t then */
+    bool parallel;                                       /* depths are t, and the rays have one direction */
     _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS];  /* middles of the parts, as px and py */
     _Alignas(64) float part_y[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float part_wide[TILE_PARTS * TILE_PARTS]; /* half their sizes, rounded up */
@@ -58,6 +64,8 @@ typedef struct tile {
     float gap, wide_gap;                     /* wide: what rounding of differences adds is in it */
     float most, least;                       /* N of any pixel is between these */
     float longest;                           /* at least sqrt(most) */
+    float slack;                             /* of lengths: what underflows, and what origins are off by twice */
+    float spread, beside; /* of parallel rays: origins are off by u times this; the farthest one beside the eye */
     const cgt_camera_rays *rays;
     tile_camera camera;
     float axis[3], tangent, secant; /* a cone about all rays, as z, x, y; secant 0: too wide for one */
@@ -71,6 +79,11 @@ CGT_SPU_INLINE double tile_norm(const tile *t, uint32_t i)
 {
     const double px = (double)t->column[tile_column(i)], py = (double)t->row[tile_row(i)];
     return 1 + (double)t->camera.a * px * px + (double)t->camera.b * py * py;
+}
+
+CGT_SPU_INLINE tile_kind tile_kind_of(const tile *t)
+{
+    return t->linear ? TILE_LINEAR : t->parallel ? TILE_PARALLEL : TILE_PERSPECTIVE;
 }
 
 CGT_SPU_INLINE void tile_cross(const float p[3], const float q[3], double cross[3])
@@ -98,8 +111,8 @@ CGT_SPU_INLINE void tile_camera_make(const cgt_camera_rays *c, tile_camera *q)
             q->dual[k][a] = (float)(normal[k][a] / volume * length[k]);
     q->right = (float)length[1];
     q->up = (float)length[2];
-    q->a = (float)right;
-    q->b = (float)up;
+    q->a = c->orthographic ? 0 : (float)right;
+    q->b = c->orthographic ? 0 : (float)up;
     q->rright = (float)(1 / length[1]);
     q->rup = (float)(1 / length[2]);
 }
@@ -132,6 +145,21 @@ CGT_SPU_INLINE float tile_farthest_square(float a, float b)
 {
     const float high = fabsf(a) > fabsf(b) ? fabsf(a) : fabsf(b);
     return high * high;
+}
+
+/* Each coordinate of a canonical origin is made with four roundings, of px right, eye + px right, py up and the sum:
+ * with |px| and |py| at most 1 it is off by u (2 |eye| + 3 |right| + 2 |up|) of that axis, and as a vector by u times the
+ * sum of those lengths. The inverse of the axes takes it to camera space as it is, but for a share of 4 u. */
+CGT_SPU_INLINE void tile_parallel_make(tile *t)
+{
+    const cgt_camera_rays *c = t->rays;
+    const double e[3] = {(double)c->eye[0], (double)c->eye[1], (double)c->eye[2]};
+    const double eye = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+    const double right = (double)t->camera.right, up = (double)t->camera.up;
+    t->parallel = c->orthographic;
+    t->spread = t->parallel ? (float)((2 * eye + 3 * right + 2 * up) * (1 + 0x1p-18)) : 0;
+    t->beside = t->parallel ? (float)((right + up) * (1 + 0x1p-18)) : 0;
+    t->slack = 0x1p-60f + t->spread * 0x1p-23f;
 }
 
 /* The range of N, of the tile and of its parts, rounded outwards. */
@@ -169,7 +197,7 @@ CGT_SPU_INLINE void tile_cone_make(tile *t)
     const float gy[2] = {t->row[0] * t->camera.up, t->row[last] * t->camera.up};
     const float mx = 0.5f * (gx[0] + gx[1]), my = 0.5f * (gy[0] + gy[1]), r = 1 / sqrtf(1 + mx * mx + my * my);
     float sine2 = 0;
-    bool narrow = true;
+    bool narrow = !t->parallel;
     t->axis[0] = r;
     t->axis[1] = mx * r;
     t->axis[2] = my * r;
@@ -259,16 +287,25 @@ CGT_SPU_INLINE void tile_open(tile *t, float far_t)
     t->farthest = t->farthest_t = INFINITY;
 }
 
+/* The canonical line of a pixel, in the order of camera.h. */
+CGT_SPU_INLINE cgt_exact_ray tile_line(const cgt_camera_rays *c, bool parallel, float px, float py)
+{
+    const float *from = parallel ? c->eye : c->fwd;
+    cgt_exact_ray line;
+    for (int a = 0; a < 3; a++) {
+        const float sum = (from[a] + px * c->right[a]) + py * c->up[a];
+        line.org[a] = parallel ? sum : c->eye[a];
+        line.dir[a] = parallel ? c->fwd[a] : sum;
+    }
+    return line;
+}
+
 CGT_SPU_INLINE cgt_ray tile_ray(const tile *t, uint32_t i)
 {
     const cgt_camera_rays *c = t->rays;
-    const float px = t->column[tile_column(i)], py = t->row[tile_row(i)];
-    cgt_ray ray = {.t_min = c->t_min, .t_max = c->t_max};
-    for (int a = 0; a < 3; a++) {
-        ray.line.org[a] = c->eye[a];
-        ray.line.dir[a] = (c->fwd[a] + px * c->right[a]) + py * c->up[a];
-    }
-    return ray;
+    return (cgt_ray){.line = tile_line(c, c->orthographic, t->column[tile_column(i)], t->row[tile_row(i)]),
+                     .t_min = c->t_min,
+                     .t_max = c->t_max};
 }
 
 #endif

@@ -6,6 +6,7 @@
  *
  * In camera space (tile.h) a box is z, x, y of its middle and half its extents along those. All of it is in front of the
  * eye where z is above its extent; the columns under it are then between the least and the most of x / z of its ends.
+ * Of parallel rays, any box's are those under x, and its extents have what origins are off by in them.
  *
  * Rounding, with u = 2^-24 and c the sum over the axes of all that a middle is made of, far from the eye as the grid may
  * be: the middle is off by 2 u c, its product with `dual` by 4 u c more, and a canonical direction by 3.5 u |d|, which is
@@ -14,6 +15,7 @@
 #define CGT_TILE_CELLS_H
 
 #include "tile_march.h"
+#include "tile_parallel_spheres.h"
 #include "tile_triangles.h"
 
 /* The cells of a slice, as the camera sees them. */
@@ -44,7 +46,7 @@ CGT_SPU_INLINE tile_cells tile_cells_make(const tile *t, const tile_march *m, co
         sum += fabs(low) + (l->size[a] + 1) * cell + (double)l->reach[a];
     }
     for (int k = 0; k < 3; k++) {
-        double half = sum * 0x1p-19;
+        double half = sum * 0x1p-19 + (t->parallel ? (double)t->slack : 0);
         for (int a = 0; a < 3; a++)
             half += fabs((double)t->camera.dual[k][a]) * (0.5 * (double)l->cell[a] + (double)l->reach[a]);
         c.half[k] = (float)half;
@@ -64,16 +66,38 @@ CGT_SPU_INLINE vmask tile_cells_window(vfloat middle, float half, const vfloat r
                        from, to);
 }
 
-/* Boxes that the tile does not want. */
-CGT_SPU_INLINE vmask tile_cells_unwanted(const tile *t, const tile_cells *c, const vfloat middle[3])
+CGT_SPU_INLINE void tile_cells_seen(const tile *t, const vfloat middle[3], vfloat v[3])
 {
-    const float *pixel = t->rays->pixel, (*dual)[3] = (const float(*)[3])t->camera.dual;
-    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
-    vfloat v[3], r[2];
-    vmask apart;
+    const float(*dual)[3] = t->camera.dual;
     for (int k = 0; k < 3; k++)
         v[k] = spu_madd(middle[0], spux_vfloat(dual[k][0]),
                         spu_madd(middle[1], spux_vfloat(dual[k][1]), spu_mul(middle[2], spux_vfloat(dual[k][2]))));
+}
+
+/* Boxes that a tile of parallel rays does not want. */
+CGT_SPU_INLINE vmask tile_parallel_cells_unwanted(const tile *t, const tile_cells *c, const vfloat middle[3])
+{
+    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
+    vfloat v[3];
+    vmask apart;
+    tile_cells_seen(t, middle, v);
+    const vfloat nearest = spu_sub(v[0], spux_vfloat(c->half[0])), far = spu_add(v[0], spux_vfloat(c->half[0]));
+    const vmask outside =
+        tile_parallel_windows(t, v[1], v[2], spux_vfloat(c->half[1]), spux_vfloat(c->half[2]), x0, x1, y0, y1);
+    const vfloat seen = tile_windows_far(t, x0, x1, y0, y1, &apart);
+    const vmask hidden =
+        spu_or(spu_cmpgt(nearest, spux_vfloat(t->farthest)), spu_andc(spu_cmpgt(nearest, seen), apart));
+    return spu_or(spu_cmpgt(spux_vfloat(0), far), spu_or(outside, hidden));
+}
+
+/* Boxes that the tile does not want. */
+CGT_SPU_INLINE vmask tile_cells_unwanted(const tile *t, const tile_cells *c, const vfloat middle[3])
+{
+    const float *pixel = t->rays->pixel;
+    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
+    vfloat v[3], r[2];
+    vmask apart;
+    tile_cells_seen(t, middle, v);
     const vfloat near = spu_sub(v[0], spux_vfloat(c->half[0])), far = spu_add(v[0], spux_vfloat(c->half[0]));
     const vmask front = spu_cmpgt(near, spux_vfloat(c->half[0] * 0x1p-10f)), behind = spu_cmpgt(spux_vfloat(0), far);
     const vfloat nearest = spu_mul(near, spux_vfloat(tile_nearest_scale(t)));
@@ -103,7 +127,8 @@ CGT_SPU_INLINE unsigned tile_cells_wanted(const tile *t, const tile_cells *c, ui
         middle[a] = a == c->march->w
                         ? spux_vfloat(c->middle[a])
                         : spu_madd(a == c->march->u ? column : row, spux_vfloat(c->step[a]), spux_vfloat(c->middle[a]));
-    return ~spux_mask_bits(tile_cells_unwanted(t, c, middle)) & (left < CGT_LANES ? (1u << left) - 1 : CGT_ALL_LANES);
+    const vmask unwanted = t->parallel ? tile_parallel_cells_unwanted(t, c, middle) : tile_cells_unwanted(t, c, middle);
+    return ~spux_mask_bits(unwanted) & (left < CGT_LANES ? (1u << left) - 1 : CGT_ALL_LANES);
 }
 
 /* Where cell i of the slice lies in the grid's `start`. */

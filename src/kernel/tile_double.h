@@ -11,13 +11,6 @@
 #include "../triangle_double.h"
 #include "tile_draw.h"
 
-CGT_SPU_INLINE void tile_double_direction(const tile *t, float px, float py, float dir[3])
-{
-    const cgt_camera_rays *c = t->rays;
-    for (int a = 0; a < 3; a++)
-        dir[a] = (c->fwd[a] + px * c->right[a]) + py * c->up[a];
-}
-
 /* A hit's t as the depth of the tile, infinite where it is not in the range. */
 CGT_SPU_INLINE double tile_double_depth(const tile *t, float px, float py, double hit, bool linear)
 {
@@ -30,17 +23,16 @@ CGT_SPU_INLINE double tile_double_depth(const tile *t, float px, float py, doubl
 }
 
 /* What is known of pixels first to end - 1 of a pair of rows: the depth of a certain hit, infinite for a certain miss, NaN where double is open. */
-CGT_SPU_INLINE void tile_double_sphere(const tile *t, cgt_sphere q, uint32_t pair, uint32_t first, uint32_t end,
-                                       double depth[TILE_PAIR])
+CGT_SPU_INLINE void tile_double_sphere(const tile *t, cgt_sphere q, uint32_t pair, bool parallel, uint32_t first,
+                                       uint32_t end, double depth[TILE_PAIR])
 {
     const cgt_camera_rays *c = t->rays;
     const double t_min = (double)c->t_min;
     for (uint32_t i = first; i < end; i++) {
         const float px = t->px[i], py = t->row[2 * pair + (i & 1)];
-        float dir[3];
-        tile_double_direction(t, px, py, dir);
-        const cgt_sphere_terms e = cgt_sphere_double_terms(c->eye, dir, q);
-        const double error = cgt_sphere_double_disc_error(c->eye, dir, q);
+        const cgt_exact_ray line = tile_line(c, parallel, px, py);
+        const cgt_sphere_terms e = cgt_sphere_double_terms(line.org, line.dir, q);
+        const double error = cgt_sphere_double_disc_error(line.org, line.dir, q);
         const double half = sqrt(e.disc);
         const cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
         const double near = (double)(float)root.near, hit = near >= t_min ? root.near : root.far;
@@ -51,22 +43,20 @@ CGT_SPU_INLINE void tile_double_sphere(const tile *t, cgt_sphere q, uint32_t pai
     }
 }
 
-CGT_SPU_INLINE void tile_double_triangle(const tile *t, const cgt_triangle *q, uint32_t pair, bool linear,
+CGT_SPU_INLINE void tile_double_triangle(const tile *t, const cgt_triangle *q, uint32_t pair, tile_kind kind,
                                          uint32_t first, uint32_t end, double depth[TILE_PAIR])
 {
-    const float *eye = t->rays->eye;
     for (uint32_t i = first; i < end; i++) {
         const float px = t->px[i], py = t->row[2 * pair + (i & 1)];
-        float dir[3];
-        tile_double_direction(t, px, py, dir);
-        const cgt_triangle_sides s = cgt_triangle_double_sides(eye, dir, q);
-        const cgt_triangle_plane p = cgt_triangle_double_plane(eye, dir, q);
+        const cgt_exact_ray line = tile_line(t->rays, kind == TILE_PARALLEL, px, py);
+        const cgt_triangle_sides s = cgt_triangle_double_sides(line.org, line.dir, q);
+        const cgt_triangle_plane p = cgt_triangle_double_plane(line.org, line.dir, q);
         int left = 0, right = 0;
         for (int k = 0; k < 3; k++) {
             left += s.w[k] > s.error[k];
             right += s.w[k] < -s.error[k];
         }
-        const double known = tile_double_depth(t, px, py, p.num / p.den, linear);
+        const double known = tile_double_depth(t, px, py, p.num / p.den, kind == TILE_LINEAR);
         const bool missed = (left != 0) & (right != 0);
         const bool hit = ((left == 3) | (right == 3)) & cgt_triangle_double_t_safe(&p);
         depth[i] = missed ? (double)INFINITY : hit ? known : (double)NAN;
@@ -76,12 +66,17 @@ CGT_SPU_INLINE void tile_double_triangle(const tile *t, const cgt_triangle *q, u
 CGT_SPU_INLINE void tile_double_pair(const tile *t, const cgt_shape *q, uint32_t pair, uint32_t first, uint32_t end,
                                      double depth[TILE_PAIR])
 {
-    if (q->kind == CGT_KIND_SPHERES)
-        tile_double_sphere(t, q->sphere, pair, first, end, depth);
+    const bool sphere = q->kind == CGT_KIND_SPHERES;
+    if (sphere && t->parallel)
+        tile_double_sphere(t, q->sphere, pair, true, first, end, depth);
+    else if (sphere)
+        tile_double_sphere(t, q->sphere, pair, false, first, end, depth);
     else if (t->linear)
-        tile_double_triangle(t, &q->triangle, pair, true, first, end, depth);
+        tile_double_triangle(t, &q->triangle, pair, TILE_LINEAR, first, end, depth);
+    else if (t->parallel)
+        tile_double_triangle(t, &q->triangle, pair, TILE_PARALLEL, first, end, depth);
     else
-        tile_double_triangle(t, &q->triangle, pair, false, first, end, depth);
+        tile_double_triangle(t, &q->triangle, pair, TILE_PERSPECTIVE, first, end, depth);
 }
 
 /* Tests the pixels of a window. */

@@ -5,13 +5,17 @@
  * of the tile looks along. All levels go together: the next slice of cells is always the one that begins nearest.
  *
  * A slice of cells holds objects between the planes w = low and w = high, the cells' own enlarged by the level's reach.
- * The rays start at the eye and none runs against the march, so between the planes their other coordinates lie between
+ * Rays start at the eye and none runs against the march, so between the planes their other coordinates lie between
  * those of the corner rays there: rays are the corner rays' convex combinations but for their rounding. With the slopes
  * m = d_u / d_w of the corner rays, that is a rectangle of cells, enlarged by the reach too.
  *
+ * Parallel rays have one slope, and origins that vary: they start at w between the least and the most of the corner rays'
+ * origins, and where their lines pass w = 0 is between those of the corner rays too.
+ *
  * Rounding: a canonical direction lies within 3.5 u |d| of the exact one, u = 2^-24, so its slope within
- * 3.5 u (1 + |m|) |d| / d_w of a combination's; 2^-21 is taken for 3.5 u. All other arithmetic here is double, with
- * 2^-48 of the largest number for what it rounds. Where the corner rays are too wide for it, everything is visited. */
+ * 3.5 u (1 + |m|) |d| / d_w of a combination's; 2^-21 is taken for 3.5 u. A parallel ray's direction is exact, its origin
+ * within u spread (tile.h). All other arithmetic here is double, with 2^-48 of the largest number for what it rounds.
+ * Where the corner rays are too wide for it, everything is visited. */
 #ifndef CGT_TILE_MARCH_H
 #define CGT_TILE_MARCH_H
 
@@ -28,7 +32,9 @@ typedef struct tile_march {
     const cgt_loose_grid *grid;
     uint32_t w, u, v; /* axes, u < v */
     double slope_low[2], slope_high[2];
-    double rspeed; /* t per length along w, at most */
+    double base_low[2], base_high[2]; /* of parallel rays: where they pass w = 0, from the eye; else 0 */
+    double start_low, start_high;     /* w where rays start; else 0 */
+    double rspeed;                    /* t per length along w, at most */
     bool forward;
     bool everything;
     tile_march_level level[CGT_LOOSE_LEVELS];
@@ -50,6 +56,7 @@ CGT_SPU_INLINE void tile_march_rays(const tile *t, tile_march *m)
     const cgt_camera_rays *c = t->rays;
     const uint32_t axis[2] = {m->u, m->v};
     double d[4][3], least = INFINITY, most = 0;
+    m->start_low = m->start_high = m->base_low[0] = m->base_low[1] = m->base_high[0] = m->base_high[1] = 0;
     for (uint32_t k = 0; k < 4; k++) {
         const double px = (double)t->column[k & 1 ? TILE_EDGE - 1 : 0], py = (double)t->row[k & 2 ? TILE_EDGE - 1 : 0];
         for (int a = 0; a < 3; a++)
@@ -72,6 +79,35 @@ CGT_SPU_INLINE void tile_march_rays(const tile *t, tile_march *m)
     }
 }
 
+/* The same for parallel rays: from the origins at the corners. */
+CGT_SPU_INLINE void tile_march_parallel(const tile *t, tile_march *m)
+{
+    const cgt_camera_rays *c = t->rays;
+    const uint32_t axis[2] = {m->u, m->v};
+    const double sign = m->forward ? 1 : -1, speed = fabs((double)c->fwd[m->w]), off = (double)t->spread * 0x1p-23;
+    m->everything = false;
+    m->rspeed = 1 / speed;
+    m->start_low = INFINITY;
+    m->start_high = -INFINITY;
+    for (int k = 0; k < 2; k++) {
+        m->slope_low[k] = m->slope_high[k] = (double)c->fwd[axis[k]] / speed;
+        m->base_low[k] = INFINITY;
+        m->base_high[k] = -INFINITY;
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        const double px = (double)t->column[i & 1 ? TILE_EDGE - 1 : 0], py = (double)t->row[i & 2 ? TILE_EDGE - 1 : 0];
+        const double start = sign * (px * (double)c->right[m->w] + py * (double)c->up[m->w]);
+        m->start_low = tile_min(m->start_low, start - off);
+        m->start_high = tile_max(m->start_high, start + off);
+        for (int k = 0; k < 2; k++) {
+            const double from = px * (double)c->right[axis[k]] + py * (double)c->up[axis[k]];
+            const double base = from - start * m->slope_low[k], wide = off * (1 + fabs(m->slope_low[k]));
+            m->base_low[k] = tile_min(m->base_low[k], base - wide);
+            m->base_high[k] = tile_max(m->base_high[k], base + wide);
+        }
+    }
+}
+
 CGT_SPU_INLINE void tile_march_level_make(const tile *t, const tile_march *m, const cgt_loose_level *from,
                                           tile_march_level *l)
 {
@@ -84,17 +120,19 @@ CGT_SPU_INLINE void tile_march_level_make(const tile *t, const tile_march *m, co
     l->begin = (m->forward ? low : -(low + length)) - reach - rounding;
     l->step = cell;
     l->thickness = cell + 2 * (reach + rounding);
-    const double behind = m->everything ? -1 : -(l->begin + l->thickness) / cell; /* slices that end behind the eye */
+    /* slices that end before the rays start */
+    const double behind = m->everything ? -1 : (m->start_low - (l->begin + l->thickness)) / cell;
     l->next = behind > 0 ? behind < l->slices ? (uint32_t)behind : l->slices : 0;
-    const double end = tile_max(l->begin + l->slices * cell + l->thickness, 0);
+    const double end = tile_max(l->begin + l->slices * cell + l->thickness, -m->start_low);
     for (int k = 0; k < 2; k++) {
         const uint32_t a = axis[k];
         const double steepest = tile_max(fabs(m->slope_low[k]), fabs(m->slope_high[k]));
         l->rcell[k] = 1 / (double)from->cell[a];
         l->base[k] = (double)from->low[a] - (double)eye[a];
         l->reach[k] = (double)from->reach[a] * l->rcell[k];
-        l->slack[k] = 0x1p-20 + (end * steepest + fabs(l->base[k])) * l->rcell[k] * 0x1p-48 +
-                      (from->size[a] + l->reach[k]) * 0x1p-48;
+        const double base = fabs(l->base[k]) + fabs(m->base_low[k]) + fabs(m->base_high[k]);
+        l->slack[k] =
+            0x1p-20 + (end * steepest + base) * l->rcell[k] * 0x1p-48 + (from->size[a] + l->reach[k]) * 0x1p-48;
     }
 }
 
@@ -106,13 +144,16 @@ CGT_SPU_INLINE void tile_march_make(const tile *t, const cgt_loose_grid *grid, t
     m->grid = grid;
     m->w = 0;
     for (uint32_t a = 0; a < 3; a++) {
-        d[a] = c->fwd[a] + px * c->right[a] + py * c->up[a];
+        d[a] = t->parallel ? c->fwd[a] : c->fwd[a] + px * c->right[a] + py * c->up[a];
         m->w = fabsf(d[a]) > fabsf(d[m->w]) ? a : m->w;
     }
     m->u = m->w == 0 ? 1 : 0;
     m->v = m->w == 2 ? 1 : 2;
     m->forward = d[m->w] > 0;
-    tile_march_rays(t, m);
+    if (t->parallel)
+        tile_march_parallel(t, m);
+    else
+        tile_march_rays(t, m);
     for (uint32_t i = 0; i < grid->levels; i++)
         tile_march_level_make(t, m, &grid->level[i], &m->level[i]);
 }
@@ -125,8 +166,8 @@ CGT_SPU_INLINE bool tile_march_cells(const tile_march *m, const tile_march_level
     s->high[k] = size - 1;
     if (m->everything)
         return true;
-    const double low = tile_min(near * m->slope_low[k], far * m->slope_low[k]);
-    const double high = tile_max(near * m->slope_high[k], far * m->slope_high[k]);
+    const double low = tile_min(near * m->slope_low[k], far * m->slope_low[k]) + m->base_low[k];
+    const double high = tile_max(near * m->slope_high[k], far * m->slope_high[k]) + m->base_high[k];
     const double margin = l->reach[k] + l->slack[k];
     const double first = (low - l->base[k]) * l->rcell[k] - margin - 1, end = size;
     const double last = (high - l->base[k]) * l->rcell[k] + margin;
@@ -158,9 +199,10 @@ CGT_SPU_INLINE bool tile_march_next(tile_march *m, tile_slice *s)
             return false;
         tile_march_level *l = &m->level[s->level];
         const cgt_loose_level *from = &m->grid->level[s->level];
-        const double near = tile_max(nearest, 0), far = tile_max(nearest + l->thickness, 0);
+        const double start = m->start_low, near = tile_max(nearest, start),
+                     far = tile_max(nearest + l->thickness, start);
         s->cell = m->forward ? l->next : l->slices - 1 - l->next;
-        s->near_t = m->everything ? 0 : near * m->rspeed * (1 - 0x1p-40);
+        s->near_t = m->everything ? 0 : tile_max(near - m->start_high, 0) * m->rspeed * (1 - 0x1p-40);
         l->next++;
         if (tile_march_cells(m, l, 0, near, far, from->size[m->u], s) &&
             tile_march_cells(m, l, 1, near, far, from->size[m->v], s))

@@ -15,12 +15,13 @@
 
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
 
-/* The canonical directions of px and py, in the order of camera.h. */
-CGT_SPU_INLINE void tile_directions(const tile *t, vfloat px, vfloat py, vfloat dir[3])
+/* The canonical directions of px and py, or the origins of parallel rays, in the order of camera.h. */
+CGT_SPU_INLINE void tile_directions(const tile *t, bool parallel, vfloat px, vfloat py, vfloat dir[3])
 {
     const cgt_camera_rays *c = t->rays;
+    const float *from = parallel ? c->eye : c->fwd;
     for (int a = 0; a < 3; a++) {
-        const vfloat across = spu_add(spux_vfloat(c->fwd[a]), spu_mul(px, spux_vfloat(c->right[a])));
+        const vfloat across = spu_add(spux_vfloat(from[a]), spu_mul(px, spux_vfloat(c->right[a])));
         dir[a] = spu_add(across, spu_mul(py, spux_vfloat(c->up[a])));
     }
 }
@@ -73,8 +74,12 @@ typedef struct tile_hits {
 CGT_SPU_INLINE cgt_ray tile_hit_ray(const tile *t, const vfloat dir[3], int k)
 {
     const cgt_camera_rays *c = t->rays;
-    return (cgt_ray){.line = {.org = {c->eye[0], c->eye[1], c->eye[2]}, .dir = {dir[0][k], dir[1][k], dir[2][k]}},
-                     .t_min = c->t_min};
+    cgt_ray ray = {.t_min = c->t_min};
+    for (int a = 0; a < 3; a++) {
+        ray.line.org[a] = t->parallel ? dir[a][k] : c->eye[a];
+        ray.line.dir[a] = t->parallel ? c->fwd[a] : dir[a][k];
+    }
+    return ray;
 }
 
 /* The rays of some lanes, one by one. */
@@ -127,6 +132,7 @@ typedef struct tile_prepared {
 /* What is constant over a frame; inlined with constants where that makes loops shorter. */
 typedef struct tile_wish {
     bool triangles, stream, exact, fast;
+    bool parallel;   /* rays: tile_directions are their origins */
     uint32_t fields; /* t, u v and normals */
 } tile_wish;
 
@@ -250,6 +256,43 @@ typedef struct tile_kept {
     tile_prepared *triangles;
 } tile_kept;
 
+/* A vector of parallel rays, from these origins. */
+CGT_SPU_INLINE void tile_resolve_parallel(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
+                                          uint32_t some, vmask missed, const vfloat org[3], tile_hits *h,
+                                          cgt_counts *counts)
+{
+    const cgt_object_array *array = world->objects.array;
+    const float *fwd = t->rays->fwd;
+    const vfloat zero = spux_vfloat(0), dir[3] = {spux_vfloat(fwd[0]), spux_vfloat(fwd[1]), spux_vfloat(fwd[2])};
+    resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
+    vmask known;
+    if (wish.triangles) {
+        vfloat vertex[3][3];
+        fetch_triangles_at(array, number, vertex);
+        known = resolve_triangles_vector(org, dir, vertex, wish.fields, wish.exact, &found);
+    } else {
+        _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+        const cgt_sphere q = cgt_array_sphere(array, some);
+        vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
+        if (!spux_all(spu_cmpeq(number, spux_vuint(some)))) {
+            spux_store_uint(at, number);
+            fetch_spheres_at(array, at, sphere);
+        }
+        known = resolve_spheres_vector(org, dir, sphere, spux_vfloat(t->rays->t_min), wish.fields & CGT_FIELD_NORMAL,
+                                       &found.t, found.normal);
+    }
+    h->t = spux_select(found.t, h->t, missed);
+    h->u = spux_select(found.u, zero, missed);
+    h->v = spux_select(found.v, zero, missed);
+    for (int a = 0; a < 3; a++)
+        h->normal[a] = spux_select(found.normal[a], zero, missed);
+    const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
+    if (rest && wish.triangles)
+        tile_resolve_triangle_rays(world, t, rest, org, wish.fields, wish.exact, h, counts);
+    else if (rest)
+        tile_resolve_sphere_rays(world, t, rest, org, h, counts);
+}
+
 CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
                                              tile_kept kept, uint64_t *hits, cgt_counts *counts)
 {
@@ -263,8 +306,11 @@ CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile 
     const uint32_t some = t->object[i + (uint32_t)__builtin_ctz(hit)];
     const vuint number = spux_select(h.object, spux_vuint(some), missed);
     vfloat dir[3];
-    tile_directions(t, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))), spux_load(t->py[i / TILE_PAIR]), dir);
-    if (wish.triangles)
+    tile_directions(t, wish.parallel, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))),
+                    spux_load(t->py[i / TILE_PAIR]), dir);
+    if (wish.parallel)
+        tile_resolve_parallel(world, t, wish, number, some, missed, dir, &h, counts);
+    else if (wish.triangles)
         tile_resolve_triangles(world, t, wish, number, hit, missed, dir, kept.triangles, &h, counts);
     else
         tile_resolve_spheres(world, t, wish, number, some, missed, dir, kept.sphere, &h, counts);
@@ -349,14 +395,32 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const 
     }
 }
 
+__attribute__((noinline, unused)) static void tile_resolve_parallel_array(const cgt_world *world, const tile *t,
+                                                                          const cgt_region *r, tile_wish wish,
+                                                                          cgt_counts *counts)
+{
+    const tile_kept kept = {NULL, NULL};
+    wish.parallel = true;
+    if (wish.triangles) {
+        wish.triangles = true;
+        tile_resolve_streamed(world, t, r, wish, kept, counts);
+    } else {
+        wish.triangles = false;
+        tile_resolve_streamed(world, t, r, wish, kept, counts);
+    }
+}
+
 CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, const cgt_trace_settings *settings,
                                        const cgt_region *r, cgt_counts *counts)
 {
-    const tile_wish wish = {.exact = settings->precision == CGT_PRECISION_EXACT,
+    const tile_wish wish = {.triangles = world->objects.triangles != 0,
+                            .exact = settings->precision == CGT_PRECISION_EXACT,
                             .fast = settings->precision == CGT_PRECISION_FAST,
                             .fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u) |
                                       (r->u && world->objects.triangles ? CGT_FIELD_UV : 0u)};
-    if (world->objects.triangles)
+    if (t->parallel)
+        tile_resolve_parallel_array(world, t, r, wish, counts);
+    else if (world->objects.triangles)
         tile_resolve_triangle_array(world, t, r, wish, counts);
     else
         tile_resolve_sphere_array(world, t, r, wish, counts);
@@ -377,9 +441,10 @@ CGT_SPU_INLINE void tile_strip_rays(const tile *t, uint32_t y, packet *p)
                 if (spux_all(spu_cmpeq(object[k], spux_vuint(CGT_NONE))))
                     continue;
                 vfloat dir[3];
-                tile_directions(t, spux_load_unaligned(t->column + x), spux_vfloat(t->row[y + row + k]), dir);
+                tile_directions(t, t->parallel, spux_load_unaligned(t->column + x), spux_vfloat(t->row[y + row + k]),
+                                dir);
                 for (int a = 0; a < 3; a++)
-                    spux_store(p->dir[a] + i, dir[a]);
+                    spux_store((t->parallel ? p->org : p->dir)[a] + i, dir[a]);
             }
         }
 }

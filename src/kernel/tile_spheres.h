@@ -201,7 +201,7 @@ CGT_SPU_INLINE tile_seen tile_spheres_see(const tile *t, const vfloat sphere[4])
     v.y2 = spu_mul(v.y, v.y);
     v.r2 = spu_mul(v.r, v.r);
     v.distance = spux_sqrt(spu_add(v.z2, spu_add(v.x2, v.y2)));
-    const vfloat slack = spu_madd(spu_add(v.distance, v.r), spux_vfloat(0x1p-18f), spux_vfloat(0x1p-60f));
+    const vfloat slack = spu_madd(spu_add(v.distance, v.r), spux_vfloat(0x1p-18f), spux_vfloat(t->slack));
     const vfloat beside = spu_mul(v.z, spux_vfloat(16));
     v.nearest = spu_sub(spu_sub(v.distance, v.r), slack);
     v.wide = spu_add(v.r, slack);
@@ -267,6 +267,17 @@ CGT_SPU_INLINE void tile_spheres_store(const tile *t, const tile_seen *v, vfloat
     spux_store(s->nearest, v->nearest);
 }
 
+/* `certain`. Returns the lanes that have most of what they cover beyond it. */
+CGT_SPU_INLINE vmask tile_spheres_certain(const tile *t, const tile_seen *v, tile_bounds bounds, tile_spheres *s)
+{
+    /* root fits into the room of the gap where D is that far beyond 2 eps */
+    const vfloat room = spu_nmsub(bounds.e0, spux_vfloat(2), spux_vfloat(t->gap));
+    const vfloat beyond = spux_div(spu_mul(bounds.eps, spux_vfloat(1 + 0x1p-18f)), room);
+    const vfloat beyond2 = spu_mul(beyond, beyond), most = spux_max(spu_mul(v->r2, spux_vfloat(0.25f)), bounds.eps);
+    spux_store(s->certain, spu_madd(bounds.eps, spux_vfloat(2), spux_max(beyond2, bounds.eps)));
+    return spu_and(spu_cmpgt(room, spu_mul(bounds.e0, spux_vfloat(0.25f))), spu_cmpgt(most, beyond2));
+}
+
 /* Coefficients and `certain`. Returns the lanes that the bounds hold for, as bits: in front, after the range's begin,
  * and most of what they cover beyond `certain`. */
 CGT_SPU_INLINE unsigned tile_spheres_bound(const tile *t, const tile_seen *v, tile_spheres *s)
@@ -274,13 +285,8 @@ CGT_SPU_INLINE unsigned tile_spheres_bound(const tile *t, const tile_seen *v, ti
     const vfloat rz = spux_div(spux_vfloat(1), v->z), gx = spu_mul(v->x, rz), gy = spu_mul(v->y, rz);
     const vfloat n0 = spu_madd(gx, gx, spu_madd(gy, gy, spux_vfloat(1)));
     const tile_bounds bounds = tile_sphere_bounds(t, v->distance, v->r, n0);
-    /* root fits into the room of the gap where D is that far beyond 2 eps */
-    const vfloat room = spu_nmsub(bounds.e0, spux_vfloat(2), spux_vfloat(t->gap));
-    const vfloat beyond = spux_div(spu_mul(bounds.eps, spux_vfloat(1 + 0x1p-18f)), room);
-    const vfloat beyond2 = spu_mul(beyond, beyond), most = spux_max(spu_mul(v->r2, spux_vfloat(0.25f)), bounds.eps);
-    const vmask fits = spu_and(spu_cmpgt(room, spu_mul(bounds.e0, spux_vfloat(0.25f))), spu_cmpgt(most, beyond2));
+    const vmask fits = tile_spheres_certain(t, v, bounds, s);
     const vmask late = spu_cmpgt(v->nearest, spux_vfloat(t->rays->t_min * t->longest * (1 + 0x1p-18f)));
-    spux_store(s->certain, spu_madd(bounds.eps, spux_vfloat(2), spux_max(beyond2, bounds.eps)));
     tile_spheres_store(t, v, gx, gy, n0, bounds, s);
     return spux_mask_bits(spu_and(v->front, spu_and(fits, late)));
 }

@@ -7,6 +7,7 @@
 #include "tile_cells.h"
 #include "tile_double.h"
 #include "tile_draw.h"
+#include "tile_make.h"
 #include "tile_resolve.h"
 #include "tile_triangle_draw.h"
 
@@ -73,21 +74,35 @@ CGT_SPU_INLINE uint32_t draw_spheres(tile_work *w, const tile_spheres *s)
 /* The bits of the first lanes. */
 CGT_SPU_INLINE unsigned first_lanes(uint32_t count) { return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES; }
 
+/* A function of its own: what perspective takes stays as short as it is. */
+__attribute__((noinline)) static void take_parallel_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    vfloat sphere[4];
+    tile_spheres s;
+    tile_spheres_fetch(&w->world->objects, reference, count, sphere, s.object);
+    tile_parallel_spheres_make(w->t, sphere, first_lanes(count), &s);
+    count_taken(w, count, s.fast | s.slow ? draw_spheres(w, &s) : 0);
+}
+
 static void take_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
 {
     vfloat sphere[4];
     tile_spheres s;
+    if (w->t->parallel) {
+        take_parallel_spheres(w, reference, count);
+        return;
+    }
     tile_spheres_fetch(&w->world->objects, reference, count, sphere, s.object);
     tile_spheres_make(w->t, sphere, first_lanes(count), &s);
     count_taken(w, count, s.fast | s.slow ? draw_spheres(w, &s) : 0);
 }
 
-CGT_SPU_INLINE uint32_t draw_triangles(tile_work *w, const tile_triangles *s, bool linear)
+CGT_SPU_INLINE uint32_t draw_triangles(tile_work *w, const tile_triangles *s, tile_kind kind)
 {
     const cgt_objects *objects = &w->world->objects;
     uint32_t drawn = 0;
     for (unsigned left = s->fast; left; left &= left - 1)
-        drawn += tile_triangle_draw(objects, w->t, s, __builtin_ctz(left), linear, &w->queue, w->counts);
+        drawn += tile_triangle_draw(objects, w->t, s, __builtin_ctz(left), kind, &w->queue, w->counts);
     for (unsigned left = s->slow; left; left &= left - 1) {
         const int k = __builtin_ctz(left);
         const tile_box box = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
@@ -99,16 +114,30 @@ CGT_SPU_INLINE uint32_t draw_triangles(tile_work *w, const tile_triangles *s, bo
     return drawn;
 }
 
+__attribute__((noinline)) static void take_parallel_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    vfloat vertex[3][3];
+    tile_triangles s;
+    tile_triangles_objects(reference, count, s.object);
+    tile_triangles_fetch(&w->world->objects, s.object, vertex);
+    tile_parallel_triangles_make(w->t, vertex, first_lanes(count), &s);
+    count_taken(w, count, s.fast | s.slow ? draw_triangles(w, &s, TILE_PARALLEL) : 0);
+}
+
 static void take_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
 {
     vfloat vertex[3][3];
     tile_triangles s;
     uint32_t drawn = 0;
+    if (w->t->parallel) {
+        take_parallel_triangles(w, reference, count);
+        return;
+    }
     tile_triangles_objects(reference, count, s.object);
     tile_triangles_fetch(&w->world->objects, s.object, vertex);
     tile_triangles_make(w->t, vertex, first_lanes(count), &s);
     if (s.fast | s.slow)
-        drawn = w->t->linear ? draw_triangles(w, &s, true) : draw_triangles(w, &s, false);
+        drawn = w->t->linear ? draw_triangles(w, &s, TILE_LINEAR) : draw_triangles(w, &s, TILE_PERSPECTIVE);
     count_taken(w, count, drawn);
 }
 
@@ -302,51 +331,6 @@ static void march(tile_work *w)
 }
 
 /* ---- the tile ---- */
-
-/* Distance from the eye to the farthest corner of the world's bounds, rounded up. */
-static float farthest_corner(const cgt_world *world, const float eye[3])
-{
-    double square = 0;
-    for (int a = 0; a < 3; a++) {
-        const double low = fabs((double)world->low[a] - (double)eye[a]);
-        const double high = fabs((double)world->high[a] - (double)eye[a]), most = low > high ? low : high;
-        square += most * most;
-    }
-    return (float)(sqrt(square) * (1 + 0x1p-20));
-}
-
-/* The radius that the tile's gap is for. Larger spheres are slow, and smaller ones are left open where something lies
- * within the gap behind them, which is rarer: so the largest radius of which there is a good share of the objects, where
- * that is small beside the scene, else that of most objects. Levels go from large to small. */
-static float usual_radius(const cgt_world *world, float farthest)
-{
-    const cgt_loose_level *level = world->loose.level, *most = level;
-    for (const cgt_loose_level *l = level; l < level + world->loose.levels; l++) {
-        const float reach = fminf(l->reach[0], fminf(l->reach[1], l->reach[2]));
-        if (l->objects >= world->valid / 64 && reach < farthest * 0.125f)
-            return reach;
-        most = l->objects > most->objects ? l : most;
-    }
-    return fminf(most->reach[0], fminf(most->reach[1], most->reach[2]));
-}
-
-static void tile_make(tile *t, const cgt_world *world, const cgt_camera_rays *camera, const cgt_region *r)
-{
-    const float c = farthest_corner(world, camera->eye), far_t = c * (1 + 0x1p-18f);
-    t->rays = camera;
-    t->linear = !world->objects.spheres;
-    t->columns = r->width;
-    t->rows = r->height;
-    tile_camera_make(camera, &t->camera);
-    tile_tables_make(t, r->x, r->y);
-    tile_norms_make(t);
-    tile_parts_make(t);
-    tile_cone_make(t);
-    tile_gap_make(t, c, world->objects.spheres ? usual_radius(world, c) : 0, far_t);
-    if (world->objects.triangles)
-        tile_gap_widen(t, c);
-    tile_open(t, far_t);
-}
 
 static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
                       const cgt_region *region, cgt_counts *counts)

@@ -54,7 +54,7 @@
 /* Of each lane, what its loop over pixels takes. Linear forms are a constant and what px and py are multiplied with. */
 typedef struct tile_triangles {
     _Alignas(64) float side[3][3][CGT_LANES];
-    _Alignas(64) float plane[3][CGT_LANES]; /* -1/t */
+    _Alignas(64) float plane[3][CGT_LANES]; /* -1/t; t of parallel rays */
     _Alignas(64) float certain[CGT_LANES];  /* 2; infinite where no hit is certain */
     _Alignas(64) float nearest[CGT_LANES];  /* before which nothing is hit, as `far` tells it */
     _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES]; /* the window */
@@ -134,7 +134,7 @@ CGT_SPU_INLINE tile_triangles_seen tile_triangles_see(const tile *t, vfloat vert
     }
     s.reach = spu_mul(spux_sqrt(tile_most(square[0], square[1], square[2])), spux_vfloat(1 + 0x1p-18f));
     const vfloat least = tile_least(s.v[0][0], s.v[1][0], s.v[2][0]), most = tile_most(s.v[0][0], s.v[1][0], s.v[2][0]);
-    const vfloat slack = spu_madd(s.reach, spux_vfloat(0x1p-20f), spux_vfloat(0x1p-60f));
+    const vfloat slack = spu_madd(s.reach, spux_vfloat(0x1p-20f), spux_vfloat(t->slack));
     const vfloat near = spux_max(spu_sub(least, slack), spux_vfloat(0)), end = spu_add(most, slack);
     const float begin = t->rays->t_min;
     s.nearest_z = near;
@@ -209,10 +209,10 @@ CGT_SPU_INLINE vmask tile_triangles_hidden(const tile *t, const tile_triangles_s
 /* ---- edges and planes ---- */
 
 /* A vector as a linear form of px and py, times k, plus `more`. */
-CGT_SPU_INLINE void tile_triangles_form(const tile *t, const vfloat v[3], vfloat k, float more,
+CGT_SPU_INLINE void tile_triangles_form(const tile *t, const vfloat v[3], vfloat k, vfloat more,
                                         float form[3][CGT_LANES])
 {
-    spux_store(form[0], spu_madd(v[0], k, spux_vfloat(more)));
+    spux_store(form[0], spu_madd(v[0], k, more));
     spux_store(form[1], spu_mul(v[1], spu_mul(k, spux_vfloat(t->camera.right))));
     spux_store(form[2], spu_mul(v[2], spu_mul(k, spux_vfloat(t->camera.up))));
 }
@@ -250,9 +250,9 @@ CGT_SPU_INLINE unsigned tile_triangles_bound(const tile *t, const tile_triangles
     const vfloat unit = spu_or(spux_div(spux_vfloat(1 / t->longest), error), sign);
     for (int k = 0; k < 3; k++) {
         filter_cross(v->v[(k + 1) % 3], e[k], c);
-        tile_triangles_form(t, c, spu_mul(unit, rlength[k]), 1, s->side[k]);
+        tile_triangles_form(t, c, spu_mul(unit, rlength[k]), one, s->side[k]);
     }
-    tile_triangles_form(t, n, spu_mul(rdet, spu_sub(spux_vfloat(-1), share)), 0, s->plane);
+    tile_triangles_form(t, n, spu_mul(rdet, spu_sub(spux_vfloat(-1), share)), spux_vfloat(0), s->plane);
     const vfloat own = spu_mul(share, spux_vfloat(2.2f));
     const vmask keeps = t->linear
                             ? spu_cmpgt(spux_vfloat((float)TILE_SHARE - 0x1p-20f), own)
