@@ -363,7 +363,7 @@ __attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cg
 {
     tile_prepared_sphere prepared = {.number = CGT_NONE};
     const tile_kept kept = {.sphere = &prepared};
-    wish.triangles = false;
+    wish.triangles = wish.parallel = false;
     if (!(wish.fields & CGT_FIELD_NORMAL))
         tile_resolve_streamed(world, t, r, wish, kept, counts);
     else {
@@ -387,6 +387,7 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const 
     for (uint32_t k = 0; k < TILE_PREPARED; k++)
         prepared.number[k] = CGT_NONE;
     wish.triangles = true;
+    wish.parallel = false;
     if (wish.fields & CGT_FIELD_UV)
         tile_resolve_streamed(world, t, r, wish, kept, counts);
     else {
