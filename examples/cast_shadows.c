@@ -72,8 +72,9 @@ static void find_positions(const cgt_camera *camera, picture *p)
     const float right[3] = {1, 0, 0}, up[3] = {0, -fwd[2], fwd[1]};
     const float h = tanf(camera->fov * 3.14159265f / 360), a = (float)WIDTH / HEIGHT;
     for (int i = 0; i < PIXELS; i++) {
-        const float x = (2 * ((float)(i % WIDTH) + 0.5f) / WIDTH - 1) * h * a;
-        const float y = (1 - 2 * ((float)(i / WIDTH) + 0.5f) / HEIGHT) * h;
+        const int column = i % WIDTH, row = i / WIDTH;
+        const float x = (2 * ((float)column + 0.5f) / WIDTH - 1) * h * a;
+        const float y = (1 - 2 * ((float)row + 0.5f) / HEIGHT) * h;
         const int hit = p->primitive[i] != CGT_NONE;
         for (int k = 0; k < 3; k++)
             p->position[k][i] = hit ? eye[k] + p->t[i] * (fwd[k] + x * right[k] + y * up[k]) : 0;
