@@ -25,12 +25,14 @@ uint64_t cgt_loose_grid_most_cells(uint32_t objects);
 
 /* ---- sorting ---- */
 
-/* One thread counts and moves all objects by their keys, while the cells' counters stay in its cache. Several, or with
- * more cells, sort by two digits, of which the upper one is the bin: chunks of objects count their bins and move to
- * them, each to places of its own, then each bin is sorted by the lower digit, in cache. Every move keeps the order, so
- * that objects ascend in a cell and both ways have one result. */
+/* One thread counts and moves all objects by their keys, while the cells' counters stay in its cache, and where objects
+ * are few that is quicker than any number of threads. Several, or with more cells, sort by two digits, of which the
+ * upper one is the bin: chunks of objects count their bins and move to them, each to places of its own, then each bin is
+ * sorted by the lower digit, in cache. Every move keeps the order, so that objects ascend in a cell and both ways have
+ * one result. */
 #define CGT_LOOSE_CHUNK 16384u         /* objects */
 #define CGT_LOOSE_DIRECT_CELLS 262144u /* at most, for one thread; a megabyte of counters */
+#define CGT_LOOSE_FEW 65536u           /* objects that one thread sorts, however many there are */
 #define CGT_LOOSE_BINS 512u            /* at most */
 #define CGT_LOOSE_BIN_CELLS 512u       /* at least */
 
@@ -54,7 +56,8 @@ typedef struct cgt_loose_sort {
 
 static inline bool cgt_loose_sort_is_direct(const cgt_context *context, uint32_t objects, uint32_t cells)
 {
-    return objects <= CGT_LOOSE_CHUNK || (!context->tasks.run && cells <= CGT_LOOSE_DIRECT_CELLS);
+    return objects <= CGT_LOOSE_CHUNK ||
+           ((objects <= CGT_LOOSE_FEW || !context->tasks.run) && cells <= CGT_LOOSE_DIRECT_CELLS);
 }
 
 /* Fills in shift and bins from the cells. */

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "loose_grid_build.h"
 #include "scene.h"
 #include "support/dyadic.h"
 
@@ -242,6 +243,27 @@ static void few_and_none(void **state)
         }
 }
 
+/* On one thread and on three; where cells were asked for, too. */
+static void compare_sorts(const loose_scene *s, const cgt_scene_options *options, bool check)
+{
+    static const uint32_t threads[] = {1, 3};
+    cgt_context *context[TEST_COUNT(threads)];
+    cgt_scene *scene[TEST_COUNT(threads)];
+    for (size_t i = 0; i < TEST_COUNT(threads); i++) {
+        context[i] = context_make(threads[i], NULL);
+        scene[i] = loose_add(s, context[i], options);
+        assert_int_equal(cgt_scene_commit(scene[i]), CGT_OK);
+        if (i)
+            compare_grids(&scene[0]->world.loose, &scene[i]->world.loose, scene[0]->world.valid);
+        if (i && check)
+            check_grid(scene[i]);
+    }
+    for (size_t i = 0; i < TEST_COUNT(threads); i++) {
+        cgt_scene_release(scene[i]);
+        cgt_context_release(context[i]);
+    }
+}
+
 /* More than one thread counts at once, and more than one bin holds. */
 static void many_are_sorted(void **state)
 {
@@ -249,16 +271,13 @@ static void many_are_sorted(void **state)
     (void)state;
     test_random r = random_make(3);
     for (size_t k = 0; k < TEST_COUNT(kind); k++) {
-        loose_scene s = loose_make(&r, kind[k], LOOSE_BOTH, 17000 + test_scaled(40000));
-        cgt_context *context[2] = {context_make(1, NULL), context_make(3, NULL)};
-        cgt_scene *scene[2] = {commit(&s, context[0]), commit(&s, context[1])};
-        compare_grids(&scene[0]->world.loose, &scene[1]->world.loose, scene[0]->world.valid);
-        if (k == 0 || k == 3)
-            check_grid(scene[1]);
-        for (int i = 0; i < 2; i++) {
-            cgt_scene_release(scene[i]);
-            cgt_context_release(context[i]);
-        }
+        const uint32_t count = k < 2 ? CGT_LOOSE_FEW + 5000 : 17000 + test_scaled(40000); /* by bins and not */
+        loose_scene s = loose_make(&r, kind[k], k % 2 ? LOOSE_BOTH : LOOSE_SPHERES, count);
+        cgt_scene_options options = loose_options;
+        compare_sorts(&s, &options, k == 0 || k == 3);
+        for (int a = 0; a < 3; a++)
+            options.resolution[a] = k % 2 ? 64 : 40;
+        compare_sorts(&s, &options, false);
         loose_free(&s);
     }
 }
