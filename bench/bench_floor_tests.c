@@ -124,6 +124,9 @@ static cgt_result trace(tests_bench *bench, tests_frame *f, cgt_trace_statistics
 static cgt_result open_frame(tests_bench *bench, int which)
 {
     static const uint32_t one_cell[3] = {1, 1, 1};
+    const cgt_structure asked = bench->job->settings->structure.asked[0];
+    /* AUTO would be the queue grid where cells are asked for */
+    const cgt_structure structure = asked == CGT_STRUCTURE_AUTO ? CGT_STRUCTURE_LOOSE_GRID : asked;
     tests_frame *f = &bench->frame[which];
     cgt_trace_statistics counted;
     double ms = 0.0;
@@ -132,8 +135,7 @@ static cgt_result open_frame(tests_bench *bench, int which)
     cgt_result result = floor_open_scene(bench->job, &f->scene, bench->context, f->moving,
                                          bench->triangles ? f->index : NULL, bench->triangles ? f->count : 0);
     if (result == CGT_OK)
-        result = bench_scene_structure(&f->scene, bench->job->settings->structure.asked[0], CGT_RAYS_CAMERA,
-                                       &bench->job->choice.kd, one_cell);
+        result = bench_scene_structure(&f->scene, structure, CGT_RAYS_CAMERA, &bench->job->choice.kd, one_cell);
     if (result == CGT_OK)
         result = bench_scene_commit(&f->scene, bench->triangles ? 3 * f->count : f->count);
     f->passes = 1;

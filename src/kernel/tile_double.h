@@ -79,31 +79,138 @@ CGT_SPU_INLINE void tile_double_pair(const tile *t, const cgt_shape *q, uint32_t
         tile_double_triangle(t, &q->triangle, pair, TILE_PERSPECTIVE, first, end, depth);
 }
 
+/* ---- parts that a triangle does not reach ---- */
+
+/* A canonical direction is within 3.5 2^-24 |d| of the one that a linear function of the pixel has, those at corners too,
+ * and a triangle's sides and its d.n are linear in d: between corners they stray from what those say by at most
+ * 7 2^-24 |d| times the lengths that they are products of. The bounds of their errors are 10 2^-53 of at least those, and
+ * this is so much more than 2^29 that it has these errors in it, too. */
+#define TILE_DOUBLE_STRAY 0x1p30
+
+/* A triangle's sides and its d.n as products with d, and what each may be off by over |d|, straying included. */
+typedef struct tile_double_forms {
+    double of[4][3], off[4];
+    double num, num_error;
+} tile_double_forms;
+
+CGT_SPU_INLINE void tile_double_forms_make(const tile *t, const cgt_triangle *q, tile_double_forms *f)
+{
+    static const float one[3] = {1, 0, 0}; /* of norm 1: errors are those over |d| */
+    const float *eye = t->rays->eye;
+    const cgt_triangle_plane plane = cgt_triangle_double_plane(eye, one, q);
+    const cgt_triangle_sides sides = cgt_triangle_double_sides(eye, one, q);
+    for (int k = 0; k < 3; k++) {
+        const float *from = q->v[(k + 1) % 3], *to = q->v[(k + 2) % 3];
+        double b[3], e[3];
+        for (int a = 0; a < 3; a++) {
+            b[a] = (double)from[a] - (double)eye[a];
+            e[a] = (double)to[a] - (double)from[a];
+        }
+        for (int a = 0; a < 3; a++)
+            f->of[k][a] = CGT_CROSS(b, e, (a + 1) % 3, (a + 2) % 3);
+        f->off[k] = sides.error[k] * TILE_DOUBLE_STRAY;
+    }
+    for (int a = 0; a < 3; a++)
+        f->of[3][a] = plane.n[a];
+    f->off[3] = plane.den_error * TILE_DOUBLE_STRAY;
+    f->num = plane.num;
+    f->num_error = plane.num_error;
+}
+
+/* Whether no ray of the pixels between two columns and two rows hits a triangle where it wants anything, before far_t:
+ * all pass it by, or meet its plane behind the eye, or beyond. */
+CGT_SPU_INLINE bool tile_double_misses(const tile *t, const tile_double_forms *f, const float px[2], const float py[2],
+                                       double far_t)
+{
+    double low[4] = {INFINITY, INFINITY, INFINITY, INFINITY}, high[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    bool below = false, above = false;
+    for (int corner = 0; corner < 4; corner++) {
+        const cgt_exact_ray line = tile_line(t->rays, false, px[corner & 1], py[corner >> 1]);
+        const double x = (double)line.dir[0], y = (double)line.dir[1], z = (double)line.dir[2];
+        const double size = fabs(x) + fabs(y) + fabs(z);
+        for (int k = 0; k < 4; k++) {
+            const double w = x * f->of[k][0] + y * f->of[k][1] + z * f->of[k][2], off = size * f->off[k];
+            low[k] = w - off < low[k] ? w - off : low[k];
+            high[k] = w + off > high[k] ? w + off : high[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        below = below || high[k] < 0;
+        above = above || low[k] > 0;
+    }
+    const double least = fabs(f->num) - f->num_error, most = fmax(fabs(low[3]), fabs(high[3]));
+    const bool sure = least > 0 && (low[3] > 0 || high[3] < 0), ahead = sure && (f->num > 0) == (low[3] > 0);
+    const bool behind = sure && !ahead && least > most * 0x1p-100; /* a t that is handed out as -0 is in the range */
+    return (below && above) || behind || (ahead && least * (1 - 0x1p-20) > most * far_t);
+}
+
+/* The parts of a tile, as bits, that a shape may reach. */
+static unsigned tile_double_parts(const tile *t, const cgt_shape *q)
+{
+    const uint32_t last = TILE_EDGE - 1;
+    const float edge[2][2] = {{t->column[0], t->column[last]}, {t->row[0], t->row[last]}};
+    tile_double_forms f;
+    unsigned parts = 0;
+    if (q->kind == CGT_KIND_SPHERES || t->parallel)
+        return (1u << TILE_PARTS * TILE_PARTS) - 1;
+    tile_double_forms_make(t, &q->triangle, &f);
+    if (tile_double_misses(t, &f, edge[0], edge[1], (double)t->farthest_t))
+        return 0;
+    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
+        const float *x = t->column + k % TILE_PARTS * 16, *y = t->row + k / TILE_PARTS * 16;
+        const float px[2] = {x[0], x[15]}, py[2] = {y[0], y[15]};
+        const double far_t = (double)t->far[k] * (t->linear ? 1 : (double)t->rlength[k] * (1 + 0x1p-20));
+        parts |= (unsigned)!tile_double_misses(t, &f, px, py, far_t) << k;
+    }
+    return parts;
+}
+
+/* ---- pixels ---- */
+
+/* Pixels first to end - 1 of a pair of rows. */
+CGT_SPU_INLINE void tile_double_run(const cgt_objects *objects, tile *t, const cgt_shape *q, uint32_t object,
+                                    uint32_t pair, uint32_t first, uint32_t end, tile_queue *queue, cgt_counts *counts)
+{
+    double depth[TILE_PAIR];
+    uint64_t found = 0;
+    tile_double_pair(t, q, pair, first, end, depth);
+    counts->ray_tests += end - first;
+    counts->double_tests += end - first;
+    for (uint32_t k = first; k < end; k++)
+        found += !(depth[k] == INFINITY);
+    if (!found)
+        return;
+    for (uint32_t k = first; k < end; k++) {
+        const uint32_t i = pair * TILE_PAIR + k;
+        const double z = (double)t->z[i];
+        if (depth[k] == INFINITY || depth[k] > tile_depth_end(t, z) || z == -INFINITY)
+            continue;
+        if (depth[k] + fabs(depth[k]) * 0x1p-28 < z) {
+            t->z[i] = (float)(t->linear ? depth[k] * (1 + 0.5 * TILE_SHARE) : depth[k] - 0.5 * (double)t->gap);
+            t->object[i] = object;
+            continue;
+        }
+        counts->double_tests--; /* it is counted when it is decided */
+        tile_queue_push(objects, t, queue, i, object, counts);
+    }
+}
+
 /* Tests the pixels of a window. */
 __attribute__((noinline, unused)) static void tile_double_draw(const cgt_objects *objects, tile *t, uint32_t object,
                                                                tile_box box, tile_queue *queue, cgt_counts *counts)
 {
     const cgt_shape q = cgt_objects_shape(objects, object);
-    const uint32_t first = 2 * box.x0, end = 2 * box.x1 + 2;
-    double depth[TILE_PAIR];
+    const uint32_t first = 2 * box.x0, end = 2 * box.x1 + 2, side = 2 * TILE_EDGE / TILE_PARTS;
+    const unsigned parts = tile_double_parts(t, &q);
     counts->packet_tests++;
-    for (uint32_t pair = box.y0 / 2; pair <= box.y1 / 2; pair++) {
-        tile_double_pair(t, &q, pair, first, end, depth);
-        counts->ray_tests += end - first;
-        counts->double_tests += end - first;
-        for (uint32_t k = first; k < end; k++) {
-            const uint32_t i = pair * TILE_PAIR + k;
-            const double z = (double)t->z[i];
-            if (depth[k] == INFINITY || depth[k] > tile_depth_end(t, z) || z == -INFINITY)
-                continue;
-            if (depth[k] + fabs(depth[k]) * 0x1p-28 < z) {
-                t->z[i] = (float)(t->linear ? depth[k] * (1 + 0.5 * TILE_SHARE) : depth[k] - 0.5 * (double)t->gap);
-                t->object[i] = object;
-                continue;
+    for (uint32_t pair = box.y0 / 2; parts && pair <= box.y1 / 2; pair++) {
+        const unsigned row = parts >> pair / (side / 4) * TILE_PARTS;
+        for (uint32_t k = first / side; k * side < end; k++)
+            if (row >> k & 1) {
+                const uint32_t from = k * side > first ? k * side : first;
+                const uint32_t to = (k + 1) * side < end ? (k + 1) * side : end;
+                tile_double_run(objects, t, &q, object, pair, from, to, queue, counts);
             }
-            counts->double_tests--; /* it is counted when it is decided */
-            tile_queue_push(objects, t, queue, i, object, counts);
-        }
     }
 }
 
