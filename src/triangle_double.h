@@ -53,6 +53,22 @@ static inline bool cgt_triangle_double_t_safe(const cgt_triangle_plane *p)
     return (p->num_error <= CGT_DOUBLE_SAFE * fabs(p->num)) & (p->den_error <= CGT_DOUBLE_SAFE * fabs(p->den));
 }
 
+/* The side of the edge between two vertices as a product with d, and a bound for its error over the 1-norm of d. */
+static inline double cgt_triangle_double_edge(const float org[3], const cgt_triangle *q, int from, int to,
+                                              double cross[3])
+{
+    double b[3], e[3], size[2] = {0, 0};
+    for (int a = 0; a < 3; a++) {
+        b[a] = (double)q->v[from][a] - (double)org[a];
+        e[a] = (double)q->v[to][a] - (double)q->v[from][a];
+        size[0] += fabs(b[a]);
+        size[1] += fabs(e[a]);
+    }
+    for (int a = 0; a < 3; a++)
+        cross[a] = CGT_CROSS(b, e, (a + 1) % 3, (a + 2) % 3);
+    return CGT_TRIANGLE_DOUBLE_ERROR * size[0] * size[1];
+}
+
 /* w0, w1, w2, and a bound for the error of each. */
 typedef struct cgt_triangle_sides {
     double w[3], error[3];

@@ -232,21 +232,6 @@ typedef struct prepared_triangle {
 /* |d| is summed up otherwise than for a single ray: the bound allows for its rounding. */
 #define PREPARED_SLACK 1.01
 
-CGT_SPU_INLINE void prepare_edge(const float org[3], const cgt_triangle *q, int from, int to, double cross[3],
-                                 double *error)
-{
-    double b[3], e[3], size[2] = {0, 0};
-    for (int a = 0; a < 3; a++) {
-        b[a] = (double)q->v[from][a] - (double)org[a];
-        e[a] = (double)q->v[to][a] - (double)q->v[from][a];
-        size[0] += fabs(b[a]);
-        size[1] += fabs(e[a]);
-    }
-    for (int a = 0; a < 3; a++)
-        cross[a] = CGT_CROSS(b, e, (a + 1) % 3, (a + 2) % 3);
-    *error = CGT_TRIANGLE_DOUBLE_ERROR * PREPARED_SLACK * size[0] * size[1];
-}
-
 __attribute__((noinline, unused)) static void prepare_triangle(const float org[3], const cgt_triangle *q,
                                                                uint32_t fields, bool exact, prepared_triangle *to)
 {
@@ -259,8 +244,8 @@ __attribute__((noinline, unused)) static void prepare_triangle(const float org[3
     for (int a = 0; a < 3; a++)
         to->n[a] = n[a];
     if (fields & CGT_FIELD_UV) {
-        prepare_edge(org, q, 2, 0, to->cross[0], &to->error[0]);
-        prepare_edge(org, q, 0, 1, to->cross[1], &to->error[1]);
+        to->error[0] = cgt_triangle_double_edge(org, q, 2, 0, to->cross[0]) * PREPARED_SLACK;
+        to->error[1] = cgt_triangle_double_edge(org, q, 0, 1, to->cross[1]) * PREPARED_SLACK;
     }
     if (fields & CGT_FIELD_NORMAL) {
         const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

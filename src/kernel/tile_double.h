@@ -98,18 +98,8 @@ CGT_SPU_INLINE void tile_double_forms_make(const tile *t, const cgt_triangle *q,
     static const float one[3] = {1, 0, 0}; /* of norm 1: errors are those over |d| */
     const float *eye = t->rays->eye;
     const cgt_triangle_plane plane = cgt_triangle_double_plane(eye, one, q);
-    const cgt_triangle_sides sides = cgt_triangle_double_sides(eye, one, q);
-    for (int k = 0; k < 3; k++) {
-        const float *from = q->v[(k + 1) % 3], *to = q->v[(k + 2) % 3];
-        double b[3], e[3];
-        for (int a = 0; a < 3; a++) {
-            b[a] = (double)from[a] - (double)eye[a];
-            e[a] = (double)to[a] - (double)from[a];
-        }
-        for (int a = 0; a < 3; a++)
-            f->of[k][a] = CGT_CROSS(b, e, (a + 1) % 3, (a + 2) % 3);
-        f->off[k] = sides.error[k] * TILE_DOUBLE_STRAY;
-    }
+    for (int k = 0; k < 3; k++)
+        f->off[k] = cgt_triangle_double_edge(eye, q, (k + 1) % 3, (k + 2) % 3, f->of[k]) * TILE_DOUBLE_STRAY;
     for (int a = 0; a < 3; a++)
         f->of[3][a] = plane.n[a];
     f->off[3] = plane.den_error * TILE_DOUBLE_STRAY;
