@@ -44,6 +44,7 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, const uint32_t at[2], 
 
 typedef struct tally {
     uint64_t lanes, hits, certain, open, slow, coarse;
+    uint64_t beyond, aside;           /* triangles that whole tiles miss */
     uint64_t lost, invented, outside; /* what must not happen */
 } tally;
 
@@ -69,6 +70,14 @@ static bool depth_holds(const tile *t, uint32_t i, double hit_t)
 {
     const double depth = t->linear ? -1 / hit_t : hit_t * tile_norm(t, i), rounding = fabs(depth) * 0x1p-40;
     return (double)t->z[i] <= depth + rounding && depth <= tile_depth_end(t, (double)t->z[i]) + rounding;
+}
+
+static bool any_hit(const tile *t, const tile_truth *truth)
+{
+    bool any = false;
+    for (uint32_t k = 0; k < t->rows * t->columns; k++)
+        any = any || truth->hit[tile_index(k % t->columns, k / t->columns)];
+    return any;
 }
 
 /* A triangle over a fresh tile: what it wins is certain, what it queues is open. */
@@ -103,6 +112,10 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
     if (s.slow & 1)
         return;
     sum->coarse += s.fast & 1 && s.certain[0] == INFINITY;
+    if (s.fast & 1 && spux_mask_bits(tile_triangles_beyond(t, &s)) & 1) {
+        sum->beyond++;
+        sum->lost += any_hit(t, truth);
+    }
     if (s.fast & 1 && t->linear)
         tile_triangle_draw(&objects, t, &s, 0, TILE_LINEAR, &queue, &counts);
     else if (s.fast & 1 && t->parallel)
@@ -228,6 +241,7 @@ static void check_bounds(uint64_t stream, bool parallel)
     assert_int_equal(sum.invented, 0);
     assert_int_equal(sum.outside, 0);
     assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
+    assert_true(parallel || sum.beyond > 0);
 }
 
 static void bounds_hold(void **state)
@@ -277,6 +291,181 @@ static void bounds_of_parallel_rays_break_where_they_are_tightened(void **state)
 {
     (void)state;
     check_tightened_bounds(440, true);
+}
+
+/* ---- triangles beside a tile ---- */
+
+/* Of a camera and a tile of it, a triangle that crosses the eye's plane or not, and touches one side of the tile about
+ * as well as float can tell: its vertices are in that side's plane, some of them moved outwards. */
+static bool make_beside(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
+{
+    static tile t;
+    float size[3];
+    make_case(r, false, rays, at, q);
+    if (!cgt_tile_serves_camera(rays))
+        return false;
+    tile_of(&t, rays, at, 1, true);
+    const bool across = random_below(r, 2), first = random_below(r, 2);
+    const float *of = across ? t.column : t.row, *other = across ? t.row : t.column;
+    const float outward = (of[first ? 0 : 7] - of[first ? 7 : 0]) * random_log(r, 1e-6f, 1e2f);
+    const float side = of[first ? 0 : 7], scale = random_log(r, 1e-2f, 1e2f);
+    for (int k = 0; k < 3; k++)
+        size[k] = scale * (k ? random_float(r, -1, 1) : random_float(r, 0.1f, 1));
+    for (int k = 0; k < 3; k++) {
+        const float along = other[random_below(r, 8)] + (k && random_below(r, 2) ? random_float(r, -3, 3) : 0);
+        const cgt_exact_ray line = tile_line(rays, false, across ? side : along, across ? along : side);
+        const float *out = across ? rays->right : rays->up;
+        const float off = k && random_below(r, 2) ? outward * scale * random_float(r, 0, 1) : 0;
+        for (int a = 0; a < 3; a++)
+            q->v[k][a] = line.org[a] + size[k] * line.dir[a] + off * out[a];
+    }
+    return cgt_triangle_has_area(q);
+}
+
+/* What is cast aside has no hit; a triangle whose least vertex touches the tile may be or not. */
+static void judge_beside(const tile *t, const cgt_triangle *q, const tile_truth *truth, tally *sum)
+{
+    vfloat v[3][3];
+    for (int k = 0; k < 9; k++)
+        v[k / 3][k % 3] = spux_vfloat(q->v[k / 3][k % 3]);
+    const tile_triangles_seen seen = tile_triangles_see(t, v);
+    const bool aside = spux_mask_bits(tile_triangles_aside(t, &seen)) & 1, hit = any_hit(t, truth);
+    sum->lanes++;
+    sum->hits += hit;
+    sum->aside += aside;
+    sum->lost += aside && hit;
+}
+
+static void triangles_beside_a_tile(void **state)
+{
+    (void)state;
+    static tile_truth truth;
+    static tile t;
+    test_random r = random_make(460);
+    tally sum[STEPS] = {{0}};
+    for (uint32_t k = 2000 + test_scaled(8000); k; k--) {
+        cgt_camera_rays rays;
+        uint32_t at[2];
+        cgt_triangle q;
+        if (!make_beside(&r, &rays, at, &q))
+            continue;
+        float scale = 0x1p-24f;
+        tile_of(&t, &rays, at, farthest_of(&rays, &q), true);
+        find_truth(&t, &q, &truth);
+        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+            filter_u = scale;
+            judge_beside(&t, &q, &truth, &sum[step]);
+        }
+        filter_u = 0x1p-24f;
+    }
+    print_message("%llu triangles, %llu hit, %llu aside, %llu lost\n", (unsigned long long)sum[0].lanes,
+                  (unsigned long long)sum[0].hits, (unsigned long long)sum[0].aside, (unsigned long long)sum[0].lost);
+    assert_true(sum[0].hits > 100 && sum[0].aside > 50);
+    check_break("a triangle cast aside", sum, sizeof *sum, offsetof(tally, lost), 0x1p-10);
+}
+
+/* ---- pairs of triangles ---- */
+
+/* An object and a winner whose planes are one, or one but for rounding, or share vertices, or neither. */
+static void make_pair(test_random *r, cgt_triangle pair[2])
+{
+    const uint32_t kind = random_below(r, 5), axis = random_below(r, 3);
+    const float slope = random_below(r, 2) ? random_float(r, -1, 1) : random_log(r, 1e-9f, 1e-6f);
+    for (int i = 0; i < 6; i++) {
+        float *v = pair[i / 3].v[i % 3];
+        for (int a = 0; a < 3; a++)
+            v[a] = random_float(r, -3, 3);
+        if (kind == 0) /* one plane exactly */
+            v[axis] = 0.75f;
+        else if (kind == 1) /* but for rounding */
+            v[axis] = slope * v[(axis + 1) % 3];
+        else if (kind == 2) /* layers */
+            v[axis] = 0.5f + (float)(i / 3) * 0x1p-24f * (float)random_below(r, 3);
+    }
+    if (random_below(r, 4) == 0)
+        for (int a = 0; a < 3; a++)
+            pair[1].v[2][a] = pair[1].v[0][a] + random_log(r, 1e-7f, 1e-2f) * pair[1].v[2][a]; /* a sliver */
+    for (uint32_t k = kind == 3 ? 1 + random_below(r, 3) : 0; k; k--)
+        memcpy(pair[1].v[k - 1], pair[0].v[k - 1], sizeof pair[1].v[k - 1]);
+}
+
+/* Decisions of pairs are those of any two objects, and hits have the same bits. */
+static void pairs_are_decided_as_ever(void **state)
+{
+    (void)state;
+    test_random r = random_make(470);
+    uint64_t answers[3] = {0}, planes[5] = {0};
+    for (uint32_t round = 500 + test_scaled(4000); round; round--) {
+        float point[6][3];
+        const cgt_object_array array = {
+            .kind = CGT_KIND_TRIANGLES, .point = (const char *)point, .point_stride = 12, .count = 2, .points = 6};
+        const cgt_objects objects = {.array = &array, .arrays = 1, .count = 2, .triangles = 2};
+        cgt_triangle pair[2];
+        tile_pair_seen s;
+        cgt_counts counts = {0};
+        cgt_ray ray = {.t_min = random_below(&r, 4) ? 0 : 1, .t_max = random_below(&r, 4) ? INFINITY : 3};
+        make_pair(&r, pair);
+        memcpy(point, pair, sizeof point);
+        if (!cgt_triangle_has_area(&pair[0]) || !cgt_triangle_has_area(&pair[1]))
+            continue;
+        s.object.object = s.winner.object = CGT_NONE;
+        s.planes = TILE_PLANES_UNKNOWN;
+        for (int a = 0; a < 3; a++)
+            ray.line.org[a] = random_float(&r, -4, 4);
+        for (uint32_t k = 0; k < 12; k++) {
+            const uint32_t object = k / 4 & 1, of = random_below(&r, 2);
+            const float x = random_float(&r, 0, 1), y = random_float(&r, 0, 1 - x);
+            for (int a = 0; a < 3; a++)
+                ray.line.dir[a] =
+                    (1 - x - y) * pair[of].v[0][a] + x * pair[of].v[1][a] + y * pair[of].v[2][a] - ray.line.org[a];
+            cgt_decided_hit best = {.shape = cgt_objects_shape(&objects, !object)};
+            uint64_t exact = 0;
+            double t[2] = {0, 0};
+            const uint32_t winner = cgt_decide_hit(&ray, &best, &exact) ? !object : CGT_NONE;
+            const tile_answer answer = tile_decide_pair(&objects, &ray, winner, object, &s, &t[0], &counts);
+            const bool beats = filter_beats(&objects, &ray, winner, object, &t[1], &counts);
+            answers[answer]++;
+            if (answer == TILE_OPEN)
+                continue;
+            planes[s.planes]++;
+            assert_int_equal(answer == TILE_BEATS, beats);
+            assert_true(answer == TILE_LOSES || t[0] == t[1]);
+        }
+    }
+    print_message("open %llu, loses %llu, beats %llu; planes: cross %llu, same %llu, nearer %llu, farther %llu\n",
+                  (unsigned long long)answers[TILE_OPEN], (unsigned long long)answers[TILE_LOSES],
+                  (unsigned long long)answers[TILE_BEATS], (unsigned long long)planes[TILE_PLANES_CROSS],
+                  (unsigned long long)planes[TILE_PLANES_SAME], (unsigned long long)planes[TILE_PLANES_NEARER],
+                  (unsigned long long)planes[TILE_PLANES_FARTHER]);
+    assert_true(answers[TILE_LOSES] > 500 && answers[TILE_BEATS] > 500);
+    assert_true(planes[TILE_PLANES_SAME] > 20 && planes[TILE_PLANES_NEARER] > 20 && planes[TILE_PLANES_FARTHER] > 20);
+}
+
+/* ---- long thin triangles ---- */
+
+/* A triangle whose vertices are far apart and whose first is at its smallest angle is as certain as one turned round. */
+static void thin_triangles_are_certain(void **state)
+{
+    (void)state;
+    static tile t;
+    static tile_truth truth;
+    cgt_camera camera;
+    cgt_camera_rays rays;
+    char message[160];
+    const uint32_t at[2] = {28, 28};
+    cgt_camera_init(&camera);
+    assert_int_equal(cgt_camera_prepare(&camera, 64, 64, &rays, message), CGT_OK);
+    for (int turn = 0; turn < 3; turn++) {
+        static const float corner[3][3] = {{-40, 0, 0}, {40, -0.06f, 0}, {40, 0.06f, 0}};
+        cgt_triangle q;
+        tally sum = {0};
+        for (int k = 0; k < 9; k++)
+            q.v[k / 3][k % 3] = corner[(k / 3 + turn) % 3][k % 3] + (k % 3 == 1 ? 0.05f : 0);
+        tile_of(&t, &rays, at, farthest_of(&rays, &q), true);
+        find_truth(&t, &q, &truth);
+        judge_triangle(&t, &q, &truth, &sum);
+        assert_true(sum.slow == 0 && sum.coarse == 0 && sum.certain > 0 && sum.lost + sum.invented + sum.outside == 0);
+    }
 }
 
 /* ---- fetching ---- */
@@ -332,6 +521,9 @@ int main(void)
         cmocka_unit_test(bounds_of_parallel_rays_hold),
         cmocka_unit_test(bounds_break_where_they_are_tightened),
         cmocka_unit_test(bounds_of_parallel_rays_break_where_they_are_tightened),
+        cmocka_unit_test(triangles_beside_a_tile),
+        cmocka_unit_test(pairs_are_decided_as_ever),
+        cmocka_unit_test(thin_triangles_are_certain),
     };
     test_begin("test_tile_triangles");
     if (!test_variant_runs(CGT_VARIANT_NAME))

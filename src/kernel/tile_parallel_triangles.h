@@ -148,14 +148,17 @@ CGT_SPU_INLINE unsigned tile_parallel_triangles_bound(const tile *t, const tile_
 CGT_SPU_INLINE void tile_parallel_triangles_make(const tile *t, vfloat vertex[3][3], unsigned lanes, tile_triangles *s)
 {
     const tile_triangles_seen v = tile_parallel_triangles_see(t, vertex);
+    vmask apart;
     const vmask unwanted = spu_or(v.ended, spu_cmpgt(v.nearest, spux_vfloat(t->farthest)));
     const vmask out = spu_or(unwanted, tile_parallel_triangles_outside(t, &v, s));
-    const unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s))) & CGT_ALL_LANES;
+    const unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s, &apart))) & CGT_ALL_LANES;
     s->fast = s->slow = 0;
     if (!left)
         return;
     s->fast = left & tile_parallel_triangles_bound(t, &v, s);
     s->slow = left & ~s->fast;
+    if (s->fast & spux_mask_bits(apart))
+        s->fast &= ~spux_mask_bits(tile_triangles_beyond(t, s));
 }
 
 #endif

@@ -500,7 +500,7 @@ __attribute__((noinline, unused)) static void tile_resolve(const cgt_world *worl
     }
     if (settings->precision == CGT_PRECISION_FAST) /* takes what its tests leave in a packet */
         exactly.precision = CGT_PRECISION_ROBUST;
-    camera_packet_begin(t->rays, &exactly, PACKET_MAX_EDGE, &p);
+    camera_packet_begin(t->rays, &exactly, PACKET_MAX_EDGE, false, &p);
     p.extreme = false;
     for (uint32_t y = 0; y < region->height; y += TILE_STRIP) {
         tile_strip_rays(t, y, &p);

@@ -6,9 +6,9 @@
  * With v_0, v_1, v_2 the vertices in camera space (tile.h), e_k the edge opposite vertex k, from v_k+1 on, and
  * d = (1, rho px, upsilon py) the direction of a pixel in the same coordinates, the side of an edge and the plane are
  *   c_k.d   c_k = v_k+1 x e_k        1/t = n.d / det   n = e_1 x e_2, det = v_0.n
- * all linear in px and py. The ray meets the triangle in front of the eye where no c_k.d has the sign opposite to that
- * of det: this needs no vertex in front of the eye. Camera space is a linear map of the world's, so that what its axes
- * lack in orthogonality does not matter.
+ * all linear in px and py; n may be made from any two edges. The ray meets the triangle in front of the eye where no
+ * c_k.d has the sign opposite to that of det: this needs no vertex in front of the eye. Camera space is a linear map of the
+ * world's, so that what its axes lack in orthogonality does not matter.
  *
  * Bounds, with u = 2^-24, V the largest |v_k|, T the least distance of the triangle from the eye, |d| the largest of
  * the tile; products of three vectors' components sum up to at most 1.16 of the product of their lengths:
@@ -25,7 +25,9 @@
  *   together   |c_k| <= V |e_k|: u |e_k| |d| V (14 + 3.5 + 8.3 V / T), and B = u |e_k| |d| V (18 + 9 V / T) is taken
  * Edges are divided by B, with the sign of det, and 1 is added: less than 0 is a certain miss, more than 2 a certain hit
  * of the cone.
- *   plane      with n and det divided by |e_1| |e_2|, kappa = V / |det|: det is off by 11 u V, n.d / det by 12 u |d|
+ *   plane      with n and det divided by the lengths of the edges of n, kappa = V / |det|: n is off by as much whichever
+ *              those are, and so is v_0.n, since exactly all v_k.n are one number. The two shorter edges enclose the
+ *              largest sine: long thin triangles do not make kappa large. det is off by 11 u V, n.d / det by 12 u |d|
  *              t kappa / V <= 12 u kappa relative, for the direction 3.5 u kappa, for the moved vertices
  *              8 u |n| V / det = 8 u kappa; divisions within 2^-21 and what is of second order
  *   share      u (40 kappa + 32), relative, of 1/t
@@ -36,6 +38,11 @@
  *
  * The window: vertices that are not far beside, V at most 64 z, have X = x / z off by 12 u |d| V / z, their direction
  * included by 5 u |d|^2. 2^-19 |d| V / z is taken, and 1/16 more of a column (tile_spheres.h).
+ *
+ * Beside the tile, wherever the eye's plane is: with m the normal of one of its side planes, (-rho px, 1, 0) and its like,
+ * |m| <= |d|, a ray of the tile has m.d >= 0 but for what its direction is off by, and so has m.P of the point P = t d
+ * that it hits, |P| <= V: -3.5 u V |d| for the direction. P is a sum of the vertices, so not all of them have less:
+ * m.v_k is off by 8 u |d| V for the vertex, and by 5 u |d| V as it is rounded, m included. 32 u |d| V is taken.
  *
  * A test in the suite checks these against wide arithmetic, and shrinks them until they fail. */
 #ifndef CGT_TILE_TRIANGLES_H
@@ -49,6 +56,7 @@
 #define TILE_SIDES_NEAR (9 * FILTER_U)
 #define TILE_PLANE (40 * FILTER_U)
 #define TILE_PLANE_LEAST (32 * FILTER_U)
+#define TILE_ASIDE (32 * FILTER_U)
 #define TILE_WIDE 16u /* columns and rows together */
 
 /* Of each lane, what its loop over pixels takes. Linear forms are a constant and what px and py are multiplied with. */
@@ -198,12 +206,32 @@ CGT_SPU_INLINE vfloat tile_windows_far(const tile *t, const uint32_t *x0, const 
     return spux_max(above, below);
 }
 
-/* Triangles that no part under their window sees. */
-CGT_SPU_INLINE vmask tile_triangles_hidden(const tile *t, const tile_triangles_seen *v, const tile_triangles *s)
+/* Triangles that no part under their window sees; apart: as tile_windows_far says. */
+CGT_SPU_INLINE vmask tile_triangles_hidden(const tile *t, const tile_triangles_seen *v, const tile_triangles *s,
+                                           vmask *apart)
 {
-    vmask apart;
-    const vfloat seen = tile_windows_far(t, s->x0, s->x1, s->y0, s->y1, &apart);
-    return spu_andc(spu_and(v->front, spu_cmpgt(v->nearest, seen)), apart);
+    const vfloat seen = tile_windows_far(t, s->x0, s->x1, s->y0, s->y1, apart);
+    return spu_andc(spu_and(v->front, spu_cmpgt(v->nearest, seen)), *apart);
+}
+
+/* Triangles that lie beyond one side of the tile, wherever the eye's plane is: those of which each vertex does. */
+CGT_SPU_INLINE vmask tile_triangles_aside(const tile *t, const tile_triangles_seen *v)
+{
+    const uint32_t last = TILE_EDGE - 1;
+    const vfloat left = spux_vfloat(t->column[0] * t->camera.right);
+    const vfloat right = spux_vfloat(t->column[last] * t->camera.right);
+    const vfloat top = spux_vfloat(t->row[0] * t->camera.up), bottom = spux_vfloat(t->row[last] * t->camera.up);
+    const vfloat slack = spu_madd(v->reach, spux_vfloat(t->longest * TILE_ASIDE), spux_vfloat(t->slack));
+    vfloat most[4];
+    for (int k = 0; k < 3; k++) {
+        const vfloat *p = v->v[k];
+        const vfloat inside[4] = {spu_nmsub(left, p[0], p[1]), spu_msub(right, p[0], p[1]), spu_msub(top, p[0], p[2]),
+                                  spu_nmsub(bottom, p[0], p[2])};
+        for (int i = 0; i < 4; i++)
+            most[i] = k ? spux_max(most[i], inside[i]) : inside[i];
+    }
+    const vfloat least = spux_min(spux_min(most[0], most[1]), spux_min(most[2], most[3]));
+    return spu_cmpgt(spu_sub(spux_vfloat(0), slack), least);
 }
 
 /* ---- edges and planes ---- */
@@ -225,6 +253,25 @@ CGT_SPU_INLINE vmask tile_triangles_wide(const tile_triangles *s)
     return spu_cmpgt(spu_add(across, down), spux_vuint(TILE_WIDE));
 }
 
+/* The normal over the lengths of the two shorter edges. e_1 x e_2 = e_2 x e_0 = e_0 x e_1. */
+CGT_SPU_INLINE void tile_triangles_normal(vfloat e[3][3], const vfloat square[3], const vfloat rlength[3], vfloat n[3])
+{
+    const vmask first = spu_andc(spu_cmpgt(square[1], square[0]), spu_cmpgt(square[2], square[1]));
+    const vmask second = spu_andc(spu_cmpgt(square[2], square[0]), first);
+    const vfloat sign = spux_select(spux_vfloat(0), spux_vfloat(-0.f), spu_or(first, second));
+    const vfloat lengths =
+        spu_mul(spux_select(rlength[1], rlength[0], first), spux_select(rlength[2], rlength[0], second));
+    const vfloat normalise = spu_or(lengths, sign);
+    vfloat a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = spux_select(e[1][k], e[0][k], first);
+        b[k] = spux_select(e[2][k], e[0][k], second);
+    }
+    filter_cross(a, b, n);
+    for (int k = 0; k < 3; k++)
+        n[k] = spu_mul(n[k], normalise);
+}
+
 /* Forms and `certain`. Returns the lanes that the bounds hold for, as bits. */
 CGT_SPU_INLINE unsigned tile_triangles_bound(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
 {
@@ -236,10 +283,7 @@ CGT_SPU_INLINE unsigned tile_triangles_bound(const tile *t, const tile_triangles
         square[k] = filter_dot(e[k], e[k]);
         rlength[k] = spu_mul(spu_rsqrte(square[k]), spux_vfloat(1 - 0x1p-9f)); /* at most the exact one */
     }
-    const vfloat normalise = spu_mul(rlength[1], rlength[2]);
-    filter_cross(e[1], e[2], n);
-    for (int a = 0; a < 3; a++)
-        n[a] = spu_mul(n[a], normalise);
+    tile_triangles_normal(e, square, rlength, n);
     const vfloat det = filter_dot(n, v->v[0]), size = spux_abs(det), rdet = spux_div(one, det);
     const vfloat kappa = spu_mul(reach, spux_abs(rdet));
     const vfloat share = spu_madd(kappa, spux_vfloat(TILE_PLANE), spux_vfloat(TILE_PLANE_LEAST));
@@ -265,21 +309,52 @@ CGT_SPU_INLINE unsigned tile_triangles_bound(const tile *t, const tile_triangles
     return spux_mask_bits(spu_and(good, spu_or(keeps, spux_not(tile_triangles_wide(s)))));
 }
 
+/* Triangles of which an edge has all of the tile on its other side, or whose plane is farther than any part sees. 2^-21 of
+ * the magnitudes is more than the six roundings here: |px| and |py| are at most 1. */
+CGT_SPU_INLINE vmask tile_triangles_beyond(const tile *t, const tile_triangles *s)
+{
+    const float *column = t->column, *row = t->row;
+    const uint32_t last = TILE_EDGE - 1;
+    const vfloat x = spux_vfloat(0.5f * (column[0] + column[last])), y = spux_vfloat(0.5f * (row[0] + row[last]));
+    const vfloat wide = spux_vfloat(0.5f * fabsf(column[last] - column[0]) + 0x1p-22f);
+    const vfloat high = spux_vfloat(0.5f * fabsf(row[last] - row[0]) + 0x1p-22f);
+    vfloat most[4];
+    for (int k = 0; k < 4; k++) {
+        const float(*form)[CGT_LANES] = k < 3 ? s->side[k] : s->plane;
+        const vfloat at_0 = spux_load(form[0]), at_x = spux_load(form[1]), at_y = spux_load(form[2]);
+        const vfloat middle = spu_madd(x, at_x, spu_madd(y, at_y, at_0));
+        const vfloat size = spu_add(spux_abs(at_0), spu_add(spux_abs(at_x), spux_abs(at_y)));
+        const vfloat around =
+            spu_madd(wide, spux_abs(at_x), spu_madd(high, spux_abs(at_y), spu_mul(size, spux_vfloat(0x1p-21f))));
+        most[k] = k < 3 ? spu_add(middle, around) : spu_sub(around, middle);
+    }
+    const vmask passed = spu_cmpgt(spux_vfloat(-1), tile_least(most[0], most[1], most[2]));
+    const vfloat far_t = spux_vfloat(t->farthest_t * (1 + 0x1p-16f));
+    const vmask hidden = t->parallel ? spu_cmpgt(spu_sub(spux_vfloat(0), most[3]), spux_vfloat(t->farthest_t))
+                                     : spu_cmpgt(spux_vfloat(1), spu_mul(most[3], far_t));
+    return spu_or(passed, hidden);
+}
+
 /* Camera space, culling and forms of a vector of triangles; lanes: those that count, as bits. */
 CGT_SPU_INLINE void tile_triangles_make(const tile *t, vfloat vertex[3][3], unsigned lanes, tile_triangles *s)
 {
     const tile_triangles_seen v = tile_triangles_see(t, vertex);
+    vmask apart;
     const vmask unwanted = spu_or(v.ended, spu_cmpgt(v.nearest, spux_vfloat(t->farthest)));
     const vmask out = spu_or(unwanted, tile_triangles_outside(t, &v, s));
     const unsigned front = spux_mask_bits(v.front);
-    const unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s))) & CGT_ALL_LANES;
+    unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s, &apart))) & CGT_ALL_LANES;
     s->fast = s->slow = 0;
+    if (left & ~front)
+        left &= ~spux_mask_bits(tile_triangles_aside(t, &v));
     if (!left)
         return;
     tile_triangles_widen(t, left & ~front, s);
-    const unsigned fast = tile_triangles_bound(t, &v, s);
-    s->fast = left & fast;
+    const unsigned fast = left & tile_triangles_bound(t, &v, s);
     s->slow = left & ~fast;
+    s->fast = fast;
+    if (fast & (spux_mask_bits(apart) | ~front))
+        s->fast &= ~spux_mask_bits(tile_triangles_beyond(t, s));
 }
 
 #endif
