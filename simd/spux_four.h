@@ -141,6 +141,7 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     return (vuint){a[index[0] & 3], a[index[1] & 3], a[index[2] & 3], a[index[3] & 3]};
 }
 #endif
+#ifndef CGT_SPUX_OWN_COMPRESS
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {
     uint32_t lane[5] = {0, 0, 0, 0, 0};
@@ -151,6 +152,7 @@ CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
     }
     return (vuint){lane[0], lane[1], lane[2], lane[3]};
 }
+#endif
 
 #ifndef CGT_SPUX_OWN_FIND16
 CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)

@@ -26,6 +26,8 @@
  *   spux_load_records4(base, stride, d)   CGT_LANES records of 4 floats, record k at base + k * stride floats, to the
  *                                         four vectors d[0] to d[3], one per element of the record
  *   spux_load_records4_at(base, at, d)    the same, record k at base + at[k]
+ *   spux_store_records4(base, stride, d)  the reverse of the first
+ *   spux_load_bytes(p)            vuint; CGT_LANES bytes at p
  *
  *   spux_min, max(a, b)           T; b where a and b do not compare; which of two zeros is open
  *   spux_abs(a)                   float, sign bit cleared
@@ -156,6 +158,21 @@ CGT_SPU_INLINE void spux_load_records4_at(const float *base, const uint32_t at[C
 #define CGT_SPUX_AT(k) (base + at[k])
     CGT_SPUX_LOAD_RECORDS4(CGT_SPUX_AT, d);
 #undef CGT_SPUX_AT
+}
+CGT_SPU_INLINE void spux_store_records4(float *base, size_t stride, const vfloat d[4])
+{
+    vfloat row[4];
+    cgt_spux_transpose4_w(d, row);
+    for (size_t four = 0; four < CGT_LANES; four += 4)
+        for (size_t k = 0; k < 4; k++)
+            memcpy(base + (four + k) * stride, (const char *)&row[k] + four * sizeof(float), 4 * sizeof(float));
+}
+CGT_SPU_INLINE vuint spux_load_bytes(const uint8_t *p)
+{
+    typedef uint8_t bytes __attribute__((vector_size(CGT_LANES)));
+    bytes b;
+    memcpy(&b, p, sizeof b);
+    return __builtin_convertvector(b, vuint);
 }
 
 /* A larger matrix by squares of CGT_LANES. */

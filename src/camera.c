@@ -106,6 +106,7 @@ cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t
                               .pixel = {2.f / (float)width, 2.f / (float)height},
                               .t_min = camera->t_min,
                               .t_max = camera->t_max,
+                              .mask = camera->mask ? camera->mask : UINT32_MAX,
                               .width = width,
                               .height = height,
                               .orthographic = orthographic};

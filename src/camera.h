@@ -20,9 +20,21 @@ typedef struct cgt_camera_rays {
     float up[3];    /* half the picture's height long */
     float pixel[2]; /* 2 / width, 2 / height */
     float t_min, t_max;
+    uint32_t mask; /* all bits set where it hides nothing; where it does, tiles do not serve */
     uint32_t width, height;
     bool orthographic;
 } cgt_camera_rays;
+
+/* The ray of a pixel. */
+static inline void cgt_camera_pixel(const cgt_camera_rays *c, uint32_t x, uint32_t y, float org[3], float dir[3])
+{
+    const float px = ((float)x + 0.5f) * c->pixel[0] - 1, py = 1 - ((float)y + 0.5f) * c->pixel[1];
+    for (int a = 0; a < 3; a++) {
+        const float sum = ((c->orthographic ? c->eye[a] : c->fwd[a]) + px * c->right[a]) + py * c->up[a];
+        org[a] = c->orthographic ? sum : c->eye[a];
+        dir[a] = c->orthographic ? c->fwd[a] : sum;
+    }
+}
 
 /* Returns CGT_OK, or INVALID_ARGUMENT with a message of at most 160 characters. */
 cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t height, cgt_camera_rays *rays,

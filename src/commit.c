@@ -17,12 +17,14 @@ static cgt_object_array array_of(const cgt_geometry *g)
     if (g->kind == CGT_KIND_SPHERES)
         return (cgt_object_array){.kind = g->kind,
                                   .count = s->count,
+                                  .mask = s->mask ? s->mask : UINT32_MAX,
                                   .point = (const char *)s->centers,
                                   .point_stride = s->center_stride,
                                   .radius = (const char *)(s->radii ? s->radii : &s->radius),
                                   .radius_stride = s->radii ? s->radius_stride : 0};
     return (cgt_object_array){.kind = g->kind,
                               .count = t->count,
+                              .mask = t->mask ? t->mask : UINT32_MAX,
                               .points = t->vertex_count,
                               .point = (const char *)t->vertices,
                               .point_stride = t->vertex_stride,
@@ -51,6 +53,7 @@ static cgt_result list_arrays(cgt_scene *scene)
         a.others = objects.spheres;
         a.geometry = id;
         array[objects.arrays++] = a;
+        scene->world.masked |= a.mask != UINT32_MAX;
         objects.count += a.count;
         *(a.kind == CGT_KIND_SPHERES ? &objects.spheres : &objects.triangles) += a.count;
     }
@@ -72,9 +75,7 @@ static void report(cgt_scene *scene, const cgt_object_summary *s)
         st->bounds_min[a] = s->min[a];
         st->bounds_max[a] = s->max[a];
     }
-    st->bytes = sizeof *scene;
-    for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
-        st->bytes += scene->buffer[i].bytes;
+    st->bytes = cgt_scene_bytes(scene);
 }
 
 static void log_commit(const cgt_scene *scene)
@@ -132,6 +133,8 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_object_summary *s)
     if (world->structure == CGT_STRUCTURE_QUEUE_GRID)
         return cgt_queue_grid_commit(scene, s);
     snprintf(reason, bytes, "%s", why);
+    if (world->structure == CGT_STRUCTURE_WIDE_TREE)
+        return cgt_wide_tree_commit(scene);
     return cgt_kd_commit(scene, world->structure == CGT_STRUCTURE_KD_ROPES);
 }
 
@@ -165,6 +168,9 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     scene->committed = false;
     scene->statistics = (cgt_scene_statistics){0};
     scene->world = (cgt_world){0};
+    scene->middles = false;
+    atomic_store_explicit(&scene->wide_is_built, false, memory_order_relaxed);
+    atomic_store_explicit(&scene->wide_rays, 0, memory_order_relaxed);
     cgt_float_environment_enter(&callers);
     const cgt_result result = build(scene);
     cgt_float_environment_leave(&callers);

@@ -7,8 +7,8 @@
 
 #include "scene.h"
 
-/* Reads, checks and bounds all objects. Fails where a triangle's index is out of range. The loose grid gets size
- * classes and middles of triangles (CGT_BUFFER_SIZE_CLASSES, CGT_BUFFER_LOOSE_WORK), other structures the diameters. */
+/* Reads, checks and bounds all objects. Fails where a triangle's index is out of range. Loose grid and wide tree get
+ * size classes and middles of triangles (CGT_BUFFER_SIZE_CLASSES, CGT_BUFFER_LOOSE_WORK), the queue grid diameters. */
 cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *summary);
 
 /* Build a structure over the valid objects, of which there is at least one, and fill in the statistics that are the
@@ -16,5 +16,6 @@ cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *summary);
 cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_object_summary *summary);
 cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes);
 cgt_result cgt_loose_grid_commit(cgt_scene *scene, const cgt_object_summary *summary);
+cgt_result cgt_wide_tree_commit(cgt_scene *scene);
 
 #endif

@@ -104,6 +104,7 @@ cgt_result cgt_loose_grid_commit(cgt_scene *scene, const cgt_object_summary *sum
                              .start = scene->buffer[CGT_BUFFER_LOOSE_START].data,
                              .object = scene->buffer[CGT_BUFFER_LOOSE_OBJECT].data}};
     cgt_loose_sort_plan(&job.sort);
+    scene->middles &= job.sort.direct; /* pairs take their place */
     job.keys.skipped = job.sort.direct ? g->cells : job.sort.bins << job.sort.shift;
     job.sort.key = job.sort.direct ? (uint32_t *)work + (size_t)4 * world->objects.triangles : job.sort.object;
     cgt_run_tasks(scene->context, make_keys, &job, chunks);

@@ -15,6 +15,7 @@ typedef struct cgt_object_array {
     uint32_t first;    /* object of its primitive 0 */
     uint32_t others;   /* spheres among the objects before a triangle array */
     uint32_t geometry; /* id */
+    uint32_t mask;     /* the geometry's; not 0 */
     const char *point; /* x, y, z of centre or vertex i at point + i * point_stride */
     size_t point_stride;
     const char *radius; /* of spheres, at radius + i * radius_stride; stride 0: one radius for all */
@@ -52,6 +53,31 @@ static inline const cgt_object_array *cgt_objects_array(const cgt_objects *objec
             high = middle;
     }
     return &objects->array[low];
+}
+
+/* Whether rays of a mask pass over some object. */
+static inline bool cgt_objects_hidden(const cgt_objects *objects, uint32_t mask)
+{
+    bool hidden = false;
+    for (uint32_t i = 0; i < objects->arrays; i++)
+        hidden |= !(objects->array[i].mask & mask);
+    return hidden;
+}
+
+/* The object of a primitive; CGT_NONE where there is no such geometry, or the geometry has no such primitive. */
+static inline uint32_t cgt_objects_number(const cgt_objects *objects, uint32_t geometry, uint32_t primitive)
+{
+    uint32_t low = 0, high = objects->arrays;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (objects->array[middle].geometry < geometry)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (low == objects->arrays || objects->array[low].geometry != geometry || primitive >= objects->array[low].count)
+        return CGT_NONE;
+    return objects->array[low].first + primitive;
 }
 
 static inline const float *cgt_array_point(const cgt_object_array *a, uint32_t i)

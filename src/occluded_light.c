@@ -7,6 +7,7 @@
 #include "float_environment.h"
 #include "scene.h"
 #include "trace_call.h"
+#include "wide_tree_want.h"
 
 typedef struct light_job {
     const cgt_scene *scene;
@@ -69,13 +70,18 @@ cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, co
         result = check_light(c, light);
     if (result == CGT_OK)
         result = check_points(c, points);
+    if (result == CGT_OK)
+        result = cgt_wide_tree_want(scene, points->count, &job.settings.wide);
     if (result != CGT_OK)
         return result;
     job.points = (cgt_rays){.count = points->count,
                             .stride = points->stride,
                             .org = {points->position[0], points->position[1], points->position[2]},
                             .t_min = points->t_min,
-                            .t_max = points->t_max};
+                            .t_max = points->t_max,
+                            .mask = points->mask,
+                            .ignored_primitive = points->ignored_primitive,
+                            .ignored_geometry = points->ignored_geometry};
     job.settings.fields = 0;
     job.counter = options && options->statistics ? &counter : NULL;
     cgt_run_tasks(c, trace_chunk, &job, (uint32_t)((points->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));

@@ -18,7 +18,7 @@ void cgt_scene_options_init(cgt_scene_options *options) { memset(options, 0, siz
 static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
 {
     const uint32_t *r = o->resolution;
-    if ((unsigned)o->structure > CGT_STRUCTURE_LOOSE_GRID)
+    if ((unsigned)o->structure > CGT_STRUCTURE_WIDE_TREE)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: structure %d is unknown", (int)o->structure);
     if ((unsigned)o->rays > CGT_RAYS_INCOHERENT)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: rays %d is unknown", (int)o->rays);
@@ -58,6 +58,13 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     memset(s, 0, sizeof *s);
     s->context = context;
     s->options = *options;
+    s->self = s;
+    atomic_init(&s->wide_is_built, false);
+    atomic_init(&s->wide_rays, 0);
+    if (pthread_mutex_init(&s->wide_lock, NULL)) {
+        cgt_free(&context->memory, s, sizeof *s);
+        return cgt_fail(context, CGT_ERROR_THREADS, "the system refused a lock");
+    }
     cgt_context_retain(context);
     *scene = s;
     return CGT_OK;
@@ -70,6 +77,7 @@ void cgt_scene_release(cgt_scene *scene)
     cgt_context *context = scene->context;
     for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
         cgt_buffer_release(&context->memory, &scene->buffer[i]);
+    pthread_mutex_destroy(&scene->wide_lock);
     cgt_free(&context->memory, scene, sizeof *scene);
     cgt_context_release(context);
 }
@@ -249,6 +257,16 @@ cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics
 {
     if (!scene || !statistics)
         return CGT_ERROR_INVALID_ARGUMENT;
+    pthread_mutex_lock(&scene->self->wide_lock);
     *statistics = scene->statistics;
+    pthread_mutex_unlock(&scene->self->wide_lock);
     return CGT_OK;
+}
+
+size_t cgt_scene_bytes(const cgt_scene *scene)
+{
+    size_t bytes = sizeof *scene;
+    for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
+        bytes += scene->buffer[i].bytes;
+    return bytes;
 }

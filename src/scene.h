@@ -35,6 +35,14 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_LOOSE_OBJECT,
     CGT_BUFFER_LOOSE_WORK, /* middles of triangles, then cgt_loose_pair of all objects */
     CGT_BUFFER_LOOSE_BINS, /* where chunks of objects go in each bin */
+    CGT_BUFFER_WIDE_START,
+    CGT_BUFFER_WIDE_OBJECT, /* all objects by cell and leaf */
+    CGT_BUFFER_WIDE_LEAVES, /* where they part, see cgt_wide_build */
+    CGT_BUFFER_WIDE_WORK,   /* keys and objects of cells that are sorted on, then records of the binary tree */
+    CGT_BUFFER_WIDE_RANGES, /* cgt_wide_range, then a branch for each */
+    CGT_BUFFER_WIDE_NODES,
+    CGT_BUFFER_WIDE_SPHERES,
+    CGT_BUFFER_WIDE_TRIANGLES,
     CGT_SCENE_BUFFERS
 } cgt_scene_buffer;
 
@@ -44,8 +52,16 @@ struct cgt_scene {
     cgt_buffer buffer[CGT_SCENE_BUFFERS];
     uint32_t geometries; /* in CGT_BUFFER_GEOMETRY, free ones included */
     bool committed;      /* nothing changed since the last commit */
+    bool middles;        /* CGT_BUFFER_LOOSE_WORK holds those of triangles */
     cgt_world world;
     cgt_scene_statistics statistics;
+    struct cgt_scene *self;     /* for what tracing builds */
+    pthread_mutex_t wide_lock;  /* of a wide tree that tracing builds, and of the statistics with it */
+    atomic_bool wide_is_built;  /* by tracing */
+    _Atomic uint64_t wide_rays; /* that would have gone through it, since the commit */
 };
+
+/* Memory that a scene holds. */
+size_t cgt_scene_bytes(const cgt_scene *scene);
 
 #endif

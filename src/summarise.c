@@ -95,7 +95,7 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
     const cgt_objects *o = &scene->world.objects;
     const char *why;
     const cgt_structure structure = cgt_choose_structure(&scene->options, &why);
-    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID;
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID || structure == CGT_STRUCTURE_WIDE_TREE;
     cgt_buffer *buffer = scene->buffer;
     cgt_result result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_SUMMARIES], chunks, sizeof(cgt_object_summary));
     if (result == CGT_OK && loose)
@@ -111,6 +111,7 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
     if (loose) {
         job->wishes.classes = buffer[CGT_BUFFER_SIZE_CLASSES].data;
         job->wishes.middle = buffer[CGT_BUFFER_LOOSE_WORK].data;
+        scene->middles = true;
     }
     return CGT_OK;
 }

@@ -22,6 +22,8 @@ typedef struct cgt_trace_settings {
     cgt_kd_traversal kd_traversal;
     cgt_precision precision;
     cgt_triangle_test triangle_test;
+    bool wide;       /* there is a wide tree that rays may go through. Where it is false, another thread may be building
+                        one: world->wide must not be looked at then */
     uint32_t fields; /* cgt_field values that anybody wants */
 } cgt_trace_settings;
 
@@ -41,9 +43,9 @@ typedef struct cgt_region {
 /* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as
  * an array. */
 typedef struct cgt_counts {
-    uint64_t rays, invalid_rays, hits, tiles, packets, split_packets, slices, cells, nodes, leaves, rope_steps,
-        exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests, double_tests,
-        exact_tests, exact_values, early_exits;
+    uint64_t rays, invalid_rays, hits, wide_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
+        rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,
+        double_tests, exact_tests, exact_values, early_exits;
 } cgt_counts;
 
 #define CGT_COUNTS (sizeof(cgt_counts) / sizeof(uint64_t))

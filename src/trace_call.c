@@ -48,6 +48,7 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
     s->kd_traversal = o->kd_traversal == CGT_KD_TRAVERSAL_AUTO ? CGT_KD_TRAVERSAL_PACKET : o->kd_traversal;
     s->precision = o->precision;
     s->triangle_test = o->triangle_test;
+    s->wide = false; /* rays ask for it */
     if (!camera)
         s->packet = 0;
     return CGT_OK;
@@ -98,6 +99,7 @@ void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *s
     *options->statistics = (cgt_trace_statistics){.rays = c.rays,
                                                   .invalid_rays = c.invalid_rays,
                                                   .hits = c.hits,
+                                                  .wide_rays = c.wide_rays,
                                                   .tiles = c.tiles,
                                                   .packets = c.packets,
                                                   .split_packets = c.split_packets,

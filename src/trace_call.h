@@ -19,6 +19,9 @@ cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *opti
 /* Whether so many elements of a caller's array, `what`, can be told apart by addresses and be shared out to tasks. */
 cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count);
 
+/* Whether a frame's size, stride and planes are ones. */
+cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f);
+
 /* Adds the counts of one task; counter may be NULL. */
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts);
 

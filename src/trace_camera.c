@@ -153,7 +153,7 @@ static void trace_tile(void *argument, uint32_t index)
         atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
 }
 
-static cgt_result check_frame(cgt_context *c, const cgt_frame *f)
+cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
 {
     const uint32_t all = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
     if (!f->width || !f->height)
@@ -201,7 +201,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     cgt_context *c = scene->context;
     cgt_result result = cgt_trace_begin(scene, options, true, &job.settings, &counter);
     if (result == CGT_OK)
-        result = check_frame(c, frame);
+        result = cgt_check_frame(c, frame);
     if (result != CGT_OK)
         return result;
     cgt_float_environment callers;
@@ -210,6 +210,9 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     cgt_float_environment_leave(&callers);
     if (result != CGT_OK)
         return cgt_fail(c, result, "%s", message);
+    if (!cgt_objects_hidden(&scene->world.objects, job.camera.mask))
+        job.camera.mask = UINT32_MAX;
+    job.settings.tiled &= job.camera.mask == UINT32_MAX;
     cut_tiles(&job);
     job.counter = options && options->statistics ? &counter : NULL;
     atomic_init(&job.stopped, false);

@@ -5,6 +5,7 @@
 #include "float_environment.h"
 #include "scene.h"
 #include "trace_call.h"
+#include "wide_tree_want.h"
 
 typedef struct rays_job {
     const cgt_scene *scene;
@@ -62,6 +63,8 @@ static cgt_result trace(rays_job *job, const cgt_trace_options *options)
         result = check_rays(c, job->rays);
     if (result == CGT_OK && job->hits)
         result = check_hits(c, job->hits, job->rays->count);
+    if (result == CGT_OK)
+        result = cgt_wide_tree_want(job->scene, job->rays->count, &job->settings.wide);
     if (result != CGT_OK)
         return result;
     job->settings.fields = job->hits ? hit_fields(job->hits) : 0;

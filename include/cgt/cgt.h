@@ -18,11 +18,12 @@
  *   Floats   IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *            tracing work in the default environment and give the caller's back.
  *
- * Structures: a loose grid, which camera frames go through tile by tile; Chapman's queue grid; and the kd-tree of a
- * thesis on ray casting on the Cell, with a stack or with ropes. Hits are the same bits through each. Papers: David
- * R. Chapman, "High Definition Interactive Animated Ray Tracing on CELL Processor using Coherent Grid Traversal";
- * Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes using Coherent Grid Traversal", SIGGRAPH 2006;
- * Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", 2007. */
+ * Structures: a loose grid, which camera frames go through tile by tile; a wide tree for rays that go anywhere;
+ * Chapman's queue grid; and the kd-tree of a thesis on ray casting on the Cell, with a stack or with ropes. Hits are
+ * the same bits through each. Papers: David R. Chapman, "High Definition Interactive Animated Ray Tracing on CELL
+ * Processor using Coherent Grid Traversal"; Wald, Ize, Kensler, Knoll, Parker, "Ray Tracing Animated Scenes using
+ * Coherent Grid Traversal", SIGGRAPH 2006; Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High
+ * Performance GPU Ray Tracing", 2007. */
 #ifndef CGT_CGT_H
 #define CGT_CGT_H
 
@@ -84,7 +85,7 @@ typedef void cgt_task(void *argument, uint32_t index);
 
 /* Tasks. run calls task(argument, index) once for each index below count, in any order, on any threads, and returns
  * when all have returned. With a runner set the library starts no thread of its own. A runner that runs the tasks
- * one after another on the calling thread is valid. Results do not depend on the order. A task takes up to 512 KB of
+ * one after another on the calling thread is valid. Results do not depend on the order. A task takes up to 768 KB of
  * stack. */
 typedef struct cgt_task_runner {
     void *user;                                                              /* handed to run; default NULL */
@@ -148,6 +149,8 @@ typedef struct cgt_spheres {
     const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL: all have `radius` */
     size_t radius_stride; /* bytes, a multiple of 4; 0 (default): 4 */
     float radius;         /* world units, used where radii is NULL; 0 or more */
+    uint32_t mask;        /* the geometry counts for a ray where this and the ray's mask have a bit in common; 0
+                             (default): all bits set. From the next commit on, like all that is here */
 } cgt_spheres;
 
 /* Triangles in the caller's arrays, which the library does not copy: as with spheres they stay readable and unchanged
@@ -161,19 +164,24 @@ typedef struct cgt_triangles {
     uint32_t vertex_count;   /* vertices */
     const float *vertices;   /* x, y, z of vertex j at byte j * vertex_stride; NULL only where vertex_count is 0 */
     size_t vertex_stride;    /* bytes, a multiple of 4; 0 (default): 12 */
+    uint32_t mask;           /* as of cgt_spheres */
 } cgt_triangles;
 
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,   /* QUEUE_GRID where a resolution is given; else LOOSE_GRID, or KD for incoherent rays.
-                                 It follows from the options alone, whatever the scene */
+    CGT_STRUCTURE_AUTO = 0,   /* QUEUE_GRID where a resolution is given; else LOOSE_GRID, or WIDE_TREE for incoherent
+                                 rays. It follows from the options alone, whatever the scene. Beside that LOOSE_GRID a
+                                 wide tree is built when arrays of rays come that are many enough to pay for it: by
+                                 cgt_trace_rays and cgt_occluded_rays, once a commit */
     CGT_STRUCTURE_QUEUE_GRID, /* uniform grid of voxels, each a queue of 16 references (Chapman): of 16 bits, 32 bytes a
                                  voxel, up to 65,535 primitives; of 32 bits, 64 bytes a voxel, beyond */
     CGT_STRUCTURE_KD,         /* kd-tree in nodes of 8 bytes, by the surface-area heuristic; traversed with a stack */
     CGT_STRUCTURE_KD_ROPES,   /* the same tree, its leaves linked across their faces (Popov et al. 2007); traversed
                                  without a stack; 80 bytes a leaf more */
-    CGT_STRUCTURE_LOOSE_GRID /* uniform grids, one for each class of sizes; each primitive lies in one cell, that of its
+    CGT_STRUCTURE_LOOSE_GRID, /* uniform grids, one for each class of sizes; each primitive lies in one cell, that of its
                                  middle: 4 to 6 bytes a primitive, built in linear time. A camera's frame goes through
                                  it by tiles of 64x64 pixels, see cgt_trace_options.packet */
+    CGT_STRUCTURE_WIDE_TREE   /* tree of boxes with as many children to a node as the variant has lanes, over copies of
+                                 the primitives: for rays that start anywhere and go anywhere */
 } cgt_structure;
 
 /* What rays the scene is mostly traced with, for AUTO. */
@@ -233,10 +241,11 @@ CGT_API cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometr
 
 CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry);
 
-/* Builds the structure from the arrays as they are now. Uses the context's threads. Memory is kept from one commit
- * to the next and grows by half: a scene whose count does not grow allocates nothing, once its overflow list or its
- * tree has found its size. Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY,
- * TOO_LARGE; after an error the scene counts as not committed. An empty scene is valid: no ray hits it. */
+/* Builds the structure from the arrays as they are now. Uses the context's threads. Memory is kept from one commit to
+ * the next and grows by half: a scene whose count does not grow allocates nothing, once its overflow list or its tree
+ * has found its size. Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY, TOO_LARGE (a wide
+ * tree of more than 2^26 - 1 leaves among others); after an error the scene counts as not committed. An empty scene is
+ * valid: no ray hits it. */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
 /* What the last commit found, chose and spent. */
@@ -274,6 +283,11 @@ typedef struct cgt_scene_statistics {
     size_t local_store_bytes;     /* structure and primitives together: what a Cell SPU has to hold */
     int fits_local_store;         /* 1 where local_store_bytes, with 64 KB for program and stack, is within
                                      256 KB, and a queue grid is at most 16x16x16 */
+    uint32_t wide_nodes;          /* of the wide tree; all wide_ fields are 0 where there is none */
+    uint32_t wide_blocks;         /* its leaves: up to as many primitives as the variant has lanes, copied */
+    uint32_t wide_depth;          /* nodes on the longest way from the root to a leaf */
+    size_t wide_bytes;            /* nodes and blocks */
+    double wide_ms;               /* building it, at the commit or, for AUTO, when rays came that wanted it */
     double bounds_ms;             /* reading, checking and bounding the primitives */
     double build_ms;              /* filling the structure */
     double commit_ms;             /* the whole call */
@@ -324,7 +338,8 @@ typedef enum cgt_cull {
  * a vertex or a silhouette, none invented, the nearest one, and of equal ones the lowest id. FAST decides by single
  * precision: rays that pass within some units in the last place of an edge or a silhouette may go either way, and
  * results may differ from variant to variant. (Where a camera's frame goes by tiles through a loose grid, exact
- * decisions cost so little that FAST makes them too, and saves on t and the normal of spheres alone.)
+ * decisions cost so little that FAST makes them too, and saves on t and the normal of spheres alone. Through a wide tree
+ * FAST is ROBUST.)
  * Values, see cgt_trace_camera. */
 typedef enum cgt_precision { CGT_PRECISION_ROBUST = 0, CGT_PRECISION_FAST, CGT_PRECISION_EXACT } cgt_precision;
 
@@ -343,6 +358,7 @@ typedef struct cgt_trace_statistics {
     uint64_t invalid_rays;    /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN range:
                                  they hit nothing */
     uint64_t hits;            /* rays with a hit; occluded rays in the any-hit form */
+    uint64_t wide_rays;       /* that went through a wide tree */
     uint64_t tiles;           /* tiles of a camera's frame that went through a loose grid as a whole, not by packets */
     uint64_t packets;         /* packets traversed: common main axis and sign */
     uint64_t split_packets;   /* packets that had to be split because their rays disagreed or diverged */
@@ -401,6 +417,8 @@ typedef struct cgt_camera {
     float height;    /* orthographic: height of the picture in world units, above 0; default 2 */
     float t_min;     /* hits before are ignored; 0 (default) or more */
     float t_max;     /* hits beyond are ignored; default +infinity; not below t_min */
+    uint32_t mask;   /* of its rays, see cgt_rays; 0 (default): all bits set. A frame for which it hides something goes
+                        packet by packet, slower through a loose grid */
 } cgt_camera;
 
 /* Fills in the defaults: perspective, from (0, 0, 5) to the origin, up (0, 1, 0). */
@@ -461,11 +479,18 @@ CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *ca
  * sizeof(struct) the pointers go into an array of structs. Directions have any length but zero. */
 typedef struct cgt_rays {
     uint64_t count;
-    size_t stride;       /* bytes, a multiple of 4; 0 (default): 4 */
-    const float *org[3]; /* x, y, z */
-    const float *dir[3]; /* x, y, z */
-    const float *t_min;  /* NULL: 0 for all. A negative value is used as it is: hits behind the origin count. */
-    const float *t_max;  /* NULL: +infinity for all. Below t_min: the ray hits nothing. */
+    size_t stride;        /* bytes, a multiple of 4; 0 (default): 4 */
+    const float *org[3];  /* x, y, z */
+    const float *dir[3];  /* x, y, z */
+    const float *t_min;   /* NULL: 0 for all. A negative value is used as it is: hits behind the origin count. */
+    const float *t_max;   /* NULL: +infinity for all. Below t_min: the ray hits nothing. */
+    const uint32_t *mask; /* a geometry counts for a ray where its mask and the ray's have a bit in common: a ray with
+                             0 hits nothing. NULL: all bits set, for all */
+    const uint32_t *ignored_primitive; /* a primitive that the ray does not find, such as the one that it leaves:
+                                          CGT_NONE for none; NULL: none for all. Its equals are found. One that its
+                                          geometry does not have is none */
+    const uint32_t *ignored_geometry;  /* the geometry of that primitive, CGT_NONE or another that does not exist for
+                                          none; NULL: 0 for all. Not read where ignored_primitive is NULL */
 } cgt_rays;
 
 /* Hits in the caller's arrays: element i of each at byte i * stride. NULL: not wanted. */
@@ -479,7 +504,10 @@ typedef struct cgt_hits {
 } cgt_hits;
 
 /* Traces rays to their nearest hits, as cgt_trace_camera does. Neighbours in the arrays should be neighbours in
- * space: they are traced as packets where they are. Allocates nothing. */
+ * space: they are traced as packets where they are. Where AUTO has built a loose grid, the first calls since a commit
+ * that bring an eighth as many rays as there are primitives build a wide tree, by the context's threads, in memory that
+ * the scene keeps; any number of threads may trace meanwhile. Then OUT_OF_MEMORY and TOO_LARGE may be returned: no ray
+ * was traced, and the call may be tried again. Else nothing is allocated. */
 CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
                                   const cgt_trace_options *options);
 
@@ -499,9 +527,14 @@ typedef struct cgt_points {
     uint64_t count;
     size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
     const float *position[3]; /* x, y, z */
-    const float *t_min;       /* NULL: 0 for all. A little more keeps a point on a surface from finding that surface */
+    const float *t_min;       /* NULL: 0 for all. A little more keeps a point on a surface from finding that surface,
+                                 where ignored_primitive does not */
     const float *t_max;       /* NULL: the way to the light, 1 or +infinity. Below t_min: the point is not occluded,
                                  and costs nothing */
+    const uint32_t *mask;     /* of the ray to the light; this and the next as of cgt_rays */
+    const uint32_t *ignored_primitive; /* the one that the point lies on: a frame's planes will do, and no offset is
+                                          needed */
+    const uint32_t *ignored_geometry;
 } cgt_points;
 
 /* Sets occluded[i] to 1 where anything lies between point i and the light, else to 0. The ray of a point is
@@ -511,10 +544,39 @@ typedef struct cgt_points {
  * starts at the point, so that it begins exactly where the caller says, however far away the light is. The answer is
  * that of cgt_occluded_rays to these rays, but faster, and there is no array of directions to fill. A point with a NaN
  * or an infinity, in its range a NaN, or at the very place of the light, is counted as an invalid ray and not occluded.
- * Neighbours in the arrays should be neighbours in space. Allocates nothing. occluded: points->count bytes. Errors:
- * INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE. */
+ * Neighbours in the arrays should be neighbours in space. occluded: points->count bytes. Errors and memory: as
+ * cgt_trace_rays. */
 CGT_API cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                       uint8_t *occluded, const cgt_trace_options *options);
+
+/* Ambient occlusion of a frame's pixels. */
+typedef struct cgt_ambient {
+    uint32_t samples; /* rays of a pixel, 1 to 1,024; default 16 */
+    float radius;     /* what a ray meets beyond does not count: world units, above 0; default +infinity */
+    uint32_t seed;    /* another one gives other directions; default 0 */
+} cgt_ambient;
+
+/* Fills in the defaults. */
+CGT_API void cgt_ambient_init(cgt_ambient *ambient);
+
+/* How much of the sky the pixels of a frame see: openness gets, for each, the share of its rays that meet nothing,
+ * 1 where the frame has no hit.
+ *   camera    the frame's; its rays' mask is that of these rays too, its t_min and t_max are not used
+ *   frame     its planes t, primitive, geometry and normal as cgt_trace_camera filled them, of this scene; read only.
+ *             The visitor is not called. Normals may be others of unit length, interpolated ones for example
+ *   ambient   NULL for the defaults
+ *   openness  a plane of row_stride * height floats, as those of the frame are; elements beside the picture stay
+ *   options   NULL for the defaults; the statistics count these rays, a hit is an occluded one
+ * The rays of a pixel start at org + t dir of its ray, in float, and ignore the primitive that it hits, so that no
+ * offset is needed: in a mesh a ray may meet the next triangle where it starts nearer to their edge than that is
+ * rounded, and a sphere seen from inside does not hide its other side. Their directions lie about the normal, turned
+ * to the eye's side, by the cosine of the angle to it: each pixel has a low-discrepancy sequence (Sobol's first two
+ * dimensions, scrambled by a hash of pixel and seed), on a disc (Shirley, Chiu, "A Low Distortion Map Between Disk and
+ * Square", 1997). They are the same bits for any number of threads and every variant, and so is openness, but in
+ * precision FAST. A pixel whose t or normal is not finite is open. Errors and memory: as cgt_trace_rays; INVALID_ARGUMENT
+ * where a plane is missing, too. */
+CGT_API cgt_result cgt_trace_ambient(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                                     const cgt_ambient *ambient, float *openness, const cgt_trace_options *options);
 
 #ifdef __cplusplus
 }

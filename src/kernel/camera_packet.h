@@ -25,9 +25,10 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
     return spux_permute(spux_load_unaligned(py + lane_row(i, edge)), spu_sr(spux_lane_index(), 2));
 }
 
-/* What is the same for all packets of a perspective camera, and the range of t of any. */
+/* What is the same for all packets of a perspective camera, and the range of t of any. masked: the camera's mask leaves
+ * something out. */
 CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trace_settings *settings, uint32_t edge,
-                                        packet *p)
+                                        bool masked, packet *p)
 {
     p->fast = settings->precision == CGT_PRECISION_FAST;
     p->triangle_test = settings->triangle_test;
@@ -36,6 +37,7 @@ CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trac
     p->from_origin = p->common_origin && c->t_min == 0;
     p->to_light = false;
     p->any_hit = false;
+    p->selective = p->masked = masked;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         for (int a = 0; a < 3; a++) {
             spux_store(p->org[a] + i, spux_vfloat(c->eye[a]));
@@ -43,6 +45,8 @@ CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trac
         }
         spux_store(p->t_min + i, spux_vfloat(c->t_min));
         spux_store(p->t_max + i, spux_vfloat(c->t_max));
+        spux_store_uint(p->ignored + i, spux_vuint(CGT_NONE));
+        spux_store_uint(p->mask + i, spux_vuint(c->mask));
     }
 }
 

@@ -10,7 +10,7 @@ void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays 
     packet p;
     packet_hits hits;
     const uint32_t edge = settings->packet;
-    camera_packet_begin(camera, settings, edge, &p);
+    camera_packet_begin(camera, settings, edge, camera->mask != UINT32_MAX, &p);
     p.extreme = camera_is_extreme(camera);
     for (uint32_t y = 0; y < region->height; y += edge)
         for (uint32_t x = 0; x < region->width; x += edge) {

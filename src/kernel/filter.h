@@ -10,6 +10,7 @@
 
 #include "../decide.h"
 #include "block_cones.h"
+#include "ray_select.h"
 
 #ifndef FILTER_U /* a test gives it other values, to find where the bounds break */
 #define FILTER_U 0x1p-24f
@@ -147,6 +148,8 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_objects *o
     double t;
     if (winner == object || p->high[i] == -INFINITY)
         return; /* met before; or the ray takes no part */
+    if (p->selective && select_leaves_out(p, i, object, select_mask(objects, p, object)))
+        return;
     if (!filter_beats(objects, &ray, p->any_hit ? CGT_NONE : winner, object, &t, counts))
         return;
     p->object[i] = object;
@@ -218,6 +221,8 @@ CGT_SPU_INLINE void filter_vector(const cgt_objects *objects, packet *p, filter_
     counts->ray_tests += CGT_LANES;
     if (!test(p, primitive, i, mode.common_origin, &f))
         return;
+    if (p->selective)
+        f.certain = spu_andc(f.certain, select_left_out_of_one(objects, p, i, object));
     filter_keep(p, i, &f, spux_vuint(object), mode);
     if (mode.decides)
         for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
@@ -230,6 +235,8 @@ CGT_SPU_INLINE void filter_blocks(const cgt_objects *objects, packet *p, filter_
                                   cgt_counts *counts)
 {
     const vuint number = spux_vuint(object);
+    const bool selective = p->selective;
+    const vuint mask = spux_vuint(selective ? select_mask(objects, p, object) : UINT32_MAX);
     for (; reached; reached &= reached - 1) {
         const uint32_t block = (uint32_t)__builtin_ctz(reached), first = block * BLOCK_RAYS, end = block_end(p, block);
         vmask open = spux_mask_none(), changed = open;
@@ -238,6 +245,8 @@ CGT_SPU_INLINE void filter_blocks(const cgt_objects *objects, packet *p, filter_
         for (uint32_t i = first; i < end; i += CGT_LANES) {
             if (!test(p, primitive, i, mode.common_origin, &f))
                 continue;
+            if (selective)
+                f.certain = spu_andc(f.certain, select_left_out(p, i, number, mask));
             filter_keep(p, i, &f, number, mode);
             open = spu_or(open, f.open);
             changed = spu_or(changed, f.certain);

@@ -78,8 +78,13 @@ CGT_SPU_INLINE void leaf_keep_vector(leaf_tests *l, uint32_t object, uint32_t i,
     packet *p = l->p;
     const vfloat low = spux_load(p->low + i), high = spux_load(p->high + i);
     const vuint winner = spux_load_uint(p->object + i), number = spux_vuint(object);
-    const vmask nearer = spu_and(q->certain, spu_cmpgt(low, q->high));
-    const vmask settled = spu_or(spu_or(nearer, spu_cmpgt(q->low, high)), spu_cmpeq(winner, number));
+    vmask nearer = spu_and(q->certain, spu_cmpgt(low, q->high));
+    vmask settled = spu_or(spu_or(nearer, spu_cmpgt(q->low, high)), spu_cmpeq(winner, number));
+    if (p->selective) {
+        const vmask left_out = select_left_out_of_one(l->objects, p, i, object);
+        nearer = spu_andc(nearer, left_out);
+        settled = spu_or(settled, left_out);
+    }
     const vfloat closed = spux_vfloat(-INFINITY);
     spux_store(p->low + i, spux_select(low, p->any_hit ? closed : q->low, nearer));
     spux_store(p->high + i, spux_select(high, p->any_hit ? closed : q->high, nearer));

@@ -34,6 +34,7 @@ typedef struct cgt_loose_keys {
 typedef struct cgt_kernel {
     const char *name;
     uint32_t lanes;
+    const struct cgt_wide_builder *wide; /* steps that build a wide tree (wide_tree_build.h) */
 
     /* Pushes the valid ones of objects first to end - 1 to the voxels, in ascending order. Returns end, or the object
      * before which it stopped because the overflow list might not hold what that object spills. */

@@ -21,12 +21,15 @@ void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points,
                                  uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded,
                                  cgt_counts *counts);
 
+extern const struct cgt_wide_builder CGT_KERNEL(cgt_wide_builder);
+
 #define NAME_(variant) #variant
 #define NAME(variant) NAME_(variant)
 
 const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .name = NAME(CGT_VARIANT),
     .lanes = CGT_LANES,
+    .wide = &CGT_KERNEL(cgt_wide_builder),
     .queue_grid_fill = CGT_KERNEL(cgt_queue_grid_fill),
     .summarise = CGT_KERNEL(cgt_summarise_array),
     .loose_grid_keys = CGT_KERNEL(cgt_loose_grid_keys),

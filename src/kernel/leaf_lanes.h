@@ -229,6 +229,8 @@ __attribute__((unused)) static void leaf_keep_ray(const cgt_objects *objects, pa
     spux_store(high, q->high);
     for (; left; left &= left - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(left);
+        if (p->selective && select_leaves_out(p, i, reference[k], select_mask(objects, p, reference[k])))
+            continue;
         if (!(certain >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
             filter_decide(objects, p, i, reference[k], counts);
         } else if (high[k] < p->low[i]) {

@@ -32,6 +32,9 @@ typedef struct packet {
     _Alignas(64) float high[PACKET_MAX_RAYS];
     _Alignas(64) uint32_t object[PACKET_MAX_RAYS];             /* CGT_NONE: none yet */
     _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
+    _Alignas(64) uint32_t ignored[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_NONE:
+                                                       none; and its mask */
+    _Alignas(64) uint32_t mask[PACKET_MAX_RAYS];
     /* only for triangles of packets without a common origin: */
     _Alignas(64) float length[PACKET_MAX_RAYS];    /* of dir, rounded up */
     _Alignas(64) float from[3][PACKET_MAX_RAYS];   /* org seen from the filter's origin */
@@ -42,6 +45,8 @@ typedef struct packet {
     bool from_origin;   /* and all start there: t_min is 0 */
     bool to_light;      /* all run from their origins to `light`, where t is 1, but for rounding */
     float light[3];
+    bool selective;                  /* some ray ignores an object, or has a mask that leaves one out */
+    bool masked;                     /* selective, by masks too */
     bool any_hit;                    /* the first hit found closes a ray */
     bool fast;                       /* FAST precision */
     cgt_triangle_test triangle_test; /* in FAST precision */
@@ -70,6 +75,16 @@ void CGT_KERNEL(cgt_kd_trace)(const cgt_world *world, packet *p, const cgt_trace
                               cgt_counts *counts);
 void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                                     cgt_counts *counts);
+void CGT_KERNEL(cgt_wide_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                cgt_counts *counts);
+
+/* Arrays of rays, and points against a light, through the wide tree: see trace_rays and trace_light of cgt_kernel. */
+void CGT_KERNEL(cgt_wide_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
+                                      uint64_t first, uint64_t end, const cgt_trace_settings *settings,
+                                      uint8_t *occluded, cgt_counts *counts);
+void CGT_KERNEL(cgt_wide_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
+                                     const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
+                                     cgt_counts *counts);
 
 /* The hits of a packet, ready to be handed out. */
 typedef struct packet_hits {

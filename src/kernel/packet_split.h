@@ -56,6 +56,10 @@ static void packet_extract(const packet *p, const uint32_t *part, uint32_t wante
         sub->low[k] = k < n ? p->low[i] : -INFINITY;
         sub->high[k] = k < n ? p->high[i] : -INFINITY;
         sub->object[k] = p->object[i];
+        if (p->selective) {
+            sub->ignored[k] = p->ignored[i];
+            sub->mask[k] = p->mask[i];
+        }
         sub->u[k] = p->u[i];
         sub->v[k] = p->v[i];
     }
@@ -72,6 +76,8 @@ static void packet_trace_parts(const cgt_world *world, packet *p, const uint32_t
     sub.to_light = p->to_light;
     for (int a = 0; a < 3; a++)
         sub.light[a] = p->light[a];
+    sub.selective = p->selective;
+    sub.masked = p->masked;
     sub.any_hit = p->any_hit;
     sub.fast = p->fast;
     sub.triangle_test = p->triangle_test;

@@ -30,7 +30,7 @@ CGT_SPU_INLINE float ray_element(const ray_source *s, const float *array, uint64
 }
 
 /* The first two take part. */
-typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_INVALID } ray_state;
+typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_EMPTY_MASK, RAY_INVALID } ray_state;
 
 /* Rays in the order in which packets take them: `from` of the array's, counted from its `first`. */
 typedef struct ray_order {
@@ -75,6 +75,42 @@ static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k
     return largest > PACKET_LARGEST || longest > PACKET_LARGEST || longest < PACKET_SHORTEST ? RAY_EXTREME : RAY_OPEN;
 }
 
+CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, uint64_t i)
+{
+    return *(const uint32_t *)(const void *)((const char *)array + i * s->stride);
+}
+
+/* The object that a ray ignores. */
+CGT_SPU_INLINE uint32_t ray_ignored(const cgt_objects *objects, const ray_source *s, uint64_t i)
+{
+    const cgt_rays *r = s->rays;
+    const uint32_t primitive = r->ignored_primitive ? ray_number(s, r->ignored_primitive, i) : CGT_NONE;
+    if (primitive == CGT_NONE)
+        return CGT_NONE;
+    return cgt_objects_number(objects, r->ignored_geometry ? ray_number(s, r->ignored_geometry, i) : 0, primitive);
+}
+
+/* What counts for the rays of a packet, where they say so. */
+static void ray_packet_select(const cgt_world *world, const ray_source *s, const ray_order *order, uint32_t first,
+                              uint32_t count, packet *p, ray_state *state)
+{
+    uint32_t common = UINT32_MAX;
+    p->selective = p->masked = false;
+    if (!s->rays->mask && !s->rays->ignored_primitive)
+        return;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint64_t i = ray_at(order, first + k);
+        p->mask[k] = s->rays->mask ? ray_number(s, s->rays->mask, i) : UINT32_MAX;
+        p->ignored[k] = ray_ignored(&world->objects, s, i);
+        p->selective |= p->ignored[k] != CGT_NONE;
+        common &= p->mask[k];
+        if (!p->mask[k] && state[k] < RAY_EMPTY_MASK)
+            state[k] = RAY_EMPTY_MASK;
+    }
+    p->masked = world->masked && common != UINT32_MAX;
+    p->selective |= p->masked;
+}
+
 /* A lane that takes no part repeats one that does, so that it widens no bound. */
 static void ray_packet_close_lane(packet *p, uint32_t k, uint32_t good)
 {
@@ -86,6 +122,8 @@ static void ray_packet_close_lane(packet *p, uint32_t k, uint32_t good)
     p->t_min[k] = p->t_min[good];
     p->t_max[k] = p->t_max[good];
     p->low[k] = p->high[k] = -INFINITY;
+    p->ignored[k] = CGT_NONE;
+    p->mask[k] = 0;
 }
 
 /* Rays that miss the bounds of all objects take no part. */
@@ -121,8 +159,8 @@ static void ray_packet_gather_packet(packet *p, uint32_t count, const ray_state 
 
 /* Reads rays first to first + count - 1 of the order. Returns false where one of several is extreme: read them apart
  * then. */
-static bool ray_packet_make(const cgt_world *world, const ray_source *s, const ray_order *order, uint32_t first,
-                            uint32_t count, packet *p, cgt_counts *counts)
+__attribute__((unused)) static bool ray_packet_make(const cgt_world *world, const ray_source *s, const ray_order *order,
+                                                    uint32_t first, uint32_t count, packet *p, cgt_counts *counts)
 {
     ray_state state[PACKET_MAX_RAYS];
     uint32_t invalid = 0;
@@ -140,6 +178,7 @@ static bool ray_packet_make(const cgt_world *world, const ray_source *s, const r
             p->extreme = true;
         invalid += state[k] == RAY_INVALID;
     }
+    ray_packet_select(world, s, order, first, count, p, state);
     if (!p->extreme && !world->everything) {
         for (uint32_t k = count; k < p->lanes; k++)
             ray_packet_close_lane(p, k, 0);

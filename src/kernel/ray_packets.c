@@ -3,31 +3,9 @@
  *
  * Arrays of rays. Through a grid, neighbours become packets as they come, and the traversal splits those whose rays run
  * apart. Through a tree, packets are made of neighbours among the rays of like direction. */
-#include "ray_packet.h"
+#include "ray_hits.h"
 
 #define RAY_PACKET 64
-
-static void store_hits(const packet_hits *h, const ray_order *order, uint32_t first, uint32_t count,
-                       const cgt_hits *hits)
-{
-    const size_t stride = hits->stride ? hits->stride : sizeof(float);
-    for (uint32_t k = 0; k < count; k++) {
-        const size_t at = (size_t)ray_at(order, first + k) * stride;
-        if (hits->t)
-            memcpy((char *)hits->t + at, &h->t[k], sizeof(float));
-        if (hits->primitive)
-            memcpy((char *)hits->primitive + at, &h->primitive[k], sizeof(uint32_t));
-        if (hits->geometry)
-            memcpy((char *)hits->geometry + at, &h->geometry[k], sizeof(uint32_t));
-        for (int a = 0; a < 3; a++)
-            if (hits->normal[a])
-                memcpy((char *)hits->normal[a] + at, &h->normal[a][k], sizeof(float));
-        if (hits->u)
-            memcpy((char *)hits->u + at, &h->u[k], sizeof(float));
-        if (hits->v)
-            memcpy((char *)hits->v + at, &h->v[k], sizeof(float));
-    }
-}
 
 /* The call, as all its packets see it. */
 typedef struct rays_call {
@@ -50,7 +28,7 @@ static void trace_range(const rays_call *c, const ray_order *order, uint32_t fir
     CGT_KERNEL(cgt_packet_trace)(c->world, p, c->settings, c->counts);
     if (c->hits) {
         CGT_KERNEL(cgt_packet_resolve)(c->world, p, c->settings, &h, c->counts);
-        store_hits(&h, order, first, count, c->hits);
+        ray_store_hits(&h, order, first, count, c->hits);
         return;
     }
     for (uint32_t k = 0; k < count; k++) {
@@ -90,9 +68,10 @@ static bool order_rays(const ray_source *s, uint64_t first, uint32_t count, uint
     return true;
 }
 
-void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
-                                const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
-                                cgt_counts *counts)
+/* Packets through whatever structure there is. Not inline: its arrays and those of streams are not there at once. */
+__attribute__((noinline)) static void trace_packets(const cgt_world *world, const cgt_rays *rays, uint64_t first,
+                                                    uint64_t end, const cgt_trace_settings *settings,
+                                                    const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts)
 {
     packet p;
     uint32_t from[CGT_RAYS_CHUNK];
@@ -111,4 +90,14 @@ void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, ui
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += RAY_PACKET)
         trace_range(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, &p);
+}
+
+void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
+                                const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
+                                cgt_counts *counts)
+{
+    if (settings->wide && !world->everything)
+        CGT_KERNEL(cgt_wide_trace_rays)(world, rays, first, end, settings, hits, occluded, counts);
+    else
+        trace_packets(world, rays, first, end, settings, hits, occluded, counts);
 }

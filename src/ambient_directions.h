@@ -1,0 +1,84 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The directions of ambient occlusion: made by integers and unfused float arithmetic alone, without functions of the C
+ * library, so that they are the same bits everywhere. */
+#ifndef CGT_AMBIENT_DIRECTIONS_H
+#define CGT_AMBIENT_DIRECTIONS_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#include <cgt/cgt.h>
+
+#define CGT_AMBIENT_SAMPLES 1024u /* at most */
+
+/* Of a sequence in the unit square, in units of 2^-32. */
+typedef struct cgt_ambient_points {
+    uint32_t at[2][CGT_AMBIENT_SAMPLES];
+} cgt_ambient_points;
+
+/* A hash of 32 bits, one to one. */
+static inline uint32_t cgt_ambient_mix(uint32_t x)
+{
+    x += 0x9e3779b9u;
+    x = (x ^ x >> 16) * 0x7feb352du;
+    x = (x ^ x >> 15) * 0x846ca68bu;
+    return x ^ x >> 16;
+}
+
+/* Sobol's first two dimensions: of 2^k points from a multiple of 2^k on, each of 2^k equal boxes of a grid has one. */
+static inline void cgt_ambient_points_make(uint32_t count, cgt_ambient_points *p)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t first = 1u << 31, second = 1u << 31;
+        p->at[0][k] = p->at[1][k] = 0;
+        for (uint32_t bits = k; bits; bits >>= 1, first >>= 1, second ^= second >> 1) {
+            p->at[0][k] ^= bits & 1 ? first : 0;
+            p->at[1][k] ^= bits & 1 ? second : 0;
+        }
+    }
+}
+
+/* To (-1, 1), without 0. */
+static inline float cgt_ambient_centred(uint32_t x) { return ((float)(x >> 9) + 0.5f) * 0x1p-22f - 1; }
+
+/* Two axes across a unit vector (Duff and others, "Building an Orthonormal Basis, Revisited", 2017). */
+static inline void cgt_ambient_axes(const float n[3], float across[2][3])
+{
+    const float sign = n[2] < 0 ? -1.f : 1.f, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
+    across[0][0] = 1 + sign * n[0] * n[0] * a;
+    across[0][1] = sign * b;
+    across[0][2] = -sign * n[0];
+    across[1][0] = b;
+    across[1][1] = sign + n[1] * n[1] * a;
+    across[1][2] = -n[1];
+}
+
+/* The directions of pixel (x, y) about the unit vector n: on a disc (Shirley, Chiu 1997), and from there up to the
+ * sphere, which makes their density that of the cosine. On the disc an angle is at most pi / 4 from an axis, where
+ * these terms of sine and cosine are within 2^-24. */
+static inline void cgt_ambient_directions(const cgt_ambient_points *points, const cgt_ambient *ambient, uint32_t x,
+                                          uint32_t y, const float n[3], float *const dir[3])
+{
+    const uint32_t scramble = cgt_ambient_mix(x ^ cgt_ambient_mix(y ^ cgt_ambient_mix(ambient->seed)));
+    const uint32_t other = cgt_ambient_mix(scramble);
+    float across[2][3];
+    cgt_ambient_axes(n, across);
+    for (uint32_t k = 0; k < ambient->samples; k++) {
+        const float p = cgt_ambient_centred(points->at[0][k] ^ scramble);
+        const float q = cgt_ambient_centred(points->at[1][k] ^ other);
+        const bool along_p = fabsf(p) > fabsf(q);
+        const float r = along_p ? p : q, share = (along_p ? q : p) / r, w = share * share;
+        const float sine =
+            share * (0.785398163f +
+                     w * (-0.0807455122f + w * (0.00249039457f + w * (-0.0000365762042f + w * 0.000000313361689f))));
+        const float cosine =
+            1 + w * (-0.308425138f + w * (0.0158543442f + w * (-0.000325991887f + w * 0.00000359086045f)));
+        const float u = r * (along_p ? cosine : sine), v = r * (along_p ? sine : cosine), up = sqrtf(1 - r * r);
+        for (int a = 0; a < 3; a++)
+            dir[a][k] = (u * across[0][a] + v * across[1][a]) + up * n[a];
+    }
+}
+
+#endif

@@ -1,0 +1,410 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Arrays of rays through the wide tree, as streams (Wald, Gribble, Boulos, Kensler, "SIMD Ray Stream Tracing", 2007;
+ * Barringer, Akenine-Moeller, "Dynamic Ray Stream Traversal", 2014): the rays of one octant go depth first from node to
+ * node as a list. Lanes are rays; a node tests a vector of rays against one child after the other, which leaves a mask
+ * for each. A child's list is made of the masks when its turn comes, so that there is one list for each node on the way
+ * down. Where few rays are left, lanes are children or primitives instead (wide_single.h).
+ *
+ * Lists lie in an arena, which the rays of a deep tree could fill. A node whose masks and largest list do not fit takes
+ * its list in pieces, each through all that hangs on the node before the next. There is always room for a piece of one
+ * vector: a level takes at most STREAM_LEAST words for that, levels are at most CGT_WIDE_MAX_DEPTH, the arena is at least
+ * so many times as large, and a node leaves that much for each level below it. */
+#include "ray_hits.h"
+#include "wide_stream_leaf.h"
+#include "wide_stream_read.h"
+
+/* Lists of at most so many rays go ray by ray: at nodes and at leaves. Measured. */
+#ifndef STREAM_FEW_AT_NODE
+#define STREAM_FEW_AT_NODE (CGT_LANES == 16 ? 5u : CGT_LANES == 8 ? 3u : 1u)
+#endif
+#ifndef STREAM_FEW_AT_LEAF
+#define STREAM_FEW_AT_LEAF (CGT_LANES == 16 ? 3u : CGT_LANES == 8 ? 2u : 1u)
+#endif
+
+/* Words of the masks of a piece of so many vectors, in whole vectors; and what a piece of one vector takes. */
+#define STREAM_MASKS(chunks) ((CGT_LANES * (chunks) / 2 + CGT_LANES - 1) / CGT_LANES * CGT_LANES)
+#define STREAM_LEAST (STREAM_MASKS(1u) + STREAM_LIST(CGT_LANES))
+
+_Static_assert(CGT_WIDE_STREAM_ARENA >= CGT_WIDE_MAX_DEPTH * STREAM_LEAST, "a piece fits at every depth");
+
+/* A node on the way down, and the piece of its list that is in work. */
+typedef struct stream_level {
+    const wide_node *node;
+    const uint32_t *list;
+    uint32_t count;       /* of the list */
+    uint32_t first, rays; /* the piece */
+    uint32_t chunks;      /* vectors of it */
+    uint32_t next;        /* position among the children */
+    uint16_t *mask;       /* [child][chunk]: rays that pass the child */
+    uint32_t *room;       /* behind the masks */
+} stream_level;
+
+/* Planes of a node's children as the octant's rays meet them, moved outwards. */
+typedef struct stream_planes {
+    _Alignas(CGT_VECTOR_BYTES) float near[3][CGT_LANES];
+    float far[3][CGT_LANES];
+} stream_planes;
+
+CGT_SPU_INLINE void stream_planes_make(const stream *s, const wide_node *n, stream_planes *p)
+{
+    const vfloat scale = spux_vfloat(s->call.scale);
+    for (int a = 0; a < 3; a++) {
+        const vfloat slack = spux_vfloat(s->slack[a]);
+        const vfloat low = spu_msub(spux_load(n->low[a]), scale, slack);
+        const vfloat high = spu_madd(spux_load(n->high[a]), scale, slack);
+        const bool from_above = s->octant >> a & 1;
+        spux_store(p->near[a], from_above ? high : low);
+        spux_store(p->far[a], from_above ? low : high);
+    }
+}
+
+/* The rays of a piece against the children. */
+CGT_SPU_INLINE void stream_test_node(stream *s, const stream_level *v)
+{
+    const uint32_t children = v->node->children, chunks = v->chunks;
+    stream_planes p;
+    stream_planes_make(s, v->node, &p);
+    for (uint32_t i = 0; i < chunks; i++) {
+        const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
+        uint16_t *mask = v->mask + i;
+        vfloat d[4], q[4];
+        spux_load_records4_at(stream_record(s, RECORD_RDIR), at, d);
+        spux_load_records4_at(stream_record(s, RECORD_SHIFT), at, q);
+        for (uint32_t k = 0; k < children; k++, mask += chunks) {
+            const vfloat x0 = spu_madd(spux_vfloat(p.near[0][k]), d[0], q[0]);
+            const vfloat y0 = spu_madd(spux_vfloat(p.near[1][k]), d[1], q[1]);
+            const vfloat z0 = spu_madd(spux_vfloat(p.near[2][k]), d[2], q[2]);
+            const vfloat x1 = spu_madd(spux_vfloat(p.far[0][k]), d[0], q[0]);
+            const vfloat y1 = spu_madd(spux_vfloat(p.far[1][k]), d[1], q[1]);
+            const vfloat z1 = spu_madd(spux_vfloat(p.far[2][k]), d[2], q[2]);
+            const vfloat enter = spux_max(spux_max(x0, y0), spux_max(z0, d[3]));
+            const vfloat leave = spux_min(spux_min(x1, y1), spux_min(z1, q[3]));
+            *mask = (uint16_t)spux_mask_bits(spux_cmpge(leave, enter));
+        }
+    }
+}
+
+/* Begins the next piece of a level's list. Returns false where there is none. */
+CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room, uint32_t depth)
+{
+    v->first += v->rays;
+    if (v->first >= v->count)
+        return false;
+    const uint32_t below = (CGT_WIDE_MAX_DEPTH - 1 - depth) * STREAM_LEAST;
+    const uint32_t words = (uint32_t)(s->arena + STREAM_ARENA_USED - room) - below; /* at least STREAM_LEAST */
+    const uint32_t most = (words - STREAM_LIST(0) - CGT_LANES) / (CGT_LANES + CGT_LANES / 2); /* vectors */
+    const uint32_t left = v->count - v->first, wanted = (left + CGT_LANES - 1) / CGT_LANES;
+    v->chunks = wanted <= most ? wanted : most ? most : 1;
+    v->rays = wanted <= v->chunks ? left : v->chunks * CGT_LANES;
+    v->mask = (uint16_t *)(void *)room;
+    v->room = room + STREAM_MASKS(v->chunks);
+    v->next = 0;
+    stream_test_node(s, v);
+    s->call.counts->nodes++;
+    return true;
+}
+
+/* Makes the list of a child's rays; returns how many they are. */
+CGT_SPU_INLINE uint32_t stream_make_list(const stream_level *v, uint32_t child)
+{
+    const uint16_t *mask = v->mask + (size_t)child * v->chunks;
+    const uint32_t *at = v->list + v->first;
+    uint32_t *to = v->room;
+    for (uint32_t i = 0; i < v->chunks; i++, at += CGT_LANES) {
+        const unsigned bits = mask[i];
+        if (!bits) /* neighbours mostly miss together */
+            continue;
+        spux_store_unaligned_uint(to, spux_compress(spux_load_uint(at), spux_mask_from_bits(bits)));
+        to += spux_count_bits(bits);
+    }
+    spux_store_unaligned_uint(to, spux_vuint(STREAM_NOBODY));
+    return (uint32_t)(to - v->room);
+}
+
+/* ---- ray by ray ---- */
+
+/* One ray of the stream through what hangs on a code. */
+CGT_SPU_INLINE void stream_trace_ray(stream *s, uint32_t at, uint32_t code, const float slack[3], bool any_hit)
+{
+    const float *d = stream_record(s, at);
+    wide_ray r;
+    for (int a = 0; a < 3; a++) {
+        r.org[a] = d[RECORD_ORG + a];
+        r.dir[a] = d[RECORD_DIR + a];
+    }
+    r.near = d[RECORD_NEAR];
+    r.far = d[RECORD_FAR];
+    if (r.far == -INFINITY)
+        return;
+    r.number = at / STREAM_RECORD;
+    r.best.object = CGT_NONE;
+    r.best.high = r.far;
+    if (any_hit)
+        r.best.low = r.far - fabsf(r.far) * 0x1p-18f - 0x1p-84f;
+    else
+        r.best = s->best[r.number];
+    const uint32_t before = r.best.object;
+    const float far = r.far;
+    if (code & CGT_WIDE_LEAF) {
+        wide_lanes l;
+        wide_lanes_make(&s->call, &r, &l);
+        wide_single_leaf(&s->call, &r, &l, code, any_hit);
+    } else {
+        wide_ray_planes(&s->call, d + RECORD_RDIR, slack, &r);
+        wide_single_trace(&s->call, &r, code, any_hit);
+    }
+    if (any_hit && r.far == -INFINITY)
+        stream_close(s, at);
+    if (!any_hit && (r.best.object != before || r.far != far))
+        stream_keep(s, at, r.best.low, r.best.high, r.best.object);
+}
+
+__attribute__((noinline)) static void stream_trace_few(stream *s, const uint32_t *list, uint32_t count, uint32_t code)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (s->call.any_hit)
+            stream_trace_ray(s, list[i], code, s->slack, true);
+        else
+            stream_trace_ray(s, list[i], code, s->slack, false);
+    }
+}
+
+/* Rays from far away, each with an E of its own. */
+__attribute__((noinline)) static void stream_trace_far(stream *s, const uint32_t *list, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const float *d = stream_record(s, list[i]) + RECORD_ORG;
+        const float org[3] = {fabsf(d[0]), fabsf(d[1]), fabsf(d[2])};
+        float slack[3];
+        wide_slack(&s->call, org, slack);
+        stream_trace_ray(s, list[i], 0, slack, s->call.any_hit);
+    }
+}
+
+/* Rays with numbers beyond the bounds of single precision: against every object. */
+__attribute__((noinline, cold)) static void stream_trace_extreme(stream *s, const uint32_t *list, uint32_t count)
+{
+    const cgt_objects *objects = &s->call.world->objects;
+    for (uint32_t i = 0; i < count; i++) {
+        wide_best best = {0, 0, CGT_NONE, 0};
+        const uint32_t number = list[i] / STREAM_RECORD;
+        const cgt_ray ray = wide_given_ray(&s->call, number);
+        for (uint32_t object = 0; object < objects->count && !(s->call.any_hit && best.object != CGT_NONE); object++) {
+            const cgt_shape shape = cgt_objects_shape(objects, object);
+            double t;
+            if (cgt_shape_check(&shape) != CGT_OBJECT_VALID || wide_hidden(&s->call, number, object))
+                continue;
+            s->call.counts->packet_tests++;
+            s->call.counts->ray_tests++;
+            if (filter_beats(objects, &ray, best.object, object, &t, s->call.counts))
+                best.object = object;
+        }
+        if (best.object == CGT_NONE)
+            continue;
+        stream_close(s, list[i]);
+        if (!s->call.any_hit)
+            stream_keep(s, list[i], -INFINITY, -INFINITY, best.object);
+    }
+}
+
+/* ---- all rays of an octant ---- */
+
+CGT_SPU_INLINE void stream_leaf(stream *s, const wide_node *n, uint32_t child, const uint32_t *list, uint32_t rays,
+                                bool any_hit, bool hides)
+{
+    const uint32_t code = n->child[child], count = wide_leaf_count(code), index = code & CGT_WIDE_INDEX;
+    const leaf_place place = leaf_place_make(n, child, s->call.scale);
+    s->call.counts->leaves++;
+    s->call.counts->packet_tests += count;
+    s->call.counts->ray_tests += (uint64_t)count * ((rays + CGT_LANES - 1) / CGT_LANES * CGT_LANES);
+    if (code & CGT_WIDE_TRIANGLES)
+        leaf_stream_triangles(s, (const wide_triangles *)s->call.tree->triangle + index, count, &place, list, rays,
+                              any_hit, hides);
+    else
+        leaf_stream_spheres(s, (const wide_spheres *)s->call.tree->sphere + index, count, &place, list, rays, any_hit,
+                            hides);
+}
+
+/* The child at a position in the octant's order. */
+CGT_SPU_INLINE uint32_t stream_child(const stream *s, const wide_node *n, uint32_t position)
+{
+    return s->octant < 4 ? n->order[s->octant][position] : n->order[7 - s->octant][n->children - 1 - position];
+}
+
+CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count, bool any_hit, bool hides)
+{
+    stream_level level[CGT_WIDE_MAX_DEPTH];
+    uint32_t depth = 0;
+    level[0] = (stream_level){.node = s->call.tree->node, .list = list, .count = count};
+    s->call.counts->packets++;
+    if (!stream_next_piece(s, &level[0], s->arena, 0))
+        return;
+    for (;;) {
+        stream_level *v = &level[depth];
+        if (v->next == v->node->children) {
+            if (stream_next_piece(s, v, (uint32_t *)(void *)v->mask, depth))
+                continue;
+            if (!depth)
+                return;
+            depth--;
+            continue;
+        }
+        const uint32_t child = stream_child(s, v->node, v->next++), code = v->node->child[child];
+        const uint32_t rays = stream_make_list(v, child);
+        if (!rays)
+            continue;
+        if (rays <= (code & CGT_WIDE_LEAF ? STREAM_FEW_AT_LEAF : STREAM_FEW_AT_NODE)) {
+            stream_trace_few(s, v->room, rays, code);
+        } else if (code & CGT_WIDE_LEAF) {
+            stream_leaf(s, v->node, child, v->room, rays, any_hit, hides);
+        } else {
+            level[++depth] =
+                (stream_level){.node = (const wide_node *)s->call.tree->node + code, .list = v->room, .count = rays};
+            stream_next_piece(s, &level[depth], v->room + (STREAM_LIST(rays) - CGT_LANES) / CGT_LANES * CGT_LANES,
+                              depth);
+        }
+    }
+}
+
+__attribute__((noinline)) static void stream_trace_any(stream *s, const uint32_t *list, uint32_t count)
+{
+    stream_trace(s, list, count, true, false);
+}
+
+__attribute__((noinline)) static void stream_trace_nearest(stream *s, const uint32_t *list, uint32_t count)
+{
+    stream_trace(s, list, count, false, false);
+}
+
+__attribute__((noinline)) static void stream_trace_hiding(stream *s, const uint32_t *list, uint32_t count)
+{
+    if (s->call.any_hit)
+        stream_trace(s, list, count, true, true);
+    else
+        stream_trace(s, list, count, false, true);
+}
+
+/* ---- hits ---- */
+
+__attribute__((noinline)) static void stream_hand_out_any(stream *s, uint32_t count, uint8_t *occluded)
+{
+    uint64_t hits = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint8_t hit = s->record[i][RECORD_FAR] == -INFINITY;
+        occluded[i] = hit;
+        hits += hit;
+    }
+    s->call.counts->hits += hits;
+}
+
+/* A packet of rays with their winners, ready to be resolved. */
+CGT_SPU_INLINE void stream_fill_packet(const stream *s, uint32_t first, uint32_t count, packet *p)
+{
+    p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
+    p->rays = p->lanes;
+    p->common_origin = p->from_origin = p->to_light = p->any_hit = p->fast = p->extreme = false;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const uint32_t left = count - i;
+        stream_lanes q;
+        stream_lanes_load(&s->call, first + i, left < CGT_LANES ? left : CGT_LANES, &q);
+        _Alignas(CGT_VECTOR_BYTES) uint32_t object[CGT_LANES];
+        for (uint32_t k = 0; k < CGT_LANES; k++)
+            object[k] = k < left ? s->best[first + i + k].object : CGT_NONE;
+        const vuint winner = spux_load_uint(object);
+        /* rays without a hit may be anything, and are replaced by one that does no harm */
+        const vmask none = spu_cmpeq(winner, spux_vuint(CGT_NONE));
+        vfloat dd = spux_vfloat(0);
+        for (int a = 0; a < 3; a++) {
+            const vfloat d = spux_select(q.dir[a], spux_vfloat(1), none);
+            spux_store(p->org[a] + i, spux_select(q.org[a], spux_vfloat(0), none));
+            spux_store(p->dir[a] + i, d);
+            dd = spu_add(dd, spu_mul(d, d));
+        }
+        spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
+        spux_store(p->t_min + i, spux_max(spux_select(q.t_min, spux_vfloat(0), none), spux_vfloat(-FLT_MAX)));
+        spux_store(p->t_max + i, q.t_max);
+        spux_store_uint(p->object + i, winner);
+    }
+}
+
+__attribute__((noinline)) static void stream_hand_out_nearest(stream *s, uint32_t count,
+                                                              const cgt_trace_settings *settings, const cgt_hits *hits)
+{
+    packet p;
+    packet_hits h;
+    for (uint32_t i = 0; i < count; i += PACKET_MAX_RAYS) {
+        const uint32_t rays = count - i < PACKET_MAX_RAYS ? count - i : PACKET_MAX_RAYS;
+        const ray_order order = {s->call.first, NULL};
+        stream_fill_packet(s, i, rays, &p);
+        CGT_KERNEL(cgt_packet_resolve)(s->call.world, &p, settings, &h, s->call.counts);
+        ray_store_hits(&h, &order, i, rays, hits);
+    }
+}
+
+/* ---- the call ---- */
+
+/* What each ray ignores, as an object, and its mask where that hides anything. */
+__attribute__((noinline, cold)) static void stream_find_hidden(stream *s, uint32_t count)
+{
+    const ray_source *source = s->call.source;
+    const cgt_world *world = s->call.world;
+    bool masked = false;
+    for (uint32_t i = 0; i < count; i++) {
+        s->ignored[i] = ray_ignored(&world->objects, source, s->call.first + i);
+        s->mask[i] = source->rays->mask ? ray_number(source, source->rays->mask, s->call.first + i) : UINT32_MAX;
+        masked |= !s->mask[i] || (world->masked && s->mask[i] != UINT32_MAX);
+    }
+    s->call.ignored = s->ignored;
+    s->call.mask = masked ? s->mask : NULL;
+    s->call.hides = true;
+}
+
+CGT_SPU_INLINE void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS])
+{
+    for (s->octant = 0; s->octant < STREAM_SINGLE; s->octant++) {
+        const uint32_t *list = s->all + start[s->octant], count = number[s->octant];
+        if (!count)
+            continue;
+        if (s->call.hides)
+            stream_trace_hiding(s, list, count);
+        else if (s->call.any_hit)
+            stream_trace_any(s, list, count);
+        else
+            stream_trace_nearest(s, list, count);
+    }
+    stream_trace_far(s, s->all + start[STREAM_SINGLE], number[STREAM_SINGLE]);
+    stream_trace_extreme(s, s->all + start[STREAM_EXTREME], number[STREAM_EXTREME]);
+}
+
+void CGT_KERNEL(cgt_wide_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
+                                     const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
+                                     cgt_counts *counts)
+{
+    stream s;
+    uint32_t start[STREAM_KEYS], number[STREAM_KEYS];
+    const uint32_t count = (uint32_t)(end - first);
+    const ray_source source = ray_source_make(rays, NULL);
+    const bool fits = wide_call_make(world, counts, &s.call);
+    s.call.source = &source;
+    s.call.first = first;
+    s.call.any_hit = hits == NULL;
+    counts->rays += count;
+    counts->wide_rays += count;
+    if (s.call.any_hit)
+        stream_read(&s, count, true, start, number);
+    else
+        stream_read(&s, count, false, start, number);
+    if (rays->ignored_primitive || rays->mask)
+        stream_find_hidden(&s, count);
+    if (world->valid && fits)
+        stream_trace_all(&s, start, number);
+    else if (world->valid)
+        for (uint32_t k = 0; k <= STREAM_EXTREME; k++)
+            stream_trace_extreme(&s, s.all + start[k], number[k]);
+    if (!hits)
+        stream_hand_out_any(&s, count, occluded + first);
+    else
+        stream_hand_out_nearest(&s, count, settings, hits);
+}

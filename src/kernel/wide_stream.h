@@ -1,0 +1,74 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Streams of rays through the wide tree: the rays of a call, normalised (wide_ray.h), one record each, and lists of them
+ * by their numbers.
+ *
+ * Stack. A stream takes, with CGT_RAYS_CHUNK = 4096, 256 KB for records, 64 KB for best hits, 17 KB for the list of all
+ * rays, 16 KB for keys and later for what rays ignore, and 64 KB for the arena: 420 KB with the call's frame. Beside it
+ * there are, one at a time, the levels of a list with the stack of a single ray, 16 KB, or a packet, its hits and the
+ * frame of the resolve, 49 KB: a call stays below 480 KB. */
+#ifndef CGT_WIDE_STREAM_H
+#define CGT_WIDE_STREAM_H
+
+#include "wide_single.h"
+
+#define CGT_WIDE_STREAM_ARENA 16384u /* words */
+#ifndef STREAM_ARENA_USED            /* a test makes it as small as it may be */
+#define STREAM_ARENA_USED CGT_WIDE_STREAM_ARENA
+#endif
+
+#define STREAM_RECORD 16u                              /* floats: one line of the cache */
+#define STREAM_NOBODY (CGT_RAYS_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
+#define STREAM_FAR 16.f                                /* origins beyond, normalised, go one by one */
+#define STREAM_LIST(count) ((count) + 2u * CGT_LANES)  /* words for a list of so many rays, filled up */
+
+/* Octants, then the rays that do not go in streams. */
+enum { STREAM_SINGLE = 8, STREAM_EXTREME, STREAM_NONE, STREAM_KEYS };
+
+/* Where the numbers of a record are: t's range stands in both halves, that of nodes and that of leaves. */
+enum {
+    RECORD_RDIR = 0,
+    RECORD_NEAR = 3,
+    RECORD_SHIFT = 4, /* -org rdir */
+    RECORD_FAR = 7,   /* -infinity: of no use any more */
+    RECORD_ORG = 8,
+    RECORD_LEAF_NEAR = 11,
+    RECORD_DIR = 12,
+    RECORD_LEAF_FAR = 15
+};
+
+typedef struct stream {
+    _Alignas(64) float record[CGT_RAYS_CHUNK + 1][STREAM_RECORD];
+    _Alignas(64) wide_best best[CGT_RAYS_CHUNK + 1]; /* of nearest hits */
+    _Alignas(64) uint32_t arena[CGT_WIDE_STREAM_ARENA];
+    _Alignas(64) uint32_t all[CGT_RAYS_CHUNK + STREAM_KEYS * CGT_LANES]; /* records, by key */
+    union {
+        _Alignas(64) uint32_t key[CGT_RAYS_CHUNK]; /* until they are sorted */
+        uint32_t ignored[CGT_RAYS_CHUNK];          /* objects; where rays ignore any, and so is the next */
+    };
+    uint32_t mask[CGT_RAYS_CHUNK];
+    wide_call call;
+    float slack[3];  /* E of all rays of streams */
+    uint32_t octant; /* in work */
+} stream;
+
+CGT_SPU_INLINE float *stream_record(stream *s, uint32_t at) { return &s->record[0][0] + at; }
+
+/* A ray has found its hit: none is wanted any more. */
+CGT_SPU_INLINE void stream_close(stream *s, uint32_t at)
+{
+    stream_record(s, at)[RECORD_FAR] = stream_record(s, at)[RECORD_LEAF_FAR] = -INFINITY;
+}
+
+/* Keeps a ray's best hit. */
+CGT_SPU_INLINE void stream_keep(stream *s, uint32_t at, float low, float high, uint32_t object)
+{
+    wide_best *b = &s->best[at / STREAM_RECORD];
+    b->low = low;
+    b->high = high;
+    b->object = object;
+    stream_record(s, at)[RECORD_FAR] = stream_record(s, at)[RECORD_LEAF_FAR] = high;
+}
+
+#endif

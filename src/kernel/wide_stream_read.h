@@ -1,0 +1,162 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Records of a stream from the caller's arrays, a vector of rays at a time, and their order: by the octant of the
+ * direction, after a counting sort. */
+#ifndef CGT_WIDE_STREAM_READ_H
+#define CGT_WIDE_STREAM_READ_H
+
+#include "wide_stream.h"
+
+/* Elements i to i + count - 1 of an array of the caller's, i counted from its beginning; `absent` beyond. */
+CGT_SPU_INLINE vfloat stream_load(const ray_source *s, const float *array, uint64_t i, uint32_t count)
+{
+    _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
+    if (s->stride == sizeof(float) && count == CGT_LANES)
+        return spux_load_unaligned(array + i);
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        row[k] = k < count ? ray_element(s, array, i + k) : 0;
+    return spux_load(row);
+}
+
+/* Rays as they are read. */
+typedef struct stream_lanes {
+    vfloat org[3], dir[3], t_min, t_max;
+} stream_lanes;
+
+CGT_SPU_INLINE void stream_lanes_load(const wide_call *c, uint32_t i, uint32_t count, stream_lanes *q)
+{
+    const cgt_rays *r = c->source->rays;
+    for (int a = 0; a < 3; a++) {
+        q->org[a] = stream_load(c->source, r->org[a], c->first + i, count);
+        q->dir[a] = stream_load(c->source, r->dir[a], c->first + i, count);
+    }
+    q->t_min = r->t_min ? stream_load(c->source, r->t_min, c->first + i, count) : spux_vfloat(0);
+    q->t_max = r->t_max ? stream_load(c->source, r->t_max, c->first + i, count) : spux_vfloat(INFINITY);
+}
+
+CGT_SPU_INLINE vfloat stream_largest(const vfloat v[3])
+{
+    return spux_max(spux_abs(v[0]), spux_max(spux_abs(v[1]), spux_abs(v[2])));
+}
+
+/* Which lanes are not valid: see cgt_trace_statistics.invalid_rays. */
+CGT_SPU_INLINE vmask stream_invalid(const stream_lanes *q, vfloat longest)
+{
+    const vfloat nothing = spux_vfloat(0);
+    vfloat zero = nothing;
+    for (int a = 0; a < 3; a++)
+        zero = spu_madd(q->org[a], nothing, spu_madd(q->dir[a], nothing, zero)); /* NaN where one is not finite */
+    const vmask ordered = spu_and(spu_cmpeq(q->t_min, q->t_min), spu_cmpeq(q->t_max, q->t_max));
+    return spux_not(spu_and(spu_and(spu_cmpeq(zero, nothing), ordered), spu_cmpgt(longest, nothing)));
+}
+
+CGT_SPU_INLINE vmask stream_empty(const stream_lanes *q)
+{
+    return spu_or(spu_cmpgt(q->t_min, q->t_max),
+                  spu_or(spu_cmpgt(q->t_min, spux_vfloat(FLT_MAX)), spu_cmpgt(spux_vfloat(-FLT_MAX), q->t_max)));
+}
+
+/* Numbers that bounds of single precision do not cover. */
+CGT_SPU_INLINE vmask stream_extreme(const stream_lanes *q, vfloat longest, vfloat farthest, vfloat speed)
+{
+    const vfloat most = spux_vfloat(PACKET_LARGEST), least = spux_vfloat(PACKET_SHORTEST);
+    const vmask given =
+        spu_or(spu_cmpgt(stream_largest(q->org), most), spu_or(spu_cmpgt(longest, most), spu_cmpgt(least, longest)));
+    const vmask fast = spu_or(spu_cmpgt(speed, spux_vfloat(0x1p60f)), spu_cmpgt(spux_vfloat(0x1p-100f), speed));
+    return spu_or(given, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(WIDE_LARGEST_ORG))));
+}
+
+/* 1 / d with components made large enough, see wide_ray.h. */
+CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
+{
+    const vfloat flat = spux_vfloat(WIDE_FLAT), sign = spu_and(d, spux_vfloat(-0.f));
+    return spux_div(spux_vfloat(1), spux_select(d, spu_or(sign, flat), spu_cmpgt(flat, spux_abs(d))));
+}
+
+/* Makes the records of rays i to i + count - 1. most: of the coordinates of origins in streams. */
+CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
+                                        vfloat most[3], uint32_t *invalid_rays)
+{
+    const wide_call *c = &s->call;
+    const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
+    stream_lanes q;
+    stream_lanes_load(c, i, count, &q);
+    const vfloat longest = stream_largest(q.dir);
+    const vuint exponent = spu_and((vuint)longest, spux_vuint(0x7f800000));
+    const vfloat power = (vfloat)exponent, inverse = (vfloat)spu_sub(spux_vuint(0x7f000000), exponent);
+    const vfloat speed = spu_mul(power, scale); /* s */
+    vfloat org[3], dir[3], rdir[3], shift[3];
+    vuint octant = spux_vuint(0);
+    for (int a = 0; a < 3; a++) {
+        org[a] = spu_mul(q.org[a], scale);
+        dir[a] = spu_mul(q.dir[a], inverse);
+        rdir[a] = stream_reciprocal(dir[a]);
+        shift[a] = spu_xor(spu_mul(org[a], rdir[a]), spux_vfloat(-0.f));
+        octant = spu_or(octant, spu_sl(spu_sr((vuint)rdir[a], 31), (unsigned)a));
+    }
+    const vfloat farthest = stream_largest(org);
+    const vmask invalid = stream_invalid(&q, longest), none = spu_or(invalid, stream_empty(&q));
+    const vmask extreme = stream_extreme(&q, longest, farthest, speed);
+    const vmask single = spu_cmpgt(farthest, spux_vfloat(STREAM_FAR));
+    vuint keys = spux_select(octant, spux_vuint(STREAM_SINGLE), single);
+    keys = spux_select(keys, spux_vuint(STREAM_EXTREME), extreme);
+    keys = spux_select(keys, spux_vuint(STREAM_NONE), none);
+    const vmask streams = spu_cmpgt(spux_vuint(STREAM_SINGLE), keys);
+    for (int a = 0; a < 3; a++)
+        most[a] = spux_max(most[a], spux_select(spux_vfloat(0), spux_abs(org[a]), streams));
+    spux_store_uint(key + i, keys);
+    *invalid_rays += spux_count_bits(spux_mask_bits(invalid) & CGT_ALL_LANES >> (CGT_LANES - count));
+
+    const vfloat outside = spux_vfloat(0x1p-86f), end = spux_vfloat(WIDE_LARGEST_T);
+    const vfloat near = spu_msub(spu_nmsub(spux_abs(q.t_min), margin, q.t_min), speed, outside);
+    const vfloat far = spu_madd(spu_madd(spux_abs(q.t_max), margin, q.t_max), speed, outside);
+    const vfloat first = spux_max(near, spux_vfloat(-WIDE_LARGEST_T));
+    /* rays that are not traced must not look as if they had hit */
+    const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, extreme));
+    float *record = s->record[i];
+    spux_store_records4(record + RECORD_RDIR, STREAM_RECORD, (const vfloat[4]){rdir[0], rdir[1], rdir[2], first});
+    spux_store_records4(record + RECORD_SHIFT, STREAM_RECORD, (const vfloat[4]){shift[0], shift[1], shift[2], last});
+    spux_store_records4(record + RECORD_ORG, STREAM_RECORD, (const vfloat[4]){org[0], org[1], org[2], first});
+    spux_store_records4(record + RECORD_DIR, STREAM_RECORD, (const vfloat[4]){dir[0], dir[1], dir[2], last});
+    if (any_hit)
+        return;
+    const vfloat inside = spu_sub(spu_nmsub(spux_abs(last), spux_vfloat(0x1p-18f), last), spux_vfloat(0x1p-84f));
+    const vfloat nobody = (vfloat)spux_vuint(CGT_NONE);
+    spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, nobody, nobody});
+}
+
+/* Makes the records of all `count` rays and sorts them to s->all: number[k] with key k from start[k], which is aligned;
+ * each list is filled up. */
+CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_t start[STREAM_KEYS],
+                                uint32_t number[STREAM_KEYS])
+{
+    uint32_t *to[STREAM_KEYS], invalid = 0, next = 0;
+    vfloat most[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
+    float org[3];
+    memset(number, 0, STREAM_KEYS * sizeof *number);
+    for (uint32_t i = 0; i < count; i += CGT_LANES)
+        stream_make_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, most, &invalid);
+    s->call.counts->invalid_rays += invalid;
+    for (int a = 0; a < 3; a++)
+        org[a] = spux_hmax(most[a]);
+    wide_slack(&s->call, org, s->slack);
+    for (uint32_t i = 0; i < count; i++)
+        number[s->key[i]]++;
+    for (uint32_t k = 0; k < STREAM_KEYS; k++) {
+        start[k] = next;
+        to[k] = s->all + next;
+        next += (number[k] + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        *to[s->key[i]]++ = i * STREAM_RECORD;
+    for (uint32_t k = 0; k < STREAM_KEYS; k++)
+        for (uint32_t i = number[k]; i % CGT_LANES; i++)
+            *to[k]++ = STREAM_NOBODY;
+    float *nobody = stream_record(s, STREAM_NOBODY);
+    for (uint32_t k = 0; k < STREAM_RECORD; k++)
+        nobody[k] = 1;
+    stream_keep(s, STREAM_NOBODY, -INFINITY, -INFINITY, CGT_NONE);
+}
+
+#endif
