@@ -18,6 +18,7 @@
  *   simd      words of the vocabulary, per variant   simd/simd_rows.h
  *   structures  grids and kd-trees beside each other  bench_structures.h
  *   scaling   time and memory against size         bench_scaling.h
+ *   sweep     structures by kind of rays, their order and their number in a call  bench_sweep.h
  *   floor     the machine's limits, and how far off scenes are  bench_floor.h */
 #ifndef BENCH_H
 #define BENCH_H
@@ -54,10 +55,22 @@ void bench_settings_init(bench_settings *settings);
 /* Parses the shared options and the one FILE; a child of each sub-command's parser, with settings as its input. */
 extern const struct argp bench_settings_argp;
 
-/* Options of the structure, that frame and structures share. */
+/* The next name of a list with commas between, copied and cut where it is too long; *list moves behind it, and is NULL
+ * at the end. 0 where there is none left. */
+#define BENCH_LISTED_SIZE 32
+int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE]);
+
+/* Sets chosen[i] for each of a list of names; an error of the command line where there is no such name. */
+void bench_choose(struct argp_state *state, const char *option, const char *list, const char *const *names, int count,
+                  int *chosen);
+
+/* Whether it was chosen; where nothing was, everything is. */
+int bench_is_chosen(const int *chosen, int count, int which);
+
+/* Options of the structure, that frame, rays, scaling and structures share. */
 typedef struct bench_structure_settings {
     size_t most; /* structures that may be named; set before parsing */
-    cgt_structure asked[5];
+    cgt_structure asked[6];
     size_t count; /* 0: none was named */
     bench_kd_choice kd;
 } bench_structure_settings;
@@ -72,6 +85,7 @@ int bench_frame(int argc, char **argv);
 int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
 int bench_pareto(int argc, char **argv);
+int bench_ray_sweep(int argc, char **argv); /* rays */
 int bench_scaling(int argc, char **argv);
 int bench_simd(int argc, char **argv);
 int bench_structures(int argc, char **argv);

@@ -16,7 +16,7 @@
 #include "bench_scene.h"
 #include "bench_timing.h"
 
-enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX, OPTION_TEST };
+enum { OPTION_ALL = 0x200, OPTION_LOOP, OPTION_TILE, OPTION_CULL, OPTION_NO_MAILBOX, OPTION_TEST, OPTION_NEAREST };
 enum { BUILD, PRIMARY, SHADOW, AO, FRAME, COLUMNS };
 
 typedef struct frame_settings {
@@ -26,6 +26,7 @@ typedef struct frame_settings {
     int lit;
     float light[3];
     uint32_t ao;
+    int nearest;
     const char *output;
     int all;
     cgt_loop loop;
@@ -55,6 +56,7 @@ static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "Rays and rows:", 4},
     {"light", 'l', "X,Y,Z", 0, "trace a shadow ray from every hit to this point", 4},
     {"ao", 'a', "RAYS", 0, "trace RAYS ambient-occlusion rays from every hit, at most 1024", 4},
+    {"nearest", OPTION_NEAREST, NULL, 0, "ambient-occlusion rays ask for their nearest hits, not for any", 4},
     {"orthographic", 'O', NULL, 0, "parallel rays, as high a picture as the camera sees at its target", 4},
     {"output", 'o', "HITS", 0, "write the hits of the last frame: per pixel float32 t and uint32 primitive", 4},
     {"all", OPTION_ALL, NULL, 0, "one row for each packet size and tile shape", 4},
@@ -105,6 +107,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         if (program_parse_u32(argument, 0, BENCH_MOST_AO_RAYS, &settings->ao, error, sizeof error))
             argp_error(state, "-a: %s", error);
         return 0;
+    case OPTION_NEAREST: settings->nearest = 1; return 0;
     case 'O': settings->orthographic = 1; return 0;
     case 'o': settings->output = argument; return 0;
     case OPTION_ALL: settings->all = 1; return 0;
@@ -178,6 +181,7 @@ static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t cou
         result = bench_rays_shadow(job->rays, scene->scene, &secondary, settings->light, &hidden);
         ms[SHADOW] = bench_now_ms() - start;
     }
+    bench_rays_nearest(job->rays, settings->nearest);
     if (result == CGT_OK && settings->ao) {
         start = bench_now_ms();
         result = bench_rays_ao(job->rays, scene->scene, &secondary, settings->ao, open);
@@ -257,13 +261,11 @@ static int run_row(frame_job *job, const bench_choice *choice)
     cgt_trace_options trace;
     size_t measured = 0;
     uint64_t open = 0;
-    /* rays that go anywhere, several for each of the camera's */
-    const cgt_ray_kind rays = job->settings->ao ? CGT_RAYS_INCOHERENT : CGT_RAYS_CAMERA;
 
     cgt_result result = bench_scene_create(&scene, job->context, job->input.moving, shared->resolution);
     if (result == CGT_OK)
-        result =
-            bench_scene_structure(&scene, job->settings->structure.asked[0], rays, &choice->kd, shared->resolution);
+        result = bench_scene_structure(&scene, job->settings->structure.asked[0], CGT_RAYS_CAMERA, &choice->kd,
+                                       shared->resolution);
     if (result == CGT_OK) {
         bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
         bench_choice_options(choice, NULL, &trace);

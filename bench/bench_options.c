@@ -152,11 +152,48 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 
 const struct argp bench_settings_argp = {.options = options, .parser = parse};
 
+/* ---- Lists of names ------------------------------------------------------------------------------------------ */
+
+int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE])
+{
+    if (!*list)
+        return 0;
+    const size_t length = strcspn(*list, ",");
+    snprintf(name, BENCH_LISTED_SIZE, "%.*s", length < BENCH_LISTED_SIZE ? (int)length : BENCH_LISTED_SIZE, *list);
+    *list = (*list)[length] ? *list + length + 1 : NULL;
+    return 1;
+}
+
+void bench_choose(struct argp_state *state, const char *option, const char *list, const char *const *names, int count,
+                  int *chosen)
+{
+    char name[BENCH_LISTED_SIZE];
+    while (bench_next_name(&list, name)) {
+        int i = 0;
+        while (i < count && strcmp(name, names[i]) != 0)
+            i++;
+        if (i == count)
+            argp_error(state, "%s: no %s", option, name);
+        else
+            chosen[i] = 1;
+    }
+}
+
+int bench_is_chosen(const int *chosen, int count, int which)
+{
+    int any = 0;
+    for (int i = 0; i < count; i++)
+        any |= chosen[i];
+    return !any || chosen[which];
+}
+
 /* ---- Structure ----------------------------------------------------------------------------------------------- */
+
+#define STRUCTURES "auto, grid-queue, loose-grid, kd, kd-ropes or wide-tree"
 
 static const struct argp_option structure_options[] = {
     {NULL, 0, NULL, 0, "Structure:", 6},
-    {"structure", 'S', "NAME", 0, "auto (the library's default), grid-queue, loose-grid, kd or kd-ropes", 6},
+    {"structure", 'S', "NAME", 0, STRUCTURES "; where several are compared, a list with commas", 6},
     {"kd-builder", OPTION_BUILDER, "NAME", 0, "of kd-trees: binned or sweep", 6},
     {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
     {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels that are stored breadth first, 1 to 50", 6},
@@ -167,7 +204,7 @@ static void add_structure(bench_structure_settings *settings, struct argp_state 
 {
     cgt_structure structure = CGT_STRUCTURE_AUTO;
     if (bench_structure_find(name, &structure))
-        argp_error(state, "--structure: auto, grid-queue, loose-grid, kd or kd-ropes, not %s", name);
+        argp_error(state, "--structure: " STRUCTURES ", not %s", name);
     for (size_t i = 0; i < settings->count; i++)
         if (settings->asked[i] == structure)
             return;
@@ -177,13 +214,20 @@ static void add_structure(bench_structure_settings *settings, struct argp_state 
         settings->asked[settings->count++] = structure;
 }
 
+static void add_structures(bench_structure_settings *settings, struct argp_state *state, const char *list)
+{
+    char name[BENCH_LISTED_SIZE];
+    while (bench_next_name(&list, name))
+        add_structure(settings, state, name);
+}
+
 static error_t parse_structure(int key, char *argument, struct argp_state *state)
 {
     bench_structure_settings *settings = state->input;
     bench_kd_choice *kd = &settings->kd;
     char error[PROGRAM_ERROR_SIZE] = "";
     switch (key) {
-    case 'S': add_structure(settings, state, argument); return 0;
+    case 'S': add_structures(settings, state, argument); return 0;
     case OPTION_BUILDER:
         if (bench_kd_builder_find(argument, &kd->builder))
             argp_error(state, "--kd-builder: auto, binned or sweep, not %s", argument);

@@ -4,14 +4,24 @@
  * Shadow and ambient-occlusion rays; bench_rays.h has their definitions. */
 #include "bench_rays.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Functions that are compiled for wider vectors, too; sanitizers start too late for how they are chosen. */
+#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) &&                           \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define BENCH_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define BENCH_CLONES
+#endif
 
 enum {
     BLOCK = 4,                  /* pixels along a block's edge */
     GROUP = BLOCK * BLOCK,      /* hit pixels whose rays lie together */
     GROUPS_PER_PIECE = 64,      /* groups that one call of a task makes */
+    SHADOW_RUN = 256,           /* shadow rays made at once */
     RAYS_PER_BATCH = 128 * 1024 /* 3 MB of arrays: long enough to share out, short enough to stay in a cache */
 };
 
@@ -27,10 +37,14 @@ struct bench_rays {
     float *org[3], *dir[3];
     float *ones; /* the far end of all shadow rays */
     uint8_t *occluded;
+    int nearest;
+    float *t; /* of nearest hits */
+    uint32_t *primitive;
     /* the batch in work */
     uint64_t batch_first; /* first hit pixel */
     uint64_t batch_hits;
     uint32_t samples;
+    int diffuse; /* 1: bounces, in place of ambient-occlusion rays */
     float light[3];
     bench_rays_taker *taker;
     void *taker_user;
@@ -71,20 +85,26 @@ void bench_camera_axes_init(bench_camera_axes *axes, const cgt_camera *camera, u
     }
     axes->width = width;
     axes->height = height;
+    axes->step[0] = 2.0f / (float)width;
+    axes->step[1] = 2.0f / (float)height;
+}
+
+void bench_camera_direction(const bench_camera_axes *axes, uint32_t x, uint32_t y, float dir[3])
+{
+    const float px = ((float)x + 0.5f) * axes->step[0] - 1.0f;
+    const float py = 1.0f - ((float)y + 0.5f) * axes->step[1];
+    for (int i = 0; i < 3; i++)
+        dir[i] = axes->fwd[i] + px * axes->right[i] + py * axes->up[i];
 }
 
 /* Direction of a pixel's camera ray, and the point just before its hit. */
 static void surface_point(const bench_rays *rays, uint32_t x, uint32_t y, float dir[3], float point[3])
 {
     const bench_camera_axes *axes = rays->axes;
-    const float px = ((float)x + 0.5f) * (2.0f / (float)axes->width) - 1.0f;
-    const float py = 1.0f - ((float)y + 0.5f) * (2.0f / (float)axes->height);
     const float back = rays->planes->t[(size_t)y * axes->width + x] * 0.9999f;
-
-    for (int i = 0; i < 3; i++) {
-        dir[i] = axes->fwd[i] + px * axes->right[i] + py * axes->up[i];
+    bench_camera_direction(axes, x, y, dir);
+    for (int i = 0; i < 3; i++)
         point[i] = axes->eye[i] + back * dir[i];
-    }
 }
 
 /* ---- Memory -------------------------------------------------------------------------------------------------- */
@@ -115,7 +135,9 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
     }
     rays->ones = malloc(batch * sizeof(float));
     rays->occluded = malloc(batch);
-    if (!complete || !rays->ones || !rays->occluded) {
+    rays->t = malloc(batch * sizeof(float));
+    rays->primitive = malloc(batch * sizeof(uint32_t));
+    if (!complete || !rays->ones || !rays->occluded || !rays->t || !rays->primitive) {
         bench_rays_release(rays);
         return NULL;
     }
@@ -128,6 +150,8 @@ void bench_rays_release(bench_rays *rays)
 {
     if (!rays)
         return;
+    free(rays->primitive);
+    free(rays->t);
     free(rays->occluded);
     free(rays->ones);
     for (int i = 0; i < 3; i++) {
@@ -144,6 +168,8 @@ void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user)
     rays->taker = taker;
     rays->taker_user = user;
 }
+
+void bench_rays_nearest(bench_rays *rays, int nearest) { rays->nearest = nearest; }
 
 /* ---- The hit pixels, in block order -------------------------------------------------------------------------- */
 
@@ -208,20 +234,34 @@ static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
     return end < rays->batch_hits ? end : rays->batch_hits;
 }
 
+/* Plain loops over a run of rays, which the compiler makes vectors of. */
+static void make_shadow_run(bench_rays *rays, uint64_t first, uint32_t count)
+{
+    const bench_camera_axes *axes = rays->axes;
+    const float sx = axes->step[0], sy = axes->step[1];
+    float px[SHADOW_RUN], py[SHADOW_RUN], back[SHADOW_RUN];
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t pixel = rays->hit[rays->batch_first + first + k], x = pixel & 0xffff, y = pixel >> 16;
+        px[k] = ((float)x + 0.5f) * sx - 1.0f;
+        py[k] = 1.0f - ((float)y + 0.5f) * sy;
+        back[k] = rays->planes->t[(size_t)y * axes->width + x] * 0.9999f;
+    }
+    for (int a = 0; a < 3; a++) {
+        const float eye = axes->eye[a], fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a];
+        float *org = rays->org[a] + first, *dir = rays->dir[a] + first;
+        for (uint32_t k = 0; k < count; k++)
+            org[k] = eye + back[k] * (fwd + px[k] * right + py[k] * up);
+        for (uint32_t k = 0; k < count && rays->taker; k++) /* the library makes the same ones of the points */
+            dir[k] = rays->light[a] - org[k];
+    }
+}
+
 static void make_shadow_rays(void *argument, uint32_t piece)
 {
     bench_rays *rays = argument;
-    const uint64_t begin = piece_begin(piece), end = piece_end(rays, piece);
-
-    for (uint64_t i = begin; i < end; i++) {
-        const uint32_t pixel = rays->hit[rays->batch_first + i];
-        float dir[3], point[3];
-        surface_point(rays, pixel & 0xffff, pixel >> 16, dir, point);
-        for (int k = 0; k < 3; k++)
-            rays->org[k][i] = point[k];
-        for (int k = 0; k < 3 && rays->taker; k++) /* the library makes the same ones of the points */
-            rays->dir[k][i] = rays->light[k] - point[k];
-    }
+    const uint64_t end = piece_end(rays, piece);
+    for (uint64_t i = piece_begin(piece); i < end; i += SHADOW_RUN)
+        make_shadow_run(rays, i, end - i < SHADOW_RUN ? (uint32_t)(end - i) : SHADOW_RUN);
 }
 
 static uint32_t mix(uint32_t v)
@@ -233,47 +273,84 @@ static uint32_t mix(uint32_t v)
     return v ^ v >> 16;
 }
 
-/* A point of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. No
- * branches: half of them would be guessed wrong. */
-static void octahedron_point(uint32_t seed, float v[3])
+/* What the rays of a group of neighbouring pixels start from. Lanes beyond its pixels repeat the last one. */
+typedef struct ao_group {
+    float point[3][GROUP], normal[3][GROUP], side[GROUP];
+    uint32_t order[GROUP];
+} ao_group;
+
+/* Points of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. No
+ * branches: half of them would be guessed wrong. Plain loops, which the compiler makes vectors of. */
+BENCH_CLONES
+static void octahedron_points(const ao_group *g, uint32_t sample, float v[3][GROUP])
 {
-    const uint32_t h = mix(seed), g = mix(h + 0x9e3779b9u);
-    const float x = (float)(h >> 8) * (2 / 16777216.0f) - 1, y = (float)(g >> 8) * (2 / 16777216.0f) - 1;
-    const float z = 1 - fabsf(x) - fabsf(y), fold = -z > 0 ? -z : 0;
-    v[0] = x - copysignf(fold, x);
-    v[1] = y - copysignf(fold, y);
-    v[2] = z;
+    for (int k = 0; k < GROUP; k++) {
+        const uint32_t first = mix(g->order[k] * 64u + sample), second = mix(first + 0x9e3779b9u);
+        const float x = (float)(int32_t)(first >> 8) * (2 / 16777216.0f) - 1;
+        const float y = (float)(int32_t)(second >> 8) * (2 / 16777216.0f) - 1;
+        const float z = 1 - fabsf(x) - fabsf(y), fold = -z > 0 ? -z : 0;
+        v[0][k] = x - copysignf(fold, x);
+        v[1][k] = y - copysignf(fold, y);
+        v[2][k] = z;
+    }
+}
+
+/* The hashed points to the sphere about the tip of the normal: more rays near the normal, by the cosine. */
+static void lean_to_normals(const ao_group *g, float v[3][GROUP])
+{
+    for (int k = 0; k < GROUP; k++) {
+        const float point[3] = {v[0][k], v[1][k], v[2][k]}, length = length3(point);
+        for (int i = 0; i < 3; i++)
+            v[i][k] = v[i][k] / length + copysignf(1.0f, g->side[k]) * g->normal[i][k];
+    }
+}
+
+/* To the side of the surface that the eye sees. */
+BENCH_CLONES
+static void turn_to_eye(const ao_group *g, float v[3][GROUP])
+{
+    for (int k = 0; k < GROUP; k++) {
+        const float cosine = v[0][k] * g->normal[0][k] + v[1][k] * g->normal[1][k] + v[2][k] * g->normal[2][k];
+        const float sign = cosine * g->side[k] < 0 ? -1.0f : 1.0f;
+        for (int i = 0; i < 3; i++)
+            v[i][k] *= sign;
+    }
+}
+
+static void read_group(const bench_rays *rays, uint64_t first, uint32_t pixels, ao_group *g)
+{
+    for (uint32_t k = 0; k < GROUP; k++) {
+        const uint32_t pixel = rays->hit[rays->batch_first + first + (k < pixels ? k : pixels - 1)];
+        const uint32_t x = pixel & 0xffff, y = pixel >> 16;
+        float dir[3], point[3];
+        surface_point(rays, x, y, dir, point);
+        g->order[k] = block_order(rays, x, y);
+        g->side[k] = 0;
+        for (int i = 0; i < 3; i++) {
+            g->point[i][k] = point[i];
+            g->normal[i][k] = rays->planes->normal[i][(size_t)y * rays->axes->width + x];
+            g->side[k] -= dir[i] * g->normal[i][k];
+        }
+    }
 }
 
 /* All samples of the pixels of one group, sample by sample: neighbours in the arrays are neighbours in space. */
 static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
 {
-    float point[GROUP][3], normal[GROUP][3], side[GROUP];
-    uint32_t order[GROUP];
+    ao_group g;
+    float v[3][GROUP];
     uint64_t ray = first * rays->samples;
-
-    for (uint32_t k = 0; k < pixels; k++) {
-        const uint32_t pixel = rays->hit[rays->batch_first + first + k], x = pixel & 0xffff, y = pixel >> 16;
-        float dir[3];
-        surface_point(rays, x, y, dir, point[k]);
-        order[k] = block_order(rays, x, y);
-        side[k] = 0;
+    read_group(rays, first, pixels, &g);
+    for (uint32_t s = 0; s < rays->samples; s++, ray += pixels) {
+        octahedron_points(&g, s, v);
+        if (rays->diffuse)
+            lean_to_normals(&g, v);
+        turn_to_eye(&g, v);
         for (int i = 0; i < 3; i++) {
-            normal[k][i] = rays->planes->normal[i][(size_t)y * rays->axes->width + x];
-            side[k] -= dir[i] * normal[k][i];
+            memcpy(rays->org[i] + ray, g.point[i], pixels * sizeof(float));
+            memcpy(rays->dir[i] + ray, v[i], pixels * sizeof(float));
         }
     }
-    for (uint32_t s = 0; s < rays->samples; s++)
-        for (uint32_t k = 0; k < pixels; k++, ray++) {
-            float v[3];
-            octahedron_point(order[k] * 64u + s, v);
-            const float cosine = v[0] * normal[k][0] + v[1] * normal[k][1] + v[2] * normal[k][2];
-            const float sign = 1 - 2 * (float)(cosine * side[k] < 0);
-            for (int i = 0; i < 3; i++) {
-                rays->org[i][ray] = point[k][i];
-                rays->dir[i][ray] = sign * v[i];
-            }
-        }
 }
 
 static void make_ao_rays(void *argument, uint32_t piece)
@@ -301,6 +378,19 @@ static void store_shadows(void *argument, uint32_t piece)
     }
 }
 
+static cgt_result trace_nearest(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                                const cgt_rays *array)
+{
+    cgt_hits hits;
+    memset(&hits, 0, sizeof hits);
+    hits.t = rays->t;
+    hits.primitive = rays->primitive;
+    const cgt_result result = cgt_trace_rays(scene, array, &hits, options);
+    for (uint64_t i = 0; i < array->count; i++)
+        rays->occluded[i] = rays->t[i] < INFINITY;
+    return result;
+}
+
 /* The batch in work. Shadow rays of the library are points and a light to it. */
 static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                               uint64_t count, int light)
@@ -318,8 +408,10 @@ static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, co
         array.dir[i] = rays->dir[i];
     }
     array.t_max = light ? rays->ones : NULL;
-    return rays->taker ? rays->taker(rays->taker_user, &array, rays->occluded)
-                       : cgt_occluded_rays(scene, &array, rays->occluded, options);
+    if (rays->taker)
+        return rays->taker(rays->taker_user, &array, rays->occluded);
+    return rays->nearest && !light ? trace_nearest(rays, scene, options, &array)
+                                   : cgt_occluded_rays(scene, &array, rays->occluded, options);
 }
 
 /* One pass over all hit pixels with `samples` rays each; shadow rays where light is 1. */
@@ -364,4 +456,21 @@ cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_tra
     const cgt_result result = trace_pass(rays, scene, options, samples, 0, &occluded);
     *open = rays->hits * samples - occluded;
     return result;
+}
+
+cgt_result bench_rays_bounce(bench_rays *rays)
+{
+    uint64_t occluded = 0;
+    assert(rays->taker);
+    rays->diffuse = 1;
+    const cgt_result result = trace_pass(rays, NULL, NULL, 1, 0, &occluded);
+    rays->diffuse = 0;
+    return result;
+}
+
+uint32_t bench_rays_pixel(const bench_rays *rays, uint64_t ray, uint32_t samples)
+{
+    const uint64_t first = ray / ((uint64_t)GROUP * samples) * GROUP, left = rays->hits - first;
+    const uint64_t pixels = left < GROUP ? left : GROUP;
+    return rays->hit[first + (ray - first * samples) % pixels];
 }

@@ -12,6 +12,8 @@
  *   ambient-occlusion ray s     a hashed point of the octahedron, turned to the side of the surface that the eye sees,
  *                               t from 0 to infinity; the hash is of 64 o + s, where o numbers the pixels in blocks of
  *                               4x4, blocks row by row and pixels row by row within a block
+ *   diffuse bounce              the normal on that side and the hashed point, moved to the unit sphere, added up; the
+ *                               same range
  *
  * A pass finds the hit pixels, in the order of o, then makes and traces rays batch by batch: the benchmark's threads
  * fill the arrays of a batch, of shadow rays the origins alone, the library's threads trace it, each as many as the
@@ -32,9 +34,13 @@
 typedef struct bench_camera_axes {
     float eye[3], fwd[3], right[3], up[3];
     uint32_t width, height;
+    float step[2]; /* 2 / width, 2 / height */
 } bench_camera_axes;
 
 void bench_camera_axes_init(bench_camera_axes *axes, const cgt_camera *camera, uint32_t width, uint32_t height);
+
+/* Of a pixel's camera ray. */
+void bench_camera_direction(const bench_camera_axes *axes, uint32_t x, uint32_t y, float dir[3]);
 
 typedef struct bench_rays bench_rays;
 
@@ -57,8 +63,17 @@ void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user);
 cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                              const float light[3], uint64_t *hidden);
 
+/* 1: ambient-occlusion rays of the passes to come ask for their nearest hits, t and primitive; 0 (default): for any. */
+void bench_rays_nearest(bench_rays *rays, int nearest);
+
 /* Traces `samples` ambient-occlusion rays per hit pixel; open gets the number of those that met nothing. */
 cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options, uint32_t samples,
                          uint64_t *open);
+
+/* Makes one diffuse bounce per hit pixel, for a taker. */
+cgt_result bench_rays_bounce(bench_rays *rays);
+
+/* The pixel of a ray of the last pass, which had `samples` rays per hit: x + 65536 y. */
+uint32_t bench_rays_pixel(const bench_rays *rays, uint64_t ray, uint32_t samples);
 
 #endif

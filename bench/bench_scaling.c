@@ -32,17 +32,6 @@ static const struct argp_option options[] = {
 
 /* ---- Command line -------------------------------------------------------------------------------------------- */
 
-static void choose(struct argp_state *state, const char *option, const char *argument, const char *const *names,
-                   int count, int *chosen)
-{
-    for (int i = 0; i < count; i++)
-        if (!strcmp(argument, names[i])) {
-            chosen[i] = 1;
-            return;
-        }
-    argp_error(state, "%s: no %s", option, argument);
-}
-
 /* "FROM,TO": whole numbers, the second not below the first. */
 static void parse_range(struct argp_state *state, const char *option, const char *text, uint64_t most,
                         uint64_t range[2])
@@ -83,8 +72,8 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         state->child_inputs[0] = &settings->shared;
         state->child_inputs[1] = &settings->structure;
         return 0;
-    case 'w': choose(state, "-w", argument, sweeps, SCALING_SWEEPS, settings->sweep); return 0;
-    case 'o': choose(state, "-o", argument, kinds, SCALING_KINDS, settings->kind); return 0;
+    case 'w': bench_choose(state, "-w", argument, sweeps, SCALING_SWEEPS, settings->sweep); return 0;
+    case 'o': bench_choose(state, "-o", argument, kinds, SCALING_KINDS, settings->kind); return 0;
     case OPTION_PRIMITIVES:
         parse_range(state, "--primitives", argument, MOST_PRIMITIVES, settings->range[SCALING_PRIMITIVES]);
         return 0;
@@ -181,14 +170,6 @@ static int run_sweep(const scaling_settings *settings, scaling_sweep sweep, scal
     return code;
 }
 
-static int is_chosen(const int *chosen, int count, int which)
-{
-    int any = 0;
-    for (int i = 0; i < count; i++)
-        any |= chosen[i];
-    return !any || chosen[which];
-}
-
 static int run(const scaling_settings *settings)
 {
     scaling_point *points = calloc(MOST_POINTS, sizeof *points);
@@ -201,7 +182,8 @@ static int run(const scaling_settings *settings)
         scaling_table_begin(report);
     for (int sweep = 0; sweep < SCALING_SWEEPS; sweep++)
         for (int kind = 0; kind < SCALING_KINDS && code == PROGRAM_OK; kind++)
-            if (is_chosen(settings->sweep, SCALING_SWEEPS, sweep) && is_chosen(settings->kind, SCALING_KINDS, kind))
+            if (bench_is_chosen(settings->sweep, SCALING_SWEEPS, sweep) &&
+                bench_is_chosen(settings->kind, SCALING_KINDS, kind))
                 code = run_sweep(settings, (scaling_sweep)sweep, (scaling_kind)kind, report, points, &count);
     if (report && code == PROGRAM_OK)
         scaling_table_exponents(report, points, count);

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bench_timing.h"
 #include "program.h"
 
 cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context)
@@ -99,6 +100,31 @@ cgt_result bench_scene_commit(bench_scene *scene, uint32_t count)
     return cgt_scene_commit(scene->scene);
 }
 
+cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t count, const uint32_t resolution[3],
+                             const char *path, double *ms)
+{
+    const double begin = bench_now_ms();
+    cgt_result result = bench_scene_structure(scene, build->structure, build->rays, &build->kd, resolution);
+    if (result == CGT_OK)
+        result = bench_scene_commit(scene, count);
+    *ms = bench_now_ms() - begin;
+    if (result == CGT_OK)
+        result = cgt_scene_get_statistics(scene->scene, &build->built);
+    const cgt_structure built = build->built.structure;
+    /* a scene without a valid primitive has no structure, and that is right for all */
+    const int other = result == CGT_OK && build->structure != CGT_STRUCTURE_AUTO && built != build->structure &&
+                      built != CGT_STRUCTURE_AUTO;
+    if (result == CGT_ERROR_UNSUPPORTED || other) {
+        char message[256] = "";
+        cgt_error_message(scene->context, message, sizeof message);
+        program_error("%s: no %s: left out: %s%s", path, bench_structure_name(build->structure),
+                      other ? "the library builds " : message, other ? bench_structure_name(built) : "");
+        build->left_out = 1;
+        return CGT_OK;
+    }
+    return result;
+}
+
 int bench_scene_failed(const cgt_context *context, const char *what, cgt_result result)
 {
     char message[512] = "";
@@ -135,7 +161,8 @@ static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
                                          [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
                                          [CGT_STRUCTURE_KD] = "kd",
                                          [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
-                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid"};
+                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
+                                         [CGT_STRUCTURE_WIDE_TREE] = "wide-tree"};
 static const char *const kd_traversals[] = {
     [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",

@@ -100,4 +100,18 @@ void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *stat
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
                                  const bench_kd_choice *kd, const uint32_t resolution[3]);
 
+/* One structure over a scene. */
+typedef struct bench_build {
+    cgt_structure structure;
+    cgt_ray_kind rays; /* what AUTO is told */
+    bench_kd_choice kd;
+    int left_out;               /* the library does not build it */
+    cgt_scene_statistics built; /* of the last commit */
+} bench_build;
+
+/* Builds it over `count` spheres or vertices, timed; leaves it out, with a message that names the file, where the
+ * library has no such structure. */
+cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t count, const uint32_t resolution[3],
+                             const char *path, double *ms);
+
 #endif

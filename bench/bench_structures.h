@@ -50,13 +50,7 @@ enum {
 };
 
 /* What is built once per frame; rows of a group trace the same structure, and lie together. */
-typedef struct structures_group {
-    cgt_structure structure;
-    cgt_ray_kind rays; /* what AUTO is told */
-    bench_kd_choice kd;
-    int left_out;               /* the library does not build it */
-    cgt_scene_statistics built; /* of the last commit */
-} structures_group;
+typedef bench_build structures_group;
 
 typedef struct structures_row {
     size_t group;

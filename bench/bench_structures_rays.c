@@ -65,6 +65,13 @@ cgt_result structures_rays_ao(structures_rays *rays, bench_rays *maker, uint32_t
     return bench_rays_ao(maker, NULL, NULL, samples, &open);
 }
 
+cgt_result structures_rays_bounce(structures_rays *rays, bench_rays *maker)
+{
+    rays->count = 0;
+    bench_rays_give(maker, keep_batch, rays);
+    return bench_rays_bounce(maker);
+}
+
 cgt_result structures_rays_random(structures_rays *rays, uint32_t count, const float low[3], const float high[3])
 {
     uint64_t state = bench_random_start;

@@ -19,9 +19,10 @@ typedef struct structures_rays {
     uint8_t bounded; /* 1: t_max is used; else the rays do not end */
 } structures_rays;
 
-/* The rays that bench_rays_shadow and bench_rays_ao would trace. Batches of the maker come here from then on. */
+/* The rays that bench_rays_shadow and bench_rays_ao would trace, and diffuse bounces. Batches of the maker come here from then on. */
 cgt_result structures_rays_shadow(structures_rays *rays, bench_rays *maker, const float light[3]);
 cgt_result structures_rays_ao(structures_rays *rays, bench_rays *maker, uint32_t samples);
+cgt_result structures_rays_bounce(structures_rays *rays, bench_rays *maker);
 
 /* `count` rays from one random point of a box towards another, one after another anywhere; the same in each call. */
 cgt_result structures_rays_random(structures_rays *rays, uint32_t count, const float low[3], const float high[3]);

@@ -94,7 +94,7 @@ static void add_structure(structures_job *job, cgt_structure structure)
 int structures_plan(structures_job *job)
 {
     static const cgt_structure everything[] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD,
-                                               CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_AUTO};
+                                               CGT_STRUCTURE_KD_ROPES,   CGT_STRUCTURE_WIDE_TREE,  CGT_STRUCTURE_AUTO};
     const bench_structure_settings *asked = &job->settings->structure;
     const size_t values = job->input.frames * job->settings->shared.repeat;
     for (size_t i = 0; i < (asked->count ? asked->count : sizeof everything / sizeof everything[0]); i++)
@@ -151,27 +151,7 @@ void structures_row_name(const structures_job *job, const structures_row *row, c
 
 cgt_result structures_commit(structures_job *job, structures_group *group, uint32_t count, double *ms)
 {
-    const double begin = bench_now_ms();
-    cgt_result result =
-        bench_scene_structure(&job->scene, group->structure, group->rays, &group->kd, job->settings->shared.resolution);
-    if (result == CGT_OK)
-        result = bench_scene_commit(&job->scene, count);
-    *ms = bench_now_ms() - begin;
-    if (result == CGT_OK)
-        result = cgt_scene_get_statistics(job->scene.scene, &group->built);
-    const cgt_structure built = group->built.structure;
-    /* a scene without a valid primitive has no structure, and that is right for all */
-    const int other = result == CGT_OK && group->structure != CGT_STRUCTURE_AUTO && built != group->structure &&
-                      built != CGT_STRUCTURE_AUTO;
-    if (result == CGT_ERROR_UNSUPPORTED || other) {
-        char message[256] = "";
-        cgt_error_message(job->context, message, sizeof message);
-        program_error("%s: no %s: left out: %s%s", job->path, bench_structure_name(group->structure),
-                      other ? "the library builds " : message, other ? bench_structure_name(built) : "");
-        group->left_out = 1;
-        return CGT_OK;
-    }
-    return result;
+    return bench_scene_build(&job->scene, group, count, job->settings->shared.resolution, job->path, ms);
 }
 
 /* ---- Tracing ------------------------------------------------------------------------------------------------- */

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * compare-embree: times Embree 3 as cgt-bench frame times the library: for each frame of a trajectory the spheres or
- * vertices move, the scene is committed and all primary rays are traced. One row of medians per configuration, in the
+ * vertices move, the scene is committed and all primary rays are traced, and on request shadow and ambient-occlusion
+ * rays, the latter one by one and in packets: the faster way counts. One row of medians per configuration, in the
  * columns of cgt-bench frame; the first frame warms up. Spheres run as Embree's own type and as user geometry, which is
  * faster: the honest opponent is the best row. scripts/compare_embree.sh sets both programs side by side. */
 #include "compare_embree.h"
@@ -14,14 +15,18 @@
 
 #include "bench_timing.h"
 
-enum { BUILD, PRIMARY, FRAME, COLUMNS };
-enum { OPTION_PACKETS = 0x700 };
+enum { BUILD, PRIMARY, SHADOW, AO, FRAME, COLUMNS };
+enum { OPTION_PACKETS = 0x700, OPTION_NEAREST };
 
 typedef struct embree_settings {
     bench_settings shared;
     int quality[EMBREE_QUALITIES]; /* 1: asked for; none: all */
     int builtin, user;             /* kinds of spheres; none: both */
     int robust;
+    int lit;
+    float light[3];
+    uint32_t ao;
+    int nearest;
     uint32_t packet; /* rays; 0: the widest packets that Embree has vectors for */
     const char *isa;
     const char *output;
@@ -34,8 +39,10 @@ typedef struct embree_job {
     bench_threads *threads;
     embree_view view;
     bench_planes planes;
-    embree_sphere_intersect *intersect;
+    bench_rays *rays;
+    embree_callbacks callbacks;
     double *ms[COLUMNS];
+    uint64_t open; /* ambient-occlusion rays of the last frame that met nothing */
 } embree_job;
 
 static const char *const qualities[EMBREE_QUALITIES] = {"low", "medium", "refit"};
@@ -43,22 +50,23 @@ static const char *const qualities[EMBREE_QUALITIES] = {"low", "medium", "refit"
 /* The vectors of spheres as user geometry, for what Embree is limited to. */
 static const struct {
     const char *isa;
-    embree_sphere_intersect *intersect;
+    embree_callbacks callbacks;
 } isas[] = {
 #ifdef CGT_HAVE_AVX512
-    {"avx512", embree_sphere_intersect_avx512},
+    {"avx512", {embree_sphere_intersect_avx512, embree_sphere_occluded_avx512}},
 #endif
 #ifdef CGT_HAVE_AVX2
-    {"avx2", embree_sphere_intersect_avx2},
+    {"avx2", {embree_sphere_intersect_avx2, embree_sphere_occluded_avx2}},
 #endif
 #ifdef CGT_HAVE_SSE
-    {"avx", embree_sphere_intersect_sse},           {"sse4.2", embree_sphere_intersect_sse},
+    {"avx", {embree_sphere_intersect_sse, embree_sphere_occluded_sse}},
+    {"sse4.2", {embree_sphere_intersect_sse, embree_sphere_occluded_sse}},
 #endif
 #ifdef CGT_HAVE_NEON
-    {"neon", embree_sphere_intersect_neon},
+    {"neon", {embree_sphere_intersect_neon, embree_sphere_occluded_neon}},
 #endif
 #ifdef CGT_HAVE_PORTABLE
-    {"portable", embree_sphere_intersect_portable},
+    {"portable", {embree_sphere_intersect_portable, embree_sphere_occluded_portable}},
 #endif
 };
 enum { ISAS = sizeof isas / sizeof isas[0] };
@@ -71,6 +79,9 @@ static const struct argp_option options[] = {
     {"spheres", 'G', "NAME", 0, "builtin or user; may be given twice (default: both)", 4},
     {"packets", OPTION_PACKETS, "RAYS", 0, "1, 4, 8 or 16 (default: as many as Embree has vectors for)", 4},
     {"isa", 'i', "NAME", 0, "limit Embree: sse4.2, avx, avx2 or avx512", 4},
+    {"light", 'l', "X,Y,Z", 0, "trace a shadow ray from every hit to this point", 4},
+    {"ao", 'a', "RAYS", 0, "trace RAYS ambient-occlusion rays from every hit, at most 1024", 4},
+    {"nearest", OPTION_NEAREST, NULL, 0, "ambient-occlusion rays ask for their nearest hits, not for any", 4},
     {"robust", 'R', NULL, 0, "set RTC_SCENE_FLAG_ROBUST", 4},
     {"output", 'o', "HITS", 0, "write the hits of the last row's last frame: per pixel float32 t and uint32 primitive",
      4},
@@ -110,6 +121,7 @@ static void choose_isa(embree_settings *settings, struct argp_state *state, cons
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
     embree_settings *settings = state->input;
+    char error[PROGRAM_ERROR_SIZE] = "";
     switch (key) {
     case ARGP_KEY_INIT: state->child_inputs[0] = &settings->shared; return 0;
     case 'm': choose_quality(settings, state, argument); return 0;
@@ -120,6 +132,16 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case OPTION_PACKETS: choose_packet(settings, state, argument); return 0;
     case 'i': choose_isa(settings, state, argument); return 0;
+    case 'l':
+        if (program_parse_floats(argument, 3, settings->light, error, sizeof error))
+            argp_error(state, "-l: %s", error);
+        settings->lit = 1;
+        return 0;
+    case 'a':
+        if (program_parse_u32(argument, 0, BENCH_MOST_AO_RAYS, &settings->ao, error, sizeof error))
+            argp_error(state, "-a: %s", error);
+        return 0;
+    case OPTION_NEAREST: settings->nearest = 1; return 0;
     case 'R': settings->robust = 1; return 0;
     case 'o': settings->output = argument; return 0;
     case ARGP_KEY_END:
@@ -132,6 +154,34 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 
 /* ---- One row ------------------------------------------------------------------------------------------------- */
 
+/* Shadow rays in packets; ambient-occlusion rays in the faster form. */
+static void measure_arrays(embree_job *job, RTCScene scene, double ms[COLUMNS])
+{
+    const embree_settings *s = job->settings;
+    embree_arrays arrays = {.scene = scene, .threads = job->threads, .packet = job->view.packet, .coherent = 1};
+    uint64_t hidden;
+    ms[SHADOW] = ms[AO] = 0.0;
+    if (!s->lit && !s->ao)
+        return;
+    embree_view_planes(&job->view, &job->planes);
+    bench_rays_give(job->rays, embree_arrays_take, &arrays);
+    if (s->lit) {
+        const double begin = bench_now_ms();
+        bench_rays_shadow(job->rays, NULL, NULL, s->light, &hidden);
+        ms[SHADOW] = bench_now_ms() - begin;
+    }
+    arrays.coherent = 0;
+    arrays.nearest = s->nearest;
+    for (int single = 0; single < 2 && s->ao; single++) {
+        if (single)
+            arrays.packet = 1;
+        const double begin = bench_now_ms();
+        bench_rays_ao(job->rays, NULL, NULL, s->ao, &job->open);
+        const double taken = bench_now_ms() - begin;
+        ms[AO] = single && ms[AO] < taken ? ms[AO] : taken;
+    }
+}
+
 static void measure_frame(embree_job *job, embree_moving *moving, size_t frame, double ms[COLUMNS])
 {
     embree_moving_move(moving, frame);
@@ -142,7 +192,8 @@ static void measure_frame(embree_job *job, embree_moving *moving, size_t frame, 
     const double end = bench_now_ms();
     ms[BUILD] = built - begin;
     ms[PRIMARY] = end - built;
-    ms[FRAME] = end - begin;
+    measure_arrays(job, moving->scene, ms);
+    ms[FRAME] = end - begin + ms[SHADOW] + ms[AO];
 }
 
 /* Returns how many frames were measured. */
@@ -166,7 +217,8 @@ static int run_row(embree_job *job, embree_quality quality, int user)
 {
     embree_moving moving;
     const char *kind = job->input.index ? "" : user ? "-user" : "-builtin";
-    if (embree_moving_create(&moving, job->device, &job->input, quality, user, job->settings->robust, job->intersect)) {
+    if (embree_moving_create(&moving, job->device, &job->input, quality, user, job->settings->robust,
+                             &job->callbacks)) {
         program_error("Embree: no scene, or out of memory");
         return PROGRAM_FAILED;
     }
@@ -178,10 +230,11 @@ static int run_row(embree_job *job, embree_quality quality, int user)
         program_error("Embree: error %d", (int)error);
         return PROGRAM_FAILED;
     }
-    printf("embree-%s%s%s\t%u\t%.3f\t%.3f\t0.000\t0.000\t%.3f\t%llu\t0\n", qualities[quality], kind,
-           job->settings->robust ? ",robust" : "", (unsigned)job->settings->shared.threads,
-           bench_median(job->ms[BUILD], measured), bench_median(job->ms[PRIMARY], measured),
-           bench_median(job->ms[FRAME], measured), (unsigned long long)bench_planes_hits(&job->planes));
+    printf("embree-%s%s%s\t%u", qualities[quality], kind, job->settings->robust ? ",robust" : "",
+           (unsigned)job->settings->shared.threads);
+    for (int c = 0; c < COLUMNS; c++)
+        printf("\t%.3f", bench_median(job->ms[c], measured));
+    printf("\t%llu\t%llu\n", (unsigned long long)bench_planes_hits(&job->planes), (unsigned long long)job->open);
     fflush(stdout);
     return PROGRAM_OK;
 }
@@ -230,16 +283,16 @@ static uint32_t native_packet(RTCDevice device)
 }
 
 /* Vectors as wide as Embree's packets. */
-static embree_sphere_intersect *find_intersect(const embree_settings *settings, uint32_t packet)
+static embree_callbacks find_callbacks(const embree_settings *settings, uint32_t packet)
 {
     const char *wanted = settings->isa ? settings->isa : packet == 16 ? "avx512" : packet == 8 ? "avx2" : "";
     for (size_t i = 0; i < ISAS; i++)
         if (!strcmp(wanted, isas[i].isa))
-            return isas[i].intersect;
+            return isas[i].callbacks;
     for (size_t i = 0; i < ISAS; i++) /* four lanes: what any CPU of the kind runs */
         if (strncmp(isas[i].isa, "avx", 3) != 0)
-            return isas[i].intersect;
-    return isas[ISAS - 1].intersect;
+            return isas[i].callbacks;
+    return isas[ISAS - 1].callbacks;
 }
 
 static int open_device(embree_job *job)
@@ -269,10 +322,11 @@ static int prepare(embree_job *job)
     if (open_device(job) != PROGRAM_OK)
         return PROGRAM_FAILED;
     const uint32_t native = native_packet(job->device);
-    job->intersect = find_intersect(settings, native);
+    job->callbacks = find_callbacks(settings, native);
     int complete = !embree_view_create(&job->view, shared, settings->packet ? settings->packet : native);
     complete = complete && !bench_planes_create(&job->planes, shared->width, shared->height);
     complete = complete && (job->threads = bench_threads_create(shared->threads)) != NULL;
+    complete = complete && (job->rays = bench_rays_create(job->threads, &job->view.axes, &job->planes, settings->ao));
     if (shared->repeat > SIZE_MAX / sizeof(double) / job->input.frames)
         complete = 0;
     for (int c = 0; complete && c < COLUMNS; c++)
@@ -292,7 +346,8 @@ int main(int argc, char **argv)
         .args_doc = "FILE",
         .children = children,
         .doc = "Times Embree on a trajectory of spheres or triangles as cgt-bench frame times the library: build and "
-               "primary rays. --variant, --packet and --grid are the library's, and of no effect here."};
+               "primary rays, shadow and ambient-occlusion rays. --variant, --packet and --grid are the library's, and "
+               "of no effect here."};
     embree_settings settings;
     embree_job job;
 
@@ -311,6 +366,7 @@ int main(int argc, char **argv)
 
     for (int c = 0; c < COLUMNS; c++)
         free(job.ms[c]);
+    bench_rays_release(job.rays);
     bench_threads_release(job.threads);
     bench_planes_release(&job.planes);
     embree_view_release(&job.view);

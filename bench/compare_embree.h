@@ -4,6 +4,7 @@
  * compare-embree: Embree 3 on the files and cameras of cgt-bench frame, timed in the same way.
  *   command line, rows                       compare_embree.c
  *   scenes, packets of the camera's rays     compare_embree_trace.c
+ *   arrays of rays                           compare_embree_rays.c
  *   spheres as user geometry, by vectors     compare_embree_spheres.c, once per row of the variant table */
 #ifndef COMPARE_EMBREE_H
 #define COMPARE_EMBREE_H
@@ -58,6 +59,25 @@ void embree_view_trace(embree_view *view, RTCScene scene, bench_threads *threads
 /* The hits in row order. */
 void embree_view_planes(const embree_view *view, bench_planes *planes);
 
+/* Arrays of shadow and ambient-occlusion rays in place of the library, see bench_rays_give. */
+typedef struct embree_arrays {
+    RTCScene scene;
+    bench_threads *threads;
+    uint32_t packet; /* rays: 1, 4, 8 or 16 */
+    int coherent;    /* as Embree is told */
+    int nearest;     /* else any hit */
+    const cgt_rays *batch;
+    uint8_t *occluded;
+} embree_arrays;
+
+cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occluded);
+
+/* The callbacks of spheres as user geometry, for one width of vectors. */
+typedef struct embree_callbacks {
+    RTCIntersectFunctionN intersect;
+    RTCOccludedFunctionN occluded;
+} embree_callbacks;
+
 /* One scene over moving spheres or triangles. */
 typedef struct embree_moving {
     RTCScene scene;
@@ -70,7 +90,7 @@ typedef struct embree_moving {
 
 /* user: spheres by the callbacks below, not by Embree's own type. -1 where memory is refused, or Embree does. */
 int embree_moving_create(embree_moving *moving, RTCDevice device, const bench_input *input, embree_quality quality,
-                         int user, int robust, RTCIntersectFunctionN intersect);
+                         int user, int robust, const embree_callbacks *callbacks);
 void embree_moving_release(embree_moving *moving);
 
 /* Moves, not timed; then tells Embree and commits. */
@@ -80,7 +100,10 @@ void embree_moving_commit(embree_moving *moving, size_t frame);
 /* Any number of rays against one sphere; the user data are spheres as x, y, z, r. Each with the vectors of a row of the
  * variant table. */
 typedef void embree_sphere_intersect(const struct RTCIntersectFunctionNArguments *arguments);
+typedef void embree_sphere_occluded(const struct RTCOccludedFunctionNArguments *arguments);
 embree_sphere_intersect embree_sphere_intersect_portable, embree_sphere_intersect_sse, embree_sphere_intersect_neon,
     embree_sphere_intersect_avx2, embree_sphere_intersect_avx512;
+embree_sphere_occluded embree_sphere_occluded_portable, embree_sphere_occluded_sse, embree_sphere_occluded_neon,
+    embree_sphere_occluded_avx2, embree_sphere_occluded_avx512;
 
 #endif

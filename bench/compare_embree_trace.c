@@ -193,7 +193,7 @@ static void sphere_bounds(const struct RTCBoundsFunctionArguments *a)
 static size_t element_bytes(const bench_input *input) { return (input->index ? 3 : 4) * sizeof(float); }
 
 int embree_moving_create(embree_moving *moving, RTCDevice device, const bench_input *input, embree_quality quality,
-                         int user, int robust, RTCIntersectFunctionN intersect)
+                         int user, int robust, const embree_callbacks *callbacks)
 {
     static const enum RTCBuildQuality of_geometry[] = {RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_MEDIUM,
                                                        RTC_BUILD_QUALITY_REFIT};
@@ -216,7 +216,8 @@ int embree_moving_create(embree_moving *moving, RTCDevice device, const bench_in
     if (user) {
         rtcSetGeometryUserData(moving->geometry, moving->moving);
         rtcSetGeometryBoundsFunction(moving->geometry, sphere_bounds, NULL);
-        rtcSetGeometryIntersectFunction(moving->geometry, intersect);
+        rtcSetGeometryIntersectFunction(moving->geometry, callbacks->intersect);
+        rtcSetGeometryOccludedFunction(moving->geometry, callbacks->occluded);
     } else if (input->index) {
         rtcSetSharedGeometryBuffer(moving->geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, input->index, 0,
                                    3 * sizeof(uint32_t), input->triangles);

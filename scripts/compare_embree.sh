@@ -4,10 +4,13 @@
 #
 # compare_embree.sh FILE [OPTION...]
 # The library beside Embree 3 on one file: cgt-bench frame and compare-embree in turn, from a release build with its
-# tests (scripts/test.sh release leaves one). OPTIONs go to both: -c camera, -s size, -t threads, -n frames, -r repeat.
-# Prints tab-separated medians over the rounds, a row for each configuration, the best of each side first: milliseconds,
-# by what factor the library's frame is faster, and in how many pixels the last Embree row of the last round shows
-# another primitive.
+# tests (scripts/test.sh release leaves one). OPTIONs go to both: -c camera, -s size, -t threads, -n frames, -r repeat,
+# -l light, -a ambient-occlusion rays, --nearest.
+# Prints tab-separated medians over the rounds, a row for each configuration, the best frame of each side first:
+# milliseconds, by what factor the library's best frame is faster than the row's, and in how many pixels the last Embree
+# row of the last round shows another primitive. Then, with -l or -a, by what factor the library's best build and shadow
+# rays, or build and ambient-occlusion rays, are faster than the row's: what the library builds for such rays while it
+# traces them is in their time.
 #   ROUNDS          default 3
 #   STRUCTURE       of the library; default auto
 #   CGT_OPTIONS     further ones for cgt-bench frame (--variant avx2)
@@ -49,6 +52,8 @@ awk -F'\t' -v OFS='\t' -v scene="$(basename "$file" | sed 's/\.[^.]*$//')" -v ot
       if (!(key in side)) { keys[++count] = key; side[key] = $1; config[key] = $2; threads[key] = $3 }
       value[key, "build"] = value[key, "build"] " " $4
       value[key, "primary"] = value[key, "primary"] " " $5
+      value[key, "shadow"] = value[key, "shadow"] " " $6
+      value[key, "ao"] = value[key, "ao"] " " $7
       value[key, "frame"] = value[key, "frame"] " " $8
       hits[key] = $9 }
     END {
@@ -56,15 +61,25 @@ awk -F'\t' -v OFS='\t' -v scene="$(basename "$file" | sed 's/\.[^.]*$//')" -v ot
             key = keys[i]
             frame[key] = median(key, "frame")
             if (!(side[key] in best) || frame[key] < frame[best[side[key]]]) best[side[key]] = key
+            for (c = 1; c <= 2; c++) {
+                with[key, c] = median(key, "build") + median(key, c == 1 ? "shadow" : "ao")
+                if (side[key] == "cgt" && (!(c in least) || with[key, c] < least[c])) least[c] = with[key, c]
+            }
         }
         print "config", "scene", "threads", "build_ms", "primary_ms", "frame_ms", "faster", "hit_pixels", "other_pixels",
-            "best"
+            "best", "shadow_ms", "ao_ms", "shadow_faster", "ao_faster"
         for (pass = 1; pass >= 0; pass--)
             for (i = 1; i <= count; i++) {
                 key = keys[i]
                 if ((best[side[key]] == key) != pass) continue
+                for (c = 1; c <= 2; c++) {
+                    ratio[c] = "-"
+                    if (side[key] == "embree" && median(key, c == 1 ? "shadow" : "ao") > 0)
+                        ratio[c] = sprintf("%.2f", with[key, c] / least[c])
+                }
                 print config[key], scene, threads[key], sprintf("%.3f", median(key, "build")),
                     sprintf("%.3f", median(key, "primary")), sprintf("%.3f", frame[key]),
-                    side[key] == "cgt" ? "-" : sprintf("%.2f", frame[key] / frame[best["cgt"]]), hits[key], other, pass
+                    side[key] == "cgt" ? "-" : sprintf("%.2f", frame[key] / frame[best["cgt"]]), hits[key], other, pass,
+                    sprintf("%.3f", median(key, "shadow")), sprintf("%.3f", median(key, "ao")), ratio[1], ratio[2]
             }
     }' "$tmp/rows"

@@ -18,6 +18,7 @@
 #   STEPS       points for each factor of ten; default 2
 #   ROUNDS      of frames and of limits; default 9
 #   COMPARES    rounds of the comparison with Embree; default 3
+#   RAYS        shadow and ambient-occlusion rays that are compared; default -l 2,3,-2.5 -a 4
 #   IMAGES      folder that gets the plots, too; default: none (docs/images for the text)
 #   BIN         folder of the programs; default build/release/bin
 set -euo pipefail
@@ -75,30 +76,36 @@ done
 
 # ---- Beside Embree --------------------------------------------------------------------------------------------------
 
-compare() { # RESULT THREADS CGT_OPTIONS EMBREE_OPTIONS
-    local result=$1 count=$2 file head=1
-    export CGT_OPTIONS=$3 EMBREE_OPTIONS=$4
+compare() { # PART RESULT THREADS CGT_OPTIONS EMBREE_OPTIONS OPTION...
+    local part=$1 result=$2 count=$3 file head=1
+    export CGT_OPTIONS=$4 EMBREE_OPTIONS=$5
+    shift 5
     export STRUCTURE=$structure BIN=$bin ROUNDS=${COMPARES:-3}
+    [ "$part" = embree ] || ROUNDS=1 # each of its frames has as many rays as several of the camera's
     : >"$result.part"
     for file in "${files[@]}"; do
         echo "performance.sh: $(basename "$result" .tsv): $(basename "$file" .frames)" >&2
-        scripts/compare_embree.sh "$file" -c "$camera" -s "$size" -n "$frames" -t "$count" |
+        scripts/compare_embree.sh "$file" -c "$camera" -s "$size" -n "$frames" -t "$count" "$@" |
             tail -n "+$head" >>"$result.part"
         head=2
     done
     mv "$result.part" "$result"
-    parts+=(part=embree "$result")
+    parts+=("part=$part" "$result")
     compared+=("$result")
 }
 
 compared=()
 if [ -x "$bin/compare-embree" ]; then
-    for count in $distinct; do
-        compare "$out/embree-$count.tsv" "$count" "" ""
-    done
     here=$(grep -o -w -e avx2 -e sse4_2 /proc/cpuinfo | sort -u | sed 's/_/./')
+    read -r -a rays <<<"${RAYS:--l 2,3,-2.5 -a 4}"
+    for count in $distinct; do
+        compare embree "$out/embree-$count.tsv" "$count" "" ""
+        compare rays "$out/rays-$count.tsv" "$count" "" "" -n 3 "${rays[@]}"
+    done
+    compare rays "$out/nearest-1.tsv" 1 "" "" -n 3 "${rays[@]}" --nearest
     for isa in ${ISAS-$here}; do
-        compare "$out/embree-1-$isa.tsv" 1 "--variant $(variant_of "$isa")" "-i $isa"
+        compare embree "$out/embree-1-$isa.tsv" 1 "--variant $(variant_of "$isa")" "-i $isa"
+        compare rays "$out/rays-1-$isa.tsv" 1 "--variant $(variant_of "$isa")" "-i $isa" -n 3 "${rays[@]}"
     done
 fi
 

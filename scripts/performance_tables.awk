@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tab-separated results of scripts/performance.sh as Markdown. `part` names what the next file is: scaling, floor or
-# embree.
+# The tab-separated results of scripts/performance.sh as Markdown. `part` names what the next file is: scaling, floor,
+# embree or rays.
 
 function column(name) { return name in at ? $(at[name]) : "" }
 function ms(value) {
@@ -65,6 +65,34 @@ part == "embree" {
         rows[FILENAME] = rows[FILENAME] row
 }
 
+# each side's best build with the rays of a column: the least sum
+function best_rays(rays,   key, sum) {
+    if (column(rays "_ms") + 0 == 0) return
+    key = FILENAME SUBSEP column("scene") SUBSEP rays SUBSEP (column("config") ~ /^embree/ ? "embree" : "cgt")
+    sum = column("build_ms") + column(rays "_ms")
+    if (key in rays_ms && rays_ms[key] <= sum) return
+    rays_ms[key] = sum
+    rays_text[key] = column("config") ": " ms(column("build_ms")) " + " ms(column(rays "_ms"))
+}
+part == "rays" {
+    if (!((FILENAME, column("scene")) in rays_known)) {
+        rays_known[FILENAME, column("scene")] = 1
+        if (FILENAME != rays_last) rays_file[++rays_files] = rays_last = FILENAME
+        rays_scene[FILENAME, ++rays_scenes[FILENAME]] = column("scene")
+    }
+    rays_threads[FILENAME] = column("threads")
+    best_rays("shadow")
+    best_rays("ao")
+    next
+}
+function print_rays(file, scene, rays,   ours, theirs) {
+    ours = file SUBSEP scene SUBSEP rays SUBSEP "cgt"
+    theirs = file SUBSEP scene SUBSEP rays SUBSEP "embree"
+    if (!(ours in rays_ms) || !(theirs in rays_ms)) return
+    printf "| %s | %s | %d | %s | %s | **%.2f** |\n", scene, rays == "ao" ? "ambient occlusion" : rays,
+        rays_threads[file], rays_text[theirs], rays_text[ours], rays_ms[theirs] / rays_ms[ours]
+}
+
 function get(kind, key, item) { return (kind, key, item) in value ? value[kind, key, item] : "-" }
 
 function fields_of(kind, key, target,   line, i, n, set) {
@@ -122,7 +150,7 @@ END {
     print "|---|---|---|---|---|---|---|---|"
     print_fields("empty")
     print_fields("fields")
-    if (!compare_count) exit
+    if (!compare_count && !rays_files) exit
     print "\n## Beside Embree"
     for (i = 1; i <= compare_count; i++) {
         printf "\n`%s`\n\n", name_of(compare_files[i])
@@ -130,6 +158,15 @@ END {
               " pixels hit | other primitives |"
         print "|---|---|---|---|---|---|---|---|---|"
         printf "%s", rows[compare_files[i]]
+    }
+    for (i = 1; i <= rays_files; i++) {
+        printf "\n`%s`\n\n", name_of(rays_file[i])
+        print "| scene | rays | threads | Embree: build + rays, ms | the library | Embree's over the library's |"
+        print "|---|---|---|---|---|---|"
+        for (j = 1; j <= rays_scenes[rays_file[i]]; j++) {
+            print_rays(rays_file[i], rays_scene[rays_file[i], j], "shadow")
+            print_rays(rays_file[i], rays_scene[rays_file[i], j], "ao")
+        }
     }
 }
 

@@ -74,8 +74,7 @@ do for [form = 1:2] {
   unset logscale
 
   # layouts: what a ray costs and what it fetches
-  stats layouts using 0 nooutput
-  if (STATS_records > 0) {
+  if (system("wc -l <'" . layouts . "'") + 0 > 0) {
     set output folder . '/layouts' . ending
     set multiplot layout 2,2 margins 0.06,0.98,0.2,0.95 spacing 0.07,0.3
     set style data histogram

@@ -66,7 +66,7 @@ tab=$(printf '\t')
 figures() { # PART FILE...: what gnuplot draws
     local part=$1
     shift
-    awk -F'\t' -v part="$part" -f scripts/structures_figures.awk "$@"
+    awk -F'\t' -v part="$part" -f scripts/columns.awk -f scripts/structures_figures.awk "$@"
 }
 # what is joined by a line lies together, and bars are in order
 figures times "${tables[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2 -k3,3g >"$out/times.dat"
@@ -81,4 +81,4 @@ parts=()
 for file in "${tables[@]}"; do parts+=(part=times "$file"); done
 for file in "${layouts[@]}"; do parts+=(part=layouts "$file"); done
 for file in "${fetches[@]}"; do parts+=(part=fetches "$file"); done
-exec awk -F'\t' -f scripts/structures_tables.awk "${parts[@]}"
+exec awk -F'\t' -f scripts/columns.awk -f scripts/structures_tables.awk "${parts[@]}"

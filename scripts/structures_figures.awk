@@ -1,15 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tab-separated results of scripts/structures.sh as figures for scripts/structures.gnuplot. part: times, layouts or
-# fetches.
-
-function column(name) { return name in at ? $(at[name]) : "" }
+# The tab-separated results of scripts/structures.sh as figures for scripts/structures.gnuplot, after columns.awk. part:
+# times, layouts or fetches.
 
 # "kd single", "grid-queue", "loose-grid 16": structure and traversal of a configuration
 function key_of(config,   name) {
-    name = config
-    sub(/,.*/, "", name)
+    name = structure_of(config)
     if (config ~ /,(traversal|loop|packet)=/) {
         sub(/^.*,(traversal|loop|packet)=/, "", config)
         sub(/,.*/, "", config)
@@ -19,11 +16,8 @@ function key_of(config,   name) {
 }
 
 function layout_of(config,   level) {
-    level = ""
-    if (config ~ /break=/) { level = config; sub(/^.*break=/, "", level); sub(/,.*/, "", level); level = " " level }
-    sub(/^.*layout=/, "", config)
-    sub(/,.*/, "", config)
-    return config level
+    level = value_of(config, "break")
+    return value_of(config, "layout") (level == "" ? "" : " " level)
 }
 
 # the order of the bars: depth first, breadth first, mixed by levels
@@ -44,13 +38,6 @@ function ns(kind,   rays) {
     rays = column(kind "_rays") + 0
     return rays > 0 ? sprintf("%.6g", 1e6 * column(kind "_ms") / rays) : "NaN"
 }
-
-FNR == 1 {
-    split("", at)
-    for (i = 1; i <= NF; i++) at[$i] = i
-    next
-}
-/^#/ { next }
 
 # family, key, primitives, build ms, ns a ray: primary, ao, random
 part == "times" {

@@ -1,18 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tab-separated results of scripts/structures.sh as Markdown. `part` names what the next file is.
-
-function column(name) { return name in at ? $(at[name]) : "" }
-
-# a value of the configuration: "packet" of "kd,traversal=packet,layout=mixed"
-function value_of(config, name) {
-    if (!sub("^.*," name "=", "", config)) return ""
-    sub(/,.*/, "", config)
-    return config
-}
-
-function structure_of(config) { sub(/,.*/, "", config); return config }
+# The tab-separated results of scripts/structures.sh as Markdown, after columns.awk. `part` names what the next file is.
 
 function row_name(config,   traversal, rays, loop, packet) {
     traversal = value_of(config, "traversal")
@@ -39,13 +28,6 @@ function visits(kind) {
     return rounded(kind "nodes_per_ray") " / " rounded(kind "leaves_per_ray") " / " rounded(kind "tests_per_ray")
 }
 function kilobytes(bytes) { return sprintf("%.0f", bytes / 1024) }
-
-FNR == 1 {
-    split("", at)
-    for (i = 1; i <= NF; i++) at[$i] = i
-    next
-}
-/^#/ { next }
 
 part == "times" {
     if (!times) variant = value_of(column("config"), "variant")

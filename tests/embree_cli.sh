@@ -42,6 +42,17 @@ run 0 "$tmp/blobs.frames" $view -R -o "$tmp/embree.hits"
 is triangles "$(column config)" 'embree-low,robust embree-medium,robust embree-refit,robust'
 [ "$(others "$tmp/embree.hits" "$tmp/blobs.hits")" -le 3 ] || fail 'Embree sees other triangles'
 
+# Shadow and ambient-occlusion rays are the same rays as the library's: as many meet nothing.
+for ways in '-a 2' '-a 2 --nearest'; do
+    "$bench" frame "$tmp/blobs.frames" $view -l 2,3,-2.5 $ways >"$tmp/lit.tsv" || fail 'no rays of the library'
+    run 0 "$tmp/blobs.frames" $view -m low -l 2,3,-2.5 $ways
+    open=$(awk -F '\t' 'NR == 2 { print $9 }' "$tmp/lit.tsv")
+    holds "rays $ways" "c[\"shadow_ms\"] > 0 && c[\"ao_ms\"] > 0 && c[\"ao_open\"] >= $open - 3 && c[\"ao_open\"] <= $open + 3"
+    [ "$open" -gt 0 ] || fail 'no ray is open'
+done
+
+run 2 "$tmp/cloud.frames" -l 1,2
+run 2 "$tmp/cloud.frames" -a 1025
 run 2 "$tmp/cloud.frames" -m best
 says err 'not best'
 run 2 "$tmp/cloud.frames" -G cubes
@@ -61,6 +72,10 @@ if [ "$(dirname "$program")" = "$(cd "$(dirname "$bench")" && pwd)" ] && [ -x /b
     is 'rows of both' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" 7
     holds 'the best of each first' '(rows < 3) == c["best"] && c["scene"] == "cloud" && c["other_pixels"] <= 3'
     holds 'factors' 'c["config"] ~ /^embree/ ? c["faster"] > 0 : c["faster"] == "-"'
+    holds 'no rays, no factors' 'c["shadow_faster"] == "-" && c["ao_faster"] == "-"'
+    ROUNDS=1 BIN=$(dirname "$program") /bin/bash "$tests/../scripts/compare_embree.sh" "$tmp/blobs.frames" $view \
+        -l 2,3,-2.5 -a 1 >"$tmp/stdout" 2>"$tmp/stderr" || fail "compare_embree.sh -l: $(head -n 3 "$tmp/stderr")"
+    holds 'factors of rays' 'c["config"] ~ /^embree/ ? c["shadow_faster"] > 0 && c["ao_faster"] > 0 : c["ao_ms"] > 0'
 fi
 
 [ "$failures" -eq 0 ] || { echo "$failures failures" >&2; exit 1; }

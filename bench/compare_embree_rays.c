@@ -1,0 +1,97 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Embree on the arrays of rays that the library is measured with: one ray at a time, or neighbours as packets. */
+#include "compare_embree.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "native/native_flush.h"
+
+enum { PIECE = 1024 }; /* rays of a task */
+
+typedef struct array_packet {
+    _Alignas(64) float word[EMBREE_WORDS * 16];
+    _Alignas(64) int valid[16];
+} array_packet;
+
+/* Rays first to first + count - 1, all of structure-of-arrays form. */
+static void fill_packet(const embree_arrays *a, uint64_t first, uint32_t count, array_packet *p)
+{
+    const uint32_t n = a->packet;
+    const cgt_rays *rays = a->batch;
+    for (uint32_t k = 0; k < 3; k++) {
+        memcpy(p->word + (EMBREE_ORG + k) * n, rays->org[k] + first, count * sizeof(float));
+        memcpy(p->word + (EMBREE_DIR + k) * n, rays->dir[k] + first, count * sizeof(float));
+    }
+    for (uint32_t k = 0; k < n; k++) {
+        p->word[EMBREE_FAR * n + k] = rays->t_max && k < count ? rays->t_max[first + k] : INFINITY;
+        p->valid[k] = k < count ? -1 : 0;
+    }
+    if (!a->nearest)
+        return;
+    memset(p->word + EMBREE_PRIMITIVE * n, 0xff, n * sizeof(float));
+    memset(p->word + EMBREE_GEOMETRY * n, 0xff, n * sizeof(float));
+}
+
+static void occlude_packet(const embree_arrays *a, struct RTCIntersectContext *context, array_packet *p)
+{
+    switch (a->packet) {
+    case 16: rtcOccluded16(p->valid, a->scene, context, (struct RTCRay16 *)(void *)p->word); break;
+    case 8: rtcOccluded8(p->valid, a->scene, context, (struct RTCRay8 *)(void *)p->word); break;
+    case 4: rtcOccluded4(p->valid, a->scene, context, (struct RTCRay4 *)(void *)p->word); break;
+    default: rtcOccluded1(a->scene, context, (struct RTCRay *)(void *)p->word); break;
+    }
+}
+
+static void intersect_packet(const embree_arrays *a, struct RTCIntersectContext *context, array_packet *p)
+{
+    switch (a->packet) {
+    case 16: rtcIntersect16(p->valid, a->scene, context, (struct RTCRayHit16 *)(void *)p->word); break;
+    case 8: rtcIntersect8(p->valid, a->scene, context, (struct RTCRayHit8 *)(void *)p->word); break;
+    case 4: rtcIntersect4(p->valid, a->scene, context, (struct RTCRayHit4 *)(void *)p->word); break;
+    default: rtcIntersect1(a->scene, context, (struct RTCRayHit *)(void *)p->word); break;
+    }
+}
+
+static void trace_piece(const embree_arrays *a, uint64_t first, uint64_t end)
+{
+    const uint32_t n = a->packet;
+    const cgt_rays *rays = a->batch;
+    struct RTCIntersectContext context;
+    array_packet p;
+    memset(&p, 0, sizeof p);
+    memset(p.word + EMBREE_MASK * n, 0xff, n * sizeof(float));
+    memset(p.word + EMBREE_INSTANCE * n, 0xff, n * sizeof(float));
+    rtcInitIntersectContext(&context);
+    context.flags = a->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    for (uint64_t i = first; i < end; i += n) {
+        const uint32_t count = end - i < n ? (uint32_t)(end - i) : n;
+        fill_packet(a, i, count, &p);
+        if (a->nearest)
+            intersect_packet(a, &context, &p);
+        else
+            occlude_packet(a, &context, &p);
+        for (uint32_t k = 0; k < count; k++) /* nearer than its far end; of an occluded ray that is -infinity */
+            a->occluded[i + k] = p.word[EMBREE_FAR * n + k] < (rays->t_max ? rays->t_max[i + k] : INFINITY);
+    }
+}
+
+static void trace_task(void *argument, uint32_t index)
+{
+    const embree_arrays *a = argument;
+    const uint64_t first = (uint64_t)index * PIECE, left = a->batch->count - first;
+    const unsigned int callers = native_flush_begin();
+    trace_piece(a, first, first + (left < PIECE ? left : PIECE));
+    native_flush_end(callers);
+}
+
+cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occluded)
+{
+    embree_arrays *a = arrays;
+    a->batch = batch;
+    a->occluded = occluded;
+    bench_threads_run(a->threads, trace_task, a, (uint32_t)((batch->count + PIECE - 1) / PIECE));
+    return CGT_OK;
+}

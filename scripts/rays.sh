@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# rays.sh [FOLDER]
+# Which structure for which rays: makes the scenes, the tables and the plots of that part of docs/structures.md again,
+# from a release build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and
+# results; default out/rays. Figures of a busy machine mean little.
+#   SIZE     pixels of the picture; default 640x360
+#   RAYS     of a set, at most; default 131072
+#   ROUNDS   default 3
+#   THREADS  default 1
+#   SCENES   default cloud20k cloud1m blobs2k blob100k
+#   STRUCTURES, KINDS, ORDERS, QUERIES, BATCHES  lists with commas; default: cgt-bench's
+#   IMAGES   folder that gets the plot of one scene, too, as rays.png and rays.svg; default: none (docs/images for the
+#            text)
+#   PLOT     that scene; default: the last one
+#   BIN      folder of the programs; default build/release/bin
+set -euo pipefail
+cd "$(dirname "$0")/.."
+bin=${BIN:-build/release/bin}
+out=${1:-out/rays}
+read -r -a scenes <<<"${SCENES:-cloud20k cloud1m blobs2k blob100k}"
+options=(-s "${SIZE:-640x360}" -n "${RAYS:-131072}" -r "${ROUNDS:-3}" -t "${THREADS:-1}")
+list() { [ -z "$2" ] || options+=("$1" "$2"); }
+list -S "${STRUCTURES:-}"
+list -K "${KINDS:-}"
+list -O "${ORDERS:-}"
+list -Q "${QUERIES:-}"
+list -B "${BATCHES:-}"
+mkdir -p "$out"
+[ -x "$bin/cgt-bench" ] || { echo "rays.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
+command -v gnuplot >/dev/null || { echo "rays.sh: no gnuplot: apt-get install gnuplot-nox" >&2; exit 1; }
+
+tables=()
+for name in "${scenes[@]}"; do
+    [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n 1 >&2
+    echo "rays.sh: $name" >&2
+    "$bin/cgt-bench" rays "$out/$name.frames" "${options[@]}" >"$out/$name.tsv.part" # whole or not there at all
+    mv "$out/$name.tsv.part" "$out/$name.tsv"
+    tables+=("$out/$name.tsv")
+done
+gnuplot -e "folder = '$out'; scenes = '${scenes[*]}'" scripts/rays.gnuplot
+if [ -n "${IMAGES:-}" ]; then
+    for ending in png svg; do
+        cp "$out/${PLOT:-${scenes[-1]}}.$ending" "$IMAGES/rays.$ending"
+    done
+fi
+exec awk -F'\t' -f scripts/columns.awk -f scripts/rays_tables.awk "${tables[@]}"
