@@ -111,6 +111,7 @@ static const cgt_scene_options *next_structure(void)
         {.structure = CGT_STRUCTURE_KD},
         {.structure = CGT_STRUCTURE_QUEUE_GRID},
         {.structure = CGT_STRUCTURE_LOOSE_GRID},
+        {.structure = CGT_STRUCTURE_WIDE_TREE},
         {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
         {.structure = CGT_STRUCTURE_KD, .kd_builder = CGT_KD_BUILDER_SWEEP, .kd_layout = CGT_KD_LAYOUT_MIXED},
         {.structure = CGT_STRUCTURE_KD_ROPES, .kd_layout = CGT_KD_LAYOUT_BREADTH_FIRST},

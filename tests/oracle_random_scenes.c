@@ -29,6 +29,7 @@ static const cgt_scene_options structures[] = {
     {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {40, 40, 40}},
     {.structure = CGT_STRUCTURE_LOOSE_GRID},
     {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {7, 5, 3}},
+    {.structure = CGT_STRUCTURE_WIDE_TREE},
     {.structure = CGT_STRUCTURE_KD},
     {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
 };

@@ -150,6 +150,7 @@ static void check_answers(const question *q, const cgt_scene *scene, cgt_trace_o
 static void answers_are_those_of_rays(void **state)
 {
     (void)state;
+    const uint32_t step = test_scaled(10) < 2 ? 3 : 1; /* of the structures, where it is slow */
     uint64_t hidden = 0, asked = 0;
     FOR_EACH_VARIANT(variant)
     {
@@ -157,7 +158,7 @@ static void answers_are_those_of_rays(void **state)
         for (uint32_t number = 0; number < (uint32_t)STRUCTURE_KINDS * test_scaled(2); number++) {
             const structure_kind kind = (structure_kind)(number % STRUCTURE_KINDS);
             question q = ask(context[0], kind, 700 + number, number + number / STRUCTURE_KINDS);
-            for (uint32_t k = 0; k < CGT_STRUCTURE_LOOSE_GRID; k++) {
+            for (uint32_t k = test_sample_start(number, step); k < CGT_STRUCTURE_WIDE_TREE; k += step) {
                 const cgt_scene_options made = structure_in_turn(k);
                 cgt_trace_options options;
                 cgt_scene *scene;
@@ -319,8 +320,11 @@ static void nothing_is_allocated(void **state)
     options.memory = (cgt_memory_hooks){&allocations, count_allocation, release};
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    assert_true(allocations > 0);
+    /* the first points of a scene may have a tree built for them, whose memory the next ones find */
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_OK);
     const unsigned before = allocations;
-    assert_true(before > 0);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_OK);
     assert_int_equal(allocations, before);
     cgt_scene_release(scene);

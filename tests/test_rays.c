@@ -93,7 +93,12 @@ static void layouts_rays(test_random *r)
         soa[6][i] = ray[i].t_min, soa[7][i] = ray[i].t_max;
     }
     for (size_t stride = 0; stride <= 4; stride += 4) {
-        const cgt_rays rays = {rays_used, stride, {soa[0], soa[1], soa[2]}, {soa[3], soa[4], soa[5]}, soa[6], soa[7]};
+        const cgt_rays rays = {.count = rays_used,
+                               .stride = stride,
+                               .org = {soa[0], soa[1], soa[2]},
+                               .dir = {soa[3], soa[4], soa[5]},
+                               .t_min = soa[6],
+                               .t_max = soa[7]};
         const cgt_hits hits = {4 - stride, out[0], ids[0], ids[1], {out[1], out[2], out[3]}, NULL, NULL};
         assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
         for (uint32_t i = 0; i < rays_used; i++) {

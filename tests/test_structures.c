@@ -69,7 +69,8 @@ static const cgt_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRID
                                           {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {5, 9, 7}},
                                           {.structure = CGT_STRUCTURE_LOOSE_GRID},
                                           {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
-                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}}};
+                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}},
+                                          {.structure = CGT_STRUCTURE_WIDE_TREE}};
 #define WAYS (TREES + (uint32_t)TEST_COUNT(grids))
 
 static cgt_scene_options scene_way(uint32_t number)
@@ -230,12 +231,13 @@ static bool check_commit(const question *q, const cgt_scene *scene, const cgt_sc
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
     assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
     assert_int_equal(st.geometries, q->s.scene.geometries);
-    const bool there = st.cells || st.kd_nodes;
+    const bool there = st.cells || st.kd_nodes || st.wide_nodes, wide = o->structure == CGT_STRUCTURE_WIDE_TREE;
     const bool some = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
     assert_true(there || !some || strstr(q->s.name, "beyond"));
     if (tree && there)
         check_tree(q, o, &st);
-    assert_int_equal(st.cells != 0, there && !tree);
+    assert_int_equal(st.cells != 0, there && !tree && !wide);
+    assert_int_equal(st.wide_nodes != 0, there && wide);
     assert_int_equal(st.kd_leaves != 0, there && tree);
     return there;
 }
@@ -243,12 +245,13 @@ static bool check_commit(const question *q, const cgt_scene *scene, const cgt_sc
 static void check_counts(const cgt_trace_statistics *c, const cgt_scene_options *o, bool there, uint64_t rays,
                          uint64_t hits)
 {
-    const bool tree = there && is_tree(o);
+    const bool tree = there && (is_tree(o) || o->structure == CGT_STRUCTURE_WIDE_TREE);
     assert_int_equal(c->rays, rays);
     assert_int_equal(c->hits, hits);
     assert_int_equal(c->rope_loops, 0);
     assert_true(!hits || !tree || c->leaves);
-    assert_true(!hits || !tree || c->references);
+    assert_int_equal(c->wide_rays != 0, o->structure == CGT_STRUCTURE_WIDE_TREE && there && rays);
+    assert_true(!hits || !there || !is_tree(o) || c->references);
     assert_true(o->structure != CGT_STRUCTURE_KD_ROPES || c->rope_steps <= c->leaves);
     assert_true(tree ? !c->cells && !c->slices : !c->nodes && !c->leaves);
     assert_true(o->structure == CGT_STRUCTURE_KD_ROPES || !c->rope_steps);

@@ -47,6 +47,7 @@ typedef struct subject {
     const char *variant[MOST_VARIANTS];
     cgt_context *context[MOST_VARIANTS];
     cgt_scene *scene[MOST_VARIANTS];
+    cgt_scene *fast[MOST_VARIANTS]; /* in a grid: a wide tree has no FAST of its own */
 } subject;
 
 static void commit_in_all(subject *w)
@@ -59,8 +60,9 @@ static void commit_in_all(subject *w)
         assert_true(w->variants < MOST_VARIANTS);
         w->variant[w->variants] = variant;
         w->context[w->variants] = context_make(1, variant);
-        const cgt_scene_options made = structure_in_turn(turn++);
-        if (hard_commit_with(w->context[w->variants], &w->s, &made, &w->scene[w->variants]) != CGT_OK)
+        const cgt_scene_options made = structure_in_turn(turn++), grid = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+        if (hard_commit_with(w->context[w->variants], &w->s, &made, &w->scene[w->variants]) != CGT_OK ||
+            hard_commit_with(w->context[w->variants], &w->s, &grid, &w->fast[w->variants]) != CGT_OK)
             fail_msg("%s: %s", variant, context_message(w->context[w->variants]));
         w->variants++;
     }
@@ -80,12 +82,19 @@ static void subject_make(subject *w, closed_kind kind, hard_place place, uint64_
     commit_in_all(w);
 }
 
-static void subject_free(subject *w)
+static void release_all(subject *w)
 {
     for (size_t v = 0; v < w->variants; v++) {
         cgt_scene_release(w->scene[v]);
+        cgt_scene_release(w->fast[v]);
         cgt_context_release(w->context[v]);
     }
+    w->variants = 0;
+}
+
+static void subject_free(subject *w)
+{
+    release_all(w);
     oracle_scene_free(&w->oracle);
     hard_scene_free(&w->s);
     closed_mesh_free(&w->mesh);
@@ -166,12 +175,12 @@ static uint64_t count_misses(const uint32_t *primitive, uint32_t count)
     return misses;
 }
 
-static void trace(const subject *w, size_t v, uint32_t *primitive, const cgt_trace_options *options)
+static void trace(const subject *w, const cgt_scene *scene, uint32_t *primitive, const cgt_trace_options *options)
 {
     const cgt_rays rays = ray_array(w->s.ray, w->s.rays);
     const cgt_hits hits = {.primitive = primitive};
     memset(primitive, 0x77, CHUNK * sizeof *primitive);
-    assert_int_equal(cgt_trace_rays(w->scene[v], &rays, &hits, options), CGT_OK);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, options), CGT_OK);
 }
 
 /* So many rays at one mesh in one place, chunk by chunk in each variant. */
@@ -190,10 +199,10 @@ static void check_mesh(closed_kind kind, const location *at, uint32_t rays, leak
     for (uint32_t c = 0; c < chunks; c++) {
         const size_t v = c % w.variants;
         make_rays(&w);
-        trace(&w, v, primitive, NULL);
+        trace(&w, w.scene[v], primitive, NULL);
         check_answers(&w, v, primitive, sum);
         if (at == locations) { /* where single precision has all its range */
-            trace(&w, v, primitive, &fast);
+            trace(&w, w.fast[v], primitive, &fast);
             sum->fast_leaked += count_misses(primitive, w.s.rays);
         }
     }
@@ -270,15 +279,12 @@ static void test_open_mesh_leaks(void **state)
     uint32_t primitive[CHUNK];
     const hard_place here = HARD_HERE;
     subject_make(&w, CLOSED_ICOSPHERE, here, 7);
-    for (size_t v = 0; v < w.variants; v++) {
-        cgt_scene_release(w.scene[v]);
-        cgt_context_release(w.context[v]);
-    }
+    release_all(&w);
     make_rays(&w); /* at edges of all triangles */
     w.s.geometry[0].triangles -= 8;
     commit_in_all(&w);
     for (size_t v = 0; v < w.variants; v++) {
-        trace(&w, v, primitive, NULL);
+        trace(&w, w.scene[v], primitive, NULL);
         const uint64_t misses = count_misses(primitive, w.s.rays);
         assert_true(misses > 0 && misses < w.s.rays / 4);
     }

@@ -239,6 +239,39 @@ static void records(void **state)
     guarded_free(&g);
 }
 
+/* Records are what was stored, and what lies between them keeps its content. */
+static void stored_records(void **state)
+{
+    float memory[CGT_LANES * 7];
+    test_random r = random_make(44);
+    (void)state;
+    for (size_t stride = 4; stride <= 7; stride++) {
+        vfloat d[4];
+        for (int a = 0; a < 4; a++)
+            for (int k = 0; k < CGT_LANES; k++)
+                d[a][k] = random_float(&r, -1, 1);
+        for (size_t i = 0; i < TEST_COUNT(memory); i++)
+            memory[i] = 7;
+        spux_store_records4(memory, stride, d);
+        for (size_t i = 0; i < CGT_LANES * stride; i++)
+            assert_true(memory[i] == (i % stride < 4 ? d[i % stride][i / stride] : 7));
+    }
+}
+
+static void bytes(void **state)
+{
+    uint8_t byte[CGT_LANES + 1];
+    test_random r = random_make(45);
+    (void)state;
+    for (int turn = 0; turn < 100; turn++) {
+        for (size_t i = 0; i < TEST_COUNT(byte); i++)
+            byte[i] = (uint8_t)random_below(&r, 256);
+        const vuint v = spux_load_bytes(byte + turn % 2);
+        for (int k = 0; k < CGT_LANES; k++)
+            assert_int_equal(v[k], byte[turn % 2 + k]);
+    }
+}
+
 static void streams_and_parts(void **state)
 {
     (void)state;
@@ -344,6 +377,8 @@ int main(void)
         cmocka_unit_test(gathering),
         cmocka_unit_test(halfwords_are_found),
         cmocka_unit_test(records),
+        cmocka_unit_test(stored_records),
+        cmocka_unit_test(bytes),
         cmocka_unit_test(transposes),
         cmocka_unit_test(streams_and_parts),
         cmocka_unit_test(doubles),

@@ -88,17 +88,26 @@ static flaw any_flaw(fuzz_model *m)
 /* A pointer with its flaw. */
 static void *flawed(void *at, flaw f) { return f == FLAW_NULL ? NULL : f == FLAW_MISALIGNED ? (char *)at + 1 : at; }
 
+/* By the bits of a byte that nothing else reads. */
+static uint32_t any_mask(uint8_t how)
+{
+    static const uint32_t masks[] = {0, 0, 1, 2, 3, 0x80000000u, UINT32_MAX, 6};
+    return masks[how >> 2 & 7];
+}
+
 /* Returns true where the description must be refused. */
 static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
 {
     const uint32_t count = small_count(m);
     const flaw f = any_flaw(m);
-    const bool radii = fuzz_below(&m->bytes, 4) != 0;
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const bool radii = how % 4 != 0;
     const array center = float_array(m, count, 3);
     cgt_spheres *s = &g->spheres;
     *g = (fuzz_geometry){.used = true, .block = {center.block}};
     *s = (cgt_spheres){.count = f == FLAW_COUNT ? UINT32_MAX : count, .center_stride = center.stride};
     s->centers = flawed(center.at, f);
+    s->mask = any_mask(how);
     bool bad = center.bad || f == FLAW_MISALIGNED || f == FLAW_COUNT || (f == FLAW_NULL && count);
     if (radii) {
         const array radius = float_array(m, count, 1);
@@ -117,13 +126,15 @@ static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
 {
     const uint32_t count = small_count(m), vertices = small_count(m);
     const flaw f = any_flaw(m);
-    const bool indexed = fuzz_below(&m->bytes, 4) != 0;
+    const uint8_t how = fuzz_byte(&m->bytes);
+    const bool indexed = how % 4 != 0;
     const array vertex = float_array(m, vertices, 3);
     cgt_triangles *t = &g->triangles;
     *g = (fuzz_geometry){.used = true, .triangular = true, .block = {vertex.block}};
     *t = (cgt_triangles){.count = f == FLAW_COUNT ? UINT32_MAX : count, .vertex_count = vertices};
     t->vertex_stride = vertex.stride;
     t->vertices = flawed(vertex.at, f);
+    t->mask = any_mask(how);
     bool bad = vertex.bad || f == FLAW_MISALIGNED || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
     if (indexed) {
         const array index = index_array(m, count, vertices);

@@ -2,10 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays: nearest hit and any hit, with any options and strides, by another variant in a grid, and the truth. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "decide.h"
 #include "fuzz_check.h"
 
 #define MOST_RAYS 40u
@@ -161,17 +163,28 @@ static void must(fuzz_model *m, cgt_result result, bool legal)
         fuzz_check_error(m, result);
 }
 
+/* Rays may build a tree, for which memory may be short; then the call does when it is tried again. */
+#define MUST(m, call, legal)                                                                                           \
+    do {                                                                                                               \
+        cgt_result result_ = (call);                                                                                   \
+        if (result_ == CGT_ERROR_OUT_OF_MEMORY) {                                                                      \
+            fuzz_check_error(m, result_);                                                                              \
+            result_ = (call);                                                                                          \
+        }                                                                                                              \
+        must(m, result_, legal);                                                                                       \
+    } while (0)
+
 static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
 {
     cgt_trace_statistics statistics;
     cgt_trace_options o;
     cgt_trace_options_init(&o);
     o.statistics = &statistics;
-    must(m, trace_array(m->scene, a->ray, a->count, a->robust, &o), true);
+    MUST(m, trace_array(m->scene, a->ray, a->count, a->robust, &o), true);
     fuzz_check_hits(m, a, a->robust, o.precision);
     fuzz_check_counts(a, a->robust, &statistics);
     o.precision = CGT_PRECISION_EXACT;
-    must(m, trace_array(m->scene, a->ray, a->count, a->exact, &o), true);
+    MUST(m, trace_array(m->scene, a->ray, a->count, a->exact, &o), true);
     fuzz_check_hits(m, a, a->exact, o.precision);
     fuzz_check_counts(a, a->exact, &statistics);
 }
@@ -179,13 +192,137 @@ static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
 static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *rays, const cgt_trace_options *o)
 {
     uint8_t *occluded = memset(fuzz_allocate(a->count), 0x77, a->count);
-    must(m, cgt_occluded_rays(m->scene, rays, occluded, o), true);
+    MUST(m, cgt_occluded_rays(m->scene, rays, occluded, o), true);
     for (uint32_t i = 0; i < a->count; i++)
         FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_NONE), "ray %u: any hit says %u, nearest hit %u.%u", i,
                    occluded[i], a->other[i].geometry, a->other[i].primitive);
     fuzz_check_counts(a, a->other, o->statistics);
     free(occluded);
 }
+
+/* ---- masks and ignored primitives ---- */
+
+/* What is asked of a ray, from its own bits: no bytes are taken. */
+typedef struct filters {
+    uint32_t mask[MOST_RAYS], primitive[MOST_RAYS], geometry[MOST_RAYS];
+} filters;
+
+static void make_filters(const fuzz_answers *a, filters *f)
+{
+    static const uint32_t masks[] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 1, 2, 3, 0x80000000u, 0};
+    for (uint32_t i = 0; i < a->count; i++) {
+        uint32_t hash = i, word;
+        for (int k = 0; k < 6; k++) {
+            memcpy(&word, (const float *)(const void *)&a->ray[i] + k, sizeof word);
+            hash = (hash ^ word) * 0x9e3779b1u;
+            hash ^= hash >> 15;
+        }
+        f->mask[i] = masks[hash & 7];
+        f->primitive[i] = a->robust[i].primitive;
+        f->geometry[i] = a->robust[i].geometry;
+        if ((hash >> 3 & 3) == 0)
+            f->primitive[i] = (hash >> 5 & 7) == 7 ? CGT_NONE - 1 : hash >> 5 & 15;
+        if ((hash >> 9 & 3) == 0)
+            f->geometry[i] = (hash >> 11 & 7) == 7 ? CGT_NONE : hash >> 11 & 7;
+    }
+}
+
+static uint32_t mask_of(const fuzz_geometry *g)
+{
+    const uint32_t mask = g->triangular ? g->triangles.mask : g->spheres.mask;
+    return mask ? mask : UINT32_MAX;
+}
+
+static cgt_shape shape_at(const fuzz_geometry *g, uint32_t i)
+{
+    cgt_shape shape = {.kind = g->triangular ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES};
+    float sphere[4];
+    if (g->triangular)
+        fuzz_triangle_at(g, i, shape.triangle.v);
+    else {
+        fuzz_sphere_at(g, i, sphere);
+        shape.sphere = (cgt_sphere){sphere[0], sphere[1], sphere[2], sphere[3]};
+    }
+    return shape;
+}
+
+/* Whether primitive i of a geometry takes part and is met; where, in *hit. */
+static bool meets(const cgt_ray *ray, const fuzz_geometry *g, uint32_t i, cgt_decided_hit *hit)
+{
+    uint64_t exact = 0;
+    float zero = 0;
+    *hit = (cgt_decided_hit){.shape = shape_at(g, i)};
+    if (g->triangular)
+        for (int k = 0; k < 9; k++)
+            zero += hit->shape.triangle.v[k / 3][k % 3] * 0;
+    else
+        zero += hit->shape.sphere.x * 0 + hit->shape.sphere.y * 0 + hit->shape.sphere.z * 0 + hit->shape.sphere.r * 0;
+    return zero == 0 && (g->triangular || hit->shape.sphere.r >= 0) && cgt_decide_hit(ray, hit, &exact);
+}
+
+/* By brute force. Only t and the ids of *h are written. */
+static void nearest_left(const fuzz_model *m, const truth_ray *from, const filters *f, uint32_t of, full_hit *h)
+{
+    uint64_t exact = 0;
+    cgt_decided_hit best = {.t = 0}, hit;
+    cgt_ray ray = {.t_min = from->t_min < -FLT_MAX ? -FLT_MAX : from->t_min, .t_max = from->t_max};
+    memcpy(ray.line.org, from->org, sizeof ray.line.org);
+    memcpy(ray.line.dir, from->dir, sizeof ray.line.dir);
+    *h = (full_hit){.t = INFINITY, .primitive = CGT_NONE, .geometry = CGT_NONE};
+    for (uint32_t id = 0; id < FUZZ_GEOMETRIES && !fuzz_ray_is_invalid(from); id++) {
+        const fuzz_geometry *g = &m->geometry[id];
+        for (uint32_t i = 0; g->used && mask_of(g) & f->mask[of] && i < fuzz_count(g); i++) {
+            if ((id == f->geometry[of] && i == f->primitive[of]) || !meets(&ray, g, i, &hit))
+                continue;
+            if (h->primitive != CGT_NONE && cgt_decide_order(&ray, &hit, &best, &exact) >= 0)
+                continue;
+            best = hit;
+            *h = (full_hit){.t = (float)hit.t, .primitive = i, .geometry = id};
+        }
+    }
+}
+
+static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace_options *o)
+{
+    filters f;
+    full_hit hit[MOST_RAYS], left;
+    uint8_t occluded[MOST_RAYS];
+    uint32_t primitive[MOST_RAYS], geometry[MOST_RAYS];
+    float number[INPUTS][MOST_RAYS], t[MOST_RAYS];
+    make_filters(a, &f);
+    for (uint32_t i = 0; i < a->count; i++)
+        for (int k = 0; k < INPUTS; k++)
+            number[k][i] = ((const float *)(const void *)&a->ray[i])[k];
+    const cgt_rays rays = {.count = a->count,
+                           .org = {number[0], number[1], number[2]},
+                           .dir = {number[3], number[4], number[5]},
+                           .t_min = number[6],
+                           .t_max = number[7],
+                           .mask = f.mask,
+                           .ignored_primitive = f.primitive,
+                           .ignored_geometry = f.geometry};
+    const cgt_hits hits = {.t = t, .primitive = primitive, .geometry = geometry};
+    must(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
+    must(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
+    for (uint32_t i = 0; i < a->count; i++) {
+        hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
+        FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_NONE), "ray %u, filtered: any hit says %u", i, occluded[i]);
+        FUZZ_CHECK(hit[i].geometry == CGT_NONE ||
+                       (hit[i].geometry < FUZZ_GEOMETRIES && mask_of(&m->geometry[hit[i].geometry]) & f.mask[i]),
+                   "ray %u: hits geometry %u, which its mask leaves out", i, hit[i].geometry);
+        FUZZ_CHECK(hit[i].geometry == CGT_NONE || hit[i].geometry != f.geometry[i] ||
+                       hit[i].primitive != f.primitive[i],
+                   "ray %u: hits what it ignores", i);
+        nearest_left(m, &a->ray[i], &f, i, &left);
+        FUZZ_CHECK(
+            o->precision == CGT_PRECISION_FAST ||
+                (same_bits(hit[i].t, left.t) && hit[i].primitive == left.primitive && hit[i].geometry == left.geometry),
+            "ray %u: hits %u.%u at %a, not %u.%u at %a", i, hit[i].geometry, hit[i].primitive, (double)hit[i].t,
+            left.geometry, left.primitive, (double)left.t);
+    }
+}
+
+/* ---- all of it ---- */
 
 static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
 {
@@ -197,13 +334,14 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
     arrays in = make_arrays(m, a->count), out = make_arrays(m, a->count);
     const cgt_rays rays = rays_in(&in, a->ray, ranges);
     const cgt_hits hits = hits_in(&out, fields);
-    must(m, cgt_trace_rays(m->scene, &rays, &hits, &o), legal);
+    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, &o), legal);
     if (legal) {
         take_hits(&out, fields, o.precision == CGT_PRECISION_EXACT ? a->exact : a->robust, a->other);
         fuzz_check_hits(m, a, a->other, o.precision);
         fuzz_check_counts(a, a->other, &statistics);
         fuzz_check_same(m, a, o.precision);
         check_any_hit(m, a, &rays, &o);
+        trace_filtered(m, a, &o);
     }
     free_arrays(&in);
     free_arrays(&out);

@@ -110,7 +110,7 @@ cgt_scene_options structure_random(test_random *r)
 {
     cgt_scene_options o;
     cgt_scene_options_init(&o);
-    o.structure = (cgt_structure)random_below(r, CGT_STRUCTURE_LOOSE_GRID + 1);
+    o.structure = (cgt_structure)random_below(r, CGT_STRUCTURE_WIDE_TREE + 1);
     o.rays = (cgt_ray_kind)random_below(r, 2);
     o.kd_builder = (cgt_kd_builder)random_below(r, 3);
     o.kd_layout = (cgt_kd_layout)random_below(r, 4);
@@ -122,7 +122,7 @@ cgt_scene_options structure_in_turn(uint32_t turn)
 {
     cgt_scene_options o;
     cgt_scene_options_init(&o);
-    o.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + turn % CGT_STRUCTURE_LOOSE_GRID);
+    o.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + turn % CGT_STRUCTURE_WIDE_TREE);
     return o;
 }
 
