@@ -53,8 +53,8 @@ CGT_SPU_INLINE vuint cgt_spux_select_u32w(vuint a, vuint b, vmask m)
 /* ---- memory ---- */
 CGT_SPU_INLINE vuint cgt_spux_load_w(const void *p) { return (vuint)_mm256_load_si256(p); }
 CGT_SPU_INLINE void cgt_spux_store_w(void *p, vuint v) { _mm256_store_si256(p, (__m256i)v); }
-CGT_SPU_INLINE void cgt_spux_stream_w(void *p, vuint v) { _mm256_stream_si256(p, (__m256i)v); }
-CGT_SPU_INLINE void spux_stream_end(void) { _mm_sfence(); }
+CGT_SPU_INLINE void cgt_spux_stream_w(void *p, vuint v) { cgt_spux_store_w(p, v); }
+CGT_SPU_INLINE void spux_stream_end(void) {}
 CGT_SPU_INLINE vuint cgt_spux_load_unaligned_w(const void *p) { return (vuint)_mm256_loadu_si256(p); }
 CGT_SPU_INLINE void cgt_spux_store_unaligned_w(void *p, vuint v) { _mm256_storeu_si256(p, (__m256i)v); }
 CGT_SPU_INLINE vuint cgt_spux_load_mask_w(const void *p, vmask m)

@@ -44,10 +44,6 @@ CGT_SPU_INLINE uint32_t cgt_spux_hmax_u32w(vuint a)
     return (uint32_t)_mm_cvtsi128_si32(_mm_max_epu32(two, _mm_shuffle_epi32(two, 0xb1)));
 }
 
-#define CGT_SPUX_OWN_STREAM
-CGT_SPU_INLINE void cgt_spux_stream_w(void *p, vuint v) { _mm_stream_si128(p, (__m128i)v); }
-CGT_SPU_INLINE void spux_stream_end(void) { _mm_sfence(); }
-
 #define CGT_SPUX_OWN_SQRT
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm_sqrt_ps((__m128)a); }
 

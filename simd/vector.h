@@ -18,7 +18,8 @@
  *
  *   spux_load(p), store(p, v)     W, aligned to the vector
  *   spux_load_unaligned(p), store_unaligned(p, v)   W, aligned to the element
- *   spux_stream(p, v)             W, aligned to the vector: a store that leaves the caches alone where it can
+ *   spux_stream(p, v)             W, aligned to the vector: a store past the caches where a vector fills a line of them;
+ *                                 parts of lines come out several times slower on some processors
  *   spux_stream_end()             before what was streamed is handed to another thread
  *   spux_load_mask(p, m)          W, aligned to the element; 0 where m is false, and memory there is not touched
  *   spux_store_mask(p, v, m)      likewise; memory where m is false keeps its content, and need not exist
@@ -26,6 +27,7 @@
  *   spux_load_records4(base, stride, d)   CGT_LANES records of 4 floats, record k at base + k * stride floats, to the
  *                                         four vectors d[0] to d[3], one per element of the record
  *   spux_load_records4_at(base, at, d)    the same, record k at base + at[k]
+ *   spux_load_records8_at(base, at, d)    the same of 8 floats, to the vectors d[8]
  *   spux_store_records4(base, stride, d)  the reverse of the first
  *   spux_load_bytes(p)            vuint; CGT_LANES bytes at p
  *
@@ -159,6 +161,13 @@ CGT_SPU_INLINE void spux_load_records4_at(const float *base, const uint32_t at[C
     CGT_SPUX_LOAD_RECORDS4(CGT_SPUX_AT, d);
 #undef CGT_SPUX_AT
 }
+#ifndef CGT_SPUX_OWN_RECORDS8
+CGT_SPU_INLINE void spux_load_records8_at(const float *base, const uint32_t at[CGT_LANES], vfloat d[8])
+{
+    spux_load_records4_at(base, at, d);
+    spux_load_records4_at(base + 4, at, d + 4);
+}
+#endif
 CGT_SPU_INLINE void spux_store_records4(float *base, size_t stride, const vfloat d[4])
 {
     vfloat row[4];
