@@ -9,6 +9,13 @@
 #include "trace_call.h"
 #include "wide_tree_want.h"
 
+/* Chunks of a call that are looked at to choose a way, and the objects that a tile may take for each point: more, and a
+ * tree is faster. Measured. */
+#define CHUNKS_ASKED 8u
+#define OBJECTS_PER_POINT 16u
+
+#define FEW_POINTS 256u /* go through a wide tree where there is one */
+
 typedef struct light_job {
     const cgt_scene *scene;
     const cgt_light *light;
@@ -18,12 +25,17 @@ typedef struct light_job {
     cgt_trace_counter *counter;
 } light_job;
 
+static uint64_t chunk_end(const light_job *job, uint64_t first)
+{
+    const uint64_t left = job->points.count - first;
+    return first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
+}
+
 static void trace_chunk(void *argument, uint32_t index)
 {
     const light_job *job = argument;
     const cgt_scene *s = job->scene;
-    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, left = job->points.count - first,
-                   end = first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
     cgt_counts counts = {0};
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
@@ -31,6 +43,27 @@ static void trace_chunk(void *argument, uint32_t index)
                                     &counts);
     cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
+}
+
+/* Whether neighbours among the points are near enough to each other, as the light sees them, for tiles: of most chunks. */
+static bool tiles_serve(const light_job *job)
+{
+    const cgt_scene *s = job->scene;
+    const cgt_world *world = &s->world;
+    const uint64_t chunks = (job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK;
+    const uint64_t asked = chunks < CHUNKS_ASKED ? chunks : CHUNKS_ASKED;
+    uint64_t served = 0;
+    cgt_float_environment callers;
+    if (!world->loose.levels || !world->valid || world->everything || world->scale > 0x1p60f || world->scale < 0x1p-60f)
+        return false;
+    cgt_float_environment_enter(&callers);
+    for (uint64_t k = 0; k < asked; k++) {
+        const uint64_t first = chunks * k / asked * CGT_RAYS_CHUNK, end = chunk_end(job, first);
+        served += s->context->kernel->light_objects(world, &job->points, job->light, first, end) <=
+                  OBJECTS_PER_POINT * (end - first);
+    }
+    cgt_float_environment_leave(&callers);
+    return 2 * served > asked;
 }
 
 static cgt_result check_light(cgt_context *c, const cgt_light *light)
@@ -70,8 +103,6 @@ cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, co
         result = check_light(c, light);
     if (result == CGT_OK)
         result = check_points(c, points);
-    if (result == CGT_OK)
-        result = cgt_wide_tree_want(scene, points->count, &job.settings.wide);
     if (result != CGT_OK)
         return result;
     job.points = (cgt_rays){.count = points->count,
@@ -82,6 +113,11 @@ cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, co
                             .mask = points->mask,
                             .ignored_primitive = points->ignored_primitive,
                             .ignored_geometry = points->ignored_geometry};
+    const bool tiles = tiles_serve(&job);
+    result = cgt_wide_tree_want(scene, tiles ? 0 : points->count, &job.settings.wide);
+    if (result != CGT_OK)
+        return result;
+    job.settings.light_tiles = tiles && !(job.settings.wide && points->count < FEW_POINTS);
     job.settings.fields = 0;
     job.counter = options && options->statistics ? &counter : NULL;
     cgt_run_tasks(c, trace_chunk, &job, (uint32_t)((points->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));

@@ -22,6 +22,7 @@ typedef struct cgt_trace_settings {
     cgt_kd_traversal kd_traversal;
     cgt_precision precision;
     cgt_triangle_test triangle_test;
+    bool light_tiles; /* points against a light go through the loose grid, tile by tile */
     bool wide;       /* there is a wide tree that rays may go through. Where it is false, another thread may be building
                         one: world->wide must not be looked at then */
     uint32_t fields; /* cgt_field values that anybody wants */

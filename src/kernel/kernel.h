@@ -65,6 +65,11 @@ typedef struct cgt_kernel {
     /* Any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`. */
     void (*trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
                         uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
+
+    /* With a loose grid: about how many objects lie in the cone about the light and points first to end - 1, at most
+     * CGT_RAYS_CHUNK. UINT32_MAX where tiles do not serve the light. */
+    uint64_t (*light_objects)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
+                              uint64_t end);
 } cgt_kernel;
 
 #define CGT_KERNEL_JOIN_(name, variant) name##_##variant

@@ -20,6 +20,8 @@ void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, ui
 void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
                                  uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded,
                                  cgt_counts *counts);
+uint64_t CGT_KERNEL(cgt_tile_light_objects)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
+                                            uint64_t first, uint64_t end);
 
 extern const struct cgt_wide_builder CGT_KERNEL(cgt_wide_builder);
 
@@ -37,4 +39,5 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .trace_tile = CGT_KERNEL(cgt_trace_tile),
     .trace_rays = CGT_KERNEL(cgt_trace_rays),
     .trace_light = CGT_KERNEL(cgt_trace_light),
+    .light_objects = CGT_KERNEL(cgt_tile_light_objects),
 };

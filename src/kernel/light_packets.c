@@ -36,6 +36,10 @@ void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points,
                                  cgt_counts *counts)
 {
     packet p;
+    if (settings->light_tiles) {
+        CGT_KERNEL(cgt_tile_trace_light)(world, points, light, first, end, settings, occluded, counts);
+        return;
+    }
     if (settings->wide) {
         CGT_KERNEL(cgt_wide_trace_light)(world, points, light, first, end, settings, occluded, counts);
         return;

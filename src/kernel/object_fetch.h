@@ -169,4 +169,16 @@ CGT_SPU_INLINE void fetch_triangles_at(const cgt_object_array *a, vuint number, 
         fetch_vertices(a, corner[k], fit && spux_all(spu_cmpgt(spux_vuint(a->points - 1), corner[k])), vertex[k]);
 }
 
+/* Asks for the vertices of triangles, whose indices are at hand. */
+CGT_SPU_INLINE void fetch_triangles_ask(const cgt_object_array *a, const uint32_t *reference, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        const char *index = a->index + (size_t)reference[k] * a->index_stride;
+        uint32_t corner[3];
+        memcpy(corner, index, sizeof corner);
+        for (int i = 0; i < 3; i++)
+            __builtin_prefetch(a->point + corner[i] * a->point_stride);
+    }
+}
+
 #endif

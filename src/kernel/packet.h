@@ -78,6 +78,13 @@ void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_world *world, packet *p, const cgt
 void CGT_KERNEL(cgt_wide_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
                                 cgt_counts *counts);
 
+/* Points against a light through a loose grid; and see light_objects of cgt_kernel. */
+void CGT_KERNEL(cgt_tile_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
+                                      uint64_t first, uint64_t end, const cgt_trace_settings *settings,
+                                      uint8_t *occluded, cgt_counts *counts);
+uint64_t CGT_KERNEL(cgt_tile_light_objects)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
+                                            uint64_t first, uint64_t end);
+
 /* Arrays of rays, and points against a light, through the wide tree: see trace_rays and trace_light of cgt_kernel. */
 void CGT_KERNEL(cgt_wide_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
                                       uint64_t first, uint64_t end, const cgt_trace_settings *settings,

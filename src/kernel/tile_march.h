@@ -108,10 +108,9 @@ CGT_SPU_INLINE void tile_march_parallel(const tile *t, tile_march *m)
     }
 }
 
-CGT_SPU_INLINE void tile_march_level_make(const tile *t, const tile_march *m, const cgt_loose_level *from,
+CGT_SPU_INLINE void tile_march_level_make(const float eye[3], const tile_march *m, const cgt_loose_level *from,
                                           tile_march_level *l)
 {
-    const float *eye = t->rays->eye;
     const uint32_t w = m->w, axis[2] = {m->u, m->v};
     const double cell = (double)from->cell[w], reach = (double)from->reach[w];
     const double low = (double)from->low[w] - (double)eye[w], length = cell * from->size[w];
@@ -155,7 +154,7 @@ CGT_SPU_INLINE void tile_march_make(const tile *t, const cgt_loose_grid *grid, t
     else
         tile_march_rays(t, m);
     for (uint32_t i = 0; i < grid->levels; i++)
-        tile_march_level_make(t, m, &grid->level[i], &m->level[i]);
+        tile_march_level_make(c->eye, m, &grid->level[i], &m->level[i]);
 }
 
 /* The cells of axis k of a slice that lies between near and far; false where there are none. */

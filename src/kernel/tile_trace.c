@@ -151,18 +151,6 @@ CGT_SPU_INLINE void take_waiting(tile_work *w, waiting *q, uint32_t count,
     memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
 }
 
-/* Asks for the vertices of waiting triangles, whose indices have come by now. */
-static void prefetch_vertices(const cgt_object_array *a, const uint32_t *reference, uint32_t count)
-{
-    for (uint32_t k = 0; k < count; k++) {
-        const char *index = a->index + (size_t)reference[k] * a->index_stride;
-        uint32_t corner[3];
-        memcpy(corner, index, sizeof corner);
-        for (int i = 0; i < 3; i++)
-            __builtin_prefetch(a->point + corner[i] * a->point_stride);
-    }
-}
-
 /* As take_waiting, with the vertices of some vectors on their way. */
 static void take_waiting_triangles(tile_work *w, uint32_t count)
 {
@@ -173,7 +161,7 @@ static void take_waiting_triangles(tile_work *w, uint32_t count)
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         const uint32_t ask = k + AHEAD < count ? k + AHEAD : count;
         if (a && ask > asked)
-            prefetch_vertices(a, q->reference + asked, ask - asked);
+            fetch_triangles_ask(a, q->reference + asked, ask - asked);
         asked = ask;
         take_triangles(w, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
     }
