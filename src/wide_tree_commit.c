@@ -16,9 +16,9 @@
 #define STREAM_BYTES ((size_t)8 << 20) /* of blocks: more will not stay in caches until it is read */
 #define WORK_WORDS 5u                  /* for an object, see cgt_wide_build */
 
-/* Rays that ask for a tree before it is built: an eighth as many as objects. It takes as long as some 1/60 as many rays
- * that share nothing take through the grid, by estimate; but whether they do share nothing is not known. */
-static uint64_t enough_rays(uint32_t valid) { return valid / 8; }
+/* Rays that ask for a tree before it is built. It takes as long as some 1/60 as many rays as objects take through the grid
+ * where they share nothing, by estimate; but whether they do share nothing is not known. */
+static uint64_t enough_rays(uint32_t valid) { return valid / 32; }
 
 typedef struct wide_job {
     const cgt_kernel *kernel;

@@ -12,116 +12,18 @@
  * vector: a level takes at most STREAM_LEAST words for that, levels are at most CGT_WIDE_MAX_DEPTH, the arena is at least
  * so many times as large, and a node leaves that much for each level below it. */
 #include "ray_hits.h"
-#include "wide_stream_leaf.h"
+#include "wide_stream_node.h"
 #include "wide_stream_read.h"
+#include "wide_stream_spheres.h"
+#include "wide_stream_triangles.h"
 
 /* Lists of at most so many rays go ray by ray: at nodes and at leaves. Measured. */
 #ifndef STREAM_FEW_AT_NODE
-#define STREAM_FEW_AT_NODE (CGT_LANES == 16 ? 5u : CGT_LANES == 8 ? 3u : 1u)
+#define STREAM_FEW_AT_NODE (CGT_LANES == 16 ? 8u : CGT_LANES == 8 ? 5u : 1u)
 #endif
 #ifndef STREAM_FEW_AT_LEAF
-#define STREAM_FEW_AT_LEAF (CGT_LANES == 16 ? 3u : CGT_LANES == 8 ? 2u : 1u)
+#define STREAM_FEW_AT_LEAF (CGT_LANES == 16 ? 4u : CGT_LANES == 8 ? 3u : 1u)
 #endif
-
-/* Words of the masks of a piece of so many vectors, in whole vectors; and what a piece of one vector takes. */
-#define STREAM_MASKS(chunks) ((CGT_LANES * (chunks) / 2 + CGT_LANES - 1) / CGT_LANES * CGT_LANES)
-#define STREAM_LEAST (STREAM_MASKS(1u) + STREAM_LIST(CGT_LANES))
-
-_Static_assert(CGT_WIDE_STREAM_ARENA >= CGT_WIDE_MAX_DEPTH * STREAM_LEAST, "a piece fits at every depth");
-
-/* A node on the way down, and the piece of its list that is in work. */
-typedef struct stream_level {
-    const wide_node *node;
-    const uint32_t *list;
-    uint32_t count;       /* of the list */
-    uint32_t first, rays; /* the piece */
-    uint32_t chunks;      /* vectors of it */
-    uint32_t next;        /* position among the children */
-    uint16_t *mask;       /* [child][chunk]: rays that pass the child */
-    uint32_t *room;       /* behind the masks */
-} stream_level;
-
-/* Planes of a node's children as the octant's rays meet them, moved outwards. */
-typedef struct stream_planes {
-    _Alignas(CGT_VECTOR_BYTES) float near[3][CGT_LANES];
-    float far[3][CGT_LANES];
-} stream_planes;
-
-CGT_SPU_INLINE void stream_planes_make(const stream *s, const wide_node *n, stream_planes *p)
-{
-    const vfloat scale = spux_vfloat(s->call.scale);
-    for (int a = 0; a < 3; a++) {
-        const vfloat slack = spux_vfloat(s->slack[a]);
-        const vfloat low = spu_msub(spux_load(n->low[a]), scale, slack);
-        const vfloat high = spu_madd(spux_load(n->high[a]), scale, slack);
-        const bool from_above = s->octant >> a & 1;
-        spux_store(p->near[a], from_above ? high : low);
-        spux_store(p->far[a], from_above ? low : high);
-    }
-}
-
-/* The rays of a piece against the children. */
-CGT_SPU_INLINE void stream_test_node(stream *s, const stream_level *v)
-{
-    const uint32_t children = v->node->children, chunks = v->chunks;
-    stream_planes p;
-    stream_planes_make(s, v->node, &p);
-    for (uint32_t i = 0; i < chunks; i++) {
-        const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
-        uint16_t *mask = v->mask + i;
-        vfloat d[4], q[4];
-        spux_load_records4_at(stream_record(s, RECORD_RDIR), at, d);
-        spux_load_records4_at(stream_record(s, RECORD_SHIFT), at, q);
-        for (uint32_t k = 0; k < children; k++, mask += chunks) {
-            const vfloat x0 = spu_madd(spux_vfloat(p.near[0][k]), d[0], q[0]);
-            const vfloat y0 = spu_madd(spux_vfloat(p.near[1][k]), d[1], q[1]);
-            const vfloat z0 = spu_madd(spux_vfloat(p.near[2][k]), d[2], q[2]);
-            const vfloat x1 = spu_madd(spux_vfloat(p.far[0][k]), d[0], q[0]);
-            const vfloat y1 = spu_madd(spux_vfloat(p.far[1][k]), d[1], q[1]);
-            const vfloat z1 = spu_madd(spux_vfloat(p.far[2][k]), d[2], q[2]);
-            const vfloat enter = spux_max(spux_max(x0, y0), spux_max(z0, d[3]));
-            const vfloat leave = spux_min(spux_min(x1, y1), spux_min(z1, q[3]));
-            *mask = (uint16_t)spux_mask_bits(spux_cmpge(leave, enter));
-        }
-    }
-}
-
-/* Begins the next piece of a level's list. Returns false where there is none. */
-CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room, uint32_t depth)
-{
-    v->first += v->rays;
-    if (v->first >= v->count)
-        return false;
-    const uint32_t below = (CGT_WIDE_MAX_DEPTH - 1 - depth) * STREAM_LEAST;
-    const uint32_t words = (uint32_t)(s->arena + STREAM_ARENA_USED - room) - below; /* at least STREAM_LEAST */
-    const uint32_t most = (words - STREAM_LIST(0) - CGT_LANES) / (CGT_LANES + CGT_LANES / 2); /* vectors */
-    const uint32_t left = v->count - v->first, wanted = (left + CGT_LANES - 1) / CGT_LANES;
-    v->chunks = wanted <= most ? wanted : most ? most : 1;
-    v->rays = wanted <= v->chunks ? left : v->chunks * CGT_LANES;
-    v->mask = (uint16_t *)(void *)room;
-    v->room = room + STREAM_MASKS(v->chunks);
-    v->next = 0;
-    stream_test_node(s, v);
-    s->call.counts->nodes++;
-    return true;
-}
-
-/* Makes the list of a child's rays; returns how many they are. */
-CGT_SPU_INLINE uint32_t stream_make_list(const stream_level *v, uint32_t child)
-{
-    const uint16_t *mask = v->mask + (size_t)child * v->chunks;
-    const uint32_t *at = v->list + v->first;
-    uint32_t *to = v->room;
-    for (uint32_t i = 0; i < v->chunks; i++, at += CGT_LANES) {
-        const unsigned bits = mask[i];
-        if (!bits) /* neighbours mostly miss together */
-            continue;
-        spux_store_unaligned_uint(to, spux_compress(spux_load_uint(at), spux_mask_from_bits(bits)));
-        to += spux_count_bits(bits);
-    }
-    spux_store_unaligned_uint(to, spux_vuint(STREAM_NOBODY));
-    return (uint32_t)(to - v->room);
-}
 
 /* ---- ray by ray ---- */
 
@@ -203,8 +105,9 @@ __attribute__((noinline, cold)) static void stream_trace_extreme(stream *s, cons
         }
         if (best.object == CGT_NONE)
             continue;
-        stream_close(s, list[i]);
-        if (!s->call.any_hit)
+        if (s->call.any_hit)
+            stream_close(s, list[i]);
+        else
             stream_keep(s, list[i], -INFINITY, -INFINITY, best.object);
     }
 }
@@ -227,12 +130,6 @@ CGT_SPU_INLINE void stream_leaf(stream *s, const wide_node *n, uint32_t child, c
                             hides);
 }
 
-/* The child at a position in the octant's order. */
-CGT_SPU_INLINE uint32_t stream_child(const stream *s, const wide_node *n, uint32_t position)
-{
-    return s->octant < 4 ? n->order[s->octant][position] : n->order[7 - s->octant][n->children - 1 - position];
-}
-
 CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count, bool any_hit, bool hides)
 {
     stream_level level[CGT_WIDE_MAX_DEPTH];
@@ -251,8 +148,10 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
             depth--;
             continue;
         }
-        const uint32_t child = stream_child(s, v->node, v->next++), code = v->node->child[child];
-        const uint32_t rays = stream_make_list(v, child);
+        stream_renew_masks(s, v, any_hit);
+        const stream_order order = stream_order_make(s, v->node);
+        const uint32_t child = order.first[order.step * (ptrdiff_t)v->next], code = v->node->child[child];
+        const uint32_t rays = stream_make_list(v, v->next++);
         if (!rays)
             continue;
         if (rays <= (code & CGT_WIDE_LEAF ? STREAM_FEW_AT_LEAF : STREAM_FEW_AT_NODE)) {
@@ -287,17 +186,6 @@ __attribute__((noinline)) static void stream_trace_hiding(stream *s, const uint3
 }
 
 /* ---- hits ---- */
-
-__attribute__((noinline)) static void stream_hand_out_any(stream *s, uint32_t count, uint8_t *occluded)
-{
-    uint64_t hits = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint8_t hit = s->record[i][RECORD_FAR] == -INFINITY;
-        occluded[i] = hit;
-        hits += hit;
-    }
-    s->call.counts->hits += hits;
-}
 
 /* A packet of rays with their winners, ready to be resolved. */
 CGT_SPU_INLINE void stream_fill_packet(const stream *s, uint32_t first, uint32_t count, packet *p)
@@ -390,6 +278,9 @@ void CGT_KERNEL(cgt_wide_trace_rays)(const cgt_world *world, const cgt_rays *ray
     s.call.source = &source;
     s.call.first = first;
     s.call.any_hit = hits == NULL;
+    s.occluded = hits ? NULL : occluded + first;
+    if (!hits)
+        memset(s.occluded, 0, count);
     counts->rays += count;
     counts->wide_rays += count;
     if (s.call.any_hit)
@@ -404,7 +295,7 @@ void CGT_KERNEL(cgt_wide_trace_rays)(const cgt_world *world, const cgt_rays *ray
         for (uint32_t k = 0; k <= STREAM_EXTREME; k++)
             stream_trace_extreme(&s, s.all + start[k], number[k]);
     if (!hits)
-        stream_hand_out_any(&s, count, occluded + first);
+        counts->hits += s.changed;
     else
         stream_hand_out_nearest(&s, count, settings, hits);
 }

@@ -49,16 +49,20 @@ typedef struct stream {
     };
     uint32_t mask[CGT_RAYS_CHUNK];
     wide_call call;
-    float slack[3];  /* E of all rays of streams */
-    uint32_t octant; /* in work */
+    float slack[3];    /* E of all rays of streams */
+    uint32_t octant;   /* in work */
+    uint32_t changed;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
+    uint8_t *occluded; /* any hit: the caller's, all 0 at first */
 } stream;
 
 CGT_SPU_INLINE float *stream_record(stream *s, uint32_t at) { return &s->record[0][0] + at; }
 
-/* A ray has found its hit: none is wanted any more. */
+/* An any-hit ray has found its hit: none is wanted any more. */
 CGT_SPU_INLINE void stream_close(stream *s, uint32_t at)
 {
     stream_record(s, at)[RECORD_FAR] = stream_record(s, at)[RECORD_LEAF_FAR] = -INFINITY;
+    s->occluded[at / STREAM_RECORD] = 1;
+    s->changed++;
 }
 
 /* Keeps a ray's best hit. */
@@ -69,6 +73,7 @@ CGT_SPU_INLINE void stream_keep(stream *s, uint32_t at, float low, float high, u
     b->high = high;
     b->object = object;
     stream_record(s, at)[RECORD_FAR] = stream_record(s, at)[RECORD_LEAF_FAR] = high;
+    s->changed++;
 }
 
 #endif

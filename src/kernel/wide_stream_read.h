@@ -67,11 +67,14 @@ CGT_SPU_INLINE vmask stream_extreme(const stream_lanes *q, vfloat longest, vfloa
     return spu_or(given, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(WIDE_LARGEST_ORG))));
 }
 
-/* 1 / d with components made large enough, see wide_ray.h. */
+/* 1 / d with components made large enough, see wide_ray.h: estimates are good to 11 bits at least, a step of Newton's
+ * makes them 2^-21. */
 CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
 {
     const vfloat flat = spux_vfloat(WIDE_FLAT), sign = spu_and(d, spux_vfloat(-0.f));
-    return spux_div(spux_vfloat(1), spux_select(d, spu_or(sign, flat), spu_cmpgt(flat, spux_abs(d))));
+    const vfloat e = spux_select(d, spu_or(sign, flat), spu_cmpgt(flat, spux_abs(d)));
+    const vfloat r = spu_re(e);
+    return spu_madd(spu_nmsub(e, r, spux_vfloat(1)), r, r);
 }
 
 /* Makes the records of rays i to i + count - 1. most: of the coordinates of origins in streams. */
@@ -114,11 +117,13 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     const vfloat first = spux_max(near, spux_vfloat(-WIDE_LARGEST_T));
     /* rays that are not traced must not look as if they had hit */
     const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, extreme));
-    float *record = s->record[i];
-    spux_store_records4(record + RECORD_RDIR, STREAM_RECORD, (const vfloat[4]){rdir[0], rdir[1], rdir[2], first});
-    spux_store_records4(record + RECORD_SHIFT, STREAM_RECORD, (const vfloat[4]){shift[0], shift[1], shift[2], last});
-    spux_store_records4(record + RECORD_ORG, STREAM_RECORD, (const vfloat[4]){org[0], org[1], org[2], first});
-    spux_store_records4(record + RECORD_DIR, STREAM_RECORD, (const vfloat[4]){dir[0], dir[1], dir[2], last});
+    vfloat row[STREAM_RECORD] = {rdir[0], rdir[1], rdir[2], first, shift[0], shift[1], shift[2], last,
+                                 org[0],  org[1],  org[2],  first, dir[0],   dir[1],   dir[2],   last};
+    for (uint32_t k = 0; k < STREAM_RECORD; k += CGT_LANES) {
+        spux_transpose(row + k);
+        for (uint32_t j = 0; j < CGT_LANES; j++)
+            spux_store(s->record[i + j] + k, row[k + j]);
+    }
     if (any_hit)
         return;
     const vfloat inside = spu_sub(spu_nmsub(spux_abs(last), spux_vfloat(0x1p-18f), last), spux_vfloat(0x1p-84f));
@@ -157,6 +162,7 @@ CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_
     for (uint32_t k = 0; k < STREAM_RECORD; k++)
         nobody[k] = 1;
     stream_keep(s, STREAM_NOBODY, -INFINITY, -INFINITY, CGT_NONE);
+    s->changed = 0;
 }
 
 #endif
