@@ -34,8 +34,7 @@ int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
     planes->primitive = touched(pixels * sizeof *planes->primitive);
     for (int i = 0; i < 3; i++)
         planes->normal[i] = touched(pixels * sizeof(float));
-    planes->shadow = touched(pixels);
-    if (planes->t && planes->primitive && planes->normal[0] && planes->normal[1] && planes->normal[2] && planes->shadow)
+    if (planes->t && planes->primitive && planes->normal[0] && planes->normal[1] && planes->normal[2])
         return 0;
     bench_planes_release(planes);
     return -1;
@@ -43,7 +42,6 @@ int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
 
 void bench_planes_release(bench_planes *planes)
 {
-    free(planes->shadow);
     for (int i = 0; i < 3; i++)
         free(planes->normal[i]);
     free(planes->primitive);

@@ -15,7 +15,6 @@ typedef struct bench_planes {
     float *t;
     uint32_t *primitive;
     float *normal[3];
-    uint8_t *shadow; /* 1 where the light is hidden; written by the shadow rays */
 } bench_planes;
 
 /* 0, or -1 where memory is refused. */

@@ -18,20 +18,25 @@
 #endif
 
 enum {
-    BLOCK = 4,                  /* pixels along a block's edge */
-    GROUP = BLOCK * BLOCK,      /* hit pixels whose rays lie together */
-    GROUPS_PER_PIECE = 64,      /* groups that one call of a task makes */
-    SHADOW_RUN = 256,           /* shadow rays made at once */
-    RAYS_PER_BATCH = 128 * 1024 /* 3 MB of arrays: long enough to share out, short enough to stay in a cache */
+    BLOCK = 4,             /* pixels along a block's edge */
+    GROUP = BLOCK * BLOCK, /* hit pixels whose rays lie together */
+    TILE = BENCH_TILE_EDGE,
+    TILES_PER_ROUND = 8,   /* tiles whose hits are listed before rays are made of them: as many as stay in a cache */
+    GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
+    SHADOW_RUN = 256,      /* shadow rays made at once */
+    RAYS_PER_BATCH = 32 * 1024
 };
 
 struct bench_rays {
     bench_threads *threads;
     const bench_camera_axes *axes;
     const bench_planes *planes;
-    uint32_t block_columns, block_rows;
-    uint64_t *row_first; /* where the hit pixels of a row of blocks begin in hit; block_rows + 1 of them */
-    uint32_t *hit;       /* hit pixels in block order: x + 65536 y */
+    uint32_t block_columns;
+    uint32_t tiles;
+    uint32_t round_first; /* the first tile whose hits are not listed yet */
+    uint32_t tile_hits[TILES_PER_ROUND];
+    uint32_t *of_tile; /* hit pixels of each tile of a round: x + 65536 y */
+    uint32_t *hit;     /* of all tiles, without gaps */
     uint64_t hits;
     uint64_t batch_rays; /* rays that the arrays hold */
     float *org[3], *dir[3];
@@ -97,16 +102,6 @@ void bench_camera_direction(const bench_camera_axes *axes, uint32_t x, uint32_t 
         dir[i] = axes->fwd[i] + px * axes->right[i] + py * axes->up[i];
 }
 
-/* Direction of a pixel's camera ray, and the point just before its hit. */
-static void surface_point(const bench_rays *rays, uint32_t x, uint32_t y, float dir[3], float point[3])
-{
-    const bench_camera_axes *axes = rays->axes;
-    const float back = rays->planes->t[(size_t)y * axes->width + x] * 0.9999f;
-    bench_camera_direction(axes, x, y, dir);
-    for (int i = 0; i < 3; i++)
-        point[i] = axes->eye[i] + back * dir[i];
-}
-
 /* ---- Memory -------------------------------------------------------------------------------------------------- */
 
 bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *axes, const bench_planes *planes,
@@ -119,15 +114,15 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
     rays->axes = axes;
     rays->planes = planes;
     rays->block_columns = (axes->width + BLOCK - 1) / BLOCK;
-    rays->block_rows = (axes->height + BLOCK - 1) / BLOCK;
-    rays->row_first = calloc((size_t)rays->block_rows + 1, sizeof *rays->row_first);
+    rays->tiles = bench_tiles(axes);
+    rays->of_tile = calloc((size_t)TILES_PER_ROUND * BENCH_TILE_PIXELS, sizeof *rays->of_tile);
     rays->hit = calloc((size_t)axes->width * axes->height, sizeof *rays->hit);
     rays->batch_rays = (uint64_t)GROUP * (most_ao > 1 ? most_ao : 1);
     if (rays->batch_rays < RAYS_PER_BATCH)
         rays->batch_rays = RAYS_PER_BATCH;
 
     const size_t batch = (size_t)rays->batch_rays;
-    int complete = rays->row_first && rays->hit;
+    int complete = rays->of_tile && rays->hit;
     for (int i = 0; i < 3; i++) {
         rays->org[i] = malloc(batch * sizeof(float));
         rays->dir[i] = malloc(batch * sizeof(float));
@@ -159,7 +154,7 @@ void bench_rays_release(bench_rays *rays)
         free(rays->org[i]);
     }
     free(rays->hit);
-    free(rays->row_first);
+    free(rays->of_tile);
     free(rays);
 }
 
@@ -171,57 +166,103 @@ void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user)
 
 void bench_rays_nearest(bench_rays *rays, int nearest) { rays->nearest = nearest; }
 
-/* ---- The hit pixels, in block order -------------------------------------------------------------------------- */
+/* ---- The hit pixels, tile by tile ---------------------------------------------------------------------------- */
 
-static void count_block_row(void *argument, uint32_t row)
+uint32_t bench_tiles(const bench_camera_axes *axes)
 {
-    bench_rays *rays = argument;
-    const uint32_t width = rays->axes->width, height = rays->axes->height;
-    uint64_t count = 0;
-
-    for (uint32_t y = row * BLOCK; y < height && y < (row + 1) * BLOCK; y++) {
-        const float *t = rays->planes->t + (size_t)y * width;
-        uint32_t in_row = 0;
-        for (uint32_t x = 0; x < width; x++)
-            in_row += t[x] < INFINITY;
-        count += in_row;
-    }
-    rays->row_first[row + 1] = count;
+    return ((axes->width + TILE - 1) / TILE) * ((axes->height + TILE - 1) / TILE);
 }
 
-static void list_block_row(void *argument, uint32_t row)
+/* Every second bit of a block's place along the curve. */
+static uint32_t even_bits(uint32_t i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4) | (i >> 3 & 8); }
+
+uint32_t bench_tile_pixels(const bench_camera_axes *axes, uint32_t tile, uint32_t pixel[BENCH_TILE_PIXELS])
+{
+    const uint32_t columns = (axes->width + TILE - 1) / TILE;
+    const uint32_t left = tile % columns * TILE, top = tile / columns * TILE;
+    const int whole = axes->width - left >= TILE && axes->height - top >= TILE;
+    uint32_t count = 0;
+    for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
+        const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
+        for (uint32_t i = 0; i < GROUP; i++)
+            pixel[block * GROUP + i] = (x0 + i % BLOCK) | (y0 + i / BLOCK) << 16;
+    }
+    for (uint32_t i = 0; i < BENCH_TILE_PIXELS && !whole; i++) {
+        const uint32_t p = pixel[i];
+        pixel[count] = p;
+        count += (p & 0xffff) < axes->width && p >> 16 < axes->height;
+    }
+    return whole ? BENCH_TILE_PIXELS : count;
+}
+
+/* Appends the pixels of a block that have a hit: of most blocks all or none. Few branches: where a surface ends they are
+ * guessed wrong. */
+static inline uint32_t list_block(const float *t, const uint32_t *width, uint32_t x0, uint32_t y0, uint32_t *to)
+{
+    uint32_t is[GROUP], hits = 0, listed = 0;
+    for (uint32_t i = 0; i < GROUP; i++) {
+        is[i] = t[i / BLOCK * *width + i % BLOCK] < INFINITY;
+        hits += is[i];
+    }
+    if (!hits)
+        return 0;
+    if (hits == GROUP) {
+        for (uint32_t i = 0; i < GROUP; i++)
+            to[i] = (x0 + i % BLOCK) | (y0 + i / BLOCK) << 16;
+        return GROUP;
+    }
+    for (uint32_t i = 0; i < GROUP; i++) {
+        to[listed] = (x0 + i % BLOCK) | (y0 + i / BLOCK) << 16;
+        listed += is[i];
+    }
+    return listed;
+}
+
+/* Of the next tile, which lies in as many pieces as it has rows: no processor asks for those by itself. */
+static inline void ask_for_tile(const bench_rays *rays, uint32_t left, uint32_t top)
+{
+    const uint32_t width = rays->axes->width, height = rays->axes->height;
+    for (uint32_t y = top; y < top + TILE && y < height; y++)
+        for (uint32_t x = left; x < left + TILE && x < width; x += 16)
+            __builtin_prefetch(rays->planes->t + (size_t)y * width + x);
+}
+
+/* The hits of a tile, into its own part of the list. */
+BENCH_CLONES
+static void list_tile(void *argument, uint32_t index)
 {
     bench_rays *rays = argument;
-    const uint32_t width = rays->axes->width, height = rays->axes->height;
-    const uint32_t y_end = height < (row + 1) * BLOCK ? height : (row + 1) * BLOCK;
-    uint64_t next = rays->row_first[row];
-
-    for (uint32_t x0 = 0; x0 < width; x0 += BLOCK) {
-        const uint32_t x_end = width - x0 < BLOCK ? width : x0 + BLOCK;
-        for (uint32_t y = row * BLOCK; y < y_end; y++) {
-            const float *t = rays->planes->t + (size_t)y * width;
-            for (uint32_t x = x0; x < x_end; x++)
-                if (t[x] < INFINITY)
-                    rays->hit[next++] = x | y << 16;
+    const uint32_t tile = rays->round_first + index;
+    const uint32_t width = rays->axes->width, height = rays->axes->height, columns = (width + TILE - 1) / TILE;
+    const uint32_t left = tile % columns * TILE, top = tile / columns * TILE;
+    uint32_t *to = rays->of_tile + (size_t)index * BENCH_TILE_PIXELS, hits = 0;
+    ask_for_tile(rays, left + TILE, top);
+    if (width - left >= TILE && height - top >= TILE) {
+        for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
+            const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
+            hits += list_block(rays->planes->t + (size_t)y0 * width + x0, &width, x0, y0, to + hits);
+        }
+    } else {
+        const uint32_t pixels = bench_tile_pixels(rays->axes, tile, to);
+        for (uint32_t i = 0; i < pixels; i++) {
+            const uint32_t p = to[i];
+            to[hits] = p;
+            hits += rays->planes->t[(size_t)(p >> 16) * width + (p & 0xffff)] < INFINITY;
         }
     }
+    rays->tile_hits[index] = hits;
 }
 
-static void find_hits(bench_rays *rays)
+/* The hits of so many tiles more, behind those that there are. */
+static void list_round(bench_rays *rays, uint32_t tiles)
 {
-    bench_threads_run(rays->threads, count_block_row, rays, rays->block_rows);
-    rays->row_first[0] = 0;
-    for (uint32_t row = 0; row < rays->block_rows; row++)
-        rays->row_first[row + 1] += rays->row_first[row];
-    rays->hits = rays->row_first[rays->block_rows];
-    bench_threads_run(rays->threads, list_block_row, rays, rays->block_rows);
-}
-
-/* Number of a pixel in the order of blocks: what the hash of its rays starts from. */
-static uint32_t block_order(const bench_rays *rays, uint32_t x, uint32_t y)
-{
-    const uint32_t block = y / BLOCK * rays->block_columns + x / BLOCK;
-    return block * GROUP + (y % BLOCK) * BLOCK + x % BLOCK;
+    bench_threads_run(rays->threads, list_tile, rays, tiles);
+    for (uint32_t i = 0; i < tiles; i++) {
+        const uint32_t hits = rays->tile_hits[i];
+        memcpy(rays->hit + rays->hits, rays->of_tile + (size_t)i * BENCH_TILE_PIXELS, hits * sizeof *rays->hit);
+        rays->hits += hits;
+    }
+    rays->round_first += tiles;
 }
 
 /* ---- Making rays --------------------------------------------------------------------------------------------- */
@@ -235,16 +276,19 @@ static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
 }
 
 /* Plain loops over a run of rays, which the compiler makes vectors of. */
+BENCH_CLONES
 static void make_shadow_run(bench_rays *rays, uint64_t first, uint32_t count)
 {
     const bench_camera_axes *axes = rays->axes;
     const float sx = axes->step[0], sy = axes->step[1];
+    const float *t = rays->planes->t;
+    const uint32_t *hit = rays->hit + rays->batch_first + first, width = axes->width;
     float px[SHADOW_RUN], py[SHADOW_RUN], back[SHADOW_RUN];
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t pixel = rays->hit[rays->batch_first + first + k], x = pixel & 0xffff, y = pixel >> 16;
+        const uint32_t pixel = hit[k], x = pixel & 0xffff, y = pixel >> 16;
         px[k] = ((float)x + 0.5f) * sx - 1.0f;
         py[k] = 1.0f - ((float)y + 0.5f) * sy;
-        back[k] = rays->planes->t[(size_t)y * axes->width + x] * 0.9999f;
+        back[k] = t[(int32_t)(y * width + x)] * 0.9999f; /* at most 2^28 pixels */
     }
     for (int a = 0; a < 3; a++) {
         const float eye = axes->eye[a], fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a];
@@ -317,19 +361,36 @@ static void turn_to_eye(const ao_group *g, float v[3][GROUP])
     }
 }
 
+/* Plain loops, as above. */
+BENCH_CLONES
 static void read_group(const bench_rays *rays, uint64_t first, uint32_t pixels, ao_group *g)
 {
+    const bench_camera_axes *axes = rays->axes;
+    const bench_planes *planes = rays->planes;
+    const float sx = axes->step[0], sy = axes->step[1], *t = planes->t;
+    const uint32_t *hit = rays->hit + rays->batch_first + first, width = axes->width, columns = rays->block_columns;
+    int32_t element[GROUP]; /* at most 2^28 pixels */
+    float px[GROUP], py[GROUP], back[GROUP];
+    uint32_t of[GROUP];
+    for (uint32_t k = 0; k < GROUP; k++)
+        of[k] = hit[k < pixels ? k : pixels - 1];
     for (uint32_t k = 0; k < GROUP; k++) {
-        const uint32_t pixel = rays->hit[rays->batch_first + first + (k < pixels ? k : pixels - 1)];
-        const uint32_t x = pixel & 0xffff, y = pixel >> 16;
-        float dir[3], point[3];
-        surface_point(rays, x, y, dir, point);
-        g->order[k] = block_order(rays, x, y);
+        const uint32_t x = of[k] & 0xffff, y = of[k] >> 16;
+        element[k] = (int32_t)(y * width + x);
+        px[k] = ((float)x + 0.5f) * sx - 1.0f;
+        py[k] = 1.0f - ((float)y + 0.5f) * sy;
+        back[k] = t[element[k]] * 0.9999f;
+        g->order[k] = (y / BLOCK * columns + x / BLOCK) * GROUP + (y % BLOCK) * BLOCK + x % BLOCK;
         g->side[k] = 0;
-        for (int i = 0; i < 3; i++) {
-            g->point[i][k] = point[i];
-            g->normal[i][k] = rays->planes->normal[i][(size_t)y * rays->axes->width + x];
-            g->side[k] -= dir[i] * g->normal[i][k];
+    }
+    for (int i = 0; i < 3; i++) {
+        const float eye = axes->eye[i], fwd = axes->fwd[i], right = axes->right[i], up = axes->up[i];
+        const float *normal = planes->normal[i];
+        for (uint32_t k = 0; k < GROUP; k++) {
+            const float dir = fwd + px[k] * right + py[k] * up;
+            g->point[i][k] = eye + back[k] * dir;
+            g->normal[i][k] = normal[element[k]];
+            g->side[k] -= dir * g->normal[i][k];
         }
     }
 }
@@ -367,17 +428,6 @@ static void make_ao_rays(void *argument, uint32_t piece)
 
 /* ---- Passes -------------------------------------------------------------------------------------------------- */
 
-/* The shadow rays of a batch are in the order of the list: back to the plane. */
-static void store_shadows(void *argument, uint32_t piece)
-{
-    bench_rays *rays = argument;
-    const uint64_t begin = piece_begin(piece), end = piece_end(rays, piece);
-    for (uint64_t i = begin; i < end; i++) {
-        const uint32_t pixel = rays->hit[rays->batch_first + i];
-        rays->planes->shadow[(size_t)(pixel >> 16) * rays->axes->width + (pixel & 0xffff)] = rays->occluded[i];
-    }
-}
-
 static cgt_result trace_nearest(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                                 const cgt_rays *array)
 {
@@ -414,6 +464,15 @@ static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, co
                                    : cgt_occluded_rays(scene, &array, rays->occluded, options);
 }
 
+BENCH_CLONES
+static uint64_t sum_bytes(const uint8_t *byte, uint64_t count)
+{
+    uint64_t sum = 0;
+    for (uint64_t i = 0; i < count; i++)
+        sum += byte[i];
+    return sum;
+}
+
 /* One pass over all hit pixels with `samples` rays each; shadow rays where light is 1. */
 static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                              uint32_t samples, int light, uint64_t *occluded)
@@ -423,21 +482,24 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
 
     *occluded = 0;
     rays->samples = samples;
-    find_hits(rays);
-    for (rays->batch_first = 0; rays->batch_first < rays->hits; rays->batch_first += rays->batch_hits) {
-        const uint64_t left = rays->hits - rays->batch_first;
-        rays->batch_hits = left < batch ? left : batch;
-        const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
-        bench_threads_run(rays->threads, light ? make_shadow_rays : make_ao_rays, rays, pieces);
+    rays->hits = rays->batch_first = rays->round_first = 0;
+    while (rays->round_first < rays->tiles) {
+        const uint32_t tiles = rays->tiles - rays->round_first;
+        list_round(rays, tiles < TILES_PER_ROUND ? tiles : TILES_PER_ROUND);
+        /* whole groups, but for the last one */
+        const uint64_t end = rays->round_first < rays->tiles ? rays->hits / GROUP * GROUP : rays->hits;
+        for (; rays->batch_first < end; rays->batch_first += rays->batch_hits) {
+            const uint64_t left = end - rays->batch_first;
+            rays->batch_hits = left < batch ? left : batch;
+            const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
+            bench_threads_run(rays->threads, light ? make_shadow_rays : make_ao_rays, rays, pieces);
 
-        const uint64_t count = rays->batch_hits * samples;
-        const cgt_result result = trace_batch(rays, scene, options, count, light);
-        if (result != CGT_OK)
-            return result;
-        for (uint64_t i = 0; i < count; i++)
-            *occluded += rays->occluded[i];
-        if (light)
-            bench_threads_run(rays->threads, store_shadows, rays, pieces);
+            const uint64_t count = rays->batch_hits * samples;
+            const cgt_result result = trace_batch(rays, scene, options, count, light);
+            if (result != CGT_OK)
+                return result;
+            *occluded += sum_bytes(rays->occluded, count);
+        }
     }
     return CGT_OK;
 }

@@ -15,7 +15,7 @@
  *   diffuse bounce              the normal on that side and the hashed point, moved to the unit sphere, added up; the
  *                               same range
  *
- * A pass finds the hit pixels, in the order of o, then makes and traces rays batch by batch: the benchmark's threads
+ * A pass finds the hit pixels, tile by tile as renderers trace them (bench_tile_pixels), then makes and traces rays batch by batch: the benchmark's threads
  * fill the arrays of a batch, of shadow rays the origins alone, the library's threads trace it, each as many as the
  * context has. */
 #ifndef BENCH_RAYS_H
@@ -29,6 +29,8 @@
 #include "bench_threads.h"
 
 #define BENCH_MOST_AO_RAYS 1024u
+#define BENCH_TILE_EDGE 64u
+#define BENCH_TILE_PIXELS (BENCH_TILE_EDGE * BENCH_TILE_EDGE)
 
 /* The axes of a perspective camera; right and up are scaled to half the picture. */
 typedef struct bench_camera_axes {
@@ -41,6 +43,13 @@ void bench_camera_axes_init(bench_camera_axes *axes, const cgt_camera *camera, u
 
 /* Of a pixel's camera ray. */
 void bench_camera_direction(const bench_camera_axes *axes, uint32_t x, uint32_t y, float dir[3]);
+
+/* Tiles of a picture, row by row. */
+uint32_t bench_tiles(const bench_camera_axes *axes);
+
+/* The pixels of a tile, x + 65536 y: blocks of 4x4 along a Morton curve, pixels row by row within a block. Returns how
+ * many they are: less than BENCH_TILE_PIXELS at the picture's right and lower edge. */
+uint32_t bench_tile_pixels(const bench_camera_axes *axes, uint32_t tile, uint32_t pixel[BENCH_TILE_PIXELS]);
 
 typedef struct bench_rays bench_rays;
 

@@ -29,7 +29,7 @@ typedef enum sweep_kind {
 } sweep_kind;
 
 typedef enum sweep_order {
-    SWEEP_BLOCKS,   /* blocks of 4x4 pixels, row by row */
+    SWEEP_BLOCKS,   /* tiles of 64x64 pixels, in them blocks of 4x4 along a Morton curve */
     SWEEP_TILES,    /* tiles of 64x64 pixels, row by row, shuffled within each */
     SWEEP_SHUFFLED, /* as a whole */
     SWEEP_ORDERS

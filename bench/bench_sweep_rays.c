@@ -8,30 +8,17 @@
 #include "bench_random.h"
 #include "bench_sweep.h"
 
-enum { BLOCK = 4, TILE = 64 };
-
 /* ---- Making -------------------------------------------------------------------------------------------------- */
 
-static uint32_t tile_columns(const sweep_job *job) { return (job->axes.width + TILE - 1) / TILE; }
+static uint32_t tile_columns(const sweep_job *job) { return (job->axes.width + BENCH_TILE_EDGE - 1) / BENCH_TILE_EDGE; }
 
-static uint32_t tile_of(const sweep_job *job, uint32_t x, uint32_t y)
+/* The tile of the pixel that comes `place`-th, tile by tile; those of the lowest row may be cut. */
+static uint32_t tile_at(const sweep_job *job, uint64_t place)
 {
-    return y / TILE * tile_columns(job) + x / TILE;
-}
-
-static uint32_t tiles_of(const sweep_job *job) { return (job->axes.height + TILE - 1) / TILE * tile_columns(job); }
-
-/* The pixel that comes `place`-th by blocks; blocks at the picture's right and lower edge may be cut. */
-static void block_pixel(const bench_camera_axes *axes, uint64_t place, uint32_t *x, uint32_t *y)
-{
-    const uint64_t row = (uint64_t)BLOCK * axes->width; /* pixels of a row of blocks that is not cut */
-    const uint32_t top = (uint32_t)(place / row) * BLOCK;
-    const uint32_t rows = axes->height - top < BLOCK ? axes->height - top : BLOCK;
-    const uint32_t in_row = (uint32_t)(place % row), left = in_row / (BLOCK * rows) * BLOCK;
-    const uint32_t columns = axes->width - left < BLOCK ? axes->width - left : BLOCK;
-    const uint32_t in_block = in_row - left * rows;
-    *x = left + in_block % columns;
-    *y = top + in_block / columns;
+    const uint64_t row = (uint64_t)BENCH_TILE_EDGE * job->axes.width; /* pixels of a row of tiles that is not cut */
+    const uint32_t down = (uint32_t)(place / row), left = job->axes.height - down * BENCH_TILE_EDGE;
+    const uint32_t rows = left < BENCH_TILE_EDGE ? left : BENCH_TILE_EDGE;
+    return down * tile_columns(job) + (uint32_t)(place % row) / (BENCH_TILE_EDGE * rows);
 }
 
 static cgt_result make_camera_rays(const sweep_job *job, structures_rays *rays)
@@ -42,17 +29,18 @@ static cgt_result make_camera_rays(const sweep_job *job, structures_rays *rays)
     const cgt_result result = structures_rays_reserve(rays, pixels);
     if (result != CGT_OK)
         return result;
-    for (uint64_t i = 0; i < pixels; i++) {
-        uint32_t x, y;
-        float dir[3];
-        block_pixel(&job->axes, i, &x, &y);
-        bench_camera_direction(&job->axes, x, y, dir);
-        for (int a = 0; a < 3; a++) {
-            rays->org[a][i] = job->axes.eye[a];
-            rays->dir[a][i] = dir[a];
+    for (uint32_t tile = 0; tile < bench_tiles(&job->axes); tile++) {
+        uint32_t pixel[BENCH_TILE_PIXELS];
+        const uint32_t in_tile = bench_tile_pixels(&job->axes, tile, pixel);
+        for (uint32_t i = 0; i < in_tile; i++, rays->count++) {
+            float dir[3];
+            bench_camera_direction(&job->axes, pixel[i] & 0xffff, pixel[i] >> 16, dir);
+            for (int a = 0; a < 3; a++) {
+                rays->org[a][rays->count] = job->axes.eye[a];
+                rays->dir[a][rays->count] = dir[a];
+            }
         }
     }
-    rays->count = pixels;
     return CGT_OK;
 }
 
@@ -72,15 +60,12 @@ static cgt_result make_rays(sweep_job *job, sweep_kind kind)
 
 static uint32_t tile_of_ray(const sweep_job *job, sweep_kind kind, uint64_t ray)
 {
-    uint32_t x, y;
     if (kind == SWEEP_RANDOM)
         return 0;
-    if (kind == SWEEP_CAMERA) {
-        block_pixel(&job->axes, ray, &x, &y);
-        return tile_of(job, x, y);
-    }
+    if (kind == SWEEP_CAMERA)
+        return tile_at(job, ray);
     const uint32_t pixel = bench_rays_pixel(job->maker, ray, kind == SWEEP_AO ? job->settings->ao : 1);
-    return tile_of(job, pixel & 0xffff, pixel >> 16);
+    return (pixel >> 16) / BENCH_TILE_EDGE * tile_columns(job) + (pixel & 0xffff) / BENCH_TILE_EDGE;
 }
 
 cgt_result sweep_rays_make(sweep_job *job, sweep_kind kind)
@@ -128,7 +113,7 @@ static void shuffle(uint32_t *turn, uint64_t count, uint64_t *state)
 static cgt_result order_tiles(const sweep_job *job, uint64_t *state)
 {
     const sweep_rays *rays = &job->rays;
-    const uint32_t tiles = tiles_of(job);
+    const uint32_t tiles = bench_tiles(&job->axes);
     uint64_t *end = calloc((size_t)tiles + 1, sizeof *end); /* of the tile before; after filling of the tile itself */
     if (!end)
         return CGT_ERROR_OUT_OF_MEMORY;
