@@ -8,13 +8,15 @@
 . "$(dirname "$0")/cli.sh"
 
 samples=64
-[ -z "$slow" ] || samples=16
+[ -z "$slow" ] || samples=2
 run 0 "$tmp/sky.ppm" $samples
 says out '^[0-9]* pixels see [0-9.]* % of the sky$'
 [ "$(head -n 3 "$tmp/sky.ppm" | tr '\n' ' ')" = 'P6 640 384 255 ' ] || fail 'the head of the picture'
 [ "$(wc -c <"$tmp/sky.ppm")" -eq $((15 + 640 * 384 * 3)) ] || fail 'the size of the picture'
-run 0 "$tmp/again.ppm" $samples
-cmp "$tmp/sky.ppm" "$tmp/again.ppm" || fail 'another picture the second time'
+if [ -z "$slow" ]; then # says nothing new where it is
+    run 0 "$tmp/again.ppm" $samples
+    cmp "$tmp/sky.ppm" "$tmp/again.ppm" || fail 'another picture the second time'
+fi
 
 # Seen from (5, 9, 14) towards (0, 2, 0), 38 degrees. Red of the top of the pile, where the sky is whole; of the sky
 # itself and of the floor far away; and of the floor between two balls at the pile's edge, which hide much of it.
@@ -44,8 +46,10 @@ for samples in 0 1025 1x ''; do
     says err '^usage: ambient-occlusion'
 done
 run 2
-run 1 "$tmp/no/folder.ppm" 1
-says err 'folder.ppm'
+if [ -z "$slow" ]; then # it traces first
+    run 1 "$tmp/no/folder.ppm" 1
+    says err 'folder.ppm'
+fi
 
 [ "$failures" -eq 0 ] || { echo "$failures failures" >&2; exit 1; }
 echo 'ambient-occlusion: the sky where it should be'

@@ -353,7 +353,8 @@ static void test_kind(void **state)
 {
     const structure_kind kind = *(const structure_kind *)*state;
     const uint32_t scaled = test_scaled(4), rounds = kind == STRUCTURE_LARGE || kind == STRUCTURE_BEYOND ? 1 : scaled;
-    const uint32_t step = test_samples() ? 6 : 1; /* of the ways, where it is slow; prime to them and to the kinds */
+    /* of the ways, where it is slow; prime to them */
+    const uint32_t step = test_samples() ? 11 : test_scaled(10) < 2 ? 3 : 1;
     for (uint32_t round = 0; round < rounds; round++) {
         question q = ask(kind, 100 * (uint64_t)kind + round);
         for (uint32_t number = test_sample_start(round + (uint32_t)kind, step); number < WAYS; number += step)

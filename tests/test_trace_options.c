@@ -66,10 +66,13 @@ static void compare(picture *p, const cgt_scene *scene, const cgt_trace_options 
                  (int)o->tile, (int)o->loop, (int)o->cull, o->mailbox, (int)o->kd_traversal);
 }
 
+/* With sanitizers, too, only a sample of the choices. */
+static bool is_slow(void) { return test_scaled(10) < 2; }
+
 /* Where it is slow, a sample of the choices, each time another. */
 static void compare_all_options(picture *p, const cgt_scene *scene, const char *where)
 {
-    const uint32_t step = test_samples() ? 7 : 1; /* prime to the choices */
+    const uint32_t step = test_samples() ? 7 : is_slow() ? 5 : 1; /* prime to the choices */
     for (uint32_t choice = test_sample_start(p->compared, step); choice < 4 * 2 * 3 * 2; choice += step) {
         cgt_trace_options o;
         cgt_trace_options_init(&o);
@@ -84,7 +87,7 @@ static void compare_all_options(picture *p, const cgt_scene *scene, const char *
 
 static void compare_all_traversals(picture *p, const cgt_scene *scene, const char *where)
 {
-    const uint32_t step = test_samples() ? 3 : 1;
+    const uint32_t step = is_slow() ? 3 : 1;
     for (uint32_t choice = test_sample_start(p->compared, step); choice < 4 * 2 * 2; choice += step) {
         cgt_trace_options o;
         cgt_trace_options_init(&o);
@@ -124,7 +127,7 @@ static void every_option_gives_the_same_bits(void **state)
             cgt_scene_release(scene);
             cgt_context_release(context);
         }
-        assert_true(p.compared >= (test_samples() ? 16 : 64));
+        assert_true(p.compared >= (is_slow() ? 16 : 64));
         picture_free(&p);
     }
 }
@@ -139,7 +142,7 @@ static void every_resolution_gives_the_same_bits(void **state)
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(2, variant);
-            const uint32_t step = test_samples() ? 5 : 1; /* prime to them: both structures, each kind at another */
+            const uint32_t step = is_slow() ? 5 : 1; /* prime to them: both structures, each kind at another */
             for (size_t i = test_sample_start(round, step); i < 2 * TEST_COUNT(resolution); i += step) {
                 cgt_scene_options scene_options;
                 cgt_trace_options o;

@@ -235,6 +235,17 @@ static void records(void **state)
                 e.eu[k] = word_at(g.first + 4 * (at[k] + (uint32_t)a));
             check_bits("spux_load_records4_at", &d[a], &e);
         }
+        vfloat eight[8];
+        for (int k = 0; k < CGT_LANES; k++)
+            at[k] = random_below(&r, (uint32_t)(g.page / 4 - 7));
+        at[random_below(&r, CGT_LANES)] = (uint32_t)(g.page / 4 - 8);
+        spux_load_records8_at((const float *)g.first, at, eight);
+        for (int a = 0; a < 8; a++) {
+            d[0].f = eight[a];
+            for (int k = 0; k < CGT_LANES; k++)
+                e.eu[k] = word_at(g.first + 4 * (at[k] + (uint32_t)a));
+            check_bits("spux_load_records8_at", &d[0], &e);
+        }
     }
     guarded_free(&g);
 }
