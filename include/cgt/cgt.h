@@ -359,7 +359,8 @@ typedef struct cgt_trace_statistics {
                                  they hit nothing */
     uint64_t hits;            /* rays with a hit; occluded rays in the any-hit form */
     uint64_t wide_rays;       /* that went through a wide tree */
-    uint64_t tiles;           /* tiles of a camera's frame that went through a loose grid as a whole, not by packets */
+    uint64_t tiles;           /* tiles of a camera's frame, or of points against a light, that went through a loose grid
+                                 as a whole, not by packets */
     uint64_t packets;         /* packets traversed: common main axis and sign */
     uint64_t split_packets;   /* packets that had to be split because their rays disagreed or diverged */
     uint64_t slices;          /* slices of the grid that a packet entered */
@@ -505,7 +506,7 @@ typedef struct cgt_hits {
 
 /* Traces rays to their nearest hits, as cgt_trace_camera does. Neighbours in the arrays should be neighbours in
  * space: they are traced as packets where they are. Where AUTO has built a loose grid, the first calls since a commit
- * that bring an eighth as many rays as there are primitives build a wide tree, by the context's threads, in memory that
+ * that bring 1/32 as many rays as there are primitives build a wide tree, by the context's threads, in memory that
  * the scene keeps; any number of threads may trace meanwhile. Then OUT_OF_MEMORY and TOO_LARGE may be returned: no ray
  * was traced, and the call may be tried again. Else nothing is allocated. */
 CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
@@ -544,8 +545,9 @@ typedef struct cgt_points {
  * starts at the point, so that it begins exactly where the caller says, however far away the light is. The answer is
  * that of cgt_occluded_rays to these rays, but faster, and there is no array of directions to fill. A point with a NaN
  * or an infinity, in its range a NaN, or at the very place of the light, is counted as an invalid ray and not occluded.
- * Neighbours in the arrays should be neighbours in space. occluded: points->count bytes. Errors and memory: as
- * cgt_trace_rays. */
+ * Neighbours in the arrays should be neighbours in space: then a loose grid serves, tile by tile, in every precision
+ * exactly; points that lie apart from each other go as other rays do. occluded: points->count bytes. Errors and memory:
+ * as cgt_trace_rays. */
 CGT_API cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                       uint8_t *occluded, const cgt_trace_options *options);
 
