@@ -90,4 +90,29 @@ CGT_SPU_INLINE bool light_points_read(const light_call *c, uint32_t first, uint3
            ray_packet_make(c->world, &c->source, &c->order, first, count, p, c->counts);
 }
 
+/* Whether points first to first + count - 1 of the order have met something. */
+CGT_SPU_INLINE void light_hand_out(const light_call *c, const packet *p, uint32_t first, uint32_t count)
+{
+    const uint32_t *from = c->order.from ? c->order.from + first : NULL;
+    uint8_t *occluded = c->occluded + c->order.first;
+    if (!from)
+        for (uint32_t k = 0; k < count; k++)
+            occluded[first + k] = p->object[k] != CGT_NONE;
+    else
+        for (uint32_t k = 0; k < count; k++)
+            occluded[from[k]] = p->object[k] != CGT_NONE;
+}
+
+/* Points first to first + count - 1 of the order, at most a packet, through whatever structure there is. */
+__attribute__((unused)) static void light_trace_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
+{
+    if (!ray_packet_make(c->world, &c->source, &c->order, first, count, p, c->counts)) {
+        for (uint32_t k = 0; k < count; k++)
+            light_trace_packet(c, first + k, 1, p);
+        return;
+    }
+    CGT_KERNEL(cgt_packet_trace)(c->world, p, c->settings, c->counts);
+    light_hand_out(c, p, first, count);
+}
+
 #endif

@@ -158,9 +158,7 @@ static bool trace_points(const light_call *c, light_packet *l, uint32_t first, u
         }
     } else
         CGT_KERNEL(cgt_packet_trace)(c->world, &l->rays, c->settings, c->counts);
-    uint8_t *occluded = c->occluded + c->order.first + first;
-    for (uint32_t k = 0; k < count; k++)
-        occluded[k] = l->rays.object[k] != CGT_NONE;
+    light_hand_out(c, &l->rays, first, count);
     return true;
 }
 
