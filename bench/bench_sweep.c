@@ -356,10 +356,9 @@ int bench_ray_sweep(int argc, char **argv)
                "and together. Structures take turns in each of -r rounds (default 3). Fails where any finds another "
                "hit than the first, in any bit. Unless -c and -s are given, the camera is that of the procedural "
                "scenes, the picture 640x360."
-               "\vOrders: camera by tiles of 64x64 pixels and in them blocks of 4x4, tile shuffled within tiles of "
-               "64x64 pixels, shuffled as a "
-               "whole, in which alone random rays come. Of ambient-occlusion rays and bounces the order is that of "
-               "the pixels that they start from."};
+               "\vOrders: camera by tiles of 64x64 pixels and in them blocks of 4x4, tile shuffled within such tiles, "
+               "shuffled as a whole, in which alone random rays come. Of ambient-occlusion rays and bounces the order "
+               "is that of the pixels that they start from."};
     char error[PROGRAM_ERROR_SIZE] = "";
     sweep_settings settings = {.rays = DEFAULT_RAYS, .ao = 1, .light = {3.0f, 4.0f, -5.0f}};
     bench_settings_init(&settings.shared);

@@ -212,9 +212,9 @@ static void test_threshold(void **state)
     cgt_scene *asked = scene_of(contexts[0], &grid, (const float(*)[4])c.sphere, c.count);
     (void)state;
     for (int round = 0; round < 2; round++) {
-        assert_int_equal(want(scene, 600), CGT_OK);
+        assert_int_equal(want(scene, 150), CGT_OK);
         assert_null(scene->world.wide.node);
-        assert_int_equal(want(scene, 600), CGT_OK);
+        assert_int_equal(want(scene, 150), CGT_OK);
         assert_non_null(scene->world.wide.node);
         check_tree(scene, "threshold");
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
