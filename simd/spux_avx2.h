@@ -41,6 +41,10 @@ CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm256_sqrt_ps((__m25
 CGT_SPU_INLINE vmask spux_cmpge(vfloat a, vfloat b) { return (vmask)(a >= b); }
 
 /* ---- selection ---- */
+#if defined(__AVX512VL__) /* no blend: see spux_sse.h */
+CGT_SPU_INLINE vfloat cgt_spux_select_f32w(vfloat a, vfloat b, vmask m) { return cgt_spu_sel_f32w(a, b, m); }
+CGT_SPU_INLINE vuint cgt_spux_select_u32w(vuint a, vuint b, vmask m) { return cgt_spu_sel_u32w(a, b, m); }
+#else
 CGT_SPU_INLINE vfloat cgt_spux_select_f32w(vfloat a, vfloat b, vmask m)
 {
     return (vfloat)_mm256_blendv_ps((__m256)a, (__m256)b, (__m256)m);
@@ -49,6 +53,7 @@ CGT_SPU_INLINE vuint cgt_spux_select_u32w(vuint a, vuint b, vmask m)
 {
     return (vuint)_mm256_blendv_epi8((__m256i)a, (__m256i)b, (__m256i)m);
 }
+#endif
 
 /* ---- memory ---- */
 CGT_SPU_INLINE vuint cgt_spux_load_w(const void *p) { return (vuint)_mm256_load_si256(p); }

@@ -47,6 +47,9 @@ CGT_SPU_INLINE uint32_t cgt_spux_hmax_u32w(vuint a)
 #define CGT_SPUX_OWN_SQRT
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm_sqrt_ps((__m128)a); }
 
+/* With AVX-512VL selection is bit by bit, one vpternlog, as spu_sel is: gcc 12 up to 12.3 and 13 up to 13.2 take a blend by
+ * ~m for one by m there (gcc's bug 112443). */
+#if !defined(__AVX512VL__)
 #define CGT_SPUX_OWN_SELECT
 CGT_SPU_INLINE vfloat cgt_spux_select_f32w(vfloat a, vfloat b, vmask m)
 {
@@ -56,6 +59,7 @@ CGT_SPU_INLINE vuint cgt_spux_select_u32w(vuint a, vuint b, vmask m)
 {
     return (vuint)_mm_blendv_epi8((__m128i)a, (__m128i)b, (__m128i)m);
 }
+#endif
 
 /* Bytes 4n to 4n + 3 for each lane number n. */
 #define CGT_SPUX_OWN_PERMUTE

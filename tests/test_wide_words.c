@@ -246,6 +246,38 @@ static void selection(void **state)
     }
 }
 
+/* Masks as kernels make them, where compilers fold comparisons, their complements and selection into each other. */
+static void selection_by_comparisons(void **state)
+{
+    (void)state;
+    test_random r = random_make(16);
+    for (unsigned round = 0; round < 64; round++) {
+        lanes a, b, c, d, e;
+        for (int i = 0; i < CGT_LANES; i++) {
+            a.ef[i] = (float)random_below(&r, 3);
+            b.ef[i] = (float)random_below(&r, 3);
+            c.ef[i] = (float)random_below(&r, 3);
+        }
+        const vmask either = spu_or(spu_cmpgt(a.f, b.f), spu_cmpgt(b.f, c.f));
+        d.u = spux_select(a.u, spu_or(a.u, spux_vuint(5)), spux_not(either));
+        for (int i = 0; i < CGT_LANES; i++)
+            e.eu[i] = a.ef[i] > b.ef[i] || b.ef[i] > c.ef[i] ? a.eu[i] : a.eu[i] | 5;
+        check_bits("spux_select u, not of two", &d, &e);
+        d.f = spux_select(a.f, c.f, spux_not(either));
+        for (int i = 0; i < CGT_LANES; i++)
+            e.ef[i] = a.ef[i] > b.ef[i] || b.ef[i] > c.ef[i] ? a.ef[i] : c.ef[i];
+        check_bits("spux_select f, not of two", &d, &e);
+        d.u = spux_select(a.u, c.u, spu_nor(spux_cmpge(a.f, b.f), spu_cmpeq(b.u, c.u)));
+        for (int i = 0; i < CGT_LANES; i++)
+            e.eu[i] = a.ef[i] >= b.ef[i] || b.eu[i] == c.eu[i] ? a.eu[i] : c.eu[i];
+        check_bits("spux_select u, nor", &d, &e);
+        d.u = spux_select(a.u, c.u, spu_andc(spu_cmpgt(a.f, b.f), spu_cmpgt(b.u, c.u)));
+        for (int i = 0; i < CGT_LANES; i++)
+            e.eu[i] = a.ef[i] > b.ef[i] && b.eu[i] <= c.eu[i] ? c.eu[i] : a.eu[i];
+        check_bits("spux_select u, andc", &d, &e);
+    }
+}
+
 /* ---- arithmetic of vector.h ---- */
 
 static void check_extremes(const lanes a, const lanes b)
@@ -430,6 +462,7 @@ int main(void)
         cmocka_unit_test(estimates_are_near),
         cmocka_unit_test(masks),
         cmocka_unit_test(selection),
+        cmocka_unit_test(selection_by_comparisons),
         cmocka_unit_test(extremes),
         cmocka_unit_test(quotient_and_root_are_near),
         cmocka_unit_test(shifts),
