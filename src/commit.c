@@ -168,7 +168,6 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     scene->committed = false;
     scene->statistics = (cgt_scene_statistics){0};
     scene->world = (cgt_world){0};
-    scene->middles = false;
     atomic_store_explicit(&scene->wide_is_built, false, memory_order_relaxed);
     atomic_store_explicit(&scene->wide_rays, 0, memory_order_relaxed);
     cgt_float_environment_enter(&callers);

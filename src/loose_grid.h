@@ -11,7 +11,7 @@
  * smaller. A level without objects is left out.
  *
  * Memory for an object: 4 bytes of `object` and at most 2 of `start`, 4 for each cell where cells are asked for. What a
- * commit needs is kept for the next: 8 bytes (20 for a triangle) of keys, middles and pairs, 1.4 of sizes and bins. Few
+ * commit needs is kept for the next: 4 bytes (20 for a triangle) of keys and middles, 1.8 of sizes and bins. Few
  * objects take 13 KB besides. */
 #ifndef CGT_LOOSE_GRID_H
 #define CGT_LOOSE_GRID_H

@@ -25,56 +25,55 @@ uint64_t cgt_loose_grid_most_cells(uint32_t objects);
 
 /* ---- sorting ---- */
 
-/* One thread counts and moves all objects by their keys, while the cells' counters stay in its cache, and where objects
- * are few that is quicker than any number of threads. Several, or with more cells, sort by two digits, of which the
- * upper one is the bin: chunks of objects count their bins and move to them, each to places of its own, then each bin is
- * sorted by the lower digit, in cache. Every move keeps the order, so that objects ascend in a cell and both ways have
- * one result. */
-#define CGT_LOOSE_CHUNK 16384u         /* objects */
-#define CGT_LOOSE_DIRECT_CELLS 262144u /* at most, for one thread; a megabyte of counters */
-#define CGT_LOOSE_FEW 65536u           /* objects that one thread sorts, however many there are */
-#define CGT_LOOSE_BINS 512u            /* at most */
-#define CGT_LOOSE_BIN_CELLS 512u       /* at least */
-
-typedef struct cgt_loose_pair {
-    uint32_t key, object;
-} cgt_loose_pair;
+/* By two digits of the keys, of which the upper one is the bin. Chunks of objects sort their own by bin, side by side,
+ * where they are; then each bin gathers its part of every chunk, and sorts it by the lower digit, in cache. Few objects
+ * are sorted by whole keys at once, by one thread: that is quicker while their cells' counters stay in its cache. Every
+ * move keeps the order, so that objects ascend in a cell and both ways have one result. */
+#define CGT_LOOSE_CHUNK_BITS 14u
+#define CGT_LOOSE_CHUNK (UINT32_C(1) << CGT_LOOSE_CHUNK_BITS) /* objects */
+#define CGT_LOOSE_FEW 65536u                                  /* objects that are sorted by whole keys */
+#define CGT_LOOSE_FEW_ALONE 131072u                           /* where there is but one thread */
+#define CGT_LOOSE_FEW_CELLS 262144u                           /* at most: a megabyte of counters */
+#define CGT_LOOSE_BINS 512u      /* at most, unless the lower digit would not fit into an entry */
+#define CGT_LOOSE_BIN_CELLS 512u /* at least */
 
 typedef struct cgt_loose_sort {
     uint32_t objects; /* in all, skipped ones included */
     uint32_t valid;
     uint32_t cells;
-    unsigned shift;       /* of a key, to its bin */
-    bool direct;          /* without bins */
-    uint32_t bins;        /* skipped objects have one more */
-    uint32_t *key;        /* of each object; may be the memory of `object` where there are bins */
-    cgt_loose_pair *pair; /* all objects by bin; not used without bins */
-    uint32_t *place;      /* bins + 1 for each chunk: how many, then where the next one goes */
-    uint32_t *start;      /* the result, see cgt_loose_grid */
+    bool direct;     /* by whole keys */
+    unsigned shift;  /* of a key, to its bin */
+    uint32_t bins;   /* skipped objects have one more */
+    uint32_t *key;   /* of each object; the memory of `object` where there are bins, else that of `entry` */
+    uint32_t *entry; /* of each object, by chunks, in each by bin: the lower digit, then the number in the chunk */
+    uint32_t *place; /* bins + 1 for each stream of a chunk: where its part of a bin ends; then where bins begin */
+    uint32_t *start; /* the result, see cgt_loose_grid */
     uint32_t *object;
 } cgt_loose_sort;
 
-static inline bool cgt_loose_sort_is_direct(const cgt_context *context, uint32_t objects, uint32_t cells)
+static inline uint32_t cgt_loose_chunks(uint32_t objects)
 {
-    return objects <= CGT_LOOSE_CHUNK ||
-           ((objects <= CGT_LOOSE_FEW || !context->tasks.run) && cells <= CGT_LOOSE_DIRECT_CELLS);
+    return (uint32_t)(((uint64_t)objects + CGT_LOOSE_CHUNK - 1) / CGT_LOOSE_CHUNK);
 }
 
-/* Fills in shift and bins from the cells. */
-void cgt_loose_sort_plan(cgt_loose_sort *sort);
+/* Fills in all but the pointers. Skipped objects have the key that it returns. */
+uint32_t cgt_loose_sort_plan(cgt_loose_sort *sort, const cgt_context *context, uint32_t objects, uint32_t valid,
+                             uint32_t cells);
 
-/* Counts the bins of one chunk's keys. */
-void cgt_loose_sort_count(const cgt_loose_sort *sort, uint32_t chunk);
+/* Room for `place`: the same for any frame of so many objects, but for those with more cells than 2^27. */
+cgt_result cgt_loose_sort_reserve(const cgt_memory_hooks *hooks, cgt_buffer *place, const cgt_loose_sort *sort);
 
-/* Sorts, after all chunks were counted. */
+/* Sorts a chunk, whose keys are made, by bin. */
+void cgt_loose_sort_chunk(const cgt_loose_sort *sort, uint32_t chunk);
+
+/* The rest, after all chunks. */
 void cgt_loose_sort_run(cgt_loose_sort *sort, const cgt_context *context);
 
-/* Room for middles and then keys, or for pairs, which come when both are read. */
+/* Room for middles, and keys or entries behind them. */
 static inline cgt_result cgt_loose_grid_reserve_work(const cgt_memory_hooks *hooks, cgt_buffer *work,
                                                      const cgt_objects *objects)
 {
-    const uint64_t keys = 4 * (uint64_t)objects->triangles + objects->count, pairs = 2 * (uint64_t)objects->count;
-    const uint64_t words = keys > pairs ? keys : pairs;
+    const uint64_t words = 4 * (uint64_t)objects->triangles + objects->count;
     if (words > SIZE_MAX / sizeof(uint32_t))
         return CGT_ERROR_TOO_LARGE;
     return cgt_buffer_reserve_scattered(hooks, work, (size_t)words, sizeof(uint32_t));

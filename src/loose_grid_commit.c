@@ -32,14 +32,14 @@ static void make_keys(void *argument, uint32_t chunk)
         object = stop;
     }
     cgt_float_environment_leave(&callers);
-    cgt_loose_sort_count(&job->sort, chunk);
+    cgt_loose_sort_chunk(&job->sort, chunk);
 }
 
 /* ---- memory ---- */
 
 /* Room for any arrangement of as many objects, or for more cells where they were asked for. cgt_summarise has reserved
  * the memory to work in. */
-static cgt_result reserve(cgt_scene *scene, uint32_t chunks)
+static cgt_result reserve(cgt_scene *scene, const cgt_loose_sort *sort)
 {
     const cgt_memory_hooks *hooks = &scene->context->memory;
     const cgt_objects *o = &scene->world.objects;
@@ -50,8 +50,7 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks)
         result =
             cgt_buffer_reserve_scattered(hooks, &scene->buffer[CGT_BUFFER_LOOSE_OBJECT], o->count, sizeof(uint32_t));
     if (result == CGT_OK)
-        result = cgt_buffer_reserve(hooks, &scene->buffer[CGT_BUFFER_LOOSE_BINS], chunks,
-                                    (CGT_LOOSE_BINS + 1) * sizeof(uint32_t));
+        result = cgt_loose_sort_reserve(hooks, &scene->buffer[CGT_BUFFER_LOOSE_BINS], sort);
     if (result != CGT_OK)
         return cgt_fail(scene->context, result, "commit: out of memory for a loose grid of %u primitives", o->count);
     return CGT_OK;
@@ -86,29 +85,23 @@ cgt_result cgt_loose_grid_commit(cgt_scene *scene, const cgt_object_summary *sum
 {
     cgt_world *world = &scene->world;
     cgt_loose_grid *g = &world->loose;
-    const uint32_t chunks = (uint32_t)(((uint64_t)world->objects.count + CGT_LOOSE_CHUNK - 1) / CGT_LOOSE_CHUNK);
+    const cgt_objects *o = &world->objects;
+    keys_job job = {.objects = o, .kernel = scene->context->kernel};
+    cgt_loose_sort *sort = &job.sort;
     cgt_loose_grid_plan(g, scene->buffer[CGT_BUFFER_SIZE_CLASSES].data, scene->options.resolution);
-    const cgt_result result = reserve(scene, chunks);
+    const uint32_t skipped = cgt_loose_sort_plan(sort, scene->context, o->count, summary->valid, g->cells);
+    const cgt_result result = reserve(scene, sort);
     if (result != CGT_OK)
         return result;
-    void *work = scene->buffer[CGT_BUFFER_LOOSE_WORK].data;
-    keys_job job = {.objects = &world->objects,
-                    .kernel = scene->context->kernel,
-                    .keys = {.grid = g, .middle = work, .triangles = world->objects.triangles},
-                    .sort = {.objects = world->objects.count,
-                             .valid = summary->valid,
-                             .cells = g->cells,
-                             .direct = cgt_loose_sort_is_direct(scene->context, world->objects.count, g->cells),
-                             .pair = work,
-                             .place = scene->buffer[CGT_BUFFER_LOOSE_BINS].data,
-                             .start = scene->buffer[CGT_BUFFER_LOOSE_START].data,
-                             .object = scene->buffer[CGT_BUFFER_LOOSE_OBJECT].data}};
-    cgt_loose_sort_plan(&job.sort);
-    scene->middles &= job.sort.direct; /* pairs take their place */
-    job.keys.skipped = job.sort.direct ? g->cells : job.sort.bins << job.sort.shift;
-    job.sort.key = job.sort.direct ? (uint32_t *)work + (size_t)4 * world->objects.triangles : job.sort.object;
-    cgt_run_tasks(scene->context, make_keys, &job, chunks);
-    cgt_loose_sort_run(&job.sort, scene->context);
+    float *work = scene->buffer[CGT_BUFFER_LOOSE_WORK].data;
+    job.keys = (cgt_loose_keys){.grid = g, .middle = work, .triangles = o->triangles, .skipped = skipped};
+    sort->entry = (uint32_t *)work + (size_t)4 * o->triangles;
+    sort->place = scene->buffer[CGT_BUFFER_LOOSE_BINS].data;
+    sort->start = scene->buffer[CGT_BUFFER_LOOSE_START].data;
+    sort->object = scene->buffer[CGT_BUFFER_LOOSE_OBJECT].data;
+    sort->key = sort->direct ? sort->entry : sort->object;
+    cgt_run_tasks(scene->context, make_keys, &job, cgt_loose_chunks(o->count));
+    cgt_loose_sort_run(sort, scene->context);
     g->start = job.sort.start;
     g->object = job.sort.object;
     report(scene);

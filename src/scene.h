@@ -33,8 +33,8 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_SIZE_CLASSES, /* cgt_size_classes, one per chunk of objects */
     CGT_BUFFER_LOOSE_START,
     CGT_BUFFER_LOOSE_OBJECT,
-    CGT_BUFFER_LOOSE_WORK, /* middles of triangles, then cgt_loose_pair of all objects */
-    CGT_BUFFER_LOOSE_BINS, /* where chunks of objects go in each bin */
+    CGT_BUFFER_LOOSE_WORK, /* middles of triangles; keys of all objects, or what is sorted by them */
+    CGT_BUFFER_LOOSE_BINS, /* where bins end in chunks of objects */
     CGT_BUFFER_WIDE_START,
     CGT_BUFFER_WIDE_OBJECT, /* all objects by cell and leaf */
     CGT_BUFFER_WIDE_LEAVES, /* where they part, see cgt_wide_build */
@@ -52,7 +52,6 @@ struct cgt_scene {
     cgt_buffer buffer[CGT_SCENE_BUFFERS];
     uint32_t geometries; /* in CGT_BUFFER_GEOMETRY, free ones included */
     bool committed;      /* nothing changed since the last commit */
-    bool middles;        /* CGT_BUFFER_LOOSE_WORK holds those of triangles */
     cgt_world world;
     cgt_scene_statistics statistics;
     struct cgt_scene *self;     /* for what tracing builds */

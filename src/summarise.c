@@ -111,7 +111,6 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
     if (loose) {
         job->wishes.classes = buffer[CGT_BUFFER_SIZE_CLASSES].data;
         job->wishes.middle = buffer[CGT_BUFFER_LOOSE_WORK].data;
-        scene->middles = true;
     }
     return CGT_OK;
 }

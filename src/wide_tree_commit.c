@@ -45,7 +45,7 @@ static void make_keys(void *argument, uint32_t chunk)
         object = stop;
     }
     cgt_float_environment_leave(&callers);
-    cgt_loose_sort_count(&job->sort, chunk);
+    cgt_loose_sort_chunk(&job->sort, chunk);
 }
 
 static void split_range(void *argument, uint32_t range)
@@ -99,7 +99,7 @@ static cgt_result out_of_memory(const cgt_scene *scene, cgt_result result)
 }
 
 /* What follows from the number of objects. */
-static cgt_result reserve_objects(cgt_scene *scene, uint32_t chunks)
+static cgt_result reserve_objects(cgt_scene *scene, const cgt_loose_sort *sort)
 {
     const cgt_memory_hooks *hooks = &scene->context->memory;
     const cgt_objects *o = &scene->world.objects;
@@ -109,8 +109,7 @@ static cgt_result reserve_objects(cgt_scene *scene, uint32_t chunks)
     if (result == CGT_OK)
         result = cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_OBJECT], o->count, sizeof(uint32_t));
     if (result == CGT_OK)
-        result =
-            cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_LOOSE_BINS], chunks, (CGT_LOOSE_BINS + 1) * sizeof(uint32_t));
+        result = cgt_loose_sort_reserve(hooks, &buffer[CGT_BUFFER_LOOSE_BINS], sort);
     if (result == CGT_OK)
         result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_WIDE_LEAVES], o->count, sizeof(uint16_t));
     if (result == CGT_OK)
@@ -154,29 +153,21 @@ static cgt_result sort_objects(cgt_scene *scene, wide_job *job)
     const cgt_world *world = &scene->world;
     const cgt_objects *o = &world->objects;
     const cgt_context *context = scene->context;
-    const uint32_t chunks = (uint32_t)(((uint64_t)o->count + CGT_LOOSE_CHUNK - 1) / CGT_LOOSE_CHUNK);
+    cgt_loose_sort *sort = &job->sort;
     cgt_wide_plan_make(&job->plan, scene->buffer[CGT_BUFFER_SIZE_CLASSES].data, o);
-    const cgt_result result = reserve_objects(scene, chunks);
+    const uint32_t skipped = cgt_loose_sort_plan(sort, context, o->count, world->valid, job->plan.cells);
+    const cgt_result result = reserve_objects(scene, sort);
     if (result != CGT_OK)
         return result;
-    void *work = scene->buffer[CGT_BUFFER_LOOSE_WORK].data;
-    job->sort = (cgt_loose_sort){.objects = o->count,
-                                 .valid = world->valid,
-                                 .cells = job->plan.cells,
-                                 .direct = cgt_loose_sort_is_direct(context, o->count, job->plan.cells),
-                                 .pair = work,
-                                 .place = scene->buffer[CGT_BUFFER_LOOSE_BINS].data,
-                                 .start = scene->buffer[CGT_BUFFER_WIDE_START].data,
-                                 .object = scene->buffer[CGT_BUFFER_WIDE_OBJECT].data};
-    cgt_loose_sort_plan(&job->sort);
-    job->sort.key = job->sort.direct ? (uint32_t *)work + (size_t)4 * o->triangles : job->sort.object;
-    job->keys = (cgt_wide_keys){.plan = &job->plan,
-                                .middle = work,
-                                .triangles = o->triangles,
-                                .skipped = job->sort.direct ? job->sort.cells : job->sort.bins << job->sort.shift};
-    scene->middles &= job->sort.direct;
-    cgt_run_tasks(context, make_keys, job, chunks);
-    cgt_loose_sort_run(&job->sort, context);
+    float *work = scene->buffer[CGT_BUFFER_LOOSE_WORK].data;
+    job->keys = (cgt_wide_keys){.plan = &job->plan, .middle = work, .triangles = o->triangles, .skipped = skipped};
+    sort->entry = (uint32_t *)work + (size_t)4 * o->triangles;
+    sort->place = scene->buffer[CGT_BUFFER_LOOSE_BINS].data;
+    sort->start = scene->buffer[CGT_BUFFER_WIDE_START].data;
+    sort->object = scene->buffer[CGT_BUFFER_WIDE_OBJECT].data;
+    sort->key = sort->direct ? sort->entry : sort->object;
+    cgt_run_tasks(context, make_keys, job, cgt_loose_chunks(o->count));
+    cgt_loose_sort_run(sort, context);
     return CGT_OK;
 }
 
@@ -315,13 +306,8 @@ static void report(cgt_scene *scene, const cgt_wide_tree *tree, double ms)
 static cgt_result make_tree(cgt_scene *scene)
 {
     const double start = cgt_now_ms();
-    cgt_object_summary summary;
     cgt_wide_tree tree = {0};
-    cgt_result result = CGT_OK;
-    if (scene->world.objects.triangles && !scene->middles) /* pairs of the loose grid took their place */
-        result = cgt_summarise(scene, &summary);
-    if (result == CGT_OK)
-        result = build(scene, &tree);
+    const cgt_result result = build(scene, &tree);
     if (result != CGT_OK)
         return result;
     scene->world.wide = tree;
