@@ -11,41 +11,40 @@
 
 static size_t pixels_of(const bench_planes *planes) { return (size_t)planes->width * planes->height; }
 
-/* On lines of the cache, as a program does that wants its frames fast. */
-static void *touched(size_t bytes)
+void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride)
 {
-    void *memory = aligned_alloc(64, (bytes + 63) / 64 * 64);
+    enum { LINE = 64, PAGE = 4096 };
+    if (elements > (SIZE_MAX / planes - PAGE - LINE) / sizeof(float))
+        return NULL;
+    *stride = (elements * sizeof(float) + PAGE - 1) / PAGE * PAGE + LINE;
+    void *memory = aligned_alloc(LINE, *stride * planes);
     if (memory)
-        memset(memory, 0, bytes);
+        memset(memory, 0, *stride * planes);
     return memory;
 }
 
 int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
 {
+    size_t stride;
     memset(planes, 0, sizeof *planes);
     planes->width = width;
     planes->height = height;
-    if ((uint64_t)width * height > SIZE_MAX / sizeof(float))
+    if ((uint64_t)width * height > SIZE_MAX)
         return -1;
-
-    /* Pages are touched here, so that the first frame does not pay for them. */
-    const size_t pixels = pixels_of(planes);
-    planes->t = touched(pixels * sizeof *planes->t);
-    planes->primitive = touched(pixels * sizeof *planes->primitive);
-    for (int i = 0; i < 3; i++)
-        planes->normal[i] = touched(pixels * sizeof(float));
-    if (planes->t && planes->primitive && planes->normal[0] && planes->normal[1] && planes->normal[2])
-        return 0;
-    bench_planes_release(planes);
-    return -1;
+    char *memory = bench_planes_memory(pixels_of(planes), 5, &stride);
+    if (!memory)
+        return -1;
+    planes->memory = memory;
+    planes->t = (float *)(void *)memory;
+    planes->primitive = (uint32_t *)(void *)(memory + stride);
+    for (size_t i = 0; i < 3; i++)
+        planes->normal[i] = (float *)(void *)(memory + (2 + i) * stride);
+    return 0;
 }
 
 void bench_planes_release(bench_planes *planes)
 {
-    for (int i = 0; i < 3; i++)
-        free(planes->normal[i]);
-    free(planes->primitive);
-    free(planes->t);
+    free(planes->memory);
     memset(planes, 0, sizeof *planes);
 }
 

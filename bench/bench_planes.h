@@ -5,6 +5,7 @@
 #ifndef BENCH_PLANES_H
 #define BENCH_PLANES_H
 
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -15,7 +16,14 @@ typedef struct bench_planes {
     float *t;
     uint32_t *primitive;
     float *normal[3];
+    void *memory; /* of all of them */
 } bench_planes;
+
+/* Memory for some planes of so many elements of four bytes, the second one *stride bytes behind the first. They begin on
+ * lines of the cache, as in a program that wants its frames fast, and each a line further into a page than the one before:
+ * where lines of several planes are written in turn, some machines take them up to twice as fast. Zeros, so that the
+ * first frame does not pay for pages. NULL where memory is refused. */
+void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride);
 
 /* 0, or -1 where memory is refused. */
 int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height);

@@ -38,6 +38,7 @@ typedef struct embree_hits {
     float *t;
     uint32_t *primitive;
     float *normal[3];
+    void *memory; /* of all of them */
     size_t count; /* with what packets at the right and lower edge have beyond the picture */
 } embree_hits;
 

@@ -14,17 +14,9 @@ enum { TASK_PACKETS = 8 }; /* a task is a square of so many packets along each e
 
 /* ---- View ---------------------------------------------------------------------------------------------------- */
 
-static void *block(size_t bytes)
-{
-    const size_t whole = (bytes + 127) / 64 * 64;
-    void *memory = aligned_alloc(64, whole);
-    if (memory)
-        memset(memory, 0, whole);
-    return memory;
-}
-
 int embree_view_create(embree_view *view, const bench_settings *settings, uint32_t packet)
 {
+    size_t stride;
     memset(view, 0, sizeof *view);
     bench_camera_axes_init(&view->axes, &settings->camera, settings->width, settings->height);
     view->packet = packet;
@@ -33,23 +25,20 @@ int embree_view_create(embree_view *view, const bench_settings *settings, uint32
     view->across = (settings->width + view->width - 1) / view->width;
     view->down = (settings->height + view->height - 1) / view->height;
     view->hits.count = (size_t)view->across * view->down * packet;
-    view->hits.t = block(view->hits.count * sizeof(float));
-    view->hits.primitive = block(view->hits.count * sizeof(uint32_t));
-    int complete = view->hits.t && view->hits.primitive;
-    for (int a = 0; a < 3; a++)
-        complete = (view->hits.normal[a] = block(view->hits.count * sizeof(float))) && complete;
-    if (complete)
-        return 0;
-    embree_view_release(view);
-    return -1;
+    char *memory = bench_planes_memory(view->hits.count, 5, &stride);
+    if (!memory)
+        return -1;
+    view->hits.memory = memory;
+    view->hits.t = (float *)(void *)memory;
+    view->hits.primitive = (uint32_t *)(void *)(memory + stride);
+    for (size_t a = 0; a < 3; a++)
+        view->hits.normal[a] = (float *)(void *)(memory + (2 + a) * stride);
+    return 0;
 }
 
 void embree_view_release(embree_view *view)
 {
-    free(view->hits.t);
-    free(view->hits.primitive);
-    for (int a = 0; a < 3; a++)
-        free(view->hits.normal[a]);
+    free(view->hits.memory);
     memset(view, 0, sizeof *view);
 }
 
@@ -188,6 +177,16 @@ static void sphere_bounds(const struct RTCBoundsFunctionArguments *a)
     a->bounds_o->upper_x = q[0] + q[3];
     a->bounds_o->upper_y = q[1] + q[3];
     a->bounds_o->upper_z = q[2] + q[3];
+}
+
+/* As Embree wants it: readable beyond the end. */
+static void *block(size_t bytes)
+{
+    const size_t whole = (bytes + 127) / 64 * 64;
+    void *memory = aligned_alloc(64, whole);
+    if (memory)
+        memset(memory, 0, whole);
+    return memory;
 }
 
 static size_t element_bytes(const bench_input *input) { return (input->index ? 3 : 4) * sizeof(float); }
