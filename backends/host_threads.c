@@ -3,27 +3,30 @@
  *
  * The host backend: a pool of POSIX threads. The tasks of a call are numbers that whoever is free takes next, so tiles
  * of uneven cost even out by themselves (the thesis' dynamic assignment of envelopes to SPEs). The calling thread works
- * too. Idle threads sleep on a condition variable: a spin would burn a core that a simulation needs. */
+ * too. Idle threads sleep on a condition variable: a spin would burn a core that a simulation needs. Before that they look
+ * out for some microseconds, as long as it may take to be woken: a commit comes as several calls, one after the other. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "memory.h"
 #include "tasks.h"
 
 #define WORKER_STACK ((size_t)2 << 20)
+#define LOOKOUT_NS 50000
 
 /* One call of run: it lives on the caller's stack while it is in the pool's list. */
 typedef struct job {
     cgt_task *task;
     void *argument;
     uint32_t count;
-    atomic_uint next; /* the first index that nobody took; may run past count by one per worker */
-    uint32_t helpers; /* workers inside; under the pool's lock */
-    struct job *link; /* the next job; under the pool's lock */
+    atomic_uint next;    /* the first index that nobody took; may run past count by one per worker */
+    atomic_uint helpers; /* workers inside; changed under the pool's lock */
+    struct job *link;    /* the next job; under the pool's lock */
 } job;
 
 typedef struct pool {
@@ -31,6 +34,7 @@ typedef struct pool {
     pthread_cond_t work; /* a job has come, or stop */
     pthread_cond_t done; /* a worker has left a job */
     job *jobs;
+    atomic_uint posted; /* jobs so far; changed under the lock */
     bool stop;
     uint32_t workers; /* started, the caller not counted */
     uint32_t room;    /* length of thread */
@@ -58,21 +62,62 @@ static job *find_work(const pool *p)
     return j;
 }
 
+static int64_t now_ns(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
+}
+
+static void rest(void)
+{
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("yield");
+#endif
+}
+
+/* Waits until it is so that a number is this one, or is not, but not for long. Returns whether that came. */
+static bool look_out(atomic_uint *number, unsigned value, bool is)
+{
+    const int64_t end = now_ns() + LOOKOUT_NS;
+    do
+        for (int k = 0; k < 32; k++) {
+            if ((atomic_load_explicit(number, memory_order_acquire) == value) == is)
+                return true;
+            rest();
+        }
+    while (now_ns() < end);
+    return false;
+}
+
 static void *worker(void *state)
 {
     pool *p = state;
+    bool idle = true;
     pthread_mutex_lock(&p->lock);
     while (!p->stop) {
         job *j = find_work(p);
-        if (!j) {
+        if (!j && idle) {
             pthread_cond_wait(&p->work, &p->lock);
             continue;
         }
-        j->helpers++;
+        if (!j) {
+            const unsigned posted = atomic_load_explicit(&p->posted, memory_order_relaxed);
+            pthread_mutex_unlock(&p->lock);
+            (void)look_out(&p->posted, posted, false);
+            pthread_mutex_lock(&p->lock);
+            idle = true;
+            continue;
+        }
+        atomic_fetch_add_explicit(&j->helpers, 1, memory_order_relaxed);
         pthread_mutex_unlock(&p->lock);
         take_tasks(j);
         pthread_mutex_lock(&p->lock);
-        if (--j->helpers == 0)
+        idle = false;
+        /* the last one: the caller may see it at once, and the job is gone */
+        if (atomic_fetch_sub_explicit(&j->helpers, 1, memory_order_release) == 1)
             pthread_cond_broadcast(&p->done);
     }
     pthread_mutex_unlock(&p->lock);
@@ -92,9 +137,11 @@ static void host_run(void *state, cgt_task *task, void *argument, uint32_t count
     pool *p = state;
     job j = {.task = task, .argument = argument, .count = count};
     atomic_init(&j.next, 0);
+    atomic_init(&j.helpers, 0);
     pthread_mutex_lock(&p->lock);
     j.link = p->jobs;
     p->jobs = &j;
+    atomic_fetch_add_explicit(&p->posted, 1, memory_order_release);
     pthread_cond_broadcast(&p->work);
     pthread_mutex_unlock(&p->lock);
 
@@ -103,7 +150,11 @@ static void host_run(void *state, cgt_task *task, void *argument, uint32_t count
     /* nobody can enter once it is out of the list; wait for those inside */
     pthread_mutex_lock(&p->lock);
     remove_job(p, &j);
-    while (j.helpers)
+    pthread_mutex_unlock(&p->lock);
+    if (look_out(&j.helpers, 0, true))
+        return;
+    pthread_mutex_lock(&p->lock);
+    while (atomic_load_explicit(&j.helpers, memory_order_acquire))
         pthread_cond_wait(&p->done, &p->lock);
     pthread_mutex_unlock(&p->lock);
 }
@@ -165,6 +216,7 @@ static cgt_result host_create(const cgt_memory_hooks *memory, uint32_t threads, 
     if (!p)
         return CGT_ERROR_OUT_OF_MEMORY;
     p->jobs = NULL;
+    atomic_init(&p->posted, 0);
     p->stop = false;
     p->workers = 0;
     p->room = room;
