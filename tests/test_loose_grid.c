@@ -271,7 +271,7 @@ static void many_are_sorted(void **state)
     (void)state;
     test_random r = random_make(3);
     for (size_t k = 0; k < TEST_COUNT(kind); k++) {
-        const uint32_t count = k < 2 ? CGT_LOOSE_FEW_ALONE + 5000 : 17000 + test_scaled(40000); /* by bins and not */
+        const uint32_t count = k < 2 ? CGT_LOOSE_FEW_ALONE + 5003 : 17000 + test_scaled(40000); /* by bins and not */
         loose_scene s = loose_make(&r, kind[k], k % 2 ? LOOSE_BOTH : LOOSE_SPHERES, count);
         cgt_scene_options options = loose_options;
         compare_sorts(&s, &options, k == 0 || k == 3);

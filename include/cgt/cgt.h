@@ -443,8 +443,8 @@ typedef struct cgt_tile {
 typedef int cgt_tile_visitor(void *user, const cgt_tile *tile);
 
 /* Where a camera's frame goes: into planes, to a visitor while the tile is in cache, or both. Any planes will do; it is
- * fastest where all begin at multiples of 64 bytes and row_stride is a multiple of 16 elements: without a visitor,
- * tiles are then stored past the caches, by whole lines. */
+ * fastest where all begin at multiples of 64 bytes, each 64 further into a page of memory than the one before, and
+ * row_stride is a multiple of 16 elements: without a visitor, tiles are then stored past the caches, by whole lines. */
 typedef struct cgt_frame {
     uint32_t width, height; /* pixels, each 1 to 65,536 */
     size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */
