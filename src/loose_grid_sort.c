@@ -69,9 +69,9 @@ void cgt_loose_sort_chunk(const cgt_loose_sort *s, uint32_t chunk)
     const unsigned shift = s->shift;
     const size_t words = row_words(s);
     const uint32_t *key = s->key + first;
-    uint32_t *row = chunk_row(s, chunk), *entry = s->entry + first, sum = 0;
     if (s->direct)
-        return;
+        return; /* and there is no room for places */
+    uint32_t *row = chunk_row(s, chunk), *entry = s->entry + first, sum = 0;
     const uint32_t *k0 = key, *k1 = k0 + share, *k2 = k1 + share, *k3 = k2 + share;
     uint32_t *p0 = row, *p1 = p0 + words, *p2 = p1 + words, *p3 = p2 + words;
     memset(row, 0, STREAMS * words * sizeof *row);
