@@ -21,10 +21,14 @@ enum {
     BLOCK = 4,             /* pixels along a block's edge */
     GROUP = BLOCK * BLOCK, /* hit pixels whose rays lie together */
     TILE = BENCH_TILE_EDGE,
-    TILES_PER_ROUND = 8,   /* tiles whose hits are listed before rays are made of them: as many as stay in a cache */
     GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
     SHADOW_RUN = 256,      /* shadow rays made at once */
-    RAYS_PER_BATCH = 32 * 1024
+    /* Hits are listed a round of tiles at a time, rays made and traced a batch at a time: as many as stay in a cache.
+     * Of threads each gets twice as many, since waking them takes as long as tracing some thousand rays: beyond that
+     * nothing is gained, and from some number of threads on memory is spared. */
+    TILES_PER_ROUND = 8,
+    RAYS_PER_BATCH = 32 * 1024,
+    MOST_SHARES = 64
 };
 
 struct bench_rays {
@@ -33,8 +37,9 @@ struct bench_rays {
     const bench_planes *planes;
     uint32_t block_columns;
     uint32_t tiles;
+    uint32_t round_tiles; /* of a round */
     uint32_t round_first; /* the first tile whose hits are not listed yet */
-    uint32_t tile_hits[TILES_PER_ROUND];
+    uint32_t tile_hits[TILES_PER_ROUND * MOST_SHARES];
     uint32_t *of_tile; /* hit pixels of each tile of a round: x + 65536 y */
     uint32_t *hit;     /* of all tiles, without gaps */
     uint64_t hits;
@@ -108,6 +113,8 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
                               uint32_t most_ao)
 {
     bench_rays *rays = calloc(1, sizeof *rays);
+    const uint32_t workers = bench_threads_count(threads), most = MOST_SHARES / 2;
+    const uint32_t shares = workers == 1 ? 1 : 2 * (workers < most ? workers : most);
     if (!rays)
         return NULL;
     rays->threads = threads;
@@ -115,11 +122,12 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
     rays->planes = planes;
     rays->block_columns = (axes->width + BLOCK - 1) / BLOCK;
     rays->tiles = bench_tiles(axes);
-    rays->of_tile = calloc((size_t)TILES_PER_ROUND * BENCH_TILE_PIXELS, sizeof *rays->of_tile);
+    rays->round_tiles = TILES_PER_ROUND * shares;
+    rays->of_tile = calloc((size_t)rays->round_tiles * BENCH_TILE_PIXELS, sizeof *rays->of_tile);
     rays->hit = calloc((size_t)axes->width * axes->height, sizeof *rays->hit);
     rays->batch_rays = (uint64_t)GROUP * (most_ao > 1 ? most_ao : 1);
-    if (rays->batch_rays < RAYS_PER_BATCH)
-        rays->batch_rays = RAYS_PER_BATCH;
+    if (rays->batch_rays < RAYS_PER_BATCH * shares)
+        rays->batch_rays = RAYS_PER_BATCH * shares;
 
     const size_t batch = (size_t)rays->batch_rays;
     int complete = rays->of_tile && rays->hit;
@@ -485,7 +493,7 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
     rays->hits = rays->batch_first = rays->round_first = 0;
     while (rays->round_first < rays->tiles) {
         const uint32_t tiles = rays->tiles - rays->round_first;
-        list_round(rays, tiles < TILES_PER_ROUND ? tiles : TILES_PER_ROUND);
+        list_round(rays, tiles < rays->round_tiles ? tiles : rays->round_tiles);
         /* whole groups, but for the last one */
         const uint64_t end = rays->round_first < rays->tiles ? rays->hits / GROUP * GROUP : rays->hits;
         for (; rays->batch_first < end; rays->batch_first += rays->batch_hits) {

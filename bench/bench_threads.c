@@ -94,6 +94,8 @@ void bench_threads_release(bench_threads *threads)
     free(threads);
 }
 
+uint32_t bench_threads_count(const bench_threads *threads) { return threads->started + 1; }
+
 void bench_threads_run(bench_threads *threads, bench_task *task, void *argument, uint32_t count)
 {
     threads->task = task;

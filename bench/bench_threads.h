@@ -21,6 +21,9 @@ bench_threads *bench_threads_create(uint32_t count);
 /* NULL is ignored. */
 void bench_threads_release(bench_threads *threads);
 
+/* The caller counts too. */
+uint32_t bench_threads_count(const bench_threads *threads);
+
 /* Calls task(argument, index) for each index below count; returns when all have returned. */
 void bench_threads_run(bench_threads *threads, bench_task *task, void *argument, uint32_t count);
 
