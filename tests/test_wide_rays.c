@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays through the wide tree, of the variant that this is compiled for, against every object in exact
- * arithmetic: the same hits and the same bits, whatever the rays, their number, order, layout and ranges, with room for
- * lists and with hardly any, with objects that rays ignore; and with margins of the slabs made smaller until hits are
- * lost. The streams are compiled into the test, where the library finds them. */
+ * arithmetic: the same hits and the same bits, whatever the rays, their number, order, layout and ranges, as streams and
+ * in flight, with room for lists and stacks and with hardly any, with objects that rays ignore; and with margins of the
+ * slabs made smaller until hits are lost. The streams are compiled into the test, where the library finds them. */
 #include "support/scenes.h"
 #include "support/tightened.h"
 
@@ -14,10 +14,14 @@
 
 #include "scene.h"
 
-static uint32_t arena_used = 16384;
+static uint32_t arena_used = 16384, flight_stack = 64;
+static uint32_t fly_any, fly_nearest; /* rays of a call that go in flight */
 static float slack_scale = 1, filter_u = 0x1p-24f;
 #define FILTER_U filter_u
+#define FLIGHT_STACK_USED flight_stack
 #define STREAM_ARENA_USED arena_used
+#define STREAM_FLY_ANY fly_any
+#define STREAM_FLY_NEAREST fly_nearest
 #define WIDE_SLACK slack_scale
 #include "kernel/wide_stream.c"
 
@@ -113,7 +117,7 @@ static truth_ray hard_ray(test_random *r, const subject *s)
     truth_ray q = ray_random(r, &s->spheres);
     const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
     const uint32_t axis = random_below(r, 3);
-    switch (random_below(r, 10)) {
+    switch (random_below(r, 11)) {
     case 0: /* along an axis, at a surface or a corner, with components that are hardly there */
         for (uint32_t a = 0; a < 3; a++) {
             static const float none[] = {0, -0.f, 0x1p-149f, -0x1p-140f, 0x1p-60f, -0x1p-41f, 0x1p-39f};
@@ -150,6 +154,12 @@ static truth_ray hard_ray(test_random *r, const subject *s)
         q.t_max = random_below(r, 2) ? INFINITY : -INFINITY;
         break;
     case 8: /* beyond single precision */ q.dir[axis] *= 0x1p70f; break;
+    case 9: /* ends so far behind the origin that its normalised end is -infinity */
+        for (int a = 0; a < 3; a++)
+            q.dir[a] *= 16;
+        q.t_min = -INFINITY;
+        q.t_max = -FLT_MAX * random_float(r, 0.1f, 1);
+        break;
     default: aim(r, s, &q); break;
     }
     return q;
@@ -263,20 +273,28 @@ static void trace(const subject *s, const cgt_rays *rays, uint64_t first, const 
     assert_int_equal(cgt_occluded_rays(s->scene, rays, occluded + first, options), CGT_OK);
 }
 
+/* Whether all rays of a call go in flight, or none. */
+static void let_fly(bool all) { fly_any = fly_nearest = all ? CGT_RAYS_CHUNK : 0; }
+
 static void check(subject *s, uint32_t count)
 {
-    static const uint32_t least = CGT_WIDE_MAX_DEPTH * STREAM_LEAST, arenas[] = {CGT_WIDE_STREAM_ARENA, least};
+    static const uint32_t least = CGT_WIDE_MAX_DEPTH * STREAM_LEAST, arenas[] = {CGT_WIDE_STREAM_ARENA, least},
+                          stacks[] = {FLIGHT_STACK, 1};
     for (int ignores = 0; ignores < 2; ignores++) {
         s->ignores = ignores;
         for (uint32_t i = 0; i < count; i++)
             truth[i] = find_truth(s, &given[i]);
-        for (size_t k = 0; k < TEST_COUNT(arenas); k++) {
-            const cgt_rays rays = array_of(given, count, ignores);
-            arena_used = arenas[k];
-            trace(s, &rays, 0, NULL);
-            assert_int_equal(wrong_answers(s, count, true), 0);
-        }
+        for (size_t k = 0; k < TEST_COUNT(arenas); k++)
+            for (int fly = 0; fly < 2; fly++) {
+                const cgt_rays rays = array_of(given, count, ignores);
+                arena_used = arenas[k];
+                flight_stack = stacks[k];
+                let_fly(fly);
+                trace(s, &rays, 0, NULL);
+                assert_int_equal(wrong_answers(s, count, true), 0);
+            }
         arena_used = CGT_WIDE_STREAM_ARENA;
+        flight_stack = FLIGHT_STACK;
     }
 }
 
@@ -337,6 +355,8 @@ static void batches_do_not_matter(void **state)
     test_random r = random_make(77);
     subject s;
     (void)state;
+    fly_any = 512;
+    fly_nearest = 256;
     subject_make(&r, CLOUD_UNIFORM, BOTH, 1, &s);
     make_rays(&r, &s, RAYS);
     for (uint32_t i = 0; i < RAYS; i++)
@@ -398,13 +418,15 @@ static void counts_add_up(void **state)
         truth[i] = find_truth(&s, &given[i]);
         hits += truth[i].primitive != CGT_NONE;
     }
-    for (int any = 0; any < 2; any++) {
+    for (int turn = 0; turn < 4; turn++) {
+        const bool any = turn % 2;
         const cgt_rays rays = array_of(given, RAYS, false);
         const cgt_hits none = {0};
         cgt_trace_statistics n;
         cgt_trace_options options;
         cgt_trace_options_init(&options);
         options.statistics = &n;
+        let_fly(turn / 2);
         if (any)
             assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
         else
@@ -462,6 +484,7 @@ static void margins_break_where_they_are_made_smaller(void **state)
         const cgt_rays rays = array_of(given, RAYS, false);
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             slack_scale = scale;
+            let_fly(turn % 2);
             trace(&s, &rays, 0, NULL);
             sum[step].lost += wrong_answers(&s, RAYS, false);
         }
@@ -511,6 +534,7 @@ static void bounds_of_leaves_break_where_they_are_tightened(void **state)
         const cgt_rays rays = array_of(given, RAYS, false);
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             filter_u = scale;
+            let_fly(turn / 2 % 2);
             trace(&s, &rays, 0, NULL);
             sum[step].wrong += wrong_answers(&s, RAYS, step == 0);
         }

@@ -5,13 +5,15 @@
  * Barringer, Akenine-Moeller, "Dynamic Ray Stream Traversal", 2014): the rays of one octant go depth first from node to
  * node as a list. Lanes are rays; a node tests a vector of rays against one child after the other, which leaves a mask
  * for each. A child's list is made of the masks when its turn comes, so that there is one list for each node on the way
- * down. Where few rays are left, lanes are children or primitives instead (wide_single.h).
+ * down. Where few rays are left, lanes are children or primitives instead (wide_single.h); so they are from the root on
+ * in a call of few rays (wide_flight.h).
  *
  * Lists lie in an arena, which the rays of a deep tree could fill. A node whose masks and largest list do not fit takes
  * its list in pieces, each through all that hangs on the node before the next. There is always room for a piece of one
  * vector: a level takes at most STREAM_LEAST words for that, levels are at most CGT_WIDE_MAX_DEPTH, the arena is at least
  * so many times as large, and a node leaves that much for each level below it. */
 #include "ray_hits.h"
+#include "wide_flight.h"
 #include "wide_stream_node.h"
 #include "wide_stream_read.h"
 #include "wide_stream_spheres.h"
@@ -25,42 +27,32 @@
 #define STREAM_FEW_AT_LEAF (CGT_LANES == 16 ? 4u : CGT_LANES == 8 ? 3u : 1u)
 #endif
 
+/* Calls with at most so many rays trace them in flight: any hit, nearest hits. Measured. */
+#ifndef STREAM_FLY_ANY
+#define STREAM_FLY_ANY (CGT_LANES == 16 ? 512u : 1024u)
+#endif
+#ifndef STREAM_FLY_NEAREST
+#define STREAM_FLY_NEAREST (CGT_LANES == 4 ? 512u : 256u)
+#endif
+
 /* ---- ray by ray ---- */
 
 /* One ray of the stream through what hangs on a code. */
 CGT_SPU_INLINE void stream_trace_ray(stream *s, uint32_t at, uint32_t code, const float slack[3], bool any_hit)
 {
-    const float *d = stream_record(s, at);
     wide_ray r;
-    for (int a = 0; a < 3; a++) {
-        r.org[a] = d[RECORD_ORG + a];
-        r.dir[a] = d[RECORD_DIR + a];
-    }
-    r.near = d[RECORD_NEAR];
-    r.far = d[RECORD_FAR];
+    stream_ray_load(s, at, any_hit, &r);
     if (r.far == -INFINITY)
         return;
-    r.number = at / STREAM_RECORD;
-    r.best.object = CGT_NONE;
-    r.best.high = r.far;
-    if (any_hit)
-        r.best.low = r.far - fabsf(r.far) * 0x1p-18f - 0x1p-84f;
-    else
-        r.best = s->best[r.number];
-    const uint32_t before = r.best.object;
-    const float far = r.far;
     if (code & CGT_WIDE_LEAF) {
         wide_lanes l;
         wide_lanes_make(&s->call, &r, &l);
         wide_single_leaf(&s->call, &r, &l, code, any_hit);
     } else {
-        wide_ray_planes(&s->call, d + RECORD_RDIR, slack, &r);
+        wide_ray_planes(&s->call, stream_record(s, at) + RECORD_RDIR, slack, &r);
         wide_single_trace(&s->call, &r, code, any_hit);
     }
-    if (any_hit && r.far == -INFINITY)
-        stream_close(s, at);
-    if (!any_hit && (r.best.object != before || r.far != far))
-        stream_keep(s, at, r.best.low, r.best.high, r.best.object);
+    stream_ray_keep(s, at, &r, any_hit);
 }
 
 __attribute__((noinline)) static void stream_trace_few(stream *s, const uint32_t *list, uint32_t count, uint32_t code)
@@ -249,7 +241,33 @@ __attribute__((noinline, cold)) static void stream_find_hidden(stream *s, uint32
     s->call.hides = true;
 }
 
-CGT_SPU_INLINE void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS])
+__attribute__((noinline)) static void stream_fly_any(stream *s, uint32_t count)
+{
+    flights_trace(s, s->arena, count, true);
+}
+
+__attribute__((noinline)) static void stream_fly_nearest(stream *s, uint32_t count)
+{
+    flights_trace(s, s->arena, count, false);
+}
+
+/* A call's rays of all octants, `count`, where they are few. */
+static void stream_fly(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS], uint32_t count)
+{
+    uint32_t *to = s->arena;
+    for (uint32_t k = 0; k < STREAM_SINGLE; k++)
+        for (uint32_t i = 0; i < number[k]; i++)
+            *to++ = s->all[start[k] + i];
+    if (count == 1)
+        stream_trace_few(s, s->arena, 1, 0);
+    else if (s->call.any_hit)
+        stream_fly_any(s, count);
+    else
+        stream_fly_nearest(s, count);
+}
+
+CGT_SPU_INLINE void stream_trace_octants(stream *s, const uint32_t start[STREAM_KEYS],
+                                         const uint32_t number[STREAM_KEYS])
 {
     for (s->octant = 0; s->octant < STREAM_SINGLE; s->octant++) {
         const uint32_t *list = s->all + start[s->octant], count = number[s->octant];
@@ -262,6 +280,17 @@ CGT_SPU_INLINE void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS
         else
             stream_trace_nearest(s, list, count);
     }
+}
+
+static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS])
+{
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < STREAM_SINGLE; k++)
+        count += number[k];
+    if (count > (s->call.any_hit ? STREAM_FLY_ANY : STREAM_FLY_NEAREST))
+        stream_trace_octants(s, start, number);
+    else if (count)
+        stream_fly(s, start, number, count);
     stream_trace_far(s, s->all + start[STREAM_SINGLE], number[STREAM_SINGLE]);
     stream_trace_extreme(s, s->all + start[STREAM_EXTREME], number[STREAM_EXTREME]);
 }

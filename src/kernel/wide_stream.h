@@ -6,8 +6,8 @@
  *
  * Stack. A stream takes, with CGT_RAYS_CHUNK = 4096, 256 KB for records, 64 KB for best hits, 17 KB for the list of all
  * rays, 16 KB for keys and later for what rays ignore, and 64 KB for the arena: 420 KB with the call's frame. Beside it
- * there are, one at a time, the levels of a list with the stack of a single ray, 16 KB, or a packet, its hits and the
- * frame of the resolve, 49 KB: a call stays below 480 KB. */
+ * there are, one at a time, the levels of a list with the stack of a single ray, 16 KB, or rays in flight, 40 KB, or a
+ * packet, its hits and the frame of the resolve, 49 KB: a call stays below 480 KB. */
 #ifndef CGT_WIDE_STREAM_H
 #define CGT_WIDE_STREAM_H
 
@@ -74,6 +74,35 @@ CGT_SPU_INLINE void stream_keep(stream *s, uint32_t at, float low, float high, u
     b->object = object;
     stream_record(s, at)[RECORD_FAR] = stream_record(s, at)[RECORD_LEAF_FAR] = high;
     s->changed++;
+}
+
+/* A record as a single ray, but for the planes. */
+CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t at, bool any_hit, wide_ray *r)
+{
+    const float *d = stream_record(s, at);
+    for (int a = 0; a < 3; a++) {
+        r->org[a] = d[RECORD_ORG + a];
+        r->dir[a] = d[RECORD_DIR + a];
+    }
+    r->near = d[RECORD_NEAR];
+    r->far = d[RECORD_FAR];
+    r->number = at / STREAM_RECORD;
+    if (any_hit)
+        r->best = (wide_best){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_NONE, 0};
+    else
+        r->best = s->best[r->number];
+}
+
+/* Keeps what the ray has found, if it was wanted. */
+CGT_SPU_INLINE void stream_ray_keep(stream *s, uint32_t at, const wide_ray *r, bool any_hit)
+{
+    const float far = stream_record(s, at)[RECORD_FAR];
+    if (far == -INFINITY)
+        return;
+    if (any_hit && r->far == -INFINITY)
+        stream_close(s, at);
+    if (!any_hit && (r->far != far || r->best.object != s->best[r->number].object))
+        stream_keep(s, at, r->best.low, r->best.high, r->best.object);
 }
 
 #endif

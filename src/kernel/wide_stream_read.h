@@ -12,8 +12,8 @@
 CGT_SPU_INLINE vfloat stream_load(const ray_source *s, const float *array, uint64_t i, uint32_t count)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
-    if (s->stride == sizeof(float) && count == CGT_LANES)
-        return spux_load_unaligned(array + i);
+    if (s->stride == sizeof(float))
+        return count == CGT_LANES ? spux_load_unaligned(array + i) : spux_load_mask(array + i, spux_mask_first(count));
     for (uint32_t k = 0; k < CGT_LANES; k++)
         row[k] = k < count ? ray_element(s, array, i + k) : 0;
     return spux_load(row);
