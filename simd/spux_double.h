@@ -11,7 +11,9 @@
  *   spux_double_abs(a)
  *   spux_double_select(a, b, x)    b where x is above 0, else a
  *   spux_double_above0(low, high)  the vmask of what is above 0; where it is so small that a float of it is 0,
- *                                  either way */
+ *                                  either way
+ *   spux_double_load8_at(base, at, d)        records of 8 doubles, number k at base + at[k], to the vectors d[8]
+ *   spux_double_store8(base, stride, d)      the reverse, record k to base + k stride */
 #ifndef CGT_SPUX_DOUBLE_H
 #define CGT_SPUX_DOUBLE_H
 
@@ -64,6 +66,98 @@ CGT_SPU_INLINE vdouble spux_double_select(vdouble a, vdouble b, vdouble x)
     const cgt_spux_long_w m = (cgt_spux_long_w)(x > spux_vdouble(0));
     return (vdouble)(((cgt_spux_long_w)a & ~m) | ((cgt_spux_long_w)b & m));
 }
+
+#if CGT_LANES == 16
+/* 8 vectors of 8. With masks: of what the others leave undefined gcc 12 warns. */
+CGT_SPU_INLINE void cgt_spux_double_transpose(__m512d r[8])
+{
+    __m512d p[8], q[8];
+    for (int k = 0; k < 8; k += 2) {
+        p[k] = _mm512_maskz_unpacklo_pd(0xff, r[k], r[k + 1]);
+        p[k + 1] = _mm512_maskz_unpackhi_pd(0xff, r[k], r[k + 1]);
+    }
+    for (int k = 0; k < 8; k += 4)
+        for (int j = 0; j < 2; j++) {
+            q[k + j] = _mm512_maskz_shuffle_f64x2(0xff, p[k + j], p[k + j + 2], 0x88);
+            q[k + j + 2] = _mm512_maskz_shuffle_f64x2(0xff, p[k + j], p[k + j + 2], 0xdd);
+        }
+    for (int k = 0; k < 4; k++) {
+        r[k] = _mm512_maskz_shuffle_f64x2(0xff, q[k], q[k + 4], 0x88);
+        r[k + 4] = _mm512_maskz_shuffle_f64x2(0xff, q[k], q[k + 4], 0xdd);
+    }
+}
+CGT_SPU_INLINE void spux_double_load8_at(const double *base, const uint32_t at[8], vdouble d[8])
+{
+    __m512d r[8];
+    for (int k = 0; k < 8; k++)
+        r[k] = _mm512_loadu_pd(base + at[k]);
+    cgt_spux_double_transpose(r);
+    for (int k = 0; k < 8; k++)
+        d[k] = (vdouble)r[k];
+}
+CGT_SPU_INLINE void spux_double_store8(double *base, size_t stride, const vdouble d[8])
+{
+    __m512d r[8];
+    for (int k = 0; k < 8; k++)
+        r[k] = (__m512d)d[k];
+    cgt_spux_double_transpose(r);
+    for (int k = 0; k < 8; k++)
+        _mm512_storeu_pd(base + (size_t)k * stride, r[k]);
+}
+#else
+#if CGT_LANES == 8
+/* 4 vectors of 4. */
+CGT_SPU_INLINE void cgt_spux_double_transpose(__m256d r[4])
+{
+    const __m256d p0 = _mm256_unpacklo_pd(r[0], r[1]), p1 = _mm256_unpackhi_pd(r[0], r[1]);
+    const __m256d p2 = _mm256_unpacklo_pd(r[2], r[3]), p3 = _mm256_unpackhi_pd(r[2], r[3]);
+    r[0] = _mm256_permute2f128_pd(p0, p2, 0x20);
+    r[1] = _mm256_permute2f128_pd(p1, p3, 0x20);
+    r[2] = _mm256_permute2f128_pd(p0, p2, 0x31);
+    r[3] = _mm256_permute2f128_pd(p1, p3, 0x31);
+}
+CGT_SPU_INLINE void cgt_spux_double_load4_at(const double *base, const uint32_t at[4], vdouble d[4])
+{
+    __m256d r[4];
+    for (int k = 0; k < 4; k++)
+        r[k] = _mm256_loadu_pd(base + at[k]);
+    cgt_spux_double_transpose(r);
+    for (int k = 0; k < 4; k++)
+        d[k] = (vdouble)r[k];
+}
+CGT_SPU_INLINE void cgt_spux_double_store4(double *base, size_t stride, const vdouble d[4])
+{
+    __m256d r[4];
+    for (int k = 0; k < 4; k++)
+        r[k] = (__m256d)d[k];
+    cgt_spux_double_transpose(r);
+    for (int k = 0; k < 4; k++)
+        _mm256_storeu_pd(base + (size_t)k * stride, r[k]);
+}
+#else
+CGT_SPU_INLINE void cgt_spux_double_load4_at(const double *base, const uint32_t at[2], vdouble d[4])
+{
+    for (int i = 0; i < 4; i++)
+        d[i] = (vdouble){base[at[0] + (uint32_t)i], base[at[1] + (uint32_t)i]};
+}
+CGT_SPU_INLINE void cgt_spux_double_store4(double *base, size_t stride, const vdouble d[4])
+{
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < 4; i++)
+            base[k * stride + i] = d[i][k];
+}
+#endif
+CGT_SPU_INLINE void spux_double_load8_at(const double *base, const uint32_t at[CGT_DOUBLES], vdouble d[8])
+{
+    cgt_spux_double_load4_at(base, at, d);
+    cgt_spux_double_load4_at(base + 4, at, d + 4);
+}
+CGT_SPU_INLINE void spux_double_store8(double *base, size_t stride, const vdouble d[8])
+{
+    cgt_spux_double_store4(base, stride, d);
+    cgt_spux_double_store4(base + 4, stride, d + 4);
+}
+#endif
 
 #if CGT_LANES == 16
 CGT_SPU_INLINE vmask spux_double_above0(vdouble low, vdouble high)

@@ -333,6 +333,33 @@ static void doubles(void **state)
     }
 }
 
+/* Records of 8 doubles wherever they are, and back, some doubles apart. */
+static void double_records(void **state)
+{
+    (void)state;
+    enum { FROM = 200, STRIDE = 11 };
+    test_random r = random_make(20);
+    double from[FROM], to[CGT_DOUBLES * STRIDE + 1];
+    for (int i = 0; i < FROM; i++)
+        from[i] = i + 1;
+    for (int round = 0; round < 50; round++) {
+        uint32_t at[CGT_DOUBLES];
+        vdouble d[8];
+        memset(to, 0, sizeof to);
+        for (uint32_t k = 0; k < CGT_DOUBLES; k++)
+            at[k] = random_below(&r, FROM - 7);
+        spux_double_load8_at(from, at, d);
+        for (uint32_t i = 0; i < 8; i++)
+            for (uint32_t k = 0; k < CGT_DOUBLES; k++)
+                assert_true(d[i][k] == from[at[k] + i]);
+        spux_double_store8(to + 1, STRIDE, d);
+        for (uint32_t k = 0; k < CGT_DOUBLES; k++)
+            for (uint32_t i = 0; i < STRIDE; i++)
+                assert_true(to[1 + k * STRIDE + i] == (i < 8 ? from[at[k] + i] : 0));
+        assert_true(to[0] == 0);
+    }
+}
+
 static void transposes(void **state)
 {
     (void)state;
@@ -393,6 +420,7 @@ int main(void)
         cmocka_unit_test(transposes),
         cmocka_unit_test(streams_and_parts),
         cmocka_unit_test(doubles),
+        cmocka_unit_test(double_records),
     };
     test_begin("test_wide_memory");
     if (!test_variant_runs(CGT_VARIANT_NAME))

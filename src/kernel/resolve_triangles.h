@@ -122,7 +122,8 @@ CGT_SPU_INLINE void resolve_half_load(const vfloat org[3], const vfloat dir[3], 
     }
 }
 
-CGT_SPU_INLINE void resolve_half_plane_make(resolve_half_plane *h)
+/* What does not depend on the rays' directions. */
+CGT_SPU_INLINE void resolve_half_normal(resolve_half_plane *h)
 {
     vdouble a[3], e1[3], e2[3];
     for (int k = 0; k < 3; k++) {
@@ -134,23 +135,35 @@ CGT_SPU_INLINE void resolve_half_plane_make(resolve_half_plane *h)
         h->n[k] = CGT_CROSS(e1, e2, (k + 1) % 3, (k + 2) % 3);
     h->edges = NORM1(e1) * NORM1(e2) * CGT_TRIANGLE_DOUBLE_ERROR;
     h->num = DOT(h->n, a);
-    h->den = DOT(h->d, h->n);
-    h->sure_den = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - h->edges * NORM1(h->d);
     h->sure_t = spux_double_abs(h->num) * CGT_DOUBLE_SAFE - h->edges * NORM1(a);
 }
 
-/* w1 or w2: the side of the edge from vertex `from` to `to`, as cgt_triangle_double_sides has it; and what is above 0
- * where it is safe. */
-CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, int to, vdouble *sure)
+CGT_SPU_INLINE void resolve_half_plane_make(resolve_half_plane *h)
+{
+    resolve_half_normal(h);
+    h->den = DOT(h->d, h->n);
+    h->sure_den = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - h->edges * NORM1(h->d);
+}
+
+/* The cross product of the edge from vertex `from` to `to`, as cgt_triangle_double_edge has it; returns the bound. */
+CGT_SPU_INLINE vdouble resolve_half_edge(const resolve_half_plane *h, int from, int to, vdouble cross[3])
 {
     vdouble b[3], e[3];
     for (int a = 0; a < 3; a++) {
         b[a] = h->v[from][a] - h->org[a];
         e[a] = h->v[to][a] - h->v[from][a];
     }
-    const vdouble side =
-        h->d[0] * CGT_CROSS(b, e, 1, 2) + h->d[1] * CGT_CROSS(b, e, 2, 0) + h->d[2] * CGT_CROSS(b, e, 0, 1);
-    *sure = spux_double_abs(side) * CGT_DOUBLE_SAFE - NORM1(h->d) * CGT_TRIANGLE_DOUBLE_ERROR * NORM1(b) * NORM1(e);
+    for (int a = 0; a < 3; a++)
+        cross[a] = CGT_CROSS(b, e, (a + 1) % 3, (a + 2) % 3);
+    return CGT_TRIANGLE_DOUBLE_ERROR * NORM1(b) * NORM1(e);
+}
+
+/* w1 or w2: the side of the edge, as cgt_triangle_double_sides has it; and what is above 0 where it is safe. */
+CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, int to, vdouble *sure)
+{
+    vdouble cross[3];
+    const vdouble error = resolve_half_edge(h, from, to, cross), side = DOT(h->d, cross);
+    *sure = spux_double_abs(side) * CGT_DOUBLE_SAFE - NORM1(h->d) * error;
     return side;
 }
 
@@ -219,89 +232,155 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
     return known;
 }
 
-/* ---- vectors of rays from one origin to one triangle ---- */
+/* ---- triangles seen from one origin ---- */
 
-/* What all rays to a triangle have in common. */
-typedef struct prepared_triangle {
-    double n[3], num, edges;      /* as cgt_triangle_double_plane has them; edges: of den's error, over |d| */
-    double cross[2][3], error[2]; /* of w1 and w2, where u and v are asked for; the error over |d| */
-    float normal[3];
-    bool safe; /* what does not depend on the direction */
-} prepared_triangle;
+/* What all rays to a triangle have in common, as records of 8 doubles. The first: n, num and the bound of den's error over
+ * |d|, as cgt_triangle_double_plane has them, +infinity where t or the normal is not safe; the unit normal, rounded to
+ * float. The second, where u and v are asked for: the sides of w1 and w2, cross products and bounds. */
+enum { PREPARED_N = 0, PREPARED_NUM = 3, PREPARED_ERROR = 4, PREPARED_NORMAL = 5 };
+enum { PREPARED_SIDE = 0, PREPARED_SIDE_ERROR = 6 };
+#define PREPARED_RECORD 8u
 
 /* |d| is summed up otherwise than for a single ray: the bound allows for its rounding. */
 #define PREPARED_SLACK 1.01
 
-__attribute__((noinline, unused)) static void prepare_triangle(const float org[3], const cgt_triangle *q,
-                                                               uint32_t fields, bool exact, prepared_triangle *to)
+CGT_SPU_INLINE void prepare_half_plane(resolve_half_plane *h, uint32_t fields, bool exact, vdouble record[8])
 {
-    static const float nowhere[3] = {0, 0, 0};
-    const cgt_triangle_plane plane = cgt_triangle_double_plane(org, nowhere, q);
-    const double *n = plane.n;
-    to->num = plane.num;
-    to->edges = triangle_edges(q) * PREPARED_SLACK;
-    to->safe = !(fields & CGT_FIELD_T) || plane.num_error <= CGT_DOUBLE_SAFE * fabs(plane.num);
-    for (int a = 0; a < 3; a++)
-        to->n[a] = n[a];
-    if (fields & CGT_FIELD_UV) {
-        to->error[0] = cgt_triangle_double_edge(org, q, 2, 0, to->cross[0]) * PREPARED_SLACK;
-        to->error[1] = cgt_triangle_double_edge(org, q, 0, 1, to->cross[1]) * PREPARED_SLACK;
-    }
+    const vdouble safe = spux_vdouble(CGT_DOUBLE_SAFE), one = spux_vdouble(1);
+    vdouble sure = one;
+    resolve_half_normal(h);
+    if (fields & CGT_FIELD_T)
+        sure = h->sure_t;
     if (fields & CGT_FIELD_NORMAL) {
-        const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        const vdouble r = one / spux_double_sqrt(DOT(h->n, h->n));
+        if (!exact)
+            sure = spux_double_select(spux_vdouble(-1), sure, NORM1(h->n) * safe - h->edges);
+        for (int a = 0; a < 3; a++) {
+            record[PREPARED_NORMAL + a] = h->n[a] * r;
+            if (exact)
+                sure = spux_double_select(spux_vdouble(-1), sure, spux_double_abs(h->n[a]) * safe - h->edges);
+        }
+    } else
         for (int a = 0; a < 3; a++)
-            to->normal[a] = (float)(n[a] * r);
-        to->safe = to->safe && normal_is_safe(q, n, exact);
+            record[PREPARED_NORMAL + a] = spux_vdouble(0);
+    for (int a = 0; a < 3; a++)
+        record[PREPARED_N + a] = h->n[a];
+    record[PREPARED_NUM] = h->num;
+    record[PREPARED_ERROR] = spux_double_select(spux_vdouble(INFINITY), h->edges * spux_vdouble(PREPARED_SLACK), sure);
+}
+
+CGT_SPU_INLINE void prepare_half_sides(const resolve_half_plane *h, vdouble record[8])
+{
+    for (int k = 0; k < 2; k++) {
+        vdouble cross[3];
+        const vdouble error = resolve_half_edge(h, k ? 0 : 2, k ? 1 : 0, cross);
+        for (int a = 0; a < 3; a++)
+            record[PREPARED_SIDE + 3 * k + a] = cross[a];
+        record[PREPARED_SIDE_ERROR + k] = error * spux_vdouble(PREPARED_SLACK);
     }
 }
 
-/* Directions, and their 1-norms. */
-typedef struct resolve_directions {
-    vdouble d[2][3], size[2];
-} resolve_directions;
-
-CGT_SPU_INLINE resolve_directions resolve_directions_of(const vfloat dir[3])
+/* A vector of triangles to records that lie one after the other, `stride` doubles apart: one record, or two where u and v
+ * are asked for. */
+CGT_SPU_INLINE void prepare_triangles(const float eye[3], const vfloat vertex[3][3], uint32_t fields, bool exact,
+                                      double *to, size_t stride)
 {
-    resolve_directions r;
-    for (int a = 0; a < 3; a++) {
-        r.d[0][a] = spux_double_low(dir[a]);
-        r.d[1][a] = spux_double_high(dir[a]);
-    }
-    r.size[0] = NORM1(r.d[0]);
-    r.size[1] = NORM1(r.d[1]);
-    return r;
-}
-
-/* As resolve_triangles_vector. */
-CGT_SPU_INLINE vmask resolve_prepared_vector(const prepared_triangle *p, const resolve_directions *of, uint32_t fields,
-                                             bool exact, resolved_triangles *to)
-{
-    vdouble t[2], side[2][2], sure[2], sure_side[2][2];
-    for (int h = 0; h < 2; h++) {
-        const vdouble *d = of->d[h], den = DOT(d, p->n);
-        t[h] = spux_vdouble(p->num) / den;
-        sure[h] = spux_double_abs(den) * CGT_DOUBLE_SAFE - of->size[h] * p->edges;
+    const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
+    resolve_half_plane h[2];
+    resolve_half_load(org, org, vertex, h); /* no directions */
+    for (size_t half = 0; half < 2; half++) {
+        vdouble record[8];
+        prepare_half_plane(&h[half], fields, exact, record);
+        spux_double_store8(to + half * CGT_DOUBLES * stride, stride, record);
         if (fields & CGT_FIELD_UV) {
-            const vdouble r = spux_vdouble(1) / den;
-            for (int k = 0; k < 2; k++) {
-                const vdouble w = DOT(d, p->cross[k]);
-                side[k][h] = w * r;
-                sure_side[k][h] = spux_double_abs(w) * CGT_DOUBLE_SAFE - of->size[h] * p->error[k];
-            }
+            prepare_half_sides(&h[half], record);
+            spux_double_store8(to + half * CGT_DOUBLES * stride + PREPARED_RECORD, stride, record);
         }
     }
-    vmask known = spux_double_above0(sure[0], sure[1]);
-    to->t = spux_float_of(t[0], t[1]);
+}
+
+/* Half a vector of rays, each to a triangle of its own: records as vectors. */
+typedef struct prepared_half {
+    vdouble t, den, sure;
+    vdouble normal[3];
+    vdouble side[2], sure_side[2];
+} prepared_half;
+
+CGT_SPU_INLINE void resolve_prepared_half(const vdouble d[3], const vdouble record[8], prepared_half *h)
+{
+    h->den = DOT(d, record + PREPARED_N);
+    h->t = record[PREPARED_NUM] / h->den;
+    h->sure = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_ERROR];
+    for (int a = 0; a < 3; a++)
+        h->normal[a] = record[PREPARED_NORMAL + a];
+}
+
+CGT_SPU_INLINE void resolve_prepared_sides(const vdouble d[3], const vdouble record[8], prepared_half *h)
+{
+    const vdouble r = spux_vdouble(1) / h->den;
+    for (int k = 0; k < 2; k++) {
+        const vdouble w = DOT(d, record + PREPARED_SIDE + 3 * k);
+        h->side[k] = w * r;
+        h->sure_side[k] = spux_double_abs(w) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_SIDE_ERROR + k];
+    }
+}
+
+/* Returns the lanes that are right, as resolve_triangles_vector. */
+CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t fields, bool exact,
+                                             resolved_triangles *to)
+{
+    vmask known = spux_double_above0(h[0].sure, h[1].sure);
+    to->t = spux_float_of(h[0].t, h[1].t);
     if (fields & CGT_FIELD_UV) {
-        to->u = shares_of(side[0][0], side[0][1]);
-        to->v = shares_of(side[1][0], side[1][1]);
+        to->u = shares_of(h[0].side[0], h[1].side[0]);
+        to->v = shares_of(h[0].side[1], h[1].side[1]);
         for (int k = 0; exact && k < 2; k++)
-            known = spu_and(known, spux_double_above0(sure_side[k][0], sure_side[k][1]));
+            known = spu_and(known, spux_double_above0(h[0].sure_side[k], h[1].sure_side[k]));
     }
     if (fields & CGT_FIELD_NORMAL)
         for (int a = 0; a < 3; a++)
-            to->normal[a] = spux_vfloat(p->normal[a]);
-    return p->safe ? known : spux_mask_none();
+            to->normal[a] = spux_float_of(h[0].normal[a], h[1].normal[a]);
+    return known;
+}
+
+/* Rays from the origin, each to one of the records at `at`, so many doubles from `record`. */
+CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t at[CGT_LANES], const vfloat dir[3],
+                                      uint32_t fields, bool exact, resolved_triangles *to)
+{
+    prepared_half h[2];
+    for (uint32_t half = 0; half < 2; half++) {
+        vdouble d[3], q[8];
+        for (int a = 0; a < 3; a++)
+            d[a] = half ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
+        spux_double_load8_at(record, at + half * CGT_DOUBLES, q);
+        resolve_prepared_half(d, q, &h[half]);
+        if (fields & CGT_FIELD_UV) {
+            spux_double_load8_at(record + PREPARED_RECORD, at + half * CGT_DOUBLES, q);
+            resolve_prepared_sides(d, q, &h[half]);
+        }
+    }
+    return resolve_prepared_halves(h, fields, exact, to);
+}
+
+/* The same, all to one of them. */
+CGT_SPU_INLINE vmask resolve_prepared_one(const double *record, const vfloat dir[3], uint32_t fields, bool exact,
+                                          resolved_triangles *to)
+{
+    prepared_half h[2];
+    for (uint32_t half = 0; half < 2; half++) {
+        vdouble d[3], q[8];
+        for (int a = 0; a < 3; a++)
+            d[a] = half ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
+        for (uint32_t k = 0; k < 8; k++)
+            q[k] = spux_vdouble(record[k]);
+        resolve_prepared_half(d, q, &h[half]);
+        if (fields & CGT_FIELD_UV) {
+            for (uint32_t k = 0; k < 8; k++)
+                q[k] = spux_vdouble(record[PREPARED_RECORD + k]);
+            resolve_prepared_sides(d, q, &h[half]);
+        }
+    }
+    return resolve_prepared_halves(h, fields, exact, to);
 }
 
 __attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields, bool exact,

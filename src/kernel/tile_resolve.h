@@ -11,7 +11,7 @@
 #include "resolve_fast_vectors.h"
 #include "resolve_spheres.h"
 #include "resolve_triangles.h"
-#include "tile.h"
+#include "tile_mesh.h"
 
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
 
@@ -115,23 +115,16 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_rays(const c
     }
 }
 
-/* What vectors of pixels have met, for the next ones: neighbours mostly hit the same. */
-#define TILE_PREPARED 64u /* triangles, a power of two */
-#define TILE_SEVERAL 2u   /* triangles of a vector; more of them are quicker side by side */
-
+/* What the last vector of pixels has met: the next one has mostly met the same. */
 typedef struct tile_prepared_sphere {
     uint32_t number;
     prepared_sphere sphere;
 } tile_prepared_sphere;
 
-typedef struct tile_prepared {
-    uint32_t number[TILE_PREPARED];
-    prepared_triangle triangle[TILE_PREPARED];
-} tile_prepared;
-
 /* What is constant over a frame; inlined with constants where that makes loops shorter. */
 typedef struct tile_wish {
     bool triangles, stream, exact, fast;
+    bool mesh;       /* triangles are prepared */
     bool parallel;   /* rays: tile_directions are their origins */
     uint32_t fields; /* t, u v and normals */
 } tile_wish;
@@ -174,52 +167,9 @@ CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, 
     }
 }
 
-CGT_SPU_INLINE const prepared_triangle *tile_prepare(const cgt_world *world, const tile *t, uint32_t number,
-                                                     uint32_t fields, bool exact, tile_prepared *kept)
-{
-    const uint32_t k = number & (TILE_PREPARED - 1);
-    if (kept->number[k] != number) {
-        const cgt_triangle q = cgt_array_triangle(world->objects.array, number);
-        kept->number[k] = number;
-        prepare_triangle(t->rays->eye, &q, fields, exact, &kept->triangle[k]);
-    }
-    return &kept->triangle[k];
-}
-
-/* How many numbers there are among lanes, or one more than TILE_SEVERAL. */
-CGT_SPU_INLINE uint32_t tile_several(vuint number, unsigned lanes)
-{
-    uint32_t count = 0;
-    for (; lanes && count <= TILE_SEVERAL; count++)
-        lanes &= ~spux_mask_bits(spu_cmpeq(number, spux_vuint(number[__builtin_ctz(lanes)])));
-    return count;
-}
-
-CGT_SPU_INLINE vmask tile_resolve_several(const cgt_world *world, const tile *t, uint32_t fields, bool exact,
-                                          vuint number, unsigned lanes, const vfloat dir[3], tile_prepared *kept,
-                                          resolved_triangles *to)
-{
-    const resolve_directions of = resolve_directions_of(dir);
-    vmask known = spux_mask_none();
-    while (lanes) {
-        const uint32_t some = number[__builtin_ctz(lanes)];
-        const vmask mine = spu_cmpeq(number, spux_vuint(some));
-        resolved_triangles found = *to;
-        known = spu_or(known, spu_and(mine, resolve_prepared_vector(tile_prepare(world, t, some, fields, exact, kept),
-                                                                    &of, fields, exact, &found)));
-        to->t = spux_select(to->t, found.t, mine);
-        to->u = spux_select(to->u, found.u, mine);
-        to->v = spux_select(to->v, found.v, mine);
-        for (int a = 0; a < 3; a++)
-            to->normal[a] = spux_select(to->normal[a], found.normal[a], mine);
-        lanes &= ~spux_mask_bits(mine);
-    }
-    return known;
-}
-
-CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
-                                           unsigned hit, vmask missed, const vfloat dir[3], tile_prepared *kept,
-                                           tile_hits *h, cgt_counts *counts)
+CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
+                                           vuint number, unsigned hit, vmask missed, const vfloat dir[3],
+                                           const tile_mesh *mesh, tile_hits *h, cgt_counts *counts)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
@@ -228,8 +178,8 @@ CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t
     const bool exact = wish.exact;
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask known;
-    if (tile_several(number, hit) <= TILE_SEVERAL)
-        known = tile_resolve_several(world, t, fields, exact, number, hit, dir, kept, &found);
+    if (wish.mesh)
+        known = tile_mesh_resolve(mesh, i, hit, dir, fields, exact, &found);
     else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat vertex[3][3];
@@ -253,7 +203,7 @@ CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t
 /* What is kept from vector to vector. */
 typedef struct tile_kept {
     tile_prepared_sphere *sphere;
-    tile_prepared *triangles;
+    const tile_mesh *mesh;
 } tile_kept;
 
 /* A vector of parallel rays, from these origins. */
@@ -311,7 +261,7 @@ CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile 
     if (wish.parallel)
         tile_resolve_parallel(world, t, wish, number, some, missed, dir, &h, counts);
     else if (wish.triangles)
-        tile_resolve_triangles(world, t, wish, number, hit, missed, dir, kept.triangles, &h, counts);
+        tile_resolve_triangles(world, t, wish, i, number, hit, missed, dir, kept.mesh, &h, counts);
     else
         tile_resolve_spheres(world, t, wish, number, some, missed, dir, kept.sphere, &h, counts);
     return h;
@@ -382,12 +332,13 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const 
                                                                           const cgt_region *r, tile_wish wish,
                                                                           cgt_counts *counts)
 {
-    tile_prepared prepared;
-    const tile_kept kept = {.triangles = &prepared};
-    for (uint32_t k = 0; k < TILE_PREPARED; k++)
-        prepared.number[k] = CGT_NONE;
+    tile_mesh mesh;
+    const tile_kept kept = {.mesh = &mesh};
     wish.triangles = true;
     wish.parallel = false;
+    wish.mesh = wish.fields && tile_mesh_list(t, r, &mesh);
+    if (wish.mesh)
+        tile_mesh_prepare(world, t, wish.fields, wish.exact, &mesh);
     if (wish.fields & CGT_FIELD_UV)
         tile_resolve_streamed(world, t, r, wish, kept, counts);
     else {
