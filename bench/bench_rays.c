@@ -16,6 +16,7 @@
 #else
 #define BENCH_CLONES
 #endif
+#define BENCH_INLINE static inline __attribute__((always_inline)) /* into clones */
 
 enum {
     BLOCK = 4,             /* pixels along a block's edge */
@@ -333,8 +334,7 @@ typedef struct ao_group {
 
 /* Points of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. No
  * branches: half of them would be guessed wrong. Plain loops, which the compiler makes vectors of. */
-BENCH_CLONES
-static void octahedron_points(const ao_group *g, uint32_t sample, float v[3][GROUP])
+BENCH_INLINE void octahedron_points(const ao_group *g, uint32_t sample, float v[3][GROUP])
 {
     for (int k = 0; k < GROUP; k++) {
         const uint32_t first = mix(g->order[k] * 64u + sample), second = mix(first + 0x9e3779b9u);
@@ -358,8 +358,7 @@ static void lean_to_normals(const ao_group *g, float v[3][GROUP])
 }
 
 /* To the side of the surface that the eye sees. */
-BENCH_CLONES
-static void turn_to_eye(const ao_group *g, float v[3][GROUP])
+BENCH_INLINE void turn_to_eye(const ao_group *g, float v[3][GROUP])
 {
     for (int k = 0; k < GROUP; k++) {
         const float cosine = v[0][k] * g->normal[0][k] + v[1][k] * g->normal[1][k] + v[2][k] * g->normal[2][k];
@@ -370,8 +369,7 @@ static void turn_to_eye(const ao_group *g, float v[3][GROUP])
 }
 
 /* Plain loops, as above. */
-BENCH_CLONES
-static void read_group(const bench_rays *rays, uint64_t first, uint32_t pixels, ao_group *g)
+BENCH_INLINE void read_group(const bench_rays *rays, uint64_t first, uint32_t pixels, ao_group *g)
 {
     const bench_camera_axes *axes = rays->axes;
     const bench_planes *planes = rays->planes;
@@ -403,7 +401,17 @@ static void read_group(const bench_rays *rays, uint64_t first, uint32_t pixels, 
     }
 }
 
+/* Most groups are whole, and copied by a few instructions. */
+BENCH_INLINE void put_group(float *to, const float from[GROUP], uint32_t pixels)
+{
+    if (pixels == GROUP)
+        memcpy(to, from, GROUP * sizeof *to);
+    else
+        memcpy(to, from, pixels * sizeof *to);
+}
+
 /* All samples of the pixels of one group, sample by sample: neighbours in the arrays are neighbours in space. */
+BENCH_CLONES
 static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
 {
     ao_group g;
@@ -416,8 +424,8 @@ static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
             lean_to_normals(&g, v);
         turn_to_eye(&g, v);
         for (int i = 0; i < 3; i++) {
-            memcpy(rays->org[i] + ray, g.point[i], pixels * sizeof(float));
-            memcpy(rays->dir[i] + ray, v[i], pixels * sizeof(float));
+            put_group(rays->org[i] + ray, g.point[i], pixels);
+            put_group(rays->dir[i] + ray, v[i], pixels);
         }
     }
 }

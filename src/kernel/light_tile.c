@@ -15,6 +15,7 @@
 #define SORT_OBJECTS 8192u
 
 #define REFRESH 256u /* tests of groups after which slopes are found again, of those that still want something */
+#define SAMPLE 4u    /* of so many vectors of points one is looked at to tell how far they reach */
 #define AHEAD 64u    /* references whose vertices are on their way */
 
 _Static_assert(GROUPS == PACKETS * PACKET_GROUPS, "groups fill packets");
@@ -376,7 +377,7 @@ uint64_t CGT_KERNEL(cgt_tile_light_objects)(const cgt_world *world, const cgt_ra
         least[a] = spux_vfloat(INFINITY);
         most[a] = spux_vfloat(-INFINITY);
     }
-    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+    for (uint32_t k = 0; k < count; k += SAMPLE * CGT_LANES) {
         vfloat point[3];
         chunk_load(&c, k, count, point);
         view_see(&view, point, at);
