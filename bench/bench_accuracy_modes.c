@@ -17,6 +17,8 @@
 
 #define EDGE 128u /* pixels of the picture, each way */
 #define PIXELS (EDGE * EDGE)
+#define SMALL_EDGE 48u /* where few rays are asked for: more than a task, but done soon */
+#define FEW_RAYS 1000u
 #define FAR_AWAY 4096.0f /* half the edge of a probe's planes */
 
 typedef enum mode_kind { MODE_CAMERA, MODE_ARRAY, MODE_SINGLE } mode_kind;
@@ -48,6 +50,7 @@ typedef struct finding {
 
 typedef struct modes_job {
     const accuracy_job *accuracy;
+    uint32_t edge, pixels; /* at most EDGE and PIXELS */
     cgt_camera camera;
     accuracy_subject subject;
     hard_scene probe[3];
@@ -78,9 +81,9 @@ static void find_directions(modes_job *job)
         right[a] /= sqrtl(length);
     for (int a = 0; a < 3; a++)
         up[a] = right[(a + 1) % 3] * fwd[(a + 2) % 3] - right[(a + 2) % 3] * fwd[(a + 1) % 3];
-    for (uint32_t i = 0; i < PIXELS; i++) {
-        const uint32_t column = i % EDGE, row = i / EDGE;
-        const long double x = 2 * (column + 0.5L) / EDGE - 1, y = 1 - 2 * (row + 0.5L) / EDGE;
+    for (uint32_t i = 0; i < job->pixels; i++) {
+        const uint32_t column = i % job->edge, row = i / job->edge;
+        const long double x = 2 * (column + 0.5L) / job->edge - 1, y = 1 - 2 * (row + 0.5L) / job->edge;
         for (int a = 0; a < 3; a++)
             job->direction[i][a] = fwd[a] + x * half * right[a] + y * half * up[a];
     }
@@ -114,15 +117,15 @@ static int make_picture(modes_job *job)
     job->camera.eye[0] = 0.75f; /* short numbers: planes at one unit from the eye are exact */
     job->camera.eye[1] = 0.5f;
     job->camera.eye[2] = 3.0f;
-    if (!hard || cgt_camera_prepare(&job->camera, EDGE, EDGE, &rays, message) != CGT_OK) {
+    if (!hard || cgt_camera_prepare(&job->camera, job->edge, job->edge, &rays, message) != CGT_OK) {
         program_error("modes: there is no picture to trace");
         return PROGRAM_FAILED;
     }
     if (!hard_case_make(hard, 0, &job->subject.scene))
         return PROGRAM_FAILED;
-    job->subject.scene.wanted = PIXELS;
-    for (uint32_t i = 0; i < PIXELS; i++) {
-        const truth_ray ray = camera_ray(&rays, i % EDGE, i / EDGE);
+    job->subject.scene.wanted = job->pixels;
+    for (uint32_t i = 0; i < job->pixels; i++) {
+        const truth_ray ray = camera_ray(&rays, i % job->edge, i / job->edge);
         hard_raw_ray(&job->subject.scene, &ray);
     }
     for (int axis = 0; axis < 3; axis++)
@@ -142,21 +145,21 @@ static int make_picture(modes_job *job)
 static cgt_result trace_camera(const modes_job *job, const cgt_scene *scene, const cgt_trace_options *options,
                                full_hit *hits)
 {
-    float *plane = calloc((size_t)6 * PIXELS, sizeof *plane);
-    uint32_t *ids = calloc((size_t)2 * PIXELS, sizeof *ids);
+    float *plane = calloc((size_t)6 * job->pixels, sizeof *plane);
+    uint32_t *ids = calloc((size_t)2 * job->pixels, sizeof *ids);
     cgt_frame frame;
-    cgt_frame_init(&frame, EDGE, EDGE);
+    cgt_frame_init(&frame, job->edge, job->edge);
     cgt_result result = CGT_ERROR_OUT_OF_MEMORY;
     if (plane && ids) {
         frame.t = plane;
         for (int a = 0; a < 3; a++)
-            frame.normal[a] = plane + (size_t)(1 + a) * PIXELS;
-        frame.u = plane + (size_t)4 * PIXELS;
-        frame.v = plane + (size_t)5 * PIXELS;
+            frame.normal[a] = plane + (size_t)(1 + a) * job->pixels;
+        frame.u = plane + (size_t)4 * job->pixels;
+        frame.v = plane + (size_t)5 * job->pixels;
         frame.primitive = ids;
-        frame.geometry = ids + PIXELS;
+        frame.geometry = ids + job->pixels;
         result = cgt_trace_camera(scene, &job->camera, &frame, options);
-        for (uint32_t i = 0; i < PIXELS; i++)
+        for (uint32_t i = 0; i < job->pixels; i++)
             hits[i] = (full_hit){frame.t[i],
                                  frame.primitive[i],
                                  frame.geometry[i],
@@ -180,9 +183,9 @@ static cgt_result trace_mode(const modes_job *job, const mode *m, const cgt_scen
     options.tile = m->tile;
     switch (m->kind) {
     case MODE_CAMERA: return trace_camera(job, scene, &options, hits);
-    case MODE_ARRAY: return trace_array(scene, rays, PIXELS, hits, &options);
+    case MODE_ARRAY: return trace_array(scene, rays, job->pixels, hits, &options);
     case MODE_SINGLE:
-        for (uint32_t i = 0; i < PIXELS && result == CGT_OK; i++)
+        for (uint32_t i = 0; i < job->pixels && result == CGT_OK; i++)
             result = trace_array(scene, &rays[i], 1, &hits[i], &options);
     }
     return result;
@@ -199,7 +202,7 @@ static cgt_result find(const modes_job *job, const mode *m, cgt_context *context
             break;
         result = trace_mode(job, m, scene, CGT_PRECISION_ROBUST, found->hit);
         cgt_scene_release(scene);
-        for (uint32_t i = 0; i < PIXELS; i++)
+        for (uint32_t i = 0; i < job->pixels; i++)
             found->probe[axis][i] = found->hit[i].t;
     }
     if (result == CGT_OK)
@@ -225,7 +228,7 @@ typedef struct differences {
 static void compare_directions(const modes_job *job, differences *d)
 {
     for (int axis = 0; axis < 3; axis++)
-        for (uint32_t i = 0; i < PIXELS; i++) {
+        for (uint32_t i = 0; i < job->pixels; i++) {
             const float t = job->found.probe[axis][i];
             if (!isfinite(t)) /* the probe is not that large */
                 continue;
@@ -240,7 +243,7 @@ static differences compare(const modes_job *job)
 {
     differences d = {.tally = hard_judge_all(&job->subject.scene, &job->subject.truth, job->found.hit)};
     compare_directions(job, &d);
-    for (uint32_t i = 0; i < PIXELS; i++) {
+    for (uint32_t i = 0; i < job->pixels; i++) {
         const full_hit *a = &job->first.hit[i], *b = &job->found.hit[i];
         oracle_hit exact;
         const bool same = a->geometry == b->geometry && a->primitive == b->primitive;
@@ -262,7 +265,7 @@ static void report_mode(const modes_job *job, const char *variant, const mode *m
     char config[BENCH_NAME_SIZE];
     snprintf(config, sizeof config, "%s,variant=%s,precision=%s", m->name, variant, bench_precision_name(precision));
     accuracy_report_text(report, config);
-    accuracy_report_count(report, PIXELS);
+    accuracy_report_count(report, job->pixels);
     accuracy_report_real(report, d.direction_ulp);
     accuracy_report_real(report, d.direction_truth_ulp);
     accuracy_report_real(report, d.direction_truth);
@@ -314,6 +317,8 @@ int accuracy_modes(const accuracy_job *accuracy)
         return PROGRAM_FAILED;
     }
     job->accuracy = accuracy;
+    job->edge = accuracy->rays < FEW_RAYS ? SMALL_EDGE : EDGE;
+    job->pixels = job->edge * job->edge;
     for (int axis = 0; axis < 3; axis++)
         job->probe[axis].place.scale = 1;
     accuracy_report_table(accuracy->report, "modes", columns);

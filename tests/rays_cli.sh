@@ -12,7 +12,7 @@ size=70x21 pixels=1470 structures=grid-queue,loose-grid,kd,kd-ropes,wide-tree
 of_cloud=$structures of_blobs=$structures batches=1,16,100,all repeats=2
 # Where it is slow, the scenes share the structures; each still has several to compare.
 if [ -n "$slow" ]; then
-    size=16x12 pixels=192 batches=1,all repeats=1
+    size=12x8 pixels=96 batches=1,all repeats=1
     of_cloud=grid-queue,loose-grid,wide-tree of_blobs=loose-grid,kd,kd-ropes
 fi
 run 0 make cloud2k "$tmp/cloud.frames" -n 2

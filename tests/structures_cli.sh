@@ -8,8 +8,8 @@
 . "$(dirname "$0")/table_cli.sh"
 
 camera='-c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46'
-size=40x22 pixels=880 random=500
-[ -z "$slow" ] || size=20x12 pixels=240 random=150
+size=40x22 pixels=880 random=500 frames=2
+[ -z "$slow" ] || size=16x9 pixels=144 random=100 frames=1
 small="$camera -s $size -n 2 --random $random"
 run 0 make cloud2k "$tmp/cloud.frames" -n 2
 run 0 make blobs2k "$tmp/blobs.frames" -n 2
@@ -26,7 +26,7 @@ done
 # ---- Rows -----------------------------------------------------------------------------------------------------------
 
 # Both files in all structures: the hits are the same bits, or the exit code would tell.
-run 0 structures "$tmp/cloud.frames" "$tmp/blobs.frames" $small -l 3,4,-5 -a 4 -j "$tmp/rows.json"
+run 0 structures "$tmp/cloud.frames" "$tmp/blobs.frames" $small -n $frames -l 3,4,-5 -a 4 -j "$tmp/rows.json"
 [ ! -s "$tmp/stderr" ] || fail "what is left out, or differs: $(head -n 3 "$tmp/stderr")"
 is scenes "$(column scene)" 'cloud blobs'
 is 'structures and traversals' "$(column config | sed 's/,layout=[a-z-]*//g; s/,variant=[a-z0-9]*//g')" \

@@ -13,11 +13,12 @@
 #define STRIDE 80u
 #define PIXELS (STRIDE * 50u)
 
-/* Of the picture: where it is slow, a fifteenth of the pixels, which are no whole blocks either. */
+/* Of the picture: where it is slow, a fifteenth of the pixels, and where samples do, a fortieth; these are no whole
+ * blocks either. */
 #define SLOW (test_scaled(10) < 2)
-#define WIDTH (SLOW ? 19u : 75u)
-#define HEIGHT (SLOW ? 13u : 50u)
-#define MANY (SLOW ? 50u : 1000u) /* of its pixels */
+#define WIDTH (test_samples() ? 11u : SLOW ? 19u : 75u)
+#define HEIGHT (test_samples() ? 9u : SLOW ? 13u : 50u)
+#define MANY (test_samples() ? 20u : SLOW ? 50u : 1000u) /* of its pixels */
 #define ROWS (STRIDE * HEIGHT)
 
 /* Of the structures: every one, or where it is slow every second. */

@@ -288,7 +288,9 @@ static void hits_are_those_of_what_is_left(void **state)
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *own = context_make(1 + 2 * (number % 2), variant);
-            for (uint32_t k = 0; k < CGT_STRUCTURE_WIDE_TREE; k++) {
+            /* a sample: half of the structures, by turns of two, for what follows from number + k takes turns of one */
+            const uint32_t step = test_samples() ? 2 : 1;
+            for (uint32_t k = test_sample_start(number / 2, step); k < CGT_STRUCTURE_WIDE_TREE; k += step) {
                 const cgt_scene_options made = structure_in_turn(k);
                 cgt_trace_options options;
                 cgt_trace_options_init(&options);
@@ -485,6 +487,9 @@ static void cameras_have_masks(void **state)
     static filtered_ray ray[SIDE * SIDE];
     static full_hit hit[SIDE * SIDE];
     static const uint32_t masks[] = {0, UINT32_MAX, 1, 2, 4, 0x80000000u, 8};
+    /* every structure with every mask: where it is slow, two tiles in place of four, and these narrow */
+    const bool slow = test_scaled(10) < 2;
+    const uint32_t width = slow ? 70 : SIDE, height = slow ? 18 : SIDE, pixels = width * height;
     uint32_t seen = 0;
     FOR_EACH_VARIANT(variant)
     {
@@ -499,20 +504,20 @@ static void cameras_have_masks(void **state)
             cgt_trace_statistics statistics;
             cgt_trace_options options;
             char message[160];
-            planes p = planes_make(SIDE, SIDE);
+            planes p = planes_make(width, height);
             cgt_trace_options_init(&options);
             options.statistics = &statistics;
             camera.mask = mask;
             frame_trace(scene, &camera, &p, &options);
             if (made.structure == CGT_STRUCTURE_LOOSE_GRID && mask + 1 > 1)
                 assert_int_equal(statistics.tiles, 0);
-            assert_int_equal(cgt_camera_prepare(&camera, SIDE, SIDE, &of, message), CGT_OK);
-            for (uint32_t i = 0; i < SIDE * SIDE; i++)
-                ray[i] = (filtered_ray){.ray = camera_ray(&of, i % SIDE, i / SIDE), .mask = mask ? mask : UINT32_MAX};
-            const cgt_rays rays = rays_of(ray, SIDE * SIDE, GIVEN_MASK);
+            assert_int_equal(cgt_camera_prepare(&camera, width, height, &of, message), CGT_OK);
+            for (uint32_t i = 0; i < pixels; i++)
+                ray[i] = (filtered_ray){.ray = camera_ray(&of, i % width, i / width), .mask = mask ? mask : UINT32_MAX};
+            const cgt_rays rays = rays_of(ray, pixels, GIVEN_MASK);
             const cgt_hits hits = hit_array(hit);
             assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
-            for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+            for (uint32_t i = 0; i < pixels; i++) {
                 assert_int_equal(p.primitive[i], hit[i].primitive);
                 assert_int_equal(p.geometry[i], hit[i].geometry);
                 assert_true(p.t[i] == hit[i].t);

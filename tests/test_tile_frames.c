@@ -176,13 +176,16 @@ static void frames_of_hard_cases(void **state)
     frames_tally tally = {0};
     test_random r = random_make(335);
     uint32_t cases = 0;
+    /* where it is slow smaller pictures, and of each case as many rays as there are openings below */
+    const bool small = test_samples();
+    const uint32_t width = small ? 13 : 21, height = small ? 11 : 23, rays_of_case = small ? 3 : 3 + test_scaled(5);
     for (size_t i = 0; i < hard_case_count(); i++) {
         const hard_case *h = hard_case_at(i);
         hard_scene s;
         cgt_scene *scene;
         loose_reference grid;
         const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
-        assert_true(hard_case_make(h, 3 + test_scaled(5), &s));
+        assert_true(hard_case_make(h, rays_of_case, &s));
         assert_int_equal(hard_commit_with(context, &s, &options, &scene), CGT_OK);
         if (!scene->world.valid) {
             cgt_scene_release(scene);
@@ -203,11 +206,11 @@ static void frames_of_hard_cases(void **state)
             }
             camera.up[0] = 0.3f;
             camera.fov = k % 3 ? 20.f * (float)(k % 3) : 1;
-            if (cgt_camera_prepare(&camera, 21, 23, &rays, message) == CGT_OK)
-                compare_frame(scene, &grid, &camera, 21, 23, h->name, &tally);
+            if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
+                compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
             make_orthographic(&r, height_of(&scene->world, random_log(&r, 1e-3f, 4)), &camera);
-            if (cgt_camera_prepare(&camera, 21, 23, &rays, message) == CGT_OK)
-                compare_frame(scene, &grid, &camera, 21, 23, h->name, &tally);
+            if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
+                compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
         }
         loose_reference_free(&grid);
         cgt_scene_release(scene);

@@ -12,6 +12,13 @@ static cgt_context *context;
 
 static const uint32_t sizes[][2] = {{1, 1}, {65, 3}, {3, 70}, {64, 64}, {65, 63}, {100, 65}};
 
+/* More than a tile: the last of the sizes, or a third of it where samples do. */
+static const uint32_t *large_size(void)
+{
+    static const uint32_t small[] = {66, 34};
+    return test_samples() ? small : sizes[5];
+}
+
 static cgt_camera looking(const float eye[3], const float target[3], const float up[3], float fov)
 {
     cgt_camera camera;
@@ -60,7 +67,8 @@ static void frames_of_closed_meshes(void **state)
             hard_scene s = {.place = place[i % 4 == 3], .random = random_make(400 + 100 * (uint64_t)kind + i)};
             double from[3], to[3];
             float eye[3], target[3], up[3];
-            const uint32_t details[] = {24, 6, 16, 12}, *size = sizes[i % 2 ? 5 : random_below(&s.random, 6)];
+            const uint32_t details[] = {test_samples() ? 14 : 24, 6, 16, 12}, *large = large_size();
+            const uint32_t *size = i % 2 ? large : sizes[random_below(&s.random, 6)];
             hard_closed_mesh(&s, (closed_kind)kind, details[i % 4]);
             closed_mesh_inside(&(closed_mesh){.kind = (closed_kind)kind}, &s.random, from);
             hard_direction(&s, to);
@@ -190,6 +198,46 @@ static void frames_of_both_kinds(void **state)
     frames_of_soups(600, true, "both kinds");
 }
 
+/* ---- fine meshes ---- */
+
+/* A wavy sheet of n x n squares that fills a tile, so that each of its triangles has some pixels: less of them than a tile
+ * has room to prepare, and more. */
+static void add_sheet(hard_scene *s, uint32_t n)
+{
+    for (uint32_t i = 0; i < 2 * n * n; i++) {
+        double v[3][3];
+        for (uint32_t k = 0; k < 3; k++) {
+            const uint32_t corner = i % 2 ? 3 - k : k, x = i / 2 % n + corner % 2, y = i / 2 / n + corner / 2;
+            v[k][0] = 2. * x / n - 1;
+            v[k][1] = 2. * y / n - 1;
+            v[k][2] = 0.1 * sin(7 * v[k][0]) * cos(5 * v[k][1]);
+        }
+        hard_triangle(s, v);
+    }
+}
+
+static void frames_of_fine_meshes(void **state)
+{
+    (void)state;
+    static const uint32_t squares[] = {8, 22, 23, 31};
+    static const float eye[3] = {0.2f, 0.1f, 2.6f}, target[3] = {0.01f, 0.02f, 0}, up[3] = {0, 1, 0};
+    frames_tally tally = {0};
+    for (size_t k = 0; k < TEST_COUNT(squares); k++) {
+        hard_scene s = {.place = {.scale = 1}, .random = random_make(700 + k)};
+        const uint32_t frames = test_samples() ? 2 : 6;
+        add_sheet(&s, squares[k]);
+        both b = both_of(&s, 4);
+        for (uint32_t i = 0; i < frames; i++) {
+            const cgt_camera camera = looking(eye, target, up, 40 + 2 * (float)i);
+            compare_frame(b.scene, &b.grid, &camera, 64, 64, "fine mesh", &tally);
+        }
+        both_free(&b, &s);
+    }
+    print_tally("fine meshes", &tally);
+    assert_int_equal(tally.served, tally.frames);
+    assert_true(tally.counts.hits > 2000 * tally.frames);
+}
+
 /* ---- large layers ---- */
 
 /* More triangles, all larger than the picture, than are drawn between two looks at how far the tile still sees; little
@@ -197,6 +245,7 @@ static void frames_of_both_kinds(void **state)
 static void frames_of_large_layers(void **state)
 {
     (void)state;
+    const uint32_t *pixels = large_size();
     frames_tally tally = {0};
     for (uint32_t round = 0; round < 1 + test_scaled(2); round++) {
         hard_scene s = {.place = {.scale = 1}, .random = random_make(800 + round)};
@@ -214,9 +263,9 @@ static void frames_of_large_layers(void **state)
             hard_triangle(&s, v);
         }
         both b = both_of(&s, 4);
-        compare_frame(b.scene, &b.grid, &camera, 100, 65, "large layers", &tally);
+        compare_frame(b.scene, &b.grid, &camera, pixels[0], pixels[1], "large layers", &tally);
         make_orthographic(&s.random, 3, &camera);
-        compare_frame(b.scene, &b.grid, &camera, 100, 65, "large layers", &tally);
+        compare_frame(b.scene, &b.grid, &camera, pixels[0], pixels[1], "large layers", &tally);
         both_free(&b, &s);
     }
     print_tally("large layers", &tally);
@@ -292,8 +341,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_of_closed_meshes), cmocka_unit_test(frames_of_triangles),
-        cmocka_unit_test(frames_of_both_kinds),    cmocka_unit_test(frames_of_large_layers),
-        cmocka_unit_test(frames_of_edges_on_rays),
+        cmocka_unit_test(frames_of_both_kinds),    cmocka_unit_test(frames_of_fine_meshes),
+        cmocka_unit_test(frames_of_large_layers),  cmocka_unit_test(frames_of_edges_on_rays),
     };
     test_begin("test_tile_mesh_frames");
     if (!test_variant_runs(CGT_VARIANT_NAME))
