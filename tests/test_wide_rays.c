@@ -15,13 +15,14 @@
 #include "scene.h"
 
 static uint32_t arena_used = 16384, flight_stack = 64;
-static uint32_t fly_any, fly_nearest; /* rays of a call that go in flight */
+static float fly_least, fly_apart, fly_most; /* when the rays of a call go in flight */
 static float slack_scale = 1, filter_u = 0x1p-24f;
 #define FILTER_U filter_u
 #define FLIGHT_STACK_USED flight_stack
 #define STREAM_ARENA_USED arena_used
-#define STREAM_FLY_ANY fly_any
-#define STREAM_FLY_NEAREST fly_nearest
+#define STREAM_FLY_LEAST fly_least
+#define STREAM_FLY_APART fly_apart
+#define STREAM_FLY_MOST fly_most
 #define WIDE_SLACK slack_scale
 #include "kernel/wide_stream.c"
 
@@ -274,7 +275,11 @@ static void trace(const subject *s, const cgt_rays *rays, uint64_t first, const 
 }
 
 /* Whether all rays of a call go in flight, or none. */
-static void let_fly(bool all) { fly_any = fly_nearest = all ? CGT_RAYS_CHUNK : 0; }
+static void let_fly(bool all)
+{
+    fly_least = fly_most = all ? 2.f * CGT_RAYS_CHUNK : 0;
+    fly_apart = 0;
+}
 
 static void check(subject *s, uint32_t count)
 {
@@ -355,8 +360,9 @@ static void batches_do_not_matter(void **state)
     test_random r = random_make(77);
     subject s;
     (void)state;
-    fly_any = 512;
-    fly_nearest = 256;
+    fly_least = 8;
+    fly_apart = 300;
+    fly_most = 160;
     subject_make(&r, CLOUD_UNIFORM, BOTH, 1, &s);
     make_rays(&r, &s, RAYS);
     for (uint32_t i = 0; i < RAYS; i++)

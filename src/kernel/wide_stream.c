@@ -6,7 +6,7 @@
  * node as a list. Lanes are rays; a node tests a vector of rays against one child after the other, which leaves a mask
  * for each. A child's list is made of the masks when its turn comes, so that there is one list for each node on the way
  * down. Where few rays are left, lanes are children or primitives instead (wide_single.h); so they are from the root on
- * in a call of few rays (wide_flight.h).
+ * in a call of few rays that run apart (wide_flight.h).
  *
  * Lists lie in an arena, which the rays of a deep tree could fill. A node whose masks and largest list do not fit takes
  * its list in pieces, each through all that hangs on the node before the next. There is always room for a piece of one
@@ -27,12 +27,13 @@
 #define STREAM_FEW_AT_LEAF (CGT_LANES == 16 ? 4u : CGT_LANES == 8 ? 3u : 1u)
 #endif
 
-/* Calls with at most so many rays trace them in flight: any hit, nearest hits. Measured. */
-#ifndef STREAM_FLY_ANY
-#define STREAM_FLY_ANY (CGT_LANES == 16 ? 512u : 1024u)
-#endif
-#ifndef STREAM_FLY_NEAREST
-#define STREAM_FLY_NEAREST (CGT_LANES == 4 ? 512u : 256u)
+/* A call's rays go in flight where streams would be short: where an octant has less than so many, more of them if they
+ * begin far apart, up to a limit. Measured, with the rays of `cgt-bench rays`. Nearest hits: half the growth, half the
+ * limit. */
+#ifndef STREAM_FLY_LEAST
+#define STREAM_FLY_LEAST 8.f
+#define STREAM_FLY_APART (CGT_LANES == 16 ? 300.f : CGT_LANES == 8 ? 600.f : 1000.f)
+#define STREAM_FLY_MOST (CGT_LANES == 16 ? 160.f : CGT_LANES == 8 ? 320.f : 640.f)
 #endif
 
 /* ---- ray by ray ---- */
@@ -258,8 +259,8 @@ static void stream_fly(stream *s, const uint32_t start[STREAM_KEYS], const uint3
     for (uint32_t k = 0; k < STREAM_SINGLE; k++)
         for (uint32_t i = 0; i < number[k]; i++)
             *to++ = s->all[start[k] + i];
-    if (count == 1)
-        stream_trace_few(s, s->arena, 1, 0);
+    if (count <= 1)
+        stream_trace_few(s, s->arena, count, 0);
     else if (s->call.any_hit)
         stream_fly_any(s, count);
     else
@@ -282,15 +283,24 @@ CGT_SPU_INLINE void stream_trace_octants(stream *s, const uint32_t start[STREAM_
     }
 }
 
+static bool stream_is_short(const stream *s, uint32_t rays, uint32_t octants)
+{
+    const float share = s->call.any_hit ? 1 : 0.5f, most = STREAM_FLY_MOST * share;
+    const float wanted = STREAM_FLY_LEAST + STREAM_FLY_APART * share * s->apart;
+    return (float)rays < (float)octants * (wanted < most ? wanted : most);
+}
+
 static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const uint32_t number[STREAM_KEYS])
 {
-    uint32_t count = 0;
-    for (uint32_t k = 0; k < STREAM_SINGLE; k++)
-        count += number[k];
-    if (count > (s->call.any_hit ? STREAM_FLY_ANY : STREAM_FLY_NEAREST))
+    uint32_t rays = 0, octants = 0;
+    for (uint32_t k = 0; k < STREAM_SINGLE; k++) {
+        rays += number[k];
+        octants += number[k] > 0;
+    }
+    if (stream_is_short(s, rays, octants))
+        stream_fly(s, start, number, rays);
+    else
         stream_trace_octants(s, start, number);
-    else if (count)
-        stream_fly(s, start, number, count);
     stream_trace_far(s, s->all + start[STREAM_SINGLE], number[STREAM_SINGLE]);
     stream_trace_extreme(s, s->all + start[STREAM_EXTREME], number[STREAM_EXTREME]);
 }

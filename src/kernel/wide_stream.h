@@ -50,6 +50,7 @@ typedef struct stream {
     uint32_t mask[CGT_RAYS_CHUNK];
     wide_call call;
     float slack[3];    /* E of all rays of streams */
+    float apart;       /* how far their origins lie apart, along an axis, as a share of the tree's size */
     uint32_t octant;   /* in work */
     uint32_t changed;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */

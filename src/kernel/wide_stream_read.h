@@ -77,9 +77,14 @@ CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
     return spu_madd(spu_nmsub(e, r, spux_vfloat(1)), r, r);
 }
 
-/* Makes the records of rays i to i + count - 1. most: of the coordinates of origins in streams. */
+/* Bounds of origins in streams. */
+typedef struct stream_origins {
+    vfloat low[3], high[3];
+} stream_origins;
+
+/* Makes the records of rays i to i + count - 1. */
 CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
-                                        vfloat most[3], uint32_t *invalid_rays)
+                                        stream_origins *origins, uint32_t *invalid_rays)
 {
     const wide_call *c = &s->call;
     const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
@@ -106,8 +111,10 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     keys = spux_select(keys, spux_vuint(STREAM_EXTREME), extreme);
     keys = spux_select(keys, spux_vuint(STREAM_NONE), none);
     const vmask streams = spu_cmpgt(spux_vuint(STREAM_SINGLE), keys);
-    for (int a = 0; a < 3; a++)
-        most[a] = spux_max(most[a], spux_select(spux_vfloat(0), spux_abs(org[a]), streams));
+    for (int a = 0; a < 3; a++) {
+        origins->low[a] = spux_select(origins->low[a], spux_min(origins->low[a], org[a]), streams);
+        origins->high[a] = spux_select(origins->high[a], spux_max(origins->high[a], org[a]), streams);
+    }
     spux_store_uint(key + i, keys);
     *invalid_rays += spux_count_bits(spux_mask_bits(invalid) & CGT_ALL_LANES >> (CGT_LANES - count));
 
@@ -131,21 +138,35 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, nobody, nobody});
 }
 
+/* E of all streams, and how far apart their origins lie. */
+CGT_SPU_INLINE void stream_find_bounds(stream *s, const stream_origins *origins)
+{
+    const cgt_wide_tree *tree = s->call.tree;
+    float org[3], apart = 0, size = 0;
+    for (int a = 0; a < 3; a++) {
+        const float low = spux_hmin(origins->low[a]), high = spux_hmax(origins->high[a]);
+        const float extent = high - low, whole = (tree->high[a] - tree->low[a]) * s->call.scale;
+        org[a] = !(low <= high) ? 0 : -low > high ? -low : high;
+        apart = extent > apart ? extent : apart;
+        size = whole > size ? whole : size;
+    }
+    wide_slack(&s->call, org, s->slack);
+    s->apart = apart > 0 ? apart / size : 0;
+}
+
 /* Makes the records of all `count` rays and sorts them to s->all: number[k] with key k from start[k], which is aligned;
  * each list is filled up. */
 CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_t start[STREAM_KEYS],
                                 uint32_t number[STREAM_KEYS])
 {
     uint32_t *to[STREAM_KEYS], invalid = 0, next = 0;
-    vfloat most[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
-    float org[3];
+    const vfloat least = spux_vfloat(-INFINITY), most = spux_vfloat(INFINITY);
+    stream_origins origins = {{most, most, most}, {least, least, least}};
     memset(number, 0, STREAM_KEYS * sizeof *number);
     for (uint32_t i = 0; i < count; i += CGT_LANES)
-        stream_make_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, most, &invalid);
+        stream_make_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &origins, &invalid);
     s->call.counts->invalid_rays += invalid;
-    for (int a = 0; a < 3; a++)
-        org[a] = spux_hmax(most[a]);
-    wide_slack(&s->call, org, s->slack);
+    stream_find_bounds(s, &origins);
     for (uint32_t i = 0; i < count; i++)
         number[s->key[i]]++;
     for (uint32_t k = 0; k < STREAM_KEYS; k++) {
