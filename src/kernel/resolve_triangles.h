@@ -234,9 +234,9 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
 
 /* ---- triangles seen from one origin ---- */
 
-/* What all rays to a triangle have in common, as records of 8 doubles. The first: n, num and the bound of den's error over
- * |d|, as cgt_triangle_double_plane has them, +infinity where t or the normal is not safe; the unit normal, rounded to
- * float. The second, where u and v are asked for: the sides of w1 and w2, cross products and bounds. */
+/* What all rays to a triangle have in common, as records of 8 doubles. The first: n, num and the bound of den's error
+ * over |d|, as cgt_triangle_double_plane has them, +infinity where t or the normal is not safe; the unit normal. The
+ * second, where u and v are asked for: the sides of w1 and w2, cross products and bounds. */
 enum { PREPARED_N = 0, PREPARED_NUM = 3, PREPARED_ERROR = 4, PREPARED_NORMAL = 5 };
 enum { PREPARED_SIDE = 0, PREPARED_SIDE_ERROR = 6 };
 #define PREPARED_RECORD 8u
@@ -343,40 +343,30 @@ CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t 
     return known;
 }
 
-/* Rays from the origin, each to one of the records at `at`, so many doubles from `record`. */
-CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t at[CGT_LANES], const vfloat dir[3],
-                                      uint32_t fields, bool exact, resolved_triangles *to)
+/* The records at `at`, so many doubles from `record`, of half a vector; at is NULL: this one in every lane. */
+CGT_SPU_INLINE void prepared_load(const double *record, const uint32_t *at, vdouble q[8])
 {
-    prepared_half h[2];
-    for (uint32_t half = 0; half < 2; half++) {
-        vdouble d[3], q[8];
-        for (int a = 0; a < 3; a++)
-            d[a] = half ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
-        spux_double_load8_at(record, at + half * CGT_DOUBLES, q);
-        resolve_prepared_half(d, q, &h[half]);
-        if (fields & CGT_FIELD_UV) {
-            spux_double_load8_at(record + PREPARED_RECORD, at + half * CGT_DOUBLES, q);
-            resolve_prepared_sides(d, q, &h[half]);
-        }
-    }
-    return resolve_prepared_halves(h, fields, exact, to);
-}
-
-/* The same, all to one of them. */
-CGT_SPU_INLINE vmask resolve_prepared_one(const double *record, const vfloat dir[3], uint32_t fields, bool exact,
-                                          resolved_triangles *to)
-{
-    prepared_half h[2];
-    for (uint32_t half = 0; half < 2; half++) {
-        vdouble d[3], q[8];
-        for (int a = 0; a < 3; a++)
-            d[a] = half ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
+    if (at)
+        spux_double_load8_at(record, at, q);
+    else
         for (uint32_t k = 0; k < 8; k++)
             q[k] = spux_vdouble(record[k]);
+}
+
+/* Rays from the origin, each to its record, see above. */
+CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *at, const vfloat dir[3], uint32_t fields,
+                                      bool exact, resolved_triangles *to)
+{
+    prepared_half h[2];
+    for (uint32_t half = 0; half < 2; half++) {
+        const uint32_t *own = at ? at + half * CGT_DOUBLES : NULL;
+        vdouble d[3], q[8];
+        for (int a = 0; a < 3; a++)
+            d[a] = half ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
+        prepared_load(record, own, q);
         resolve_prepared_half(d, q, &h[half]);
         if (fields & CGT_FIELD_UV) {
-            for (uint32_t k = 0; k < 8; k++)
-                q[k] = spux_vdouble(record[PREPARED_RECORD + k]);
+            prepared_load(record + PREPARED_RECORD, own, q);
             resolve_prepared_sides(d, q, &h[half]);
         }
     }

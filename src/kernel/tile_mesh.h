@@ -13,6 +13,8 @@
 
 #define TILE_MESH 1024u /* triangles, a power of two */
 
+_Static_assert(2 * PREPARED_RECORD == 1 << 4, "places in `record` are shifted");
+
 typedef struct tile_mesh {
     _Alignas(64) double record[TILE_MESH + CGT_LANES][2 * PREPARED_RECORD];
     _Alignas(64) uint32_t number[TILE_MESH + CGT_LANES]; /* of each; the first is nobody */
@@ -86,9 +88,10 @@ CGT_SPU_INLINE vmask tile_mesh_resolve(const tile_mesh *m, uint32_t i, unsigned 
     const uint32_t some = m->at[i + (uint32_t)__builtin_ctz(hit)];
     const vuint at = spux_load_uint(m->at + i);
     if (!(~spux_mask_bits(spu_cmpeq(at, spux_vuint(some))) & hit))
-        return resolve_prepared_one(m->record[some], dir, fields, exact, to);
+        return resolve_prepared(m->record[some], NULL, dir, fields, exact, to);
     _Alignas(CGT_VECTOR_BYTES) uint32_t from[CGT_LANES];
-    spux_store_uint(from, spu_sl(spux_select(spux_vuint(some), at, spux_mask_from_bits(hit)), 4));
+    spux_store_uint(from,
+                    spu_sl(spux_select(spux_vuint(some), at, spux_mask_from_bits(hit)), 4)); /* times the record */
     return resolve_prepared(m->record[0], from, dir, fields, exact, to);
 }
 

@@ -23,8 +23,8 @@ typedef struct flight {
     uint32_t enter[3]; /* bytes from a node to the planes that the ray meets first along each axis, and to the others */
     uint32_t leave[3];
     uint32_t top;
-    uint32_t stack[FLIGHT_STACK + 2 * CGT_LANES]; /* CGT_WIDE_NONE at the bottom; stores are of whole vectors */
-    float near[FLIGHT_STACK + 2 * CGT_LANES];     /* of nearest hits: where the ray enters */
+    uint32_t stack[FLIGHT_STACK + CGT_LANES]; /* CGT_WIDE_NONE at the bottom; stores are of whole vectors */
+    float near[FLIGHT_STACK + CGT_LANES];     /* of nearest hits: where the ray enters */
 } flight;
 
 CGT_SPU_INLINE void flight_pop(flight *f, bool any_hit)

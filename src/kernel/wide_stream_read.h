@@ -82,7 +82,7 @@ typedef struct stream_origins {
     vfloat low[3], high[3];
 } stream_origins;
 
-/* Makes the records of rays i to i + count - 1. */
+/* Makes the records of rays i to i + count - 1. origins: grown by theirs. */
 CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
                                         stream_origins *origins, uint32_t *invalid_rays)
 {
