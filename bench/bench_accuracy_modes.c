@@ -145,8 +145,8 @@ static int make_picture(modes_job *job)
 static cgt_result trace_camera(const modes_job *job, const cgt_scene *scene, const cgt_trace_options *options,
                                full_hit *hits)
 {
-    float *plane = calloc((size_t)6 * job->pixels, sizeof *plane);
-    uint32_t *ids = calloc((size_t)2 * job->pixels, sizeof *ids);
+    float *plane = calloc((size_t)6 * PIXELS, sizeof *plane); /* as many as there may be */
+    uint32_t *ids = calloc((size_t)2 * PIXELS, sizeof *ids);
     cgt_frame frame;
     cgt_frame_init(&frame, job->edge, job->edge);
     cgt_result result = CGT_ERROR_OUT_OF_MEMORY;
