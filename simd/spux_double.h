@@ -9,9 +9,11 @@
  *   spux_vdouble(x)                x in every lane
  *   spux_double_sqrt(a)            correctly rounded
  *   spux_double_abs(a)
+ *   spux_double_add_square(s, a)   s + a a for what was a float: its square is exact, so that fusing changes no bit
  *   spux_double_select(a, b, x)    b where x is above 0, else a
  *   spux_double_above0(low, high)  the vmask of what is above 0; where it is so small that a float of it is 0,
  *                                  either way
+ *   spux_double_cmpgt(a, b)        the vmask of a[0] > b[0], low lanes, and a[1] > b[1], high ones
  *   spux_double_load8_at(base, at, d)        records of 8 doubles, number k at base + at[k], to the vectors d[8]
  *   spux_double_store8(base, stride, d)      the reverse, record k to base + k stride */
 #ifndef CGT_SPUX_DOUBLE_H
@@ -65,6 +67,17 @@ CGT_SPU_INLINE vdouble spux_double_select(vdouble a, vdouble b, vdouble x)
 {
     const cgt_spux_long_w m = (cgt_spux_long_w)(x > spux_vdouble(0));
     return (vdouble)(((cgt_spux_long_w)a & ~m) | ((cgt_spux_long_w)b & m));
+}
+
+CGT_SPU_INLINE vdouble spux_double_add_square(vdouble s, vdouble a)
+{
+#if CGT_LANES == 16
+    return (vdouble)_mm512_fmadd_pd((__m512d)a, (__m512d)a, (__m512d)s);
+#elif CGT_LANES == 8
+    return (vdouble)_mm256_fmadd_pd((__m256d)a, (__m256d)a, (__m256d)s);
+#else
+    return s + a * a;
+#endif
 }
 
 #if CGT_LANES == 16
@@ -160,13 +173,28 @@ CGT_SPU_INLINE void spux_double_store8(double *base, size_t stride, const vdoubl
 #endif
 
 #if CGT_LANES == 16
+CGT_SPU_INLINE vmask spux_double_cmpgt(const vdouble a[2], const vdouble b[2])
+{
+    return (vmask){_mm512_kunpackb(_mm512_cmp_pd_mask((__m512d)a[1], (__m512d)b[1], _CMP_GT_OQ),
+                                   _mm512_cmp_pd_mask((__m512d)a[0], (__m512d)b[0], _CMP_GT_OQ))};
+}
 CGT_SPU_INLINE vmask spux_double_above0(vdouble low, vdouble high)
 {
-    const __m512d zero = _mm512_setzero_pd();
-    return (vmask){_mm512_kunpackb(_mm512_cmp_pd_mask((__m512d)high, zero, _CMP_GT_OQ),
-                                   _mm512_cmp_pd_mask((__m512d)low, zero, _CMP_GT_OQ))};
+    const vdouble a[2] = {low, high}, zero[2] = {spux_vdouble(0), spux_vdouble(0)};
+    return spux_double_cmpgt(a, zero);
 }
 #else
+CGT_SPU_INLINE vmask spux_double_cmpgt(const vdouble a[2], const vdouble b[2])
+{
+#if CGT_LANES == 8
+    const __m256 low = _mm256_castpd_ps(_mm256_cmp_pd((__m256d)a[0], (__m256d)b[0], _CMP_GT_OQ)),
+                 high = _mm256_castpd_ps(_mm256_cmp_pd((__m256d)a[1], (__m256d)b[1], _CMP_GT_OQ));
+    return (vmask)_mm256_permute4x64_epi64(_mm256_castps_si256(_mm256_shuffle_ps(low, high, 0x88)), 0xd8);
+#else
+    const cgt_spux_long_w low = (cgt_spux_long_w)(a[0] > b[0]), high = (cgt_spux_long_w)(a[1] > b[1]);
+    return (vmask){(uint32_t)low[0], (uint32_t)low[1], (uint32_t)high[0], (uint32_t)high[1]};
+#endif
+}
 CGT_SPU_INLINE vmask spux_double_above0(vdouble low, vdouble high)
 {
     return spu_cmpgt(spux_float_of(low, high), spux_vfloat(0));

@@ -306,23 +306,31 @@ static void doubles(void **state)
     test_random r = random_make(19);
     for (int round = 0; round < 2000; round++) {
         lanes a = any_words(&r), back;
-        double d[CGT_LANES], root[CGT_LANES], size[CGT_LANES], chosen[CGT_LANES];
+        double d[CGT_LANES], root[CGT_LANES], size[CGT_LANES], chosen[CGT_LANES], sum[CGT_LANES];
+        vdouble left[2], right[2];
         for (int k = 0; k < CGT_LANES; k++)
-            a.ef[k] = round % 2 ? random_float(&r, -2, 2) : a.ef[k] == a.ef[k] ? a.ef[k] : 0;
+            a.ef[k] = round % 2 ? random_float(&r, -2, 2) : a.ef[k] == a.ef[k] ? a.ef[k] : (float)(k & 1);
         for (int h = 0; h < 2; h++) {
             const vdouble v = h ? spux_double_high(a.f) : spux_double_low(a.f), third = v / spux_vdouble(3);
             const vdouble s = spux_double_sqrt(spux_double_abs(third)), b = spux_double_abs(third);
             const vdouble c = spux_double_select(spux_vdouble(1), spux_vdouble(2), v);
+            const vdouble added = spux_double_add_square(third, v);
+            left[h] = v;
+            right[h] = v * v; /* equal at 0 and 1, above or below it elsewhere */
             for (int k = 0; k < CGT_DOUBLES; k++) {
                 d[h * CGT_DOUBLES + k] = third[k];
                 root[h * CGT_DOUBLES + k] = s[k];
                 size[h * CGT_DOUBLES + k] = b[k];
                 chosen[h * CGT_DOUBLES + k] = c[k];
+                sum[h * CGT_DOUBLES + k] = added[k];
             }
         }
         vdouble half[2];
+        const unsigned above = spux_mask_bits(spux_double_cmpgt(left, right));
         for (int k = 0; k < CGT_LANES; k++) {
-            const double third = (double)a.ef[k] / 3;
+            const double it = (double)a.ef[k], third = it / 3, square = it * it;
+            assert_true(sum[k] == third + square);
+            assert_true((above >> k & 1) == (it > square));
             assert_true(d[k] == third && size[k] == fabs(third) && root[k] == sqrt(fabs(third)));
             assert_true(chosen[k] == (a.ef[k] > 0 ? 2 : 1));
             half[k / CGT_DOUBLES][k % CGT_DOUBLES] = third;
