@@ -20,6 +20,10 @@ static double exact_root(const cgt_ray *ray, const cgt_shape *shape, bool far)
 double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
+    double near;
+    *far = false;
+    if (cgt_sphere_double_near(e, &near) && (float)near >= ray->t_min)
+        return near;
     const double half = sqrt(e.disc);
     const bool unsafe = cgt_sphere_double_unsafe(e, half) != 0;
     const cgt_shape shape = {.kind = CGT_KIND_SPHERES, .sphere = sphere};

@@ -193,10 +193,62 @@ static void safe_values_are(void **state)
     assert_true(unsafe * 100 < ordinary);
 }
 
+/* An origin right above a sphere's surface, at any height of 2 to 2^-24 radii, and a ray that goes down from there. */
+static void start_above(test_random *r, const oracle_primitive *q, truth_ray *ray)
+{
+    const float height = ldexpf(q->data[3], 1 - (int)random_below(r, 26));
+    float up[3];
+    random_direction(r, up);
+    for (int a = 0; a < 3; a++) {
+        ray->org[a] = q->data[a] + up[a] * (q->data[3] + height);
+        ray->dir[a] = random_float(r, -0.5f, 0.5f) - up[a];
+    }
+}
+
+/* The short way's root over 2^-32 of itself, and the point that is hit over 2^-25 of the radius; how many go that way. */
+static void short_ways_are_safe(void **state)
+{
+    (void)state;
+    nearness root = {0}, point = {0};
+    uint64_t ordinary = 0, longer = 0;
+    for (int f = 0; f < DOUBLE_FAMILIES; f++) {
+        test_random r = random_make(30 + (uint64_t)f);
+        for (uint32_t round = 100 + test_scaled(15000); round; round--) {
+            oracle_primitive q;
+            oracle_root roots[2];
+            oracle_line line;
+            truth_ray ray;
+            double near;
+            double_case_make(&r, (double_family)f, true, &q, &ray);
+            const bool above = f != HUGE_OR_TINY && round % 4 == 0;
+            if (above)
+                start_above(&r, &q, &ray);
+            if (!oracle_line_make(&ray, &line) || !oracle_roots(&line, &q, roots) || !(roots[0].t > 0))
+                continue;
+            const cgt_sphere sphere = double_case_shape_of(&q).sphere;
+            const cgt_sphere_terms e = cgt_sphere_double_terms(ray.org, ray.dir, sphere);
+            const bool is_short = cgt_sphere_double_near(e, &near);
+            ordinary += f == ANYWHERE && !above;
+            longer += f == ANYWHERE && !above && !is_short;
+            if (!is_short)
+                continue;
+            const double error = fabs((double)(near - roots[0].t));
+            note_error(&root, error, (double)roots[0].t * 0x1p-32);
+            note_error(&point, error * sqrt(e.square), (double)sphere.r * 0x1p-25);
+        }
+    }
+    print_message("of %llu ordinary hits %llu go the long way\n", (unsigned long long)ordinary,
+                  (unsigned long long)longer);
+    expect_near("t by the short way", &root, 0);
+    expect_near("point by the short way", &point, 0x1p-10);
+    assert_true(longer * 4 < ordinary);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(triangles_err_within_bounds),
-                                       cmocka_unit_test(spheres_err_within_bounds), cmocka_unit_test(safe_values_are)};
+                                       cmocka_unit_test(spheres_err_within_bounds), cmocka_unit_test(safe_values_are),
+                                       cmocka_unit_test(short_ways_are_safe)};
     test_begin("test_double_stage");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,49 +11,96 @@
 #include "spux_double.h"
 #include "winners.h"
 
-/* What half a vector of rays takes of its quadratics (sphere_double.h). The steps are those of sphere_double.h, in its
- * order. */
+/* Half a vector of rays and their spheres. */
 typedef struct resolve_half {
-    vdouble t, half, product, middle, square, size;
-    vdouble c[3], d[3];
+    vdouble t, c[3], d[3]; /* c: the centre seen from the origin */
 } resolve_half;
 
-/* product: c.c - r^2; rr: r^2 */
-CGT_SPU_INLINE void resolve_half_of(const vdouble c[3], vdouble product, vdouble rr, resolve_half *h)
+CGT_SPU_INLINE void resolve_directions(const vfloat dir[3], resolve_half h[2])
 {
-    const vdouble *d = h->d, dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    const vdouble x = c[1] * d[2] - c[2] * d[1], y = c[2] * d[0] - c[0] * d[2], z = c[0] * d[1] - c[1] * d[0];
-    h->middle = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
-    h->product = product;
-    h->square = dd;
-    h->half = spux_double_sqrt(rr * dd - (x * x + y * y + z * z));
-    h->t = product / (h->middle + h->half);
+    for (int a = 0; a < 3; a++) {
+        h[0].d[a] = spux_double_low(dir[a]);
+        h[1].d[a] = spux_double_high(dir[a]);
+    }
 }
 
-CGT_SPU_INLINE void resolve_half_t(const vdouble org[3], const vdouble centre[3], vdouble r, resolve_half *h)
+/* k: 1 / r */
+CGT_SPU_INLINE void resolve_normals(const resolve_half h[2], const vdouble k[2], vfloat n[3])
 {
-    const vdouble *c = h->c, rr = r * r;
     for (int a = 0; a < 3; a++)
-        h->c[a] = centre[a] - org[a];
-    const vdouble cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-    h->size = cc + rr;
-    resolve_half_of(c, cc - rr, rr, h);
+        n[a] = spux_float_of((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1]);
 }
+
+/* ---- the short way of sphere_double.h, in its order ---- */
+
+/* Returns the lanes whose t is cgt_canonical_sphere_t's, of those outside; t has the sign of the middle there. Both roots
+ * before both quotients: a CPU has one slow unit for them, and one half's wait is the other one's work. */
+CGT_SPU_INLINE vmask resolve_nears(const vdouble product[2], vmask outside, vfloat t_min, resolve_half h[2], vfloat *t)
+{
+    vdouble middle[2], square[2], disc[2], half[2], least[2];
+    for (int i = 0; i < 2; i++) {
+        const vdouble *c = h[i].c, *d = h[i].d;
+        const vdouble dd = spux_double_add_square(spux_double_add_square(d[0] * d[0], d[1]), d[2]);
+        middle[i] = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
+        square[i] = middle[i] * middle[i];
+        disc[i] = square[i] - dd * product[i];
+    }
+    for (int i = 0; i < 2; i++)
+        half[i] = spux_double_sqrt(disc[i]);
+    for (int i = 0; i < 2; i++)
+        least[i] = square[i] * CGT_SPHERE_INSIDE;
+    const vmask inside = spux_double_cmpgt(disc, least);
+    for (int i = 0; i < 2; i++)
+        h[i].t = product[i] / (middle[i] + half[i]);
+    *t = spux_float_of(h[0].t, h[1].t);
+    const vmask ahead = spu_and(spu_cmpgt(*t, spux_vfloat(0)), spux_cmpge(*t, t_min));
+    return spu_and(spu_and(outside, ahead), inside);
+}
+
+/* ---- the long way ---- */
 
 #define SPHERE_ROOM 0x1p-16 /* twice what cgt_sphere_double_unsafe asks for, and more */
 
-/* Lanes whose t is the near root, and safe: cgt_sphere_double_unsafe is 0 there; the rest is looked at ray by ray. least
- * is SPHERE_ROOM (c.c + r^2). The product, d.d times that of the roots, is above it besides, by `outside`: so the origin
- * is outside by so much that where t is above 0 the middle is. */
-CGT_SPU_INLINE vmask resolve_halves_known(const resolve_half h[2], const vdouble least[2], vmask outside, vfloat t,
-                                          vfloat t_min)
+/* Rays of some lanes, in place of what t and n have there. Returns those whose t is the near root, and safe:
+ * cgt_sphere_double_unsafe is 0 there. The product, d.d times that of the roots, is so far above 0 that where t is the
+ * middle is. */
+__attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat org[3], const vfloat dir[3],
+                                                                    const vfloat sphere[4], vfloat t_min, bool normal,
+                                                                    vmask some, vfloat *t, vfloat n[3])
 {
-    vdouble room[2];
-    for (int i = 0; i < 2; i++)
-        room[i] = (h[i].middle + h[i].half) * h[i].half - least[i] * h[i].square;
-    const vmask ahead = spu_and(spu_cmpgt(t, spux_vfloat(0)), spux_cmpge(t, t_min));
-    return spu_and(spu_and(outside, ahead), spux_double_above0(room[0], room[1]));
+    resolve_half h[2];
+    vdouble room[2], outside[2], k[2];
+    vfloat normals[3];
+    resolve_directions(dir, h);
+    for (int i = 0; i < 2; i++) {
+        const vdouble r = i ? spux_double_high(sphere[3]) : spux_double_low(sphere[3]), rr = r * r;
+        const vdouble *d = h[i].d, *c = h[i].c, dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        for (int a = 0; a < 3; a++)
+            h[i].c[a] = i ? spux_double_high(sphere[a]) - spux_double_high(org[a])
+                          : spux_double_low(sphere[a]) - spux_double_low(org[a]);
+        const vdouble cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2], product = cc - rr, least = (cc + rr) * SPHERE_ROOM;
+        const vdouble x = c[1] * d[2] - c[2] * d[1], y = c[2] * d[0] - c[0] * d[2], z = c[0] * d[1] - c[1] * d[0];
+        const vdouble middle = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
+        const vdouble half = spux_double_sqrt(rr * dd - (x * x + y * y + z * z));
+        h[i].t = product / (middle + half);
+        room[i] = (middle + half) * half - least * dd;
+        outside[i] = product - least;
+        k[i] = spux_vdouble(1) / r;
+    }
+    const vfloat near = spux_float_of(h[0].t, h[1].t);
+    const vmask ahead = spu_and(spu_cmpgt(near, spux_vfloat(0)), spux_cmpge(near, t_min));
+    const vmask safe = spu_and(spux_double_above0(room[0], room[1]), spux_double_above0(outside[0], outside[1]));
+    const vmask known = spu_and(spu_and(some, ahead), safe);
+    *t = spux_select(*t, near, known);
+    if (!normal)
+        return known;
+    resolve_normals(h, k, normals);
+    for (int a = 0; a < 3; a++)
+        n[a] = spux_select(n[a], normals[a], known);
+    return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
 }
+
+/* ---- rays one by one ---- */
 
 /* t and the unit normal of one sphere's hit. */
 typedef struct resolved_sphere {
@@ -77,40 +124,59 @@ __attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(cons
     return s;
 }
 
-/* A vector of rays and the spheres that they hit. The outward unit normal is the vector from the centre over the radius.
- * Origin and centre may both be far away: their difference comes first. Returns the lanes that are right; the others
- * are for resolve_sphere_ray. */
+/* ---- vectors of rays ---- */
+
+/* The lanes that hit, what of them the short way knows. Returns what both ways know; the others are for
+ * resolve_sphere_ray. */
+CGT_SPU_INLINE vmask resolve_spheres_rest(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
+                                          vfloat t_min, bool normal, vmask hit, vmask known, vfloat *t, vfloat n[3])
+{
+    const vmask left = spu_andc(hit, known);
+    if (!spux_any(left))
+        return known;
+    /* of copies, so that the others stay in registers */
+    const vfloat o[3] = {org[0], org[1], org[2]}, d[3] = {dir[0], dir[1], dir[2]};
+    const vfloat q[4] = {sphere[0], sphere[1], sphere[2], sphere[3]};
+    vfloat long_t = *t, long_n[3];
+    for (int a = 0; normal && a < 3; a++)
+        long_n[a] = n[a];
+    const vmask more = resolve_spheres_long(o, d, q, t_min, normal, left, &long_t, long_n);
+    *t = long_t;
+    for (int a = 0; normal && a < 3; a++)
+        n[a] = long_n[a];
+    return spu_or(known, more);
+}
+
+/* Rays that hit, and their spheres. The outward unit normal is the vector from the centre over the radius. Origin and
+ * centre may both be far away: their difference comes first. */
 CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
                                             vfloat t_min, bool normal, vfloat *t, vfloat n[3])
 {
     resolve_half h[2];
-    vdouble o[2][3], c[2][3];
-    for (int a = 0; a < 3; a++) {
-        h[0].d[a] = spux_double_low(dir[a]);
-        h[1].d[a] = spux_double_high(dir[a]);
-        o[0][a] = spux_double_low(org[a]);
-        o[1][a] = spux_double_high(org[a]);
-        c[0][a] = spux_double_low(sphere[a]);
-        c[1][a] = spux_double_high(sphere[a]);
-    }
     const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
-    resolve_half_t(o[0], c[0], r[0], &h[0]);
-    resolve_half_t(o[1], c[1], r[1], &h[1]);
-    *t = spux_float_of(h[0].t, h[1].t);
-    const vdouble least[2] = {h[0].size * SPHERE_ROOM, h[1].size * SPHERE_ROOM};
-    const vmask outside = spux_double_above0(h[0].product - least[0], h[1].product - least[1]);
-    const vmask known = resolve_halves_known(h, least, outside, *t, t_min);
-    if (!normal)
-        return known;
-    const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
-    for (int a = 0; a < 3; a++)
-        n[a] = spux_float_of((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1]);
-    return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
+    vdouble product[2], least[2];
+    resolve_directions(dir, h);
+    for (int a = 0; a < 3; a++) {
+        h[0].c[a] = spux_double_low(sphere[a]) - spux_double_low(org[a]);
+        h[1].c[a] = spux_double_high(sphere[a]) - spux_double_high(org[a]);
+    }
+    for (int i = 0; i < 2; i++) {
+        const vdouble *c = h[i].c, rr = r[i] * r[i], cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+        product[i] = cc - rr;
+        least[i] = cc * CGT_SPHERE_OUTSIDE;
+    }
+    const vmask outside = spux_not(spux_double_cmpgt(least, product));
+    const vmask known = resolve_nears(product, outside, t_min, h, t);
+    if (normal) {
+        const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
+        resolve_normals(h, k, n);
+    }
+    return known;
 }
 
 /* What rays from one origin to one sphere have in common. */
 typedef struct prepared_sphere {
-    double c[3], product, rr, least, reciprocal;
+    double c[3], product, reciprocal;
     bool outside;
 } prepared_sphere;
 
@@ -118,31 +184,26 @@ CGT_SPU_INLINE prepared_sphere prepare_sphere(const float org[3], cgt_sphere q)
 {
     const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1],
                  cz = (double)q.z - (double)org[2], r = (double)q.r;
-    const double rr = r * r, cc = cx * cx + cy * cy + cz * cz, least = (cc + rr) * SPHERE_ROOM;
-    return (prepared_sphere){.c = {cx, cy, cz},
-                             .product = cc - rr,
-                             .rr = rr,
-                             .least = least,
-                             .reciprocal = 1 / r,
-                             .outside = (cc - rr > least) & (r > 0)};
+    const double rr = r * r, cc = cx * cx + cy * cy + cz * cz;
+    return (prepared_sphere){
+        .c = {cx, cy, cz}, .product = cc - rr, .reciprocal = 1 / r, .outside = cc - rr >= cc * CGT_SPHERE_OUTSIDE};
 }
 
-/* As resolve_spheres_vector; a point is never known. */
+/* As resolve_spheres_vector. */
 CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, const vfloat dir[3], vfloat t_min, bool normal,
                                              vfloat *t, vfloat n[3])
 {
-    const vdouble c[3] = {spux_vdouble(p->c[0]), spux_vdouble(p->c[1]), spux_vdouble(p->c[2])};
-    const vdouble least[2] = {spux_vdouble(p->least), spux_vdouble(p->least)}, k = spux_vdouble(p->reciprocal);
+    const vdouble product[2] = {spux_vdouble(p->product), spux_vdouble(p->product)};
     resolve_half h[2];
-    for (int i = 0; i < 2; i++) {
-        for (int a = 0; a < 3; a++)
-            h[i].d[a] = i ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
-        resolve_half_of(c, spux_vdouble(p->product), spux_vdouble(p->rr), &h[i]);
+    resolve_directions(dir, h);
+    for (int a = 0; a < 3; a++)
+        h[0].c[a] = h[1].c[a] = spux_vdouble(p->c[a]);
+    const vmask known = resolve_nears(product, p->outside ? spux_mask_all() : spux_mask_none(), t_min, h, t);
+    if (normal) {
+        const vdouble k[2] = {spux_vdouble(p->reciprocal), spux_vdouble(p->reciprocal)};
+        resolve_normals(h, k, n);
     }
-    *t = spux_float_of(h[0].t, h[1].t);
-    for (int a = 0; normal && a < 3; a++)
-        n[a] = spux_float_of((h[0].t * h[0].d[a] - c[a]) * k, (h[1].t * h[1].d[a] - c[a]) * k);
-    return resolve_halves_known(h, least, p->outside ? spux_mask_all() : spux_mask_none(), *t, t_min);
+    return known;
 }
 
 /* Lanes of a packet. */
@@ -158,7 +219,9 @@ CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal
         org[a] = spux_load(p->org[a] + i);
         dir[a] = spux_load(p->dir[a] + i);
     }
-    const vmask known = resolve_spheres_vector(org, dir, sphere, spux_load(p->t_min + i), normal, &t, n);
+    const vfloat t_min = spux_load(p->t_min + i);
+    vmask known = resolve_spheres_vector(org, dir, sphere, t_min, normal, &t, n);
+    known = resolve_spheres_rest(org, dir, sphere, t_min, normal, hit, known, &t, n);
     spux_store(hits->t + i, spux_select(alone ? spux_vfloat(INFINITY) : spux_load(hits->t + i), t, hit));
     for (int a = 0; normal && a < 3; a++) {
         const vfloat other = alone ? spux_vfloat(0) : spux_load(hits->normal[a] + i);

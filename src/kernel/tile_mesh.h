@@ -9,7 +9,7 @@
 
 #include "object_fetch.h"
 #include "resolve_triangles.h"
-#include "tile.h"
+#include "tile_met.h"
 
 #define TILE_MESH 1024u /* triangles, a power of two */
 
@@ -32,19 +32,19 @@ CGT_SPU_INLINE uint32_t tile_mesh_new(tile_mesh *m, uint32_t number)
 }
 
 /* Lists what a vector of pixels has hit, while there is room. */
-CGT_SPU_INLINE void tile_mesh_add(const tile *t, uint32_t i, tile_mesh *m)
+CGT_SPU_INLINE void tile_mesh_add(const tile *t, const tile_met *met, uint32_t i, tile_mesh *m)
 {
-    const vuint number = spux_load_uint(t->object + i);
-    const uint32_t first = t->object[i];
-    if (spux_all(spu_cmpeq(number, spux_vuint(first)))) {
-        if (first == CGT_NONE)
-            return;
+    const uint32_t first = met->some[i / CGT_LANES];
+    if (first == CGT_NONE)
+        return;
+    if (met->alone[i / CGT_LANES]) {
         uint32_t at = m->find[first & (TILE_MESH - 1)];
         if (m->number[at] != first && m->count < TILE_MESH)
             at = tile_mesh_new(m, first);
         spux_store_uint(m->at + i, spux_vuint(at));
         return;
     }
+    const vuint number = spux_load_uint(t->object + i);
     const unsigned hit = ~spux_mask_bits(spu_cmpeq(number, spux_vuint(CGT_NONE))) & CGT_ALL_LANES;
     vuint at = spux_gather_uint(m->find, (vint)spu_and(number, spux_vuint(TILE_MESH - 1)));
     unsigned left = ~spux_mask_bits(spu_cmpeq(spux_gather_uint(m->number, (vint)at), number)) & hit;
@@ -58,7 +58,7 @@ CGT_SPU_INLINE void tile_mesh_add(const tile *t, uint32_t i, tile_mesh *m)
 }
 
 /* Lists the triangles of a region's pixels. False where they are too many; then hardly any has pixels to share. */
-CGT_SPU_INLINE bool tile_mesh_list(const tile *t, const cgt_region *r, tile_mesh *m)
+CGT_SPU_INLINE bool tile_mesh_list(const tile *t, const tile_met *met, const cgt_region *r, tile_mesh *m)
 {
     memset(m->find, 0, sizeof m->find);
     m->number[0] = CGT_NONE;
@@ -66,7 +66,7 @@ CGT_SPU_INLINE bool tile_mesh_list(const tile *t, const cgt_region *r, tile_mesh
     for (uint32_t y = 0; y < r->height && m->count < TILE_MESH; y += 2)
         for (uint32_t x = 0; x < r->width; x += CGT_LANES)
             for (uint32_t k = 0; k < 2; k++)
-                tile_mesh_add(t, tile_index(x, y) + k * CGT_LANES, m);
+                tile_mesh_add(t, met, tile_index(x, y) + k * CGT_LANES, m);
     return m->count < TILE_MESH;
 }
 
@@ -81,17 +81,16 @@ CGT_SPU_INLINE void tile_mesh_prepare(const cgt_world *world, const tile *t, uin
     }
 }
 
-/* Pixels i and on, of which some have hit something: returns the lanes that are right. */
-CGT_SPU_INLINE vmask tile_mesh_resolve(const tile_mesh *m, uint32_t i, unsigned hit, const vfloat dir[3],
+/* Pixels i and on, of which some have hit something, `alone`: the same. Returns the lanes that are right. */
+CGT_SPU_INLINE vmask tile_mesh_resolve(const tile_mesh *m, uint32_t i, bool alone, vmask missed, const vfloat dir[3],
                                        uint32_t fields, bool exact, resolved_triangles *to)
 {
+    const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
     const uint32_t some = m->at[i + (uint32_t)__builtin_ctz(hit)];
-    const vuint at = spux_load_uint(m->at + i);
-    if (!(~spux_mask_bits(spu_cmpeq(at, spux_vuint(some))) & hit))
+    if (alone)
         return resolve_prepared(m->record[some], NULL, dir, fields, exact, to);
     _Alignas(CGT_VECTOR_BYTES) uint32_t from[CGT_LANES];
-    spux_store_uint(from,
-                    spu_sl(spux_select(spux_vuint(some), at, spux_mask_from_bits(hit)), 4)); /* times the record */
+    spux_store_uint(from, spu_sl(spux_select(spux_load_uint(m->at + i), spux_vuint(some), missed), 4)); /* the record */
     return resolve_prepared(m->record[0], from, dir, fields, exact, to);
 }
 

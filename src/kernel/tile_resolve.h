@@ -12,6 +12,7 @@
 #include "resolve_spheres.h"
 #include "resolve_triangles.h"
 #include "tile_mesh.h"
+#include "tile_met.h"
 
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
 
@@ -26,6 +27,13 @@ CGT_SPU_INLINE void tile_directions(const tile *t, bool parallel, vfloat px, vfl
     }
 }
 
+/* Of pixels i and on. */
+CGT_SPU_INLINE void tile_directions_at(const tile *t, bool parallel, uint32_t i, vfloat dir[3])
+{
+    const float *px = t->px + (i & (TILE_PAIR - 1));
+    tile_directions(t, parallel, spux_load_unaligned(px), spux_load(t->py[i / TILE_PAIR]), dir);
+}
+
 /* ---- objects of one array ---- */
 
 /* A row of a vector's columns of a plane; a region less wide than a tile ends among them. */
@@ -37,21 +45,6 @@ CGT_SPU_INLINE void tile_put_row(uint32_t *to, const cgt_region *r, bool stream,
         spux_store_unaligned_uint(to, v);
     else
         spux_store_mask_uint(to, v, spux_mask_first(r->width - x));
-}
-
-/* Columns x and on of rows y and y + 1 of a plane, which begin at `at` in it, from two vectors of pixels as the tile has
- * them. */
-CGT_SPU_INLINE void tile_put(void *plane, const cgt_region *r, bool stream, size_t at, uint32_t x, uint32_t y, vuint a,
-                             vuint b)
-{
-    vuint row[2] = {a, b};
-    if (!plane)
-        return;
-    uint32_t *to = (uint32_t *)plane + at;
-    spux_unzip(row);
-    tile_put_row(to, r, stream, x, row[0]);
-    if (stream || y + 1 < r->height)
-        tile_put_row(to + r->row_stride, r, stream, x, row[1]);
 }
 
 CGT_SPU_INLINE bool tile_on_lines(const void *plane) { return (uintptr_t)plane % CGT_VECTOR_BYTES == 0; }
@@ -69,51 +62,8 @@ CGT_SPU_INLINE bool tile_streams(const cgt_region *r)
 typedef struct tile_hits {
     vuint object;
     vfloat t, u, v, normal[3];
+    unsigned left; /* lanes that are for tile_mend */
 } tile_hits;
-
-CGT_SPU_INLINE cgt_ray tile_hit_ray(const tile *t, const vfloat dir[3], int k)
-{
-    const cgt_camera_rays *c = t->rays;
-    cgt_ray ray = {.t_min = c->t_min};
-    for (int a = 0; a < 3; a++) {
-        ray.line.org[a] = t->parallel ? dir[a][k] : c->eye[a];
-        ray.line.dir[a] = t->parallel ? c->fwd[a] : dir[a][k];
-    }
-    return ray;
-}
-
-/* The rays of some lanes, one by one. */
-__attribute__((noinline, unused)) static void tile_resolve_sphere_rays(const cgt_world *world, const tile *t,
-                                                                       unsigned lanes, const vfloat dir[3],
-                                                                       tile_hits *h, cgt_counts *counts)
-{
-    for (; lanes; lanes &= lanes - 1) {
-        const int k = __builtin_ctz(lanes);
-        const cgt_ray ray = tile_hit_ray(t, dir, k);
-        const resolved_sphere s = resolve_sphere_ray(&ray, cgt_objects_sphere(&world->objects, h->object[k]), counts);
-        h->t[k] = s.t;
-        for (int a = 0; a < 3; a++)
-            h->normal[a][k] = s.normal[a];
-    }
-}
-
-__attribute__((noinline, unused)) static void tile_resolve_triangle_rays(const cgt_world *world, const tile *t,
-                                                                         unsigned lanes, const vfloat dir[3],
-                                                                         uint32_t fields, bool exact, tile_hits *h,
-                                                                         cgt_counts *counts)
-{
-    for (; lanes; lanes &= lanes - 1) {
-        const int k = __builtin_ctz(lanes);
-        const cgt_ray ray = tile_hit_ray(t, dir, k);
-        const cgt_triangle q = cgt_objects_triangle(&world->objects, h->object[k]);
-        const resolved_triangle s = resolve_triangle_ray(&ray, &q, fields, exact, counts);
-        h->t[k] = s.t;
-        h->u[k] = s.u;
-        h->v[k] = s.v;
-        for (int a = 0; a < 3; a++)
-            h->normal[a][k] = s.normal[a];
-    }
-}
 
 /* What the last vector of pixels has met: the next one has mostly met the same. */
 typedef struct tile_prepared_sphere {
@@ -130,9 +80,9 @@ typedef struct tile_wish {
 } tile_wish;
 
 /* The objects of a vector, `number`, lanes without a hit having that of one that has, `some`. */
-CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
-                                         uint32_t some, vmask missed, const vfloat dir[3], tile_prepared_sphere *kept,
-                                         tile_hits *h, cgt_counts *counts)
+CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
+                                          uint32_t some, bool alone, vmask missed, const vfloat dir[3],
+                                          tile_prepared_sphere *kept, tile_hits *h)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
@@ -140,7 +90,7 @@ CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, 
     const bool normals = wish.fields & CGT_FIELD_NORMAL;
     vfloat n[3] = {zero, zero, zero}, found;
     vmask known;
-    if (!wish.fast && spux_all(spu_cmpeq(number, spux_vuint(some)))) {
+    if (!wish.fast && alone) {
         if (some != kept->number) {
             kept->number = some;
             kept->sphere = prepare_sphere(eye, cgt_array_sphere(array, some));
@@ -156,20 +106,15 @@ CGT_SPU_INLINE void tile_resolve_spheres(const cgt_world *world, const tile *t, 
                           : resolve_spheres_vector(org, dir, sphere, t_min, normals, &found, n);
     }
     h->t = spux_select(found, h->t, missed);
-    for (int a = 0; normals && a < 3; a++)
-        h->normal[a] = spux_select(n[a], zero, missed);
-    const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
-    if (rest) { /* of copies, so that the others stay in registers */
-        const vfloat d[3] = {dir[0], dir[1], dir[2]};
-        tile_hits mended = *h;
-        tile_resolve_sphere_rays(world, t, rest, d, &mended, counts);
-        *h = mended;
-    }
+    if (normals)
+        for (int a = 0; a < 3; a++)
+            h->normal[a] = spux_select(n[a], zero, missed);
+    return known;
 }
 
-CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
-                                           vuint number, unsigned hit, vmask missed, const vfloat dir[3],
-                                           const tile_mesh *mesh, tile_hits *h, cgt_counts *counts)
+CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
+                                            vuint number, bool alone, vmask missed, const vfloat dir[3],
+                                            const tile_mesh *mesh, tile_hits *h)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
@@ -179,7 +124,7 @@ CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask known;
     if (wish.mesh)
-        known = tile_mesh_resolve(mesh, i, hit, dir, fields, exact, &found);
+        known = tile_mesh_resolve(mesh, i, alone, missed, dir, fields, exact, &found);
     else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat vertex[3][3];
@@ -191,25 +136,19 @@ CGT_SPU_INLINE void tile_resolve_triangles(const cgt_world *world, const tile *t
     h->v = spux_select(found.v, zero, missed);
     for (int a = 0; a < 3; a++)
         h->normal[a] = spux_select(found.normal[a], zero, missed);
-    const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
-    if (rest) {
-        const vfloat d[3] = {dir[0], dir[1], dir[2]};
-        tile_hits mended = *h;
-        tile_resolve_triangle_rays(world, t, rest, d, fields, exact, &mended, counts);
-        *h = mended;
-    }
+    return known;
 }
 
 /* What is kept from vector to vector. */
 typedef struct tile_kept {
+    const tile_met *met;
     tile_prepared_sphere *sphere;
     const tile_mesh *mesh;
 } tile_kept;
 
 /* A vector of parallel rays, from these origins. */
-CGT_SPU_INLINE void tile_resolve_parallel(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
-                                          uint32_t some, vmask missed, const vfloat org[3], tile_hits *h,
-                                          cgt_counts *counts)
+CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
+                                           uint32_t some, bool alone, vmask missed, const vfloat org[3], tile_hits *h)
 {
     const cgt_object_array *array = world->objects.array;
     const float *fwd = t->rays->fwd;
@@ -224,7 +163,7 @@ CGT_SPU_INLINE void tile_resolve_parallel(const cgt_world *world, const tile *t,
         _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
         const cgt_sphere q = cgt_array_sphere(array, some);
         vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
-        if (!spux_all(spu_cmpeq(number, spux_vuint(some)))) {
+        if (!alone) {
             spux_store_uint(at, number);
             fetch_spheres_at(array, at, sphere);
         }
@@ -236,60 +175,135 @@ CGT_SPU_INLINE void tile_resolve_parallel(const cgt_world *world, const tile *t,
     h->v = spux_select(found.v, zero, missed);
     for (int a = 0; a < 3; a++)
         h->normal[a] = spux_select(found.normal[a], zero, missed);
-    const unsigned rest = spux_mask_bits(spux_not(spu_or(missed, known)));
-    if (rest && wish.triangles)
-        tile_resolve_triangle_rays(world, t, rest, org, wish.fields, wish.exact, h, counts);
-    else if (rest)
-        tile_resolve_sphere_rays(world, t, rest, org, h, counts);
+    return known;
 }
 
 CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
-                                             tile_kept kept, uint64_t *hits, cgt_counts *counts)
+                                             tile_kept kept)
 {
     const vfloat zero = spux_vfloat(0);
-    tile_hits h = {spux_load_uint(t->object + i), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}};
+    tile_hits h = {spux_load_uint(t->object + i), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}, 0};
     const vmask missed = spu_cmpeq(h.object, spux_vuint(CGT_NONE));
-    const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
-    *hits += spux_count_bits(hit);
-    if (!hit || !wish.fields)
+    const uint32_t some = kept.met->some[i / CGT_LANES];
+    if (some == CGT_NONE || !wish.fields)
         return h;
-    const uint32_t some = t->object[i + (uint32_t)__builtin_ctz(hit)];
     const vuint number = spux_select(h.object, spux_vuint(some), missed);
     vfloat dir[3];
-    tile_directions(t, wish.parallel, spux_load_unaligned(t->px + (i & (TILE_PAIR - 1))),
-                    spux_load(t->py[i / TILE_PAIR]), dir);
+    tile_directions_at(t, wish.parallel, i, dir);
+    const bool alone = kept.met->alone[i / CGT_LANES];
+    vmask known;
     if (wish.parallel)
-        tile_resolve_parallel(world, t, wish, number, some, missed, dir, &h, counts);
+        known = tile_resolve_parallel(world, t, wish, number, some, alone, missed, dir, &h);
     else if (wish.triangles)
-        tile_resolve_triangles(world, t, wish, i, number, hit, missed, dir, kept.mesh, &h, counts);
+        known = tile_resolve_triangles(world, t, wish, i, number, alone, missed, dir, kept.mesh, &h);
     else
-        tile_resolve_spheres(world, t, wish, number, some, missed, dir, kept.sphere, &h, counts);
+        known = tile_resolve_spheres(world, t, wish, number, some, alone, missed, dir, kept.sphere, &h);
+    h.left = spux_mask_bits(spux_not(spu_or(missed, known)));
     return h;
+}
+
+/* The lanes that are left: the long way of spheres by vectors, then ray by ray. */
+CGT_SPU_INLINE void tile_mend(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i, tile_hits *h,
+                              cgt_counts *counts)
+{
+    unsigned left = h->left;
+    if (left && !wish.triangles) {
+        const cgt_camera_rays *c = t->rays;
+        const uint32_t some = h->object[__builtin_ctz(left)];
+        const vmask mine = spux_mask_from_bits(left);
+        _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+        vfloat line[2][3], sphere[4];
+        for (int a = 0; a < 3; a++)
+            line[wish.parallel][a] = spux_vfloat(wish.parallel ? c->fwd[a] : c->eye[a]);
+        tile_directions_at(t, wish.parallel, i, line[!wish.parallel]);
+        spux_store_uint(at, spux_select(spux_vuint(some), h->object, mine));
+        fetch_spheres_at(world->objects.array, at, sphere);
+        left &= ~spux_mask_bits(resolve_spheres_long(line[0], line[1], sphere, spux_vfloat(c->t_min),
+                                                     wish.fields & CGT_FIELD_NORMAL, mine, &h->t, h->normal));
+    }
+    for (; left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        const cgt_ray ray = tile_ray(t, i + (uint32_t)k);
+        if (wish.triangles) {
+            const cgt_triangle q = cgt_objects_triangle(&world->objects, h->object[k]);
+            const resolved_triangle s = resolve_triangle_ray(&ray, &q, wish.fields, wish.exact, counts);
+            h->t[k] = s.t;
+            h->u[k] = s.u;
+            h->v[k] = s.v;
+            for (int a = 0; a < 3; a++)
+                h->normal[a][k] = s.normal[a];
+        } else {
+            const cgt_sphere q = cgt_objects_sphere(&world->objects, h->object[k]);
+            const resolved_sphere s = resolve_sphere_ray(&ray, q, counts);
+            h->t[k] = s.t;
+            for (int a = 0; a < 3; a++)
+                h->normal[a][k] = s.normal[a];
+        }
+    }
+}
+
+/* Where two vectors of pixels go: columns x and on of rows y and y + 1. */
+typedef struct tile_place {
+    const cgt_region *region;
+    bool stream;
+    uint32_t x, y;
+} tile_place;
+
+/* A plane's part, which begins at `at` in it, of what a tile has as two vectors of pixels. */
+CGT_SPU_INLINE void tile_put(void *plane, tile_place to, size_t at, vuint a, vuint b)
+{
+    const cgt_region *r = to.region;
+    vuint row[2] = {a, b};
+    if (!plane)
+        return;
+    uint32_t *p = (uint32_t *)plane + at;
+    spux_unzip(row);
+    tile_put_row(p, r, to.stream, to.x, row[0]);
+    if (to.stream || to.y + 1 < r->height)
+        tile_put_row(p + r->row_stride, r, to.stream, to.x, row[1]);
+}
+
+CGT_SPU_INLINE void tile_put_hits(tile_place to, uint32_t geometry, tile_hits a, tile_hits b)
+{
+    const vuint none = spux_vuint(CGT_NONE), it = spux_vuint(geometry);
+    const cgt_region *r = to.region;
+    const size_t at = (size_t)to.y * r->row_stride + to.x;
+    tile_put(r->t, to, at, (vuint)a.t, (vuint)b.t);
+    tile_put(r->primitive, to, at, a.object, b.object);
+    tile_put(r->geometry, to, at, spux_select(it, none, spu_cmpeq(a.object, none)),
+             spux_select(it, none, spu_cmpeq(b.object, none)));
+    tile_put(r->normal[0], to, at, (vuint)a.normal[0], (vuint)b.normal[0]);
+    tile_put(r->normal[1], to, at, (vuint)a.normal[1], (vuint)b.normal[1]);
+    tile_put(r->normal[2], to, at, (vuint)a.normal[2], (vuint)b.normal[2]);
+    tile_put(r->u, to, at, (vuint)a.u, (vuint)b.u);
+    tile_put(r->v, to, at, (vuint)a.v, (vuint)b.v);
+}
+
+__attribute__((noinline, unused)) static void tile_put_mended(const cgt_world *world, const tile *t, tile_wish wish,
+                                                              tile_place to, tile_hits h[2], cgt_counts *counts)
+{
+    for (uint32_t k = 0; k < 2; k++)
+        tile_mend(world, t, wish, tile_index(to.x, to.y) + k * CGT_LANES, &h[k], counts);
+    tile_put_hits(to, world->objects.array->geometry, h[0], h[1]);
 }
 
 CGT_SPU_INLINE void tile_resolve_to(const cgt_world *world, const tile *t, const cgt_region *region, tile_wish wish,
                                     tile_kept kept, cgt_counts *counts)
 {
-    const vuint none = spux_vuint(CGT_NONE), geometry = spux_vuint(world->objects.array->geometry);
-    const cgt_region q = *region, *r = &q; /* a copy: nothing that is stored changes it */
-    const bool stream = wish.stream;
-    uint64_t hits = 0;
-    for (uint32_t y = 0; y < r->height; y += 2)
-        for (uint32_t x = 0; x < r->width; x += CGT_LANES) {
+    const uint32_t geometry = world->objects.array->geometry;
+    const cgt_region r = *region; /* a copy: nothing that is stored changes it */
+    for (uint32_t y = 0; y < r.height; y += 2)
+        for (uint32_t x = 0; x < r.width; x += CGT_LANES) {
             const uint32_t i = tile_index(x, y);
-            const size_t at = (size_t)y * r->row_stride + x;
-            const tile_hits a = tile_resolve_vector(world, t, wish, i, kept, &hits, counts);
-            const tile_hits b = tile_resolve_vector(world, t, wish, i + CGT_LANES, kept, &hits, counts);
-            tile_put(r->t, r, stream, at, x, y, (vuint)a.t, (vuint)b.t);
-            tile_put(r->primitive, r, stream, at, x, y, a.object, b.object);
-            tile_put(r->geometry, r, stream, at, x, y, spux_select(geometry, none, spu_cmpeq(a.object, none)),
-                     spux_select(geometry, none, spu_cmpeq(b.object, none)));
-            for (int k = 0; k < 3; k++)
-                tile_put(r->normal[k], r, stream, at, x, y, (vuint)a.normal[k], (vuint)b.normal[k]);
-            tile_put(r->u, r, stream, at, x, y, (vuint)a.u, (vuint)b.u);
-            tile_put(r->v, r, stream, at, x, y, (vuint)a.v, (vuint)b.v);
+            const tile_place to = {&r, wish.stream, x, y};
+            const tile_hits a = tile_resolve_vector(world, t, wish, i, kept);
+            const tile_hits b = tile_resolve_vector(world, t, wish, i + CGT_LANES, kept);
+            if (__builtin_expect((a.left | b.left) != 0, 0)) { /* of copies: the hits stay in registers */
+                tile_hits left[2] = {a, b};
+                tile_put_mended(world, t, wish, to, left, counts);
+            } else
+                tile_put_hits(to, geometry, a, b);
         }
-    counts->hits += hits;
 }
 
 /* Constants make the loops shorter. */
@@ -309,10 +323,10 @@ CGT_SPU_INLINE void tile_resolve_streamed(const cgt_world *world, const tile *t,
 
 __attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cgt_world *world, const tile *t,
                                                                         const cgt_region *r, tile_wish wish,
-                                                                        cgt_counts *counts)
+                                                                        const tile_met *met, cgt_counts *counts)
 {
     tile_prepared_sphere prepared = {.number = CGT_NONE};
-    const tile_kept kept = {.sphere = &prepared};
+    const tile_kept kept = {.met = met, .sphere = &prepared};
     wish.triangles = wish.parallel = false;
     if (!(wish.fields & CGT_FIELD_NORMAL))
         tile_resolve_streamed(world, t, r, wish, kept, counts);
@@ -330,13 +344,13 @@ __attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cg
 
 __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const cgt_world *world, const tile *t,
                                                                           const cgt_region *r, tile_wish wish,
-                                                                          cgt_counts *counts)
+                                                                          const tile_met *met, cgt_counts *counts)
 {
     tile_mesh mesh;
-    const tile_kept kept = {.mesh = &mesh};
+    const tile_kept kept = {.met = met, .mesh = &mesh};
     wish.triangles = true;
     wish.parallel = false;
-    wish.mesh = wish.fields && tile_mesh_list(t, r, &mesh);
+    wish.mesh = wish.fields && tile_mesh_list(t, met, r, &mesh);
     if (wish.mesh)
         tile_mesh_prepare(world, t, wish.fields, wish.exact, &mesh);
     if (wish.fields & CGT_FIELD_UV)
@@ -349,9 +363,9 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const 
 
 __attribute__((noinline, unused)) static void tile_resolve_parallel_array(const cgt_world *world, const tile *t,
                                                                           const cgt_region *r, tile_wish wish,
-                                                                          cgt_counts *counts)
+                                                                          const tile_met *met, cgt_counts *counts)
 {
-    const tile_kept kept = {NULL, NULL};
+    const tile_kept kept = {.met = met};
     wish.parallel = true;
     if (wish.triangles) {
         wish.triangles = true;
@@ -370,12 +384,14 @@ CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, co
                             .fast = settings->precision == CGT_PRECISION_FAST,
                             .fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u) |
                                       (r->u && world->objects.triangles ? CGT_FIELD_UV : 0u)};
+    tile_met met;
+    tile_meet(t, r, &met, counts);
     if (t->parallel)
-        tile_resolve_parallel_array(world, t, r, wish, counts);
+        tile_resolve_parallel_array(world, t, r, wish, &met, counts);
     else if (world->objects.triangles)
-        tile_resolve_triangle_array(world, t, r, wish, counts);
+        tile_resolve_triangle_array(world, t, r, wish, &met, counts);
     else
-        tile_resolve_sphere_array(world, t, r, wish, counts);
+        tile_resolve_sphere_array(world, t, r, wish, &met, counts);
 }
 
 /* ---- anything, by rows ---- */
