@@ -5,8 +5,6 @@
 #include "bench_floor.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "bench_procedural.h"
 
@@ -101,7 +99,6 @@ static int prepare(floor_job *job)
 {
     const floor_settings *settings = job->settings;
     const bench_settings *shared = &settings->shared;
-    const size_t pixels = (size_t)shared->width * shared->height;
     job->choice = (bench_choice){.variant = shared->variant,
                                  .packet = shared->packet,
                                  .cull = CGT_CULL_BLOCKS,
@@ -113,13 +110,7 @@ static int prepare(floor_job *job)
     if (result != CGT_OK)
         return bench_scene_failed(NULL, shared->variant ? shared->variant : "context", result);
     job->threads = bench_threads_create(cgt_context_threads(job->context));
-    int complete = job->threads && !bench_planes_create(&job->planes, shared->width, shared->height);
-    for (int k = 0; complete && k < 2; k++) {
-        complete = (job->uv[k] = malloc(pixels * sizeof(float))) != NULL;
-        if (complete)
-            memset(job->uv[k], 0, pixels * sizeof(float)); /* pages are touched here */
-    }
-    if (complete)
+    if (job->threads && !bench_planes_create_with_uv(&job->planes, shared->width, shared->height))
         return PROGRAM_OK;
     program_error("out of memory or threads");
     return PROGRAM_FAILED;
@@ -151,8 +142,6 @@ static int run(const floor_settings *settings)
     int code = prepare(&job);
     if (code == PROGRAM_OK)
         code = measure(&job);
-    for (int k = 0; k < 2; k++)
-        free(job.uv[k]);
     bench_planes_release(&job.planes);
     bench_threads_release(job.threads);
     cgt_context_release(job.context);

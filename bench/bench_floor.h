@@ -65,7 +65,6 @@ typedef struct floor_job {
     bench_threads *threads;
     bench_choice choice;
     bench_planes planes;
-    float *uv[2];
     double read, write, stream;    /* bytes a nanosecond; stream: 0 where the compiler has none */
     double empty_ms[FLOOR_FIELDS]; /* into planes */
     floor_tests tests[2];          /* of spheres, of triangles */

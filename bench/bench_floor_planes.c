@@ -60,8 +60,8 @@ static void make_frame(const floor_job *job, floor_fields set, floor_target targ
     frame->primitive = fields & CGT_FIELD_PRIMITIVE ? planes.primitive : NULL;
     for (int a = 0; a < 3; a++)
         frame->normal[a] = fields & CGT_FIELD_NORMAL ? planes.normal[a] : NULL;
-    frame->u = fields & CGT_FIELD_UV ? job->uv[0] : NULL;
-    frame->v = fields & CGT_FIELD_UV ? job->uv[1] : NULL;
+    frame->u = fields & CGT_FIELD_UV ? job->planes.uv[0] : NULL;
+    frame->v = fields & CGT_FIELD_UV ? job->planes.uv[1] : NULL;
 }
 
 static cgt_result run_rounds(floor_job *job, const bench_scene *scene, double *ms)

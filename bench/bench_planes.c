@@ -23,23 +23,38 @@ void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride)
     return memory;
 }
 
-int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
+enum { PLANES = 5, PLANES_WITH_UV = 7 };
+
+static int create(bench_planes *planes, uint32_t width, uint32_t height, unsigned count)
 {
     size_t stride;
+    float *plane[PLANES_WITH_UV] = {NULL};
     memset(planes, 0, sizeof *planes);
     planes->width = width;
     planes->height = height;
     if ((uint64_t)width * height > SIZE_MAX)
         return -1;
-    char *memory = bench_planes_memory(pixels_of(planes), 5, &stride);
+    char *memory = bench_planes_memory(pixels_of(planes), count, &stride);
     if (!memory)
         return -1;
+    for (size_t i = 0; i < count; i++)
+        plane[i] = (float *)(void *)(memory + i * stride);
     planes->memory = memory;
-    planes->t = (float *)(void *)memory;
-    planes->primitive = (uint32_t *)(void *)(memory + stride);
-    for (size_t i = 0; i < 3; i++)
-        planes->normal[i] = (float *)(void *)(memory + (2 + i) * stride);
+    planes->t = plane[0];
+    planes->primitive = (uint32_t *)(void *)plane[1];
+    memcpy(planes->normal, plane + 2, sizeof planes->normal);
+    memcpy(planes->uv, plane + PLANES, sizeof planes->uv);
     return 0;
+}
+
+int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
+{
+    return create(planes, width, height, PLANES);
+}
+
+int bench_planes_create_with_uv(bench_planes *planes, uint32_t width, uint32_t height)
+{
+    return create(planes, width, height, PLANES_WITH_UV);
 }
 
 void bench_planes_release(bench_planes *planes)

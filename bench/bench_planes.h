@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The planes that a frame is traced into: distance, primitive and normal of every pixel, in row order. */
+ * The planes that a frame is traced into: distance, primitive and normal, and u and v where wanted, of every pixel, in
+ * row order. */
 #ifndef BENCH_PLANES_H
 #define BENCH_PLANES_H
 
@@ -16,6 +17,7 @@ typedef struct bench_planes {
     float *t;
     uint32_t *primitive;
     float *normal[3];
+    float *uv[2]; /* NULL where they were not asked for */
     void *memory; /* of all of them */
 } bench_planes;
 
@@ -27,6 +29,7 @@ void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride);
 
 /* 0, or -1 where memory is refused. */
 int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height);
+int bench_planes_create_with_uv(bench_planes *planes, uint32_t width, uint32_t height);
 void bench_planes_release(bench_planes *planes);
 
 /* The frame that asks cgt_trace_camera for t, primitive and normal. */
