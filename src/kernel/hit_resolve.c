@@ -46,9 +46,8 @@ CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const packet *p,
 {
     const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
     const vmask missed = spu_cmpeq(object, none);
-    _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
+    const vuint number = spux_select(object, spux_vuint(p->object[i + (uint32_t)__builtin_ctz(hit)]), missed);
     vfloat d[4];
-    spux_store_uint(number, spux_select(object, spux_vuint(p->object[i + (uint32_t)__builtin_ctz(hit)]), missed));
     fetch_spheres_at(array, number, d);
     for (int a = 0; a < 4; a++)
         spux_store(w->sphere[a] + i, d[a]);

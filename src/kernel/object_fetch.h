@@ -33,30 +33,43 @@ CGT_SPU_INLINE void fetch_spheres(const cgt_object_array *a, uint32_t i, uint32_
         d[k] = spux_load(row[k]);
 }
 
+/* A number times a stride, of each lane: in vectors for the strides that there mostly are. */
+CGT_SPU_INLINE void fetch_offsets(vuint number, uint32_t stride, uint32_t at[CGT_LANES])
+{
+    if (stride == 4) {
+        spux_store_uint(at, spu_sl(number, 2));
+        return;
+    }
+    if (stride == 3) {
+        spux_store_uint(at, spu_add(number, spu_sl(number, 1)));
+        return;
+    }
+    spux_store_uint(at, number);
+    for (int k = 0; k < CGT_LANES; k++)
+        at[k] *= stride;
+}
+
 /* Any spheres of an array; lane by lane where offsets are beyond 32 bits, or another record does not follow each. */
-CGT_SPU_INLINE void fetch_spheres_at(const cgt_object_array *a, const uint32_t number[CGT_LANES], vfloat d[4])
+CGT_SPU_INLINE void fetch_spheres_at(const cgt_object_array *a, vuint number, vfloat d[4])
 {
     const bool records = a->radius == a->point + 3 * sizeof(float) && a->radius_stride == a->point_stride;
-    const uint32_t stride = (uint32_t)(a->point_stride / sizeof(float));
     const bool fit = (uint64_t)a->count * (a->point_stride / sizeof(float)) <= UINT32_MAX;
     _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
     _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES];
-    uint32_t last = 0;
-    for (int k = 0; k < CGT_LANES; k++) {
-        at[k] = number[k] * stride;
-        last |= number[k] == a->count - 1;
-    }
-    if (fit && (records || !last)) {
+    if (fit && (records || spux_all(spu_cmpgt(spux_vuint(a->count - 1), number)))) {
+        fetch_offsets(number, (uint32_t)(a->point_stride / sizeof(float)), at);
         spux_load_records4_at(cgt_array_point(a, 0), at, d);
         if (records)
             return;
+        spux_store_uint(at, number);
         for (int k = 0; k < CGT_LANES; k++)
-            row[3][k] = *(const float *)(const void *)(a->radius + (size_t)number[k] * a->radius_stride);
+            row[3][k] = *(const float *)(const void *)(a->radius + (size_t)at[k] * a->radius_stride);
         d[3] = spux_load(row[3]);
         return;
     }
+    spux_store_uint(at, number);
     for (uint32_t k = 0; k < CGT_LANES; k++) {
-        const cgt_sphere q = cgt_array_sphere(a, number[k]);
+        const cgt_sphere q = cgt_array_sphere(a, at[k]);
         row[0][k] = q.x;
         row[1][k] = q.y;
         row[2][k] = q.z;
@@ -86,18 +99,6 @@ CGT_SPU_INLINE void fetch_corners(const cgt_object_array *a, uint32_t i, uint32_
     }
     for (int j = 0; j < 3; j++)
         corner[j] = spux_load_uint(row[j]);
-}
-
-/* A number times a stride, of each lane. */
-CGT_SPU_INLINE void fetch_offsets(vuint number, uint32_t stride, uint32_t at[CGT_LANES])
-{
-    if (stride == 3) {
-        spux_store_uint(at, spu_add(number, spu_sl(number, 1)));
-        return;
-    }
-    spux_store_uint(at, number);
-    for (int k = 0; k < CGT_LANES; k++)
-        at[k] *= stride;
 }
 
 /* The corners of any triangles of an array; lane by lane where offsets are beyond 32 bits, or another record does not

@@ -98,10 +98,8 @@ CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_world *world, const tile *t,
         known = resolve_prepared_sphere(&kept->sphere, dir, t_min, normals, &found, n);
     } else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
-        _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
         vfloat sphere[4];
-        spux_store_uint(at, number);
-        fetch_spheres_at(array, at, sphere);
+        fetch_spheres_at(array, number, sphere);
         known = wish.fast ? resolve_fast_spheres(org, dir, sphere, t_min, normals, &found, n)
                           : resolve_spheres_vector(org, dir, sphere, t_min, normals, &found, n);
     }
@@ -160,13 +158,10 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_world *world, const tile *t
         fetch_triangles_at(array, number, vertex);
         known = resolve_triangles_vector(org, dir, vertex, wish.fields, wish.exact, &found);
     } else {
-        _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
         const cgt_sphere q = cgt_array_sphere(array, some);
         vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
-        if (!alone) {
-            spux_store_uint(at, number);
-            fetch_spheres_at(array, at, sphere);
-        }
+        if (!alone)
+            fetch_spheres_at(array, number, sphere);
         known = resolve_spheres_vector(org, dir, sphere, spux_vfloat(t->rays->t_min), wish.fields & CGT_FIELD_NORMAL,
                                        &found.t, found.normal);
     }
@@ -211,13 +206,11 @@ CGT_SPU_INLINE void tile_mend(const cgt_world *world, const tile *t, tile_wish w
         const cgt_camera_rays *c = t->rays;
         const uint32_t some = h->object[__builtin_ctz(left)];
         const vmask mine = spux_mask_from_bits(left);
-        _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
         vfloat line[2][3], sphere[4];
         for (int a = 0; a < 3; a++)
             line[wish.parallel][a] = spux_vfloat(wish.parallel ? c->fwd[a] : c->eye[a]);
         tile_directions_at(t, wish.parallel, i, line[!wish.parallel]);
-        spux_store_uint(at, spux_select(spux_vuint(some), h->object, mine));
-        fetch_spheres_at(world->objects.array, at, sphere);
+        fetch_spheres_at(world->objects.array, spux_select(spux_vuint(some), h->object, mine), sphere);
         left &= ~spux_mask_bits(resolve_spheres_long(line[0], line[1], sphere, spux_vfloat(c->t_min),
                                                      wish.fields & CGT_FIELD_NORMAL, mine, &h->t, h->normal));
     }

@@ -114,7 +114,7 @@ CGT_SPU_INLINE void tile_spheres_fetch(const cgt_objects *objects, const uint32_
         else
             for (uint32_t k = 0; k < CGT_LANES; k++)
                 object[k] = reference[k < count ? k : 0];
-        fetch_spheres_at(objects->array, object, sphere);
+        fetch_spheres_at(objects->array, spux_load_uint(object), sphere);
         return;
     }
     filter_spheres s;

@@ -73,8 +73,7 @@ CGT_SPU_INLINE void wide_run_spheres(const wide_run *r, vfloat d[4])
     _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
     _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES];
     if (r->array) {
-        spux_store_uint(number, spu_sub(r->object, spux_vuint(r->array->first)));
-        fetch_spheres_at(r->array, number, d);
+        fetch_spheres_at(r->array, spu_sub(r->object, spux_vuint(r->array->first)), d);
         return;
     }
     spux_store_uint(number, r->object);
