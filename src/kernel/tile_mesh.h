@@ -18,7 +18,7 @@ _Static_assert(2 * PREPARED_RECORD == 1 << 4, "places in `record` are shifted");
 typedef struct tile_mesh {
     _Alignas(64) double record[TILE_MESH + CGT_LANES][2 * PREPARED_RECORD];
     _Alignas(64) uint32_t number[TILE_MESH + CGT_LANES]; /* of each; the first is nobody */
-    _Alignas(64) uint32_t find[TILE_MESH];               /* by the low bits of a number: which it may be */
+    _Alignas(64) uint32_t find[TILE_MESH]; /* by the low bits of a number: its high bits, its place below */
     _Alignas(64) uint32_t at[TILE_PIXELS]; /* of each pixel with a hit: its triangle's place in `record` */
     uint32_t count;
 } tile_mesh;
@@ -26,7 +26,7 @@ typedef struct tile_mesh {
 /* A new triangle. What `find` had there may be listed, and prepared, once more. */
 CGT_SPU_INLINE uint32_t tile_mesh_new(tile_mesh *m, uint32_t number)
 {
-    m->find[number & (TILE_MESH - 1)] = m->count;
+    m->find[number & (TILE_MESH - 1)] = (number & ~(TILE_MESH - 1)) | m->count;
     m->number[m->count] = number;
     return m->count++;
 }
@@ -34,20 +34,21 @@ CGT_SPU_INLINE uint32_t tile_mesh_new(tile_mesh *m, uint32_t number)
 /* Lists what a vector of pixels has hit, while there is room. */
 CGT_SPU_INLINE void tile_mesh_add(const tile *t, const tile_met *met, uint32_t i, tile_mesh *m)
 {
-    const uint32_t first = met->some[i / CGT_LANES];
+    const uint32_t low = TILE_MESH - 1, first = met->some[i / CGT_LANES];
     if (first == CGT_NONE)
         return;
     if (met->alone[i / CGT_LANES]) {
-        uint32_t at = m->find[first & (TILE_MESH - 1)];
-        if (m->number[at] != first && m->count < TILE_MESH)
+        uint32_t at = m->find[first & low] - (first & ~low);
+        if (at - 1 >= low && m->count < TILE_MESH)
             at = tile_mesh_new(m, first);
         spux_store_uint(m->at + i, spux_vuint(at));
         return;
     }
     const vuint number = spux_load_uint(t->object + i);
     const unsigned hit = ~spux_mask_bits(spu_cmpeq(number, spux_vuint(CGT_NONE))) & CGT_ALL_LANES;
-    vuint at = spux_gather_uint(m->find, (vint)spu_and(number, spux_vuint(TILE_MESH - 1)));
-    unsigned left = ~spux_mask_bits(spu_cmpeq(spux_gather_uint(m->number, (vint)at), number)) & hit;
+    vuint at =
+        spu_sub(spux_gather_uint(m->find, (vint)spu_and(number, spux_vuint(low))), spu_and(number, spux_vuint(~low)));
+    unsigned left = ~spux_mask_bits(spu_cmpgt(spux_vuint(low), spu_sub(at, spux_vuint(1)))) & hit;
     while (left && m->count < TILE_MESH) {
         const uint32_t some = t->object[i + (uint32_t)__builtin_ctz(left)];
         const vmask mine = spu_cmpeq(number, spux_vuint(some));
