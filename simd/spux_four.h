@@ -99,7 +99,6 @@ CGT_SPU_INLINE vuint cgt_spux_load_w(const void *p)
 }
 CGT_SPU_INLINE void cgt_spux_store_w(void *p, vuint v) { memcpy(__builtin_assume_aligned(p, 16), &v, sizeof v); }
 CGT_SPU_INLINE void cgt_spux_stream_w(void *p, vuint v) { cgt_spux_store_w(p, v); }
-CGT_SPU_INLINE void spux_stream_end(void) {}
 CGT_SPU_INLINE vuint cgt_spux_load_unaligned_w(const void *p)
 {
     vuint v;

@@ -10,6 +10,14 @@
 #define CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return (unsigned)_mm_movemask_ps((__m128)m); }
 
+#define CGT_SPUX_OWN_STREAM
+CGT_SPU_INLINE void spux_stream_line(void *to, const void *from)
+{
+    for (int i = 0; i < 4; i++)
+        _mm_stream_si128((__m128i *)to + i, _mm_load_si128((const __m128i *)from + i));
+}
+CGT_SPU_INLINE void spux_stream_end(void) { _mm_sfence(); }
+
 #define CGT_SPUX_OWN_ANY_ALL
 CGT_SPU_INLINE bool spux_any(vmask m) { return !_mm_testz_si128((__m128i)m, (__m128i)m); }
 CGT_SPU_INLINE bool spux_all(vmask m) { return _mm_testc_si128((__m128i)m, _mm_set1_epi32(-1)); }

@@ -20,6 +20,7 @@
  *   spux_load_unaligned(p), store_unaligned(p, v)   W, aligned to the element
  *   spux_stream(p, v)             W, aligned to the vector: a store past the caches where a vector fills a line of them;
  *                                 parts of lines come out several times slower on some processors
+ *   spux_stream_line(to, from)    64 bytes, aligned to as many: stores past the caches where SPUX_STREAMS is 1, else a copy
  *   spux_stream_end()             before what was streamed is handed to another thread
  *   spux_load_mask(p, m)          W, aligned to the element; 0 where m is false, and memory there is not touched
  *   spux_store_mask(p, v, m)      likewise; memory where m is false keeps its content, and need not exist
@@ -122,6 +123,13 @@ CGT_SPU_INLINE void spux_store(float *p, vfloat v) { cgt_spux_store_w(p, (vuint)
 CGT_SPU_INLINE void spux_store_uint(uint32_t *p, vuint v) { cgt_spux_store_w(p, v); }
 CGT_SPU_INLINE void spux_stream(float *p, vfloat v) { cgt_spux_stream_w(p, (vuint)v); }
 CGT_SPU_INLINE void spux_stream_uint(uint32_t *p, vuint v) { cgt_spux_stream_w(p, v); }
+#ifdef CGT_SPUX_OWN_STREAM
+#define SPUX_STREAMS 1
+#else
+#define SPUX_STREAMS 0
+CGT_SPU_INLINE void spux_stream_line(void *to, const void *from) { memcpy(to, from, 64); }
+CGT_SPU_INLINE void spux_stream_end(void) {}
+#endif
 CGT_SPU_INLINE vfloat spux_load_unaligned(const float *p) { return (vfloat)cgt_spux_load_unaligned_w(p); }
 CGT_SPU_INLINE vuint spux_load_unaligned_uint(const uint32_t *p) { return cgt_spux_load_unaligned_w(p); }
 CGT_SPU_INLINE void spux_store_unaligned(float *p, vfloat v) { cgt_spux_store_unaligned_w(p, (vuint)v); }

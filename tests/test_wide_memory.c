@@ -299,6 +299,19 @@ static void streams_and_parts(void **state)
     }
 }
 
+static void lines(void **state)
+{
+    (void)state;
+    enum { LINE = 16 };
+    _Alignas(64) uint32_t from[LINE], to[3 * LINE] = {0};
+    for (uint32_t k = 0; k < LINE; k++)
+        from[k] = k + 1;
+    spux_stream_line(to + LINE, from);
+    spux_stream_end();
+    for (uint32_t k = 0; k < 3 * LINE; k++)
+        check_number("spux_stream_line", to[k], k / LINE == 1 ? k % LINE + 1 : 0);
+}
+
 /* Each word against C, lane by lane; any bits, and numbers about 1. */
 static void doubles(void **state)
 {
@@ -427,6 +440,7 @@ int main(void)
         cmocka_unit_test(bytes),
         cmocka_unit_test(transposes),
         cmocka_unit_test(streams_and_parts),
+        cmocka_unit_test(lines),
         cmocka_unit_test(doubles),
         cmocka_unit_test(double_records),
     };

@@ -14,6 +14,7 @@
 #include "tile_mesh.h"
 #include "tile_met.h"
 
+#define TILE_LINE 16u                            /* pixels of a line of the cache */
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
 
 /* The canonical directions of px and py, or the origins of parallel rays, in the order of camera.h. */
@@ -47,12 +48,12 @@ CGT_SPU_INLINE void tile_put_row(uint32_t *to, const cgt_region *r, bool stream,
         spux_store_mask_uint(to, v, spux_mask_first(r->width - x));
 }
 
-CGT_SPU_INLINE bool tile_on_lines(const void *plane) { return (uintptr_t)plane % CGT_VECTOR_BYTES == 0; }
+CGT_SPU_INLINE bool tile_on_lines(const void *plane) { return (uintptr_t)plane % (4 * TILE_LINE) == 0; }
 
-/* Whether whole vectors may go past the caches. */
+/* Whether whole lines may go past the caches. */
 CGT_SPU_INLINE bool tile_streams(const cgt_region *r)
 {
-    return r->stream && r->width == TILE_EDGE && r->height % 2 == 0 && r->row_stride % CGT_LANES == 0 &&
+    return SPUX_STREAMS && r->stream && r->width == TILE_EDGE && r->height % 2 == 0 && r->row_stride % TILE_LINE == 0 &&
            tile_on_lines(r->t) && tile_on_lines(r->primitive) && tile_on_lines(r->geometry) &&
            tile_on_lines(r->normal[0]) && tile_on_lines(r->normal[1]) && tile_on_lines(r->normal[2]) &&
            tile_on_lines(r->u) && tile_on_lines(r->v);
@@ -235,21 +236,22 @@ CGT_SPU_INLINE void tile_mend(const cgt_world *world, const tile *t, tile_wish w
     }
 }
 
-/* Where two vectors of pixels go: columns x and on of rows y and y + 1. */
+/* Where two vectors of pixels go: columns x and on of rows y and y + 1, which begin at `at` in the planes. */
 typedef struct tile_place {
     const cgt_region *region;
     bool stream;
     uint32_t x, y;
+    size_t at;
 } tile_place;
 
-/* A plane's part, which begins at `at` in it, of what a tile has as two vectors of pixels. */
-CGT_SPU_INLINE void tile_put(void *plane, tile_place to, size_t at, vuint a, vuint b)
+/* Two vectors of pixels, as a tile has them, to a plane. */
+CGT_SPU_INLINE void tile_put(void *plane, tile_place to, vuint a, vuint b)
 {
     const cgt_region *r = to.region;
     vuint row[2] = {a, b};
     if (!plane)
         return;
-    uint32_t *p = (uint32_t *)plane + at;
+    uint32_t *p = (uint32_t *)plane + to.at;
     spux_unzip(row);
     tile_put_row(p, r, to.stream, to.x, row[0]);
     if (to.stream || to.y + 1 < r->height)
@@ -260,16 +262,58 @@ CGT_SPU_INLINE void tile_put_hits(tile_place to, uint32_t geometry, tile_hits a,
 {
     const vuint none = spux_vuint(CGT_NONE), it = spux_vuint(geometry);
     const cgt_region *r = to.region;
-    const size_t at = (size_t)to.y * r->row_stride + to.x;
-    tile_put(r->t, to, at, (vuint)a.t, (vuint)b.t);
-    tile_put(r->primitive, to, at, a.object, b.object);
-    tile_put(r->geometry, to, at, spux_select(it, none, spu_cmpeq(a.object, none)),
+    tile_put(r->t, to, (vuint)a.t, (vuint)b.t);
+    tile_put(r->primitive, to, a.object, b.object);
+    tile_put(r->geometry, to, spux_select(it, none, spu_cmpeq(a.object, none)),
              spux_select(it, none, spu_cmpeq(b.object, none)));
-    tile_put(r->normal[0], to, at, (vuint)a.normal[0], (vuint)b.normal[0]);
-    tile_put(r->normal[1], to, at, (vuint)a.normal[1], (vuint)b.normal[1]);
-    tile_put(r->normal[2], to, at, (vuint)a.normal[2], (vuint)b.normal[2]);
-    tile_put(r->u, to, at, (vuint)a.u, (vuint)b.u);
-    tile_put(r->v, to, at, (vuint)a.v, (vuint)b.v);
+    tile_put(r->normal[0], to, (vuint)a.normal[0], (vuint)b.normal[0]);
+    tile_put(r->normal[1], to, (vuint)a.normal[1], (vuint)b.normal[1]);
+    tile_put(r->normal[2], to, (vuint)a.normal[2], (vuint)b.normal[2]);
+    tile_put(r->u, to, (vuint)a.u, (vuint)b.u);
+    tile_put(r->v, to, (vuint)a.v, (vuint)b.v);
+}
+
+/* A line of the cache of each plane, and of two rows: narrow vectors fill it before it goes past the caches. */
+typedef struct tile_lines {
+    _Alignas(4 * TILE_LINE) uint32_t plane[8][2 * TILE_LINE];
+} tile_lines;
+
+CGT_SPU_INLINE cgt_region tile_lines_region(const cgt_region *r, tile_lines *lines)
+{
+    cgt_region q = *r;
+    void *of[8];
+    for (int k = 0; k < 8; k++)
+        of[k] = lines->plane[k];
+    q.t = r->t ? of[0] : NULL;
+    q.primitive = r->primitive ? of[1] : NULL;
+    q.geometry = r->geometry ? of[2] : NULL;
+    for (int a = 0; a < 3; a++)
+        q.normal[a] = r->normal[a] ? of[3 + a] : NULL;
+    q.u = r->u ? of[6] : NULL;
+    q.v = r->v ? of[7] : NULL;
+    q.row_stride = TILE_LINE;
+    return q;
+}
+
+CGT_SPU_INLINE void tile_stream_plane(void *to, size_t at, size_t row_stride, const void *from)
+{
+    if (!to)
+        return;
+    spux_stream_line((uint32_t *)to + at, from);
+    spux_stream_line((uint32_t *)to + at + row_stride, (const uint32_t *)from + TILE_LINE);
+}
+
+/* What is in the lines: columns x and on of rows y and y + 1. */
+CGT_SPU_INLINE void tile_stream_lines(const cgt_region *r, const cgt_region *lines, uint32_t x, uint32_t y)
+{
+    const size_t at = (size_t)y * r->row_stride + x;
+    tile_stream_plane(r->t, at, r->row_stride, lines->t);
+    tile_stream_plane(r->primitive, at, r->row_stride, lines->primitive);
+    tile_stream_plane(r->geometry, at, r->row_stride, lines->geometry);
+    for (int a = 0; a < 3; a++)
+        tile_stream_plane(r->normal[a], at, r->row_stride, lines->normal[a]);
+    tile_stream_plane(r->u, at, r->row_stride, lines->u);
+    tile_stream_plane(r->v, at, r->row_stride, lines->v);
 }
 
 __attribute__((noinline, unused)) static void tile_put_mended(const cgt_world *world, const tile *t, tile_wish wish,
@@ -284,11 +328,15 @@ CGT_SPU_INLINE void tile_resolve_to(const cgt_world *world, const tile *t, const
                                     tile_kept kept, cgt_counts *counts)
 {
     const uint32_t geometry = world->objects.array->geometry;
+    const bool by_lines = wish.stream && CGT_LANES < TILE_LINE;
     const cgt_region r = *region; /* a copy: nothing that is stored changes it */
+    tile_lines lines;
+    const cgt_region q = by_lines ? tile_lines_region(&r, &lines) : r;
     for (uint32_t y = 0; y < r.height; y += 2)
         for (uint32_t x = 0; x < r.width; x += CGT_LANES) {
             const uint32_t i = tile_index(x, y);
-            const tile_place to = {&r, wish.stream, x, y};
+            const size_t at = by_lines ? x % TILE_LINE : (size_t)y * r.row_stride + x;
+            const tile_place to = {&q, wish.stream && !by_lines, x, y, at};
             const tile_hits a = tile_resolve_vector(world, t, wish, i, kept);
             const tile_hits b = tile_resolve_vector(world, t, wish, i + CGT_LANES, kept);
             if (__builtin_expect((a.left | b.left) != 0, 0)) { /* of copies: the hits stay in registers */
@@ -296,6 +344,8 @@ CGT_SPU_INLINE void tile_resolve_to(const cgt_world *world, const tile *t, const
                 tile_put_mended(world, t, wish, to, left, counts);
             } else
                 tile_put_hits(to, geometry, a, b);
+            if (by_lines && (x + CGT_LANES) % TILE_LINE == 0)
+                tile_stream_lines(&r, &q, x + CGT_LANES - TILE_LINE, y);
         }
 }
 
