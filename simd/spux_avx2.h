@@ -38,6 +38,8 @@ CGT_SPU_INLINE vuint cgt_spux_min_u32w(vuint a, vuint b) { return (vuint)_mm256_
 CGT_SPU_INLINE vuint cgt_spux_max_u32w(vuint a, vuint b) { return (vuint)_mm256_max_epu32((__m256i)a, (__m256i)b); }
 CGT_SPU_INLINE vfloat spux_div(vfloat a, vfloat b) { return a / b; }
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm256_sqrt_ps((__m256)a); }
+CGT_SPU_INLINE vfloat spux_rsqrte(vfloat a) { return (vfloat)_mm256_rsqrt_ps((__m256)a); }
+CGT_SPU_INLINE vint spux_truncate(vfloat a) { return (vint)_mm256_cvttps_epi32((__m256)a); }
 CGT_SPU_INLINE vmask spux_cmpge(vfloat a, vfloat b) { return (vmask)(a >= b); }
 
 /* ---- selection ---- */

@@ -40,6 +40,8 @@ CGT_SPU_INLINE vuint cgt_spux_min_u32w(vuint a, vuint b) { return (vuint)_mm512_
 CGT_SPU_INLINE vuint cgt_spux_max_u32w(vuint a, vuint b) { return (vuint)_mm512_max_epu32((__m512i)a, (__m512i)b); }
 CGT_SPU_INLINE vfloat spux_div(vfloat a, vfloat b) { return a / b; }
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm512_sqrt_ps((__m512)a); }
+CGT_SPU_INLINE vfloat spux_rsqrte(vfloat a) { return (vfloat)_mm512_rsqrt14_ps((__m512)a); }
+CGT_SPU_INLINE vint spux_truncate(vfloat a) { return (vint)_mm512_cvttps_epi32((__m512)a); }
 CGT_SPU_INLINE vmask spux_cmpge(vfloat a, vfloat b)
 {
     return (vmask){_mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GE_OQ)};

@@ -72,6 +72,7 @@ CGT_SPU_INLINE vfloat spux_sqrt(vfloat a)
     const vfloat root = spu_madd(spu_nmsub(x, x, a), half, x);
     return spu_sel(root, spux_vfloat(0), spu_cmpeq(a, spux_vfloat(0)));
 }
+CGT_SPU_INLINE vfloat spux_rsqrte(vfloat a) { return spu_rsqrte(a); }
 CGT_SPU_INLINE vmask spux_cmpge(vfloat a, vfloat b) { return spu_or(spu_cmpgt(a, b), spu_cmpeq(a, b)); }
 #else
 CGT_SPU_INLINE vmask spux_cmpge(vfloat a, vfloat b) { return (vmask)(a >= b); }
@@ -81,7 +82,11 @@ CGT_SPU_INLINE vfloat spux_sqrt(vfloat a)
 {
     return (vfloat){__builtin_sqrtf(a[0]), __builtin_sqrtf(a[1]), __builtin_sqrtf(a[2]), __builtin_sqrtf(a[3])};
 }
+CGT_SPU_INLINE vfloat spux_rsqrte(vfloat a) { return 1.f / spux_sqrt(a); }
 #endif
+#endif
+#ifndef CGT_SPUX_OWN_TRUNCATE
+CGT_SPU_INLINE vint spux_truncate(vfloat a) { return spu_convts(a, 0); }
 #endif
 
 /* ---- selection ---- */

@@ -17,6 +17,14 @@ CGT_SPU_INLINE unsigned spux_mask_bits(vmask m)
 
 #define CGT_SPUX_OWN_SQRT
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)vsqrtq_f32((float32x4_t)a); }
+CGT_SPU_INLINE vfloat spux_rsqrte(vfloat a)
+{
+    const float32x4_t x = vrsqrteq_f32((float32x4_t)a);
+    return (vfloat)vmulq_f32(x, vrsqrtsq_f32(vmulq_f32((float32x4_t)a, x), x));
+}
+
+#define CGT_SPUX_OWN_TRUNCATE
+CGT_SPU_INLINE vint spux_truncate(vfloat a) { return (vint)vcvtq_s32_f32((float32x4_t)a); }
 
 /* Bytes 4n to 4n + 3 for each lane number n. */
 #define CGT_SPUX_OWN_PERMUTE

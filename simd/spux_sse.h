@@ -54,6 +54,10 @@ CGT_SPU_INLINE uint32_t cgt_spux_hmax_u32w(vuint a)
 
 #define CGT_SPUX_OWN_SQRT
 CGT_SPU_INLINE vfloat spux_sqrt(vfloat a) { return (vfloat)_mm_sqrt_ps((__m128)a); }
+CGT_SPU_INLINE vfloat spux_rsqrte(vfloat a) { return (vfloat)_mm_rsqrt_ps((__m128)a); }
+
+#define CGT_SPUX_OWN_TRUNCATE
+CGT_SPU_INLINE vint spux_truncate(vfloat a) { return (vint)_mm_cvttps_epi32((__m128)a); }
 
 /* With AVX-512VL selection is bit by bit, one vpternlog, as spu_sel is: gcc 12 up to 12.3 and 13 up to 13.2 take a blend by
  * ~m for one by m there (gcc's bug 112443). */

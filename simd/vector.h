@@ -36,6 +36,9 @@
  *   spux_abs(a)                   float, sign bit cleared
  *   spux_div(a, b), sqrt(a)       float, relative error at most 2^-21
  *   spux_cmpge(a, b)              float, a >= b, false for NaN
+ *   spux_rsqrte(a)                float; as spu_rsqrte where a > 0, NaN where a < 0 (open on an SPU), open for 0 and
+ *                                 denormals
+ *   spux_truncate(a)              vint; a towards zero, open where that is beyond int32
  *   spux_select(a, b, m)          T; b in the lanes where m is true, else a
  *
  *   spux_not(m)                   the other lanes

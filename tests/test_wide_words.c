@@ -300,6 +300,28 @@ static void check_extremes(const lanes a, const lanes b)
     check_bits("spux_abs", &d, &e);
 }
 
+static void check_estimate(const lanes a)
+{
+    lanes d;
+    d.f = spux_rsqrte(a.f);
+    for (int i = 0; i < CGT_LANES; i++) {
+        const double x = (double)a.ef[i];
+        if (x <= -0x1p-126)
+            assert_true(isnan(d.ef[i]));
+        else if (x >= 0x1p-120 && x <= 0x1p120)
+            assert_true(fabs((double)d.ef[i] * sqrt(x) - 1) <= 0x1.8p-12 + 0x1p-20);
+    }
+}
+
+static void check_truncation(const lanes a)
+{
+    lanes d;
+    d.s = spux_truncate(a.f);
+    for (int i = 0; i < CGT_LANES; i++)
+        if (fabsf(a.ef[i]) < 0x1p31f)
+            assert_int_equal(d.es[i], (int32_t)a.ef[i]);
+}
+
 static void check_int_extremes(const lanes a, const lanes b)
 {
     lanes d, e;
@@ -321,8 +343,12 @@ static void extremes(void **state)
     for (size_t i = 0; i < TEST_COUNT(edge); i++)
         for (size_t j = 0; j < TEST_COUNT(edge); j++)
             check_extremes(edges(i), edges(j));
+    for (size_t i = 0; i < TEST_COUNT(edge); i++)
+        check_truncation(edges(i));
     for (uint32_t k = test_scaled(ROUNDS); k; k--) {
         check_extremes(any_floats(&r), any_floats(&r));
+        check_estimate(any_floats(&r));
+        check_truncation(any_floats(&r));
         check_int_extremes(any_words(&r), any_words(&r));
     }
 }
