@@ -90,21 +90,31 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     const uint32_t reference = 0;
     const vfloat zero = spux_vfloat(0);
     vfloat v[4];
+    vuint object;
+    tile_found found;
     tile_spheres s;
     cgt_counts counts = {0};
+    found.count = 0;
     queue.entries = 0;
     memset(open, 0, sizeof open);
-    tile_spheres_fetch(&objects, &reference, 1, v, s.object);
+    tile_spheres_fetch(&objects, &reference, 1, v, &object);
     assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
+    s.fast = s.slow = 0;
     if (t->parallel)
-        tile_parallel_spheres_make(t, v, 1, &s);
+        tile_parallel_spheres_find(t, v, object, 1, &found);
     else
-        tile_spheres_make(t, v, 1, &s);
+        tile_spheres_find(t, v, object, 1, &found);
+    if (found.count && t->parallel)
+        tile_parallel_spheres_make(t, &found, 0, &s);
+    else if (found.count)
+        tile_spheres_make(t, &found, 0, &s);
     sum->slow += s.slow & 1;
     if (s.slow & 1)
         return;
     tile_box box;
-    if (s.fast & 1 && tile_clip(t, &s, 0, &box))
+    if (s.fast & s.small[1] & 1)
+        tile_sphere_draw_small(&objects, t, &s, 0, s.small[0] & 1 ? 3 : 4, &queue, &counts);
+    else if (s.fast & 1 && tile_clip(t, &s, 0, &box))
         tile_sphere_draw(&objects, t, &s, 0, box, &queue, &counts);
     for (uint32_t k = 0; k < queue.entries; k++)
         open[queue.pixel[k]] = true;

@@ -32,8 +32,6 @@ CGT_SPU_INLINE void count_taken(const light_tile *t, uint32_t count, unsigned wa
     t->counts->packet_tests += some;
 }
 
-CGT_SPU_INLINE unsigned first_lanes(uint32_t count) { return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES; }
-
 CGT_SPU_INLINE void draw_spheres(light_tile *t, const wide_spheres *s, const light_windows *windows, unsigned wanted,
                                  bool place)
 {
@@ -58,12 +56,14 @@ static void take_spheres(light_tile *t, const uint32_t *reference, uint32_t coun
 {
     vfloat sphere[4];
     wide_spheres s;
+    vuint object;
     light_windows windows;
-    tile_spheres_fetch(&t->world->objects, reference, count, sphere, s.object);
+    tile_spheres_fetch(&t->world->objects, reference, count, sphere, &object);
+    spux_store_uint(s.object, object);
     for (int a = 0; a < 3; a++)
         spux_store(s.center[a], sphere[a]);
     spux_store(s.radius, sphere[3]);
-    const unsigned wanted = see_spheres(t, &s, &windows) & first_lanes(count);
+    const unsigned wanted = see_spheres(t, &s, &windows) & tile_first_lanes(count);
     count_taken(t, count, wanted);
     if (!wanted)
         return;
@@ -118,7 +118,7 @@ static void take_triangles(light_tile *t, const uint32_t *reference, uint32_t co
     light_windows windows;
     tile_triangles_objects(reference, count, s.object);
     tile_triangles_fetch(&t->world->objects, s.object, vertex);
-    const unsigned wanted = see_triangles(t, vertex, &windows) & first_lanes(count);
+    const unsigned wanted = see_triangles(t, vertex, &windows) & tile_first_lanes(count);
     count_taken(t, count, wanted);
     if (!wanted)
         return;

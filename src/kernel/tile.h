@@ -45,6 +45,12 @@ typedef struct tile_camera {
     float rright, rup; /* reciprocals */
 } tile_camera;
 
+/* Columns or rows: x / z of camera space times `scale`, less `first`, counts from the middle of the tile's first one. */
+typedef struct tile_span {
+    float scale, first;
+    float pixels, last; /* how many, and that less one */
+} tile_span;
+
 typedef struct tile {
     _Alignas(64) float z[TILE_PIXELS + TILE_PAD];
     _Alignas(64) uint32_t object[TILE_PIXELS + TILE_PAD]; /* CGT_NONE: none yet */
@@ -61,10 +67,12 @@ typedef struct tile {
     _Alignas(64) float part_high[TILE_PARTS * TILE_PARTS];
     float column[TILE_EDGE], row[TILE_EDGE]; /* px and py; beyond the region the last ones again */
     uint32_t columns, rows;                  /* in the region */
-    float gap, wide_gap;                     /* wide: what rounding of differences adds is in it */
-    float most, least;                       /* N of any pixel is between these */
-    float longest;                           /* at least sqrt(most) */
-    float slack;                             /* of lengths: what underflows, and what origins are off by twice */
+    tile_span across, down;
+    float down_across;    /* ratio of their scales */
+    float gap, wide_gap;  /* wide: what rounding of differences adds is in it */
+    float most, least;    /* N of any pixel is between these */
+    float longest;        /* at least sqrt(most) */
+    float slack;          /* of lengths: what underflows, and what origins are off by twice */
     float spread, beside; /* of parallel rays: origins are off by u times this; the farthest one beside the eye */
     const cgt_camera_rays *rays;
     tile_camera camera;
@@ -119,6 +127,11 @@ CGT_SPU_INLINE void tile_camera_make(const cgt_camera_rays *c, tile_camera *q)
 
 /* ---- the tables ---- */
 
+CGT_SPU_INLINE tile_span tile_span_make(float scale, float first, float pixel, uint32_t pixels)
+{
+    return (tile_span){scale / pixel, first / pixel, (float)pixels, (float)(pixels - 1)};
+}
+
 CGT_SPU_INLINE void tile_tables_make(tile *t, uint32_t x0, uint32_t y0)
 {
     const float *pixel = t->rays->pixel;
@@ -134,6 +147,9 @@ CGT_SPU_INLINE void tile_tables_make(tile *t, uint32_t x0, uint32_t y0)
         t->px[TILE_PAIR + k] = NAN;
     for (uint32_t y = 0; y < TILE_EDGE; y += 2)
         spux_store(t->py[y / 2], spux_select(spux_vfloat(t->row[y]), spux_vfloat(t->row[y + 1]), second));
+    t->across = tile_span_make(t->camera.rright, t->column[0], pixel[0], t->columns);
+    t->down = tile_span_make(-t->camera.rup, -t->row[0], pixel[1], t->rows); /* rows run down */
+    t->down_across = t->down.scale / t->across.scale;
 }
 
 CGT_SPU_INLINE float tile_nearest_square(float a, float b)

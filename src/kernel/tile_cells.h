@@ -55,15 +55,15 @@ CGT_SPU_INLINE tile_cells tile_cells_make(const tile *t, const tile_march *m, co
 }
 
 /* The columns or rows, from the tile's first, that boxes in front cover; r: the reciprocals of their least and most z. */
-CGT_SPU_INLINE vmask tile_cells_window(vfloat middle, float half, const vfloat r[2], float scale, float first,
-                                       uint32_t pixels, uint32_t *from, uint32_t *to)
+CGT_SPU_INLINE vmask tile_cells_window(const tile_span *of, vfloat middle, float half, const vfloat r[2],
+                                       uint32_t *from, uint32_t *to)
 {
     const vfloat low = spu_sub(middle, spux_vfloat(half)), high = spu_add(middle, spux_vfloat(half));
     const vfloat least = spux_min(spu_mul(low, r[0]), spu_mul(low, r[1]));
     const vfloat most = spux_max(spu_mul(high, r[0]), spu_mul(high, r[1]));
-    const vfloat a = spu_mul(least, spux_vfloat(scale)), b = spu_mul(most, spux_vfloat(scale));
-    return tile_window(spu_sub(spux_min(a, b), spux_vfloat(first)), spu_sub(spux_max(a, b), spux_vfloat(first)), pixels,
-                       from, to);
+    const vfloat a = spu_mul(least, spux_vfloat(of->scale)), b = spu_mul(most, spux_vfloat(of->scale));
+    return tile_window(spu_sub(spux_min(a, b), spux_vfloat(of->first)), spu_sub(spux_max(a, b), spux_vfloat(of->first)),
+                       of, from, to);
 }
 
 CGT_SPU_INLINE void tile_cells_seen(const tile *t, const vfloat middle[3], vfloat v[3])
@@ -93,7 +93,6 @@ CGT_SPU_INLINE vmask tile_parallel_cells_unwanted(const tile *t, const tile_cell
 /* Boxes that the tile does not want. */
 CGT_SPU_INLINE vmask tile_cells_unwanted(const tile *t, const tile_cells *c, const vfloat middle[3])
 {
-    const float *pixel = t->rays->pixel;
     _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
     vfloat v[3], r[2];
     vmask apart;
@@ -103,10 +102,8 @@ CGT_SPU_INLINE vmask tile_cells_unwanted(const tile *t, const tile_cells *c, con
     const vfloat nearest = spu_mul(near, spux_vfloat(tile_nearest_scale(t)));
     r[0] = spux_div(spux_vfloat(1), near);
     r[1] = spux_div(spux_vfloat(1), far);
-    const vmask beside = tile_cells_window(v[1], c->half[1], r, t->camera.rright / pixel[0], t->column[0] / pixel[0],
-                                           t->columns, x0, x1);
-    const vmask above =
-        tile_cells_window(v[2], c->half[2], r, -t->camera.rup / pixel[1], -t->row[0] / pixel[1], t->rows, y0, y1);
+    const vmask beside = tile_cells_window(&t->across, v[1], c->half[1], r, x0, x1);
+    const vmask above = tile_cells_window(&t->down, v[2], c->half[2], r, y0, y1);
     const vfloat seen = tile_windows_far(t, x0, x1, y0, y1, &apart);
     const vmask hidden =
         spu_or(spu_cmpgt(nearest, spux_vfloat(t->farthest)), spu_andc(spu_cmpgt(nearest, seen), apart));

@@ -47,32 +47,31 @@ CGT_SPU_INLINE void tile_parallel_gap_make(tile *t, float c, float r, float far_
 }
 
 /* As the perspective camera sees them, but for what is nearest; windows are right for all. */
-CGT_SPU_INLINE tile_seen tile_parallel_spheres_see(const tile *t, const vfloat sphere[4])
+CGT_SPU_INLINE tile_seen tile_parallel_spheres_see(const tile *t, const vfloat q[4])
 {
-    tile_seen v = tile_spheres_see(t, sphere);
+    tile_seen v = tile_spheres_see(t, q);
     v.nearest = spu_sub(v.z, v.wide);
     v.front = spux_mask_all();
     return v;
 }
 
 /* Pixels of an axis that lengths about x cover, from low to high, as columns or rows from the tile's first. */
-CGT_SPU_INLINE void tile_parallel_span(vfloat x, vfloat wide, float scale, float first, vfloat *low, vfloat *high)
+CGT_SPU_INLINE void tile_parallel_span(const tile_span *of, vfloat x, vfloat wide, vfloat *low, vfloat *high)
 {
-    *low = spu_sub(spu_mul(spu_sub(x, wide), spux_vfloat(scale)), spux_vfloat(first));
-    *high = spu_sub(spu_mul(spu_add(x, wide), spux_vfloat(scale)), spux_vfloat(first));
+    *low = spu_msub(spu_sub(x, wide), spux_vfloat(of->scale), spux_vfloat(of->first));
+    *high = spu_msub(spu_add(x, wide), spux_vfloat(of->scale), spux_vfloat(of->first));
 }
 
 /* Windows of boxes with half extents wide and high. Returns the lanes without one. */
 CGT_SPU_INLINE vmask tile_parallel_windows(const tile *t, vfloat x, vfloat y, vfloat wide, vfloat high, uint32_t *x0,
                                            uint32_t *x1, uint32_t *y0, uint32_t *y1)
 {
-    const float *pixel = t->rays->pixel;
     vfloat low, top;
-    tile_parallel_span(x, wide, t->camera.rright / pixel[0], t->column[0] / pixel[0], &low, &top);
-    const vmask beside = tile_window(low, top, t->columns, x0, x1);
+    tile_parallel_span(&t->across, x, wide, &low, &top);
+    const vmask beside = tile_window(low, top, &t->across, x0, x1);
     /* rows run down */
-    tile_parallel_span(y, high, -t->camera.rup / pixel[1], -t->row[0] / pixel[1], &top, &low);
-    return spu_or(beside, tile_window(low, top, t->rows, y0, y1));
+    tile_parallel_span(&t->down, y, high, &top, &low);
+    return spu_or(beside, tile_window(low, top, &t->down, y0, y1));
 }
 
 CGT_SPU_INLINE vmask tile_parallel_spheres_unwanted(const tile *t, const tile_seen *v)
@@ -103,19 +102,29 @@ CGT_SPU_INLINE unsigned tile_parallel_spheres_bound(const tile *t, const tile_se
     return spux_mask_bits(spu_and(fits, late));
 }
 
-/* tile_spheres_make for parallel rays. */
-CGT_SPU_INLINE void tile_parallel_spheres_make(const tile *t, const vfloat sphere[4], unsigned lanes, tile_spheres *s)
+/* tile_spheres_find and make for parallel rays. */
+CGT_SPU_INLINE void tile_parallel_spheres_find(const tile *t, const vfloat sphere[4], vuint object, uint32_t count,
+                                               tile_found *f)
 {
-    const tile_seen v = tile_parallel_spheres_see(t, sphere);
+    vfloat q[4];
+    tile_windows w;
+    tile_spheres_turn(t, sphere, q);
+    const tile_seen v = tile_parallel_spheres_see(t, q);
     const vmask unwanted = tile_parallel_spheres_unwanted(t, &v);
-    const vmask beside = tile_parallel_windows(t, v.x, v.y, v.wide, v.wide, s->x0, s->x1, s->y0, s->y1);
-    const vmask out = spu_or(spu_or(unwanted, beside), tile_spheres_hidden(t, &v, s));
-    const unsigned left = lanes & ~spux_mask_bits(out) & CGT_ALL_LANES;
-    s->fast = s->slow = 0;
-    if (!left)
-        return;
+    const vmask beside = tile_parallel_windows(t, v.x, v.y, v.wide, v.wide, w.x0, w.x1, w.y0, w.y1);
+    const vmask out = spu_or(spu_or(unwanted, beside), tile_spheres_hidden(t, &v, &w));
+    tile_found_keep(f, q, object, &w, tile_first_lanes(count) & ~spux_mask_bits(out));
+}
+
+CGT_SPU_INLINE void tile_parallel_spheres_make(const tile *t, const tile_found *f, uint32_t first, tile_spheres *s)
+{
+    const unsigned left = tile_first_lanes(f->count - first);
+    vfloat q[4];
+    tile_found_get(f, first, q, s);
+    const tile_seen v = tile_parallel_spheres_see(t, q);
     s->fast = left & tile_parallel_spheres_bound(t, &v, s);
     s->slow = left & ~s->fast;
+    tile_spheres_small(s);
 }
 
 #endif

@@ -92,6 +92,11 @@ CGT_SPU_INLINE void tile_gap_make(tile *t, float c, float r, float far_t)
 
 /* ---- a vector of spheres ---- */
 
+/* Windows of a vector of objects: columns x0 to x1 and rows y0 to y1. */
+typedef struct tile_windows {
+    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
+} tile_windows;
+
 /* Of each lane, what its loop over pixels takes. */
 typedef struct tile_spheres {
     _Alignas(64) float X[CGT_LANES], Y[CGT_LANES];
@@ -99,22 +104,37 @@ typedef struct tile_spheres {
     _Alignas(64) float d0[CGT_LANES], dx[CGT_LANES], dy[CGT_LANES]; /* of D: r^2 N0 + eps; 2 r^2 rho^2 X, and for Y */
     _Alignas(64) float q0[CGT_LANES], qx[CGT_LANES], qy[CGT_LANES]; /* of q: z - e0, rho x, upsilon y */
     _Alignas(64) float certain[CGT_LANES], nearest[CGT_LANES];      /* distance before which nothing is hit */
-    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES]; /* the window */
+    tile_windows window;
     _Alignas(64) uint32_t object[CGT_LANES];
     unsigned fast, slow; /* lanes as bits: for tile_sphere_draw, for tile_double.h */
+    unsigned small[2];   /* lanes whose window is one vector wide, and at most 3 or 4 pairs of rows high */
 } tile_spheres;
+
+/* Spheres that a tile may see, in camera space, side by side: culling goes on without a branch, and what comes after it
+ * finds whole vectors of them. */
+#define TILE_FOUND 128u
+typedef struct tile_found {
+    _Alignas(64) float z[TILE_FOUND + CGT_LANES], x[TILE_FOUND + CGT_LANES];
+    _Alignas(64) float y[TILE_FOUND + CGT_LANES], r[TILE_FOUND + CGT_LANES];
+    _Alignas(64) uint32_t object[TILE_FOUND + CGT_LANES];
+    _Alignas(64) uint32_t window[TILE_FOUND + CGT_LANES]; /* x0, x1, y0, y1 from the lowest byte up */
+    uint32_t count;
+} tile_found;
 
 /* Reads the spheres of at most a vector of references; lanes beyond count repeat the first. */
 CGT_SPU_INLINE void tile_spheres_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
-                                       vfloat sphere[4], uint32_t object[CGT_LANES])
+                                       vfloat sphere[4], vuint *object)
 {
     if (objects->arrays == 1) { /* its first object is 0 */
         if (count == CGT_LANES)
-            spux_store_uint(object, spux_load_unaligned_uint(reference));
-        else
+            *object = spux_load_unaligned_uint(reference);
+        else {
+            _Alignas(64) uint32_t some[CGT_LANES];
             for (uint32_t k = 0; k < CGT_LANES; k++)
-                object[k] = reference[k < count ? k : 0];
-        fetch_spheres_at(objects->array, spux_load_uint(object), sphere);
+                some[k] = reference[k < count ? k : 0];
+            *object = spux_load_uint(some);
+        }
+        fetch_spheres_at(objects->array, *object, sphere);
         return;
     }
     filter_spheres s;
@@ -122,31 +142,30 @@ CGT_SPU_INLINE void tile_spheres_fetch(const cgt_objects *objects, const uint32_
     for (int a = 0; a < 3; a++)
         sphere[a] = spux_load(s.center[a]);
     sphere[3] = spux_load(s.radius);
-    memcpy(object, s.object, sizeof s.object);
+    *object = spux_load_uint(s.object);
 }
 
-/* The sines of the silhouette's tangents against an axis, as columns or rows from the tile's first; low <= high. */
-CGT_SPU_INLINE void tile_tangents(vfloat x, vfloat z, vfloat r, float scale, float first, vfloat *low, vfloat *high)
+/* The silhouette's tangents against an axis, as columns or rows from the tile's first; low <= high where the scale is
+ * positive, else the reverse. r2: r^2; unit: the scale over z^2 - r^2. */
+CGT_SPU_INLINE void tile_tangents(const tile_span *of, vfloat x, vfloat z, vfloat r, vfloat r2, vfloat unit,
+                                  vfloat *low, vfloat *high)
 {
-    const vfloat r2 = spu_mul(r, r), square = spu_madd(x, x, spu_mul(z, z));
-    const vfloat root = spu_mul(r, spux_sqrt(spux_max(spu_sub(square, r2), spux_vfloat(0)))), middle = spu_mul(x, z);
-    const vfloat unit = spux_div(spux_vfloat(scale), spu_sub(spu_mul(z, z), r2));
-    *low = spu_sub(spu_mul(spu_sub(middle, root), unit), spux_vfloat(first));
-    *high = spu_sub(spu_mul(spu_add(middle, root), unit), spux_vfloat(first));
+    const vfloat square = spu_sub(spu_madd(x, x, spu_mul(z, z)), r2), middle = spu_mul(x, z);
+    const vfloat root = spu_mul(r, spux_sqrt(square)), first = spux_vfloat(of->first);
+    *low = spu_msub(spu_sub(middle, root), unit, first);
+    *high = spu_msub(spu_add(middle, root), unit, first);
 }
 
-/* The pixels from low to high, clamped to the tile. Returns the lanes without any. */
-CGT_SPU_INLINE vmask tile_window(vfloat low, vfloat high, uint32_t pixels, uint32_t *first, uint32_t *last)
+/* The pixels from low to high, cut to the tile. Returns the lanes without any, whose first and last are open. */
+CGT_SPU_INLINE vmask tile_window(vfloat low, vfloat high, const tile_span *of, uint32_t *first, uint32_t *last)
 {
-    const vfloat zero = spux_vfloat(0), end = spux_vfloat((float)(pixels - 1));
     /* up from 1/16 below, which is less than 1/32 below where that is a whole number */
-    const vfloat from = spux_min(spux_max(spu_add(low, spux_vfloat(0.9375f)), zero), end);
-    const vfloat to = spu_add(high, spux_vfloat(0.0625f));
-    spux_store_uint(first, (vuint)spu_convts(from, 0));
-    spux_store_uint(last, (vuint)spu_convts(spux_min(spux_max(to, zero), end), 0));
-    const vmask beyond = spu_cmpgt(low, spux_vfloat((float)pixels - 1 + 0.0625f));
-    const vmask between = spu_cmpgt((vfloat)spu_convtf(spu_convts(from, 0), 0), to);
-    return spu_or(spu_or(beyond, spu_cmpgt(zero, to)), between);
+    const vfloat up = spux_max(spu_add(low, spux_vfloat(0.9375f)), spux_vfloat(0));
+    const vfloat to = spux_min(spu_add(high, spux_vfloat(0.0625f)), spux_vfloat(of->last));
+    const vint from = spux_truncate(spux_min(up, spux_vfloat(of->pixels)));
+    spux_store_uint(first, (vuint)from);
+    spux_store_uint(last, (vuint)spux_truncate(to));
+    return spu_cmpgt((vfloat)spu_convtf(from, 0), to);
 }
 
 /* Lanes that surely miss the cone of all rays. */
@@ -183,68 +202,82 @@ typedef struct tile_seen {
     vmask front;    /* as far in front of the eye as the bounds ask, and not far beside what it sees */
 } tile_seen;
 
-CGT_SPU_INLINE tile_seen tile_spheres_see(const tile *t, const vfloat sphere[4])
+/* z, x, y and r of spheres. */
+CGT_SPU_INLINE void tile_spheres_turn(const tile *t, const vfloat sphere[4], vfloat q[4])
 {
     const float(*dual)[3] = t->camera.dual;
-    tile_seen v = {.r = sphere[3]};
-    vfloat p[3], q[3];
+    vfloat p[3];
     for (int a = 0; a < 3; a++)
         p[a] = spu_sub(sphere[a], spux_vfloat(t->rays->eye[a]));
     for (int k = 0; k < 3; k++)
         q[k] = spu_madd(p[0], spux_vfloat(dual[k][0]),
                         spu_madd(p[1], spux_vfloat(dual[k][1]), spu_mul(p[2], spux_vfloat(dual[k][2]))));
-    v.z = q[0];
-    v.x = q[1];
-    v.y = q[2];
+    q[3] = sphere[3];
+}
+
+/* From what that gives. */
+CGT_SPU_INLINE tile_seen tile_spheres_see(const tile *t, const vfloat q[4])
+{
+    tile_seen v = {.z = q[0], .x = q[1], .y = q[2], .r = q[3]};
     v.z2 = spu_mul(v.z, v.z);
     v.x2 = spu_mul(v.x, v.x);
     v.y2 = spu_mul(v.y, v.y);
     v.r2 = spu_mul(v.r, v.r);
-    v.distance = spux_sqrt(spu_add(v.z2, spu_add(v.x2, v.y2)));
+    const vfloat beside = spu_add(v.x2, v.y2);
+    v.distance = spux_sqrt(spu_add(v.z2, beside));
     const vfloat slack = spu_madd(spu_add(v.distance, v.r), spux_vfloat(0x1p-18f), spux_vfloat(t->slack));
-    const vfloat beside = spu_mul(v.z, spux_vfloat(16));
-    v.nearest = spu_sub(spu_sub(v.distance, v.r), slack);
     v.wide = spu_add(v.r, slack);
+    v.nearest = spu_sub(v.distance, v.wide);
     v.front = spu_and(spu_cmpgt(v.z, spu_madd(v.wide, spux_vfloat(1.5f), spux_vfloat(0x1p-48f))),
-                      spu_and(spu_cmpgt(beside, spux_abs(v.x)), spu_cmpgt(beside, spux_abs(v.y))));
+                      spu_cmpgt(spu_mul(v.z2, spux_vfloat(256)), beside));
     return v;
 }
 
 /* Windows of the spheres in front. Returns those of them that have none. */
-CGT_SPU_INLINE vmask tile_spheres_outside(const tile *t, const tile_seen *v, tile_spheres *s)
+CGT_SPU_INLINE vmask tile_spheres_outside(const tile *t, const tile_seen *v, tile_windows *s)
 {
-    const float *pixel = t->rays->pixel;
+    const vfloat r2 = spu_mul(v->wide, v->wide), across = spux_vfloat(t->across.scale);
+    const vfloat unit = spux_div(across, spu_sub(v->z2, r2));
     vfloat low, high;
-    tile_tangents(v->x, v->z, v->wide, t->camera.rright / pixel[0], t->column[0] / pixel[0], &low, &high);
-    const vmask beside = tile_window(low, high, t->columns, s->x0, s->x1);
-    /* rows run down */
-    tile_tangents(v->y, v->z, v->wide, -t->camera.rup / pixel[1], -t->row[0] / pixel[1], &high, &low);
-    const vmask above = tile_window(low, high, t->rows, s->y0, s->y1);
+    tile_tangents(&t->across, v->x, v->z, v->wide, r2, unit, &low, &high);
+    const vmask beside = tile_window(low, high, &t->across, s->x0, s->x1);
+    const vfloat down = spu_mul(unit, spux_vfloat(t->down_across));
+    tile_tangents(&t->down, v->y, v->z, v->wide, r2, down, &high, &low);
+    const vmask above = tile_window(low, high, &t->down, s->y0, s->y1);
     return spu_and(v->front, spu_or(beside, above));
 }
 
-/* How far the parts of the tile with these numbers see. */
+/* How far the parts of the tile with these numbers see; lanes without a window may have any number. */
 CGT_SPU_INLINE vfloat tile_parts_far(const tile *t, vuint part)
 {
 #if CGT_LANES == 16
     return spux_permute(spux_load(t->far), part);
 #else
-    return spux_gather(t->far, (vint)part);
+    return spux_gather(t->far, (vint)spu_and(part, spux_vuint(TILE_PARTS * TILE_PARTS - 1)));
 #endif
 }
 
-/* Spheres that no part under their window sees: windows that span two parts at most, so that their corners tell. */
-CGT_SPU_INLINE vmask tile_spheres_hidden(const tile *t, const tile_seen *v, const tile_spheres *s)
+/* How far the parts under the corners of windows see; apart: windows that span more than two parts, of which the corners
+ * do not tell. */
+CGT_SPU_INLINE vfloat tile_windows_far(const tile *t, const uint32_t *x0, const uint32_t *x1, const uint32_t *y0,
+                                       const uint32_t *y1, vmask *apart)
 {
-    const vuint three = spux_vuint(3), one = spux_vuint(1);
-    const vuint u0 = spu_sr(spux_load_uint(s->x0), 4), u1 = spu_sr(spux_load_uint(s->x1), 4);
-    const vuint v0 = spu_sr(spux_load_uint(s->y0), 4), v1 = spu_sr(spux_load_uint(s->y1), 4);
-    const vuint top = spu_sl(spu_and(v0, three), 2), bottom = spu_sl(spu_and(v1, three), 2);
-    const vuint left = spu_and(u0, three), right = spu_and(u1, three);
+    const vuint row = spux_vuint(3 * TILE_PARTS), one = spux_vuint(1);
+    const vuint left = spu_sr(spux_load_uint(x0), 4), right = spu_sr(spux_load_uint(x1), 4);
+    const vuint y[2] = {spux_load_uint(y0), spux_load_uint(y1)};
+    const vuint top = spu_and(spu_sr(y[0], 2), row), bottom = spu_and(spu_sr(y[1], 2), row);
     const vfloat above = spux_max(tile_parts_far(t, spu_or(top, left)), tile_parts_far(t, spu_or(top, right)));
     const vfloat below = spux_max(tile_parts_far(t, spu_or(bottom, left)), tile_parts_far(t, spu_or(bottom, right)));
-    const vmask far_apart = spu_or(spu_cmpgt(spu_sub(u1, u0), one), spu_cmpgt(spu_sub(v1, v0), one));
-    return spu_andc(spu_and(v->front, spu_cmpgt(v->nearest, spux_max(above, below))), far_apart);
+    *apart = spu_or(spu_cmpgt(spu_sub(right, left), one), spu_cmpgt(spu_sub(bottom, top), spux_vuint(TILE_PARTS)));
+    return spux_max(above, below);
+}
+
+/* Spheres that no part under their window sees: windows that span two parts at most, so that their corners tell. */
+CGT_SPU_INLINE vmask tile_spheres_hidden(const tile *t, const tile_seen *v, const tile_windows *s)
+{
+    vmask apart;
+    const vfloat seen = tile_windows_far(t, s->x0, s->x1, s->y0, s->y1, &apart);
+    return spu_andc(spu_and(v->front, spu_cmpgt(v->nearest, seen)), apart);
 }
 
 /* What the loops over pixels take. */
@@ -297,25 +330,85 @@ CGT_SPU_INLINE void tile_spheres_slow(const tile *t, const tile_seen *v, tile_sp
     s->slow &= ~spux_mask_bits(tile_cone_missed(t, v->z, v->x, v->y, v->distance, v->r));
     for (unsigned k = s->slow & ~spux_mask_bits(v->front); k; k &= k - 1) {
         const int i = __builtin_ctz(k);
-        s->x0[i] = s->y0[i] = 0;
-        s->x1[i] = t->columns - 1;
-        s->y1[i] = t->rows - 1;
+        s->window.x0[i] = s->window.y0[i] = 0;
+        s->window.x1[i] = t->columns - 1;
+        s->window.y1[i] = t->rows - 1;
     }
 }
 
-/* Camera space, culling and coefficients of a vector of spheres; lanes: those that count, as bits. */
-CGT_SPU_INLINE void tile_spheres_make(const tile *t, const vfloat sphere[4], unsigned lanes, tile_spheres *s)
+/* Which windows are one vector wide and few pairs of rows high. */
+CGT_SPU_INLINE void tile_spheres_small(tile_spheres *s)
 {
-    const tile_seen v = tile_spheres_see(t, sphere);
+    const tile_windows *of = &s->window;
+    const vuint wide = spu_sub(spux_load_uint(of->x1), spux_load_uint(of->x0));
+    const vuint high = spu_sub(spu_sr(spux_load_uint(of->y1), 1), spu_sr(spux_load_uint(of->y0), 1));
+    const vmask narrow = spu_cmpgt(spux_vuint(CGT_LANES / 2), wide);
+    s->small[0] = spux_mask_bits(spu_and(narrow, spu_cmpgt(spux_vuint(3), high)));
+    s->small[1] = spux_mask_bits(spu_and(narrow, spu_cmpgt(spux_vuint(4), high)));
+}
+
+/* Keeps those of a vector of spheres that are left, as bits. */
+CGT_SPU_INLINE void tile_found_keep(tile_found *f, const vfloat q[4], vuint object, const tile_windows *s,
+                                    unsigned left)
+{
+    const vuint columns = spu_or(spux_load_uint(s->x0), spu_sl(spux_load_uint(s->x1), 8));
+    const vuint rows = spu_or(spu_sl(spux_load_uint(s->y0), 16), spu_sl(spux_load_uint(s->y1), 24));
+    const vmask kept = spux_mask_from_bits(left);
+    spux_store_unaligned(f->z + f->count, spux_compress(q[0], kept));
+    spux_store_unaligned(f->x + f->count, spux_compress(q[1], kept));
+    spux_store_unaligned(f->y + f->count, spux_compress(q[2], kept));
+    spux_store_unaligned(f->r + f->count, spux_compress(q[3], kept));
+    spux_store_unaligned_uint(f->object + f->count, spux_compress(object, kept));
+    spux_store_unaligned_uint(f->window + f->count, spux_compress(spu_or(columns, rows), kept));
+    f->count += spux_count_bits(left);
+}
+
+/* A vector of those that were found, from number `first` on. */
+CGT_SPU_INLINE void tile_found_get(const tile_found *f, uint32_t first, vfloat q[4], tile_spheres *s)
+{
+    const vuint window = spux_load_uint(f->window + first), byte = spux_vuint(255);
+    q[0] = spux_load(f->z + first);
+    q[1] = spux_load(f->x + first);
+    q[2] = spux_load(f->y + first);
+    q[3] = spux_load(f->r + first);
+    spux_store_uint(s->object, spux_load_uint(f->object + first));
+    spux_store_uint(s->window.x0, spu_and(window, byte));
+    spux_store_uint(s->window.x1, spu_and(spu_sr(window, 8), byte));
+    spux_store_uint(s->window.y0, spu_and(spu_sr(window, 16), byte));
+    spux_store_uint(s->window.y1, spu_sr(window, 24));
+}
+
+/* The first lanes, as bits. */
+CGT_SPU_INLINE unsigned tile_first_lanes(uint32_t count)
+{
+    return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES;
+}
+
+/* Of the first lanes of a vector of spheres, so many, keeps those that the tile may see. */
+CGT_SPU_INLINE void tile_spheres_find(const tile *t, const vfloat sphere[4], vuint object, uint32_t count,
+                                      tile_found *f)
+{
+    vfloat q[4];
+    tile_windows w;
+    tile_spheres_turn(t, sphere, q);
+    const tile_seen v = tile_spheres_see(t, q);
     const vmask unwanted = tile_spheres_unwanted(t, v.distance, v.r, v.nearest);
-    const vmask out = spu_or(unwanted, tile_spheres_outside(t, &v, s));
-    const unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_spheres_hidden(t, &v, s))) & CGT_ALL_LANES;
-    s->fast = s->slow = 0;
-    if (!left)
-        return;
+    const vmask out = spu_or(unwanted, tile_spheres_outside(t, &v, &w));
+    const unsigned gone = spux_mask_bits(spu_or(out, tile_spheres_hidden(t, &v, &w)));
+    tile_found_keep(f, q, object, &w, tile_first_lanes(count) & ~gone);
+}
+
+/* Coefficients of a vector of those that were found. */
+CGT_SPU_INLINE void tile_spheres_make(const tile *t, const tile_found *f, uint32_t first, tile_spheres *s)
+{
+    const unsigned left = tile_first_lanes(f->count - first);
+    vfloat q[4];
+    tile_found_get(f, first, q, s);
+    const tile_seen v = tile_spheres_see(t, q);
     const unsigned fast = tile_spheres_bound(t, &v, s);
     s->fast = left & fast;
     s->slow = left & ~fast;
+    tile_spheres_small(s);
     if (s->slow)
         tile_spheres_slow(t, &v, s);
 }

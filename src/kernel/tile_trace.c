@@ -53,11 +53,20 @@ CGT_SPU_INLINE void count_taken(tile_work *w, uint32_t count, uint32_t drawn)
         settle(w);
 }
 
+CGT_SPU_INLINE uint32_t some_lanes(uint32_t count) { return count < CGT_LANES ? count : CGT_LANES; }
+
 CGT_SPU_INLINE uint32_t draw_spheres(tile_work *w, const tile_spheres *s)
 {
     const cgt_objects *objects = &w->world->objects;
-    uint32_t drawn = 0;
-    for (unsigned left = s->fast | s->slow; left; left &= left - 1) {
+    const unsigned small = s->small[1] & s->fast;
+    uint32_t drawn = (uint32_t)__builtin_popcount(small);
+    if (small & ~s->small[0])
+        for (unsigned left = small; left; left &= left - 1)
+            tile_sphere_draw_small(objects, w->t, s, __builtin_ctz(left), 4, &w->queue, w->counts);
+    else
+        for (unsigned left = small; left; left &= left - 1)
+            tile_sphere_draw_small(objects, w->t, s, __builtin_ctz(left), 3, &w->queue, w->counts);
+    for (unsigned left = (s->fast | s->slow) & ~small; left; left &= left - 1) {
         const int k = __builtin_ctz(left);
         tile_box box;
         if (!tile_clip(w->t, s, k, &box))
@@ -71,30 +80,48 @@ CGT_SPU_INLINE uint32_t draw_spheres(tile_work *w, const tile_spheres *s)
     return drawn;
 }
 
-/* The bits of the first lanes. */
-CGT_SPU_INLINE unsigned first_lanes(uint32_t count) { return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES; }
-
 /* A function of its own: what perspective takes stays as short as it is. */
-__attribute__((noinline)) static void take_parallel_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
+__attribute__((noinline)) static uint32_t take_parallel_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
 {
     vfloat sphere[4];
+    vuint object;
+    tile_found found;
     tile_spheres s;
-    tile_spheres_fetch(&w->world->objects, reference, count, sphere, s.object);
-    tile_parallel_spheres_make(w->t, sphere, first_lanes(count), &s);
-    count_taken(w, count, s.fast | s.slow ? draw_spheres(w, &s) : 0);
+    uint32_t drawn = 0;
+    found.count = 0;
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        tile_spheres_fetch(&w->world->objects, reference + k, some_lanes(count - k), sphere, &object);
+        tile_parallel_spheres_find(w->t, sphere, object, count - k, &found);
+    }
+    for (uint32_t k = 0; k < found.count; k += CGT_LANES) {
+        tile_parallel_spheres_make(w->t, &found, k, &s);
+        drawn += draw_spheres(w, &s);
+    }
+    return drawn;
 }
 
+/* At most TILE_FOUND references. */
 static void take_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
 {
     vfloat sphere[4];
+    vuint object;
+    tile_found found;
     tile_spheres s;
+    uint32_t drawn = 0;
     if (w->t->parallel) {
-        take_parallel_spheres(w, reference, count);
+        count_taken(w, count, take_parallel_spheres(w, reference, count));
         return;
     }
-    tile_spheres_fetch(&w->world->objects, reference, count, sphere, s.object);
-    tile_spheres_make(w->t, sphere, first_lanes(count), &s);
-    count_taken(w, count, s.fast | s.slow ? draw_spheres(w, &s) : 0);
+    found.count = 0;
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        tile_spheres_fetch(&w->world->objects, reference + k, some_lanes(count - k), sphere, &object);
+        tile_spheres_find(w->t, sphere, object, count - k, &found);
+    }
+    for (uint32_t k = 0; k < found.count; k += CGT_LANES) {
+        tile_spheres_make(w->t, &found, k, &s);
+        drawn += draw_spheres(w, &s);
+    }
+    count_taken(w, count, drawn);
 }
 
 CGT_SPU_INLINE uint32_t draw_triangles(tile_work *w, const tile_triangles *s, tile_kind kind)
@@ -120,7 +147,7 @@ __attribute__((noinline)) static void take_parallel_triangles(tile_work *w, cons
     tile_triangles s;
     tile_triangles_objects(reference, count, s.object);
     tile_triangles_fetch(&w->world->objects, s.object, vertex);
-    tile_parallel_triangles_make(w->t, vertex, first_lanes(count), &s);
+    tile_parallel_triangles_make(w->t, vertex, tile_first_lanes(count), &s);
     count_taken(w, count, s.fast | s.slow ? draw_triangles(w, &s, TILE_PARALLEL) : 0);
 }
 
@@ -135,23 +162,23 @@ static void take_triangles(tile_work *w, const uint32_t *reference, uint32_t cou
     }
     tile_triangles_objects(reference, count, s.object);
     tile_triangles_fetch(&w->world->objects, s.object, vertex);
-    tile_triangles_make(w->t, vertex, first_lanes(count), &s);
+    tile_triangles_make(w->t, vertex, tile_first_lanes(count), &s);
     if (s.fast | s.slow)
         drawn = w->t->linear ? draw_triangles(w, &s, TILE_LINEAR) : draw_triangles(w, &s, TILE_PERSPECTIVE);
     count_taken(w, count, drawn);
 }
 
-/* Takes a vector of references after the other, each with `take`; what is left over moves up. */
-CGT_SPU_INLINE void take_waiting(tile_work *w, waiting *q, uint32_t count,
-                                 void take(tile_work *, const uint32_t *, uint32_t))
+/* Takes the first of the references that wait; what is left over moves up. */
+static void take_waiting_spheres(tile_work *w, uint32_t count)
 {
-    for (uint32_t k = 0; k < count; k += CGT_LANES)
-        take(w, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
+    waiting *q = &w->spheres;
+    for (uint32_t k = 0; k < count; k += TILE_FOUND)
+        take_spheres(w, q->reference + k, count - k < TILE_FOUND ? count - k : TILE_FOUND);
     q->count -= count;
     memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
 }
 
-/* As take_waiting, with the vertices of some vectors on their way. */
+/* The same, with the vertices of some vectors on their way. */
 static void take_waiting_triangles(tile_work *w, uint32_t count)
 {
     waiting *q = &w->triangles;
@@ -163,7 +190,7 @@ static void take_waiting_triangles(tile_work *w, uint32_t count)
         if (a && ask > asked)
             fetch_triangles_ask(a, q->reference + asked, ask - asked);
         asked = ask;
-        take_triangles(w, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
+        take_triangles(w, q->reference + k, some_lanes(count - k));
     }
     q->count -= count;
     memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
@@ -185,7 +212,7 @@ static void wait_spheres(tile_work *w, const uint32_t *reference, uint32_t count
         reference += some;
         count -= some;
         if (q->count == WAITING)
-            take_waiting(w, q, WAITING / 2, take_spheres);
+            take_waiting_spheres(w, WAITING / 2);
     }
 }
 
@@ -232,7 +259,7 @@ static void wait_run(tile_work *w, const uint32_t *reference, uint32_t count)
 /* Whole vectors: what is left over comes with the next slice. */
 static void take_vectors(tile_work *w)
 {
-    take_waiting(w, &w->spheres, w->spheres.count / CGT_LANES * CGT_LANES, take_spheres);
+    take_waiting_spheres(w, w->spheres.count / CGT_LANES * CGT_LANES);
     take_waiting_triangles(w, w->triangles.count / CGT_LANES * CGT_LANES);
 }
 
@@ -313,7 +340,7 @@ static void march(tile_work *w)
         w->counts->slices++;
         take_slice(w, &m, &s);
     }
-    take_waiting(w, &w->spheres, w->spheres.count, take_spheres);
+    take_waiting_spheres(w, w->spheres.count);
     take_waiting_triangles(w, w->triangles.count);
     tile_flush(&w->world->objects, w->t, &w->queue, w->counts);
 }

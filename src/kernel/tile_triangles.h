@@ -158,8 +158,7 @@ CGT_SPU_INLINE tile_triangles_seen tile_triangles_see(const tile *t, vfloat vert
 /* Windows: of the triangles in front their own, of others the tile. Returns those in front that have none. */
 CGT_SPU_INLINE vmask tile_triangles_outside(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
 {
-    const float *pixel = t->rays->pixel;
-    const float across = t->camera.rright / pixel[0], down = -t->camera.rup / pixel[1];
+    const float across = t->across.scale, down = t->down.scale;
     const float share = 0x1p-19f * t->longest;
     vfloat x[3], y[3], most_r = spux_vfloat(0);
     for (int k = 0; k < 3; k++) {
@@ -171,11 +170,11 @@ CGT_SPU_INLINE vmask tile_triangles_outside(const tile *t, const tile_triangles_
     const vfloat far_beside = spu_mul(v->reach, most_r);
     const vfloat wide = spu_mul(far_beside, spux_vfloat(share * across));
     const vfloat high = spu_mul(far_beside, spux_vfloat(share * -down));
-    const vfloat x0 = spux_vfloat(t->column[0] / pixel[0]), y0 = spux_vfloat(-t->row[0] / pixel[1]);
+    const vfloat x0 = spux_vfloat(t->across.first), y0 = spux_vfloat(t->down.first);
     const vmask beside = tile_window(spu_sub(spu_sub(tile_least(x[0], x[1], x[2]), wide), x0),
-                                     spu_sub(spu_add(tile_most(x[0], x[1], x[2]), wide), x0), t->columns, s->x0, s->x1);
+                                     spu_sub(spu_add(tile_most(x[0], x[1], x[2]), wide), x0), &t->across, s->x0, s->x1);
     const vmask above = tile_window(spu_sub(spu_sub(tile_least(y[0], y[1], y[2]), high), y0),
-                                    spu_sub(spu_add(tile_most(y[0], y[1], y[2]), high), y0), t->rows, s->y0, s->y1);
+                                    spu_sub(spu_add(tile_most(y[0], y[1], y[2]), high), y0), &t->down, s->y0, s->y1);
     return spu_and(v->front, spu_or(beside, above));
 }
 
@@ -188,22 +187,6 @@ CGT_SPU_INLINE void tile_triangles_widen(const tile *t, unsigned lanes, tile_tri
         s->x1[k] = t->columns - 1;
         s->y1[k] = t->rows - 1;
     }
-}
-
-/* How far the parts under the corners of windows see; apart: windows that span more than two parts, of which the corners
- * do not tell. */
-CGT_SPU_INLINE vfloat tile_windows_far(const tile *t, const uint32_t *x0, const uint32_t *x1, const uint32_t *y0,
-                                       const uint32_t *y1, vmask *apart)
-{
-    const vuint three = spux_vuint(3), one = spux_vuint(1);
-    const vuint u0 = spu_sr(spux_load_uint(x0), 4), u1 = spu_sr(spux_load_uint(x1), 4);
-    const vuint v0 = spu_sr(spux_load_uint(y0), 4), v1 = spu_sr(spux_load_uint(y1), 4);
-    const vuint top = spu_sl(spu_and(v0, three), 2), bottom = spu_sl(spu_and(v1, three), 2);
-    const vuint left = spu_and(u0, three), right = spu_and(u1, three);
-    const vfloat above = spux_max(tile_parts_far(t, spu_or(top, left)), tile_parts_far(t, spu_or(top, right)));
-    const vfloat below = spux_max(tile_parts_far(t, spu_or(bottom, left)), tile_parts_far(t, spu_or(bottom, right)));
-    *apart = spu_or(spu_cmpgt(spu_sub(u1, u0), one), spu_cmpgt(spu_sub(v1, v0), one));
-    return spux_max(above, below);
 }
 
 /* Triangles that no part under their window sees; apart: as tile_windows_far says. */
