@@ -99,7 +99,7 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     memset(open, 0, sizeof open);
     tile_spheres_fetch(&objects, &reference, 1, v, &object);
     assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
-    s.fast = s.slow = 0;
+    s.fast = s.slow = s.small[0] = s.small[1] = 0;
     if (t->parallel)
         tile_parallel_spheres_find(t, v, object, 1, &found);
     else
