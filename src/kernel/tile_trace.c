@@ -80,8 +80,8 @@ CGT_SPU_INLINE uint32_t draw_spheres(tile_work *w, const tile_spheres *s)
     return drawn;
 }
 
-/* A function of its own: what perspective takes stays as short as it is. */
-__attribute__((noinline)) static uint32_t take_parallel_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
+/* At most TILE_FOUND references; parallel is a constant. Returns how many were drawn. */
+CGT_SPU_INLINE uint32_t find_spheres(tile_work *w, const uint32_t *reference, uint32_t count, bool parallel)
 {
     vfloat sphere[4];
     vuint object;
@@ -91,37 +91,32 @@ __attribute__((noinline)) static uint32_t take_parallel_spheres(tile_work *w, co
     found.count = 0;
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         tile_spheres_fetch(&w->world->objects, reference + k, some_lanes(count - k), sphere, &object);
-        tile_parallel_spheres_find(w->t, sphere, object, count - k, &found);
+        if (parallel)
+            tile_parallel_spheres_find(w->t, sphere, object, count - k, &found);
+        else
+            tile_spheres_find(w->t, sphere, object, count - k, &found);
     }
     for (uint32_t k = 0; k < found.count; k += CGT_LANES) {
-        tile_parallel_spheres_make(w->t, &found, k, &s);
+        if (parallel)
+            tile_parallel_spheres_make(w->t, &found, k, &s);
+        else
+            tile_spheres_make(w->t, &found, k, &s);
         drawn += draw_spheres(w, &s);
     }
     return drawn;
 }
 
-/* At most TILE_FOUND references. */
+/* A function of its own: what perspective takes stays as short as it is. */
+__attribute__((noinline)) static uint32_t take_parallel_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    return find_spheres(w, reference, count, true);
+}
+
 static void take_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
 {
-    vfloat sphere[4];
-    vuint object;
-    tile_found found;
-    tile_spheres s;
-    uint32_t drawn = 0;
-    if (w->t->parallel) {
-        count_taken(w, count, take_parallel_spheres(w, reference, count));
-        return;
-    }
-    found.count = 0;
-    for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        tile_spheres_fetch(&w->world->objects, reference + k, some_lanes(count - k), sphere, &object);
-        tile_spheres_find(w->t, sphere, object, count - k, &found);
-    }
-    for (uint32_t k = 0; k < found.count; k += CGT_LANES) {
-        tile_spheres_make(w->t, &found, k, &s);
-        drawn += draw_spheres(w, &s);
-    }
-    count_taken(w, count, drawn);
+    const bool parallel = w->t->parallel;
+    count_taken(w, count,
+                parallel ? take_parallel_spheres(w, reference, count) : find_spheres(w, reference, count, false));
 }
 
 CGT_SPU_INLINE uint32_t draw_triangles(tile_work *w, const tile_triangles *s, tile_kind kind)
