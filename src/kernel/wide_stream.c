@@ -133,7 +133,7 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
         return;
     for (;;) {
         stream_level *v = &level[depth];
-        if (v->next == v->node->children) {
+        if (v->next == v->children) {
             if (stream_next_piece(s, v, (uint32_t *)(void *)v->mask, depth))
                 continue;
             if (!depth)
@@ -142,8 +142,7 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
             continue;
         }
         stream_renew_masks(s, v, any_hit);
-        const stream_order order = stream_order_make(s, v->node);
-        const uint32_t child = order.first[order.step * (ptrdiff_t)v->next], code = v->node->child[child];
+        const uint32_t child = v->child[v->next], code = v->node->child[child];
         const uint32_t rays = stream_make_list(v, v->next++);
         if (!rays)
             continue;

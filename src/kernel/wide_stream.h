@@ -49,7 +49,8 @@ typedef struct stream {
     };
     uint32_t mask[CGT_RAYS_CHUNK];
     wide_call call;
-    float slack[3];    /* E of all rays of streams */
+    float slack[3];                                             /* E of all rays of streams */
+    float begin_low[3], begin_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
     float apart;       /* how far their origins lie apart, along an axis, as a share of the tree's size */
     uint32_t octant;   /* in work */
     uint32_t changed;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */

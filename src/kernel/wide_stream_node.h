@@ -18,13 +18,15 @@ _Static_assert(CGT_WIDE_STREAM_ARENA >= CGT_WIDE_MAX_DEPTH * STREAM_LEAST, "a pi
 typedef struct stream_level {
     const wide_node *node;
     const uint32_t *list;
-    uint32_t count;       /* of the list */
-    uint32_t first, rays; /* the piece */
-    uint32_t chunks;      /* vectors of it */
-    uint32_t next;        /* position among the children */
-    uint32_t changed;     /* the stream's, when the masks were made */
-    uint16_t *mask;       /* [position][chunk]: rays that pass the child there */
-    uint32_t *room;       /* behind the masks */
+    uint32_t count;           /* of the list */
+    uint32_t first, rays;     /* the piece */
+    uint32_t chunks;          /* vectors of it */
+    uint32_t next;            /* position among the children below */
+    uint32_t children;        /* those that the stream's rays may reach */
+    uint8_t child[CGT_LANES]; /* in the order in which the octant's rays meet them */
+    uint32_t changed;         /* the stream's, when the masks were made */
+    uint16_t *mask;           /* [position][chunk]: rays that pass the child there */
+    uint32_t *room;           /* behind the masks */
 } stream_level;
 
 /* Planes of a node's children as the octant's rays meet them, moved outwards. */
@@ -46,29 +48,46 @@ CGT_SPU_INLINE void stream_planes_make(const stream *s, const wide_node *n, stre
     }
 }
 
-/* The children in the order in which the octant's rays meet them: first[step * position]. */
-typedef struct stream_order {
-    const uint8_t *first;
-    ptrdiff_t step;
-} stream_order;
-
-CGT_SPU_INLINE stream_order stream_order_make(const stream *s, const wide_node *n)
+/* Children that no ray of the stream can come to: they lie behind all origins along an axis, or beyond all ends. Near their
+ * origins rays pass nodes of which half the children do. A ray that counts stays after its origin but for 2^-85, and
+ * planes are moved by more than this and what origins lose (wide_ray.h). */
+CGT_SPU_INLINE unsigned stream_out_of_reach(const stream *s, const stream_planes *p)
 {
-    if (s->octant < 4)
-        return (stream_order){n->order[s->octant], 1};
-    return (stream_order){n->order[7 - s->octant] + n->children - 1, -1};
+    vmask out = spux_mask_none();
+    for (int a = 0; a < 3; a++) {
+        const vfloat near = spux_load(p->near[a]), far = spux_load(p->far[a]);
+        if (s->octant >> a & 1)
+            out = spu_or(out, spu_or(spu_cmpgt(far, spux_vfloat(s->begin_high[a])),
+                                     spu_cmpgt(spux_vfloat(s->end_low[a]), near)));
+        else
+            out = spu_or(out, spu_or(spu_cmpgt(spux_vfloat(s->begin_low[a]), far),
+                                     spu_cmpgt(near, spux_vfloat(s->end_high[a]))));
+    }
+    return spux_mask_bits(out);
+}
+
+/* Lists the children that are in reach. */
+CGT_SPU_INLINE void stream_find_children(const stream *s, const stream_planes *p, stream_level *v)
+{
+    const wide_node *n = v->node;
+    const bool backwards = s->octant >= 4;
+    const uint8_t *order = backwards ? n->order[7 - s->octant] + n->children - 1 : n->order[s->octant];
+    const unsigned out = stream_out_of_reach(s, p);
+    v->children = 0;
+    for (uint32_t k = 0; k < n->children; k++) {
+        const uint8_t child = backwards ? *order-- : *order++;
+        v->child[v->children] = child; /* without a branch: what is out of reach is written over */
+        v->children += ~out >> child & 1;
+    }
 }
 
 /* The rays of a piece against the children that are still to come. */
-CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v)
+CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_planes *p)
 {
-    const uint32_t left = v->node->children - v->next, chunks = v->chunks;
-    const stream_order order = stream_order_make(s, v->node);
-    const uint8_t *next = order.first + order.step * (ptrdiff_t)v->next;
+    const uint32_t left = v->children - v->next, chunks = v->chunks;
+    const uint8_t *next = v->child + v->next;
     uint16_t *row = v->mask + (size_t)v->next * chunks;
-    stream_planes p;
     v->changed = s->changed;
-    stream_planes_make(s, v->node, &p);
     for (uint32_t i = 0; i < chunks; i++, row++) {
         const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
         const uint8_t *child = next;
@@ -76,13 +95,13 @@ CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v)
         vfloat d[8];
         const vfloat *q = d + RECORD_SHIFT;
         spux_load_records8_at(stream_record(s, RECORD_RDIR), at, d);
-        for (uint32_t k = 0; k < left; k++, child += order.step, mask += chunks) {
-            const vfloat x0 = spu_madd(spux_vfloat(p.near[0][*child]), d[0], q[0]);
-            const vfloat y0 = spu_madd(spux_vfloat(p.near[1][*child]), d[1], q[1]);
-            const vfloat z0 = spu_madd(spux_vfloat(p.near[2][*child]), d[2], q[2]);
-            const vfloat x1 = spu_madd(spux_vfloat(p.far[0][*child]), d[0], q[0]);
-            const vfloat y1 = spu_madd(spux_vfloat(p.far[1][*child]), d[1], q[1]);
-            const vfloat z1 = spu_madd(spux_vfloat(p.far[2][*child]), d[2], q[2]);
+        for (uint32_t k = 0; k < left; k++, child++, mask += chunks) {
+            const vfloat x0 = spu_madd(spux_vfloat(p->near[0][*child]), d[0], q[0]);
+            const vfloat y0 = spu_madd(spux_vfloat(p->near[1][*child]), d[1], q[1]);
+            const vfloat z0 = spu_madd(spux_vfloat(p->near[2][*child]), d[2], q[2]);
+            const vfloat x1 = spu_madd(spux_vfloat(p->far[0][*child]), d[0], q[0]);
+            const vfloat y1 = spu_madd(spux_vfloat(p->far[1][*child]), d[1], q[1]);
+            const vfloat z1 = spu_madd(spux_vfloat(p->far[2][*child]), d[2], q[2]);
             const vfloat enter = spux_max(spux_max(x0, y0), spux_max(z0, d[3]));
             const vfloat leave = spux_min(spux_min(x1, y1), spux_min(z1, q[3]));
             *mask = (uint16_t)spux_mask_bits(spux_cmpge(leave, enter));
@@ -105,7 +124,10 @@ CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room
     v->mask = (uint16_t *)(void *)room;
     v->room = room + STREAM_MASKS(v->chunks);
     v->next = 0;
-    stream_test_node(s, v);
+    stream_planes p;
+    stream_planes_make(s, v->node, &p);
+    stream_find_children(s, &p, v);
+    stream_test_node(s, v, &p);
     s->call.counts->nodes++;
     return true;
 }
@@ -113,7 +135,7 @@ CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room
 /* Takes any-hit rays that have found their hit out of the masks of children that are still to come. */
 CGT_SPU_INLINE void stream_drop_closed(stream *s, stream_level *v)
 {
-    const uint32_t left = v->node->children - v->next, chunks = v->chunks;
+    const uint32_t left = v->children - v->next, chunks = v->chunks;
     uint16_t *row = v->mask + (size_t)v->next * chunks;
     v->changed = s->changed;
     for (uint32_t i = 0; i < chunks; i++, row++) {
@@ -133,8 +155,11 @@ CGT_SPU_INLINE void stream_renew_masks(stream *s, stream_level *v, bool any_hit)
     const uint32_t changed = s->changed - v->changed;
     if (any_hit && changed * 8 >= v->rays)
         stream_drop_closed(s, v);
-    else if (!any_hit && changed * 3 > v->rays && v->node->children - v->next > 2)
-        stream_test_node(s, v);
+    else if (!any_hit && changed * 3 > v->rays && v->children - v->next > 2) {
+        stream_planes p;
+        stream_planes_make(s, v->node, &p);
+        stream_test_node(s, v, &p);
+    }
 }
 
 /* Makes the list of a child's rays; returns how many they are. Chunks that all miss are not left out: the branch would

@@ -77,14 +77,28 @@ CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
     return spu_madd(spu_nmsub(e, r, spux_vfloat(1)), r, r);
 }
 
-/* Bounds of origins in streams. */
-typedef struct stream_origins {
-    vfloat low[3], high[3];
-} stream_origins;
+/* Bounds of origins and ends of the rays in streams, and the least t that counts. */
+typedef struct stream_bounds {
+    vfloat org_low[3], org_high[3], end_low[3], end_high[3], first;
+} stream_bounds;
 
-/* Makes the records of rays i to i + count - 1. origins: grown by theirs. */
+CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
+                                      vfloat last, vmask lanes)
+{
+    b->first = spux_select(b->first, spux_min(b->first, first), lanes);
+    for (int a = 0; a < 3; a++) {
+        const vfloat way = spu_mul(dir[a], last), margin = spu_mul(spux_abs(way), spux_vfloat(0x1p-20f));
+        const vfloat end = spu_add(org[a], way);
+        b->org_low[a] = spux_select(b->org_low[a], spux_min(b->org_low[a], org[a]), lanes);
+        b->org_high[a] = spux_select(b->org_high[a], spux_max(b->org_high[a], org[a]), lanes);
+        b->end_low[a] = spux_select(b->end_low[a], spux_min(b->end_low[a], spu_sub(end, margin)), lanes);
+        b->end_high[a] = spux_select(b->end_high[a], spux_max(b->end_high[a], spu_add(end, margin)), lanes);
+    }
+}
+
+/* Makes the records of rays i to i + count - 1. bounds: grown by theirs. */
 CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
-                                        stream_origins *origins, uint32_t *invalid_rays)
+                                        stream_bounds *bounds, uint32_t *invalid_rays)
 {
     const wide_call *c = &s->call;
     const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
@@ -111,10 +125,6 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     keys = spux_select(keys, spux_vuint(STREAM_EXTREME), extreme);
     keys = spux_select(keys, spux_vuint(STREAM_NONE), none);
     const vmask streams = spu_cmpgt(spux_vuint(STREAM_SINGLE), keys);
-    for (int a = 0; a < 3; a++) {
-        origins->low[a] = spux_select(origins->low[a], spux_min(origins->low[a], org[a]), streams);
-        origins->high[a] = spux_select(origins->high[a], spux_max(origins->high[a], org[a]), streams);
-    }
     spux_store_uint(key + i, keys);
     *invalid_rays += spux_count_bits(spux_mask_bits(invalid) & CGT_ALL_LANES >> (CGT_LANES - count));
 
@@ -124,6 +134,7 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     const vfloat first = spux_max(near, spux_vfloat(-WIDE_LARGEST_T));
     /* rays that are not traced must not look as if they had hit */
     const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, extreme));
+    stream_bounds_add(bounds, org, dir, first, last, streams);
     vfloat row[STREAM_RECORD] = {rdir[0], rdir[1], rdir[2], first, shift[0], shift[1], shift[2], last,
                                  org[0],  org[1],  org[2],  first, dir[0],   dir[1],   dir[2],   last};
     for (uint32_t k = 0; k < STREAM_RECORD; k += CGT_LANES) {
@@ -138,17 +149,22 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, nobody, nobody});
 }
 
-/* E of all streams, and how far apart their origins lie. */
-CGT_SPU_INLINE void stream_find_bounds(stream *s, const stream_origins *origins)
+/* E of all streams, where their rays begin and end, and how far apart their origins lie. */
+CGT_SPU_INLINE void stream_find_bounds(stream *s, const stream_bounds *b)
 {
     const cgt_wide_tree *tree = s->call.tree;
+    const bool forwards = spux_hmin(b->first) > -0x1p-85f; /* t_min 0, widened */
     float org[3], apart = 0, size = 0;
     for (int a = 0; a < 3; a++) {
-        const float low = spux_hmin(origins->low[a]), high = spux_hmax(origins->high[a]);
+        const float low = spux_hmin(b->org_low[a]), high = spux_hmax(b->org_high[a]);
         const float extent = high - low, whole = (tree->high[a] - tree->low[a]) * s->call.scale;
         org[a] = !(low <= high) ? 0 : -low > high ? -low : high;
         apart = extent > apart ? extent : apart;
         size = whole > size ? whole : size;
+        s->begin_low[a] = forwards ? low : -INFINITY;
+        s->begin_high[a] = forwards ? high : INFINITY;
+        s->end_low[a] = spux_hmin(b->end_low[a]);
+        s->end_high[a] = spux_hmax(b->end_high[a]);
     }
     wide_slack(&s->call, org, s->slack);
     s->apart = apart > 0 ? apart / size : 0;
@@ -161,12 +177,16 @@ CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_
 {
     uint32_t *to[STREAM_KEYS], invalid = 0, next = 0;
     const vfloat least = spux_vfloat(-INFINITY), most = spux_vfloat(INFINITY);
-    stream_origins origins = {{most, most, most}, {least, least, least}};
+    stream_bounds bounds = {.org_low = {most, most, most},
+                            .org_high = {least, least, least},
+                            .end_low = {most, most, most},
+                            .end_high = {least, least, least},
+                            .first = most};
     memset(number, 0, STREAM_KEYS * sizeof *number);
     for (uint32_t i = 0; i < count; i += CGT_LANES)
-        stream_make_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &origins, &invalid);
+        stream_make_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid);
     s->call.counts->invalid_rays += invalid;
-    stream_find_bounds(s, &origins);
+    stream_find_bounds(s, &bounds);
     for (uint32_t i = 0; i < count; i++)
         number[s->key[i]]++;
     for (uint32_t k = 0; k < STREAM_KEYS; k++) {
