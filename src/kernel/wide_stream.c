@@ -110,17 +110,23 @@ __attribute__((noinline, cold)) static void stream_trace_extreme(stream *s, cons
 CGT_SPU_INLINE void stream_leaf(stream *s, const wide_node *n, uint32_t child, const uint32_t *list, uint32_t rays,
                                 bool any_hit, bool hides)
 {
-    const uint32_t code = n->child[child], count = wide_leaf_count(code), index = code & CGT_WIDE_INDEX;
+    const uint32_t code = n->child[child], index = code & CGT_WIDE_INDEX;
     const leaf_place place = leaf_place_make(n, child, s->call.scale);
+    const wide_triangles *triangles = (const wide_triangles *)s->call.tree->triangle + index;
+    const wide_spheres *spheres = (const wide_spheres *)s->call.tree->sphere + index;
+    const bool flat = code & CGT_WIDE_TRIANGLES;
+    leaf_members m;
+    leaf_members_make(flat ? leaf_triangles_in_reach(s, triangles) : leaf_spheres_in_reach(s, spheres),
+                      wide_leaf_count(code), &m);
     s->call.counts->leaves++;
-    s->call.counts->packet_tests += count;
-    s->call.counts->ray_tests += (uint64_t)count * ((rays + CGT_LANES - 1) / CGT_LANES * CGT_LANES);
-    if (code & CGT_WIDE_TRIANGLES)
-        leaf_stream_triangles(s, (const wide_triangles *)s->call.tree->triangle + index, count, &place, list, rays,
-                              any_hit, hides);
+    s->call.counts->packet_tests += m.count;
+    s->call.counts->ray_tests += (uint64_t)m.count * ((rays + CGT_LANES - 1) / CGT_LANES * CGT_LANES);
+    if (!m.count)
+        return;
+    if (flat)
+        leaf_stream_triangles(s, triangles, &m, &place, list, rays, any_hit, hides);
     else
-        leaf_stream_spheres(s, (const wide_spheres *)s->call.tree->sphere + index, count, &place, list, rays, any_hit,
-                            hides);
+        leaf_stream_spheres(s, spheres, &m, &place, list, rays, any_hit, hides);
 }
 
 CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count, bool any_hit, bool hides)
@@ -269,10 +275,11 @@ static void stream_fly(stream *s, const uint32_t start[STREAM_KEYS], const uint3
 CGT_SPU_INLINE void stream_trace_octants(stream *s, const uint32_t start[STREAM_KEYS],
                                          const uint32_t number[STREAM_KEYS])
 {
-    for (s->octant = 0; s->octant < STREAM_SINGLE; s->octant++) {
-        const uint32_t *list = s->all + start[s->octant], count = number[s->octant];
+    for (uint32_t k = 0; k < STREAM_SINGLE; k++) {
+        const uint32_t *list = s->all + start[k], count = number[k];
         if (!count)
             continue;
+        stream_begin_octant(s, k);
         if (s->call.hides)
             stream_trace_hiding(s, list, count);
         else if (s->call.any_hit)

@@ -51,13 +51,36 @@ typedef struct stream {
     wide_call call;
     float slack[3];                                             /* E of all rays of streams */
     float begin_low[3], begin_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
-    float apart;       /* how far their origins lie apart, along an axis, as a share of the tree's size */
-    uint32_t octant;   /* in work */
+    float apart;     /* how far their origins lie apart, along an axis, as a share of the tree's size */
+    uint32_t octant; /* in work */
+    float reach_low[3], reach_high[3]; /* no ray of the octant comes to what lies outside */
     uint32_t changed;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */
 } stream;
 
 CGT_SPU_INLINE float *stream_record(stream *s, uint32_t at) { return &s->record[0][0] + at; }
+
+/* Where the octant's rays may come to: from the least origin or the least end of all streams to the greatest. */
+CGT_SPU_INLINE void stream_begin_octant(stream *s, uint32_t octant)
+{
+    s->octant = octant;
+    for (int a = 0; a < 3; a++) {
+        const bool from_above = octant >> a & 1;
+        s->reach_low[a] = from_above ? s->end_low[a] : s->begin_low[a];
+        s->reach_high[a] = from_above ? s->begin_high[a] : s->end_high[a];
+    }
+}
+
+/* Boxes that the octant's rays may reach, as bits: lanes hold bounds that are off by less than they were moved outwards,
+ * by 2^-85 at least. A ray that counts stays after its origin but for so much. */
+CGT_SPU_INLINE unsigned stream_in_reach(const stream *s, const vfloat low[3], const vfloat high[3])
+{
+    vmask out = spux_mask_none();
+    for (int a = 0; a < 3; a++)
+        out = spu_or(out, spu_or(spu_cmpgt(spux_vfloat(s->reach_low[a]), high[a]),
+                                 spu_cmpgt(low[a], spux_vfloat(s->reach_high[a]))));
+    return ~spux_mask_bits(out);
+}
 
 /* An any-hit ray has found its hit: none is wanted any more. */
 CGT_SPU_INLINE void stream_close(stream *s, uint32_t at)

@@ -29,6 +29,22 @@ CGT_SPU_INLINE leaf_place leaf_place_make(const wide_node *n, uint32_t child, fl
     return p;
 }
 
+/* Primitives of a leaf that the octant's rays may reach. */
+typedef struct leaf_members {
+    uint8_t lane[CGT_LANES];
+    uint32_t count;
+} leaf_members;
+
+/* Of the leaf's first `count` those that are in reach; without a branch: what is left out is written over. */
+CGT_SPU_INLINE void leaf_members_make(unsigned in_reach, uint32_t count, leaf_members *m)
+{
+    m->count = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        m->lane[m->count] = (uint8_t)k;
+        m->count += in_reach >> k & 1;
+    }
+}
+
 /* The rays of a vector. */
 typedef struct leaf_rays {
     const uint32_t *at;

@@ -35,49 +35,34 @@ typedef struct stream_planes {
     float far[3][CGT_LANES];
 } stream_planes;
 
-CGT_SPU_INLINE void stream_planes_make(const stream *s, const wide_node *n, stream_planes *p)
+/* Returns the children that the stream's rays may reach, as bits. Near their origins rays pass nodes of which half the
+ * children lie behind them. */
+CGT_SPU_INLINE unsigned stream_planes_make(const stream *s, const wide_node *n, stream_planes *p)
 {
     const vfloat scale = spux_vfloat(s->call.scale);
+    vfloat low[3], high[3];
     for (int a = 0; a < 3; a++) {
         const vfloat slack = spux_vfloat(s->slack[a]);
-        const vfloat low = spu_msub(spux_load(n->low[a]), scale, slack);
-        const vfloat high = spu_madd(spux_load(n->high[a]), scale, slack);
         const bool from_above = s->octant >> a & 1;
-        spux_store(p->near[a], from_above ? high : low);
-        spux_store(p->far[a], from_above ? low : high);
+        low[a] = spu_msub(spux_load(n->low[a]), scale, slack);
+        high[a] = spu_madd(spux_load(n->high[a]), scale, slack);
+        spux_store(p->near[a], from_above ? high[a] : low[a]);
+        spux_store(p->far[a], from_above ? low[a] : high[a]);
     }
+    return stream_in_reach(s, low, high);
 }
 
-/* Children that no ray of the stream can come to: they lie behind all origins along an axis, or beyond all ends. Near their
- * origins rays pass nodes of which half the children do. A ray that counts stays after its origin but for 2^-85, and
- * planes are moved by more than this and what origins lose (wide_ray.h). */
-CGT_SPU_INLINE unsigned stream_out_of_reach(const stream *s, const stream_planes *p)
-{
-    vmask out = spux_mask_none();
-    for (int a = 0; a < 3; a++) {
-        const vfloat near = spux_load(p->near[a]), far = spux_load(p->far[a]);
-        if (s->octant >> a & 1)
-            out = spu_or(out, spu_or(spu_cmpgt(far, spux_vfloat(s->begin_high[a])),
-                                     spu_cmpgt(spux_vfloat(s->end_low[a]), near)));
-        else
-            out = spu_or(out, spu_or(spu_cmpgt(spux_vfloat(s->begin_low[a]), far),
-                                     spu_cmpgt(near, spux_vfloat(s->end_high[a]))));
-    }
-    return spux_mask_bits(out);
-}
-
-/* Lists the children that are in reach. */
-CGT_SPU_INLINE void stream_find_children(const stream *s, const stream_planes *p, stream_level *v)
+/* Lists those children; without a branch: what is left out is written over. */
+CGT_SPU_INLINE void stream_find_children(const stream *s, unsigned reached, stream_level *v)
 {
     const wide_node *n = v->node;
     const bool backwards = s->octant >= 4;
     const uint8_t *order = backwards ? n->order[7 - s->octant] + n->children - 1 : n->order[s->octant];
-    const unsigned out = stream_out_of_reach(s, p);
     v->children = 0;
     for (uint32_t k = 0; k < n->children; k++) {
         const uint8_t child = backwards ? *order-- : *order++;
-        v->child[v->children] = child; /* without a branch: what is out of reach is written over */
-        v->children += ~out >> child & 1;
+        v->child[v->children] = child;
+        v->children += reached >> child & 1;
     }
 }
 
@@ -125,8 +110,7 @@ CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room
     v->room = room + STREAM_MASKS(v->chunks);
     v->next = 0;
     stream_planes p;
-    stream_planes_make(s, v->node, &p);
-    stream_find_children(s, &p, v);
+    stream_find_children(s, stream_planes_make(s, v->node, &p), v);
     stream_test_node(s, v, &p);
     s->call.counts->nodes++;
     return true;

@@ -86,6 +86,20 @@ CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bound
     f->certain = spu_and(surely, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
 }
 
+/* Coordinates are at most 2, and off by a few roundings. */
+CGT_SPU_INLINE unsigned leaf_spheres_in_reach(const stream *s, const wide_spheres *leaf)
+{
+    const vfloat scale = spux_vfloat(s->call.scale);
+    const vfloat reach = spu_madd(spux_load(leaf->radius), scale, spux_vfloat(0x1p-20f));
+    vfloat low[3], high[3];
+    for (int a = 0; a < 3; a++) {
+        const vfloat c = spu_mul(spux_load(leaf->center[a]), scale);
+        low[a] = spu_sub(c, reach);
+        high[a] = spu_add(c, reach);
+    }
+    return stream_in_reach(s, low, high);
+}
+
 /* Centres from the middle of the leaf's box, for the first test. */
 typedef struct leaf_balls {
     _Alignas(CGT_VECTOR_BYTES) float twice[3][CGT_LANES]; /* 2 p */
@@ -177,10 +191,11 @@ CGT_SPU_INLINE leaf_ball leaf_ball_make(const leaf_rays *r, const leaf_near *n, 
 
 /* The spheres that any lane's part of the line may meet: without branches, since few of them could be foretold. */
 CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_near *n, const leaf_balls *q,
-                                             uint32_t count)
+                                             const leaf_members *m)
 {
     uint32_t reached = 0;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t i = 0; i < m->count; i++) {
+        const uint32_t k = m->lane[i];
         const leaf_ball b = leaf_ball_make(r, n, q, k);
         reached |= (uint32_t)(spux_mask_bits(spux_cmpge(b.depth, n->least)) != 0) << k;
     }
@@ -188,11 +203,12 @@ CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_near
 }
 
 /* Any hit: most lanes are decided here. Returns the spheres that others have left to decide. */
-CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_near *n, const leaf_balls *q, uint32_t count,
+CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_near *n, const leaf_balls *q, const leaf_members *m,
                                          bool endless)
 {
     vuint open = spux_vuint(0);
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t i = 0; i < m->count; i++) {
+        const uint32_t k = m->lane[i];
         const leaf_ball b = leaf_ball_make(r, n, q, k);
         const vmask may = spux_cmpge(b.depth, n->least);
         vmask sure = spu_cmpgt(b.depth, n->most);
@@ -206,8 +222,9 @@ CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_near *n, const
     return leaf_open_left(spux_select(open, spux_vuint(0), r->hit));
 }
 
-CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const wide_spheres *leaf, uint32_t count, const leaf_place *place,
-                                        const uint32_t *list, uint32_t rays, bool any_hit, bool hides)
+CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const wide_spheres *leaf, const leaf_members *m,
+                                        const leaf_place *place, const uint32_t *list, uint32_t rays, bool any_hit,
+                                        bool hides)
 {
     const float scale = s->call.scale;
     const bool endless = !s->call.source->rays->t_max;
@@ -220,12 +237,12 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const wide_spheres *leaf, uin
         leaf_rays_load(s, list + i, place, any_hit, &r);
         leaf_near_make(&r, place, &n);
         if (!any_hit || hides)
-            reached = leaf_spheres_reached(&r, &n, &q, count);
+            reached = leaf_spheres_reached(&r, &n, &q, m);
         else if (endless)
-            reached = leaf_spheres_any(&r, &n, &q, count, true);
+            reached = leaf_spheres_any(&r, &n, &q, m, true);
         else {
             leaf_near_narrow(&r, &n);
-            reached = leaf_spheres_any(&r, &n, &q, count, false);
+            reached = leaf_spheres_any(&r, &n, &q, m, false);
         }
         if (reached) {
             leaf_sphere_bounds b;

@@ -53,6 +53,19 @@ CGT_SPU_INLINE void leaf_planes_make(const wide_triangles *leaf, leaf_planes *p)
     p->sum[1] = spux_hmax(spux_load(leaf->sum[1]));
 }
 
+/* Coordinates are at most 2, and off by a few roundings. */
+CGT_SPU_INLINE unsigned leaf_triangles_in_reach(const stream *s, const wide_triangles *leaf)
+{
+    const vfloat nothing = spux_vfloat(0), margin = spux_vfloat(0x1p-20f);
+    vfloat low[3], high[3];
+    for (int a = 0; a < 3; a++) {
+        const vfloat v = spux_load(leaf->vertex[a]), e = spux_load(leaf->edge[0][a]), f = spux_load(leaf->edge[1][a]);
+        low[a] = spu_add(spu_sub(v, margin), spux_min(nothing, spux_min(e, f)));
+        high[a] = spu_add(spu_add(v, margin), spux_max(nothing, spux_max(e, f)));
+    }
+    return stream_in_reach(s, low, high);
+}
+
 CGT_SPU_INLINE void leaf_triangle_bounds_make(const leaf_rays *r, const leaf_planes *p, bool any_hit,
                                               leaf_triangle_bounds *b)
 {
@@ -107,10 +120,11 @@ CGT_SPU_INLINE leaf_sides leaf_sides_make(const leaf_terms *q, const leaf_triang
 
 /* The triangles that any lane's line may pass inside of. */
 CGT_SPU_INLINE uint32_t leaf_triangles_reached(const leaf_rays *r, const leaf_triangle_bounds *b,
-                                               const wide_triangles *leaf, const leaf_planes *p, uint32_t count)
+                                               const wide_triangles *leaf, const leaf_planes *p, const leaf_members *m)
 {
     uint32_t reached = 0;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t i = 0; i < m->count; i++) {
+        const uint32_t k = m->lane[i];
         const leaf_terms q = leaf_terms_make(r, leaf, p, k);
         reached |= (uint32_t)spux_any(leaf_sides_make(&q, b).may) << k;
     }
@@ -119,11 +133,12 @@ CGT_SPU_INLINE uint32_t leaf_triangles_reached(const leaf_rays *r, const leaf_tr
 
 /* Any hit: most lanes are decided here. Returns the triangles that others have left to decide. */
 CGT_SPU_INLINE uint32_t leaf_triangles_any(leaf_rays *r, const leaf_triangle_bounds *b, const wide_triangles *leaf,
-                                           const leaf_planes *p, uint32_t count, bool endless)
+                                           const leaf_planes *p, const leaf_members *m, bool endless)
 {
     const vfloat minus = spux_vfloat(-0.f);
     vuint open = spux_vuint(0);
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t i = 0; i < m->count; i++) {
+        const uint32_t k = m->lane[i];
         const leaf_terms q = leaf_terms_make(r, leaf, p, k);
         const vfloat sign = spu_and(q.den, minus), den = spux_abs(q.den), num = spu_xor(q.num, sign);
         const vfloat u = spu_xor(q.u, sign), v = spu_xor(q.v, sign);
@@ -169,7 +184,7 @@ CGT_SPU_INLINE void leaf_triangle_nearest(const leaf_rays *r, const leaf_triangl
         spu_and(spu_and(sides->inside, steep), spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
 }
 
-CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const wide_triangles *leaf, uint32_t count,
+CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const wide_triangles *leaf, const leaf_members *m,
                                           const leaf_place *place, const uint32_t *list, uint32_t rays, bool any_hit,
                                           bool hides)
 {
@@ -184,11 +199,11 @@ CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const wide_triangles *leaf,
         leaf_rays_narrow(&r, any_hit);
         leaf_triangle_bounds_make(&r, &p, any_hit, &b);
         if (!any_hit || hides)
-            reached = leaf_triangles_reached(&r, &b, leaf, &p, count);
+            reached = leaf_triangles_reached(&r, &b, leaf, &p, m);
         else if (endless)
-            reached = leaf_triangles_any(&r, &b, leaf, &p, count, true);
+            reached = leaf_triangles_any(&r, &b, leaf, &p, m, true);
         else
-            reached = leaf_triangles_any(&r, &b, leaf, &p, count, false);
+            reached = leaf_triangles_any(&r, &b, leaf, &p, m, false);
         for (; reached; reached &= reached - 1) {
             const uint32_t k = (uint32_t)__builtin_ctz(reached);
             const leaf_terms q = leaf_terms_make(&r, leaf, &p, k);
