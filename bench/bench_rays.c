@@ -23,6 +23,7 @@ enum {
     GROUP = BLOCK * BLOCK, /* hit pixels whose rays lie together */
     TILE = BENCH_TILE_EDGE,
     GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
+    GROUPS_AHEAD = 8,      /* whose hits are on their way */
     SHADOW_RUN = 256,      /* shadow rays made at once */
     /* Hits are listed a round of tiles at a time, rays made and traced a batch at a time: as many as stay in a cache.
      * Of threads each gets twice as many, since waking them takes as long as tracing some thousand rays: beyond that
@@ -430,13 +431,29 @@ static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
     }
 }
 
+/* The planes were written past the caches, and a group's rows are far apart: asks for those of a group to come. */
+static void ask_for_group(const bench_rays *rays, uint64_t first)
+{
+    const bench_planes *planes = rays->planes;
+    const uint32_t *hit = rays->hit + rays->batch_first + first, width = rays->axes->width;
+    for (uint32_t k = 0; k < GROUP; k += BLOCK) {
+        const size_t element = (size_t)(hit[k] >> 16) * width + (hit[k] & 0xffff);
+        __builtin_prefetch(planes->t + element);
+        for (int i = 0; i < 3; i++)
+            __builtin_prefetch(planes->normal[i] + element);
+    }
+}
+
 static void make_ao_rays(void *argument, uint32_t piece)
 {
     bench_rays *rays = argument;
     for (uint32_t group = 0; group < GROUPS_PER_PIECE; group++) {
         const uint64_t first = ((uint64_t)piece * GROUPS_PER_PIECE + group) * GROUP;
+        const uint64_t ahead = first + (uint64_t)GROUPS_AHEAD * GROUP;
         if (first >= rays->batch_hits)
             return;
+        if (ahead + GROUP <= rays->batch_hits)
+            ask_for_group(rays, ahead);
         const uint64_t left = rays->batch_hits - first;
         make_ao_group(rays, first, left < GROUP ? (uint32_t)left : GROUP);
     }
