@@ -170,35 +170,55 @@ CGT_SPU_INLINE void stream_find_bounds(stream *s, const stream_bounds *b)
     s->apart = apart > 0 ? apart / size : 0;
 }
 
-/* Makes the records of all `count` rays and sorts them to s->all: number[k] with key k from start[k], which is aligned;
- * each list is filled up. */
+/* A chunk is sorted in so many runs side by side, each with counters of its own: rays of one octant come one after the
+ * other, and a counter would wait for its last change. */
+#define STREAM_RUNS 4u
+
+/* Sorts the rays to s->all by key, stable: number[k] with key k from start[k], which is aligned; each list is filled up. */
+CGT_SPU_INLINE void stream_sort(stream *s, uint32_t count, uint32_t start[STREAM_KEYS], uint32_t number[STREAM_KEYS])
+{
+    const uint32_t run = count / STREAM_RUNS, last = STREAM_RUNS - 1; /* what is left over is the last one's */
+    uint32_t to[STREAM_RUNS][STREAM_KEYS], next = 0;
+    memset(to, 0, sizeof to);
+    for (uint32_t i = 0; i < run; i++)
+        for (uint32_t r = 0; r < STREAM_RUNS; r++)
+            to[r][s->key[r * run + i]]++;
+    for (uint32_t i = run * STREAM_RUNS; i < count; i++)
+        to[last][s->key[i]]++;
+    for (uint32_t k = 0; k < STREAM_KEYS; k++) {
+        start[k] = next;
+        for (uint32_t r = 0; r < STREAM_RUNS; r++) {
+            const uint32_t rays = to[r][k];
+            to[r][k] = next;
+            next += rays;
+        }
+        number[k] = next - start[k];
+        while (next % CGT_LANES)
+            s->all[next++] = STREAM_NOBODY;
+    }
+    for (uint32_t i = 0; i < run; i++)
+        for (uint32_t r = 0; r < STREAM_RUNS; r++)
+            s->all[to[r][s->key[r * run + i]]++] = (r * run + i) * STREAM_RECORD;
+    for (uint32_t i = run * STREAM_RUNS; i < count; i++)
+        s->all[to[last][s->key[i]]++] = i * STREAM_RECORD;
+}
+
+/* Makes the records of all `count` rays and sorts them. */
 CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_t start[STREAM_KEYS],
                                 uint32_t number[STREAM_KEYS])
 {
-    uint32_t *to[STREAM_KEYS], invalid = 0, next = 0;
+    uint32_t invalid = 0;
     const vfloat least = spux_vfloat(-INFINITY), most = spux_vfloat(INFINITY);
     stream_bounds bounds = {.org_low = {most, most, most},
                             .org_high = {least, least, least},
                             .end_low = {most, most, most},
                             .end_high = {least, least, least},
                             .first = most};
-    memset(number, 0, STREAM_KEYS * sizeof *number);
     for (uint32_t i = 0; i < count; i += CGT_LANES)
         stream_make_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid);
     s->call.counts->invalid_rays += invalid;
     stream_find_bounds(s, &bounds);
-    for (uint32_t i = 0; i < count; i++)
-        number[s->key[i]]++;
-    for (uint32_t k = 0; k < STREAM_KEYS; k++) {
-        start[k] = next;
-        to[k] = s->all + next;
-        next += (number[k] + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
-    }
-    for (uint32_t i = 0; i < count; i++)
-        *to[s->key[i]]++ = i * STREAM_RECORD;
-    for (uint32_t k = 0; k < STREAM_KEYS; k++)
-        for (uint32_t i = number[k]; i % CGT_LANES; i++)
-            *to[k]++ = STREAM_NOBODY;
+    stream_sort(s, count, start, number);
     float *nobody = stream_record(s, STREAM_NOBODY);
     for (uint32_t k = 0; k < STREAM_RECORD; k++)
         nobody[k] = 1;
