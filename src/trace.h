@@ -11,6 +11,10 @@
 
 #define CGT_RAYS_CHUNK 4096u /* rays of an array that one task traces */
 
+/* The same, of calls that are large enough for all threads: streams of more rays share more of the way, and fill more
+ * lanes. */
+#define CGT_STREAM_CHUNK (2 * CGT_RAYS_CHUNK)
+
 /* The choices of a call, made: no AUTO left. */
 typedef struct cgt_trace_settings {
     uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */

@@ -13,6 +13,7 @@ typedef struct rays_job {
     const cgt_hits *hits; /* NULL: any hit */
     uint8_t *occluded;
     cgt_trace_settings settings;
+    uint32_t chunk; /* rays of a task */
     cgt_trace_counter *counter;
 } rays_job;
 
@@ -20,8 +21,8 @@ static void trace_chunk(void *argument, uint32_t index)
 {
     const rays_job *job = argument;
     const cgt_scene *s = job->scene;
-    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, left = job->rays->count - first,
-                   end = first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
+    const uint64_t first = (uint64_t)index * job->chunk, left = job->rays->count - first,
+                   end = first + (left < job->chunk ? left : job->chunk);
     cgt_counts counts = {0};
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
@@ -54,6 +55,15 @@ static uint32_t hit_fields(const cgt_hits *h)
            (h->u ? CGT_FIELD_UV : 0u);
 }
 
+/* Large chunks where each thread gets two of them; how many threads a caller's runner has, nobody knows. */
+static uint32_t chunk_of(const rays_job *job)
+{
+    const cgt_scene *s = job->scene;
+    const uint64_t threads = s->context->threads ? s->context->threads : 64;
+    const bool streams = job->settings.wide && !s->world.everything;
+    return streams && job->rays->count >= threads * 2 * CGT_STREAM_CHUNK ? CGT_STREAM_CHUNK : CGT_RAYS_CHUNK;
+}
+
 static cgt_result trace(rays_job *job, const cgt_trace_options *options)
 {
     cgt_context *c = job->scene->context;
@@ -69,7 +79,8 @@ static cgt_result trace(rays_job *job, const cgt_trace_options *options)
         return result;
     job->settings.fields = job->hits ? hit_fields(job->hits) : 0;
     job->counter = options && options->statistics ? &counter : NULL;
-    cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    job->chunk = chunk_of(job);
+    cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
     cgt_trace_end(options, &job->settings, &counter);
     return CGT_OK;
 }

@@ -31,7 +31,7 @@ static bool is_slow(void) { return test_scaled(10) < 2; }
 
 #define OBJECTS 240u
 #define RAYS (is_slow() ? 600u : 1500u)
-#define ALL_RAYS 10000u
+#define ALL_RAYS 20000u /* beyond two large chunks */
 
 typedef struct given_ray {
     truth_ray ray;
@@ -352,11 +352,68 @@ static void hits_are_exact(void **state)
         }
 }
 
+/* A stream's rays that begin near each other, at a surface or a corner, where boxes and primitives end to the last bit; of
+ * any octants. */
+static void make_neighbours(test_random *r, subject *s, uint32_t count)
+{
+    static const float spreads[] = {0, 0x1p-24f, 1e-5f, 1e-3f, 0.1f};
+    const float spread = spreads[random_below(r, TEST_COUNT(spreads))] * s->spheres.reach;
+    const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
+    const uint32_t axis = random_below(r, 3), ends = random_below(r, 3), before = random_below(r, 4);
+    const bool along = random_below(r, 3) == 0; /* to a pole, where box and sphere end, all alike */
+    const float side = random_below(r, 2) ? 1 : -1;
+    float from[3];
+    memcpy(from, s->corner[random_below(r, OBJECTS)] + 3 * random_below(r, 3), sizeof from);
+    if (random_below(r, 2))
+        for (uint32_t a = 0; a < 3; a++)
+            from[a] = sphere[a] + (a == axis ? side * sphere[3] : 0);
+    if (along)
+        for (uint32_t a = 0; a < 3; a++)
+            from[a] = sphere[a] + (a == axis ? 0.5f * side * s->spheres.reach : 0);
+    for (uint32_t i = 0; i < count; i++) {
+        given_ray *g = &given[i];
+        *g = (given_ray){.ray = ray_random(r, &s->spheres), .primitive = CGT_NONE};
+        g->ray.t_min = before == 0 && i % 64 == 5 ? -random_log(r, 1e-6f, 1) : 0;
+        g->ray.t_max = INFINITY;
+        for (uint32_t a = 0; a < 3; a++)
+            g->ray.org[a] = from[a] + spread * (i % 8 && !along ? random_float(r, -1, 1) : 0);
+        if (i % 4 == 1)
+            aim(r, s, &g->ray);
+        if (i % 4 == 2)
+            g->ray.dir[random_below(r, 3)] = random_below(r, 2) ? 0 : -0.f;
+        for (uint32_t a = 0; a < 3 && along; a++)
+            g->ray.dir[a] = a == axis ? -side : 0;
+        if (ends)
+            g->ray.t_max = along ? INFINITY : random_float(r, 0, 0.3f) * s->spheres.reach;
+        s->ignores = false;
+        const found f = find_truth(s, g);
+        if (f.primitive != CGT_NONE && ends == 2)
+            g->ray.t_max = random_below(r, 4) ? f.t : nextafterf(f.t, 0);
+    }
+}
+
+static void neighbours_are_exact(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++)
+        for (int what = SPHERES; what <= BOTH; what++) {
+            test_random r = random_make(500 + 10 * (uint64_t)kind + (uint64_t)what);
+            const uint32_t rounds = (uint32_t)(1 + test_scaled(6)), count = is_slow() ? 40 : 150;
+            subject s;
+            subject_make(&r, (cloud_kind)kind, (content)what, what == BOTH ? 0x1p-50f : 1, &s);
+            for (uint32_t k = 0; k < rounds; k++) {
+                make_neighbours(&r, &s, count);
+                check(&s, count);
+            }
+            subject_free(&s);
+        }
+}
+
 /* Batches of any size, in any order, as structure of arrays and as array of structures; and in FAST precision. */
 static void batches_do_not_matter(void **state)
 {
     static float plain[8][ALL_RAYS];
-    static const uint32_t sizes[] = {1, 2, 3, 15, 16, 17, 64, 300, 1000, 4096, 4097, ALL_RAYS};
+    static const uint32_t sizes[] = {1, 2, 3, 15, 16, 17, 64, 300, 1000, 4096, 4097, 2 * CGT_STREAM_CHUNK, ALL_RAYS};
     test_random r = random_make(77);
     subject s;
     (void)state;
@@ -554,6 +611,7 @@ int main(void)
 {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(hits_are_exact),
+        cmocka_unit_test(neighbours_are_exact),
         cmocka_unit_test(batches_do_not_matter),
         cmocka_unit_test(counts_add_up),
         cmocka_unit_test(margins_break_where_they_are_made_smaller),

@@ -85,8 +85,8 @@ typedef void cgt_task(void *argument, uint32_t index);
 
 /* Tasks. run calls task(argument, index) once for each index below count, in any order, on any threads, and returns
  * when all have returned. With a runner set the library starts no thread of its own. A runner that runs the tasks
- * one after another on the calling thread is valid. Results do not depend on the order. A task takes up to 768 KB of
- * stack. */
+ * one after another on the calling thread is valid. Results do not depend on the order. A task takes up to 1.25 MB
+ * of stack. */
 typedef struct cgt_task_runner {
     void *user;                                                              /* handed to run; default NULL */
     void (*run)(void *user, cgt_task *task, void *argument, uint32_t count); /* default NULL: own thread pool */

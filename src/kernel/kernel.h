@@ -58,7 +58,8 @@ typedef struct cgt_kernel {
     void (*trace_tile)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
                        const cgt_region *region, cgt_counts *counts);
 
-    /* Traces rays first to end - 1 of an array, at most CGT_RAYS_CHUNK; hits is NULL where occluded is not. */
+    /* Traces rays first to end - 1 of an array, at most CGT_RAYS_CHUNK, or CGT_STREAM_CHUNK where settings->wide is set
+     * and not world->everything; hits is NULL where occluded is not. */
     void (*trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
                        const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts);
 

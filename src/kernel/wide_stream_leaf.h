@@ -31,7 +31,7 @@ CGT_SPU_INLINE leaf_place leaf_place_make(const wide_node *n, uint32_t child, fl
 
 /* Primitives of a leaf that the octant's rays may reach. */
 typedef struct leaf_members {
-    uint8_t lane[CGT_LANES];
+    uint8_t lane[16]; /* as many as a node's code may tell of */
     uint32_t count;
 } leaf_members;
 
