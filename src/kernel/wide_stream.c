@@ -139,6 +139,8 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
         return;
     for (;;) {
         stream_level *v = &level[depth];
+        if (v->next < v->children)
+            stream_renew_masks(s, v, any_hit);
         if (v->next == v->children) {
             if (stream_next_piece(s, v, (uint32_t *)(void *)v->mask, depth))
                 continue;
@@ -147,7 +149,6 @@ CGT_SPU_INLINE void stream_trace(stream *s, const uint32_t *list, uint32_t count
             depth--;
             continue;
         }
-        stream_renew_masks(s, v, any_hit);
         const uint32_t child = v->child[v->next], code = v->node->child[child];
         const uint32_t rays = stream_make_list(v, v->next++);
         if (!rays)

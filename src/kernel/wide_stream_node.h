@@ -22,10 +22,11 @@ typedef struct stream_level {
     uint32_t first, rays;     /* the piece */
     uint32_t chunks;          /* vectors of it */
     uint32_t next;            /* position among the children below */
-    uint32_t children;        /* those that the stream's rays may reach */
+    uint32_t children;        /* those that rays pass */
     uint8_t child[CGT_LANES]; /* in the order in which the octant's rays meet them */
+    uint8_t row[CGT_LANES];   /* of the masks */
     uint32_t changed;         /* the stream's, when the masks were made */
-    uint16_t *mask;           /* [position][chunk]: rays that pass the child there */
+    uint16_t *mask;           /* [row][chunk]: rays that pass the child */
     uint32_t *room;           /* behind the masks */
 } stream_level;
 
@@ -66,31 +67,38 @@ CGT_SPU_INLINE void stream_find_children(const stream *s, unsigned reached, stre
     }
 }
 
-/* The rays of a piece against the children that are still to come. */
+/* The rays of a piece against the children that are still to come; those that none passes are left out, as above. */
 CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_planes *p)
 {
-    const uint32_t left = v->children - v->next, chunks = v->chunks;
-    const uint8_t *next = v->child + v->next;
-    uint16_t *row = v->mask + (size_t)v->next * chunks;
+    const uint32_t first = v->next, end = v->children, chunks = v->chunks;
+    uint16_t *row = v->mask + (size_t)first * chunks;
+    uint16_t passed[CGT_LANES] = {0};
     v->changed = s->changed;
     for (uint32_t i = 0; i < chunks; i++, row++) {
         const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
-        const uint8_t *child = next;
         uint16_t *mask = row;
         vfloat d[8];
         const vfloat *q = d + RECORD_SHIFT;
         spux_load_records8_at(stream_record(s, RECORD_RDIR), at, d);
-        for (uint32_t k = 0; k < left; k++, child++, mask += chunks) {
-            const vfloat x0 = spu_madd(spux_vfloat(p->near[0][*child]), d[0], q[0]);
-            const vfloat y0 = spu_madd(spux_vfloat(p->near[1][*child]), d[1], q[1]);
-            const vfloat z0 = spu_madd(spux_vfloat(p->near[2][*child]), d[2], q[2]);
-            const vfloat x1 = spu_madd(spux_vfloat(p->far[0][*child]), d[0], q[0]);
-            const vfloat y1 = spu_madd(spux_vfloat(p->far[1][*child]), d[1], q[1]);
-            const vfloat z1 = spu_madd(spux_vfloat(p->far[2][*child]), d[2], q[2]);
+        for (uint32_t k = first; k < end; k++, mask += chunks) {
+            const uint8_t child = v->child[k];
+            const vfloat x0 = spu_madd(spux_vfloat(p->near[0][child]), d[0], q[0]);
+            const vfloat y0 = spu_madd(spux_vfloat(p->near[1][child]), d[1], q[1]);
+            const vfloat z0 = spu_madd(spux_vfloat(p->near[2][child]), d[2], q[2]);
+            const vfloat x1 = spu_madd(spux_vfloat(p->far[0][child]), d[0], q[0]);
+            const vfloat y1 = spu_madd(spux_vfloat(p->far[1][child]), d[1], q[1]);
+            const vfloat z1 = spu_madd(spux_vfloat(p->far[2][child]), d[2], q[2]);
             const vfloat enter = spux_max(spux_max(x0, y0), spux_max(z0, d[3]));
             const vfloat leave = spux_min(spux_min(x1, y1), spux_min(z1, q[3]));
             *mask = (uint16_t)spux_mask_bits(spux_cmpge(leave, enter));
+            passed[k] |= *mask;
         }
+    }
+    v->children = first;
+    for (uint32_t k = first; k < end; k++) {
+        v->child[v->children] = v->child[k];
+        v->row[v->children] = (uint8_t)k;
+        v->children += passed[k] != 0;
     }
 }
 
@@ -119,16 +127,15 @@ CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room
 /* Takes any-hit rays that have found their hit out of the masks of children that are still to come. */
 CGT_SPU_INLINE void stream_drop_closed(stream *s, stream_level *v)
 {
-    const uint32_t left = v->children - v->next, chunks = v->chunks;
-    uint16_t *row = v->mask + (size_t)v->next * chunks;
+    const uint32_t chunks = v->chunks;
+    uint16_t *column = v->mask;
     v->changed = s->changed;
-    for (uint32_t i = 0; i < chunks; i++, row++) {
+    for (uint32_t i = 0; i < chunks; i++, column++) {
         const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
         const vfloat far = spux_gather(stream_record(s, RECORD_FAR), (vint)spux_load_uint(at));
         const uint16_t open = (uint16_t)spux_mask_bits(spu_cmpgt(far, spux_vfloat(-INFINITY)));
-        uint16_t *mask = row;
-        for (uint32_t k = 0; k < left; k++, mask += chunks)
-            *mask &= open;
+        for (uint32_t k = v->next; k < v->children; k++)
+            column[(size_t)v->row[k] * chunks] &= open;
     }
 }
 
@@ -150,7 +157,7 @@ CGT_SPU_INLINE void stream_renew_masks(stream *s, stream_level *v, bool any_hit)
  * often be foretold wrong. */
 CGT_SPU_INLINE uint32_t stream_make_list(const stream_level *v, uint32_t position)
 {
-    const uint16_t *mask = v->mask + (size_t)position * v->chunks;
+    const uint16_t *mask = v->mask + (size_t)v->row[position] * v->chunks;
     const uint32_t *at = v->list + v->first;
     uint32_t *to = v->room;
     for (uint32_t i = 0; i < v->chunks; i++, at += CGT_LANES) {
