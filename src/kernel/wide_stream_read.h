@@ -82,6 +82,8 @@ typedef struct stream_bounds {
     vfloat org_low[3], org_high[3], end_low[3], end_high[3], first;
 } stream_bounds;
 
+/* Ends are off by less than their margin, or than 2^-22: where an origin is farther away than the scene is large, so is
+ * an end that comes near to it. */
 CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
                                       vfloat last, vmask lanes)
 {
@@ -153,7 +155,7 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
 CGT_SPU_INLINE void stream_find_bounds(stream *s, const stream_bounds *b)
 {
     const cgt_wide_tree *tree = s->call.tree;
-    const bool forwards = spux_hmin(b->first) > -0x1p-85f; /* t_min 0, widened */
+    const bool forwards = spux_hmin(b->first) >= -0x1p-86f; /* t_min 0, widened */
     float org[3], apart = 0, size = 0;
     for (int a = 0; a < 3; a++) {
         const float low = spux_hmin(b->org_low[a]), high = spux_hmax(b->org_high[a]);
