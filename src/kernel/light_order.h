@@ -8,6 +8,7 @@
 #include "light_points.h"
 
 #define SORT_CELLS 64u /* along an edge of what the light sees of a chunk */
+#define SORT_RUNS 4u /* of a chunk, counted in turn: neighbours share cells, whose counters would wait for themselves */
 
 /* Bits 0 to 7 to every second place. */
 CGT_SPU_INLINE vuint spread_bits(vuint i)
@@ -72,6 +73,7 @@ static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_R
     _Alignas(64) float place[2][CGT_RAYS_CHUNK];
     _Alignas(64) uint32_t key[CGT_RAYS_CHUNK];
     uint32_t start[SORT_CELLS * SORT_CELLS + 1] = {0};
+    const uint32_t run = count / SORT_RUNS;
     const light_view view = view_make(c, count);
     vfloat least[2], most[2], scale[2];
     for (int a = 0; a < 2; a++) {
@@ -102,11 +104,17 @@ static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_R
         spux_store_uint(key + k, spu_and(spu_or(spread_bits(cell[0]), spu_sl(spread_bits(cell[1]), 1)),
                                          spux_vuint(SORT_CELLS * SORT_CELLS - 1)));
     }
-    for (uint32_t k = 0; k < count; k++)
+    for (uint32_t i = 0; i < run; i++)
+        for (uint32_t r = 0; r < SORT_RUNS; r++)
+            start[key[r * run + i] + 1]++;
+    for (uint32_t k = run * SORT_RUNS; k < count; k++)
         start[key[k] + 1]++;
     for (uint32_t k = 0; k < SORT_CELLS * SORT_CELLS; k++)
         start[k + 1] += start[k];
-    for (uint32_t k = 0; k < count; k++)
+    for (uint32_t i = 0; i < run; i++)
+        for (uint32_t r = 0; r < SORT_RUNS; r++)
+            from[start[key[r * run + i]]++] = r * run + i;
+    for (uint32_t k = run * SORT_RUNS; k < count; k++)
         from[start[key[k]]++] = k;
 }
 

@@ -34,6 +34,5 @@ void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points,
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += LIGHT_PACKET)
         light_trace_packet(&c, i, count - i < LIGHT_PACKET ? count - i : LIGHT_PACKET, &p);
-    for (uint64_t k = first; k < end; k++)
-        counts->hits += occluded[k];
+    light_count_hits(&c, count);
 }

@@ -93,14 +93,24 @@ CGT_SPU_INLINE bool light_points_read(const light_call *c, uint32_t first, uint3
 /* Whether points first to first + count - 1 of the order have met something. */
 CGT_SPU_INLINE void light_hand_out(const light_call *c, const packet *p, uint32_t first, uint32_t count)
 {
-    const uint32_t *from = c->order.from ? c->order.from + first : NULL;
-    uint8_t *occluded = c->occluded + c->order.first;
+    const uint32_t *restrict from = c->order.from ? c->order.from + first : NULL, *restrict object = p->object;
+    uint8_t *restrict occluded = c->occluded + c->order.first; /* bytes, which may be a part of anything else */
     if (!from)
         for (uint32_t k = 0; k < count; k++)
-            occluded[first + k] = p->object[k] != CGT_NONE;
+            occluded[first + k] = object[k] != CGT_NONE;
     else
         for (uint32_t k = 0; k < count; k++)
-            occluded[from[k]] = p->object[k] != CGT_NONE;
+            occluded[from[k]] = object[k] != CGT_NONE;
+}
+
+/* Counts those of the first `count` points that have. */
+CGT_SPU_INLINE void light_count_hits(const light_call *c, uint32_t count)
+{
+    const uint8_t *occluded = c->occluded + c->order.first;
+    uint32_t hits = 0;
+    for (uint32_t k = 0; k < count; k++)
+        hits += occluded[k];
+    c->counts->hits += hits;
 }
 
 /* Points first to first + count - 1 of the order, at most a packet, through whatever structure there is. */

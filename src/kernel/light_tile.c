@@ -358,8 +358,7 @@ void CGT_KERNEL(cgt_tile_trace_light)(const cgt_world *world, const cgt_rays *po
     }
     for (uint32_t i = 0; i < count; i += TILE_RAYS)
         trace_tile(&c, &t, i, count - i < TILE_RAYS ? count - i : TILE_RAYS);
-    for (uint32_t k = 0; k < count; k++)
-        counts->hits += occluded[first + k];
+    light_count_hits(&c, count);
 }
 
 uint64_t CGT_KERNEL(cgt_tile_light_objects)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,

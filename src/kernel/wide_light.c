@@ -188,8 +188,7 @@ void CGT_KERNEL(cgt_wide_trace_light)(const cgt_world *world, const cgt_rays *po
             break;
         done += more;
     }
-    for (uint32_t k = 0; k < done; k++)
-        counts->hits += occluded[first + k];
+    light_count_hits(&c, done);
     if (done < count)
         trace_apart(&c, first + done, end);
 }
