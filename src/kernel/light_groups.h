@@ -11,18 +11,12 @@
 #define CGT_LIGHT_GROUPS_H
 
 #include "light_leaf.h"
+#include "waiting.h"
 
 #define GROUPS 64u
 #define TILE_RAYS (GROUPS * CGT_LANES)
 #define PACKETS (TILE_RAYS / PACKET_MAX_RAYS)
 #define PACKET_GROUPS (PACKET_MAX_RAYS / CGT_LANES)
-
-#define WAITING 256u /* references that wait until what they stand for has come to the cache */
-
-typedef struct waiting {
-    uint32_t reference[WAITING];
-    uint32_t count;
-} waiting;
 
 /* A tile. Of each group the least and the most slope along both axes, or offset; and w of its ray that is farthest from the
  * light, or the least one with its sign reversed where rays are parallel, so that what an object is compared with is its
@@ -43,8 +37,6 @@ typedef struct light_tile {
     bool place;
     waiting spheres, triangles;
 } light_tile;
-
-/* ---- groups ---- */
 
 /* ---- objects ---- */
 

@@ -16,7 +16,6 @@
 
 #define REFRESH 256u /* tests of groups after which slopes are found again, of those that still want something */
 #define SAMPLE 4u    /* of so many vectors of points one is looked at to tell how far they reach */
-#define AHEAD 64u    /* references whose vertices are on their way */
 
 _Static_assert(GROUPS == PACKETS * PACKET_GROUPS, "groups fill packets");
 
@@ -137,58 +136,56 @@ static void take_waiting_spheres(light_tile *t, uint32_t count)
     waiting *q = &t->spheres;
     for (uint32_t k = 0; k < count && t->open; k += CGT_LANES)
         take_spheres(t, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
-    q->count -= count;
-    memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
+    waiting_remove(q, count);
 }
 
 /* The same, with the vertices of some vectors on their way. */
 static void take_waiting_triangles(light_tile *t, uint32_t count)
 {
     waiting *q = &t->triangles;
-    const cgt_objects *objects = &t->world->objects;
-    const cgt_object_array *a = objects->arrays == 1 && objects->array->index ? objects->array : NULL;
     uint32_t asked = 0;
     for (uint32_t k = 0; k < count && t->open; k += CGT_LANES) {
-        const uint32_t ask = k + AHEAD < count ? k + AHEAD : count;
-        if (a && ask > asked)
-            fetch_triangles_ask(a, q->reference + asked, ask - asked);
-        asked = ask;
+        asked = waiting_ask(q, &t->world->objects, k, count, asked);
         take_triangles(t, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
     }
-    q->count -= count;
-    memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
+    waiting_remove(q, count);
 }
 
-CGT_SPU_INLINE void wait_sphere(light_tile *t, uint32_t reference)
+static void wait_spheres(light_tile *t, const uint32_t *reference, uint32_t count)
 {
-    const cgt_objects *o = &t->world->objects;
-    waiting *q = &t->spheres;
-    q->reference[q->count++] = reference;
-    if (o->arrays == 1)
-        __builtin_prefetch(cgt_array_point(o->array, reference));
-    if (q->count == WAITING)
-        take_waiting_spheres(t, WAITING / 2);
+    while (count) {
+        const uint32_t some = waiting_add_spheres(&t->spheres, &t->world->objects, reference, count);
+        reference += some;
+        count -= some;
+        if (t->spheres.count == WAITING)
+            take_waiting_spheres(t, WAITING / 2);
+    }
 }
 
-CGT_SPU_INLINE void wait_triangle(light_tile *t, uint32_t reference)
+static void wait_triangles(light_tile *t, const uint32_t *reference, uint32_t count)
 {
-    const cgt_object_array *a = t->world->objects.array;
-    waiting *q = &t->triangles;
-    q->reference[q->count++] = reference;
-    if (t->world->objects.arrays == 1 && a->index)
-        __builtin_prefetch(a->index + (size_t)reference * a->index_stride);
-    if (q->count == WAITING)
-        take_waiting_triangles(t, WAITING / 2);
+    while (count) {
+        const uint32_t some = waiting_add_triangles(&t->triangles, &t->world->objects, reference, count);
+        reference += some;
+        count -= some;
+        if (t->triangles.count == WAITING)
+            take_waiting_triangles(t, WAITING / 2);
+    }
 }
 
 static void wait_run(light_tile *t, const uint32_t *reference, uint32_t count)
 {
     const cgt_objects *o = &t->world->objects;
-    for (uint32_t k = 0; k < count; k++)
-        if (!o->triangles || (o->spheres && cgt_objects_array(o, reference[k])->kind == CGT_KIND_SPHERES))
-            wait_sphere(t, reference[k]);
-        else
-            wait_triangle(t, reference[k]);
+    if (!o->triangles)
+        wait_spheres(t, reference, count);
+    else if (!o->spheres)
+        wait_triangles(t, reference, count);
+    else
+        for (uint32_t k = 0; k < count; k++)
+            if (cgt_objects_array(o, reference[k])->kind == CGT_KIND_SPHERES)
+                wait_spheres(t, reference + k, 1);
+            else
+                wait_triangles(t, reference + k, 1);
 }
 
 /* ---- the march ---- */

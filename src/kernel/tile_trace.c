@@ -10,19 +10,12 @@
 #include "tile_make.h"
 #include "tile_resolve.h"
 #include "tile_triangle_draw.h"
+#include "waiting.h"
 
 #define DRAWN 128u /* objects after which it pays to look how far the parts still see */
 
-#define WAITING 256u /* references */
-#define AHEAD 64u    /* references whose vertices are on their way */
-#define FEW 96u      /* references of a slice: to look at cells costs more */
-#define RUNS 16u     /* of references, looked up together */
-
-/* References that wait until what they stand for has come to the cache. */
-typedef struct waiting {
-    uint32_t reference[WAITING];
-    uint32_t count;
-} waiting;
+#define FEW 96u  /* references of a slice: to look at cells costs more */
+#define RUNS 16u /* of references, looked up together */
 
 typedef struct tile_work {
     const cgt_world *world;
@@ -169,64 +162,39 @@ static void take_waiting_spheres(tile_work *w, uint32_t count)
     waiting *q = &w->spheres;
     for (uint32_t k = 0; k < count; k += TILE_FOUND)
         take_spheres(w, q->reference + k, count - k < TILE_FOUND ? count - k : TILE_FOUND);
-    q->count -= count;
-    memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
+    waiting_remove(q, count);
 }
 
 /* The same, with the vertices of some vectors on their way. */
 static void take_waiting_triangles(tile_work *w, uint32_t count)
 {
     waiting *q = &w->triangles;
-    const cgt_objects *objects = &w->world->objects;
-    const cgt_object_array *a = objects->arrays == 1 && objects->array->index ? objects->array : NULL;
     uint32_t asked = 0;
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        const uint32_t ask = k + AHEAD < count ? k + AHEAD : count;
-        if (a && ask > asked)
-            fetch_triangles_ask(a, q->reference + asked, ask - asked);
-        asked = ask;
+        asked = waiting_ask(q, &w->world->objects, k, count, asked);
         take_triangles(w, q->reference + k, some_lanes(count - k));
     }
-    q->count -= count;
-    memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
+    waiting_remove(q, count);
 }
 
 static void wait_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
 {
-    const cgt_object_array *array = w->world->objects.array;
-    const bool one = w->world->objects.arrays == 1;
     while (count) {
-        waiting *q = &w->spheres;
-        const uint32_t room = WAITING - q->count, some = count < room ? count : room;
-        for (uint32_t k = 0; k < some; k++) {
-            q->reference[q->count + k] = reference[k];
-            if (one)
-                __builtin_prefetch(cgt_array_point(array, reference[k]));
-        }
-        q->count += some;
+        const uint32_t some = waiting_add_spheres(&w->spheres, &w->world->objects, reference, count);
         reference += some;
         count -= some;
-        if (q->count == WAITING)
+        if (w->spheres.count == WAITING)
             take_waiting_spheres(w, WAITING / 2);
     }
 }
 
 static void wait_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
 {
-    const cgt_object_array *a = w->world->objects.array;
-    const char *index = w->world->objects.arrays == 1 ? a->index : NULL;
     while (count) {
-        waiting *q = &w->triangles;
-        const uint32_t room = WAITING - q->count, some = count < room ? count : room;
-        for (uint32_t k = 0; k < some; k++) {
-            q->reference[q->count + k] = reference[k];
-            if (index)
-                __builtin_prefetch(index + (size_t)reference[k] * a->index_stride);
-        }
-        q->count += some;
+        const uint32_t some = waiting_add_triangles(&w->triangles, &w->world->objects, reference, count);
         reference += some;
         count -= some;
-        if (q->count == WAITING)
+        if (w->triangles.count == WAITING)
             take_waiting_triangles(w, WAITING / 2);
     }
 }
