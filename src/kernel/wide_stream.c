@@ -4,7 +4,8 @@
  * Arrays of rays through the wide tree, as streams (Wald, Gribble, Boulos, Kensler, "SIMD Ray Stream Tracing", 2007;
  * Barringer, Akenine-Moeller, "Dynamic Ray Stream Traversal", 2014): the rays of one octant go depth first from node to
  * node as a list. Lanes are rays; a node tests a vector of rays against one child after the other, which leaves a mask
- * for each. A child's list is made of the masks when its turn comes, so that there is one list for each node on the way
+ * for each. Children and primitives that lie behind where all the octant's rays begin, or beyond where all end, are left
+ * out before. A child's list is made of the masks when its turn comes, so that there is one list for each node on the way
  * down. Where few rays are left, lanes are children or primitives instead (wide_single.h); so they are from the root on
  * in a call of few rays that run apart (wide_flight.h).
  *
