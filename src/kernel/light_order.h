@@ -111,10 +111,7 @@ static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_R
         start[key[k] + 1]++;
     for (uint32_t k = 0; k < SORT_CELLS * SORT_CELLS; k++)
         start[k + 1] += start[k];
-    for (uint32_t i = 0; i < run; i++)
-        for (uint32_t r = 0; r < SORT_RUNS; r++)
-            from[start[key[r * run + i]]++] = r * run + i;
-    for (uint32_t k = run * SORT_RUNS; k < count; k++)
+    for (uint32_t k = 0; k < count; k++) /* points of a cell keep their order: neighbours in the arrays lie together */
         from[start[key[k]]++] = k;
 }
 
