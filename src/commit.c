@@ -129,7 +129,7 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_object_summary *s)
         return CGT_OK;
     }
     if (world->structure == CGT_STRUCTURE_LOOSE_GRID)
-        return cgt_loose_grid_commit(scene, s);
+        return cgt_loose_grid_commit(scene);
     if (world->structure == CGT_STRUCTURE_QUEUE_GRID)
         return cgt_queue_grid_commit(scene, s);
     snprintf(reason, bytes, "%s", why);

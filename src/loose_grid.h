@@ -12,7 +12,10 @@
  *
  * Memory for an object: 4 bytes of `object` and at most 2 of `start`, 4 for each cell where cells are asked for. What a
  * commit needs is kept for the next: 4 bytes (20 for a triangle) of keys and middles, 1.8 of sizes and bins. Few
- * objects take 13 KB besides. */
+ * objects take 13 KB besides.
+ *
+ * Triangles in the order of neighbours go by clusters (triangle_cluster.h): these are the objects then, of which each
+ * takes 32 bytes for its box besides, and no middles. */
 #ifndef CGT_LOOSE_GRID_H
 #define CGT_LOOSE_GRID_H
 
@@ -36,7 +39,8 @@ typedef struct cgt_loose_grid {
     cgt_loose_level level[CGT_LOOSE_LEVELS];
     uint32_t levels;
     const uint32_t *start;  /* cell c holds object[start[c]] to object[start[c + 1] - 1]; cells + 1 of them */
-    const uint32_t *object; /* all valid objects, ascending in each cell */
+    const uint32_t *object; /* all valid objects, or with world.cluster all clusters that have some, ascending in each
+                               cell */
     uint32_t cells;         /* of all levels */
 } cgt_loose_grid;
 

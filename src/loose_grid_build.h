@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The steps that build a loose grid:
- *   1 sizes and middles of all objects (summarise.c)   2 levels and cells (loose_grid_plan.c)
+ *   1 sizes and middles of all objects, or of clusters (summarise.c)   2 levels and cells (loose_grid_plan.c)
  *   3 the cell of each object, its key (kernel/loose_grid_keys.c)   4 objects sorted by key (loose_grid_sort.c) */
 #ifndef CGT_LOOSE_GRID_BUILD_H
 #define CGT_LOOSE_GRID_BUILD_H
@@ -11,6 +11,7 @@
 #include "loose_grid.h"
 #include "objects.h"
 #include "summary.h"
+#include "triangle_cluster.h"
 
 #define CGT_LOOSE_OBJECTS_PER_CELL 8u /* flat between 4 and 16: what a vector culls at once costs the same */
 
@@ -69,11 +70,11 @@ void cgt_loose_sort_chunk(const cgt_loose_sort *sort, uint32_t chunk);
 /* The rest, after all chunks. */
 void cgt_loose_sort_run(cgt_loose_sort *sort, const cgt_context *context);
 
-/* Room for middles, and keys or entries behind them. */
+/* Room for middles, and keys or entries behind them; of clusters for these alone. */
 static inline cgt_result cgt_loose_grid_reserve_work(const cgt_memory_hooks *hooks, cgt_buffer *work,
-                                                     const cgt_objects *objects)
+                                                     const cgt_objects *objects, bool clusters)
 {
-    const uint64_t words = 4 * (uint64_t)objects->triangles + objects->count;
+    const uint64_t words = clusters ? cgt_clusters(objects->count) : 4 * (uint64_t)objects->triangles + objects->count;
     if (words > SIZE_MAX / sizeof(uint32_t))
         return CGT_ERROR_TOO_LARGE;
     return cgt_buffer_reserve_scattered(hooks, work, (size_t)words, sizeof(uint32_t));

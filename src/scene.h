@@ -35,6 +35,7 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_LOOSE_OBJECT,
     CGT_BUFFER_LOOSE_WORK, /* middles of triangles; keys of all objects, or what is sorted by them */
     CGT_BUFFER_LOOSE_BINS, /* where bins end in chunks of objects */
+    CGT_BUFFER_LOOSE_CLUSTERS,
     CGT_BUFFER_WIDE_START,
     CGT_BUFFER_WIDE_OBJECT, /* all objects by cell and leaf */
     CGT_BUFFER_WIDE_LEAVES, /* where they part, see cgt_wide_build */

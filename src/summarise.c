@@ -13,6 +13,9 @@
 #include "loose_grid_build.h"
 
 #define CHUNK 8192u
+#define VECTOR_MOST 16u /* clusters are written by whole vectors */
+
+_Static_assert(CHUNK % (VECTOR_MOST * CGT_CLUSTER) == 0, "chunks have whole vectors of clusters");
 
 typedef struct summary_job {
     const cgt_objects *objects;
@@ -25,6 +28,13 @@ static void empty_summary(cgt_object_summary *s)
 {
     *s = (cgt_object_summary){
         .min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}, .bad_index = CGT_NONE};
+}
+
+/* Clusters that the chunk's objects are in: chunks have whole ones, but for the last. */
+static void summarise_clusters(const summary_job *job, uint32_t first, uint32_t end, cgt_size_classes *classes)
+{
+    cgt_cluster *cluster = job->wishes.cluster + first / CGT_CLUSTER;
+    job->kernel->summarise_clusters(cluster, cgt_clusters(end - first), classes);
 }
 
 static void summarise_chunk(void *argument, uint32_t index)
@@ -47,6 +57,8 @@ static void summarise_chunk(void *argument, uint32_t index)
         job->kernel->summarise(a, object, stop, &wishes, &s);
         object = stop;
     }
+    if (wishes.cluster && s.bad_index == CGT_NONE)
+        summarise_clusters(job, first, end, wishes.classes);
     job->part[index] = s;
     cgt_float_environment_leave(&callers);
 }
@@ -89,7 +101,16 @@ static void merge_classes(cgt_size_classes *classes, uint32_t chunks)
             }
 }
 
-static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
+static cgt_result reserve_clusters(cgt_scene *scene, summary_job *job)
+{
+    cgt_buffer *buffer = &scene->buffer[CGT_BUFFER_LOOSE_CLUSTERS];
+    const size_t count = (size_t)cgt_clusters(job->objects->count) + VECTOR_MOST;
+    const cgt_result result = cgt_buffer_reserve(&scene->context->memory, buffer, count, sizeof(cgt_cluster));
+    job->wishes.cluster = buffer->data;
+    return result;
+}
+
+static cgt_result reserve(cgt_scene *scene, uint32_t chunks, bool clusters, summary_job *job)
 {
     const cgt_memory_hooks *hooks = &scene->context->memory;
     const cgt_objects *o = &scene->world.objects;
@@ -101,7 +122,7 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
     if (result == CGT_OK && loose)
         result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_SIZE_CLASSES], chunks, sizeof(cgt_size_classes));
     if (result == CGT_OK && loose)
-        result = cgt_loose_grid_reserve_work(hooks, &buffer[CGT_BUFFER_LOOSE_WORK], o);
+        result = cgt_loose_grid_reserve_work(hooks, &buffer[CGT_BUFFER_LOOSE_WORK], o, clusters);
     if (result != CGT_OK)
         return cgt_fail(scene->context, result, "commit: out of memory to bound %u primitives", o->count);
     *job = (summary_job){.objects = o,
@@ -112,14 +133,16 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, summary_job *job)
         job->wishes.classes = buffer[CGT_BUFFER_SIZE_CLASSES].data;
         job->wishes.middle = buffer[CGT_BUFFER_LOOSE_WORK].data;
     }
+    if (clusters && (result = reserve_clusters(scene, job)) != CGT_OK)
+        return cgt_fail(scene->context, result, "commit: out of memory for clusters of %u triangles", o->count);
     return CGT_OK;
 }
 
-cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *s)
+static cgt_result summarise(cgt_scene *scene, bool clusters, cgt_object_summary *s)
 {
     const uint32_t chunks = (uint32_t)(((uint64_t)scene->world.objects.count + CHUNK - 1) / CHUNK);
     summary_job job;
-    const cgt_result result = reserve(scene, chunks, &job);
+    const cgt_result result = reserve(scene, chunks, clusters, &job);
     if (result != CGT_OK)
         return result;
     cgt_run_tasks(scene->context, summarise_chunk, &job, chunks);
@@ -138,4 +161,24 @@ cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *s)
         s->magnitude = fmaxf(s->magnitude, fmaxf(fabsf(s->min[a]), fabsf(s->max[a])));
     }
     return CGT_OK;
+}
+
+cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *s)
+{
+    const char *why;
+    const cgt_structure structure = cgt_choose_structure(&scene->options, &why);
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.resolution[0];
+    const bool tree = structure == CGT_STRUCTURE_WIDE_TREE;
+    const cgt_cluster_use use = loose || tree ? cgt_choose_clusters(&scene->world.objects) : CGT_CLUSTERS_NONE;
+    const bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);
+    const cgt_result result = summarise(scene, clusters, s);
+    scene->world.cluster = clusters ? scene->buffer[CGT_BUFFER_LOOSE_CLUSTERS].data : NULL;
+    scene->world.tree_of_clusters = use == CGT_CLUSTERS_ALL;
+    return result;
+}
+
+cgt_result cgt_summarise_objects(cgt_scene *scene)
+{
+    cgt_object_summary s;
+    return summarise(scene, false, &s);
 }

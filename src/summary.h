@@ -40,13 +40,26 @@ static inline void cgt_size_classes_add(cgt_size_classes *to, uint32_t k, const 
     }
 }
 
+/* All that were added. */
+static inline uint32_t cgt_size_classes_count(const cgt_size_classes *c)
+{
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < CGT_SIZE_CLASSES; k++)
+        count += c->used[k / 32] >> k % 32 & 1 ? c->of[k].count : 0;
+    return count;
+}
+
+struct cgt_cluster;
+
 /* What the pass is to find out besides. With classes it keeps, for each triangle by its number among them, the middle
- * of its bounds and its size, -1 where it is skipped: so that its vertices, which lie anywhere, are fetched once. */
+ * of its bounds and its size, -1 where it is skipped: so that its vertices, which lie anywhere, are fetched once. Or it
+ * keeps clusters, whose sizes the classes are of then. */
 typedef struct cgt_summary_wishes {
     bool diameters;            /* sums of the diameters' powers: in order, so that they take longer than all the rest */
     cgt_size_classes *classes; /* gets the sizes; NULL: none */
     float *middle;             /* of triangles: planes of x, y, z and size; NULL where there are no classes */
     uint32_t triangles;        /* floats of a plane */
+    struct cgt_cluster *cluster; /* triangle_cluster.h; NULL: none */
 } cgt_summary_wishes;
 
 /* Lengths in world units. */

@@ -17,6 +17,7 @@
 #include "loose_grid.h"
 #include "objects.h"
 #include "summary.h"
+#include "triangle_cluster.h"
 #include "wide_tree.h"
 
 /* ---- parts ---- */
@@ -58,12 +59,12 @@ void cgt_wide_curve_make(const float low[3], const float high[3], uint32_t bits,
 /* From the sizes of at least one object. */
 void cgt_wide_plan_make(cgt_wide_plan *plan, const cgt_size_classes *classes, const cgt_objects *objects);
 
-/* What cells any arrangement of the objects gets at most: each part has less than twice as many as objects, or one.
- * What is of which kind in a level is not known: it may be all. */
-static inline uint64_t cgt_wide_most_cells(const cgt_objects *o)
+/* What cells any arrangement of so many objects or clusters gets at most: each part has less than twice as many as
+ * those, or one. What is of which kind in a level is not known: it may be all. */
+static inline uint64_t cgt_wide_most_cells(const cgt_objects *o, uint32_t count)
 {
     const uint64_t kinds = (o->spheres > 0) + (o->triangles > 0), most = (uint64_t)CGT_WIDE_PARTS << CGT_WIDE_KEY_BITS;
-    const uint64_t cells = 2 * kinds * o->count + CGT_WIDE_PARTS;
+    const uint64_t cells = 2 * kinds * count + CGT_WIDE_PARTS;
     return cells < most ? cells : most;
 }
 
@@ -76,7 +77,7 @@ typedef struct cgt_wide_keys {
 
 /* ---- ranges ---- */
 
-/* Ranges have no more objects than this, or one cell. */
+/* Ranges have no more objects than this, or one cell. Of clusters a share. */
 #define CGT_WIDE_RANGE_OBJECTS 4096u /* at least */
 #define CGT_WIDE_RANGES 256u         /* of objects evenly spread, about */
 
@@ -86,7 +87,7 @@ typedef struct cgt_wide_keys {
 typedef struct cgt_wide_range {
     cgt_kind kind;
     uint32_t cell, bits;  /* first cell, and how many: 2^bits */
-    uint32_t begin, end;  /* objects, at least one, in the order of the sort */
+    uint32_t begin, end;  /* objects or clusters, at least one, in the order of the sort */
     uint32_t depth;       /* of its root; the root of all has depth 0 */
     uint32_t parting;     /* depth of the binary node where the range before it parts from it; of the first one: none */
     uint32_t leaves;      /* at least one */
@@ -100,25 +101,30 @@ typedef struct cgt_wide_range {
     uint32_t deepest; /* wide nodes above and with its deepest one, 0 where it has none */
 } cgt_wide_range;
 
-/* Lists the ranges in order. Returns how many; range: NULL to count alone. start: of the sort. */
-uint32_t cgt_wide_ranges_list(const cgt_wide_plan *plan, const uint32_t *start, uint32_t objects,
+/* Lists the ranges in order. Returns how many; range: NULL to count alone. start: of the sort. each: objects in each of
+ * what was sorted. */
+uint32_t cgt_wide_ranges_list(const cgt_wide_plan *plan, const uint32_t *start, uint32_t objects, uint32_t each,
                               cgt_wide_range *range);
 
 /* ---- the tree ---- */
 
 #define CGT_WIDE_NO_REF UINT32_MAX
 
-/* What the kernels' steps work on. */
+/* What the kernels' steps work on. With clusters these are what is sorted and split, and stand wherever the comments
+ * have objects; leaves hold their triangles. */
 typedef struct cgt_wide_build {
     const cgt_objects *objects;
-    float scale; /* of the world */
+    const cgt_cluster *cluster; /* NULL: none */
+    float scale;                /* of the world */
     const uint32_t *start;
     uint32_t *object; /* by cell; a range's split sorts on in its cells */
     uint32_t sorted;  /* objects there */
     uint32_t *key;    /* room for a key of each object */
     uint32_t *other;  /* for an object */
     float *middle[3]; /* and for its middle */
-    uint16_t *leaf;   /* by object: a range's leaves, from its first object on: count less one, parting << 8 */
+    uint16_t *leaf; /* by object: a range's leaves, from its first object on: count less one, parting << 8. By cluster:
+                         from `leaves_each` times its first one on */
+    uint32_t leaves_each; /* that a cluster is enough for; 1 of objects */
     cgt_wide_range *range;
     uint32_t ranges;
     uint32_t leaves;
@@ -138,6 +144,9 @@ typedef struct cgt_wide_builder {
 
     /* The cells of objects first to end - 1, all of one array, to key[0] and on; skipped ones get job->skipped. */
     void (*keys)(const cgt_wide_keys *job, const cgt_object_array *array, uint32_t first, uint32_t end, uint32_t *key);
+
+    /* The same of clusters, to key[0] and on. */
+    void (*cluster_keys)(const cgt_wide_keys *job, const cgt_cluster *cluster, uint32_t count, uint32_t *key);
 
     /* Finds a range's leaves. */
     void (*split)(const cgt_wide_build *build, cgt_wide_range *range);

@@ -30,20 +30,29 @@ typedef struct wide_job {
 
 /* ---- tasks ---- */
 
-static void make_keys(void *argument, uint32_t chunk)
+static void make_object_keys(const wide_job *job, uint32_t first, uint32_t end)
 {
-    const wide_job *job = argument;
-    const cgt_objects *o = job->build.objects;
-    const uint32_t first = chunk * CGT_LOOSE_CHUNK, left = o->count - first;
-    const uint32_t end = left < CGT_LOOSE_CHUNK ? o->count : first + CGT_LOOSE_CHUNK;
-    const cgt_object_array *a = cgt_objects_array(o, first);
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
+    const cgt_object_array *a = cgt_objects_array(job->build.objects, first);
     for (uint32_t object = first; object < end; a++) {
         const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
         job->kernel->wide->keys(&job->keys, a, object, stop, job->sort.key + object);
         object = stop;
     }
+}
+
+/* Of a chunk of what is sorted: objects or clusters. */
+static void make_keys(void *argument, uint32_t chunk)
+{
+    const wide_job *job = argument;
+    const cgt_cluster *cluster = job->build.cluster;
+    const uint32_t first = chunk * CGT_LOOSE_CHUNK, left = job->sort.objects - first;
+    const uint32_t count = left < CGT_LOOSE_CHUNK ? left : CGT_LOOSE_CHUNK;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    if (cluster)
+        job->kernel->wide->cluster_keys(&job->keys, cluster + first, count, job->sort.key + first);
+    else
+        make_object_keys(job, first, first + count);
     cgt_float_environment_leave(&callers);
     cgt_loose_sort_chunk(&job->sort, chunk);
 }
@@ -99,22 +108,22 @@ static cgt_result out_of_memory(const cgt_scene *scene, cgt_result result)
 }
 
 /* What follows from the number of objects. */
-static cgt_result reserve_objects(cgt_scene *scene, const cgt_loose_sort *sort)
+static cgt_result reserve_objects(cgt_scene *scene, const cgt_loose_sort *sort, uint32_t leaves_each)
 {
     const cgt_memory_hooks *hooks = &scene->context->memory;
-    const cgt_objects *o = &scene->world.objects;
+    const size_t count = sort->objects, cells = (size_t)cgt_wide_most_cells(&scene->world.objects, sort->objects);
     cgt_buffer *buffer = scene->buffer;
-    cgt_result result = cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_START],
-                                                     (size_t)cgt_wide_most_cells(o) + 1, sizeof(uint32_t));
+    cgt_result result =
+        cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_START], cells + 1, sizeof(uint32_t));
     if (result == CGT_OK)
-        result = cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_OBJECT], o->count, sizeof(uint32_t));
+        result = cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_OBJECT], count, sizeof(uint32_t));
     if (result == CGT_OK)
         result = cgt_loose_sort_reserve(hooks, &buffer[CGT_BUFFER_LOOSE_BINS], sort);
     if (result == CGT_OK)
-        result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_WIDE_LEAVES], o->count, sizeof(uint16_t));
+        result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_WIDE_LEAVES], count * leaves_each, sizeof(uint16_t));
     if (result == CGT_OK)
         result =
-            cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_WORK], o->count, WORK_WORDS * sizeof(uint32_t));
+            cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_WORK], count, WORK_WORDS * sizeof(uint32_t));
     return result == CGT_OK ? CGT_OK : out_of_memory(scene, result);
 }
 
@@ -154,19 +163,26 @@ static cgt_result sort_objects(cgt_scene *scene, wide_job *job)
     const cgt_objects *o = &world->objects;
     const cgt_context *context = scene->context;
     cgt_loose_sort *sort = &job->sort;
-    cgt_wide_plan_make(&job->plan, scene->buffer[CGT_BUFFER_SIZE_CLASSES].data, o);
-    const uint32_t skipped = cgt_loose_sort_plan(sort, context, o->count, world->valid, job->plan.cells);
-    const cgt_result result = reserve_objects(scene, sort);
+    const bool clusters = job->build.cluster != NULL;
+    const cgt_result summarised = world->cluster && !clusters ? cgt_summarise_objects(scene) : CGT_OK;
+    if (summarised != CGT_OK)
+        return summarised;
+    const cgt_size_classes *classes = scene->buffer[CGT_BUFFER_SIZE_CLASSES].data;
+    const uint32_t count = clusters ? cgt_clusters(o->count) : o->count;
+    cgt_wide_plan_make(&job->plan, classes, o);
+    const uint32_t skipped =
+        cgt_loose_sort_plan(sort, context, count, cgt_size_classes_count(classes), job->plan.cells);
+    const cgt_result result = reserve_objects(scene, sort, job->build.leaves_each);
     if (result != CGT_OK)
         return result;
     float *work = scene->buffer[CGT_BUFFER_LOOSE_WORK].data;
     job->keys = (cgt_wide_keys){.plan = &job->plan, .middle = work, .triangles = o->triangles, .skipped = skipped};
-    sort->entry = (uint32_t *)work + (size_t)4 * o->triangles;
+    sort->entry = (uint32_t *)work + (clusters ? 0 : (size_t)4 * o->triangles);
     sort->place = scene->buffer[CGT_BUFFER_LOOSE_BINS].data;
     sort->start = scene->buffer[CGT_BUFFER_WIDE_START].data;
     sort->object = scene->buffer[CGT_BUFFER_WIDE_OBJECT].data;
     sort->key = sort->direct ? sort->entry : sort->object;
-    cgt_run_tasks(context, make_keys, job, cgt_loose_chunks(o->count));
+    cgt_run_tasks(context, make_keys, job, cgt_loose_chunks(count));
     cgt_loose_sort_run(sort, context);
     return CGT_OK;
 }
@@ -175,7 +191,8 @@ static cgt_result sort_objects(cgt_scene *scene, wide_job *job)
 static cgt_result split_cells(cgt_scene *scene, wide_job *job)
 {
     cgt_wide_build *b = &job->build;
-    const size_t objects = scene->world.objects.count;
+    const size_t objects = job->sort.objects;
+    const uint32_t each = b->cluster ? CGT_CLUSTER : 1;
     uint32_t *work = scene->buffer[CGT_BUFFER_WIDE_WORK].data;
     b->start = job->sort.start;
     b->object = job->sort.object;
@@ -185,13 +202,13 @@ static cgt_result split_cells(cgt_scene *scene, wide_job *job)
     for (size_t a = 0; a < 3; a++)
         b->middle[a] = (float *)work + (2 + a) * objects;
     b->leaf = scene->buffer[CGT_BUFFER_WIDE_LEAVES].data;
-    b->ranges = cgt_wide_ranges_list(&job->plan, b->start, job->sort.valid, NULL);
+    b->ranges = cgt_wide_ranges_list(&job->plan, b->start, job->sort.valid, each, NULL);
     const cgt_result result = reserve_ranges(scene, job, b->ranges);
     if (result != CGT_OK)
         return result;
     b->branch = scene->buffer[CGT_BUFFER_WIDE_RANGES].data;
     b->range = (cgt_wide_range *)(void *)((char *)b->branch + (size_t)b->ranges * job->kernel->wide->branch_bytes);
-    cgt_wide_ranges_list(&job->plan, b->start, job->sort.valid, b->range);
+    cgt_wide_ranges_list(&job->plan, b->start, job->sort.valid, each, b->range);
     cgt_run_tasks(scene->context, split_range, job, b->ranges);
     return CGT_OK;
 }
@@ -264,8 +281,13 @@ static cgt_result widen(cgt_scene *scene, wide_job *job, cgt_wide_tree *tree)
 
 static cgt_result build(cgt_scene *scene, cgt_wide_tree *tree)
 {
+    const uint32_t lanes = scene->context->kernel->wide->lanes;
+    const cgt_cluster *cluster = scene->world.tree_of_clusters ? scene->world.cluster : NULL;
     wide_job job = {.kernel = scene->context->kernel,
-                    .build = {.objects = &scene->world.objects, .scale = scene->world.scale}};
+                    .build = {.objects = &scene->world.objects,
+                              .cluster = cluster,
+                              .leaves_each = cluster && lanes < CGT_CLUSTER ? CGT_CLUSTER / lanes : 1,
+                              .scale = scene->world.scale}};
     uint32_t blocks[2];
     cgt_result result = sort_objects(scene, &job);
     if (result == CGT_OK)

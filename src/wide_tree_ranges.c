@@ -85,11 +85,12 @@ static bool part_is_used(const cgt_wide_part *part, const uint32_t *start)
     return start[part->first] < start[part->first + (UINT32_C(1) << part->curve.bits)];
 }
 
-uint32_t cgt_wide_ranges_list(const cgt_wide_plan *plan, const uint32_t *start, uint32_t objects, cgt_wide_range *range)
+uint32_t cgt_wide_ranges_list(const cgt_wide_plan *plan, const uint32_t *start, uint32_t objects, uint32_t each,
+                              cgt_wide_range *range)
 {
     const uint32_t share = objects / CGT_WIDE_RANGES, parts = plan->parts[0] + plan->parts[1];
-    range_list l = {
-        .start = start, .range = range, .most = share > CGT_WIDE_RANGE_OBJECTS ? share : CGT_WIDE_RANGE_OBJECTS};
+    const uint32_t least = CGT_WIDE_RANGE_OBJECTS / each;
+    range_list l = {.start = start, .range = range, .most = share > least ? share : least};
     uint32_t used = 0, k = 0, depth, parting;
     for (uint32_t i = 0; i < parts; i++)
         used += part_is_used(&plan->part[i], start);

@@ -26,6 +26,8 @@ typedef struct cgt_world {
     cgt_queue_grid grid;
     cgt_kd_tree kd;
     cgt_loose_grid loose;
+    const struct cgt_cluster *cluster; /* what loose grids are of (triangle_cluster.h); NULL: objects */
+    bool tree_of_clusters;             /* wide trees are, too */
     cgt_wide_tree wide; /* node is NULL until it is built: at the commit, or by the first rays that want it */
     const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_triangle_number */
 } cgt_world;

@@ -31,6 +31,8 @@ typedef struct cgt_loose_keys {
     uint32_t skipped;
 } cgt_loose_keys;
 
+struct cgt_cluster;
+
 typedef struct cgt_kernel {
     const char *name;
     uint32_t lanes;
@@ -46,9 +48,17 @@ typedef struct cgt_kernel {
     void (*summarise)(const cgt_object_array *array, uint32_t first, uint32_t end, const cgt_summary_wishes *wishes,
                       cgt_object_summary *summary);
 
+    /* Turns the corners of clusters, gathered by all that a chunk's objects are in, to middles and sizes, and adds those to
+     * classes. Writes whole vectors. */
+    void (*summarise_clusters)(struct cgt_cluster *cluster, uint32_t count, cgt_size_classes *classes);
+
     /* The cells of objects first to end - 1, all of one array, to key[0] and on; skipped ones get job->skipped. */
     void (*loose_grid_keys)(const cgt_loose_keys *job, const cgt_object_array *array, uint32_t first, uint32_t end,
                             uint32_t *key);
+
+    /* The same of clusters, to key[0] and on. */
+    void (*loose_grid_cluster_keys)(const cgt_loose_keys *job, const struct cgt_cluster *cluster, uint32_t count,
+                                    uint32_t *key);
 
     /* Traces the pixels of a region of a camera's frame. */
     void (*trace_region)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,

@@ -10,6 +10,9 @@ void CGT_KERNEL(cgt_summarise_array)(const cgt_object_array *array, uint32_t fir
                                      const cgt_summary_wishes *wishes, cgt_object_summary *summary);
 void CGT_KERNEL(cgt_loose_grid_keys)(const cgt_loose_keys *job, const cgt_object_array *array, uint32_t first,
                                      uint32_t end, uint32_t *key);
+void CGT_KERNEL(cgt_summarise_clusters)(struct cgt_cluster *cluster, uint32_t count, cgt_size_classes *classes);
+void CGT_KERNEL(cgt_loose_grid_cluster_keys)(const cgt_loose_keys *job, const struct cgt_cluster *cluster,
+                                             uint32_t count, uint32_t *key);
 void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
 void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *camera,
@@ -34,7 +37,9 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .wide = &CGT_KERNEL(cgt_wide_builder),
     .queue_grid_fill = CGT_KERNEL(cgt_queue_grid_fill),
     .summarise = CGT_KERNEL(cgt_summarise_array),
+    .summarise_clusters = CGT_KERNEL(cgt_summarise_clusters),
     .loose_grid_keys = CGT_KERNEL(cgt_loose_grid_keys),
+    .loose_grid_cluster_keys = CGT_KERNEL(cgt_loose_grid_cluster_keys),
     .trace_region = CGT_KERNEL(cgt_trace_region),
     .trace_tile = CGT_KERNEL(cgt_trace_tile),
     .trace_rays = CGT_KERNEL(cgt_trace_rays),

@@ -35,7 +35,7 @@ typedef struct light_tile {
     const cgt_world *world;
     cgt_counts *counts;
     bool place;
-    waiting spheres, triangles;
+    waiting spheres, triangles, clusters;
 } light_tile;
 
 /* ---- objects ---- */
@@ -110,27 +110,37 @@ CGT_SPU_INLINE void see_point(const light_packet *l, const vfloat point[3], vflo
         v[a] = spu_sub(point[l->axis[a + 1]], spux_vfloat(l->reference[l->axis[a + 1]]));
 }
 
-CGT_SPU_INLINE unsigned see_spheres(const light_tile *t, const wide_spheres *s, light_windows *windows)
+/* Whatever lies within `half` of a middle along each axis. */
+CGT_SPU_INLINE unsigned see_boxes(const light_tile *t, const vfloat middle[3], const vfloat half[3],
+                                  light_windows *windows)
 {
-    const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
-    vfloat w, v[2], low[2], high[2];
-    see_point(&t->packet[0], center, &w, v);
-    const vfloat wide = spu_madd(spux_load(s->radius), spux_vfloat(1 + 0x1p-20f), spux_vfloat(t->margin));
-    const vfloat near = spu_sub(w, wide), far = spu_add(w, wide), one = spux_vfloat(1);
+    const light_packet *l = &t->packet[0];
+    vfloat w, v[2], low[2], high[2], wide[3];
+    see_point(l, middle, &w, v);
+    for (int k = 0; k < 3; k++)
+        wide[k] = spu_madd(half[l->axis[k]], spux_vfloat(1 + 0x1p-20f), spux_vfloat(t->margin));
+    const vfloat near = spu_sub(w, wide[0]), far = spu_add(w, wide[0]), one = spux_vfloat(1);
     const vfloat rnear = spux_div(one, near), rfar = spux_div(one, far);
     for (int a = 0; a < 2; a++) {
         if (t->place) {
-            const vfloat least = spu_sub(v[a], wide), most = spu_add(v[a], wide);
+            const vfloat least = spu_sub(v[a], wide[a + 1]), most = spu_add(v[a], wide[a + 1]);
             low[a] = spux_min(spu_mul(least, rnear), spu_mul(least, rfar));
             high[a] = spux_max(spu_mul(most, rnear), spu_mul(most, rfar));
         } else {
-            const vfloat middle = spu_nmsub(spux_vfloat(t->slope[a]), w, v[a]);
-            const vfloat beside = spu_mul(wide, spux_vfloat(1 + fabsf(t->slope[a])));
-            low[a] = spu_sub(middle, beside);
-            high[a] = spu_add(middle, beside);
+            const vfloat at = spu_nmsub(spux_vfloat(t->slope[a]), w, v[a]);
+            const vfloat beside = spu_madd(wide[0], spux_vfloat(fabsf(t->slope[a])), wide[a + 1]);
+            low[a] = spu_sub(at, beside);
+            high[a] = spu_add(at, beside);
         }
     }
     return windows_wanted(t, low, high, near, far, windows);
+}
+
+CGT_SPU_INLINE unsigned see_spheres(const light_tile *t, const wide_spheres *s, light_windows *windows)
+{
+    const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
+    const vfloat radius = spux_load(s->radius), half[3] = {radius, radius, radius};
+    return see_boxes(t, center, half, windows);
 }
 
 CGT_SPU_INLINE unsigned see_triangles(const light_tile *t, vfloat vertex[3][3], light_windows *windows)

@@ -173,10 +173,47 @@ static void wait_triangles(light_tile *t, const uint32_t *reference, uint32_t co
     }
 }
 
+/* Clusters: the triangles of those that the tile wants wait then. */
+static void take_waiting_clusters(light_tile *t, uint32_t count)
+{
+    const cgt_cluster *cluster = t->world->cluster;
+    waiting *q = &t->clusters;
+    for (uint32_t k = 0; k < count && t->open; k += CGT_LANES) {
+        const uint32_t some = count - k < CGT_LANES ? count - k : CGT_LANES;
+        light_windows windows;
+        vfloat d[8];
+        fetch_clusters_of(cluster, q->reference + k, some, d);
+        unsigned left = see_boxes(t, d, d + 4, &windows) & tile_first_lanes(some);
+        t->counts->references += some;
+        t->counts->cull_tests += some;
+        t->counts->culled += some - spux_count_bits(left);
+        for (; left; left &= left - 1) {
+            const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(left)];
+            if (t->triangles.count > WAITING - CGT_CLUSTER)
+                take_waiting_triangles(t, WAITING / 2);
+            waiting_add_cluster(&t->triangles, &t->world->objects, number, cluster[number].valid);
+        }
+    }
+    waiting_remove(q, count);
+}
+
+static void wait_clusters(light_tile *t, const uint32_t *reference, uint32_t count)
+{
+    while (count) {
+        const uint32_t some = waiting_add_clusters(&t->clusters, t->world->cluster, reference, count);
+        reference += some;
+        count -= some;
+        if (t->clusters.count == WAITING)
+            take_waiting_clusters(t, WAITING / 2);
+    }
+}
+
 static void wait_run(light_tile *t, const uint32_t *reference, uint32_t count)
 {
     const cgt_objects *o = &t->world->objects;
-    if (!o->triangles)
+    if (t->world->cluster)
+        wait_clusters(t, reference, count);
+    else if (!o->triangles)
         wait_spheres(t, reference, count);
     else if (!o->spheres)
         wait_triangles(t, reference, count);
@@ -292,6 +329,7 @@ static void march(light_tile *t)
             wait_run(t, reference, count);
         }
     }
+    take_waiting_clusters(t, t->clusters.count);
     take_waiting_spheres(t, t->spheres.count);
     take_waiting_triangles(t, t->triangles.count);
 }
@@ -300,7 +338,7 @@ static void trace_tile(const light_call *c, light_tile *t, uint32_t first, uint3
 {
     uint32_t from[PACKETS] = {0}, rays[PACKETS] = {0};
     t->packets = 0;
-    t->spheres.count = t->triangles.count = 0;
+    t->spheres.count = t->triangles.count = t->clusters.count = 0;
     for (uint32_t done = 0; done < count && t->packets < PACKETS; done += PACKET_MAX_RAYS) {
         const uint32_t left = count - done, some = left < PACKET_MAX_RAYS ? left : PACKET_MAX_RAYS;
         const uint64_t invalid = c->counts->invalid_rays;

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which cell of the loose grid each object lies in.
+ * Which cell of the loose grid each object, or each cluster of them, lies in.
  *
  * Along an axis of n cells, with m an object's middle, G = (m - low) / cell in exact arithmetic and u = 2^-24: the
  * difference, the reciprocal of the cell and the product are rounded once each, so the computed g is within 3.1 u G of
@@ -79,10 +79,17 @@ void CGT_KERNEL(cgt_loose_grid_keys)(const cgt_loose_keys *job, const cgt_object
         const uint32_t object = first + done, left = end - object, count = left < CGT_LANES ? left : CGT_LANES;
         const vuint k = spheres ? sphere_keys(job, array, object - array->first, count)
                                 : triangle_keys(job, cgt_array_triangle_number(array, object), count);
-        if (count == CGT_LANES)
-            spux_store_unaligned_uint(key + done, k);
-        else
-            spux_store_mask_uint(key + done, k, spux_mask_first(count));
+        store_keys(key + done, k, count);
         done += count;
+    }
+}
+
+void CGT_KERNEL(cgt_loose_grid_cluster_keys)(const cgt_loose_keys *job, const cgt_cluster *cluster, uint32_t count,
+                                             uint32_t *key)
+{
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        vfloat d[8];
+        fetch_clusters(cluster + k, count - k, d);
+        store_keys(key + k, keys_of(job, d, d[7], spux_cmpge(d[7], spux_vfloat(0))), count - k);
     }
 }

@@ -7,12 +7,15 @@
  * are tested one by one against a vector of objects at a time. */
 #include "lane_objects.h"
 #include "loose_grid_march.h"
+#include "object_fetch.h"
 #include "packet_objects.h"
 #include "packet_split.h"
 
 /* References that are tested before the next slice: fewer wait for more, since a vector costs the same when it is not
  * full. */
 #define PENDING_ENOUGH CGT_LANES
+
+#define CLUSTERS 64u /* collected in a slice, before their triangles are */
 
 typedef struct loose_traversal {
     packet_objects objects;
@@ -22,6 +25,7 @@ typedef struct loose_traversal {
     lane_objects lanes;
     uint32_t pending; /* references collected and not yet tested */
     _Alignas(64) uint32_t reference[PACKET_OBJECTS_MOST];
+    uint32_t clusters, cluster[CLUSTERS]; /* of which the triangles are not */
 } loose_traversal;
 
 /* ---- testing ---- */
@@ -55,6 +59,70 @@ CGT_SPU_INLINE void collect_run(loose_traversal *v, const uint32_t *object, uint
     }
 }
 
+/* Lanes whose cluster lies outside the frustum, or before or beyond what its rays still want. */
+static unsigned clusters_outside(const packet_objects *v, const uint32_t *number, uint32_t count)
+{
+    const frustum *f = &v->frustum;
+    const int axis[3] = {f->w, f->u, f->v};
+    const vfloat error = spux_vfloat(f->plane_error);
+    _Alignas(CGT_VECTOR_BYTES) float middle[3][CGT_LANES];
+    vfloat d[8], half[3];
+    fetch_clusters_of(v->world->cluster, number, count, d);
+    for (int a = 0; a < 3; a++) {
+        spux_store(middle[a], d[a]);
+        half[a] = spu_mul(d[4 + axis[a]], spux_vfloat(v->space.rcell[axis[a]] * (1 + 0x1p-20f)));
+    }
+    const frustum_points p = points_in_frustum(v, (const float(*)[CGT_LANES])middle);
+    const vfloat reach = spu_add(half[0], error);
+    vmask outside = spu_or(spu_cmpgt(spu_sub(p.w, reach), spux_vfloat(v->w_far)),
+                           spu_cmpgt(spux_vfloat(f->w_near), spu_add(p.w, reach)));
+    for (int k = 0; k < 4; k++) {
+        const vfloat most =
+            spu_add(spu_madd(half[0], spux_vfloat(__builtin_fabsf(f->step[k])), half[1 + k / 2]), error);
+        outside = spu_or(outside, spu_cmpgt(spux_vfloat(0), spu_add(inside_bound(v, &p, k), most)));
+    }
+    return spux_mask_bits(outside);
+}
+
+/* The triangles of the clusters that were collected, of those that the frustum touches. */
+static void collect_triangles(loose_traversal *v)
+{
+    const cgt_cluster *cluster = v->objects.world->cluster;
+    for (uint32_t i = 0; i < v->clusters; i += CGT_LANES) {
+        const uint32_t left = v->clusters - i, count = left < CGT_LANES ? left : CGT_LANES;
+        const uint32_t *number = v->cluster + i;
+        unsigned lanes = CGT_ALL_LANES >> (CGT_LANES - count);
+        if (v->objects.cull != CGT_CULL_NONE)
+            lanes = count_culled(&v->objects, lanes, clusters_outside(&v->objects, number, count), count);
+        for (; lanes; lanes &= lanes - 1) {
+            const uint32_t k = number[__builtin_ctz(lanes)];
+            if (PACKET_OBJECTS_MOST - v->pending < CGT_CLUSTER)
+                test_pending(v);
+            for (uint32_t valid = cluster[k].valid; valid; valid &= valid - 1)
+                v->reference[v->pending++] = k * CGT_CLUSTER + (uint32_t)__builtin_ctz(valid);
+        }
+    }
+    v->counts->references += v->clusters;
+    v->clusters = 0;
+}
+
+static void collect_clusters(loose_traversal *v, const uint32_t *number, uint32_t count)
+{
+    for (; count; count--, number++) {
+        if (v->clusters == CLUSTERS)
+            collect_triangles(v);
+        v->cluster[v->clusters++] = *number;
+    }
+}
+
+CGT_SPU_INLINE void collect(loose_traversal *v, const uint32_t *reference, uint32_t count)
+{
+    if (v->objects.world->cluster)
+        collect_clusters(v, reference, count);
+    else
+        collect_run(v, reference, count);
+}
+
 /* A row of cells along x is one run. */
 static void collect_slice(loose_traversal *v, const loose_slice *s)
 {
@@ -68,12 +136,12 @@ static void collect_slice(loose_traversal *v, const loose_slice *s)
         if (f->w != 0) {
             const uint32_t y = f->w == 1 ? s->along : j, z = f->w == 1 ? j : s->along;
             const uint32_t *run = loose_run(v->march.grid, s->level, low_u, y, z, high_u - low_u, &count);
-            collect_run(v, run, count);
+            collect(v, run, count);
             continue;
         }
         for (uint32_t i = low_u; i <= high_u; i++) {
             const uint32_t *run = loose_run(v->march.grid, s->level, s->along, i, j, 0, &count);
-            collect_run(v, run, count);
+            collect(v, run, count);
         }
     }
 }
@@ -93,6 +161,8 @@ static void march(loose_traversal *v)
         if (s.cells[0] > s.cells[1] || s.cells[2] > s.cells[3])
             continue;
         collect_slice(v, &s);
+        if (v->clusters)
+            collect_triangles(v);
         if (v->pending < PENDING_ENOUGH)
             continue;
         test_pending(v);
@@ -108,6 +178,7 @@ static void march(loose_traversal *v)
  * that for each ray, is split. Measured with ambient occlusion of spheres and triangles, and with shadows; flat from
  * half to twice as many. */
 #define SPREAD 4.f
+#define SPREAD_CLUSTERS 2.f /* of clusters, which reach far, but are culled by themselves */
 #define SPREAD_OF_RAY 0.3f
 #define SPLIT_FAR 4.f /* times as many: the rays have little in common */
 #define SPLIT_FAR_PARTS 8u
@@ -131,7 +202,8 @@ static uint32_t parts_of(const loose_traversal *v)
     const float cells = (float)(b[1] - b[0] + 1) * (float)(b[3] - b[2] + 1);
     const float of_ray =
         (1 + 2 * from->reach[f->u] * from->rcell[f->u]) * (1 + 2 * from->reach[f->v] * from->rcell[f->v]);
-    const float enough = of_ray * (SPREAD + SPREAD_OF_RAY * (float)rays);
+    const float enough = v->objects.world->cluster ? of_ray * SPREAD_CLUSTERS + SPREAD_OF_RAY * (float)rays
+                                                   : of_ray * (SPREAD + SPREAD_OF_RAY * (float)rays);
     return !(cells > enough) ? 1 : rays > SPLIT_FAR_PARTS && cells > SPLIT_FAR * enough ? SPLIT_FAR_PARTS : 2;
 }
 
@@ -147,7 +219,7 @@ __attribute__((noinline)) static uint32_t traverse(const cgt_world *world, packe
     v.objects.cull = settings->cull;
     v.objects.frustum = (frustum){0};
     v.counts = counts;
-    v.pending = 0;
+    v.pending = v.clusters = 0;
     loose_space_make(world, &v.objects.space);
     if (!frustum_make(&v.objects.space, p, (int)(class >> 1), class & 1, &v.objects.frustum))
         return 1;

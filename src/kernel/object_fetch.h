@@ -6,6 +6,7 @@
 #ifndef CGT_OBJECT_FETCH_H
 #define CGT_OBJECT_FETCH_H
 
+#include "../triangle_cluster.h"
 #include "kernel.h"
 #include "vector.h"
 
@@ -180,6 +181,47 @@ CGT_SPU_INLINE void fetch_triangles_ask(const cgt_object_array *a, const uint32_
         for (int i = 0; i < 3; i++)
             __builtin_prefetch(a->point + corner[i] * a->point_stride);
     }
+}
+
+/* ---- clusters ---- */
+
+/* A vector of clusters as they lie in memory: middle, valid, half, size. */
+CGT_SPU_INLINE void fetch_clusters_at(const cgt_cluster *cluster, const uint32_t number[CGT_LANES], vfloat d[8])
+{
+    uint32_t at[CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        at[k] = number[k] * (uint32_t)(sizeof *cluster / sizeof(float));
+    spux_load_records8_at(cluster->middle, at, d);
+}
+
+/* The first clusters; lanes beyond count repeat the last one. */
+CGT_SPU_INLINE void fetch_clusters(const cgt_cluster *cluster, uint32_t count, vfloat d[8])
+{
+    uint32_t number[CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        number[k] = k < count ? k : count - 1;
+    fetch_clusters_at(cluster, number, d);
+}
+
+/* Those of references; lanes beyond count repeat the first one. */
+CGT_SPU_INLINE void fetch_clusters_of(const cgt_cluster *cluster, const uint32_t *reference, uint32_t count,
+                                      vfloat d[8])
+{
+    uint32_t number[CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        number[k] = reference[k < count ? k : 0];
+    fetch_clusters_at(cluster, number, d);
+}
+
+/* ---- keys ---- */
+
+/* Stores those of the first `count` lanes. */
+CGT_SPU_INLINE void store_keys(uint32_t *to, vuint key, uint32_t count)
+{
+    if (count >= CGT_LANES)
+        spux_store_unaligned_uint(to, key);
+    else
+        spux_store_mask_uint(to, key, spux_mask_first(count));
 }
 
 #endif

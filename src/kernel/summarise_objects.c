@@ -8,8 +8,8 @@
 
 #include <math.h>
 
+#include "cluster_bounds.h"
 #include "object_fetch.h"
-#include "size_gather.h"
 
 /* What is known of a vector of objects. */
 typedef struct object_bounds {
@@ -33,7 +33,7 @@ static void begin_pass(object_pass *p, const cgt_summary_wishes *wishes, cgt_obj
         p->low[a] = spux_vfloat(INFINITY);
         p->high[a] = spux_vfloat(-INFINITY);
     }
-    if (wishes->classes)
+    if (wishes->classes && !wishes->cluster)
         size_gather_clear(&p->sizes);
 }
 
@@ -45,7 +45,7 @@ static void end_pass(const object_pass *p, cgt_kind kind)
         s->min[a] = low < s->min[a] ? low : s->min[a];
         s->max[a] = high > s->max[a] ? high : s->max[a];
     }
-    if (p->wishes->classes)
+    if (p->wishes->classes && !p->wishes->cluster)
         size_gather_end(&p->sizes, kind == CGT_KIND_SPHERES ? 1 : 3, p->wishes->classes);
 }
 
@@ -183,17 +183,14 @@ CGT_SPU_INLINE void keep_plane(float *to, vfloat v, uint32_t count)
         spux_store_mask(to, v, spux_mask_first(count));
 }
 
-/* Middle and size of a vector of triangles, of which `number` is the first. The middle is rounded; what is measured
- * from there holds all the same. Where a difference is rounded, it is above 2^-125, and 2^-22 of it covers that. */
+/* Middle and size of a vector of triangles, of which `number` is the first. */
 CGT_SPU_INLINE void keep_triangles(object_pass *p, const object_bounds *b, uint32_t number, uint32_t count)
 {
     const size_t plane = p->wishes->triangles;
     float *to = p->wishes->middle + number;
     vfloat middle[3], half[3], size = spux_vfloat(0);
+    box_of_bounds(b->low, b->high, middle, half);
     for (int a = 0; a < 3; a++) {
-        middle[a] = spu_add(spu_mul(b->low[a], spux_vfloat(0.5f)), spu_mul(b->high[a], spux_vfloat(0.5f)));
-        const vfloat most = spux_max(spu_sub(b->high[a], middle[a]), spu_sub(middle[a], b->low[a]));
-        half[a] = spux_abs(spu_mul(most, spux_vfloat(1 + 0x1p-22f)));
         size = spux_max(size, half[a]);
         keep_plane(to + (size_t)a * plane, middle[a], count);
     }
@@ -238,7 +235,9 @@ static bool add_triangles(object_pass *p, const cgt_object_array *a, uint32_t i,
     add_bounds(p, &b);
     if (p->wishes->diameters)
         add_triangle_diameters(p->summary, &b);
-    if (p->wishes->classes)
+    if (p->wishes->cluster)
+        clusters_add(p->wishes->cluster, a->first + i, count, b.low, b.high, b.valid);
+    else if (p->wishes->classes)
         keep_triangles(p, &b, cgt_array_triangle_number(a, a->first + i), count);
     return true;
 }
@@ -250,14 +249,23 @@ void CGT_KERNEL(cgt_summarise_array)(const cgt_object_array *array, uint32_t fir
 {
     object_pass p;
     begin_pass(&p, wishes, summary);
-    for (uint32_t object = first; object < end; object += CGT_LANES) {
-        const uint32_t count = end - object < CGT_LANES ? end - object : CGT_LANES;
+    for (uint32_t object = first; object < end;) {
+        /* the first vector ends where clusters do */
+        const uint32_t most = wishes->cluster ? CGT_LANES - object % CGT_LANES : CGT_LANES;
+        const uint32_t count = end - object < most ? end - object : most;
         if (array->kind == CGT_KIND_SPHERES)
             add_spheres(&p, array, object - array->first, count);
         else if (!add_triangles(&p, array, object - array->first, count))
             return;
-        if (end - object <= CGT_LANES)
-            break;
+        object += count;
     }
     end_pass(&p, array->kind);
+}
+
+void CGT_KERNEL(cgt_summarise_clusters)(cgt_cluster *cluster, uint32_t count, cgt_size_classes *classes)
+{
+    size_gather sizes;
+    size_gather_clear(&sizes);
+    clusters_finish(cluster, count, &sizes);
+    size_gather_end(&sizes, 3, classes);
 }

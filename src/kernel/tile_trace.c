@@ -22,7 +22,7 @@ typedef struct tile_work {
     tile *t;
     tile_queue queue;
     cgt_counts *counts;
-    waiting spheres, triangles;
+    waiting spheres, triangles, clusters;
     uint32_t drawn; /* since the last refresh */
 } tile_work;
 
@@ -199,6 +199,38 @@ static void wait_triangles(tile_work *w, const uint32_t *reference, uint32_t cou
     }
 }
 
+/* Takes the first of the clusters that wait: the triangles of those that the tile wants wait then. */
+static void take_waiting_clusters(tile_work *w, uint32_t count)
+{
+    const cgt_cluster *cluster = w->world->cluster;
+    waiting *q = &w->clusters;
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        const uint32_t some = some_lanes(count - k);
+        unsigned left = tile_clusters_wanted(w->t, cluster, q->reference + k, some);
+        w->counts->references += some;
+        w->counts->cull_tests += some;
+        w->counts->culled += some - spux_count_bits(left);
+        for (; left; left &= left - 1) {
+            const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(left)];
+            if (w->triangles.count > WAITING - CGT_CLUSTER)
+                take_waiting_triangles(w, WAITING / 2);
+            waiting_add_cluster(&w->triangles, &w->world->objects, number, cluster[number].valid);
+        }
+    }
+    waiting_remove(q, count);
+}
+
+static void wait_clusters(tile_work *w, const uint32_t *reference, uint32_t count)
+{
+    while (count) {
+        const uint32_t some = waiting_add_clusters(&w->clusters, w->world->cluster, reference, count);
+        reference += some;
+        count -= some;
+        if (w->clusters.count == WAITING)
+            take_waiting_clusters(w, WAITING / 2);
+    }
+}
+
 /* References to both kinds, each to its own list. */
 static void wait_both(tile_work *w, const uint32_t *reference, uint32_t count)
 {
@@ -211,7 +243,9 @@ static void wait_both(tile_work *w, const uint32_t *reference, uint32_t count)
 
 static void wait_run(tile_work *w, const uint32_t *reference, uint32_t count)
 {
-    if (!w->world->objects.triangles)
+    if (w->world->cluster)
+        wait_clusters(w, reference, count);
+    else if (!w->world->objects.triangles)
         wait_spheres(w, reference, count);
     else if (!w->world->objects.spheres)
         wait_triangles(w, reference, count);
@@ -222,6 +256,7 @@ static void wait_run(tile_work *w, const uint32_t *reference, uint32_t count)
 /* Whole vectors: what is left over comes with the next slice. */
 static void take_vectors(tile_work *w)
 {
+    take_waiting_clusters(w, w->clusters.count / CGT_LANES * CGT_LANES);
     take_waiting_spheres(w, w->spheres.count / CGT_LANES * CGT_LANES);
     take_waiting_triangles(w, w->triangles.count / CGT_LANES * CGT_LANES);
 }
@@ -303,6 +338,7 @@ static void march(tile_work *w)
         w->counts->slices++;
         take_slice(w, &m, &s);
     }
+    take_waiting_clusters(w, w->clusters.count);
     take_waiting_spheres(w, w->spheres.count);
     take_waiting_triangles(w, w->triangles.count);
     tile_flush(&w->world->objects, w->t, &w->queue, w->counts);
@@ -319,7 +355,7 @@ static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, con
     w.t = &t;
     w.queue.entries = 0;
     w.counts = counts;
-    w.spheres.count = w.triangles.count = w.drawn = 0;
+    w.spheres.count = w.triangles.count = w.clusters.count = w.drawn = 0;
     tile_make(&t, world, camera, region);
     march(&w);
     counts->tiles++;

@@ -11,7 +11,7 @@
 #define WAITING_AHEAD 64u /* whose vertices are on their way */
 
 typedef struct waiting {
-    uint32_t reference[WAITING];
+    uint32_t reference[WAITING + 1];
     uint32_t count;
 } waiting;
 
@@ -46,6 +46,37 @@ CGT_SPU_INLINE uint32_t waiting_add_triangles(waiting *q, const cgt_objects *obj
     }
     q->count += some;
     return some;
+}
+
+/* Adds clusters while there is room, and asks for those. */
+CGT_SPU_INLINE uint32_t waiting_add_clusters(waiting *q, const cgt_cluster *cluster, const uint32_t *reference,
+                                             uint32_t count)
+{
+    const uint32_t room = WAITING - q->count, some = count < room ? count : room;
+    uint32_t *to = q->reference + q->count;
+    for (uint32_t k = 0; k < some; k++) {
+        to[k] = reference[k];
+        __builtin_prefetch(&cluster[reference[k]]);
+    }
+    q->count += some;
+    return some;
+}
+
+/* Adds the triangles of a cluster, for which there must be room, and asks for their indices. */
+CGT_SPU_INLINE void waiting_add_cluster(waiting *q, const cgt_objects *objects, uint32_t number, uint32_t valid)
+{
+    const cgt_object_array *a = objects->array;
+    const uint32_t first = number * CGT_CLUSTER;
+    if (objects->arrays == 1 && a->index) {
+        const char *index = a->index + (size_t)first * a->index_stride;
+        __builtin_prefetch(index);
+        __builtin_prefetch(index + CGT_CLUSTER / 2 * a->index_stride);
+        __builtin_prefetch(index + (CGT_CLUSTER - 1) * a->index_stride);
+    }
+    for (uint32_t k = 0; k < CGT_CLUSTER; k++) {
+        q->reference[q->count] = first + k; /* written over where it is not valid */
+        q->count += valid >> k & 1;
+    }
 }
 
 /* Asks for the vertices of triangles up to WAITING_AHEAD after reference k, of the first `count`, from `asked` on. Returns

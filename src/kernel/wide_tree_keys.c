@@ -63,10 +63,18 @@ void CGT_KERNEL(cgt_wide_tree_keys)(const cgt_wide_keys *job, const cgt_object_a
         const uint32_t object = first + done, left = end - object, count = left < CGT_LANES ? left : CGT_LANES;
         const vuint k = spheres ? sphere_keys(&l, job->skipped, array, object - array->first, count)
                                 : triangle_keys(&l, job, cgt_array_triangle_number(array, object), count);
-        if (count == CGT_LANES)
-            spux_store_unaligned_uint(key + done, k);
-        else
-            spux_store_mask_uint(key + done, k, spux_mask_first(count));
+        store_keys(key + done, k, count);
         done += count;
+    }
+}
+
+void CGT_KERNEL(cgt_wide_tree_cluster_keys)(const cgt_wide_keys *job, const cgt_cluster *cluster, uint32_t count,
+                                            uint32_t *key)
+{
+    const part_list l = {job->plan->part + job->plan->parts[0], job->plan->parts[1]};
+    for (uint32_t k = 0; k < count; k += CGT_LANES) {
+        vfloat d[8];
+        fetch_clusters(cluster + k, count - k, d);
+        store_keys(key + k, keys_of(&l, job->skipped, d, d[7], spux_cmpge(d[7], spux_vfloat(0))), count - k);
     }
 }

@@ -253,6 +253,8 @@ void CGT_KERNEL(cgt_wide_tree_nodes)(const cgt_wide_build *b, const cgt_wide_ran
 
 void CGT_KERNEL(cgt_wide_tree_keys)(const cgt_wide_keys *job, const cgt_object_array *array, uint32_t first,
                                     uint32_t end, uint32_t *key);
+void CGT_KERNEL(cgt_wide_tree_cluster_keys)(const cgt_wide_keys *job, const cgt_cluster *cluster, uint32_t count,
+                                            uint32_t *key);
 void CGT_KERNEL(cgt_wide_tree_split)(const cgt_wide_build *build, cgt_wide_range *range);
 void CGT_KERNEL(cgt_wide_tree_leaves)(const cgt_wide_build *build, uint32_t range);
 
@@ -264,6 +266,7 @@ const cgt_wide_builder CGT_KERNEL(cgt_wide_builder) = {
     .branch_bytes = sizeof(wide_branch),
     .lanes = CGT_LANES,
     .keys = CGT_KERNEL(cgt_wide_tree_keys),
+    .cluster_keys = CGT_KERNEL(cgt_wide_tree_cluster_keys),
     .split = CGT_KERNEL(cgt_wide_tree_split),
     .leaves = CGT_KERNEL(cgt_wide_tree_leaves),
     .join = CGT_KERNEL(cgt_wide_tree_join),

@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The leaves of a range: runs of at most CGT_LANES objects. Cells are halved by the bits of their keys until a run is
- * short enough. A cell with more is divided into cells of its own, along a curve through the middles of its objects,
- * and so on; what lies at one place, or still together after some rounds, is halved as it came.
+ * The leaves of a range: runs of at most CGT_LANES objects, or of the triangles of one or two clusters. Cells are halved
+ * by the bits of their keys until a run is short enough. A cell with more is divided into cells of its own, along a curve
+ * through the middles of its objects, and so on; what lies at one place, or still together after some rounds, is halved
+ * as it came.
  *
  * Depth. Binary nodes over something are as many as halvings with objects on both sides. There are at most
  * CGT_WIDE_PART_DEPTH over parts and CGT_WIDE_KEY_BITS over a part's cells. A cell's own bits are no more than what is
@@ -66,23 +67,68 @@ static void push_halves(split_work *w, const split_run *r, uint32_t middle)
     push(w, r, r->cell, bits, r->begin, middle, depth, r->parting);
 }
 
-static void add_leaf(split_work *w, const split_run *r)
+static void add_leaf(split_work *w, uint32_t count, uint32_t parting)
 {
+    const cgt_wide_build *b = w->build;
     cgt_wide_range *range = w->range;
-    w->build->leaf[range->begin + range->leaves++] = (uint16_t)((r->end - r->begin - 1) | (uint32_t)r->parting << 8);
+    b->leaf[range->begin * b->leaves_each + range->leaves++] = (uint16_t)((count - 1) | parting << 8);
 }
 
-static uint32_t leaves_of(const split_run *r) { return (r->end - r->begin - 1) / CGT_LANES + 1; }
+/* A run for a leaf; or, of a cluster that is more than one, for two: a binary node above those. */
+static void add_leaves(split_work *w, const split_run *r)
+{
+    const cgt_wide_build *b = w->build;
+    uint32_t count = r->end - r->begin, parting = r->parting;
+    if (b->cluster) {
+        count = 0;
+        for (uint32_t i = r->begin; i < r->end; i++)
+            count += (uint32_t)__builtin_popcount(b->cluster[b->object[i]].valid);
+    }
+    if (count > CGT_LANES) {
+        add_leaf(w, CGT_LANES, parting);
+        count -= CGT_LANES;
+        parting = r->depth;
+    }
+    add_leaf(w, count, parting);
+}
+
+/* How many objects or clusters a run may have that is split no more. */
+static uint32_t most_of(const cgt_wide_build *b)
+{
+    return !b->cluster ? CGT_LANES : CGT_LANES > CGT_CLUSTER ? CGT_LANES / CGT_CLUSTER : 1;
+}
+
+/* Such runs, were they full. */
+static uint32_t runs_of(const cgt_wide_build *b, const split_run *r)
+{
+    return (r->end - r->begin - 1) / most_of(b) + 1;
+}
 
 /* Bits that number so many things: halvings until one is left. */
 static uint32_t bits_of(uint32_t count) { return count > 1 ? 32 - (uint32_t)__builtin_clz(count - 1) : 0; }
 
 /* ---- crowded cells ---- */
 
+/* Middles of objects or clusters i to i + count - 1. */
+CGT_SPU_INLINE void middles_of(const cgt_wide_build *b, const cgt_wide_range *range, uint32_t i, uint32_t count,
+                               vfloat middle[3])
+{
+    if (b->cluster) {
+        vfloat d[8];
+        fetch_clusters_of(b->cluster, b->object + i, count, d);
+        for (int a = 0; a < 3; a++)
+            middle[a] = d[a];
+        return;
+    }
+    const wide_run run = wide_run_of(b->objects, b->object + i, count);
+    wide_ask(&run, b->object, i, CGT_LANES, range->end); /* what is beyond may be moved by another thread */
+    wide_run_middles(&run, range->kind, middle);
+}
+
 /* The curve of a run's objects, whose middles are kept. Returns false where all lie at one place. */
 static bool curve_of(const cgt_wide_build *b, const cgt_wide_range *range, const split_run *r, cgt_wide_curve *curve)
 {
-    const uint32_t depth = r->depth + bits_of(leaves_of(r)), most = CGT_WIDE_MAX_DEPTH - depth;
+    const uint32_t depth = r->depth + bits_of(runs_of(b, r) * b->leaves_each), most = CGT_WIDE_MAX_DEPTH - depth;
     const uint32_t wanted = bits_of((r->end - r->begin + OBJECTS_PER_CELL - 1) / OBJECTS_PER_CELL);
     const uint32_t bits = wanted < ROUND_BITS ? wanted : ROUND_BITS;
     vfloat low[3], high[3];
@@ -93,10 +139,8 @@ static bool curve_of(const cgt_wide_build *b, const cgt_wide_range *range, const
     }
     for (uint32_t i = r->begin; i < r->end; i += CGT_LANES) {
         const uint32_t left = r->end - i;
-        const wide_run run = wide_run_of(b->objects, b->object + i, left < CGT_LANES ? left : CGT_LANES);
         vfloat middle[3];
-        wide_ask(&run, b->object, i, CGT_LANES, range->end); /* what is beyond may be moved by another thread */
-        wide_run_middles(&run, range->kind, middle);
+        middles_of(b, range, i, left < CGT_LANES ? left : CGT_LANES, middle);
         for (int a = 0; a < 3; a++) {
             low[a] = spux_min(low[a], middle[a]);
             high[a] = spux_max(high[a], middle[a]);
@@ -160,7 +204,7 @@ static void split_crowd(split_work *w, const split_run *r)
     split_run rest = *r;
     rest.start = NULL;
     rest.bits = 1; /* it has halves */
-    push_halves(w, &rest, r->begin + (leaves_of(r) + 1) / 2 * CGT_LANES);
+    push_halves(w, &rest, r->begin + (runs_of(w->build, r) + 1) / 2 * most_of(w->build));
 }
 
 void CGT_KERNEL(cgt_wide_tree_split)(const cgt_wide_build *build, cgt_wide_range *range)
@@ -174,8 +218,8 @@ void CGT_KERNEL(cgt_wide_tree_split)(const cgt_wide_build *build, cgt_wide_range
     push(&w, &all, range->cell, range->bits, range->begin, range->end, range->depth, range->parting);
     while (w.runs) {
         const split_run r = w.run[--w.runs];
-        if (r.end - r.begin <= CGT_LANES)
-            add_leaf(&w, &r);
+        if (r.end - r.begin <= most_of(build))
+            add_leaves(&w, &r);
         else if (r.start && r.bits)
             push_halves(&w, &r, r.start[r.cell + (UINT32_C(1) << r.bits) / 2]);
         else
