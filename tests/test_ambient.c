@@ -479,31 +479,13 @@ static void odd_pixels_are_open(void **state)
 
 /* ---- memory ---- */
 
-static void *count_allocation(void *user, size_t bytes, size_t alignment)
-{
-    ++*(unsigned *)user;
-    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-static void release(void *user, void *memory, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(memory);
-}
-
 static void nothing_is_allocated(void **state)
 {
     (void)state;
     static view v;
     const float ball[1][4] = {{0, 0, 0, 1}};
     unsigned allocations = 0;
-    cgt_context_options options;
-    cgt_context *context;
-    cgt_context_options_init(&options);
-    options.threads = 2;
-    options.memory = (cgt_memory_hooks){&allocations, count_allocation, release};
-    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    cgt_context *context = context_counting(&allocations);
     cgt_scene *scene = scene_of(context, NULL, ball, 1);
     view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
     look(scene, &v, NULL, NULL); /* may have a tree built, whose memory the next frame finds */

@@ -306,37 +306,13 @@ static void hits_are_those_of_several_geometries(void **state)
 
 /* ---- motion ---- */
 
-static void *count_allocation(void *user, size_t bytes, size_t alignment)
-{
-    ++*(unsigned *)user;
-    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-static void release(void *user, void *memory, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(memory);
-}
-
-static cgt_context *counting_context(unsigned *allocations)
-{
-    cgt_context_options options;
-    cgt_context *context;
-    cgt_context_options_init(&options);
-    options.threads = 2;
-    options.memory = (cgt_memory_hooks){allocations, count_allocation, release};
-    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-    return context;
-}
-
 /* Each commit finds the mesh elsewhere, and other triangles skipped; only the first one takes memory. */
 static void move(bool loosened)
 {
     unsigned allocations = 0, before = 0;
     test_random r = random_make(30);
     questions *q = malloc(sizeof *q);
-    cgt_context *context = counting_context(&allocations), *other = context_make(1, NULL);
+    cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
     mesh m = mesh_make(uneven, PARTS, 0, 1);
     cgt_scene *scene = scene_with(context, &automatic, &m);
     assert_non_null(q);
@@ -379,7 +355,7 @@ static void trees_move_in_their_memory(void **state)
     unsigned allocations = 0, before = 0;
     test_random r = random_make(31);
     questions *q = malloc(sizeof *q);
-    cgt_context *context = counting_context(&allocations), *other = context_make(1, NULL);
+    cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
     mesh m = mesh_make(uneven, PARTS, 0, 0);
     cgt_scene *scene = scene_with(context, &wide_tree, &m);
     assert_non_null(q);

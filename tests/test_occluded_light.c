@@ -291,19 +291,6 @@ static void bad_arguments_are_refused(void **state)
 
 /* ---- memory ---- */
 
-static void *count_allocation(void *user, size_t bytes, size_t alignment)
-{
-    ++*(unsigned *)user;
-    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-static void release(void *user, void *memory, size_t bytes)
-{
-    (void)user;
-    (void)bytes;
-    free(memory);
-}
-
 static void nothing_is_allocated(void **state)
 {
     (void)state;
@@ -313,12 +300,7 @@ static void nothing_is_allocated(void **state)
     const cgt_light light = {.position = {0, 0, 5}, .w = 1};
     const cgt_points points = {.count = POINTS, .position = {at, at, at}};
     unsigned allocations = 0;
-    cgt_context_options options;
-    cgt_context *context;
-    cgt_context_options_init(&options);
-    options.threads = 2;
-    options.memory = (cgt_memory_hooks){&allocations, count_allocation, release};
-    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    cgt_context *context = context_counting(&allocations);
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
     assert_true(allocations > 0);
     /* the first points of a scene may have a tree built for them, whose memory the next ones find */

@@ -31,6 +31,30 @@ cgt_context *context_make(uint32_t threads, const char *variant)
     return context;
 }
 
+static void *count_allocation(void *user, size_t bytes, size_t alignment)
+{
+    ++*(unsigned *)user;
+    return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+
+static void release(void *user, void *memory, size_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    free(memory);
+}
+
+cgt_context *context_counting(unsigned *allocations)
+{
+    cgt_context_options options;
+    cgt_context *context = NULL;
+    cgt_context_options_init(&options);
+    options.threads = 2;
+    options.memory = (cgt_memory_hooks){allocations, count_allocation, release};
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    return context;
+}
+
 const char *context_message(const cgt_context *context)
 {
     static char text[512];

@@ -18,6 +18,9 @@ const char *variant_next(size_t *index);
 
 cgt_context *context_make(uint32_t threads, const char *variant);
 
+/* Of two threads, with memory that counts how often it is asked for. */
+cgt_context *context_counting(unsigned *allocations);
+
 /* The message of the last failure, valid until the next call. */
 const char *context_message(const cgt_context *context);
 
