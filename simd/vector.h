@@ -28,7 +28,8 @@
  *   spux_load_records4(base, stride, d)   CGT_LANES records of 4 floats, record k at base + k * stride floats, to the
  *                                         four vectors d[0] to d[3], one per element of the record
  *   spux_load_records4_at(base, at, d)    the same, record k at base + at[k]
- *   spux_load_records8_at(base, at, d)    the same of 8 floats, to the vectors d[8]
+ *   spux_load_records4_by(base, stride, number, step, d)   the same, record k at base + stride * number[k * step]
+ *   spux_load_records8_at(base, at, d)    as spux_load_records4_at, of 8 floats, to the vectors d[8]
  *   spux_store_records4(base, stride, d)  the reverse of the first
  *   spux_load_bytes(p)            vuint; CGT_LANES bytes at p
  *
@@ -169,6 +170,13 @@ CGT_SPU_INLINE void spux_load_records4(const float *base, size_t stride, vfloat 
 CGT_SPU_INLINE void spux_load_records4_at(const float *base, const uint32_t at[CGT_LANES], vfloat d[4])
 {
 #define CGT_SPUX_AT(k) (base + at[k])
+    CGT_SPUX_LOAD_RECORDS4(CGT_SPUX_AT, d);
+#undef CGT_SPUX_AT
+}
+CGT_SPU_INLINE void spux_load_records4_by(const float *base, size_t stride, const uint32_t *number, size_t step,
+                                          vfloat d[4])
+{
+#define CGT_SPUX_AT(k) (base + stride * number[(size_t)(k)*step])
     CGT_SPUX_LOAD_RECORDS4(CGT_SPUX_AT, d);
 #undef CGT_SPUX_AT
 }

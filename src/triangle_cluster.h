@@ -13,7 +13,9 @@
 
 #include "objects.h"
 
-#define CGT_CLUSTER 8u /* triangles, the last one fewer. 4 and 16 are slower, both building and tracing */
+#define CGT_CLUSTER_SHIFT 3
+#define CGT_CLUSTER                                                                                                    \
+    (1u << CGT_CLUSTER_SHIFT) /* triangles, the last one fewer. 4 and 16 are slower, both building and tracing */
 
 /* As kernels load it: eight floats. */
 typedef struct cgt_cluster {

@@ -121,7 +121,7 @@ CGT_SPU_INLINE vmask has_area(const vfloat v[3][3])
         e1[a] = spu_sub(v[1][a], v[0][a]);
         e2[a] = spu_sub(v[2][a], v[0][a]);
     }
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < 3 && !spux_all(some); a++) { /* mostly the first component tells of all */
         const vfloat p = spu_mul(e1[a], e2[(a + 1) % 3]), q = spu_mul(e1[(a + 1) % 3], e2[a]);
         const vfloat least = spu_madd(spu_add(spux_abs(p), spux_abs(q)), spux_vfloat(0x1p-20f), spux_vfloat(0x1p-120f));
         some = spu_or(some, spu_cmpgt(spux_abs(spu_sub(p, q)), least));
@@ -130,18 +130,18 @@ CGT_SPU_INLINE vmask has_area(const vfloat v[3][3])
 }
 
 /* The same, decided. */
-static vmask decide_area(const cgt_object_array *a, uint32_t i, vmask open)
+static vmask decide_area(const cgt_object_array *a, vuint number, vmask open)
 {
     unsigned some = 0;
     for (unsigned left = spux_mask_bits(open); left; left &= left - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(left);
-        const cgt_triangle q = cgt_array_triangle(a, i + k);
+        const cgt_triangle q = cgt_array_triangle(a, number[k]);
         some |= (unsigned)cgt_triangle_has_area(&q) << k;
     }
     return spux_mask_from_bits(some);
 }
 
-CGT_SPU_INLINE vmask check_triangles(const cgt_object_array *a, uint32_t i, const vfloat v[3][3], vmask there,
+CGT_SPU_INLINE vmask check_triangles(const cgt_object_array *a, vuint number, const vfloat v[3][3], vmask there,
                                      cgt_object_summary *s)
 {
     vfloat zero = spux_vfloat(0); /* finite times zero is zero; infinity and NaN give NaN, and NaN stays */
@@ -152,7 +152,7 @@ CGT_SPU_INLINE vmask check_triangles(const cgt_object_array *a, uint32_t i, cons
     vmask valid = spu_and(finite, has_area(v));
     const vmask open = spu_andc(finite, valid);
     if (spux_any(open))
-        valid = spu_or(valid, decide_area(a, i, open));
+        valid = spu_or(valid, decide_area(a, number, open));
     s->skipped_not_finite += spux_count_bits(spux_mask_bits(spu_andc(there, finite)));
     s->skipped_degenerate += spux_count_bits(spux_mask_bits(spu_andc(finite, valid)));
     return valid;
@@ -199,12 +199,10 @@ CGT_SPU_INLINE void keep_triangles(object_pass *p, const object_bounds *b, uint3
 }
 
 /* Fetches vertices. Returns which lanes have an index out of range: then there are none. */
-CGT_SPU_INLINE vmask fetch_triangles(const cgt_object_array *a, uint32_t i, uint32_t count, vfloat v[3][3])
+CGT_SPU_INLINE vmask fetch_triangles(const cgt_object_array *a, const vuint corner[3], vfloat v[3][3])
 {
-    vuint corner[3];
     if (!a->points)
-        return spux_mask_first(count);
-    fetch_corners(a, i, count, corner);
+        return spux_mask_all();
     const vuint largest = spux_max(corner[0], spux_max(corner[1], corner[2])), last = spux_vuint(a->points - 1);
     const bool before_last = spux_all(spu_cmpgt(last, largest)) && fetch_vertices_fit(a);
     if (!before_last) {
@@ -217,21 +215,28 @@ CGT_SPU_INLINE vmask fetch_triangles(const cgt_object_array *a, uint32_t i, uint
     return spux_mask_none();
 }
 
-/* Returns false at an index out of range. */
+CGT_SPU_INLINE void triangle_bounds(const vfloat v[3][3], object_bounds *b)
+{
+    for (int k = 0; k < 3; k++) {
+        b->low[k] = spux_min(v[0][k], spux_min(v[1][k], v[2][k]));
+        b->high[k] = spux_max(v[0][k], spux_max(v[1][k], v[2][k]));
+    }
+}
+
+/* Triangles one after the other. Returns false at an index out of range. */
 static bool add_triangles(object_pass *p, const cgt_object_array *a, uint32_t i, uint32_t count)
 {
+    vuint corner[3];
     vfloat v[3][3];
     object_bounds b;
-    const vmask bad = fetch_triangles(a, i, count, v);
+    fetch_corners(a, i, count, corner);
+    const vmask there = spux_mask_first(count), bad = spu_and(fetch_triangles(a, corner, v), there);
     if (spux_any(bad)) {
         p->summary->bad_index = a->first + i + (uint32_t)__builtin_ctz(spux_mask_bits(bad));
         return false;
     }
-    b.valid = check_triangles(a, i, (const vfloat(*)[3])v, spux_mask_first(count), p->summary);
-    for (int k = 0; k < 3; k++) {
-        b.low[k] = spux_min(v[0][k], spux_min(v[1][k], v[2][k]));
-        b.high[k] = spux_max(v[0][k], spux_max(v[1][k], v[2][k]));
-    }
+    b.valid = check_triangles(a, spu_add(spux_lane_index(), spux_vuint(i)), (const vfloat(*)[3])v, there, p->summary);
+    triangle_bounds((const vfloat(*)[3])v, &b);
     add_bounds(p, &b);
     if (p->wishes->diameters)
         add_triangle_diameters(p->summary, &b);
@@ -239,6 +244,58 @@ static bool add_triangles(object_pass *p, const cgt_object_array *a, uint32_t i,
         clusters_add(p->wishes->cluster, a->first + i, count, b.low, b.high, b.valid);
     else if (p->wishes->classes)
         keep_triangles(p, &b, cgt_array_triangle_number(a, a->first + i), count);
+    return true;
+}
+
+/* ---- clusters of triangles ---- */
+
+/* The first of these triangles with an index out of range; there is one. */
+static uint32_t first_bad_triangle(const cgt_object_array *a, uint32_t i)
+{
+    for (;; i++) {
+        uint32_t corner[3];
+        cgt_array_corners(a, i, corner);
+        for (int k = 0; k < 3; k++)
+            if (corner[k] >= a->points)
+                return a->first + i;
+    }
+}
+
+/* Triangles from the first of a cluster on, a cluster in each lane: its triangles come one after the other, so that
+ * nothing goes from lane to lane. Returns false at an index out of range. */
+static bool add_clusters(object_pass *p, const cgt_object_array *a, uint32_t i, uint32_t count)
+{
+    const vuint first = spu_sl(spux_lane_index(), CGT_CLUSTER_SHIFT), last = spux_vuint(count - 1);
+    const bool fit = clusters_fetch_fit(a, i, count);
+    cluster_gather g;
+    cluster_gather_clear(&g);
+    for (uint32_t k = 0; k < CGT_CLUSTER && k < count; k++) {
+        const vuint at = spu_add(first, spux_vuint(k));
+        const vuint number = spu_add(spux_min(at, last), spux_vuint(i));
+        vuint corner[3];
+        vfloat v[3][3];
+        object_bounds b;
+        if (fit) {
+            ask_cluster_corners(a, i + count + k * CGT_LANES);
+            for (uint32_t c = 0; c < 3; c++)
+                fetch_cluster_corners(a, i + k, c, v[c]);
+        } else {
+            fetch_corners_at(a, number, corner);
+            if (spux_any(fetch_triangles(a, corner, v))) {
+                p->summary->bad_index = first_bad_triangle(a, i);
+                return false;
+            }
+        }
+        b.valid = check_triangles(a, number, (const vfloat(*)[3])v, spux_not(spu_cmpgt(at, last)), p->summary);
+        triangle_bounds((const vfloat(*)[3])v, &b);
+        cluster_gather_add(&g, k, b.low, b.high, b.valid);
+        p->summary->valid += spux_count_bits(spux_mask_bits(b.valid));
+    }
+    for (int k = 0; k < 3; k++) {
+        p->low[k] = spux_min(p->low[k], g.low[k]);
+        p->high[k] = spux_max(p->high[k], g.high[k]);
+    }
+    cluster_gather_store(&g, p->wishes->cluster + (a->first + i) / CGT_CLUSTER, cgt_clusters(count));
     return true;
 }
 
@@ -250,12 +307,19 @@ void CGT_KERNEL(cgt_summarise_array)(const cgt_object_array *array, uint32_t fir
     object_pass p;
     begin_pass(&p, wishes, summary);
     for (uint32_t object = first; object < end;) {
-        /* the first vector ends where clusters do */
-        const uint32_t most = wishes->cluster ? CGT_LANES - object % CGT_LANES : CGT_LANES;
-        const uint32_t count = end - object < most ? end - object : most;
+        /* what an array has of the last one's cluster comes alone */
+        const uint32_t begun = wishes->cluster ? object % CGT_CLUSTER : 0, rest = CGT_CLUSTER - begun;
+        const bool whole = wishes->cluster && !begun;
+        const uint32_t most = whole ? CGT_LANES * CGT_CLUSTER : begun && rest < CGT_LANES ? rest : CGT_LANES;
+        const uint32_t count = end - object < most ? end - object : most, i = object - array->first;
+        bool added = true;
         if (array->kind == CGT_KIND_SPHERES)
-            add_spheres(&p, array, object - array->first, count);
-        else if (!add_triangles(&p, array, object - array->first, count))
+            add_spheres(&p, array, i, count);
+        else if (whole)
+            added = add_clusters(&p, array, i, count);
+        else
+            added = add_triangles(&p, array, i, count);
+        if (!added)
             return;
         object += count;
     }
