@@ -219,7 +219,7 @@ static void add_sheet(hard_scene *s, uint32_t n)
 static void frames_of_fine_meshes(void **state)
 {
     (void)state;
-    static const uint32_t squares[] = {8, 22, 23, 31};
+    static const uint32_t squares[] = {8, 22, 31, 32, 33, 45};
     static const float eye[3] = {0.2f, 0.1f, 2.6f}, target[3] = {0.01f, 0.02f, 0}, up[3] = {0, 1, 0};
     frames_tally tally = {0};
     for (size_t k = 0; k < TEST_COUNT(squares); k++) {

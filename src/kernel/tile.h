@@ -26,6 +26,7 @@
 #define TILE_PAIR (2 * TILE_EDGE) /* pixels of a pair of rows */
 #define TILE_PAD 16u              /* a window may begin in the last column */
 #define TILE_PARTS 4u             /* parts of 16x16 pixels along an edge */
+#define TILE_LIST 2048u           /* triangles that a tile lists */
 
 /* Of 1/t, in linear tiles: what the best hit's may be less than z says. Less, and planes that are seen at a slant are
  * too coarse; more, and more layers are too near to each other. */
@@ -54,6 +55,7 @@ typedef struct tile_span {
 typedef struct tile {
     _Alignas(64) float z[TILE_PIXELS + TILE_PAD];
     _Alignas(64) uint32_t object[TILE_PIXELS + TILE_PAD]; /* CGT_NONE: none yet */
+    _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD];   /* linear: where in `listed` a pixel's object is */
     _Alignas(64) float px[TILE_PAIR + TILE_PAD];          /* of a pair of rows; NaN where a window leaves the tile */
     _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];      /* the two rows of a pair by turns */
     _Alignas(64) float far[TILE_PARTS * TILE_PARTS];     /* beyond this distance a part of 16x16 pixels wants nothing */
@@ -65,8 +67,10 @@ typedef struct tile {
     _Alignas(64) float part_y[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float part_wide[TILE_PARTS * TILE_PARTS]; /* half their sizes, rounded up */
     _Alignas(64) float part_high[TILE_PARTS * TILE_PARTS];
-    float column[TILE_EDGE], row[TILE_EDGE]; /* px and py; beyond the region the last ones again */
-    uint32_t columns, rows;                  /* in the region */
+    _Alignas(64) uint32_t listed[TILE_LIST + CGT_LANES]; /* what has won pixels; it may have lost them since */
+    uint32_t lists;                                      /* how many; TILE_LIST: there were too many */
+    float column[TILE_EDGE], row[TILE_EDGE];             /* px and py; beyond the region the last ones again */
+    uint32_t columns, rows;                              /* in the region */
     tile_span across, down;
     float down_across;    /* ratio of their scales */
     float gap, wide_gap;  /* wide: what rounding of differences adds is in it */
@@ -283,6 +287,7 @@ CGT_SPU_INLINE void tile_close(tile *t, uint32_t first)
  * there is none. */
 CGT_SPU_INLINE void tile_open(tile *t, float far_t)
 {
+    t->lists = 0;
     const bool ends = t->rays->t_max < far_t, whole = t->columns == TILE_EDGE && t->rows == TILE_EDGE;
     for (uint32_t i = 0; i < TILE_PIXELS + TILE_PAD; i += CGT_LANES) {
         spux_store(t->z + i, spux_vfloat(INFINITY));
@@ -301,6 +306,24 @@ CGT_SPU_INLINE void tile_open(tile *t, float far_t)
     for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++)
         t->far[k] = INFINITY;
     t->farthest = t->farthest_t = INFINITY;
+}
+
+/* The slot that the next object to be listed gets. */
+CGT_SPU_INLINE void tile_list(tile *t, uint32_t object, bool won)
+{
+    t->listed[t->lists] = object;
+    t->lists += won && t->lists < TILE_LIST;
+}
+
+/* Gives a pixel to an object. */
+CGT_SPU_INLINE void tile_win(tile *t, uint32_t i, uint32_t object)
+{
+    t->object[i] = object;
+    if (!t->linear)
+        return;
+    if (!t->lists || t->listed[t->lists - 1] != object)
+        tile_list(t, object, true);
+    t->slot[i] = t->lists - 1;
 }
 
 /* The canonical line of a pixel, in the order of camera.h. */

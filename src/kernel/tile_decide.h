@@ -214,13 +214,13 @@ CGT_SPU_INLINE void tile_decide(const cgt_objects *objects, tile *t, uint32_t i,
     if (winner == object || t->z[i] == -INFINITY)
         return;
     if (winner != CGT_NONE && tile_same_shape(objects, object, winner)) {
-        t->object[i] = object < winner ? object : winner;
+        tile_win(t, i, object < winner ? object : winner);
         return;
     }
     const cgt_ray ray = tile_ray(t, i);
     if (!filter_beats(objects, &ray, winner, object, &hit_t, counts))
         return;
-    t->object[i] = object;
+    tile_win(t, i, object);
     t->z[i] = tile_depth(t, i, hit_t);
 }
 
@@ -244,7 +244,7 @@ __attribute__((noinline, unused)) static void tile_flush_pairs(const cgt_objects
         }
         counts->double_tests++;
         if (answer == TILE_BEATS) {
-            t->object[i] = object;
+            tile_win(t, i, object);
             t->z[i] = tile_depth(t, i, hit_t);
         }
     }

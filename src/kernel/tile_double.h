@@ -177,7 +177,7 @@ CGT_SPU_INLINE void tile_double_run(const cgt_objects *objects, tile *t, const c
             continue;
         if (depth[k] + fabs(depth[k]) * 0x1p-28 < z) {
             t->z[i] = (float)(t->linear ? depth[k] * (1 + 0.5 * TILE_SHARE) : depth[k] - 0.5 * (double)t->gap);
-            t->object[i] = object;
+            tile_win(t, i, object);
             continue;
         }
         counts->double_tests--; /* it is counted when it is decided */

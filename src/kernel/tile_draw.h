@@ -108,15 +108,20 @@ CGT_SPU_INLINE tile_test tile_sphere_test(const tile_sphere *q, const tile_colum
                        .possible = spux_cmpge(q->gap, behind)};
 }
 
-CGT_SPU_INLINE void tile_keep(tile *t, uint32_t i, const tile_test *f, vuint object)
+/* Stores the lanes of a mask. */
+CGT_SPU_INLINE void tile_keep_lanes(uint32_t *to, vuint v, vmask lanes)
 {
 #if CGT_LANES == 16
-    spux_store_mask(t->z + i, f->depth, f->certain);
-    spux_store_mask_uint(t->object + i, object, f->certain);
+    spux_store_mask_uint(to, v, lanes);
 #else /* their masked stores are slow */
-    spux_store_unaligned(t->z + i, spux_select(spux_load_unaligned(t->z + i), f->depth, f->certain));
-    spux_store_unaligned_uint(t->object + i, spux_select(spux_load_unaligned_uint(t->object + i), object, f->certain));
+    spux_store_unaligned_uint(to, spux_select(spux_load_unaligned_uint(to), v, lanes));
 #endif
+}
+
+CGT_SPU_INLINE void tile_keep(tile *t, uint32_t i, const tile_test *f, vuint object)
+{
+    tile_keep_lanes((uint32_t *)(void *)(t->z + i), (vuint)f->depth, f->certain);
+    tile_keep_lanes(t->object + i, object, f->certain);
 }
 
 /* Lanes of the windows of a drawn sphere that are left open, as bits, a window after the other, padded to eight bytes. */

@@ -123,7 +123,7 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_world *world, const tile *
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask known;
     if (wish.mesh)
-        known = tile_mesh_resolve(mesh, i, alone, missed, dir, fields, exact, &found);
+        known = tile_mesh_resolve(t, mesh, i, alone, missed, dir, fields, exact, &found);
     else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat vertex[3][3];
@@ -393,7 +393,7 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const 
     const tile_kept kept = {.met = met, .mesh = &mesh};
     wish.triangles = true;
     wish.parallel = false;
-    wish.mesh = wish.fields && tile_mesh_list(t, met, r, &mesh);
+    wish.mesh = wish.fields && t->lists < TILE_LIST;
     if (wish.mesh)
         tile_mesh_prepare(world, t, wish.fields, wish.exact, &mesh);
     if (wish.fields & CGT_FIELD_UV)

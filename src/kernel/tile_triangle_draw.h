@@ -78,10 +78,12 @@ CGT_SPU_INLINE tile_test tile_triangle_test(const tile_triangle *q, const tile_t
 
 /* So many windows side by side in so many pairs of rows, from the box's first ones on. Returns whether any lane is left
  * open; the lanes go to `open`. */
-CGT_SPU_INLINE unsigned tile_triangle_windows(tile *t, const tile_triangle *q, tile_box box, uint32_t windows,
-                                              uint32_t pairs, uint16_t *open, tile_kind kind)
+CGT_SPU_INLINE unsigned tile_triangle_windows(tile *t, const tile_triangle *q, uint32_t object, tile_box box,
+                                              uint32_t windows, uint32_t pairs, uint16_t *open, tile_kind kind)
 {
+    const vuint slot = spux_vuint(t->lists);
     unsigned any = 0;
+    vmask won = spux_mask_none();
     for (uint32_t p = 0; p < pairs; p++) {
         const uint32_t pair = box.y0 / 2 + p;
         const tile_triangle_pair row = tile_triangle_rows(t, q, pair, kind);
@@ -91,10 +93,15 @@ CGT_SPU_INLINE unsigned tile_triangle_windows(tile *t, const tile_triangle *q, t
             const tile_test f = tile_triangle_test(q, &row, px, t->z + i, kind);
             const unsigned left = spux_mask_bits(spu_andc(f.possible, f.certain));
             tile_keep(t, i, &f, q->object);
+            if (kind == TILE_LINEAR)
+                tile_keep_lanes(t->slot + i, slot, f.certain);
+            won = spu_or(won, f.certain);
             any |= left;
             *open++ = (uint16_t)left;
         }
     }
+    if (kind == TILE_LINEAR)
+        tile_list(t, object, spux_any(won));
     return any;
 }
 
@@ -111,13 +118,13 @@ CGT_SPU_INLINE void tile_triangle_box(const cgt_objects *objects, tile *t, const
         box.y0 = box.y0 < last ? box.y0 : last;
         box.y1 = box.y0 + 2;
         pairs = 2;
-        any = tile_triangle_windows(t, q, box, 1, 2, open, kind);
+        any = tile_triangle_windows(t, q, object, box, 1, 2, open, kind);
     } else if (windows == 1) {
-        any = tile_triangle_windows(t, q, box, 1, pairs, open, kind);
+        any = tile_triangle_windows(t, q, object, box, 1, pairs, open, kind);
     } else if (windows == 2) {
-        any = tile_triangle_windows(t, q, box, 2, pairs, open, kind);
+        any = tile_triangle_windows(t, q, object, box, 2, pairs, open, kind);
     } else {
-        any = tile_triangle_windows(t, q, box, windows, pairs, open, kind);
+        any = tile_triangle_windows(t, q, object, box, windows, pairs, open, kind);
     }
     counts->ray_tests += (uint64_t)windows * pairs * CGT_LANES;
     if (any)
