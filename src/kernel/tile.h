@@ -308,7 +308,7 @@ CGT_SPU_INLINE void tile_open(tile *t, float far_t)
     t->farthest = t->farthest_t = INFINITY;
 }
 
-/* The slot that the next object to be listed gets. */
+/* Lists an object, if it has won any pixel: with slot `lists`, as it was. */
 CGT_SPU_INLINE void tile_list(tile *t, uint32_t object, bool won)
 {
     t->listed[t->lists] = object;
