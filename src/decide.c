@@ -97,9 +97,6 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
 
 /* ---- order ---- */
 
-/* More than the errors of two canonical values together. */
-#define ORDER_MARGIN 0x1p-27
-
 static bool same_shape(const cgt_shape *a, const cgt_shape *b)
 {
     if (a->kind != b->kind)
@@ -110,7 +107,7 @@ static bool same_shape(const cgt_shape *a, const cgt_shape *b)
 
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact)
 {
-    if (fabs(a->t - b->t) > ORDER_MARGIN * (fabs(a->t) + fabs(b->t)))
+    if (fabs(a->t - b->t) > CGT_ORDER_MARGIN * (fabs(a->t) + fabs(b->t)))
         return a->t < b->t ? -1 : 1;
     if (a->far == b->far && same_shape(&a->shape, &b->shape))
         return 0;

@@ -28,6 +28,10 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact);
 /* The canonical t of a shape that the ray is known to hit. */
 void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit);
 
+/* Of the sum of two canonical values: where they differ by more, that is the order of the exact ones. More than the
+ * errors of both together. */
+#define CGT_ORDER_MARGIN 0x1p-27
+
 /* Sign of the exact t(a) - t(b). */
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact);
 

@@ -14,6 +14,7 @@
 /* Half a vector of rays and their spheres. */
 typedef struct resolve_half {
     vdouble t, c[3], d[3]; /* c: the centre seen from the origin */
+    vdouble square, disc;  /* the terms of cgt_sphere_double_near: d.d, and the discriminant */
 } resolve_half;
 
 CGT_SPU_INLINE void resolve_directions(const vfloat dir[3], resolve_half h[2])
@@ -44,6 +45,8 @@ CGT_SPU_INLINE vmask resolve_nears(const vdouble product[2], vmask outside, vflo
         middle[i] = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
         square[i] = middle[i] * middle[i];
         disc[i] = square[i] - dd * product[i];
+        h[i].square = dd;
+        h[i].disc = disc[i];
     }
     for (int i = 0; i < 2; i++)
         half[i] = spux_double_sqrt(disc[i]);
@@ -147,14 +150,12 @@ CGT_SPU_INLINE vmask resolve_spheres_rest(const vfloat org[3], const vfloat dir[
     return spu_or(known, more);
 }
 
-/* Rays that hit, and their spheres. The outward unit normal is the vector from the centre over the radius. Origin and
- * centre may both be far away: their difference comes first. */
-CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
-                                            vfloat t_min, bool normal, vfloat *t, vfloat n[3])
+/* What the short way asks for: directions, centres and products. Returns the lanes outside. */
+CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4], resolve_half h[2],
+                                   vdouble product[2])
 {
-    resolve_half h[2];
     const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
-    vdouble product[2], least[2];
+    vdouble least[2];
     resolve_directions(dir, h);
     for (int a = 0; a < 3; a++) {
         h[0].c[a] = spux_double_low(sphere[a]) - spux_double_low(org[a]);
@@ -165,9 +166,20 @@ CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat di
         product[i] = cc - rr;
         least[i] = cc * CGT_SPHERE_OUTSIDE;
     }
-    const vmask outside = spux_not(spux_double_cmpgt(least, product));
+    return spux_not(spux_double_cmpgt(least, product));
+}
+
+/* Rays that hit, and their spheres. The outward unit normal is the vector from the centre over the radius. Origin and
+ * centre may both be far away: their difference comes first. */
+CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
+                                            vfloat t_min, bool normal, vfloat *t, vfloat n[3])
+{
+    resolve_half h[2];
+    vdouble product[2];
+    const vmask outside = resolve_terms(org, dir, sphere, h, product);
     const vmask known = resolve_nears(product, outside, t_min, h, t);
     if (normal) {
+        const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
         const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
         resolve_normals(h, k, n);
     }

@@ -27,6 +27,7 @@
 #define TILE_PAD 16u              /* a window may begin in the last column */
 #define TILE_PARTS 4u             /* parts of 16x16 pixels along an edge */
 #define TILE_LIST 2048u           /* triangles that a tile lists */
+#define TILE_QUEUE 1024u          /* entries of its queue */
 
 /* Of 1/t, in linear tiles: what the best hit's may be less than z says. Less, and planes that are seen at a slant are
  * too coarse; more, and more layers are too near to each other. */
@@ -82,6 +83,13 @@ typedef struct tile {
     tile_camera camera;
     float axis[3], tangent, secant; /* a cone about all rays, as z, x, y; secant 0: too wide for one */
 } tile;
+
+/* What single precision leaves open (tile_decide.h): pixels, and objects that may be their nearest. */
+typedef struct tile_queue {
+    uint32_t entries;
+    uint16_t pixel[TILE_QUEUE];
+    uint32_t object[TILE_QUEUE];
+} tile_queue;
 
 CGT_SPU_INLINE uint32_t tile_column(uint32_t i) { return (i & (TILE_PAIR - 1)) >> 1; }
 CGT_SPU_INLINE uint32_t tile_row(uint32_t i) { return i / TILE_PAIR * 2 + (i & 1); }
@@ -324,6 +332,17 @@ CGT_SPU_INLINE void tile_win(tile *t, uint32_t i, uint32_t object)
     if (!t->lists || t->listed[t->lists - 1] != object)
         tile_list(t, object, true);
     t->slot[i] = t->lists - 1;
+}
+
+/* The canonical directions of px and py, or the origins of parallel rays, in the order of camera.h. */
+CGT_SPU_INLINE void tile_directions(const tile *t, bool parallel, vfloat px, vfloat py, vfloat dir[3])
+{
+    const cgt_camera_rays *c = t->rays;
+    const float *from = parallel ? c->eye : c->fwd;
+    for (int a = 0; a < 3; a++) {
+        const vfloat across = spu_add(spux_vfloat(from[a]), spu_mul(px, spux_vfloat(c->right[a])));
+        dir[a] = spu_add(across, spu_mul(py, spux_vfloat(c->up[a])));
+    }
 }
 
 /* The canonical line of a pixel, in the order of camera.h. */

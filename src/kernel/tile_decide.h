@@ -5,9 +5,10 @@
  * are decided later, together. That is right, since a pixel's best hit is replaced only by one that is certainly nearer:
  * the nearest is the best of the end, or in the queue.
  *
- * Entries of one triangle follow each other, often against one winner: layers near to each other, or faces in one plane.
- * So where rays have one origin, what double takes of the two triangles is kept from entry to entry. It is the
- * arithmetic of triangle_double.h in its order, so what it is certain of is what decide.h would say.
+ * Where rays have one origin, spheres of one array go a vector at a time (tile_decide_spheres.h). Entries of one triangle
+ * follow each other, often against one winner: layers near to each other, or faces in one plane. So what double takes of
+ * the two triangles is kept from entry to entry then. It is the arithmetic of triangle_double.h in its order, so what it
+ * is certain of is what decide.h would say.
  *
  * Which of two hits is nearer: t_a < t_b where num_a den_b - num_b den_a has the sign opposite to that of den_a den_b.
  * The products are off by what their factors are, and what is rounded by 2^-51 of their magnitudes. Where that leaves it
@@ -19,15 +20,7 @@
 
 #include "../exact_terms.h"
 #include "../triangle_double.h"
-#include "tile.h"
-
-#define TILE_QUEUE 1024u
-
-typedef struct tile_queue {
-    uint32_t entries;
-    uint16_t pixel[TILE_QUEUE];
-    uint32_t object[TILE_QUEUE];
-} tile_queue;
+#include "tile_decide_spheres.h"
 
 /* ---- two triangles, seen from the eye ---- */
 
@@ -250,11 +243,35 @@ __attribute__((noinline, unused)) static void tile_flush_pairs(const cgt_objects
     }
 }
 
+/* Where rays have one origin, and there are spheres of one array. */
+__attribute__((noinline, unused)) static void tile_flush_spheres(const cgt_objects *objects, tile *t,
+                                                                 const tile_queue *q, cgt_counts *counts)
+{
+    tile_verdicts v;
+    for (uint32_t first = 0; first < q->entries; first += CGT_LANES) {
+        tile_judge_spheres(objects->array, t, q, first, &v);
+        for (uint32_t k = 0; k < CGT_LANES && first + k < q->entries; k++) {
+            const uint32_t i = q->pixel[first + k], object = q->object[first + k];
+            if (!((v.beats | v.loses) >> k & 1) || t->object[i] != v.winner[k] || t->z[i] == -INFINITY) {
+                tile_decide(objects, t, i, object, counts); /* another entry of the vector may have won the pixel */
+                continue;
+            }
+            counts->double_tests++;
+            if (v.beats >> k & 1) {
+                tile_win(t, i, object);
+                t->z[i] = tile_depth(t, i, v.t[k]);
+            }
+        }
+    }
+}
+
 __attribute__((noinline, unused)) static void tile_flush(const cgt_objects *objects, tile *t, tile_queue *q,
                                                          cgt_counts *counts)
 {
     if (objects->triangles && !t->parallel)
         tile_flush_pairs(objects, t, q, counts);
+    else if (objects->arrays == 1 && !t->parallel)
+        tile_flush_spheres(objects, t, q, counts);
     else
         for (uint32_t k = 0; k < q->entries; k++)
             tile_decide(objects, t, q->pixel[k], q->object[k], counts);

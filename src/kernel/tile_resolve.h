@@ -17,17 +17,6 @@
 #define TILE_LINE 16u                            /* pixels of a line of the cache */
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
 
-/* The canonical directions of px and py, or the origins of parallel rays, in the order of camera.h. */
-CGT_SPU_INLINE void tile_directions(const tile *t, bool parallel, vfloat px, vfloat py, vfloat dir[3])
-{
-    const cgt_camera_rays *c = t->rays;
-    const float *from = parallel ? c->eye : c->fwd;
-    for (int a = 0; a < 3; a++) {
-        const vfloat across = spu_add(spux_vfloat(from[a]), spu_mul(px, spux_vfloat(c->right[a])));
-        dir[a] = spu_add(across, spu_mul(py, spux_vfloat(c->up[a])));
-    }
-}
-
 /* Of pixels i and on. */
 CGT_SPU_INLINE void tile_directions_at(const tile *t, bool parallel, uint32_t i, vfloat dir[3])
 {
