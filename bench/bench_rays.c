@@ -4,19 +4,12 @@
  * Shadow and ambient-occlusion rays; bench_rays.h has their definitions. */
 #include "bench_rays.h"
 
+#include "bench_clones.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Functions that are compiled for wider vectors, too; sanitizers start too late for how they are chosen. */
-#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) &&                           \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define BENCH_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define BENCH_CLONES
-#endif
-#define BENCH_INLINE static inline __attribute__((always_inline)) /* into clones */
 
 enum {
     BLOCK = 4,             /* pixels along a block's edge */

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bench_clones.h"
 #include "native/native_flush.h"
 
 enum { PIECE = 1024 }; /* rays of a task */
@@ -16,19 +17,22 @@ typedef struct array_packet {
     _Alignas(64) int valid[16];
 } array_packet;
 
-/* Rays first to first + count - 1, all of structure-of-arrays form. */
-static void fill_packet(const embree_arrays *a, uint64_t first, uint32_t count, array_packet *p)
+/* Rays first to first + count - 1, all of structure-of-arrays form. n, and of whole packets count too, are constants where
+ * this is called: what Embree loads as a vector has been stored as one, else it would wait for the stores. */
+BENCH_INLINE void fill_packet(const embree_arrays *a, uint64_t first, uint32_t count, uint32_t n, array_packet *p)
 {
-    const uint32_t n = a->packet;
     const cgt_rays *rays = a->batch;
     for (uint32_t k = 0; k < 3; k++) {
         memcpy(p->word + (EMBREE_ORG + k) * n, rays->org[k] + first, count * sizeof(float));
         memcpy(p->word + (EMBREE_DIR + k) * n, rays->dir[k] + first, count * sizeof(float));
     }
-    for (uint32_t k = 0; k < n; k++) {
-        p->word[EMBREE_FAR * n + k] = rays->t_max && k < count ? rays->t_max[first + k] : INFINITY;
+    if (rays->t_max)
+        memcpy(p->word + EMBREE_FAR * n, rays->t_max + first, count * sizeof(float));
+    else
+        for (uint32_t k = 0; k < n; k++)
+            p->word[EMBREE_FAR * n + k] = INFINITY;
+    for (uint32_t k = 0; k < n; k++)
         p->valid[k] = k < count ? -1 : 0;
-    }
     if (!a->nearest)
         return;
     memset(p->word + EMBREE_PRIMITIVE * n, 0xff, n * sizeof(float));
@@ -55,9 +59,8 @@ static void intersect_packet(const embree_arrays *a, struct RTCIntersectContext 
     }
 }
 
-static void trace_piece(const embree_arrays *a, uint64_t first, uint64_t end)
+BENCH_INLINE void trace_packets(const embree_arrays *a, uint64_t first, uint64_t end, uint32_t n)
 {
-    const uint32_t n = a->packet;
     const cgt_rays *rays = a->batch;
     struct RTCIntersectContext context;
     array_packet p;
@@ -68,13 +71,27 @@ static void trace_piece(const embree_arrays *a, uint64_t first, uint64_t end)
     context.flags = a->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (uint64_t i = first; i < end; i += n) {
         const uint32_t count = end - i < n ? (uint32_t)(end - i) : n;
-        fill_packet(a, i, count, &p);
+        if (count == n)
+            fill_packet(a, i, n, n, &p);
+        else
+            fill_packet(a, i, count, n, &p);
         if (a->nearest)
             intersect_packet(a, &context, &p);
         else
             occlude_packet(a, &context, &p);
         for (uint32_t k = 0; k < count; k++) /* nearer than its far end; of an occluded ray that is -infinity */
             a->occluded[i + k] = p.word[EMBREE_FAR * n + k] < (rays->t_max ? rays->t_max[i + k] : INFINITY);
+    }
+}
+
+BENCH_CLONES
+static void trace_piece(const embree_arrays *a, uint64_t first, uint64_t end)
+{
+    switch (a->packet) {
+    case 16: trace_packets(a, first, end, 16); break;
+    case 8: trace_packets(a, first, end, 8); break;
+    case 4: trace_packets(a, first, end, 4); break;
+    default: trace_packets(a, first, end, 1); break;
     }
 }
 

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bench_clones.h"
 #include "native/native_flush.h"
 
 enum { TASK_PACKETS = 8 }; /* a task is a square of so many packets along each edge */
@@ -69,14 +70,14 @@ typedef struct packet {
     _Alignas(64) int valid[16];
 } packet;
 
-static void fill(float *words, float value, uint32_t n)
+BENCH_INLINE void fill(float *words, float value, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++)
         words[i] = value;
 }
 
 /* What is the same for all rays of a view. */
-static void packet_init(packet *p, const embree_view *view)
+BENCH_INLINE void packet_init(packet *p, const embree_view *view)
 {
     const uint32_t n = view->packet;
     memset(p, 0, sizeof *p);
@@ -86,24 +87,41 @@ static void packet_init(packet *p, const embree_view *view)
     memset(p->word + EMBREE_INSTANCE * n, 0xff, n * sizeof(float));
 }
 
-/* The rays of a packet whose first pixel is (x, y). */
-static void packet_rays(packet *p, const embree_view *view, uint32_t x, uint32_t y)
+/* The rays of a packet of n, `columns` side by side, whose first pixel is (x, y). Both are constants where this is called:
+ * what Embree loads as a vector has been stored as one, else it would wait for the stores. */
+BENCH_INLINE void packet_rays(packet *p, const bench_camera_axes *axes, uint32_t x, uint32_t y, uint32_t n,
+                              uint32_t columns)
 {
-    const bench_camera_axes *axes = &view->axes;
     const float sx = 2.0f / (float)axes->width, sy = 2.0f / (float)axes->height;
-    const uint32_t n = view->packet, columns = view->width;
+    float px[16], py[16];
     for (uint32_t k = 0; k < n; k++) {
-        const uint32_t column = x + k % columns, row = y + k / columns;
-        const float px = ((float)column + 0.5f) * sx - 1.0f, py = 1.0f - ((float)row + 0.5f) * sy;
-        for (uint32_t a = 0; a < 3; a++)
-            p->word[(EMBREE_DIR + a) * n + k] = axes->fwd[a] + px * axes->right[a] + py * axes->up[a];
+        px[k] = ((float)(int32_t)(x + k % columns) + 0.5f) * sx - 1.0f;
+        py[k] = 1.0f - ((float)(int32_t)(y + k / columns) + 0.5f) * sy;
+    }
+    for (uint32_t a = 0; a < 3; a++) {
+        const float fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a];
+        for (uint32_t k = 0; k < n; k++)
+            p->word[(EMBREE_DIR + a) * n + k] = fwd + px[k] * right + py[k] * up;
     }
     fill(p->word + EMBREE_FAR * n, INFINITY, n);
     memset(p->word + EMBREE_PRIMITIVE * n, 0xff, n * sizeof(float));
     memset(p->word + EMBREE_GEOMETRY * n, 0xff, n * sizeof(float));
 }
 
-static void packet_trace(packet *p, RTCScene scene, uint32_t n)
+/* Which of them are in the picture. */
+BENCH_INLINE void packet_valid(packet *p, const embree_view *view, uint32_t x, uint32_t y)
+{
+    if (x + view->width <= view->axes.width && y + view->height <= view->axes.height) {
+        memset(p->valid, 0xff, sizeof p->valid);
+        return;
+    }
+    for (uint32_t k = 0; k < view->packet; k++) {
+        const int inside = x + k % view->width < view->axes.width && y + k / view->width < view->axes.height;
+        p->valid[k] = inside ? -1 : 0;
+    }
+}
+
+BENCH_INLINE void packet_trace(packet *p, RTCScene scene, uint32_t n)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -116,9 +134,8 @@ static void packet_trace(packet *p, RTCScene scene, uint32_t n)
     }
 }
 
-static void packet_store(const packet *p, const embree_view *view, size_t first)
+BENCH_INLINE void packet_store(const packet *p, const embree_view *view, size_t first, uint32_t n)
 {
-    const uint32_t n = view->packet;
     const size_t bytes = n * sizeof(float);
     memcpy(view->hits.t + first, p->word + EMBREE_FAR * n, bytes);
     memcpy(view->hits.primitive + first, p->word + EMBREE_PRIMITIVE * n, bytes);
@@ -132,22 +149,30 @@ typedef struct trace_job {
     uint32_t tasks_across;
 } trace_job;
 
-static void trace_square(const trace_job *job, uint32_t column, uint32_t row)
+BENCH_INLINE void trace_packets(const trace_job *job, uint32_t column, uint32_t row, uint32_t n, uint32_t columns)
 {
     const embree_view *view = job->view;
     packet p;
     packet_init(&p, view);
     for (uint32_t j = row; j < row + TASK_PACKETS && j < view->down; j++)
         for (uint32_t i = column; i < column + TASK_PACKETS && i < view->across; i++) {
-            const uint32_t x = i * view->width, y = j * view->height;
-            for (uint32_t k = 0; k < view->packet; k++) {
-                const int inside = x + k % view->width < view->axes.width && y + k / view->width < view->axes.height;
-                p.valid[k] = inside ? -1 : 0;
-            }
-            packet_rays(&p, view, x, y);
-            packet_trace(&p, job->scene, view->packet);
-            packet_store(&p, view, ((size_t)j * view->across + i) * view->packet);
+            const uint32_t x = i * columns, y = j * (n / columns);
+            packet_valid(&p, view, x, y);
+            packet_rays(&p, &view->axes, x, y, n, columns);
+            packet_trace(&p, job->scene, n);
+            packet_store(&p, view, ((size_t)j * view->across + i) * n, n);
         }
+}
+
+BENCH_CLONES
+static void trace_square(const trace_job *job, uint32_t column, uint32_t row)
+{
+    switch (job->view->packet) { /* as embree_view_create has them */
+    case 16: trace_packets(job, column, row, 16, 4); break;
+    case 8: trace_packets(job, column, row, 8, 4); break;
+    case 4: trace_packets(job, column, row, 4, 2); break;
+    default: trace_packets(job, column, row, 1, 1); break;
+    }
 }
 
 static void trace_task(void *argument, uint32_t index)
