@@ -31,17 +31,15 @@ CGT_SPU_INLINE void tile_mesh_prepare(const cgt_world *world, const tile *t, uin
     }
 }
 
-/* Pixels i and on, of which some have hit something, `alone`: the same. Returns the lanes that are right. */
-CGT_SPU_INLINE vmask tile_mesh_resolve(const tile *t, const tile_mesh *m, uint32_t i, bool alone, vmask missed,
+/* A vector of pixels and their slots, of which one that has hit something has `some`, and all such, if `alone`. Returns the
+ * lanes that are right. */
+CGT_SPU_INLINE vmask tile_mesh_resolve(const tile_mesh *m, vuint slot, uint32_t some, bool alone, vmask missed,
                                        const vfloat dir[3], uint32_t fields, bool exact, resolved_triangles *to)
 {
-    const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
-    const uint32_t some = t->slot[i + (uint32_t)__builtin_ctz(hit)];
     if (alone)
         return resolve_prepared(m->record[some], NULL, dir, fields, exact, to);
     _Alignas(CGT_VECTOR_BYTES) uint32_t from[CGT_LANES];
-    spux_store_uint(from,
-                    spu_sl(spux_select(spux_load_uint(t->slot + i), spux_vuint(some), missed), 4)); /* the record */
+    spux_store_uint(from, spu_sl(spux_select(slot, spux_vuint(some), missed), 4)); /* the record */
     return resolve_prepared(m->record[0], from, dir, fields, exact, to);
 }
 

@@ -17,25 +17,34 @@
 #define TILE_LINE 16u                            /* pixels of a line of the cache */
 #define TILE_STRIP (PACKET_MAX_RAYS / TILE_EDGE) /* rows; even */
 
-/* Of pixels i and on. */
-CGT_SPU_INLINE void tile_directions_at(const tile *t, bool parallel, uint32_t i, vfloat dir[3])
+/* What the canonical directions of a tile's pixels are the sums of, or the origins of parallel rays: the forward axis and
+ * a column's share of the right one, and a row's share of the upward one, in the order of tile_directions. */
+typedef struct tile_sight {
+    _Alignas(CGT_VECTOR_BYTES) float across[3][TILE_EDGE];
+    float up[TILE_EDGE][4];
+} tile_sight;
+
+CGT_SPU_INLINE void tile_sight_make(const tile *t, tile_sight *s)
 {
-    const float *px = t->px + (i & (TILE_PAIR - 1));
-    tile_directions(t, parallel, spux_load_unaligned(px), spux_load(t->py[i / TILE_PAIR]), dir);
+    const cgt_camera_rays *c = t->rays;
+    const float *from = t->parallel ? c->eye : c->fwd;
+    for (int a = 0; a < 3; a++)
+        for (uint32_t x = 0; x < TILE_EDGE; x += CGT_LANES)
+            spux_store(s->across[a] + x, spu_add(spux_vfloat(from[a]), spu_mul(spux_load_unaligned(t->column + x),
+                                                                               spux_vfloat(c->right[a]))));
+    for (uint32_t y = 0; y < TILE_EDGE; y++)
+        for (int a = 0; a < 3; a++)
+            s->up[y][a] = t->row[y] * c->up[a];
+}
+
+/* Of columns x and on. */
+CGT_SPU_INLINE void tile_sight_at(const tile_sight *s, uint32_t x, uint32_t row, vfloat dir[3])
+{
+    for (int a = 0; a < 3; a++)
+        dir[a] = spu_add(spux_load(s->across[a] + x), spux_vfloat(s->up[row][a]));
 }
 
 /* ---- objects of one array ---- */
-
-/* A row of a vector's columns of a plane; a region less wide than a tile ends among them. */
-CGT_SPU_INLINE void tile_put_row(uint32_t *to, const cgt_region *r, bool stream, uint32_t x, vuint v)
-{
-    if (stream)
-        spux_stream_uint(to, v);
-    else if (x + CGT_LANES <= r->width)
-        spux_store_unaligned_uint(to, v);
-    else
-        spux_store_mask_uint(to, v, spux_mask_first(r->width - x));
-}
 
 CGT_SPU_INLINE bool tile_on_lines(const void *plane) { return (uintptr_t)plane % (4 * TILE_LINE) == 0; }
 
@@ -48,7 +57,16 @@ CGT_SPU_INLINE bool tile_streams(const cgt_region *r)
            tile_on_lines(r->u) && tile_on_lines(r->v);
 }
 
-/* What a vector of pixels gets. */
+/* A vector of pixels side by side in a row of a tile. */
+typedef struct tile_pixels {
+    uint32_t x, row; /* of the first one */
+    vuint object;
+    vmask missed;
+    uint32_t some; /* an object that one of them has met, CGT_NONE where there is none */
+    bool alone;    /* and no other */
+} tile_pixels;
+
+/* What they get. */
 typedef struct tile_hits {
     vuint object;
     vfloat t, u, v, normal[3];
@@ -65,14 +83,33 @@ typedef struct tile_prepared_sphere {
 typedef struct tile_wish {
     bool triangles, stream, exact, fast;
     bool mesh;       /* triangles are prepared */
-    bool parallel;   /* rays: tile_directions are their origins */
+    bool parallel;   /* rays: tile_sight_at tells their origins */
     uint32_t fields; /* t, u v and normals */
 } tile_wish;
 
-/* The objects of a vector, `number`, lanes without a hit having that of one that has, `some`. */
-CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
-                                          uint32_t some, bool alone, vmask missed, const vfloat dir[3],
-                                          tile_prepared_sphere *kept, tile_hits *h)
+/* What is kept from vector to vector. */
+typedef struct tile_kept {
+    const tile_met *met;
+    const tile_sight *sight;
+    tile_prepared_sphere *sphere;
+    const tile_mesh *mesh;
+} tile_kept;
+
+/* Objects of lanes, those without a hit having one that another lane has met. */
+CGT_SPU_INLINE vuint tile_numbers(const tile_pixels *p)
+{
+    return spux_select(p->object, spux_vuint(p->some), p->missed);
+}
+
+CGT_SPU_INLINE void tile_keep_normals(const vfloat normal[3], vmask missed, tile_hits *h)
+{
+    for (int a = 0; a < 3; a++)
+        h->normal[a] = spux_select(normal[a], spux_vfloat(0), missed);
+}
+
+/* These three return the lanes that are right. */
+CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_world *world, const tile *t, tile_wish wish, const tile_pixels *p,
+                                          const vfloat dir[3], tile_prepared_sphere *kept, tile_hits *h)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
@@ -80,63 +117,56 @@ CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_world *world, const tile *t,
     const bool normals = wish.fields & CGT_FIELD_NORMAL;
     vfloat n[3] = {zero, zero, zero}, found;
     vmask known;
-    if (!wish.fast && alone) {
-        if (some != kept->number) {
-            kept->number = some;
-            kept->sphere = prepare_sphere(eye, cgt_array_sphere(array, some));
+    if (!wish.fast && p->alone) {
+        if (p->some != kept->number) {
+            kept->number = p->some;
+            kept->sphere = prepare_sphere(eye, cgt_array_sphere(array, p->some));
         }
         known = resolve_prepared_sphere(&kept->sphere, dir, t_min, normals, &found, n);
     } else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat sphere[4];
-        fetch_spheres_at(array, number, sphere);
+        fetch_spheres_at(array, tile_numbers(p), sphere);
         known = wish.fast ? resolve_fast_spheres(org, dir, sphere, t_min, normals, &found, n)
                           : resolve_spheres_vector(org, dir, sphere, t_min, normals, &found, n);
     }
-    h->t = spux_select(found, h->t, missed);
+    h->t = spux_select(found, h->t, p->missed);
     if (normals)
-        for (int a = 0; a < 3; a++)
-            h->normal[a] = spux_select(n[a], zero, missed);
+        tile_keep_normals(n, p->missed, h);
     return known;
 }
 
-CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
-                                            vuint number, bool alone, vmask missed, const vfloat dir[3],
-                                            const tile_mesh *mesh, tile_hits *h)
+CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_world *world, const tile *t, tile_wish wish, const tile_pixels *p,
+                                            const vfloat dir[3], tile_kept kept, tile_hits *h)
 {
-    const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
     const vfloat zero = spux_vfloat(0);
     const uint32_t fields = wish.fields;
     const bool exact = wish.exact;
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask known;
-    if (wish.mesh)
-        known = tile_mesh_resolve(t, mesh, i, alone, missed, dir, fields, exact, &found);
-    else {
+    if (wish.mesh) {
+        const uint32_t some = t->slot[kept.met->at[tile_met_index(p->x, p->row)]];
+        vuint slot[2] = {spux_vuint(some), spux_vuint(some)};
+        if (!p->alone)
+            tile_rows(t->slot, p->x, p->row & ~1u, slot);
+        known = tile_mesh_resolve(kept.mesh, slot[p->row & 1], some, p->alone, p->missed, dir, fields, exact, &found);
+    } else {
         const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
         vfloat vertex[3][3];
-        fetch_triangles_at(array, number, vertex);
+        fetch_triangles_at(world->objects.array, tile_numbers(p), vertex);
         known = resolve_triangles_vector(org, dir, vertex, fields, exact, &found);
     }
-    h->t = spux_select(found.t, h->t, missed);
-    h->u = spux_select(found.u, zero, missed);
-    h->v = spux_select(found.v, zero, missed);
-    for (int a = 0; a < 3; a++)
-        h->normal[a] = spux_select(found.normal[a], zero, missed);
+    h->t = spux_select(found.t, h->t, p->missed);
+    h->u = spux_select(found.u, zero, p->missed);
+    h->v = spux_select(found.v, zero, p->missed);
+    tile_keep_normals(found.normal, p->missed, h);
     return known;
 }
 
-/* What is kept from vector to vector. */
-typedef struct tile_kept {
-    const tile_met *met;
-    tile_prepared_sphere *sphere;
-    const tile_mesh *mesh;
-} tile_kept;
-
-/* A vector of parallel rays, from these origins. */
-CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_world *world, const tile *t, tile_wish wish, vuint number,
-                                           uint32_t some, bool alone, vmask missed, const vfloat org[3], tile_hits *h)
+/* Parallel rays, from these origins. */
+CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_world *world, const tile *t, tile_wish wish, const tile_pixels *p,
+                                           const vfloat org[3], tile_hits *h)
 {
     const cgt_object_array *array = world->objects.array;
     const float *fwd = t->rays->fwd;
@@ -145,51 +175,50 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_world *world, const tile *t
     vmask known;
     if (wish.triangles) {
         vfloat vertex[3][3];
-        fetch_triangles_at(array, number, vertex);
+        fetch_triangles_at(array, tile_numbers(p), vertex);
         known = resolve_triangles_vector(org, dir, vertex, wish.fields, wish.exact, &found);
     } else {
-        const cgt_sphere q = cgt_array_sphere(array, some);
+        const cgt_sphere q = cgt_array_sphere(array, p->some);
         vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
-        if (!alone)
-            fetch_spheres_at(array, number, sphere);
+        if (!p->alone)
+            fetch_spheres_at(array, tile_numbers(p), sphere);
         known = resolve_spheres_vector(org, dir, sphere, spux_vfloat(t->rays->t_min), wish.fields & CGT_FIELD_NORMAL,
                                        &found.t, found.normal);
     }
-    h->t = spux_select(found.t, h->t, missed);
-    h->u = spux_select(found.u, zero, missed);
-    h->v = spux_select(found.v, zero, missed);
-    for (int a = 0; a < 3; a++)
-        h->normal[a] = spux_select(found.normal[a], zero, missed);
+    h->t = spux_select(found.t, h->t, p->missed);
+    h->u = spux_select(found.u, zero, p->missed);
+    h->v = spux_select(found.v, zero, p->missed);
+    tile_keep_normals(found.normal, p->missed, h);
     return known;
 }
 
-CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i,
-                                             tile_kept kept)
+/* Columns x and on of a row, which have met `object`. */
+CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile *t, tile_wish wish, uint32_t x,
+                                             uint32_t row, vuint object, tile_kept kept)
 {
     const vfloat zero = spux_vfloat(0);
-    tile_hits h = {spux_load_uint(t->object + i), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}, 0};
-    const vmask missed = spu_cmpeq(h.object, spux_vuint(CGT_NONE));
-    const uint32_t some = kept.met->some[i / CGT_LANES];
-    if (some == CGT_NONE || !wish.fields)
+    const uint32_t i = tile_met_index(x, row);
+    const tile_pixels p = {
+        x, row, object, spu_cmpeq(object, spux_vuint(CGT_NONE)), kept.met->some[i], kept.met->alone[i]};
+    tile_hits h = {object, spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}, 0};
+    if (p.some == CGT_NONE || !wish.fields)
         return h;
-    const vuint number = spux_select(h.object, spux_vuint(some), missed);
     vfloat dir[3];
-    tile_directions_at(t, wish.parallel, i, dir);
-    const bool alone = kept.met->alone[i / CGT_LANES];
+    tile_sight_at(kept.sight, x, row, dir);
     vmask known;
     if (wish.parallel)
-        known = tile_resolve_parallel(world, t, wish, number, some, alone, missed, dir, &h);
+        known = tile_resolve_parallel(world, t, wish, &p, dir, &h);
     else if (wish.triangles)
-        known = tile_resolve_triangles(world, t, wish, i, number, alone, missed, dir, kept.mesh, &h);
+        known = tile_resolve_triangles(world, t, wish, &p, dir, kept, &h);
     else
-        known = tile_resolve_spheres(world, t, wish, number, some, alone, missed, dir, kept.sphere, &h);
-    h.left = spux_mask_bits(spux_not(spu_or(missed, known)));
+        known = tile_resolve_spheres(world, t, wish, &p, dir, kept.sphere, &h);
+    h.left = spux_mask_bits(spux_not(spu_or(p.missed, known)));
     return h;
 }
 
 /* The lanes that are left: the long way of spheres by vectors, then ray by ray. */
-CGT_SPU_INLINE void tile_mend(const cgt_world *world, const tile *t, tile_wish wish, uint32_t i, tile_hits *h,
-                              cgt_counts *counts)
+CGT_SPU_INLINE void tile_mend(const cgt_world *world, const tile *t, tile_wish wish, const tile_sight *sight,
+                              uint32_t x, uint32_t row, tile_hits *h, cgt_counts *counts)
 {
     unsigned left = h->left;
     if (left && !wish.triangles) {
@@ -199,14 +228,14 @@ CGT_SPU_INLINE void tile_mend(const cgt_world *world, const tile *t, tile_wish w
         vfloat line[2][3], sphere[4];
         for (int a = 0; a < 3; a++)
             line[wish.parallel][a] = spux_vfloat(wish.parallel ? c->fwd[a] : c->eye[a]);
-        tile_directions_at(t, wish.parallel, i, line[!wish.parallel]);
+        tile_sight_at(sight, x, row, line[!wish.parallel]);
         fetch_spheres_at(world->objects.array, spux_select(spux_vuint(some), h->object, mine), sphere);
         left &= ~spux_mask_bits(resolve_spheres_long(line[0], line[1], sphere, spux_vfloat(c->t_min),
                                                      wish.fields & CGT_FIELD_NORMAL, mine, &h->t, h->normal));
     }
     for (; left; left &= left - 1) {
         const int k = __builtin_ctz(left);
-        const cgt_ray ray = tile_ray(t, i + (uint32_t)k);
+        const cgt_ray ray = tile_ray(t, tile_index(x + (uint32_t)k, row));
         if (wish.triangles) {
             const cgt_triangle q = cgt_objects_triangle(&world->objects, h->object[k]);
             const resolved_triangle s = resolve_triangle_ray(&ray, &q, wish.fields, wish.exact, counts);
@@ -225,41 +254,40 @@ CGT_SPU_INLINE void tile_mend(const cgt_world *world, const tile *t, tile_wish w
     }
 }
 
-/* Where two vectors of pixels go: columns x and on of rows y and y + 1, which begin at `at` in the planes. */
+/* Where a vector of pixels goes: columns x and on of a row, which begin at `at` in the planes. */
 typedef struct tile_place {
     const cgt_region *region;
     bool stream;
-    uint32_t x, y;
+    uint32_t x, row;
     size_t at;
 } tile_place;
 
-/* Two vectors of pixels, as a tile has them, to a plane. */
-CGT_SPU_INLINE void tile_put(void *plane, tile_place to, vuint a, vuint b)
+/* A region less wide than a tile ends among a vector's columns. */
+CGT_SPU_INLINE void tile_put(void *plane, tile_place to, vuint v)
 {
     const cgt_region *r = to.region;
-    vuint row[2] = {a, b};
+    uint32_t *p = (uint32_t *)plane + to.at;
     if (!plane)
         return;
-    uint32_t *p = (uint32_t *)plane + to.at;
-    spux_unzip(row);
-    tile_put_row(p, r, to.stream, to.x, row[0]);
-    if (to.stream || to.y + 1 < r->height)
-        tile_put_row(p + r->row_stride, r, to.stream, to.x, row[1]);
+    if (to.stream)
+        spux_stream_uint(p, v);
+    else if (to.x + CGT_LANES <= r->width)
+        spux_store_unaligned_uint(p, v);
+    else
+        spux_store_mask_uint(p, v, spux_mask_first(r->width - to.x));
 }
 
-CGT_SPU_INLINE void tile_put_hits(tile_place to, uint32_t geometry, tile_hits a, tile_hits b)
+CGT_SPU_INLINE void tile_put_hits(tile_place to, uint32_t geometry, tile_hits h)
 {
-    const vuint none = spux_vuint(CGT_NONE), it = spux_vuint(geometry);
+    const vuint none = spux_vuint(CGT_NONE);
     const cgt_region *r = to.region;
-    tile_put(r->t, to, (vuint)a.t, (vuint)b.t);
-    tile_put(r->primitive, to, a.object, b.object);
-    tile_put(r->geometry, to, spux_select(it, none, spu_cmpeq(a.object, none)),
-             spux_select(it, none, spu_cmpeq(b.object, none)));
-    tile_put(r->normal[0], to, (vuint)a.normal[0], (vuint)b.normal[0]);
-    tile_put(r->normal[1], to, (vuint)a.normal[1], (vuint)b.normal[1]);
-    tile_put(r->normal[2], to, (vuint)a.normal[2], (vuint)b.normal[2]);
-    tile_put(r->u, to, (vuint)a.u, (vuint)b.u);
-    tile_put(r->v, to, (vuint)a.v, (vuint)b.v);
+    tile_put(r->t, to, (vuint)h.t);
+    tile_put(r->primitive, to, h.object);
+    tile_put(r->geometry, to, spux_select(spux_vuint(geometry), none, spu_cmpeq(h.object, none)));
+    for (int a = 0; a < 3; a++)
+        tile_put(r->normal[a], to, (vuint)h.normal[a]);
+    tile_put(r->u, to, (vuint)h.u);
+    tile_put(r->v, to, (vuint)h.v);
 }
 
 /* A line of the cache of each plane, and of two rows: narrow vectors fill it before it goes past the caches. */
@@ -306,33 +334,41 @@ CGT_SPU_INLINE void tile_stream_lines(const cgt_region *r, const cgt_region *lin
 }
 
 __attribute__((noinline, unused)) static void tile_put_mended(const cgt_world *world, const tile *t, tile_wish wish,
-                                                              tile_place to, tile_hits h[2], cgt_counts *counts)
+                                                              const tile_sight *sight, tile_place to, tile_hits *h,
+                                                              cgt_counts *counts)
 {
-    for (uint32_t k = 0; k < 2; k++)
-        tile_mend(world, t, wish, tile_index(to.x, to.y) + k * CGT_LANES, &h[k], counts);
-    tile_put_hits(to, world->objects.array->geometry, h[0], h[1]);
+    tile_mend(world, t, wish, sight, to.x, to.row, h, counts);
+    tile_put_hits(to, world->objects.array->geometry, *h);
+}
+
+CGT_SPU_INLINE void tile_resolve_row(const cgt_world *world, const tile *t, tile_wish wish, tile_kept kept,
+                                     tile_place to, vuint object, cgt_counts *counts)
+{
+    const tile_hits h = tile_resolve_vector(world, t, wish, to.x, to.row, object, kept);
+    if (__builtin_expect(h.left != 0, 0)) { /* of a copy: the hits stay in registers */
+        tile_hits left = h;
+        tile_put_mended(world, t, wish, kept.sight, to, &left, counts);
+    } else
+        tile_put_hits(to, world->objects.array->geometry, h);
 }
 
 CGT_SPU_INLINE void tile_resolve_to(const cgt_world *world, const tile *t, const cgt_region *region, tile_wish wish,
                                     tile_kept kept, cgt_counts *counts)
 {
-    const uint32_t geometry = world->objects.array->geometry;
     const bool by_lines = wish.stream && CGT_LANES < TILE_LINE;
     const cgt_region r = *region; /* a copy: nothing that is stored changes it */
     tile_lines lines;
     const cgt_region q = by_lines ? tile_lines_region(&r, &lines) : r;
     for (uint32_t y = 0; y < r.height; y += 2)
         for (uint32_t x = 0; x < r.width; x += CGT_LANES) {
-            const uint32_t i = tile_index(x, y);
             const size_t at = by_lines ? x % TILE_LINE : (size_t)y * r.row_stride + x;
             const tile_place to = {&q, wish.stream && !by_lines, x, y, at};
-            const tile_hits a = tile_resolve_vector(world, t, wish, i, kept);
-            const tile_hits b = tile_resolve_vector(world, t, wish, i + CGT_LANES, kept);
-            if (__builtin_expect((a.left | b.left) != 0, 0)) { /* of copies: the hits stay in registers */
-                tile_hits left[2] = {a, b};
-                tile_put_mended(world, t, wish, to, left, counts);
-            } else
-                tile_put_hits(to, geometry, a, b);
+            const tile_place below = {&q, wish.stream && !by_lines, x, y + 1, at + q.row_stride};
+            vuint object[2];
+            tile_rows(t->object, x, y, object);
+            tile_resolve_row(world, t, wish, kept, to, object[0], counts);
+            if (wish.stream || y + 1 < r.height)
+                tile_resolve_row(world, t, wish, kept, below, object[1], counts);
             if (by_lines && (x + CGT_LANES) % TILE_LINE == 0)
                 tile_stream_lines(&r, &q, x + CGT_LANES - TILE_LINE, y);
         }
@@ -355,10 +391,10 @@ CGT_SPU_INLINE void tile_resolve_streamed(const cgt_world *world, const tile *t,
 
 __attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cgt_world *world, const tile *t,
                                                                         const cgt_region *r, tile_wish wish,
-                                                                        const tile_met *met, cgt_counts *counts)
+                                                                        tile_kept kept, cgt_counts *counts)
 {
     tile_prepared_sphere prepared = {.number = CGT_NONE};
-    const tile_kept kept = {.met = met, .sphere = &prepared};
+    kept.sphere = &prepared;
     wish.triangles = wish.parallel = false;
     if (!(wish.fields & CGT_FIELD_NORMAL))
         tile_resolve_streamed(world, t, r, wish, kept, counts);
@@ -376,10 +412,10 @@ __attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cg
 
 __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const cgt_world *world, const tile *t,
                                                                           const cgt_region *r, tile_wish wish,
-                                                                          const tile_met *met, cgt_counts *counts)
+                                                                          tile_kept kept, cgt_counts *counts)
 {
     tile_mesh mesh;
-    const tile_kept kept = {.met = met, .mesh = &mesh};
+    kept.mesh = &mesh;
     wish.triangles = true;
     wish.parallel = false;
     wish.mesh = wish.fields && t->lists < TILE_LIST;
@@ -395,9 +431,8 @@ __attribute__((noinline, unused)) static void tile_resolve_triangle_array(const 
 
 __attribute__((noinline, unused)) static void tile_resolve_parallel_array(const cgt_world *world, const tile *t,
                                                                           const cgt_region *r, tile_wish wish,
-                                                                          const tile_met *met, cgt_counts *counts)
+                                                                          tile_kept kept, cgt_counts *counts)
 {
-    const tile_kept kept = {.met = met};
     wish.parallel = true;
     if (wish.triangles) {
         wish.triangles = true;
@@ -417,13 +452,16 @@ CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, co
                             .fields = (r->t ? CGT_FIELD_T : 0u) | (r->normal[0] ? CGT_FIELD_NORMAL : 0u) |
                                       (r->u && world->objects.triangles ? CGT_FIELD_UV : 0u)};
     tile_met met;
+    tile_sight sight;
+    const tile_kept kept = {.met = &met, .sight = &sight};
     tile_meet(t, r, &met, counts);
+    tile_sight_make(t, &sight);
     if (t->parallel)
-        tile_resolve_parallel_array(world, t, r, wish, &met, counts);
+        tile_resolve_parallel_array(world, t, r, wish, kept, counts);
     else if (world->objects.triangles)
-        tile_resolve_triangle_array(world, t, r, wish, &met, counts);
+        tile_resolve_triangle_array(world, t, r, wish, kept, counts);
     else
-        tile_resolve_sphere_array(world, t, r, wish, &met, counts);
+        tile_resolve_sphere_array(world, t, r, wish, kept, counts);
 }
 
 /* ---- anything, by rows ---- */
