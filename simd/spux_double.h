@@ -5,7 +5,9 @@
  * operators, which no variant fuses: the same bits at every width.
  *
  *   spux_double_low, high(a)       the first and the other half of a vfloat's lanes, exactly
- *   spux_float_of(low, high)       the reverse, rounded to nearest
+ *   spux_double_sum(a, b)          the sums of CGT_DOUBLES floats at a, aligned to them, and of b, rounded to float
+ *   spux_float_of(low, high)       the reverse of low and high, rounded to nearest
+ *   spux_float_where(low, high, m) the same, and 0 beside the mask m
  *   spux_vdouble(x)                x in every lane
  *   spux_double_sqrt(a)            correctly rounded
  *   spux_double_abs(a)
@@ -29,6 +31,10 @@ typedef int64_t cgt_spux_long_w __attribute__((vector_size(4 * CGT_LANES)));
 CGT_SPU_INLINE vdouble spux_vdouble(double x) { return x - (vdouble){0}; }
 
 #if CGT_LANES == 16
+CGT_SPU_INLINE vdouble spux_double_sum(const float *a, float b)
+{
+    return (vdouble)_mm512_cvtps_pd(_mm256_add_ps(_mm256_load_ps(a), _mm256_set1_ps(b)));
+}
 CGT_SPU_INLINE vdouble spux_double_low(vfloat a) { return (vdouble)_mm512_cvtps_pd(cgt_spux_half_w(a, 0)); }
 CGT_SPU_INLINE vdouble spux_double_high(vfloat a) { return (vdouble)_mm512_cvtps_pd(cgt_spux_half_w(a, 1)); }
 CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
@@ -37,7 +43,17 @@ CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
     return (vfloat)_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_castps_pd(l)), _mm256_castps_pd(h), 1);
 }
 CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a) { return (vdouble)_mm512_sqrt_pd((__m512d)a); }
+CGT_SPU_INLINE vfloat spux_float_where(vdouble low, vdouble high, vmask m)
+{
+    const __mmask8 first = (__mmask8)m.bits, second = (__mmask8)(m.bits >> 8);
+    const __m256 l = _mm512_maskz_cvtpd_ps(first, (__m512d)low), h = _mm512_maskz_cvtpd_ps(second, (__m512d)high);
+    return (vfloat)_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_castps_pd(l)), _mm256_castps_pd(h), 1);
+}
 #elif CGT_LANES == 8
+CGT_SPU_INLINE vdouble spux_double_sum(const float *a, float b)
+{
+    return (vdouble)_mm256_cvtps_pd(_mm_add_ps(_mm_load_ps(a), _mm_set1_ps(b)));
+}
 CGT_SPU_INLINE vdouble spux_double_low(vfloat a) { return (vdouble)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)a)); }
 CGT_SPU_INLINE vdouble spux_double_high(vfloat a)
 {
@@ -50,6 +66,10 @@ CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
 }
 CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a) { return (vdouble)_mm256_sqrt_pd((__m256d)a); }
 #else
+CGT_SPU_INLINE vdouble spux_double_sum(const float *a, float b)
+{
+    return (vdouble){(double)(a[0] + b), (double)(a[1] + b)};
+}
 CGT_SPU_INLINE vdouble spux_double_low(vfloat a) { return (vdouble){(double)a[0], (double)a[1]}; }
 CGT_SPU_INLINE vdouble spux_double_high(vfloat a) { return (vdouble){(double)a[2], (double)a[3]}; }
 CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
@@ -57,6 +77,13 @@ CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
     return (vfloat){(float)low[0], (float)low[1], (float)high[0], (float)high[1]};
 }
 CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a) { return (vdouble){__builtin_sqrt(a[0]), __builtin_sqrt(a[1])}; }
+#endif
+
+#if CGT_LANES != 16
+CGT_SPU_INLINE vfloat spux_float_where(vdouble low, vdouble high, vmask m)
+{
+    return spux_select(spux_vfloat(0), spux_float_of(low, high), m);
+}
 #endif
 
 CGT_SPU_INLINE vdouble spux_double_abs(vdouble a)

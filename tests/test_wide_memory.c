@@ -351,6 +351,16 @@ static void doubles(void **state)
         back.f = spux_float_of(half[0], half[1]);
         for (int k = 0; k < CGT_LANES; k++)
             assert_true(back.ef[k] == (float)((double)a.ef[k] / 3));
+        const unsigned where = (unsigned)random_below(&r, CGT_ALL_LANES + 1);
+        back.f = spux_float_where(half[0], half[1], spux_mask_from_bits(where));
+        for (int k = 0; k < CGT_LANES; k++)
+            assert_true(back.ef[k] == (where >> k & 1 ? (float)((double)a.ef[k] / 3) : 0));
+        const float b = random_float(&r, -2, 2);
+        for (int h = 0; h < 2; h++) {
+            const vdouble added = spux_double_sum(a.ef + h * CGT_DOUBLES, b);
+            for (int k = 0; k < CGT_DOUBLES; k++)
+                assert_true(added[k] == (double)(a.ef[h * CGT_DOUBLES + k] + b));
+        }
     }
 }
 

@@ -25,11 +25,12 @@ CGT_SPU_INLINE void resolve_directions(const vfloat dir[3], resolve_half h[2])
     }
 }
 
-/* k: 1 / r */
-CGT_SPU_INLINE void resolve_normals(const resolve_half h[2], const vdouble k[2], vfloat n[3])
+/* Of the lanes in `where`, 0 beside them. k: 1 / r */
+CGT_SPU_INLINE void resolve_normals(const resolve_half h[2], const vdouble k[2], vmask where, vfloat n[3])
 {
     for (int a = 0; a < 3; a++)
-        n[a] = spux_float_of((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1]);
+        n[a] =
+            spux_float_where((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1], where);
 }
 
 /* ---- the short way of sphere_double.h, in its order ---- */
@@ -97,7 +98,7 @@ __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat
     *t = spux_select(*t, near, known);
     if (!normal)
         return known;
-    resolve_normals(h, k, normals);
+    resolve_normals(h, k, known, normals);
     for (int a = 0; a < 3; a++)
         n[a] = spux_select(n[a], normals[a], known);
     return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
@@ -150,13 +151,11 @@ CGT_SPU_INLINE vmask resolve_spheres_rest(const vfloat org[3], const vfloat dir[
     return spu_or(known, more);
 }
 
-/* What the short way asks for: directions, centres and products. Returns the lanes outside. */
-CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4], resolve_half h[2],
-                                   vdouble product[2])
+/* What the short way asks for, but directions, which h has: centres and products. Returns the lanes outside. */
+CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat sphere[4], resolve_half h[2], vdouble product[2])
 {
     const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
     vdouble least[2];
-    resolve_directions(dir, h);
     for (int a = 0; a < 3; a++) {
         h[0].c[a] = spux_double_low(sphere[a]) - spux_double_low(org[a]);
         h[1].c[a] = spux_double_high(sphere[a]) - spux_double_high(org[a]);
@@ -169,19 +168,19 @@ CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat dir[3], con
     return spux_not(spux_double_cmpgt(least, product));
 }
 
-/* Rays that hit, and their spheres. The outward unit normal is the vector from the centre over the radius. Origin and
- * centre may both be far away: their difference comes first. */
-CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
-                                            vfloat t_min, bool normal, vfloat *t, vfloat n[3])
+/* Rays whose directions h has, of which some hit their spheres: t, and the normals of these, 0 beside them. The outward
+ * unit normal is the vector from the centre over the radius. Origin and centre may both be far away: their difference
+ * comes first. */
+CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat sphere[4], vfloat t_min, bool normal,
+                                            vmask hit, resolve_half h[2], vfloat *t, vfloat n[3])
 {
-    resolve_half h[2];
     vdouble product[2];
-    const vmask outside = resolve_terms(org, dir, sphere, h, product);
+    const vmask outside = resolve_terms(org, sphere, h, product);
     const vmask known = resolve_nears(product, outside, t_min, h, t);
     if (normal) {
         const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
         const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
-        resolve_normals(h, k, n);
+        resolve_normals(h, k, hit, n);
     }
     return known;
 }
@@ -202,18 +201,16 @@ CGT_SPU_INLINE prepared_sphere prepare_sphere(const float org[3], cgt_sphere q)
 }
 
 /* As resolve_spheres_vector. */
-CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, const vfloat dir[3], vfloat t_min, bool normal,
-                                             vfloat *t, vfloat n[3])
+CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, vfloat t_min, bool normal, vmask hit,
+                                             resolve_half h[2], vfloat *t, vfloat n[3])
 {
     const vdouble product[2] = {spux_vdouble(p->product), spux_vdouble(p->product)};
-    resolve_half h[2];
-    resolve_directions(dir, h);
     for (int a = 0; a < 3; a++)
         h[0].c[a] = h[1].c[a] = spux_vdouble(p->c[a]);
     const vmask known = resolve_nears(product, p->outside ? spux_mask_all() : spux_mask_none(), t_min, h, t);
     if (normal) {
         const vdouble k[2] = {spux_vdouble(p->reciprocal), spux_vdouble(p->reciprocal)};
-        resolve_normals(h, k, n);
+        resolve_normals(h, k, hit, n);
     }
     return known;
 }
@@ -232,7 +229,9 @@ CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal
         dir[a] = spux_load(p->dir[a] + i);
     }
     const vfloat t_min = spux_load(p->t_min + i);
-    vmask known = resolve_spheres_vector(org, dir, sphere, t_min, normal, &t, n);
+    resolve_half h[2];
+    resolve_directions(dir, h);
+    vmask known = resolve_spheres_vector(org, sphere, t_min, normal, hit, h, &t, n);
     known = resolve_spheres_rest(org, dir, sphere, t_min, normal, hit, known, &t, n);
     spux_store(hits->t + i, spux_select(alone ? spux_vfloat(INFINITY) : spux_load(hits->t + i), t, hit));
     for (int a = 0; normal && a < 3; a++) {

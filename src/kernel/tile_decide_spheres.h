@@ -36,7 +36,8 @@ CGT_SPU_INLINE tile_near_hits tile_see_spheres(const tile *t, const cgt_object_a
     vfloat sphere[4];
     vdouble product[2], limit[2], disc[2];
     fetch_spheres_at(array, number, sphere);
-    const vmask outside = resolve_terms(org, dir, sphere, h, product);
+    resolve_directions(dir, h);
+    const vmask outside = resolve_terms(org, sphere, h, product);
     n.known = resolve_nears(product, outside, spux_vfloat(t->rays->t_min), h, &n.rounded);
     for (int i = 0; i < 2; i++) {
         const vdouble r = i ? spux_double_high(sphere[3]) : spux_double_low(sphere[3]);

@@ -10,7 +10,6 @@
 
 typedef struct tile_met {
     uint32_t some[TILE_PIXELS / CGT_LANES]; /* an object, CGT_NONE where there is none */
-    uint16_t at[TILE_PIXELS / CGT_LANES];   /* a pixel that has it */
     bool alone[TILE_PIXELS / CGT_LANES];    /* and no other */
 } tile_met;
 
@@ -37,11 +36,10 @@ CGT_SPU_INLINE void tile_meet(const tile *t, const cgt_region *r, tile_met *m, c
                 const unsigned missed = spux_mask_bits(spu_cmpeq(object[k], spux_vuint(CGT_NONE)));
                 const unsigned hit = ~missed & CGT_ALL_LANES;
                 const uint32_t lane = (uint32_t)__builtin_ctz(hit | 1u << (CGT_LANES - 1));
-                const uint32_t at = tile_index(x + lane, y + k), some = t->object[at];
+                const uint32_t some = t->object[tile_index(x, y) + 2 * lane + k];
                 const unsigned same = spux_mask_bits(spu_cmpeq(object[k], spux_vuint(some)));
                 const uint32_t i = tile_met_index(x, y + k);
                 m->some[i] = some;
-                m->at[i] = (uint16_t)at;
                 m->alone[i] = (same | missed) == CGT_ALL_LANES;
                 hits += spux_count_bits(hit);
             }

@@ -43,6 +43,12 @@ CGT_SPU_INLINE void tile_sight_at(const tile_sight *s, uint32_t x, uint32_t row,
     for (int a = 0; a < 3; a++)
         dir[a] = spu_add(spux_load(s->across[a] + x), spux_vfloat(s->up[row][a]));
 }
+CGT_SPU_INLINE void tile_sight_double_at(const tile_sight *s, uint32_t x, uint32_t row, resolve_half h[2])
+{
+    for (int a = 0; a < 3; a++)
+        for (uint32_t i = 0; i < 2; i++)
+            h[i].d[a] = spux_double_sum(s->across[a] + x + i * CGT_DOUBLES, s->up[row][a]);
+}
 
 /* ---- objects of one array ---- */
 
@@ -109,30 +115,38 @@ CGT_SPU_INLINE void tile_keep_normals(const vfloat normal[3], vmask missed, tile
 
 /* These three return the lanes that are right. */
 CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_world *world, const tile *t, tile_wish wish, const tile_pixels *p,
-                                          const vfloat dir[3], tile_prepared_sphere *kept, tile_hits *h)
+                                          tile_kept kept, tile_hits *h)
 {
     const cgt_object_array *array = world->objects.array;
     const float *eye = t->rays->eye;
-    const vfloat t_min = spux_vfloat(t->rays->t_min), zero = spux_vfloat(0);
+    const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
+    const vfloat t_min = spux_vfloat(t->rays->t_min);
+    const vmask hit = spux_not(p->missed);
     const bool normals = wish.fields & CGT_FIELD_NORMAL;
-    vfloat n[3] = {zero, zero, zero}, found;
+    vfloat sphere[4], found;
     vmask known;
-    if (!wish.fast && p->alone) {
-        if (p->some != kept->number) {
-            kept->number = p->some;
-            kept->sphere = prepare_sphere(eye, cgt_array_sphere(array, p->some));
-        }
-        known = resolve_prepared_sphere(&kept->sphere, dir, t_min, normals, &found, n);
-    } else {
-        const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
-        vfloat sphere[4];
+    if (wish.fast) {
+        vfloat dir[3], n[3];
+        tile_sight_at(kept.sight, p->x, p->row, dir);
         fetch_spheres_at(array, tile_numbers(p), sphere);
-        known = wish.fast ? resolve_fast_spheres(org, dir, sphere, t_min, normals, &found, n)
-                          : resolve_spheres_vector(org, dir, sphere, t_min, normals, &found, n);
+        known = resolve_fast_spheres(org, dir, sphere, t_min, normals, &found, n);
+        if (normals)
+            tile_keep_normals(n, p->missed, h);
+    } else {
+        resolve_half half[2];
+        tile_sight_double_at(kept.sight, p->x, p->row, half);
+        if (p->alone) {
+            if (p->some != kept.sphere->number) {
+                kept.sphere->number = p->some;
+                kept.sphere->sphere = prepare_sphere(eye, cgt_array_sphere(array, p->some));
+            }
+            known = resolve_prepared_sphere(&kept.sphere->sphere, t_min, normals, hit, half, &found, h->normal);
+        } else {
+            fetch_spheres_at(array, tile_numbers(p), sphere);
+            known = resolve_spheres_vector(org, sphere, t_min, normals, hit, half, &found, h->normal);
+        }
     }
     h->t = spux_select(found, h->t, p->missed);
-    if (normals)
-        tile_keep_normals(n, p->missed, h);
     return known;
 }
 
@@ -146,7 +160,8 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_world *world, const tile *
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
     vmask known;
     if (wish.mesh) {
-        const uint32_t some = t->slot[kept.met->at[tile_met_index(p->x, p->row)]];
+        const unsigned hit = ~spux_mask_bits(p->missed) & CGT_ALL_LANES;
+        const uint32_t some = t->slot[tile_index(p->x + (uint32_t)__builtin_ctz(hit), p->row)];
         vuint slot[2] = {spux_vuint(some), spux_vuint(some)};
         if (!p->alone)
             tile_rows(t->slot, p->x, p->row & ~1u, slot);
@@ -172,6 +187,7 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_world *world, const tile *t
     const float *fwd = t->rays->fwd;
     const vfloat zero = spux_vfloat(0), dir[3] = {spux_vfloat(fwd[0]), spux_vfloat(fwd[1]), spux_vfloat(fwd[2])};
     resolved_triangles found = {zero, zero, zero, {zero, zero, zero}};
+    resolve_half half[2];
     vmask known;
     if (wish.triangles) {
         vfloat vertex[3][3];
@@ -182,8 +198,9 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_world *world, const tile *t
         vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
         if (!p->alone)
             fetch_spheres_at(array, tile_numbers(p), sphere);
-        known = resolve_spheres_vector(org, dir, sphere, spux_vfloat(t->rays->t_min), wish.fields & CGT_FIELD_NORMAL,
-                                       &found.t, found.normal);
+        resolve_directions(dir, half);
+        known = resolve_spheres_vector(org, sphere, spux_vfloat(t->rays->t_min), wish.fields & CGT_FIELD_NORMAL,
+                                       spux_not(p->missed), half, &found.t, found.normal);
     }
     h->t = spux_select(found.t, h->t, p->missed);
     h->u = spux_select(found.u, zero, p->missed);
@@ -211,7 +228,7 @@ CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile 
     else if (wish.triangles)
         known = tile_resolve_triangles(world, t, wish, &p, dir, kept, &h);
     else
-        known = tile_resolve_spheres(world, t, wish, &p, dir, kept.sphere, &h);
+        known = tile_resolve_spheres(world, t, wish, &p, kept, &h);
     h.left = spux_mask_bits(spux_not(spu_or(p.missed, known)));
     return h;
 }
