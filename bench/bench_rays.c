@@ -198,36 +198,50 @@ uint32_t bench_tile_pixels(const bench_camera_axes *axes, uint32_t tile, uint32_
     return whole ? BENCH_TILE_PIXELS : count;
 }
 
+/* Vectors of a row of a block: a compiler finds none in loops with two subscripts. */
+typedef float block_floats __attribute__((vector_size(sizeof(float[BLOCK]))));
+typedef int32_t block_words __attribute__((vector_size(sizeof(int32_t[BLOCK]))));
+
 /* Appends the pixels of a block that have a hit: of most blocks all or none. Few branches: where a surface ends they are
  * guessed wrong. */
-static inline uint32_t list_block(const float *t, const uint32_t *width, uint32_t x0, uint32_t y0, uint32_t *to)
+static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, uint32_t y0, uint32_t *to)
 {
-    uint32_t is[GROUP], hits = 0, listed = 0;
-    for (uint32_t i = 0; i < GROUP; i++) {
-        is[i] = t[i / BLOCK * *width + i % BLOCK] < INFINITY;
-        hits += is[i];
+    const int32_t corner = (int32_t)(x0 | y0 << 16);
+    const block_words columns = {corner, corner + 1, corner + 2, corner + 3};
+    block_words is[BLOCK], found = {0};
+    uint32_t hits = 0, listed = 0;
+    for (uint32_t row = 0; row < BLOCK; row++) {
+        block_floats at;
+        memcpy(&at, t + (size_t)row * width, sizeof at);
+        is[row] = at < INFINITY;
+        found -= is[row];
     }
+    for (uint32_t i = 0; i < BLOCK; i++)
+        hits += (uint32_t)found[i];
     if (!hits)
         return 0;
     if (hits == GROUP) {
-        for (uint32_t i = 0; i < GROUP; i++)
-            to[i] = (x0 + i % BLOCK) | (y0 + i / BLOCK) << 16;
+        for (int32_t row = 0; row < BLOCK; row++) {
+            const block_words pixels = columns + (row << 16);
+            memcpy(to + row * BLOCK, &pixels, sizeof pixels);
+        }
         return GROUP;
     }
-    for (uint32_t i = 0; i < GROUP; i++) {
-        to[listed] = (x0 + i % BLOCK) | (y0 + i / BLOCK) << 16;
-        listed += is[i];
-    }
+    for (uint32_t row = 0; row < BLOCK; row++)
+        for (uint32_t i = 0; i < BLOCK; i++) {
+            to[listed] = (x0 + i) | (y0 + row) << 16;
+            listed -= (uint32_t)is[row][i];
+        }
     return listed;
 }
 
-/* Of the next tile, which lies in as many pieces as it has rows: no processor asks for those by itself. */
-static inline void ask_for_tile(const bench_rays *rays, uint32_t left, uint32_t top)
+/* Of the next tile, which lies in as many pieces as it has rows, one line of the cache for each block: no processor asks
+ * for those by itself, or for many at a time. */
+static inline void ask_for_line(const bench_rays *rays, uint32_t left, uint32_t top, uint32_t block)
 {
-    const uint32_t width = rays->axes->width, height = rays->axes->height;
-    for (uint32_t y = top; y < top + TILE && y < height; y++)
-        for (uint32_t x = left; x < left + TILE && x < width; x += 16)
-            __builtin_prefetch(rays->planes->t + (size_t)y * width + x);
+    const uint32_t x = left + block % (TILE / GROUP) * GROUP, y = top + block / (TILE / GROUP);
+    if (x < rays->axes->width && y < rays->axes->height)
+        __builtin_prefetch(rays->planes->t + (size_t)y * rays->axes->width + x);
 }
 
 /* The hits of a tile, into its own part of the list. */
@@ -239,11 +253,11 @@ static void list_tile(void *argument, uint32_t index)
     const uint32_t width = rays->axes->width, height = rays->axes->height, columns = (width + TILE - 1) / TILE;
     const uint32_t left = tile % columns * TILE, top = tile / columns * TILE;
     uint32_t *to = rays->of_tile + (size_t)index * BENCH_TILE_PIXELS, hits = 0;
-    ask_for_tile(rays, left + TILE, top);
     if (width - left >= TILE && height - top >= TILE) {
         for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
             const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
-            hits += list_block(rays->planes->t + (size_t)y0 * width + x0, &width, x0, y0, to + hits);
+            ask_for_line(rays, left + TILE, top, block);
+            hits += list_block(rays->planes->t + (size_t)y0 * width + x0, width, x0, y0, to + hits);
         }
     } else {
         const uint32_t pixels = bench_tile_pixels(rays->axes, tile, to);
