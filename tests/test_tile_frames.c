@@ -220,6 +220,52 @@ static void frames_of_hard_cases(void **state)
     assert_true(cases >= 3 && tally.served >= 3 && tally.parallel >= 3);
 }
 
+/* A wall before the camera, which all its rays meet at one t, and one right behind it; where the range ends or begins
+ * there, every pixel is for double to decide. */
+static void frames_of_walls_where_ranges_end(void **state)
+{
+    (void)state;
+    const float wall = 3, behind = nextafterf(wall, 4), beyond = nextafterf(behind, 4), before = nextafterf(wall, 0);
+    const float end[][2] = {{0, wall},          {0, before},        {0, behind},        {wall, INFINITY},
+                            {behind, INFINITY}, {beyond, INFINITY}, {before, INFINITY}, {0, INFINITY}};
+    const float z[2] = {-wall, -behind};
+    float vertex[2][4][3];
+    frames_tally tally = {0};
+    uint64_t hits[sizeof end / sizeof end[0]];
+    uint32_t id;
+    cgt_scene *scene;
+    loose_reference grid;
+    for (int w = 0; w < 2; w++)
+        for (int k = 0; k < 4; k++) {
+            vertex[w][k][0] = k & 1 ? 5.f : -5.f;
+            vertex[w][k][1] = k & 2 ? 5.f : -5.f;
+            vertex[w][k][2] = z[w];
+        }
+    const uint32_t index[4][3] = {{4, 5, 6}, {7, 6, 5}, {0, 1, 2}, {3, 2, 1}}; /* the nearer one has higher numbers */
+    const cgt_triangles walls = {.count = 4, .indices = index[0], .vertex_count = 8, .vertices = vertex[0][0]};
+    const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &walls, &id), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+    for (size_t i = 0; i < sizeof end / sizeof end[0]; i++) {
+        const uint64_t so_far = tally.counts.hits;
+        cgt_camera camera;
+        cgt_camera_init(&camera);
+        camera.eye[2] = 0;
+        camera.target[2] = -1;
+        camera.t_min = end[i][0];
+        camera.t_max = end[i][1];
+        compare_frame(scene, &grid, &camera, 70, 66, "walls", &tally);
+        hits[i] = tally.counts.hits - so_far;
+    }
+    print_tally("walls", &tally);
+    assert_true(hits[7] > 0 && hits[0] == hits[7] && hits[1] == 0 && hits[2] == hits[7]);
+    assert_true(hits[3] == hits[7] && hits[4] == hits[7] && hits[5] == 0 && hits[6] == hits[7]);
+    loose_reference_free(&grid);
+    cgt_scene_release(scene);
+}
+
 /* ---- the march ---- */
 
 /* Every object that a ray hits is visited, once, in a slice that is not said to begin beyond the hit. */
@@ -309,6 +355,7 @@ int main(void)
         cmocka_unit_test(frames_of_clouds),
         cmocka_unit_test(frames_of_two_geometries),
         cmocka_unit_test(orthographic_frames_at_every_scale),
+        cmocka_unit_test(frames_of_walls_where_ranges_end),
         cmocka_unit_test(frames_of_hard_cases),
     };
     test_begin("test_tile_frames");
