@@ -345,6 +345,18 @@ CGT_SPU_INLINE void tile_directions(const tile *t, bool parallel, vfloat px, vfl
     }
 }
 
+/* The canonical directions of so many pixels, at most a vector; the first one again beyond them. */
+CGT_SPU_INLINE void tile_directions_of(const tile *t, const uint16_t *pixel, uint32_t count, vfloat dir[3])
+{
+    _Alignas(CGT_VECTOR_BYTES) float px[CGT_LANES], py[CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const uint32_t i = pixel[k < count ? k : 0];
+        px[k] = t->column[tile_column(i)];
+        py[k] = t->row[tile_row(i)];
+    }
+    tile_directions(t, false, spux_load(px), spux_load(py), dir);
+}
+
 /* The canonical line of a pixel, in the order of camera.h. */
 CGT_SPU_INLINE cgt_exact_ray tile_line(const cgt_camera_rays *c, bool parallel, float px, float py)
 {

@@ -53,21 +53,18 @@ CGT_SPU_INLINE tile_near_hits tile_see_spheres(const tile *t, const cgt_object_a
 CGT_SPU_INLINE void tile_judge_spheres(const cgt_object_array *array, const tile *t, const tile_queue *q,
                                        uint32_t first, tile_verdicts *v)
 {
-    _Alignas(CGT_VECTOR_BYTES) float px[CGT_LANES], py[CGT_LANES];
     _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
     for (uint32_t k = 0; k < CGT_LANES; k++) {
-        const uint32_t entry = first + k < q->entries ? first + k : first, i = q->pixel[entry];
+        const uint32_t entry = first + k < q->entries ? first + k : first;
         number[k] = q->object[entry];
-        v->winner[k] = t->object[i];
-        px[k] = t->column[tile_column(i)];
-        py[k] = t->row[tile_row(i)];
+        v->winner[k] = t->object[q->pixel[entry]];
     }
     const vuint object = spux_load_uint(number), winner = spux_load_uint(v->winner);
     const vmask alone = spu_cmpeq(winner, spux_vuint(CGT_NONE));
     const vfloat t_max = spux_vfloat(t->rays->t_max), infinity = spux_vfloat(INFINITY);
     vdouble behind[2], ahead[2], margin[2];
     vfloat dir[3];
-    tile_directions(t, false, spux_load(px), spux_load(py), dir);
+    tile_directions_of(t, q->pixel + first, q->entries - first, dir);
     const tile_near_hits a = tile_see_spheres(t, array, object, dir);
     const tile_near_hits b = tile_see_spheres(t, array, spux_select(winner, object, alone), dir);
     for (int i = 0; i < 2; i++) {

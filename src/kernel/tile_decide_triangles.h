@@ -201,15 +201,9 @@ typedef struct tile_run_lines {
 
 CGT_SPU_INLINE tile_run_lines tile_run_lines_of(const tile *t, const uint16_t *pixel, uint32_t count)
 {
-    _Alignas(CGT_VECTOR_BYTES) float px[CGT_LANES], py[CGT_LANES];
     tile_run_lines l;
     vfloat dir[3];
-    for (uint32_t k = 0; k < CGT_LANES; k++) {
-        const uint32_t i = pixel[k < count ? k : 0];
-        px[k] = t->column[tile_column(i)];
-        py[k] = t->row[tile_row(i)];
-    }
-    tile_directions(t, false, spux_load(px), spux_load(py), dir);
+    tile_directions_of(t, pixel, count, dir);
     for (int a = 0; a < 3; a++) {
         l.d[a][0] = spux_double_low(dir[a]);
         l.d[a][1] = spux_double_high(dir[a]);
