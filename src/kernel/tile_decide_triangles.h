@@ -262,14 +262,14 @@ CGT_SPU_INLINE void tile_run_order(const cgt_triangle_plane *p, const cgt_triang
 {
     vdouble apart[2], minus[2], margin[2];
     for (int h = 0; h < 2; h++) {
-        const vdouble zero = spux_vdouble(0), left = b->den[h] * p->num, right = a->den[h] * q->num;
+        const vdouble left = b->den[h] * p->num, right = a->den[h] * q->num;
         const vdouble den_a = spux_double_abs(a->den[h]), den_b = spux_double_abs(b->den[h]);
         const vdouble error = b->den_error[h] * fabs(p->num) + den_b * p->num_error + a->den_error[h] * fabs(q->num) +
                               den_a * q->num_error;
         const vdouble size = spux_double_abs(left) + spux_double_abs(right), less = right - left;
         const vdouble turned = spux_double_select(-less, less, a->den[h]);
         apart[h] = spux_double_select(-turned, turned, b->den[h]); /* above 0 where the object is nearer */
-        minus[h] = zero - apart[h];
+        minus[h] = -apart[h];
         margin[h] = error * (1 + 0x1p-20) + size * 0x1p-51;
     }
     *nearer = spux_double_cmpgt(apart, margin);

@@ -24,8 +24,8 @@ CGT_SPU_INLINE void tile_rows(const uint32_t *of, uint32_t x, uint32_t y, vuint 
 /* Where that is in a tile_met. */
 CGT_SPU_INLINE uint32_t tile_met_index(uint32_t x, uint32_t row) { return (row * TILE_EDGE + x) / CGT_LANES; }
 
-/* Those of a region; counts its hits. */
-CGT_SPU_INLINE void tile_meet(const tile *t, const cgt_region *r, tile_met *m, cgt_counts *counts)
+/* Those of a region; counts its hits. Returns whether there is any. */
+CGT_SPU_INLINE bool tile_meet(const tile *t, const cgt_region *r, tile_met *m, cgt_counts *counts)
 {
     uint64_t hits = 0;
     for (uint32_t y = 0; y < r->height; y += 2)
@@ -45,6 +45,7 @@ CGT_SPU_INLINE void tile_meet(const tile *t, const cgt_region *r, tile_met *m, c
             }
         }
     counts->hits += hits;
+    return hits != 0;
 }
 
 #endif

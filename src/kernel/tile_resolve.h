@@ -471,8 +471,8 @@ CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, co
     tile_met met;
     tile_sight sight;
     const tile_kept kept = {.met = &met, .sight = &sight};
-    tile_meet(t, r, &met, counts);
-    tile_sight_make(t, &sight);
+    if (tile_meet(t, r, &met, counts) && wish.fields) /* else no vector asks for it */
+        tile_sight_make(t, &sight);
     if (t->parallel)
         tile_resolve_parallel_array(world, t, r, wish, kept, counts);
     else if (world->objects.triangles)
