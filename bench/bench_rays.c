@@ -36,7 +36,9 @@ struct bench_rays {
     uint32_t round_first; /* the first tile whose hits are not listed yet */
     uint32_t tile_hits[TILES_PER_ROUND * MOST_SHARES];
     uint32_t *of_tile; /* hit pixels of each tile of a round: x + 65536 y */
-    uint32_t *hit;     /* of all tiles, without gaps */
+    float *t_of_tile;
+    uint32_t *hit; /* of all tiles, without gaps */
+    float *hit_t;
     uint64_t hits;
     uint64_t batch_rays; /* rays that the arrays hold */
     float *org[3], *dir[3];
@@ -119,13 +121,15 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
     rays->tiles = bench_tiles(axes);
     rays->round_tiles = TILES_PER_ROUND * shares;
     rays->of_tile = calloc((size_t)rays->round_tiles * BENCH_TILE_PIXELS, sizeof *rays->of_tile);
+    rays->t_of_tile = calloc((size_t)rays->round_tiles * BENCH_TILE_PIXELS, sizeof *rays->t_of_tile);
     rays->hit = calloc((size_t)axes->width * axes->height, sizeof *rays->hit);
+    rays->hit_t = calloc((size_t)axes->width * axes->height, sizeof *rays->hit_t);
     rays->batch_rays = (uint64_t)GROUP * (most_ao > 1 ? most_ao : 1);
     if (rays->batch_rays < RAYS_PER_BATCH * shares)
         rays->batch_rays = RAYS_PER_BATCH * shares;
 
     const size_t batch = (size_t)rays->batch_rays;
-    int complete = rays->of_tile && rays->hit;
+    int complete = rays->of_tile && rays->t_of_tile && rays->hit && rays->hit_t;
     for (int i = 0; i < 3; i++) {
         rays->org[i] = malloc(batch * sizeof(float));
         rays->dir[i] = malloc(batch * sizeof(float));
@@ -156,7 +160,9 @@ void bench_rays_release(bench_rays *rays)
         free(rays->dir[i]);
         free(rays->org[i]);
     }
+    free(rays->hit_t);
     free(rays->hit);
+    free(rays->t_of_tile);
     free(rays->of_tile);
     free(rays);
 }
@@ -202,18 +208,18 @@ uint32_t bench_tile_pixels(const bench_camera_axes *axes, uint32_t tile, uint32_
 typedef float block_floats __attribute__((vector_size(sizeof(float[BLOCK]))));
 typedef int32_t block_words __attribute__((vector_size(sizeof(int32_t[BLOCK]))));
 
-/* Appends the pixels of a block that have a hit: of most blocks all or none. Few branches: where a surface ends they are
- * guessed wrong. */
-static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, uint32_t y0, uint32_t *to)
+/* Appends the pixels of a block that have a hit, and its t: of most blocks all or none. Few branches: where a surface ends
+ * they are guessed wrong. */
+static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, uint32_t y0, uint32_t *to, float *to_t)
 {
     const int32_t corner = (int32_t)(x0 | y0 << 16);
     const block_words columns = {corner, corner + 1, corner + 2, corner + 3};
+    block_floats at[BLOCK];
     block_words is[BLOCK], found = {0};
     uint32_t hits = 0, listed = 0;
     for (uint32_t row = 0; row < BLOCK; row++) {
-        block_floats at;
-        memcpy(&at, t + (size_t)row * width, sizeof at);
-        is[row] = at < INFINITY;
+        memcpy(&at[row], t + (size_t)row * width, sizeof at[row]);
+        is[row] = at[row] < INFINITY;
         found -= is[row];
     }
     for (uint32_t i = 0; i < BLOCK; i++)
@@ -224,12 +230,14 @@ static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, u
         for (int32_t row = 0; row < BLOCK; row++) {
             const block_words pixels = columns + (row << 16);
             memcpy(to + row * BLOCK, &pixels, sizeof pixels);
+            memcpy(to_t + row * BLOCK, &at[row], sizeof at[row]);
         }
         return GROUP;
     }
     for (uint32_t row = 0; row < BLOCK; row++)
         for (uint32_t i = 0; i < BLOCK; i++) {
             to[listed] = (x0 + i) | (y0 + row) << 16;
+            to_t[listed] = at[row][i];
             listed -= (uint32_t)is[row][i];
         }
     return listed;
@@ -253,18 +261,21 @@ static void list_tile(void *argument, uint32_t index)
     const uint32_t width = rays->axes->width, height = rays->axes->height, columns = (width + TILE - 1) / TILE;
     const uint32_t left = tile % columns * TILE, top = tile / columns * TILE;
     uint32_t *to = rays->of_tile + (size_t)index * BENCH_TILE_PIXELS, hits = 0;
+    float *to_t = rays->t_of_tile + (size_t)index * BENCH_TILE_PIXELS;
+    const float *t = rays->planes->t;
     if (width - left >= TILE && height - top >= TILE) {
         for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
             const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
             ask_for_line(rays, left + TILE, top, block);
-            hits += list_block(rays->planes->t + (size_t)y0 * width + x0, width, x0, y0, to + hits);
+            hits += list_block(t + (size_t)y0 * width + x0, width, x0, y0, to + hits, to_t + hits);
         }
     } else {
         const uint32_t pixels = bench_tile_pixels(rays->axes, tile, to);
         for (uint32_t i = 0; i < pixels; i++) {
             const uint32_t p = to[i];
             to[hits] = p;
-            hits += rays->planes->t[(size_t)(p >> 16) * width + (p & 0xffff)] < INFINITY;
+            to_t[hits] = t[(size_t)(p >> 16) * width + (p & 0xffff)];
+            hits += to_t[hits] < INFINITY;
         }
     }
     rays->tile_hits[index] = hits;
@@ -277,6 +288,7 @@ static void list_round(bench_rays *rays, uint32_t tiles)
     for (uint32_t i = 0; i < tiles; i++) {
         const uint32_t hits = rays->tile_hits[i];
         memcpy(rays->hit + rays->hits, rays->of_tile + (size_t)i * BENCH_TILE_PIXELS, hits * sizeof *rays->hit);
+        memcpy(rays->hit_t + rays->hits, rays->t_of_tile + (size_t)i * BENCH_TILE_PIXELS, hits * sizeof *rays->hit_t);
         rays->hits += hits;
     }
     rays->round_first += tiles;
@@ -298,14 +310,14 @@ static void make_shadow_run(bench_rays *rays, uint64_t first, uint32_t count)
 {
     const bench_camera_axes *axes = rays->axes;
     const float sx = axes->step[0], sy = axes->step[1];
-    const float *t = rays->planes->t;
-    const uint32_t *hit = rays->hit + rays->batch_first + first, width = axes->width;
+    const float *t = rays->hit_t + rays->batch_first + first;
+    const uint32_t *hit = rays->hit + rays->batch_first + first;
     float px[SHADOW_RUN], py[SHADOW_RUN], back[SHADOW_RUN];
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t pixel = hit[k], x = pixel & 0xffff, y = pixel >> 16;
         px[k] = ((float)x + 0.5f) * sx - 1.0f;
         py[k] = 1.0f - ((float)y + 0.5f) * sy;
-        back[k] = t[(int32_t)(y * width + x)] * 0.9999f; /* at most 2^28 pixels */
+        back[k] = t[k] * 0.9999f;
     }
     for (int a = 0; a < 3; a++) {
         const float eye = axes->eye[a], fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a];
@@ -381,19 +393,20 @@ BENCH_INLINE void read_group(const bench_rays *rays, uint64_t first, uint32_t pi
 {
     const bench_camera_axes *axes = rays->axes;
     const bench_planes *planes = rays->planes;
-    const float sx = axes->step[0], sy = axes->step[1], *t = planes->t;
+    const float sx = axes->step[0], sy = axes->step[1], *t = rays->hit_t + rays->batch_first + first;
     const uint32_t *hit = rays->hit + rays->batch_first + first, width = axes->width, columns = rays->block_columns;
     int32_t element[GROUP]; /* at most 2^28 pixels */
     float px[GROUP], py[GROUP], back[GROUP];
     uint32_t of[GROUP];
-    for (uint32_t k = 0; k < GROUP; k++)
+    for (uint32_t k = 0; k < GROUP; k++) {
         of[k] = hit[k < pixels ? k : pixels - 1];
+        back[k] = t[k < pixels ? k : pixels - 1] * 0.9999f;
+    }
     for (uint32_t k = 0; k < GROUP; k++) {
         const uint32_t x = of[k] & 0xffff, y = of[k] >> 16;
         element[k] = (int32_t)(y * width + x);
         px[k] = ((float)x + 0.5f) * sx - 1.0f;
         py[k] = 1.0f - ((float)y + 0.5f) * sy;
-        back[k] = t[element[k]] * 0.9999f;
         g->order[k] = (y / BLOCK * columns + x / BLOCK) * GROUP + (y % BLOCK) * BLOCK + x % BLOCK;
         g->side[k] = 0;
     }
@@ -445,7 +458,6 @@ static void ask_for_group(const bench_rays *rays, uint64_t first)
     const uint32_t *hit = rays->hit + rays->batch_first + first, width = rays->axes->width;
     for (uint32_t k = 0; k < GROUP; k += BLOCK) {
         const size_t element = (size_t)(hit[k] >> 16) * width + (hit[k] & 0xffff);
-        __builtin_prefetch(planes->t + element);
         for (int i = 0; i < 3; i++)
             __builtin_prefetch(planes->normal[i] + element);
     }

@@ -67,7 +67,7 @@ typedef cgt_result bench_rays_taker(void *user, const cgt_rays *batch, uint8_t *
 /* Batches of the passes to come go to a taker; NULL: to the library. scene and options are not used then. */
 void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user);
 
-/* Traces one shadow ray per hit pixel into planes->shadow; hidden gets the number of those that met something.
+/* Traces one shadow ray per hit pixel; hidden gets the number of those that met something.
  * options: of the traces; NULL for the library's. */
 cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                              const float light[3], uint64_t *hidden);

@@ -51,37 +51,54 @@ typedef struct light_packet {
 
 static float larger(float a, float b) { return a > b ? a : b; }
 
-/* The main axis and the reference. False where there is no common way. */
-static bool light_orient(const packet *p, light_packet *l)
+/* The main axis and the reference, by any ray that takes part. False where there is no common way. */
+static bool light_orient(const packet *p, const float org[3], const float dir[3], light_packet *l)
 {
-    const uint32_t first = p->lanes - 1; /* a ray that takes part, or a copy of one */
     const bool ends = p->to_light;
     float most = 0;
     for (int a = 0; a < 3; a++) {
-        const float d = ends ? p->org[a][first] - p->light[a] : p->dir[a][first];
+        const float d = ends ? org[a] - p->light[a] : dir[a];
         if (fabsf(d) > most) {
             most = fabsf(d);
             l->axis[0] = a;
             l->sign = d < 0 ? -1 : 1;
         }
-        l->reference[a] = ends ? p->light[a] : p->org[a][first];
+        l->reference[a] = ends ? p->light[a] : org[a];
     }
     l->axis[1] = (l->axis[0] + 1) % 3;
     l->axis[2] = (l->axis[0] + 2) % 3;
     return most > 0;
 }
 
-static void light_margin(const cgt_world *world, const packet *p, light_packet *l)
+/* The same by the last lane: a ray that takes part, or a copy of one. */
+static bool light_orient_last(light_packet *l)
+{
+    const packet *p = &l->rays;
+    const uint32_t last = p->lanes - 1;
+    const float org[3] = {p->org[0][last], p->org[1][last], p->org[2][last]};
+    const float dir[3] = {p->dir[0][last], p->dir[1][last], p->dir[2][last]};
+    return light_orient(p, org, dir, l);
+}
+
+/* farthest: lanes with the largest sizes of points along each axis. */
+CGT_SPU_INLINE void light_margin_of(const cgt_world *world, const vfloat farthest[3], light_packet *l)
 {
     float magnitude = 0;
-    for (int a = 0; a < 3; a++) {
-        vfloat farthest = spux_vfloat(0);
-        for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
-            farthest = spux_max(farthest, spux_abs(spux_load(p->org[a] + i)));
-        magnitude = larger(magnitude, larger(fabsf(world->low[a]), fabsf(world->high[a])) + spux_hmax(farthest) +
+    for (int a = 0; a < 3; a++)
+        magnitude = larger(magnitude, larger(fabsf(world->low[a]), fabsf(world->high[a])) + spux_hmax(farthest[a]) +
                                           fabsf(l->reference[a]));
-    }
     l->margin = magnitude * LIGHT_MARGIN;
+}
+
+static void light_margin(const cgt_world *world, const packet *p, light_packet *l)
+{
+    vfloat farthest[3];
+    for (int a = 0; a < 3; a++) {
+        farthest[a] = spux_vfloat(0);
+        for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+            farthest[a] = spux_max(farthest[a], spux_abs(spux_load(p->org[a] + i)));
+    }
+    light_margin_of(world, farthest, l);
 }
 
 /* Adds margins. */
@@ -204,7 +221,7 @@ static void light_ways(const packet *p, float scale, light_packet *l)
 __attribute__((unused)) static bool light_packet_make(const cgt_world *world, light_packet *l)
 {
     const packet *p = &l->rays;
-    if (p->extreme || !light_ranges_fit(p, l) || !light_orient(p, l))
+    if (p->extreme || !light_ranges_fit(p, l) || !light_orient_last(l))
         return false;
     light_margin(world, p, l);
     if (!p->to_light)

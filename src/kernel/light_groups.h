@@ -172,6 +172,24 @@ CGT_SPU_INLINE unsigned see_triangles(const light_tile *t, vfloat vertex[3][3], 
 
 /* ---- slopes ---- */
 
+/* Slopes or offsets of rays from points, and w. Returns the lanes that have too many directions to the light. */
+CGT_SPU_INLINE vmask see_slopes(const light_tile *t, const light_packet *l, const vfloat org[3], vfloat *w,
+                                vfloat at[2])
+{
+    vmask wild = spux_mask_none();
+    vfloat v[2];
+    see_point(l, org, w, v);
+    const vfloat rw = t->place ? spux_div(spux_vfloat(1), *w) : spux_vfloat(1);
+    if (t->place)
+        wild = spux_not(spu_cmpgt(*w, spux_vfloat(0)));
+    for (int a = 0; a < 2; a++) {
+        at[a] = t->place ? spu_mul(v[a], rw) : spu_nmsub(spux_vfloat(t->slope[a]), *w, v[a]);
+        if (t->place)
+            wild = spu_or(wild, spux_not(spu_cmpgt(spux_vfloat(LIGHT_STEEPEST), spux_abs(at[a]))));
+    }
+    return wild;
+}
+
 /* Slopes of a group, of the rays that have met nothing. Returns the lanes that have too many. */
 CGT_SPU_INLINE vmask group_find(light_tile *t, uint32_t group)
 {
@@ -180,19 +198,13 @@ CGT_SPU_INLINE vmask group_find(light_tile *t, uint32_t group)
     const uint32_t i = group % PACKET_GROUPS * CGT_LANES;
     const vmask open = spu_cmpgt(spux_load(p->high + i), spux_vfloat(-INFINITY));
     const vfloat none = spux_vfloat(INFINITY), minus = spux_vfloat(-INFINITY);
-    vmask wild = spux_mask_none();
-    vfloat org[3], w, v[2];
+    vfloat org[3], w, at[2];
     for (int a = 0; a < 3; a++)
         org[a] = spux_load(p->org[a] + i);
-    see_point(l, org, &w, v);
-    if (t->place)
-        wild = spux_not(spu_cmpgt(w, spux_vfloat(0)));
+    const vmask wild = see_slopes(t, l, org, &w, at);
     for (int a = 0; a < 2; a++) {
-        const vfloat at = t->place ? spux_div(v[a], w) : spu_nmsub(spux_vfloat(t->slope[a]), w, v[a]);
-        if (t->place)
-            wild = spu_or(wild, spux_not(spu_cmpgt(spux_vfloat(LIGHT_STEEPEST), spux_abs(at))));
-        t->low[a][group] = spux_hmin(spux_select(none, at, open));
-        t->high[a][group] = spux_hmax(spux_select(minus, at, open));
+        t->low[a][group] = spux_hmin(spux_select(none, at[a], open));
+        t->high[a][group] = spux_hmax(spux_select(minus, at[a], open));
     }
     t->end[group] = t->place ? spux_hmax(spux_select(minus, w, open)) : -spux_hmin(spux_select(none, w, open));
     return wild;

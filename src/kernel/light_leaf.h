@@ -310,11 +310,12 @@ __attribute__((noinline)) static void light_sphere_open(const cgt_world *world, 
                                                         const wide_spheres *leaf, uint32_t k, uint32_t i,
                                                         const vmask *lanes, cgt_counts *counts)
 {
-    const packet *p = &l->rays;
+    packet *p = &l->rays;
     const vfloat center[3] = {spux_vfloat(leaf->center[0][k]), spux_vfloat(leaf->center[1][k]),
                               spux_vfloat(leaf->center[2][k])};
     lane_rays r;
     lane_hits q;
+    spux_store(p->rdd + i, spux_div(spux_vfloat(1), spux_load(l->square + i))); /* few rays come here */
     lane_rays_of_packet(p, i, world->scale, &r);
     if (!lane_sphere(&r, center, spux_vfloat(leaf->radius[k]), &q))
         return;

@@ -79,13 +79,18 @@ CGT_SPU_INLINE bool light_points_load(const light_call *c, uint32_t first, uint3
     return spux_all(good);
 }
 
+/* Whether the points are arrays of their own, and nothing but the light and their ranges matters. */
+CGT_SPU_INLINE bool light_points_dense(const light_call *c)
+{
+    const cgt_rays *points = c->source.rays;
+    return c->source.stride == sizeof(float) && !points->mask && !points->ignored_primitive;
+}
+
 /* Points first to first + count - 1 of the order, at most a packet. Returns false where one of several is extreme: read
  * them apart then. */
 CGT_SPU_INLINE bool light_points_read(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
-    const cgt_rays *points = c->source.rays;
-    const bool dense =
-        count % CGT_LANES == 0 && c->source.stride == sizeof(float) && !points->mask && !points->ignored_primitive;
+    const bool dense = count % CGT_LANES == 0 && light_points_dense(c);
     return (dense && light_points_load(c, first, count, p)) ||
            ray_packet_make(c->world, &c->source, &c->order, first, count, p, c->counts);
 }

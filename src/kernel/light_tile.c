@@ -8,6 +8,7 @@
  * tested (light_leaf.h), and leave when all their rays have met something. */
 #include "light_groups.h"
 #include "light_order.h"
+#include "light_read.h"
 #include "tile_march.h"
 #include "tile_triangles.h"
 
@@ -15,7 +16,7 @@
 #define SORT_OBJECTS 8192u
 
 #define REFRESH 256u /* tests of groups after which slopes are found again, of those that still want something */
-#define SAMPLE 4u    /* of so many vectors of points one is looked at to tell how far they reach */
+#define SAMPLE 16u   /* of so many vectors of points one is looked at to tell how far they reach */
 
 _Static_assert(GROUPS == PACKETS * PACKET_GROUPS, "groups fill packets");
 
@@ -31,6 +32,14 @@ CGT_SPU_INLINE void count_taken(const light_tile *t, uint32_t count, unsigned wa
     t->counts->packet_tests += some;
 }
 
+CGT_SPU_INLINE void count_tested(light_tile *t, uint64_t met)
+{
+    const uint32_t groups = (uint32_t)__builtin_popcountll(met);
+    t->counts->ray_tests += groups * CGT_LANES;
+    t->tested += groups;
+}
+
+/* Groups that an object's lines may meet come first, without a branch on each: most of those in its window do not. */
 CGT_SPU_INLINE void draw_spheres(light_tile *t, const wide_spheres *s, const light_windows *windows, unsigned wanted,
                                  bool place)
 {
@@ -38,13 +47,17 @@ CGT_SPU_INLINE void draw_spheres(light_tile *t, const wide_spheres *s, const lig
     light_spheres_make(&t->packet[0], s, t->world->scale, place, &q);
     for (; wanted; wanted &= wanted - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(wanted);
-        for (uint64_t met = groups_met(t, windows->low, windows->high, windows->near, k); met; met &= met - 1) {
-            const uint32_t group = (uint32_t)__builtin_ctzll(met), i = group % PACKET_GROUPS * CGT_LANES;
+        const uint64_t met = groups_met(t, windows->low, windows->high, windows->near, k);
+        uint64_t reached = 0;
+        count_tested(t, met);
+        for (uint64_t left = met; left; left &= left - 1) {
+            const uint32_t group = (uint32_t)__builtin_ctzll(left), i = group % PACKET_GROUPS * CGT_LANES;
+            const light_packet *l = &t->packet[group / PACKET_GROUPS];
+            reached |= (uint64_t)light_sphere_reached(l, &q, s, k, i, place) << group;
+        }
+        for (; reached; reached &= reached - 1) {
+            const uint32_t group = (uint32_t)__builtin_ctzll(reached), i = group % PACKET_GROUPS * CGT_LANES;
             light_packet *l = &t->packet[group / PACKET_GROUPS];
-            t->counts->ray_tests += CGT_LANES;
-            t->tested++;
-            if (!light_sphere_reached(l, &q, s, k, i, place))
-                continue;
             light_sphere_vector(t->world, l, s, k, q.square[k], q.simple >> k & 1, i, t->counts);
             settle(t, group);
         }
@@ -79,13 +92,17 @@ CGT_SPU_INLINE void draw_triangles(light_tile *t, const wide_triangles *s, const
     light_triangles_make(&t->packet[0], s, t->world->scale, place, &q);
     for (; wanted; wanted &= wanted - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(wanted);
-        for (uint64_t met = groups_met(t, windows->low, windows->high, windows->near, k); met; met &= met - 1) {
-            const uint32_t group = (uint32_t)__builtin_ctzll(met), i = group % PACKET_GROUPS * CGT_LANES;
+        const uint64_t met = groups_met(t, windows->low, windows->high, windows->near, k);
+        uint64_t reached = 0;
+        count_tested(t, met);
+        for (uint64_t left = met; left; left &= left - 1) {
+            const uint32_t group = (uint32_t)__builtin_ctzll(left), i = group % PACKET_GROUPS * CGT_LANES;
+            const light_packet *l = &t->packet[group / PACKET_GROUPS];
+            reached |= (uint64_t)light_triangle_reached(l, &q, k, i, place) << group;
+        }
+        for (; reached; reached &= reached - 1) {
+            const uint32_t group = (uint32_t)__builtin_ctzll(reached), i = group % PACKET_GROUPS * CGT_LANES;
             light_packet *l = &t->packet[group / PACKET_GROUPS];
-            t->counts->ray_tests += CGT_LANES;
-            t->tested++;
-            if (!light_triangle_reached(l, &q, k, i, place))
-                continue;
             light_triangle_vector(&t->world->objects, l, &q, k, i, s->object[k], place, t->counts);
             settle(t, group);
         }
@@ -285,22 +302,13 @@ static void tile_finish(light_tile *t)
 /* Adds the rays of the packet that has just been read. False where they are not for this tile. */
 static bool tile_add(light_tile *t, light_packet *l)
 {
-    const light_packet *first = &t->packet[0];
     const packet *p = &l->rays;
     if (p->extreme || !light_ranges_fit(p, l))
         return false;
-    if (!t->packets) {
-        if (!light_orient(p, l))
-            return false;
-        for (int a = 0; a < 2; a++)
-            t->slope[a] = t->place ? 0 : p->dir[l->axis[a + 1]][0] / (l->sign * p->dir[l->axis[0]][0]);
-    } else {
-        for (int a = 0; a < 3; a++) {
-            l->axis[a] = first->axis[a];
-            l->reference[a] = first->reference[a];
-        }
-        l->sign = first->sign;
-    }
+    const float org[3] = {p->org[0][p->lanes - 1], p->org[1][p->lanes - 1], p->org[2][p->lanes - 1]};
+    const float dir[3] = {p->dir[0][p->lanes - 1], p->dir[1][p->lanes - 1], p->dir[2][p->lanes - 1]};
+    if (!tile_orient(t, l, org, dir))
+        return false;
     light_margin(t->world, p, l);
     light_ways(p, t->world->scale, l);
     return tile_groups(t, t->packets);
@@ -336,6 +344,8 @@ static void march(light_tile *t)
 
 static void trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
 {
+    const cgt_rays *points = c->source.rays;
+    const bool plain = light_points_dense(c) && !points->t_min && !points->t_max;
     uint32_t from[PACKETS] = {0}, rays[PACKETS] = {0};
     t->packets = 0;
     t->spheres.count = t->triangles.count = t->clusters.count = 0;
@@ -346,6 +356,11 @@ static void trace_tile(const light_call *c, light_tile *t, uint32_t first, uint3
         packet *p = &l->rays;
         p->any_hit = true;
         p->fast = false;
+        if (plain && some % CGT_LANES == 0 && tile_read(c, t, l, first + done, some)) {
+            from[t->packets] = first + done;
+            rays[t->packets++] = some;
+            continue;
+        }
         if (light_points_read(c, first + done, some, p)) {
             if (!p->rays) {
                 light_hand_out(c, p, first + done, some);
