@@ -7,8 +7,10 @@
 
 #include "light_points.h"
 
-#define SORT_CELLS 64u /* along an edge of what the light sees of a chunk */
-#define SORT_RUNS 4u /* of a chunk, counted in turn: neighbours share cells, whose counters would wait for themselves */
+#define SORT_CELLS 32u /* along an edge of what the light sees of a chunk */
+#define SORT_RUNS 4u   /* of a chunk, in turn: neighbours share cells, whose counters would wait for themselves */
+
+_Static_assert(CGT_RAYS_CHUNK <= UINT16_MAX, "a chunk is counted in 16 bits");
 
 /* Bits 0 to 7 to every second place. */
 CGT_SPU_INLINE vuint spread_bits(vuint i)
@@ -72,7 +74,7 @@ static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_R
 {
     _Alignas(64) float place[2][CGT_RAYS_CHUNK];
     _Alignas(64) uint32_t key[CGT_RAYS_CHUNK];
-    uint32_t start[SORT_CELLS * SORT_CELLS + 1] = {0};
+    uint16_t start[SORT_CELLS * SORT_CELLS][SORT_RUNS] = {{0}}, sum = 0;
     const uint32_t run = count / SORT_RUNS;
     const light_view view = view_make(c, count);
     vfloat least[2], most[2], scale[2];
@@ -106,13 +108,20 @@ static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_R
     }
     for (uint32_t i = 0; i < run; i++)
         for (uint32_t r = 0; r < SORT_RUNS; r++)
-            start[key[r * run + i] + 1]++;
+            start[key[r * run + i]][r]++;
     for (uint32_t k = run * SORT_RUNS; k < count; k++)
-        start[key[k] + 1]++;
+        start[key[k]][SORT_RUNS - 1]++;
     for (uint32_t k = 0; k < SORT_CELLS * SORT_CELLS; k++)
-        start[k + 1] += start[k];
-    for (uint32_t k = 0; k < count; k++) /* points of a cell keep their order: neighbours in the arrays lie together */
-        from[start[key[k]]++] = k;
+        for (uint32_t r = 0; r < SORT_RUNS; r++) {
+            const uint16_t some = start[k][r];
+            start[k][r] = sum;
+            sum = (uint16_t)(sum + some);
+        }
+    for (uint32_t i = 0; i < run; i++) /* points of a cell keep their order: neighbours in the arrays lie together */
+        for (uint32_t r = 0; r < SORT_RUNS; r++)
+            from[start[key[r * run + i]][r]++] = r * run + i;
+    for (uint32_t k = run * SORT_RUNS; k < count; k++)
+        from[start[key[k]][SORT_RUNS - 1]++] = k;
 }
 
 /* Whether neighbours in the arrays are mostly far from each other, as far as some of them tell: a third of what the
