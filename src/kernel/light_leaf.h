@@ -39,6 +39,7 @@
 
 #define LIGHT_NUM (12 * FILTER_U * (1 + 0x1p-7f))
 #define LIGHT_LOST (1.125f * FILTER_U) /* q */
+#define LIGHT_DEPTH (1 + 0x1p-10f)     /* what is of second order where t is compared with a range */
 #define LIGHT_BALL (26 * FILTER_U)
 #define LIGHT_INSIDE (8 * FILTER_U)
 #define LIGHT_MIDDLE (1 - 16 * FILTER_U)
@@ -72,6 +73,7 @@ typedef struct light_triangles {
     float at_n[CGT_LANES];                  /* to T */
     float den[CGT_LANES];                   /* D of parallel rays */
     float side[CGT_LANES], den_error[CGT_LANES], num_error[CGT_LANES];
+    float first[CGT_LANES], last[CGT_LANES]; /* errors at t = 0 and 1 */
 } light_triangles;
 
 CGT_SPU_INLINE void light_triangles_make(const light_packet *l, const wide_triangles *leaf, float scale, bool place,
@@ -114,9 +116,13 @@ CGT_SPU_INLINE void light_triangles_make(const light_packet *l, const wide_trian
     const vfloat lost = spux_vfloat(place ? LIGHT_LOST * l->farthest : 0);
     const vfloat edges = spu_mul(spu_add(sum0, sum1), spu_madd(far, spux_vfloat(LANE_THIRD), lost));
     spux_store(q->side, spu_madd(most, spu_madd(product, spux_vfloat(LANE_THIRD), edges), under));
-    spux_store(q->den_error, spu_madd(spu_mul(most, product), spux_vfloat(LANE_PLANE), under));
-    spux_store(q->num_error,
-               spu_madd(spu_mul(product, spux_vfloat(LIGHT_NUM)), spu_add(far, spux_vfloat(l->longest)), under));
+    const vfloat den_error = spu_madd(spu_mul(most, product), spux_vfloat(LANE_PLANE), under);
+    const vfloat num_error =
+        spu_madd(spu_mul(product, spux_vfloat(LIGHT_NUM)), spu_add(far, spux_vfloat(l->longest)), under);
+    spux_store(q->den_error, den_error);
+    spux_store(q->num_error, num_error);
+    spux_store(q->first, spu_mul(num_error, spux_vfloat(LIGHT_DEPTH)));
+    spux_store(q->last, spu_mul(spu_add(den_error, num_error), spux_vfloat(LIGHT_DEPTH)));
 }
 
 CGT_SPU_INLINE vfloat light_dot(const vfloat x[3], const float n[3][CGT_LANES], uint32_t k)
@@ -156,6 +162,37 @@ CGT_SPU_INLINE bool light_triangle_reached(const light_packet *l, const light_tr
     return !spux_all(spu_and(spu_cmpgt(f.most, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f.least)));
 }
 
+/* Rays whose t is surely beyond their range, and those whose t is surely within, where den is surely above 0. */
+typedef struct light_depth {
+    vmask out, in;
+} light_depth;
+
+CGT_SPU_INLINE light_depth light_depth_of(const packet *p, const light_triangles *q, uint32_t k, uint32_t i, vfloat den,
+                                          vfloat num)
+{
+    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i);
+    const vfloat den_error = spux_vfloat(q->den_error[k]), num_error = spux_vfloat(q->num_error[k]);
+    const vfloat enlarge = spux_vfloat(LIGHT_DEPTH), infinity = spux_vfloat(INFINITY);
+    const vfloat first = spu_mul(spu_madd(t_min, den_error, num_error), enlarge);
+    const vfloat last = spu_mul(spu_madd(t_max, den_error, num_error), enlarge);
+    const vmask before = spu_or(spu_cmpeq(t_max, infinity), spu_cmpgt(spu_msub(t_max, den, num), last));
+    return (light_depth){
+        .out = spu_or(spu_cmpgt(spu_msub(t_min, den, first), num), spu_cmpgt(num, spu_madd(t_max, den, last))),
+        .in = spu_and(spu_cmpgt(spu_nmsub(t_min, den, num), first), before)};
+}
+
+/* The same of rays from t = 0, to 1 at a light that has a place. */
+CGT_SPU_INLINE light_depth light_depth_plain(const light_triangles *q, uint32_t k, vfloat den, vfloat num, bool place)
+{
+    const vfloat first = spux_vfloat(q->first[k]), last = spux_vfloat(q->last[k]);
+    light_depth d = {.out = spu_cmpgt(spux_vfloat(-q->first[k]), num), .in = spu_cmpgt(num, first)};
+    if (place) {
+        d.out = spu_or(d.out, spu_cmpgt(num, spu_add(den, last)));
+        d.in = spu_and(d.in, spu_cmpgt(spu_sub(den, num), last));
+    }
+    return d;
+}
+
 CGT_SPU_INLINE void light_triangle_vector(const cgt_objects *objects, light_packet *l, const light_triangles *q,
                                           uint32_t k, uint32_t i, uint32_t object, bool place, cgt_counts *counts)
 {
@@ -175,18 +212,13 @@ CGT_SPU_INLINE void light_triangle_vector(const cgt_objects *objects, light_pack
         num = spu_add(light_dot(x, q->n, k), num);
     }
     const vfloat sign = spu_and(f.den, spux_vfloat(-0.f)), den = spu_xor(f.den, sign);
-    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i);
-    const vfloat den_error = spux_vfloat(q->den_error[k]), num_error = spux_vfloat(q->num_error[k]);
-    const vfloat enlarge = spux_vfloat(1 + 0x1p-10f), infinity = spux_vfloat(INFINITY);
-    const vfloat first = spu_mul(spu_madd(t_min, den_error, num_error), enlarge);
-    const vfloat last = spu_mul(spu_madd(t_max, den_error, num_error), enlarge);
-    num = spu_xor(num, sign);
-    const vmask steep = spu_cmpgt(den, den_error);
-    const vmask out = spu_or(spu_cmpgt(spu_msub(t_min, den, first), num), spu_cmpgt(num, spu_madd(t_max, den, last)));
-    const vmask may = spux_not(spu_or(spu_and(above, below), spu_and(out, steep)));
-    const vmask before = spu_or(spu_cmpeq(t_max, infinity), spu_cmpgt(spu_msub(t_max, den, num), last));
-    const vmask certain =
-        spu_and(spu_and(inside, steep), spu_and(spu_cmpgt(spu_nmsub(t_min, den, num), first), before));
+    const light_depth depth = l->plain ? light_depth_plain(q, k, den, spu_xor(num, sign), place)
+                                       : light_depth_of(p, q, k, i, den, spu_xor(num, sign));
+    const vmask steep = spu_cmpgt(den, spux_vfloat(q->den_error[k]));
+    const vmask may = spux_not(spu_or(spu_and(above, below), spu_and(depth.out, steep)));
+    if (spux_none(may))
+        return;
+    const vmask certain = spu_and(spu_and(inside, steep), depth.in);
     light_close(objects, l, i, object, certain, spu_andc(may, certain), counts);
 }
 
