@@ -14,6 +14,8 @@
 enum {
     BLOCK = 4,             /* pixels along a block's edge */
     GROUP = BLOCK * BLOCK, /* hit pixels whose rays lie together */
+    SQUARE = 2 * BLOCK,    /* pixels along the edge of four blocks that follow each other */
+    SQUARE_BLOCKS = 4,
     TILE = BENCH_TILE_EDGE,
     GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
     GROUPS_AHEAD = 8,      /* whose hits are on their way */
@@ -120,10 +122,12 @@ bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *a
     rays->block_columns = (axes->width + BLOCK - 1) / BLOCK;
     rays->tiles = bench_tiles(axes);
     rays->round_tiles = TILES_PER_ROUND * shares;
-    rays->of_tile = calloc((size_t)rays->round_tiles * BENCH_TILE_PIXELS, sizeof *rays->of_tile);
-    rays->t_of_tile = calloc((size_t)rays->round_tiles * BENCH_TILE_PIXELS, sizeof *rays->t_of_tile);
-    rays->hit = calloc((size_t)axes->width * axes->height, sizeof *rays->hit);
-    rays->hit_t = calloc((size_t)axes->width * axes->height, sizeof *rays->hit_t);
+    const size_t listed = (size_t)rays->round_tiles * (BENCH_TILE_PIXELS + 1);
+    const size_t pixels = (size_t)axes->width * axes->height + 1;
+    rays->of_tile = calloc(listed, sizeof *rays->of_tile);
+    rays->t_of_tile = calloc(listed, sizeof *rays->t_of_tile);
+    rays->hit = calloc(pixels, sizeof *rays->hit);
+    rays->hit_t = calloc(pixels, sizeof *rays->hit_t);
     rays->batch_rays = (uint64_t)GROUP * (most_ao > 1 ? most_ao : 1);
     if (rays->batch_rays < RAYS_PER_BATCH * shares)
         rays->batch_rays = RAYS_PER_BATCH * shares;
@@ -204,16 +208,28 @@ uint32_t bench_tile_pixels(const bench_camera_axes *axes, uint32_t tile, uint32_
     return whole ? BENCH_TILE_PIXELS : count;
 }
 
-/* Vectors of a row of a block: a compiler finds none in loops with two subscripts. */
+/* Vectors of a row of a block, and of a square of four: a compiler finds none in loops with two subscripts. */
 typedef float block_floats __attribute__((vector_size(sizeof(float[BLOCK]))));
 typedef int32_t block_words __attribute__((vector_size(sizeof(int32_t[BLOCK]))));
+typedef float square_floats __attribute__((vector_size(sizeof(float[SQUARE]))));
+typedef int32_t square_words __attribute__((vector_size(sizeof(int32_t[SQUARE]))));
+
+/* Appends all pixels of a block, and their t. */
+static inline void list_whole_block(const float *t, uint32_t width, uint32_t x0, uint32_t y0, uint32_t *to, float *to_t)
+{
+    const int32_t corner = (int32_t)(x0 | y0 << 16);
+    const block_words columns = {corner, corner + 1, corner + 2, corner + 3};
+    for (int32_t row = 0; row < BLOCK; row++) {
+        const block_words pixels = columns + (row << 16);
+        memcpy(to + row * BLOCK, &pixels, sizeof pixels);
+        memcpy(to_t + row * BLOCK, t + (size_t)row * width, sizeof(float[BLOCK]));
+    }
+}
 
 /* Appends the pixels of a block that have a hit, and its t: of most blocks all or none. Few branches: where a surface ends
  * they are guessed wrong. */
 static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, uint32_t y0, uint32_t *to, float *to_t)
 {
-    const int32_t corner = (int32_t)(x0 | y0 << 16);
-    const block_words columns = {corner, corner + 1, corner + 2, corner + 3};
     block_floats at[BLOCK];
     block_words is[BLOCK], found = {0};
     uint32_t hits = 0, listed = 0;
@@ -227,11 +243,7 @@ static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, u
     if (!hits)
         return 0;
     if (hits == GROUP) {
-        for (int32_t row = 0; row < BLOCK; row++) {
-            const block_words pixels = columns + (row << 16);
-            memcpy(to + row * BLOCK, &pixels, sizeof pixels);
-            memcpy(to_t + row * BLOCK, &at[row], sizeof at[row]);
-        }
+        list_whole_block(t, width, x0, y0, to, to_t);
         return GROUP;
     }
     for (uint32_t row = 0; row < BLOCK; row++)
@@ -239,6 +251,35 @@ static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, u
             to[listed] = (x0 + i) | (y0 + row) << 16;
             to_t[listed] = at[row][i];
             listed -= (uint32_t)is[row][i];
+        }
+    return listed;
+}
+
+/* How many of the pixels of four blocks, of the square that begins at t, have a hit. */
+static inline uint32_t square_hits(const float *t, uint32_t width)
+{
+    square_words found = {0};
+    uint32_t hits = 0;
+    for (uint32_t row = 0; row < SQUARE; row++) {
+        square_floats at;
+        memcpy(&at, t + (size_t)row * width, sizeof at);
+        found -= at < INFINITY;
+    }
+    for (uint32_t i = 0; i < SQUARE; i++)
+        hits += (uint32_t)found[i];
+    return hits;
+}
+
+/* And for a block that the picture ends in. */
+static uint32_t list_part_block(const float *t, const bench_camera_axes *axes, uint32_t x0, uint32_t y0, uint32_t *to,
+                                float *to_t)
+{
+    uint32_t listed = 0;
+    for (uint32_t y = y0; y < y0 + BLOCK && y < axes->height; y++)
+        for (uint32_t x = x0; x < x0 + BLOCK && x < axes->width; x++) {
+            to[listed] = x | y << 16;
+            to_t[listed] = t[(size_t)y * axes->width + x];
+            listed += to_t[listed] < INFINITY;
         }
     return listed;
 }
@@ -252,43 +293,60 @@ static inline void ask_for_line(const bench_rays *rays, uint32_t left, uint32_t 
         __builtin_prefetch(rays->planes->t + (size_t)y * rays->axes->width + x);
 }
 
-/* The hits of a tile, into its own part of the list. */
+/* The hits of a tile. Returns how many; there is room for one more. */
 BENCH_CLONES
-static void list_tile(void *argument, uint32_t index)
+static uint32_t list_tile(const bench_rays *rays, uint32_t tile, uint32_t *to, float *to_t)
 {
-    bench_rays *rays = argument;
-    const uint32_t tile = rays->round_first + index;
     const uint32_t width = rays->axes->width, height = rays->axes->height, columns = (width + TILE - 1) / TILE;
     const uint32_t left = tile % columns * TILE, top = tile / columns * TILE;
-    uint32_t *to = rays->of_tile + (size_t)index * BENCH_TILE_PIXELS, hits = 0;
-    float *to_t = rays->t_of_tile + (size_t)index * BENCH_TILE_PIXELS;
     const float *t = rays->planes->t;
-    if (width - left >= TILE && height - top >= TILE) {
-        for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
-            const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
-            ask_for_line(rays, left + TILE, top, block);
+    uint32_t hits = 0;
+    for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
+        const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
+        ask_for_line(rays, left + TILE, top, block);
+        if (block % SQUARE_BLOCKS == 0 && x0 + SQUARE <= width && y0 + SQUARE <= height) {
+            const uint32_t found = square_hits(t + (size_t)y0 * width + x0, width);
+            if (found == 0 || found == SQUARE * SQUARE) {
+                for (uint32_t k = 0; k < SQUARE_BLOCKS && found; k++, hits += GROUP) {
+                    const uint32_t x = x0 + k % 2 * BLOCK, y = y0 + k / 2 * BLOCK;
+                    list_whole_block(t + (size_t)y * width + x, width, x, y, to + hits, to_t + hits);
+                }
+                for (uint32_t k = 1; k < SQUARE_BLOCKS; k++)
+                    ask_for_line(rays, left + TILE, top, ++block);
+                continue;
+            }
+        }
+        if (x0 + BLOCK <= width && y0 + BLOCK <= height)
             hits += list_block(t + (size_t)y0 * width + x0, width, x0, y0, to + hits, to_t + hits);
-        }
-    } else {
-        const uint32_t pixels = bench_tile_pixels(rays->axes, tile, to);
-        for (uint32_t i = 0; i < pixels; i++) {
-            const uint32_t p = to[i];
-            to[hits] = p;
-            to_t[hits] = t[(size_t)(p >> 16) * width + (p & 0xffff)];
-            hits += to_t[hits] < INFINITY;
-        }
+        else
+            hits += list_part_block(t, rays->axes, x0, y0, to + hits, to_t + hits);
     }
-    rays->tile_hits[index] = hits;
+    return hits;
+}
+
+/* A tile of a round, into its own part of the list. */
+static void list_one(void *argument, uint32_t index)
+{
+    bench_rays *rays = argument;
+    rays->tile_hits[index] =
+        list_tile(rays, rays->round_first + index, rays->of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1),
+                  rays->t_of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1));
 }
 
 /* The hits of so many tiles more, behind those that there are. */
 static void list_round(bench_rays *rays, uint32_t tiles)
 {
-    bench_threads_run(rays->threads, list_tile, rays, tiles);
+    if (bench_threads_count(rays->threads) == 1) {
+        for (uint32_t i = 0; i < tiles; i++)
+            rays->hits += list_tile(rays, rays->round_first + i, rays->hit + rays->hits, rays->hit_t + rays->hits);
+        rays->round_first += tiles;
+        return;
+    }
+    bench_threads_run(rays->threads, list_one, rays, tiles);
     for (uint32_t i = 0; i < tiles; i++) {
-        const uint32_t hits = rays->tile_hits[i];
-        memcpy(rays->hit + rays->hits, rays->of_tile + (size_t)i * BENCH_TILE_PIXELS, hits * sizeof *rays->hit);
-        memcpy(rays->hit_t + rays->hits, rays->t_of_tile + (size_t)i * BENCH_TILE_PIXELS, hits * sizeof *rays->hit_t);
+        const size_t hits = rays->tile_hits[i], from = (size_t)i * (BENCH_TILE_PIXELS + 1);
+        memcpy(rays->hit + rays->hits, rays->of_tile + from, hits * sizeof *rays->hit);
+        memcpy(rays->hit_t + rays->hits, rays->t_of_tile + from, hits * sizeof *rays->hit_t);
         rays->hits += hits;
     }
     rays->round_first += tiles;
