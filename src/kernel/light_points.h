@@ -101,10 +101,10 @@ CGT_SPU_INLINE void light_hand_out(const light_call *c, const packet *p, uint32_
     const uint32_t *restrict from = c->order.from ? c->order.from + first : NULL, *restrict object = p->object;
     uint8_t *restrict occluded = c->occluded + c->order.first; /* bytes, which may be a part of anything else */
     if (!from)
-        for (uint32_t k = 0; k < count; k++)
-            occluded[first + k] = object[k] != CGT_NONE;
+        for (size_t k = 0; k < count; k++) /* of sizes that cannot wrap: a compiler makes vectors of it */
+            occluded[(size_t)first + k] = object[k] != CGT_NONE;
     else
-        for (uint32_t k = 0; k < count; k++)
+        for (size_t k = 0; k < count; k++)
             occluded[from[k]] = object[k] != CGT_NONE;
 }
 
