@@ -8,7 +8,8 @@
 #include "wide_tree_binary.h"
 #include "wide_tree_fetch.h"
 
-#define OBJECTS 512u /* of clusters, listed together */
+#define OBJECTS 512u       /* of clusters, listed together */
+#define CLUSTERS_AHEAD 32u /* that are on their way */
 
 /* Bounds of spheres. A sum is rounded by at most 2^-24 of itself, or not at all where it is below 2^-126. What 2^-22 of
  * it comes to is rounded by 2^-150 at most, the difference once more by 2^-24: 2^-23 at least is left. */
@@ -68,6 +69,14 @@ CGT_SPU_INLINE void objects_renew(const cgt_wide_build *b, leaf_objects *o)
     o->next = 0;
     for (; o->cluster < o->clusters && o->end <= OBJECTS - CGT_CLUSTER; o->cluster++) {
         const uint32_t number = b->object[o->cluster], valid = b->cluster[number].valid;
+        const uint32_t ahead = o->cluster + CLUSTERS_AHEAD;
+        __builtin_prefetch(&b->cluster[b->object[ahead < o->clusters ? ahead : o->cluster]]);
+        if (valid == (1u << CGT_CLUSTER) - 1) { /* most are */
+            for (uint32_t k = 0; k < CGT_CLUSTER; k++)
+                o->own[o->end + k] = number * CGT_CLUSTER + k;
+            o->end += CGT_CLUSTER;
+            continue;
+        }
         for (uint32_t k = 0; k < CGT_CLUSTER; k++) {
             o->own[o->end] = number * CGT_CLUSTER + k; /* written over where it is not valid */
             o->end += valid >> k & 1;
