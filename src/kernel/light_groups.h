@@ -35,7 +35,7 @@ typedef struct light_tile {
     const cgt_world *world;
     cgt_counts *counts;
     bool place;
-    waiting spheres, triangles, clusters;
+    waiting_lists waits;
 } light_tile;
 
 /* ---- objects ---- */

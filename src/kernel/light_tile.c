@@ -148,18 +148,20 @@ static void take_triangles(light_tile *t, const uint32_t *reference, uint32_t co
 /* ---- references ---- */
 
 /* Takes the first `count` waiting references, whole vectors but for the last one. */
-static void take_waiting_spheres(light_tile *t, uint32_t count)
+static void take_waiting_spheres(void *owner, uint32_t count)
 {
-    waiting *q = &t->spheres;
+    light_tile *t = owner;
+    waiting *q = &t->waits.spheres;
     for (uint32_t k = 0; k < count && t->open; k += CGT_LANES)
         take_spheres(t, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
     waiting_remove(q, count);
 }
 
 /* The same, with the vertices of some vectors on their way. */
-static void take_waiting_triangles(light_tile *t, uint32_t count)
+static void take_waiting_triangles(void *owner, uint32_t count)
 {
-    waiting *q = &t->triangles;
+    light_tile *t = owner;
+    waiting *q = &t->waits.triangles;
     uint32_t asked = 0;
     for (uint32_t k = 0; k < count && t->open; k += CGT_LANES) {
         asked = waiting_ask(q, &t->world->objects, k, count, asked);
@@ -168,33 +170,12 @@ static void take_waiting_triangles(light_tile *t, uint32_t count)
     waiting_remove(q, count);
 }
 
-static void wait_spheres(light_tile *t, const uint32_t *reference, uint32_t count)
-{
-    while (count) {
-        const uint32_t some = waiting_add_spheres(&t->spheres, &t->world->objects, reference, count);
-        reference += some;
-        count -= some;
-        if (t->spheres.count == WAITING)
-            take_waiting_spheres(t, WAITING / 2);
-    }
-}
-
-static void wait_triangles(light_tile *t, const uint32_t *reference, uint32_t count)
-{
-    while (count) {
-        const uint32_t some = waiting_add_triangles(&t->triangles, &t->world->objects, reference, count);
-        reference += some;
-        count -= some;
-        if (t->triangles.count == WAITING)
-            take_waiting_triangles(t, WAITING / 2);
-    }
-}
-
 /* Clusters: the triangles of those that the tile wants wait then. */
-static void take_waiting_clusters(light_tile *t, uint32_t count)
+static void take_waiting_clusters(void *owner, uint32_t count)
 {
+    light_tile *t = owner;
     const cgt_cluster *cluster = t->world->cluster;
-    waiting *q = &t->clusters;
+    waiting *q = &t->waits.clusters;
     for (uint32_t k = 0; k < count && t->open; k += CGT_LANES) {
         const uint32_t some = count - k < CGT_LANES ? count - k : CGT_LANES;
         light_windows windows;
@@ -206,41 +187,15 @@ static void take_waiting_clusters(light_tile *t, uint32_t count)
         t->counts->culled += some - spux_count_bits(left);
         for (; left; left &= left - 1) {
             const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(left)];
-            if (t->triangles.count > WAITING - CGT_CLUSTER)
+            if (t->waits.triangles.count > WAITING - CGT_CLUSTER)
                 take_waiting_triangles(t, WAITING / 2);
-            waiting_add_cluster(&t->triangles, &t->world->objects, number, cluster[number].valid);
+            waiting_add_cluster(&t->waits.triangles, &t->world->objects, number, cluster[number].valid);
         }
     }
     waiting_remove(q, count);
 }
 
-static void wait_clusters(light_tile *t, const uint32_t *reference, uint32_t count)
-{
-    while (count) {
-        const uint32_t some = waiting_add_clusters(&t->clusters, t->world->cluster, reference, count);
-        reference += some;
-        count -= some;
-        if (t->clusters.count == WAITING)
-            take_waiting_clusters(t, WAITING / 2);
-    }
-}
-
-static void wait_run(light_tile *t, const uint32_t *reference, uint32_t count)
-{
-    const cgt_objects *o = &t->world->objects;
-    if (t->world->cluster)
-        wait_clusters(t, reference, count);
-    else if (!o->triangles)
-        wait_spheres(t, reference, count);
-    else if (!o->spheres)
-        wait_triangles(t, reference, count);
-    else
-        for (uint32_t k = 0; k < count; k++)
-            if (cgt_objects_array(o, reference[k])->kind == CGT_KIND_SPHERES)
-                wait_spheres(t, reference + k, 1);
-            else
-                wait_triangles(t, reference + k, 1);
-}
+static const waiting_takers takers = {take_waiting_spheres, take_waiting_triangles, take_waiting_clusters};
 
 /* ---- the march ---- */
 
@@ -334,12 +289,12 @@ static void march(light_tile *t)
         for (uint32_t k = 0; k < runs && t->open; k++) {
             uint32_t count;
             const uint32_t *reference = tile_slice_run(&m, &s, k, &count);
-            wait_run(t, reference, count);
+            waiting_run(&t->waits, t->world, reference, count, takers, t);
         }
     }
-    take_waiting_clusters(t, t->clusters.count);
-    take_waiting_spheres(t, t->spheres.count);
-    take_waiting_triangles(t, t->triangles.count);
+    take_waiting_clusters(t, t->waits.clusters.count);
+    take_waiting_spheres(t, t->waits.spheres.count);
+    take_waiting_triangles(t, t->waits.triangles.count);
 }
 
 static void trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
@@ -348,7 +303,7 @@ static void trace_tile(const light_call *c, light_tile *t, uint32_t first, uint3
     const bool plain = light_points_dense(c) && !points->t_min && !points->t_max;
     uint32_t from[PACKETS] = {0}, rays[PACKETS] = {0};
     t->packets = 0;
-    t->spheres.count = t->triangles.count = t->clusters.count = 0;
+    waiting_clear(&t->waits);
     for (uint32_t done = 0; done < count && t->packets < PACKETS; done += PACKET_MAX_RAYS) {
         const uint32_t left = count - done, some = left < PACKET_MAX_RAYS ? left : PACKET_MAX_RAYS;
         const uint64_t invalid = c->counts->invalid_rays;

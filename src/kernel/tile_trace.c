@@ -22,7 +22,7 @@ typedef struct tile_work {
     tile *t;
     tile_queue queue;
     cgt_counts *counts;
-    waiting spheres, triangles, clusters;
+    waiting_lists waits;
     uint32_t drawn; /* since the last refresh */
 } tile_work;
 
@@ -157,18 +157,20 @@ static void take_triangles(tile_work *w, const uint32_t *reference, uint32_t cou
 }
 
 /* Takes the first of the references that wait; what is left over moves up. */
-static void take_waiting_spheres(tile_work *w, uint32_t count)
+static void take_waiting_spheres(void *owner, uint32_t count)
 {
-    waiting *q = &w->spheres;
+    tile_work *w = owner;
+    waiting *q = &w->waits.spheres;
     for (uint32_t k = 0; k < count; k += TILE_FOUND)
         take_spheres(w, q->reference + k, count - k < TILE_FOUND ? count - k : TILE_FOUND);
     waiting_remove(q, count);
 }
 
 /* The same, with the vertices of some vectors on their way. */
-static void take_waiting_triangles(tile_work *w, uint32_t count)
+static void take_waiting_triangles(void *owner, uint32_t count)
 {
-    waiting *q = &w->triangles;
+    tile_work *w = owner;
+    waiting *q = &w->waits.triangles;
     uint32_t asked = 0;
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         asked = waiting_ask(q, &w->world->objects, k, count, asked);
@@ -177,33 +179,12 @@ static void take_waiting_triangles(tile_work *w, uint32_t count)
     waiting_remove(q, count);
 }
 
-static void wait_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
-{
-    while (count) {
-        const uint32_t some = waiting_add_spheres(&w->spheres, &w->world->objects, reference, count);
-        reference += some;
-        count -= some;
-        if (w->spheres.count == WAITING)
-            take_waiting_spheres(w, WAITING / 2);
-    }
-}
-
-static void wait_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
-{
-    while (count) {
-        const uint32_t some = waiting_add_triangles(&w->triangles, &w->world->objects, reference, count);
-        reference += some;
-        count -= some;
-        if (w->triangles.count == WAITING)
-            take_waiting_triangles(w, WAITING / 2);
-    }
-}
-
 /* Takes the first of the clusters that wait: the triangles of those that the tile wants wait then. */
-static void take_waiting_clusters(tile_work *w, uint32_t count)
+static void take_waiting_clusters(void *owner, uint32_t count)
 {
+    tile_work *w = owner;
     const cgt_cluster *cluster = w->world->cluster;
-    waiting *q = &w->clusters;
+    waiting *q = &w->waits.clusters;
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         const uint32_t some = some_lanes(count - k);
         unsigned left = tile_clusters_wanted(w->t, cluster, q->reference + k, some);
@@ -212,53 +193,22 @@ static void take_waiting_clusters(tile_work *w, uint32_t count)
         w->counts->culled += some - spux_count_bits(left);
         for (; left; left &= left - 1) {
             const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(left)];
-            if (w->triangles.count > WAITING - CGT_CLUSTER)
+            if (w->waits.triangles.count > WAITING - CGT_CLUSTER)
                 take_waiting_triangles(w, WAITING / 2);
-            waiting_add_cluster(&w->triangles, &w->world->objects, number, cluster[number].valid);
+            waiting_add_cluster(&w->waits.triangles, &w->world->objects, number, cluster[number].valid);
         }
     }
     waiting_remove(q, count);
 }
 
-static void wait_clusters(tile_work *w, const uint32_t *reference, uint32_t count)
-{
-    while (count) {
-        const uint32_t some = waiting_add_clusters(&w->clusters, w->world->cluster, reference, count);
-        reference += some;
-        count -= some;
-        if (w->clusters.count == WAITING)
-            take_waiting_clusters(w, WAITING / 2);
-    }
-}
-
-/* References to both kinds, each to its own list. */
-static void wait_both(tile_work *w, const uint32_t *reference, uint32_t count)
-{
-    for (uint32_t k = 0; k < count; k++)
-        if (cgt_objects_array(&w->world->objects, reference[k])->kind == CGT_KIND_SPHERES)
-            wait_spheres(w, reference + k, 1);
-        else
-            wait_triangles(w, reference + k, 1);
-}
-
-static void wait_run(tile_work *w, const uint32_t *reference, uint32_t count)
-{
-    if (w->world->cluster)
-        wait_clusters(w, reference, count);
-    else if (!w->world->objects.triangles)
-        wait_spheres(w, reference, count);
-    else if (!w->world->objects.spheres)
-        wait_triangles(w, reference, count);
-    else
-        wait_both(w, reference, count);
-}
+static const waiting_takers takers = {take_waiting_spheres, take_waiting_triangles, take_waiting_clusters};
 
 /* Whole vectors: what is left over comes with the next slice. */
 static void take_vectors(tile_work *w)
 {
-    take_waiting_clusters(w, w->clusters.count / CGT_LANES * CGT_LANES);
-    take_waiting_spheres(w, w->spheres.count / CGT_LANES * CGT_LANES);
-    take_waiting_triangles(w, w->triangles.count / CGT_LANES * CGT_LANES);
+    take_waiting_clusters(w, w->waits.clusters.count / CGT_LANES * CGT_LANES);
+    take_waiting_spheres(w, w->waits.spheres.count / CGT_LANES * CGT_LANES);
+    take_waiting_triangles(w, w->waits.triangles.count / CGT_LANES * CGT_LANES);
 }
 
 /* Runs of references, some looked up ahead, so that they come to the cache, too. */
@@ -270,7 +220,7 @@ typedef struct runs {
 static void take_runs(tile_work *w, runs *r)
 {
     for (uint32_t k = 0; k < r->runs; k++)
-        wait_run(w, r->reference[k], r->count[k]);
+        waiting_run(&w->waits, w->world, r->reference[k], r->count[k], takers, w);
     r->runs = 0;
 }
 
@@ -338,9 +288,9 @@ static void march(tile_work *w)
         w->counts->slices++;
         take_slice(w, &m, &s);
     }
-    take_waiting_clusters(w, w->clusters.count);
-    take_waiting_spheres(w, w->spheres.count);
-    take_waiting_triangles(w, w->triangles.count);
+    take_waiting_clusters(w, w->waits.clusters.count);
+    take_waiting_spheres(w, w->waits.spheres.count);
+    take_waiting_triangles(w, w->waits.triangles.count);
     tile_flush(&w->world->objects, w->t, &w->queue, w->counts);
 }
 
@@ -355,7 +305,8 @@ static void trace_one(const cgt_world *world, const cgt_camera_rays *camera, con
     w.t = &t;
     w.queue.entries = 0;
     w.counts = counts;
-    w.spheres.count = w.triangles.count = w.clusters.count = w.drawn = 0;
+    w.drawn = 0;
+    waiting_clear(&w.waits);
     tile_make(&t, world, camera, region);
     march(&w);
     counts->tiles++;

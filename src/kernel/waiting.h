@@ -15,10 +15,14 @@ typedef struct waiting {
     uint32_t count;
 } waiting;
 
-/* Adds references of spheres while there is room, and asks for those. Returns how many were added. */
-CGT_SPU_INLINE uint32_t waiting_add_spheres(waiting *q, const cgt_objects *objects, const uint32_t *reference,
+/* Adds references while there is room, and asks for what they stand for. Returns how many were added. */
+typedef uint32_t waiting_add(waiting *q, const cgt_world *world, const uint32_t *reference, uint32_t count);
+
+/* References of spheres. */
+CGT_SPU_INLINE uint32_t waiting_add_spheres(waiting *q, const cgt_world *world, const uint32_t *reference,
                                             uint32_t count)
 {
+    const cgt_objects *objects = &world->objects;
     const bool one = objects->arrays == 1;
     const uint32_t room = WAITING - q->count, some = count < room ? count : room;
     uint32_t *to = q->reference + q->count;
@@ -31,10 +35,11 @@ CGT_SPU_INLINE uint32_t waiting_add_spheres(waiting *q, const cgt_objects *objec
     return some;
 }
 
-/* The same with triangles, whose indices are asked for. */
-CGT_SPU_INLINE uint32_t waiting_add_triangles(waiting *q, const cgt_objects *objects, const uint32_t *reference,
+/* Of triangles, whose indices are asked for. */
+CGT_SPU_INLINE uint32_t waiting_add_triangles(waiting *q, const cgt_world *world, const uint32_t *reference,
                                               uint32_t count)
 {
+    const cgt_objects *objects = &world->objects;
     const cgt_object_array *a = objects->array;
     const char *index = objects->arrays == 1 ? a->index : NULL;
     const uint32_t room = WAITING - q->count, some = count < room ? count : room;
@@ -48,10 +53,11 @@ CGT_SPU_INLINE uint32_t waiting_add_triangles(waiting *q, const cgt_objects *obj
     return some;
 }
 
-/* Adds clusters while there is room, and asks for those. */
-CGT_SPU_INLINE uint32_t waiting_add_clusters(waiting *q, const cgt_cluster *cluster, const uint32_t *reference,
+/* Of clusters. */
+CGT_SPU_INLINE uint32_t waiting_add_clusters(waiting *q, const cgt_world *world, const uint32_t *reference,
                                              uint32_t count)
 {
+    const cgt_cluster *cluster = world->cluster;
     const uint32_t room = WAITING - q->count, some = count < room ? count : room;
     uint32_t *to = q->reference + q->count;
     for (uint32_t k = 0; k < some; k++) {
@@ -95,6 +101,53 @@ CGT_SPU_INLINE void waiting_remove(waiting *q, uint32_t count)
 {
     q->count -= count;
     memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
+}
+
+/* ---- runs of references, each to its own list ---- */
+
+typedef struct waiting_lists {
+    waiting spheres, triangles, clusters;
+} waiting_lists;
+
+CGT_SPU_INLINE void waiting_clear(waiting_lists *q) { q->spheres.count = q->triangles.count = q->clusters.count = 0; }
+
+/* Takes the first `count` references of a list of the owner's. */
+typedef void waiting_take(void *owner, uint32_t count);
+
+/* Functions of a list's owner: constants where runs are added. */
+typedef struct waiting_takers {
+    waiting_take *spheres, *triangles, *clusters;
+} waiting_takers;
+
+CGT_SPU_INLINE void waiting_feed(waiting *q, const cgt_world *world, const uint32_t *reference, uint32_t count,
+                                 waiting_add *add, waiting_take *take, void *owner)
+{
+    while (count) {
+        const uint32_t some = add(q, world, reference, count);
+        reference += some;
+        count -= some;
+        if (q->count == WAITING)
+            take(owner, WAITING / 2);
+    }
+}
+
+/* Adds a run of what a loose grid refers to; takes half of a list when it is full. */
+CGT_SPU_INLINE void waiting_run(waiting_lists *q, const cgt_world *world, const uint32_t *reference, uint32_t count,
+                                waiting_takers take, void *owner)
+{
+    const cgt_objects *o = &world->objects;
+    if (world->cluster)
+        waiting_feed(&q->clusters, world, reference, count, waiting_add_clusters, take.clusters, owner);
+    else if (!o->triangles)
+        waiting_feed(&q->spheres, world, reference, count, waiting_add_spheres, take.spheres, owner);
+    else if (!o->spheres)
+        waiting_feed(&q->triangles, world, reference, count, waiting_add_triangles, take.triangles, owner);
+    else
+        for (uint32_t k = 0; k < count; k++)
+            if (cgt_objects_array(o, reference[k])->kind == CGT_KIND_SPHERES)
+                waiting_feed(&q->spheres, world, reference + k, 1, waiting_add_spheres, take.spheres, owner);
+            else
+                waiting_feed(&q->triangles, world, reference + k, 1, waiting_add_triangles, take.triangles, owner);
 }
 
 #endif
