@@ -10,6 +10,9 @@
 #define WAITING 256u
 #define WAITING_AHEAD 64u /* whose vertices are on their way */
 
+/* Indices and vertices of fewer triangles are mostly in a cache as they are, and are not asked for. */
+#define WAITING_TRIANGLES 131072u
+
 typedef struct waiting {
     uint32_t reference[WAITING + 1];
     uint32_t count;
@@ -41,7 +44,7 @@ CGT_SPU_INLINE uint32_t waiting_add_triangles(waiting *q, const cgt_world *world
 {
     const cgt_objects *objects = &world->objects;
     const cgt_object_array *a = objects->array;
-    const char *index = objects->arrays == 1 ? a->index : NULL;
+    const char *index = objects->arrays == 1 && objects->count >= WAITING_TRIANGLES ? a->index : NULL;
     const uint32_t room = WAITING - q->count, some = count < room ? count : room;
     uint32_t *to = q->reference + q->count;
     for (uint32_t k = 0; k < some; k++) {
@@ -91,7 +94,7 @@ CGT_SPU_INLINE uint32_t waiting_ask(const waiting *q, const cgt_objects *objects
                                     uint32_t asked)
 {
     const uint32_t ask = k + WAITING_AHEAD < count ? k + WAITING_AHEAD : count;
-    if (objects->arrays == 1 && objects->array->index && ask > asked)
+    if (objects->arrays == 1 && objects->count >= WAITING_TRIANGLES && objects->array->index && ask > asked)
         fetch_triangles_ask(objects->array, q->reference + asked, ask - asked);
     return ask;
 }
