@@ -134,24 +134,29 @@ CGT_SPU_INLINE bool tile_double_misses(const tile *t, const tile_double_forms *f
     return (below && above) || behind || (ahead && least * (1 - 0x1p-20) > most * far_t);
 }
 
-/* The parts of a tile, as bits, that a shape may reach. */
-static unsigned tile_double_parts(const tile *t, const cgt_shape *q)
+/* The parts of a window, as bits, that a shape may reach. */
+static unsigned tile_double_parts(const tile *t, const cgt_shape *q, tile_box box)
 {
-    const uint32_t last = TILE_EDGE - 1;
-    const float edge[2][2] = {{t->column[0], t->column[last]}, {t->row[0], t->row[last]}};
+    const uint32_t side = TILE_EDGE / TILE_PARTS, x0 = box.x0 / side, x1 = box.x1 / side, y0 = box.y0 / side,
+                   y1 = box.y1 / side;
     tile_double_forms f;
     unsigned parts = 0;
     if (q->kind == CGT_KIND_SPHERES || t->parallel)
         return (1u << TILE_PARTS * TILE_PARTS) - 1;
     tile_double_forms_make(t, &q->triangle, &f);
-    if (tile_double_misses(t, &f, edge[0], edge[1], (double)t->farthest_t))
-        return 0;
-    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
-        const float *x = t->column + k % TILE_PARTS * 16, *y = t->row + k / TILE_PARTS * 16;
-        const float px[2] = {x[0], x[15]}, py[2] = {y[0], y[15]};
-        const double far_t = (double)t->far[k] * (t->linear ? 1 : (double)t->rlength[k] * (1 + 0x1p-20));
-        parts |= (unsigned)!tile_double_misses(t, &f, px, py, far_t) << k;
+    if ((x1 - x0 + 1) * (y1 - y0 + 1) > TILE_PARTS) {
+        const float px[2] = {t->column[box.x0], t->column[box.x1]}, py[2] = {t->row[box.y0], t->row[box.y1]};
+        if (tile_double_misses(t, &f, px, py, (double)t->farthest_t))
+            return 0;
     }
+    for (uint32_t y = y0; y <= y1; y++)
+        for (uint32_t x = x0; x <= x1; x++) {
+            const float px[2] = {t->column[x * side], t->column[x * side + side - 1]};
+            const float py[2] = {t->row[y * side], t->row[y * side + side - 1]};
+            const uint32_t k = y * TILE_PARTS + x;
+            const double far_t = (double)t->far[k] * (t->linear ? 1 : (double)t->rlength[k] * (1 + 0x1p-20));
+            parts |= (unsigned)!tile_double_misses(t, &f, px, py, far_t) << k;
+        }
     return parts;
 }
 
@@ -191,7 +196,7 @@ __attribute__((noinline, unused)) static void tile_double_draw(const cgt_objects
 {
     const cgt_shape q = cgt_objects_shape(objects, object);
     const uint32_t first = 2 * box.x0, end = 2 * box.x1 + 2, side = 2 * TILE_EDGE / TILE_PARTS;
-    const unsigned parts = tile_double_parts(t, &q);
+    const unsigned parts = tile_double_parts(t, &q, box);
     counts->packet_tests++;
     for (uint32_t pair = box.y0 / 2; parts && pair <= box.y1 / 2; pair++) {
         const unsigned row = parts >> pair / (side / 4) * TILE_PARTS;
