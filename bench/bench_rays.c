@@ -8,6 +8,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,7 +56,7 @@ struct bench_rays {
     uint32_t samples;
     int diffuse; /* 1: bounces, in place of ambient-occlusion rays */
     float light[3];
-    bench_rays_taker *taker;
+    bench_rays_taker *taker, *tile_taker;
     void *taker_user;
 };
 
@@ -174,8 +175,11 @@ void bench_rays_release(bench_rays *rays)
 void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user)
 {
     rays->taker = taker;
+    rays->tile_taker = NULL;
     rays->taker_user = user;
 }
+
+void bench_rays_give_tiles(bench_rays *rays, bench_rays_taker *taker) { rays->tile_taker = taker; }
 
 void bench_rays_nearest(bench_rays *rays, int nearest) { rays->nearest = nearest; }
 
@@ -362,14 +366,12 @@ static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
     return end < rays->batch_hits ? end : rays->batch_hits;
 }
 
-/* Plain loops over a run of rays, which the compiler makes vectors of. */
+/* Shadow rays from some hits. Plain loops, which the compiler makes vectors of. dir: NULL where they are not asked for. */
 BENCH_CLONES
-static void make_shadow_run(bench_rays *rays, uint64_t first, uint32_t count)
+static void make_shadow_run(const bench_camera_axes *axes, const float light[3], const uint32_t *hit, const float *t,
+                            uint32_t count, float *const org[3], float *const dir[3])
 {
-    const bench_camera_axes *axes = rays->axes;
     const float sx = axes->step[0], sy = axes->step[1];
-    const float *t = rays->hit_t + rays->batch_first + first;
-    const uint32_t *hit = rays->hit + rays->batch_first + first;
     float px[SHADOW_RUN], py[SHADOW_RUN], back[SHADOW_RUN];
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t pixel = hit[k], x = pixel & 0xffff, y = pixel >> 16;
@@ -378,21 +380,42 @@ static void make_shadow_run(bench_rays *rays, uint64_t first, uint32_t count)
         back[k] = t[k] * 0.9999f;
     }
     for (int a = 0; a < 3; a++) {
-        const float eye = axes->eye[a], fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a];
-        float *org = rays->org[a] + first, *dir = rays->dir[a] + first;
+        const float eye = axes->eye[a], fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a], to = light[a];
+        float *o = org[a], *d = dir ? dir[a] : NULL;
         for (uint32_t k = 0; k < count; k++)
-            org[k] = eye + back[k] * (fwd + px[k] * right + py[k] * up);
-        for (uint32_t k = 0; k < count && rays->taker; k++) /* the library makes the same ones of the points */
-            dir[k] = rays->light[a] - org[k];
+            o[k] = eye + back[k] * (fwd + px[k] * right + py[k] * up);
+        for (uint32_t k = 0; k < count && d; k++)
+            d[k] = to - o[k];
     }
 }
 
-static void make_shadow_rays(void *argument, uint32_t piece)
+/* All of `count` hits. */
+static void make_shadow_rays(const bench_rays *rays, const uint32_t *hit, const float *t, uint32_t count,
+                             float *const org[3], float *const dir[3])
 {
-    bench_rays *rays = argument;
-    const uint64_t end = piece_end(rays, piece);
-    for (uint64_t i = piece_begin(piece); i < end; i += SHADOW_RUN)
-        make_shadow_run(rays, i, end - i < SHADOW_RUN ? (uint32_t)(end - i) : SHADOW_RUN);
+    for (uint32_t i = 0; i < count; i += SHADOW_RUN) {
+        float *o[3], *d[3];
+        for (int a = 0; a < 3; a++) {
+            o[a] = org[a] + i;
+            d[a] = dir ? dir[a] + i : NULL;
+        }
+        make_shadow_run(rays->axes, rays->light, hit + i, t + i, count - i < SHADOW_RUN ? count - i : SHADOW_RUN, o,
+                        dir ? d : NULL);
+    }
+}
+
+/* Of a piece of a batch, for a taker. */
+static void make_shadow_piece(void *argument, uint32_t piece)
+{
+    const bench_rays *rays = argument;
+    const uint64_t first = piece_begin(piece);
+    float *org[3], *dir[3];
+    for (int a = 0; a < 3; a++) {
+        org[a] = rays->org[a] + first;
+        dir[a] = rays->dir[a] + first;
+    }
+    make_shadow_rays(rays, rays->hit + rays->batch_first + first, rays->hit_t + rays->batch_first + first,
+                     (uint32_t)(piece_end(rays, piece) - first), org, dir);
 }
 
 static uint32_t mix(uint32_t v)
@@ -551,27 +574,29 @@ static cgt_result trace_nearest(const bench_rays *rays, const cgt_scene *scene, 
     return result;
 }
 
-/* The batch in work. Shadow rays of the library are points and a light to it. */
-static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
-                              uint64_t count, int light)
+/* Rays as structure of arrays; of shadow rays t ends at 1. */
+static cgt_rays array_of(const bench_rays *rays, float *const org[3], float *const dir[3], uint64_t count, int light)
 {
-    if (light && !rays->taker) {
-        const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .w = 1};
-        const cgt_points points = {.count = count, .position = {rays->org[0], rays->org[1], rays->org[2]}};
-        return cgt_occluded_light(scene, &lamp, &points, rays->occluded, options);
-    }
     cgt_rays array;
     memset(&array, 0, sizeof array);
     array.count = count;
     for (int i = 0; i < 3; i++) {
-        array.org[i] = rays->org[i];
-        array.dir[i] = rays->dir[i];
+        array.org[i] = org[i];
+        array.dir[i] = dir[i];
     }
     array.t_max = light ? rays->ones : NULL;
+    return array;
+}
+
+/* The batch in work; of shadow rays for a taker. */
+static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                              uint64_t count, int light)
+{
+    const cgt_rays array = array_of(rays, rays->org, rays->dir, count, light);
     if (rays->taker)
         return rays->taker(rays->taker_user, &array, rays->occluded);
-    return rays->nearest && !light ? trace_nearest(rays, scene, options, &array)
-                                   : cgt_occluded_rays(scene, &array, rays->occluded, options);
+    return rays->nearest ? trace_nearest(rays, scene, options, &array)
+                         : cgt_occluded_rays(scene, &array, rays->occluded, options);
 }
 
 BENCH_CLONES
@@ -602,7 +627,7 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
             const uint64_t left = end - rays->batch_first;
             rays->batch_hits = left < batch ? left : batch;
             const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
-            bench_threads_run(rays->threads, light ? make_shadow_rays : make_ao_rays, rays, pieces);
+            bench_threads_run(rays->threads, light ? make_shadow_piece : make_ao_rays, rays, pieces);
 
             const uint64_t count = rays->batch_hits * samples;
             const cgt_result result = trace_batch(rays, scene, options, count, light);
@@ -614,12 +639,69 @@ static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt
     return CGT_OK;
 }
 
+/* ---- Shadow rays tile by tile -------------------------------------------------------------------------------- */
+
+typedef struct shadow_pass {
+    const bench_rays *rays;
+    const cgt_scene *scene;
+    const cgt_trace_options *options;
+    atomic_uint_least64_t hits, hidden;
+    atomic_int failed; /* the last failure; 0: none */
+} shadow_pass;
+
+/* What a thread needs for a tile. */
+typedef struct shadow_tile {
+    uint32_t pixel[BENCH_TILE_PIXELS + 1];
+    float t[BENCH_TILE_PIXELS + 1];
+    float org[3][BENCH_TILE_PIXELS], dir[3][BENCH_TILE_PIXELS];
+    uint8_t occluded[BENCH_TILE_PIXELS];
+} shadow_tile;
+
+/* To the library they are points and a light. A tile's are one task to it, which the calling thread does. */
+static cgt_result trace_shadow_tile(const shadow_pass *pass, shadow_tile *s, uint32_t count)
+{
+    const bench_rays *rays = pass->rays;
+    float *const org[3] = {s->org[0], s->org[1], s->org[2]}, *const dir[3] = {s->dir[0], s->dir[1], s->dir[2]};
+    make_shadow_rays(rays, s->pixel, s->t, count, org, rays->tile_taker ? dir : NULL);
+    if (rays->tile_taker) {
+        const cgt_rays array = array_of(rays, org, dir, count, 1);
+        return rays->tile_taker(rays->taker_user, &array, s->occluded);
+    }
+    const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .w = 1};
+    const cgt_points points = {.count = count, .position = {org[0], org[1], org[2]}};
+    return cgt_occluded_light(pass->scene, &lamp, &points, s->occluded, pass->options);
+}
+
+static void shadow_one(void *argument, uint32_t tile)
+{
+    shadow_pass *pass = argument;
+    shadow_tile s;
+    const uint32_t count = list_tile(pass->rays, tile, s.pixel, s.t);
+    const cgt_result result = count ? trace_shadow_tile(pass, &s, count) : CGT_OK;
+    if (result != CGT_OK)
+        atomic_store(&pass->failed, (int)result);
+    else if (count)
+        atomic_fetch_add(&pass->hidden, sum_bytes(s.occluded, count));
+    atomic_fetch_add(&pass->hits, count);
+}
+
 cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                              const float light[3], uint64_t *hidden)
 {
+    shadow_pass pass = {.rays = rays, .scene = scene, .options = options};
     memcpy(rays->light, light, sizeof rays->light);
-    return trace_pass(rays, scene, options, 1, 1, hidden);
+    if (rays->taker && !rays->tile_taker)
+        return trace_pass(rays, scene, options, 1, 1, hidden);
+    atomic_init(&pass.hits, 0);
+    atomic_init(&pass.hidden, 0);
+    atomic_init(&pass.failed, 0);
+    bench_threads_run(rays->threads, shadow_one, &pass, rays->tiles);
+    rays->hits = atomic_load(&pass.hits);
+    *hidden = atomic_load(&pass.hidden);
+    return (cgt_result)atomic_load(&pass.failed);
 }
+
+/* ---- The others ---------------------------------------------------------------------------------------------- */
 
 cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options, uint32_t samples,
                          uint64_t *open)

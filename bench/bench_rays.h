@@ -15,9 +15,10 @@
  *   diffuse bounce              the normal on that side and the hashed point, moved to the unit sphere, added up; the
  *                               same range
  *
- * A pass finds the hit pixels, tile by tile as renderers trace them (bench_tile_pixels), then makes and traces rays batch by batch: the benchmark's threads
- * fill the arrays of a batch, of shadow rays the origins alone, the library's threads trace it, each as many as the
- * context has. */
+ * A pass finds the hit pixels, tile by tile as renderers trace them (bench_tile_pixels). Shadow rays, of the library the
+ * origins alone, are made and traced for each tile by itself, by whichever of the benchmark's threads takes it. Others are
+ * made and traced batch by batch: the benchmark's threads fill the arrays of a batch, the library's threads trace it,
+ * each as many as the context has. */
 #ifndef BENCH_RAYS_H
 #define BENCH_RAYS_H
 
@@ -66,6 +67,10 @@ typedef cgt_result bench_rays_taker(void *user, const cgt_rays *batch, uint8_t *
 
 /* Batches of the passes to come go to a taker; NULL: to the library. scene and options are not used then. */
 void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user);
+
+/* Until the next bench_rays_give shadow rays go to this one, with the same user: a tile's at a time, from all threads at
+ * once. */
+void bench_rays_give_tiles(bench_rays *rays, bench_rays_taker *taker);
 
 /* Traces one shadow ray per hit pixel; hidden gets the number of those that met something.
  * options: of the traces; NULL for the library's. */

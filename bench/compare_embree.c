@@ -165,6 +165,7 @@ static void measure_arrays(embree_job *job, RTCScene scene, double ms[COLUMNS])
         return;
     embree_view_planes(&job->view, &job->planes);
     bench_rays_give(job->rays, embree_arrays_take, &arrays);
+    bench_rays_give_tiles(job->rays, embree_arrays_take_tile);
     if (s->lit) {
         const double begin = bench_now_ms();
         bench_rays_shadow(job->rays, NULL, NULL, s->light, &hidden);

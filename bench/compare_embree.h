@@ -73,6 +73,9 @@ typedef struct embree_arrays {
 
 cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occluded);
 
+/* The same on the calling thread alone, see bench_rays_give_tiles. */
+cgt_result embree_arrays_take_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded);
+
 /* The callbacks of spheres as user geometry, for one width of vectors. */
 typedef struct embree_callbacks {
     RTCIntersectFunctionN intersect;

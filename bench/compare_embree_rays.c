@@ -112,3 +112,14 @@ cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occl
     bench_threads_run(a->threads, trace_task, a, (uint32_t)((batch->count + PIECE - 1) / PIECE));
     return CGT_OK;
 }
+
+cgt_result embree_arrays_take_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded)
+{
+    embree_arrays own = *(const embree_arrays *)arrays; /* others are at work */
+    const unsigned int callers = native_flush_begin();
+    own.batch = batch;
+    own.occluded = occluded;
+    trace_piece(&own, 0, batch->count);
+    native_flush_end(callers);
+    return CGT_OK;
+}
