@@ -550,8 +550,9 @@ typedef struct cgt_points {
  * that of cgt_occluded_rays to these rays, but faster, and there is no array of directions to fill. A point with a NaN
  * or an infinity, in its range a NaN, or at the very place of the light, is counted as an invalid ray and not occluded.
  * Neighbours in the arrays should be neighbours in space: then a loose grid serves, tile by tile, in every precision
- * exactly; points that lie apart from each other go as other rays do. occluded: points->count bytes. Errors and memory:
- * as cgt_trace_rays. */
+ * exactly; points that lie apart from each other go as other rays do. The points are cut into chunks of 4,096, each a
+ * task: fastest is a call for up to so many that belong together, such as a picture's tile, by whichever of the caller's
+ * threads has made them; it uses no other thread. occluded: points->count bytes. Errors and memory: as cgt_trace_rays. */
 CGT_API cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                       uint8_t *occluded, const cgt_trace_options *options);
 
