@@ -56,6 +56,7 @@ static bool light_orient(const packet *p, const float org[3], const float dir[3]
 {
     const bool ends = p->to_light;
     float most = 0;
+    l->axis[0] = 0;
     for (int a = 0; a < 3; a++) {
         const float d = ends ? org[a] - p->light[a] : dir[a];
         if (fabsf(d) > most) {
