@@ -94,6 +94,73 @@ static void frame_of_many_tiles(void **state)
     cloud_free(&c);
 }
 
+/* A whole frame by tiles into planes that begin on lines, past the caches or not; 8 planes of `pixels`. */
+static void trace_lines(const cgt_world *world, const cgt_camera_rays *rays, uint32_t width, uint32_t height,
+                        bool stream, uint32_t *to)
+{
+    const size_t pixels = (size_t)width * height;
+    const cgt_trace_settings settings = {.packet = 8,
+                                         .precision = CGT_PRECISION_ROBUST,
+                                         .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY |
+                                                   CGT_FIELD_NORMAL | CGT_FIELD_UV};
+    cgt_counts counts = {0};
+    cgt_region r = {.width = width, .height = height, .row_stride = width, .stream = stream};
+    memset(to, stream ? 0x55 : 0x77, 8 * pixels * sizeof *to);
+    r.t = (float *)to;
+    r.primitive = to + pixels;
+    r.geometry = to + 2 * pixels;
+    for (int a = 0; a < 3; a++)
+        r.normal[a] = (float *)to + (3 + (size_t)a) * pixels;
+    r.u = (float *)to + 6 * pixels;
+    r.v = (float *)to + 7 * pixels;
+    CGT_KERNEL(cgt_trace_tile)(world, rays, &settings, &r, &counts);
+}
+
+static void compare_lines(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera)
+{
+    const uint32_t width = 192, height = 128;
+    const size_t bytes = 8 * (size_t)width * height * sizeof(uint32_t);
+    const cgt_camera_rays rays = rays_of(camera, width, height);
+    uint32_t *memory = aligned_alloc(64, 2 * bytes), *other = memory + bytes / sizeof *memory;
+    cgt_world world = scene->world;
+    assert_non_null(memory);
+    world.loose = grid->grid;
+    trace_lines(&world, &rays, width, height, false, memory);
+    trace_lines(&world, &rays, width, height, true, other);
+    assert_memory_equal(memory, other, bytes);
+    free(memory);
+}
+
+/* Objects in few of the tiles, or in none: whole tiles see nothing. */
+static void frames_of_sky(void **state)
+{
+    (void)state;
+    test_random r = random_make(360);
+    frames_tally tally = {0};
+    for (uint32_t round = 0; round < 6; round++) {
+        cloud c = cloud_make(&r, CLOUD_UNIFORM, 100);
+        loose_reference grid;
+        cgt_camera camera = camera_before(&c);
+        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        for (int a = 0; a < 3; a++) { /* to the side, with the cloud in a corner, or behind */
+            const float away = camera.target[a] - camera.eye[a];
+            camera.eye[a] -= 8 * away;
+            camera.target[a] += (a == 0 ? 2 * c.reach : 0) - (round % 3 == 2 ? 20 * away : 0);
+        }
+        if (round > 2)
+            make_orthographic(&r, 12 * c.reach, &camera);
+        compare_frame(scene, &grid, &camera, 192, 128, "sky", &tally);
+        compare_lines(scene, &grid, &camera);
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_tally("sky", &tally);
+    assert_true(tally.served == tally.frames && tally.counts.hits > 0);
+    assert_true(tally.counts.hits < tally.counts.rays / 8);
+}
+
 /* Pictures from far below a pixel of the usual ones to far above the usual scenes, each of its own scene. */
 static void orthographic_frames_at_every_scale(void **state)
 {
@@ -354,6 +421,7 @@ int main(void)
         cmocka_unit_test(frame_of_many_tiles),
         cmocka_unit_test(frames_of_clouds),
         cmocka_unit_test(frames_of_two_geometries),
+        cmocka_unit_test(frames_of_sky),
         cmocka_unit_test(orthographic_frames_at_every_scale),
         cmocka_unit_test(frames_of_walls_where_ranges_end),
         cmocka_unit_test(frames_of_hard_cases),

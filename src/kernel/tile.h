@@ -62,6 +62,7 @@ typedef struct tile {
     _Alignas(64) float far[TILE_PARTS * TILE_PARTS];     /* beyond this distance a part of 16x16 pixels wants nothing */
     _Alignas(64) float rlength[TILE_PARTS * TILE_PARTS]; /* at least 1 / sqrt(N) of any pixel of a part */
     float farthest, farthest_t;                          /* of all parts, as distance and as t */
+    bool open;                                           /* pixels have been opened: until then nothing is in z and object */
     bool linear;                                         /* depths are -1/t; `far` and `farthest` are t then */
     bool parallel;                                       /* depths are t, and the rays have one direction */
     _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS];  /* middles of the parts, as px and py */
@@ -291,29 +292,44 @@ CGT_SPU_INLINE void tile_close(tile *t, uint32_t first)
                 t->z[i] = -INFINITY;
 }
 
-/* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
- * there is none. */
-CGT_SPU_INLINE void tile_open(tile *t, float far_t)
+/* Pixels without a hit, and without an end of the range. */
+CGT_SPU_INLINE void tile_clear(tile *t)
 {
-    t->lists = 0;
-    const bool ends = t->rays->t_max < far_t, whole = t->columns == TILE_EDGE && t->rows == TILE_EDGE;
+    t->open = true;
     for (uint32_t i = 0; i < TILE_PIXELS + TILE_PAD; i += CGT_LANES) {
         spux_store(t->z + i, spux_vfloat(INFINITY));
         spux_store_uint(t->object + i, spux_vuint(CGT_NONE));
     }
+}
+
+/* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
+ * there is none. Where every pixel would be as the others, that waits for the first object that the tile may see: many
+ * a tile of the sky never has one. */
+CGT_SPU_INLINE void tile_open(tile *t, float far_t)
+{
+    const bool ends = t->rays->t_max < far_t, whole = t->columns == TILE_EDGE && t->rows == TILE_EDGE;
+    t->lists = 0;
+    t->open = false;
+    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++)
+        t->far[k] = INFINITY;
+    t->farthest = t->farthest_t = INFINITY;
+    if (!ends && whole)
+        return;
+    tile_clear(t);
     if (ends)
         for (uint32_t i = 0; i < TILE_PIXELS; i++)
             t->z[i] = t->linear ? tile_depth(t, i, (double)t->rays->t_max)
                                 : (float)((double)t->rays->t_max * tile_norm(t, i) * (1 - 0x1p-20));
     for (uint32_t i = 0; !whole && i < TILE_PIXELS; i += CGT_LANES)
         tile_close(t, i);
-    if (ends || !whole) {
-        tile_far_update(t);
-        return;
-    }
-    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++)
-        t->far[k] = INFINITY;
-    t->farthest = t->farthest_t = INFINITY;
+    tile_far_update(t);
+}
+
+/* Before an object comes to the pixels. */
+CGT_SPU_INLINE void tile_meet_object(tile *t)
+{
+    if (!t->open)
+        tile_clear(t);
 }
 
 /* Lists an object, if it has won any pixel: with slot `lists`, as it was. */

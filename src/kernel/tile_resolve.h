@@ -481,6 +481,29 @@ CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, co
         tile_resolve_sphere_array(world, t, r, wish, kept, counts);
 }
 
+/* ---- nothing ---- */
+
+/* A region that no object has come to. */
+__attribute__((noinline, unused)) static void tile_resolve_nothing(const cgt_region *r)
+{
+    const vfloat zero = spux_vfloat(0);
+    const tile_hits none = {spux_vuint(CGT_NONE), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}, 0};
+    if (!tile_streams(r)) {
+        for (uint32_t y = 0; y < r->height; y++)
+            for (uint32_t x = 0; x < r->width; x += CGT_LANES)
+                tile_put_hits((tile_place){r, false, x, y, (size_t)y * r->row_stride + x}, CGT_NONE, none);
+        return;
+    }
+    tile_lines lines;
+    const cgt_region q = tile_lines_region(r, &lines);
+    for (uint32_t k = 0; k < 2 * TILE_LINE; k += CGT_LANES)
+        tile_put_hits((tile_place){&q, false, 0, 0, k}, CGT_NONE, none);
+    for (uint32_t y = 0; y < r->height; y += 2)
+        for (uint32_t x = 0; x < r->width; x += TILE_LINE)
+            tile_stream_lines(r, &q, x, y);
+    spux_stream_end();
+}
+
 /* ---- anything, by rows ---- */
 
 CGT_SPU_INLINE void tile_strip_rays(const tile *t, uint32_t y, packet *p)
@@ -548,6 +571,10 @@ __attribute__((noinline, unused)) static void tile_resolve(const cgt_world *worl
     packet p;
     packet_hits hits;
     cgt_trace_settings exactly = *settings;
+    if (!t->open) {
+        tile_resolve_nothing(region);
+        return;
+    }
     if (world->objects.arrays == 1) {
         tile_resolve_array(world, t, settings, region, counts);
         return;
