@@ -62,10 +62,10 @@ typedef struct tile {
     _Alignas(64) float far[TILE_PARTS * TILE_PARTS];     /* beyond this distance a part of 16x16 pixels wants nothing */
     _Alignas(64) float rlength[TILE_PARTS * TILE_PARTS]; /* at least 1 / sqrt(N) of any pixel of a part */
     float farthest, farthest_t;                          /* of all parts, as distance and as t */
-    bool open;                                           /* pixels have been opened: until then nothing is in z and object */
-    bool linear;                                         /* depths are -1/t; `far` and `farthest` are t then */
-    bool parallel;                                       /* depths are t, and the rays have one direction */
-    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS];  /* middles of the parts, as px and py */
+    bool open;     /* pixels have been opened: until then nothing is in z and object */
+    bool linear;   /* depths are -1/t; `far` and `farthest` are t then */
+    bool parallel; /* depths are t, and the rays have one direction */
+    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS]; /* middles of the parts, as px and py */
     _Alignas(64) float part_y[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float part_wide[TILE_PARTS * TILE_PARTS]; /* half their sizes, rounded up */
     _Alignas(64) float part_high[TILE_PARTS * TILE_PARTS];
