@@ -47,6 +47,7 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y
     else
         tile_gap_make(t, c, r, 2 * c);
     tile_open(t, 2 * c);
+    tile_open_pixels(t);
 }
 
 /* ---- bounds ---- */

@@ -38,6 +38,7 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, const uint32_t at[2], 
         tile_gap_widen(t, c);
     }
     tile_open(t, 2 * c);
+    tile_open_pixels(t);
 }
 
 /* ---- bounds ---- */

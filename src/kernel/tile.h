@@ -326,7 +326,7 @@ CGT_SPU_INLINE void tile_open(tile *t, float far_t)
 }
 
 /* Before an object comes to the pixels. */
-CGT_SPU_INLINE void tile_meet_object(tile *t)
+CGT_SPU_INLINE void tile_open_pixels(tile *t)
 {
     if (!t->open)
         tile_clear(t);

@@ -90,7 +90,7 @@ CGT_SPU_INLINE uint32_t find_spheres(tile_work *w, const uint32_t *reference, ui
             tile_spheres_find(w->t, sphere, object, count - k, &found);
     }
     if (found.count)
-        tile_meet_object(w->t);
+        tile_open_pixels(w->t);
     for (uint32_t k = 0; k < found.count; k += CGT_LANES) {
         if (parallel)
             tile_parallel_spheres_make(w->t, &found, k, &s);
@@ -118,7 +118,7 @@ CGT_SPU_INLINE uint32_t draw_triangles(tile_work *w, const tile_triangles *s, ti
 {
     const cgt_objects *objects = &w->world->objects;
     uint32_t drawn = 0;
-    tile_meet_object(w->t);
+    tile_open_pixels(w->t);
     for (unsigned left = s->fast; left; left &= left - 1)
         drawn += tile_triangle_draw(objects, w->t, s, __builtin_ctz(left), kind, &w->queue, w->counts);
     for (unsigned left = s->slow; left; left &= left - 1) {
