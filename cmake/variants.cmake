@@ -11,15 +11,23 @@
 #   WHERE    a condition of the preprocessor that the compiler must meet; absent: any machine
 #   FLAGS    of the compiler; they come after CFLAGS, so a -march there does not take them away
 #   DEFINES  further definitions
+#
+# CGT_ONLY_VARIANTS leaves rows out that a build does not want, but never the portable one: any machine runs that.
 include(CheckCCompilerFlag)
 include(CheckCSourceCompiles)
 
-set(CGT_VARIANTS "") # the rows that this compiler can build
+set(CGT_ONLY_VARIANTS "" CACHE STRING "Rows of the variant table to build beside portable; empty: all that the compiler can")
+set(CGT_VARIANTS "") # the rows that are built
+set(cgt_known_variants "")
 
 function(cgt_variant)
     cmake_parse_arguments(row "" "NAME;LANES;WHERE" "FLAGS;DEFINES" ${ARGN})
     if(row_UNPARSED_ARGUMENTS OR NOT row_NAME MATCHES "^[a-z0-9_]+$" OR NOT row_LANES MATCHES "^[0-9]+$")
         message(FATAL_ERROR "cmake/variants.cmake: bad row: ${ARGN}")
+    endif()
+    set(cgt_known_variants ${cgt_known_variants} ${row_NAME} PARENT_SCOPE)
+    if(CGT_ONLY_VARIANTS AND NOT row_NAME STREQUAL portable AND NOT row_NAME IN_LIST CGT_ONLY_VARIANTS)
+        return()
     endif()
     string(TOUPPER "${row_NAME}" upper)
     set(CMAKE_REQUIRED_QUIET ON) # a row that is not for this machine is no failure
@@ -69,5 +77,10 @@ function(cgt_list_variants target)
     endforeach()
 endfunction()
 
+foreach(name IN LISTS CGT_ONLY_VARIANTS)
+    if(NOT name IN_LIST cgt_known_variants)
+        message(FATAL_ERROR "CGT_ONLY_VARIANTS: no row is named ${name}; there are: ${cgt_known_variants}")
+    endif()
+endforeach()
 string(REPLACE ";" ", " cgt_variants_text "${CGT_VARIANTS}")
 message(STATUS "Variants: ${cgt_variants_text}")

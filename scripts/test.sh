@@ -2,13 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# test.sh [SUITE]...      SUITE: release, native, clang, asan-ubsan, tsan, aarch64, ppc64; without any: all of them
+# test.sh [SUITE]...      SUITE: release, clang, asan-ubsan, tsan, aarch64, ppc64, native; without any: all but native,
+#                         whose flags the suite of clang has, too
 # Installs what the tests need, builds each suite's preset of CMakePresets.json and runs ctest on it. The last line
 # counts the tests of all suites; the exit code is 0 where none failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 suites=("$@")
-[ ${#suites[@]} -gt 0 ] || suites=(release native clang asan-ubsan tsan aarch64 ppc64)
+[ ${#suites[@]} -gt 0 ] || suites=(release clang asan-ubsan tsan aarch64 ppc64)
 
 purposes=(build render tests)
 for suite in "${suites[@]}"; do
@@ -16,7 +17,7 @@ for suite in "${suites[@]}"; do
     release|native|asan-ubsan|tsan) ;;
     clang) purposes+=(clang) ;;
     aarch64|ppc64) purposes+=(cross) ;;
-    *) echo "test.sh: unknown suite '$suite': release, native, clang, asan-ubsan, tsan, aarch64, ppc64" >&2; exit 2 ;;
+    *) echo "test.sh: unknown suite '$suite': release, clang, asan-ubsan, tsan, aarch64, ppc64, native" >&2; exit 2 ;;
     esac
 done
 scripts/dependencies.sh "${purposes[@]}"
@@ -63,7 +64,7 @@ build_suite() {
 
 run_suite() {
     local suite=$1 log=build/test_$1.log runner=""
-    echo "==== $suite: build"
+    echo "==== $suite: build, $(date +%T)"
     if ! (build_suite "$suite") >"$log" 2>&1; then
         grep -E '(error|warning|Error)[ :]' "$log" | head -n 40 || true
         tail -n 30 "$log"
@@ -76,7 +77,7 @@ run_suite() {
         broken+=("$suite")
         return
     fi
-    echo "==== $suite: test"
+    echo "==== $suite: test, $(date +%T)"
     log=build/ctest_$suite.log
     local ok=yes
     # shellcheck disable=SC2086 # the runner is several words or none
