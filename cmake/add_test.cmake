@@ -6,6 +6,10 @@
 #       A cmocka program. It sees the internal headers and links the static library.
 #   cgt_add_variant_test(<name> <sources>... [LIBRARIES ...] [TIMEOUT ...])
 #       The same, compiled and run once per row of the variant table, as <name>_<row>.
+#   cgt_add_cluster_test(<name> [VARIANTS] [LIBRARIES ...] [TIMEOUT ...])
+#       A test from above once more, as <name>_clusters[_<row>], with clusters wherever there are triangles alone, however
+#       few, and wherever they lie: always_clusters.c comes before the library's own choice, which stays in the archive.
+#       Not with threads watched, nor where the emulator computes in software: there test_cluster_hits has to do.
 #   cgt_add_script_test(<name> <script> <arguments>...)
 #       A shell script of tests/; it exits 0 for good, 77 for "not here", anything else for bad.
 # All get the emulator where the build is a cross build, a time limit, and the sanitizers' settings.
@@ -48,6 +52,22 @@ function(cgt_add_variant_test name)
     foreach(row IN LISTS CGT_VARIANTS)
         cgt_add_test(${name}_${row} ${ARGN})
         cgt_use_variant(${name}_${row} ${row})
+    endforeach()
+endfunction()
+
+function(cgt_add_cluster_test name)
+    cmake_parse_arguments(test "VARIANTS" "" "" ${ARGN})
+    if(CGT_SANITIZE MATCHES "thread" OR cgt_soft_emulator)
+        return()
+    endif()
+    set(programs ${name})
+    if(test_VARIANTS)
+        list(TRANSFORM CGT_VARIANTS PREPEND "${name}_" OUTPUT_VARIABLE programs)
+    endif()
+    foreach(program IN LISTS programs)
+        string(REPLACE "${name}" "${name}_clusters" again "${program}")
+        cgt_add_test(${again} "$<TARGET_OBJECTS:${program}>" always_clusters.c ${test_UNPARSED_ARGUMENTS})
+        add_dependencies(${again} ${program})
     endforeach()
 endfunction()
 
