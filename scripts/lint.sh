@@ -58,29 +58,39 @@ cmake --preset release -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_ME
     tail -n 30 build/lint.log
     exit 1
 }
-# A file is looked at once per entry of the database. Kernels stay in their four-lane form without intrinsics and in the
-# widest, two of them once per row of the variant table, so that every mapping is seen; tests and benchmarks that are
-# compiled per row, or for several programs, are seen once.
+# Each file is looked at in one form: kernels in the widest one, what is compiled per row of the variant table or for
+# several programs in its first. Kernels come once more, two of them for every row, so that every mapping is seen; but
+# their paths are the same ones, and following them is what takes the time.
 # clang-tidy does not know a flag that is for GCC alone.
-mkdir -p build/lint
+mkdir -p build/lint build/lint_rows
 sed 's/ -fno-ipa-modref//g' build/release/compile_commands.json | awk '
+    function put(to) { printf "%s%s}", n[to]++ ? ",\n" : "[\n", substr(entry, 1, index(entry, "\n}")) >to }
     /^\{/ { entry = "" }
     { entry = entry $0 "\n" }
     /"file": / { file = $0 }
-    /^\}/ && (!seen[file]++ || file ~ /\/src\/kernel\/(light_tile|loose_grid_traverse)\.c/ ||
-               file ~ /\/src\/kernel\// && entry ~ /-DCGT_VARIANT=(neon|avx512) /) {
-        printf "%s%s}", n++ ? ",\n" : "[\n", substr(entry, 1, index(entry, "\n}"))
+    /^\}/ && file !~ /\/src\/kernel\// { if (!seen[file]++) put("build/lint/compile_commands.json") }
+    /^\}/ && file ~ /\/src\/kernel\// {
+        if (entry ~ /-DCGT_VARIANT=(neon|avx512) /) put("build/lint/compile_commands.json")
+        else if (entry ~ /-DCGT_VARIANT=portable / || file ~ /\/(light_tile|loose_grid_traverse)\.c/)
+            put("build/lint_rows/compile_commands.json")
     }
-    END { print "\n]" }' >build/lint/compile_commands.json
-sed -nE 's/^ *"file": "(.*)",?$/\1/p' build/lint/compile_commands.json | sort -u >build/lint_files.txt
-[ -s build/lint_files.txt ] || { echo "lint.sh: empty compile database"; exit 1; }
-# One process per file, the longest first. What is a list of every op has no paths to follow, and half a minute of them.
-kernels=/src/kernel/ ops='/test_spu_(words|constants|literals)|/simd_words'
-tidy() { tr '\n' '\0' | xargs -0 -r -n 1 -P "$jobs" clang-tidy-14 --quiet -p build/lint "$@" 2>>build/lint_tidy.log; }
+    END { for (to in n) print "\n]" >to }'
+files_of() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' "build/$1/compile_commands.json" | sort -u; }
+[ -n "$(files_of lint)" ] || { echo "lint.sh: empty compile database"; exit 1; }
+[ -n "$(files_of lint_rows)" ] || { echo "lint.sh: no kernel found"; exit 1; }
+# tidy DATABASE OPTIONS...: the files on standard input, one process per file. The longest come first. What is a list of
+# every op has no paths to follow either, and half a minute of them.
+kernels=/src/kernel/ ops='/test_spu_(words|constants|literals)|/simd_words' no_paths='--checks=-clang-analyzer-*'
+tidy() {
+    local database=$1
+    shift
+    tr '\n' '\0' | xargs -0 -r -n 1 -P "$jobs" clang-tidy-14 --quiet -p "build/$database" "$@" 2>>build/lint_tidy.log
+}
 : >build/lint_tidy.log
-grep -E "$kernels" build/lint_files.txt | tidy || fail "clang-tidy: kernels"
-grep -E "$ops" build/lint_files.txt | tidy --checks='-clang-analyzer-*' || fail "clang-tidy: lists of ops"
-grep -vE "$kernels|$ops" build/lint_files.txt | tidy || fail "clang-tidy"
+files_of lint | grep -E "$kernels" | tidy lint || fail "clang-tidy: kernels"
+files_of lint_rows | tidy lint_rows "$no_paths" || fail "clang-tidy: kernels of other rows"
+files_of lint | grep -E "$ops" | tidy lint "$no_paths" || fail "clang-tidy: lists of ops"
+files_of lint | grep -vE "$kernels|$ops" | tidy lint || fail "clang-tidy"
 if grep -E 'error: ' build/lint_tidy.log; then
     fail "clang-tidy could not read a file"
 fi
