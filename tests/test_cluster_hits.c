@@ -18,7 +18,7 @@
 #define HEIGHT 66u
 #define PIXELS (WIDTH * HEIGHT)
 #define RAYS 2400u
-#define FEWER_RAYS 640u /* where it is slow; frames stay, since tiles want neighbouring points to be near each other */
+#define FEWER_RAYS 320u /* where it is slow; frames stay, since tiles want neighbouring points to be near each other */
 #define FEW 128u        /* rays that are too few for a wide tree of their own, twice */
 #define BUNDLE 16u
 #define LIGHTS 3u
