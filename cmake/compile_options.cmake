@@ -37,8 +37,8 @@ target_compile_options(cgt_compile_options INTERFACE ${cgt_arithmetic_flags} ${c
 
 if(CGT_SANITIZE)
     set(cgt_sanitize_flags "-fsanitize=${CGT_SANITIZE}" -fno-sanitize-recover=all -fno-omit-frame-pointer)
-    if(CGT_SANITIZE MATCHES "address") # it reports null pointers itself; checks of each access take half the compiler's time
-        list(APPEND cgt_sanitize_flags -fno-sanitize=null)
+    if(CGT_SANITIZE MATCHES "address") # it sees these itself; more checks of each access take half the compiler's time
+        list(APPEND cgt_sanitize_flags -fno-sanitize=null,object-size)
     endif()
     set(CMAKE_REQUIRED_LINK_OPTIONS "-fsanitize=${CGT_SANITIZE}")
     check_c_compiler_flag("-fsanitize=${CGT_SANITIZE}" CGT_SANITIZE_WORKS)
