@@ -20,16 +20,13 @@
  * What underflows is below 2^-124, and |x| or [G] may be multiplied with it, or both: 2^-118 (1 + |x|) (1 + [G]).
  * What is not finite compares with nothing, so that such rays are open.
  *
- * Spheres. A line to a place L passes it by at most R - r = u |d| on the way that d lost, and beside a sphere surely where
- * c.c - (c.d)^2 / d.d > R^2, with c its centre from L: (c.d)^2 is within 10 u c.c d.d, c.c within 5 u, their product with
- * d.d within 20 u, all of which 32 u c.c covers.
- * What may be met is tested closer. With c the centre from the ray's origin, A = d.d, B = d.c, C = c.c - r^2, the ray has a root where
- * B^2 - A C >= 0. C is within 7 u (c.c + r^2), B within 4 u |d||c|, so that B^2 - A C is within 26 u A (c.c + r^2). Where
- * ranges are [0, 1] or [0, infinity), and the light is outside the sphere, nothing else has to be known: from inside,
- * C < 0, there is one root ahead; from outside none where B < 0, and two where B > 0, before the light where B < A (the
- * middle of the roots lies as surely there as B / A < 1 - 16 u where c.c < 4 A). B is surely not 0 where B^2 is more
- * than 2 u times the bound of B^2 - A C, which is more than its own error's square. Other spheres, and what is not sure,
- * go to the test of leaf_lanes.h. Squares lose 2^-124 when they underflow: 2^-97 is added to r^2 in bounds, and 2^-118
+ * Spheres. With c the centre from the ray's origin, A = d.d, B = d.c, C = c.c - r^2, the ray has a root where
+ * B^2 - A C >= 0. C is within 7 u (c.c + r^2), B within 4 u |d||c|, so that B^2 - A C is within 26 u A (c.c + r^2). From
+ * outside, C > 0, no root lies ahead where B < 0. B is surely not 0 where B^2 is more than 2 u times the bound of
+ * B^2 - A C, which is more than its own error's square. Where ranges are [0, 1] or [0, infinity), and the light is
+ * outside the sphere, nothing else has to be known: from inside, C < 0, there is one root ahead; from outside two where
+ * B > 0, before the light where B < A (the middle of the roots lies as surely there as B / A < 1 - 16 u where
+ * c.c < 4 A). Other spheres, and what is not sure, go to the test of leaf_lanes.h. Squares lose 2^-124 when they underflow: 2^-97 is added to r^2 in bounds, and 2^-118
  * where A is a factor. */
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
@@ -132,8 +129,8 @@ CGT_SPU_INLINE vfloat light_dot(const vfloat x[3], const float n[3][CGT_LANES], 
 }
 
 typedef struct light_sides {
-    vfloat den, num; /* num only of parallel rays */
-    vfloat least, most;
+    vfloat least, most; /* of U, V and W */
+    vfloat den, num;    /* |D|, and T with D's sign */
 } light_sides;
 
 CGT_SPU_INLINE void light_sides_make(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
@@ -147,19 +144,25 @@ CGT_SPU_INLINE void light_sides_make(const light_packet *l, const light_triangle
         u = spu_add(u, spux_vfloat(q->at_u[k]));
         v = spu_add(v, spux_vfloat(q->at_v[k]));
     }
-    f->den = place ? light_dot(x, q->n, k) : spux_vfloat(q->den[k]);
-    const vfloat w = spu_sub(spu_sub(f->den, u), v);
+    const vfloat along = light_dot(x, q->n, k), den = place ? along : spux_vfloat(q->den[k]);
+    const vfloat w = spu_sub(spu_sub(den, u), v), sign = spu_and(den, spux_vfloat(-0.f));
     f->least = spux_min(u, spux_min(v, w));
     f->most = spux_max(u, spux_max(v, w));
+    f->den = spu_xor(den, sign);
+    f->num = spu_xor(spu_add(along, spux_vfloat(q->at_n[k])), sign);
 }
 
-/* Whether any ray of a vector may pass inside all edges. */
+/* Whether any ray of a vector may pass inside all edges of what is not surely behind it: the surface that it leaves is,
+ * where the light sees it. */
 CGT_SPU_INLINE bool light_triangle_reached(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
                                            bool place)
 {
     light_sides f;
     light_sides_make(l, q, k, i, place, &f);
-    return !spux_all(spu_and(spu_cmpgt(f.most, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f.least)));
+    const vmask beside =
+        spu_and(spu_cmpgt(f.most, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f.least));
+    const vmask steep = spu_cmpgt(f.den, spux_vfloat(q->den_error[k]));
+    return !spux_all(spu_or(beside, spu_and(steep, spu_cmpgt(spux_vfloat(-q->first[k]), f.num))));
 }
 
 /* Rays whose t is surely beyond their range, and those whose t is surely within, where den is surely above 0. */
@@ -202,19 +205,9 @@ CGT_SPU_INLINE void light_triangle_vector(const cgt_objects *objects, light_pack
     light_sides_make(l, q, k, i, place, &f);
     const vmask above = spu_cmpgt(f.most, side), below = spu_cmpgt(minus_side, f.least);
     const vmask inside = spu_or(spu_cmpgt(f.least, side), spu_cmpgt(minus_side, f.most));
-    vfloat num = spux_vfloat(q->at_n[k]);
-    if (place) {
-        num = spu_add(f.den, num);
-    } else {
-        vfloat x[3];
-        for (int a = 0; a < 3; a++)
-            x[a] = spux_load(l->way[a] + i);
-        num = spu_add(light_dot(x, q->n, k), num);
-    }
-    const vfloat sign = spu_and(f.den, spux_vfloat(-0.f)), den = spu_xor(f.den, sign);
-    const light_depth depth = l->plain ? light_depth_plain(q, k, den, spu_xor(num, sign), place)
-                                       : light_depth_of(p, q, k, i, den, spu_xor(num, sign));
-    const vmask steep = spu_cmpgt(den, spux_vfloat(q->den_error[k]));
+    const light_depth depth =
+        l->plain ? light_depth_plain(q, k, f.den, f.num, place) : light_depth_of(p, q, k, i, f.den, f.num);
+    const vmask steep = spu_cmpgt(f.den, spux_vfloat(q->den_error[k]));
     const vmask may = spux_not(spu_or(spu_and(above, below), spu_and(depth.out, steep)));
     if (spux_none(may))
         return;
@@ -259,16 +252,17 @@ CGT_SPU_INLINE unsigned light_outside(const light_packet *l, const wide_spheres 
 }
 
 typedef struct light_roots {
+    vfloat dd, distance;       /* A, c.c */
     vfloat inner, inner_error; /* C */
-    vfloat middle, all;        /* B, and B^2 - A C */
-    vfloat error;              /* of it */
-    vfloat distance;           /* c.c */
-    vfloat dd;                 /* A */
+    vfloat middle, all, error; /* B, and B^2 - A C */
+    vmask surely, outside;     /* B is not 0; C is above it */
+    vmask missed;              /* the sphere lies beside the line, or behind the origin */
 } light_roots;
 
 CGT_SPU_INLINE void light_roots_make(const light_packet *l, const wide_spheres *leaf, uint32_t k, float square,
                                      uint32_t i, light_roots *f)
 {
+    const vfloat zero = spux_vfloat(0);
     vfloat c[3], d[3];
     for (int a = 0; a < 3; a++) {
         c[a] = spu_sub(spux_vfloat(leaf->center[a][k]), spux_load(l->rays.org[a] + i));
@@ -282,59 +276,32 @@ CGT_SPU_INLINE void light_roots_make(const light_packet *l, const wide_spheres *
     f->inner_error = spu_mul(size, spux_vfloat(LIGHT_INSIDE));
     f->error = spu_madd(spu_mul(f->dd, spux_vfloat(LIGHT_BALL)), size, spux_vfloat(0x1p-118f));
     f->all = spu_msub(f->middle, f->middle, spu_mul(f->dd, f->inner));
-}
-
-/* What of the first test is the same for all rays to a place. */
-typedef struct light_balls {
-    _Alignas(CGT_VECTOR_BYTES) float center[3][CGT_LANES]; /* from the light */
-    float beside[CGT_LANES];                               /* c.c - R^2, less all errors */
-} light_balls;
-
-CGT_SPU_INLINE void light_balls_make(const light_packet *l, const wide_spheres *leaf, float scale, light_balls *q)
-{
-    const float lost = l->longest / scale * (2 * LIGHT_LOST);
-    const vfloat reach = spu_add(spux_load(leaf->radius), spux_vfloat(lost));
-    vfloat c[3];
-    for (int a = 0; a < 3; a++) {
-        c[a] = spu_sub(spux_load(leaf->center[a]), spux_vfloat(l->reference[a]));
-        spux_store(q->center[a], c[a]);
-    }
-    const vfloat within = spu_madd(spu_mul(reach, reach), spux_vfloat(1 + 8 * FILTER_U), spux_vfloat(0x1p-118f));
-    spux_store(q->beside, spu_msub(lane_dot(c, c), spux_vfloat(1 - 32 * FILTER_U), within));
+    f->surely = spu_cmpgt(spu_mul(f->middle, f->middle), spu_mul(f->error, spux_vfloat(2 * FILTER_U)));
+    f->outside = spu_cmpgt(f->inner, f->inner_error);
+    const vmask behind = spu_and(f->outside, spu_and(f->surely, spu_cmpgt(zero, f->middle)));
+    f->missed = spu_or(spu_cmpgt(spu_sub(zero, f->error), f->all), behind);
 }
 
 /* What does not depend on the ray, of all spheres of a leaf. */
 typedef struct light_spheres {
-    light_balls balls;                                  /* of rays to a place */
     _Alignas(CGT_VECTOR_BYTES) float square[CGT_LANES]; /* r^2 */
     unsigned simple;                                    /* where the rule of plain ranges holds, as bits */
 } light_spheres;
 
-CGT_SPU_INLINE void light_spheres_make(const light_packet *l, const wide_spheres *leaf, float scale, bool place,
-                                       light_spheres *q)
+CGT_SPU_INLINE void light_spheres_make(const light_packet *l, const wide_spheres *leaf, float scale, light_spheres *q)
 {
     const vfloat radius = spux_load(leaf->radius);
     spux_store(q->square, spu_mul(radius, radius));
     q->simple = l->plain ? light_outside(l, leaf, scale) : 0;
-    if (place)
-        light_balls_make(l, leaf, scale, &q->balls);
 }
 
-/* Whether any line of a vector may meet the sphere. */
+/* Whether any ray of a vector may meet the sphere. */
 CGT_SPU_INLINE bool light_sphere_reached(const light_packet *l, const light_spheres *q, const wide_spheres *leaf,
-                                         uint32_t k, uint32_t i, bool place)
+                                         uint32_t k, uint32_t i)
 {
-    if (place) {
-        vfloat d[3];
-        for (int a = 0; a < 3; a++)
-            d[a] = spux_load(l->rays.dir[a] + i);
-        const vfloat along = light_dot(d, q->balls.center, k);
-        return !spux_all(spu_cmpgt(spu_mul(spux_vfloat(q->balls.beside[k]), spux_load(l->square + i)),
-                                   spu_madd(along, along, spux_vfloat(0x1p-118f))));
-    }
     light_roots f;
     light_roots_make(l, leaf, k, q->square[k], i, &f);
-    return !spux_all(spu_cmpgt(spu_sub(spux_vfloat(0), f.error), f.all));
+    return !spux_all(f.missed);
 }
 
 /* Rays that the simple rule leaves open. */
@@ -363,21 +330,17 @@ CGT_SPU_INLINE void light_sphere_vector(const cgt_world *world, light_packet *l,
 {
     light_roots f;
     light_roots_make(l, leaf, k, square, i, &f);
-    const vfloat zero = spux_vfloat(0);
-    vmask open = spu_and(spux_not(spu_cmpgt(spu_sub(zero, f.error), f.all)),
-                         spu_cmpgt(spux_load(l->rays.high + i), spux_vfloat(-INFINITY)));
+    vmask open = spu_andc(spu_cmpgt(spux_load(l->rays.high + i), spux_vfloat(-INFINITY)), f.missed);
     vmask certain = spux_mask_none();
     if (simple) {
-        const vmask surely = spu_cmpgt(spu_mul(f.middle, f.middle), spu_mul(f.error, spux_vfloat(2 * FILTER_U)));
-        const vmask outside = spu_cmpgt(f.inner, f.inner_error);
+        const vfloat zero = spux_vfloat(0);
         const vmask inside = spu_cmpgt(spu_sub(zero, f.inner_error), f.inner);
-        vmask ahead = spu_and(surely, spu_cmpgt(f.middle, zero));
+        vmask ahead = spu_and(f.surely, spu_cmpgt(f.middle, zero));
         if (l->rays.to_light)
             ahead = spu_and(ahead, spu_and(spu_cmpgt(spu_mul(f.dd, spux_vfloat(LIGHT_MIDDLE)), f.middle),
                                            spu_cmpgt(spu_mul(f.dd, spux_vfloat(4)), f.distance)));
-        certain = spu_or(inside, spu_and(spu_and(outside, ahead), spu_cmpgt(f.all, f.error)));
-        certain = spu_and(certain, open);
-        open = spu_andc(open, spu_or(certain, spu_and(outside, spu_and(surely, spu_cmpgt(zero, f.middle)))));
+        certain = spu_and(open, spu_or(inside, spu_and(spu_and(f.outside, ahead), spu_cmpgt(f.all, f.error))));
+        open = spu_andc(open, certain);
     }
     if (spux_any(certain))
         light_close(&world->objects, l, i, leaf->object[k], certain, spux_mask_none(), counts);
@@ -387,15 +350,15 @@ CGT_SPU_INLINE void light_sphere_vector(const cgt_world *world, light_packet *l,
 
 /* A leaf's spheres, those of `left`, against the whole packet. */
 CGT_SPU_INLINE void light_test_spheres(const cgt_world *world, light_packet *l, const wide_spheres *leaf, unsigned left,
-                                       bool place, cgt_counts *counts)
+                                       cgt_counts *counts)
 {
     light_spheres q;
-    light_spheres_make(l, leaf, world->scale, place, &q);
+    light_spheres_make(l, leaf, world->scale, &q);
     for (; left; left &= left - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(left);
         uint64_t reached = 0;
         for (uint32_t i = 0; i < l->rays.lanes; i += CGT_LANES)
-            reached |= (uint64_t)light_sphere_reached(l, &q, leaf, k, i, place) << i / CGT_LANES;
+            reached |= (uint64_t)light_sphere_reached(l, &q, leaf, k, i) << i / CGT_LANES;
         for (reached &= l->open; reached; reached &= reached - 1)
             light_sphere_vector(world, l, leaf, k, q.square[k], q.simple >> k & 1,
                                 (uint32_t)__builtin_ctzll(reached) * CGT_LANES, counts);

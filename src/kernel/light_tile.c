@@ -40,11 +40,10 @@ CGT_SPU_INLINE void count_tested(light_tile *t, uint64_t met)
 }
 
 /* Groups that an object's lines may meet come first, without a branch on each: most of those in its window do not. */
-CGT_SPU_INLINE void draw_spheres(light_tile *t, const wide_spheres *s, const light_windows *windows, unsigned wanted,
-                                 bool place)
+static void draw_spheres(light_tile *t, const wide_spheres *s, const light_windows *windows, unsigned wanted)
 {
     light_spheres q;
-    light_spheres_make(&t->packet[0], s, t->world->scale, place, &q);
+    light_spheres_make(&t->packet[0], s, t->world->scale, &q);
     for (; wanted; wanted &= wanted - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(wanted);
         const uint64_t met = groups_met(t, windows->low, windows->high, windows->near, k);
@@ -53,7 +52,7 @@ CGT_SPU_INLINE void draw_spheres(light_tile *t, const wide_spheres *s, const lig
         for (uint64_t left = met; left; left &= left - 1) {
             const uint32_t group = (uint32_t)__builtin_ctzll(left), i = group % PACKET_GROUPS * CGT_LANES;
             const light_packet *l = &t->packet[group / PACKET_GROUPS];
-            reached |= (uint64_t)light_sphere_reached(l, &q, s, k, i, place) << group;
+            reached |= (uint64_t)light_sphere_reached(l, &q, s, k, i) << group;
         }
         for (; reached; reached &= reached - 1) {
             const uint32_t group = (uint32_t)__builtin_ctzll(reached), i = group % PACKET_GROUPS * CGT_LANES;
@@ -77,12 +76,8 @@ static void take_spheres(light_tile *t, const uint32_t *reference, uint32_t coun
     spux_store(s.radius, sphere[3]);
     const unsigned wanted = see_spheres(t, &s, &windows) & tile_first_lanes(count);
     count_taken(t, count, wanted);
-    if (!wanted)
-        return;
-    if (t->place)
-        draw_spheres(t, &s, &windows, wanted, true);
-    else
-        draw_spheres(t, &s, &windows, wanted, false);
+    if (wanted)
+        draw_spheres(t, &s, &windows, wanted);
 }
 
 CGT_SPU_INLINE void draw_triangles(light_tile *t, const wide_triangles *s, const light_windows *windows,

@@ -45,10 +45,8 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
     l->work += 1 + tests;
     if (!left)
         return;
-    if (!of_triangles && l->rays.to_light)
-        light_test_spheres(c->world, l, spheres, left, true, c->counts);
-    else if (!of_triangles)
-        light_test_spheres(c->world, l, spheres, left, false, c->counts);
+    if (!of_triangles)
+        light_test_spheres(c->world, l, spheres, left, c->counts);
     else if (l->rays.to_light)
         light_test_triangles(c->world, l, triangles, left, true, c->counts);
     else
