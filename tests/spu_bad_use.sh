@@ -2,11 +2,13 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# spu_bad_use.sh SOURCE_DIR CC
+# spu_bad_use.sh SOURCE_DIR CC [own]
 # Wrong uses of the vocabulary (spu_bad_use/cases.txt) do not compile, and the message speaks of the word or of types;
-# the right use beside each compiles without a warning, so that it was the wrong type and no slip of the pen.
+# the right use beside each compiles without a warning, so that it was the wrong type and no slip of the pen. Of the
+# machine's own mapping and of the portable one; own: of that alone, which is what another machine has to add.
 set -eu
-source=$1 cc=$2
+source=$1 cc=$2 portable=-DCGT_SPU_PORTABLE
+[ "${3:-}" != own ] || portable=
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export LC_ALL=C
@@ -64,7 +66,7 @@ check() {
 }
 
 sed 's/ *| */|/g' "$source/tests/spu_bad_use/cases.txt" >"$work/cases"
-for mapping in "" -DCGT_SPU_PORTABLE; do
+for mapping in "" $portable; do
     while IFS='|' read -r kind wrong right; do
         case $kind in
         always|strict) check "$kind" "$wrong" "$right" ${mapping:+"$mapping"} ;;
@@ -73,6 +75,6 @@ for mapping in "" -DCGT_SPU_PORTABLE; do
         esac
     done <"$work/cases"
 done
-[ $count -gt 100 ] || { echo "only $count cases found"; exit 1; }
+[ $count -gt 60 ] || { echo "only $count cases found"; exit 1; }
 echo "$count wrong uses, $failed failures; $lax need -fno-lax-vector-conversions with $cc"
 [ $failed -eq 0 ]
