@@ -35,8 +35,8 @@ static const cgt_light lights[LIGHTS] = {
 };
 
 #define VIEWS 6u
-#define APART                                                                                                          \
-    3u /* where it is slow, views and lights that are asked for are so far apart: a view of some with that of all */
+/* Where it is slow, views and lights that are asked for lie so far apart: a view of some goes with that of all. */
+#define APART 3u
 
 /* From beside, parallel, and from within the bounds; of some from beside and parallel; of all along the roll. */
 static view view_at(uint32_t number)
