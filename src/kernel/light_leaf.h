@@ -26,8 +26,8 @@
  * B^2 - A C, which is more than its own error's square. Where ranges are [0, 1] or [0, infinity), and the light is
  * outside the sphere, nothing else has to be known: from inside, C < 0, there is one root ahead; from outside two where
  * B > 0, before the light where B < A (the middle of the roots lies as surely there as B / A < 1 - 16 u where
- * c.c < 4 A). Other spheres, and what is not sure, go to the test of leaf_lanes.h. Squares lose 2^-124 when they underflow: 2^-97 is added to r^2 in bounds, and 2^-118
- * where A is a factor. */
+ * c.c < 4 A). Other spheres, and what is not sure, go to the test of leaf_lanes.h. Squares lose 2^-124 when they
+ * underflow: 2^-97 is added to r^2 in bounds, and 2^-118 where A is a factor. */
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
 
@@ -129,8 +129,9 @@ CGT_SPU_INLINE vfloat light_dot(const vfloat x[3], const float n[3][CGT_LANES], 
 }
 
 typedef struct light_sides {
-    vfloat least, most; /* of U, V and W */
-    vfloat den, num;    /* |D|, and T with D's sign */
+    vfloat least, most;  /* of U, V and W */
+    vfloat den, num;     /* |D|, and T with D's sign */
+    vmask beside, steep; /* the line passes outside; D's sign is right */
 } light_sides;
 
 CGT_SPU_INLINE void light_sides_make(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
@@ -150,6 +151,8 @@ CGT_SPU_INLINE void light_sides_make(const light_packet *l, const light_triangle
     f->most = spux_max(u, spux_max(v, w));
     f->den = spu_xor(den, sign);
     f->num = spu_xor(spu_add(along, spux_vfloat(q->at_n[k])), sign);
+    f->beside = spu_and(spu_cmpgt(f->most, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f->least));
+    f->steep = spu_cmpgt(f->den, spux_vfloat(q->den_error[k]));
 }
 
 /* Whether any ray of a vector may pass inside all edges of what is not surely behind it: the surface that it leaves is,
@@ -159,10 +162,7 @@ CGT_SPU_INLINE bool light_triangle_reached(const light_packet *l, const light_tr
 {
     light_sides f;
     light_sides_make(l, q, k, i, place, &f);
-    const vmask beside =
-        spu_and(spu_cmpgt(f.most, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f.least));
-    const vmask steep = spu_cmpgt(f.den, spux_vfloat(q->den_error[k]));
-    return !spux_all(spu_or(beside, spu_and(steep, spu_cmpgt(spux_vfloat(-q->first[k]), f.num))));
+    return !spux_all(spu_or(f.beside, spu_and(f.steep, spu_cmpgt(spux_vfloat(-q->first[k]), f.num))));
 }
 
 /* Rays whose t is surely beyond their range, and those whose t is surely within, where den is surely above 0. */
@@ -200,18 +200,16 @@ CGT_SPU_INLINE void light_triangle_vector(const cgt_objects *objects, light_pack
                                           uint32_t k, uint32_t i, uint32_t object, bool place, cgt_counts *counts)
 {
     const packet *p = &l->rays;
-    const vfloat side = spux_vfloat(q->side[k]), minus_side = spux_vfloat(-q->side[k]);
     light_sides f;
     light_sides_make(l, q, k, i, place, &f);
-    const vmask above = spu_cmpgt(f.most, side), below = spu_cmpgt(minus_side, f.least);
-    const vmask inside = spu_or(spu_cmpgt(f.least, side), spu_cmpgt(minus_side, f.most));
     const light_depth depth =
         l->plain ? light_depth_plain(q, k, f.den, f.num, place) : light_depth_of(p, q, k, i, f.den, f.num);
-    const vmask steep = spu_cmpgt(f.den, spux_vfloat(q->den_error[k]));
-    const vmask may = spux_not(spu_or(spu_and(above, below), spu_and(depth.out, steep)));
+    const vmask may = spux_not(spu_or(f.beside, spu_and(depth.out, f.steep)));
     if (spux_none(may))
         return;
-    const vmask certain = spu_and(spu_and(inside, steep), depth.in);
+    const vmask inside =
+        spu_or(spu_cmpgt(f.least, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f.most));
+    const vmask certain = spu_and(spu_and(inside, f.steep), depth.in);
     light_close(objects, l, i, object, certain, spu_andc(may, certain), counts);
 }
 
