@@ -13,8 +13,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "memory.h"
-#include "tasks.h"
+#include "core/memory.h"
+#include "core/tasks.h"
 
 #define WORKER_STACK ((size_t)2 << 20)
 #define LOOKOUT_NS 50000

@@ -14,7 +14,7 @@
  *   cgt-bench structures  grids and kd-trees beside each other */
 #include <string.h>
 
-#include "bench.h"
+#include "common/bench.h"
 
 #define SUB_COMMANDS "accuracy, floor, frame, loops, make, pareto, rays, scaling, simd or structures"
 

@@ -8,7 +8,7 @@
 #       The same, compiled and run once per row of the variant table, as <name>_<row>.
 #   cgt_add_cluster_test(<name> [VARIANTS] [LIBRARIES ...] [TIMEOUT ...])
 #       A test from above once more, as <name>_clusters[_<row>], with clusters wherever there are triangles alone, however
-#       few, and wherever they lie: always_clusters.c comes before the library's own choice, which stays in the archive.
+#       few, and wherever they lie: clusters/always_clusters.c comes before the library's own choice, which stays in the archive.
 #       Not with threads watched, nor where the emulator computes in software: there test_cluster_hits has to do.
 #   cgt_add_script_test(<name> <script> <arguments>...)
 #       A shell script of tests/; it exits 0 for good, 77 for "not here", anything else for bad.
@@ -40,7 +40,8 @@ function(cgt_add_test name)
     cgt_list_variants(${name})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
     target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests" "${PROJECT_SOURCE_DIR}/src"
-                                               "${PROJECT_SOURCE_DIR}/simd" "${PROJECT_SOURCE_DIR}/backends")
+                                               "${PROJECT_SOURCE_DIR}/simd" "${PROJECT_SOURCE_DIR}/backends"
+                                               "${PROJECT_SOURCE_DIR}/bench")
     target_compile_definitions(${name} PRIVATE "CGT_DATA_DIR=\"${PROJECT_SOURCE_DIR}/examples/data\""
                                                "CGT_TESTS_DIR=\"${PROJECT_SOURCE_DIR}/tests\"")
     target_link_libraries(${name} PRIVATE cgt_static ${test_LIBRARIES} cgt_cmocka Threads::Threads m)
@@ -66,7 +67,7 @@ function(cgt_add_cluster_test name)
     endif()
     foreach(program IN LISTS programs)
         string(REPLACE "${name}" "${name}_clusters" again "${program}")
-        cgt_add_test(${again} "$<TARGET_OBJECTS:${program}>" always_clusters.c ${test_UNPARSED_ARGUMENTS})
+        cgt_add_test(${again} "$<TARGET_OBJECTS:${program}>" clusters/always_clusters.c ${test_UNPARSED_ARGUMENTS})
         add_dependencies(${again} ${program})
     endforeach()
 endfunction()

@@ -23,7 +23,7 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND CMAKE_C_COMPILER_VERSION VERSION_LESS 
     list(APPEND cgt_arithmetic_flags -fno-tree-slp-vectorize)
 endif()
 # GCC 12.2, seen for AArch64 and POWER: what a function that is not inlined stores through a pointer is taken for not
-# stored (src/kernel/hit_resolve.c: values that are computed once more, exactly, were lost). The summaries of what
+# stored (src/kernel/resolve/resolve_packet.c: values that are computed once more, exactly, were lost). The summaries of what
 # functions modify are to blame.
 if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND CMAKE_C_COMPILER_VERSION VERSION_GREATER_EQUAL 11
    AND CMAKE_C_COMPILER_VERSION VERSION_LESS 13)

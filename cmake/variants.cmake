@@ -3,8 +3,8 @@
 #
 # The variant table. All of src/kernel/ is compiled once per row, with the row's flags and
 #     -DCGT_VARIANT=<name>  -DCGT_VARIANT_<NAME>=1  -DCGT_LANES=<lanes>
-# and src/variant.c learns of the row by -DCGT_HAVE_<NAME>=1. Adding a width is adding a row here and one in the
-# table of src/variant.c. Rows go from narrow to wide.
+# and src/dispatch/variant.c learns of the row by -DCGT_HAVE_<NAME>=1. Adding a width is adding a row here and one in the
+# table of src/dispatch/variant.c. Rows go from narrow to wide.
 #
 #   NAME     of the variant and of its object library, cgt_kernel_<name>
 #   LANES    floats in a vector

@@ -19,7 +19,7 @@
 
 #include <string.h>
 
-#include "simd_rows.h"
+#include "simd/simd_rows.h"
 
 /* ---- holding operands, using results: by the class of the token ---- */
 

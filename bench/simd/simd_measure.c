@@ -5,11 +5,11 @@
  * machine meets both. A sample is some ten microseconds over arrays in the
  * first cache. Of a form's samples the first quartile counts: what disturbs a
  * shared machine only ever adds time. */
-#include "simd_measure.h"
+#include "simd/simd_measure.h"
 
 #include <string.h>
 
-#include "bench_timing.h"
+#include "common/bench_timing.h"
 
 #define SAMPLE_NS 10000.0
 #define MOST_PASSES ((size_t)1 << 20)

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "simd_rows.h"
+#include "simd/simd_rows.h"
 
 /* Above this, mapped over native, a reason is wanted. */
 #define SIMD_TOLERANCE 1.10

@@ -23,7 +23,7 @@
 #define SIMD_VECTORS (SIMD_BYTES / 16)
 #define SIMD_ENTER
 #define SIMD_LEAVE
-#include "simd_loop.h"
+#include "simd/simd_loop.h"
 
 #if defined(CGT_SPU_PORTABLE) || !(defined(__SSE4_1__) || (defined(__aarch64__) && !defined(__AARCH64EB__)))
 

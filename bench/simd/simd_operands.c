@@ -4,7 +4,7 @@
  * cgt-bench simd: kinds of operands, and the numbers that the words are
  * measured on. Integers are random bits, floats random between 1/2 and 4: no
  * word meets a denormal, and no conversion overflows. */
-#include "simd_rows.h"
+#include "simd/simd_rows.h"
 
 #include <stdint.h>
 #include <string.h>

@@ -3,7 +3,7 @@
  *
  * cgt-bench simd: where a mapped word takes more time than its native form, and
  * why. */
-#include "simd_rows.h"
+#include "simd/simd_rows.h"
 
 #include <string.h>
 

@@ -8,7 +8,7 @@
 #define SIMD_VECTORS (SIMD_BYTES / (4 * CGT_LANES))
 #define SIMD_ENTER
 #define SIMD_LEAVE
-#include "simd_loop.h"
+#include "simd/simd_loop.h"
 
 typedef vfloat SIMD_TYPE_vf;
 typedef vint SIMD_TYPE_vi;

@@ -14,7 +14,7 @@
 #define SIMD_VECTORS (SIMD_BYTES / 16)
 #define SIMD_ENTER const cgt_spu_arithmetic saved = cgt_spu_enter_arithmetic();
 #define SIMD_LEAVE cgt_spu_leave_arithmetic(saved);
-#include "simd_loop.h"
+#include "simd/simd_loop.h"
 
 typedef vec_uchar16 SIMD_TYPE_u8;
 typedef vec_char16 SIMD_TYPE_s8;

@@ -3,7 +3,7 @@
  *
  * Names of output files; see out_path.h. */
 #define _POSIX_C_SOURCE 200809L
-#include "out_path.h"
+#include "common/out_path.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -3,7 +3,7 @@
  *
  * What the programs share. */
 #define _GNU_SOURCE /* argp */
-#include "program.h"
+#include "common/program.h"
 
 #include <argp.h>
 #include <errno.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * What the fuzz targets share. */
-#include "fuzz.h"
+#include "fuzz/fuzz.h"
 
 #include <float.h>
 #include <math.h>

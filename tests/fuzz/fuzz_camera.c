@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "camera.h"
-#include "fuzz_check.h"
+#include "query/camera.h"
+#include "fuzz/fuzz_check.h"
 
 #define MOST_EDGE 24u
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * What must hold of every answer. */
-#include "fuzz_check.h"
+#include "fuzz/fuzz_check.h"
 
 #include <math.h>
 #include <stdio.h>

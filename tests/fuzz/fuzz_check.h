@@ -5,8 +5,8 @@
 #ifndef FUZZ_CHECK_H
 #define FUZZ_CHECK_H
 
-#include "fuzz_model.h"
-#include "support/oracle.h"
+#include "fuzz/fuzz_model.h"
+#include "support/oracle/oracle.h"
 #include "support/random.h"
 #include "support/ray_arrays.h"
 

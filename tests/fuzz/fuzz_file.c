@@ -4,7 +4,7 @@
  * Bytes as a file for the trajectory readers. The readers open paths by their endings, so the bytes go to a scratch file
  * in TMPDIR, one per ending and process, which goes when the process ends well. */
 #define _DEFAULT_SOURCE /* mkdtemp */
-#include "fuzz_file.h"
+#include "fuzz/fuzz_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

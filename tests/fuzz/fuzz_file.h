@@ -5,8 +5,8 @@
 #ifndef FUZZ_FILE_H
 #define FUZZ_FILE_H
 
-#include "fuzz.h"
-#include "trajectory.h"
+#include "fuzz/fuzz.h"
+#include "trajectory/trajectory.h"
 
 /* Writes the bytes to a file with this ending; reads it to its end or its first error, again after a rewind, and by
  * skipping; writes the frames as .frames and reads those. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fuzz_model.h"
+#include "fuzz/fuzz_model.h"
 
 /* The last five: no multiples of 4; no address space holds two such elements. */
 static const size_t strides[] = {0,  0,  0,  4, 8,  12,       16,           20,

@@ -4,12 +4,12 @@
  * A memory hook that fails when told to. Each block has its size in front, 64 bytes before what is handed out, so that
  * the sanitizer's red zones begin right where the library's bytes end. */
 #define _POSIX_C_SOURCE 200809L
-#include "fuzz_memory.h"
+#include "fuzz/fuzz_memory.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "fuzz.h"
+#include "fuzz/fuzz.h"
 
 #define FRONT 64u
 #define FILLED 4096u /* bytes set to garbage; all of them would make large grids slow */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Fuzz target: the first byte chooses the kind of mesh file and the options, the rest is the file. */
-#include "fuzz_file.h"
+#include "fuzz/fuzz_file.h"
 
 /* assimp 5.2.5 does not give back all memory of an import that fails. What it and C++ have allocated is left out of the
  * leak check; what the readers, which are C, have allocated is not. The sanitizer looks for this function. */

@@ -6,8 +6,8 @@
 #ifndef FUZZ_MODEL_H
 #define FUZZ_MODEL_H
 
-#include "fuzz.h"
-#include "fuzz_memory.h"
+#include "fuzz/fuzz.h"
+#include "fuzz/fuzz_memory.h"
 
 #define FUZZ_GEOMETRIES 6u
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "decide.h"
-#include "fuzz_check.h"
+#include "exact/decide.h"
+#include "fuzz/fuzz_check.h"
 
 #define MOST_RAYS 40u
 

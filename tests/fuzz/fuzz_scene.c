@@ -5,7 +5,7 @@
  * memory hook that fails when told to; a scene with a few geometries of tens of primitives, good and bad; commits;
  * rays and frames. After each call everything that cgt.h promises of it is checked: results, messages, ids, hits,
  * statistics, and that all memory comes back. */
-#include "fuzz_check.h"
+#include "fuzz/fuzz_check.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Fuzz target: the first byte chooses the kind of file and the options, the rest is the file. */
-#include "fuzz_file.h"
+#include "fuzz/fuzz_file.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fuzz.h"
+#include "fuzz/fuzz.h"
 #include "support/test.h"
 
 #define MOST_BYTES 4096u /* of a mutation */

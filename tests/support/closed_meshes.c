@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Closed meshes: faces are grids of shared vertices, found again by their place. */
-#include "closed_meshes.h"
+#include "support/closed_meshes.h"
 
 #include <math.h>
 #include <stdlib.h>

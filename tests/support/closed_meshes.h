@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "random.h"
+#include "support/random.h"
 
 typedef enum closed_kind {
     CLOSED_CUBE,       /* edge 2, faces of detail^2 squares; vertices and the middles of edges are short fractions where

@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Cameras, frames and rays for tests. */
-#include "scenes.h"
+#include "support/scenes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "camera.h"
+#include "query/camera.h"
 
 cgt_camera camera_before(const cloud *c)
 {

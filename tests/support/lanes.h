@@ -5,7 +5,7 @@
 #ifndef LANES_H
 #define LANES_H
 
-#include "test.h"
+#include "support/test.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Loose grids built the plain way. */
-#include "loose_reference.h"
+#include "support/loose_reference.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #ifndef LOOSE_REFERENCE_H
 #define LOOSE_REFERENCE_H
 
-#include "world.h"
+#include "model/committed_scene.h"
 
 typedef struct loose_reference {
     cgt_loose_grid grid;

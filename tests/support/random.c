@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Random numbers and the floats between floats. */
-#include "random.h"
+#include "support/random.h"
 
 #include <math.h>
 #include <string.h>

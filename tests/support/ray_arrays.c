@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays and hits. */
-#include "ray_arrays.h"
+#include "support/ray_arrays.h"
 
 cgt_rays ray_array(const truth_ray *rays, uint64_t count)
 {

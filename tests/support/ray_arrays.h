@@ -7,8 +7,8 @@
 
 #include <cgt/cgt.h>
 
-#include "camera.h"
-#include "truth.h"
+#include "query/camera.h"
+#include "support/oracle/truth.h"
 
 typedef struct full_hit {
     float t;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Contexts, clouds of spheres and scenes for tests. */
-#include "scenes.h"
+#include "support/scenes.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 #ifndef SCENES_H
 #define SCENES_H
 
-#include "test.h"
-#include "ray_arrays.h"
+#include "support/test.h"
+#include "support/ray_arrays.h"
 
 /* ---- contexts ---- */
 

@@ -3,7 +3,7 @@
  *
  * Seed and scale of the tests. */
 #define _POSIX_C_SOURCE 200809L
-#include "test.h"
+#include "support/test.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -18,7 +18,7 @@
 
 #include <cgt/cgt.h>
 
-#include "random.h"
+#include "support/random.h"
 
 #define TEST_COUNT(a) (sizeof(a) / sizeof((a)[0]))
 #define TEST_SKIPPED 77 /* exit code: what is tested does not exist here */

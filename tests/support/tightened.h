@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "test.h"
+#include "support/test.h"
 
 /* From 1 down in steps of 2^-1/2. */
 #define STEPS 24

@@ -1,0 +1,128 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Loads a trajectory, frame by frame. */
+#include "common/bench_input.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Bytes of a sphere or a vertex. */
+static size_t element_bytes(const bench_input *input)
+{
+    return (input->kind == TRAJECTORY_TRIANGLES ? 3 : 4) * sizeof(float);
+}
+
+/* Takes what is the same in all frames from the first one. 0, or -1 where memory is refused. */
+static int take_kind(bench_input *input, const trajectory_frame *frame)
+{
+    input->kind = frame->kind;
+    if (frame->kind != TRAJECTORY_TRIANGLES)
+        return 0;
+    /* The product cannot overflow: the reader holds as many bytes. */
+    const size_t bytes = (size_t)frame->triangles * 3 * sizeof *input->index;
+    input->index = malloc(bytes + 1);
+    if (!input->index)
+        return -1;
+    memcpy(input->index, frame->index, bytes);
+    input->triangles = frame->triangles;
+    return 0;
+}
+
+/* Adds a copy of a frame; room is what the two arrays hold. 0, or -1 where memory is refused. */
+static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *room)
+{
+    if (input->frames == *room) {
+        const size_t wanted = *room ? 2 * *room : 64;
+        if (wanted > SIZE_MAX / sizeof(float *) / 2)
+            return -1;
+        uint32_t *count = realloc(input->count, wanted * sizeof *count);
+        if (!count)
+            return -1;
+        input->count = count;
+        float **data = realloc(input->data, wanted * sizeof *data);
+        if (!data)
+            return -1;
+        input->data = data;
+        *room = wanted;
+    }
+    /* The product cannot overflow: the reader holds as many bytes. */
+    const size_t bytes = (size_t)frame->count * element_bytes(input);
+    float *copy = malloc(bytes + element_bytes(input));
+    if (!copy)
+        return -1;
+    if (bytes)
+        memcpy(copy, frame->kind == TRAJECTORY_TRIANGLES ? frame->position : frame->xyzr, bytes);
+    input->count[input->frames] = frame->count;
+    input->data[input->frames] = copy;
+    input->frames++;
+    if (frame->count > input->most)
+        input->most = frame->count;
+    return 0;
+}
+
+static int load_frames(bench_input *input, trajectory *source, uint64_t frames, char *error, size_t error_size)
+{
+    trajectory_frame frame;
+    size_t room = 0;
+    while (frames == 0 || input->frames < frames) {
+        const int got = trajectory_read(source, &frame, error, error_size);
+        if (got < 0)
+            return -1;
+        if (got == 0)
+            break;
+        if ((input->frames == 0 && take_kind(input, &frame)) || add_frame(input, &frame, &room)) {
+            snprintf(error, error_size, "out of memory at frame %zu: %u %s", input->frames, (unsigned)frame.count,
+                     frame.kind == TRAJECTORY_TRIANGLES ? "vertices" : "spheres");
+            return -1;
+        }
+    }
+    return 0;
+}
+
+int bench_input_load(bench_input *input, const char *path, uint64_t frames, float radius, int wrapped, char *error,
+                     size_t error_size)
+{
+    trajectory_options options;
+    memset(input, 0, sizeof *input);
+    trajectory_options_init(&options);
+    options.radius = radius;
+    options.wrapped = wrapped;
+    trajectory *source = trajectory_open(path, &options, error, error_size);
+    if (!source)
+        return -1;
+    int failed = load_frames(input, source, frames, error, error_size);
+    trajectory_close(source);
+    if (!failed && input->frames == 0) {
+        snprintf(error, error_size, "%s: no frame in the file", path);
+        failed = -1;
+    }
+    if (!failed) {
+        input->moving = calloc((size_t)input->most + 1, element_bytes(input));
+        if (!input->moving) {
+            snprintf(error, error_size, "%s: out of memory", path);
+            failed = -1;
+        }
+    }
+    if (failed)
+        bench_input_release(input);
+    return failed;
+}
+
+void bench_input_release(bench_input *input)
+{
+    for (size_t i = 0; i < input->frames; i++)
+        free(input->data[i]);
+    free(input->data);
+    free(input->index);
+    free(input->count);
+    free(input->moving);
+    memset(input, 0, sizeof *input);
+}
+
+uint32_t bench_input_move(const bench_input *input, size_t frame)
+{
+    memcpy(input->moving, input->data[frame], (size_t)input->count[frame] * element_bytes(input));
+    return input->count[frame];
+}

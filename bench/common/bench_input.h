@@ -1,0 +1,34 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * All frames of a trajectory in memory, so that no file is read between measurements. */
+#ifndef BENCH_INPUT_H
+#define BENCH_INPUT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "trajectory/trajectory.h"
+
+typedef struct bench_input {
+    trajectory_kind kind;
+    size_t frames;
+    uint32_t *count;    /* spheres, or vertices, of each frame */
+    float **data;       /* of each frame: centre and radius of each sphere, or each vertex */
+    uint32_t triangles; /* of all frames; 0 in files of spheres */
+    uint32_t *index;    /* three vertices of each triangle; NULL in files of spheres */
+    uint32_t most;      /* spheres or vertices of the fullest frame */
+    float *moving;      /* room for the fullest frame: the array that the scene is over */
+} bench_input;
+
+/* Reads the first `frames` frames of the file; 0: all. radius: for files without one, 0 for the reader's default.
+ * Returns 0, or -1 with a text in error; a file without a frame is an error. */
+int bench_input_load(bench_input *input, const char *path, uint64_t frames, float radius, int wrapped, char *error,
+                     size_t error_size);
+
+void bench_input_release(bench_input *input);
+
+/* Moves the spheres or vertices: copies a frame to input->moving, and returns its count. */
+uint32_t bench_input_move(const bench_input *input, size_t frame);
+
+#endif

@@ -1,0 +1,255 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The command-line options that the sub-commands share. */
+#include <stdio.h>
+#include <string.h>
+
+#include "common/bench.h"
+
+enum { OPTION_VARIANT = 0x100, OPTION_RADIUS, OPTION_WRAPPED };
+enum { OPTION_BUILDER = 0x180, OPTION_LAYOUT, OPTION_BREAK, OPTION_TRAVERSAL };
+
+static const struct argp_option options[] = {
+    {NULL, 0, NULL, 0, "Scene and camera:", 1},
+    {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", 0,
+     "eye, target, up, vertical angle in degrees (default 0,0,-5,0,0,0,0,1,0,45)", 1},
+    {"size", 's', "WxH", 0, "pixels (default 1280x720)", 1},
+    {"frames", 'n', "COUNT", 0, "the first COUNT frames of the file (default: all)", 1},
+    {"radius", OPTION_RADIUS, "R", 0, "radius of spheres in files that have none", 1},
+    {"wrapped", OPTION_WRAPPED, NULL, 0, "prefer wrapped coordinates where a file has both kinds", 1},
+    {NULL, 0, NULL, 0, "Library:", 2},
+    {"threads", 't', "COUNT", 0, "threads, 0 for one per CPU (default 1)", 2},
+    {"variant", OPTION_VARIANT, "NAME", 0, "instruction set, as the library names it", 2},
+    {"packet", 'k', "EDGE", 0, "pixels along a packet's edge: 4, 8 or 16", 2},
+    {"grid", 'g', "NX,NY,NZ", 0, "cells of the grid along x, y and z", 2},
+    {NULL, 0, NULL, 0, "Measurement:", 3},
+    {"repeat", 'r', "COUNT", 0, "go through the frames COUNT times (default 1)", 3},
+    {"verbose", 'v', NULL, 0, "tell on standard error what the library chose", 3},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+void bench_settings_init(bench_settings *settings)
+{
+    memset(settings, 0, sizeof *settings);
+    cgt_camera_init(&settings->camera);
+    settings->camera.eye[2] = -5.0f;
+    settings->width = 1280;
+    settings->height = 720;
+    settings->threads = 1;
+    settings->repeat = 1;
+}
+
+static int parse_size(const char *text, bench_settings *settings, char *error, size_t error_size)
+{
+    uint32_t width = 0, height = 0;
+    if (program_parse_size(text, &width, &height, error, error_size))
+        return -1;
+    if ((uint64_t)width * height > BENCH_MOST_PIXELS) {
+        snprintf(error, error_size, "%s: more than %lu pixels", text, (unsigned long)BENCH_MOST_PIXELS);
+        return -1;
+    }
+    settings->width = width;
+    settings->height = height;
+    return 0;
+}
+
+static int parse_packet(const char *text, uint32_t *packet, char *error, size_t error_size)
+{
+    uint32_t edge = 0;
+    if (program_parse_u32(text, 4, 16, &edge, error, error_size))
+        return -1;
+    if (edge != 4 && edge != 8 && edge != 16) {
+        snprintf(error, error_size, "%s: packets are 4, 8 or 16 pixels wide", text);
+        return -1;
+    }
+    *packet = edge;
+    return 0;
+}
+
+/* "nx,ny,nz"; whether the product is in bounds is for the library to say. */
+static int parse_grid(const char *text, uint32_t resolution[3], char *error, size_t error_size)
+{
+    char copy[64];
+    uint32_t cells[3];
+    const size_t length = strlen(text);
+    if (length >= sizeof copy) {
+        snprintf(error, error_size, "%s: too long", text);
+        return -1;
+    }
+    memcpy(copy, text, length + 1);
+    char *part = copy;
+    for (int axis = 0; axis < 3; axis++) {
+        char *comma = strchr(part, ',');
+        if ((axis < 2) != (comma != NULL)) {
+            snprintf(error, error_size, "%s: three whole numbers with commas between are wanted", text);
+            return -1;
+        }
+        if (comma)
+            *comma = '\0';
+        if (program_parse_u32(part, 1, 1024, &cells[axis], error, error_size))
+            return -1;
+        part = comma ? comma + 1 : part;
+    }
+    memcpy(resolution, cells, sizeof cells);
+    return 0;
+}
+
+/* The name of a variant in this build; that the CPU runs it is for the context to say. */
+static int parse_variant(const char *text, const char **variant, char *error, size_t error_size)
+{
+    const char *const *names = cgt_variants();
+    size_t length = (size_t)snprintf(error, error_size, "%s: this build has", text);
+    for (; *names; names++) {
+        if (!strcmp(text, *names)) {
+            *variant = *names;
+            return 0;
+        }
+        if (length < error_size)
+            length += (size_t)snprintf(error + length, error_size - length, " %s", *names);
+    }
+    return -1;
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+    bench_settings *settings = state->input;
+    char error[PROGRAM_ERROR_SIZE] = "";
+    int failed = 0;
+
+    switch (key) {
+    case 'c': failed = program_parse_camera(argument, &settings->camera, error, sizeof error); break;
+    case 's': failed = parse_size(argument, settings, error, sizeof error); break;
+    case 'n': failed = program_parse_u64(argument, 1, UINT64_MAX, &settings->frames, error, sizeof error); break;
+    case 't': failed = program_parse_u32(argument, 0, 1024, &settings->threads, error, sizeof error); break;
+    case 'k': failed = parse_packet(argument, &settings->packet, error, sizeof error); break;
+    case 'g': failed = parse_grid(argument, settings->resolution, error, sizeof error); break;
+    case 'r': failed = program_parse_u32(argument, 1, 1000000, &settings->repeat, error, sizeof error); break;
+    case 'v': settings->verbose = 1; break;
+    case OPTION_VARIANT: failed = parse_variant(argument, &settings->variant, error, sizeof error); break;
+    case OPTION_RADIUS:
+        failed = program_parse_float(argument, 0.0f, 1e30f, &settings->radius, error, sizeof error);
+        break;
+    case OPTION_WRAPPED: settings->wrapped = 1; break;
+    case ARGP_KEY_ARG:
+        if (settings->path)
+            argp_error(state, "one FILE only: %s", argument);
+        settings->path = argument;
+        break;
+    case ARGP_KEY_NO_ARGS:
+        if (!settings->file_optional)
+            argp_error(state, "FILE is missing");
+        break;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+    if (failed) {
+        if (key < OPTION_VARIANT)
+            argp_error(state, "-%c: %s", key, error);
+        else
+            argp_error(state, "--%s: %s", key == OPTION_VARIANT ? "variant" : "radius", error);
+    }
+    return 0;
+}
+
+const struct argp bench_settings_argp = {.options = options, .parser = parse};
+
+/* ---- Lists of names ------------------------------------------------------------------------------------------ */
+
+int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE])
+{
+    if (!*list)
+        return 0;
+    const size_t length = strcspn(*list, ",");
+    snprintf(name, BENCH_LISTED_SIZE, "%.*s", length < BENCH_LISTED_SIZE ? (int)length : BENCH_LISTED_SIZE, *list);
+    *list = (*list)[length] ? *list + length + 1 : NULL;
+    return 1;
+}
+
+void bench_choose(struct argp_state *state, const char *option, const char *list, const char *const *names, int count,
+                  int *chosen)
+{
+    char name[BENCH_LISTED_SIZE];
+    while (bench_next_name(&list, name)) {
+        int i = 0;
+        while (i < count && strcmp(name, names[i]) != 0)
+            i++;
+        if (i == count)
+            argp_error(state, "%s: no %s", option, name);
+        else
+            chosen[i] = 1;
+    }
+}
+
+int bench_is_chosen(const int *chosen, int count, int which)
+{
+    int any = 0;
+    for (int i = 0; i < count; i++)
+        any |= chosen[i];
+    return !any || chosen[which];
+}
+
+/* ---- Structure ----------------------------------------------------------------------------------------------- */
+
+#define STRUCTURES "auto, grid-queue, loose-grid, kd, kd-ropes or wide-tree"
+
+static const struct argp_option structure_options[] = {
+    {NULL, 0, NULL, 0, "Structure:", 6},
+    {"structure", 'S', "NAME", 0, STRUCTURES "; where several are compared, a list with commas", 6},
+    {"kd-builder", OPTION_BUILDER, "NAME", 0, "of kd-trees: binned or sweep", 6},
+    {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
+    {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels that are stored breadth first, 1 to 50", 6},
+    {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single or packet", 6},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+static void add_structure(bench_structure_settings *settings, struct argp_state *state, const char *name)
+{
+    cgt_structure structure = CGT_STRUCTURE_AUTO;
+    if (bench_structure_find(name, &structure))
+        argp_error(state, "--structure: " STRUCTURES ", not %s", name);
+    for (size_t i = 0; i < settings->count; i++)
+        if (settings->asked[i] == structure)
+            return;
+    if (settings->count == settings->most)
+        argp_error(state, "--structure: %s is one more than can be had", name);
+    else
+        settings->asked[settings->count++] = structure;
+}
+
+static void add_structures(bench_structure_settings *settings, struct argp_state *state, const char *list)
+{
+    char name[BENCH_LISTED_SIZE];
+    while (bench_next_name(&list, name))
+        add_structure(settings, state, name);
+}
+
+static error_t parse_structure(int key, char *argument, struct argp_state *state)
+{
+    bench_structure_settings *settings = state->input;
+    bench_kd_choice *kd = &settings->kd;
+    char error[PROGRAM_ERROR_SIZE] = "";
+    switch (key) {
+    case 'S': add_structures(settings, state, argument); return 0;
+    case OPTION_BUILDER:
+        if (bench_kd_builder_find(argument, &kd->builder))
+            argp_error(state, "--kd-builder: auto, binned or sweep, not %s", argument);
+        return 0;
+    case OPTION_LAYOUT:
+        if (bench_kd_layout_find(argument, &kd->layout))
+            argp_error(state, "--kd-layout: auto, depth-first, breadth-first or mixed, not %s", argument);
+        return 0;
+    case OPTION_BREAK:
+        if (program_parse_u32(argument, 1, 50, &kd->break_level, error, sizeof error))
+            argp_error(state, "--kd-break: %s", error);
+        return 0;
+    case OPTION_TRAVERSAL:
+        if (bench_kd_traversal_find(argument, &kd->traversal))
+            argp_error(state, "--kd-traversal: auto, single or packet, not %s", argument);
+        return 0;
+    case ARGP_KEY_END:
+        if (kd->break_level && kd->layout != CGT_KD_LAYOUT_MIXED)
+            argp_error(state, "--kd-break: only with --kd-layout mixed");
+        return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+const struct argp bench_structure_argp = {.options = structure_options, .parser = parse_structure};

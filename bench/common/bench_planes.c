@@ -1,0 +1,138 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Memory, comparison and file form of the planes. */
+#include "common/bench_planes.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static size_t pixels_of(const bench_planes *planes) { return (size_t)planes->width * planes->height; }
+
+void *bench_planes_memory(size_t elements, unsigned planes, size_t *stride)
+{
+    enum { LINE = 64, PAGE = 4096 };
+    if (elements > (SIZE_MAX / planes - PAGE - LINE) / sizeof(float))
+        return NULL;
+    *stride = (elements * sizeof(float) + PAGE - 1) / PAGE * PAGE + LINE;
+    void *memory = aligned_alloc(LINE, *stride * planes);
+    if (memory)
+        memset(memory, 0, *stride * planes);
+    return memory;
+}
+
+enum { PLANES = 5, PLANES_WITH_UV = 7 };
+
+static int create(bench_planes *planes, uint32_t width, uint32_t height, unsigned count)
+{
+    size_t stride;
+    float *plane[PLANES_WITH_UV] = {NULL};
+    memset(planes, 0, sizeof *planes);
+    planes->width = width;
+    planes->height = height;
+    if ((uint64_t)width * height > SIZE_MAX)
+        return -1;
+    char *memory = bench_planes_memory(pixels_of(planes), count, &stride);
+    if (!memory)
+        return -1;
+    for (size_t i = 0; i < count; i++)
+        plane[i] = (float *)(void *)(memory + i * stride);
+    planes->memory = memory;
+    planes->t = plane[0];
+    planes->primitive = (uint32_t *)(void *)plane[1];
+    memcpy(planes->normal, plane + 2, sizeof planes->normal);
+    memcpy(planes->uv, plane + PLANES, sizeof planes->uv);
+    return 0;
+}
+
+int bench_planes_create(bench_planes *planes, uint32_t width, uint32_t height)
+{
+    return create(planes, width, height, PLANES);
+}
+
+int bench_planes_create_with_uv(bench_planes *planes, uint32_t width, uint32_t height)
+{
+    return create(planes, width, height, PLANES_WITH_UV);
+}
+
+void bench_planes_release(bench_planes *planes)
+{
+    free(planes->memory);
+    memset(planes, 0, sizeof *planes);
+}
+
+void bench_planes_frame(const bench_planes *planes, cgt_frame *frame)
+{
+    cgt_frame_init(frame, planes->width, planes->height);
+    frame->t = planes->t;
+    frame->primitive = planes->primitive;
+    for (int i = 0; i < 3; i++)
+        frame->normal[i] = planes->normal[i];
+}
+
+uint64_t bench_planes_hits(const bench_planes *planes)
+{
+    const size_t pixels = pixels_of(planes);
+    uint64_t hits = 0;
+    for (size_t i = 0; i < pixels; i++)
+        hits += planes->t[i] < INFINITY;
+    return hits;
+}
+
+/* Multiply and shift of four interleaved streams, so that the multiplications of neighbours overlap. */
+static uint64_t hash_plane(const void *plane, size_t words, uint64_t seed)
+{
+    const unsigned char *bytes = plane;
+    uint64_t h[4] = {seed, seed ^ 1, seed ^ 2, seed ^ 3};
+    for (size_t i = 0; i < words; i++) {
+        uint32_t word;
+        memcpy(&word, bytes + i * sizeof word, sizeof word);
+        uint64_t *const stream = &h[i & 3];
+        *stream = (*stream ^ word) * 0x9e3779b97f4a7c15u;
+        *stream ^= *stream >> 32;
+    }
+    for (int i = 1; i < 4; i++) {
+        h[0] = (h[0] ^ h[i]) * 0x9e3779b97f4a7c15u;
+        h[0] ^= h[0] >> 32;
+    }
+    return h[0];
+}
+
+uint64_t bench_planes_hash(const bench_planes *planes)
+{
+    const size_t pixels = pixels_of(planes);
+    uint64_t hash = hash_plane(planes->t, pixels, pixels);
+    hash = hash_plane(planes->primitive, pixels, hash);
+    for (int i = 0; i < 3; i++)
+        hash = hash_plane(planes->normal[i], pixels, hash);
+    return hash;
+}
+
+static void store_le(unsigned char *bytes, uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (unsigned char)(value >> 8 * i);
+}
+
+int bench_planes_write(const bench_planes *planes, FILE *file)
+{
+    const size_t pixels = pixels_of(planes);
+    unsigned char block[8 * 512];
+
+    for (size_t first = 0; first < pixels; first += 512) {
+        const size_t count = pixels - first < 512 ? pixels - first : 512;
+        for (size_t i = 0; i < count; i++) {
+            uint32_t t;
+            memcpy(&t, &planes->t[first + i], sizeof t);
+            store_le(block + 8 * i, t);
+            store_le(block + 8 * i + 4, planes->primitive[first + i]);
+        }
+        errno = 0;
+        if (fwrite(block, 8, count, file) != count)
+            return -1;
+    }
+    errno = 0;
+    return fflush(file) ? -1 : 0;
+}

@@ -1,0 +1,313 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The calls into the library that sub-commands share, and the names of configurations. */
+#include "common/bench_scene.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "common/bench_timing.h"
+#include "common/program.h"
+
+cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_context **context)
+{
+    return bench_context_create_with(threads, variant, NULL, context);
+}
+
+cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
+                                     cgt_context **context)
+{
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.threads = threads;
+    options.variant = variant;
+    if (hooks)
+        options.memory = *hooks;
+    return cgt_context_create(&options, context);
+}
+
+cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *moving,
+                              const uint32_t resolution[3])
+{
+    cgt_scene_options options;
+    memset(scene, 0, sizeof *scene);
+    scene->context = context;
+    scene->moving = moving;
+    cgt_scene_options_init(&options);
+    options.structure = CGT_STRUCTURE_QUEUE_GRID;
+    memcpy(options.resolution, resolution, sizeof options.resolution);
+    const cgt_result result = cgt_scene_create(context, &options, &scene->scene);
+    if (result != CGT_OK)
+        scene->scene = NULL;
+    return result;
+}
+
+cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
+                                 const bench_kd_choice *kd, const uint32_t resolution[3])
+{
+    cgt_scene_options options;
+    cgt_scene_options_init(&options);
+    options.structure = structure;
+    options.rays = rays;
+    options.kd_builder = kd->builder;
+    options.kd_layout = kd->layout;
+    options.kd_break_level = kd->break_level;
+    memcpy(options.resolution, resolution, sizeof options.resolution);
+    return cgt_scene_set_options(scene->scene, &options);
+}
+
+void bench_scene_release(bench_scene *scene)
+{
+    cgt_scene_release(scene->scene);
+    scene->scene = NULL;
+}
+
+void bench_scene_set_triangles(bench_scene *scene, const uint32_t *index, uint32_t triangles)
+{
+    scene->index = index;
+    scene->triangles = triangles;
+}
+
+static cgt_result take_spheres(bench_scene *scene, uint32_t count)
+{
+    const cgt_spheres spheres = {.count = count,
+                                 .centers = scene->moving,
+                                 .center_stride = 4 * sizeof(float),
+                                 .radii = scene->moving + 3,
+                                 .radius_stride = 4 * sizeof(float)};
+    return scene->has_geometry ? cgt_scene_update_spheres(scene->scene, scene->geometry, &spheres)
+                               : cgt_scene_add_spheres(scene->scene, &spheres, &scene->geometry);
+}
+
+static cgt_result take_triangles(bench_scene *scene, uint32_t vertices)
+{
+    const cgt_triangles triangles = {
+        .count = scene->triangles, .indices = scene->index, .vertex_count = vertices, .vertices = scene->moving};
+    return scene->has_geometry ? cgt_scene_update_triangles(scene->scene, scene->geometry, &triangles)
+                               : cgt_scene_add_triangles(scene->scene, &triangles, &scene->geometry);
+}
+
+cgt_result bench_scene_commit(bench_scene *scene, uint32_t count)
+{
+    if (!scene->has_geometry || count != scene->held) {
+        const cgt_result result = scene->index ? take_triangles(scene, count) : take_spheres(scene, count);
+        if (result != CGT_OK)
+            return result;
+        scene->has_geometry = 1;
+        scene->held = count;
+    }
+    return cgt_scene_commit(scene->scene);
+}
+
+cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t count, const uint32_t resolution[3],
+                             const char *path, double *ms)
+{
+    const double begin = bench_now_ms();
+    cgt_result result = bench_scene_structure(scene, build->structure, build->rays, &build->kd, resolution);
+    if (result == CGT_OK)
+        result = bench_scene_commit(scene, count);
+    *ms = bench_now_ms() - begin;
+    if (result == CGT_OK)
+        result = cgt_scene_get_statistics(scene->scene, &build->built);
+    const cgt_structure built = build->built.structure;
+    /* a scene without a valid primitive has no structure, and that is right for all */
+    const int other = result == CGT_OK && build->structure != CGT_STRUCTURE_AUTO && built != build->structure &&
+                      built != CGT_STRUCTURE_AUTO;
+    if (result == CGT_ERROR_UNSUPPORTED || other) {
+        char message[256] = "";
+        cgt_error_message(scene->context, message, sizeof message);
+        program_error("%s: no %s: left out: %s%s", path, bench_structure_name(build->structure),
+                      other ? "the library builds " : message, other ? bench_structure_name(built) : "");
+        build->left_out = 1;
+        return CGT_OK;
+    }
+    return result;
+}
+
+int bench_scene_failed(const cgt_context *context, const char *what, cgt_result result)
+{
+    char message[512] = "";
+    if (context)
+        cgt_error_message(context, message, sizeof message);
+    program_error("%s: %s%s%s", what, cgt_result_string(result), message[0] ? ": " : "", message);
+    return PROGRAM_FAILED;
+}
+
+/* ---- Names --------------------------------------------------------------------------------------------------- */
+
+const char *bench_loop_name(cgt_loop loop)
+{
+    return loop == CGT_LOOP_NESTED ? "nested" : loop == CGT_LOOP_FLATTENED ? "flattened" : "auto";
+}
+
+const char *bench_cull_name(cgt_cull cull)
+{
+    return cull == CGT_CULL_NONE ? "off" : cull == CGT_CULL_FRUSTUM ? "frustum" : "blocks";
+}
+
+const char *bench_tile_name(cgt_tile_shape tile)
+{
+    return tile == CGT_TILE_SQUARE ? "square" : tile == CGT_TILE_STRIP ? "strip" : "auto";
+}
+
+static const char *const precisions[] = {
+    [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact"};
+static const char *const triangle_tests[] = {[CGT_TRIANGLE_WATERTIGHT] = "watertight",
+                                             [CGT_TRIANGLE_MOLLER_TRUMBORE] = "moller-trumbore",
+                                             [CGT_TRIANGLE_ACCELERATED] = "accelerated"};
+
+static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
+                                         [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
+                                         [CGT_STRUCTURE_KD] = "kd",
+                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
+                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
+                                         [CGT_STRUCTURE_WIDE_TREE] = "wide-tree"};
+static const char *const kd_traversals[] = {
+    [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
+static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
+                                         [CGT_KD_LAYOUT_DEPTH_FIRST] = "depth-first",
+                                         [CGT_KD_LAYOUT_BREADTH_FIRST] = "breadth-first",
+                                         [CGT_KD_LAYOUT_MIXED] = "mixed"};
+static const char *const kd_builders[] = {
+    [CGT_KD_BUILDER_AUTO] = "auto", [CGT_KD_BUILDER_BINNED] = "binned", [CGT_KD_BUILDER_SWEEP] = "sweep"};
+
+#define COUNT(names) (sizeof(names) / sizeof *(names))
+
+const char *bench_structure_name(cgt_structure structure)
+{
+    return structure == CGT_STRUCTURE_AUTO ? "none" : structures[structure];
+}
+
+const char *bench_precision_name(cgt_precision precision) { return precisions[precision]; }
+const char *bench_triangle_test_name(cgt_triangle_test test) { return triangle_tests[test]; }
+const char *bench_kd_traversal_name(cgt_kd_traversal traversal) { return kd_traversals[traversal]; }
+const char *bench_kd_layout_name(cgt_kd_layout layout) { return kd_layouts[layout]; }
+const char *bench_kd_builder_name(cgt_kd_builder builder) { return kd_builders[builder]; }
+
+/* Index of a name in a list; -1 where there is none. */
+static int find(const char *name, const char *const *names, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(name, names[i]))
+            return (int)i;
+    return -1;
+}
+
+int bench_precision_find(const char *name, cgt_precision *precision)
+{
+    const int index = find(name, precisions, COUNT(precisions));
+    if (index >= 0)
+        *precision = (cgt_precision)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_triangle_test_find(const char *name, cgt_triangle_test *test)
+{
+    const int index = find(name, triangle_tests, COUNT(triangle_tests));
+    if (index >= 0)
+        *test = (cgt_triangle_test)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_structure_find(const char *name, cgt_structure *structure)
+{
+    const int index = find(name, structures, COUNT(structures));
+    if (index >= 0)
+        *structure = (cgt_structure)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal)
+{
+    const int index = find(name, kd_traversals, COUNT(kd_traversals));
+    if (index >= 0)
+        *traversal = (cgt_kd_traversal)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_kd_layout_find(const char *name, cgt_kd_layout *layout)
+{
+    const int index = find(name, kd_layouts, COUNT(kd_layouts));
+    if (index >= 0)
+        *layout = (cgt_kd_layout)index;
+    return index < 0 ? -1 : 0;
+}
+
+int bench_kd_builder_find(const char *name, cgt_kd_builder *builder)
+{
+    const int index = find(name, kd_builders, COUNT(kd_builders));
+    if (index >= 0)
+        *builder = (cgt_kd_builder)index;
+    return index < 0 ? -1 : 0;
+}
+
+void bench_file_name(const char *path, char name[BENCH_NAME_SIZE])
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(name, BENCH_NAME_SIZE, "%s", slash ? slash + 1 : path);
+    char *dot = strrchr(name, '.');
+    if (dot && dot > name)
+        *dot = '\0';
+}
+
+static void append(char name[BENCH_NAME_SIZE], const char *key, const char *value)
+{
+    const size_t length = strlen(name);
+    snprintf(name + length, BENCH_NAME_SIZE - length, ",%s=%s", key, value);
+}
+
+static void append_kd(char name[BENCH_NAME_SIZE], const bench_kd_choice *kd)
+{
+    char level[16];
+    snprintf(level, sizeof level, "%u", (unsigned)kd->break_level);
+    if (kd->traversal != CGT_KD_TRAVERSAL_AUTO)
+        append(name, "traversal", bench_kd_traversal_name(kd->traversal));
+    if (kd->layout != CGT_KD_LAYOUT_AUTO)
+        append(name, "layout", bench_kd_layout_name(kd->layout));
+    if (kd->break_level)
+        append(name, "break", level);
+    if (kd->builder != CGT_KD_BUILDER_AUTO)
+        append(name, "builder", bench_kd_builder_name(kd->builder));
+}
+
+void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE])
+{
+    char packet[16];
+    snprintf(name, BENCH_NAME_SIZE, "%s", bench_structure_name(structure));
+    snprintf(packet, sizeof packet, "%u", (unsigned)choice->packet);
+    if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
+        append_kd(name, &choice->kd);
+    if (choice->variant)
+        append(name, "variant", choice->variant);
+    if (choice->packet)
+        append(name, "packet", packet);
+    if (choice->tile != CGT_TILE_AUTO)
+        append(name, "tile", bench_tile_name(choice->tile));
+    if (choice->loop != CGT_LOOP_AUTO)
+        append(name, "loop", bench_loop_name(choice->loop));
+    if (choice->cull != CGT_CULL_BLOCKS)
+        append(name, "cull", bench_cull_name(choice->cull));
+    if (!choice->mailbox)
+        append(name, "mailbox", "off");
+    if (choice->precision_named || choice->precision != CGT_PRECISION_ROBUST)
+        append(name, "precision", bench_precision_name(choice->precision));
+    if (choice->test != CGT_TRIANGLE_WATERTIGHT)
+        append(name, "test", bench_triangle_test_name(choice->test));
+    if (choice->grid)
+        append(name, "grid", choice->grid);
+}
+
+void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options)
+{
+    cgt_trace_options_init(options);
+    options->packet = choice->packet;
+    options->tile = choice->tile;
+    options->loop = choice->loop;
+    options->cull = choice->cull;
+    options->mailbox = choice->mailbox;
+    options->precision = choice->precision;
+    options->triangle_test = choice->test;
+    options->kd_traversal = choice->kd.traversal;
+    options->statistics = statistics;
+}

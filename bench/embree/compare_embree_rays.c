@@ -1,0 +1,125 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Embree on the arrays of rays that the library is measured with: one ray at a time, or neighbours as packets. */
+#include "embree/compare_embree.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/bench_clones.h"
+#include "native/native_flush.h"
+
+enum { PIECE = 1024 }; /* rays of a task */
+
+typedef struct array_packet {
+    _Alignas(64) float word[EMBREE_WORDS * 16];
+    _Alignas(64) int valid[16];
+} array_packet;
+
+/* Rays first to first + count - 1, all of structure-of-arrays form. n, and of whole packets count too, are constants where
+ * this is called: what Embree loads as a vector has been stored as one, else it would wait for the stores. */
+BENCH_INLINE void fill_packet(const embree_arrays *a, uint64_t first, uint32_t count, uint32_t n, array_packet *p)
+{
+    const cgt_rays *rays = a->batch;
+    for (uint32_t k = 0; k < 3; k++) {
+        memcpy(p->word + (EMBREE_ORG + k) * n, rays->org[k] + first, count * sizeof(float));
+        memcpy(p->word + (EMBREE_DIR + k) * n, rays->dir[k] + first, count * sizeof(float));
+    }
+    if (rays->t_max)
+        memcpy(p->word + EMBREE_FAR * n, rays->t_max + first, count * sizeof(float));
+    else
+        for (uint32_t k = 0; k < n; k++)
+            p->word[EMBREE_FAR * n + k] = INFINITY;
+    for (uint32_t k = 0; k < n; k++)
+        p->valid[k] = k < count ? -1 : 0;
+    if (!a->nearest)
+        return;
+    memset(p->word + EMBREE_PRIMITIVE * n, 0xff, n * sizeof(float));
+    memset(p->word + EMBREE_GEOMETRY * n, 0xff, n * sizeof(float));
+}
+
+static void occlude_packet(const embree_arrays *a, struct RTCIntersectContext *context, array_packet *p)
+{
+    switch (a->packet) {
+    case 16: rtcOccluded16(p->valid, a->scene, context, (struct RTCRay16 *)(void *)p->word); break;
+    case 8: rtcOccluded8(p->valid, a->scene, context, (struct RTCRay8 *)(void *)p->word); break;
+    case 4: rtcOccluded4(p->valid, a->scene, context, (struct RTCRay4 *)(void *)p->word); break;
+    default: rtcOccluded1(a->scene, context, (struct RTCRay *)(void *)p->word); break;
+    }
+}
+
+static void intersect_packet(const embree_arrays *a, struct RTCIntersectContext *context, array_packet *p)
+{
+    switch (a->packet) {
+    case 16: rtcIntersect16(p->valid, a->scene, context, (struct RTCRayHit16 *)(void *)p->word); break;
+    case 8: rtcIntersect8(p->valid, a->scene, context, (struct RTCRayHit8 *)(void *)p->word); break;
+    case 4: rtcIntersect4(p->valid, a->scene, context, (struct RTCRayHit4 *)(void *)p->word); break;
+    default: rtcIntersect1(a->scene, context, (struct RTCRayHit *)(void *)p->word); break;
+    }
+}
+
+BENCH_INLINE void trace_packets(const embree_arrays *a, uint64_t first, uint64_t end, uint32_t n)
+{
+    const cgt_rays *rays = a->batch;
+    struct RTCIntersectContext context;
+    array_packet p;
+    memset(&p, 0, sizeof p);
+    memset(p.word + EMBREE_MASK * n, 0xff, n * sizeof(float));
+    memset(p.word + EMBREE_INSTANCE * n, 0xff, n * sizeof(float));
+    rtcInitIntersectContext(&context);
+    context.flags = a->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    for (uint64_t i = first; i < end; i += n) {
+        const uint32_t count = end - i < n ? (uint32_t)(end - i) : n;
+        if (count == n)
+            fill_packet(a, i, n, n, &p);
+        else
+            fill_packet(a, i, count, n, &p);
+        if (a->nearest)
+            intersect_packet(a, &context, &p);
+        else
+            occlude_packet(a, &context, &p);
+        for (uint32_t k = 0; k < count; k++) /* nearer than its far end; of an occluded ray that is -infinity */
+            a->occluded[i + k] = p.word[EMBREE_FAR * n + k] < (rays->t_max ? rays->t_max[i + k] : INFINITY);
+    }
+}
+
+BENCH_CLONES
+static void trace_piece(const embree_arrays *a, uint64_t first, uint64_t end)
+{
+    switch (a->packet) {
+    case 16: trace_packets(a, first, end, 16); break;
+    case 8: trace_packets(a, first, end, 8); break;
+    case 4: trace_packets(a, first, end, 4); break;
+    default: trace_packets(a, first, end, 1); break;
+    }
+}
+
+static void trace_task(void *argument, uint32_t index)
+{
+    const embree_arrays *a = argument;
+    const uint64_t first = (uint64_t)index * PIECE, left = a->batch->count - first;
+    const unsigned int callers = native_flush_begin();
+    trace_piece(a, first, first + (left < PIECE ? left : PIECE));
+    native_flush_end(callers);
+}
+
+cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occluded)
+{
+    embree_arrays *a = arrays;
+    a->batch = batch;
+    a->occluded = occluded;
+    bench_threads_run(a->threads, trace_task, a, (uint32_t)((batch->count + PIECE - 1) / PIECE));
+    return CGT_OK;
+}
+
+cgt_result embree_arrays_take_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded)
+{
+    embree_arrays own = *(const embree_arrays *)arrays; /* others are at work */
+    const unsigned int callers = native_flush_begin();
+    own.batch = batch;
+    own.occluded = occluded;
+    trace_piece(&own, 0, batch->count);
+    native_flush_end(callers);
+    return CGT_OK;
+}

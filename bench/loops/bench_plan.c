@@ -1,0 +1,194 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The list of configurations, and their scenes. */
+#include "loops/bench_plan.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/bench_timing.h"
+
+enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_scene_options.resolution */
+
+/* What a plan tries without -g. */
+static const struct grid {
+    uint32_t edge;
+    double scale;
+} grids[] = {{0, 1.0}, {0, 0.5}, {0, 2.0}, {8, 1.0}, {12, 1.0}, {16, 1.0}, {24, 1.0}, {32, 1.0}};
+
+enum { GRIDS = sizeof grids / sizeof grids[0], PACKETS = 3, SWITCHES = 6, LOOPS = 2 };
+enum { MOST_ROWS_PER_GROUP = PACKETS * SWITCHES * LOOPS };
+
+static const uint32_t packets[PACKETS] = {4, 8, 16};
+static const struct {
+    cgt_cull cull;
+    int mailbox;
+} switches[SWITCHES] = {{CGT_CULL_BLOCKS, 1},  {CGT_CULL_BLOCKS, 0}, {CGT_CULL_FRUSTUM, 1},
+                        {CGT_CULL_FRUSTUM, 0}, {CGT_CULL_NONE, 1},   {CGT_CULL_NONE, 0}};
+static const cgt_loop loops[LOOPS] = {CGT_LOOP_NESTED, CGT_LOOP_FLATTENED};
+
+static void label_group(bench_group *group)
+{
+    const uint32_t *cells = group->asked;
+    if (cells[0])
+        snprintf(group->label, sizeof group->label, "%ux%ux%u", (unsigned)cells[0], (unsigned)cells[1],
+                 (unsigned)cells[2]);
+    else if (group->scale > 1.0 || group->scale < 1.0)
+        snprintf(group->label, sizeof group->label, "auto*%g", group->scale);
+    else
+        snprintf(group->label, sizeof group->label, "auto");
+}
+
+/* A row for each pair of loops: all packets and switches at the first grid, at the others only the library's own
+ * packet, culling and mailbox. */
+static void add_rows(bench_plan *plan, const bench_settings *settings, int every_switch)
+{
+    const size_t group = plan->group_count - 1;
+    for (int p = 0; p < (every_switch ? PACKETS : 1); p++) {
+        if (every_switch && settings->packet && settings->packet != packets[p])
+            continue;
+        for (int s = 0; s < (every_switch ? SWITCHES : 1); s++)
+            for (int l = 0; l < LOOPS; l++) {
+                bench_row *row = &plan->rows[plan->row_count++];
+                row->group = group;
+                row->choice.variant = plan->groups[group].variant;
+                row->choice.packet = every_switch ? packets[p] : settings->packet;
+                row->choice.loop = loops[l];
+                row->choice.cull = switches[s].cull;
+                row->choice.mailbox = switches[s].mailbox;
+            }
+    }
+}
+
+static void add_groups(bench_plan *plan, const bench_settings *settings, const char *variant, cgt_context *context)
+{
+    const int grid_given = settings->resolution[0] != 0;
+    for (int g = 0; g < (grid_given ? 1 : GRIDS); g++) {
+        bench_group *group = &plan->groups[plan->group_count++];
+        group->variant = variant;
+        group->context = context;
+        group->scale = grid_given ? 1.0 : grids[g].scale;
+        for (int axis = 0; axis < 3; axis++)
+            group->asked[axis] = grid_given ? settings->resolution[axis] : grids[g].edge;
+        label_group(group);
+        add_rows(plan, settings, g == 0);
+    }
+}
+
+/* Contexts of all variants that are asked for and that the CPU runs, with their groups and rows. */
+static int add_variants(bench_plan *plan, const bench_settings *settings)
+{
+    for (const char *const *name = cgt_variants(); *name; name++) {
+        cgt_context *context = NULL;
+        if (settings->variant && strcmp(settings->variant, *name) != 0)
+            continue;
+        if (plan->context_count == BENCH_MOST_VARIANTS) {
+            program_error("more than %d variants", (int)BENCH_MOST_VARIANTS);
+            return PROGRAM_FAILED;
+        }
+        const cgt_result result = bench_context_create(settings->threads, *name, &context);
+        if (result == CGT_ERROR_UNSUPPORTED && !settings->variant) {
+            printf("# variant %s left out: this CPU lacks it\n", *name);
+            continue;
+        }
+        if (result != CGT_OK)
+            return bench_scene_failed(NULL, *name, result);
+        plan->contexts[plan->context_count++] = context;
+        add_groups(plan, settings, *name, context);
+    }
+    return PROGRAM_OK;
+}
+
+int bench_plan_create(bench_plan *plan, const bench_settings *settings, const float *moving, size_t values)
+{
+    memset(plan, 0, sizeof *plan);
+    plan->groups = calloc((size_t)BENCH_MOST_VARIANTS * GRIDS, sizeof *plan->groups);
+    plan->rows = calloc((size_t)BENCH_MOST_VARIANTS * (MOST_ROWS_PER_GROUP + LOOPS * GRIDS), sizeof *plan->rows);
+    if (!plan->groups || !plan->rows) {
+        program_error("out of memory");
+        return PROGRAM_FAILED;
+    }
+    const int code = add_variants(plan, settings);
+    if (code != PROGRAM_OK)
+        return code;
+
+    int complete = 1;
+    for (size_t i = 0; complete && i < plan->row_count; i++) {
+        plan->rows[i].choice.grid = plan->groups[plan->rows[i].group].label;
+        complete = (plan->rows[i].trace_ms = calloc(values, sizeof(double))) != NULL;
+    }
+    for (size_t i = 0; complete && i < plan->group_count; i++) {
+        bench_group *group = &plan->groups[i];
+        complete = (group->build_ms = calloc(values, sizeof(double))) != NULL;
+        const cgt_result result = bench_scene_create(&group->scene, group->context, moving, group->asked);
+        if (result != CGT_OK)
+            return bench_scene_failed(group->context, group->label, result);
+    }
+    if (!complete) {
+        program_error("out of memory for %zu measurements of %zu configurations", values, plan->row_count);
+        return PROGRAM_FAILED;
+    }
+    return PROGRAM_OK;
+}
+
+void bench_plan_release(bench_plan *plan)
+{
+    for (size_t i = 0; i < plan->row_count; i++)
+        free(plan->rows[i].trace_ms);
+    for (size_t i = 0; i < plan->group_count; i++) {
+        bench_scene_release(&plan->groups[i].scene);
+        free(plan->groups[i].build_ms);
+    }
+    for (size_t i = 0; i < plan->context_count; i++)
+        cgt_context_release(plan->contexts[i]);
+    free(plan->rows);
+    free(plan->groups);
+    memset(plan, 0, sizeof *plan);
+}
+
+/* ---- Commit -------------------------------------------------------------------------------------------------- */
+
+/* The library's own choice for this frame times the group's scale, within the library's limits. */
+static cgt_result scale_resolution(bench_group *group, uint32_t count)
+{
+    cgt_scene_options options;
+    cgt_scene_statistics chosen;
+    cgt_scene_options_init(&options);
+    cgt_result result = cgt_scene_set_options(group->scene.scene, &options);
+    if (result == CGT_OK)
+        result = bench_scene_commit(&group->scene, count);
+    if (result == CGT_OK)
+        result = cgt_scene_get_statistics(group->scene.scene, &chosen);
+    if (result != CGT_OK)
+        return result;
+    for (int axis = 0; axis < 3; axis++) {
+        const double cells = floor(group->scale * chosen.resolution[axis] + 0.5);
+        options.resolution[axis] = cells < 1.0 ? 1 : cells > AXIS_LIMIT ? AXIS_LIMIT : (uint32_t)cells;
+    }
+    while ((uint64_t)options.resolution[0] * options.resolution[1] * options.resolution[2] > CELL_LIMIT)
+        for (int axis = 0; axis < 3; axis++)
+            options.resolution[axis] = (options.resolution[axis] + 1) / 2;
+    return cgt_scene_set_options(group->scene.scene, &options);
+}
+
+cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms)
+{
+    cgt_result result = CGT_OK;
+    if (!group->asked[0] && (group->scale > 1.0 || group->scale < 1.0))
+        result = scale_resolution(group, count);
+    if (result != CGT_OK)
+        return result;
+
+    const double start = bench_now_ms();
+    result = bench_scene_commit(&group->scene, count);
+    *ms = bench_now_ms() - start;
+    cgt_scene_statistics built;
+    if (result == CGT_OK)
+        result = cgt_scene_get_statistics(group->scene.scene, &built);
+    if (result == CGT_OK)
+        memcpy(group->resolution, built.resolution, sizeof group->resolution);
+    return result;
+}

@@ -1,0 +1,400 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * cgt-convert: any trajectory or mesh that the readers know, to .frames. The output is written beside its final name
+ * and moved there when it is whole, so that a run that fails leaves what was there before. */
+#define _GNU_SOURCE /* argp */
+#include "common/program.h"
+#include "trajectory/trajectory.h"
+
+#include <argp.h>
+#include <errno.h>
+#include <float.h>
+#include <inttypes.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef struct convert_options {
+    const char *input;
+    const char *output;
+    trajectory_options reading;
+    uint64_t first, last, every; /* frames to convert, from 0; last included */
+    int quiet;
+} convert_options;
+
+typedef struct convert_counts {
+    trajectory_kind kind;
+    uint32_t triangles;
+    uint64_t frames;
+    uint64_t items;        /* spheres or vertices in all of them */
+    uint32_t fewest, most; /* of a frame */
+    int normals;           /* there are some, and .frames has no place for them */
+} convert_counts;
+
+/* ---- Options ------------------------------------------------------------------------------------------------ */
+
+enum { OPTION_WRAPPED = 256, OPTION_FIRST, OPTION_LAST, OPTION_EVERY, OPTION_FPS, OPTION_CLIP };
+
+static const struct argp_option option_table[] = {
+    {"radius", 'r', "R", 0,
+     "Radius of spheres that the file gives none, in world units (default: 0.5; in .xyz the "
+     "element's van der Waals radius in Angstrom)",
+     0},
+    {"wrapped", OPTION_WRAPPED, NULL, 0,
+     "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones "
+     "(xu yu zu) where a file has both",
+     0},
+    {"clip", OPTION_CLIP, "NAME", 0, "Animation clip of a mesh, by its name or number from 0 (default: the first)", 0},
+    {"fps", OPTION_FPS, "RATE", 0, "Frames per second of the clip (default: 30)", 0},
+    {"first", OPTION_FIRST, "N", 0, "First frame to convert, counted from 0 (default: 0)", 0},
+    {"last", OPTION_LAST, "N", 0, "Last frame to convert (default: the file's last)", 0},
+    {"every", OPTION_EVERY, "N", 0, "Convert every Nth frame (default: 1)", 0},
+    {"quiet", 'q', NULL, 0, "Print nothing but errors", 0},
+    {0},
+};
+
+static error_t parse_option(int key, char *arg, struct argp_state *state)
+{
+    convert_options *const o = state->input;
+    char error[PROGRAM_ERROR_SIZE];
+    int wrong = 0;
+    float fps = 0.0f;
+    const char *name = "";
+    switch (key) {
+    case 'r':
+        name = "-r";
+        wrong = program_parse_float(arg, FLT_MIN, 1e30f, &o->reading.radius, error, sizeof error);
+        break;
+    case 'q': o->quiet = 1; break;
+    case OPTION_WRAPPED: o->reading.wrapped = 1; break;
+    case OPTION_CLIP: o->reading.clip = arg; break;
+    case OPTION_FPS:
+        name = "--fps";
+        wrong = program_parse_float(arg, 1e-3f, 1e6f, &fps, error, sizeof error);
+        o->reading.fps = (double)fps;
+        break;
+    case OPTION_FIRST:
+        name = "--first";
+        wrong = program_parse_u64(arg, 0, UINT32_MAX, &o->first, error, sizeof error);
+        break;
+    case OPTION_LAST:
+        name = "--last";
+        wrong = program_parse_u64(arg, 0, UINT32_MAX, &o->last, error, sizeof error);
+        break;
+    case OPTION_EVERY:
+        name = "--every";
+        wrong = program_parse_u64(arg, 1, UINT32_MAX, &o->every, error, sizeof error);
+        break;
+    case ARGP_KEY_ARG:
+        if (state->arg_num >= 2) {
+            argp_error(state, "'%s': only an input and an output are expected", arg);
+        }
+        *(state->arg_num == 0 ? &o->input : &o->output) = arg;
+        break;
+    case ARGP_KEY_END:
+        if (state->arg_num < 2) {
+            argp_error(state, "an input and an output are needed");
+        }
+        break;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+    if (wrong) {
+        argp_error(state, "%s: %s", name, error);
+    }
+    return 0;
+}
+
+static const char documentation[] =
+    "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
+    "INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp reads (.obj, .ply, "
+    ".gltf, .dae, .x, .ifc and others) in a build that has it; OUTPUT ends in .frames, which keeps the triangles of a "
+    "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, and left alone "
+    "otherwise.\n\n"
+    "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.";
+
+static const struct argp parser = {option_table, parse_option, "INPUT OUTPUT.frames", documentation, NULL, NULL, NULL};
+
+static void check_options(const convert_options *o)
+{
+    const size_t length = strlen(o->output);
+    if (length < 8 || strcasecmp(o->output + length - 7, ".frames") != 0) {
+        program_error("'%s': the output's name must end in .frames", o->output);
+        exit(PROGRAM_USAGE);
+    }
+    if (o->first > o->last) {
+        program_error("--first %" PRIu64 " is after --last %" PRIu64, o->first, o->last);
+        exit(PROGRAM_USAGE);
+    }
+}
+
+/* ---- The output's two names --------------------------------------------------------------------------------- */
+
+typedef struct output_file {
+    char *target;    /* where it goes: links resolved, so that a link stays one */
+    char *temporary; /* in the same folder, so that it can be moved in one step */
+    mode_t mode;
+    int created; /* the temporary file is there */
+} output_file;
+
+/* The temporary file that an interrupt has to remove; NULL while there is none. */
+static const char *volatile unfinished;
+
+static void on_interrupt(int number)
+{
+    const char *name = unfinished;
+    if (name != NULL) {
+        unlink(name);
+    }
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+static void catch_interrupts(void)
+{
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        struct sigaction action;
+        if (sigaction(numbers[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN) {
+            memset(&action, 0, sizeof action);
+            action.sa_handler = on_interrupt;
+            sigaction(numbers[i], &action, NULL);
+        }
+    }
+}
+
+/* Finds the target and its mode. Returns 0 or -1 with a message. */
+static int find_target(const char *name, output_file *file)
+{
+    struct stat status;
+    if (stat(name, &status) == 0) {
+        if (!S_ISREG(status.st_mode)) {
+            program_error("%s: not a regular file", name);
+            return -1;
+        }
+        file->mode = status.st_mode & 07777;
+        file->target = realpath(name, NULL);
+    } else {
+        const mode_t mask = umask(0);
+        umask(mask);
+        file->mode = 0666 & ~mask;
+        file->target = strdup(name);
+    }
+    if (file->target == NULL) {
+        program_error("%s: %s", name, strerror(errno));
+        return -1;
+    }
+    return 0;
+}
+
+/* Creates the temporary file. Returns 0 or -1 with a message. */
+static int output_begin(const char *name, output_file *file)
+{
+    if (find_target(name, file)) {
+        return -1;
+    }
+    const size_t size = strlen(file->target) + sizeof ".XXXXXX";
+    file->temporary = malloc(size);
+    if (file->temporary == NULL) {
+        program_error("%s: not enough memory", name);
+        return -1;
+    }
+    snprintf(file->temporary, size, "%s.XXXXXX", file->target);
+    const int descriptor = mkstemp(file->temporary);
+    if (descriptor < 0) {
+        program_error("%s: %s", name, strerror(errno));
+        return -1;
+    }
+    close(descriptor);
+    file->created = 1;
+    unfinished = file->temporary;
+    return 0;
+}
+
+/* Moves the file to its name, or removes it. Returns the exit code. */
+static int output_end(output_file *file, int code)
+{
+    if (file->created && code == PROGRAM_OK) {
+        if (chmod(file->temporary, file->mode) != 0 || rename(file->temporary, file->target) != 0) {
+            program_error("%s: %s", file->target, strerror(errno));
+            code = PROGRAM_FAILED;
+        }
+    }
+    if (file->created && code != PROGRAM_OK) {
+        unlink(file->temporary);
+    }
+    unfinished = NULL;
+    free(file->temporary);
+    free(file->target);
+    return code;
+}
+
+/* ---- Converting --------------------------------------------------------------------------------------------- */
+
+typedef struct conversion {
+    const convert_options *options;
+    trajectory *from;
+    const char *name;      /* of the file that is written */
+    frames_writer *writer; /* NULL before the first frame, which says what kind it is */
+    convert_counts counts;
+    char error[PROGRAM_ERROR_SIZE];
+} conversion;
+
+static int write_frame(conversion *c, const trajectory_frame *frame)
+{
+    const int spheres = frame->kind == TRAJECTORY_SPHERES;
+    if (c->writer == NULL) {
+        c->writer =
+            spheres ? frames_writer_open(c->name, c->error, sizeof c->error)
+                    : frames_writer_open_triangles(c->name, frame->index, frame->triangles, c->error, sizeof c->error);
+    }
+    if (c->writer == NULL) {
+        return -1;
+    }
+    return spheres ? frames_writer_add(c->writer, frame->xyzr, frame->count, c->error, sizeof c->error)
+                   : frames_writer_add_vertices(c->writer, frame->position, frame->count, c->error, sizeof c->error);
+}
+
+static int copy_frame(conversion *c)
+{
+    trajectory_frame frame;
+    const int got = trajectory_read(c->from, &frame, c->error, sizeof c->error);
+    if (got <= 0) {
+        return got;
+    }
+    if (write_frame(c, &frame)) {
+        return -1;
+    }
+    convert_counts *const n = &c->counts;
+    n->kind = frame.kind;
+    n->triangles = frame.triangles;
+    n->normals |= frame.vertex_normal != NULL;
+    n->fewest = n->frames == 0 || frame.count < n->fewest ? frame.count : n->fewest;
+    n->most = frame.count > n->most ? frame.count : n->most;
+    n->frames++;
+    n->items += frame.count;
+    return 1;
+}
+
+/* Copies the frames that were asked for. Returns 0 or -1 with a text. */
+static int copy_frames(conversion *c)
+{
+    const convert_options *const o = c->options;
+    program_progress progress;
+    program_progress_start(&progress, "converting", "frames", 0.0, o->quiet);
+    int got = 1;
+    for (uint64_t number = 0; number <= o->last && got > 0; number++) {
+        const int wanted = number >= o->first && (number - o->first) % o->every == 0;
+        got = wanted ? copy_frame(c) : trajectory_skip(c->from, c->error, sizeof c->error);
+        program_progress_update(&progress, (double)c->counts.frames, trajectory_progress(c->from));
+    }
+    program_progress_end(&progress);
+    return got < 0 ? -1 : 0;
+}
+
+/* Writes the file. Returns the exit code. */
+static int convert(conversion *c)
+{
+    const int failed = copy_frames(c);
+    if (failed) {
+        program_error("%s", c->error);
+    }
+    if (frames_writer_close(c->writer, c->error, sizeof c->error) && !failed) {
+        program_error("%s", c->error);
+        return PROGRAM_FAILED;
+    }
+    if (!failed && c->counts.frames == 0) {
+        program_error("%s: no frames to convert: %s", c->options->input,
+                      c->options->first > 0 ? "the file ends before --first" : "the file is empty");
+        return PROGRAM_FAILED;
+    }
+    return failed ? PROGRAM_FAILED : PROGRAM_OK;
+}
+
+/* ---- What it says ------------------------------------------------------------------------------------------- */
+
+/* What of a mesh is not in the output. */
+static void report_losses(const char *input, const trajectory_mesh *mesh, int normals)
+{
+    const struct {
+        uint64_t count;
+        const char *what;
+    } losses[] = {
+        {mesh->points, "points left out"},
+        {mesh->lines, "lines left out"},
+        {mesh->lost_triangles, "triangles lost with polygons that cross themselves"},
+        {mesh->unshown, "meshes left out, which no node shows"},
+        {mesh->unused, "vertices left out, which no triangle has"},
+        {mesh->degenerate, "triangles without an area"},
+        {mesh->still_channels, "animations of single vertices not played"},
+    };
+    for (size_t i = 0; i < sizeof losses / sizeof losses[0]; i++) {
+        if (losses[i].count > 0) {
+            printf("%s: %" PRIu64 " %s\n", input, losses[i].count, losses[i].what);
+        }
+    }
+    if (mesh->warnings > 0) {
+        printf("%s: %" PRIu32 " warnings of assimp's; the first: %s\n", input, mesh->warnings, mesh->warning);
+    }
+    if (normals) {
+        printf("%s: vertex normals left out\n", input);
+    }
+}
+
+static void report(const conversion *c, double seconds)
+{
+    const convert_counts *const n = &c->counts;
+    const trajectory_mesh *const mesh = trajectory_get_mesh(c->from);
+    const int spheres = n->kind == TRAJECTORY_SPHERES;
+    const double bytes =
+        24.0 + 4.0 * (double)n->frames + 12.0 * (double)n->triangles + (spheres ? 16.0 : 12.0) * (double)n->items;
+    if (mesh != NULL) {
+        printf("%s: %" PRIu32 " meshes shown %" PRIu32 " times, %" PRIu32 " bones, %" PRIu32 " clips\n",
+               c->options->input, mesh->meshes, mesh->instances, mesh->bones, mesh->clips);
+        report_losses(c->options->input, mesh, n->normals);
+    }
+    printf("%s: %" PRIu64 " frames, ", c->options->output, n->frames);
+    if (!spheres) {
+        printf("%" PRIu32 " triangles, ", n->triangles);
+    }
+    printf("%" PRIu32 " to %" PRIu32 " %s, %.1f MB, %.2f s\n", n->fewest, n->most, spheres ? "spheres" : "vertices",
+           1e-6 * bytes, seconds);
+}
+
+static int run(const convert_options *o)
+{
+    conversion c = {.options = o};
+    output_file file = {0};
+    const double start = program_seconds();
+    c.from = trajectory_open(o->input, &o->reading, c.error, sizeof c.error);
+    if (c.from == NULL) {
+        program_error("%s", c.error);
+        return PROGRAM_FAILED;
+    }
+    int code = PROGRAM_FAILED;
+    if (output_begin(o->output, &file) == 0) {
+        c.name = file.temporary;
+        code = convert(&c);
+    }
+    code = output_end(&file, code);
+    if (code == PROGRAM_OK && !o->quiet) {
+        report(&c, program_seconds() - start);
+    }
+    trajectory_close(c.from);
+    return code;
+}
+
+int main(int argc, char **argv)
+{
+    convert_options options = {.first = 0, .last = UINT64_MAX - 1, .every = 1};
+    trajectory_options_init(&options.reading);
+    program_init("cgt-convert");
+    argp_parse(&parser, argc, argv, 0, NULL, &options);
+    check_options(&options);
+    catch_interrupts();
+    return program_exit(run(&options));
+}

@@ -1,0 +1,88 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What assimp does not notice, or does not survive: files that are cut off and load as a part of themselves, and counts
+ * that ask for all the memory. Only what can be told for sure is refused. */
+#define _FILE_OFFSET_BITS 64
+#define _POSIX_C_SOURCE 200809L
+#include "mesh/mesh_model.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- Object file format ------------------------------------------------------------------------------------- */
+
+/* The line of counts is the first that is no comment, maybe after "OFF" or the like. Each vertex and each face takes
+ * more than a byte. Anything else is left to assimp. */
+static int check_off(trajectory *t, text_reader *r)
+{
+    for (int lines = 0; lines < 1000; lines++) {
+        text_span line, word;
+        const char *what = "";
+        const int got = text_reader_next(r, &line, &what);
+        if (got <= 0) {
+            return got < 0 ? trajectory_fail(t, r->line, "%s", what) : 1;
+        }
+        if (!text_word(&line, &word) || *word.begin == '#' || (word.end[-1] == 'F' && !text_word(&line, &word))) {
+            continue;
+        }
+        for (int i = 0; i < 2; i++) {
+            uint64_t count = 0;
+            if (!text_u64(word, UINT64_MAX, &count)) {
+                return 1;
+            }
+            if (count > t->file_size) {
+                return trajectory_fail(t, r->line, "%" PRIu64 " %s cannot lie in %" PRIu64 " bytes", count,
+                                       i == 0 ? "vertices" : "faces", t->file_size);
+            }
+            if (i == 0 && !text_word(&line, &word)) {
+                return 1;
+            }
+        }
+        return 1;
+    }
+    return 1;
+}
+
+/* ---- Industry foundation classes ---------------------------------------------------------------------------- */
+
+/* assimp reads as much as there is. The standard (ISO 10303-21) has a last line. */
+static int check_ifc(trajectory *t, text_reader *r)
+{
+    static const char last[] = "END-ISO-10303-21;";
+    char tail[1024 + 1] = "";
+    const off_t at = t->file_size > 1024 ? (off_t)(t->file_size - 1024) : 0;
+    if (fseeko(r->file, at, SEEK_SET) != 0) {
+        return trajectory_fail(t, 0, "%s", strerror(errno));
+    }
+    size_t size = fread(tail, 1, sizeof tail - 1, r->file);
+    for (size_t i = 0; i + sizeof last - 1 <= size; i++) {
+        if (memcmp(tail + i, last, sizeof last - 1) == 0) {
+            return 1;
+        }
+    }
+    return trajectory_fail(t, 0, "the file does not end in %s it is cut off", last);
+}
+
+/* ---- By ending ---------------------------------------------------------------------------------------------- */
+
+int mesh_check_file(trajectory *t)
+{
+    static const struct {
+        const char *ending;
+        int (*check)(trajectory *t, text_reader *r);
+    } checks[] = {{".ply", mesh_check_ply}, {".off", check_off}, {".ifc", check_ifc}};
+    const char *const ending = strrchr(t->path, '.');
+    int result = 1;
+    for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) {
+        if (strcasecmp(ending, checks[i].ending) == 0) {
+            text_reader reader;
+            text_reader_init(&reader, t->file);
+            result = checks[i].check(t, &reader);
+            text_reader_free(&reader);
+        }
+    }
+    return result;
+}

@@ -1,0 +1,105 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A file of meshes, read by assimp and merged into one indexed set of triangles.
+ *   node   a transform of the file's tree; parents stand before their children
+ *   skin   which bones pull each vertex of a mesh, and how much
+ *   part   a mesh under a node; a mesh under three nodes is three parts */
+#ifndef MESH_MODEL_H
+#define MESH_MODEL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <assimp/scene.h>
+
+#include "mesh/mesh_math.h"
+#include "trajectory/trajectory_internal.h"
+
+#define MESH_NONE UINT32_MAX
+
+typedef struct mesh_node {
+    const struct aiNode *node;
+    uint32_t parent;       /* MESH_NONE for the root */
+    mesh_transform local;  /* as the file has it */
+    mesh_transform global; /* of the file's own pose; the pose has its own */
+} mesh_node;
+
+typedef struct mesh_name {
+    const char *name;
+    uint32_t node;
+} mesh_name;
+
+typedef struct mesh_bone {
+    uint32_t node;
+    mesh_transform offset; /* from the mesh to the bone, in the pose in which the skin was put on */
+} mesh_bone;
+
+typedef struct mesh_influence {
+    uint32_t bone; /* of the skin */
+    float weight;  /* those of a vertex have the sum 1 */
+} mesh_influence;
+
+typedef struct mesh_skin {
+    uint32_t bone_count; /* 0: the mesh has none, and the other members are NULL */
+    mesh_bone *bones;
+    size_t *first; /* vertex v has influences first[v] to first[v + 1]; none where it follows its node */
+    mesh_influence *influences;
+} mesh_skin;
+
+typedef struct mesh_part {
+    const struct aiMesh *mesh;
+    const mesh_skin *skin;
+    uint32_t node;
+    uint32_t first, count; /* vertices of the model */
+    uint32_t *source;      /* the mesh's vertex for each of them */
+} mesh_part;
+
+typedef struct mesh_model {
+    const struct aiScene *scene;
+    uint32_t node_count, part_count;
+    size_t node_capacity;
+    mesh_node *nodes;
+    mesh_name *by_name; /* sorted; nodes of one name in the tree's order */
+    mesh_skin *skins;   /* one for each mesh of the scene */
+    mesh_part *parts;
+    uint32_t vertices, triangles;
+    uint32_t *index;
+    int has_normals; /* some mesh has */
+    trajectory_mesh facts;
+} mesh_model;
+
+/* Reads t's file. Returns 1, or -1 with an error noted; in either case the model has to be given back. */
+int mesh_model_read(trajectory *t, mesh_model *model);
+void mesh_model_free(mesh_model *model);
+
+/* A matrix of assimp's, without its fourth row. */
+mesh_transform mesh_from_matrix(const struct aiMatrix4x4 *a);
+
+/* The first node of this name, or MESH_NONE. */
+uint32_t mesh_model_find(const mesh_model *model, const struct aiString *name);
+
+/* ---- The steps of reading, in files of their own; each returns 1, or -1 with an error noted ----------------- */
+
+/* mesh_import.c: the file itself, checked, with its polygons cut into triangles: scene and some facts. The second does
+ * it alone, without what keeps the program alive. */
+int mesh_import(trajectory *t, mesh_model *model);
+int mesh_import_scene(trajectory *t, mesh_model *model);
+
+/* mesh_rehearse.c: whether assimp survives the file. */
+int mesh_rehearse(trajectory *t);
+
+/* mesh_nodes.c: nodes, by_name. */
+int mesh_read_nodes(trajectory *t, mesh_model *model);
+
+/* mesh_skin.c: skins. */
+int mesh_read_skins(trajectory *t, mesh_model *model);
+
+/* mesh_merge.c: parts, index. */
+int mesh_merge(trajectory *t, mesh_model *model);
+
+/* mesh_check.c: what assimp does not notice, or does not survive, in t's file. The file is left where it was. */
+int mesh_check_file(trajectory *t);
+int mesh_check_ply(trajectory *t, text_reader *r); /* mesh_check_ply.c; r stands at the begin */
+
+#endif

@@ -1,0 +1,108 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The colour of each sphere or triangle; see coloring.h. */
+#include "picture/coloring.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture/srgb.h"
+
+static void set_entry(coloring *c, size_t entry, const float srgb[3])
+{
+    for (int k = 0; k < 3; k++)
+        c->palette[entry][k] = srgb_to_linear(srgb[k]);
+}
+
+int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, float max)
+{
+    float srgb[3];
+    memset(c, 0, sizeof *c);
+    c->by = by;
+    c->min = min;
+    c->max = max;
+    c->axis = 2;
+    c->capacity = 1;
+    c->index = calloc(1, sizeof *c->index);
+    if (!c->index)
+        return -1;
+    if (!map)
+        map = colormap_find(colormap_names()[0]);
+    for (uint32_t i = 0; i < COLORING_STEPS; i++) {
+        if (by == COLORING_TYPE)
+            colormap_type(i + 1, srgb);
+        else
+            colormap_at(map, (float)i / (float)(COLORING_STEPS - 1), srgb);
+        set_entry(c, i, srgb);
+    }
+    colormap_unknown(srgb);
+    set_entry(c, COLORING_UNKNOWN, srgb);
+    return 0;
+}
+
+int coloring_init_plain(coloring *c, const float srgb[3])
+{
+    if (coloring_init(c, COLORING_PLAIN, NULL, 0.0f, 0.0f))
+        return -1;
+    set_entry(c, 0, srgb);
+    return 0;
+}
+
+void coloring_free(coloring *c)
+{
+    free(c->index);
+    c->index = NULL;
+    c->capacity = 0;
+}
+
+static int reserve(coloring *c, uint32_t count)
+{
+    if (count <= c->capacity)
+        return 0;
+    /* Cannot overflow: the frame itself holds at least twelve bytes for each of these two. */
+    uint16_t *index = realloc(c->index, (size_t)count * sizeof *index);
+    if (!index)
+        return -1;
+    c->index = index;
+    c->capacity = count;
+    return 0;
+}
+
+/* The entry of a measured value; in double, so that the difference of two large ids or floats is right. */
+static uint16_t entry_of(const coloring *c, double value)
+{
+    if (!(value - value == 0.0)) /* NaN and infinities */
+        return COLORING_UNKNOWN;
+    const double span = (double)c->max - (double)c->min;
+    const double x = span > 0.0 ? (value - (double)c->min) / span : 0.0;
+    const double step = x * (COLORING_STEPS - 1) + 0.5;
+    if (!(step > 0.0))
+        return 0;
+    return step < COLORING_STEPS - 1 ? (uint16_t)step : COLORING_STEPS - 1;
+}
+
+/* The entry of primitive i, or of vertex i. */
+static uint16_t entry_at(const coloring *c, const trajectory_frame *frame, const float *speeds, uint32_t i)
+{
+    switch (c->by) {
+    case COLORING_TYPE: return (uint16_t)(frame->type ? (frame->type[i] + COLORMAP_TYPES - 1) % COLORMAP_TYPES : 0);
+    case COLORING_ID: return entry_of(c, (double)(frame->id ? frame->id[i] : i));
+    case COLORING_SPEED: return speeds ? entry_of(c, (double)speeds[i]) : COLORING_UNKNOWN;
+    case COLORING_HEIGHT: return entry_of(c, (double)frame_place(frame, i)[c->axis]);
+    case COLORING_AUTO:
+    case COLORING_PLAIN: break;
+    }
+    return 0;
+}
+
+int coloring_apply(coloring *c, const trajectory_frame *frame, const float *speeds)
+{
+    c->per_vertex = frame->kind == TRAJECTORY_TRIANGLES && (c->by == COLORING_SPEED || c->by == COLORING_HEIGHT);
+    const uint32_t count = c->per_vertex ? frame->count : frame_primitives(frame);
+    if (reserve(c, count))
+        return -1;
+    for (uint32_t i = 0; i < count; i++)
+        c->index[i] = entry_at(c, frame, speeds, i);
+    return 0;
+}

@@ -1,0 +1,128 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Pictures to files; see image_write.h. OpenImageIO encodes into memory, because its PNG writer does not notice a
+ * disk that is full; the bytes then go to the file by calls whose every result is looked at. No exception leaves
+ * this file. */
+#include "picture/image_write.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+namespace
+{
+
+void set_error(char *error, size_t size, const char *path, const char *what, const char *why)
+{
+    if (error && size)
+        std::snprintf(error, size, "%s: %s%s%s", path, what, *why ? ": " : "", why);
+}
+
+/* Writes all bytes to a new file; on a failure the file is gone and *why says what went wrong. */
+bool write_bytes(const std::string &path, const std::vector<unsigned char> &bytes, std::string *why)
+{
+    std::FILE *file = std::fopen(path.c_str(), "wb");
+    if (!file) {
+        *why = std::strerror(errno);
+        return false;
+    }
+    errno = 0;
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    const int write_errno = errno;
+    const bool closed = std::fclose(file) == 0;
+    if (written && closed)
+        return true;
+    *why = std::strerror(written ? errno : write_errno);
+    std::remove(path.c_str());
+    return false;
+}
+
+int encode_and_write(const char *path, const char *format, const OIIO::ImageSpec &spec, const void *pixels,
+                     OIIO::TypeDesc type, char *error, size_t error_size)
+{
+    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output || !output->supports("ioproxy")) {
+        set_error(error, error_size, path, "this OpenImageIO cannot encode the format in memory", format);
+        return -1;
+    }
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput sink(bytes);
+    output->set_ioproxy(&sink);
+    if (!output->open(path, spec) || !output->write_image(type, pixels) || !output->close()) {
+        const std::string why = output->geterror();
+        set_error(error, error_size, path, "cannot encode the picture", why.c_str());
+        return -1;
+    }
+    const std::string partial = std::string(path) + ".part";
+    std::string why;
+    if (!write_bytes(partial, bytes, &why)) {
+        set_error(error, error_size, path, "cannot write", why.c_str());
+        return -1;
+    }
+    if (std::rename(partial.c_str(), path) != 0) {
+        set_error(error, error_size, path, "cannot write", std::strerror(errno));
+        std::remove(partial.c_str());
+        return -1;
+    }
+    return 0;
+}
+
+/* C callers cannot take an exception: memory may end anywhere inside. */
+int encode_and_write_nothrow(const char *path, const char *format, const OIIO::ImageSpec &spec, const void *pixels,
+                             OIIO::TypeDesc type, char *error, size_t error_size) noexcept
+{
+    try {
+        return encode_and_write(path, format, spec, pixels, type, error, error_size);
+    } catch (const std::exception &failure) {
+        set_error(error, error_size, path, "cannot write the picture", failure.what());
+    } catch (...) {
+        set_error(error, error_size, path, "cannot write the picture", "");
+    }
+    return -1;
+}
+
+} // namespace
+
+extern "C" int image_write_png(const char *path, const uint8_t *rgb, uint32_t width, uint32_t height, char *error,
+                               size_t error_size)
+{
+    try {
+        OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 3, OIIO::TypeDesc::UINT8);
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        /* Level 2 and one filter (32: the pixel above) instead of level 6 and a trial of all five for each row: a third
+         * of the time, for files that are a tenth larger. */
+        spec.attribute("png:compressionLevel", 2);
+        spec.attribute("png:filter", 32);
+        return encode_and_write_nothrow(path, "png", spec, rgb, OIIO::TypeDesc::UINT8, error, error_size);
+    } catch (...) {
+        set_error(error, error_size, path, "cannot write the picture", "out of memory");
+        return -1;
+    }
+}
+
+extern "C" int image_write_exr(const char *path, const image_pixel *pixels, uint32_t width, uint32_t height,
+                               char *error, size_t error_size)
+{
+    try {
+        OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 5, OIIO::TypeDesc::FLOAT);
+        spec.channelnames = {"R", "G", "B", "Z", "id"};
+        spec.channelformats = {OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::FLOAT,
+                               OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::UINT32};
+        spec.z_channel = 3;
+        spec.attribute("oiio:ColorSpace", "Linear");
+        spec.attribute("compression", "zip");
+        /* UNKNOWN: the memory holds each channel in the format that the file gets. */
+        return encode_and_write_nothrow(path, "openexr", spec, pixels, OIIO::TypeDesc::UNKNOWN, error, error_size);
+    } catch (...) {
+        set_error(error, error_size, path, "cannot write the picture", "out of memory");
+        return -1;
+    }
+}

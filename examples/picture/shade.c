@@ -1,0 +1,267 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Hits to pixels; see shade.h. Works through a tile in runs of up to RUN hits of one row: first the brightness of
+ * each, in plain loops over arrays that a compiler turns into vectors, then colour and sRGB codes through tables. */
+#include "picture/shade.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { RUN = 16 }; /* hits; a multiple of SHADE_MAX_SAMPLES. Short, so that many runs are background alone */
+
+/* Shares of the light. A sphere's side that faces light and eye reaches 1: no colour is clipped. */
+static const float share_light = 0.85f, share_head = 0.35f, share_ambient = 0.05f;
+
+static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void normalize(float v[3])
+{
+    const float length = sqrtf(dot(v, v));
+    for (int c = 0; c < 3; c++)
+        v[c] = length > 0.0f ? v[c] / length : 0.0f;
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+void shade_begin(shade_job *job)
+{
+    const cgt_camera *camera = &job->camera;
+    for (int c = 0; c < 3; c++)
+        job->forward[c] = camera->target[c] - camera->eye[c];
+    normalize(job->forward);
+    cross(job->forward, camera->up, job->right);
+    normalize(job->right);
+    cross(job->right, job->forward, job->up);
+    /* The headlight of an orthographic camera shines along the view everywhere. */
+    const float half = camera->projection == CGT_PERSPECTIVE ? tanf(camera->fov * 0.00872664626f) : 0.0f;
+    const float aspect = (float)job->width / (float)job->height;
+    for (int c = 0; c < 3; c++) {
+        job->right[c] *= half * aspect;
+        job->up[c] *= half;
+    }
+    atomic_store_explicit(&job->hits, 0, memory_order_relaxed);
+}
+
+uint32_t shade_fields(const shade_job *job)
+{
+    return (uint32_t)CGT_FIELD_PRIMITIVE | (uint32_t)CGT_FIELD_NORMAL | (job->pixels ? (uint32_t)CGT_FIELD_T : 0u) |
+           (job->vertex_normal || job->mix ? (uint32_t)CGT_FIELD_UV : 0u);
+}
+
+/* Directions of the rays of a run: of the first one, and from each to the next. */
+typedef struct run_rays {
+    float first[3], step[3];
+} run_rays;
+
+/* Those of row y of the frame, from x on. */
+static run_rays rays_from(const shade_job *job, uint32_t x, uint32_t y)
+{
+    run_rays rays;
+    const float step = 2.0f / (float)(job->width * job->samples);
+    const float v = 1.0f - 2.0f * ((float)y + 0.5f) / (float)(job->height * job->samples);
+    const float u = ((float)x + 0.5f) * step - 1.0f;
+    for (int c = 0; c < 3; c++) {
+        rays.first[c] = job->forward[c] + v * job->up[c] + u * job->right[c];
+        rays.step[c] = job->right[c] * step;
+    }
+    return rays;
+}
+
+/* The mix of a triangle's vertex normals at (u, v), each taken as a unit vector. Returns 0 where that says nothing:
+ * no length, or no number. */
+static int mixed_normal(const shade_job *job, uint32_t primitive, float u, float v, float n[3])
+{
+    const uint32_t *vertex = job->triangle + 3 * (size_t)primitive;
+    const float share[3] = {1.0f - u - v, u, v};
+    n[0] = n[1] = n[2] = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        const float *at = job->vertex_normal + 3 * (size_t)vertex[k];
+        const float square = dot(at, at), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
+        for (int c = 0; c < 3; c++)
+            n[c] += at[c] * scale;
+    }
+    const float square = dot(n, n);
+    if (!(square > 1e-6f) || isinf(square))
+        return 0;
+    for (int c = 0; c < 3; c++)
+        n[c] /= sqrtf(square);
+    return 1;
+}
+
+/* The normals that the triangles of a run are lit with, from element `at` of the tile on: all on the eye's side. */
+static void triangle_normals(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count,
+                             const run_rays *rays, float out[3][RUN])
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t primitive = tile->primitive[at + i];
+        float own[3], mixed[3], away = 0.0f;
+        for (int c = 0; c < 3; c++) {
+            own[c] = primitive == CGT_NONE ? 0.0f : tile->normal[c][at + i];
+            away += own[c] * (rays->first[c] + (float)i * rays->step[c]);
+        }
+        const float *n = own;
+        int turn = away > 0.0f;
+        if (job->vertex_normal && primitive != CGT_NONE &&
+            mixed_normal(job, primitive, tile->u[at + i], tile->v[at + i], mixed)) {
+            turn = (dot(own, mixed) < 0.0f) != turn;
+            n = mixed;
+        }
+        for (int c = 0; c < 3; c++)
+            out[c][i] = turn ? -n[c] : n[c];
+    }
+}
+
+/* Brightness of `count` hits; n are their normals, zero where nothing was hit. */
+static void brightness(const shade_job *job, const run_rays *rays, uint32_t count, const float *const n[3],
+                       float out[RUN])
+{
+    const float *const base = rays->first;
+    const float rx = rays->step[0], ry = rays->step[1], rz = rays->step[2];
+    const float lx = job->light[0], ly = job->light[1], lz = job->light[2];
+    const float *const nx = n[0], *const ny = n[1], *const nz = n[2];
+    for (uint32_t i = 0; i < count; i++) {
+        const float k = (float)(int32_t)i;
+        const float dx = base[0] + k * rx, dy = base[1] + k * ry, dz = base[2] + k * rz;
+        const float lambert = nx[i] * lx + ny[i] * ly + nz[i] * lz;
+        /* From inside a sphere the normal points away from the eye; the light is the same on both sides. */
+        const float head = fabsf(nx[i] * dx + ny[i] * dy + nz[i] * dz) / sqrtf(dx * dx + dy * dy + dz * dz);
+        out[i] = share_ambient + share_head * head + share_light * (lambert > 0.0f ? lambert : 0.0f);
+    }
+}
+
+/* The entry of the palette for a hit, element `at` of the tile. */
+static uint32_t entry_of(const shade_job *job, const cgt_tile *tile, size_t at)
+{
+    if (!job->mix || !job->triangle)
+        return job->index[tile->primitive[at]];
+    const uint32_t *vertex = job->triangle + 3 * (size_t)tile->primitive[at];
+    const float u = tile->u[at], v = tile->v[at], share[3] = {1.0f - u - v, u, v};
+    float sum = 0.5f;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t entry = job->index[vertex[k]];
+        if (entry >= job->palette_steps)
+            return entry;
+        sum += share[k] * (float)entry;
+    }
+    return sum > 0.0f ? sum < (float)job->palette_steps ? (uint32_t)sum : job->palette_steps - 1 : 0;
+}
+
+/* Adds the light of `count` hits from element `at` on to the pixels that they belong to. Returns how many there are. */
+static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count, const float *bright,
+                       float sum[RUN][3])
+{
+    const uint32_t *primitive = tile->primitive + at;
+    const unsigned shift = job->samples == 4 ? 2 : job->samples - 1; /* a division for each hit would show */
+    uint32_t hits = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        float *pixel = sum[i >> shift];
+        if (primitive[i] == CGT_NONE) {
+            for (int c = 0; c < 3; c++)
+                pixel[c] += job->background[c];
+            continue;
+        }
+        const float *color = job->palette[entry_of(job, tile, at + i)];
+        for (int c = 0; c < 3; c++)
+            pixel[c] += color[c] * bright[i];
+        hits++;
+    }
+    return hits;
+}
+
+/* Depth and primitive of a pixel: those of the nearest of its hits. at: element of the block's first hit. */
+static void nearest(const shade_job *job, const cgt_tile *tile, size_t at, image_pixel *pixel)
+{
+    pixel->z = INFINITY;
+    pixel->id = CGT_NONE;
+    for (uint32_t j = 0; j < job->samples; j++)
+        for (uint32_t i = 0; i < job->samples; i++) {
+            const size_t k = at + j * tile->row_stride + i;
+            if (tile->primitive[k] == CGT_NONE || tile->t[k] >= pixel->z)
+                continue;
+            pixel->z = tile->t[k];
+            pixel->id = tile->primitive[k];
+        }
+}
+
+/* Whether `count` x `samples` hits from element `at` on are all misses: CGT_NONE is all ones. */
+static int is_background(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count)
+{
+    uint32_t all = CGT_NONE;
+    for (uint32_t row = 0; row < job->samples; row++)
+        for (uint32_t i = 0; i < count; i++)
+            all &= tile->primitive[at + row * tile->row_stride + i];
+    return all == CGT_NONE;
+}
+
+static void fill_background(const shade_job *job, size_t first, uint32_t pixels)
+{
+    uint8_t rgb[3];
+    for (int c = 0; c < 3; c++)
+        rgb[c] = srgb_encode(job->tables, job->background[c]);
+    for (uint32_t k = 0; k < pixels; k++)
+        memcpy(job->rgb + (first + k) * 3, rgb, sizeof rgb);
+    for (uint32_t k = 0; job->pixels && k < pixels; k++)
+        job->pixels[first + k] =
+            (image_pixel){job->background[0], job->background[1], job->background[2], INFINITY, CGT_NONE};
+}
+
+/* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */
+static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i, uint32_t j, uint32_t count)
+{
+    float bright[RUN], sum[RUN][3], turned[3][RUN];
+    uint32_t hits = 0;
+    const uint32_t n = job->samples;
+    const size_t first = (size_t)((tile->y + j) / n) * job->width + (tile->x + i) / n;
+    if (is_background(job, tile, j * tile->row_stride + i, count)) {
+        fill_background(job, first, count / n);
+        return 0;
+    }
+    memset(sum, 0, sizeof sum[0] * (count / n));
+    for (uint32_t row = 0; row < n; row++) {
+        const size_t at = (j + row) * tile->row_stride + i;
+        const run_rays rays = rays_from(job, tile->x + i, tile->y + j + row);
+        const float *const sphere[3] = {tile->normal[0] + at, tile->normal[1] + at, tile->normal[2] + at};
+        const float *const triangle[3] = {turned[0], turned[1], turned[2]};
+        if (job->triangle)
+            triangle_normals(job, tile, at, count, &rays, turned);
+        brightness(job, &rays, count, job->triangle ? triangle : sphere, bright);
+        hits += gather(job, tile, at, count, bright, sum);
+    }
+    const float share = 1.0f / (float)(n * n);
+    for (uint32_t k = 0; k < count / n; k++) {
+        uint8_t *rgb = job->rgb + (first + k) * 3;
+        for (int c = 0; c < 3; c++)
+            rgb[c] = srgb_encode(job->tables, sum[k][c] * share);
+        if (!job->pixels)
+            continue;
+        image_pixel *pixel = job->pixels + first + k;
+        pixel->r = sum[k][0] * share;
+        pixel->g = sum[k][1] * share;
+        pixel->b = sum[k][2] * share;
+        nearest(job, tile, j * tile->row_stride + i + k * n, pixel);
+    }
+    return hits;
+}
+
+int shade_tile(void *user, const cgt_tile *tile)
+{
+    shade_job *job = user;
+    const uint32_t n = job->samples;
+    uint64_t hits = 0;
+    /* Tiles of 64 pixels or 4 scanlines hold whole blocks; anything else would be drawn wrong. */
+    if (tile->x % n || tile->y % n || tile->width % n || tile->height % n || (job->stop && *job->stop))
+        return 1;
+    for (uint32_t j = 0; j < tile->height; j += n)
+        for (uint32_t i = 0; i < tile->width; i += RUN) {
+            const uint32_t rest = tile->width - i;
+            hits += shade_run(job, tile, i, j, rest < RUN ? rest : RUN);
+        }
+    atomic_fetch_add_explicit(&job->hits, hits, memory_order_relaxed);
+    return 0;
+}

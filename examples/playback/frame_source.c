@@ -1,0 +1,186 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The frames of a run; see frame_source.h. Frames that are not chosen are skipped unread, unless the speeds of the
+ * next one need their positions. */
+#include "playback/frame_source.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "common/program.h"
+
+int frame_source_open(frame_source *source, const char *path, const trajectory_options *options,
+                      const frame_range *range, int want_speed, char *error, size_t error_size)
+{
+    memset(source, 0, sizeof *source);
+    source->range = *range;
+    source->file = trajectory_open(path, options, error, error_size);
+    if (!source->file)
+        return -1;
+    if (want_speed) {
+        source->tracker = speed_create();
+        if (!source->tracker) {
+            snprintf(error, error_size, "out of memory");
+            frame_source_close(source);
+            return -1;
+        }
+    }
+    return 0;
+}
+
+void frame_source_close(frame_source *source)
+{
+    speed_release(source->tracker);
+    trajectory_close(source->file);
+    memset(source, 0, sizeof *source);
+}
+
+int frame_source_rewind(frame_source *source, char *error, size_t error_size)
+{
+    if (source->tracker)
+        speed_restart(source->tracker);
+    source->next = 0;
+    return trajectory_rewind(source->file, error, error_size);
+}
+
+static int chosen(const frame_range *range, uint64_t number)
+{
+    return number >= range->first && number <= range->last && (number - range->first) % range->every == 0;
+}
+
+/* Reads one frame and, if wanted, its speeds. */
+static int read_frame(frame_source *source, char *error, size_t error_size)
+{
+    const int result = trajectory_read(source->file, &source->frame, error, error_size);
+    source->speed = NULL;
+    if (result != 1 || !source->tracker)
+        return result;
+    if (speed_next(source->tracker, &source->frame, &source->speed, &source->speed_from) == 0)
+        return 1;
+    snprintf(error, error_size, "out of memory for the speeds of frame %llu", (unsigned long long)source->frame.number);
+    return -1;
+}
+
+int frame_source_next(frame_source *source, char *error, size_t error_size)
+{
+    while (source->next <= source->range.last) {
+        const uint64_t number = source->next++;
+        const int wanted = chosen(&source->range, number);
+        const int before_wanted =
+            source->tracker && number + 1 >= source->range.first && chosen(&source->range, number + 1);
+        const int result = wanted || before_wanted ? read_frame(source, error, error_size)
+                                                   : trajectory_skip(source->file, error, error_size);
+        if (result != 1 || wanted)
+            return result;
+    }
+    return 0;
+}
+
+static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
+
+/* Takes the box of half edge `reach` around a point into the bounds. */
+static void bound_point(survey *s, const float p[3], float reach)
+{
+    for (int c = 0; c < 3; c++) {
+        s->bounds_min[c] = fminf(s->bounds_min[c], p[c] - reach);
+        s->bounds_max[c] = fmaxf(s->bounds_max[c], p[c] + reach);
+    }
+}
+
+static void survey_sphere(survey *s, const float sphere[4])
+{
+    if (!finite_point(sphere) || !isfinite(sphere[3]) || sphere[3] < 0.0f)
+        return;
+    s->drawable++;
+    bound_point(s, sphere, sphere[3]);
+}
+
+/* Vertices that no triangle uses are not seen, and do not count. */
+static void survey_triangle(survey *s, const float *position, const uint32_t index[3])
+{
+    const float *vertex[3];
+    for (int k = 0; k < 3; k++) {
+        vertex[k] = position + 3 * (size_t)index[k];
+        if (!finite_point(vertex[k]))
+            return;
+    }
+    s->drawable++;
+    for (int k = 0; k < 3; k++)
+        bound_point(s, vertex[k], 0.0f);
+}
+
+static void survey_names(survey *s, const trajectory_frame *frame, uint32_t i)
+{
+    const uint32_t id = frame->id ? frame->id[i] : i;
+    s->id_min = id < s->id_min ? id : s->id_min;
+    s->id_max = id > s->id_max ? id : s->id_max;
+    if (!frame->type)
+        return;
+    s->type_min = frame->type[i] < s->type_min ? frame->type[i] : s->type_min;
+    s->type_max = frame->type[i] > s->type_max ? frame->type[i] : s->type_max;
+}
+
+static void survey_frame(survey *s, const frame_source *source)
+{
+    const trajectory_frame *frame = &source->frame;
+    const uint32_t primitives = frame_primitives(frame);
+    s->frames++;
+    s->kind = frame->kind;
+    s->has_type |= frame->type != NULL;
+    for (uint32_t i = 0; i < primitives; i++) {
+        survey_names(s, frame, i);
+        if (frame->kind == TRAJECTORY_TRIANGLES)
+            survey_triangle(s, frame->position, frame->index + 3 * (size_t)i);
+        else
+            survey_sphere(s, frame->xyzr + 4 * (size_t)i);
+    }
+    for (uint32_t i = 0; source->speed && i < frame->count; i++) {
+        uint32_t bits;
+        if (!isfinite(source->speed[i]))
+            continue;
+        memcpy(&bits, &source->speed[i], sizeof bits);
+        s->speed_bins[(bits & 0x7FFFFFFFu) >> 19]++;
+        s->speeds++;
+    }
+}
+
+int survey_run(frame_source *source, survey *result, int quiet, const volatile sig_atomic_t *stop, char *error,
+               size_t error_size)
+{
+    program_progress progress;
+    int state;
+    memset(result, 0, sizeof *result);
+    result->id_min = result->type_min = UINT32_MAX;
+    for (int c = 0; c < 3; c++) {
+        result->bounds_min[c] = INFINITY;
+        result->bounds_max[c] = -INFINITY;
+    }
+    program_progress_start(&progress, "reading", "frames", 0.0, quiet);
+    while ((state = frame_source_next(source, error, error_size)) == 1 && !*stop) {
+        survey_frame(result, source);
+        program_progress_update(&progress, (double)result->frames, trajectory_progress(source->file));
+    }
+    program_progress_end(&progress);
+    if (state == 1) {
+        snprintf(error, error_size, "interrupted");
+        state = -1;
+    }
+    return state < 0 ? -1 : frame_source_rewind(source, error, error_size);
+}
+
+float survey_speed_quantile(const survey *s, double share)
+{
+    uint64_t below = 0;
+    for (uint32_t bin = 0; bin < SURVEY_BINS; bin++) {
+        below += s->speed_bins[bin];
+        if (below == 0 || (double)below < share * (double)s->speeds)
+            continue;
+        const uint32_t bits = ((bin + 1) << 19) - 1; /* the largest float of the bin */
+        float speed;
+        memcpy(&speed, &bits, sizeof speed);
+        return bin ? speed : 0.0f; /* bin 0: zero and the smallest denormals */
+    }
+    return 0.0f;
+}

@@ -1,0 +1,393 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The command line of cgt-render; see render_options.h. Read by argp, which is part of glibc. */
+#define _GNU_SOURCE
+#include "render/render_options.h"
+
+#include <argp.h>
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "playback/camera_path.h"
+#include "picture/contact_sheet.h"
+#include "common/program.h"
+
+enum {
+    OPTION_ORBIT = 256,
+    OPTION_VIEW,
+    OPTION_UP,
+    OPTION_FOV,
+    OPTION_COLORMAP,
+    OPTION_RANGE,
+    OPTION_LIGHT,
+    OPTION_BACKGROUND,
+    OPTION_FIRST,
+    OPTION_LAST,
+    OPTION_EVERY,
+    OPTION_SHEET,
+    OPTION_SHEET_GRID,
+    OPTION_LOG_FILE,
+    OPTION_STATS,
+    OPTION_VARIANT,
+    OPTION_WRAPPED,
+    OPTION_FPS,
+    OPTION_CLIP
+};
+
+static const struct argp_option table[] = {
+    {NULL, 0, NULL, 0, "Pictures:", 1},
+    {"output", 'o', "PATTERN", 0,
+     "Names of the pictures, .png or .exr; default out/frame_%04d.png. %04d becomes 0000, 0001, ...; folders are made. "
+     "May be given up to four times",
+     0},
+    {"no-images", 'n', NULL, 0, "Write no pictures: to measure, or for a contact sheet alone", 0},
+    {"size", 's', "WxH", 0, "Pixels; default 1280x720", 0},
+    {"antialias", 'a', "N", 0, "Trace NxN rays for each pixel: 1 (default), 2 or 4", 0},
+    {"contact-sheet", OPTION_SHEET, "FILE", 0, "Also write evenly spaced frames, small, as one .png", 0},
+    {"sheet-grid", OPTION_SHEET_GRID, "CxR", 0, "Columns and rows of the contact sheet; default 4x3", 0},
+    {NULL, 0, NULL, 0, "Camera:", 2},
+    {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", 0,
+     "Eye, target, up, vertical angle in degrees; default: one that shows all of all frames", 0},
+    {"orbit", OPTION_ORBIT, "DEGREES", 0, "Turn around the target by so much during the run", 0},
+    {"view", OPTION_VIEW, "X,Y,Z", 0,
+     "Without -c: direction from the scene to the eye; default 0.5,-1,0.45 for up z, 0.5,0.45,1 for up y", 0},
+    {"up", OPTION_UP, "x|y|z", 0, "Without -c: the axis that points up; default z for spheres, y for triangles", 0},
+    {"fov", OPTION_FOV, "DEGREES", 0, "Without -c: vertical angle; default 30", 0},
+    {NULL, 0, NULL, 0, "Colours and light:", 3},
+    {"color", 'k', "BY", 0,
+     "type, id, speed, height, one colour as RRGGBB, or auto (default): type where the file has several, else for "
+     "spheres speed where they move, else id, for triangles dcd3c4",
+     0},
+    {"colormap", OPTION_COLORMAP, "NAME", 0, "For id, speed and height: viridis (default) or plasma", 0},
+    {"range", OPTION_RANGE, "MIN,MAX", 0,
+     "Values of the map's ends; default: what the run has, for speeds 0 to the value that 99 % stay below", 0},
+    {"light", OPTION_LIGHT, "X,Y,Z", 0, "Direction towards the light; default: over the first camera's left shoulder",
+     0},
+    {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Colour behind it all; default 3a3f47", 0},
+    {NULL, 0, NULL, 0, "Input:", 4},
+    {"first", OPTION_FIRST, "N", 0, "First frame to render, counted from 0", 0},
+    {"last", OPTION_LAST, "N", 0, "Last frame to render", 0},
+    {"every", OPTION_EVERY, "N", 0, "Render every Nth frame", 0},
+    {"radius", 'r', "R", 0, "Radius of spheres whose file gives none; default 0.5, or by element in .xyz", 0},
+    {"wrapped", OPTION_WRAPPED, NULL, 0, "Prefer coordinates wrapped into the box where a file has both kinds", 0},
+    {"fps", OPTION_FPS, "N", 0, "Frames per second of a mesh's animation; default 30", 0},
+    {"clip", OPTION_CLIP, "NAME", 0, "Animation of a mesh, by its name or its number from 0; default: the first", 0},
+    {NULL, 0, NULL, 0, "Running:", 5},
+    {"threads", 't', "N", 0, "Threads that build and trace; 0 (default): one per CPU", 0},
+    {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
+    {"stats", OPTION_STATS, NULL, 0, "Print what the structure and the rays did; counting makes tracing slower", 0},
+    {"log-file", OPTION_LOG_FILE, "FILE", 0, "Write one line of times per frame, tab-separated", 0},
+    {"quiet", 'q', NULL, 0, "No progress", 0},
+    {"verbose", 'v', NULL, 0, "Show the library's log", 0},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+/* Two whole numbers with an x between them. */
+static int parse_grid(const char *text, uint32_t *columns, uint32_t *rows, char *error, size_t error_size)
+{
+    char first[16];
+    const char *x = strchr(text, 'x');
+    if (!x || (size_t)(x - text) >= sizeof first) {
+        snprintf(error, error_size, "\"%s\" is not of the form 4x3", text);
+        return -1;
+    }
+    memcpy(first, text, (size_t)(x - text));
+    first[x - text] = '\0';
+    return program_parse_u32(first, 1, CONTACT_SHEET_MAX_EDGE, columns, error, error_size) ||
+                   program_parse_u32(x + 1, 1, CONTACT_SHEET_MAX_EDGE, rows, error, error_size)
+               ? -1
+               : 0;
+}
+
+static int parse_direction(const char *text, float direction[3], char *error, size_t error_size)
+{
+    float v[3];
+    if (program_parse_floats(text, 3, v, error, error_size))
+        return -1;
+    if (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f) {
+        snprintf(error, error_size, "0,0,0 is no direction");
+        return -1;
+    }
+    memcpy(direction, v, sizeof v);
+    return 0;
+}
+
+static int parse_axis(const char *text, float up[3], char *error, size_t error_size)
+{
+    if (strlen(text) != 1 || *text < 'x' || *text > 'z') {
+        snprintf(error, error_size, "\"%s\" is not x, y or z", text);
+        return -1;
+    }
+    for (int c = 0; c < 3; c++)
+        up[c] = *text - 'x' == c ? 1.0f : 0.0f;
+    return 0;
+}
+
+static int is_rgb(const char *text) { return strlen(text) == 6 && strspn(text, "0123456789abcdefABCDEF") == 6; }
+
+static int parse_rgb(const char *text, uint8_t rgb[3], char *error, size_t error_size)
+{
+    if (!is_rgb(text)) {
+        snprintf(error, error_size, "\"%s\" is not of the form RRGGBB, in hexadecimal", text);
+        return -1;
+    }
+    const unsigned long value = strtoul(text, NULL, 16);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (uint8_t)(value >> (16 - 8 * c) & 255u);
+    return 0;
+}
+
+static int parse_range(const char *text, render_options *o, char *error, size_t error_size)
+{
+    float v[2];
+    if (program_parse_floats(text, 2, v, error, error_size))
+        return -1;
+    if (v[0] > v[1]) {
+        snprintf(error, error_size, "\"%s\": the first value is above the second", text);
+        return -1;
+    }
+    o->range_min = v[0];
+    o->range_max = v[1];
+    o->has_range = 1;
+    return 0;
+}
+
+static int parse_color(const char *text, render_options *o, char *error, size_t error_size)
+{
+    static const char *const names[] = {"auto", "type", "id", "speed", "height"};
+    static const coloring_by values[] = {COLORING_AUTO, COLORING_TYPE, COLORING_ID, COLORING_SPEED, COLORING_HEIGHT};
+    uint8_t rgb[3];
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (strcmp(text, names[i]) == 0) {
+            o->by = values[i];
+            return 0;
+        }
+    if (!is_rgb(text)) {
+        snprintf(error, error_size, "\"%s\" is not type, id, speed, height, auto or a colour as RRGGBB", text);
+        return -1;
+    }
+    if (parse_rgb(text, rgb, error, error_size))
+        return -1;
+    o->by = COLORING_PLAIN;
+    for (int c = 0; c < 3; c++)
+        o->plain[c] = (float)rgb[c] / 255.0f;
+    return 0;
+}
+
+static int parse_output(const char *text, render_options *o, char *error, size_t error_size)
+{
+    if (o->output_count == RENDER_MAX_OUTPUTS) {
+        snprintf(error, error_size, "more than %d patterns", RENDER_MAX_OUTPUTS);
+        return -1;
+    }
+    if (out_path_parse(&o->outputs[o->output_count], text, error, error_size))
+        return -1;
+    if (!out_path_ends_in(text, ".png") && !out_path_ends_in(text, ".exr")) {
+        snprintf(error, error_size, "\"%s\" ends neither in .png nor in .exr", text);
+        return -1;
+    }
+    o->output_count++;
+    return 0;
+}
+
+static int parse_samples(const char *text, uint32_t *samples, char *error, size_t error_size)
+{
+    uint32_t n;
+    if (program_parse_u32(text, 1, 4, &n, error, error_size))
+        return -1;
+    if (n == 3) {
+        snprintf(error, error_size, "3 is not 1, 2 or 4");
+        return -1;
+    }
+    *samples = n;
+    return 0;
+}
+
+static int parse_colormap(const char *text, const colormap **map, char *error, size_t error_size)
+{
+    const colormap *found = colormap_find(text);
+    if (!found) {
+        snprintf(error, error_size, "there is no map \"%s\"", text);
+        return -1;
+    }
+    *map = found;
+    return 0;
+}
+
+static int parse_sheet(const char *text, const char **file, char *error, size_t error_size)
+{
+    if (!out_path_ends_in(text, ".png")) {
+        snprintf(error, error_size, "\"%s\" does not end in .png", text);
+        return -1;
+    }
+    *file = text;
+    return 0;
+}
+
+typedef struct parse_state {
+    render_options *options;
+    int no_images;
+    int has_view, has_up, has_fov;
+} parse_state;
+
+/* Options that say how pictures look. Returns 1 where key is none of them, 0, or -1 with a sentence. */
+static int parse_picture(int key, const char *arg, parse_state *s, char *error, size_t size)
+{
+    render_options *o = s->options;
+    switch (key) {
+    case 'o': return parse_output(arg, o, error, size);
+    case 'n': s->no_images = 1; return 0;
+    case 's': return program_parse_size(arg, &o->width, &o->height, error, size);
+    case 'a': return parse_samples(arg, &o->samples, error, size);
+    case OPTION_SHEET: return parse_sheet(arg, &o->contact_sheet, error, size);
+    case OPTION_SHEET_GRID: return parse_grid(arg, &o->sheet_columns, &o->sheet_rows, error, size);
+    case 'c': o->has_camera = 1; return program_parse_camera(arg, &o->camera, error, size);
+    case OPTION_ORBIT: return program_parse_float(arg, -36000.0f, 36000.0f, &o->orbit, error, size);
+    case OPTION_VIEW: s->has_view = 1; return parse_direction(arg, o->view, error, size);
+    case OPTION_UP: s->has_up = 1; return parse_axis(arg, o->up, error, size);
+    case OPTION_FOV: s->has_fov = 1; return program_parse_float(arg, 0.1f, 170.0f, &o->fov, error, size);
+    case 'k': return parse_color(arg, o, error, size);
+    case OPTION_COLORMAP: return parse_colormap(arg, &o->map, error, size);
+    case OPTION_RANGE: return parse_range(arg, o, error, size);
+    case OPTION_LIGHT: o->has_light = 1; return parse_direction(arg, o->light, error, size);
+    case OPTION_BACKGROUND: return parse_rgb(arg, o->background, error, size);
+    default: return 1;
+    }
+}
+
+static int parse_fps(const char *text, double *fps, char *error, size_t error_size)
+{
+    float value;
+    if (program_parse_float(text, 1e-3f, 1e6f, &value, error, error_size))
+        return -1;
+    *fps = (double)value;
+    return 0;
+}
+
+/* Options that say what is read and how the program runs. Results as parse_picture. */
+static int parse_run(int key, const char *arg, parse_state *s, char *error, size_t size)
+{
+    render_options *o = s->options;
+    switch (key) {
+    case OPTION_FIRST: return program_parse_u64(arg, 0, UINT64_MAX - 1, &o->range.first, error, size);
+    case OPTION_LAST: return program_parse_u64(arg, 0, UINT64_MAX - 1, &o->range.last, error, size);
+    case OPTION_EVERY: return program_parse_u64(arg, 1, UINT64_MAX - 1, &o->range.every, error, size);
+    case 'r': return program_parse_float(arg, FLT_MIN, 1e30f, &o->reading.radius, error, size);
+    case OPTION_WRAPPED: o->reading.wrapped = 1; return 0;
+    case OPTION_FPS: return parse_fps(arg, &o->reading.fps, error, size);
+    case OPTION_CLIP: o->reading.clip = arg; return 0;
+    case 't': return program_parse_u32(arg, 0, 1024, &o->threads, error, size);
+    case OPTION_VARIANT: o->variant = arg; return 0;
+    case OPTION_STATS: o->stats = 1; return 0;
+    case OPTION_LOG_FILE: o->log_file = arg; return 0;
+    case 'q': o->quiet = 1; return 0;
+    case 'v': o->verbose = 1; return 0;
+    default: return 1;
+    }
+}
+
+static const char *option_name(int key)
+{
+    for (const struct argp_option *row = table; row->name || row->doc; row++)
+        if (row->key == key && row->name)
+            return row->name;
+    return "option";
+}
+
+static int is_zero(const float v[3]) { return v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f; }
+
+void render_options_axes(render_options *options, trajectory_kind kind)
+{
+    float *up = options->up, *view = options->view;
+    if (is_zero(up)) {
+        const int axis = kind == TRAJECTORY_TRIANGLES ? 1 : 2;
+        up[axis] = 1.0f;
+        if (!is_zero(view) && camera_path_is_along(view, up)) {
+            up[axis] = 0.0f;
+            up[3 - axis] = 1.0f;
+        }
+    }
+    if (!is_zero(view))
+        return;
+    const int axis = up[0] != 0.0f ? 0 : up[1] != 0.0f ? 1 : 2;
+    view[axis] = 0.45f;
+    view[(axis + 1) % 3] = axis == 2 ? 0.5f : 1.0f;
+    view[(axis + 2) % 3] = axis == 2 ? -1.0f : 0.5f;
+}
+
+/* What only the whole command line can tell. */
+static void finish(struct argp_state *state, parse_state *s)
+{
+    render_options *o = s->options;
+    char error[PROGRAM_ERROR_SIZE];
+    if (!o->input)
+        argp_error(state, "no trajectory: give a .lammpstrj, .xyz or .frames file, or a mesh");
+    if (s->no_images && o->output_count)
+        argp_error(state, "--output and --no-images exclude each other");
+    if (!s->no_images && !o->output_count && parse_output("out/frame_%04d.png", o, error, sizeof error))
+        argp_error(state, "%s", error);
+    if (o->range.last < o->range.first)
+        argp_error(state, "--last is before --first");
+    if ((uint64_t)o->width * o->height * o->samples * o->samples > RENDER_MAX_PIXELS ||
+        o->width > RENDER_MAX_EDGE / o->samples || o->height > RENDER_MAX_EDGE / o->samples)
+        argp_error(state, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width, o->height,
+                   o->samples, o->samples, RENDER_MAX_EDGE, (unsigned long long)RENDER_MAX_PIXELS);
+    if (o->has_camera && (s->has_view || s->has_up || s->has_fov))
+        argp_error(state, "--view, --up and --fov are for the automatic camera: leave them or --camera out");
+    if (s->has_view && s->has_up && camera_path_is_along(o->view, o->up))
+        argp_error(state, "--view: the direction must not be along the axis that points up");
+}
+
+static error_t parse_key(int key, char *arg, struct argp_state *state)
+{
+    parse_state *s = state->input;
+    char error[PROGRAM_ERROR_SIZE];
+    if (key == ARGP_KEY_ARG) {
+        if (s->options->input)
+            argp_error(state, "more than one trajectory: %s", arg);
+        s->options->input = arg;
+        return 0;
+    }
+    if (key == ARGP_KEY_END) {
+        finish(state, s);
+        return 0;
+    }
+    int result = parse_picture(key, arg, s, error, sizeof error);
+    if (result == 1)
+        result = parse_run(key, arg, s, error, sizeof error);
+    if (result < 0)
+        argp_error(state, "--%s: %s", option_name(key), error);
+    return result == 1 ? ARGP_ERR_UNKNOWN : 0;
+}
+
+void render_options_parse(render_options *options, int argc, char **argv)
+{
+    static const struct argp parser = {
+        table,
+        parse_key,
+        "TRAJECTORY",
+        "Renders the moving spheres or triangles of a trajectory: LAMMPS dump text (.lammpstrj), .xyz or .frames; or a "
+        "mesh with its animation: .obj, .ply, .gltf, .dae, .x, .ifc and others.\v"
+        "The structure is built anew for every frame. Exit codes: 0 all was rendered, 1 something failed, 2 the "
+        "command line is wrong.\n\n"
+        "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj",
+        NULL,
+        NULL,
+        NULL};
+    parse_state state = {options, 0, 0, 0, 0};
+    memset(options, 0, sizeof *options);
+    trajectory_options_init(&options->reading);
+    options->reading.fps = 0.0; /* the reader's default, and not given */
+    cgt_camera_init(&options->camera);
+    options->range = (frame_range){0, UINT64_MAX - 1, 1};
+    options->sheet_columns = 4;
+    options->sheet_rows = 3;
+    options->width = 1280;
+    options->height = 720;
+    options->samples = 1;
+    options->fov = 30.0f;
+    memcpy(options->plain, (const float[]){0xdc / 255.0f, 0xd3 / 255.0f, 0xc4 / 255.0f}, sizeof options->plain);
+    memcpy(options->background, (const uint8_t[]){0x3a, 0x3f, 0x47}, sizeof options->background);
+    argp_parse(&parser, argc, argv, 0, NULL, &state);
+}

@@ -1,0 +1,219 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What cgt-render says about a run; see render_report.h. */
+#include "render/render_report.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *unit_of(const render_report *report)
+{
+    return report->kind == TRAJECTORY_TRIANGLES ? "triangles" : "spheres";
+}
+
+int render_report_open(render_report *report, const char *log_path, char *error, size_t error_size)
+{
+    memset(report, 0, sizeof *report);
+    if (!log_path)
+        return 0;
+    report->log_path = log_path;
+    report->log = fopen(log_path, "w");
+    if (!report->log) {
+        snprintf(error, error_size, "%s: cannot write: %s", log_path, strerror(errno));
+        return -1;
+    }
+    fprintf(report->log, "frame\tstep\tprimitives\tskipped\thits\tread_ms\tcolor_ms\tbuild_ms\ttrace_ms\twrite_ms\n");
+    return 0;
+}
+
+static void add_counts(cgt_trace_statistics *sum, const cgt_trace_statistics *one)
+{
+    sum->rays += one->rays;
+    sum->invalid_rays += one->invalid_rays;
+    sum->hits += one->hits;
+    sum->tiles += one->tiles;
+    sum->packets += one->packets;
+    sum->split_packets += one->split_packets;
+    sum->slices += one->slices;
+    sum->cells += one->cells;
+    sum->references += one->references;
+    sum->mailbox_skipped += one->mailbox_skipped;
+    sum->cull_tests += one->cull_tests;
+    sum->culled += one->culled;
+    sum->packet_tests += one->packet_tests;
+    sum->ray_tests += one->ray_tests;
+    sum->double_tests += one->double_tests;
+    sum->exact_tests += one->exact_tests;
+    sum->exact_values += one->exact_values;
+    sum->early_exits += one->early_exits;
+    sum->packet_size = one->packet_size;
+    sum->tile = one->tile;
+    sum->loop = one->loop;
+}
+
+static void write_log(FILE *log, const frame_record *f)
+{
+    fprintf(log, "%" PRIu64 "\t%" PRId64 "\t%" PRIu32 "\t%" PRIu32 "\t%" PRIu64, f->number, f->step, f->primitives,
+            f->skipped_not_finite + f->skipped_radius + f->skipped_degenerate, f->hits);
+    fprintf(log, "\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\n", f->read_ms, f->color_ms, f->build_ms, f->trace_ms, f->write_ms);
+}
+
+int render_report_add(render_report *report, const frame_record *frame, const cgt_scene_statistics *scene,
+                      const cgt_trace_statistics *traced, char *error, size_t error_size)
+{
+    if (report->count == report->capacity) {
+        const size_t capacity = report->capacity ? report->capacity * 2 : 256;
+        frame_record *grown =
+            capacity <= SIZE_MAX / sizeof *grown ? realloc(report->frames, capacity * sizeof *grown) : NULL;
+        if (!grown) {
+            snprintf(error, error_size, "out of memory after %zu frames", report->count);
+            return -1;
+        }
+        report->frames = grown;
+        report->capacity = capacity;
+    }
+    report->frames[report->count++] = *frame;
+    if (traced) {
+        add_counts(&report->traced, traced);
+        if (!report->has_stats || scene->primitives >= report->scene.primitives)
+            report->scene = *scene;
+        report->has_stats = 1;
+    }
+    if (report->log)
+        write_log(report->log, frame);
+    return 0;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The member at `offset` of all frames: its sum, and its median through scratch. */
+static double column(const render_report *report, size_t offset, double *scratch, double *median)
+{
+    double sum = 0.0;
+    const size_t n = report->count;
+    for (size_t i = 0; i < n; i++) {
+        memcpy(&scratch[i], (const char *)&report->frames[i] + offset, sizeof scratch[i]);
+        sum += scratch[i];
+    }
+    qsort(scratch, n, sizeof *scratch, compare);
+    *median = n % 2 ? scratch[n / 2] : 0.5 * (scratch[n / 2 - 1] + scratch[n / 2]);
+    return sum;
+}
+
+static void print_rate(FILE *to, const char *name, size_t frames, double ms, const char *what)
+{
+    if (ms > 0.0)
+        fprintf(to, "%-18s%9.1f     %s\n", name, (double)frames * 1000.0 / ms, what);
+}
+
+static void print_times(const render_report *report, uint64_t rays, uint64_t hits, uint32_t images, FILE *to)
+{
+    double read, color, build, trace, write;
+    double *scratch = malloc(report->count * sizeof *scratch);
+    if (!scratch) {
+        fprintf(to, "(no memory for the medians)\n");
+        return;
+    }
+    const double reads = column(report, offsetof(frame_record, read_ms), scratch, &read);
+    const double colors = column(report, offsetof(frame_record, color_ms), scratch, &color);
+    const double builds = column(report, offsetof(frame_record, build_ms), scratch, &build);
+    const double traces = column(report, offsetof(frame_record, trace_ms), scratch, &trace);
+    const double writes = column(report, offsetof(frame_record, write_ms), scratch, &write);
+    free(scratch);
+    fprintf(to, "%-18s%9.3f ms  median\n", "build", build);
+    fprintf(to, "%-18s%9.3f ms  median, shading included; %.1f %% of the rays hit\n", "trace", trace,
+            rays ? 100.0 * (double)hits / ((double)rays * (double)report->count) : 0.0);
+    fprintf(to, "%-18s%9.3f ms  median\n", "colours", color);
+    if (images)
+        fprintf(to, "%-18s%9.3f ms  median\n", "image writing", write);
+    fprintf(to, "%-18s%9.3f ms  median\n", "reading", read);
+    const double frame = colors + builds + traces;
+    print_rate(to, "frames per second", report->count, frame, "colours, build and trace");
+    if (images)
+        print_rate(to, "", report->count, frame + writes, "with image writing");
+    print_rate(to, "", report->count, frame + writes + reads,
+               images ? "with image writing and reading" : "with reading");
+}
+
+static void print_stats(const render_report *report, FILE *to)
+{
+    const cgt_scene_statistics *s = &report->scene;
+    const cgt_trace_statistics *t = &report->traced;
+    const double n = (double)report->count, rays = t->rays ? (double)t->rays : 1.0;
+    fprintf(to, "structure         %" PRIu32 "x%" PRIu32 "x%" PRIu32 " cells; %s\n", s->resolution[0], s->resolution[1],
+            s->resolution[2], s->reason);
+    fprintf(to, "references        %" PRIu64, s->references);
+    if (s->structure == CGT_STRUCTURE_QUEUE_GRID)
+        fprintf(to, ", %" PRIu64 " of them overflow in %" PRIu32 " cells; %" PRIu32 " %s larger than a cell",
+                s->overflow_references, s->overflow_cells, s->large_primitives, unit_of(report));
+    fprintf(to, "\nmemory            %zu bytes", s->bytes);
+    if (s->structure == CGT_STRUCTURE_QUEUE_GRID)
+        fprintf(to, "; on a Cell SPU %zu bytes: %s its 256 KB", s->local_store_bytes,
+                s->fits_local_store ? "fits into" : "does not fit into");
+    fputc('\n', to);
+    fprintf(to, "                  (the frame with the most %s; below: per frame)\n", unit_of(report));
+    fprintf(to, "tiles             %.0f went through the grid as a whole\n", (double)t->tiles / n);
+    fprintf(to, "packets           %.0f of %" PRIu32 "x%" PRIu32 " rays, %.0f split, %.0f left early\n",
+            (double)t->packets / n, t->packet_size, t->packet_size, (double)t->split_packets / n,
+            (double)t->early_exits / n);
+    fprintf(to, "slices, cells     %.0f slices, %.0f cells, %.0f references\n", (double)t->slices / n,
+            (double)t->cells / n, (double)t->references / n);
+    fprintf(to, "culling           %.0f %s tested, %.0f culled\n", (double)t->cull_tests / n, unit_of(report),
+            (double)t->culled / n);
+    fprintf(to, "tests             %.0f %s against packets, %.0f against rays (%.2f a ray)\n",
+            (double)t->packet_tests / n, unit_of(report), (double)t->ray_tests / n, (double)t->ray_tests / rays);
+    fprintf(to, "decided           %.0f tests in double, %.0f exactly; %.0f values exactly\n",
+            (double)t->double_tests / n, (double)t->exact_tests / n, (double)t->exact_values / n);
+}
+
+void render_report_print(const render_report *report, uint64_t rays, uint32_t images, FILE *to)
+{
+    uint32_t least = UINT32_MAX, most = 0;
+    uint64_t not_finite = 0, negative = 0, flat = 0, hits = 0;
+    if (report->count == 0)
+        return;
+    for (size_t i = 0; i < report->count; i++) {
+        const frame_record *f = &report->frames[i];
+        least = f->primitives < least ? f->primitives : least;
+        most = f->primitives > most ? f->primitives : most;
+        not_finite += f->skipped_not_finite;
+        negative += f->skipped_radius;
+        flat += f->skipped_degenerate;
+        hits += f->hits;
+    }
+    fprintf(to, "frames            %9zu\n", report->count);
+    fprintf(to, "%-18s%9" PRIu32 "%s", unit_of(report), least, most == least ? "\n" : "");
+    if (most != least)
+        fprintf(to, " to %" PRIu32 "\n", most);
+    if (not_finite + negative + flat)
+        fprintf(to, "skipped %-10s%9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64 " %s\n",
+                unit_of(report), not_finite + negative + flat, not_finite, negative + flat,
+                report->kind == TRAJECTORY_TRIANGLES ? "without an area" : "with a negative radius");
+    print_times(report, rays, hits, images, to);
+    if (report->has_stats)
+        print_stats(report, to);
+}
+
+int render_report_close(render_report *report, char *error, size_t error_size)
+{
+    int result = 0;
+    if (report->log) {
+        const int failed = ferror(report->log);
+        errno = 0;
+        if (fclose(report->log) != 0 || failed) {
+            snprintf(error, error_size, "%s: cannot write: %s", report->log_path,
+                     errno ? strerror(errno) : "the device is full or gone");
+            result = -1;
+        }
+    }
+    free(report->frames);
+    memset(report, 0, sizeof *report);
+    return result;
+}

@@ -1,0 +1,320 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Reading .frames. Bytes become numbers one by one, so that the machine's byte order does not matter; compilers see
+ * through it where it is the file's own. Counts are checked against the file before any memory is asked for. */
+#define _FILE_OFFSET_BITS 64
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_internal.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define HEADER_BYTES 24u
+#define TRIANGLE_BYTES 12u
+#define CHUNK 65536u /* spheres, vertices, triangles read at a time */
+
+typedef struct frames_state {
+    trajectory_kind kind;
+    uint32_t frames; /* in the file */
+    uint64_t at;     /* bytes read */
+    /* Files of triangles. */
+    uint32_t triangles;
+    uint32_t needed; /* vertices that the index refers to: its largest number plus one */
+    size_t index_capacity, vertex_capacity;
+    uint32_t *index;
+    float *position;
+} frames_state;
+
+/* What a frame is made of. */
+typedef struct frames_item {
+    trajectory_kind kind;
+    uint32_t floats; /* each */
+    const char *name;
+} frames_item;
+
+static const frames_item item_spheres = {TRAJECTORY_SPHERES, 4, "spheres"};
+static const frames_item item_vertices = {TRAJECTORY_TRIANGLES, 3, "vertices"};
+
+static uint32_t u32_from_bytes(const unsigned char *b)
+{
+    return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+/* Turns little-endian bytes into the machine's 32-bit numbers, in place. */
+static void to_host(void *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        unsigned char *const bytes = (unsigned char *)values + 4 * i;
+        const uint32_t bits = u32_from_bytes(bytes);
+        memcpy(bytes, &bits, 4);
+    }
+}
+
+/* Reads bytes that must be there; where: "count". */
+static int read_bytes(trajectory *t, void *bytes, size_t size, const char *where)
+{
+    frames_state *const s = t->state;
+    errno = 0;
+    if (fread(bytes, 1, size, t->file) != size) {
+        if (ferror(t->file)) {
+            return trajectory_fail(t, 0, "%s", strerror(errno != 0 ? errno : EIO));
+        }
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": the file ends in the %s: it is cut off", t->next, where);
+    }
+    s->at += size;
+    return 1;
+}
+
+/* ---- Header and index --------------------------------------------------------------------------------------- */
+
+static const frames_item *item_of(const trajectory *t)
+{
+    const frames_state *const s = t->state;
+    return s->kind == TRAJECTORY_SPHERES ? &item_spheres : &item_vertices;
+}
+
+/* The triangles must fit what is left of the file, and be no more than allowed, before memory is asked for. */
+static int check_triangles(trajectory *t, uint32_t triangles)
+{
+    if (triangles > t->options.max_count) {
+        return trajectory_fail(t, 0, "%" PRIu32 " triangles are more than the limit of %" PRIu64, triangles,
+                               t->options.max_count);
+    }
+    if (t->regular && triangles > (t->file_size - HEADER_BYTES) / TRIANGLE_BYTES) {
+        return trajectory_fail(t, 0, "the file ends before the last of %" PRIu32 " triangles: it is cut off",
+                               triangles);
+    }
+    return 1;
+}
+
+static int check_kind(trajectory *t, const unsigned char *header)
+{
+    frames_state *const s = t->state;
+    const uint32_t kind = u32_from_bytes(header + 8);
+    const uint32_t triangles = u32_from_bytes(header + 16);
+    if (kind != TRAJECTORY_SPHERES && kind != TRAJECTORY_TRIANGLES) {
+        return trajectory_fail(t, 0, "kind %" PRIu32 " is neither spheres (1) nor triangles (2)", kind);
+    }
+    if (u32_from_bytes(header + 20) != 0) {
+        return trajectory_fail(t, 0, "the header must end in zeros");
+    }
+    if (kind == TRAJECTORY_SPHERES && triangles != 0) {
+        return trajectory_fail(t, 0, "the header of a file of spheres says %" PRIu32 " triangles", triangles);
+    }
+    s->kind = (trajectory_kind)kind;
+    s->triangles = triangles;
+    return check_triangles(t, triangles);
+}
+
+static int check_frames(trajectory *t)
+{
+    const frames_state *const s = t->state;
+    if (!t->regular) {
+        return 1;
+    }
+    const uint64_t rest = t->file_size - s->at;
+    if (s->frames == 0 && rest > 0) {
+        return trajectory_fail(t, 0, "the header says 0 frames, but data follow: the file was not finished");
+    }
+    if ((uint64_t)s->frames * 4 > rest) {
+        return trajectory_fail(t, 0, "%" PRIu32 " frames cannot lie in %" PRIu64 " bytes: the file is cut off",
+                               s->frames, rest);
+    }
+    return 1;
+}
+
+static int reserve_index(trajectory *t, size_t triangles)
+{
+    frames_state *const s = t->state;
+    if (triangles > s->index_capacity || s->index == NULL) {
+        size_t capacity = 2 * s->index_capacity < triangles ? triangles : 2 * s->index_capacity;
+        capacity = capacity > 0 ? capacity : 1;
+        if (trajectory_grow(&s->index, capacity, TRIANGLE_BYTES)) {
+            return trajectory_fail(t, 0, "not enough memory for %zu triangles", capacity);
+        }
+        s->index_capacity = capacity;
+    }
+    return 1;
+}
+
+/* Reads the index; each number has to be a vertex of every frame, which is checked against the largest. */
+static int read_index(trajectory *t)
+{
+    frames_state *const s = t->state;
+    s->needed = 0;
+    if (reserve_index(t, 0) < 0) {
+        return -1;
+    }
+    for (uint32_t done = 0; done < s->triangles;) {
+        const uint32_t part = s->triangles - done < CHUNK ? s->triangles - done : CHUNK;
+        if (reserve_index(t, (size_t)done + part) < 0) {
+            return -1;
+        }
+        uint32_t *const index = s->index + 3 * (size_t)done;
+        if (read_bytes(t, index, (size_t)part * TRIANGLE_BYTES, "index") < 0) {
+            return -1;
+        }
+        to_host(index, 3 * (size_t)part);
+        for (size_t i = 0; i < 3 * (size_t)part; i++) {
+            if (index[i] == UINT32_MAX) {
+                return trajectory_fail(t, 0, "triangle %zu: vertex 4294967295 is out of range", done + i / 3);
+            }
+            s->needed = index[i] >= s->needed ? index[i] + 1 : s->needed;
+        }
+        done += part;
+    }
+    return 1;
+}
+
+static int frames_begin(trajectory *t)
+{
+    unsigned char header[HEADER_BYTES];
+    frames_state *const s = t->state;
+    s->at = 0;
+    errno = 0;
+    const size_t got = fread(header, 1, sizeof header, t->file);
+    if (ferror(t->file)) {
+        return trajectory_fail(t, 0, "%s", strerror(errno != 0 ? errno : EIO));
+    }
+    if (got < 8 || memcmp(header, "CGTFRAM1", 8) != 0) {
+        return trajectory_fail(t, 0, "not a .frames file: it does not begin with CGTFRAM1");
+    }
+    if (got < sizeof header || (t->regular && t->file_size < HEADER_BYTES)) {
+        return trajectory_fail(t, 0, "the file ends in the header: it is cut off");
+    }
+    s->at = HEADER_BYTES;
+    s->frames = u32_from_bytes(header + 12);
+    if (check_kind(t, header) < 0 || (s->kind == TRAJECTORY_TRIANGLES && read_index(t) < 0)) {
+        return -1;
+    }
+    return check_frames(t);
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------- */
+
+/* Reads a frame's count: 1, 0 after the last frame, -1. */
+static int read_count(trajectory *t, uint32_t *count)
+{
+    frames_state *const s = t->state;
+    if (t->next == s->frames) {
+        if (fgetc(t->file) != EOF) {
+            return trajectory_fail(t, 0, "data follow the %" PRIu32 " frames that the header says", s->frames);
+        }
+        return 0;
+    }
+    unsigned char bytes[4];
+    if (read_bytes(t, bytes, sizeof bytes, "count") < 0) {
+        return -1;
+    }
+    *count = u32_from_bytes(bytes);
+    const frames_item *const item = item_of(t);
+    if (*count > t->options.max_count) {
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " %s are more than the limit of %" PRIu64, t->next,
+                               *count, item->name, t->options.max_count);
+    }
+    if (*count < s->needed) {
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " vertices, but a triangle has vertex %" PRIu32,
+                               t->next, *count, s->needed - 1);
+    }
+    if (t->regular && (s->at > t->file_size || *count > (t->file_size - s->at) / (4 * item->floats))) {
+        return trajectory_fail(t, 0,
+                               "frame %" PRIu64 ": the file ends before the last of %" PRIu32 " %s: it is cut off",
+                               t->next, *count, item->name);
+    }
+    return 1;
+}
+
+/* Makes room as trajectory_reserve does, for what the file holds. */
+static int reserve_items(trajectory *t, size_t count, size_t expected)
+{
+    frames_state *const s = t->state;
+    if (s->kind == TRAJECTORY_SPHERES) {
+        return trajectory_reserve(t, count, expected);
+    }
+    if (count > s->vertex_capacity || s->position == NULL) {
+        size_t capacity = 2 * s->vertex_capacity > expected ? expected : 2 * s->vertex_capacity;
+        capacity = capacity < count ? count : capacity;
+        capacity = capacity > 0 ? capacity : 1;
+        if (trajectory_grow(&s->position, capacity, 3 * sizeof *s->position)) {
+            return trajectory_fail(t, 0, "not enough memory for %zu vertices", capacity);
+        }
+        s->vertex_capacity = capacity;
+    }
+    return 1;
+}
+
+static int frames_read(trajectory *t, trajectory_frame *frame)
+{
+    frames_state *const s = t->state;
+    const frames_item *const item = item_of(t);
+    uint32_t count = 0;
+    const int got = read_count(t, &count);
+    if (got <= 0) {
+        return got;
+    }
+    if (reserve_items(t, 0, count) < 0) {
+        return -1;
+    }
+    for (uint32_t done = 0; done < count;) {
+        const uint32_t part = count - done < CHUNK ? count - done : CHUNK;
+        if (reserve_items(t, (size_t)done + part, count) < 0) {
+            return -1;
+        }
+        float *const array = item->kind == TRAJECTORY_SPHERES ? t->store.xyzr : s->position;
+        float *const values = array + (size_t)item->floats * done;
+        if (read_bytes(t, values, (size_t)part * item->floats * 4, item->name) < 0) {
+            return -1;
+        }
+        to_host(values, (size_t)part * item->floats);
+        done += part;
+    }
+    if (item->kind == TRAJECTORY_SPHERES) {
+        trajectory_frame_fill(t, frame, count);
+        return 1;
+    }
+    trajectory_frame_fill_triangles(t, frame, count, s->triangles);
+    frame->index = s->index;
+    frame->position = s->position;
+    return 1;
+}
+
+static int frames_skip(trajectory *t)
+{
+    frames_state *const s = t->state;
+    if (!t->regular) {
+        trajectory_frame frame;
+        return frames_read(t, &frame);
+    }
+    uint32_t count = 0;
+    const int got = read_count(t, &count);
+    if (got <= 0) {
+        return got;
+    }
+    const uint64_t bytes = (uint64_t)count * item_of(t)->floats * 4;
+    if (fseeko(t->file, (off_t)bytes, SEEK_CUR) != 0) {
+        return trajectory_fail(t, 0, "%s", strerror(errno));
+    }
+    s->at += bytes;
+    return 1;
+}
+
+static void frames_end(trajectory *t)
+{
+    frames_state *const s = t->state;
+    free(s->index);
+    free(s->position);
+}
+
+static const char *const endings[] = {".frames", NULL};
+
+const trajectory_format trajectory_format_frames = {
+    .endings = endings,
+    .state_size = sizeof(frames_state),
+    .begin = frames_begin,
+    .read = frames_read,
+    .skip = frames_skip,
+    .end = frames_end,
+};

@@ -1,0 +1,209 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Writing .frames. The number of frames is not known before the end, so it is 0 until close puts it there: a file that
+ * was left half-written cannot be taken for a whole one. */
+#define _FILE_OFFSET_BITS 64
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FRAMES_AT 12 /* offset of the number of frames */
+#define CHUNK 4096u  /* numbers encoded at a time */
+
+struct frames_writer {
+    FILE *file;
+    char *path;
+    trajectory_kind kind;
+    uint32_t needed; /* vertices that the index refers to */
+    uint32_t frames;
+    int failed;
+    char message[1024];
+};
+
+static int fail(frames_writer *w, const char *what)
+{
+    if (!w->failed) { /* the first error is the cause of the others */
+        snprintf(w->message, sizeof w->message, "%.700s: %s", w->path, what);
+        w->failed = 1;
+    }
+    return -1;
+}
+
+static int fail_errno(frames_writer *w) { return fail(w, strerror(errno != 0 ? errno : EIO)); }
+
+static void copy_message(const frames_writer *w, char *error, size_t error_size)
+{
+    if (error != NULL && error_size > 0) {
+        snprintf(error, error_size, "%s", w->message);
+    }
+}
+
+static void u32_to_bytes(uint32_t value, unsigned char *bytes)
+{
+    for (int i = 0; i < 4; i++) {
+        bytes[i] = (unsigned char)(value >> (8 * i));
+    }
+}
+
+static int write_bytes(frames_writer *w, const void *bytes, size_t size)
+{
+    errno = 0;
+    return fwrite(bytes, 1, size, w->file) == size ? 0 : fail_errno(w);
+}
+
+static int write_u32(frames_writer *w, uint32_t value)
+{
+    unsigned char bytes[4];
+    u32_to_bytes(value, bytes);
+    return write_bytes(w, bytes, sizeof bytes);
+}
+
+/* Writes numbers of 32 bits each, floats or whole ones. */
+static int write_numbers(frames_writer *w, const void *values, size_t count)
+{
+    unsigned char bytes[4 * CHUNK];
+    for (size_t done = 0; done < count;) {
+        const size_t part = count - done < CHUNK ? count - done : CHUNK;
+        for (size_t i = 0; i < part; i++) {
+            uint32_t bits;
+            memcpy(&bits, (const unsigned char *)values + 4 * (done + i), sizeof bits);
+            u32_to_bytes(bits, bytes + 4 * i);
+        }
+        if (write_bytes(w, bytes, 4 * part)) {
+            return -1;
+        }
+        done += part;
+    }
+    return 0;
+}
+
+/* Opens the file and writes the header. */
+static int start(frames_writer *w, uint32_t triangles)
+{
+    errno = 0;
+    w->file = fopen(w->path, "wb");
+    if (w->file == NULL) {
+        return fail_errno(w);
+    }
+    if (fseeko(w->file, 0, SEEK_CUR) != 0) {
+        return fail(w, "cannot hold .frames: the number of frames has to be written at the end, into the header");
+    }
+    return write_bytes(w, "CGTFRAM1", 8) || write_u32(w, (uint32_t)w->kind) || write_u32(w, 0) ||
+                   write_u32(w, triangles) || write_u32(w, 0)
+               ? -1
+               : 0;
+}
+
+static void release(frames_writer *w)
+{
+    if (w->file != NULL) {
+        fclose(w->file);
+    }
+    free(w->path);
+    free(w);
+}
+
+/* Sets how many vertices the index needs. */
+static int check_index(frames_writer *w, const uint32_t *index, uint32_t triangles)
+{
+    for (size_t i = 0; i < 3 * (size_t)triangles; i++) {
+        if (index[i] == UINT32_MAX) {
+            return fail(w, "an index of a triangle is out of range");
+        }
+        w->needed = index[i] >= w->needed ? index[i] + 1 : w->needed;
+    }
+    return 0;
+}
+
+static frames_writer *open_writer(const char *path, trajectory_kind kind, const uint32_t *index, uint32_t triangles,
+                                  char *error, size_t error_size)
+{
+    frames_writer *w = calloc(1, sizeof *w);
+    if (w == NULL || (w->path = strdup(path)) == NULL) {
+        free(w);
+        if (error != NULL && error_size > 0) {
+            snprintf(error, error_size, "%s: not enough memory", path);
+        }
+        return NULL;
+    }
+    w->kind = kind;
+    if (check_index(w, index, triangles) || start(w, triangles) || write_numbers(w, index, 3 * (size_t)triangles)) {
+        copy_message(w, error, error_size);
+        release(w);
+        return NULL;
+    }
+    return w;
+}
+
+frames_writer *frames_writer_open(const char *path, char *error, size_t error_size)
+{
+    return open_writer(path, TRAJECTORY_SPHERES, NULL, 0, error, error_size);
+}
+
+frames_writer *frames_writer_open_triangles(const char *path, const uint32_t *index, uint32_t triangles, char *error,
+                                            size_t error_size)
+{
+    return open_writer(path, TRAJECTORY_TRIANGLES, index, triangles, error, error_size);
+}
+
+/* Adds a frame of `count` items of `floats` numbers each. */
+static int add_frame(frames_writer *w, trajectory_kind kind, const float *values, size_t floats, uint32_t count,
+                     char *error, size_t error_size)
+{
+    if (!w->failed && kind != w->kind) {
+        fail(w, w->kind == TRAJECTORY_SPHERES ? "a file of spheres cannot hold vertices"
+                                              : "a file of triangles cannot hold spheres");
+    }
+    if (!w->failed && count < w->needed) {
+        fail(w, "a frame has fewer vertices than its triangles need");
+    }
+    if (!w->failed && w->frames == UINT32_MAX) {
+        fail(w, "more than 4294967295 frames");
+    }
+    if (w->failed || write_u32(w, count) || write_numbers(w, values, floats * count)) {
+        copy_message(w, error, error_size);
+        return -1;
+    }
+    w->frames++;
+    return 0;
+}
+
+int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size)
+{
+    return add_frame(w, TRAJECTORY_SPHERES, xyzr, 4, count, error, error_size);
+}
+
+int frames_writer_add_vertices(frames_writer *w, const float *xyz, uint32_t count, char *error, size_t error_size)
+{
+    return add_frame(w, TRAJECTORY_TRIANGLES, xyz, 3, count, error, error_size);
+}
+
+int frames_writer_close(frames_writer *w, char *error, size_t error_size)
+{
+    if (w == NULL) {
+        return 0;
+    }
+    errno = 0;
+    if (!w->failed && fseeko(w->file, FRAMES_AT, SEEK_SET) != 0) {
+        fail_errno(w);
+    }
+    if (!w->failed) {
+        write_u32(w, w->frames);
+    }
+    errno = 0;
+    if (fclose(w->file) != 0) {
+        fail_errno(w);
+    }
+    w->file = NULL;
+    const int result = w->failed ? -1 : 0;
+    if (result) {
+        copy_message(w, error, error_size);
+    }
+    release(w);
+    return result;
+}

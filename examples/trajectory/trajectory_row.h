@@ -1,0 +1,63 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rows of text: one sphere a line, its values in columns. A plan says what each column means; LAMMPS dumps and
+ * extended .xyz make it from their headers. */
+#ifndef TRAJECTORY_ROW_H
+#define TRAJECTORY_ROW_H
+
+#include "trajectory/trajectory_internal.h"
+
+typedef enum row_role {
+    ROW_UNUSED = 0, /* any word */
+    ROW_X,
+    ROW_Y,
+    ROW_Z,
+    ROW_RADIUS,
+    ROW_VX,
+    ROW_VY,
+    ROW_VZ,
+    ROW_DIAMETER,
+    ROW_ID,
+    ROW_TYPE,
+    ROW_NAME /* an element's name, or a type's */
+} row_role;
+
+#define ROW_BIT(role) (1u << (role))
+#define ROW_POSITION (ROW_BIT(ROW_X) | ROW_BIT(ROW_Y) | ROW_BIT(ROW_Z))
+#define ROW_VELOCITY (ROW_BIT(ROW_VX) | ROW_BIT(ROW_VY) | ROW_BIT(ROW_VZ))
+
+#define ROW_MOST_COLUMNS 4096
+
+typedef struct row_plan {
+    uint32_t columns; /* that each row has */
+    int more;         /* further columns may follow, and are ignored */
+    int scaled;       /* x, y, z are fractions of the box: kept as doubles */
+    unsigned roles;   /* ROW_BIT of each role that there is */
+    uint8_t role[ROW_MOST_COLUMNS];
+} row_plan;
+
+/* The values of a row; those that the plan has no column for are not set. */
+typedef struct row {
+    float value[ROW_VZ + 1]; /* by role: x, y, z, radius, velocity */
+    double fraction[3];      /* x, y, z where the plan is scaled */
+    uint32_t id;
+    uint32_t type;
+    text_span name;
+} row;
+
+void row_plan_clear(row_plan *plan);
+
+/* Adds a column. A role that is there already makes it an unused one. Returns 1 or -1: too many columns. */
+int row_plan_add(trajectory *t, row_plan *plan, row_role role);
+
+/* Completes a row before it is stored: box, type, radius. Returns 1 or -1. */
+typedef int row_finish(trajectory *t, row *r);
+
+/* Reads `count` rows into the store and completes the frame. Returns 1 or -1. */
+int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame);
+
+/* Goes past `count` rows. Returns 1 or -1. */
+int rows_skip(trajectory *t, uint32_t count);
+
+#endif

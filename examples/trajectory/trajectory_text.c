@@ -1,0 +1,306 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Lines and numbers. A simulator's file is millions of short decimal numbers, and strtof alone would take most of the
+ * time of reading: the common ones take a short way that gives the same bits. */
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_text.h"
+
+#include <errno.h>
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Lines -------------------------------------------------------------------------------------------------- */
+
+#define FIRST_CAPACITY ((size_t)1 << 16)
+
+void text_reader_init(text_reader *r, FILE *file)
+{
+    memset(r, 0, sizeof *r);
+    r->file = file;
+}
+
+void text_reader_free(text_reader *r)
+{
+    free(r->data);
+    r->data = NULL;
+}
+
+void text_reader_restart(text_reader *r)
+{
+    r->begin = r->end = 0;
+    r->line = 0;
+    r->at_end = 0;
+}
+
+/* Makes room behind the bytes that are there: moves them to the front, or grows. */
+static int make_room(text_reader *r, const char **what)
+{
+    if (r->begin > 0) {
+        memmove(r->data, r->data + r->begin, r->end - r->begin);
+        r->end -= r->begin;
+        r->begin = 0;
+    }
+    if (r->end < r->capacity) {
+        return 0;
+    }
+    if (r->capacity >= TEXT_LONGEST_LINE) {
+        r->line++;
+        *what = "the line is longer than 1 MiB: this is not a text file of this kind";
+        return -1;
+    }
+    const size_t capacity = r->capacity == 0 ? FIRST_CAPACITY : 2 * r->capacity;
+    char *data = realloc(r->data, capacity + 1);
+    if (data == NULL) {
+        *what = "not enough memory";
+        return -1;
+    }
+    r->data = data;
+    r->capacity = capacity;
+    return 0;
+}
+
+static int read_more(text_reader *r, const char **what)
+{
+    if (make_room(r, what)) {
+        return -1;
+    }
+    errno = 0;
+    const size_t got = fread(r->data + r->end, 1, r->capacity - r->end, r->file);
+    if (got == 0) {
+        if (ferror(r->file)) {
+            *what = strerror(errno != 0 ? errno : EIO);
+            return -1;
+        }
+        r->at_end = 1;
+    }
+    r->end += got;
+    return 0;
+}
+
+int text_reader_next(text_reader *r, text_span *line, const char **what)
+{
+    /* Only bytes that are new are searched, so that a long line costs its length once. */
+    size_t searched = 0;
+    char *feed = NULL;
+    while (1) {
+        const size_t from = r->begin + searched;
+        if (from < r->end && (feed = memchr(r->data + from, '\n', r->end - from)) != NULL) {
+            break;
+        }
+        searched = r->end - r->begin;
+        if (r->at_end) {
+            break;
+        }
+        if (read_more(r, what)) {
+            return -1;
+        }
+    }
+    if (feed == NULL && searched == 0) {
+        return 0;
+    }
+    const size_t length = feed != NULL ? (size_t)(feed - (r->data + r->begin)) : searched;
+    char *begin = r->data + r->begin;
+    char *end = begin + length;
+    r->begin += length + (feed != NULL);
+    if (end > begin && end[-1] == '\r') {
+        end--;
+    }
+    *end = '\0';
+    r->line++;
+    line->begin = begin;
+    line->end = end;
+    return 1;
+}
+
+/* ---- Words -------------------------------------------------------------------------------------------------- */
+
+int text_is(text_span span, const char *text)
+{
+    const size_t length = strlen(text);
+    return text_length(span) == length && memcmp(span.begin, text, length) == 0;
+}
+
+int text_begins(text_span span, const char *text)
+{
+    const size_t length = strlen(text);
+    return text_length(span) >= length && memcmp(span.begin, text, length) == 0;
+}
+
+int text_is_blank(text_span span)
+{
+    text_span word;
+    return !text_word(&span, &word);
+}
+
+const char *text_quote(text_span word, char buffer[TEXT_QUOTE_SIZE])
+{
+    const size_t most = TEXT_QUOTE_SIZE - 4;
+    const size_t length = text_length(word);
+    const size_t kept = length > most ? most : length;
+    for (size_t i = 0; i < kept; i++) {
+        const char c = word.begin[i];
+        buffer[i] = (char)(c >= 0x20 && c < 0x7f ? c : '?');
+    }
+    strcpy(buffer + kept, length > most ? "..." : "");
+    return buffer;
+}
+
+/* ---- Numbers ------------------------------------------------------------------------------------------------ */
+
+/* Powers of ten that a double holds exactly. */
+static const double power_of_ten[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                        1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+static int is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/* Reads the exponent after its e: the whole rest of the word, at most four digits. */
+static int scan_exponent(const char *p, const char *end, int *exponent)
+{
+    int negative = 0;
+    if (p < end && (*p == '-' || *p == '+')) {
+        negative = *p++ == '-';
+    }
+    if (p == end || end - p > 4) {
+        return 0;
+    }
+    int value = 0;
+    for (; p < end; p++) {
+        if (!is_digit(*p)) {
+            return 0;
+        }
+        value = 10 * value + (*p - '0');
+    }
+    *exponent += negative ? -value : value;
+    return 1;
+}
+
+/* The short way (Clinger 1990): mantissa and power of ten are both exact doubles, so that one multiplication or
+ * division rounds once, and correctly. Returns 0 where the number is not of that kind, or is no number. */
+static int short_double(text_span word, double *value)
+{
+    const char *p = word.begin;
+    int negative = 0;
+    if (p < word.end && (*p == '-' || *p == '+')) {
+        negative = *p++ == '-';
+    }
+    uint64_t mantissa = 0;
+    int digits = 0, fraction = 0, point = 0;
+    for (; p < word.end; p++) {
+        if (is_digit(*p)) {
+            mantissa = 10 * mantissa + (uint64_t)(*p - '0');
+            fraction += point;
+            if (++digits > 18) { /* more might not fit 64 bits */
+                return 0;
+            }
+        } else if (*p == '.' && !point) {
+            point = 1;
+        } else {
+            break;
+        }
+    }
+    int exponent = -fraction;
+    if (digits == 0 || (p < word.end && *p != 'e' && *p != 'E') ||
+        (p < word.end && !scan_exponent(p + 1, word.end, &exponent))) {
+        return 0;
+    }
+    if (FLT_EVAL_METHOD != 0 || mantissa > ((uint64_t)1 << 53) || exponent < -22 || exponent > 22) {
+        return 0;
+    }
+    const double m = (double)mantissa;
+    const double magnitude = exponent < 0 ? m / power_of_ten[-exponent] : m * power_of_ten[exponent];
+    *value = negative ? -magnitude : magnitude;
+    return 1;
+}
+
+/* The C library's functions also read hexadecimal numbers, which no trajectory holds. */
+static int may_be_decimal(text_span word)
+{
+    const size_t length = text_length(word);
+    return length > 0 && memchr(word.begin, 'x', length) == NULL && memchr(word.begin, 'X', length) == NULL;
+}
+
+int text_double(text_span word, double *value)
+{
+    if (short_double(word, value)) {
+        return 1;
+    }
+    if (!may_be_decimal(word)) {
+        return 0;
+    }
+    char *stop;
+    const double number = strtod(word.begin, &stop);
+    if (stop != word.end) {
+        return 0;
+    }
+    *value = number;
+    return 1;
+}
+
+int text_float(text_span word, float *value)
+{
+    double number;
+    if (short_double(word, &number)) {
+        /* Rounding to double first changes the float only where the double lies half-way between two floats. The short
+         * way's numbers, 0 or from 1e-22 to 2^53 * 1e22, are all normal floats. */
+        uint64_t bits;
+        memcpy(&bits, &number, sizeof bits);
+        const int halfway = (bits & 0x1fffffff) == 0x10000000;
+        if (!halfway) {
+            *value = (float)number;
+            return 1;
+        }
+    }
+    if (!may_be_decimal(word)) {
+        return 0;
+    }
+    char *stop;
+    const float exact = strtof(word.begin, &stop);
+    if (stop != word.end) {
+        return 0;
+    }
+    *value = exact;
+    return 1;
+}
+
+int text_u64(text_span word, uint64_t max, uint64_t *value)
+{
+    const char *p = word.begin;
+    uint64_t number = 0;
+    if (p < word.end && *p == '+') {
+        p++;
+    }
+    if (p == word.end) {
+        return 0;
+    }
+    for (; p < word.end; p++) {
+        if (!is_digit(*p)) {
+            return 0;
+        }
+        const uint64_t digit = (uint64_t)(*p - '0');
+        if (digit > max || number > (max - digit) / 10) {
+            return 0;
+        }
+        number = 10 * number + digit;
+    }
+    *value = number;
+    return 1;
+}
+
+int text_i64(text_span word, int64_t *value)
+{
+    const int negative = word.begin < word.end && *word.begin == '-';
+    uint64_t magnitude;
+    if (negative) {
+        word.begin++;
+        if (word.begin < word.end && *word.begin == '+') {
+            return 0;
+        }
+    }
+    if (!text_u64(word, (uint64_t)INT64_MAX, &magnitude)) {
+        return 0;
+    }
+    *value = negative ? -(int64_t)magnitude : (int64_t)magnitude;
+    return 1;
+}

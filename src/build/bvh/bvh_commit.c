@@ -1,0 +1,390 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The wide tree of a commit, or of the first rays that want one: its memory, its tasks, its statistics. */
+#include <stdio.h>
+
+#include "build/commit.h"
+#include "core/float_environment.h"
+#include "build/grid/loose_grid_build.h"
+#include "build/bvh/bvh_build.h"
+#include "build/bvh/bvh_on_demand.h"
+
+/* Leaves are numbered by 26 bits, of which the last number is not used. */
+#define MOST_LEAVES CGT_WIDE_INDEX
+
+#define STREAM_BYTES ((size_t)8 << 20) /* of blocks: more will not stay in caches until it is read */
+#define WORK_WORDS 5u                  /* for an object, see cgt_wide_build */
+
+/* Rays that ask for a tree before it is built. It takes as long as some 1/60 as many rays as objects take through the grid
+ * where they share nothing, by estimate; but whether they do share nothing is not known. */
+static uint64_t enough_rays(uint32_t valid) { return valid / 32; }
+
+typedef struct wide_job {
+    const cgt_kernel *kernel;
+    cgt_wide_plan plan;
+    cgt_wide_keys keys;
+    cgt_loose_sort sort;
+    cgt_wide_build build;
+} wide_job;
+
+/* ---- tasks ---- */
+
+static void make_object_keys(const wide_job *job, uint32_t first, uint32_t end)
+{
+    const cgt_object_array *a = cgt_objects_array(job->build.objects, first);
+    for (uint32_t object = first; object < end; a++) {
+        const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
+        job->kernel->wide->keys(&job->keys, a, object, stop, job->sort.key + object);
+        object = stop;
+    }
+}
+
+/* Of a chunk of what is sorted: objects or clusters. */
+static void make_keys(void *argument, uint32_t chunk)
+{
+    const wide_job *job = argument;
+    const cgt_cluster *cluster = job->build.cluster;
+    const uint32_t first = chunk * CGT_LOOSE_CHUNK, left = job->sort.objects - first;
+    const uint32_t count = left < CGT_LOOSE_CHUNK ? left : CGT_LOOSE_CHUNK;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    if (cluster)
+        job->kernel->wide->cluster_keys(&job->keys, cluster + first, count, job->sort.key + first);
+    else
+        make_object_keys(job, first, first + count);
+    cgt_float_environment_leave(&callers);
+    cgt_loose_sort_chunk(&job->sort, chunk);
+}
+
+static void split_range(void *argument, uint32_t range)
+{
+    const wide_job *job = argument;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    job->kernel->wide->split(&job->build, &job->build.range[range]);
+    cgt_float_environment_leave(&callers);
+}
+
+static void make_leaves(void *argument, uint32_t range)
+{
+    const wide_job *job = argument;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    job->kernel->wide->leaves(&job->build, range);
+    cgt_float_environment_leave(&callers);
+}
+
+static void choose_nodes(void *argument, uint32_t range)
+{
+    const wide_job *job = argument;
+    job->kernel->wide->choose(&job->build, &job->build.range[range]);
+}
+
+/* Of the ranges, then of the top. */
+static void make_nodes(void *argument, uint32_t range)
+{
+    const wide_job *job = argument;
+    const cgt_wide_build *b = &job->build;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    job->kernel->wide->nodes(b, range < b->ranges ? &b->range[range] : &b->top);
+    cgt_float_environment_leave(&callers);
+}
+
+/* ---- memory ---- */
+
+/* Room for what differs a little from frame to frame. */
+static cgt_result reserve_more(const cgt_scene *scene, cgt_buffer *buffer, size_t count, size_t size)
+{
+    const size_t more = count * size <= buffer->bytes ? 0 : count / 16 + 16;
+    return cgt_buffer_reserve(&scene->context->memory, buffer, count + more, size);
+}
+
+static cgt_result out_of_memory(const cgt_scene *scene, cgt_result result)
+{
+    return cgt_fail(scene->context, result, "out of memory for a wide tree of %u primitives",
+                    scene->world.objects.count);
+}
+
+/* What follows from the number of objects. */
+static cgt_result reserve_objects(cgt_scene *scene, const cgt_loose_sort *sort, uint32_t leaves_each)
+{
+    const cgt_memory_hooks *hooks = &scene->context->memory;
+    const size_t count = sort->objects, cells = (size_t)cgt_wide_most_cells(&scene->world.objects, sort->objects);
+    cgt_buffer *buffer = scene->buffer;
+    cgt_result result =
+        cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_START], cells + 1, sizeof(uint32_t));
+    if (result == CGT_OK)
+        result = cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_OBJECT], count, sizeof(uint32_t));
+    if (result == CGT_OK)
+        result = cgt_loose_sort_reserve(hooks, &buffer[CGT_BUFFER_LOOSE_BINS], sort);
+    if (result == CGT_OK)
+        result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_WIDE_LEAVES], count * leaves_each, sizeof(uint16_t));
+    if (result == CGT_OK)
+        result =
+            cgt_buffer_reserve_scattered(hooks, &buffer[CGT_BUFFER_WIDE_WORK], count, WORK_WORDS * sizeof(uint32_t));
+    return result == CGT_OK ? CGT_OK : out_of_memory(scene, result);
+}
+
+static cgt_result reserve_ranges(cgt_scene *scene, const wide_job *job, uint32_t ranges)
+{
+    const cgt_result result = reserve_more(scene, &scene->buffer[CGT_BUFFER_WIDE_RANGES], ranges,
+                                           sizeof(cgt_wide_range) + job->kernel->wide->branch_bytes);
+    return result == CGT_OK ? CGT_OK : out_of_memory(scene, result);
+}
+
+/* What follows from the number of leaves: blocks of both kinds, and records. */
+static cgt_result reserve_leaves(cgt_scene *scene, const wide_job *job, const uint32_t blocks[2])
+{
+    const cgt_wide_builder *w = job->kernel->wide;
+    const size_t leaves = (size_t)blocks[0] + blocks[1];
+    cgt_buffer *buffer = scene->buffer;
+    if (leaves > MOST_LEAVES)
+        return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "wide tree: %zu leaves: at most %u", leaves, MOST_LEAVES);
+    /* a reference to each record, and those to children of nodes over ranges: fewer than ranges */
+    cgt_result result = reserve_more(scene, &buffer[CGT_BUFFER_WIDE_WORK],
+                                     leaves * (w->leaf_bytes + w->inner_bytes + 2 * sizeof(uint32_t)) + CGT_ALIGNMENT +
+                                         (size_t)job->build.ranges * w->lanes * sizeof(uint32_t),
+                                     1);
+    if (result == CGT_OK)
+        result = reserve_more(scene, &buffer[CGT_BUFFER_WIDE_SPHERES], blocks[0], w->block_bytes[0]);
+    if (result == CGT_OK)
+        result = reserve_more(scene, &buffer[CGT_BUFFER_WIDE_TRIANGLES], blocks[1], w->block_bytes[1]);
+    return result == CGT_OK ? CGT_OK : out_of_memory(scene, result);
+}
+
+/* ---- steps ---- */
+
+/* Objects by cell. */
+static cgt_result sort_objects(cgt_scene *scene, wide_job *job)
+{
+    const cgt_world *world = &scene->world;
+    const cgt_objects *o = &world->objects;
+    const cgt_context *context = scene->context;
+    cgt_loose_sort *sort = &job->sort;
+    const bool clusters = job->build.cluster != NULL;
+    const cgt_result summarised = world->cluster && !clusters ? cgt_summarise_objects(scene) : CGT_OK;
+    if (summarised != CGT_OK)
+        return summarised;
+    const cgt_size_classes *classes = scene->buffer[CGT_BUFFER_SIZE_CLASSES].data;
+    const uint32_t count = clusters ? cgt_clusters(o->count) : o->count;
+    cgt_wide_plan_make(&job->plan, classes, o);
+    const uint32_t skipped =
+        cgt_loose_sort_plan(sort, context, count, cgt_size_classes_count(classes), job->plan.cells);
+    const cgt_result result = reserve_objects(scene, sort, job->build.leaves_each);
+    if (result != CGT_OK)
+        return result;
+    float *work = scene->buffer[CGT_BUFFER_LOOSE_WORK].data;
+    job->keys = (cgt_wide_keys){.plan = &job->plan, .middle = work, .triangles = o->triangles, .skipped = skipped};
+    sort->entry = (uint32_t *)work + (clusters ? 0 : (size_t)4 * o->triangles);
+    sort->place = scene->buffer[CGT_BUFFER_LOOSE_BINS].data;
+    sort->start = scene->buffer[CGT_BUFFER_WIDE_START].data;
+    sort->object = scene->buffer[CGT_BUFFER_WIDE_OBJECT].data;
+    sort->key = sort->direct ? sort->entry : sort->object;
+    cgt_run_tasks(context, make_keys, job, cgt_loose_chunks(count));
+    cgt_loose_sort_run(sort, context);
+    return CGT_OK;
+}
+
+/* Leaves, found and counted. */
+static cgt_result split_cells(cgt_scene *scene, wide_job *job)
+{
+    cgt_wide_build *b = &job->build;
+    const size_t objects = job->sort.objects;
+    const uint32_t each = b->cluster ? CGT_CLUSTER : 1;
+    uint32_t *work = scene->buffer[CGT_BUFFER_WIDE_WORK].data;
+    b->start = job->sort.start;
+    b->object = job->sort.object;
+    b->key = work;
+    b->sorted = job->sort.valid;
+    b->other = work + objects;
+    for (size_t a = 0; a < 3; a++)
+        b->middle[a] = (float *)work + (2 + a) * objects;
+    b->leaf = scene->buffer[CGT_BUFFER_WIDE_LEAVES].data;
+    b->ranges = cgt_wide_ranges_list(&job->plan, b->start, job->sort.valid, each, NULL);
+    const cgt_result result = reserve_ranges(scene, job, b->ranges);
+    if (result != CGT_OK)
+        return result;
+    b->branch = scene->buffer[CGT_BUFFER_WIDE_RANGES].data;
+    b->range = (cgt_wide_range *)(void *)((char *)b->branch + (size_t)b->ranges * job->kernel->wide->branch_bytes);
+    cgt_wide_ranges_list(&job->plan, b->start, job->sort.valid, each, b->range);
+    cgt_run_tasks(scene->context, split_range, job, b->ranges);
+    return CGT_OK;
+}
+
+/* Leaves, blocks and binary nodes, one range after the other. */
+static void place_leaves(cgt_wide_build *b, uint32_t blocks[2])
+{
+    uint32_t inner = 0;
+    b->leaves = 0;
+    blocks[0] = blocks[1] = 0;
+    for (uint32_t i = 0; i < b->ranges; i++) {
+        cgt_wide_range *r = &b->range[i];
+        r->first_leaf = b->leaves;
+        r->first_block = blocks[r->kind];
+        r->first_inner = inner;
+        b->leaves += r->leaves;
+        blocks[r->kind] += r->leaves;
+        inner += r->leaves - 1;
+    }
+    b->top = (cgt_wide_range){.first_leaf = b->leaves, .first_inner = inner};
+}
+
+static cgt_result join_leaves(cgt_scene *scene, wide_job *job, uint32_t blocks[2])
+{
+    cgt_wide_build *b = &job->build;
+    place_leaves(b, blocks);
+    const cgt_result result = reserve_leaves(scene, job, blocks);
+    if (result != CGT_OK)
+        return result;
+    b->stream =
+        (size_t)blocks[0] * job->kernel->wide->block_bytes[0] + (size_t)blocks[1] * job->kernel->wide->block_bytes[1] >
+        STREAM_BYTES;
+    b->record = scene->buffer[CGT_BUFFER_WIDE_WORK].data;
+    b->block[CGT_KIND_SPHERES] = scene->buffer[CGT_BUFFER_WIDE_SPHERES].data;
+    b->block[CGT_KIND_TRIANGLES] = scene->buffer[CGT_BUFFER_WIDE_TRIANGLES].data;
+    cgt_run_tasks(scene->context, make_leaves, job, b->ranges);
+    job->kernel->wide->join(b);
+    return CGT_OK;
+}
+
+/* The root has number 0: it is in the top, or there is but one range. */
+static void place_nodes(cgt_wide_build *b, cgt_wide_tree *tree)
+{
+    cgt_wide_range *top = &b->top;
+    if (b->root & CGT_WIDE_LEAF_REF)
+        top->nodes = top->deepest = 1;
+    tree->nodes = top->nodes;
+    tree->depth = top->deepest;
+    for (uint32_t i = 0; i < b->ranges; i++) {
+        cgt_wide_range *r = &b->range[i];
+        r->first_node = tree->nodes;
+        tree->nodes += r->nodes;
+        tree->depth = r->deepest > tree->depth ? r->deepest : tree->depth;
+    }
+}
+
+static cgt_result widen(cgt_scene *scene, wide_job *job, cgt_wide_tree *tree)
+{
+    cgt_wide_build *b = &job->build;
+    cgt_run_tasks(scene->context, choose_nodes, job, b->ranges);
+    place_nodes(b, tree);
+    const cgt_result result =
+        reserve_more(scene, &scene->buffer[CGT_BUFFER_WIDE_NODES], tree->nodes, job->kernel->wide->node_bytes);
+    if (result != CGT_OK)
+        return out_of_memory(scene, result);
+    b->node = scene->buffer[CGT_BUFFER_WIDE_NODES].data;
+    cgt_run_tasks(scene->context, make_nodes, job, b->ranges + 1);
+    return CGT_OK;
+}
+
+static cgt_result build(cgt_scene *scene, cgt_wide_tree *tree)
+{
+    const uint32_t lanes = scene->context->kernel->wide->lanes;
+    const cgt_cluster *cluster = scene->world.tree_of_clusters ? scene->world.cluster : NULL;
+    wide_job job = {.kernel = scene->context->kernel,
+                    .build = {.objects = &scene->world.objects,
+                              .cluster = cluster,
+                              .leaves_each = cluster && lanes < CGT_CLUSTER ? CGT_CLUSTER / lanes : 1,
+                              .scale = scene->world.scale}};
+    uint32_t blocks[2];
+    cgt_result result = sort_objects(scene, &job);
+    if (result == CGT_OK)
+        result = split_cells(scene, &job);
+    if (result == CGT_OK)
+        result = join_leaves(scene, &job, blocks);
+    if (result == CGT_OK)
+        result = widen(scene, &job, tree);
+    if (result != CGT_OK)
+        return result;
+    tree->node = job.build.node;
+    tree->sphere = job.build.block[CGT_KIND_SPHERES];
+    tree->triangle = job.build.block[CGT_KIND_TRIANGLES];
+    tree->sphere_blocks = blocks[CGT_KIND_SPHERES];
+    tree->triangle_blocks = blocks[CGT_KIND_TRIANGLES];
+    for (int a = 0; a < 3; a++) {
+        tree->low[a] = job.build.low[a];
+        tree->high[a] = job.build.high[a];
+    }
+    return CGT_OK;
+}
+
+/* ---- the whole ---- */
+
+static void report(cgt_scene *scene, const cgt_wide_tree *tree, double ms)
+{
+    const cgt_wide_builder *w = scene->context->kernel->wide;
+    cgt_scene_statistics *st = &scene->statistics;
+    st->wide_nodes = tree->nodes;
+    st->wide_blocks = tree->sphere_blocks + tree->triangle_blocks;
+    st->wide_depth = tree->depth;
+    st->wide_bytes = (size_t)tree->nodes * w->node_bytes + (size_t)tree->sphere_blocks * w->block_bytes[0] +
+                     (size_t)tree->triangle_blocks * w->block_bytes[1];
+    st->wide_ms = ms;
+    st->bytes = cgt_scene_bytes(scene);
+}
+
+static cgt_result make_tree(cgt_scene *scene)
+{
+    const double start = cgt_now_ms();
+    cgt_wide_tree tree = {0};
+    const cgt_result result = build(scene, &tree);
+    if (result != CGT_OK)
+        return result;
+    scene->world.wide = tree;
+    report(scene, &tree, cgt_now_ms() - start);
+    return CGT_OK;
+}
+
+cgt_result cgt_wide_tree_commit(cgt_scene *scene)
+{
+    const cgt_result result = make_tree(scene);
+    cgt_scene_statistics *st = &scene->statistics;
+    if (result != CGT_OK)
+        return result;
+    st->references = scene->world.valid;
+    st->reference_bits = 32;
+    st->structure_bytes = st->wide_bytes;
+    st->local_store_bytes = st->wide_bytes;
+    st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
+    return CGT_OK;
+}
+
+/* Several threads may want it: one builds it, and the others trace as they did before. */
+static cgt_result build_for_rays(cgt_scene *scene, bool *is_built)
+{
+    cgt_result result = CGT_OK;
+    cgt_float_environment callers;
+    if (pthread_mutex_trylock(&scene->wide_lock))
+        return CGT_OK;
+    if (!atomic_load_explicit(&scene->wide_is_built, memory_order_relaxed)) {
+        cgt_float_environment_enter(&callers);
+        result = make_tree(scene);
+        cgt_float_environment_leave(&callers);
+        atomic_store_explicit(&scene->wide_is_built, result == CGT_OK, memory_order_release);
+    }
+    pthread_mutex_unlock(&scene->wide_lock);
+    *is_built = result == CGT_OK;
+    return result;
+}
+
+cgt_result cgt_wide_tree_want(const cgt_scene *scene, uint64_t rays, bool *is_built)
+{
+    const cgt_world *world = &scene->world;
+    cgt_scene *self = scene->self;
+    *is_built = false;
+    if (scene->options.structure != CGT_STRUCTURE_AUTO || world->structure != CGT_STRUCTURE_LOOSE_GRID ||
+        !world->valid || world->everything) {
+        *is_built = world->structure == CGT_STRUCTURE_WIDE_TREE && world->wide.node;
+        return CGT_OK;
+    }
+    if (atomic_load_explicit(&self->wide_is_built, memory_order_acquire)) {
+        *is_built = true;
+        return CGT_OK;
+    }
+    const uint64_t before = atomic_fetch_add_explicit(&self->wide_rays, rays, memory_order_relaxed);
+    if (!rays || before + rays < enough_rays(world->valid))
+        return CGT_OK;
+    return build_for_rays(self, is_built);
+}

@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What decides where single precision cannot: double precision with error bounds, then exact arithmetic (exact.h).
+ * Which ray hits which shape, and which of two hits is nearer, are the answers of exact arithmetic. A hit's t is the
+ * canonical one: computed in double in one order where that is safe, else from exact arithmetic, at most 0.51 ulp of
+ * float off; the resolve of whole packets gives the same bits. */
+#ifndef CGT_DECIDE_H
+#define CGT_DECIDE_H
+
+#include "exact/integer/exact.h"
+
+typedef struct cgt_ray {
+    cgt_exact_ray line;
+    float t_min, t_max;
+} cgt_ray;
+
+typedef struct cgt_decided_hit {
+    cgt_shape shape;
+    double t; /* canonical */
+    bool far; /* a sphere's second root */
+} cgt_decided_hit;
+
+/* Whether the ray hits hit->shape within its closed range, t rounded to float, and where. A t that rounds to infinity
+ * is no hit. *exact counts decisions that took exact arithmetic. */
+bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact);
+
+/* The canonical t of a shape that the ray is known to hit. */
+void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit);
+
+/* Of the sum of two canonical values: where they differ by more, that is the order of the exact ones. More than the
+ * errors of both together. */
+#define CGT_ORDER_MARGIN 0x1p-27
+
+/* Sign of the exact t(a) - t(b). */
+int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact);
+
+/* The first root of a sphere at or after t_min, and whether that is the second one: exact where double is not safe. */
+double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far);
+double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle);
+
+#endif

@@ -1,0 +1,47 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The last stage of every decision: exact arithmetic on the float input, for all finite floats, denormals included.
+ * Floats are whole numbers times powers of two; all predicates are signs of homogeneous polynomials of them, so a
+ * common power of two is taken out and integers are left. Called where double precision cannot tell: rarely on
+ * ordinary scenes, for every tenth test on degenerate ones.
+ *
+ * A hit's parameter t of the line org + t dir:
+ *   triangle  t = n.(v0 - org) / n.dir,  n = (v1 - v0) x (v2 - v0)
+ *   sphere    t = (dir.c -+ sqrt(D)) / dir.dir,  c = centre - org,  D = (dir.c)^2 - dir.dir (c.c - r^2)
+ * None of the functions keeps state or allocates. */
+#ifndef CGT_EXACT_H
+#define CGT_EXACT_H
+
+#include "model/primitive.h"
+
+typedef struct cgt_exact_ray {
+    float org[3], dir[3]; /* finite; dir is not zero */
+} cgt_exact_ray;
+
+/* One root of a primitive: far chooses a sphere's second; false for triangles. */
+typedef struct cgt_exact_root {
+    const cgt_shape *shape; /* finite; the line of the ray meets it */
+    bool far;
+} cgt_exact_root;
+
+/* True where the line through the ray meets the closed triangle and is not parallel to its plane. */
+bool cgt_exact_line_meets_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle);
+
+/* True where the line through the ray meets the closed ball: D >= 0. */
+bool cgt_exact_line_meets_sphere(const cgt_exact_ray *ray, cgt_sphere sphere);
+
+/* Sign of t(a) - t(b): -1, 0 or 1. */
+int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b);
+
+/* t within 2^-50 of its size; exactly 0 where it is 0. Infinite beyond the range of double. */
+double cgt_exact_t(const cgt_exact_ray *ray, const cgt_exact_root *root);
+
+/* u and v of the point where the line meets the triangle's plane, v1's and v2's shares, within 2^-50 of their sizes. */
+void cgt_exact_uv(const cgt_exact_ray *ray, const cgt_triangle *triangle, double uv[2]);
+
+/* The exact (v1 - v0) x (v2 - v0), each component within 2^-52 of its size, times one power of two that keeps the
+ * largest between 1/2 and 4; all 0 where the triangle has no area. */
+void cgt_exact_normal(const cgt_triangle *triangle, double normal[3]);
+
+#endif

@@ -1,0 +1,149 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Hit or miss, and which of two hits comes first: signs of whole numbers. */
+#include "exact/integer/exact_terms.h"
+
+#include <string.h>
+
+bool cgt_exact_line_meets_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle)
+{
+    cgt_exact_integer edge[3];
+    cgt_exact_edge_terms(ray, triangle, edge);
+    bool above = false, below = false;
+    for (int k = 0; k < 3; k++) {
+        above |= edge[k].sign > 0;
+        below |= edge[k].sign < 0;
+    }
+    return above != below; /* of one sign or zero; all zero is a line in the plane, or no area */
+}
+
+bool cgt_exact_line_meets_sphere(const cgt_exact_ray *ray, cgt_sphere sphere)
+{
+    cgt_exact_quadratic quadratic;
+    cgt_exact_sphere_terms(ray, sphere, &quadratic);
+    return quadratic.discriminant.sign >= 0;
+}
+
+/* ---- Order ---------------------------------------------------------------------------------------------------- */
+
+/* Brings lengths in two units to the smaller one: the first is to be shifted by *a bits, or the second by *b. */
+static void common_unit(int exponent_a, int exponent_b, uint32_t *a, uint32_t *b)
+{
+    *a = exponent_a > exponent_b ? (uint32_t)(exponent_a - exponent_b) : 0;
+    *b = exponent_b > exponent_a ? (uint32_t)(exponent_b - exponent_a) : 0;
+}
+
+/* The sign of a - b. */
+static int compare(const cgt_exact_integer *a, const cgt_exact_integer *b)
+{
+    cgt_exact_integer difference;
+    cgt_exact_subtract(&difference, a, b);
+    return difference.sign;
+}
+
+/* The sign of x + s, where s has the given sign and the square s2. */
+static int sign_with_root(const cgt_exact_integer *x, int sign, const cgt_exact_integer *s2)
+{
+    cgt_exact_integer square;
+    if (!s2->sign)
+        return x->sign;
+    if (sign * x->sign >= 0)
+        return sign ? sign : x->sign;
+    cgt_exact_multiply(&square, x, x);
+    return x->sign * compare(&square, s2);
+}
+
+static int compare_planes(const cgt_exact_ray *ray, const cgt_triangle *a, const cgt_triangle *b)
+{
+    cgt_exact_plane p, q;
+    cgt_exact_integer left, right;
+    uint32_t shift_p, shift_q;
+    cgt_exact_plane_terms(ray, a, &p);
+    cgt_exact_plane_terms(ray, b, &q);
+    common_unit(p.exponent, q.exponent, &shift_p, &shift_q);
+    cgt_exact_multiply(&left, &p.number, &q.determinant);
+    cgt_exact_multiply(&right, &q.number, &p.determinant);
+    cgt_exact_shift_left(&left, shift_p);
+    cgt_exact_shift_left(&right, shift_q);
+    return compare(&left, &right) * p.determinant.sign * q.determinant.sign;
+}
+
+/* middle -+ sqrt(discriminant) in a unit smaller by a power of two */
+static void shift_quadratic(cgt_exact_quadratic *q, uint32_t bits)
+{
+    cgt_exact_shift_left(&q->middle, bits);
+    cgt_exact_shift_left(&q->discriminant, 2 * bits);
+}
+
+/* The sign of m + s, m the difference of the middles, s = x -+ y, x = +-sqrt(D1), y = sqrt(D2) that of the roots. Of
+ * different signs: that of m^2 - s^2 decides, m^2 - D1 - D2 +- 2 sqrt(D1 D2). */
+static int compare_quadratics(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b)
+{
+    cgt_exact_quadratic p, q;
+    cgt_exact_integer middle, rest, product;
+    uint32_t shift_p, shift_q;
+    cgt_exact_sphere_terms(ray, a->shape->sphere, &p);
+    cgt_exact_sphere_terms(ray, b->shape->sphere, &q);
+    common_unit(p.exponent, q.exponent, &shift_p, &shift_q);
+    shift_quadratic(&p, shift_p);
+    shift_quadratic(&q, shift_q);
+    cgt_exact_subtract(&middle, &p.middle, &q.middle);
+
+    const bool same_side = a->far == b->far;
+    int roots = a->far ? 1 : -1; /* the sign of s */
+    if (same_side)
+        roots *= compare(&p.discriminant, &q.discriminant);
+    else if (!p.discriminant.sign && !q.discriminant.sign)
+        roots = 0;
+    if (roots * middle.sign >= 0)
+        return roots ? roots : middle.sign;
+    cgt_exact_multiply(&rest, &middle, &middle);
+    cgt_exact_subtract(&rest, &rest, &p.discriminant);
+    cgt_exact_subtract(&rest, &rest, &q.discriminant);
+    cgt_exact_multiply(&product, &p.discriminant, &q.discriminant);
+    cgt_exact_shift_left(&product, 2);
+    return middle.sign * sign_with_root(&rest, same_side ? 1 : -1, &product);
+}
+
+/* The sign of t1 - t2 = ((middle -+ sqrt(D)) determinant - number scale) / (scale determinant). */
+static int compare_quadratic_with_plane(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_triangle *b)
+{
+    cgt_exact_quadratic q;
+    cgt_exact_plane p;
+    cgt_exact_integer left, right, root;
+    uint32_t shift_q, shift_p;
+    cgt_exact_sphere_terms(ray, a->shape->sphere, &q);
+    cgt_exact_plane_terms(ray, b, &p);
+    common_unit(q.exponent, p.exponent, &shift_q, &shift_p);
+    shift_quadratic(&q, shift_q);
+    cgt_exact_shift_left(&p.number, shift_p);
+    cgt_exact_multiply(&left, &q.middle, &p.determinant);
+    cgt_exact_multiply(&right, &p.number, &q.scale);
+    cgt_exact_subtract(&left, &left, &right);
+    cgt_exact_multiply(&right, &p.determinant, &p.determinant);
+    cgt_exact_multiply(&root, &q.discriminant, &right);
+    const int side = a->far ? p.determinant.sign : -p.determinant.sign;
+    return sign_with_root(&left, side, &root) * p.determinant.sign;
+}
+
+static bool same_shapes(const cgt_shape *a, const cgt_shape *b)
+{
+    if (a->kind != b->kind)
+        return false;
+    return a->kind == CGT_KIND_SPHERES ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
+                                       : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
+}
+
+int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b)
+{
+    if (a->far == b->far && same_shapes(a->shape, b->shape))
+        return 0;
+    if (a->shape->kind == CGT_KIND_TRIANGLES && b->shape->kind == CGT_KIND_TRIANGLES)
+        return compare_planes(ray, &a->shape->triangle, &b->shape->triangle);
+    if (a->shape->kind == CGT_KIND_TRIANGLES)
+        return -compare_quadratic_with_plane(ray, b, &a->shape->triangle);
+    if (b->shape->kind == CGT_KIND_TRIANGLES)
+        return compare_quadratic_with_plane(ray, a, &b->shape->triangle);
+    return compare_quadratics(ray, a, b);
+}

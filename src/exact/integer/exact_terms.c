@@ -1,0 +1,96 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * From floats to the whole numbers of exact_terms.h. */
+#include "exact/integer/exact_terms.h"
+
+#include "exact/integer/exact_vector.h"
+
+/* What all start from: the direction, and a primitive's points seen from the origin. */
+typedef struct view {
+    cgt_exact_unit length, direction;
+    bool narrow;
+    cgt_exact_vector dir, org;
+} view;
+
+static cgt_exact_range range_of_triangle(const cgt_triangle *triangle)
+{
+    cgt_exact_range range = CGT_EXACT_NO_RANGE;
+    for (int k = 0; k < 3; k++)
+        range = cgt_exact_range_with(range, triangle->v[k]);
+    return range;
+}
+
+/* The range is that of the primitive's positions and lengths. */
+static void look(view *w, const cgt_exact_ray *ray, cgt_exact_range primitive)
+{
+    w->length = cgt_exact_unit_of(cgt_exact_range_with(primitive, ray->org));
+    w->direction = cgt_exact_unit_of(cgt_exact_range_with(CGT_EXACT_NO_RANGE, ray->dir));
+    w->narrow = cgt_exact_is_narrow(w->length, w->direction);
+    cgt_exact_load(&w->dir, ray->dir, w->direction, w->narrow);
+    cgt_exact_load(&w->org, ray->org, w->length, w->narrow);
+}
+
+void cgt_exact_edge_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_integer edge[3])
+{
+    view w;
+    cgt_exact_vector v[3];
+    cgt_exact_cross cross;
+    look(&w, ray, range_of_triangle(triangle));
+    for (int k = 0; k < 3; k++)
+        cgt_exact_load_seen(&v[k], triangle->v[k], &w.org, w.length);
+    for (int k = 0; k < 3; k++) {
+        cgt_exact_cross_product(&cross, &v[(k + 1) % 3], &v[(k + 2) % 3]);
+        cgt_exact_triple_product(&edge[k], &cross, &w.dir);
+    }
+}
+
+void cgt_exact_plane_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_plane *plane)
+{
+    view w;
+    cgt_exact_vector v[3];
+    cgt_exact_cross normal;
+    look(&w, ray, range_of_triangle(triangle));
+    for (int k = 0; k < 3; k++)
+        cgt_exact_load_seen(&v[k], triangle->v[k], &w.org, w.length);
+    for (int k = 1; k < 3; k++)
+        cgt_exact_vector_subtract(&v[k], &v[k], &v[0]);
+    cgt_exact_cross_product(&normal, &v[1], &v[2]);
+    cgt_exact_triple_product(&plane->number, &normal, &v[0]);
+    cgt_exact_triple_product(&plane->determinant, &normal, &w.dir);
+    plane->exponent = w.length.low - w.direction.low;
+}
+
+void cgt_exact_sphere_terms(const cgt_exact_ray *ray, cgt_sphere sphere, cgt_exact_quadratic *quadratic)
+{
+    const float position[3] = {sphere.x, sphere.y, sphere.z}, length[3] = {sphere.r, 0, 0};
+    view w;
+    cgt_exact_vector centre, radius;
+    cgt_exact_integer square, product;
+    look(&w, ray, cgt_exact_range_with(cgt_exact_range_with(CGT_EXACT_NO_RANGE, position), length));
+    cgt_exact_load_seen(&centre, position, &w.org, w.length);
+    cgt_exact_load(&radius, length, w.length, w.narrow);
+    cgt_exact_dot_product(&quadratic->middle, &w.dir, &centre);
+    cgt_exact_dot_product(&quadratic->scale, &w.dir, &w.dir);
+    cgt_exact_dot_product(&quadratic->product, &centre, &centre);
+    cgt_exact_dot_product(&square, &radius, &radius);
+    cgt_exact_subtract(&quadratic->product, &quadratic->product, &square);
+    cgt_exact_multiply(&square, &quadratic->middle, &quadratic->middle);
+    cgt_exact_multiply(&product, &quadratic->scale, &quadratic->product);
+    cgt_exact_subtract(&quadratic->discriminant, &square, &product);
+    quadratic->exponent = w.length.low - w.direction.low;
+}
+
+void cgt_exact_normal_terms(const cgt_triangle *triangle, cgt_exact_integer normal[3])
+{
+    const cgt_exact_unit unit = cgt_exact_unit_of(range_of_triangle(triangle));
+    const bool narrow = cgt_exact_is_narrow(unit, unit);
+    cgt_exact_vector v[3];
+    cgt_exact_cross cross;
+    for (int k = 0; k < 3; k++)
+        cgt_exact_load(&v[k], triangle->v[k], unit, narrow);
+    for (int k = 1; k < 3; k++)
+        cgt_exact_vector_subtract(&v[k], &v[k], &v[0]);
+    cgt_exact_cross_product(&cross, &v[1], &v[2]);
+    cgt_exact_cross_components(&cross, normal);
+}

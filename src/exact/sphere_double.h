@@ -1,0 +1,113 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Ray and sphere in double precision on the float input, in one order of operations, unfused, with error bounds.
+ *
+ * With c the centre seen from the origin, the roots of d.d t^2 - 2 d.c t + (c.c - r^2) = 0, by its discriminant as
+ * D = r^2 d.d - |c x d|^2 (Lagrange's identity), which does not cancel for a far or a huge sphere: near the silhouette
+ * |c x d| is about r |d|, however far the sphere is. The root that would cancel comes from the other by their product
+ * (c.c - r^2) / d.d, and no division is needed for it.
+ *
+ * Bounds, with e = 2^-53; products of two floats are exact:
+ *   d.c      4 e |c| |d|: c 1 e, a product 1 e, two sums
+ *   c x d    each of its products 2 e, their difference 1 e: as a vector 2 sqrt(2) e |c| |d| + e |c x d|
+ *   D        of |c x d|^2 = r^2 d.d at the silhouette: (6 r |c| + 5 r^2 + 9 e |c|^2) e d.d; of r^2 d.d 3 e, of their
+ *            difference 1 e: at most 9 e (r (|c| + r) + 16 e |c|^2) d.d, which decides hit or miss; beyond the silhouette
+ *            the error grows with |c x d| and D falls faster. On any line 14 e (c.c + r^2) d.d
+ *   c.c - r^2   6 e (c.c + r^2)
+ * A root is safe where it errs by at most 2^-31 of itself. The root that is a sum, (d.c + h) / d.d with h^2 = D, takes D's
+ * error over 2 h: that is at most 2^-32 of it where (c.c + r^2) d.d 14 e 2^32 <= (d.c + h) h, and then d.c is right to far
+ * less, since d.c + h >= h. The other one takes the product's besides.
+ *
+ * Most hits go the shorter way of cgt_sphere_double_near, with D as (d.c)^2 - d.d (c.c - r^2). That errs by at most
+ * 18 e (c.c + r^2) d.d. Where the origin is so far outside that c.c - r^2 >= c.c / 8, a line that meets the sphere
+ * has (d.c)^2 >= d.d (c.c + r^2) / 16, and D errs by at most 2^-44 (d.c)^2. Where D is above 2^-24 (d.c)^2 besides, h errs
+ * by at most 2^-33 d.c, and the root by at most 2^-32 of itself. The point that is hit moves by the error of h, 2^-25 r at
+ * most: for a small sphere h is above 2^-12 |c| |d|, below r |d|, and errs by 9 e (|c| |d|)^2 / h; for one that is not
+ * small by less. What is left, silhouettes, spheres around the origin or right before it, and far roots, goes the long way.
+ * No term leaves the range of double: floats and their differences lie between 2^-149 and 2^129. */
+#ifndef CGT_SPHERE_DOUBLE_H
+#define CGT_SPHERE_DOUBLE_H
+
+#include <math.h>
+
+#include "model/primitive.h"
+
+#define CGT_DOUBLE_U 0x1p-53
+
+/* Values whose relative error is at most this are rounded to float as they are: at most 0.51 ulp off. What cancels more
+ * is computed in exact arithmetic. */
+#define CGT_DOUBLE_SAFE 0x1p-30
+
+/* The quadratic square t^2 - 2 middle t + product = 0 of a line and a sphere, with its discriminant, negative for a miss;
+ * distance2 is c.c, size c.c + r^2. */
+typedef struct cgt_sphere_terms {
+    double square, middle, product, disc, distance2, size;
+} cgt_sphere_terms;
+
+/* All steps are written without branches, so that a loop over rays becomes vector code. */
+static inline cgt_sphere_terms cgt_sphere_double_terms(const float org[3], const float dir[3], cgt_sphere q)
+{
+    const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1],
+                 cz = (double)q.z - (double)org[2];
+    const double dx = (double)dir[0], dy = (double)dir[1], dz = (double)dir[2], r = (double)q.r;
+    const double dd = dx * dx + dy * dy + dz * dz, cc = cx * cx + cy * cy + cz * cz, rr = r * r;
+    const double x = cy * dz - cz * dy, y = cz * dx - cx * dz, z = cx * dy - cy * dx;
+    return (cgt_sphere_terms){.square = dd,
+                              .middle = dx * cx + dy * cy + dz * cz,
+                              .product = cc - rr,
+                              .disc = rr * dd - (x * x + y * y + z * z),
+                              .distance2 = cc,
+                              .size = cc + rr};
+}
+
+/* What a hit that goes the short way asks for: that c.c - r^2 is at least this much of c.c, and D above this much of
+ * (d.c)^2. */
+#define CGT_SPHERE_OUTSIDE 0x1p-3
+#define CGT_SPHERE_INSIDE 0x1p-24
+
+/* The near root by the short way, its discriminant by differences; false where it has to be the long one. */
+static inline bool cgt_sphere_double_near(cgt_sphere_terms e, double *near)
+{
+    const double square = e.middle * e.middle, disc = square - e.square * e.product;
+    *near = e.product / (e.middle + sqrt(disc));
+    return e.product >= e.distance2 * CGT_SPHERE_OUTSIDE && e.middle > 0 && disc > square * CGT_SPHERE_INSIDE;
+}
+
+/* The bound of the error of the discriminant, tight. */
+static inline double cgt_sphere_double_disc_error(const float org[3], const float dir[3], cgt_sphere q)
+{
+    double distance = 0, dd = 0;
+    const float center[3] = {q.x, q.y, q.z};
+    for (int a = 0; a < 3; a++) {
+        distance += fabs((double)center[a] - (double)org[a]);
+        dd += (double)dir[a] * (double)dir[a];
+    }
+    const double wide = 4 * CGT_DOUBLE_U * distance, r = q.r;
+    return 9 * (CGT_DOUBLE_U * r * (distance + r) + wide * wide) * dd;
+}
+
+/* Both roots; NaN for a miss. */
+typedef struct cgt_sphere_roots {
+    double near, far;
+} cgt_sphere_roots;
+
+/* half: the root of the discriminant, NaN for a miss, and it stays NaN. */
+static inline cgt_sphere_roots cgt_sphere_double_roots(cgt_sphere_terms e, double half)
+{
+    const double large = fabs(e.middle) + half;   /* of the sign of middle, which is put back below */
+    const double divisor = large > 0 ? large : 1; /* both roots are 0 where large is */
+    const double sum = large / e.square, other = e.product / divisor;
+    return (cgt_sphere_roots){e.middle > 0 ? other : -sum, e.middle > 0 ? sum : -other};
+}
+
+/* 1 where a root has lost more than it may, or is none, else 0; as wide as a double, for vector code. */
+static inline uint64_t cgt_sphere_double_unsafe(cgt_sphere_terms e, double half)
+{
+    const double large = fabs(e.middle) + half;
+    const uint64_t sum = e.size * e.square * (14 * CGT_DOUBLE_U * 0x1p32) <= large * half ? 0 : 1;
+    const uint64_t other = e.size * (8 * CGT_DOUBLE_U * 0x1p32) <= fabs(e.product) ? 0 : 1;
+    return sum | other;
+}
+
+#endif

@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Nodes and leaf blocks of the wide tree, as wide as the variant. */
+#ifndef CGT_WIDE_NODE_H
+#define CGT_WIDE_NODE_H
+
+#include "model/bvh.h"
+#include "dispatch/kernel.h"
+#include "vector.h"
+
+/* Children are packed: those that there are come first. */
+typedef struct wide_node {
+    _Alignas(CGT_VECTOR_BYTES) float low[3][CGT_LANES]; /* of children, rounded outwards; +infinity without a child */
+    float high[3][CGT_LANES];                           /* -infinity without a child */
+    uint32_t child[CGT_LANES];                          /* see bvh.h */
+    uint8_t order[4]
+                 [CGT_LANES]; /* all lanes, in the order in which rays of octant k meet children, k = 0..3: bit a of k
+                                    is set where the direction's component a is negative; octant 7 - k has the reverse.
+                                    Lanes without a child come last in the row; whoever reads it backwards starts at the
+                                    number of children */
+    uint32_t children;        /* 2 to CGT_LANES; 1 in a root only */
+    uint32_t unused[3];
+} wide_node;
+
+/* A leaf's primitives; lanes beyond its count repeat the last one. */
+typedef struct wide_spheres {
+    _Alignas(CGT_VECTOR_BYTES) float center[3][CGT_LANES];
+    float radius[CGT_LANES];
+    uint32_t object[CGT_LANES];
+} wide_spheres;
+
+typedef struct wide_triangles { /* fields of leaf_triangle.h, by the same arithmetic: times the world's scale */
+    _Alignas(CGT_VECTOR_BYTES) float vertex[3][CGT_LANES];
+    float edge[2][3][CGT_LANES];
+    float sum[2][CGT_LANES];
+    uint32_t object[CGT_LANES];
+} wide_triangles;
+
+CGT_SPU_INLINE uint32_t wide_leaf_count(uint32_t code) { return (code >> CGT_WIDE_COUNT_SHIFT & 15) + 1; }
+
+#endif

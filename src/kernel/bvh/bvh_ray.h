@@ -1,0 +1,155 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays as the wide tree takes them, and its slabs (Kay, Kajiya, "Ray Tracing Complex Scenes", 1986), conservative: a
+ * child is left out for a ray only where the ray surely does not pass its closed box at a t that still counts.
+ *
+ * Normalised rays. Origins are times the world's scale, a power of two that brings the world's coordinates to at most 2;
+ * directions are times 2^-k, so that their largest component is at least 1 and less than 2; and t is times s = 2^k scale.
+ * All three are exact but for what underflows, which is below 2^-149 and vanishes in the bounds of what follows. Rays for
+ * which origins are beyond 2^60 or s is outside of 2^-100 to 2^60 are extreme: they go another way.
+ *
+ * Which t count: t is rounded to float before it is compared with the range. So the range is widened, by 2^-20 of its
+ * ends and by 2^-86, which is more than 2^-149 s; beyond 2^100 no ray meets anything. `near` and `far` are these ends;
+ * 2^-18 of them and 2^-84 further in t is inside for certain.
+ *
+ * Slabs, for each axis a, with o and d of the ray, p of a plane, P the largest |p| of the root's box, and u = 2^-24. A
+ * component of d below 2^-40 is made 2^-40, its sign kept, that of a zero too, and r = 1 / d, within 2^-21. Planes are
+ * moved outwards by
+ *   E = 2^-20 (|o| + P) + 2^-37 M + 2^-85,   M the largest |o| + P of the axes
+ * and t = (p +- E) r - o r, fused or not.
+ *   Rounding: r loses 2^-21 (|p| + |o|) |r|, the products and sums at most 5 u of it: together less than 0.82 times
+ * 2^-20 (|p| + |o|) |r|. What is left covers the roundings of E itself, and 2^-85 what underflows, in the boxes too.
+ *   Components that were made larger: a ray that counts is inside the root's box at t, and along the axis of its largest
+ * component |t| |d| <= |o| + P, so |t| <= M. With d' for the component that it was, the ray is at p = o + t d', where the
+ * slab's t is t d' / d, at most |t| away from 0, so at most 2 M from t; the planes' move is worth 2^-37 M |r| > 7 M.
+ * A test shrinks E until hits are lost.
+ *
+ * Many rays may share one E: that of the largest |o|. */
+#ifndef CGT_WIDE_RAY_H
+#define CGT_WIDE_RAY_H
+
+#include "kernel/primitive/lane_tests.h"
+#include "kernel/packet/ray_packet.h"
+#include "kernel/bvh/bvh_node.h"
+
+#ifndef WIDE_SLACK /* a test gives it less, to find where hits are lost */
+#define WIDE_SLACK 1.f
+#endif
+
+#define WIDE_LARGEST_ORG 0x1p60f
+#define WIDE_LARGEST_T 0x1p100f
+#define WIDE_FLAT 0x1p-40f
+
+/* The call, as all its rays see it. Either they come from arrays or from a packet. */
+typedef struct wide_call {
+    const cgt_world *world;
+    const cgt_wide_tree *tree;
+    const ray_source *source;
+    uint64_t first; /* ray 0 of the array */
+    const packet *p;
+    cgt_counts *counts;
+    float scale;
+    float most[3]; /* P */
+    bool any_hit;
+    bool hides;              /* there are rays that do not see everything: wide_hidden */
+    const uint32_t *ignored; /* of each ray an object, or CGT_NONE; NULL: nobody ignores anything */
+    const uint32_t *mask;    /* of each ray; NULL: masks hide nothing */
+} wide_call;
+
+/* Whether the call can go through the tree at all; else rays are extreme. */
+CGT_SPU_INLINE bool wide_call_make(const cgt_world *world, cgt_counts *counts, wide_call *c)
+{
+    memset(c, 0, sizeof *c);
+    c->world = world;
+    c->tree = &world->wide;
+    c->counts = counts;
+    c->scale = world->scale;
+    for (int a = 0; a < 3; a++) {
+        const float low = fabsf(world->wide.low[a]), high = fabsf(world->wide.high[a]);
+        c->most[a] = (low > high ? low : high) * c->scale * (1 + 0x1p-20f);
+    }
+    return c->scale <= 0x1p60f && c->scale >= 0x1p-60f;
+}
+
+/* E of a ray, or of the largest of several. */
+CGT_SPU_INLINE void wide_slack(const wide_call *c, const float org[3], float slack[3])
+{
+    float most = 0;
+    for (int a = 0; a < 3; a++) {
+        slack[a] = org[a] + c->most[a];
+        most = slack[a] > most ? slack[a] : most;
+    }
+    for (int a = 0; a < 3; a++)
+        slack[a] = (slack[a] * 0x1p-20f + (most * 0x1p-37f + 0x1p-85f)) * WIDE_SLACK;
+}
+
+/* Whether ray i does not see an object: the one that it ignores, or of a geometry that its mask leaves out. */
+CGT_SPU_INLINE bool wide_hidden(const wide_call *c, uint32_t i, uint32_t object)
+{
+    if (c->ignored && c->ignored[i] == object)
+        return true;
+    return c->mask && !(c->mask[i] & cgt_objects_array(&c->world->objects, object)->mask);
+}
+
+/* ---- deciding ---- */
+
+/* Ray i as the caller gave it. */
+CGT_SPU_INLINE cgt_ray wide_given_ray(const wide_call *c, uint32_t i)
+{
+    cgt_ray ray;
+    if (c->p) {
+        for (int a = 0; a < 3; a++) {
+            ray.line.org[a] = c->p->org[a][i];
+            ray.line.dir[a] = c->p->dir[a][i];
+        }
+        ray.t_min = c->p->t_min[i];
+        ray.t_max = c->p->t_max[i];
+        return ray;
+    }
+    const cgt_rays *r = c->source->rays;
+    const uint64_t at = c->first + i;
+    for (int a = 0; a < 3; a++) {
+        ray.line.org[a] = ray_element(c->source, r->org[a], at);
+        ray.line.dir[a] = ray_element(c->source, r->dir[a], at);
+    }
+    ray.t_min = r->t_min ? ray_element(c->source, r->t_min, at) : 0;
+    ray.t_max = r->t_max ? ray_element(c->source, r->t_max, at) : INFINITY;
+    ray.t_min = ray.t_min < -FLT_MAX ? -FLT_MAX : ray.t_min;
+    return ray;
+}
+
+/* A ray's best hit so far: its t is in [low, high]. */
+typedef struct wide_best {
+    float low, high;
+    uint32_t object; /* CGT_NONE: none yet */
+    uint32_t unused;
+} wide_best;
+
+/* Decides whether object beats the best hit of ray i, which it then is. Of any-hit rays low and high become -infinity. */
+__attribute__((noinline, cold, unused)) static bool wide_decide(const wide_call *c, uint32_t i, uint32_t object,
+                                                                wide_best *best)
+{
+    double t;
+    if (best->object == object || best->high == -INFINITY)
+        return false;
+    const cgt_ray ray = wide_given_ray(c, i);
+    if (!filter_beats(&c->world->objects, &ray, c->any_hit ? CGT_NONE : best->object, object, &t, c->counts))
+        return false;
+    best->object = object;
+    best->low = best->high = -INFINITY;
+    if (c->any_hit)
+        return true;
+    float longest = 0;
+    int exponent;
+    for (int a = 0; a < 3; a++)
+        longest = fabsf(ray.line.dir[a]) > longest ? fabsf(ray.line.dir[a]) : longest;
+    frexpf(longest, &exponent); /* 2^exponent is twice 2^k */
+    const float scaled = (float)(ldexp((double)(float)t, exponent - 1) * (double)c->scale);
+    const float width = fabsf(scaled) * 0x1p-22f + 0x1p-84f;
+    best->low = scaled - width;
+    best->high = scaled + width;
+    return true;
+}
+
+#endif

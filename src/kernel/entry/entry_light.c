@@ -1,0 +1,38 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Points against one light, any hit: neighbours in the arrays become packets of rays from the points to the light. Such
+ * rays share a direction, or where they end: large packets have much in common. */
+#include "kernel/light/light_points.h"
+
+#define LIGHT_PACKET 128u /* rays; measured: larger ones share more of spheres, smaller ones of fine meshes */
+
+void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
+                                 uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded,
+                                 cgt_counts *counts)
+{
+    packet p;
+    if (settings->light_tiles) {
+        CGT_KERNEL(cgt_tile_trace_light)(world, points, light, first, end, settings, occluded, counts);
+        return;
+    }
+    if (settings->wide) {
+        CGT_KERNEL(cgt_wide_trace_light)(world, points, light, first, end, settings, occluded, counts);
+        return;
+    }
+    const light_call c = {.world = world,
+                          .source = ray_source_make(points, light),
+                          .light = *light,
+                          .order = {first, NULL},
+                          .settings = settings,
+                          .occluded = occluded,
+                          .counts = counts};
+    const uint32_t count = (uint32_t)(end - first);
+    p.any_hit = true;
+    p.fast = settings->precision == CGT_PRECISION_FAST;
+    p.triangle_test = settings->triangle_test;
+    counts->rays += count;
+    for (uint32_t i = 0; i < count; i += LIGHT_PACKET)
+        light_trace_packet(&c, i, count - i < LIGHT_PACKET ? count - i : LIGHT_PACKET, &p);
+    light_count_hits(&c, count);
+}

@@ -1,0 +1,103 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Arrays of rays. Through a grid, neighbours become packets as they come, and the traversal splits those whose rays run
+ * apart. Through a tree, packets are made of neighbours among the rays of like direction. */
+#include "kernel/packet/ray_hits.h"
+
+#define RAY_PACKET 64
+
+/* The call, as all its packets see it. */
+typedef struct rays_call {
+    const cgt_world *world;
+    ray_source source;
+    const cgt_trace_settings *settings;
+    const cgt_hits *hits;
+    uint8_t *occluded;
+    cgt_counts *counts;
+} rays_call;
+
+static void trace_range(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p)
+{
+    packet_hits h;
+    if (!ray_packet_make(c->world, &c->source, order, first, count, p, c->counts)) {
+        for (uint32_t k = 0; k < count; k++)
+            trace_range(c, order, first + k, 1, p);
+        return;
+    }
+    CGT_KERNEL(cgt_packet_trace)(c->world, p, c->settings, c->counts);
+    if (c->hits) {
+        CGT_KERNEL(cgt_packet_resolve)(c->world, p, c->settings, &h, c->counts);
+        ray_store_hits(&h, order, first, count, c->hits);
+        return;
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        c->occluded[ray_at(order, first + k)] = p->object[k] != CGT_NONE;
+        c->counts->hits += p->object[k] != CGT_NONE;
+    }
+}
+
+/* ---- rays of like direction together ---- */
+
+#define DIRECTIONS 8u /* octants */
+
+static uint32_t direction_of(const ray_source *s, uint64_t i)
+{
+    const float x = ray_element(s, s->rays->dir[0], i), y = ray_element(s, s->rays->dir[1], i),
+                z = ray_element(s, s->rays->dir[2], i);
+    return (uint32_t)(x < 0) | (uint32_t)(y < 0) << 1 | (uint32_t)(z < 0) << 2;
+}
+
+/* A counting sort by direction: rays of one keep their order. Returns whether there are several. */
+static bool order_rays(const ray_source *s, uint64_t first, uint32_t count, uint32_t *from)
+{
+    uint8_t direction[CGT_RAYS_CHUNK];
+    uint32_t start[DIRECTIONS + 1] = {0}, directions = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        direction[i] = (uint8_t)direction_of(s, first + i);
+        start[direction[i] + 1]++;
+    }
+    for (uint32_t d = 0; d < DIRECTIONS; d++) {
+        directions += start[d + 1] != 0;
+        start[d + 1] += start[d];
+    }
+    if (directions < 2)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        from[start[direction[i]]++] = i;
+    return true;
+}
+
+/* Packets through whatever structure there is. Not inline: its arrays and those of streams are not there at once. */
+__attribute__((noinline)) static void trace_packets(const cgt_world *world, const cgt_rays *rays, uint64_t first,
+                                                    uint64_t end, const cgt_trace_settings *settings,
+                                                    const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts)
+{
+    packet p;
+    uint32_t from[CGT_RAYS_CHUNK];
+    const rays_call c = {.world = world,
+                         .source = ray_source_make(rays, NULL),
+                         .settings = settings,
+                         .hits = hits,
+                         .occluded = occluded,
+                         .counts = counts};
+    const uint32_t count = (uint32_t)(end - first);
+    const bool tree = world->structure == CGT_STRUCTURE_KD || world->structure == CGT_STRUCTURE_KD_ROPES;
+    const ray_order order = {first, tree && order_rays(&c.source, first, count, from) ? from : NULL};
+    p.any_hit = hits == NULL;
+    p.fast = settings->precision == CGT_PRECISION_FAST;
+    p.triangle_test = settings->triangle_test;
+    counts->rays += count;
+    for (uint32_t i = 0; i < count; i += RAY_PACKET)
+        trace_range(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, &p);
+}
+
+void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
+                                const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
+                                cgt_counts *counts)
+{
+    if (settings->wide && !world->everything)
+        CGT_KERNEL(cgt_wide_trace_rays)(world, rays, first, end, settings, hits, occluded, counts);
+    else
+        trace_packets(world, rays, first, end, settings, hits, occluded, counts);
+}

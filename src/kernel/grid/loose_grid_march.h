@@ -1,0 +1,172 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Which cells of a loose grid the rays of a packet may need, front to back. The packet's frustum (frustum.h) lives in a
+ * space of its own, the bounds of all objects, so that one frustum serves all levels. The march goes along its main
+ * axis w. All levels go together: the next slice of cells is always the one that begins nearest.
+ *
+ * A slice of cells holds objects between two planes, its cells' own enlarged by the level's reach (loose_grid.h). No
+ * object is met outside the bounds of all, nor where the frustum does not pass them; between what is left of the planes
+ * the frustum's bounds are lines over w, so that their values at both ends give a rectangle of cells, enlarged by the
+ * reach too: an object that a ray meets touches it.
+ *
+ * Rounding. Planes and lines are brought to a level's cells in double and kept in float. Planes are within 2^-24 of the
+ * largest number M on the way from level to slice, each 4 times; 2^-20 M is taken on either side. A line's value at a
+ * plane is within 3 2^-24 of the sum of sizes of its terms; 2^-20 of that is taken off. Lines that are steeper than
+ * floats are good for, in a level that is very small beside the scene, bound nothing. */
+#ifndef CGT_LOOSE_GRID_MARCH_H
+#define CGT_LOOSE_GRID_MARCH_H
+
+#include "kernel/packet/frustum.h"
+
+#define LOOSE_SPACE 1024u /* divisions of the space: how near to its first ray the frustum begins */
+
+/* A level, seen along the frustum; w counts from the frustum's w0. */
+typedef struct loose_march_level {
+    vec_float4 bound, step, most; /* lower bounds of cells u, -u, v, -v, as lines over w; the last cells */
+    float begin, pitch;           /* where objects of slice 0 begin; from one slice to the next */
+    float thickness;              /* of a slice and its reach */
+    uint32_t next, end;           /* slices, counted along the rays */
+} loose_march_level;
+
+typedef struct loose_march {
+    const cgt_loose_grid *grid;
+    const frustum *frustum;
+    float low, high; /* w of the part of the frustum that passes the space */
+    loose_march_level level[CGT_LOOSE_LEVELS];
+} loose_march;
+
+/* Cells low to high of u, then of v. */
+typedef struct loose_slice {
+    const cgt_loose_level *level;
+    uint32_t along; /* the cell along w */
+    vec_int4 cells;
+} loose_slice;
+
+/* The bounds of all objects as a space, nowhere thinner than what float can divide. */
+CGT_SPU_INLINE void loose_space_make(const cgt_world *world, frustum_space *s)
+{
+    double extent[3], largest = 0, magnitude = 0;
+    for (int a = 0; a < 3; a++) {
+        const double low = (double)world->low[a], high = (double)world->high[a];
+        extent[a] = high - low;
+        largest = extent[a] > largest ? extent[a] : largest;
+        magnitude = -low > magnitude ? -low : magnitude;
+        magnitude = high > magnitude ? high : magnitude;
+    }
+    double least = largest * 0x1p-10 > magnitude * 0x1p-18 ? largest * 0x1p-10 : magnitude * 0x1p-18;
+    least = least > 0x1p-50 ? least : 0x1p-50;
+    for (int a = 0; a < 3; a++) {
+        const double more = extent[a] < least ? least - extent[a] : 0;
+        s->org[a] = (float)((double)world->low[a] - more / 2);
+        const double rest = (double)world->high[a] - (double)s->org[a];
+        s->rcell[a] = (float)(LOOSE_SPACE / (rest > least ? rest : least));
+        /* 16 roundings of 2^-24 each, of the coordinate and of the point behind it */
+        s->slack[a] = 0x1p-20f * ((float)LOOSE_SPACE + (float)magnitude * s->rcell[a]);
+        s->resolution[a] = LOOSE_SPACE;
+    }
+}
+
+/* The lines of axis k (0: u, 1: v) in the level's cells: with U = (x - org) R in the space, a point's cell coordinate
+ * (x - low) / cell is U / (R cell) + (org - low) / cell. */
+CGT_SPU_INLINE void loose_march_lines(const loose_march *m, const frustum_space *s, const cgt_loose_level *from, int k,
+                                      loose_march_level *l)
+{
+    const frustum *f = m->frustum;
+    const int axis = k ? f->v : f->u;
+    const double rcell = 1 / (double)from->cell[axis], scale = rcell / (double)s->rcell[axis];
+    const double shift = ((double)s->org[axis] - (double)from->low[axis]) * rcell;
+    const double reach = (double)from->reach[axis] * rcell;
+    for (int i = 2 * k; i < 2 * k + 2; i++) {
+        const double bound = scale * (double)f->bound[i], step = scale * (double)f->step[i];
+        const double size = fabs(bound) + fabs(shift) + reach + fabs(step) * (double)m->high + 1;
+        const double least = bound + (i & 1 ? -shift : shift) - reach - size * 0x1p-20;
+        const bool steep = !(size < 0x1p60);
+        l->bound[i] = steep ? -0x1p24f : (float)least;
+        l->step[i] = steep ? 0 : (float)step;
+    }
+}
+
+CGT_SPU_INLINE void loose_march_slices(const loose_march *m, const frustum_space *s, const cgt_loose_level *from,
+                                       loose_march_level *l)
+{
+    const frustum *f = m->frustum;
+    const int w = f->w;
+    const double r = (double)s->rcell[w], cell = (double)from->cell[w], reach = (double)from->reach[w];
+    const double low = (double)from->low[w] - (double)s->org[w], length = cell * from->size[w];
+    const double first =
+        (f->reverse ? s->resolution[w] - (low + length + reach) * r : (low - reach) * r) - (double)f->w0;
+    const double pitch = cell * r, thickness = (cell + 2 * reach) * r;
+    const double wide = (fabs(first) + length * r + thickness + s->resolution[w]) * 0x1p-20;
+    const double begin = first - wide, thick = thickness + 2 * wide;
+    const double before = ((double)m->low - begin - thick) / pitch, last = ((double)m->high - begin) / pitch + 1;
+    l->begin = (float)begin;
+    l->pitch = (float)pitch;
+    l->thickness = (float)(thick + wide);
+    l->next = before > 0 ? before < from->size[w] ? (uint32_t)before : from->size[w] : 0;
+    l->end = last < from->size[w] ? last > 0 ? (uint32_t)last : 0 : from->size[w];
+}
+
+/* The frustum and its space stay as they are while the march goes on. */
+CGT_SPU_INLINE void loose_march_make(const cgt_loose_grid *grid, const frustum_space *s, const frustum *f,
+                                     loose_march *m)
+{
+    m->grid = grid;
+    m->frustum = f;
+    m->level[0] = (loose_march_level){0}; /* there is one, which the compiler cannot know */
+    m->low = (float)f->first - f->w0;
+    m->high = (float)f->end - f->w0;
+    for (uint32_t i = 0; i < grid->levels; i++) {
+        const cgt_loose_level *from = &grid->level[i];
+        loose_march_level *l = &m->level[i];
+        l->next = l->end = 0;
+        l->most = frustum_most((float)(from->size[f->u] - 1), (float)(from->size[f->v] - 1));
+        loose_march_lines(m, s, from, 0, l);
+        loose_march_lines(m, s, from, 1, l);
+        loose_march_slices(m, s, from, l);
+    }
+}
+
+/* Cells of slice k of a level that the frustum may need. */
+CGT_SPU_INLINE vec_int4 loose_march_cells(const loose_march *m, const loose_march_level *l, uint32_t k)
+{
+    const float begin = l->begin + (float)k * l->pitch, end = begin + l->thickness;
+    const float near = begin > m->low ? begin : m->low, far = end < m->high ? end : m->high;
+    return frustum_cells(spu_madd(l->step, spu_splats(near), l->bound), spu_madd(l->step, spu_splats(far), l->bound),
+                         l->most);
+}
+
+/* The level whose next slice begins nearest, and where; NULL: none has any left. */
+CGT_SPU_INLINE loose_march_level *loose_march_nearest(loose_march *m, float *begin)
+{
+    loose_march_level *nearest = NULL;
+    for (uint32_t i = 0; i < m->grid->levels; i++) {
+        loose_march_level *l = &m->level[i];
+        const float at = l->begin + (float)l->next * l->pitch;
+        if (l->next < l->end && (!nearest || at < *begin)) {
+            nearest = l;
+            *begin = at;
+        }
+    }
+    return nearest;
+}
+
+CGT_SPU_INLINE loose_slice loose_march_take(loose_march *m, loose_march_level *l)
+{
+    loose_slice s = {.level = &m->grid->level[l - m->level], .cells = loose_march_cells(m, l, l->next)};
+    s.along = m->frustum->reverse ? s.level->size[m->frustum->w] - 1 - l->next : l->next;
+    l->next++;
+    return s;
+}
+
+/* The objects of cells (x, y, z) to (x + more, y, z). */
+CGT_SPU_INLINE const uint32_t *loose_run(const cgt_loose_grid *grid, const cgt_loose_level *l, uint32_t x, uint32_t y,
+                                         uint32_t z, uint32_t more, uint32_t *count)
+{
+    const uint32_t cell = l->first + (z * l->size[1] + y) * l->size[0] + x;
+    const uint32_t first = grid->start[cell];
+    *count = grid->start[cell + more + 1] - first;
+    return grid->object + first;
+}
+
+#endif

@@ -1,0 +1,258 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The objects of a leaf of a tree against rays of a packet: a vector of rays and one object after the other, or one ray
+ * and a vector of objects. FAST precision takes the filters of the grid, whose tests it shares. */
+#ifndef CGT_KD_LEAF_H
+#define CGT_KD_LEAF_H
+
+#include "kernel/primitive/lane_tests.h"
+#include "kernel/primitive/sphere_filter.h"
+#include "kernel/primitive/triangle_fast.h"
+
+#define LEAF_TRIANGLE 11  /* fields of a leaf triangle */
+#define LEAF_MAILBOX 256u /* direct mapped by the low bits of the object */
+
+/* What leaf tests need, made once a packet. */
+typedef struct leaf_tests {
+    const cgt_objects *objects;
+    packet *p;
+    cgt_counts *counts;
+    const cgt_leaf_triangle *triangle;
+    float scale;
+    bool mailbox;
+    uint32_t seen[LEAF_MAILBOX]; /* objects that the rays in work have met lately */
+    filter_packet filter;        /* in FAST precision */
+    /* of the leaf in work: lanes beyond its count hold what they held before */
+    filter_spheres spheres;
+    filter_triangles triangles;                       /* in FAST precision */
+    _Alignas(64) float row[LEAF_TRIANGLE][CGT_LANES]; /* else: fields of leaf triangles */
+} leaf_tests;
+
+CGT_SPU_INLINE void leaf_tests_make(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                    cgt_counts *counts, leaf_tests *l)
+{
+    l->objects = &world->objects;
+    l->p = p;
+    l->counts = counts;
+    l->triangle = world->triangle;
+    l->scale = world->scale;
+    l->mailbox = settings->mailbox;
+    if (world->objects.spheres) {
+        memset(l->spheres.center, 0, sizeof l->spheres.center);
+        memset(l->spheres.radius, 0, sizeof l->spheres.radius);
+    }
+    if (world->objects.triangles) {
+        memset(l->triangles.vertex, 0, sizeof l->triangles.vertex);
+        memset(l->row, 0, sizeof l->row);
+    }
+    if (!p->fast)
+        return;
+    filter_packet_make(p, world->scale, &l->filter);
+    if (world->objects.triangles && !p->common_origin)
+        filter_moments_make(p, &l->filter);
+}
+
+/* Before other rays. */
+CGT_SPU_INLINE void leaf_mailbox_clear(leaf_tests *l)
+{
+    if (l->mailbox)
+        memset(l->seen, 0xff, sizeof l->seen);
+}
+
+/* Whether the rays in work have met the object; remembers it. */
+CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t object)
+{
+    uint32_t *seen = &l->seen[object % LEAF_MAILBOX];
+    const bool has = *seen == object;
+    *seen = object;
+    l->counts->mailbox_skipped += has;
+    return has;
+}
+
+/* ---- a vector of rays ---- */
+
+/* Keeps what lanes found out about the object that all of them tested. */
+CGT_SPU_INLINE void leaf_keep_vector(leaf_tests *l, uint32_t object, uint32_t i, const lane_hits *q)
+{
+    packet *p = l->p;
+    const vfloat low = spux_load(p->low + i), high = spux_load(p->high + i);
+    const vuint winner = spux_load_uint(p->object + i), number = spux_vuint(object);
+    vmask nearer = spu_and(q->certain, spu_cmpgt(low, q->high));
+    vmask settled = spu_or(spu_or(nearer, spu_cmpgt(q->low, high)), spu_cmpeq(winner, number));
+    if (p->selective) {
+        const vmask left_out = select_left_out_of_one(l->objects, p, i, object);
+        nearer = spu_andc(nearer, left_out);
+        settled = spu_or(settled, left_out);
+    }
+    const vfloat closed = spux_vfloat(-INFINITY);
+    spux_store(p->low + i, spux_select(low, p->any_hit ? closed : q->low, nearer));
+    spux_store(p->high + i, spux_select(high, p->any_hit ? closed : q->high, nearer));
+    spux_store_uint(p->object + i, spux_select(winner, number, nearer));
+    for (unsigned left = spux_mask_bits(spu_andc(spu_or(q->certain, q->open), settled)); left; left &= left - 1)
+        filter_decide(l->objects, p, i + (uint32_t)__builtin_ctz(left), object, l->counts);
+}
+
+static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t object, uint32_t i)
+{
+    const cgt_object_array *a = cgt_objects_array(l->objects, object);
+    lane_hits q;
+    bool some;
+    if (a->kind == CGT_KIND_SPHERES) {
+        const cgt_sphere s = cgt_array_sphere(a, object - a->first);
+        const vfloat center[3] = {spux_vfloat(s.x), spux_vfloat(s.y), spux_vfloat(s.z)};
+        some = lane_sphere(r, center, spux_vfloat(s.r), &q);
+    } else {
+        lane_triangles triangle;
+        lane_triangles_of_one(&l->triangle[cgt_array_triangle_number(a, object)], &triangle);
+        some = lane_triangle(r, &triangle, &q);
+    }
+    if (some)
+        leaf_keep_vector(l, object, i, &q);
+}
+
+/* ---- a vector of rays in FAST precision ---- */
+
+static void leaf_fast_spheres(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
+{
+    filter_spheres *s = &l->spheres;
+    filter_spheres_fetch(l->objects, reference, count, count, s);
+    filter_spheres_bound(&l->filter, s);
+    for (uint32_t k = 0; k < count; k++) {
+#define CALL(mode)                                                                                                     \
+    {                                                                                                                  \
+        filter_sphere q = filter_sphere_get(l->p, s, (int)k, (mode).common_origin);                                    \
+        q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);                                                               \
+        filter_vector(l->objects, l->p, filter_sphere_rays_fast, &q, s->object[k], i, mode, l->counts);                \
+    }
+        FILTER_FOR_MODE(l->p, false, CALL)
+#undef CALL
+    }
+}
+
+static void leaf_fast_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
+{
+    filter_triangles *s = &l->triangles;
+    filter_triangles_fetch(l->objects, reference, count, count, s);
+    filter_triangles_prepare_fast(&l->filter, s);
+    for (uint32_t k = 0; k < count; k++) {
+#define TEST(test, q) filter_vector(l->objects, l->p, test, q, s->object[k], i, chosen, l->counts)
+#define CALL(mode)                                                                                                     \
+    {                                                                                                                  \
+        const filter_mode chosen = mode;                                                                               \
+        FILTER_WITH_TRIANGLE(l->p, &l->filter, s, (int)k, chosen, TEST)                                                \
+    }
+        FILTER_FOR_MODE(l->p, true, CALL)
+#undef CALL
+#undef TEST
+    }
+}
+
+static void leaf_test_fast(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
+{
+    l->counts->packet_tests += count;
+    while (count) {
+        cgt_kind kind;
+        const uint32_t run = leaf_run(l->objects, reference, count, &kind);
+        if (kind == CGT_KIND_SPHERES)
+            leaf_fast_spheres(l, reference, run, i);
+        else
+            leaf_fast_triangles(l, reference, run, i);
+        reference += run;
+        count -= run;
+    }
+}
+
+/* Objects of a leaf lie here and there: all are asked for before the first is tested. Of several arrays none is: to find
+ * the right one takes as long. */
+CGT_SPU_INLINE void leaf_prefetch(const leaf_tests *l, const uint32_t *reference, uint32_t count)
+{
+    const cgt_object_array *a = l->objects->array;
+    if (l->objects->arrays != 1)
+        return;
+    for (uint32_t k = 0; k < count; k++)
+        __builtin_prefetch(l->triangle ? (const void *)&l->triangle[reference[k]] : cgt_array_point(a, reference[k]));
+}
+
+/* Tests rays i to i + CGT_LANES - 1 against all objects of a leaf. r: these rays. Some that do not pass the leaf may be
+ * among them: what they meet, they meet. */
+CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
+                                     uint32_t i)
+{
+    l->counts->references += count;
+    if (l->p->fast) {
+        leaf_test_fast(l, reference, count, i);
+        return;
+    }
+    leaf_prefetch(l, reference, count);
+    for (uint32_t k = 0; k < count; k++) {
+        if (l->mailbox && leaf_mailbox_has(l, reference[k]))
+            continue;
+        l->counts->packet_tests++;
+        l->counts->ray_tests += CGT_LANES;
+        leaf_test_one(l, r, reference[k], i);
+    }
+}
+
+/* ---- one ray ---- */
+
+/* At most a vector of triangles to the first lanes; the others hold what they held before. */
+CGT_SPU_INLINE void leaf_fetch_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, lane_triangles *q)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        const cgt_object_array *a = cgt_objects_array(l->objects, reference[k]);
+        const cgt_leaf_triangle *t = &l->triangle[cgt_array_triangle_number(a, reference[k])];
+        for (int c = 0; c < 3; c++) {
+            l->row[c][k] = t->vertex[c];
+            l->row[3 + c][k] = t->edge[0][c];
+            l->row[6 + c][k] = t->edge[1][c];
+        }
+        l->row[9][k] = t->sum[0];
+        l->row[10][k] = t->sum[1];
+    }
+    for (int a = 0; a < 3; a++) {
+        q->vertex[a] = spux_load(l->row[a]);
+        q->edge[0][a] = spux_load(l->row[3 + a]);
+        q->edge[1][a] = spux_load(l->row[6 + a]);
+    }
+    q->sum[0] = spux_load(l->row[9]);
+    q->sum[1] = spux_load(l->row[10]);
+}
+
+/* Tests ray i of the packet against all objects of a leaf. r: this ray in every lane. In FAST precision its neighbours
+ * are tested too. */
+CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
+                                  uint32_t i)
+{
+    l->counts->references += count;
+    if (l->p->fast) {
+        leaf_test_fast(l, reference, count, i - i % CGT_LANES);
+        return;
+    }
+    if (l->mailbox && count == 1 && leaf_mailbox_has(l, reference[0]))
+        return;
+    l->counts->packet_tests += count;
+    l->counts->ray_tests += count;
+    while (count) {
+        cgt_kind kind;
+        lane_hits q;
+        bool some;
+        const uint32_t run = leaf_run(l->objects, reference, count, &kind);
+        if (kind == CGT_KIND_SPHERES) {
+            filter_spheres *s = &l->spheres;
+            filter_spheres_fetch(l->objects, reference, run, run, s);
+            const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
+            some = lane_sphere(r, center, spux_load(s->radius), &q);
+        } else {
+            lane_triangles triangles;
+            leaf_fetch_triangles(l, reference, run, &triangles);
+            some = lane_triangle(r, &triangles, &q);
+        }
+        if (some)
+            leaf_keep_ray(l->objects, l->p, i, &q, reference, run, l->counts);
+        reference += run;
+        count -= run;
+    }
+}
+
+#endif

@@ -1,0 +1,287 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays through a kd-tree with a stack: a vector of rays of a packet at a time, each with its own interval [near, far]
+ * of t inside the node (Wald 2004; thesis, section 4.1), or one ray at a time.
+ *
+ * Directions of any signs may be mixed: a ray's part below and above a split is the same whatever the others do; only
+ * the order in which the children are visited is common, that of most rays that go to both. A ray whose order is the
+ * other one loses nothing but a chance to stop early.
+ *
+ * Exactness: a child is left out for a ray only where the ray surely does not pass its closed box at a t that still
+ * counts. With r = 1 / dir, within 2^-21, the t of a plane is
+ *   one ray:   (split - org) * r, within 2^-20 of its size and 2^-126
+ *   a vector:  split * r - org * r, within 2^-20 of (|split| + |org|) |r| and 2^-120, fused or not, since products and
+ *              sums lose four times 2^-24 of that. Of the root's largest split this is one number for a ray and an axis,
+ *              so that both ends of the interval cost one operation, and wait for nothing but the split
+ * and intervals are widened by that on both sides. A component of the direction that is 0 leaves a ray on the side of its
+ * origin, on both where the origin lies in the plane; below 2^-70, where reciprocals leave the range, a ray counts as on
+ * both. */
+#include "kernel/kd/kd_leaf.h"
+#include "kernel/packet/ray_box.h"
+
+#define PLANE_WIDE 0x1p-20f
+#define PLANE_FLAT 0x1p-70f
+
+/* ---- a vector of rays ---- */
+
+typedef struct kd_rays {
+    vfloat org[3], rdir[3];
+    vfloat first[3], last[3]; /* -org * rdir, widened both ways */
+    vmask other[3];           /* lanes that reach the children of a split in the other order than most do */
+    vmask flat[3];            /* lanes whose direction has no such component, or hardly any */
+    vmask zero[3];            /* of those, the ones that have none */
+    uint32_t mixed;           /* axes for which any lane is one of these, as bits */
+    uint32_t reverse;         /* axes along which most rays come from above */
+} kd_rays;
+
+typedef struct kd_entry {
+    vfloat near, far;
+    cgt_kd_node node;
+} kd_entry;
+
+CGT_SPU_INLINE void kd_rays_make(const packet *p, const cgt_kd_tree *tree, uint32_t i, kd_rays *r)
+{
+    const vfloat zero = spux_vfloat(0);
+    r->mixed = r->reverse = 0;
+    for (int a = 0; a < 3; a++) {
+        const vfloat d = spux_load(p->dir[a] + i), org = spux_load(p->org[a] + i);
+        const vmask above = spu_cmpgt(zero, d);
+        const bool most = spux_count_bits(spux_mask_bits(above)) > CGT_LANES / 2;
+        const vfloat largest = spux_max(spux_abs(spux_vfloat(tree->low[a])), spux_abs(spux_vfloat(tree->high[a])));
+        r->org[a] = org;
+        r->flat[a] = spu_cmpgt(spux_vfloat(PLANE_FLAT), spux_abs(d));
+        r->zero[a] = spu_cmpeq(d, zero);
+        r->rdir[a] = spux_div(spux_vfloat(1), spux_select(d, spux_vfloat(1), r->flat[a]));
+        r->other[a] = most ? spux_not(above) : above;
+        const vfloat to_plane = spu_mul(spu_add(spux_abs(org), largest), spux_abs(r->rdir[a]));
+        const vfloat wide = spu_madd(to_plane, spux_vfloat(PLANE_WIDE), spux_vfloat(0x1p-120f));
+        const vfloat t = spu_mul(org, r->rdir[a]);
+        r->first[a] = spu_sub(spu_sub(zero, wide), t);
+        r->last[a] = spu_sub(wide, t);
+        r->mixed |= (uint32_t)spux_any(spu_or(r->other[a], r->flat[a])) << a;
+        r->reverse |= (uint32_t)most << a;
+    }
+}
+
+/* The rays' parts in the child that most rays reach first, and in the other one. */
+typedef struct kd_parts {
+    vfloat near[2], far[2];
+} kd_parts;
+
+/* Where any lane goes another way than most, or along the split. */
+CGT_SPU_INLINE void kd_cut_mixed(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, vfloat low,
+                                 vfloat high, kd_parts *q)
+{
+    /* below the plane for ever, or above, or both; what counts as from below */
+    const vfloat zero = spux_vfloat(0), never = spux_vfloat(INFINITY), ever = spux_vfloat(-INFINITY);
+    const vfloat delta = spu_sub(spux_vfloat(split), r->org[axis]);
+    const vmask below = spu_and(r->zero[axis], spu_cmpgt(delta, zero)), other = r->other[axis];
+    const vmask above = spu_and(r->zero[axis], spu_cmpgt(zero, delta));
+    low = spux_select(low, spux_select(ever, never, below), r->flat[axis]);
+    high = spux_select(high, spux_select(never, ever, above), r->flat[axis]);
+    const vfloat first_far = spux_min(high, far), second_near = spux_max(low, near);
+    q->near[0] = spux_select(near, second_near, other);
+    q->far[0] = spux_select(first_far, far, other);
+    q->near[1] = spux_select(second_near, near, other);
+    q->far[1] = spux_select(far, first_far, other);
+}
+
+CGT_SPU_INLINE void kd_cut(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, kd_parts *q)
+{
+    const vfloat plane = spux_vfloat(split);
+    const vfloat low = spu_madd(plane, r->rdir[axis], r->first[axis]);
+    const vfloat high = spu_madd(plane, r->rdir[axis], r->last[axis]);
+    if (r->mixed >> axis & 1) {
+        kd_cut_mixed(r, axis, split, near, far, low, high, q);
+        return;
+    }
+    q->near[0] = near;
+    q->far[0] = spux_min(high, far);
+    q->near[1] = spux_max(low, near);
+    q->far[1] = far;
+}
+
+/* The rays' intervals in the box of the root. Rays that take no part get an empty one. */
+CGT_SPU_INLINE void kd_enter(const packet *p, const cgt_kd_tree *tree, uint32_t i, vfloat *near, vfloat *far)
+{
+    vmask outside = spux_mask_none();
+    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i), wide = spux_vfloat(PLANE_WIDE);
+    /* t is rounded before it is compared with the range */
+    *near = spu_sub(t_min, spu_mul(spux_abs(t_min), wide));
+    *far = spu_add(t_max, spu_mul(spux_abs(t_max), wide));
+    for (int a = 0; a < 3; a++)
+        ray_box_slab(p, i, a, tree->low[a], tree->high[a], near, far, &outside);
+    outside = spu_or(outside, spu_cmpeq(spux_load(p->high + i), spux_vfloat(-INFINITY)));
+    *far = spux_select(*far, spux_vfloat(-INFINITY), outside);
+    *near = spux_select(*near, spux_vfloat(INFINITY), outside);
+}
+
+static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
+{
+    packet *p = l->p;
+    kd_entry stack[CGT_KD_MAX_DEPTH];
+    uint32_t top = 0, nodes = 0;
+    cgt_kd_node n = tree->node[0];
+    kd_rays r;
+    lane_rays of_leaves;
+    vfloat near, far;
+    kd_rays_make(p, tree, i, &r);
+    kd_enter(p, tree, i, &near, &far);
+    if (spux_none(spux_cmpge(far, near)))
+        return;
+    leaf_mailbox_clear(l);
+    lane_rays_of_packet(p, i, l->scale, &of_leaves);
+    l->counts->packets++;
+    for (;;) {
+        if (!cgt_kd_is_leaf(n)) {
+            const uint32_t axis = cgt_kd_axis(n), first = r.reverse >> axis & 1;
+            /* both children are read before it is known which one comes next: their way from memory and the arithmetic
+             * below go side by side */
+            const cgt_kd_node lower = tree->node[n.word[1]], upper = tree->node[n.word[1] + 1];
+            kd_parts q;
+            nodes++;
+            kd_cut(&r, axis, cgt_kd_split(n), near, far, &q);
+            if (spux_none(spux_cmpge(q.far[0], q.near[0]))) {
+                near = q.near[1];
+                far = q.far[1];
+                n = first ? lower : upper;
+                continue;
+            }
+            if (spux_any(spux_cmpge(q.far[1], q.near[1])))
+                stack[top++] = (kd_entry){q.near[1], q.far[1], first ? lower : upper};
+            near = q.near[0];
+            far = q.far[0];
+            n = first ? upper : lower;
+            continue;
+        }
+        l->counts->leaves++;
+        if (cgt_kd_count(n))
+            leaf_test_vector(l, &of_leaves, cgt_kd_references(tree, &n), cgt_kd_count(n), i);
+        const vfloat best = spux_load(p->high + i);
+        do {
+            if (!top) {
+                l->counts->nodes += nodes;
+                return;
+            }
+            top--;
+            near = stack[top].near;
+            far = spux_min(stack[top].far, best);
+        } while (spux_none(spux_cmpge(far, near)));
+        n = stack[top].node;
+    }
+}
+
+/* ---- one ray ---- */
+
+typedef struct kd_ray {
+    float org[3], rdir[3];
+    unsigned reverse; /* axes, as bits */
+    unsigned flat, zero;
+} kd_ray;
+
+typedef struct kd_ray_entry {
+    float near, far;
+    uint32_t node;
+} kd_ray_entry;
+
+CGT_SPU_INLINE void kd_ray_make(const packet *p, uint32_t i, kd_ray *r)
+{
+    r->reverse = r->flat = r->zero = 0;
+    for (int a = 0; a < 3; a++) {
+        const float d = p->dir[a][i];
+        const bool flat = fabsf(d) < PLANE_FLAT;
+        r->org[a] = p->org[a][i];
+        r->rdir[a] = flat ? 0 : 1 / d;
+        r->reverse |= (unsigned)(d < 0) << a;
+        r->flat |= (unsigned)flat << a;
+        r->zero |= (unsigned)(d == 0) << a;
+    }
+}
+
+/* The children of a node that a ray passes: 1 the lower, 2 the upper, 3 both, cut at [low, high]. */
+CGT_SPU_INLINE unsigned kd_ray_sides(const kd_ray *r, uint32_t axis, float split, float near, float far, float *low,
+                                     float *high)
+{
+    const float delta = split - r->org[axis], t = delta * r->rdir[axis], wide = fabsf(t) * PLANE_WIDE + 0x1p-126f;
+    *low = t - wide;
+    *high = t + wide;
+    if (r->flat >> axis & 1) {
+        *low = -INFINITY;
+        *high = INFINITY;
+        return !(r->zero >> axis & 1) || delta == 0 ? 3 : delta > 0 ? 1 : 2;
+    }
+    const unsigned second = far < *low, first = *high < near; /* only the first; only the second */
+    const unsigned sides = second ? 1 : first ? 2 : 3;
+    return sides == 3 || !(r->reverse >> axis & 1) ? sides : 3 - sides;
+}
+
+static void traverse_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i, float near, float far)
+{
+    packet *p = l->p;
+    kd_ray_entry stack[CGT_KD_MAX_DEPTH];
+    uint32_t top = 0, at = 0, nodes = 0, leaves = 0;
+    kd_ray r;
+    lane_rays of_leaves;
+    kd_ray_make(p, i, &r);
+    leaf_mailbox_clear(l);
+    lane_rays_of_one(p, i, l->scale, &of_leaves);
+    for (;;) {
+        cgt_kd_node n = tree->node[at];
+        while (!cgt_kd_is_leaf(n)) {
+            const uint32_t axis = cgt_kd_axis(n), reverse = r.reverse >> axis & 1;
+            float low, high;
+            const unsigned sides = kd_ray_sides(&r, axis, cgt_kd_split(n), near, far, &low, &high);
+            nodes++;
+            at = n.word[1];
+            if (sides == 3) {
+                stack[top++] = (kd_ray_entry){low > near ? low : near, far, at + !reverse};
+                far = high < far ? high : far;
+                at += reverse;
+            } else
+                at += sides == 2;
+            n = tree->node[at];
+        }
+        leaves++;
+        if (cgt_kd_count(n))
+            leaf_test_ray(l, &of_leaves, cgt_kd_references(tree, &tree->node[at]), cgt_kd_count(n), i);
+        do {
+            if (!top) {
+                l->counts->nodes += nodes;
+                l->counts->leaves += leaves;
+                return;
+            }
+            top--;
+            near = stack[top].near;
+        } while (p->high[i] < near);
+        far = stack[top].far;
+        at = stack[top].node;
+    }
+}
+
+static void traverse_rays(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
+{
+    _Alignas(64) float near[CGT_LANES], far[CGT_LANES];
+    vfloat first, last;
+    kd_enter(l->p, tree, i, &first, &last);
+    spux_store(near, first);
+    spux_store(far, last);
+    for (unsigned left = spux_mask_bits(spux_cmpge(last, first)); left; left &= left - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(left);
+        l->counts->packets++;
+        if (l->p->high[i + k] >= near[k]) /* a neighbour's test may have closed it */
+            traverse_ray(tree, l, i + k, near[k], far[k]);
+    }
+}
+
+void CGT_KERNEL(cgt_kd_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings, cgt_counts *counts)
+{
+    leaf_tests l;
+    leaf_tests_make(world, p, settings, counts, &l);
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
+            traverse_rays(&world->kd, &l, i);
+        else
+            traverse_vector(&world->kd, &l, i);
+    }
+}

@@ -1,0 +1,109 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A packet: up to 256 rays as structure of arrays, with the best hit of each so far.
+ *
+ * Filter, then decide. Single precision finds for a ray and a primitive an interval that surely holds the exact t, or
+ * that there surely is no hit. So a ray's best hit is an interval too, [low, high] with the object that it belongs to:
+ *   a hit whose interval ends before `low`    is certainly nearer: it replaces the best at once
+ *   a hit whose interval starts after `high`  is certainly not
+ *   anything else                             is decided (decide.h) by the exact t, then by the lower object
+ * The winner's t is computed once, at the end. In FAST precision nothing is decided: low and high are the t that single
+ * precision gives, and u and v are kept beside it. An open ray starts with [t_max, t_max] and no object; a ray that takes
+ * no part has [-inf, -inf]. */
+#ifndef CGT_PACKET_H
+#define CGT_PACKET_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "dispatch/kernel.h"
+#include "vector.h"
+
+#define PACKET_MAX_RAYS 256
+
+typedef struct packet {
+    _Alignas(64) float org[3][PACKET_MAX_RAYS];
+    _Alignas(64) float dir[3][PACKET_MAX_RAYS];
+    _Alignas(64) float rdd[PACKET_MAX_RAYS]; /* 1 / dir.dir */
+    _Alignas(64) float t_min[PACKET_MAX_RAYS];
+    _Alignas(64) float t_max[PACKET_MAX_RAYS];
+    _Alignas(64) float low[PACKET_MAX_RAYS];
+    _Alignas(64) float high[PACKET_MAX_RAYS];
+    _Alignas(64) uint32_t object[PACKET_MAX_RAYS];             /* CGT_NONE: none yet */
+    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
+    _Alignas(64) uint32_t ignored[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_NONE:
+                                                       none; and its mask */
+    _Alignas(64) uint32_t mask[PACKET_MAX_RAYS];
+    /* only for triangles of packets without a common origin: */
+    _Alignas(64) float length[PACKET_MAX_RAYS];    /* of dir, rounded up */
+    _Alignas(64) float from[3][PACKET_MAX_RAYS];   /* org seen from the filter's origin */
+    _Alignas(64) float moment[3][PACKET_MAX_RAYS]; /* from x dir, times the grid's scale */
+    uint32_t rays;                                 /* that take part; they need not come first */
+    uint32_t lanes;     /* a multiple of CGT_LANES; the rest is padding that repeats a ray of the packet */
+    bool common_origin; /* org[.][0] is the origin of all */
+    bool from_origin;   /* and all start there: t_min is 0 */
+    bool to_light;      /* all run from their origins to `light`, where t is 1, but for rounding */
+    float light[3];
+    bool selective;                  /* some ray ignores an object, or has a mask that leaves one out */
+    bool masked;                     /* selective, by masks too */
+    bool any_hit;                    /* the first hit found closes a ray */
+    bool fast;                       /* FAST precision */
+    cgt_triangle_test triangle_test; /* in FAST precision */
+    bool extreme; /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
+} packet;
+
+/* Largest coordinate and the range of direction lengths for which the bounds of the filter hold. */
+#define PACKET_LARGEST 0x1p55f
+#define PACKET_SHORTEST 0x1p-55f
+
+/* A region of a camera's frame: packet by packet through any structure; and tile by tile through a loose grid,
+ * or packet by packet where tiles do not serve (tile_limits.h). */
+void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
+                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *camera,
+                                const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+
+/* Finds the hits of all rays of the packet, through whatever structure there is; and through each. */
+void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                  cgt_counts *counts);
+void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                      cgt_counts *counts);
+void CGT_KERNEL(cgt_loose_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                      cgt_counts *counts);
+void CGT_KERNEL(cgt_kd_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                              cgt_counts *counts);
+void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                    cgt_counts *counts);
+void CGT_KERNEL(cgt_wide_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+                                cgt_counts *counts);
+
+/* Points against a light through a loose grid; and see light_objects of cgt_kernel. */
+void CGT_KERNEL(cgt_tile_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
+                                      uint64_t first, uint64_t end, const cgt_trace_settings *settings,
+                                      uint8_t *occluded, cgt_counts *counts);
+uint64_t CGT_KERNEL(cgt_tile_light_objects)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
+                                            uint64_t first, uint64_t end);
+
+/* Arrays of rays, and points against a light, through the wide tree: see trace_rays and trace_light of cgt_kernel. */
+void CGT_KERNEL(cgt_wide_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
+                                      uint64_t first, uint64_t end, const cgt_trace_settings *settings,
+                                      uint8_t *occluded, cgt_counts *counts);
+void CGT_KERNEL(cgt_wide_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
+                                     const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
+                                     cgt_counts *counts);
+
+/* The hits of a packet, ready to be handed out. */
+typedef struct packet_hits {
+    _Alignas(64) float t[PACKET_MAX_RAYS];
+    _Alignas(64) uint32_t primitive[PACKET_MAX_RAYS];
+    _Alignas(64) uint32_t geometry[PACKET_MAX_RAYS];
+    _Alignas(64) float normal[3][PACKET_MAX_RAYS];
+    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS];
+} packet_hits;
+
+/* Computes the fields of the winners that the settings ask for, canonically. Counts the hits and returns how many. */
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_world *world, const packet *p, const cgt_trace_settings *settings,
+                                        packet_hits *hits, cgt_counts *counts);
+
+#endif

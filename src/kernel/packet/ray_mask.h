@@ -1,0 +1,37 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Which objects count for the rays of a selective packet: those whose geometry's mask has a bit in common with the
+ * ray's, but the one that the ray ignores. What does not count is left out where a candidate becomes a hit, so that all
+ * that comes before works for all packets alike. */
+#ifndef CGT_RAY_SELECT_H
+#define CGT_RAY_SELECT_H
+
+#include "kernel/packet/packet.h"
+
+/* The mask of an object's geometry, where it matters. */
+CGT_SPU_INLINE uint32_t select_mask(const cgt_objects *objects, const packet *p, uint32_t object)
+{
+    return p->masked ? cgt_objects_array(objects, object)->mask : UINT32_MAX;
+}
+
+/* Whether the object, of that mask, does not count for ray i. */
+CGT_SPU_INLINE bool select_leaves_out(const packet *p, uint32_t i, uint32_t object, uint32_t mask)
+{
+    return p->ignored[i] == object || !(p->mask[i] & mask);
+}
+
+/* The same of rays i to i + CGT_LANES - 1. */
+CGT_SPU_INLINE vmask select_left_out(const packet *p, uint32_t i, vuint object, vuint mask)
+{
+    const vmask no_bit = spu_cmpeq(spu_and(spux_load_uint(p->mask + i), mask), spux_vuint(0));
+    return spu_or(no_bit, spu_cmpeq(spux_load_uint(p->ignored + i), object));
+}
+
+/* The same, where the object's mask is not at hand. */
+CGT_SPU_INLINE vmask select_left_out_of_one(const cgt_objects *objects, const packet *p, uint32_t i, uint32_t object)
+{
+    return select_left_out(p, i, spux_vuint(object), spux_vuint(select_mask(objects, p, object)));
+}
+
+#endif

@@ -1,0 +1,192 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Packets from the caller's arrays. */
+#ifndef CGT_RAY_PACKET_H
+#define CGT_RAY_PACKET_H
+
+#include <float.h>
+
+#include "dispatch/kernel.h"
+#include "kernel/packet/ray_box.h"
+
+/* Where rays come from. With a light the arrays' directions are not read: rays run from their origins to it. */
+typedef struct ray_source {
+    const cgt_rays *rays;
+    size_t stride;
+    const cgt_light *light; /* NULL: none */
+    float t_max;            /* of rays without one of their own */
+} ray_source;
+
+CGT_SPU_INLINE ray_source ray_source_make(const cgt_rays *rays, const cgt_light *light)
+{
+    const bool ends = light && light->w == 1; /* at the light */
+    return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ends ? 1 : INFINITY};
+}
+
+CGT_SPU_INLINE float ray_element(const ray_source *s, const float *array, uint64_t i)
+{
+    return *(const float *)(const void *)((const char *)array + i * s->stride);
+}
+
+/* The first two take part. */
+typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_EMPTY_MASK, RAY_INVALID } ray_state;
+
+/* Rays in the order in which packets take them: `from` of the array's, counted from its `first`. */
+typedef struct ray_order {
+    uint64_t first;
+    const uint32_t *from; /* NULL: as they come */
+} ray_order;
+
+CGT_SPU_INLINE uint64_t ray_at(const ray_order *o, uint32_t i) { return o->first + (o->from ? o->from[i] : i); }
+
+/* The direction's component along an axis. Towards a point it is one difference, rounded once. */
+CGT_SPU_INLINE float ray_direction(const ray_source *s, uint64_t i, int a, float o)
+{
+    if (!s->light)
+        return ray_element(s, s->rays->dir[a], i);
+    return s->light->w == 1 ? s->light->position[a] - o : s->light->position[a];
+}
+
+static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k)
+{
+    const cgt_rays *r = s->rays;
+    float zero = 0, largest = 0, longest = 0, dd = 0;
+    for (int a = 0; a < 3; a++) {
+        const float o = ray_element(s, r->org[a], i), d = ray_direction(s, i, a, o);
+        p->org[a][k] = o;
+        p->dir[a][k] = d;
+        zero += o * 0 + d * 0; /* not a number where o or d is not finite */
+        /* selections, not fmaxf: that is a call */
+        largest = fabsf(o) > largest ? fabsf(o) : largest;
+        longest = fabsf(d) > longest ? fabsf(d) : longest;
+        dd += d * d;
+    }
+    const float t_min = r->t_min ? ray_element(s, r->t_min, i) : 0,
+                t_max = r->t_max ? ray_element(s, r->t_max, i) : s->t_max;
+    p->rdd[k] = 1 / dd;
+    /* a t of minus infinity is no hit: where a sphere's first root is one, its second may still be a hit */
+    p->t_min[k] = t_min < -FLT_MAX ? -FLT_MAX : t_min;
+    p->t_max[k] = t_max;
+    if (zero != 0 || longest == 0 || t_min != t_min || t_max != t_max)
+        return RAY_INVALID;
+    if (t_min > t_max)
+        return RAY_EMPTY_RANGE;
+    return largest > PACKET_LARGEST || longest > PACKET_LARGEST || longest < PACKET_SHORTEST ? RAY_EXTREME : RAY_OPEN;
+}
+
+CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, uint64_t i)
+{
+    return *(const uint32_t *)(const void *)((const char *)array + i * s->stride);
+}
+
+/* The object that a ray ignores. */
+CGT_SPU_INLINE uint32_t ray_ignored(const cgt_objects *objects, const ray_source *s, uint64_t i)
+{
+    const cgt_rays *r = s->rays;
+    const uint32_t primitive = r->ignored_primitive ? ray_number(s, r->ignored_primitive, i) : CGT_NONE;
+    if (primitive == CGT_NONE)
+        return CGT_NONE;
+    return cgt_objects_number(objects, r->ignored_geometry ? ray_number(s, r->ignored_geometry, i) : 0, primitive);
+}
+
+/* What counts for the rays of a packet, where they say so. */
+static void ray_packet_select(const cgt_world *world, const ray_source *s, const ray_order *order, uint32_t first,
+                              uint32_t count, packet *p, ray_state *state)
+{
+    uint32_t common = UINT32_MAX;
+    p->selective = p->masked = false;
+    if (!s->rays->mask && !s->rays->ignored_primitive)
+        return;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint64_t i = ray_at(order, first + k);
+        p->mask[k] = s->rays->mask ? ray_number(s, s->rays->mask, i) : UINT32_MAX;
+        p->ignored[k] = ray_ignored(&world->objects, s, i);
+        p->selective |= p->ignored[k] != CGT_NONE;
+        common &= p->mask[k];
+        if (!p->mask[k] && state[k] < RAY_EMPTY_MASK)
+            state[k] = RAY_EMPTY_MASK;
+    }
+    p->masked = world->masked && common != UINT32_MAX;
+    p->selective |= p->masked;
+}
+
+/* A lane that takes no part repeats one that does, so that it widens no bound. */
+static void ray_packet_close_lane(packet *p, uint32_t k, uint32_t good)
+{
+    for (int a = 0; a < 3; a++) {
+        p->org[a][k] = p->org[a][good];
+        p->dir[a][k] = p->dir[a][good];
+    }
+    p->rdd[k] = p->rdd[good];
+    p->t_min[k] = p->t_min[good];
+    p->t_max[k] = p->t_max[good];
+    p->low[k] = p->high[k] = -INFINITY;
+    p->ignored[k] = CGT_NONE;
+    p->mask[k] = 0;
+}
+
+/* Rays that miss the bounds of all objects take no part. */
+static void ray_packet_leave_out_outside(const cgt_world *world, const packet *p, uint32_t count, ray_state *state)
+{
+    for (uint32_t i = 0; i < count; i += CGT_LANES) {
+        const unsigned missed = spux_mask_bits(ray_box_missed(p, i, world->low, world->high));
+        for (uint32_t k = i; k < count && k < i + CGT_LANES; k++)
+            if (state[k] == RAY_OPEN && missed >> (k - i) & 1)
+                state[k] = RAY_OUTSIDE;
+    }
+}
+
+/* The rays that take part, and the others made to repeat one of them. */
+static void ray_packet_gather_packet(packet *p, uint32_t count, const ray_state *state)
+{
+    uint32_t good = 0;
+    for (uint32_t k = 0; k < count; k++)
+        if (state[k] <= RAY_EXTREME)
+            good = k;
+    p->rays = 0;
+    p->common_origin = true;
+    for (uint32_t k = 0; k < p->lanes; k++) {
+        p->object[k] = CGT_NONE;
+        if (k < count && state[k] <= RAY_EXTREME)
+            p->low[k] = p->high[k] = p->t_max[k], p->rays++;
+        else
+            ray_packet_close_lane(p, k, good);
+        for (int a = 0; a < 3; a++)
+            p->common_origin &= p->org[a][k] == p->org[a][good];
+    }
+}
+
+/* Reads rays first to first + count - 1 of the order. Returns false where one of several is extreme: read them apart
+ * then. */
+__attribute__((unused)) static bool ray_packet_make(const cgt_world *world, const ray_source *s, const ray_order *order,
+                                                    uint32_t first, uint32_t count, packet *p, cgt_counts *counts)
+{
+    ray_state state[PACKET_MAX_RAYS];
+    uint32_t invalid = 0;
+    p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
+    p->from_origin = false;
+    p->to_light = s->light && s->light->w == 1;
+    for (int a = 0; a < 3 && p->to_light; a++)
+        p->light[a] = s->light->position[a];
+    p->extreme = false;
+    for (uint32_t k = 0; k < count; k++) {
+        state[k] = read_ray(s, ray_at(order, first + k), p, k);
+        if (state[k] == RAY_EXTREME && count > 1)
+            return false;
+        if (state[k] == RAY_EXTREME)
+            p->extreme = true;
+        invalid += state[k] == RAY_INVALID;
+    }
+    ray_packet_select(world, s, order, first, count, p, state);
+    if (!p->extreme && !world->everything) {
+        for (uint32_t k = count; k < p->lanes; k++)
+            ray_packet_close_lane(p, k, 0);
+        ray_packet_leave_out_outside(world, p, count, state);
+    }
+    ray_packet_gather_packet(p, count, state);
+    counts->invalid_rays += invalid;
+    return true;
+}
+
+#endif

@@ -1,0 +1,270 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the filters of spheres and triangles share: what they know of the packet, what they find out about the rays of a
+ * vector, how the rays that they leave open are decided, and the loop over the packet's blocks. */
+#ifndef CGT_FILTER_H
+#define CGT_FILTER_H
+
+#include <math.h>
+
+#include "exact/decide.h"
+#include "kernel/packet/block_cones.h"
+#include "kernel/packet/ray_mask.h"
+
+#ifndef FILTER_U /* a test gives it other values, to find where the bounds break */
+#define FILTER_U 0x1p-24f
+#endif
+
+/* What the bounds need to know of the rays. */
+typedef struct filter_packet {
+    float org[3];      /* the common origin, or the middle of the box of the origins */
+    float org_reach;   /* from there to any origin, as a sum over the axes */
+    float reach[3];    /* and along each */
+    float rlength;     /* at least 1 / |d| of the shortest direction */
+    float rlength_low; /* at most 1 / |d| of the longest direction; -infinity where hits behind an origin count */
+    float longest;     /* at least the length of the longest direction */
+    float share[3];    /* along each axis: the largest component of any direction over its length bound, rounded up */
+    float scale;       /* a power of two that brings the scene's coordinates near 1 */
+} filter_packet;
+
+/* scale: the world's. */
+CGT_SPU_INLINE void filter_packet_make(const packet *p, float scale, filter_packet *f)
+{
+    vfloat most = spux_vfloat(0), least = spux_vfloat(INFINITY), t_min = least;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        most = spux_max(most, spux_load(p->rdd + i));
+        least = spux_min(least, spux_load(p->rdd + i));
+        t_min = spux_min(t_min, spux_load(p->t_min + i));
+    }
+    f->rlength = __builtin_sqrtf(spux_hmax(most)) * (1 + 0x1p-18f);
+    f->rlength_low = spux_hmin(t_min) < 0 ? -INFINITY : __builtin_sqrtf(spux_hmin(least)) * (1 - 0x1p-18f);
+    f->scale = scale;
+    f->longest = (1 + 0x1p-18f) / __builtin_sqrtf(spux_hmin(least));
+    f->org_reach = 0;
+    for (int a = 0; a < 3; a++) {
+        vfloat largest = spux_vfloat(0);
+        for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+            largest = spux_max(largest, spux_abs(spux_load(p->dir[a] + i)));
+        f->share[a] = spux_hmax(largest) / f->longest * (1 + 0x1p-18f);
+        f->reach[a] = 0;
+    }
+    for (int a = 0; a < 3; a++) {
+        f->org[a] = p->org[a][0];
+        if (p->common_origin)
+            continue;
+        vfloat low = spux_load(p->org[a]), high = low;
+        for (uint32_t i = CGT_LANES; i < p->lanes; i += CGT_LANES) {
+            low = spux_min(low, spux_load(p->org[a] + i));
+            high = spux_max(high, spux_load(p->org[a] + i));
+        }
+        const float l = spux_hmin(low), h = spux_hmax(high);
+        f->org[a] = 0.5f * l + 0.5f * h;
+        f->reach[a] = (h - l) * 0.5f * (1 + 0x1p-18f) + (h > -l ? h : -l) * 0x1p-22f;
+        f->org_reach += f->reach[a];
+    }
+}
+
+/* Before which t no ray meets anything in the spheres of a vector. The sums are rounded 8 times each, and lose 2^-74
+ * where squares underflow; the distance from the filter's origin to a surface is at least what is left, where anything
+ * is. */
+CGT_SPU_INLINE void filter_nearest(const filter_packet *f, const float center[3][CGT_LANES],
+                                   const float radius[CGT_LANES], float nearest[CGT_LANES])
+{
+    const vfloat r = spux_load(radius);
+    vfloat distance = spux_vfloat(f->org_reach), square = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        const vfloat c = spu_sub(spux_load(center[a]), spux_vfloat(f->org[a]));
+        distance = spu_add(distance, spux_abs(c));
+        square = spu_madd(c, c, square);
+    }
+    const vfloat near = spu_sub(
+        spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
+        spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach + 0x1p-74f))));
+    const vmask outside = spu_cmpgt(near, spux_vfloat(0));
+    spux_store(nearest, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
+}
+
+/* For triangles, where there is no common origin: the Pluecker coordinates of the rays, seen from the filter's origin,
+ * and each ray's own length in place of the longest, since such directions may be of any. */
+CGT_SPU_INLINE void filter_moments_make(packet *p, filter_packet *f)
+{
+    vfloat share[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        vfloat from[3], d[3];
+        const vfloat rlength = spu_mul(spux_sqrt(spux_load(p->rdd + i)), spux_vfloat(1 + 0x1p-18f));
+        spux_store(p->length + i, spux_div(spux_vfloat(1 + 0x1p-17f), rlength));
+        for (int a = 0; a < 3; a++) {
+            from[a] = spu_sub(spux_load(p->org[a] + i), spux_vfloat(f->org[a]));
+            d[a] = spu_mul(spux_load(p->dir[a] + i), spux_vfloat(f->scale));
+            share[a] = spux_max(share[a], spu_mul(spux_abs(spux_load(p->dir[a] + i)), rlength));
+            spux_store(p->from[a] + i, from[a]);
+        }
+        for (int a = 0; a < 3; a++) {
+            const int b = (a + 1) % 3, c = (a + 2) % 3;
+            spux_store(p->moment[a] + i, spu_msub(from[b], d[c], spu_mul(from[c], d[b])));
+        }
+    }
+    for (int a = 0; a < 3; a++)
+        f->share[a] = spux_hmax(share[a]);
+}
+
+/* What a test finds out about the rays of a vector. */
+typedef struct filter_result {
+    vfloat low, high; /* the interval of t; twice the t in FAST precision */
+    vfloat u, v;      /* of triangles in FAST precision */
+    vmask certain;    /* a hit, certainly in the range and nearer than the best */
+    vmask open;       /* to be decided: neither certain nor certainly not */
+} filter_result;
+
+/* Decides whether the ray hits object before its winner so far (CGT_NONE: none yet), and where. */
+CGT_SPU_INLINE bool filter_beats(const cgt_objects *objects, const cgt_ray *ray, uint32_t winner, uint32_t object,
+                                 double *t, cgt_counts *counts)
+{
+    uint64_t exact = 0;
+    counts->double_tests++;
+    cgt_decided_hit hit = {.shape = cgt_objects_shape(objects, object)};
+    const bool meets = cgt_decide_hit(ray, &hit, &exact), met_exactly = exact != 0;
+    counts->exact_tests += met_exactly;
+    *t = hit.t;
+    if (!meets || winner == CGT_NONE)
+        return meets;
+    cgt_decided_hit best = {.shape = cgt_objects_shape(objects, winner)};
+    cgt_decide_t(ray, &best);
+    const int order = cgt_decide_order(ray, &hit, &best, &exact);
+    counts->exact_tests += exact && !met_exactly; /* once a test */
+    return order < 0 || (order == 0 && object < winner);
+}
+
+/* Decides whether object beats the best hit of ray i. */
+__attribute__((noinline, unused)) static void filter_decide(const cgt_objects *objects, packet *p, uint32_t i,
+                                                            uint32_t object, cgt_counts *counts)
+{
+    const cgt_ray ray = {
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
+        .t_min = p->t_min[i],
+        .t_max = p->t_max[i]};
+    const uint32_t winner = p->object[i];
+    double t;
+    if (winner == object || p->high[i] == -INFINITY)
+        return; /* met before; or the ray takes no part */
+    if (p->selective && select_leaves_out(p, i, object, select_mask(objects, p, object)))
+        return;
+    if (!filter_beats(objects, &ray, p->any_hit ? CGT_NONE : winner, object, &t, counts))
+        return;
+    p->object[i] = object;
+    if (p->any_hit) {
+        p->low[i] = p->high[i] = -INFINITY;
+        return;
+    }
+    const float rounded = (float)t, width = fabsf(rounded) * 0x1p-22f + 0x1p-140f;
+    p->low[i] = rounded - width;
+    p->high[i] = rounded + width;
+}
+
+/* A test of rays i to i + CGT_LANES - 1 against one primitive: false where all surely miss. */
+typedef bool filter_test(const packet *p, const void *primitive, uint32_t i, bool common_origin, filter_result *f);
+
+/* Decides the rays of a block that the filter leaves open. They are rare: they are found a second time here. */
+CGT_SPU_INLINE void filter_decide_block(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
+                                        uint32_t object, uint32_t first, uint32_t end, bool common_origin,
+                                        cgt_counts *counts)
+{
+    filter_result f;
+    for (uint32_t i = first; i < end; i += CGT_LANES) {
+        if (!test(p, primitive, i, common_origin, &f))
+            continue;
+        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
+            filter_decide(objects, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+    }
+}
+
+/* How a packet is tested; constants where the loop below is called. */
+typedef struct filter_mode {
+    bool common_origin;
+    bool any_hit;
+    bool decides; /* not FAST */
+    bool keep_uv; /* FAST, triangles */
+} filter_mode;
+
+/* The modes are constants here, so that each gets a loop of its own. uv: FAST keeps u and v. */
+#define FILTER_FOR_MODE(p, uv, call)                                                                                   \
+    switch ((p)->fast << 2 | (p)->common_origin << 1 | (p)->any_hit) {                                                 \
+    case 0: call(((filter_mode){false, false, true, false})); break;                                                   \
+    case 1: call(((filter_mode){false, true, true, false})); break;                                                    \
+    case 2: call(((filter_mode){true, false, true, false})); break;                                                    \
+    case 3: call(((filter_mode){true, true, true, false})); break;                                                     \
+    case 4: call(((filter_mode){false, false, false, uv})); break;                                                     \
+    case 5: call(((filter_mode){false, true, false, false})); break;                                                   \
+    case 6: call(((filter_mode){true, false, false, uv})); break;                                                      \
+    default: call(((filter_mode){true, true, false, false})); break;                                                   \
+    }
+
+/* Keeps what a test found out about a vector of rays. */
+CGT_SPU_INLINE void filter_keep(packet *p, uint32_t i, const filter_result *f, vuint object, filter_mode mode)
+{
+    const vfloat closed = spux_vfloat(-INFINITY);
+    spux_store(p->low + i, spux_select(spux_load(p->low + i), mode.any_hit ? closed : f->low, f->certain));
+    spux_store(p->high + i, spux_select(spux_load(p->high + i), mode.any_hit ? closed : f->high, f->certain));
+    spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), object, f->certain));
+    if (mode.keep_uv) {
+        spux_store(p->u + i, spux_select(spux_load(p->u + i), f->u, f->certain));
+        spux_store(p->v + i, spux_select(spux_load(p->v + i), f->v, f->certain));
+    }
+}
+
+/* Tests a vector of rays against a primitive; i is the first. */
+CGT_SPU_INLINE void filter_vector(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
+                                  uint32_t object, uint32_t i, filter_mode mode, cgt_counts *counts)
+{
+    filter_result f;
+    counts->ray_tests += CGT_LANES;
+    if (!test(p, primitive, i, mode.common_origin, &f))
+        return;
+    if (p->selective)
+        f.certain = spu_andc(f.certain, select_left_out_of_one(objects, p, i, object));
+    filter_keep(p, i, &f, spux_vuint(object), mode);
+    if (mode.decides)
+        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
+            filter_decide(objects, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+}
+
+/* Tests the rays of the reached blocks (as bits) against a primitive. */
+CGT_SPU_INLINE void filter_blocks(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
+                                  uint32_t object, uint32_t reached, block_cones *blocks, filter_mode mode,
+                                  cgt_counts *counts)
+{
+    const vuint number = spux_vuint(object);
+    const bool selective = p->selective;
+    const vuint mask = spux_vuint(selective ? select_mask(objects, p, object) : UINT32_MAX);
+    for (; reached; reached &= reached - 1) {
+        const uint32_t block = (uint32_t)__builtin_ctz(reached), first = block * BLOCK_RAYS, end = block_end(p, block);
+        vmask open = spux_mask_none(), changed = open;
+        filter_result f;
+        counts->ray_tests += end - first;
+        for (uint32_t i = first; i < end; i += CGT_LANES) {
+            if (!test(p, primitive, i, mode.common_origin, &f))
+                continue;
+            if (selective)
+                f.certain = spu_andc(f.certain, select_left_out(p, i, number, mask));
+            filter_keep(p, i, &f, number, mode);
+            open = spu_or(open, f.open);
+            changed = spu_or(changed, f.certain);
+        }
+        if (mode.decides && spux_any(open))
+            filter_decide_block(objects, p, test, primitive, object, first, end, mode.common_origin, counts);
+        if (spux_any(changed))
+            block_far_update(p, blocks, block);
+    }
+}
+
+/* In FAST precision: nearer than the best so far, or as near and of a lower id. t is in the ray's range, and finite. */
+CGT_SPU_INLINE vmask filter_fast_nearer(const packet *p, uint32_t i, vfloat t, vuint object)
+{
+    const vfloat best = spux_load(p->high + i);
+    const vmask lower = spu_cmpgt(spux_load_uint(p->object + i), object);
+    const vmask inside = spu_and(spux_cmpge(t, spux_load(p->t_min + i)), spu_cmpgt(spux_vfloat(INFINITY), spux_abs(t)));
+    return spu_and(inside, spu_or(spu_cmpgt(best, t), spu_and(spu_cmpeq(best, t), lower)));
+}
+
+#endif

@@ -1,0 +1,244 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * One ray and one object in each lane of a vector, in single precision with derived bounds. Leaves of trees hold few
+ * objects and are met by few rays: nothing is prepared for a packet, only what a commit can (leaf_triangle.h), and either
+ * side may be the same in all lanes. The form of spheres is that of sphere_filter.h.
+ *
+ * Triangles (Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997), with s the ray's origin from
+ * the first vertex, e_1 and e_2 the edges from there, all times the world's scale, u = 2^-24, |x| the largest component
+ * and [x] the sum of their sizes. P(p, q, r) of triangle_filter.h is at most |p| [q] [r] in any order. So
+ *   U = s.(d x e_2)   within 9 u |d| [s] [e_2]        V = d.(s x e_1)   within 9 u |d| [s] [e_1]
+ *   D = e_1.(d x e_2) within 9 u |d| [e_1] [e_2]      T = e_2.(s x e_1) within 9 u [s] [e_1] [e_2]
+ *   W = D - U - V     within the errors of all three, and 2 u of their sizes
+ * each enlarged by 2^-7 for what is of second order. U, V and W are on which side of each edge the line passes: the
+ * signs of triangle_double.h, times scale^2. t = T / D, over the scale.
+ *
+ * What underflows, in a vertex, a product or a sum, is below 2^-124, and |d| or [s] may be multiplied with it, or both:
+ * 2^-118 (|d| + 1) ([s] + 1) is added to U, V and W, 2^-118 ([s] + 1) to T, and 2^-118 (|d| + 1) to D. Where [s] is
+ * beyond 2^124, products may overflow: then what is added is infinite, and no sign is certain. What is not finite
+ * compares with nothing, so that such lanes are open.
+ * Where |D| is not above four times its error, t may be anything, and its interval is everything. */
+#ifndef CGT_LEAF_LANES_H
+#define CGT_LEAF_LANES_H
+
+#include "kernel/primitive/filter.h"
+#include "model/leaf_triangle.h"
+
+/* Bounds of triangles, see above. */
+#define LANE_SIDE (9 * FILTER_U * (1 + 0x1p-7f))
+#define LANE_THIRD (11 * FILTER_U * (1 + 0x1p-7f))
+#define LANE_PLANE (10 * FILTER_U * (1 + 0x1p-7f))
+
+/* The rays of the lanes, all alike or each its own. */
+typedef struct lane_rays {
+    vfloat org[3], dir[3];
+    vfloat t_min;
+    vfloat rdd;             /* 1 / d.d; only where there are spheres, and so is the next */
+    vfloat rlength;         /* 1 / |d|, rounded up */
+    vfloat most, underflow; /* of triangles, and so is the next */
+    vfloat scaled_org[3];
+    vfloat unscale; /* 1 over the world's scale */
+} lane_rays;
+
+/* What the tests find: which lanes hit for certain, with an interval of t; and which may hit, not before `low`. */
+typedef struct lane_hits {
+    vfloat low, high;
+    vmask certain, open;
+} lane_hits;
+
+CGT_SPU_INLINE void lane_rays_finish(lane_rays *r, float scale)
+{
+    r->rlength = spu_mul(spux_sqrt(r->rdd), spux_vfloat(1 + 0x1p-18f));
+    r->most = spux_max(spux_abs(r->dir[0]), spux_max(spux_abs(r->dir[1]), spux_abs(r->dir[2])));
+    r->underflow = spu_madd(r->most, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
+    for (int a = 0; a < 3; a++)
+        r->scaled_org[a] = spu_mul(r->org[a], spux_vfloat(scale));
+    r->unscale = spux_vfloat(1 / scale);
+}
+
+/* Rays i to i + CGT_LANES - 1 of a packet. */
+CGT_SPU_INLINE void lane_rays_of_packet(const packet *p, uint32_t i, float scale, lane_rays *r)
+{
+    for (int a = 0; a < 3; a++) {
+        r->org[a] = spux_load(p->org[a] + i);
+        r->dir[a] = spux_load(p->dir[a] + i);
+    }
+    r->t_min = spux_load(p->t_min + i);
+    r->rdd = spux_load(p->rdd + i);
+    lane_rays_finish(r, scale);
+}
+
+/* Ray i of a packet in every lane. */
+CGT_SPU_INLINE void lane_rays_of_one(const packet *p, uint32_t i, float scale, lane_rays *r)
+{
+    for (int a = 0; a < 3; a++) {
+        r->org[a] = spux_vfloat(p->org[a][i]);
+        r->dir[a] = spux_vfloat(p->dir[a][i]);
+    }
+    r->t_min = spux_vfloat(p->t_min[i]);
+    r->rdd = spux_vfloat(p->rdd[i]);
+    lane_rays_finish(r, scale);
+}
+
+CGT_SPU_INLINE vfloat lane_dot(const vfloat p[3], const vfloat q[3])
+{
+    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
+}
+
+CGT_SPU_INLINE vfloat lane_sum(const vfloat v[3])
+{
+    return spu_add(spux_abs(v[0]), spu_add(spux_abs(v[1]), spux_abs(v[2])));
+}
+
+/* False where all surely miss. */
+CGT_SPU_INLINE bool lane_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, lane_hits *q)
+{
+    vfloat c[3], l[3];
+    for (int a = 0; a < 3; a++)
+        c[a] = spu_sub(center[a], r->org[a]);
+    const vfloat distance = lane_sum(c), reach = spu_add(distance, radius), zero = spux_vfloat(0);
+    const vfloat wide = spu_mul(distance, spux_vfloat(26 * FILTER_U));
+    const vfloat eps =
+        spu_madd(spu_mul(radius, spux_vfloat(9 * FILTER_U)), reach, spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
+    const vfloat underflow = spu_madd(spu_mul(r->rlength, r->rlength), spux_vfloat(0x1p-122f), spux_vfloat(0x1p-62f));
+    const vfloat before = spu_madd(spu_mul(reach, spux_vfloat(18 * FILTER_U)), r->rlength, underflow);
+    const vfloat mid = spu_mul(lane_dot(r->dir, c), r->rdd);
+    for (int a = 0; a < 3; a++)
+        l[a] = spu_nmsub(mid, r->dir[a], c[a]);
+    const vfloat h = spu_sub(spu_madd(radius, radius, eps), lane_dot(l, l));
+    const vmask missed = spu_cmpgt(zero, h);
+    if (spux_all(missed))
+        return false;
+    const vfloat half = spux_sqrt(spu_mul(spux_select(h, zero, missed), r->rdd));
+    const vfloat gap =
+        spu_madd(before, spux_vfloat(2), spu_mul(spux_sqrt(eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
+    q->low = spu_sub(spu_sub(mid, half), before);
+    q->high = spu_add(q->low, gap);
+    /* both roots before the range */
+    const vmask behind = spu_cmpgt(r->t_min, spu_add(spu_add(mid, half), before));
+    q->certain = spu_and(spu_cmpgt(h, spu_mul(eps, spux_vfloat(17))), spu_cmpgt(q->low, r->t_min));
+    q->open = spux_not(spu_or(spu_or(missed, behind), q->certain));
+    return true;
+}
+
+CGT_SPU_INLINE void lane_cross(const vfloat p[3], const vfloat q[3], vfloat cross[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        cross[a] = spu_msub(p[b], q[c], spu_mul(p[c], q[b]));
+    }
+}
+
+/* Triangles as the test takes them (leaf_triangle.h). */
+typedef struct lane_triangles {
+    vfloat vertex[3], edge[2][3], sum[2];
+} lane_triangles;
+
+/* The same triangle in every lane. */
+CGT_SPU_INLINE void lane_triangles_of_one(const cgt_leaf_triangle *t, lane_triangles *q)
+{
+    for (int a = 0; a < 3; a++)
+        q->vertex[a] = spux_vfloat(t->vertex[a]);
+    for (int k = 0; k < 2; k++) {
+        for (int a = 0; a < 3; a++)
+            q->edge[k][a] = spux_vfloat(t->edge[k][a]);
+        q->sum[k] = spux_vfloat(t->sum[k]);
+    }
+}
+
+/* Which lanes' lines pass inside all edges for certain, and which outside of one; all[k]: above, below; any[k]. */
+CGT_SPU_INLINE void lane_side(vfloat w, vfloat eps, vmask all[2], vmask any[2])
+{
+    const vmask above = spu_cmpgt(w, eps), below = spu_cmpgt(spu_xor(eps, spux_vfloat(-0.f)), w);
+    all[0] = spu_and(all[0], above);
+    all[1] = spu_and(all[1], below);
+    any[0] = spu_or(any[0], above);
+    any[1] = spu_or(any[1], below);
+}
+
+/* False where all surely miss. */
+CGT_SPU_INLINE bool lane_triangle(const lane_rays *r, const lane_triangles *triangle, lane_hits *q)
+{
+    const vfloat *e1 = triangle->edge[0], *e2 = triangle->edge[1];
+    vmask all[2] = {spux_mask_all(), spux_mask_all()}, any[2] = {spux_mask_none(), spux_mask_none()};
+    vfloat from[3], across[3], beside[3];
+    for (int a = 0; a < 3; a++)
+        from[a] = spu_sub(r->scaled_org[a], triangle->vertex[a]);
+    lane_cross(r->dir, e2, across);
+    lane_cross(from, e1, beside);
+    const vfloat u = lane_dot(from, across), v = lane_dot(r->dir, beside), den = lane_dot(e1, across);
+    const vfloat away = lane_sum(from), size = spu_mul(r->most, away),
+                 edges = spu_mul(triangle->sum[0], triangle->sum[1]);
+    const vfloat eps_u = spu_mul(size, triangle->sum[1]), eps_v = spu_mul(size, triangle->sum[0]);
+    const vfloat eps_den = spu_mul(r->most, edges);
+    const vfloat underflow =
+        spu_madd(spu_mul(away, spux_vfloat(16)), spu_mul(r->underflow, spux_vfloat(0x1p-4f)), r->underflow);
+    lane_side(u, spu_madd(eps_u, spux_vfloat(LANE_SIDE), underflow), all, any);
+    lane_side(v, spu_madd(eps_v, spux_vfloat(LANE_SIDE), underflow), all, any);
+    lane_side(spu_sub(spu_sub(den, u), v),
+              spu_madd(spu_add(spu_add(eps_u, eps_v), eps_den), spux_vfloat(LANE_THIRD), underflow), all, any);
+    const vmask inside = spu_or(all[0], all[1]), outside = spu_and(any[0], any[1]);
+    if (spux_all(outside))
+        return false;
+    const vfloat delta = spu_madd(eps_den, spux_vfloat(LANE_PLANE), r->underflow);
+    const vfloat num_error =
+        spu_madd(spu_madd(edges, spux_vfloat(LANE_PLANE), spux_vfloat(0x1p-118f)), away, spux_vfloat(0x1p-118f));
+    const vfloat num = lane_dot(e2, beside), rden = spux_div(spux_vfloat(1), den);
+    const vfloat t = spu_mul(num, rden), reach = spux_abs(t), tiny = spux_vfloat(0x1p-126f);
+    const vfloat error = spu_mul(spu_madd(reach, delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
+    const vfloat width = spu_madd(reach, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-124f)));
+    const vmask steep = spu_cmpgt(spux_abs(den), spu_mul(delta, spux_vfloat(4)));
+    /* 1 / den is a number near 1 whatever the world's scale: that comes last */
+    q->low = spux_select(spux_vfloat(-INFINITY), spu_msub(spu_sub(t, width), r->unscale, tiny), steep);
+    q->high = spux_select(spux_vfloat(INFINITY), spu_madd(spu_add(t, width), r->unscale, tiny), steep);
+    const vmask behind = spu_and(steep, spu_cmpgt(r->t_min, q->high));
+    q->certain = spu_and(spu_and(inside, steep), spu_cmpgt(q->low, r->t_min));
+    q->open = spux_not(spu_or(spu_or(outside, behind), q->certain));
+    return true;
+}
+
+/* ---- one ray and a list ---- */
+
+/* How many of the first objects of a list are of one kind, at most a vector. */
+CGT_SPU_INLINE uint32_t leaf_run(const cgt_objects *objects, const uint32_t *reference, uint32_t count, cgt_kind *kind)
+{
+    const uint32_t most = count < CGT_LANES ? count : CGT_LANES;
+    uint32_t run = 1;
+    *kind = objects->spheres ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES;
+    if (!objects->spheres || !objects->triangles)
+        return most;
+    *kind = cgt_objects_array(objects, reference[0])->kind;
+    while (run < most && cgt_objects_array(objects, reference[run])->kind == *kind)
+        run++;
+    return run;
+}
+
+/* Keeps what ray i found out about the objects of the lanes, at most a vector. Lanes whose interval lies beyond the best
+ * hit are out, those before it replace it, the others are decided. */
+__attribute__((unused)) static void leaf_keep_ray(const cgt_objects *objects, packet *p, uint32_t i, const lane_hits *q,
+                                                  const uint32_t *reference, uint32_t count, cgt_counts *counts)
+{
+    const unsigned certain = spux_mask_bits(q->certain), used = CGT_ALL_LANES >> (CGT_LANES - count);
+    const vmask may = spu_andc(spu_or(q->certain, q->open), spu_cmpgt(q->low, spux_vfloat(p->high[i])));
+    _Alignas(64) float low[CGT_LANES], high[CGT_LANES];
+    unsigned left = spux_mask_bits(may) & used;
+    if (!left)
+        return;
+    spux_store(low, q->low);
+    spux_store(high, q->high);
+    for (; left; left &= left - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(left);
+        if (p->selective && select_leaves_out(p, i, reference[k], select_mask(objects, p, reference[k])))
+            continue;
+        if (!(certain >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
+            filter_decide(objects, p, i, reference[k], counts);
+        } else if (high[k] < p->low[i]) {
+            p->low[i] = p->any_hit ? -INFINITY : low[k];
+            p->high[i] = p->any_hit ? -INFINITY : high[k];
+            p->object[i] = reference[k];
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,173 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays of a packet against one sphere, in single precision with derived bounds; what they leave open is decided in
+ * double. The form is the perpendicular one of sphere_double.h:
+ *   s = d.c / d.d,  l = c - s d,  h = r^2 - l.l,  t = s - sqrt(h / d.d)
+ *
+ * Bounds, with u = 2^-24, |c| the distance from origin to centre, first order unless said; they hold for fused and
+ * unfused arithmetic and for reciprocals and roots within 2^-21:
+ *   c        u |c| per component, as a vector
+ *   d.c      4 u |d||c|;  1/d.d  8 u relative;  so s within 13 u |c|/|d|
+ *   l        along d: 13 u |c|, which changes l.l in second order only, since l is perpendicular to d;
+ *            otherwise u |c| (c) + u |c| (s d) + u |c| (difference) = 3 u |c|
+ *   l.l      within 2 |l| 3 u |c| + 3 u |l|^2 + (16^2 + 96 + 9) u^2 |c|^2
+ *   h        at the silhouette |l| = r: 6 u r |c| + 6 u r^2 + 361 u^2 |c|^2
+ *   eps      9 u r (|c| + r) + 640 u^2 |c|^2 + 2^-120, the last for what underflows
+ * A hit's exact h is at least 0, and computed r^2 + eps - l.l then is at least 0 too: less is a certain miss. Where it
+ * is more than 17 eps the hit is certain, its exact h at least that minus 2 eps, and the two roots differ by at most
+ * 2 eps / (sqrt(17 eps) + sqrt(15 eps)) < 0.26 sqrt(eps), over |d|. The rest of the interval is
+ *   e0       13 u |c| (s) + 13 u sqrt(h) (root) + u |t|: 18 u (|c| + r), over |d|
+ * and, for what underflows (flushed denormals included), 2^-62 where h / d.d does and 2^-122 / d.d where d.c does.
+ * A test in the suite checks these against double, and shrinks them until they fail. */
+#ifndef CGT_SPHERE_FILTER_H
+#define CGT_SPHERE_FILTER_H
+
+#include "kernel/primitive/filter.h"
+
+/* Spheres of one vector, with what the bounds of each come to for this packet. */
+typedef struct filter_spheres {
+    _Alignas(64) float center[3][CGT_LANES];
+    _Alignas(64) float radius[CGT_LANES];
+    _Alignas(64) float r2[CGT_LANES];      /* r^2 + eps */
+    _Alignas(64) float certain[CGT_LANES]; /* 17 eps */
+    _Alignas(64) float before[CGT_LANES];  /* e0: from the computed t down to the interval's start */
+    _Alignas(64) float gap[CGT_LANES];     /* the interval's length */
+    _Alignas(64) float nearest[CGT_LANES]; /* no ray meets the sphere before this t */
+    uint32_t object[CGT_LANES];
+} filter_spheres;
+
+/* Reads at most a vector of spheres to the first `lanes` lanes; beyond count they repeat the first. */
+CGT_SPU_INLINE void filter_spheres_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
+                                         uint32_t lanes, filter_spheres *s)
+{
+    for (uint32_t k = 0; k < lanes; k++) {
+        const uint32_t object = reference[k < count ? k : 0];
+        const cgt_sphere q = cgt_objects_sphere(objects, object);
+        s->center[0][k] = q.x;
+        s->center[1][k] = q.y;
+        s->center[2][k] = q.z;
+        s->radius[k] = q.r;
+        s->object[k] = object;
+    }
+}
+
+/* The bounds of a vector of spheres. */
+CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres *s)
+{
+    const vfloat r = spux_load(s->radius);
+    vfloat distance = spux_vfloat(f->org_reach);
+    for (int a = 0; a < 3; a++)
+        distance = spu_add(distance, spux_abs(spu_sub(spux_load(s->center[a]), spux_vfloat(f->org[a]))));
+    filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
+    const vfloat wide = spu_mul(distance, spux_vfloat(26 * FILTER_U)); /* 26^2 > 640 */
+    const vfloat eps = spu_madd(spu_mul(r, spux_vfloat(9 * FILTER_U)), spu_add(distance, r),
+                                spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
+    const vfloat underflow = spux_vfloat(0x1p-62f + 0x1p-122f * f->rlength * f->rlength);
+    const vfloat e0 = spu_madd(spu_add(distance, r), spux_vfloat(18 * FILTER_U * f->rlength), underflow);
+    const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0.27f * f->rlength));
+    spux_store(s->r2, spu_madd(r, r, eps));
+    spux_store(s->certain, spu_mul(eps, spux_vfloat(17)));
+    spux_store(s->before, e0);
+    spux_store(s->gap, spu_madd(e0, spux_vfloat(2), root));
+}
+
+/* One sphere as the vectors of a test. */
+typedef struct filter_sphere {
+    vfloat center[3]; /* seen from the common origin, where there is one */
+    vfloat r2, certain, before, gap, nearest;
+    vuint object;
+} filter_sphere;
+
+CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_spheres *s, int k, bool common_origin)
+{
+    filter_sphere q = {.r2 = spux_vfloat(s->r2[k]),
+                       .certain = spux_vfloat(s->certain[k]),
+                       .before = spux_vfloat(s->before[k]),
+                       .gap = spux_vfloat(s->gap[k]),
+                       .nearest = spux_vfloat(s->nearest[k]),
+                       .object = spux_vuint(s->object[k])};
+    for (int a = 0; a < 3; a++)
+        q.center[a] = spux_vfloat(common_origin ? s->center[a][k] - p->org[a][0] : s->center[a][k]);
+    return q;
+}
+
+/* Returns false where all rays of the vector surely miss. Comparisons are written so that what is not a number stays
+ * open. */
+CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                       filter_result *f)
+{
+    const filter_sphere *q = primitive;
+    const vfloat zero = spux_vfloat(0), rdd = spux_load(p->rdd + i);
+    const vfloat dx = spux_load(p->dir[0] + i), dy = spux_load(p->dir[1] + i), dz = spux_load(p->dir[2] + i);
+    vfloat cx = q->center[0], cy = q->center[1], cz = q->center[2];
+    if (!common_origin) {
+        cx = spu_sub(cx, spux_load(p->org[0] + i));
+        cy = spu_sub(cy, spux_load(p->org[1] + i));
+        cz = spu_sub(cz, spux_load(p->org[2] + i));
+    }
+    const vfloat mid = spu_mul(spu_madd(dx, cx, spu_madd(dy, cy, spu_mul(dz, cz))), rdd);
+    const vfloat lx = spu_nmsub(mid, dx, cx), ly = spu_nmsub(mid, dy, cy), lz = spu_nmsub(mid, dz, cz);
+    const vfloat h = spu_sub(q->r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
+    /* a miss; or the sphere's nearest point lies beyond the best, which spares the root of a hidden one */
+    const vmask missed = spu_or(spu_cmpgt(zero, h), spu_cmpgt(q->nearest, spux_load(p->high + i)));
+    if (spux_all(missed))
+        return false;
+    const vfloat half = spux_sqrt(spu_mul(h, rdd)), t_min = spux_load(p->t_min + i);
+    const vfloat low = spu_sub(spu_sub(mid, half), q->before), high = spu_add(low, q->gap);
+    /* beyond the best; or both roots before the range; or met before */
+    const vmask beyond = spu_cmpgt(low, spux_load(p->high + i));
+    const vmask behind = spu_cmpgt(t_min, spu_add(spu_add(mid, half), q->before));
+    const vmask met = spu_cmpeq(spux_load_uint(p->object + i), q->object);
+    /* greater, not equal: where h / d.d leaves the range of float, low is -infinity and so may t_min be */
+    const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spu_cmpgt(low, t_min));
+    f->low = low;
+    f->high = high;
+    f->certain = spu_and(spu_cmpgt(h, q->certain), nearer);
+    f->open = spux_not(spu_or(spu_or(spu_or(missed, beyond), spu_or(behind, met)), f->certain));
+    return true;
+}
+
+/* The same without a bound, for FAST precision: certain is what single precision finds. */
+CGT_SPU_INLINE bool filter_sphere_rays_fast(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                            filter_result *f)
+{
+    const filter_sphere *q = primitive;
+    const vfloat rdd = spux_load(p->rdd + i), zero = spux_vfloat(0);
+    const vfloat dx = spux_load(p->dir[0] + i), dy = spux_load(p->dir[1] + i), dz = spux_load(p->dir[2] + i);
+    vfloat cx = q->center[0], cy = q->center[1], cz = q->center[2];
+    if (!common_origin) {
+        cx = spu_sub(cx, spux_load(p->org[0] + i));
+        cy = spu_sub(cy, spux_load(p->org[1] + i));
+        cz = spu_sub(cz, spux_load(p->org[2] + i));
+    }
+    const vfloat mid = spu_mul(spu_madd(dx, cx, spu_madd(dy, cy, spu_mul(dz, cz))), rdd);
+    const vfloat lx = spu_nmsub(mid, dx, cx), ly = spu_nmsub(mid, dy, cy), lz = spu_nmsub(mid, dz, cz);
+    const vfloat h = spu_sub(q->r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
+    const vmask hit = spux_cmpge(h, zero);
+    if (!spux_any(hit))
+        return false;
+    const vfloat half = spux_sqrt(spu_mul(h, rdd)), near = spu_sub(mid, half);
+    const vfloat t = spux_select(near, spu_add(mid, half), spu_cmpgt(spux_load(p->t_min + i), near));
+    f->low = f->high = t;
+    f->certain = spu_and(hit, filter_fast_nearer(p, i, t, q->object));
+    f->open = spux_mask_none();
+    return true;
+}
+
+/* Tests the rays of the packet's blocks that sphere k of a vector may reach. */
+CGT_SPU_INLINE void filter_test_sphere(const cgt_objects *objects, packet *p, const filter_spheres *s, int k,
+                                       block_cones *blocks, filter_mode mode, cgt_counts *counts)
+{
+    filter_sphere q = filter_sphere_get(p, s, k, mode.common_origin);
+    const float center[3] = {s->center[0][k], s->center[1][k], s->center[2][k]};
+    const uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
+    if (mode.decides) {
+        filter_blocks(objects, p, filter_sphere_rays, &q, s->object[k], reached, blocks, mode, counts);
+        return;
+    }
+    q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);
+    filter_blocks(objects, p, filter_sphere_rays_fast, &q, s->object[k], reached, blocks, mode, counts);
+}
+
+#endif

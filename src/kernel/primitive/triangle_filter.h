@@ -1,0 +1,329 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays of a packet against one triangle, in single precision with derived bounds; what they leave open is decided. The
+ * form is that of triangle_double.h, in the Pluecker coordinates of ray and edges:
+ *   w_k = d.(b x e) + m.e,  b the vertex before edge k and e the edge; m = from x d where the ray starts `from` away
+ *   t = (n.a - n.from) / d.n,  n = e0 x e1 for two edges
+ * Vertices are seen from the filter's origin: the rays' common one, where from and m are 0 and left out, or the middle
+ * of them. An edge's vector comes from its two vertices, not from their difference to the origin: the error of w_k is
+ * then in proportion to the edge, and so the uncertain band beside an edge as wide as the rounding of a vertex.
+ *
+ * Bounds, with u = 2^-24, first order; they hold for fused and unfused arithmetic. A determinant is a sum of products of
+ * three components, and its error that many u of the sum of their sizes, P(p, q, r) = sum over the axes of
+ * |p_x| (|q_y| |r_z| + |q_z| |r_y|). far is the largest |b| plus the largest |from|, component by component, and d the
+ * largest of the packet: scenes that are long in one direction have tighter bounds than lengths would give.
+ *   b, e, from   u each;  e and a factor of 1/eps 2 u
+ *   d.(b x e)    u (b) + 2 u (e) + u + u (cross) + 3 u (dot) = 8 u;  9 u with the last sum
+ *   m.e          u (from) + 2 u (m) + 2 u (e) + 3 u = 8 u, likewise
+ *   eps_k        9 u P(d, far, e_k)
+ *   n            2 u + 2 u, and u for a factor;  d.n  8 u: delta = 8 u P(d, e0, e1)
+ *   n.a, n.from  u + 5 u + 3 u + 1 u: 10 u P(far, e0, e1)
+ * Each is enlarged by 2^-7 for what is of second order, and is at least 2^-20 of what lengths give, so that it does not
+ * vanish beside axis-parallel edges. d is taken relative to its length (of the longest, with a common origin).
+ * Edge vectors are divided by eps_k and n by delta, so that the bound of all is that length.
+ * With D = that length and |d.n| > 4 D: t = num / den errs by at most (num's error + |t| D) / (|den| - D), which
+ * is 4/3 of the same over |den|, and 2^-20 of t for division and rounding, and 2^-126 where they underflow.
+ * Coordinates are scaled by a power of two that brings the scene near 1. Where a length, or that of the scaled directions,
+ * leaves [2^-100, 2^100] all the same, the triangle's numbers are set to zero: then every ray is open.
+ * A test in the suite checks these against exact arithmetic, and shrinks them until they fail. */
+#ifndef CGT_TRIANGLE_FILTER_H
+#define CGT_TRIANGLE_FILTER_H
+
+#include "kernel/primitive/filter.h"
+
+/* Triangles of one vector, with what the bounds of each come to for this packet. */
+typedef struct filter_triangles {
+    _Alignas(64) float vertex[3][3][CGT_LANES]; /* [k][a]: coordinate a of vertex k, world */
+    _Alignas(64) float center[3][CGT_LANES];    /* of a sphere around it, world */
+    _Alignas(64) float radius[CGT_LANES];
+    _Alignas(64) float nearest[CGT_LANES];          /* no ray meets it before this t */
+    _Alignas(64) float edge[3][3][CGT_LANES];       /* [k][a]: edge k, opposite vertex k, over eps_k */
+    _Alignas(64) float edge_cross[3][3][CGT_LANES]; /* b x edge k, over eps_k */
+    _Alignas(64) float normal[3][CGT_LANES];        /* n over delta */
+    _Alignas(64) float num[CGT_LANES];              /* n.a over delta */
+    _Alignas(64) float num_error[CGT_LANES];        /* of num */
+    uint32_t object[CGT_LANES];
+} filter_triangles;
+
+/* Reads at most a vector of triangles to the first `lanes` lanes; beyond count they repeat the first. */
+CGT_SPU_INLINE void filter_triangles_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
+                                           uint32_t lanes, filter_triangles *s)
+{
+    for (uint32_t k = 0; k < lanes; k++) {
+        const uint32_t object = reference[k < count ? k : 0];
+        const cgt_triangle q = cgt_objects_triangle(objects, object);
+        for (int i = 0; i < 3; i++)
+            for (int a = 0; a < 3; a++)
+                s->vertex[i][a][k] = q.v[i][a];
+        s->object[k] = object;
+    }
+}
+
+/* ---- bounds ---- */
+
+/* The box's middle, and a radius from there that surely holds the vertices. */
+CGT_SPU_INLINE void filter_triangles_enclose(filter_triangles *s)
+{
+    vfloat square = spux_vfloat(0), magnitude = square;
+    for (int a = 0; a < 3; a++) {
+        const vfloat p = spux_load(s->vertex[0][a]), q = spux_load(s->vertex[1][a]), r = spux_load(s->vertex[2][a]);
+        const vfloat low = spux_min(p, spux_min(q, r)), high = spux_max(p, spux_max(q, r)), k = spux_vfloat(0.5f);
+        const vfloat reach = spu_mul(spu_sub(high, low), k);
+        spux_store(s->center[a], spu_madd(low, k, spu_mul(high, k)));
+        square = spu_madd(reach, reach, square);
+        magnitude = spux_max(magnitude, spux_max(spux_abs(low), spux_abs(high)));
+    }
+    const vfloat wide = spu_madd(magnitude, spux_vfloat(0x1p-22f), spux_vfloat(0x1p-62f));
+    spux_store(s->radius, spu_madd(spux_sqrt(square), spux_vfloat(1 + 0x1p-18f), wide));
+}
+
+CGT_SPU_INLINE vfloat filter_dot(const vfloat p[3], const vfloat q[3])
+{
+    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
+}
+
+CGT_SPU_INLINE vfloat filter_length(const vfloat v[3]) { return spux_sqrt(filter_dot(v, v)); }
+
+/* 1 over a length, 0 where it is out of range. */
+CGT_SPU_INLINE vfloat filter_reciprocal(vfloat length, vmask *wild)
+{
+    const vmask good = spu_and(spu_cmpgt(length, spux_vfloat(0x1p-100f)), spu_cmpgt(spux_vfloat(0x1p100f), length));
+    *wild = spu_or(*wild, spux_not(good));
+    return spux_div(spux_vfloat(1), spux_select(spux_vfloat(1), length, good));
+}
+
+CGT_SPU_INLINE void filter_cross(const vfloat p[3], const vfloat q[3], vfloat cross[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        cross[a] = spu_msub(p[b], q[c], spu_mul(p[c], q[b]));
+    }
+}
+
+/* Stores v * k where the triangle is not wild, else 0: infinities go too. */
+CGT_SPU_INLINE void filter_store_scaled(float to[3][CGT_LANES], const vfloat v[3], vfloat k, vmask wild)
+{
+    for (int a = 0; a < 3; a++)
+        spux_store(to[a], spux_select(spu_mul(v[a], k), spux_vfloat(0), wild));
+}
+
+/* P(p, q, r), see above. */
+CGT_SPU_INLINE vfloat filter_permanent(const vfloat p[3], const vfloat q[3], const vfloat r[3])
+{
+    vfloat sum = spux_vfloat(0);
+    for (int a = 0; a < 3; a++) {
+        const vfloat qb = spux_abs(q[(a + 1) % 3]), qc = spux_abs(q[(a + 2) % 3]);
+        const vfloat rb = spux_abs(r[(a + 1) % 3]), rc = spux_abs(r[(a + 2) % 3]);
+        sum = spu_madd(spux_abs(p[a]), spu_madd(qb, rc, spu_mul(qc, rb)), sum);
+    }
+    return sum;
+}
+
+/* `roundings` u of the sum of sizes, and not less than 2^-20 of that of the lengths. */
+CGT_SPU_INLINE vfloat filter_triangles_error(float roundings, vfloat sizes, vfloat lengths)
+{
+    const float u = roundings * FILTER_U * (1 + 0x1p-7f);
+    return spu_mul(spux_max(sizes, spu_mul(lengths, spux_vfloat(0x1p-20f))), spux_vfloat(u));
+}
+
+/* The bounds of a vector of triangles. */
+CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triangles *s)
+{
+    const vfloat scale = spux_vfloat(f->scale), from = spux_vfloat(f->org_reach * f->scale);
+    vfloat v[3][3], e[3][3], length[3], farthest = spux_vfloat(0), cross[3];
+    /* the rays' Pluecker coordinates are scaled too */
+    vmask wild = spu_cmpgt(spux_vfloat(f->longest * f->scale), spux_vfloat(0x1p100f));
+    filter_triangles_enclose(s);
+    filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
+    for (int k = 0; k < 3; k++) {
+        for (int a = 0; a < 3; a++) {
+            const vfloat before = spux_load(s->vertex[(k + 1) % 3][a]), after = spux_load(s->vertex[(k + 2) % 3][a]);
+            v[k][a] = spu_mul(spu_sub(spux_load(s->vertex[k][a]), spux_vfloat(f->org[a])), scale);
+            e[k][a] = spu_mul(spu_sub(after, before), scale);
+        }
+        farthest = spux_max(farthest, filter_length(v[k]));
+        length[k] = filter_length(e[k]);
+    }
+    const vfloat reach = spu_mul(spu_add(farthest, from), spux_vfloat(1 + 0x1p-18f));
+    const vfloat d[3] = {spux_vfloat(f->share[0]), spux_vfloat(f->share[1]), spux_vfloat(f->share[2])};
+    vfloat far[3], reps[3];
+    for (int a = 0; a < 3; a++) {
+        const vfloat most = spux_max(spux_abs(v[0][a]), spux_max(spux_abs(v[1][a]), spux_abs(v[2][a])));
+        far[a] = spu_add(most, spux_vfloat(f->reach[a] * f->scale));
+    }
+    const vfloat delta = filter_triangles_error(8, filter_permanent(d, e[0], e[1]), spu_mul(length[0], length[1]));
+    const vfloat rdelta = filter_reciprocal(delta, &wild);
+    for (int k = 0; k < 3; k++) {
+        const vfloat eps = filter_triangles_error(9, filter_permanent(d, far, e[k]), spu_mul(length[k], reach));
+        reps[k] = filter_reciprocal(eps, &wild);
+    }
+    const vfloat num_error =
+        filter_triangles_error(10, filter_permanent(far, e[0], e[1]), spu_mul(spu_mul(length[0], length[1]), reach));
+    for (int k = 0; k < 3; k++) {
+        filter_cross(v[(k + 1) % 3], e[k], cross);
+        filter_store_scaled(s->edge_cross[k], cross, reps[k], wild);
+        filter_store_scaled(s->edge[k], e[k], reps[k], wild);
+    }
+    filter_cross(e[0], e[1], cross);
+    filter_store_scaled(s->normal, cross, rdelta, wild);
+    const vfloat unscale = spux_vfloat(1 / f->scale);
+    const vfloat n[3] = {spux_load(s->normal[0]), spux_load(s->normal[1]), spux_load(s->normal[2])};
+    const vfloat num = filter_dot(n, v[0]);
+    spux_store(s->num, spux_select(spu_mul(num, unscale), spux_vfloat(0), wild));
+    spux_store(s->num_error, spu_madd(spu_mul(num_error, rdelta), unscale, spux_vfloat(0x1p-126f)));
+}
+
+/* For FAST precision: no bounds, no scales. Two triangles that share an edge must find the same side of it for every
+ * ray: an edge is taken from its lower end to its higher one, by coordinates, whichever way the triangle runs along it,
+ * and its sign is put on at the end. Then both compute the same numbers, with or without fused operations. */
+CGT_SPU_INLINE vmask filter_above(const vfloat p[3], const vfloat q[3])
+{
+    const vmask x = spu_cmpgt(p[0], q[0]), y = spu_cmpgt(p[1], q[1]), z = spu_cmpgt(p[2], q[2]);
+    const vmask same_x = spu_cmpeq(p[0], q[0]), same_y = spu_cmpeq(p[1], q[1]);
+    return spu_or(x, spu_and(same_x, spu_or(y, spu_and(same_y, z))));
+}
+
+CGT_SPU_INLINE void filter_triangles_prepare_fast(const filter_packet *f, filter_triangles *s)
+{
+    const vfloat scale = spux_vfloat(f->scale), minus = spux_vfloat(-0.f), plus = spux_vfloat(0);
+    vfloat v[3][3], e[3][3], cross[3];
+    filter_triangles_enclose(s);
+    filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++)
+            v[k][a] = spu_mul(spu_sub(spux_load(s->vertex[k][a]), spux_vfloat(f->org[a])), scale);
+    for (int k = 0; k < 3; k++) {
+        const vfloat *p = v[(k + 1) % 3], *q = v[(k + 2) % 3];
+        const vmask swap = filter_above(p, q);
+        const vfloat sign = spux_select(plus, minus, swap);
+        vfloat low[3], edge[3];
+        for (int a = 0; a < 3; a++) {
+            low[a] = spux_select(p[a], q[a], swap);
+            edge[a] = spu_sub(spux_select(q[a], p[a], swap), low[a]);
+            e[k][a] = spu_xor(edge[a], sign);
+            spux_store(s->edge[k][a], e[k][a]);
+        }
+        filter_cross(low, edge, cross);
+        for (int a = 0; a < 3; a++)
+            spux_store(s->edge_cross[k][a], spu_xor(cross[a], sign));
+    }
+    filter_cross(e[0], e[1], cross);
+    for (int a = 0; a < 3; a++)
+        spux_store(s->normal[a], cross[a]);
+    spux_store(s->num, spu_mul(filter_dot(cross, v[0]), spux_vfloat(1 / f->scale)));
+    spux_store(s->num_error, plus);
+}
+
+/* ---- the test ---- */
+
+/* One triangle as the vectors of a test. */
+typedef struct filter_triangle {
+    vfloat edge[3][3], edge_cross[3][3], normal[3];
+    vfloat num, num_error, nearest, longest;
+    vuint object;
+} filter_triangle;
+
+CGT_SPU_INLINE filter_triangle filter_triangle_get(const filter_packet *f, const filter_triangles *s, int k,
+                                                   bool common_origin)
+{
+    filter_triangle q = {.num = spux_vfloat(s->num[k]),
+                         .num_error = spux_vfloat(s->num_error[k]),
+                         .nearest = spux_vfloat(s->nearest[k]),
+                         .longest = spux_vfloat(f->longest),
+                         .object = spux_vuint(s->object[k])};
+    for (int a = 0; a < 3; a++) {
+        q.normal[a] = spux_vfloat(s->normal[a][k]);
+        for (int i = 0; i < 3; i++) {
+            q.edge_cross[i][a] = spux_vfloat(s->edge_cross[i][a][k]);
+            if (!common_origin)
+                q.edge[i][a] = spux_vfloat(s->edge[i][a][k]);
+        }
+    }
+    return q;
+}
+
+CGT_SPU_INLINE void filter_triangle_sides(const packet *p, const filter_triangle *q, uint32_t i, bool common_origin,
+                                          vfloat w[3])
+{
+    const vfloat d[3] = {spux_load(p->dir[0] + i), spux_load(p->dir[1] + i), spux_load(p->dir[2] + i)};
+    for (int k = 0; k < 3; k++)
+        w[k] = filter_dot(d, q->edge_cross[k]);
+    if (common_origin)
+        return;
+    const vfloat m[3] = {spux_load(p->moment[0] + i), spux_load(p->moment[1] + i), spux_load(p->moment[2] + i)};
+    for (int k = 0; k < 3; k++)
+        w[k] = spu_add(w[k], filter_dot(m, q->edge[k]));
+}
+
+CGT_SPU_INLINE void filter_triangle_plane(const packet *p, const filter_triangle *q, uint32_t i, bool common_origin,
+                                          vfloat *num, vfloat *den)
+{
+    const vfloat d[3] = {spux_load(p->dir[0] + i), spux_load(p->dir[1] + i), spux_load(p->dir[2] + i)};
+    *num = q->num;
+    *den = filter_dot(d, q->normal);
+    if (common_origin)
+        return;
+    const vfloat from[3] = {spux_load(p->from[0] + i), spux_load(p->from[1] + i), spux_load(p->from[2] + i)};
+    *num = spu_sub(*num, filter_dot(from, q->normal));
+}
+
+/* Returns false where all rays of the vector surely miss. Comparisons are written so that what is not a number stays
+ * open. */
+CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                         filter_result *f)
+{
+    const filter_triangle *q = primitive;
+    const vfloat bound = common_origin ? q->longest : spux_load(p->length + i);
+    const vfloat minus = spu_xor(bound, spux_vfloat(-0.f));
+    vfloat w[3], num, den;
+    filter_triangle_sides(p, q, i, common_origin, w);
+    const vfloat least = spux_min(w[0], spux_min(w[1], w[2])), most = spux_max(w[0], spux_max(w[1], w[2]));
+    /* on both sides of edges; or the nearest point lies beyond the best */
+    const vmask missed =
+        spu_or(spu_and(spu_cmpgt(minus, least), spu_cmpgt(most, bound)), spu_cmpgt(q->nearest, spux_load(p->high + i)));
+    if (spux_all(missed))
+        return false;
+    filter_triangle_plane(p, q, i, common_origin, &num, &den);
+    const vfloat r = spux_div(spux_vfloat(1), den), t = spu_mul(num, r), size = spux_abs(t);
+    const vfloat error = spu_mul(spu_madd(size, bound, q->num_error), spu_mul(spux_abs(r), spux_vfloat(1.34f)));
+    const vfloat width = spu_madd(size, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-126f)));
+    const vfloat low = spu_sub(t, width), high = spu_add(t, width), t_min = spux_load(p->t_min + i);
+    const vmask steep = spu_cmpgt(spux_abs(den), spu_mul(bound, spux_vfloat(4)));
+    const vmask beyond = spu_cmpgt(low, spux_load(p->high + i)), behind = spu_cmpgt(t_min, high);
+    const vmask met = spu_cmpeq(spux_load_uint(p->object + i), q->object);
+    const vmask inside = spu_or(spu_cmpgt(least, bound), spu_cmpgt(minus, most));
+    const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spu_cmpgt(low, t_min));
+    f->low = low;
+    f->high = high;
+    f->certain = spu_and(spu_and(inside, steep), nearer);
+    f->open = spux_not(spu_or(spu_or(missed, met), spu_or(spu_and(steep, spu_or(beyond, behind)), f->certain)));
+    return true;
+}
+
+/* The same without a bound, for FAST precision: the signs decide. */
+CGT_SPU_INLINE bool filter_triangle_rays_fast(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                              filter_result *f)
+{
+    const filter_triangle *q = primitive;
+    const vfloat zero = spux_vfloat(0);
+    vfloat w[3], num, den;
+    filter_triangle_sides(p, q, i, common_origin, w);
+    const vfloat least = spux_min(w[0], spux_min(w[1], w[2])), most = spux_max(w[0], spux_max(w[1], w[2]));
+    const vmask hit = spu_or(spux_cmpge(least, zero), spux_cmpge(zero, most));
+    if (!spux_any(hit))
+        return false;
+    filter_triangle_plane(p, q, i, common_origin, &num, &den);
+    const vfloat t = spu_mul(num, spux_div(spux_vfloat(1), den));
+    const vfloat sum = spu_add(w[0], spu_add(w[1], w[2]));
+    /* all three may be 0 where the exact ones are only small: any share will do then, but a number */
+    const vfloat divisor = spux_select(sum, spux_vfloat(1), spu_cmpeq(sum, zero));
+    f->low = f->high = t;
+    f->u = spux_div(w[1], divisor);
+    f->v = spux_div(w[2], divisor);
+    f->certain = spu_and(hit, filter_fast_nearer(p, i, t, q->object));
+    f->open = spux_mask_none();
+    return true;
+}
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The winning shapes of a packet's rays, as structure of arrays. */
+#ifndef CGT_WINNERS_H
+#define CGT_WINNERS_H
+
+#include "kernel/packet/packet.h"
+
+#define RESOLVE_RAYS 16u
+
+typedef struct winners {
+    _Alignas(64) float sphere[4][PACKET_MAX_RAYS];    /* x, y, z, r; 0 where no sphere is hit */
+    _Alignas(64) float vertex[3][3][PACKET_MAX_RAYS]; /* [k][a]; only in scenes with triangles */
+    _Alignas(64) uint32_t is_sphere[PACKET_MAX_RAYS]; /* 0 or 1; only in scenes with triangles */
+    uint32_t hits;
+} winners;
+
+CGT_SPU_INLINE cgt_triangle winner_triangle(const winners *w, size_t i)
+{
+    return (cgt_triangle){{{w->vertex[0][0][i], w->vertex[0][1][i], w->vertex[0][2][i]},
+                           {w->vertex[1][0][i], w->vertex[1][1][i], w->vertex[1][2][i]},
+                           {w->vertex[2][0][i], w->vertex[2][1][i], w->vertex[2][2][i]}}};
+}
+
+CGT_SPU_INLINE cgt_sphere winner_sphere(const winners *w, size_t i)
+{
+    return (cgt_sphere){w->sphere[0][i], w->sphere[1][i], w->sphere[2][i], w->sphere[3][i]};
+}
+
+#endif

@@ -1,0 +1,74 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The fields of a packet's hits in FAST precision: t, u and v as the tests left them, normals in single precision. */
+#ifndef CGT_RESOLVE_FAST_H
+#define CGT_RESOLVE_FAST_H
+
+#include "kernel/resolve/hit_primitives.h"
+
+/* A sphere of radius 0 has no normal of its own: it gets the direction back to the ray's origin. */
+CGT_SPU_INLINE void fast_normal_of_point(const packet *p, uint32_t i, packet_hits *hits)
+{
+    const double x = (double)p->dir[0][i], y = (double)p->dir[1][i], z = (double)p->dir[2][i];
+    const double k = -1 / sqrt(x * x + y * y + z * z);
+    hits->normal[0][i] = (float)(x * k);
+    hits->normal[1][i] = (float)(y * k);
+    hits->normal[2][i] = (float)(z * k);
+}
+
+CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const winners *w, packet_hits *hits)
+{
+    if (w->sphere[3][i] == 0) {
+        fast_normal_of_point(p, i, hits);
+        return;
+    }
+    const double k = 1 / (double)w->sphere[3][i]; /* finite for denormal radii too */
+    for (int a = 0; a < 3; a++)
+        hits->normal[a][i] = (float)((double)((p->org[a][i] - w->sphere[a][i]) + p->high[i] * p->dir[a][i]) * k);
+}
+
+/* Edges are scaled, so that their products stay in range. */
+CGT_SPU_INLINE void fast_normal_of_triangle(float scale, uint32_t i, const winners *w, packet_hits *hits)
+{
+    float e1[3], e2[3], n[3], square = 0;
+    for (int a = 0; a < 3; a++) {
+        e1[a] = (w->vertex[1][a][i] - w->vertex[0][a][i]) * scale;
+        e2[a] = (w->vertex[2][a][i] - w->vertex[0][a][i]) * scale;
+    }
+    for (int a = 0; a < 3; a++) {
+        n[a] = e1[(a + 1) % 3] * e2[(a + 2) % 3] - e1[(a + 2) % 3] * e2[(a + 1) % 3];
+        square += n[a] * n[a];
+    }
+    const float k = square > 0 ? 1 / __builtin_sqrtf(square) : 0;
+    for (int a = 0; a < 3; a++)
+        hits->normal[a][i] = n[a] * k;
+}
+
+static void fast_normals(const cgt_world *world, const packet *p, const winners *w, packet_hits *hits)
+{
+    for (uint32_t i = 0; i < p->lanes; i++) {
+        if (p->object[i] == CGT_NONE)
+            hits->normal[0][i] = hits->normal[1][i] = hits->normal[2][i] = 0;
+        else if (!world->objects.triangles || w->is_sphere[i])
+            fast_normal_of_sphere(p, i, w, hits);
+        else
+            fast_normal_of_triangle(world->scale, i, w, hits);
+    }
+}
+
+static void resolve_fast(const cgt_world *world, const packet *p, uint32_t fields, const winners *w, packet_hits *hits)
+{
+    for (uint32_t i = 0; i < p->lanes; i++)
+        hits->t[i] = p->object[i] != CGT_NONE ? p->high[i] : INFINITY;
+    if (fields & CGT_FIELD_UV)
+        for (uint32_t i = 0; i < p->lanes; i++) {
+            const bool triangle = p->object[i] != CGT_NONE && world->objects.triangles && !w->is_sphere[i];
+            hits->u[i] = triangle ? p->u[i] : 0;
+            hits->v[i] = triangle ? p->v[i] : 0;
+        }
+    if (fields & CGT_FIELD_NORMAL)
+        fast_normals(world, p, w, hits);
+}
+
+#endif

@@ -1,0 +1,264 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * t and normals of the rays that hit spheres. The functions work on some rays at a time, first to first + count - 1;
+ * `alone` says that the scene has nothing but spheres. */
+#ifndef CGT_RESOLVE_SPHERES_H
+#define CGT_RESOLVE_SPHERES_H
+
+#include "exact/decide.h"
+#include "exact/sphere_double.h"
+#include "spux_double.h"
+#include "kernel/resolve/hit_primitives.h"
+
+/* Half a vector of rays and their spheres. */
+typedef struct resolve_half {
+    vdouble t, c[3], d[3]; /* c: the centre seen from the origin */
+    vdouble square, disc;  /* the terms of cgt_sphere_double_near: d.d, and the discriminant */
+} resolve_half;
+
+CGT_SPU_INLINE void resolve_directions(const vfloat dir[3], resolve_half h[2])
+{
+    for (int a = 0; a < 3; a++) {
+        h[0].d[a] = spux_double_low(dir[a]);
+        h[1].d[a] = spux_double_high(dir[a]);
+    }
+}
+
+/* Of the lanes in `where`, 0 beside them. k: 1 / r */
+CGT_SPU_INLINE void resolve_normals(const resolve_half h[2], const vdouble k[2], vmask where, vfloat n[3])
+{
+    for (int a = 0; a < 3; a++)
+        n[a] =
+            spux_float_where((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1], where);
+}
+
+/* ---- the short way of sphere_double.h, in its order ---- */
+
+/* Returns the lanes whose t is cgt_canonical_sphere_t's, of those outside; t has the sign of the middle there. Both roots
+ * before both quotients: a CPU has one slow unit for them, and one half's wait is the other one's work. */
+CGT_SPU_INLINE vmask resolve_nears(const vdouble product[2], vmask outside, vfloat t_min, resolve_half h[2], vfloat *t)
+{
+    vdouble middle[2], square[2], disc[2], half[2], least[2];
+    for (int i = 0; i < 2; i++) {
+        const vdouble *c = h[i].c, *d = h[i].d;
+        const vdouble dd = spux_double_add_square(spux_double_add_square(d[0] * d[0], d[1]), d[2]);
+        middle[i] = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
+        square[i] = middle[i] * middle[i];
+        disc[i] = square[i] - dd * product[i];
+        h[i].square = dd;
+        h[i].disc = disc[i];
+    }
+    for (int i = 0; i < 2; i++)
+        half[i] = spux_double_sqrt(disc[i]);
+    for (int i = 0; i < 2; i++)
+        least[i] = square[i] * CGT_SPHERE_INSIDE;
+    const vmask inside = spux_double_cmpgt(disc, least);
+    for (int i = 0; i < 2; i++)
+        h[i].t = product[i] / (middle[i] + half[i]);
+    *t = spux_float_of(h[0].t, h[1].t);
+    const vmask ahead = spu_and(spu_cmpgt(*t, spux_vfloat(0)), spux_cmpge(*t, t_min));
+    return spu_and(spu_and(outside, ahead), inside);
+}
+
+/* ---- the long way ---- */
+
+#define SPHERE_ROOM 0x1p-16 /* twice what cgt_sphere_double_unsafe asks for, and more */
+
+/* Rays of some lanes, in place of what t and n have there. Returns those whose t is the near root, and safe:
+ * cgt_sphere_double_unsafe is 0 there. The product, d.d times that of the roots, is so far above 0 that where t is the
+ * middle is. */
+__attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat org[3], const vfloat dir[3],
+                                                                    const vfloat sphere[4], vfloat t_min, bool normal,
+                                                                    vmask some, vfloat *t, vfloat n[3])
+{
+    resolve_half h[2];
+    vdouble room[2], outside[2], k[2];
+    vfloat normals[3];
+    resolve_directions(dir, h);
+    for (int i = 0; i < 2; i++) {
+        const vdouble r = i ? spux_double_high(sphere[3]) : spux_double_low(sphere[3]), rr = r * r;
+        const vdouble *d = h[i].d, *c = h[i].c, dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        for (int a = 0; a < 3; a++)
+            h[i].c[a] = i ? spux_double_high(sphere[a]) - spux_double_high(org[a])
+                          : spux_double_low(sphere[a]) - spux_double_low(org[a]);
+        const vdouble cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2], product = cc - rr, least = (cc + rr) * SPHERE_ROOM;
+        const vdouble x = c[1] * d[2] - c[2] * d[1], y = c[2] * d[0] - c[0] * d[2], z = c[0] * d[1] - c[1] * d[0];
+        const vdouble middle = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
+        const vdouble half = spux_double_sqrt(rr * dd - (x * x + y * y + z * z));
+        h[i].t = product / (middle + half);
+        room[i] = (middle + half) * half - least * dd;
+        outside[i] = product - least;
+        k[i] = spux_vdouble(1) / r;
+    }
+    const vfloat near = spux_float_of(h[0].t, h[1].t);
+    const vmask ahead = spu_and(spu_cmpgt(near, spux_vfloat(0)), spux_cmpge(near, t_min));
+    const vmask safe = spu_and(spux_double_above0(room[0], room[1]), spux_double_above0(outside[0], outside[1]));
+    const vmask known = spu_and(spu_and(some, ahead), safe);
+    *t = spux_select(*t, near, known);
+    if (!normal)
+        return known;
+    resolve_normals(h, k, known, normals);
+    for (int a = 0; a < 3; a++)
+        n[a] = spux_select(n[a], normals[a], known);
+    return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
+}
+
+/* ---- rays one by one ---- */
+
+/* t and the unit normal of one sphere's hit. */
+typedef struct resolved_sphere {
+    float t, normal[3];
+} resolved_sphere;
+
+/* A ray whose t cancels, or is the far root, or whose sphere is a point: that has no normal of its own, and gets the
+ * direction back to the ray's origin. */
+__attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(const cgt_ray *ray, cgt_sphere q,
+                                                                            cgt_counts *counts)
+{
+    const double centre[3] = {q.x, q.y, q.z}, d[3] = {ray->line.dir[0], ray->line.dir[1], ray->line.dir[2]};
+    const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, q);
+    bool far;
+    const double t = cgt_canonical_sphere_t(ray, q, &far);
+    const double k = q.r > 0 ? 1 / (double)q.r : -1 / sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    resolved_sphere s = {.t = (float)t};
+    counts->exact_values += cgt_sphere_double_unsafe(e, sqrt(e.disc));
+    for (int a = 0; a < 3; a++)
+        s.normal[a] = (float)((q.r > 0 ? ((double)ray->line.org[a] - centre[a]) + t * d[a] : d[a]) * k);
+    return s;
+}
+
+/* ---- vectors of rays ---- */
+
+/* The lanes that hit, what of them the short way knows. Returns what both ways know; the others are for
+ * resolve_sphere_ray. */
+CGT_SPU_INLINE vmask resolve_spheres_rest(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
+                                          vfloat t_min, bool normal, vmask hit, vmask known, vfloat *t, vfloat n[3])
+{
+    const vmask left = spu_andc(hit, known);
+    if (!spux_any(left))
+        return known;
+    /* of copies, so that the others stay in registers */
+    const vfloat o[3] = {org[0], org[1], org[2]}, d[3] = {dir[0], dir[1], dir[2]};
+    const vfloat q[4] = {sphere[0], sphere[1], sphere[2], sphere[3]};
+    vfloat long_t = *t, long_n[3];
+    for (int a = 0; normal && a < 3; a++)
+        long_n[a] = n[a];
+    const vmask more = resolve_spheres_long(o, d, q, t_min, normal, left, &long_t, long_n);
+    *t = long_t;
+    for (int a = 0; normal && a < 3; a++)
+        n[a] = long_n[a];
+    return spu_or(known, more);
+}
+
+/* What the short way asks for, but directions, which h has: centres and products. Returns the lanes outside. */
+CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat sphere[4], resolve_half h[2], vdouble product[2])
+{
+    const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
+    vdouble least[2];
+    for (int a = 0; a < 3; a++) {
+        h[0].c[a] = spux_double_low(sphere[a]) - spux_double_low(org[a]);
+        h[1].c[a] = spux_double_high(sphere[a]) - spux_double_high(org[a]);
+    }
+    for (int i = 0; i < 2; i++) {
+        const vdouble *c = h[i].c, rr = r[i] * r[i], cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+        product[i] = cc - rr;
+        least[i] = cc * CGT_SPHERE_OUTSIDE;
+    }
+    return spux_not(spux_double_cmpgt(least, product));
+}
+
+/* Rays whose directions h has, of which some hit their spheres: t, and the normals of these, 0 beside them. The outward
+ * unit normal is the vector from the centre over the radius. Origin and centre may both be far away: their difference
+ * comes first. */
+CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat sphere[4], vfloat t_min, bool normal,
+                                            vmask hit, resolve_half h[2], vfloat *t, vfloat n[3])
+{
+    vdouble product[2];
+    const vmask outside = resolve_terms(org, sphere, h, product);
+    const vmask known = resolve_nears(product, outside, t_min, h, t);
+    if (normal) {
+        const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
+        const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
+        resolve_normals(h, k, hit, n);
+    }
+    return known;
+}
+
+/* What rays from one origin to one sphere have in common. */
+typedef struct prepared_sphere {
+    double c[3], product, reciprocal;
+    bool outside;
+} prepared_sphere;
+
+CGT_SPU_INLINE prepared_sphere prepare_sphere(const float org[3], cgt_sphere q)
+{
+    const double cx = (double)q.x - (double)org[0], cy = (double)q.y - (double)org[1],
+                 cz = (double)q.z - (double)org[2], r = (double)q.r;
+    const double rr = r * r, cc = cx * cx + cy * cy + cz * cz;
+    return (prepared_sphere){
+        .c = {cx, cy, cz}, .product = cc - rr, .reciprocal = 1 / r, .outside = cc - rr >= cc * CGT_SPHERE_OUTSIDE};
+}
+
+/* As resolve_spheres_vector. */
+CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, vfloat t_min, bool normal, vmask hit,
+                                             resolve_half h[2], vfloat *t, vfloat n[3])
+{
+    const vdouble product[2] = {spux_vdouble(p->product), spux_vdouble(p->product)};
+    for (int a = 0; a < 3; a++)
+        h[0].c[a] = h[1].c[a] = spux_vdouble(p->c[a]);
+    const vmask known = resolve_nears(product, p->outside ? spux_mask_all() : spux_mask_none(), t_min, h, t);
+    if (normal) {
+        const vdouble k[2] = {spux_vdouble(p->reciprocal), spux_vdouble(p->reciprocal)};
+        resolve_normals(h, k, hit, n);
+    }
+    return known;
+}
+
+/* Lanes of a packet. */
+CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal, bool alone, const winners *w,
+                                          packet_hits *hits, cgt_counts *counts)
+{
+    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_NONE));
+    const vmask hit = alone ? spux_not(nobody) : spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(1));
+    vfloat sphere[4], org[3], dir[3], n[3], t;
+    for (int a = 0; a < 4; a++)
+        sphere[a] = spux_load(w->sphere[a] + i);
+    for (int a = 0; a < 3; a++) {
+        org[a] = spux_load(p->org[a] + i);
+        dir[a] = spux_load(p->dir[a] + i);
+    }
+    const vfloat t_min = spux_load(p->t_min + i);
+    resolve_half h[2];
+    resolve_directions(dir, h);
+    vmask known = resolve_spheres_vector(org, sphere, t_min, normal, hit, h, &t, n);
+    known = resolve_spheres_rest(org, dir, sphere, t_min, normal, hit, known, &t, n);
+    spux_store(hits->t + i, spux_select(alone ? spux_vfloat(INFINITY) : spux_load(hits->t + i), t, hit));
+    for (int a = 0; normal && a < 3; a++) {
+        const vfloat other = alone ? spux_vfloat(0) : spux_load(hits->normal[a] + i);
+        spux_store(hits->normal[a] + i, spux_select(other, n[a], hit));
+    }
+    for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1) {
+        const size_t lane = i + (size_t)__builtin_ctz(left);
+        const cgt_ray ray = {.line = {.org = {p->org[0][lane], p->org[1][lane], p->org[2][lane]},
+                                      .dir = {p->dir[0][lane], p->dir[1][lane], p->dir[2][lane]}},
+                             .t_min = p->t_min[lane]};
+        const resolved_sphere s = resolve_sphere_ray(&ray, winner_sphere(w, lane), counts);
+        hits->t[lane] = s.t;
+        for (int a = 0; normal && a < 3; a++)
+            hits->normal[a][lane] = s.normal[a];
+    }
+}
+
+CGT_SPU_INLINE void resolve_spheres(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
+                                    bool alone, const winners *w, packet_hits *hits, cgt_counts *counts)
+{
+    if (settings->fields & CGT_FIELD_NORMAL)
+        for (size_t i = first; i < first + count; i += CGT_LANES)
+            resolve_spheres_lanes(p, i, true, alone, w, hits, counts);
+    else if (settings->fields & CGT_FIELD_T)
+        for (size_t i = first; i < first + count; i += CGT_LANES)
+            resolve_spheres_lanes(p, i, false, alone, w, hits, counts);
+}
+
+#endif

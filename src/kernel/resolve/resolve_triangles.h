@@ -1,0 +1,436 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * t, u, v and normals of the rays that hit triangles. The functions work on some rays at a time, first to
+ * first + count - 1; `alone` says that the scene has nothing but triangles. */
+#ifndef CGT_RESOLVE_TRIANGLES_H
+#define CGT_RESOLVE_TRIANGLES_H
+
+#include "exact/decide.h"
+#include "exact/triangle_double.h"
+#include "spux_double.h"
+#include "kernel/resolve/hit_primitives.h"
+
+/* ---- a ray ---- */
+
+/* Between 0 and 1, where the exact value is: rounding may have left it. */
+CGT_SPU_INLINE float share_of(double u)
+{
+    const float rounded = (float)u, low = rounded > 0 ? rounded : 0;
+    return low < 1 ? low : 1;
+}
+
+/* The shares of the second and third vertex. ROBUST does not ask how much of them is left. Returns whether they had to be
+ * computed exactly. */
+static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_triangle_plane *plane, bool exact,
+                           double share[2])
+{
+    const cgt_triangle_sides s = cgt_triangle_double_sides(ray->line.org, ray->line.dir, q);
+    bool safe = plane->den_error <= CGT_DOUBLE_SAFE * fabs(plane->den);
+    const double r = 1 / plane->den;
+    for (int k = 1; k < 3; k++) {
+        share[k - 1] = s.w[k] * r;
+        safe = safe && (!exact || s.error[k] <= CGT_DOUBLE_SAFE * fabs(s.w[k]));
+    }
+    if (!safe)
+        cgt_exact_uv(&ray->line, q, share);
+    return !safe;
+}
+
+/* What a component of the plane's normal may be off by. */
+CGT_SPU_INLINE double triangle_edges(const cgt_triangle *q)
+{
+    double size[2] = {0, 0};
+    for (int k = 0; k < 2; k++)
+        for (int a = 0; a < 3; a++)
+            size[k] += fabs((double)q->v[k + 1][a] - (double)q->v[0][a]);
+    return CGT_TRIANGLE_DOUBLE_ERROR * (size[0] * size[1]);
+}
+
+/* Of all components together, or in EXACT precision of each: one that is exactly 0 is as good as it gets where its
+ * products are too. */
+static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
+{
+    const double error = triangle_edges(q);
+    double sum = 0;
+    bool each = true;
+    for (int a = 0; a < 3; a++) {
+        each = each && error <= CGT_DOUBLE_SAFE * fabs(n[a]);
+        sum += CGT_DOUBLE_SAFE * fabs(n[a]);
+    }
+    return exact ? each : error <= sum;
+}
+
+/* The fields of one triangle's hit. */
+typedef struct resolved_triangle {
+    float t, u, v, normal[3];
+} resolved_triangle;
+
+/* A ray of which something cancels. */
+__attribute__((noinline, unused)) static resolved_triangle
+resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, bool exact, cgt_counts *counts)
+{
+    const cgt_triangle_plane plane = cgt_triangle_double_plane(ray->line.org, ray->line.dir, q);
+    resolved_triangle h = {0};
+    bool exactly = false;
+    if (fields & CGT_FIELD_T) {
+        h.t = (float)cgt_canonical_triangle_t(ray, q);
+        exactly = !cgt_triangle_double_t_safe(&plane);
+    }
+    if (fields & CGT_FIELD_UV) {
+        double share[2];
+        exactly |= resolve_ray_uv(ray, q, &plane, exact, share);
+        h.u = share_of(share[0]);
+        h.v = share_of(share[1]);
+    }
+    counts->exact_values += exactly;
+    if (fields & CGT_FIELD_NORMAL) {
+        double n[3] = {plane.n[0], plane.n[1], plane.n[2]};
+        if (!normal_is_safe(q, n, exact))
+            cgt_exact_normal(q, n);
+        const double r = 1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int a = 0; a < 3; a++)
+            h.normal[a] = (float)(n[a] * r);
+    }
+    return h;
+}
+
+/* ---- a vector of rays ---- */
+
+/* Half a vector: the steps of cgt_triangle_double_plane, in its order. */
+typedef struct resolve_half_plane {
+    vdouble d[3], org[3], v[3][3];
+    vdouble n[3], num, den, edges, sure_t, sure_den; /* the last two: above 0 where t and den are safe */
+} resolve_half_plane;
+
+#define NORM1(x) (spux_double_abs((x)[0]) + spux_double_abs((x)[1]) + spux_double_abs((x)[2]))
+#define DOT(p, q) ((p)[0] * (q)[0] + (p)[1] * (q)[1] + (p)[2] * (q)[2])
+
+/* Rays and the triangles that they hit. */
+CGT_SPU_INLINE void resolve_half_load(const vfloat org[3], const vfloat dir[3], const vfloat vertex[3][3],
+                                      resolve_half_plane h[2])
+{
+    for (int a = 0; a < 3; a++) {
+        h[0].d[a] = spux_double_low(dir[a]);
+        h[1].d[a] = spux_double_high(dir[a]);
+        h[0].org[a] = spux_double_low(org[a]);
+        h[1].org[a] = spux_double_high(org[a]);
+        for (int k = 0; k < 3; k++) {
+            h[0].v[k][a] = spux_double_low(vertex[k][a]);
+            h[1].v[k][a] = spux_double_high(vertex[k][a]);
+        }
+    }
+}
+
+/* What does not depend on the rays' directions. */
+CGT_SPU_INLINE void resolve_half_normal(resolve_half_plane *h)
+{
+    vdouble a[3], e1[3], e2[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = h->v[0][k] - h->org[k];
+        e1[k] = h->v[1][k] - h->v[0][k];
+        e2[k] = h->v[2][k] - h->v[0][k];
+    }
+    for (int k = 0; k < 3; k++)
+        h->n[k] = CGT_CROSS(e1, e2, (k + 1) % 3, (k + 2) % 3);
+    h->edges = NORM1(e1) * NORM1(e2) * CGT_TRIANGLE_DOUBLE_ERROR;
+    h->num = DOT(h->n, a);
+    h->sure_t = spux_double_abs(h->num) * CGT_DOUBLE_SAFE - h->edges * NORM1(a);
+}
+
+CGT_SPU_INLINE void resolve_half_plane_make(resolve_half_plane *h)
+{
+    resolve_half_normal(h);
+    h->den = DOT(h->d, h->n);
+    h->sure_den = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - h->edges * NORM1(h->d);
+}
+
+/* The cross product of the edge from vertex `from` to `to`, as cgt_triangle_double_edge has it; returns the bound. */
+CGT_SPU_INLINE vdouble resolve_half_edge(const resolve_half_plane *h, int from, int to, vdouble cross[3])
+{
+    vdouble b[3], e[3];
+    for (int a = 0; a < 3; a++) {
+        b[a] = h->v[from][a] - h->org[a];
+        e[a] = h->v[to][a] - h->v[from][a];
+    }
+    for (int a = 0; a < 3; a++)
+        cross[a] = CGT_CROSS(b, e, (a + 1) % 3, (a + 2) % 3);
+    return CGT_TRIANGLE_DOUBLE_ERROR * NORM1(b) * NORM1(e);
+}
+
+/* w1 or w2: the side of the edge, as cgt_triangle_double_sides has it; and what is above 0 where it is safe. */
+CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, int to, vdouble *sure)
+{
+    vdouble cross[3];
+    const vdouble error = resolve_half_edge(h, from, to, cross), side = DOT(h->d, cross);
+    *sure = spux_double_abs(side) * CGT_DOUBLE_SAFE - NORM1(h->d) * error;
+    return side;
+}
+
+/* What a vector of rays gets. */
+typedef struct resolved_triangles {
+    vfloat t, u, v, normal[3];
+} resolved_triangles;
+
+CGT_SPU_INLINE vfloat shares_of(vdouble low, vdouble high)
+{
+    const vfloat share = spux_float_of(low, high), zero = spux_vfloat(0), one = spux_vfloat(1);
+    const vfloat above = spux_select(zero, share, spu_cmpgt(share, zero));
+    return spux_select(one, above, spu_cmpgt(one, above));
+}
+
+CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
+{
+    const vdouble r[2] = {spux_vdouble(1) / h[0].den, spux_vdouble(1) / h[1].den};
+    vmask known = spux_double_above0(h[0].sure_den, h[1].sure_den);
+    for (int k = 0; k < 2; k++) { /* w1 is of the edge from v2 to v0, w2 from v0 to v1 */
+        const int from = k ? 0 : 2, end = k ? 1 : 0;
+        vdouble sure[2];
+        const vdouble low = resolve_half_side(&h[0], from, end, &sure[0]);
+        const vdouble high = resolve_half_side(&h[1], from, end, &sure[1]);
+        *(k ? &to->v : &to->u) = shares_of(low * r[0], high * r[1]);
+        if (exact)
+            known = spu_and(known, spux_double_above0(sure[0], sure[1]));
+    }
+    return known;
+}
+
+CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
+{
+    vdouble r[2], sum[2];
+    vmask known = spux_mask_all();
+    for (int k = 0; k < 2; k++) {
+        r[k] = spux_vdouble(1) / spux_double_sqrt(DOT(h[k].n, h[k].n));
+        sum[k] = NORM1(h[k].n) * CGT_DOUBLE_SAFE - h[k].edges;
+    }
+    for (int a = 0; a < 3; a++) {
+        to->normal[a] = spux_float_of(h[0].n[a] * r[0], h[1].n[a] * r[1]);
+        if (exact)
+            known = spu_and(known, spux_double_above0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
+                                                      spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
+    }
+    return exact ? known : spux_double_above0(sum[0], sum[1]);
+}
+
+/* Returns the lanes that are right; the others are for resolve_triangle_ray. */
+CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat dir[3], const vfloat vertex[3][3],
+                                              uint32_t fields, bool exact, resolved_triangles *to)
+{
+    resolve_half_plane h[2];
+    vmask known = spux_mask_all();
+    resolve_half_load(org, dir, vertex, h);
+    resolve_half_plane_make(&h[0]);
+    resolve_half_plane_make(&h[1]);
+    if (fields & CGT_FIELD_T) {
+        to->t = spux_float_of(h[0].num / h[0].den, h[1].num / h[1].den);
+        known = spu_and(spux_double_above0(h[0].sure_t, h[1].sure_t), spux_double_above0(h[0].sure_den, h[1].sure_den));
+    }
+    if (fields & CGT_FIELD_UV)
+        known = spu_and(known, resolve_vector_uv(h, exact, to));
+    if (fields & CGT_FIELD_NORMAL)
+        known = spu_and(known, resolve_vector_normal(h, exact, to));
+    return known;
+}
+
+/* ---- triangles seen from one origin ---- */
+
+/* What all rays to a triangle have in common, as records of 8 doubles. The first: n, num and the bound of den's error
+ * over |d|, as cgt_triangle_double_plane has them, +infinity where t or the normal is not safe; the unit normal. The
+ * second, where u and v are asked for: the sides of w1 and w2, cross products and bounds. */
+enum { PREPARED_N = 0, PREPARED_NUM = 3, PREPARED_ERROR = 4, PREPARED_NORMAL = 5 };
+enum { PREPARED_SIDE = 0, PREPARED_SIDE_ERROR = 6 };
+#define PREPARED_RECORD 8u
+
+/* |d| is summed up otherwise than for a single ray: the bound allows for its rounding. */
+#define PREPARED_SLACK 1.01
+
+CGT_SPU_INLINE void prepare_half_plane(resolve_half_plane *h, uint32_t fields, bool exact, vdouble record[8])
+{
+    const vdouble safe = spux_vdouble(CGT_DOUBLE_SAFE), one = spux_vdouble(1);
+    vdouble sure = one;
+    resolve_half_normal(h);
+    if (fields & CGT_FIELD_T)
+        sure = h->sure_t;
+    if (fields & CGT_FIELD_NORMAL) {
+        const vdouble r = one / spux_double_sqrt(DOT(h->n, h->n));
+        if (!exact)
+            sure = spux_double_select(spux_vdouble(-1), sure, NORM1(h->n) * safe - h->edges);
+        for (int a = 0; a < 3; a++) {
+            record[PREPARED_NORMAL + a] = h->n[a] * r;
+            if (exact)
+                sure = spux_double_select(spux_vdouble(-1), sure, spux_double_abs(h->n[a]) * safe - h->edges);
+        }
+    } else
+        for (int a = 0; a < 3; a++)
+            record[PREPARED_NORMAL + a] = spux_vdouble(0);
+    for (int a = 0; a < 3; a++)
+        record[PREPARED_N + a] = h->n[a];
+    record[PREPARED_NUM] = h->num;
+    record[PREPARED_ERROR] = spux_double_select(spux_vdouble(INFINITY), h->edges * spux_vdouble(PREPARED_SLACK), sure);
+}
+
+CGT_SPU_INLINE void prepare_half_sides(const resolve_half_plane *h, vdouble record[8])
+{
+    for (int k = 0; k < 2; k++) {
+        vdouble cross[3];
+        const vdouble error = resolve_half_edge(h, k ? 0 : 2, k ? 1 : 0, cross);
+        for (int a = 0; a < 3; a++)
+            record[PREPARED_SIDE + 3 * k + a] = cross[a];
+        record[PREPARED_SIDE_ERROR + k] = error * spux_vdouble(PREPARED_SLACK);
+    }
+}
+
+/* A vector of triangles to records that lie one after the other, `stride` doubles apart: one record, or two where u and v
+ * are asked for. */
+CGT_SPU_INLINE void prepare_triangles(const float eye[3], const vfloat vertex[3][3], uint32_t fields, bool exact,
+                                      double *to, size_t stride)
+{
+    const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
+    resolve_half_plane h[2];
+    resolve_half_load(org, org, vertex, h); /* no directions */
+    for (size_t half = 0; half < 2; half++) {
+        vdouble record[8];
+        prepare_half_plane(&h[half], fields, exact, record);
+        spux_double_store8(to + half * CGT_DOUBLES * stride, stride, record);
+        if (fields & CGT_FIELD_UV) {
+            prepare_half_sides(&h[half], record);
+            spux_double_store8(to + half * CGT_DOUBLES * stride + PREPARED_RECORD, stride, record);
+        }
+    }
+}
+
+/* Half a vector of rays, each to a triangle of its own: records as vectors. */
+typedef struct prepared_half {
+    vdouble t, den, sure;
+    vdouble normal[3];
+    vdouble side[2], sure_side[2];
+} prepared_half;
+
+CGT_SPU_INLINE void resolve_prepared_half(const vdouble d[3], const vdouble record[8], prepared_half *h)
+{
+    h->den = DOT(d, record + PREPARED_N);
+    h->t = record[PREPARED_NUM] / h->den;
+    h->sure = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_ERROR];
+    for (int a = 0; a < 3; a++)
+        h->normal[a] = record[PREPARED_NORMAL + a];
+}
+
+CGT_SPU_INLINE void resolve_prepared_sides(const vdouble d[3], const vdouble record[8], prepared_half *h)
+{
+    const vdouble r = spux_vdouble(1) / h->den;
+    for (int k = 0; k < 2; k++) {
+        const vdouble w = DOT(d, record + PREPARED_SIDE + 3 * k);
+        h->side[k] = w * r;
+        h->sure_side[k] = spux_double_abs(w) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_SIDE_ERROR + k];
+    }
+}
+
+/* Returns the lanes that are right, as resolve_triangles_vector. */
+CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t fields, bool exact,
+                                             resolved_triangles *to)
+{
+    vmask known = spux_double_above0(h[0].sure, h[1].sure);
+    to->t = spux_float_of(h[0].t, h[1].t);
+    if (fields & CGT_FIELD_UV) {
+        to->u = shares_of(h[0].side[0], h[1].side[0]);
+        to->v = shares_of(h[0].side[1], h[1].side[1]);
+        for (int k = 0; exact && k < 2; k++)
+            known = spu_and(known, spux_double_above0(h[0].sure_side[k], h[1].sure_side[k]));
+    }
+    if (fields & CGT_FIELD_NORMAL)
+        for (int a = 0; a < 3; a++)
+            to->normal[a] = spux_float_of(h[0].normal[a], h[1].normal[a]);
+    return known;
+}
+
+/* The records at `at`, so many doubles from `record`, of half a vector; at is NULL: this one in every lane. */
+CGT_SPU_INLINE void prepared_load(const double *record, const uint32_t *at, vdouble q[8])
+{
+    if (at)
+        spux_double_load8_at(record, at, q);
+    else
+        for (uint32_t k = 0; k < 8; k++)
+            q[k] = spux_vdouble(record[k]);
+}
+
+/* Rays from the origin, each to its record, see above. */
+CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *at, const vfloat dir[3], uint32_t fields,
+                                      bool exact, resolved_triangles *to)
+{
+    prepared_half h[2];
+    for (uint32_t half = 0; half < 2; half++) {
+        const uint32_t *own = at ? at + half * CGT_DOUBLES : NULL;
+        vdouble d[3], q[8];
+        for (int a = 0; a < 3; a++)
+            d[a] = half ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
+        prepared_load(record, own, q);
+        resolve_prepared_half(d, q, &h[half]);
+        if (fields & CGT_FIELD_UV) {
+            prepared_load(record + PREPARED_RECORD, own, q);
+            resolve_prepared_sides(d, q, &h[half]);
+        }
+    }
+    return resolve_prepared_halves(h, fields, exact, to);
+}
+
+__attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields, bool exact,
+                                                            const winners *w, packet_hits *hits, cgt_counts *counts)
+{
+    const cgt_triangle q = winner_triangle(w, i);
+    const cgt_ray ray = {
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
+    const resolved_triangle h = resolve_triangle_ray(&ray, &q, fields, exact, counts);
+    if (fields & CGT_FIELD_T)
+        hits->t[i] = h.t;
+    if (fields & CGT_FIELD_UV) {
+        hits->u[i] = h.u;
+        hits->v[i] = h.v;
+    }
+    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
+        hits->normal[a][i] = h.normal[a];
+}
+
+/* Lanes of a packet. */
+CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t fields, bool exact, bool alone,
+                                            const winners *w, packet_hits *hits, cgt_counts *counts)
+{
+    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_NONE));
+    const vmask hit =
+        alone ? spux_not(nobody) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), nobody);
+    const vfloat zero = spux_vfloat(0);
+    vfloat org[3], dir[3], vertex[3][3];
+    resolved_triangles h = {zero, zero, zero, {zero, zero, zero}};
+    for (int a = 0; a < 3; a++) {
+        org[a] = spux_load(p->org[a] + i);
+        dir[a] = spux_load(p->dir[a] + i);
+        for (int k = 0; k < 3; k++)
+            vertex[k][a] = spux_load(w->vertex[k][a] + i);
+    }
+    const vmask known = resolve_triangles_vector(org, dir, vertex, fields, exact, &h);
+    if (fields & CGT_FIELD_T)
+        spux_store(hits->t + i, spux_select(spux_load(hits->t + i), h.t, hit));
+    if (fields & CGT_FIELD_UV) {
+        spux_store(hits->u + i, spux_select(spux_load(hits->u + i), h.u, hit));
+        spux_store(hits->v + i, spux_select(spux_load(hits->v + i), h.v, hit));
+    }
+    for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
+        spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), h.normal[a], hit));
+    for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1)
+        resolve_triangle_lane(p, i + (size_t)__builtin_ctz(left), fields, exact, w, hits, counts);
+}
+
+CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
+                                      bool alone, const winners *w, packet_hits *hits, cgt_counts *counts)
+{
+    const uint32_t fields = settings->fields;
+    const bool exact = settings->precision == CGT_PRECISION_EXACT;
+    if (!(fields & (CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV)))
+        return;
+    for (size_t i = first; i < first + count; i += CGT_LANES)
+        resolve_triangles_lanes(p, i, fields, exact, alone, w, hits, counts);
+}
+
+#undef DOT
+#undef NORM1
+
+#endif

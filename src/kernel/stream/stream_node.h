@@ -1,0 +1,172 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A node of the wide tree and a list of rays of one octant: masks of the rays that pass each child, and lists of them; see
+ * stream_trace.c. */
+#ifndef CGT_WIDE_STREAM_NODE_H
+#define CGT_WIDE_STREAM_NODE_H
+
+#include "kernel/stream/stream.h"
+
+/* Words of the masks of a piece of so many vectors, in whole vectors; and what a piece of one vector takes. */
+#define STREAM_MASKS(chunks) ((CGT_LANES * (chunks) / 2 + CGT_LANES - 1) / CGT_LANES * CGT_LANES)
+#define STREAM_LEAST (STREAM_MASKS(1u) + STREAM_LIST(CGT_LANES))
+
+_Static_assert(CGT_WIDE_STREAM_ARENA >= CGT_WIDE_MAX_DEPTH * STREAM_LEAST, "a piece fits at every depth");
+
+/* A node on the way down, and the piece of its list that is in work. */
+typedef struct stream_level {
+    const wide_node *node;
+    const uint32_t *list;
+    uint32_t count;           /* of the list */
+    uint32_t first, rays;     /* the piece */
+    uint32_t chunks;          /* vectors of it */
+    uint32_t next;            /* position among the children below */
+    uint32_t children;        /* those that rays pass */
+    uint8_t child[CGT_LANES]; /* in the order in which the octant's rays meet them */
+    uint8_t row[CGT_LANES];   /* of the masks */
+    uint32_t changed;         /* the stream's, when the masks were made */
+    uint16_t *mask;           /* [row][chunk]: rays that pass the child */
+    uint32_t *room;           /* behind the masks */
+} stream_level;
+
+/* Planes of a node's children as the octant's rays meet them, moved outwards. */
+typedef struct stream_planes {
+    _Alignas(CGT_VECTOR_BYTES) float near[3][CGT_LANES];
+    float far[3][CGT_LANES];
+} stream_planes;
+
+/* Returns the children that the stream's rays may reach, as bits. Near their origins rays pass nodes of which half the
+ * children lie behind them. */
+CGT_SPU_INLINE unsigned stream_planes_make(const stream *s, const wide_node *n, stream_planes *p)
+{
+    const vfloat scale = spux_vfloat(s->call.scale);
+    vfloat low[3], high[3];
+    for (int a = 0; a < 3; a++) {
+        const vfloat slack = spux_vfloat(s->slack[a]);
+        const bool from_above = s->octant >> a & 1;
+        low[a] = spu_msub(spux_load(n->low[a]), scale, slack);
+        high[a] = spu_madd(spux_load(n->high[a]), scale, slack);
+        spux_store(p->near[a], from_above ? high[a] : low[a]);
+        spux_store(p->far[a], from_above ? low[a] : high[a]);
+    }
+    return stream_in_reach(s, low, high);
+}
+
+/* Lists those children; without a branch: what is left out is written over. */
+CGT_SPU_INLINE void stream_find_children(const stream *s, unsigned reached, stream_level *v)
+{
+    const wide_node *n = v->node;
+    const bool backwards = s->octant >= 4;
+    const uint8_t *order = backwards ? n->order[7 - s->octant] + n->children - 1 : n->order[s->octant];
+    v->children = 0;
+    for (uint32_t k = 0; k < n->children; k++) {
+        const uint8_t child = backwards ? *order-- : *order++;
+        v->child[v->children] = child;
+        v->children += reached >> child & 1;
+    }
+}
+
+/* The rays of a piece against the children that are still to come; those that none passes are left out, as above. */
+CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_planes *p)
+{
+    const uint32_t first = v->next, end = v->children, chunks = v->chunks;
+    uint16_t *row = v->mask + (size_t)first * chunks;
+    uint16_t passed[CGT_LANES] = {0};
+    v->changed = s->changed;
+    for (uint32_t i = 0; i < chunks; i++, row++) {
+        const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
+        uint16_t *mask = row;
+        vfloat d[8];
+        const vfloat *q = d + RECORD_SHIFT;
+        spux_load_records8_at(stream_record(s, RECORD_RDIR), at, d);
+        for (uint32_t k = first; k < end; k++, mask += chunks) {
+            const uint8_t child = v->child[k];
+            const vfloat x0 = spu_madd(spux_vfloat(p->near[0][child]), d[0], q[0]);
+            const vfloat y0 = spu_madd(spux_vfloat(p->near[1][child]), d[1], q[1]);
+            const vfloat z0 = spu_madd(spux_vfloat(p->near[2][child]), d[2], q[2]);
+            const vfloat x1 = spu_madd(spux_vfloat(p->far[0][child]), d[0], q[0]);
+            const vfloat y1 = spu_madd(spux_vfloat(p->far[1][child]), d[1], q[1]);
+            const vfloat z1 = spu_madd(spux_vfloat(p->far[2][child]), d[2], q[2]);
+            const vfloat enter = spux_max(spux_max(x0, y0), spux_max(z0, d[3]));
+            const vfloat leave = spux_min(spux_min(x1, y1), spux_min(z1, q[3]));
+            *mask = (uint16_t)spux_mask_bits(spux_cmpge(leave, enter));
+            passed[k] |= *mask;
+        }
+    }
+    v->children = first;
+    for (uint32_t k = first; k < end; k++) {
+        v->child[v->children] = v->child[k];
+        v->row[v->children] = (uint8_t)k;
+        v->children += passed[k] != 0;
+    }
+}
+
+/* Begins the next piece of a level's list. Returns false where there is none. */
+CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room, uint32_t depth)
+{
+    v->first += v->rays;
+    if (v->first >= v->count)
+        return false;
+    const uint32_t below = (CGT_WIDE_MAX_DEPTH - 1 - depth) * STREAM_LEAST;
+    const uint32_t words = (uint32_t)(s->arena + STREAM_ARENA_USED - room) - below; /* at least STREAM_LEAST */
+    const uint32_t most = (words - STREAM_LIST(0) - CGT_LANES) / (CGT_LANES + CGT_LANES / 2); /* vectors */
+    const uint32_t left = v->count - v->first, wanted = (left + CGT_LANES - 1) / CGT_LANES;
+    v->chunks = wanted <= most ? wanted : most ? most : 1;
+    v->rays = wanted <= v->chunks ? left : v->chunks * CGT_LANES;
+    v->mask = (uint16_t *)(void *)room;
+    v->room = room + STREAM_MASKS(v->chunks);
+    v->next = 0;
+    stream_planes p;
+    stream_find_children(s, stream_planes_make(s, v->node, &p), v);
+    stream_test_node(s, v, &p);
+    s->call.counts->nodes++;
+    return true;
+}
+
+/* Takes any-hit rays that have found their hit out of the masks of children that are still to come. */
+CGT_SPU_INLINE void stream_drop_closed(stream *s, stream_level *v)
+{
+    const uint32_t chunks = v->chunks;
+    uint16_t *column = v->mask;
+    v->changed = s->changed;
+    for (uint32_t i = 0; i < chunks; i++, column++) {
+        const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
+        const vfloat far = spux_gather(stream_record(s, RECORD_FAR), (vint)spux_load_uint(at));
+        const uint16_t open = (uint16_t)spux_mask_bits(spu_cmpgt(far, spux_vfloat(-INFINITY)));
+        for (uint32_t k = v->next; k < v->children; k++)
+            column[(size_t)v->row[k] * chunks] &= open;
+    }
+}
+
+/* Masks grow old: any-hit rays find their hit, nearest ones what hides the rest. Where that is so of many rays of a piece,
+ * masks of children that are still to come are brought up to date; how many was measured. */
+CGT_SPU_INLINE void stream_renew_masks(stream *s, stream_level *v, bool any_hit)
+{
+    const uint32_t changed = s->changed - v->changed;
+    if (any_hit && changed * 8 >= v->rays)
+        stream_drop_closed(s, v);
+    else if (!any_hit && changed * 3 > v->rays && v->children - v->next > 2) {
+        stream_planes p;
+        stream_planes_make(s, v->node, &p);
+        stream_test_node(s, v, &p);
+    }
+}
+
+/* Makes the list of a child's rays; returns how many they are. Chunks that all miss are not left out: the branch would
+ * often be foretold wrong. */
+CGT_SPU_INLINE uint32_t stream_make_list(const stream_level *v, uint32_t position)
+{
+    const uint16_t *mask = v->mask + (size_t)v->row[position] * v->chunks;
+    const uint32_t *at = v->list + v->first;
+    uint32_t *to = v->room;
+    for (uint32_t i = 0; i < v->chunks; i++, at += CGT_LANES) {
+        const unsigned bits = mask[i];
+        spux_store_unaligned_uint(to, spux_compress(spux_load_uint(at), spux_mask_from_bits(bits)));
+        to += spux_count_bits(bits);
+    }
+    spux_store_unaligned_uint(to, spux_vuint(STREAM_NOBODY));
+    return (uint32_t)(to - v->room);
+}
+
+#endif

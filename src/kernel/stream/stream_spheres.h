@@ -1,0 +1,262 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Spheres of a leaf of the wide tree and a list of rays; see stream_leaf.h.
+ *
+ * Spheres. With A at least the sum of the sizes of the components of c, for each centre of the leaf, and r the largest
+ * radius: eps and e0 of sphere_filter.h with A for |c|, and 1 for 1 / |d|. Any hit wants less than the nearest: where h
+ * is more than 2 eps the line hits for certain, and the first root is between s - sqrt(h) / |d| - e0 and s + e0, whatever
+ * the root's error; so it is in the range for certain where both of these are.
+ *
+ * Before that, which spheres a vector of rays may meet at all. With m the middle of the leaf's box, x = o + t d - m for a
+ * t near the foot of m, p = c - m, and X = [x] + half >= |x| + |p|, X >= r, the ray's part within the range is nearest
+ * to c at s = (p - x).d / d.d, brought into the range less t, and the square of the distance is there
+ *   x.x + p.p - 2 p.x + s (s d.d - 2 (p - x).d).
+ * d.d has its reciprocal from an estimate, within 2^-11. So t is off, by 2^-11 A at most, which is why x.d is kept, and
+ * [x] no less than what is used of it; and so is s, which counts squared: 2^-22 X^2. Where the ray does come as near as
+ * r, s |d| is at most 2.1 X, so that roundings of the terms lose 85 u X^2 at most. Those of m - o and of x move the line,
+ * by 2.8 u A + u X: 6 u X A + 2 u X^2, and their square. So
+ *   E = X (256 u X + 32 u A) + (32 u A)^2
+ * is more than enough. Ends of the range are moved outwards by 2^-21 of themselves; of a closed ray that leaves
+ * -infinity or nothing that compares. Lengths are below 2^8 but for s at an end of the range: where its square is
+ * infinite, the ray passes far off.
+ *
+ * Any hit: what is nearer than r by more than E' is inside the sphere, at a t that is in the range but for what its ends
+ * were moved: w at the near one, so that in the range the distance is at most |d| w more, where |d| < 3.47, and
+ *   E' = E + w (8 X + 16 w);
+ * 2^-21 of s at an end, less than 36 u X^2, is in E. A line that is inside goes out again. So there is a root in the range
+ * where that has no end; else where s is before the range's inner end and the ray is outside of the sphere there. Far from
+ * the sphere that distance's error grows only with itself. The first test leaves few lanes open. */
+#ifndef CGT_WIDE_STREAM_SPHERES_H
+#define CGT_WIDE_STREAM_SPHERES_H
+
+#include "kernel/stream/stream_leaf.h"
+
+/* What all spheres of a leaf share, for a vector of rays. */
+typedef struct leaf_sphere_bounds {
+    vfloat scale, rdd, eps, certain;
+    vfloat before, gap;                 /* of nearest hits */
+    vfloat behind;                      /* far roots before this are out of the range */
+    vfloat first_in, last_in, last_out; /* any: first roots in here are certain; beyond last_out they are out */
+} leaf_sphere_bounds;
+
+CGT_SPU_INLINE void leaf_sphere_bounds_make(const leaf_rays *r, float scale, float radius, vfloat rdd, bool any_hit,
+                                            leaf_sphere_bounds *b)
+{
+    const vfloat most = spux_vfloat(radius), reach = spu_add(r->away, most);
+    const vfloat wide = spu_mul(r->away, spux_vfloat(26 * FILTER_U));
+    b->scale = spux_vfloat(scale);
+    b->rdd = rdd;
+    b->eps = spu_madd(spu_mul(most, spux_vfloat(9 * FILTER_U)), reach, spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
+    b->before = spu_madd(reach, spux_vfloat(18 * FILTER_U), spux_vfloat(0x1p-61f));
+    b->behind = spu_sub(r->near, b->before);
+    if (any_hit) {
+        b->certain = spu_add(b->eps, b->eps);
+        b->first_in = spu_add(r->near_in, b->before);
+        b->last_in = spu_sub(r->far_in, b->before);
+        b->last_out = spu_add(r->far, b->before);
+        return;
+    }
+    b->certain = spu_mul(b->eps, spux_vfloat(17));
+    b->gap = spu_madd(b->before, spux_vfloat(2), spu_mul(spux_sqrt(b->eps), spux_vfloat(0.27f)));
+}
+
+CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bounds *b, const wide_spheres *leaf,
+                                     uint32_t k, float square, bool any_hit, leaf_found *f)
+{
+    vfloat c[3], l[3];
+    for (int a = 0; a < 3; a++)
+        c[a] = spu_msub(spux_vfloat(leaf->center[a][k]), b->scale, r->org[a]);
+    const vfloat mid = spu_mul(lane_dot(r->dir, c), b->rdd), zero = spux_vfloat(0);
+    for (int a = 0; a < 3; a++)
+        l[a] = spu_nmsub(mid, r->dir[a], c[a]);
+    const vfloat h = spu_sub(spu_add(spux_vfloat(square), b->eps), lane_dot(l, l));
+    const vfloat half = spux_sqrt(spu_mul(spux_max(h, zero), b->rdd));
+    const vmask meets = spu_and(spux_cmpge(h, zero), spux_cmpge(spu_add(mid, half), b->behind));
+    const vmask surely = spu_cmpgt(h, b->certain);
+    if (any_hit) {
+        const vfloat low = spu_sub(mid, half);
+        f->may = spu_and(meets, spux_cmpge(b->last_out, low));
+        f->certain = spu_and(surely, spu_and(spu_cmpgt(low, b->first_in), spu_cmpgt(b->last_in, mid)));
+        return;
+    }
+    f->low = spu_sub(spu_sub(mid, half), b->before);
+    f->high = spu_add(f->low, b->gap);
+    f->may = spu_and(meets, spux_cmpge(r->far, f->low));
+    f->certain = spu_and(surely, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
+}
+
+/* Coordinates are at most 2, and off by a few roundings. */
+CGT_SPU_INLINE unsigned leaf_spheres_in_reach(const stream *s, const wide_spheres *leaf)
+{
+    const vfloat scale = spux_vfloat(s->call.scale);
+    const vfloat reach = spu_madd(spux_load(leaf->radius), scale, spux_vfloat(0x1p-20f));
+    vfloat low[3], high[3];
+    for (int a = 0; a < 3; a++) {
+        const vfloat c = spu_mul(spux_load(leaf->center[a]), scale);
+        low[a] = spu_sub(c, reach);
+        high[a] = spu_add(c, reach);
+    }
+    return stream_in_reach(s, low, high);
+}
+
+/* Centres from the middle of the leaf's box, for the first test. */
+typedef struct leaf_balls {
+    _Alignas(CGT_VECTOR_BYTES) float twice[3][CGT_LANES]; /* 2 p */
+    float within[CGT_LANES];                              /* r^2 - p.p */
+    float square[CGT_LANES];                              /* r^2 */
+    float most;                                           /* the largest radius */
+} leaf_balls;
+
+CGT_SPU_INLINE void leaf_balls_make(const wide_spheres *leaf, const leaf_place *place, float scale, leaf_balls *q)
+{
+    const vfloat radius = spu_mul(spux_load(leaf->radius), spux_vfloat(scale)), square = spu_mul(radius, radius);
+    vfloat p[3];
+    for (int a = 0; a < 3; a++) {
+        p[a] = spu_msub(spux_load(leaf->center[a]), spux_vfloat(scale), spux_vfloat(place->middle[a]));
+        spux_store(q->twice[a], spu_add(p[a], p[a]));
+    }
+    spux_store(q->within, spu_sub(square, lane_dot(p, p)));
+    spux_store(q->square, square);
+    q->most = spux_hmax(radius);
+}
+
+/* Rays near a leaf: a point of each, near the middle of the leaf's box, and the part of the line that counts. */
+typedef struct leaf_near {
+    vfloat back[3];     /* -x */
+    vfloat behind;      /* -2 x.d */
+    vfloat least, most; /* x.x - E, x.x + E' */
+    vfloat dd, half;    /* d.d, 1 / (2 d.d) */
+    vfloat foot;        /* t */
+    vfloat first, last; /* ends of the range less t */
+    vfloat last_in;     /* any hit: the inner end */
+} leaf_near;
+
+CGT_SPU_INLINE void leaf_near_make(const leaf_rays *r, const leaf_place *place, leaf_near *n)
+{
+    const vfloat grow = spux_vfloat(0x1p-21f);
+    vfloat v[3];
+    n->dd = lane_dot(r->dir, r->dir);
+    n->half = spu_mul(spu_re(n->dd), spux_vfloat(0.5f));
+    for (int a = 0; a < 3; a++)
+        v[a] = spu_sub(spux_vfloat(place->middle[a]), r->org[a]);
+    const vfloat along = lane_dot(v, r->dir), t = spu_mul(spu_add(along, along), n->half);
+    for (int a = 0; a < 3; a++)
+        n->back[a] = spu_nmsub(t, r->dir[a], v[a]);
+    const vfloat behind = lane_dot(n->back, r->dir), square = lane_dot(n->back, n->back);
+    const vfloat reach = spu_add(lane_sum(n->back), spux_vfloat(place->half));
+    const vfloat lost = spu_madd(reach, spux_vfloat(256 * FILTER_U), spu_mul(r->away, spux_vfloat(32 * FILTER_U)));
+    const vfloat second = spu_mul(r->away, spux_vfloat(32 * FILTER_U));
+    const vfloat error = spu_madd(reach, lost, spu_mul(second, second));
+    const vfloat narrow = spu_madd(spux_abs(r->near), spux_vfloat(0x1p-18f), spux_vfloat(0x1p-84f));
+    const vfloat moved = spu_madd(narrow, spux_vfloat(16), spu_mul(reach, spux_vfloat(8)));
+    n->foot = t;
+    n->behind = spu_add(behind, behind);
+    n->least = spu_sub(square, error);
+    n->most = spu_madd(moved, narrow, spu_add(square, error));
+    const vfloat first = spu_sub(r->near, t), last = spu_sub(r->far, t);
+    n->first = spu_nmsub(spux_abs(first), grow, first);
+    n->last = spu_madd(spux_abs(last), grow, last);
+}
+
+CGT_SPU_INLINE void leaf_near_narrow(leaf_rays *r, leaf_near *n)
+{
+    leaf_rays_narrow(r, true);
+    const vfloat last = spu_sub(r->far_in, n->foot);
+    n->last_in = spu_nmsub(spux_abs(last), spux_vfloat(0x1p-21f), last);
+}
+
+/* Where a sphere is from the rays. */
+typedef struct leaf_ball {
+    vfloat along; /* 2 (p - x).d */
+    vfloat from;  /* r^2 - p.p + 2 p.x */
+    vfloat t;     /* s */
+    vfloat depth; /* x.x + r^2, less the square of the distance */
+} leaf_ball;
+
+CGT_SPU_INLINE leaf_ball leaf_ball_make(const leaf_rays *r, const leaf_near *n, const leaf_balls *q, uint32_t k)
+{
+    leaf_ball b;
+    vfloat p[3];
+    for (int a = 0; a < 3; a++)
+        p[a] = spux_vfloat(q->twice[a][k]);
+    b.along = spu_madd(p[0], r->dir[0], spu_madd(p[1], r->dir[1], spu_madd(p[2], r->dir[2], n->behind)));
+    b.from = spux_vfloat(q->within[k]);
+    for (int a = 0; a < 3; a++)
+        b.from = spu_nmsub(p[a], n->back[a], b.from);
+    b.t = spux_min(spux_max(spu_mul(b.along, n->half), n->first), n->last);
+    b.depth = spu_nmsub(b.t, spu_msub(b.t, n->dd, b.along), b.from);
+    return b;
+}
+
+/* The spheres that any lane's part of the line may meet: without branches, since few of them could be foretold. */
+CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_near *n, const leaf_balls *q,
+                                             const leaf_members *m)
+{
+    uint32_t reached = 0;
+    for (uint32_t i = 0; i < m->count; i++) {
+        const uint32_t k = m->lane[i];
+        const leaf_ball b = leaf_ball_make(r, n, q, k);
+        reached |= (uint32_t)(spux_mask_bits(spux_cmpge(b.depth, n->least)) != 0) << k;
+    }
+    return reached;
+}
+
+/* Any hit: most lanes are decided here. Returns the spheres that others have left to decide. */
+CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_near *n, const leaf_balls *q, const leaf_members *m,
+                                         bool endless)
+{
+    vuint open = spux_vuint(0);
+    for (uint32_t i = 0; i < m->count; i++) {
+        const uint32_t k = m->lane[i];
+        const leaf_ball b = leaf_ball_make(r, n, q, k);
+        const vmask may = spux_cmpge(b.depth, n->least);
+        vmask sure = spu_cmpgt(b.depth, n->most);
+        if (!endless) {
+            const vfloat end = spu_nmsub(n->last_in, spu_msub(n->last_in, n->dd, b.along), b.from);
+            sure = spu_and(sure, spu_and(spu_cmpgt(n->last_in, b.t), spu_cmpgt(n->least, end)));
+        }
+        r->hit = spu_or(r->hit, sure);
+        open = leaf_open_add(open, k, spu_andc(may, sure));
+    }
+    return leaf_open_left(spux_select(open, spux_vuint(0), r->hit));
+}
+
+CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const wide_spheres *leaf, const leaf_members *m,
+                                        const leaf_place *place, const uint32_t *list, uint32_t rays, bool any_hit,
+                                        bool hides)
+{
+    const float scale = s->call.scale;
+    const bool endless = !s->call.source->rays->t_max;
+    leaf_balls q;
+    leaf_balls_make(leaf, place, scale, &q);
+    for (uint32_t i = 0; i < rays; i += CGT_LANES) {
+        leaf_rays r;
+        leaf_near n;
+        uint32_t reached;
+        leaf_rays_load(s, list + i, place, any_hit, &r);
+        leaf_near_make(&r, place, &n);
+        if (!any_hit || hides)
+            reached = leaf_spheres_reached(&r, &n, &q, m);
+        else if (endless)
+            reached = leaf_spheres_any(&r, &n, &q, m, true);
+        else {
+            leaf_near_narrow(&r, &n);
+            reached = leaf_spheres_any(&r, &n, &q, m, false);
+        }
+        if (reached) {
+            leaf_sphere_bounds b;
+            leaf_rays_narrow(&r, any_hit);
+            leaf_sphere_bounds_make(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
+            for (; reached; reached &= reached - 1) {
+                const uint32_t k = (uint32_t)__builtin_ctz(reached);
+                leaf_found f;
+                leaf_sphere_test(&r, &b, leaf, k, q.square[k], any_hit, &f);
+                leaf_take(s, &r, &f, leaf->object[k], any_hit, hides);
+            }
+        }
+        leaf_rays_store(s, &r, any_hit);
+    }
+}
+
+#endif

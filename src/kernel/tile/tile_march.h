@@ -1,0 +1,240 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Which cells of a loose grid the rays of a tile may need, front to back. The march goes along the axis w that most
+ * of the tile looks along. All levels go together: the next slice of cells is always the one that begins nearest.
+ *
+ * A slice of cells holds objects between the planes w = low and w = high, the cells' own enlarged by the level's reach.
+ * Rays start at the eye and none runs against the march, so between the planes their other coordinates lie between
+ * those of the corner rays there: rays are the corner rays' convex combinations but for their rounding. With the slopes
+ * m = d_u / d_w of the corner rays, that is a rectangle of cells, enlarged by the reach too.
+ *
+ * Parallel rays have one slope, and origins that vary: they start at w between the least and the most of the corner rays'
+ * origins, and where their lines pass w = 0 is between those of the corner rays too.
+ *
+ * Rounding: a canonical direction lies within 3.5 u |d| of the exact one, u = 2^-24, so its slope within
+ * 3.5 u (1 + |m|) |d| / d_w of a combination's; 2^-21 is taken for 3.5 u. A parallel ray's direction is exact, its origin
+ * within u spread (tile.h). All other arithmetic here is double, with 2^-48 of the largest number for what it rounds.
+ * Where the corner rays are too wide for it, everything is visited. */
+#ifndef CGT_TILE_MARCH_H
+#define CGT_TILE_MARCH_H
+
+#include "kernel/tile/tile.h"
+
+/* A level, seen from the eye; w runs forwards in march direction, k from 0. */
+typedef struct tile_march_level {
+    uint32_t next, slices;         /* k of the next slice */
+    double begin, step, thickness; /* where objects of slice 0 begin; from one slice to the next; of a slice */
+    double base[2], rcell[2], reach[2], slack[2]; /* of the other two axes: corner, cells per length; in cells */
+} tile_march_level;
+
+typedef struct tile_march {
+    const cgt_loose_grid *grid;
+    uint32_t w, u, v; /* axes, u < v */
+    double slope_low[2], slope_high[2];
+    double base_low[2], base_high[2]; /* of parallel rays: where they pass w = 0, from the eye; else 0 */
+    double start_low, start_high;     /* w where rays start; else 0 */
+    double rspeed;                    /* t per length along w, at most */
+    bool forward;
+    bool everything;
+    tile_march_level level[CGT_LOOSE_LEVELS];
+} tile_march;
+
+/* Cells low to high of the two other axes, in one slice. */
+typedef struct tile_slice {
+    uint32_t level, cell; /* along w */
+    uint32_t low[2], high[2];
+    double near_t; /* no ray of the tile hits an object of this or a later slice before */
+} tile_slice;
+
+CGT_SPU_INLINE double tile_min(double a, double b) { return a < b ? a : b; }
+CGT_SPU_INLINE double tile_max(double a, double b) { return a > b ? a : b; }
+
+/* Slopes and speeds of the rays, from the four at the corners. */
+CGT_SPU_INLINE void tile_march_rays(const tile *t, tile_march *m)
+{
+    const cgt_camera_rays *c = t->rays;
+    const uint32_t axis[2] = {m->u, m->v};
+    double d[4][3], least = INFINITY, most = 0;
+    m->start_low = m->start_high = m->base_low[0] = m->base_low[1] = m->base_high[0] = m->base_high[1] = 0;
+    for (uint32_t k = 0; k < 4; k++) {
+        const double px = (double)t->column[k & 1 ? TILE_EDGE - 1 : 0], py = (double)t->row[k & 2 ? TILE_EDGE - 1 : 0];
+        for (int a = 0; a < 3; a++)
+            d[k][a] = ((double)c->fwd[a] + px * (double)c->right[a] + py * (double)c->up[a]) *
+                      (m->forward || a != (int)m->w ? 1 : -1);
+        least = tile_min(least, d[k][m->w]);
+        most = tile_max(most, d[k][m->w]);
+    }
+    const double longest = (double)t->longest, share = longest / least * 0x1p-21;
+    m->everything = !(least > 0x1p-6 * longest);
+    m->rspeed = 1 / (most + longest * 0x1p-21);
+    for (int k = 0; k < 2; k++) {
+        m->slope_low[k] = INFINITY;
+        m->slope_high[k] = -INFINITY;
+        for (int i = 0; i < 4; i++) {
+            const double slope = d[i][axis[k]] / d[i][m->w], wide = (1 + fabs(slope)) * share;
+            m->slope_low[k] = tile_min(m->slope_low[k], slope - wide);
+            m->slope_high[k] = tile_max(m->slope_high[k], slope + wide);
+        }
+    }
+}
+
+/* The same for parallel rays: from the origins at the corners. */
+CGT_SPU_INLINE void tile_march_parallel(const tile *t, tile_march *m)
+{
+    const cgt_camera_rays *c = t->rays;
+    const uint32_t axis[2] = {m->u, m->v};
+    const double sign = m->forward ? 1 : -1, speed = fabs((double)c->fwd[m->w]), off = (double)t->spread * 0x1p-23;
+    m->everything = false;
+    m->rspeed = 1 / speed;
+    m->start_low = INFINITY;
+    m->start_high = -INFINITY;
+    for (int k = 0; k < 2; k++) {
+        m->slope_low[k] = m->slope_high[k] = (double)c->fwd[axis[k]] / speed;
+        m->base_low[k] = INFINITY;
+        m->base_high[k] = -INFINITY;
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        const double px = (double)t->column[i & 1 ? TILE_EDGE - 1 : 0], py = (double)t->row[i & 2 ? TILE_EDGE - 1 : 0];
+        const double start = sign * (px * (double)c->right[m->w] + py * (double)c->up[m->w]);
+        m->start_low = tile_min(m->start_low, start - off);
+        m->start_high = tile_max(m->start_high, start + off);
+        for (int k = 0; k < 2; k++) {
+            const double from = px * (double)c->right[axis[k]] + py * (double)c->up[axis[k]];
+            const double base = from - start * m->slope_low[k], wide = off * (1 + fabs(m->slope_low[k]));
+            m->base_low[k] = tile_min(m->base_low[k], base - wide);
+            m->base_high[k] = tile_max(m->base_high[k], base + wide);
+        }
+    }
+}
+
+CGT_SPU_INLINE void tile_march_level_make(const float eye[3], const tile_march *m, const cgt_loose_level *from,
+                                          tile_march_level *l)
+{
+    const uint32_t w = m->w, axis[2] = {m->u, m->v};
+    const double cell = (double)from->cell[w], reach = (double)from->reach[w];
+    const double low = (double)from->low[w] - (double)eye[w], length = cell * from->size[w];
+    const double rounding = (fabs(low) + length + reach) * 0x1p-48;
+    l->slices = from->objects ? from->size[w] : 0;
+    l->begin = (m->forward ? low : -(low + length)) - reach - rounding;
+    l->step = cell;
+    l->thickness = cell + 2 * (reach + rounding);
+    /* slices that end before the rays start */
+    const double behind = m->everything ? -1 : (m->start_low - (l->begin + l->thickness)) / cell;
+    l->next = behind > 0 ? behind < l->slices ? (uint32_t)behind : l->slices : 0;
+    const double end = tile_max(l->begin + l->slices * cell + l->thickness, -m->start_low);
+    for (int k = 0; k < 2; k++) {
+        const uint32_t a = axis[k];
+        const double steepest = tile_max(fabs(m->slope_low[k]), fabs(m->slope_high[k]));
+        l->rcell[k] = 1 / (double)from->cell[a];
+        l->base[k] = (double)from->low[a] - (double)eye[a];
+        l->reach[k] = (double)from->reach[a] * l->rcell[k];
+        const double base = fabs(l->base[k]) + fabs(m->base_low[k]) + fabs(m->base_high[k]);
+        l->slack[k] =
+            0x1p-20 + (end * steepest + base) * l->rcell[k] * 0x1p-48 + (from->size[a] + l->reach[k]) * 0x1p-48;
+    }
+}
+
+CGT_SPU_INLINE void tile_march_make(const tile *t, const cgt_loose_grid *grid, tile_march *m)
+{
+    const cgt_camera_rays *c = t->rays;
+    const float px = 0.5f * (t->column[0] + t->column[TILE_EDGE - 1]), py = 0.5f * (t->row[0] + t->row[TILE_EDGE - 1]);
+    float d[3];
+    m->grid = grid;
+    m->w = 0;
+    for (uint32_t a = 0; a < 3; a++) {
+        d[a] = t->parallel ? c->fwd[a] : c->fwd[a] + px * c->right[a] + py * c->up[a];
+        m->w = fabsf(d[a]) > fabsf(d[m->w]) ? a : m->w;
+    }
+    m->u = m->w == 0 ? 1 : 0;
+    m->v = m->w == 2 ? 1 : 2;
+    m->forward = d[m->w] > 0;
+    if (t->parallel)
+        tile_march_parallel(t, m);
+    else
+        tile_march_rays(t, m);
+    for (uint32_t i = 0; i < grid->levels; i++)
+        tile_march_level_make(c->eye, m, &grid->level[i], &m->level[i]);
+}
+
+/* The cells of axis k of a slice that lies between near and far; false where there are none. */
+CGT_SPU_INLINE bool tile_march_cells(const tile_march *m, const tile_march_level *l, int k, double near, double far,
+                                     uint32_t size, tile_slice *s)
+{
+    s->low[k] = 0;
+    s->high[k] = size - 1;
+    if (m->everything)
+        return true;
+    const double low = tile_min(near * m->slope_low[k], far * m->slope_low[k]) + m->base_low[k];
+    const double high = tile_max(near * m->slope_high[k], far * m->slope_high[k]) + m->base_high[k];
+    const double margin = l->reach[k] + l->slack[k];
+    const double first = (low - l->base[k]) * l->rcell[k] - margin - 1, end = size;
+    const double last = (high - l->base[k]) * l->rcell[k] + margin;
+    if (!(last >= 0) || !(first <= end))
+        return !(last < 0) && !(first > end);
+    if (first > 0) {
+        s->low[k] = (uint32_t)first;
+        s->low[k] += s->low[k] < first;
+    }
+    s->high[k] = last < size - 1 ? (uint32_t)last : size - 1;
+    return s->low[k] <= s->high[k];
+}
+
+/* The next slice that holds cells for the tile; false where there is none. */
+CGT_SPU_INLINE bool tile_march_next(tile_march *m, tile_slice *s)
+{
+    for (;;) {
+        double nearest = INFINITY;
+        s->level = CGT_LOOSE_LEVELS;
+        for (uint32_t i = 0; i < m->grid->levels; i++) {
+            const tile_march_level *l = &m->level[i];
+            const double begin = l->begin + l->next * l->step;
+            if (l->next < l->slices && (s->level == CGT_LOOSE_LEVELS || begin < nearest)) {
+                nearest = begin;
+                s->level = i;
+            }
+        }
+        if (s->level == CGT_LOOSE_LEVELS)
+            return false;
+        tile_march_level *l = &m->level[s->level];
+        const cgt_loose_level *from = &m->grid->level[s->level];
+        const double start = m->start_low, near = tile_max(nearest, start),
+                     far = tile_max(nearest + l->thickness, start);
+        s->cell = m->forward ? l->next : l->slices - 1 - l->next;
+        s->near_t = m->everything ? 0 : tile_max(near - m->start_high, 0) * m->rspeed * (1 - 0x1p-40);
+        l->next++;
+        if (tile_march_cells(m, l, 0, near, far, from->size[m->u], s) &&
+            tile_march_cells(m, l, 1, near, far, from->size[m->v], s))
+            return true;
+    }
+}
+
+/* Runs of objects of a slice: cells along x lie side by side. */
+CGT_SPU_INLINE uint32_t tile_slice_runs(const tile_march *m, const tile_slice *s)
+{
+    const uint32_t rows = s->high[1] - s->low[1] + 1;
+    return m->w == 0 ? rows * (s->high[0] - s->low[0] + 1) : rows;
+}
+
+CGT_SPU_INLINE const uint32_t *tile_slice_run(const tile_march *m, const tile_slice *s, uint32_t run, uint32_t *count)
+{
+    const cgt_loose_level *l = &m->grid->level[s->level];
+    uint32_t at[3], end;
+    if (m->w == 0) {
+        const uint32_t across = s->high[0] - s->low[0] + 1;
+        at[0] = end = s->cell;
+        at[1] = s->low[0] + run % across;
+        at[2] = s->low[1] + run / across;
+    } else {
+        at[0] = s->low[0];
+        end = s->high[0];
+        at[m->v] = s->low[1] + run;
+        at[m->w] = s->cell;
+    }
+    const uint32_t row = l->first + (at[2] * l->size[1] + at[1]) * l->size[0];
+    const uint32_t first = m->grid->start[row + at[0]];
+    *count = m->grid->start[row + end + 1] - first;
+    return m->grid->object + first;
+}
+
+#endif

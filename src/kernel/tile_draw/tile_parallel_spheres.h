@@ -1,0 +1,130 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Spheres against a tile of parallel rays. With z, x, y a centre in camera space (tile.h), rho and upsilon the lengths of
+ * right and up, X = x / rho, Y = y / upsilon, dx = px - X, dy = py - Y, the discriminant of pixel (px, py) and its depth
+ * are
+ *   D = r^2 - (rho dx)^2 - (upsilon dy)^2     q = t = z - sqrt(D)
+ * which is what tile_sphere_draw.h computes, with 0 for what makes perspective.
+ *
+ * Bounds, with u = 2^-24, c the distance of eye and centre, S = 2 |eye| + 3 rho + 2 upsilon (tile_parallel_make); for
+ * fused and unfused arithmetic:
+ *   origin      the canonical one is off by u S
+ *   direction   it is the camera's own: exact
+ *   centre      u c where the eye is subtracted, 4 u c in each coordinate: 7 u c beside the ray, 5 u c along it
+ *   X, Y        X is rounded twice, rho once, dx once: 3 u c and u b of (rho dx, upsilon dy)
+ *   b           the distance of centre and ray, by all of these: s = u S + 10 u c. At the silhouette b = r, D moves by
+ *               2 r s + s^2; further out D falls faster than this grows
+ *   metric      products of the axes are within 4 u of 1 and 0: b^2 by 4 u b^2, |d|^2 by 4 u; 8 u r^2
+ *   evaluation  r^2, (rho dx)^2 + (upsilon dy)^2 are not above r^2 at the silhouette, each rounded at most 9 times, the
+ *               rounding of dx and of rho^2 in it: 18 u r^2
+ *   eps         2 r s + s^2 + 26 u r^2 + 2^-116
+ *   depth       centre 5 u c, origin u S, metric 4 u (|x'| + |y'|) + 2 u r <= 8 u r, sums 3 u (c + r), the estimate of
+ *               1 / sqrt(D) as there
+ *   e0          u S + 8 u c + (11 u + TILE_ESTIMATE) r + 2^-10 sqrt(eps) + 2^-100
+ * tile_sphere_bounds (tile_spheres.h) has 34 u r c + 112 u r^2 + (20 u c)^2 and 44 u c + (18 u + TILE_ESTIMATE) r. With
+ * 0.6 c + S / 17 put there for c, that is 20.4 u r c + 2 u r S + 112 u r^2 + (12 u c + 1.17 u S)^2 and more than
+ * 26 u c + 2.5 u S: more than the above. So the bounds are those, of that distance and N0 = 1.
+ *
+ * Windows and what is nearest are widened by 2^-18 (c + r) + 2 u S. A sphere is behind where all of it, widened, ends
+ * before the range; it is for tile_double.h where it does not begin in it surely.
+ *
+ * A test in the suite checks these against wide arithmetic, and shrinks them until they fail. */
+#ifndef CGT_TILE_PARALLEL_SPHERES_H
+#define CGT_TILE_PARALLEL_SPHERES_H
+
+#include "kernel/tile_draw/tile_spheres.h"
+
+/* The distance that tile_sphere_bounds takes of a centre c from the eye. */
+CGT_SPU_INLINE vfloat tile_parallel_distance(const tile *t, vfloat c)
+{
+    return spu_madd(c, spux_vfloat(0.6f), spux_vfloat(t->spread * (1 / 17.f * (1 + 0x1p-20f))));
+}
+
+CGT_SPU_INLINE void tile_parallel_gap_make(tile *t, float c, float r, float far_t)
+{
+    tile_gap_make(t, tile_parallel_distance(t, spux_vfloat(c))[0], r, far_t);
+}
+
+/* As the perspective camera sees them, but for what is nearest; windows are right for all. */
+CGT_SPU_INLINE tile_seen tile_parallel_spheres_see(const tile *t, const vfloat q[4])
+{
+    tile_seen v = tile_spheres_see(t, q);
+    v.nearest = spu_sub(v.z, v.wide);
+    v.front = spux_mask_all();
+    return v;
+}
+
+/* Pixels of an axis that lengths about x cover, from low to high, as columns or rows from the tile's first. */
+CGT_SPU_INLINE void tile_parallel_span(const tile_span *of, vfloat x, vfloat wide, vfloat *low, vfloat *high)
+{
+    *low = spu_msub(spu_sub(x, wide), spux_vfloat(of->scale), spux_vfloat(of->first));
+    *high = spu_msub(spu_add(x, wide), spux_vfloat(of->scale), spux_vfloat(of->first));
+}
+
+/* Windows of boxes with half extents wide and high. Returns the lanes without one. */
+CGT_SPU_INLINE vmask tile_parallel_windows(const tile *t, vfloat x, vfloat y, vfloat wide, vfloat high, uint32_t *x0,
+                                           uint32_t *x1, uint32_t *y0, uint32_t *y1)
+{
+    vfloat low, top;
+    tile_parallel_span(&t->across, x, wide, &low, &top);
+    const vmask beside = tile_window(low, top, &t->across, x0, x1);
+    /* rows run down */
+    tile_parallel_span(&t->down, y, high, &top, &low);
+    return spu_or(beside, tile_window(low, top, &t->down, y0, y1));
+}
+
+CGT_SPU_INLINE vmask tile_parallel_spheres_unwanted(const tile *t, const tile_seen *v)
+{
+    const float begin = t->rays->t_min * (1 - 0x1p-18f) - 0x1p-60f;
+    const vmask hidden = spu_cmpgt(v->nearest, spux_vfloat(t->farthest));
+    return spu_or(hidden, spu_cmpgt(spux_vfloat(begin), spu_add(v->z, v->wide)));
+}
+
+CGT_SPU_INLINE unsigned tile_parallel_spheres_bound(const tile *t, const tile_seen *v, tile_spheres *s)
+{
+    const vfloat zero = spux_vfloat(0), one = spux_vfloat(1), distance = tile_parallel_distance(t, v->distance);
+    const tile_bounds bounds = tile_sphere_bounds(t, distance, v->r, one);
+    const vmask fits = tile_spheres_certain(t, v, bounds, s);
+    const vmask late = spu_cmpgt(v->nearest, spux_vfloat(t->rays->t_min * (1 + 0x1p-18f)));
+    spux_store(s->X, spu_mul(v->x, spux_vfloat(t->camera.rright)));
+    spux_store(s->Y, spu_mul(v->y, spux_vfloat(t->camera.rup)));
+    spux_store(s->a, spux_vfloat(t->camera.right * t->camera.right));
+    spux_store(s->c, spux_vfloat(t->camera.up * t->camera.up));
+    spux_store(s->d0, spu_add(v->r2, bounds.eps));
+    spux_store(s->q0, spu_sub(v->z, bounds.e0));
+    spux_store(s->b, zero);
+    spux_store(s->dx, zero);
+    spux_store(s->dy, zero);
+    spux_store(s->qx, zero);
+    spux_store(s->qy, zero);
+    spux_store(s->nearest, v->nearest);
+    return spux_mask_bits(spu_and(fits, late));
+}
+
+/* tile_spheres_find and make for parallel rays. */
+CGT_SPU_INLINE void tile_parallel_spheres_find(const tile *t, const vfloat sphere[4], vuint object, uint32_t count,
+                                               tile_found *f)
+{
+    vfloat q[4];
+    tile_windows w;
+    tile_spheres_turn(t, sphere, q);
+    const tile_seen v = tile_parallel_spheres_see(t, q);
+    const vmask unwanted = tile_parallel_spheres_unwanted(t, &v);
+    const vmask beside = tile_parallel_windows(t, v.x, v.y, v.wide, v.wide, w.x0, w.x1, w.y0, w.y1);
+    const vmask out = spu_or(spu_or(unwanted, beside), tile_spheres_hidden(t, &v, &w));
+    tile_found_keep(f, q, object, &w, tile_first_lanes(count) & ~spux_mask_bits(out));
+}
+
+CGT_SPU_INLINE void tile_parallel_spheres_make(const tile *t, const tile_found *f, uint32_t first, tile_spheres *s)
+{
+    const unsigned left = tile_first_lanes(f->count - first);
+    vfloat q[4];
+    tile_found_get(f, first, q, s);
+    const tile_seen v = tile_parallel_spheres_see(t, q);
+    s->fast = left & tile_parallel_spheres_bound(t, &v, s);
+    s->slow = left & ~s->fast;
+    tile_spheres_small(s);
+}
+
+#endif

@@ -1,0 +1,164 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Triangles against a tile of parallel rays. With v_0, v_1, v_2 the vertices in camera space (tile.h), as z, x, y, w_k
+ * their x and y, e_k the edge opposite vertex k, from v_k+1 on, and p = (rho px, upsilon py) a pixel's point, the side of
+ * an edge and the depth are
+ *   c_k(p) = (w_k+1 - p) x e_k   the product of x and y alone: twice an area
+ *   t = (n.v_0 - n_x p_x - n_y p_y) / n_z   n = e_1 x e_2
+ * all linear in px and py. Camera space is a linear map of the world's which takes the rays' direction, exactly, to z:
+ * so what its axes lack in orthogonality does not matter, and t is z.
+ *
+ * Bounds, with u = 2^-24, V the largest |v_k|, P the largest |p| of the frame, S as in tile_parallel_spheres.h:
+ *   vertex     off by delta = 8 u V: u V where the eye is subtracted, 4 u V in each coordinate
+ *   origin     the canonical one is off by o = u S
+ *   inside     a point of the exact triangle is a convex combination of its vertices, and so within delta of one of the
+ *              moved triangle, and the table's p within delta + o of that: no c_k(p) is below -|e_k| (delta + o), with
+ *              the moved triangle's orientation. If on the other hand all c_k(p) are above |e_k| (delta + o), the disc
+ *              of that radius about p is in the moved triangle, and the canonical p in the exact one: else a line parted
+ *              it from the exact vertices, and moved by delta + o a point of the disc from the moved ones
+ *   sides      w x e 4, e among them, scale and rho 3, sums 3: 10 roundings of (V + |p|) |e_k|
+ *   together   B = u |e_k| (18 V + 10 P + S); 20 V + 12 P + 1.1 S is taken
+ * Edges are divided by B, with the sign of n_z, and 1 is added: less than 0 is a certain miss, more than 2 a certain
+ * hit.
+ *   normal     divided by |e_1| |e_2| it is off by 8 u; kappa = |e_1| |e_2| / |n_z|, never below 1
+ *   depth      of a point of the triangle, where |t| and |p| are not above V, but for what moved: 8 u kappa (2 V + V)
+ *              for the normal; n.v_0 3, scales 5, sums 8 roundings of kappa V; a common factor 8 u V; moved vertices and
+ *              origin, by a slope of at most kappa, (1 + kappa) (delta + o)
+ *   together   u kappa (64 V + 2 S); E = u kappa (72 V + 8 P + 2.2 S) is taken: the rest is for what
+ *              tile_triangle_parts rounds
+ * The depth taken is t - E. Where 2.2 E is more than the gap, no hit is certain: small windows are queued, and others go
+ * to tile_double.h too. There go those with 40 u kappa above 1/8 or not a number: else |n_z| is above 320 u |e_1| |e_2|,
+ * and its sign is right; those with an edge below 2^-45, seen along the rays, and those not surely after the range's
+ * begin.
+ *
+ * The window: vertices are off by delta + o, and rounded 4 times. 2^-19 V + 2 o is taken, and 1/16 more of a column.
+ *
+ * A test in the suite checks these against wide arithmetic, and shrinks them until they fail. */
+#ifndef CGT_TILE_PARALLEL_TRIANGLES_H
+#define CGT_TILE_PARALLEL_TRIANGLES_H
+
+#include "kernel/tile_draw/tile_parallel_spheres.h"
+#include "kernel/tile_draw/tile_triangles.h"
+
+#define TILE_PARALLEL_SIDES (20 * FILTER_U)
+#define TILE_PARALLEL_BESIDE (12 * FILTER_U)
+#define TILE_PARALLEL_ORIGIN (1.1f * FILTER_U)
+#define TILE_PARALLEL_DEPTH (72 * FILTER_U)
+#define TILE_PARALLEL_DEPTH_BESIDE (8 * FILTER_U)
+#define TILE_PARALLEL_DEPTH_ORIGIN (2.2f * FILTER_U)
+
+/* Room in the gap for triangles as far as c. Without spheres it is as wide as what linear tiles keep at half that
+ * distance. */
+CGT_SPU_INLINE void tile_parallel_gap_widen(tile *t, float c, bool spheres)
+{
+    const float gap = spheres ? c * 0x1p-13f : c * 0x1p-10f;
+    t->gap = t->gap > gap ? t->gap : gap;
+    t->wide_gap = t->gap * (1 + 0x1p-20f);
+}
+
+/* As the perspective camera sees them; windows are right for all. */
+CGT_SPU_INLINE tile_triangles_seen tile_parallel_triangles_see(const tile *t, vfloat vertex[3][3])
+{
+    tile_triangles_seen v = tile_triangles_see(t, vertex);
+    v.front = spux_mask_all();
+    v.early = spux_not(spu_cmpgt(v.nearest_z, spux_vfloat(t->rays->t_min * (1 + 0x1p-16f))));
+    return v;
+}
+
+/* Returns the lanes without a window. */
+CGT_SPU_INLINE vmask tile_parallel_triangles_outside(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+{
+    const vfloat half = spux_vfloat(0.5f);
+    const vfloat slack = spu_madd(v->reach, spux_vfloat(0x1p-19f), spux_vfloat(t->slack));
+    vfloat middle[2], wide[2];
+    for (int a = 0; a < 2; a++) {
+        const vfloat least = tile_least(v->v[0][a + 1], v->v[1][a + 1], v->v[2][a + 1]);
+        const vfloat most = tile_most(v->v[0][a + 1], v->v[1][a + 1], v->v[2][a + 1]);
+        middle[a] = spu_mul(spu_add(least, most), half);
+        wide[a] = spu_madd(spu_sub(most, least), half, slack);
+    }
+    return tile_parallel_windows(t, middle[0], middle[1], wide[0], wide[1], s->x0, s->x1, s->y0, s->y1);
+}
+
+/* Edges, their lengths seen along the rays, and the normal over the lengths of two. */
+typedef struct tile_parallel_edges {
+    vfloat e[3][3], square[3], rlength[3], n[3];
+} tile_parallel_edges;
+
+CGT_SPU_INLINE vfloat tile_rlength(vfloat square) /* at most the exact one */
+{
+    return spu_mul(spu_rsqrte(square), spux_vfloat(1 - 0x1p-9f));
+}
+
+CGT_SPU_INLINE tile_parallel_edges tile_parallel_edges_of(const tile_triangles_seen *v)
+{
+    tile_parallel_edges g;
+    for (int k = 0; k < 3; k++) {
+        for (int a = 0; a < 3; a++)
+            g.e[k][a] = spu_sub(v->v[(k + 2) % 3][a], v->v[(k + 1) % 3][a]);
+        g.square[k] = spu_madd(g.e[k][1], g.e[k][1], spu_mul(g.e[k][2], g.e[k][2]));
+        g.rlength[k] = tile_rlength(g.square[k]);
+    }
+    filter_cross(g.e[1], g.e[2], g.n);
+    for (int k = 1; k < 3; k++) {
+        const vfloat r = tile_rlength(spu_madd(g.e[k][0], g.e[k][0], g.square[k]));
+        for (int a = 0; a < 3; a++)
+            g.n[a] = spu_mul(g.n[a], r);
+    }
+    return g;
+}
+
+CGT_SPU_INLINE void tile_parallel_triangles_sides(const tile *t, const tile_triangles_seen *v,
+                                                  const tile_parallel_edges *g, tile_triangles *s)
+{
+    const vfloat one = spux_vfloat(1), zero = spux_vfloat(0);
+    const float rest = t->beside * TILE_PARALLEL_BESIDE + t->spread * TILE_PARALLEL_ORIGIN;
+    const vfloat error = spu_madd(v->reach, spux_vfloat(TILE_PARALLEL_SIDES), spux_vfloat(rest));
+    const vfloat unit = spu_or(spux_div(one, error), spu_and(g->n[0], spux_vfloat(-0.f)));
+    for (int k = 0; k < 3; k++) {
+        const vfloat *w = v->v[(k + 1) % 3], *e = g->e[k];
+        const vfloat c[3] = {spu_sub(spu_mul(w[1], e[2]), spu_mul(w[2], e[1])), spu_sub(zero, e[2]), e[1]};
+        tile_triangles_form(t, c, spu_mul(unit, g->rlength[k]), one, s->side[k]);
+    }
+}
+
+/* Forms and `certain`. Returns the lanes that the bounds hold for, as bits. */
+CGT_SPU_INLINE unsigned tile_parallel_triangles_bound(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+{
+    const vfloat zero = spux_vfloat(0);
+    const tile_parallel_edges g = tile_parallel_edges_of(v);
+    const vfloat rz = spux_div(spux_vfloat(1), g.n[0]), kappa = spux_abs(rz);
+    const float rest = t->beside * TILE_PARALLEL_DEPTH_BESIDE + t->spread * TILE_PARALLEL_DEPTH_ORIGIN;
+    const vfloat error = spu_mul(kappa, spu_madd(v->reach, spux_vfloat(TILE_PARALLEL_DEPTH), spux_vfloat(rest)));
+    const vfloat plane[3] = {filter_dot(g.n, v->v[0]), spu_sub(zero, g.n[1]), spu_sub(zero, g.n[2])};
+    tile_parallel_triangles_sides(t, v, &g, s);
+    tile_triangles_form(t, plane, rz, spu_sub(zero, error), s->plane);
+    const vmask keeps = spu_cmpgt(spux_vfloat(t->gap), spu_mul(error, spux_vfloat(2.2f)));
+    spux_store(s->certain, spux_select(spux_vfloat(INFINITY), spux_vfloat(2), keeps));
+    spux_store(s->nearest, v->nearest);
+    /* what underflows is small beside edges of 2^-45 */
+    const vmask normal = spu_cmpgt(tile_least(g.square[0], g.square[1], g.square[2]), spux_vfloat(0x1p-90f));
+    const vmask level = spu_cmpgt(spux_vfloat(0.125f), spu_mul(kappa, spux_vfloat(TILE_PLANE)));
+    const vmask good = spu_andc(spu_and(normal, level), v->early);
+    return spux_mask_bits(spu_and(good, spu_or(keeps, spux_not(tile_triangles_wide(s)))));
+}
+
+/* tile_triangles_make for parallel rays. */
+CGT_SPU_INLINE void tile_parallel_triangles_make(const tile *t, vfloat vertex[3][3], unsigned lanes, tile_triangles *s)
+{
+    const tile_triangles_seen v = tile_parallel_triangles_see(t, vertex);
+    vmask apart;
+    const vmask unwanted = spu_or(v.ended, spu_cmpgt(v.nearest, spux_vfloat(t->farthest)));
+    const vmask out = spu_or(unwanted, tile_parallel_triangles_outside(t, &v, s));
+    const unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s, &apart))) & CGT_ALL_LANES;
+    s->fast = s->slow = 0;
+    if (!left)
+        return;
+    s->fast = left & tile_parallel_triangles_bound(t, &v, s);
+    s->slow = left & ~s->fast;
+    if (s->fast & spux_mask_bits(apart))
+        s->fast &= ~spux_mask_bits(tile_triangles_beyond(t, s));
+}
+
+#endif

@@ -1,0 +1,343 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Triangles against a tile: a vector of them at a time to camera space, screen bounds, edges and plane.
+ *
+ * With v_0, v_1, v_2 the vertices in camera space (tile.h), e_k the edge opposite vertex k, from v_k+1 on, and
+ * d = (1, rho px, upsilon py) the direction of a pixel in the same coordinates, the side of an edge and the plane are
+ *   c_k.d   c_k = v_k+1 x e_k        1/t = n.d / det   n = e_1 x e_2, det = v_0.n
+ * all linear in px and py; n may be made from any two edges. The ray meets the triangle in front of the eye where no
+ * c_k.d has the sign opposite to that of det: this needs no vertex in front of the eye. Camera space is a linear map of the
+ * world's, so that what its axes lack in orthogonality does not matter.
+ *
+ * Bounds, with u = 2^-24, V the largest |v_k|, T the least distance of the triangle from the eye, |d| the largest of
+ * the tile; products of three vectors' components sum up to at most 1.16 of the product of their lengths:
+ *   vertex     off by delta = 8 u V: u V where the eye is subtracted, 4 u V in each coordinate
+ *   direction  the canonical one is off by 3.5 u |d|
+ *   inside     a point P = t d of the exact triangle is a convex combination of its vertices, and so within delta of
+ *              one of the moved triangle, whose c_k.P has no sign but that of det. So the moved c_k.d is at least
+ *              -|c_k| delta / t, and at least -|c_k| |d| delta / T. If on the other hand all moved c_k.d are more than
+ *              1.03 of that, then d is in the exact cone: else a plane through the eye with normal m had m.d < 0 and
+ *              all m.v_k >= 0; the moved plane's point Q of d, shifted by 1.03 delta against m, were still in the moved
+ *              cone with m.Q < -1.03 delta, but is a sum of moved vertices with m.v'_k >= -delta, whose factors come to
+ *              at most 1 + 1.03 delta / h; h is the distance of eye and plane, above 40 delta as asked for below
+ *   edges      e 1, c_k 3, scale and rho 4, three fused or unfused sums 4: 12 roundings of 1.16 V |e_k| |d|
+ *   together   |c_k| <= V |e_k|: u |e_k| |d| V (14 + 3.5 + 8.3 V / T), and B = u |e_k| |d| V (18 + 9 V / T) is taken
+ * Edges are divided by B, with the sign of det, and 1 is added: less than 0 is a certain miss, more than 2 a certain hit
+ * of the cone.
+ *   plane      with n and det divided by the lengths of the edges of n, kappa = V / |det|: n is off by as much whichever
+ *              those are, and so is v_0.n, since exactly all v_k.n are one number. The two shorter edges enclose the
+ *              largest sine: long thin triangles do not make kappa large. det is off by 11 u V, n.d / det by 12 u |d|
+ *              t kappa / V <= 12 u kappa relative, for the direction 3.5 u kappa, for the moved vertices
+ *              8 u |n| V / det = 8 u kappa; divisions within 2^-21 and what is of second order
+ *   share      u (40 kappa + 32), relative, of 1/t
+ * kappa is never below 1. Where the share is above 1/8, or not a number, an edge shorter than 2^-45, or the triangle not
+ * surely after the range's begin, it goes to tile_double.h. Else |det| is above 320 u V, and h, at least |det|, above 40
+ * delta. The depth taken is that of 1/t (1 + share), as -1/t or N / (1/t) (tile.h). Where 2.2 shares are more than the
+ * tile keeps, no hit is certain: small windows are queued, and others go to tile_double.h too.
+ *
+ * The window: vertices that are not far beside, V at most 64 z, have X = x / z off by 12 u |d| V / z, their direction
+ * included by 5 u |d|^2. 2^-19 |d| V / z is taken, and 1/16 more of a column (tile_spheres.h).
+ *
+ * Beside the tile, wherever the eye's plane is: with m the normal of one of its side planes, (-rho px, 1, 0) and its like,
+ * |m| <= |d|, a ray of the tile has m.d >= 0 but for what its direction is off by, and so has m.P of the point P = t d
+ * that it hits, |P| <= V: -3.5 u V |d| for the direction. P is a sum of the vertices, so not all of them have less:
+ * m.v_k is off by 8 u |d| V for the vertex, and by 5 u |d| V as it is rounded, m included. 32 u |d| V is taken.
+ *
+ * A test in the suite checks these against wide arithmetic, and shrinks them until they fail. */
+#ifndef CGT_TILE_TRIANGLES_H
+#define CGT_TILE_TRIANGLES_H
+
+#include "kernel/primitive/gather_primitives.h"
+#include "kernel/tile_draw/tile_spheres.h"
+#include "kernel/primitive/triangle_filter.h"
+
+#define TILE_SIDES (18 * FILTER_U)
+#define TILE_SIDES_NEAR (9 * FILTER_U)
+#define TILE_PLANE (40 * FILTER_U)
+#define TILE_PLANE_LEAST (32 * FILTER_U)
+#define TILE_ASIDE (32 * FILTER_U)
+#define TILE_WIDE 16u /* columns and rows together */
+
+/* Of each lane, what its loop over pixels takes. Linear forms are a constant and what px and py are multiplied with. */
+typedef struct tile_triangles {
+    _Alignas(64) float side[3][3][CGT_LANES];
+    _Alignas(64) float plane[3][CGT_LANES]; /* -1/t; t of parallel rays */
+    _Alignas(64) float certain[CGT_LANES];  /* 2; infinite where no hit is certain */
+    _Alignas(64) float nearest[CGT_LANES];  /* before which nothing is hit, as `far` tells it */
+    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES]; /* the window */
+    _Alignas(64) uint32_t object[CGT_LANES];
+    unsigned fast, slow; /* lanes as bits: for tile_triangle_draw, for tile_double.h */
+} tile_triangles;
+
+/* Room in the gap for triangles as far as c whose kappa is not above 25; for nearer ones it may be more. */
+CGT_SPU_INLINE void tile_gap_widen(tile *t, float c)
+{
+    const float gap = c * t->longest * 0x1p-13f;
+    t->gap = t->gap > gap ? t->gap : gap;
+    t->wide_gap = t->gap * (1 + 0x1p-20f);
+}
+
+/* ---- fetching ---- */
+
+/* Reads the vertices of a vector of objects; one by one where they are of several arrays. */
+CGT_SPU_INLINE void tile_triangles_fetch(const cgt_objects *objects, const uint32_t object[CGT_LANES],
+                                         vfloat vertex[3][3])
+{
+    const cgt_object_array *a = objects->arrays == 1 ? objects->array : cgt_objects_array(objects, object[0]);
+    const vuint number = spu_sub(spux_load_uint(object), spux_vuint(a->first));
+    if (objects->arrays == 1 || spux_all(spu_cmpgt(spux_vuint(a->count), number))) {
+        fetch_triangles_at(a, number, vertex);
+        return;
+    }
+    filter_triangles s;
+    filter_triangles_fetch(objects, object, CGT_LANES, CGT_LANES, &s);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            vertex[k][i] = spux_load(s.vertex[k][i]);
+}
+
+/* A vector of references; lanes beyond count repeat the first. */
+CGT_SPU_INLINE void tile_triangles_objects(const uint32_t *reference, uint32_t count, uint32_t object[CGT_LANES])
+{
+    if (count >= CGT_LANES) {
+        spux_store_uint(object, spux_load_unaligned_uint(reference));
+        return;
+    }
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        object[k] = reference[k < count ? k : 0];
+}
+
+/* ---- camera space and culling ---- */
+
+/* A vector of triangles as the camera sees them: v[k] is z, x, y of vertex k. */
+typedef struct tile_triangles_seen {
+    vfloat v[3][3];
+    vfloat reach;       /* V */
+    vfloat nearest_z;   /* at most the least z */
+    vfloat nearest;     /* before which nothing is hit, as `far` tells it */
+    vmask front;        /* all vertices are, and not far beside */
+    vmask early, ended; /* surely not after the range's begin; surely all before it, or behind the eye */
+} tile_triangles_seen;
+
+CGT_SPU_INLINE vfloat tile_least(vfloat a, vfloat b, vfloat c) { return spux_min(a, spux_min(b, c)); }
+CGT_SPU_INLINE vfloat tile_most(vfloat a, vfloat b, vfloat c) { return spux_max(a, spux_max(b, c)); }
+
+/* What z is times this, `far` tells at least: t is z but for the canonical direction's rounding. */
+CGT_SPU_INLINE float tile_nearest_scale(const tile *t) { return (t->linear ? 1 : sqrtf(t->least)) * (1 - 0x1p-17f); }
+
+CGT_SPU_INLINE tile_triangles_seen tile_triangles_see(const tile *t, vfloat vertex[3][3])
+{
+    const float(*dual)[3] = t->camera.dual;
+    tile_triangles_seen s;
+    vfloat square[3];
+    for (int k = 0; k < 3; k++) {
+        vfloat p[3];
+        for (int a = 0; a < 3; a++)
+            p[a] = spu_sub(vertex[k][a], spux_vfloat(t->rays->eye[a]));
+        for (int a = 0; a < 3; a++)
+            s.v[k][a] = spu_madd(p[0], spux_vfloat(dual[a][0]),
+                                 spu_madd(p[1], spux_vfloat(dual[a][1]), spu_mul(p[2], spux_vfloat(dual[a][2]))));
+        square[k] = filter_dot(s.v[k], s.v[k]);
+    }
+    s.reach = spu_mul(spux_sqrt(tile_most(square[0], square[1], square[2])), spux_vfloat(1 + 0x1p-18f));
+    const vfloat least = tile_least(s.v[0][0], s.v[1][0], s.v[2][0]), most = tile_most(s.v[0][0], s.v[1][0], s.v[2][0]);
+    const vfloat slack = spu_madd(s.reach, spux_vfloat(0x1p-20f), spux_vfloat(t->slack));
+    const vfloat near = spux_max(spu_sub(least, slack), spux_vfloat(0)), end = spu_add(most, slack);
+    const float begin = t->rays->t_min;
+    s.nearest_z = near;
+    s.nearest = spu_mul(near, spux_vfloat(tile_nearest_scale(t)));
+    s.front = spu_cmpgt(spu_mul(least, spux_vfloat(64)), spu_add(s.reach, spux_vfloat(0x1p-48f)));
+    s.early = spux_mask_none();
+    if (begin > 0)
+        s.early = spux_not(spu_cmpgt(near, spux_vfloat(begin * (1 + 0x1p-16f))));
+    s.ended = spu_cmpgt(spux_vfloat(begin * (1 - 0x1p-16f)), end);
+    return s;
+}
+
+/* Windows: of the triangles in front their own, of others the tile. Returns those in front that have none. */
+CGT_SPU_INLINE vmask tile_triangles_outside(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+{
+    const float across = t->across.scale, down = t->down.scale;
+    const float share = 0x1p-19f * t->longest;
+    vfloat x[3], y[3], most_r = spux_vfloat(0);
+    for (int k = 0; k < 3; k++) {
+        const vfloat r = spux_div(spux_vfloat(1), v->v[k][0]);
+        most_r = spux_max(most_r, r);
+        x[k] = spu_mul(spu_mul(v->v[k][1], r), spux_vfloat(across));
+        y[k] = spu_mul(spu_mul(v->v[k][2], r), spux_vfloat(down));
+    }
+    const vfloat far_beside = spu_mul(v->reach, most_r);
+    const vfloat wide = spu_mul(far_beside, spux_vfloat(share * across));
+    const vfloat high = spu_mul(far_beside, spux_vfloat(share * -down));
+    const vfloat x0 = spux_vfloat(t->across.first), y0 = spux_vfloat(t->down.first);
+    const vmask beside = tile_window(spu_sub(spu_sub(tile_least(x[0], x[1], x[2]), wide), x0),
+                                     spu_sub(spu_add(tile_most(x[0], x[1], x[2]), wide), x0), &t->across, s->x0, s->x1);
+    const vmask above = tile_window(spu_sub(spu_sub(tile_least(y[0], y[1], y[2]), high), y0),
+                                    spu_sub(spu_add(tile_most(y[0], y[1], y[2]), high), y0), &t->down, s->y0, s->y1);
+    return spu_and(v->front, spu_or(beside, above));
+}
+
+/* Those not in front get the whole tile. */
+CGT_SPU_INLINE void tile_triangles_widen(const tile *t, unsigned lanes, tile_triangles *s)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        const int k = __builtin_ctz(lanes);
+        s->x0[k] = s->y0[k] = 0;
+        s->x1[k] = t->columns - 1;
+        s->y1[k] = t->rows - 1;
+    }
+}
+
+/* Triangles that no part under their window sees; apart: as tile_windows_far says. */
+CGT_SPU_INLINE vmask tile_triangles_hidden(const tile *t, const tile_triangles_seen *v, const tile_triangles *s,
+                                           vmask *apart)
+{
+    const vfloat seen = tile_windows_far(t, s->x0, s->x1, s->y0, s->y1, apart);
+    return spu_andc(spu_and(v->front, spu_cmpgt(v->nearest, seen)), *apart);
+}
+
+/* Triangles that lie beyond one side of the tile, wherever the eye's plane is: those of which each vertex does. */
+CGT_SPU_INLINE vmask tile_triangles_aside(const tile *t, const tile_triangles_seen *v)
+{
+    const uint32_t last = TILE_EDGE - 1;
+    const vfloat left = spux_vfloat(t->column[0] * t->camera.right);
+    const vfloat right = spux_vfloat(t->column[last] * t->camera.right);
+    const vfloat top = spux_vfloat(t->row[0] * t->camera.up), bottom = spux_vfloat(t->row[last] * t->camera.up);
+    const vfloat slack = spu_madd(v->reach, spux_vfloat(t->longest * TILE_ASIDE), spux_vfloat(t->slack));
+    vfloat most[4];
+    for (int k = 0; k < 3; k++) {
+        const vfloat *p = v->v[k];
+        const vfloat inside[4] = {spu_nmsub(left, p[0], p[1]), spu_msub(right, p[0], p[1]), spu_msub(top, p[0], p[2]),
+                                  spu_nmsub(bottom, p[0], p[2])};
+        for (int i = 0; i < 4; i++)
+            most[i] = k ? spux_max(most[i], inside[i]) : inside[i];
+    }
+    const vfloat least = spux_min(spux_min(most[0], most[1]), spux_min(most[2], most[3]));
+    return spu_cmpgt(spu_sub(spux_vfloat(0), slack), least);
+}
+
+/* ---- edges and planes ---- */
+
+/* A vector as a linear form of px and py, times k, plus `more`. */
+CGT_SPU_INLINE void tile_triangles_form(const tile *t, const vfloat v[3], vfloat k, vfloat more,
+                                        float form[3][CGT_LANES])
+{
+    spux_store(form[0], spu_madd(v[0], k, more));
+    spux_store(form[1], spu_mul(v[1], spu_mul(k, spux_vfloat(t->camera.right))));
+    spux_store(form[2], spu_mul(v[2], spu_mul(k, spux_vfloat(t->camera.up))));
+}
+
+/* Windows that are cheaper to test in double than to queue. */
+CGT_SPU_INLINE vmask tile_triangles_wide(const tile_triangles *s)
+{
+    const vuint across = spu_sub(spux_load_uint(s->x1), spux_load_uint(s->x0));
+    const vuint down = spu_sub(spux_load_uint(s->y1), spux_load_uint(s->y0));
+    return spu_cmpgt(spu_add(across, down), spux_vuint(TILE_WIDE));
+}
+
+/* The normal over the lengths of the two shorter edges. e_1 x e_2 = e_2 x e_0 = e_0 x e_1. */
+CGT_SPU_INLINE void tile_triangles_normal(vfloat e[3][3], const vfloat square[3], const vfloat rlength[3], vfloat n[3])
+{
+    const vmask first = spu_andc(spu_cmpgt(square[1], square[0]), spu_cmpgt(square[2], square[1]));
+    const vmask second = spu_andc(spu_cmpgt(square[2], square[0]), first);
+    const vfloat sign = spux_select(spux_vfloat(0), spux_vfloat(-0.f), spu_or(first, second));
+    const vfloat lengths =
+        spu_mul(spux_select(rlength[1], rlength[0], first), spux_select(rlength[2], rlength[0], second));
+    const vfloat normalise = spu_or(lengths, sign);
+    vfloat a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = spux_select(e[1][k], e[0][k], first);
+        b[k] = spux_select(e[2][k], e[0][k], second);
+    }
+    filter_cross(a, b, n);
+    for (int k = 0; k < 3; k++)
+        n[k] = spu_mul(n[k], normalise);
+}
+
+/* Forms and `certain`. Returns the lanes that the bounds hold for, as bits. */
+CGT_SPU_INLINE unsigned tile_triangles_bound(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+{
+    const vfloat one = spux_vfloat(1), reach = v->reach;
+    vfloat e[3][3], c[3], n[3], square[3], rlength[3];
+    for (int k = 0; k < 3; k++) {
+        for (int a = 0; a < 3; a++)
+            e[k][a] = spu_sub(v->v[(k + 2) % 3][a], v->v[(k + 1) % 3][a]);
+        square[k] = filter_dot(e[k], e[k]);
+        rlength[k] = spu_mul(spu_rsqrte(square[k]), spux_vfloat(1 - 0x1p-9f)); /* at most the exact one */
+    }
+    tile_triangles_normal(e, square, rlength, n);
+    const vfloat det = filter_dot(n, v->v[0]), size = spux_abs(det), rdet = spux_div(one, det);
+    const vfloat kappa = spu_mul(reach, spux_abs(rdet));
+    const vfloat share = spu_madd(kappa, spux_vfloat(TILE_PLANE), spux_vfloat(TILE_PLANE_LEAST));
+    const vfloat near = spux_max(v->nearest_z, spu_mul(size, spux_vfloat(0.875f)));
+    const vfloat error =
+        spu_mul(reach, spu_madd(spux_div(reach, near), spux_vfloat(TILE_SIDES_NEAR), spux_vfloat(TILE_SIDES)));
+    const vfloat sign = spu_and(det, spux_vfloat(-0.f));
+    const vfloat unit = spu_or(spux_div(spux_vfloat(1 / t->longest), error), sign);
+    for (int k = 0; k < 3; k++) {
+        filter_cross(v->v[(k + 1) % 3], e[k], c);
+        tile_triangles_form(t, c, spu_mul(unit, rlength[k]), one, s->side[k]);
+    }
+    tile_triangles_form(t, n, spu_mul(rdet, spu_sub(spux_vfloat(-1), share)), spux_vfloat(0), s->plane);
+    const vfloat own = spu_mul(share, spux_vfloat(2.2f));
+    const vmask keeps = t->linear
+                            ? spu_cmpgt(spux_vfloat((float)TILE_SHARE - 0x1p-20f), own)
+                            : spu_cmpgt(spux_vfloat(t->gap), spu_mul(own, spu_mul(reach, spux_vfloat(t->longest))));
+    spux_store(s->certain, spux_select(spux_vfloat(INFINITY), spux_vfloat(2), keeps));
+    spux_store(s->nearest, v->nearest);
+    /* what underflows is small beside edges of 2^-45 */
+    const vmask normal = spu_cmpgt(tile_least(square[0], square[1], square[2]), spux_vfloat(0x1p-90f));
+    const vmask good = spu_andc(spu_and(normal, spu_cmpgt(spux_vfloat(0.125f), share)), v->early);
+    return spux_mask_bits(spu_and(good, spu_or(keeps, spux_not(tile_triangles_wide(s)))));
+}
+
+/* Triangles of which an edge has all of the tile on its other side, or whose plane is farther than any part sees. 2^-21 of
+ * the magnitudes is more than the six roundings here: |px| and |py| are at most 1. */
+CGT_SPU_INLINE vmask tile_triangles_beyond(const tile *t, const tile_triangles *s)
+{
+    const float *column = t->column, *row = t->row;
+    const uint32_t last = TILE_EDGE - 1;
+    const vfloat x = spux_vfloat(0.5f * (column[0] + column[last])), y = spux_vfloat(0.5f * (row[0] + row[last]));
+    const vfloat wide = spux_vfloat(0.5f * fabsf(column[last] - column[0]) + 0x1p-22f);
+    const vfloat high = spux_vfloat(0.5f * fabsf(row[last] - row[0]) + 0x1p-22f);
+    vfloat most[4];
+    for (int k = 0; k < 4; k++) {
+        const float(*form)[CGT_LANES] = k < 3 ? s->side[k] : s->plane;
+        const vfloat at_0 = spux_load(form[0]), at_x = spux_load(form[1]), at_y = spux_load(form[2]);
+        const vfloat middle = spu_madd(x, at_x, spu_madd(y, at_y, at_0));
+        const vfloat size = spu_add(spux_abs(at_0), spu_add(spux_abs(at_x), spux_abs(at_y)));
+        const vfloat around =
+            spu_madd(wide, spux_abs(at_x), spu_madd(high, spux_abs(at_y), spu_mul(size, spux_vfloat(0x1p-21f))));
+        most[k] = k < 3 ? spu_add(middle, around) : spu_sub(around, middle);
+    }
+    const vmask passed = spu_cmpgt(spux_vfloat(-1), tile_least(most[0], most[1], most[2]));
+    const vfloat far_t = spux_vfloat(t->farthest_t * (1 + 0x1p-16f));
+    const vmask hidden = t->parallel ? spu_cmpgt(spu_sub(spux_vfloat(0), most[3]), spux_vfloat(t->farthest_t))
+                                     : spu_cmpgt(spux_vfloat(1), spu_mul(most[3], far_t));
+    return spu_or(passed, hidden);
+}
+
+/* Camera space, culling and forms of a vector of triangles; lanes: those that count, as bits. */
+CGT_SPU_INLINE void tile_triangles_make(const tile *t, vfloat vertex[3][3], unsigned lanes, tile_triangles *s)
+{
+    const tile_triangles_seen v = tile_triangles_see(t, vertex);
+    vmask apart;
+    const vmask unwanted = spu_or(v.ended, spu_cmpgt(v.nearest, spux_vfloat(t->farthest)));
+    const vmask out = spu_or(unwanted, tile_triangles_outside(t, &v, s));
+    const unsigned front = spux_mask_bits(v.front);
+    unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s, &apart))) & CGT_ALL_LANES;
+    s->fast = s->slow = 0;
+    if (left & ~front)
+        left &= ~spux_mask_bits(tile_triangles_aside(t, &v));
+    if (!left)
+        return;
+    tile_triangles_widen(t, left & ~front, s);
+    const unsigned fast = left & tile_triangles_bound(t, &v, s);
+    s->slow = left & ~fast;
+    s->fast = fast;
+    if (fast & (spux_mask_bits(apart) | ~front))
+        s->fast &= ~spux_mask_bits(tile_triangles_beyond(t, s));
+}
+
+#endif

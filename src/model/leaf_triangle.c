@@ -1,0 +1,61 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Triangles made ready for the leaves of trees. */
+#include "model/leaf_triangle.h"
+
+#include <math.h>
+
+#include "core/float_environment.h"
+
+#define CHUNK 4096u /* objects of one task */
+
+typedef struct triangles_job {
+    const cgt_objects *objects;
+    float scale;
+    cgt_leaf_triangle *triangle;
+} triangles_job;
+
+static void make_triangle(const cgt_triangle *q, float scale, cgt_leaf_triangle *t)
+{
+    for (int a = 0; a < 3; a++)
+        t->vertex[a] = q->v[0][a] * scale;
+    for (int k = 0; k < 2; k++) {
+        for (int a = 0; a < 3; a++)
+            t->edge[k][a] = q->v[k + 1][a] * scale - t->vertex[a];
+        t->sum[k] = fabsf(t->edge[k][0]) + fabsf(t->edge[k][1]) + fabsf(t->edge[k][2]);
+    }
+}
+
+static void make_chunk(void *argument, uint32_t index)
+{
+    const triangles_job *job = argument;
+    const cgt_objects *o = job->objects;
+    const uint32_t first = index * CHUNK, end = o->count - first < CHUNK ? o->count : first + CHUNK;
+    const cgt_object_array *a = cgt_objects_array(o, first);
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    for (uint32_t object = first; object < end; object++) {
+        if (object - a->first == a->count)
+            a++;
+        if (a->kind != CGT_KIND_TRIANGLES)
+            continue;
+        const cgt_triangle q = cgt_array_triangle(a, object - a->first);
+        make_triangle(&q, job->scale, &job->triangle[cgt_array_triangle_number(a, object)]);
+    }
+    cgt_float_environment_leave(&callers);
+}
+
+cgt_result cgt_leaf_triangles_make(cgt_context *context, cgt_buffer *memory, cgt_world *world)
+{
+    const cgt_objects *o = &world->objects;
+    const cgt_result result =
+        cgt_buffer_reserve_scattered(&context->memory, memory, o->triangles, sizeof(cgt_leaf_triangle));
+    if (result != CGT_OK)
+        return cgt_fail(context, result, "commit: out of memory for %u triangles in leaves", o->triangles);
+    triangles_job job = {.objects = o, .scale = world->scale, .triangle = memory->data};
+    if (o->triangles)
+        cgt_run_tasks(context, make_chunk, &job, (uint32_t)(((uint64_t)o->count + CHUNK - 1) / CHUNK));
+    world->triangle = memory->data;
+    return CGT_OK;
+}

@@ -1,0 +1,272 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Scenes: geometries come, change and go. Nothing is read from the caller's arrays here. */
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+static cgt_geometry *geometry_at(const cgt_scene *scene, uint32_t id)
+{
+    cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
+    return id < scene->geometries && geometry[id].used ? &geometry[id] : NULL;
+}
+
+void cgt_scene_options_init(cgt_scene_options *options) { memset(options, 0, sizeof *options); }
+
+static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
+{
+    const uint32_t *r = o->resolution;
+    if ((unsigned)o->structure > CGT_STRUCTURE_WIDE_TREE)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: structure %d is unknown", (int)o->structure);
+    if ((unsigned)o->rays > CGT_RAYS_INCOHERENT)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: rays %d is unknown", (int)o->rays);
+    if ((unsigned)o->kd_builder > CGT_KD_BUILDER_SWEEP)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_builder %d is unknown", (int)o->kd_builder);
+    if ((unsigned)o->kd_layout > CGT_KD_LAYOUT_MIXED)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_layout %d is unknown", (int)o->kd_layout);
+    if (o->kd_break_level > CGT_KD_MAX_DEPTH)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_break_level %u: at most %u",
+                        o->kd_break_level, CGT_KD_MAX_DEPTH);
+    if ((!r[0] || !r[1] || !r[2]) && (r[0] || r[1] || r[2]))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: resolution %ux%ux%u: all three or none", r[0],
+                        r[1], r[2]);
+    if (r[0] > CGT_GRID_MAX_RESOLUTION || r[1] > CGT_GRID_MAX_RESOLUTION || r[2] > CGT_GRID_MAX_RESOLUTION ||
+        (uint64_t)r[0] * r[1] * r[2] > CGT_GRID_MAX_CELLS)
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "scene options: resolution %ux%ux%u: at most %u an axis and %u cells",
+                        r[0], r[1], r[2], CGT_GRID_MAX_RESOLUTION, CGT_GRID_MAX_CELLS);
+    return CGT_OK;
+}
+
+cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *options, cgt_scene **scene)
+{
+    cgt_scene_options defaults;
+    if (!context || !scene)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    *scene = NULL;
+    if (!options) {
+        cgt_scene_options_init(&defaults);
+        options = &defaults;
+    }
+    const cgt_result result = check_options(context, options);
+    if (result != CGT_OK)
+        return result;
+    cgt_scene *s = cgt_allocate(&context->memory, sizeof *s);
+    if (!s)
+        return cgt_fail(context, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a scene");
+    memset(s, 0, sizeof *s);
+    s->context = context;
+    s->options = *options;
+    s->self = s;
+    atomic_init(&s->wide_is_built, false);
+    atomic_init(&s->wide_rays, 0);
+    if (pthread_mutex_init(&s->wide_lock, NULL)) {
+        cgt_free(&context->memory, s, sizeof *s);
+        return cgt_fail(context, CGT_ERROR_THREADS, "the system refused a lock");
+    }
+    cgt_context_retain(context);
+    *scene = s;
+    return CGT_OK;
+}
+
+void cgt_scene_release(cgt_scene *scene)
+{
+    if (!scene)
+        return;
+    cgt_context *context = scene->context;
+    for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
+        cgt_buffer_release(&context->memory, &scene->buffer[i]);
+    pthread_mutex_destroy(&scene->wide_lock);
+    cgt_free(&context->memory, scene, sizeof *scene);
+    cgt_context_release(context);
+}
+
+cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options)
+{
+    if (!scene || !options)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    const cgt_result result = check_options(scene->context, options);
+    if (result != CGT_OK)
+        return result;
+    scene->options = *options;
+    scene->committed = false;
+    return CGT_OK;
+}
+
+/* Whether element i of count fits the address space at every i. */
+static bool stride_fits(uint32_t count, size_t stride, size_t element)
+{
+    return stride % sizeof(float) == 0 && (!count || stride <= (SIZE_MAX / 2 - element) / count);
+}
+
+static cgt_result check_spheres(cgt_context *c, cgt_spheres *s)
+{
+    if (!s->center_stride)
+        s->center_stride = 3 * sizeof(float);
+    if (!s->radius_stride)
+        s->radius_stride = sizeof(float);
+    if (s->count && !s->centers)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: centers is NULL");
+    if ((uintptr_t)s->centers % sizeof(float) || (uintptr_t)s->radii % sizeof(float))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: an array is not aligned as floats are");
+    if (!stride_fits(s->count, s->center_stride, 3 * sizeof(float)) ||
+        !stride_fits(s->count, s->radius_stride, sizeof(float)))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: a stride is not a multiple of 4, or too large");
+    if (!s->radii && !(s->radius >= 0 && isfinite(s->radius)))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: radius %g: 0 or more, and finite", (double)s->radius);
+    return CGT_OK;
+}
+
+static cgt_result check_triangles(cgt_context *c, cgt_triangles *t)
+{
+    if (!t->index_stride)
+        t->index_stride = 3 * sizeof(uint32_t);
+    if (!t->vertex_stride)
+        t->vertex_stride = 3 * sizeof(float);
+    if (t->vertex_count && !t->vertices)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: vertices is NULL");
+    if ((uintptr_t)t->vertices % sizeof(float) || (uintptr_t)t->indices % sizeof(uint32_t))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: an array is not aligned as its elements are");
+    if (!stride_fits(t->vertex_count, t->vertex_stride, 3 * sizeof(float)) ||
+        !stride_fits(t->count, t->index_stride, 3 * sizeof(uint32_t)))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: a stride is not a multiple of 4, or too large");
+    if (!t->indices && t->vertex_count / 3 < t->count)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
+                        "triangles: %u of them without indices need more than %u vertices", t->count, t->vertex_count);
+    return CGT_OK;
+}
+
+static uint32_t primitives_of(const cgt_geometry *g)
+{
+    return g->kind == CGT_KIND_SPHERES ? g->spheres.count : g->triangles.count;
+}
+
+/* The sum of all counts with geometry `id` replaced by count. */
+static uint64_t count_with(const cgt_scene *scene, uint32_t id, uint32_t count)
+{
+    uint64_t sum = count;
+    for (uint32_t i = 0; i < scene->geometries; i++) {
+        const cgt_geometry *g = geometry_at(scene, i);
+        if (g && i != id)
+            sum += primitives_of(g);
+    }
+    return sum;
+}
+
+/* Sets geometry `id`, which exists or is the next one, to a checked description. */
+static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry *geometry)
+{
+    const uint64_t sum = count_with(scene, id, primitives_of(geometry));
+    if (sum >= CGT_NONE)
+        return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "scene: %llu primitives in all: at most 2^32 - 2",
+                        (unsigned long long)sum);
+    if (id == scene->geometries) {
+        const cgt_result grown = cgt_buffer_grow(&scene->context->memory, &scene->buffer[CGT_BUFFER_GEOMETRY],
+                                                 (size_t)id + 1, sizeof(cgt_geometry));
+        if (grown != CGT_OK)
+            return cgt_fail(scene->context, grown, "out of memory for geometry %u", id);
+        scene->geometries++;
+    }
+    ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[id] = *geometry;
+    scene->committed = false;
+    return CGT_OK;
+}
+
+static uint32_t free_id(const cgt_scene *scene)
+{
+    uint32_t id = 0;
+    while (id < scene->geometries && geometry_at(scene, id))
+        id++;
+    return id;
+}
+
+static cgt_result check_update(const cgt_scene *scene, uint32_t id, cgt_kind kind)
+{
+    const cgt_geometry *g = geometry_at(scene, id);
+    if (!g)
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", id);
+    if (g->kind != kind)
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u is one of %s", id,
+                        g->kind == CGT_KIND_SPHERES ? "spheres" : "triangles");
+    return CGT_OK;
+}
+
+cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry)
+{
+    if (!scene || !spheres || !geometry)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
+    const uint32_t id = free_id(scene);
+    cgt_result result = check_spheres(scene->context, &g.spheres);
+    if (result == CGT_OK)
+        result = set_geometry(scene, id, &g);
+    if (result == CGT_OK)
+        *geometry = id;
+    return result;
+}
+
+cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres)
+{
+    if (!scene || !spheres)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
+    cgt_result result = check_update(scene, geometry, CGT_KIND_SPHERES);
+    if (result == CGT_OK)
+        result = check_spheres(scene->context, &g.spheres);
+    return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
+}
+
+cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry)
+{
+    if (!scene || !triangles || !geometry)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
+    const uint32_t id = free_id(scene);
+    cgt_result result = check_triangles(scene->context, &g.triangles);
+    if (result == CGT_OK)
+        result = set_geometry(scene, id, &g);
+    if (result == CGT_OK)
+        *geometry = id;
+    return result;
+}
+
+cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const cgt_triangles *triangles)
+{
+    if (!scene || !triangles)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
+    cgt_result result = check_update(scene, geometry, CGT_KIND_TRIANGLES);
+    if (result == CGT_OK)
+        result = check_triangles(scene->context, &g.triangles);
+    return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
+}
+
+cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
+{
+    if (!scene)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    if (!geometry_at(scene, geometry))
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
+    ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[geometry].used = false;
+    scene->committed = false;
+    return CGT_OK;
+}
+
+cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics)
+{
+    if (!scene || !statistics)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    pthread_mutex_lock(&scene->self->wide_lock);
+    *statistics = scene->statistics;
+    pthread_mutex_unlock(&scene->self->wide_lock);
+    return CGT_OK;
+}
+
+size_t cgt_scene_bytes(const cgt_scene *scene)
+{
+    size_t bytes = sizeof *scene;
+    for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
+        bytes += scene->buffer[i].bytes;
+    return bytes;
+}

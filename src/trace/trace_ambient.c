@@ -1,0 +1,196 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Ambient occlusion of a frame: cut into tiles, each a task. The rays of a tile's pixels, neighbours together, go in
+ * batches through the structure as those of cgt_occluded_rays do. */
+#include <math.h>
+
+#include "query/ambient_directions.h"
+#include "core/float_environment.h"
+#include "scene/scene.h"
+#include "trace/trace_call.h"
+#include "build/bvh/bvh_on_demand.h"
+
+#define TILE_BITS 5u
+#define TILE_EDGE (1u << TILE_BITS)
+#define BATCH CGT_RAYS_CHUNK
+
+typedef struct ambient_job {
+    const cgt_scene *scene;
+    const cgt_frame *frame;
+    cgt_ambient ambient;
+    float *openness;
+    cgt_camera_rays camera;
+    bool hides; /* the camera's mask leaves something out */
+    cgt_trace_settings settings;
+    size_t row_stride;
+    uint32_t tiles_across;
+    cgt_trace_counter *counter;
+} ambient_job;
+
+/* A task's state, on its stack. */
+typedef struct batch {
+    float org[3][BATCH], dir[3][BATCH], t_max[BATCH];
+    uint32_t primitive[BATCH], geometry[BATCH], mask[BATCH];
+    uint8_t occluded[BATCH];
+    uint32_t rays, pixels;
+    size_t element[TILE_EDGE * TILE_EDGE]; /* of the planes, of each pixel */
+    cgt_ambient_points points;
+    cgt_counts counts;
+} batch;
+
+/* ---- batches ---- */
+
+static void trace_batch(const ambient_job *job, batch *b)
+{
+    const cgt_scene *s = job->scene;
+    const uint32_t samples = job->ambient.samples;
+    const cgt_rays rays = {.count = b->rays,
+                           .org = {b->org[0], b->org[1], b->org[2]},
+                           .dir = {b->dir[0], b->dir[1], b->dir[2]},
+                           .t_max = isinf(job->ambient.radius) ? NULL : b->t_max,
+                           .mask = job->hides ? b->mask : NULL,
+                           .ignored_primitive = b->primitive,
+                           .ignored_geometry = b->geometry};
+    if (!b->rays)
+        return;
+    s->context->kernel->trace_rays(&s->world, &rays, 0, b->rays, &job->settings, NULL, b->occluded, &b->counts);
+    for (uint32_t i = 0; i < b->pixels; i++) {
+        uint32_t open = samples;
+        for (uint32_t k = 0; k < samples; k++)
+            open -= b->occluded[i * samples + k];
+        job->openness[b->element[i]] = (float)open / (float)samples;
+    }
+    b->rays = b->pixels = 0;
+}
+
+/* Adds the rays of a pixel with a hit. */
+static void add_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t element, batch *b)
+{
+    const cgt_frame *f = job->frame;
+    const uint32_t first = b->rays, end = first + job->ambient.samples;
+    float org[3], dir[3], n[3], ahead = 0;
+    cgt_camera_pixel(&job->camera, x, y, org, dir);
+    for (int a = 0; a < 3; a++) {
+        n[a] = f->normal[a][element];
+        ahead += n[a] * dir[a];
+    }
+    for (int a = 0; a < 3; a++) {
+        const float start = org[a] + f->t[element] * dir[a];
+        n[a] = ahead > 0 ? -n[a] : n[a];
+        for (uint32_t i = first; i < end; i++)
+            b->org[a][i] = start;
+    }
+    for (uint32_t i = first; i < end; i++) {
+        b->primitive[i] = f->primitive[element];
+        b->geometry[i] = f->geometry[element];
+        b->t_max[i] = job->ambient.radius;
+        b->mask[i] = job->camera.mask;
+    }
+    float *const to[3] = {b->dir[0] + first, b->dir[1] + first, b->dir[2] + first};
+    cgt_ambient_directions(&b->points, &job->ambient, x, y, n, to);
+    b->element[b->pixels++] = element;
+    b->rays = end;
+}
+
+/* Every second bit. */
+static uint32_t even_bits(uint32_t i)
+{
+    uint32_t bits = 0;
+    for (uint32_t k = 0; k < TILE_BITS; k++)
+        bits |= (i >> 2 * k & 1) << k;
+    return bits;
+}
+
+/* Pixels along a Morton curve, so that those of a batch are neighbours. */
+static void trace_tile(void *argument, uint32_t index)
+{
+    const ambient_job *job = argument;
+    const cgt_frame *f = job->frame;
+    const uint32_t left = index % job->tiles_across * TILE_EDGE, top = index / job->tiles_across * TILE_EDGE;
+    batch b;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    b.counts = (cgt_counts){0};
+    b.rays = b.pixels = 0;
+    cgt_ambient_points_make(job->ambient.samples, &b.points);
+    for (uint32_t i = 0; i < TILE_EDGE * TILE_EDGE; i++) {
+        const uint32_t x = left + even_bits(i), y = top + even_bits(i >> 1);
+        const size_t element = (size_t)y * job->row_stride + x;
+        if (x >= f->width || y >= f->height)
+            continue;
+        if (f->primitive[element] == CGT_NONE) {
+            job->openness[element] = 1;
+            continue;
+        }
+        if (b.rays + job->ambient.samples > BATCH)
+            trace_batch(job, &b);
+        add_pixel(job, x, y, element, &b);
+    }
+    trace_batch(job, &b);
+    cgt_float_environment_leave(&callers);
+    cgt_trace_counter_add(job->counter, &b.counts);
+}
+
+/* ---- the call ---- */
+
+void cgt_ambient_init(cgt_ambient *ambient) { *ambient = (cgt_ambient){.samples = 16, .radius = INFINITY}; }
+
+static cgt_result check_ambient(cgt_context *c, const cgt_ambient *a, const cgt_frame *f)
+{
+    if (!a->samples || a->samples > CGT_AMBIENT_SAMPLES)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: %u samples: 1 to %u", a->samples, CGT_AMBIENT_SAMPLES);
+    if (!(a->radius > 0))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: radius %g: above 0", (double)a->radius);
+    if (!f->t || !f->primitive || !f->geometry || !f->normal[0])
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
+                        "ambient: the frame needs its planes t, primitive, geometry and normal");
+    return CGT_OK;
+}
+
+/* Checks all and makes the camera's rays; of the counter only what counts is left to do. */
+static cgt_result prepare(ambient_job *job, const cgt_camera *camera, const cgt_trace_options *options,
+                          cgt_trace_counter *counter)
+{
+    const cgt_frame *f = job->frame;
+    cgt_context *c = job->scene->context;
+    char message[160];
+    cgt_float_environment callers;
+    cgt_result result = cgt_trace_begin(job->scene, options, false, &job->settings, counter);
+    if (result == CGT_OK)
+        result = cgt_check_frame(c, f);
+    if (result == CGT_OK)
+        result = check_ambient(c, &job->ambient, f);
+    if (result != CGT_OK)
+        return result;
+    cgt_float_environment_enter(&callers);
+    result = cgt_camera_prepare(camera, f->width, f->height, &job->camera, message);
+    cgt_float_environment_leave(&callers);
+    return result == CGT_OK ? result : cgt_fail(c, result, "%s", message);
+}
+
+cgt_result cgt_trace_ambient(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                             const cgt_ambient *ambient, float *openness, const cgt_trace_options *options)
+{
+    cgt_trace_counter counter;
+    if (!scene || !camera || !frame || !openness)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    ambient_job job = {.scene = scene, .frame = frame, .openness = openness};
+    cgt_ambient_init(&job.ambient);
+    if (ambient)
+        job.ambient = *ambient;
+    cgt_result result = prepare(&job, camera, options, &counter);
+    if (result == CGT_OK)
+        result =
+            cgt_wide_tree_want(scene, (uint64_t)frame->width * frame->height * job.ambient.samples, &job.settings.wide);
+    if (result != CGT_OK)
+        return result;
+    job.hides = cgt_objects_hidden(&scene->world.objects, job.camera.mask);
+    job.settings.fields = 0;
+    job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
+    job.tiles_across = (frame->width + TILE_EDGE - 1) / TILE_EDGE;
+    job.counter = options && options->statistics ? &counter : NULL;
+    cgt_run_tasks(scene->context, trace_tile, &job, job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE));
+    cgt_trace_end(options, &job.settings, &counter);
+    return CGT_OK;
+}

@@ -1,0 +1,126 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Points in the light of one lamp: cut into chunks, each a task. */
+#include <math.h>
+
+#include "core/float_environment.h"
+#include "scene/scene.h"
+#include "trace/trace_call.h"
+#include "build/bvh/bvh_on_demand.h"
+
+/* Chunks of a call that are looked at to choose a way, and the objects that a tile may take for each point: more, and a
+ * tree is faster. Measured. */
+#define CHUNKS_ASKED 8u
+#define OBJECTS_PER_POINT 16u
+
+#define FEW_POINTS 256u /* go through a wide tree where there is one */
+
+typedef struct light_job {
+    const cgt_scene *scene;
+    const cgt_light *light;
+    cgt_rays points; /* without directions */
+    uint8_t *occluded;
+    cgt_trace_settings settings;
+    cgt_trace_counter *counter;
+} light_job;
+
+static uint64_t chunk_end(const light_job *job, uint64_t first)
+{
+    const uint64_t left = job->points.count - first;
+    return first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
+}
+
+static void trace_chunk(void *argument, uint32_t index)
+{
+    const light_job *job = argument;
+    const cgt_scene *s = job->scene;
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
+    cgt_counts counts = {0};
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    s->context->kernel->trace_light(&s->world, &job->points, job->light, first, end, &job->settings, job->occluded,
+                                    &counts);
+    cgt_float_environment_leave(&callers);
+    cgt_trace_counter_add(job->counter, &counts);
+}
+
+/* Whether neighbours among the points are near enough to each other, as the light sees them, for tiles: of most chunks. */
+static bool tiles_serve(const light_job *job)
+{
+    const cgt_scene *s = job->scene;
+    const cgt_world *world = &s->world;
+    const uint64_t chunks = (job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK;
+    const uint64_t asked = chunks < CHUNKS_ASKED ? chunks : CHUNKS_ASKED;
+    uint64_t served = 0;
+    cgt_float_environment callers;
+    if (!world->loose.levels || !world->valid || world->everything || world->scale > 0x1p60f || world->scale < 0x1p-60f)
+        return false;
+    cgt_float_environment_enter(&callers);
+    for (uint64_t k = 0; k < asked; k++) {
+        const uint64_t first = chunks * k / asked * CGT_RAYS_CHUNK, end = chunk_end(job, first);
+        served += s->context->kernel->light_objects(world, &job->points, job->light, first, end) <=
+                  OBJECTS_PER_POINT * (end - first);
+    }
+    cgt_float_environment_leave(&callers);
+    return 2 * served > asked;
+}
+
+static cgt_result check_light(cgt_context *c, const cgt_light *light)
+{
+    bool zero = true;
+    for (int a = 0; a < 3; a++) {
+        if (!isfinite(light->position[a]))
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: its position is not finite");
+        zero = zero && light->position[a] == 0;
+    }
+    if (light->w != 0 && light->w != 1)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: w is %g: 1 for a place, 0 for a direction",
+                        (double)light->w);
+    if (light->w == 0 && zero)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: a direction of length zero");
+    return CGT_OK;
+}
+
+static cgt_result check_points(cgt_context *c, const cgt_points *p)
+{
+    for (int a = 0; a < 3 && p->count; a++)
+        if (!p->position[a])
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "points: position must not be NULL");
+    return cgt_check_stride(c, "points", p->stride, p->count);
+}
+
+cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
+                              uint8_t *occluded, const cgt_trace_options *options)
+{
+    cgt_trace_counter counter;
+    if (!scene || !light || !points || (!occluded && points->count))
+        return CGT_ERROR_INVALID_ARGUMENT;
+    cgt_context *c = scene->context;
+    light_job job = {.scene = scene, .light = light, .occluded = occluded};
+    cgt_result result = cgt_trace_begin(scene, options, false, &job.settings, &counter);
+    if (result == CGT_OK)
+        result = check_light(c, light);
+    if (result == CGT_OK)
+        result = check_points(c, points);
+    if (result != CGT_OK)
+        return result;
+    job.points = (cgt_rays){.count = points->count,
+                            .stride = points->stride,
+                            .org = {points->position[0], points->position[1], points->position[2]},
+                            .t_min = points->t_min,
+                            .t_max = points->t_max,
+                            .mask = points->mask,
+                            .ignored_primitive = points->ignored_primitive,
+                            .ignored_geometry = points->ignored_geometry};
+    const bool tiles = tiles_serve(&job);
+    result = cgt_wide_tree_want(scene, tiles ? 0 : points->count, &job.settings.wide);
+    if (result != CGT_OK)
+        return result;
+    job.settings.light_tiles = tiles && !(job.settings.wide && points->count < FEW_POINTS);
+    job.settings.fields = 0;
+    job.counter = options && options->statistics ? &counter : NULL;
+    cgt_run_tasks(c, trace_chunk, &job, (uint32_t)((points->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    cgt_trace_end(options, &job.settings, &counter);
+    return CGT_OK;
+}

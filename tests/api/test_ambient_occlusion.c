@@ -1,0 +1,510 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Ambient occlusion of frames: cases with a known answer; a sum over the same rays by cgt_occluded_rays; the same bits
+ * for any threads, variant and structure; the directions; what is refused; and that nothing is allocated. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "query/ambient_directions.h"
+#include "support/scenes.h"
+
+#define STRIDE 80u
+#define PIXELS (STRIDE * 50u)
+
+/* Of the picture: where it is slow, a fifteenth of the pixels, and where samples do, a fortieth; these are no whole
+ * blocks either. */
+#define SLOW (test_scaled(10) < 2)
+#define WIDTH (test_samples() ? 11u : SLOW ? 19u : 75u)
+#define HEIGHT (test_samples() ? 9u : SLOW ? 13u : 50u)
+#define MANY (test_samples() ? 20u : SLOW ? 50u : 1000u) /* of its pixels */
+#define ROWS (STRIDE * HEIGHT)
+
+/* Of the structures: every one, or where it is slow every second. */
+#define STEP (SLOW ? 2u : 1u)
+
+/* ---- a frame with all that is needed ---- */
+
+typedef struct view {
+    float t[PIXELS], normal[3][PIXELS], openness[PIXELS];
+    uint32_t primitive[PIXELS], geometry[PIXELS];
+    cgt_camera camera;
+    cgt_frame frame;
+} view;
+
+static void view_make(view *v, const float eye[3], const float target[3])
+{
+    memset(v, 0x55, sizeof *v);
+    cgt_camera_init(&v->camera);
+    cgt_frame_init(&v->frame, WIDTH, HEIGHT);
+    memcpy(v->camera.eye, eye, sizeof v->camera.eye);
+    memcpy(v->camera.target, target, sizeof v->camera.target);
+    v->frame.row_stride = STRIDE;
+    v->frame.t = v->t;
+    v->frame.primitive = v->primitive;
+    v->frame.geometry = v->geometry;
+    for (int a = 0; a < 3; a++)
+        v->frame.normal[a] = v->normal[a];
+}
+
+static cgt_ambient ambient_of(uint32_t samples, float radius, uint32_t seed)
+{
+    cgt_ambient a;
+    cgt_ambient_init(&a);
+    assert_true(a.samples == 16 && a.radius == INFINITY && a.seed == 0);
+    a.samples = samples;
+    a.radius = radius;
+    a.seed = seed;
+    return a;
+}
+
+/* Traces the frame and how open it is; what lies beside the picture must stay. Returns the number of pixels hit. */
+static uint32_t look(const cgt_scene *scene, view *v, const cgt_ambient *ambient, const cgt_trace_options *options)
+{
+    uint32_t hits = 0;
+    memset(v->openness, 0x55, sizeof v->openness);
+    assert_int_equal(cgt_trace_camera(scene, &v->camera, &v->frame, NULL), CGT_OK);
+    assert_int_equal(cgt_trace_ambient(scene, &v->camera, &v->frame, ambient, v->openness, options), CGT_OK);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        if (i % STRIDE >= WIDTH || i >= ROWS) {
+            assert_memory_equal(&v->openness[i], "\x55\x55\x55\x55", 4);
+            continue;
+        }
+        assert_true(v->openness[i] >= 0 && v->openness[i] <= 1);
+        hits += v->primitive[i] != CGT_NONE;
+        if (v->primitive[i] == CGT_NONE)
+            assert_true(v->openness[i] == 1);
+    }
+    return hits;
+}
+
+static void expect_all(const view *v, float openness)
+{
+    for (uint32_t i = 0; i < ROWS; i++)
+        if (i % STRIDE < WIDTH && v->openness[i] != openness)
+            fail_msg("pixel %u, %u sees %g of the sky, not %g", i % STRIDE, i / STRIDE, (double)v->openness[i],
+                     (double)openness);
+}
+
+/* ---- scenes ---- */
+
+/* A floor at y = 0, of two triangles whose common edge lies far from the middle. */
+static const float floor_corner[4][3] = {{-100, 0, -100}, {100, 0, -101}, {103, 0, 100}, {-100, 0, 90}};
+static const uint32_t floor_index[2][3] = {{0, 1, 3}, {1, 2, 3}};
+
+static cgt_scene *scene_make(cgt_context *context, uint32_t structure, bool with_floor, const float (*sphere)[4],
+                             uint32_t spheres)
+{
+    const cgt_scene_options made = structure_in_turn(structure);
+    const cgt_spheres balls = spheres_of(sphere, spheres);
+    const cgt_triangles triangles = {
+        .count = with_floor ? 2 : 0, .indices = floor_index[0], .vertex_count = 4, .vertices = floor_corner[0]};
+    cgt_scene *scene;
+    uint32_t id;
+    assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
+    assert_int_equal(cgt_scene_add_spheres(scene, &balls, &id), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    return scene;
+}
+
+static cgt_scene *box_make(cgt_context *context, uint32_t structure)
+{
+    static float corner[8][3];
+    static const uint32_t index[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                          {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
+    const cgt_triangles triangles = {.count = 12, .indices = index[0], .vertex_count = 8, .vertices = corner[0]};
+    const cgt_scene_options made = structure_in_turn(structure);
+    cgt_scene *scene;
+    uint32_t id;
+    for (uint32_t i = 0; i < 8; i++)
+        for (uint32_t a = 0; a < 3; a++)
+            corner[i][a] = i >> a & 1 ? 1.7f + (float)a : -1.3f;
+    assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    return scene;
+}
+
+/* ---- known answers ---- */
+
+static void what_stands_alone_is_open(void **state)
+{
+    (void)state;
+    static view v;
+    const float ball[1][4] = {{0.3f, 0.1f, 0.2f, 1.1f}};
+    const cgt_ambient ambient = ambient_of(33, INFINITY, 5);
+    cgt_context *context = context_make(2, NULL);
+    for (uint32_t k = test_sample_start(0, STEP); k < CGT_STRUCTURE_WIDE_TREE; k += STEP)
+        for (int orthographic = 0; orthographic < 2; orthographic++) {
+            cgt_scene *scene = scene_make(context, k, true, NULL, 0);
+            view_make(&v, (float[]){1.3f, orthographic ? -4 : 3, 7}, (float[]){0, 0, 0.1f});
+            v.camera.projection = orthographic ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+            assert_true(look(scene, &v, &ambient, NULL) > MANY);
+            expect_all(&v, 1);
+            cgt_scene_release(scene);
+            scene = scene_make(context, k, false, ball, 1);
+            view_make(&v, (float[]){1, 2, 3}, (float[]){0, 0, 0});
+            assert_true(look(scene, &v, &ambient, NULL) > MANY);
+            expect_all(&v, 1);
+            cgt_scene_release(scene);
+            scene = scene_make(context, k, false, NULL, 0);
+            assert_int_equal(look(scene, &v, NULL, NULL), 0);
+            expect_all(&v, 1);
+            cgt_scene_release(scene);
+        }
+    cgt_context_release(context);
+}
+
+static void inside_a_box_it_is_dark(void **state)
+{
+    (void)state;
+    static view v;
+    const cgt_ambient ambient = ambient_of(50, INFINITY, 1);
+    cgt_context *context = context_make(2, NULL);
+    for (uint32_t k = test_sample_start(1, STEP); k < CGT_STRUCTURE_WIDE_TREE; k += STEP) {
+        cgt_scene *scene = box_make(context, k);
+        view_make(&v, (float[]){0.1f, 0.2f, 0.3f}, (float[]){1, 0.5f, -1});
+        v.camera.fov = 100;
+        assert_int_equal(look(scene, &v, &ambient, NULL), WIDTH * HEIGHT);
+        expect_all(&v, 0);
+        cgt_scene_release(scene);
+    }
+    cgt_context_release(context);
+}
+
+/* Under the middle of a ball of radius r, d above, a share of (r / d)^2 of the cosine is hidden; within a radius that
+ * does not reach the ball, nothing. */
+static void a_ball_hides_what_it_must(void **state)
+{
+    (void)state;
+    static view v;
+    const float ball[1][4] = {{0, 2, 0, 1}};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_make(context, 0, true, ball, 1);
+    view_make(&v, (float[]){0, -30, 0.1f}, (float[]){0, 0, 0}); /* from below, through the floor's other side */
+    v.camera.fov = 0.5f;
+    cgt_ambient ambient = ambient_of(1024, INFINITY, 0);
+    look(scene, &v, &ambient, NULL);
+    expect_all(&v, 1);                                            /* the side below is turned away from the ball */
+    view_make(&v, (float[]){0.5f, 0.25f, 0}, (float[]){0, 0, 0}); /* from between ball and floor */
+    v.camera.fov = 0.5f;
+    look(scene, &v, &ambient, NULL);
+    for (uint32_t i = 0; i < ROWS; i++)
+        if (i % STRIDE < WIDTH && fabsf(v.openness[i] - 0.75f) > 0.01f)
+            fail_msg("%g of the sky is open, not 3/4", (double)v.openness[i]);
+    ambient.radius = 0.99f;
+    look(scene, &v, &ambient, NULL);
+    expect_all(&v, 1);
+    ambient.radius = 1.02f; /* some of the nearest part */
+    look(scene, &v, &ambient, NULL);
+    for (uint32_t i = 0; i < ROWS; i++)
+        assert_true(i % STRIDE >= WIDTH || (v.openness[i] < 1 && v.openness[i] > 0.9f));
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* ---- the same rays one by one ---- */
+
+static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambient *ambient, uint32_t x, uint32_t y)
+{
+    static cgt_ambient_points points;
+    static float dir[3][CGT_AMBIENT_SAMPLES], org[3][CGT_AMBIENT_SAMPLES], t_max[CGT_AMBIENT_SAMPLES];
+    static uint32_t ignored[2][CGT_AMBIENT_SAMPLES];
+    static uint8_t occluded[CGT_AMBIENT_SAMPLES];
+    const uint32_t i = y * STRIDE + x;
+    cgt_camera_rays camera;
+    char message[160];
+    float n[3], ahead = 0;
+    uint32_t open = 0;
+    assert_int_equal(cgt_camera_prepare(&v->camera, WIDTH, HEIGHT, &camera, message), CGT_OK);
+    const truth_ray ray = camera_ray(&camera, x, y);
+    for (int a = 0; a < 3; a++)
+        ahead += v->normal[a][i] * ray.dir[a];
+    for (int a = 0; a < 3; a++)
+        n[a] = ahead > 0 ? -v->normal[a][i] : v->normal[a][i];
+    cgt_ambient_points_make(ambient->samples, &points);
+    cgt_ambient_directions(&points, ambient, x, y, n, (float *const[]){dir[0], dir[1], dir[2]});
+    for (uint32_t k = 0; k < ambient->samples; k++) {
+        for (int a = 0; a < 3; a++)
+            org[a][k] = ray.org[a] + v->t[i] * ray.dir[a];
+        t_max[k] = ambient->radius;
+        ignored[0][k] = v->primitive[i];
+        ignored[1][k] = v->geometry[i];
+    }
+    const cgt_rays rays = {.count = ambient->samples,
+                           .org = {org[0], org[1], org[2]},
+                           .dir = {dir[0], dir[1], dir[2]},
+                           .t_max = t_max,
+                           .ignored_primitive = ignored[0],
+                           .ignored_geometry = ignored[1]};
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+    for (uint32_t k = 0; k < ambient->samples; k++)
+        open += !occluded[k];
+    return (float)open / (float)ambient->samples;
+}
+
+static void it_is_the_share_of_these_rays(void **state)
+{
+    (void)state;
+    static view v, other;
+    static const float ball[4][4] = {{0, 1, 0, 1}, {2.2f, 0.7f, 0, 0.7f}, {-1, 1.5f, 2, 0.5f}, {0, 3, 0, 1}};
+    static const uint32_t samples[] = {1, 16, 100, 1024};
+    static const float radii[] = {INFINITY, 1.5f, INFINITY, 3};
+    for (size_t s = 0; s < TEST_COUNT(samples); s++) {
+        const cgt_ambient ambient = ambient_of(samples[s], radii[s], 77 * (uint32_t)s);
+        bool first = true;
+        FOR_EACH_VARIANT(variant)
+        for (uint32_t threads = 1; threads < 3; threads++)
+            for (uint32_t k = 0; k < CGT_STRUCTURE_WIDE_TREE; k++) {
+                if (samples[s] > 50 && (k + threads) % 4 != s % 2) /* the long ones take turns */
+                    continue;
+                if (samples[s] <= 50 && (k + threads) % STEP != test_sample_start((uint32_t)s, STEP))
+                    continue;
+                cgt_trace_statistics statistics;
+                cgt_trace_options options;
+                cgt_context *context = context_make(threads, variant);
+                cgt_scene *scene = scene_make(context, k, true, ball, 4);
+                view *const to = first ? &v : &other;
+                view_make(to, (float[]){2, 3, 8}, (float[]){0, 1, 0});
+                to->camera.projection = s == 2 ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+                to->camera.height = 6;
+                cgt_trace_options_init(&options);
+                options.precision = k % 2 ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+                options.statistics = &statistics;
+                const uint32_t hits = look(scene, to, &ambient, &options);
+                assert_int_equal(statistics.rays, (uint64_t)hits * samples[s]);
+                if (first) {
+                    double sum = 0;
+                    for (uint32_t i = 0; i < ROWS; i++) {
+                        const uint32_t x = i % STRIDE, y = i / STRIDE;
+                        if (x >= WIDTH || v.primitive[i] == CGT_NONE || (x + y) % 3)
+                            continue;
+                        sum += (double)v.openness[i];
+                        assert_true(v.openness[i] == open_by_rays(scene, &v, &ambient, x, y));
+                    }
+                    assert_true(sum > MANY / 10 && sum < 0.97 * hits);
+                } else
+                    assert_memory_equal(v.openness, other.openness, sizeof v.openness);
+                first = false;
+                cgt_scene_release(scene);
+                cgt_context_release(context);
+            }
+    }
+}
+
+static void the_camera_mask_is_theirs(void **state)
+{
+    (void)state;
+    static view v;
+    static const float corner[4][3] = {{-9, 5, -9}, {9, 5, -9}, {9, 5, 9}, {-9, 5, 9}};
+    static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    const cgt_triangles roof = {.count = 2, .indices = index[0], .vertex_count = 4, .vertices = corner[0], .mask = 2};
+    const cgt_ambient ambient = ambient_of(16, INFINITY, 0);
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_make(context, 3, true, NULL, 0);
+    uint32_t id;
+    assert_int_equal(cgt_scene_add_triangles(scene, &roof, &id), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    view_make(&v, (float[]){0, 3, 3}, (float[]){0, 0, 0});
+    v.camera.fov = 10;
+    look(scene, &v, &ambient, NULL);
+    for (uint32_t i = 0; i < ROWS; i++)
+        assert_true(i % STRIDE >= WIDTH || v.openness[i] < 0.8f);
+    v.camera.mask = 1;
+    look(scene, &v, &ambient, NULL);
+    expect_all(&v, 1);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* ---- directions ---- */
+
+static void directions_are_cosine_weighted(void **state)
+{
+    (void)state;
+    static cgt_ambient_points points;
+    static float dir[3][CGT_AMBIENT_SAMPLES];
+    test_random r = random_make(9);
+    const cgt_ambient ambient = ambient_of(CGT_AMBIENT_SAMPLES, INFINITY, 3);
+    cgt_ambient_points_make(ambient.samples, &points);
+    for (uint32_t k = 0; k < test_between(30, 300); k++) {
+        float n[3], axes[2][3];
+        double length = 0, mean[3] = {0}, square[2] = {0};
+        for (int a = 0; a < 3; a++) {
+            n[a] = k < 6 ? (float)((int)(k / 2) == a) * (k % 2 ? -1.f : 1.f) : random_float(&r, -1, 1);
+            length += (double)n[a] * (double)n[a];
+        }
+        for (int a = 0; a < 3; a++)
+            n[a] /= (float)sqrt(length);
+        cgt_ambient_axes(n, axes);
+        cgt_ambient_directions(&points, &ambient, k, 3 * k, n, (float *const[]){dir[0], dir[1], dir[2]});
+        for (uint32_t i = 0; i < ambient.samples; i++) {
+            double dot[3] = {0}, size = 0;
+            for (int a = 0; a < 3; a++) {
+                dot[0] += (double)dir[a][i] * (double)n[a];
+                dot[1] += (double)dir[a][i] * (double)axes[0][a];
+                dot[2] += (double)dir[a][i] * (double)axes[1][a];
+                size += (double)dir[a][i] * (double)dir[a][i];
+            }
+            assert_true(fabs(size - 1) < 1e-5 && dot[0] > -1e-5);
+            for (int a = 0; a < 3; a++)
+                mean[a] += dot[a] / ambient.samples;
+            for (int a = 0; a < 2; a++)
+                square[a] += dot[1 + a] * dot[1 + a] / ambient.samples;
+        }
+        assert_true(fabs(mean[0] - 2.0 / 3) < 2e-3 && fabs(mean[1]) < 0.01 && fabs(mean[2]) < 0.01);
+        assert_true(fabs(square[0] - 0.25) < 0.01 && fabs(square[1] - 0.25) < 0.01);
+    }
+}
+
+static void seeds_and_pixels_differ(void **state)
+{
+    (void)state;
+    static cgt_ambient_points points;
+    float dir[4][3][4];
+    const float n[3] = {0, 0, 1};
+    const cgt_ambient a = ambient_of(4, 1, 0), b = ambient_of(4, 1, 1);
+    const struct {
+        const cgt_ambient *of;
+        uint32_t x, y;
+    } which[4] = {{&a, 5, 6}, {&a, 6, 6}, {&a, 5, 7}, {&b, 5, 6}};
+    cgt_ambient_points_make(4, &points);
+    for (int i = 0; i < 4; i++) {
+        cgt_ambient_directions(&points, which[i].of, which[i].x, which[i].y, n,
+                               (float *const[]){dir[i][0], dir[i][1], dir[i][2]});
+        for (int k = 0; k < i; k++)
+            assert_true(fabsf(dir[i][0][0] - dir[k][0][0]) + fabsf(dir[i][1][0] - dir[k][1][0]) > 1e-3f);
+    }
+}
+
+/* ---- what is refused, and what is odd ---- */
+
+static cgt_result call(const cgt_scene *scene, const view *v, const cgt_ambient *ambient)
+{
+    float out[PIXELS];
+    memset(out, 0x55, sizeof out);
+    const cgt_result result = cgt_trace_ambient(scene, &v->camera, &v->frame, ambient, out, NULL);
+    for (uint32_t i = 0; i < PIXELS && result != CGT_OK; i++)
+        assert_memory_equal(&out[i], "\x55\x55\x55\x55", 4);
+    return result;
+}
+
+static void bad_arguments_are_refused(void **state)
+{
+    (void)state;
+    static view v, w;
+    static float out[PIXELS];
+    const float ball[1][4] = {{0, 0, 0, 1}};
+    const cgt_ambient good = ambient_of(2, 1, 0);
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, ball, 1);
+    view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
+    look(scene, &v, &good, NULL);
+    assert_int_equal(cgt_trace_ambient(NULL, &v.camera, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_trace_ambient(scene, NULL, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_trace_ambient(scene, &v.camera, NULL, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    const cgt_ambient bad[] = {{0, 1, 0}, {1025, 1, 0}, {UINT32_MAX, 1, 0}, {4, 0, 0}, {4, -1, 0}, {4, NAN, 0}};
+    for (size_t i = 0; i < TEST_COUNT(bad); i++) {
+        assert_int_equal(call(scene, &v, &bad[i]), CGT_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(context_message(context), "ambient"));
+    }
+    for (int k = 0; k < 9; k++) {
+        w.camera = v.camera;
+        w.frame = v.frame;
+        if (k == 0)
+            w.frame.t = NULL;
+        else if (k == 1)
+            w.frame.primitive = NULL;
+        else if (k == 2)
+            w.frame.geometry = NULL;
+        else if (k == 3)
+            w.frame.normal[0] = w.frame.normal[1] = w.frame.normal[2] = NULL;
+        else if (k == 4)
+            w.frame.normal[1] = NULL;
+        else if (k == 5)
+            w.frame.width = 0;
+        else if (k == 6)
+            w.frame.row_stride = WIDTH - 1;
+        else if (k == 7)
+            w.camera.fov = 0;
+        else
+            w.camera.up[1] = NAN;
+        assert_int_equal(call(scene, &w, &good), CGT_ERROR_INVALID_ARGUMENT);
+        assert_true(*context_message(context));
+    }
+    w.frame = v.frame;
+    w.frame.width = 65537;
+    w.frame.row_stride = 0;
+    assert_int_equal(call(scene, &w, &good), CGT_ERROR_TOO_LARGE);
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    options.cull = (cgt_cull)7;
+    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &good, out, &options), CGT_ERROR_INVALID_ARGUMENT);
+    const cgt_scene_options made = structure_in_turn(0);
+    assert_int_equal(cgt_scene_set_options(scene, &made), CGT_OK);
+    assert_int_equal(call(scene, &v, &good), CGT_ERROR_NOT_COMMITTED);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+static void odd_pixels_are_open(void **state)
+{
+    (void)state;
+    static view v;
+    const float balls[2][4] = {{0, 0, 0, 1}, {0, 0, 0, 50}};
+    const cgt_ambient ambient = ambient_of(9, INFINITY, 0);
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, balls, 2);
+    view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
+    v.camera.fov = 10;
+    look(scene, &v, &ambient, NULL);
+    expect_all(&v, 0); /* within the larger one */
+    v.t[3] = NAN;
+    v.t[4] = INFINITY;
+    v.normal[1][5] = NAN;
+    v.primitive[6] = CGT_NONE;
+    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &ambient, v.openness, NULL), CGT_OK);
+    for (uint32_t x = 0; x < WIDTH; x++)
+        assert_true(v.openness[x] == (x >= 3 && x <= 6 ? 1 : 0));
+    v.primitive[7] = 2; /* ids of nothing ignore nothing */
+    v.geometry[8] = CGT_NONE;
+    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &ambient, v.openness, NULL), CGT_OK);
+    assert_true(v.openness[7] == 0 && v.openness[8] == 0);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* ---- memory ---- */
+
+static void nothing_is_allocated(void **state)
+{
+    (void)state;
+    static view v;
+    const float ball[1][4] = {{0, 0, 0, 1}};
+    unsigned allocations = 0;
+    cgt_context *context = context_counting(&allocations);
+    cgt_scene *scene = scene_of(context, NULL, ball, 1);
+    view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
+    look(scene, &v, NULL, NULL); /* may have a tree built, whose memory the next frame finds */
+    const unsigned before = allocations;
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    look(scene, &v, NULL, NULL);
+    assert_int_equal(allocations, before);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_stands_alone_is_open), cmocka_unit_test(inside_a_box_it_is_dark),
+        cmocka_unit_test(a_ball_hides_what_it_must), cmocka_unit_test(it_is_the_share_of_these_rays),
+        cmocka_unit_test(the_camera_mask_is_theirs), cmocka_unit_test(directions_are_cosine_weighted),
+        cmocka_unit_test(seeds_and_pixels_differ),   cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(odd_pixels_are_open),       cmocka_unit_test(nothing_is_allocated)};
+    test_begin("test_ambient_occlusion");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

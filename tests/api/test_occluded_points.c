@@ -1,0 +1,324 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Points against a light: the answer is that of cgt_occluded_rays to the rays that cgt.h writes down, of every
+ * structure, variant and number of threads, for points on surfaces and anywhere, ranges, gaps in the arrays, and
+ * numbers that are none; what is refused; and that nothing is allocated. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "structures/structure_scenes.h"
+#include "hard_cases/hard_run.h"
+
+#define POINTS 1500u
+
+/* ---- what is asked ---- */
+
+typedef struct question {
+    structure_scene s;
+    cgt_light light;
+    bool ranges;
+    float *memory;   /* x, y, z, t_min, t_max of each point */
+    uint32_t stride; /* floats from one to the next */
+} question;
+
+static float *point_at(const question *q, uint32_t i) { return q->memory + (size_t)i * q->stride; }
+
+/* A point where a ray meets the scene, or anywhere: by groups, so that some are neighbours. */
+static void place_points(question *q, cgt_scene *scene)
+{
+    static full_hit hit[POINTS];
+    test_random *r = &q->s.scene.random;
+    const truth_ray *ray = q->s.scene.ray;
+    assert_int_equal(trace_array(scene, ray, POINTS, hit, NULL), CGT_OK);
+    for (uint32_t i = 0; i < POINTS; i++) {
+        float *p = point_at(q, i);
+        const uint32_t near = i % 64 && random_below(r, 2) ? i - 1 : i;
+        for (int a = 0; a < 3; a++) {
+            p[a] = ray[near].org[a];
+            if (hit[near].primitive != CGT_NONE)
+                p[a] += hit[near].t * ray[near].dir[a];
+            if (near != i)
+                p[a] += random_float(r, -1e-3f, 1e-3f) * q->s.where.reach;
+        }
+        p[3] = (float[]){0, 1e-4f, -0.5f, 0.25f}[random_below(r, 4)];
+        p[4] = (float[]){1, 1, 0.9f, 3, -1, INFINITY}[random_below(r, 6)];
+    }
+}
+
+static void spoil_points(question *q)
+{
+    static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1p60f, -0x1p100f, 0x1p-140f};
+    test_random *r = &q->s.scene.random;
+    for (uint32_t k = 0; k < POINTS / 100; k++)
+        point_at(q, random_below(r, POINTS))[random_below(r, 5)] = bad[random_below(r, TEST_COUNT(bad))];
+    if (q->light.w == 1)
+        memcpy(point_at(q, random_below(r, POINTS)), q->light.position, sizeof q->light.position);
+}
+
+static void place_light(question *q, uint32_t number)
+{
+    test_random *r = &q->s.scene.random;
+    const float far = (float[]){0.5f, 2, 30, 1e4f}[number % 4] * q->s.where.reach;
+    q->light.w = number % 3 ? 1 : 0;
+    for (int a = 0; a < 3; a++)
+        q->light.position[a] = (q->light.w == 1 ? q->s.where.middle[a] : 0) + random_float(r, -1, 1) * far;
+    if (number % 5 == 0) /* along an axis, or above */
+        for (int a = 1; a < 3; a++)
+            q->light.position[a] = q->light.w == 1 ? q->s.where.middle[a] : 0;
+    if (q->light.w == 0 && q->light.position[0] == 0)
+        q->light.position[0] = 1;
+}
+
+static question ask(cgt_context *context, structure_kind kind, uint64_t stream, uint32_t number)
+{
+    question q = {.s = structure_scene_make(kind, stream), .ranges = number % 2, .stride = number % 4 == 3 ? 7 : 5};
+    cgt_scene *scene;
+    q.memory = malloc(POINTS * sizeof(float) * q.stride);
+    assert_non_null(q.memory);
+    structure_rays(&q.s, POINTS);
+    assert_int_equal(hard_commit_with(context, &q.s.scene, NULL, &scene), CGT_OK);
+    place_points(&q, scene);
+    place_light(&q, number);
+    if (number % 3 == 1)
+        spoil_points(&q);
+    cgt_scene_release(scene);
+    return q;
+}
+
+static void forget(question *q)
+{
+    free(q->memory);
+    structure_scene_free(&q->s);
+}
+
+/* ---- the same by rays ---- */
+
+static cgt_points points_of(const question *q, uint32_t count)
+{
+    const float *p = q->memory;
+    return (cgt_points){.count = count,
+                        .stride = q->stride * sizeof(float),
+                        .position = {p, p + 1, p + 2},
+                        .t_min = q->ranges ? p + 3 : NULL,
+                        .t_max = q->ranges ? p + 4 : NULL};
+}
+
+/* Word by word as cgt.h has it. */
+static truth_ray ray_to_light(const question *q, uint32_t i)
+{
+    const float *p = point_at(q, i);
+    truth_ray ray = {.t_min = q->ranges ? p[3] : 0, .t_max = q->ranges ? p[4] : q->light.w == 1 ? 1 : INFINITY};
+    for (int a = 0; a < 3; a++) {
+        ray.org[a] = p[a];
+        ray.dir[a] = q->light.w == 1 ? q->light.position[a] - p[a] : q->light.position[a];
+    }
+    return ray;
+}
+
+static void check_answers(const question *q, const cgt_scene *scene, cgt_trace_options options, uint32_t count,
+                          uint64_t *hidden)
+{
+    static truth_ray ray[POINTS];
+    static uint8_t is[POINTS], got[POINTS + 1];
+    cgt_trace_statistics by_rays, by_points;
+    for (uint32_t i = 0; i < count; i++)
+        ray[i] = ray_to_light(q, i);
+    const cgt_rays rays = ray_array(ray, count);
+    const cgt_points points = points_of(q, count);
+    memset(got, 0x77, sizeof got);
+    options.statistics = &by_rays;
+    assert_int_equal(cgt_occluded_rays(scene, &rays, is, &options), CGT_OK);
+    options.statistics = &by_points;
+    assert_int_equal(cgt_occluded_light(scene, &q->light, &points, got, &options), CGT_OK);
+    for (uint32_t i = 0; i < count; i++)
+        if (got[i] != is[i])
+            fail_msg("%s, light %a %a %a, %g: point %u, %a %a %a, is %s", q->s.name, (double)q->light.position[0],
+                     (double)q->light.position[1], (double)q->light.position[2], (double)q->light.w, i,
+                     (double)ray[i].org[0], (double)ray[i].org[1], (double)ray[i].org[2],
+                     is[i] ? "in the light" : "in shadow");
+    assert_int_equal(got[count], 0x77);
+    assert_int_equal(by_points.rays, count);
+    assert_int_equal(by_points.invalid_rays, by_rays.invalid_rays);
+    assert_int_equal(by_points.hits, by_rays.hits);
+    assert_true(by_points.exact_tests <= by_points.double_tests && by_points.double_tests <= by_points.ray_tests);
+    *hidden += by_points.hits;
+}
+
+/* Every structure, culling and precision with a bound, in turn. */
+static void answers_are_those_of_rays(void **state)
+{
+    (void)state;
+    const uint32_t step = test_scaled(10) < 2 ? 3 : 1; /* of the structures, where it is slow */
+    uint64_t hidden = 0, asked = 0;
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context[2] = {context_make(1, variant), context_make(3, variant)};
+        for (uint32_t number = 0; number < (uint32_t)STRUCTURE_KINDS * test_scaled(2); number++) {
+            const structure_kind kind = (structure_kind)(number % STRUCTURE_KINDS);
+            question q = ask(context[0], kind, 700 + number, number + number / STRUCTURE_KINDS);
+            for (uint32_t k = test_sample_start(number, step); k < CGT_STRUCTURE_WIDE_TREE; k += step) {
+                const cgt_scene_options made = structure_in_turn(k);
+                cgt_trace_options options;
+                cgt_scene *scene;
+                cgt_trace_options_init(&options);
+                options.cull = (cgt_cull)((number + k) % 3);
+                options.loop = (cgt_loop)((number + k) % 2 + 1);
+                options.precision = (number + k) % 4 ? CGT_PRECISION_ROBUST : CGT_PRECISION_EXACT;
+                assert_int_equal(hard_commit_with(context[(number + k) % 2], &q.s.scene, &made, &scene), CGT_OK);
+                const uint32_t count = number % 7 ? POINTS : 1 + (number + k) % 70;
+                check_answers(&q, scene, options, count, &hidden);
+                asked += count;
+                cgt_scene_release(scene);
+            }
+            forget(&q);
+        }
+        for (int i = 0; i < 2; i++)
+            cgt_context_release(context[i]);
+    }
+    print_message("%llu of %llu points in shadow\n", (unsigned long long)hidden, (unsigned long long)asked);
+    assert_true(hidden > asked / 20 && hidden < asked - asked / 20);
+}
+
+/* ---- a ball on a table ---- */
+
+#define SIDE 128u
+
+/* In a frame's order, large enough for many packets of many blocks; FAST too, which the picture does not trouble. */
+static void a_ball_throws_a_shadow(void **state)
+{
+    (void)state;
+    static float at[3][SIDE * SIDE];
+    static uint8_t occluded[SIDE * SIDE];
+    const float sphere[2][4] = {{0, 1, 0, 0.5f}, {40, 0, 0, 1}};
+    FOR_EACH_VARIANT(variant)
+    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_LOOSE_GRID; k++)
+        for (int fast = 0; fast < 2; fast++) {
+            cgt_context *context = context_make(2, variant);
+            const cgt_scene_options made = structure_in_turn((uint32_t)(k - CGT_STRUCTURE_QUEUE_GRID));
+            cgt_scene *scene = scene_of(context, &made, sphere, 2);
+            cgt_trace_options options;
+            cgt_trace_options_init(&options);
+            options.precision = fast ? CGT_PRECISION_FAST : CGT_PRECISION_ROBUST;
+            for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+                at[0][i] = (float)(i % SIDE) * (4.f / SIDE) - 2;
+                at[1][i] = 0;
+                at[2][i] = (float)(i / SIDE) * (4.f / SIDE) - 2;
+            }
+            const cgt_points points = {.count = SIDE * SIDE, .position = {at[0], at[1], at[2]}};
+            for (int w = 0; w < 2; w++) {
+                const cgt_light light = {.position = {0, 2, 0}, .w = (float)w};
+                /* a cone of sine 1/2 about the light, or a cylinder */
+                const float radius2 = w ? 4.f / 3 : 0.25f;
+                assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, &options), CGT_OK);
+                for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+                    const float d2 = at[0][i] * at[0][i] + at[2][i] * at[2][i];
+                    if (fabsf(d2 - radius2) > 1e-4f)
+                        assert_int_equal(occluded[i], d2 < radius2);
+                }
+            }
+            cgt_scene_release(scene);
+            cgt_context_release(context);
+        }
+}
+
+/* A point on a surface finds it at t = 0, and not with a little t_min. */
+static void a_range_leaves_the_surface_out(void **state)
+{
+    (void)state;
+    const float sphere[1][4] = {{0, 0, 0, 1}}, point[3] = {0, 1, 0}, little = 1e-5f;
+    const cgt_light light = {.position = {0.5f, 3, 0}, .w = 1};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    cgt_points points = {.count = 1, .position = {&point[0], &point[1], &point[2]}};
+    uint8_t occluded = 7;
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, &occluded, NULL), CGT_OK);
+    assert_int_equal(occluded, 1);
+    points.t_min = &little;
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, &occluded, NULL), CGT_OK);
+    assert_int_equal(occluded, 0);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* ---- what is refused ---- */
+
+static void bad_arguments_are_refused(void **state)
+{
+    (void)state;
+    const float sphere[1][4] = {{0, 0, 0, 1}}, x[2] = {3, 4};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    const cgt_points good = {.count = 2, .position = {x, x, x}};
+    const cgt_light light = {.position = {0, 0, 5}, .w = 1};
+    uint8_t occluded[2] = {7, 7};
+    assert_int_equal(cgt_occluded_light(NULL, &light, &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_light(scene, NULL, &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_light(scene, &light, NULL, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_light(scene, &light, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    const cgt_light bad[] = {{{NAN, 0, 0}, 1}, {{0, INFINITY, 0}, 1}, {{0, 0, -INFINITY}, 0}, {{0, 0, 0}, 0},
+                             {{0, 1, 0}, NAN}, {{0, 1, 0}, 0.5f},     {{0, 1, 0}, -1}};
+    for (size_t i = 0; i < TEST_COUNT(bad); i++) {
+        assert_int_equal(cgt_occluded_light(scene, &bad[i], &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(context_message(context), "light"));
+    }
+    for (int a = 0; a < 3; a++) {
+        cgt_points points = good;
+        points.position[a] = NULL;
+        assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    }
+    cgt_points points = good;
+    points.stride = 6;
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    points.stride = 4;
+    points.count = UINT64_MAX / 2;
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_ERROR_TOO_LARGE);
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    options.cull = (cgt_cull)7;
+    assert_int_equal(cgt_occluded_light(scene, &light, &good, occluded, &options), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(occluded[0], 7);
+    assert_int_equal(occluded[1], 7);
+    points = (cgt_points){.count = 0};
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, NULL, NULL), CGT_OK);
+    const cgt_scene_options made = structure_in_turn(0);
+    assert_int_equal(cgt_scene_set_options(scene, &made), CGT_OK);
+    assert_int_equal(cgt_occluded_light(scene, &light, &good, occluded, NULL), CGT_ERROR_NOT_COMMITTED);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* ---- memory ---- */
+
+static void nothing_is_allocated(void **state)
+{
+    (void)state;
+    static float at[POINTS];
+    static uint8_t occluded[POINTS];
+    const float sphere[1][4] = {{0, 0, 0, 1}};
+    const cgt_light light = {.position = {0, 0, 5}, .w = 1};
+    const cgt_points points = {.count = POINTS, .position = {at, at, at}};
+    unsigned allocations = 0;
+    cgt_context *context = context_counting(&allocations);
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    assert_true(allocations > 0);
+    /* the first points of a scene may have a tree built for them, whose memory the next ones find */
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_OK);
+    const unsigned before = allocations;
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_OK);
+    assert_int_equal(allocations, before);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(answers_are_those_of_rays), cmocka_unit_test(a_ball_throws_a_shadow),
+        cmocka_unit_test(a_range_leaves_the_surface_out), cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(nothing_is_allocated)};
+    test_begin("test_occluded_points");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,147 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The choice of a variant on CPUs that this machine is not: src/dispatch/variant.c is compiled into this program, with its own
+ * answer to what the CPU has. A row whose flags ask for something that the CPU lacks is neither chosen nor to be forced. */
+#define _POSIX_C_SOURCE 200809L
+#include "support/test.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *cpu_features; /* each with a space on both sides */
+
+__attribute__((unused)) static bool cpu_supports(const char *feature)
+{
+    char word[32];
+    snprintf(word, sizeof word, " %s ", feature);
+    return strstr(cpu_features, word) != NULL;
+}
+#define __builtin_cpu_supports(feature) cpu_supports(feature)
+#include "dispatch/variant.c"
+
+#define SSE " sse4.1 "
+#define AVX2 SSE " avx2  fma  bmi "
+#define AVX512 AVX2 " avx512f  avx512bw  avx512dq  avx512vl "
+
+static bool in_build(const char *name)
+{
+    for (const char *const *v = cgt_variants(); *v; v++)
+        if (strcmp(*v, name) == 0)
+            return true;
+    return false;
+}
+
+static void keep_message(void *user, cgt_log_level level, const char *message)
+{
+    (void)level;
+    snprintf(user, 200, "%s", message);
+}
+
+/* A name that the build has is refused as one that the CPU does not run, in words too. */
+static void check_refused(const char *name)
+{
+    char message[200] = "";
+    cgt_context *context = (cgt_context *)message;
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.variant = name;
+    options.log = (cgt_log_hook){message, keep_message};
+    assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_UNSUPPORTED);
+    assert_null(context);
+    assert_string_equal(message, "variant: this CPU lacks instructions that it needs");
+}
+
+static void check_widest(const char *features, const char *expected)
+{
+    static const char *const wide[] = {"sse", "avx2", "avx512"};
+    cgt_variant_state state;
+    bool runs = true;
+    cpu_features = features;
+    if (in_build(expected)) {
+        const cgt_kernel *kernel = cgt_variant_find(NULL, &state);
+        assert_non_null(kernel);
+        assert_string_equal(kernel->name, expected);
+        assert_int_equal(state, CGT_VARIANT_RUNS);
+    }
+    runs = strcmp(expected, "portable") != 0;
+    for (size_t i = 0; i < TEST_COUNT(wide); i++) {
+        if (!runs && in_build(wide[i]))
+            check_refused(wide[i]);
+        runs &= strcmp(expected, wide[i]) != 0;
+    }
+}
+
+static void widest_that_the_cpu_runs(void **state)
+{
+    (void)state;
+    if (!in_build("sse")) {
+        print_message("no variant of this build asks the CPU\n");
+        skip();
+    }
+    check_widest("", "portable");
+    check_widest(SSE, "sse");
+    check_widest(AVX2, "avx2");
+    check_widest(AVX512, "avx512");
+    check_widest(AVX512 " avx9 ", "avx512");
+}
+
+/* Each feature counts: without it the next narrower row is the widest. */
+static void every_feature_is_asked_for(void **state)
+{
+    (void)state;
+    if (!in_build("sse"))
+        skip();
+    check_widest(SSE " avx2  fma ", "sse");
+    check_widest(SSE " avx2  bmi ", "sse");
+    check_widest(SSE " fma  bmi ", "sse");
+    check_widest(AVX2 " avx512f  avx512bw  avx512dq ", "avx2");
+    check_widest(AVX2 " avx512f  avx512bw  avx512vl ", "avx2");
+    check_widest(AVX2 " avx512f  avx512dq  avx512vl ", "avx2");
+    check_widest(AVX2 " avx512bw  avx512dq  avx512vl ", "avx2");
+    check_widest(SSE " avx2  bmi  avx512f  avx512bw  avx512dq  avx512vl ", "sse");
+}
+
+static void names_that_are_not_in_the_build(void **state)
+{
+    (void)state;
+    cgt_variant_state found;
+    cpu_features = AVX512;
+    for (size_t i = 0; i < ROWS; i++) {
+        const cgt_kernel *kernel = cgt_variant_find(table[i].name, &found);
+        assert_true(in_build(table[i].name) == (kernel != NULL));
+        assert_true((found == CGT_VARIANT_ABSENT) == (kernel == NULL));
+        assert_true(!kernel || strcmp(kernel->name, table[i].name) == 0);
+    }
+    assert_null(cgt_variant_find("", &found));
+    assert_int_equal(found, CGT_VARIANT_ABSENT);
+    assert_null(cgt_variant_find("avx", &found));
+    assert_int_equal(found, CGT_VARIANT_ABSENT);
+}
+
+/* Narrow to wide, and lanes as the rows say. */
+static void rows_ascend(void **state)
+{
+    (void)state;
+    uint32_t lanes = 0;
+    size_t listed = 0;
+    for (size_t i = 0; i < ROWS; i++) {
+        if (!table[i].kernel)
+            continue;
+        assert_string_equal(table[i].name, table[i].kernel->name);
+        assert_string_equal(table[i].name, names[listed++]);
+        assert_true(table[i].kernel->lanes >= lanes);
+        lanes = table[i].kernel->lanes;
+    }
+    assert_true(listed >= 1 && names[listed] == NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(widest_that_the_cpu_runs), cmocka_unit_test(every_feature_is_asked_for),
+        cmocka_unit_test(names_that_are_not_in_the_build), cmocka_unit_test(rows_ascend)};
+    test_begin("test_variant");
+    unsetenv("CGT_DISABLE_CPU");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,254 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A wide tree from the root down. */
+#include "bvh/bvh_check.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/oracle/dyadic.h"
+#include "kernel/bvh/bvh_node.h"
+
+static _Thread_local char fault_text[160];
+
+__attribute__((format(printf, 1, 2))) static const char *fault(const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    vsnprintf(fault_text, sizeof fault_text, format, list);
+    va_end(list);
+    return fault_text;
+}
+
+/* A node to visit and the box that its parent gives it. */
+typedef struct visit {
+    uint32_t node, depth;
+    float low[3], high[3];
+} visit;
+
+typedef struct walk {
+    const cgt_world *world;
+    const cgt_wide_tree *tree;
+    const wide_node *node;
+    uint8_t *met;      /* objects */
+    uint8_t *met_node; /* and nodes */
+    visit *stack;
+    uint32_t waiting, nodes, blocks[2], objects, depth;
+} walk;
+
+/* ---- leaves ---- */
+
+static bool sphere_within(const cgt_sphere *q, const float low[3], const float high[3])
+{
+    const float center[3] = {q->x, q->y, q->z};
+    for (int a = 0; a < 3; a++) {
+        /* what is rounded to a number beyond a float lies beyond it */
+        if ((double)center[a] - q->r > low[a] && (double)center[a] + q->r < high[a])
+            continue;
+        const dyadic c = dyadic_of_float(center[a]), r = dyadic_of_float(q->r);
+        const dyadic l = dyadic_of_float(low[a]), h = dyadic_of_float(high[a]);
+        const dyadic from = dyadic_sub(&c, &r), to = dyadic_add(&c, &r);
+        const dyadic below = dyadic_sub(&from, &l), above = dyadic_sub(&h, &to);
+        if (below.sign < 0 || above.sign < 0)
+            return false;
+    }
+    return true;
+}
+
+static bool triangle_within(const cgt_triangle *q, const float low[3], const float high[3])
+{
+    bool within = true;
+    for (int k = 0; k < 3; k++)
+        for (int a = 0; a < 3; a++)
+            within &= low[a] <= q->v[k][a] && q->v[k][a] <= high[a];
+    return within;
+}
+
+static const char *check_sphere(const wide_spheres *b, uint32_t k, const cgt_sphere *q)
+{
+    const float got[4] = {b->center[0][k], b->center[1][k], b->center[2][k], b->radius[k]};
+    return memcmp(got, q, sizeof got) ? fault("sphere %u is not as the caller has it", b->object[k]) : NULL;
+}
+
+static const char *check_triangle(const wide_triangles *b, uint32_t k, const cgt_triangle *q, float scale)
+{
+    bool same = true;
+    for (int a = 0; a < 3; a++)
+        same &= b->vertex[a][k] == q->v[0][a] * scale;
+    for (int e = 0; e < 2; e++) {
+        float sum = 0;
+        for (int a = 0; a < 3; a++) {
+            const float edge = q->v[e + 1][a] * scale - q->v[0][a] * scale;
+            same &= b->edge[e][a][k] == edge;
+            sum = a ? sum + fabsf(edge) : fabsf(edge);
+        }
+        same &= b->sum[e][k] == sum;
+    }
+    return same ? NULL : fault("triangle %u is not as it should be", b->object[k]);
+}
+
+static const char *check_leaf(walk *w, uint32_t code, const float low[3], const float high[3])
+{
+    const cgt_kind kind = code & CGT_WIDE_TRIANGLES ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES;
+    const uint32_t number = code & CGT_WIDE_INDEX, count = wide_leaf_count(code);
+    const uint32_t blocks = kind == CGT_KIND_SPHERES ? w->tree->sphere_blocks : w->tree->triangle_blocks;
+    const wide_spheres *spheres = (const wide_spheres *)w->tree->sphere + number;
+    const wide_triangles *triangles = (const wide_triangles *)w->tree->triangle + number;
+    if (number >= blocks || count > CGT_LANES)
+        return fault("leaf %08x: number or count", code);
+    const uint32_t *object = kind == CGT_KIND_SPHERES ? spheres->object : triangles->object;
+    w->blocks[kind]++;
+    w->objects += count;
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        if (object[k] >= w->world->objects.count)
+            return fault("leaf %08x: object %u", code, object[k]);
+        if (k < count ? w->met[object[k]]++ : object[k] != object[count - 1])
+            return fault("object %u lies in two places", object[k]);
+        if (k && object[k] == object[k - 1])
+            continue;
+        const cgt_shape q = cgt_objects_shape(&w->world->objects, object[k]);
+        if (q.kind != kind || cgt_shape_check(&q) != CGT_OBJECT_VALID)
+            return fault("object %u is of the other kind, or not valid", object[k]);
+        const bool sphere = kind == CGT_KIND_SPHERES;
+        if (sphere ? !sphere_within(&q.sphere, low, high) : !triangle_within(&q.triangle, low, high))
+            return fault("object %u is not within its leaf", object[k]);
+        const char *wrong =
+            sphere ? check_sphere(spheres, k, &q.sphere) : check_triangle(triangles, k, &q.triangle, w->world->scale);
+        if (wrong)
+            return wrong;
+    }
+    return NULL;
+}
+
+/* ---- nodes ---- */
+
+static double along(const wide_node *n, uint32_t child, uint32_t octant)
+{
+    double sum = 0;
+    for (uint32_t a = 0; a < 3; a++) {
+        const double middle = (double)n->low[a][child] + (double)n->high[a][child];
+        sum += octant >> a & 1 ? -middle : middle;
+    }
+    return sum;
+}
+
+/* Sums were rounded. */
+static const char *check_order(const wide_node *n, uint32_t number, uint32_t octant)
+{
+    const uint8_t *order = n->order[octant];
+    double size = 0;
+    uint32_t lanes = 0;
+    for (uint32_t k = 0; k < n->children; k++)
+        for (int a = 0; a < 3; a++)
+            size = fmax(size, fmax(fabs((double)n->low[a][k]), fabs((double)n->high[a][k])));
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        if (order[k] >= CGT_LANES || (order[k] < n->children) != (k < n->children))
+            return fault("node %u: order of octant %u", number, octant);
+        lanes |= 1u << order[k];
+        if (k && k < n->children &&
+            along(n, order[k], octant) < along(n, order[k - 1], octant) - size * 0x1p-18 - 0x1p-140)
+            return fault("node %u: children of octant %u do not follow each other", number, octant);
+    }
+    return lanes == CGT_ALL_LANES ? NULL : fault("node %u: a lane is not in the order", number);
+}
+
+static const char *check_children(walk *w, const visit *v)
+{
+    const wide_node *n = &w->node[v->node];
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        visit child = {.node = n->child[k], .depth = v->depth + 1};
+        bool within = true, empty = n->child[k] == CGT_WIDE_NONE;
+        for (int a = 0; a < 3; a++) {
+            child.low[a] = n->low[a][k];
+            child.high[a] = n->high[a][k];
+            within &= v->low[a] <= child.low[a] && child.low[a] <= child.high[a] && child.high[a] <= v->high[a];
+            empty &= child.low[a] == INFINITY && child.high[a] == -INFINITY;
+        }
+        if (k < n->children ? !within : !empty)
+            return fault("node %u: box of child %u", v->node, k);
+        if (k >= n->children)
+            continue;
+        const char *wrong = NULL;
+        if (child.node & CGT_WIDE_LEAF)
+            wrong = check_leaf(w, child.node, child.low, child.high);
+        else if (child.node >= w->tree->nodes || w->met_node[child.node]++)
+            wrong = fault("node %u: child %u has number %u", v->node, k, child.node);
+        else
+            w->stack[w->waiting++] = child;
+        if (wrong)
+            return wrong;
+    }
+    return NULL;
+}
+
+static const char *check_node(walk *w, const visit *v)
+{
+    const wide_node *n = &w->node[v->node];
+    const char *wrong = NULL;
+    w->nodes++;
+    w->depth = v->depth > w->depth ? v->depth : w->depth;
+    if (n->children < (v->node ? 2u : 1u) || n->children > CGT_LANES)
+        return fault("node %u: %u children", v->node, n->children);
+    for (uint32_t octant = 0; octant < 4 && !wrong; octant++)
+        wrong = check_order(n, v->node, octant);
+    return wrong ? wrong : check_children(w, v);
+}
+
+static const char *check_counts(const walk *w)
+{
+    const cgt_wide_tree *t = w->tree;
+    if (w->nodes != t->nodes || w->blocks[0] != t->sphere_blocks || w->blocks[1] != t->triangle_blocks)
+        return fault("%u nodes, %u and %u blocks of %u, %u and %u", w->nodes, w->blocks[0], w->blocks[1], t->nodes,
+                     t->sphere_blocks, t->triangle_blocks);
+    if (w->objects != w->world->valid)
+        return fault("%u objects of %u", w->objects, w->world->valid);
+    if (w->depth != t->depth || t->depth > CGT_WIDE_MAX_DEPTH)
+        return fault("depth %u, it says %u", w->depth, t->depth);
+    return NULL;
+}
+
+const char *wide_check(const cgt_world *world)
+{
+    const cgt_wide_tree *t = &world->wide;
+    walk w = {.world = world, .tree = t, .node = t->node};
+    const char *wrong = NULL;
+    if (!t->node)
+        return world->valid && !world->everything ? fault("there is none") : NULL;
+    w.met = calloc((size_t)world->objects.count + 1, 1);
+    w.met_node = calloc((size_t)t->nodes + 1, 1);
+    w.stack = malloc(((size_t)t->nodes + 1) * sizeof *w.stack);
+    if (!w.met || !w.met_node || !w.stack)
+        wrong = fault("out of memory");
+    else {
+        visit root = {.depth = 1};
+        memcpy(root.low, t->low, sizeof root.low);
+        memcpy(root.high, t->high, sizeof root.high);
+        w.stack[w.waiting++] = root;
+        w.met_node[0] = 1;
+    }
+    while (!wrong && w.waiting) {
+        const visit v = w.stack[--w.waiting];
+        wrong = check_node(&w, &v);
+    }
+    free(w.met);
+    free(w.met_node);
+    free(w.stack);
+    return wrong ? wrong : check_counts(&w);
+}
+
+bool wide_equal(const cgt_wide_tree *a, const cgt_wide_tree *b)
+{
+    const wide_node *n = a->node, *m = b->node;
+    bool same = a->nodes == b->nodes && a->sphere_blocks == b->sphere_blocks &&
+                a->triangle_blocks == b->triangle_blocks && a->depth == b->depth &&
+                !memcmp(a->low, b->low, sizeof a->low) && !memcmp(a->high, b->high, sizeof a->high);
+    for (uint32_t i = 0; same && i < a->nodes; i++) /* without what pads a node */
+        same = !memcmp(&n[i], &m[i], offsetof(wide_node, unused) + sizeof n[i].unused);
+    return same && (!a->sphere_blocks || !memcmp(a->sphere, b->sphere, a->sphere_blocks * sizeof(wide_spheres))) &&
+           (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(wide_triangles)));
+}

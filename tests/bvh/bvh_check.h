@@ -1,0 +1,23 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What must hold of every wide tree of the variant that this is compiled for. */
+#ifndef WIDE_CHECK_H
+#define WIDE_CHECK_H
+
+#include "model/committed_scene.h"
+
+/* Checks a world's wide tree against its objects. NULL, or the first fault, valid until the next call of the thread:
+ *   nodes      each reached once; children packed, two of them at least but in the root; lanes without a child empty
+ *   boxes      exactly: an object's within its leaf's, a child's within its parent's, all within the tree's; finite
+ *   orders     all lanes once; children first, along the octant's diagonal
+ *   leaves     counts in range, one kind; lanes beyond repeat the last object; numbers are those of the objects, of
+ *              triangles those that a commit works out (leaf_triangle.h)
+ *   objects    each valid one in one block, no other
+ *   counts     nodes, blocks, depth; the depth within CGT_WIDE_MAX_DEPTH */
+const char *wide_check(const cgt_world *world);
+
+/* Whether two trees have the same bits. */
+bool wide_equal(const cgt_wide_tree *a, const cgt_wide_tree *b);
+
+#endif

@@ -1,0 +1,624 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Arrays of rays through the wide tree, of the variant that this is compiled for, against every object in exact
+ * arithmetic: the same hits and the same bits, whatever the rays, their number, order, layout and ranges, as streams and
+ * in flight, with room for lists and stacks and with hardly any, with objects that rays ignore; and with margins of the
+ * slabs made smaller until hits are lost. The streams are compiled into the test, where the library finds them. */
+#include "support/scenes.h"
+#include "support/tightened.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene.h"
+
+static uint32_t arena_used = 16384, flight_stack = 64;
+static float fly_least, fly_apart, fly_most; /* when the rays of a call go in flight */
+static float slack_scale = 1, filter_u = 0x1p-24f;
+#define FILTER_U filter_u
+#define FLIGHT_STACK_USED flight_stack
+#define STREAM_ARENA_USED arena_used
+#define STREAM_FLY_LEAST fly_least
+#define STREAM_FLY_APART fly_apart
+#define STREAM_FLY_MOST fly_most
+#define WIDE_SLACK slack_scale
+#include "kernel/stream/stream_trace.c"
+
+/* With an emulator or sanitizers. */
+static bool is_slow(void) { return test_scaled(10) < 2; }
+
+#define OBJECTS 240u
+#define RAYS (is_slow() ? 600u : 1500u)
+#define ALL_RAYS 20000u /* beyond two large chunks */
+
+typedef struct given_ray {
+    truth_ray ray;
+    uint32_t primitive, geometry; /* that it ignores */
+} given_ray;
+
+typedef struct found {
+    float t;
+    uint32_t primitive, geometry;
+} found;
+
+typedef struct subject {
+    cgt_context *context;
+    cgt_scene *scene;
+    cloud spheres;
+    float (*corner)[9]; /* of triangles */
+    bool ignores;
+} subject;
+
+static given_ray given[ALL_RAYS];
+static found truth[ALL_RAYS], hit[ALL_RAYS];
+static uint8_t occluded[ALL_RAYS];
+
+/* ---- scenes ---- */
+
+typedef enum content { SPHERES = 1, TRIANGLES = 2, BOTH = 3 } content;
+
+static void subject_make(test_random *r, cloud_kind kind, content what, float scale, subject *s)
+{
+    cgt_scene_options options;
+    uint32_t geometry;
+    cgt_scene_options_init(&options);
+    options.structure = CGT_STRUCTURE_WIDE_TREE;
+    memset(s, 0, sizeof *s);
+    s->context = context_make(1, CGT_VARIANT_NAME);
+    s->spheres = cloud_make(r, kind, OBJECTS);
+    s->corner = malloc(OBJECTS * sizeof *s->corner);
+    assert_non_null(s->corner);
+    assert_int_equal(cgt_scene_create(s->context, &options, &s->scene), CGT_OK);
+    for (uint32_t i = 0; i < OBJECTS; i++)
+        for (int k = 0; k < 9; k++) /* some are neighbours that share an edge */
+            s->corner[i][k] =
+                i % 4 == 1 && k >= 3
+                    ? s->corner[i - 1][k]
+                    : scale * (s->spheres.sphere[i][k % 3] + 3 * s->spheres.sphere[i][3] * random_float(r, -1, 1));
+    for (uint32_t i = 0; i < OBJECTS; i++)
+        for (int k = 0; k < 4; k++)
+            s->spheres.sphere[i][k] *= scale;
+    for (int k = 0; k < 3; k++)
+        s->spheres.middle[k] *= scale;
+    s->spheres.reach *= scale;
+    if (what & SPHERES) {
+        const cgt_spheres spheres = spheres_of((const float(*)[4])s->spheres.sphere, OBJECTS);
+        assert_int_equal(cgt_scene_add_spheres(s->scene, &spheres, &geometry), CGT_OK);
+    }
+    if (what & TRIANGLES) {
+        const cgt_triangles triangles = {.count = OBJECTS, .vertex_count = 3 * OBJECTS, .vertices = &s->corner[0][0]};
+        assert_int_equal(cgt_scene_add_triangles(s->scene, &triangles, &geometry), CGT_OK);
+    }
+    assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
+}
+
+static void subject_free(subject *s)
+{
+    cgt_scene_release(s->scene);
+    cgt_context_release(s->context);
+    cloud_free(&s->spheres);
+    free(s->corner);
+}
+
+/* ---- rays ---- */
+
+static void aim(test_random *r, const subject *s, truth_ray *q)
+{
+    const float *to = random_below(r, 2) ? s->spheres.sphere[random_below(r, OBJECTS)]
+                                         : &s->corner[random_below(r, OBJECTS)][3 * random_below(r, 3)];
+    for (int a = 0; a < 3; a++)
+        q->dir[a] = to[a] - q->org[a];
+}
+
+/* What is hard about slabs and ranges. */
+static truth_ray hard_ray(test_random *r, const subject *s)
+{
+    truth_ray q = ray_random(r, &s->spheres);
+    const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
+    const uint32_t axis = random_below(r, 3);
+    switch (random_below(r, 11)) {
+    case 0: /* along an axis, at a surface or a corner, with components that are hardly there */
+        for (uint32_t a = 0; a < 3; a++) {
+            static const float none[] = {0, -0.f, 0x1p-149f, -0x1p-140f, 0x1p-60f, -0x1p-41f, 0x1p-39f};
+            q.dir[a] = a == axis ? 1 : none[random_below(r, TEST_COUNT(none))];
+            q.org[a] = random_below(r, 2) ? sphere[a] + sphere[3] * ((float)random_below(r, 3) - 1)
+                                          : s->corner[random_below(r, OBJECTS)][a];
+        }
+        q.org[axis] -= random_float(r, -3, 3) * s->spheres.reach;
+        break;
+    case 1: /* from far away */
+        for (int a = 0; a < 3; a++)
+            q.org[a] = s->spheres.middle[a] + s->spheres.reach * random_log(r, 10, 1e9f) * random_float(r, -1, 1);
+        aim(r, s, &q);
+        break;
+    case 2: /* from a corner */ memcpy(q.org, s->corner[random_below(r, OBJECTS)], sizeof q.org); break;
+    case 3: /* from inside a sphere */
+        for (int a = 0; a < 3; a++)
+            q.org[a] = sphere[a] + 0.5f * sphere[3] * random_float(r, -1, 1);
+        break;
+    case 4: /* of any length */
+        for (int a = 0; a < 3; a++)
+            q.dir[a] *= ldexpf(1, (int)random_below(r, 100) - 50);
+        break;
+    case 5: /* hits behind the origin count */
+        q.t_min = random_below(r, 2) ? -INFINITY : -random_log(r, 1e-3f, 1e3f);
+        break;
+    case 6: /* not valid, or empty */
+        q.t_max = random_below(r, 2) ? NAN : q.t_min - 1;
+        if (random_below(r, 2))
+            q.dir[axis] = NAN;
+        break;
+    case 7: /* ends at infinity */
+        q.t_min = random_below(r, 2) ? INFINITY : -INFINITY;
+        q.t_max = random_below(r, 2) ? INFINITY : -INFINITY;
+        break;
+    case 8: /* beyond single precision */ q.dir[axis] *= 0x1p70f; break;
+    case 9: /* ends so far behind the origin that its normalised end is -infinity */
+        for (int a = 0; a < 3; a++)
+            q.dir[a] *= 16;
+        q.t_min = -INFINITY;
+        q.t_max = -FLT_MAX * random_float(r, 0.1f, 1);
+        break;
+    default: aim(r, s, &q); break;
+    }
+    return q;
+}
+
+/* ---- the truth ---- */
+
+static bool ray_counts(const truth_ray *q)
+{
+    float zero = 0;
+    bool some = false;
+    for (int a = 0; a < 3; a++) {
+        zero += q->org[a] * 0 + q->dir[a] * 0;
+        some |= q->dir[a] != 0;
+    }
+    return zero == 0 && some && q->t_min <= q->t_max;
+}
+
+static found find_truth(const subject *s, const given_ray *g)
+{
+    const cgt_objects *objects = &s->scene->world.objects;
+    found f = {INFINITY, CGT_NONE, CGT_NONE};
+    cgt_counts counts = {0};
+    cgt_ray ray = {.t_min = g->ray.t_min < -FLT_MAX ? -FLT_MAX : g->ray.t_min, .t_max = g->ray.t_max};
+    uint32_t winner = CGT_NONE;
+    double t;
+    memcpy(ray.line.org, g->ray.org, sizeof g->ray.org);
+    memcpy(ray.line.dir, g->ray.dir, sizeof g->ray.dir);
+    if (!ray_counts(&g->ray))
+        return f;
+    for (uint32_t i = 0; i < objects->count; i++) {
+        const cgt_object_array *a = cgt_objects_array(objects, i);
+        const cgt_shape shape = cgt_objects_shape(objects, i);
+        if (cgt_shape_check(&shape) != CGT_OBJECT_VALID ||
+            (s->ignores && g->geometry == a->geometry && g->primitive == i - a->first))
+            continue;
+        if (!filter_beats(objects, &ray, winner, i, &t, &counts))
+            continue;
+        winner = i;
+        f = (found){(float)t, i - a->first, a->geometry};
+    }
+    return f;
+}
+
+static void make_rays(test_random *r, subject *s, uint32_t count)
+{
+    const uint32_t arrays = s->scene->world.objects.arrays;
+    for (uint32_t i = 0; i < count; i++) {
+        given_ray *g = &given[i];
+        *g = (given_ray){.ray = i % 2 ? hard_ray(r, s) : ray_random(r, &s->spheres)};
+        if (i % 3 == 0)
+            aim(r, s, &g->ray);
+        s->ignores = false;
+        const found f = find_truth(s, g);
+        if (f.primitive != CGT_NONE && i % 5 == 0) /* ranges that begin or end at the hit, to the last bit */
+            *(random_below(r, 2) ? &g->ray.t_max : &g->ray.t_min) = f.t;
+        if (f.primitive != CGT_NONE && i % 11 == 0)
+            *(random_below(r, 2) ? &g->ray.t_max : &g->ray.t_min) =
+                nextafterf(f.t, random_below(r, 2) ? INFINITY : -INFINITY);
+        const uint32_t which = random_below(r, 4);
+        g->primitive = which == 0 ? CGT_NONE : which == 1 ? random_below(r, 2 * OBJECTS) : f.primitive;
+        g->geometry = which == 1 ? random_below(r, arrays + 1) : f.geometry;
+    }
+}
+
+/* ---- comparing ---- */
+
+static cgt_rays array_of(const given_ray *q, uint64_t count, bool ignores)
+{
+    return (cgt_rays){.count = count,
+                      .stride = sizeof *q,
+                      .org = {&q->ray.org[0], &q->ray.org[1], &q->ray.org[2]},
+                      .dir = {&q->ray.dir[0], &q->ray.dir[1], &q->ray.dir[2]},
+                      .t_min = &q->ray.t_min,
+                      .t_max = &q->ray.t_max,
+                      .ignored_primitive = ignores ? &q->primitive : NULL,
+                      .ignored_geometry = ignores ? &q->geometry : NULL};
+}
+
+/* How many answers are wrong. */
+static uint64_t wrong_answers(const subject *s, uint32_t count, bool tell)
+{
+    uint64_t wrong = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const bool none = truth[i].primitive == CGT_NONE;
+        if (same_bits(hit[i].t, truth[i].t) && hit[i].primitive == truth[i].primitive &&
+            hit[i].geometry == truth[i].geometry && occluded[i] == !none)
+            continue;
+        const truth_ray *q = &given[i].ray;
+        if (tell && wrong++ < 3)
+            print_message("ray %u: t %a, %u of %u, occluded %u; true: %a, %u of %u\n  org %a %a %a dir %a %a %a "
+                          "range %a %a, world's scale %a\n",
+                          i, (double)hit[i].t, hit[i].primitive, hit[i].geometry, occluded[i], (double)truth[i].t,
+                          truth[i].primitive, truth[i].geometry, (double)q->org[0], (double)q->org[1],
+                          (double)q->org[2], (double)q->dir[0], (double)q->dir[1], (double)q->dir[2], (double)q->t_min,
+                          (double)q->t_max, (double)s->scene->world.scale);
+        wrong += !tell;
+    }
+    return wrong;
+}
+
+static void trace(const subject *s, const cgt_rays *rays, uint64_t first, const cgt_trace_options *options)
+{
+    const cgt_hits hits = {.stride = sizeof(found),
+                           .t = &hit[first].t,
+                           .primitive = &hit[first].primitive,
+                           .geometry = &hit[first].geometry};
+    memset(hit + first, 7, rays->count * sizeof *hit);
+    memset(occluded + first, 7, rays->count);
+    assert_int_equal(cgt_trace_rays(s->scene, rays, &hits, options), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(s->scene, rays, occluded + first, options), CGT_OK);
+}
+
+/* Whether all rays of a call go in flight, or none. */
+static void let_fly(bool all)
+{
+    fly_least = fly_most = all ? 2.f * CGT_RAYS_CHUNK : 0;
+    fly_apart = 0;
+}
+
+static void check(subject *s, uint32_t count)
+{
+    static const uint32_t least = CGT_WIDE_MAX_DEPTH * STREAM_LEAST, arenas[] = {CGT_WIDE_STREAM_ARENA, least},
+                          stacks[] = {FLIGHT_STACK, 1};
+    for (int ignores = 0; ignores < 2; ignores++) {
+        s->ignores = ignores;
+        for (uint32_t i = 0; i < count; i++)
+            truth[i] = find_truth(s, &given[i]);
+        for (size_t k = 0; k < TEST_COUNT(arenas); k++)
+            for (int fly = 0; fly < 2; fly++) {
+                const cgt_rays rays = array_of(given, count, ignores);
+                arena_used = arenas[k];
+                flight_stack = stacks[k];
+                let_fly(fly);
+                trace(s, &rays, 0, NULL);
+                assert_int_equal(wrong_answers(s, count, true), 0);
+            }
+        arena_used = CGT_WIDE_STREAM_ARENA;
+        flight_stack = FLIGHT_STACK;
+    }
+}
+
+/* Rays without an end, for which no array is given; some begin at a second root, to the last bit. */
+static void check_endless(test_random *r, subject *s, uint32_t count)
+{
+    s->ignores = false;
+    for (uint32_t i = 0; i < count; i++) {
+        given_ray *g = &given[i];
+        g->ray.t_max = INFINITY;
+        truth[i] = find_truth(s, g);
+        if (i % 3 || truth[i].primitive == CGT_NONE)
+            continue;
+        g->ray.t_min = nextafterf(truth[i].t, INFINITY);
+        truth[i] = find_truth(s, g);
+        if (truth[i].primitive == CGT_NONE)
+            continue;
+        g->ray.t_min = random_below(r, 2) ? truth[i].t : nextafterf(truth[i].t, INFINITY);
+        truth[i] = find_truth(s, g);
+    }
+    cgt_rays rays = array_of(given, count, false);
+    rays.t_max = NULL;
+    trace(s, &rays, 0, NULL);
+    assert_int_equal(wrong_answers(s, count, true), 0);
+}
+
+/* ---- tests ---- */
+
+/* Beyond 2^-60 rays are extreme; beyond 2^55 there is no tree. */
+static float scale_of(int kind, int what)
+{
+    static const float scales[] = {1, 0x1p-50f, 0x1p30f, 0x1p-80f};
+    return scales[(kind + what) % 4];
+}
+
+static void hits_are_exact(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++)
+        for (int what = SPHERES; what <= BOTH; what++) {
+            test_random r = random_make(10 * (uint64_t)kind + (uint64_t)what);
+            subject s;
+            subject_make(&r, (cloud_kind)kind, (content)what, scale_of(kind, what), &s);
+            const uint32_t count =
+                (uint32_t)((is_slow() ? 50 : 100) + test_scaled(scale_of(kind, what) < 0x1p-60f ? 100 : RAYS));
+            make_rays(&r, &s, count);
+            check(&s, count);
+            check_endless(&r, &s, count);
+            subject_free(&s);
+        }
+}
+
+/* A stream's rays that begin near each other, at a surface or a corner, where boxes and primitives end to the last bit; of
+ * any octants. */
+static void make_neighbours(test_random *r, subject *s, uint32_t count)
+{
+    static const float spreads[] = {0, 0x1p-24f, 1e-5f, 1e-3f, 0.1f};
+    const float spread = spreads[random_below(r, TEST_COUNT(spreads))] * s->spheres.reach;
+    const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
+    const uint32_t axis = random_below(r, 3), ends = random_below(r, 3), before = random_below(r, 4);
+    const bool along = random_below(r, 3) == 0; /* to a pole, where box and sphere end, all alike */
+    const float side = random_below(r, 2) ? 1 : -1;
+    float from[3];
+    memcpy(from, s->corner[random_below(r, OBJECTS)] + 3 * random_below(r, 3), sizeof from);
+    if (random_below(r, 2))
+        for (uint32_t a = 0; a < 3; a++)
+            from[a] = sphere[a] + (a == axis ? side * sphere[3] : 0);
+    if (along)
+        for (uint32_t a = 0; a < 3; a++)
+            from[a] = sphere[a] + (a == axis ? 0.5f * side * s->spheres.reach : 0);
+    for (uint32_t i = 0; i < count; i++) {
+        given_ray *g = &given[i];
+        *g = (given_ray){.ray = ray_random(r, &s->spheres), .primitive = CGT_NONE};
+        g->ray.t_min = before == 0 && i % 64 == 5 ? -random_log(r, 1e-6f, 1) : 0;
+        g->ray.t_max = INFINITY;
+        for (uint32_t a = 0; a < 3; a++)
+            g->ray.org[a] = from[a] + spread * (i % 8 && !along ? random_float(r, -1, 1) : 0);
+        if (i % 4 == 1)
+            aim(r, s, &g->ray);
+        if (i % 4 == 2)
+            g->ray.dir[random_below(r, 3)] = random_below(r, 2) ? 0 : -0.f;
+        for (uint32_t a = 0; a < 3 && along; a++)
+            g->ray.dir[a] = a == axis ? -side : 0;
+        if (ends)
+            g->ray.t_max = along ? INFINITY : random_float(r, 0, 0.3f) * s->spheres.reach;
+        s->ignores = false;
+        const found f = find_truth(s, g);
+        if (f.primitive != CGT_NONE && ends == 2)
+            g->ray.t_max = random_below(r, 4) ? f.t : nextafterf(f.t, 0);
+    }
+}
+
+static void neighbours_are_exact(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++)
+        for (int what = SPHERES; what <= BOTH; what++) {
+            test_random r = random_make(500 + 10 * (uint64_t)kind + (uint64_t)what);
+            const uint32_t rounds = (uint32_t)(1 + test_scaled(6)), count = is_slow() ? 40 : 150;
+            subject s;
+            subject_make(&r, (cloud_kind)kind, (content)what, what == BOTH ? 0x1p-50f : 1, &s);
+            for (uint32_t k = 0; k < rounds; k++) {
+                make_neighbours(&r, &s, count);
+                check(&s, count);
+            }
+            subject_free(&s);
+        }
+}
+
+/* Batches of any size, in any order, as structure of arrays and as array of structures; and in FAST precision. */
+static void batches_do_not_matter(void **state)
+{
+    static float plain[8][ALL_RAYS];
+    static const uint32_t sizes[] = {1, 2, 3, 15, 16, 17, 64, 300, 1000, 4096, 4097, 2 * CGT_STREAM_CHUNK, ALL_RAYS};
+    test_random r = random_make(77);
+    subject s;
+    (void)state;
+    fly_least = 8;
+    fly_apart = 300;
+    fly_most = 160;
+    subject_make(&r, CLOUD_UNIFORM, BOTH, 1, &s);
+    make_rays(&r, &s, RAYS);
+    for (uint32_t i = 0; i < RAYS; i++)
+        truth[i] = find_truth(&s, &given[i]);
+    for (uint32_t i = RAYS; i < ALL_RAYS; i++) {
+        const uint32_t k = random_below(&r, RAYS);
+        given[i] = given[k];
+        truth[i] = truth[k];
+    }
+    for (uint32_t i = 0; i < ALL_RAYS; i++)
+        for (int a = 0; a < 3; a++) {
+            plain[a][i] = given[i].ray.org[a];
+            plain[3 + a][i] = given[i].ray.dir[a];
+            plain[6][i] = given[i].ray.t_min;
+            plain[7][i] = given[i].ray.t_max;
+        }
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    for (size_t k = 0; k < TEST_COUNT(sizes); k++)
+        for (int layout = 0; layout < 2; layout++) {
+            /* where it is slow little more than a batch */
+            const uint32_t some = sizes[k] + 70 < ALL_RAYS ? sizes[k] + 70 : ALL_RAYS;
+            const uint32_t all = is_slow() ? some : ALL_RAYS;
+            if (all < ALL_RAYS && layout != (int)(k % 2))
+                continue;
+            for (uint32_t i = 0; i < all; i += sizes[k]) {
+                const uint32_t count = all - i < sizes[k] ? all - i : sizes[k];
+                cgt_rays rays = array_of(given + i, count, false);
+                if (layout)
+                    rays = (cgt_rays){.count = count,
+                                      .org = {plain[0] + i, plain[1] + i, plain[2] + i},
+                                      .dir = {plain[3] + i, plain[4] + i, plain[5] + i},
+                                      .t_min = plain[6] + i,
+                                      .t_max = plain[7] + i};
+                options.precision = k % 2 ? CGT_PRECISION_FAST : CGT_PRECISION_ROBUST;
+                trace(&s, &rays, i, &options);
+            }
+            assert_int_equal(wrong_answers(&s, all, true), 0);
+        }
+    subject_free(&s);
+}
+
+static void counts_add_up(void **state)
+{
+    test_random r = random_make(78);
+    subject s;
+    uint64_t invalid = 0, hits = 0;
+    (void)state;
+    subject_make(&r, CLOUD_UNIFORM, BOTH, 1, &s);
+    make_rays(&r, &s, RAYS);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        float zero = 0;
+        const truth_ray *q = &given[i].ray;
+        for (int a = 0; a < 3; a++)
+            zero += q->org[a] * 0 + q->dir[a] * 0;
+        invalid += zero != 0 || q->t_min != q->t_min || q->t_max != q->t_max ||
+                   (q->dir[0] == 0 && q->dir[1] == 0 && q->dir[2] == 0);
+        s.ignores = false;
+        truth[i] = find_truth(&s, &given[i]);
+        hits += truth[i].primitive != CGT_NONE;
+    }
+    for (int turn = 0; turn < 4; turn++) {
+        const bool any = turn % 2;
+        const cgt_rays rays = array_of(given, RAYS, false);
+        const cgt_hits none = {0};
+        cgt_trace_statistics n;
+        cgt_trace_options options;
+        cgt_trace_options_init(&options);
+        options.statistics = &n;
+        let_fly(turn / 2);
+        if (any)
+            assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
+        else
+            assert_int_equal(cgt_trace_rays(s.scene, &rays, &none, &options), CGT_OK);
+        assert_int_equal(n.rays, RAYS);
+        assert_int_equal(n.wide_rays, RAYS);
+        assert_int_equal(n.invalid_rays, invalid);
+        assert_int_equal(n.hits, hits);
+        assert_true(n.nodes && n.leaves && n.packet_tests && n.ray_tests >= n.packet_tests);
+        assert_true(n.double_tests && n.exact_tests <= n.double_tests && n.double_tests < n.ray_tests);
+    }
+    subject_free(&s);
+}
+
+/* Leaves whose boxes are smaller than what slabs are rounded by: heaps of spheres that are hardly more than points. */
+static void make_specks(test_random *r, subject *s)
+{
+    float middle[16][3];
+    for (int k = 0; k < 16; k++)
+        for (int a = 0; a < 3; a++)
+            middle[k][a] = ((float)random_below(r, 1 << 17) - 0x1p16f) * 0x1p-16f;
+    for (uint32_t i = 0; i < OBJECTS; i++) {
+        memcpy(s->spheres.sphere[i], middle[i % 16], sizeof middle[0]);
+        s->spheres.sphere[i][3] = 0x1p-30f;
+    }
+    assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
+}
+
+static void margins_break_where_they_are_made_smaller(void **state)
+{
+    typedef struct tally {
+        uint64_t lost;
+    } tally;
+    tally sum[STEPS] = {{0}};
+    uint64_t hits = 0;
+    (void)state;
+    for (uint32_t turn = 0; turn < 4; turn++) {
+        test_random r = random_make(300 + turn);
+        subject s;
+        float scale = 1;
+        subject_make(&r, CLOUD_UNIFORM, SPHERES, 1, &s);
+        make_specks(&r, &s);
+        for (uint32_t i = 0; i < RAYS; i++) {
+            const float *sphere = s.spheres.sphere[random_below(&r, OBJECTS)];
+            truth_ray q = {.t_max = INFINITY};
+            const float steps = (float)(1 + random_below(&r, 12));
+            for (uint32_t a = 0; a < 3; a++) { /* exactly through the centre */
+                q.dir[a] = ((float)random_below(&r, 127) - 63) / 64;
+                q.org[a] = sphere[a] - steps * q.dir[a];
+            }
+            given[i] = (given_ray){.ray = q};
+            truth[i] = find_truth(&s, &given[i]);
+            hits += truth[i].primitive != CGT_NONE;
+        }
+        const cgt_rays rays = array_of(given, RAYS, false);
+        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+            slack_scale = scale;
+            let_fly(turn % 2);
+            trace(&s, &rays, 0, NULL);
+            sum[step].lost += wrong_answers(&s, RAYS, false);
+        }
+        slack_scale = 1;
+        subject_free(&s);
+    }
+    assert_true(hits > RAYS);
+    check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-9);
+}
+
+/* Rays past the edges of triangles and the silhouettes of spheres, to within rounding. */
+static void bounds_of_leaves_break_where_they_are_tightened(void **state)
+{
+    typedef struct tally {
+        uint64_t wrong;
+    } tally;
+    tally sum[STEPS] = {{0}};
+    (void)state;
+    for (uint32_t turn = 0; turn < 4; turn++) {
+        test_random r = random_make(400 + turn);
+        subject s;
+        float scale = 0x1p-24f;
+        subject_make(&r, CLOUD_UNIFORM, turn % 2 ? SPHERES : TRIANGLES, 1, &s);
+        for (uint32_t i = 0; i < RAYS; i++) {
+            const float *sphere = s.spheres.sphere[random_below(&r, OBJECTS)], share = random_float(&r, 0, 1);
+            const float *corner = s.corner[random_below(&r, OBJECTS)];
+            truth_ray q = ray_random(&r, &s.spheres);
+            float c[3], cc = 0, side[3];
+            for (int a = 0; a < 3; a++) {
+                c[a] = sphere[a] - q.org[a];
+                cc += c[a] * c[a];
+            }
+            /* across c and y: to the point of the silhouette there, seen from afar */
+            const float across = sqrtf(c[0] * c[0] + c[2] * c[2]), root = sqrtf(1 - sphere[3] * sphere[3] / cc);
+            side[0] = c[2] / across;
+            side[1] = 0;
+            side[2] = -c[0] / across;
+            for (int a = 0; a < 3; a++) {
+                if (turn % 2 && cc > sphere[3] * sphere[3])
+                    q.dir[a] = c[a] * root + side[a] * sphere[3];
+                else
+                    q.dir[a] = corner[a] + share * (corner[3 + a] - corner[a]) - q.org[a];
+            }
+            given[i] = (given_ray){.ray = q};
+            truth[i] = find_truth(&s, &given[i]);
+        }
+        const cgt_rays rays = array_of(given, RAYS, false);
+        for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+            filter_u = scale;
+            let_fly(turn / 2 % 2);
+            trace(&s, &rays, 0, NULL);
+            sum[step].wrong += wrong_answers(&s, RAYS, step == 0);
+        }
+        filter_u = 0x1p-24f;
+        subject_free(&s);
+    }
+    check_break("a wrong answer", sum, sizeof *sum, offsetof(tally, wrong), 0x1p-11);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_are_exact),
+        cmocka_unit_test(neighbours_are_exact),
+        cmocka_unit_test(batches_do_not_matter),
+        cmocka_unit_test(counts_add_up),
+        cmocka_unit_test(margins_break_where_they_are_made_smaller),
+        cmocka_unit_test(bounds_of_leaves_break_where_they_are_tightened),
+    };
+    test_begin("test_stream_rays");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

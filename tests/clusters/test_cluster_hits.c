@@ -1,0 +1,404 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Whatever goes through clusters (triangle_cluster.h) hits what a kd-tree over the single triangles does, bit for bit, at
+ * rest and in motion, on each variant. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clusters/cluster_meshes.h"
+#include "hard_cases/hard_run.h"
+
+#define BEYOND CGT_CLUSTER
+
+/* ---- hits ---- */
+
+#define WIDTH 72u
+#define HEIGHT 66u
+#define PIXELS (WIDTH * HEIGHT)
+#define RAYS 2400u
+#define FEWER_RAYS 320u /* where it is slow; frames stay, since tiles want neighbouring points to be near each other */
+#define FEW 128u        /* rays that are too few for a wide tree of their own, twice */
+#define BUNDLE 16u
+#define LIGHTS 3u
+
+typedef struct view {
+    cgt_camera camera;
+    bool some; /* of SOME: not all geometries */
+} view;
+
+static const cgt_light lights[LIGHTS] = {
+    {{0.05f, -0.1f, 0.2f}, 1}, /* within the roll */
+    {{3, 2, 1}, 1},
+    {{-0.4f, 0.7f, 0.5f}, 0},
+};
+
+#define VIEWS 6u
+/* Where it is slow, views and lights that are asked for lie so far apart: a view of some goes with that of all. */
+#define APART 3u
+
+/* From beside, parallel, and from within the bounds; of some from beside and parallel; of all along the roll. */
+static view view_at(uint32_t number)
+{
+    static const float eye[VIEWS][3] = {{2.4f, 1.1f, 1.3f}, {-1.5f, -2.2f, 0.7f}, {0.1f, -0.15f, 0.3f},
+                                        {2.4f, 1.1f, 1.3f}, {-1.5f, -2.2f, 0.7f}, {0.2f, 0.1f, 3}};
+    static const float target[VIEWS][3] = {{0, 0, 0}, {0, 0.1f, 0.1f}, {0.6f, 0.5f, -0.4f},
+                                           {0, 0, 0}, {0, 0.1f, 0.1f}, {0, 0, 0}};
+    view v = {.some = number == 3 || number == 4};
+    cgt_camera_init(&v.camera);
+    memcpy(v.camera.eye, eye[number], sizeof v.camera.eye);
+    memcpy(v.camera.target, target[number], sizeof v.camera.target);
+    v.camera.fov = number == 2 ? 80 : 50;
+    v.camera.height = 2.3f;
+    v.camera.projection = number == 1 || number == 4 ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+    v.camera.mask = v.some ? SOME : 0;
+    return v;
+}
+
+/* What is asked: bundles of rays to points of triangles from one place each, points on what the first view shows. */
+typedef struct questions {
+    uint32_t rays, sample;
+    truth_ray ray[RAYS];
+    float point[3][PIXELS];
+    uint32_t ignored[2][PIXELS]; /* the triangle that the point is on, and its geometry */
+} questions;
+
+typedef struct answers {
+    planes frame[VIEWS];
+    full_hit hit[RAYS];
+    uint8_t occluded[RAYS], shadow[LIGHTS][PIXELS];
+} answers;
+
+static bool is_asked(const questions *q, uint32_t number) { return !test_samples() || number % APART == q->sample; }
+
+static answers *answers_make(void)
+{
+    answers *a = calloc(1, sizeof *a);
+    assert_non_null(a);
+    for (uint32_t i = 0; i < VIEWS; i++)
+        a->frame[i] = planes_make(WIDTH, HEIGHT);
+    return a;
+}
+
+static void answers_free(answers *a)
+{
+    for (uint32_t i = 0; i < VIEWS; i++)
+        planes_free(&a->frame[i]);
+    free(a);
+}
+
+static void ask_rays(questions *q, const mesh *m, test_random *r)
+{
+    float from[3] = {0, 0, 0};
+    for (uint32_t i = 0; i < q->rays; i++) {
+        truth_ray *ray = &q->ray[i];
+        const float(*v)[3] = (const float(*)[3])m->triangle[random_below(r, m->count)];
+        const float s = random_float(r, 0, 0.5f), t = random_float(r, 0, 0.5f);
+        *ray = (truth_ray){.t_min = 0, .t_max = random_below(r, 4) ? INFINITY : random_float(r, 0.5f, 1.5f)};
+        for (int a = 0; a < 3; a++) {
+            if (i % BUNDLE == 0)
+                from[a] = random_float(r, -2, 2);
+            const float to = v[0][a] + s * (v[1][a] - v[0][a]) + t * (v[2][a] - v[0][a]);
+            ray->org[a] = from[a];
+            ray->dir[a] = isfinite(to) ? to - from[a] : 1; /* of a NaN: anywhere */
+        }
+    }
+}
+
+/* Where the first view has no hit, a point in the air. */
+static void ask_points(questions *q, const cgt_scene *scene)
+{
+    const view v = view_at(0);
+    planes p = planes_make(WIDTH, HEIGHT);
+    truth_ray *ray = frame_rays(&v.camera, WIDTH, HEIGHT);
+    frame_trace(scene, &v.camera, &p, NULL);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const bool hit = p.primitive[i] != CGT_NONE;
+        for (int a = 0; a < 3; a++)
+            q->point[a][i] = ray[i].org[a] + (hit ? p.t[i] : 4) * ray[i].dir[a];
+        q->ignored[0][i] = p.primitive[i];
+        q->ignored[1][i] = p.geometry[i];
+    }
+    free(ray);
+    planes_free(&p);
+}
+
+/* Frames: by tiles where the scene has a grid; by packets where a view does not show all, with each culling in turn. */
+static void trace_frames(const cgt_scene *scene, const questions *q, uint32_t turn, answers *a)
+{
+    const bool grid = scene->world.loose.levels > 0, several = scene->world.objects.arrays > HIDDEN_PART;
+    for (uint32_t i = 0; i < VIEWS; i++) {
+        if (!is_asked(q, i))
+            continue;
+        const view v = view_at(i);
+        cgt_trace_statistics st;
+        cgt_trace_options o;
+        cgt_trace_options_init(&o);
+        o.statistics = &st;
+        if (v.some)
+            o.cull = (cgt_cull)((turn + i) % 3);
+        frame_trace(scene, &v.camera, &a->frame[i], &o);
+        assert_true(st.hits > PIXELS / 8 && st.hits < PIXELS);
+        const bool tiles = grid && !(v.some && (several || o.cull != CGT_CULL_BLOCKS));
+        assert_int_equal(st.tiles > 0, tiles);
+        assert_true(!tiles || (st.culled > 0 && st.culled < st.cull_tests));
+        if (v.some && several) /* the hidden geometry is of some use */
+            assert_memory_not_equal(a->frame[i].memory, a->frame[i - APART].memory,
+                                    a->frame[i].elements * sizeof(uint32_t));
+    }
+}
+
+static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
+{
+    const cgt_points points = {.count = PIXELS,
+                               .position = {q->point[0], q->point[1], q->point[2]},
+                               .ignored_primitive = q->ignored[0],
+                               .ignored_geometry = q->ignored[1]};
+    for (uint32_t i = 0; i < LIGHTS; i++) {
+        if (!is_asked(q, i))
+            continue;
+        cgt_trace_statistics st;
+        cgt_trace_options o;
+        cgt_trace_options_init(&o);
+        o.statistics = &st;
+        assert_int_equal(cgt_occluded_light(scene, &lights[i], &points, a->shadow[i], &o), CGT_OK);
+        assert_true(st.hits > PIXELS / 20 && st.hits < PIXELS);
+        assert_int_equal(st.tiles > 0, scene->world.loose.levels > 0);
+    }
+}
+
+/* In calls of `each` rays. Returns how many went through a wide tree. */
+static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t first, uint32_t count, uint32_t each,
+                           answers *a)
+{
+    uint64_t wide = 0;
+    memset(a->hit + first, 0x77, count * sizeof a->hit[0]);
+    memset(a->occluded + first, 0x77, count);
+    for (uint32_t i = first; i < first + count; i += each) {
+        const uint32_t some = first + count - i < each ? first + count - i : each;
+        const cgt_rays rays = ray_array(q->ray + i, some);
+        cgt_trace_statistics st;
+        cgt_trace_options o;
+        cgt_trace_options_init(&o);
+        o.statistics = &st;
+        o.cull = (cgt_cull)(i / each % 3);
+        assert_int_equal(trace_array(scene, q->ray + i, some, a->hit + i, &o), CGT_OK);
+        wide += st.wide_rays;
+        assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded + i, &o), CGT_OK);
+        wide += st.wide_rays;
+    }
+    return wide;
+}
+
+static void compare_answers(const answers *got, const answers *want, const questions *q, const char *what)
+{
+    for (uint32_t i = 0; i < VIEWS; i++)
+        if (is_asked(q, i) && !planes_equal(&got->frame[i], &want->frame[i])) {
+            size_t k = 0;
+            while (got->frame[i].memory[k] == want->frame[i].memory[k])
+                k++;
+            k %= got->frame[i].elements;
+            fail_msg("%s: view %u, pixel %zu: triangle %d at %a, not %d at %a", what, i, k,
+                     (int)got->frame[i].primitive[k], (double)got->frame[i].t[k], (int)want->frame[i].primitive[k],
+                     (double)want->frame[i].t[k]);
+        }
+    for (uint32_t i = 0; i < LIGHTS; i++)
+        for (uint32_t k = 0; is_asked(q, i) && k < PIXELS; k++)
+            if (got->shadow[i][k] != want->shadow[i][k])
+                fail_msg("%s: light %u: point %u is %s", what, i, k, want->shadow[i][k] ? "in shadow" : "in the light");
+    for (uint32_t i = 0; i < q->rays; i++)
+        if (memcmp(&got->hit[i], &want->hit[i], sizeof want->hit[i]) != 0 || got->occluded[i] != want->occluded[i])
+            fail_msg("%s: ray %u: triangle %d at %a, any hit %d; not %d at %a", what, i, (int)got->hit[i].primitive,
+                     (double)got->hit[i].t, got->occluded[i], (int)want->hit[i].primitive, (double)want->hit[i].t);
+}
+
+/* What the kd-tree, made of triangles, answers. */
+static answers *ask_kd(cgt_context *context, questions *q, const mesh *m, test_random *r, uint32_t number)
+{
+    cgt_scene *scene = committed(context, &kd_tree, m);
+    uint32_t hits = 0;
+    q->rays = test_samples() ? FEWER_RAYS : RAYS;
+    q->sample = test_sample_start(number, APART);
+    answers *a = answers_make();
+    ask_rays(q, m, r);
+    ask_points(q, scene);
+    trace_frames(scene, q, 0, a);
+    trace_lights(scene, q, a);
+    trace_some(scene, q, 0, q->rays, q->rays, a);
+    for (uint32_t i = 0; i < q->rays; i++)
+        hits += a->hit[i].primitive != CGT_NONE;
+    assert_true(hits > q->rays / 2 && hits < q->rays);
+    cgt_scene_release(scene);
+    return a;
+}
+
+/* All through the grid, in calls of one ray and of a bundle. */
+static void check_grid(cgt_context *context, const questions *q, const mesh *m, uint32_t turn, const answers *want)
+{
+    cgt_scene *scene = committed(context, &loose_grid, m);
+    assert_non_null(scene->world.cluster);
+    answers *got = answers_make();
+    trace_frames(scene, q, turn, got);
+    trace_lights(scene, q, got);
+    for (uint32_t each = 1; each <= BUNDLE; each += BUNDLE - 1) {
+        assert_int_equal(trace_some(scene, q, 0, q->rays, each, got), 0);
+        compare_answers(got, want, q, each == 1 ? "rays one by one" : "rays in bundles");
+    }
+    answers_free(got);
+    cgt_scene_release(scene);
+}
+
+/* Few rays after the commit go through the grid; then there are enough of them for a wide tree. */
+static void check_automatic(const cgt_scene *scene, const questions *q, const answers *want)
+{
+    answers *got = answers_make();
+    assert_true(scene->world.cluster && !scene->world.wide.node);
+    assert_int_equal(trace_some(scene, q, 0, FEW / 2, 1, got), 0);
+    assert_int_equal(trace_some(scene, q, FEW / 2, FEW / 2, BUNDLE, got), 0);
+    assert_int_equal(trace_some(scene, q, FEW, q->rays - FEW, q->rays - FEW, got), 2 * (q->rays - FEW));
+    trace_frames(scene, q, 0, got);
+    trace_lights(scene, q, got);
+    compare_answers(got, want, q, "automatic");
+    assert_int_equal(trace_some(scene, q, 0, q->rays, BUNDLE, got), 2 * q->rays);
+    compare_answers(got, want, q, "bundles through a tree");
+    answers_free(got);
+}
+
+static void check_hits(const mesh *m, uint32_t stream)
+{
+    questions *q = malloc(sizeof *q);
+    test_random r = random_make(stream);
+    cgt_context *context = context_make(1, NULL);
+    uint32_t turn = 0;
+    assert_non_null(q);
+    answers *want = ask_kd(context, q, m, &r, stream);
+    cgt_context_release(context);
+    FOR_EACH_VARIANT(variant)
+    {
+        context = context_make(1 + turn % 2, variant);
+        check_grid(context, q, m, turn++, want);
+        cgt_scene *scene = committed(context, &automatic, m);
+        check_automatic(scene, q, want);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+    answers_free(want);
+    free(q);
+}
+
+static void hits_are_those_of_triangles(void **state)
+{
+    (void)state;
+    static const uint32_t whole[] = {10003};
+    for (uint32_t form = 0; form < 3; form++) { /* the last one with a tree of triangles */
+        mesh m = mesh_make(whole, 1, BEYOND, form);
+        if (form == 2)
+            mesh_loosen(&m);
+        if (form)
+            mesh_spoil(&m);
+        mesh_store(&m);
+        check_hits(&m, 10 + form);
+        mesh_free(&m);
+    }
+}
+
+static void hits_are_those_of_several_geometries(void **state)
+{
+    (void)state;
+    mesh m = mesh_make(uneven, PARTS, BEYOND, 0);
+    mesh_spoil(&m);
+    mesh_store(&m);
+    check_hits(&m, 20);
+    mesh_free(&m);
+}
+
+/* ---- motion ---- */
+
+/* Each commit finds the mesh elsewhere, and other triangles skipped; only the first one takes memory. */
+static void move(bool loosened)
+{
+    unsigned allocations = 0, before = 0;
+    test_random r = random_make(30);
+    questions *q = malloc(sizeof *q);
+    cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
+    mesh m = mesh_make(uneven, PARTS, 0, 1);
+    cgt_scene *scene = scene_with(context, &automatic, &m);
+    assert_non_null(q);
+    for (uint32_t step = 0; step < 3; step++) {
+        mesh_place(&m, 0.1 * step);
+        if (loosened)
+            mesh_loosen(&m);
+        if (step != 1 || loosened) /* a tree of triangles that are all valid has more leaves */
+            mesh_spoil(&m);
+        mesh_store(&m);
+        commit(scene);
+        assert_int_equal(scene->world.tree_of_clusters, !loosened);
+        assert_true(!step || allocations == before);
+        answers *want = ask_kd(other, q, &m, &r, step);
+        check_automatic(scene, q, want);
+        assert_true(!step || allocations == before);
+        before = allocations;
+        answers_free(want);
+    }
+    assert_true(before > 0);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    cgt_context_release(other);
+    mesh_free(&m);
+    free(q);
+}
+
+static void hits_move_with_the_mesh(void **state)
+{
+    (void)state;
+    move(false);
+    move(true);
+}
+
+/* A tree of clusters takes no memory for a mesh that turns, either. */
+static void trees_move_in_their_memory(void **state)
+{
+    (void)state;
+    static full_hit got[RAYS], want[RAYS];
+    unsigned allocations = 0, before = 0;
+    test_random r = random_make(31);
+    questions *q = malloc(sizeof *q);
+    cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
+    mesh m = mesh_make(uneven, PARTS, 0, 0);
+    cgt_scene *scene = scene_with(context, &wide_tree, &m);
+    assert_non_null(q);
+    q->rays = test_samples() ? FEWER_RAYS : RAYS;
+    for (uint32_t step = 0; step < 3; step++) {
+        mesh_place(&m, 0.1 * step);
+        mesh_spoil(&m);
+        mesh_store(&m);
+        ask_rays(q, &m, &r);
+        commit(scene);
+        assert_true(scene->world.cluster && scene->world.wide.node);
+        assert_true(!step || allocations == before);
+        before = allocations;
+        cgt_scene *kd = committed(other, &kd_tree, &m);
+        assert_int_equal(trace_array(scene, q->ray, q->rays, got, NULL), CGT_OK);
+        assert_int_equal(trace_array(kd, q->ray, q->rays, want, NULL), CGT_OK);
+        assert_memory_equal(got, want, q->rays * sizeof got[0]);
+        cgt_scene_release(kd);
+    }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    cgt_context_release(other);
+    mesh_free(&m);
+    free(q);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_are_those_of_triangles),
+        cmocka_unit_test(hits_are_those_of_several_geometries),
+        cmocka_unit_test(hits_move_with_the_mesh),
+        cmocka_unit_test(trees_move_in_their_memory),
+    };
+    test_begin("test_cluster_hits");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

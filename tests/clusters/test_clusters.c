@@ -1,0 +1,350 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Clusters of a mesh's triangles (triangle_cluster.h): which scenes get them, what their boxes hold and how tightly,
+ * which cells they lie in; and that all of it is the same on each variant and any number of threads. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "clusters/cluster_meshes.h"
+
+static cgt_scene_statistics statistics_of(const cgt_scene *scene)
+{
+    cgt_scene_statistics st;
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    return st;
+}
+
+/* The valid triangles of cluster c as bits, one after the other. */
+static uint32_t valid_of(const cgt_objects *o, uint32_t c)
+{
+    uint32_t valid = 0;
+    for (uint32_t k = 0; k < CGT_CLUSTER && c * CGT_CLUSTER + k < o->count; k++) {
+        const cgt_triangle q = cgt_objects_triangle(o, c * CGT_CLUSTER + k);
+        valid |= (uint32_t)(cgt_triangle_check(&q) == CGT_OBJECT_VALID) << k;
+    }
+    return valid;
+}
+
+static uint32_t count_used(const cgt_objects *o)
+{
+    uint32_t used = 0;
+    for (uint32_t c = 0; c < cgt_clusters(o->count); c++)
+        used += valid_of(o, c) != 0;
+    return used;
+}
+
+/* ---- which scenes get them ---- */
+
+static cgt_cluster_use use_of(cgt_context *context, const cgt_scene_options *options, const mesh *m)
+{
+    cgt_scene *scene = committed(context, options, m);
+    const cgt_world *w = &scene->world;
+    const cgt_cluster_use use = !w->cluster           ? CGT_CLUSTERS_NONE
+                                : w->tree_of_clusters ? CGT_CLUSTERS_ALL
+                                                      : CGT_CLUSTERS_GRID;
+    cgt_scene_release(scene);
+    return use;
+}
+
+static bool gets_clusters(cgt_context *context, const cgt_scene_options *options, const mesh *m)
+{
+    return use_of(context, options, m) != CGT_CLUSTERS_NONE;
+}
+
+static void neighbours_do(void **state)
+{
+    (void)state;
+    const cgt_scene_options incoherent = {.rays = CGT_RAYS_INCOHERENT};
+    cgt_context *context = context_make(2, NULL);
+    mesh m = mesh_of(LEAST, 1);
+    for (uint32_t spoiled = 0; spoiled < 2; spoiled++) {
+        if (spoiled)
+            mesh_spoil(&m);
+        mesh_store(&m);
+        cgt_scene *scene = committed(context, &automatic, &m);
+        const cgt_scene_statistics st = statistics_of(scene);
+        const uint32_t used = count_used(&scene->world.objects);
+        assert_non_null(scene->world.cluster);
+        assert_int_equal(st.references, used);
+        assert_int_equal(used == LEAST / CGT_CLUSTER, !spoiled);
+        assert_int_equal(st.skipped_not_finite > 0 && st.skipped_degenerate > 0, spoiled);
+        assert_non_null(strstr(st.reason, "runs of 8 neighbouring triangles"));
+        cgt_scene_release(scene);
+        assert_true(gets_clusters(context, &loose_grid, &m));
+        assert_true(gets_clusters(context, &wide_tree, &m));
+        assert_true(gets_clusters(context, &incoherent, &m));
+    }
+    mesh_free(&m);
+    cgt_context_release(context);
+}
+
+static void others_do_not(void **state)
+{
+    (void)state;
+    const cgt_scene_options cells = {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {20, 20, 20}};
+    const cgt_scene_options voxels = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+    cgt_context *context = context_make(2, NULL);
+    mesh m = mesh_of(LEAST, 0), few = mesh_of(LEAST - 1, 0);
+    mesh_store(&m);
+    mesh_store(&few);
+    assert_false(gets_clusters(context, &automatic, &few));
+    assert_false(gets_clusters(context, &wide_tree, &few));
+    assert_false(gets_clusters(context, &cells, &m));
+    assert_false(gets_clusters(context, &voxels, &m));
+    assert_false(gets_clusters(context, &kd_tree, &m));
+    mesh_free(&few);
+    mesh_free(&m);
+    cgt_context_release(context);
+}
+
+/* Loose clusters serve grids alone. */
+static void loose_ones_go_to_grids(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(2, NULL);
+    mesh m = mesh_of(LEAST, 0);
+    mesh_store(&m);
+    assert_int_equal(use_of(context, &automatic, &m), CGT_CLUSTERS_ALL);
+    mesh_loosen(&m);
+    mesh_store(&m);
+    assert_int_equal(use_of(context, &automatic, &m), CGT_CLUSTERS_GRID);
+    assert_int_equal(use_of(context, &wide_tree, &m), CGT_CLUSTERS_NONE);
+    mesh_free(&m);
+    cgt_context_release(context);
+}
+
+/* One scene, whose order is lost and comes back, with a sphere for a while: each commit decides anew. */
+static void each_commit_decides(void **state)
+{
+    (void)state;
+    const float ball[1][4] = {{0, 0, 0, 0.1f}};
+    const cgt_spheres sphere = spheres_of(ball, 1), none = spheres_of(NULL, 0);
+    test_random r = random_make(1);
+    cgt_context *context = context_make(2, NULL);
+    mesh m = mesh_of(LEAST + 5, 0);
+    uint32_t id;
+    mesh_store(&m);
+    cgt_scene *scene = committed(context, &automatic, &m);
+    assert_non_null(scene->world.cluster);
+    mesh_shuffle(&m, &r);
+    mesh_store(&m);
+    commit(scene);
+    assert_null(scene->world.cluster);
+    assert_int_equal(statistics_of(scene).references, LEAST + 5);
+    assert_null(strstr(statistics_of(scene).reason, "runs of 8"));
+    mesh_place(&m, 0.5);
+    mesh_store(&m);
+    commit(scene);
+    assert_non_null(scene->world.cluster);
+    assert_int_equal(cgt_scene_add_spheres(scene, &sphere, &id), CGT_OK);
+    commit(scene);
+    assert_null(scene->world.cluster);
+    assert_int_equal(cgt_scene_update_spheres(scene, id, &none), CGT_OK);
+    commit(scene);
+    assert_non_null(scene->world.cluster);
+    cgt_scene_release(scene);
+    mesh_free(&m);
+    cgt_context_release(context);
+}
+
+/* In clusters that are looked at before anything is decided, the first among them, and elsewhere; in one that is not
+ * full, too. */
+static void an_index_out_of_range_is_told(void **state)
+{
+    (void)state;
+    static const uint32_t at[] = {0, 7, 9, LEAST / 2, LEAST - 1, LEAST + 4};
+    cgt_context *context = context_make(2, NULL);
+    mesh m = mesh_of(LEAST + 5, 1);
+    mesh_store(&m);
+    cgt_scene *scene = committed(context, &automatic, &m);
+    for (size_t i = 0; i < TEST_COUNT(at); i++) {
+        uint32_t *index = index_at(&m.part[0], at[i]) + i % 3;
+        const uint32_t before = *index;
+        char text[64];
+        *index = i % 2 ? UINT32_MAX : m.part[0].triangles.vertex_count;
+        assert_int_equal(cgt_scene_commit(scene), CGT_ERROR_INVALID_ARGUMENT);
+        snprintf(text, sizeof text, "triangle %u has index %u", at[i], *index);
+        assert_non_null(strstr(context_message(context), text));
+        *index = before;
+        commit(scene);
+        assert_non_null(scene->world.cluster);
+    }
+    cgt_scene_release(scene);
+    mesh_free(&m);
+    cgt_context_release(context);
+}
+/* ---- boxes ---- */
+
+/* Every number is a difference of floats, which double holds but for what rounding of the box itself is above. */
+static void check_box(const cgt_objects *o, const cgt_cluster *box, uint32_t c)
+{
+    const uint32_t valid = valid_of(o, c);
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    assert_int_equal(box->valid, valid);
+    for (uint32_t k = 0; k < CGT_CLUSTER; k++) {
+        if (!(valid >> k & 1))
+            continue;
+        const cgt_triangle q = cgt_objects_triangle(o, c * CGT_CLUSTER + k);
+        for (int i = 0; i < 9; i++) {
+            const int a = i % 3;
+            const double at = (double)q.v[i / 3][a];
+            if (!(fabs(at - (double)box->middle[a]) <= (double)box->half[a]))
+                fail_msg("cluster %u: %a along axis %d is not within %a of %a", c, at, a, (double)box->half[a],
+                         (double)box->middle[a]);
+            low[a] = fmin(low[a], at);
+            high[a] = fmax(high[a], at);
+        }
+    }
+    float size = -1;
+    for (int a = 0; a < 3 && valid; a++) {
+        const double half = (high[a] - low[a]) / 2, rounding = fmax(fabs(low[a]), fabs(high[a])) * 0x1p-24;
+        assert_true((double)box->half[a] <= half * (1 + 0x1p-20) + rounding);
+        size = fmaxf(size, box->half[a]);
+    }
+    assert_true(same_bits(box->size, size));
+}
+
+static void boxes_hold_what_is_valid(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    for (uint32_t form = 0; form < 4; form++) {
+        mesh m = mesh_make(uneven, PARTS, 0, form);
+        uint32_t empty = 0;
+        mesh_spoil(&m);
+        mesh_store(&m);
+        cgt_scene *scene = committed(context, &automatic, &m);
+        const cgt_world *w = &scene->world;
+        assert_non_null(w->cluster);
+        for (uint32_t c = 0; c < cgt_clusters(w->objects.count); c++) {
+            check_box(&w->objects, &w->cluster[c], c);
+            empty += !w->cluster[c].valid;
+        }
+        assert_true(empty > 20);
+        cgt_scene_release(scene);
+        mesh_free(&m);
+    }
+    cgt_context_release(context);
+}
+
+/* ---- cells ---- */
+
+static bool within_reach(const cgt_loose_level *l, const uint32_t cell[3], const cgt_cluster *box)
+{
+    bool within = true;
+    for (int a = 0; a < 3; a++) {
+        const double begin = (double)l->low[a] + cell[a] * (double)l->cell[a] - (double)l->reach[a];
+        const double end = (double)l->low[a] + (cell[a] + 1.) * (double)l->cell[a] + (double)l->reach[a];
+        within &= (double)box->middle[a] - (double)box->half[a] >= begin;
+        within &= (double)box->middle[a] + (double)box->half[a] <= end;
+    }
+    return within;
+}
+
+/* Returns how many clusters the level holds. */
+static uint32_t check_level(const cgt_world *w, const cgt_loose_level *l, uint8_t *seen)
+{
+    const cgt_loose_grid *g = &w->loose;
+    const uint32_t cells = l->size[0] * l->size[1] * l->size[2], *start = g->start + l->first;
+    for (uint32_t k = 0; k < cells; k++) {
+        const uint32_t row = k / l->size[0], cell[3] = {k % l->size[0], row % l->size[1], row / l->size[1]};
+        assert_true(start[k] <= start[k + 1]);
+        for (uint32_t i = start[k]; i < start[k + 1]; i++) {
+            const uint32_t c = g->object[i];
+            assert_true(c < cgt_clusters(w->objects.count));
+            assert_true(i == start[k] || c > g->object[i - 1]);
+            assert_int_equal(seen[c]++, 0);
+            if (!within_reach(l, cell, &w->cluster[c]))
+                fail_msg("cluster %u is out of reach of cell %u %u %u", c, cell[0], cell[1], cell[2]);
+        }
+    }
+    assert_int_equal(start[cells] - start[0], l->objects);
+    return l->objects;
+}
+
+static void each_is_in_one_cell(void **state)
+{
+    (void)state;
+    const uint32_t large = test_scaled(150000); /* more clusters than are sorted together */
+    cgt_context *context = context_make(2, NULL);
+    for (uint32_t round = 0; round < 2; round++) {
+        mesh m = round && large > LEAST ? mesh_of(large, 0) : mesh_make(uneven, PARTS, 0, 0);
+        mesh_spoil(&m);
+        mesh_store(&m);
+        cgt_scene *scene = committed(context, &automatic, &m);
+        const cgt_world *w = &scene->world;
+        const uint32_t clusters = cgt_clusters(w->objects.count);
+        uint8_t *seen = calloc(clusters, 1);
+        uint32_t held = 0;
+        assert_true(seen && w->cluster && w->loose.levels > 1);
+        for (uint32_t k = 0; k < w->loose.levels; k++)
+            held += check_level(w, &w->loose.level[k], seen);
+        assert_int_equal(w->loose.start[w->loose.cells], held);
+        for (uint32_t c = 0; c < clusters; c++)
+            assert_int_equal(seen[c], valid_of(&w->objects, c) != 0);
+        free(seen);
+        cgt_scene_release(scene);
+        mesh_free(&m);
+    }
+    cgt_context_release(context);
+}
+
+/* ---- everywhere the same ---- */
+
+static void compare_worlds(const cgt_world *a, const cgt_world *b)
+{
+    const cgt_loose_grid *g = &a->loose, *h = &b->loose;
+    assert_true(a->cluster && b->cluster);
+    assert_int_equal(g->levels, h->levels);
+    assert_int_equal(g->cells, h->cells);
+    assert_memory_equal(a->cluster, b->cluster, cgt_clusters(a->objects.count) * sizeof *a->cluster);
+    assert_memory_equal(g->level, h->level, g->levels * sizeof g->level[0]);
+    assert_memory_equal(g->start, h->start, (g->cells + 1) * sizeof g->start[0]);
+    assert_memory_equal(g->object, h->object, g->start[g->cells] * sizeof g->object[0]);
+}
+
+static void variants_and_threads_change_nothing(void **state)
+{
+    (void)state;
+    static const uint32_t threads[] = {1, 2, 5};
+    const uint32_t large = test_scaled(60000);
+    cgt_context *first = context_make(1, NULL);
+    for (uint32_t round = 0; round < 3; round++) {
+        mesh m = round == 1 && large > LEAST ? mesh_of(large, round) : mesh_make(uneven, PARTS, 0, round);
+        mesh_spoil(&m);
+        if (round == 2)
+            mesh_flatten(&m);
+        mesh_store(&m);
+        cgt_scene *want = committed(first, &automatic, &m);
+        FOR_EACH_VARIANT(variant)
+        for (size_t k = 0; k < TEST_COUNT(threads); k++) {
+            cgt_context *context = context_make(threads[k], variant);
+            cgt_scene *got = committed(context, &automatic, &m);
+            compare_worlds(&got->world, &want->world);
+            cgt_scene_release(got);
+            cgt_context_release(context);
+        }
+        cgt_scene_release(want);
+        mesh_free(&m);
+    }
+    cgt_context_release(first);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(neighbours_do),
+        cmocka_unit_test(others_do_not),
+        cmocka_unit_test(loose_ones_go_to_grids),
+        cmocka_unit_test(each_commit_decides),
+        cmocka_unit_test(an_index_out_of_range_is_told),
+        cmocka_unit_test(boxes_hold_what_is_valid),
+        cmocka_unit_test(each_is_in_one_cell),
+        cmocka_unit_test(variants_and_threads_change_nothing),
+    };
+    test_begin("test_clusters");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

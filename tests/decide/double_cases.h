@@ -1,0 +1,35 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays at one primitive, for the stage of double precision: ordinary ones and those on which it cancels. */
+#ifndef DOUBLE_CASES_H
+#define DOUBLE_CASES_H
+
+#include "support/oracle/oracle.h"
+#include "support/random.h"
+#include "exact/decide.h"
+
+typedef enum double_family {
+    ANYWHERE,
+    AT_EDGES,
+    FAR_AWAY,
+    SLIVERS,
+    LATTICE, /* small whole numbers: rays go exactly through edges, vertices and silhouettes, and start on surfaces */
+    HUGE_OR_TINY,
+    DOUBLE_FAMILIES
+} double_family;
+
+const char *double_family_name(double_family f);
+
+/* A sphere, or a triangle; and a ray at it: at a point of it, of its border, beside that. */
+void double_case_shape(test_random *r, double_family f, bool sphere, oracle_primitive *q);
+truth_ray double_case_ray(test_random *r, double_family f, const oracle_primitive *q);
+
+/* Both; of family HUGE_OR_TINY scaled by powers of two, the direction by others. */
+void double_case_make(test_random *r, double_family f, bool sphere, oracle_primitive *q, truth_ray *ray);
+
+/* As the library takes them. */
+cgt_shape double_case_shape_of(const oracle_primitive *q);
+cgt_ray double_case_ray_of(const truth_ray *ray);
+
+#endif

@@ -1,0 +1,254 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The stage of double precision: what triangle_double.h and sphere_double.h compute errs by no more than the bounds
+ * that they derive, which are not orders of magnitude too wide; and what is called safe is. */
+#include "support/test.h"
+
+#include <math.h>
+
+#include "decide/double_cases.h"
+#include "support/oracle/oracle_line.h"
+#include "exact/triangle_double.h"
+
+/* ---- exact values ---- */
+
+static dyadic dyadic_of_double(double x)
+{
+    int exponent;
+    const double m = frexp(x, &exponent), high = trunc(ldexp(m, 27)), low = ldexp(ldexp(m, 27) - high, 27);
+    const dyadic h = dyadic_make((int32_t)high, exponent - 27), l = dyadic_make((int32_t)low, exponent - 54);
+    return dyadic_add(&h, &l);
+}
+
+/* |computed * times - exact| */
+static double error_of(double computed, const dyadic *times, const dyadic *exact)
+{
+    const dyadic x = dyadic_of_double(computed), product = dyadic_mul(&x, times);
+    const dyadic difference = dyadic_sub(&product, exact);
+    return fabs((double)dyadic_real(&difference));
+}
+
+static void difference_of(const float p[3], const float q[3], dyadic result[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const dyadic x = dyadic_of_float(p[a]), y = dyadic_of_float(q[a]);
+        result[a] = dyadic_sub(&x, &y);
+    }
+}
+
+/* How near errors come to their bounds. */
+typedef struct nearness {
+    double most;
+    uint64_t beyond, exact, values;
+} nearness;
+
+static void note_error(nearness *n, double error, double bound)
+{
+    n->values++;
+    n->exact += error == 0;
+    n->beyond += !(error <= bound);
+    if (bound > 0)
+        n->most = fmax(n->most, error / bound);
+}
+
+static void expect_near(const char *what, const nearness *n, double least)
+{
+    print_message("%s: %llu values, %llu of them exact, errors up to %.3g of the bound\n", what,
+                  (unsigned long long)n->values, (unsigned long long)n->exact, n->most);
+    assert_int_equal(n->beyond, 0);
+    assert_true(n->most > least);
+}
+
+/* ---- bounds ---- */
+
+static void judge_triangle(const oracle_primitive *q, const truth_ray *ray, nearness *sides, nearness *num,
+                           nearness *den)
+{
+    const cgt_shape shape = double_case_shape_of(q);
+    const cgt_triangle *t = &shape.triangle;
+    const cgt_triangle_sides s = cgt_triangle_double_sides(ray->org, ray->dir, t);
+    const cgt_triangle_plane p = cgt_triangle_double_plane(ray->org, ray->dir, t);
+    const dyadic one = dyadic_make(1, 0);
+    dyadic d[3], from[3], e[3], f[3], cross[3];
+    for (int a = 0; a < 3; a++)
+        d[a] = dyadic_of_float(ray->dir[a]);
+    for (int k = 0; k < 3; k++) {
+        difference_of(t->v[(k + 1) % 3], ray->org, from);
+        difference_of(t->v[(k + 2) % 3], ray->org, e);
+        dyadic_cross(from, e, cross);
+        const dyadic w = dyadic_dot(d, cross);
+        note_error(sides, error_of(s.w[k], &one, &w), s.error[k]);
+    }
+    difference_of(t->v[0], ray->org, from);
+    difference_of(t->v[1], t->v[0], e);
+    difference_of(t->v[2], t->v[0], f);
+    dyadic_cross(e, f, cross);
+    const dyadic exact_num = dyadic_dot(cross, from), exact_den = dyadic_dot(cross, d);
+    note_error(num, error_of(p.num, &one, &exact_num), p.num_error);
+    note_error(den, error_of(p.den, &one, &exact_den), p.den_error);
+}
+
+static void triangles_err_within_bounds(void **state)
+{
+    (void)state;
+    nearness sides = {0}, num = {0}, den = {0};
+    for (int f = 0; f < DOUBLE_FAMILIES; f++) {
+        test_random r = random_make((uint64_t)f);
+        for (uint32_t round = 100 + test_scaled(15000); round; round--) {
+            oracle_primitive q;
+            truth_ray ray;
+            double_case_make(&r, (double_family)f, false, &q, &ray);
+            judge_triangle(&q, &ray, &sides, &num, &den);
+        }
+    }
+    expect_near("side of an edge", &sides, 0x1p-6);
+    expect_near("n.a", &num, 0x1p-6);
+    expect_near("d.n", &den, 0x1p-6);
+}
+
+/* What sphere_double.h says of its terms. The tight bound of the discriminant is one where the line meets the sphere;
+ * beyond, where it is lost in something larger, all that counts is that it is no hit. */
+static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearness *tight_disc, nearness *rest)
+{
+    const cgt_sphere sphere = double_case_shape_of(q).sphere;
+    const cgt_sphere_terms e = cgt_sphere_double_terms(ray->org, ray->dir, sphere);
+    const dyadic one = dyadic_make(1, 0);
+    dyadic c[3], d[3];
+    difference_of(q->data, ray->org, c);
+    for (int a = 0; a < 3; a++)
+        d[a] = dyadic_of_float(ray->dir[a]);
+    const dyadic r = dyadic_of_float(sphere.r), rr = dyadic_mul(&r, &r), cc = dyadic_dot(c, c), dd = dyadic_dot(d, d);
+    const dyadic dc = dyadic_dot(d, c), power = dyadic_sub(&cc, &rr), square = dyadic_mul(&dc, &dc);
+    const dyadic product = dyadic_mul(&dd, &power), disc = dyadic_sub(&square, &product);
+    const double length2 = (double)dyadic_real(&dd), distance2 = (double)dyadic_real(&cc);
+    const double both = distance2 + (double)sphere.r * sphere.r;
+    const double tight = cgt_sphere_double_disc_error(ray->org, ray->dir, sphere);
+    if (disc.sign >= 0)
+        note_error(tight_disc, error_of(e.disc, &one, &disc), tight);
+    else
+        assert_true(e.disc <= tight);
+    note_error(&rest[0], error_of(e.middle, &one, &dc), 4 * CGT_DOUBLE_U * sqrt(distance2 * length2));
+    note_error(&rest[1], error_of(e.product, &one, &power), 6 * CGT_DOUBLE_U * both);
+    note_error(&rest[2], error_of(e.disc, &one, &disc), 14 * CGT_DOUBLE_U * both * length2);
+}
+
+static void spheres_err_within_bounds(void **state)
+{
+    (void)state;
+    nearness disc = {0}, rest[3] = {{0}};
+    for (int f = 0; f < DOUBLE_FAMILIES; f++) {
+        test_random r = random_make(10 + (uint64_t)f);
+        for (uint32_t round = 100 + test_scaled(15000); round; round--) {
+            oracle_primitive q;
+            truth_ray ray;
+            double_case_make(&r, (double_family)f, true, &q, &ray);
+            judge_sphere(&q, &ray, &disc, rest);
+        }
+    }
+    expect_near("discriminant, tight bound", &disc, 0x1p-7);
+    expect_near("middle", &rest[0], 0x1p-6);
+    expect_near("product", &rest[1], 0x1p-6);
+    expect_near("discriminant, any line", &rest[2], 0x1p-6);
+}
+
+/* ---- what is called safe ---- */
+
+/* Errors of the values that are used as they are, over 2^-30 of themselves; how many are not used. */
+static void safe_values_are(void **state)
+{
+    (void)state;
+    nearness safe[2] = {{0}};
+    uint64_t ordinary = 0, unsafe = 0;
+    for (int f = 0; f < DOUBLE_FAMILIES; f++) {
+        test_random r = random_make(20 + (uint64_t)f);
+        for (uint32_t round = 100 + test_scaled(8000); round; round--) {
+            const bool sphere = round % 2;
+            oracle_primitive q;
+            oracle_root roots[2];
+            oracle_line line;
+            truth_ray ray;
+            double_case_make(&r, (double_family)f, sphere, &q, &ray);
+            if (!oracle_line_make(&ray, &line) || !oracle_roots(&line, &q, roots))
+                continue;
+            const cgt_shape shape = double_case_shape_of(&q);
+            const cgt_sphere_terms e = cgt_sphere_double_terms(ray.org, ray.dir, shape.sphere);
+            const cgt_triangle_plane p = cgt_triangle_double_plane(ray.org, ray.dir, &shape.triangle);
+            const bool is_safe = sphere ? !cgt_sphere_double_unsafe(e, sqrt(e.disc)) : cgt_triangle_double_t_safe(&p);
+            ordinary += f == ANYWHERE;
+            unsafe += f == ANYWHERE && !is_safe;
+            if (!is_safe)
+                continue;
+            const cgt_sphere_roots both = cgt_sphere_double_roots(e, sqrt(e.disc));
+            const double t[2] = {sphere ? both.near : p.num / p.den, both.far};
+            for (int i = 0; i < (sphere ? 2 : 1); i++) /* the bounds of t's numerator and denominator add up */
+                note_error(&safe[sphere], fabs((double)(t[i] - roots[i].t)),
+                           fabs((double)roots[i].t) * (sphere ? 0x1p-31 : 2.01 * CGT_DOUBLE_SAFE));
+        }
+    }
+    print_message("of %llu ordinary hits %llu are not safe in double\n", (unsigned long long)ordinary,
+                  (unsigned long long)unsafe);
+    expect_near("t of triangles", &safe[0], 0);
+    expect_near("t of spheres", &safe[1], 0);
+    assert_true(unsafe * 100 < ordinary);
+}
+
+/* An origin right above a sphere's surface, at any height of 2 to 2^-24 radii, and a ray that goes down from there. */
+static void start_above(test_random *r, const oracle_primitive *q, truth_ray *ray)
+{
+    const float height = ldexpf(q->data[3], 1 - (int)random_below(r, 26));
+    float up[3];
+    random_direction(r, up);
+    for (int a = 0; a < 3; a++) {
+        ray->org[a] = q->data[a] + up[a] * (q->data[3] + height);
+        ray->dir[a] = random_float(r, -0.5f, 0.5f) - up[a];
+    }
+}
+
+/* The short way's root over 2^-32 of itself, and the point that is hit over 2^-25 of the radius; how many go that way. */
+static void short_ways_are_safe(void **state)
+{
+    (void)state;
+    nearness root = {0}, point = {0};
+    uint64_t ordinary = 0, longer = 0;
+    for (int f = 0; f < DOUBLE_FAMILIES; f++) {
+        test_random r = random_make(30 + (uint64_t)f);
+        for (uint32_t round = 100 + test_scaled(15000); round; round--) {
+            oracle_primitive q;
+            oracle_root roots[2];
+            oracle_line line;
+            truth_ray ray;
+            double near;
+            double_case_make(&r, (double_family)f, true, &q, &ray);
+            const bool above = f != HUGE_OR_TINY && round % 4 == 0;
+            if (above)
+                start_above(&r, &q, &ray);
+            if (!oracle_line_make(&ray, &line) || !oracle_roots(&line, &q, roots) || !(roots[0].t > 0))
+                continue;
+            const cgt_sphere sphere = double_case_shape_of(&q).sphere;
+            const cgt_sphere_terms e = cgt_sphere_double_terms(ray.org, ray.dir, sphere);
+            const bool is_short = cgt_sphere_double_near(e, &near);
+            ordinary += f == ANYWHERE && !above;
+            longer += f == ANYWHERE && !above && !is_short;
+            if (!is_short)
+                continue;
+            const double error = fabs((double)(near - roots[0].t));
+            note_error(&root, error, (double)roots[0].t * 0x1p-32);
+            note_error(&point, error * sqrt(e.square), (double)sphere.r * 0x1p-25);
+        }
+    }
+    print_message("of %llu ordinary hits %llu go the long way\n", (unsigned long long)ordinary,
+                  (unsigned long long)longer);
+    expect_near("t by the short way", &root, 0);
+    expect_near("point by the short way", &point, 0x1p-10);
+    assert_true(longer * 4 < ordinary);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(triangles_err_within_bounds),
+                                       cmocka_unit_test(spheres_err_within_bounds), cmocka_unit_test(safe_values_are),
+                                       cmocka_unit_test(short_ways_are_safe)};
+    test_begin("test_double_stage");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

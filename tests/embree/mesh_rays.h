@@ -1,0 +1,29 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The first frame of a file of triangles as a scene with rays. */
+#ifndef MESH_RAYS_H
+#define MESH_RAYS_H
+
+#include <stdbool.h>
+
+#include <cgt/cgt.h>
+
+#include "hard_cases/hard_scene.h"
+
+/* Whether this build reads such a file, and it is there; says so where not. */
+bool mesh_is_here(const char *path);
+
+/* Reads the file into a scene without rays, for `rays` of them; false with a message. */
+bool mesh_read(const char *path, uint32_t rays, hard_scene *s);
+
+/* A camera whose eye and target are given by their place in the bounds, 0 to 1 along each axis. */
+cgt_camera mesh_camera(const hard_scene *s, const float eye[3], const float target[3]);
+
+/* Rays of such a camera's picture in squares of 8x8 pixels. False where the camera is not one. */
+bool mesh_aim_pixels(hard_scene *s, const float eye[3], const float target[3]);
+
+/* From anywhere in the bounds and around them to vertices and points of edges, rounded. */
+void mesh_aim_edges(hard_scene *s);
+
+#endif

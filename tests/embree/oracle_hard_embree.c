@@ -1,0 +1,283 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * libcgt and Embree beside each other on every hard case and on real meshes: the same rays through Embree as it comes,
+ * through Embree with its robust flag, and through libcgt in ROBUST and EXACT, all judged by the exact oracle. libcgt
+ * must decide all rays right, and may be no farther off than Embree anywhere.
+ *
+ *   CGT_TABLE  file that gets the table, tab-separated; standard output gets it anyway */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "embree/embree_opinion.h"
+#include "embree/embree_scene.h"
+#include "embree/mesh_rays.h"
+#include "support/scenes.h"
+
+#define RAYS 2000u
+#define LEAST_RAYS 400u
+#define MOST_TESTS 256
+
+/* Of two floats beside the truth the nearer one is at most half an ulp off. 0.51 is what cgt.h promises of t, so that
+ * libcgt may be 0.02 beyond a lucky neighbour's error. */
+#define SLACK 0.02
+
+enum { EMBREE, EMBREE_ROBUST, CGT_ROBUST, CGT_EXACT, CONFIGS };
+
+static const char *const config_name[CONFIGS] = {"embree", "embree,robust", "libcgt,precision=robust",
+                                                 "libcgt,precision=exact"};
+
+static FILE *table;
+static hard_tally sum[CONFIGS];
+static uint64_t tied[CONFIGS];
+
+/* ---- answers ---- */
+
+static void ask_embree(const hard_scene *s, enum RTCSceneFlags flags, full_hit *hit)
+{
+    embree_scene scene;
+    assert_true(embree_scene_make(s, flags, &scene));
+    for (uint32_t i = 0; i < s->rays; i++)
+        hit[i] = embree_trace(&scene, &s->ray[i]);
+    embree_scene_free(&scene);
+}
+
+static void ask_libcgt(const hard_scene *s, cgt_precision precision, full_hit *hit)
+{
+    cgt_trace_options options;
+    cgt_scene *scene;
+    cgt_context *context = context_make(1, NULL);
+    cgt_trace_options_init(&options);
+    options.precision = precision;
+    if (hard_commit(context, s, NULL, &scene) != CGT_OK)
+        fail_msg("%s", context_message(context));
+    memset(hit, 0x77, s->rays * sizeof *hit);
+    assert_int_equal(trace_array(scene, s->ray, s->rays, hit, &options), CGT_OK);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+static void ask(const hard_scene *s, int config, full_hit *hit)
+{
+    if (config == EMBREE || config == EMBREE_ROBUST)
+        ask_embree(s, config == EMBREE ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_ROBUST, hit);
+    else
+        ask_libcgt(s, config == CGT_ROBUST ? CGT_PRECISION_ROBUST : CGT_PRECISION_EXACT, hit);
+}
+
+/* ---- what must hold ---- */
+
+static void check_right(const opinion *o, uint32_t rays)
+{
+    opinion_spread t;
+    if (hard_errors(&o->tally) || o->tied)
+        fail_msg("%s: %llu missed, %llu invented, %llu wrong, %llu ties not to the lowest id", o->config,
+                 (unsigned long long)o->tally.missed, (unsigned long long)o->tally.invented,
+                 (unsigned long long)o->tally.wrong, (unsigned long long)o->tied);
+    assert_true(opinion_spread_of(o->t_error, NULL, rays, &t));
+    if (t.worst > 0.51)
+        fail_msg("%s: t is %g ulp off", o->config, t.worst);
+}
+
+/* At the end of a range that a t rounds to, two hits may both be right: then their t are not of the same hit. */
+static bool is_same_hit(const opinion *a, const opinion *b, uint32_t i)
+{
+    return fabs(a->exact_t[i] - b->exact_t[i]) <= 0x1p-40 * fabs(a->exact_t[i]);
+}
+
+/* No number of the table is larger than Embree's: t ray by ray, u and v in their median, 99th percentile and worst
+ * where both found the same triangle. */
+static void check_not_worse(const opinion *ours, const opinion *theirs, uint32_t rays)
+{
+    uint8_t *both = calloc((size_t)rays + 1, 1);
+    opinion_spread a, b;
+    assert_non_null(both);
+    for (uint32_t i = 0; i < rays; i++) {
+        if (is_same_hit(ours, theirs, i) && ours->t_error[i] > theirs->t_error[i] + SLACK)
+            fail_msg("ray %u: t is %g ulp off in %s, %g in %s", i, ours->t_error[i], ours->config, theirs->t_error[i],
+                     theirs->config);
+        both[i] = is_same_hit(ours, theirs, i) && ours->hit[i].geometry == theirs->hit[i].geometry &&
+                  ours->hit[i].primitive == theirs->hit[i].primitive;
+    }
+    assert_true(opinion_spread_of(ours->uv_error, both, rays, &a));
+    assert_true(opinion_spread_of(theirs->uv_error, both, rays, &b));
+    if (a.median > b.median + SLACK || a.p99 > b.p99 + SLACK || a.worst > b.worst + SLACK)
+        fail_msg("u, v in 2^-24 where both hit the same: %g, %g, %g in %s, %g, %g, %g in %s", a.median, a.p99, a.worst,
+                 ours->config, b.median, b.p99, b.worst, theirs->config);
+    free(both);
+}
+
+/* ---- one scene ---- */
+
+static void print_rows(const char *row, const char *name, const opinion *o, uint32_t rays, const char *left_out)
+{
+    assert_true(opinion_print_row(stdout, row, name, o, rays, left_out));
+    if (table)
+        assert_true(opinion_print_row(table, row, name, o, rays, left_out));
+}
+
+/* first: the first of the configurations that are asked. */
+static void compare(const char *row, const char *name, const hard_scene *s, int first, const char *left_out)
+{
+    opinion o[CONFIGS];
+    hard_truth truth;
+    assert_true(hard_truth_make(s, &truth));
+    for (int i = first; i < CONFIGS; i++) {
+        assert_true(opinion_make(&o[i], config_name[i], s->rays));
+        ask(s, i, o[i].hit);
+        opinion_judge(&o[i], s, &truth);
+        print_rows(row, name, &o[i], s->rays, left_out);
+        sum[i].rays += o[i].tally.rays;
+        sum[i].hits += o[i].tally.hits;
+        sum[i].missed += o[i].tally.missed;
+        sum[i].invented += o[i].tally.invented;
+        sum[i].wrong += o[i].tally.wrong;
+        tied[i] += o[i].tied;
+    }
+    fflush(stdout);
+    for (int ours = CGT_ROBUST; ours < CONFIGS; ours++) {
+        check_right(&o[ours], s->rays);
+        for (int theirs = first; theirs < CGT_ROBUST; theirs++)
+            check_not_worse(&o[ours], &o[theirs], s->rays);
+    }
+    for (int i = first; i < CONFIGS; i++)
+        opinion_free(&o[i]);
+    hard_truth_free(&truth);
+}
+
+/* The whole scene, and without what Embree does not take where that is not the same. */
+static void compare_both(const char *row, const char *name, const hard_scene *s)
+{
+    embree_part part;
+    char left_out[96] = "-";
+    assert_true(embree_part_make(s, &part));
+    if (part.primitives || part.rays) {
+        compare(row, name, s, CGT_ROBUST, "-");
+        snprintf(left_out, sizeof left_out, "%u of %u primitives, %u of %u rays", (unsigned)part.primitives,
+                 (unsigned)hard_scene_primitives(s), (unsigned)part.rays, (unsigned)s->rays);
+    }
+    compare(row, name, &part.scene, EMBREE, left_out);
+    hard_scene_free(&part.scene);
+}
+
+static uint32_t ray_count(void)
+{
+    const uint32_t scaled = test_scaled(RAYS);
+    return scaled < LEAST_RAYS ? LEAST_RAYS : scaled;
+}
+
+static void test_case(void **state)
+{
+    const hard_case *hard = *state;
+    hard_scene s;
+    assert_true(hard_case_make(hard, ray_count(), &s));
+    cgt_context *context = context_make(1, NULL);
+    assert_int_equal(hard_follow(context, hard, &s), CGT_OK);
+    cgt_context_release(context);
+    compare_both(hard->row, hard->name, &s);
+    hard_scene_free(&s);
+}
+
+/* ---- real meshes ---- */
+
+typedef struct real_mesh {
+    const char *path, *name, *package;
+    float eye[3], target[3]; /* by their place in the bounds */
+} real_mesh;
+
+static const real_mesh meshes[] = {
+    {"/usr/share/glmark2/models/bunny.obj", "bunny", "glmark2-data", {0.7f, 0.8f, 2.6f}, {0.5f, 0.45f, 0.5f}},
+    {"/usr/share/glmark2/models/horse.3ds", "horse", "glmark2-data", {2.1f, 0.6f, 1.9f}, {0.5f, 0.5f, 0.5f}},
+    {"/usr/share/assimp/models/IFC/AC14-FZK-Haus.ifc",
+     "house from inside",
+     "assimp-testmodels",
+     {0.45f, 0.25f, 0.4f},
+     {0.9f, 0.28f, 0.7f}}};
+
+static void test_mesh(void **state)
+{
+    const real_mesh *mesh = *state;
+    hard_scene s;
+    char name[64];
+    if (!mesh_is_here(mesh->path)) {
+        print_message("%s comes with the package %s\n", mesh->name, mesh->package);
+        skip();
+    }
+    assert_true(mesh_read(mesh->path, ray_count(), &s));
+    assert_true(mesh_aim_pixels(&s, mesh->eye, mesh->target));
+    snprintf(name, sizeof name, "%s, pixels", mesh->name);
+    compare_both("real mesh", name, &s);
+    s.rays = 0;
+    mesh_aim_edges(&s);
+    assert_false(s.failed);
+    snprintf(name, sizeof name, "%s, edges and vertices", mesh->name);
+    compare_both("real mesh", name, &s);
+    hard_scene_free(&s);
+}
+
+/* ---- all together ---- */
+
+/* The sums; and that the rays are hard: single precision cannot decide them all. */
+static void test_sums(void **state)
+{
+    (void)state;
+    for (int i = 0; i < CONFIGS; i++) {
+        const opinion o = {.config = config_name[i], .tally = sum[i], .tied = tied[i]};
+        print_rows("all rows", "all cases", &o, 0, "-");
+    }
+    assert_true(hard_errors(&sum[EMBREE]) > 0 && hard_errors(&sum[EMBREE_ROBUST]) > 0);
+    assert_true(sum[EMBREE].hits > sum[EMBREE].rays / 4);
+    /* two programs that look at the same scenes agree on most rays: else one of them sees others */
+    assert_true(hard_errors(&sum[EMBREE_ROBUST]) < sum[EMBREE_ROBUST].rays / 4);
+}
+
+static int run(void)
+{
+    static struct CMUnitTest tests[MOST_TESTS];
+    static char name[MOST_TESTS][160];
+    const size_t cases = hard_case_count();
+    size_t count = 0;
+    if (cases + TEST_COUNT(meshes) + 1 > MOST_TESTS) {
+        fprintf(stderr, "%zu cases are more than there is room for\n", cases);
+        return 1;
+    }
+    for (; count < cases; count++) {
+        const hard_case *hard = hard_case_at(count);
+        snprintf(name[count], sizeof name[count], "%s: %s", hard->row, hard->name);
+        tests[count] =
+            (struct CMUnitTest){.name = name[count], .test_func = test_case, .initial_state = (void *)(uintptr_t)hard};
+    }
+    for (size_t i = 0; i < TEST_COUNT(meshes); i++)
+        tests[count++] = (struct CMUnitTest){
+            .name = meshes[i].name, .test_func = test_mesh, .initial_state = (void *)(uintptr_t)&meshes[i]};
+    tests[count++] = (struct CMUnitTest)cmocka_unit_test(test_sums);
+    opinion_print_head(stdout);
+    if (table)
+        opinion_print_head(table);
+    return _cmocka_run_group_tests("beside Embree", tests, count, NULL, NULL);
+}
+
+int main(void)
+{
+    const char *path = getenv("CGT_TABLE");
+    test_begin("oracle_hard_embree");
+    if (path && *path) {
+        table = fopen(path, "w");
+        if (!table) {
+            perror(path);
+            return 1;
+        }
+    }
+    if (!embree_begin())
+        return 1;
+    int failed = run();
+    embree_end();
+    if (table && (ferror(table) | fclose(table))) {
+        fprintf(stderr, "%s: the table was not written\n", path);
+        failed = 1;
+    }
+    return failed;
+}

@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * One build of exact_builds.h, of the name EXACT_BUILD: the library's own source with other settings and other names.
+ * Included once by a file that makes the settings. */
+#include <stdbool.h>
+#include <stdint.h>
+
+#define EXACT_JOIN_(build, name) exact_##build##_##name
+#define EXACT_JOIN(build, name) EXACT_JOIN_(build, name)
+#define EXACT_TEXT_(x) #x
+#define EXACT_TEXT(x) EXACT_TEXT_(x)
+
+#define cgt_exact_line_meets_triangle EXACT_JOIN(EXACT_BUILD, line_meets_triangle)
+#define cgt_exact_line_meets_sphere EXACT_JOIN(EXACT_BUILD, line_meets_sphere)
+#define cgt_exact_compare EXACT_JOIN(EXACT_BUILD, compare)
+#define cgt_exact_t EXACT_JOIN(EXACT_BUILD, t)
+#define cgt_exact_uv EXACT_JOIN(EXACT_BUILD, uv)
+#define cgt_exact_normal EXACT_JOIN(EXACT_BUILD, normal)
+#define cgt_exact_plane_terms EXACT_JOIN(EXACT_BUILD, plane_terms)
+#define cgt_exact_sphere_terms EXACT_JOIN(EXACT_BUILD, sphere_terms)
+#define cgt_exact_edge_terms EXACT_JOIN(EXACT_BUILD, edge_terms)
+#define cgt_exact_normal_terms EXACT_JOIN(EXACT_BUILD, normal_terms)
+
+#include "exact/integer/exact_terms.c"
+#include "exact/integer/exact_decide.c"
+#include "exact/integer/exact_value.c"
+
+#include "exact/exact_builds.h"
+
+#define EXACT_BUILD_STRUCT_(build) exact_##build
+#define EXACT_BUILD_STRUCT(build) EXACT_BUILD_STRUCT_(build)
+
+const exact_build EXACT_BUILD_STRUCT(EXACT_BUILD) = {
+    .name = EXACT_TEXT(EXACT_BUILD),
+    .line_meets_triangle = cgt_exact_line_meets_triangle,
+    .line_meets_sphere = cgt_exact_line_meets_sphere,
+    .compare = cgt_exact_compare,
+    .t = cgt_exact_t,
+    .uv = cgt_exact_uv,
+    .normal = cgt_exact_normal,
+};

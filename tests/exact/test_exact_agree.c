@@ -1,0 +1,291 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The exact stage on random rays and primitives of ten families: its tiers against each other to the bit, all against
+ * the oracle, which shares nothing with it, and the order of hits against itself. */
+#include "support/oracle/oracle_line.h"
+#include "support/test.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "exact/exact_builds.h"
+#include "exact/exact_cases.h"
+
+#if defined(__x86_64__) && defined(__SIZEOF_FLOAT128__) || LDBL_MANT_DIG == 113
+#define BINARY128 1 /* truth_real has 113 bits and an exponent that holds all that floats give */
+#else
+#define BINARY128 0
+#endif
+
+enum { MAX_ROOTS = 6 };
+
+static const exact_build *const others[] = {&exact_counted, &exact_wide, &exact_halves};
+
+/* What a family's cases had to offer: that a test saw what it is about. */
+typedef struct tally {
+    uint64_t cases, triangle_hits, sphere_hits, tangents, on_edge;
+    uint64_t pairs[3], equal, surely; /* pairs[0]: triangles, [1]: mixed, [2]: spheres; surely: in binary128, too */
+} tally;
+
+/* The roots of a case's primitives, as the exact stage and as the oracle have them. */
+typedef struct roots {
+    int count;
+    cgt_exact_root root[MAX_ROOTS];
+    oracle_root truth[MAX_ROOTS];
+    double t[MAX_ROOTS];
+    int order[MAX_ROOTS][MAX_ROOTS];
+} roots;
+
+static bool same_double(double a, double b) { return memcmp(&a, &b, sizeof a) == 0; }
+
+static bool within(truth_real exact, double got, truth_real part)
+{
+    const truth_real size = exact < 0 ? -exact : exact, off = exact < got ? got - exact : exact - got;
+    return off <= size * part;
+}
+
+static truth_ray whole_line(const cgt_exact_ray *ray)
+{
+    truth_ray line = {.t_min = 0, .t_max = 1};
+    memcpy(line.org, ray->org, sizeof line.org);
+    memcpy(line.dir, ray->dir, sizeof line.dir);
+    return line;
+}
+
+static oracle_primitive as_oracle(const cgt_shape *shape)
+{
+    oracle_primitive p = {.kind = shape->kind == CGT_KIND_SPHERES ? ORACLE_SPHERE : ORACLE_TRIANGLE};
+    if (p.kind == ORACLE_SPHERE)
+        memcpy(p.data, &shape->sphere, sizeof shape->sphere);
+    else
+        memcpy(p.data, &shape->triangle, sizeof shape->triangle);
+    return p;
+}
+
+static bool meets(const exact_build *build, const cgt_exact_ray *ray, const cgt_shape *shape)
+{
+    return shape->kind == CGT_KIND_SPHERES ? build->line_meets_sphere(ray, shape->sphere)
+                                           : build->line_meets_triangle(ray, &shape->triangle);
+}
+
+/* ---- Values ---- */
+
+static void check_normal(const cgt_triangle *triangle, const truth_real exact[3])
+{
+    double n[3];
+    cgt_exact_normal(triangle, n);
+    const truth_real length =
+        truth_square_root((truth_real)n[0] * n[0] + (truth_real)n[1] * n[1] + (truth_real)n[2] * n[2]);
+    double largest = 0;
+    for (int a = 0; a < 3; a++) {
+        largest = largest < n[a] ? n[a] : largest < -n[a] ? -n[a] : largest;
+        assert_true(within(exact[a] * length, n[a], 0x1p-51)); /* of n 2^-52, of the length as much */
+        assert_true((exact[a] == 0) == (n[a] == 0));
+    }
+    assert_true(largest >= 0.5 && largest <= 4);
+}
+
+static void check_values(const cgt_exact_ray *ray, const cgt_shape *shape, const oracle_line *line, const roots *all,
+                         int i)
+{
+    double uv[2];
+    oracle_hit truth;
+    if (!BINARY128)
+        return;
+    const oracle_primitive primitive = as_oracle(shape);
+    oracle_describe(line, &primitive, &all->truth[i], &truth);
+    assert_true(within(truth.t, all->t[i], 0x1p-50));
+    if (shape->kind == CGT_KIND_SPHERES)
+        return;
+    cgt_exact_uv(ray, &shape->triangle, uv);
+    for (int k = 0; k < 2; k++)
+        assert_true(within(truth.uv[k], uv[k], 0x1p-50));
+    check_normal(&shape->triangle, truth.normal);
+}
+
+/* ---- Agreement ---- */
+
+static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_shape *shape, bool hit)
+{
+    double uv[2], other_uv[2], n[3], other_n[3];
+    for (size_t b = 0; b < TEST_COUNT(others); b++) {
+        if (meets(others[b], ray, shape) != hit)
+            fail_msg("%s: hit or miss differs", others[b]->name);
+        if (shape->kind == CGT_KIND_SPHERES)
+            continue;
+        cgt_exact_normal(&shape->triangle, n);
+        others[b]->normal(&shape->triangle, other_n);
+        assert_memory_equal(n, other_n, sizeof n);
+        if (!hit)
+            continue;
+        cgt_exact_uv(ray, &shape->triangle, uv);
+        others[b]->uv(ray, &shape->triangle, other_uv);
+        assert_memory_equal(uv, other_uv, sizeof uv);
+    }
+}
+
+/* Adds the roots of one primitive: hit or miss as the oracle has it, and by all builds. */
+static void add_roots(const cgt_exact_ray *ray, const cgt_shape *shape, const oracle_line *line, roots *all, tally *sum)
+{
+    oracle_root truth[2];
+    const oracle_primitive primitive = as_oracle(shape);
+    const int count = oracle_roots(line, &primitive, truth);
+    const bool sphere = shape->kind == CGT_KIND_SPHERES;
+    assert_int_equal(exact_meets(ray, shape), count > 0);
+    check_builds_on_shape(ray, shape, count > 0);
+    if (!count)
+        return;
+    for (int far = 0; far < (sphere ? 2 : 1); far++) {
+        const int i = all->count++;
+        all->root[i] = (cgt_exact_root){shape, far};
+        all->truth[i] = truth[far < count ? far : 0];
+        all->t[i] = cgt_exact_t(ray, &all->root[i]);
+        for (size_t b = 0; b < TEST_COUNT(others); b++)
+            assert_true(same_double(others[b]->t(ray, &all->root[i]), all->t[i]));
+        check_values(ray, shape, line, all, i);
+    }
+    sum->sphere_hits += sphere;
+    sum->tangents += sphere && count == 1;
+    if (sphere)
+        return;
+    double uv[2];
+    cgt_exact_uv(ray, &shape->triangle, uv);
+    sum->triangle_hits++;
+    sum->on_edge += uv[0] == 0 || uv[1] == 0 || uv[0] + uv[1] == 1;
+}
+
+static void compare_pair(const cgt_exact_ray *ray, roots *all, int i, int j, tally *sum)
+{
+    const int order = cgt_exact_compare(ray, &all->root[i], &all->root[j]);
+    all->order[i][j] = order;
+    assert_int_equal(order, oracle_compare(&all->truth[i], &all->truth[j]));
+    for (size_t b = 0; b < TEST_COUNT(others); b++)
+        assert_int_equal(others[b]->compare(ray, &all->root[i], &all->root[j]), order);
+    if (i != j)
+        sum->pairs[(all->root[i].shape->kind == CGT_KIND_SPHERES) + (all->root[j].shape->kind == CGT_KIND_SPHERES)]++;
+    sum->equal += i != j && order == 0;
+
+    const truth_real a = all->truth[i].t, b = all->truth[j].t, distance = a < b ? b - a : a - b;
+    if (BINARY128 && distance > ((a < 0 ? -a : a) + (b < 0 ? -b : b)) * 0x1p-100) {
+        assert_int_equal(order, a < b ? -1 : 1);
+        sum->surely++;
+    }
+    /* and the values that are handed out never contradict it by more than their error */
+    const double s = all->t[i], t = all->t[j];
+    assert_true(order > 0 || s <= t + 0x1p-48 * (t < 0 ? -t : t));
+}
+
+static void check_order(const roots *all)
+{
+    for (int i = 0; i < all->count; i++)
+        for (int j = 0; j < all->count; j++) {
+            assert_int_equal(all->order[i][j], -all->order[j][i]);
+            for (int k = 0; k < all->count; k++)
+                if (all->order[i][j] <= 0 && all->order[j][k] <= 0) {
+                    assert_true(all->order[i][k] <= 0);
+                    assert_int_equal(all->order[i][k] == 0, all->order[i][j] == 0 && all->order[j][k] == 0);
+                }
+        }
+}
+
+static void check_case(const exact_case *c, tally *sum)
+{
+    roots all = {.count = 0};
+    oracle_line line;
+    const truth_ray ray = whole_line(&c->ray);
+    assert_true(oracle_line_make(&ray, &line));
+    for (int i = 0; i < 4; i++)
+        add_roots(&c->ray, &c->shape[i], &line, &all, sum);
+    for (int i = 0; i < all.count; i++)
+        for (int j = 0; j < all.count; j++)
+            compare_pair(&c->ray, &all, i, j, sum);
+    check_order(&all);
+    sum->cases++;
+}
+
+static tally check_family(exact_family family, uint32_t cases)
+{
+    tally sum = {.cases = 0};
+    test_random r = random_make(2000 + (uint64_t)family);
+    while (sum.cases < cases) {
+        const exact_case c = exact_case_make(&r, family);
+        check_case(&c, &sum);
+    }
+    print_message("%-8s %5llu cases: %llu triangles hit, %llu at an edge; %llu spheres, %llu touched; pairs %llu "
+                  "triangles, %llu mixed, %llu spheres; %llu equal, %llu sure in binary128\n",
+                  exact_family_name(family), (unsigned long long)sum.cases, (unsigned long long)sum.triangle_hits,
+                  (unsigned long long)sum.on_edge, (unsigned long long)sum.sphere_hits,
+                  (unsigned long long)sum.tangents, (unsigned long long)sum.pairs[0], (unsigned long long)sum.pairs[1],
+                  (unsigned long long)sum.pairs[2], (unsigned long long)sum.equal, (unsigned long long)sum.surely);
+    assert_true(sum.triangle_hits > 0 && sum.sphere_hits > 0);
+    assert_true(sum.pairs[0] > 0 && sum.pairs[1] > 0 && sum.pairs[2] > 0);
+    return sum;
+}
+
+/* ---- Tests ---- */
+
+static uint32_t cases_of_family(void) { return 100 + test_scaled(2000); }
+
+static void everyday_input(void **state)
+{
+    (void)state;
+    for (exact_family f = EXACT_ORDINARY; f <= EXACT_FAR; f++)
+        check_family(f, cases_of_family());
+}
+
+/* Input on which signs are 0, or as small as floats make them. */
+static void degenerate_input(void **state)
+{
+    (void)state;
+    const tally grid = check_family(EXACT_GRID, cases_of_family());
+    assert_true(grid.on_edge > grid.triangle_hits / 10 && grid.tangents > 4 && grid.equal > 0);
+    const tally places = check_family(EXACT_PLACES, cases_of_family());
+    assert_true(places.on_edge > places.triangle_hits / 10 && places.equal > places.triangle_hits / 2);
+    check_family(EXACT_AIMED, cases_of_family());
+    const tally alike = check_family(EXACT_ALIKE, cases_of_family());
+    assert_true(alike.equal > alike.cases / 4);
+    check_family(EXACT_CLOSE, cases_of_family());
+}
+
+static void whole_range_of_float(void **state)
+{
+    (void)state;
+    for (exact_family f = EXACT_SPREAD; f <= EXACT_DENORMAL; f++)
+        check_family(f, cases_of_family());
+}
+
+/* The families take each tier often. */
+static void every_tier_is_reached(void **state)
+{
+    (void)state;
+    memset(exact_reached, 0, sizeof exact_reached);
+    tally sum = {.cases = 0};
+    test_random r = random_make(1);
+    for (int i = 0; i < 40; i++)
+        for (int f = 0; f < EXACT_FAMILIES; f++) {
+            const exact_case c = exact_case_make(&r, (exact_family)f);
+            check_case(&c, &sum);
+        }
+    const uint64_t *n = exact_reached;
+    print_message("triple products: %llu in 128 bits, %llu in 192, %llu wide; dot products: %llu in 128, %llu wide\n",
+                  (unsigned long long)n[EXACT_TIER_128], (unsigned long long)n[EXACT_TIER_192],
+                  (unsigned long long)n[EXACT_TIER_wide], (unsigned long long)n[EXACT_TIER_dot],
+                  (unsigned long long)n[EXACT_TIER_wide_dot]);
+    assert_true(n[EXACT_TIER_wide] > sum.cases && n[EXACT_TIER_wide_dot] > sum.cases);
+#ifdef __SIZEOF_INT128__
+    assert_true(n[EXACT_TIER_128] > sum.cases && n[EXACT_TIER_192] > sum.cases / 4 && n[EXACT_TIER_dot] > sum.cases);
+#endif
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(everyday_input),
+        cmocka_unit_test(degenerate_input),
+        cmocka_unit_test(whole_range_of_float),
+        cmocka_unit_test(every_tier_is_reached),
+    };
+    test_begin("test_exact_agree");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,497 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The loose grid after a commit, against its contract (loose_grid.h): every valid object lies in one cell, ascending
+ * there, and within reach of the cell's box, which exact arithmetic decides; levels hold like sizes; cells are as many
+ * as they should be; and all of it is the same on each variant and any number of threads. */
+#include "grid/loose_scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "build/grid/loose_grid_build.h"
+#include "scene/scene.h"
+#include "support/oracle/dyadic.h"
+
+static const cgt_scene_options loose_options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
+
+/* ---- one grid against its objects ---- */
+
+static void bounds_of(const cgt_objects *objects, uint32_t object, dyadic low[3], dyadic high[3])
+{
+    const cgt_shape q = cgt_objects_shape(objects, object);
+    const float center[3] = {q.sphere.x, q.sphere.y, q.sphere.z};
+    for (int a = 0; a < 3; a++) {
+        if (q.kind == CGT_KIND_SPHERES) {
+            const dyadic c = dyadic_of_float(center[a]), r = dyadic_of_float(q.sphere.r);
+            low[a] = dyadic_sub(&c, &r);
+            high[a] = dyadic_add(&c, &r);
+        } else {
+            const float s = q.triangle.v[0][a], t = q.triangle.v[1][a], u = q.triangle.v[2][a];
+            low[a] = dyadic_of_float(fminf(s, fminf(t, u)));
+            high[a] = dyadic_of_float(fmaxf(s, fmaxf(t, u)));
+        }
+    }
+}
+
+/* The largest half extent, and each; rounded. */
+static double halves_of(const cgt_objects *objects, uint32_t object, double half[3])
+{
+    dyadic low[3], high[3];
+    double size = 0;
+    bounds_of(objects, object, low, high);
+    for (int a = 0; a < 3; a++) {
+        const dyadic extent = dyadic_sub(&high[a], &low[a]);
+        half[a] = (double)dyadic_real(&extent) / 2;
+        size = fmax(size, half[a]);
+    }
+    return size;
+}
+
+/* Whether bounds lie within low + i cell - reach and low + (i + 1) cell + reach, exactly. */
+static bool within_reach(const cgt_loose_level *level, const uint32_t cell[3], const dyadic low[3],
+                         const dyadic high[3])
+{
+    bool within = true;
+    for (int a = 0; a < 3; a++) {
+        const dyadic first = dyadic_of_float(level->low[a]), edge = dyadic_of_float(level->cell[a]);
+        const dyadic reach = dyadic_of_float(level->reach[a]);
+        const dyadic i = dyadic_make((int32_t)cell[a], 0), after = dyadic_make((int32_t)cell[a] + 1, 0);
+        const dyadic to_low = dyadic_mul(&i, &edge), to_high = dyadic_mul(&after, &edge);
+        dyadic begin = dyadic_add(&first, &to_low), end = dyadic_add(&first, &to_high);
+        begin = dyadic_sub(&begin, &reach);
+        end = dyadic_add(&end, &reach);
+        const dyadic below = dyadic_sub(&low[a], &begin), above = dyadic_sub(&end, &high[a]);
+        within &= below.sign >= 0 && above.sign >= 0;
+    }
+    return within;
+}
+
+/* What the rounding of a middle adds to a half extent at most. */
+static double doubt_of(const cgt_world *w)
+{
+    double magnitude = 0;
+    for (int a = 0; a < 3; a++)
+        magnitude = fmax(magnitude, fmax(fabs((double)w->low[a]), fabs((double)w->high[a])));
+    return magnitude * 0x1p-24;
+}
+
+/* The objects of a level: what they are, and how many of the smaller ones are there as guests. */
+typedef struct level_found {
+    uint32_t objects;
+    double largest, smallest, half[3];
+    uint32_t guests; /* smaller than a quarter of the largest */
+} level_found;
+
+static void find_level(const cgt_world *w, const cgt_loose_level *level, uint8_t *seen, level_found *f)
+{
+    const uint32_t cells = level->size[0] * level->size[1] * level->size[2];
+    *f = (level_found){.smallest = INFINITY};
+    for (uint32_t c = 0; c < cells; c++) {
+        const uint32_t begin = w->loose.start[level->first + c], end = w->loose.start[level->first + c + 1];
+        const uint32_t row = c / level->size[0];
+        const uint32_t cell[3] = {c % level->size[0], row % level->size[1], row / level->size[1]};
+        assert_true(begin <= end && end <= w->valid);
+        for (uint32_t i = begin; i < end; i++) {
+            const uint32_t object = w->loose.object[i];
+            dyadic low[3], high[3];
+            double half[3];
+            assert_true(object < w->objects.count && (i == begin || object > w->loose.object[i - 1]));
+            assert_int_equal(seen[object]++, 0);
+            bounds_of(&w->objects, object, low, high);
+            if (!within_reach(level, cell, low, high))
+                fail_msg("object %u is out of reach of cell %u %u %u", object, cell[0], cell[1], cell[2]);
+            const double size = halves_of(&w->objects, object, half);
+            f->largest = fmax(f->largest, size);
+            f->smallest = fmin(f->smallest, size);
+            for (int a = 0; a < 3; a++)
+                f->half[a] = fmax(f->half[a], half[a]);
+            f->objects++;
+        }
+    }
+    for (uint32_t i = w->loose.start[level->first]; i < w->loose.start[level->first + cells]; i++) {
+        double half[3];
+        f->guests += halves_of(&w->objects, w->loose.object[i], half) + doubt_of(w) < f->largest * (0.25 - 0x1p-20);
+    }
+}
+
+static void check_level(const cgt_loose_level *level, const level_found *f, bool last, double doubt)
+{
+    const uint32_t hosts = f->objects - f->guests;
+    assert_int_equal(f->objects, level->objects);
+    assert_true(f->objects > 0 && f->smallest + doubt >= level->least * (1 - 0x1p-20));
+    assert_true(last || f->guests <= hosts / 8 + 8);
+    for (int a = 0; a < 3; a++) {
+        assert_true(level->size[a] >= 1 && level->size[a] <= 1024 && level->cell[a] > 0);
+        /* and no wider than it has to be */
+        assert_true(level->reach[a] <=
+                    f->half[a] * (1 + 0x1p-18) + level->cell[a] * (double)level->size[a] * 0x1p-20 + doubt);
+        if (level->size[a] > 1)
+            assert_true(level->cell[a] >= f->half[a] * 0.49);
+    }
+}
+
+static void check_grid(const cgt_scene *scene)
+{
+    const cgt_world *w = &scene->world;
+    const cgt_loose_grid *g = &w->loose;
+    uint8_t *seen = calloc(w->objects.count + 1, 1);
+    level_found found[CGT_LOOSE_LEVELS];
+    uint32_t cells = 0;
+    assert_non_null(seen);
+    assert_int_equal(w->structure, CGT_STRUCTURE_LOOSE_GRID);
+    assert_true(g->levels >= 1 && g->levels <= CGT_LOOSE_LEVELS);
+    assert_int_equal(g->start[0], 0);
+    assert_int_equal(g->start[g->cells], w->valid);
+    for (uint32_t k = 0; k < g->levels; k++) {
+        const cgt_loose_level *level = &g->level[k];
+        assert_int_equal(level->first, cells);
+        cells += level->size[0] * level->size[1] * level->size[2];
+        find_level(w, level, seen, &found[k]);
+        check_level(level, &found[k], k + 1 == g->levels, doubt_of(w));
+        assert_true(k + 1 < g->levels || level->least == 0);
+        assert_true(!k || found[k].largest <= g->level[k - 1].least * (1 + 0x1p-20) + doubt_of(w));
+    }
+    assert_int_equal(cells, g->cells);
+    assert_true(cells <= w->valid / 2 + 64);
+    for (uint32_t object = 0; object < w->objects.count; object++) {
+        const cgt_shape q = cgt_objects_shape(&w->objects, object);
+        assert_int_equal(seen[object], cgt_shape_check(&q) == CGT_OBJECT_VALID);
+    }
+    free(seen);
+}
+
+static void check_statistics(const cgt_scene *scene)
+{
+    const cgt_loose_grid *g = &scene->world.loose;
+    cgt_scene_statistics st;
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
+    assert_int_equal(st.cells, g->cells);
+    assert_int_equal(st.levels, g->levels);
+    assert_int_equal(st.references, scene->world.valid);
+    assert_int_equal(st.structure_bytes, 4 * ((uint64_t)g->cells + 1 + scene->world.valid));
+    assert_memory_equal(st.resolution, g->level[g->levels - 1].size, sizeof st.resolution);
+    assert_non_null(strstr(st.reason, "loose grid"));
+    assert_true(st.bytes >= st.structure_bytes);
+}
+
+static void compare_grids(const cgt_loose_grid *a, const cgt_loose_grid *b, uint32_t objects)
+{
+    assert_int_equal(a->levels, b->levels);
+    assert_int_equal(a->cells, b->cells);
+    assert_memory_equal(a->level, b->level, a->levels * sizeof a->level[0]);
+    assert_memory_equal(a->start, b->start, (a->cells + 1) * sizeof a->start[0]);
+    assert_memory_equal(a->object, b->object, objects * sizeof a->object[0]);
+}
+
+/* ---- scenes of every kind ---- */
+
+static cgt_scene *commit(const loose_scene *s, cgt_context *context)
+{
+    cgt_scene *scene = loose_add(s, context, &loose_options);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    return scene;
+}
+
+/* The grid on one thread of the widest variant is right, and all others are the same. */
+static void check_everywhere(const loose_scene *s)
+{
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *first = commit(s, context);
+    const bool built = first->world.valid > 0;
+    assert_false(first->world.everything);
+    if (built) {
+        check_grid(first);
+        check_statistics(first);
+    }
+    FOR_EACH_VARIANT(variant)
+    for (uint32_t threads = 1; threads <= 5; threads += threads) {
+        cgt_context *other = context_make(threads == 4 ? 5 : threads, variant);
+        cgt_scene *scene = commit(s, other);
+        if (built)
+            compare_grids(&first->world.loose, &scene->world.loose, first->world.valid);
+        cgt_scene_release(scene);
+        cgt_context_release(other);
+    }
+    cgt_scene_release(first);
+    cgt_context_release(context);
+}
+
+static void every_kind_is_in_reach(void **state)
+{
+    (void)state;
+    test_random r = random_make(1);
+    for (int kind = 0; kind < LOOSE_KINDS; kind++)
+        for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++) {
+            loose_scene s = loose_make(&r, (loose_kind)kind, (loose_what)what, test_scaled(600) + random_below(&r, 40));
+            check_everywhere(&s);
+            loose_free(&s);
+        }
+}
+
+static void few_and_none(void **state)
+{
+    (void)state;
+    test_random r = random_make(2);
+    for (uint32_t count = 0; count < 12; count++)
+        for (int kind = 0; kind < LOOSE_KINDS; kind++) {
+            loose_scene s = loose_make(&r, (loose_kind)kind, LOOSE_BOTH, count);
+            check_everywhere(&s);
+            loose_free(&s);
+        }
+}
+
+/* On one thread and on three; where cells were asked for, too. */
+static void compare_sorts(const loose_scene *s, const cgt_scene_options *options, bool check)
+{
+    static const uint32_t threads[] = {1, 3};
+    cgt_context *context[TEST_COUNT(threads)];
+    cgt_scene *scene[TEST_COUNT(threads)];
+    for (size_t i = 0; i < TEST_COUNT(threads); i++) {
+        context[i] = context_make(threads[i], NULL);
+        scene[i] = loose_add(s, context[i], options);
+        assert_int_equal(cgt_scene_commit(scene[i]), CGT_OK);
+        if (i)
+            compare_grids(&scene[0]->world.loose, &scene[i]->world.loose, scene[0]->world.valid);
+        if (i && check)
+            check_grid(scene[i]);
+    }
+    for (size_t i = 0; i < TEST_COUNT(threads); i++) {
+        cgt_scene_release(scene[i]);
+        cgt_context_release(context[i]);
+    }
+}
+
+/* More than one thread counts at once, and more than one bin holds. */
+static void many_are_sorted(void **state)
+{
+    static const loose_kind kind[] = {LOOSE_UNIFORM, LOOSE_CLUSTERED, LOOSE_COINCIDENT, LOOSE_SPOILED, LOOSE_ORDERS};
+    (void)state;
+    test_random r = random_make(3);
+    for (size_t k = 0; k < TEST_COUNT(kind); k++) {
+        const uint32_t count = k < 2 ? CGT_LOOSE_FEW_ALONE + 5003 : 17000 + test_scaled(40000); /* by bins and not */
+        loose_scene s = loose_make(&r, kind[k], k % 2 ? LOOSE_BOTH : LOOSE_SPHERES, count);
+        cgt_scene_options options = loose_options;
+        compare_sorts(&s, &options, k == 0 || k == 3);
+        for (int a = 0; a < 3; a++)
+            options.resolution[a] = k % 2 ? 64 : 40;
+        compare_sorts(&s, &options, false);
+        loose_free(&s);
+    }
+}
+
+/* Points on the planes between cells and beside them, by some steps of float: rounding gives some of them to the wrong
+ * cell, and the reach, which is nothing but rounding here, must cover it. */
+static void points_between_cells_are_in_reach(void **state)
+{
+    (void)state;
+    enum { CELLS = 1024, COUNT = 3 * CELLS };
+    static float point[COUNT][4];
+    const cgt_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {CELLS, 1, 1}};
+    test_random r = random_make(9);
+    cgt_context *context = context_make(1, NULL);
+    uint32_t wrong = 0;
+    for (uint32_t round = 0; round < test_scaled(12); round++) {
+        const float first = round % 2 ? random_float(&r, -1, 1) : 0, last = first + random_float(&r, 0.01f, 100);
+        memset(point, 0, sizeof point);
+        for (int i = 0; i < COUNT; i++)
+            point[i][0] = i ? last : first;
+        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])point, COUNT);
+        const cgt_loose_level level = scene->world.loose.level[0];
+        for (int i = 1; i < COUNT - 1; i++) {
+            float x = (float)(level.low[0] + (double)(i / 3) * level.cell[0]);
+            for (uint32_t steps = random_below(&r, 4); steps; steps--)
+                x = nextafterf(x, i % 3 ? INFINITY : -INFINITY);
+            point[i][0] = fminf(fmaxf(x, first), last);
+        }
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_memory_equal(&scene->world.loose.level[0], &level, sizeof level);
+        uint8_t *seen = calloc(COUNT, 1);
+        level_found found;
+        assert_non_null(seen);
+        find_level(&scene->world, &level, seen, &found);
+        assert_int_equal(found.objects, COUNT);
+        for (uint32_t c = 0; c < CELLS; c++)
+            for (uint32_t i = scene->world.loose.start[c]; i < scene->world.loose.start[c + 1]; i++) {
+                const double g = ((double)point[scene->world.loose.object[i]][0] - level.low[0]) / level.cell[0];
+                wrong += g < c || g > c + 1.0;
+            }
+        free(seen);
+        cgt_scene_release(scene);
+    }
+    assert_true(wrong > 0);
+    cgt_context_release(context);
+}
+
+/* ---- shapes of grids ---- */
+
+static void cells_follow_the_axes(void **state)
+{
+    (void)state;
+    test_random r = random_make(4);
+    cgt_context *context = context_make(1, NULL);
+    const uint32_t count = 4000;
+    for (int kind = 0; kind <= LOOSE_LINE; kind++) {
+        loose_scene s = loose_make(&r, (loose_kind)kind, LOOSE_SPHERES, count);
+        cgt_scene *scene = commit(&s, context);
+        const cgt_loose_level *level = &scene->world.loose.level[0];
+        assert_int_equal(scene->world.loose.levels, 1);
+        if (kind == LOOSE_UNIFORM)
+            assert_in_range(scene->world.loose.cells, count / 16, count / 4);
+        assert_int_equal(level->size[0] > 1, kind != LOOSE_LINE);
+        assert_true(level->size[1] > 1);
+        assert_int_equal(level->size[2] > 1, kind == LOOSE_UNIFORM || kind == LOOSE_CLUSTERED);
+        cgt_scene_release(scene);
+        loose_free(&s);
+    }
+    cgt_context_release(context);
+}
+
+/* Points along a line, more than an axis has cells for: the others take over. */
+static void a_full_axis_leaves_cells_to_the_others(void **state)
+{
+    (void)state;
+    enum { COUNT = 20000 };
+    test_random r = random_make(5);
+    float(*sphere)[4] = malloc(COUNT * sizeof *sphere);
+    assert_non_null(sphere);
+    for (int i = 0; i < COUNT; i++) {
+        sphere[i][0] = random_float(&r, 0, 1e6f);
+        sphere[i][1] = random_float(&r, 0, 2e3f);
+        sphere[i][2] = 0;
+        sphere[i][3] = 0;
+    }
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    const cgt_loose_level *level = &scene->world.loose.level[0];
+    assert_int_equal(level->size[0], 1024);
+    assert_true(level->size[1] > 1 && scene->world.loose.cells >= COUNT / 16);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    free(sphere);
+}
+
+static void sizes_share_levels(void **state)
+{
+    (void)state;
+    enum { COUNT = 900 };
+    static float sphere[COUNT][4];
+    test_random r = random_make(6);
+    cgt_context *context = context_make(1, NULL);
+    for (int i = 0; i < COUNT; i++) {
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = random_float(&r, -1, 1);
+        sphere[i][3] = i < 300 ? 0.3f : i < 600 ? 1e-3f : 1e-30f; /* three sizes, far apart */
+    }
+    cgt_scene *scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    assert_int_equal(scene->world.loose.levels, 3);
+    cgt_scene_release(scene);
+    for (int i = 0; i < COUNT; i++)
+        sphere[i][3] = i < 850 ? random_float(&r, 0.3f, 0.59f) : 1e-3f; /* few small ones: guests */
+    scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    assert_int_equal(scene->world.loose.levels, 1);
+    check_grid(scene);
+    cgt_scene_release(scene);
+    for (int i = 0; i < COUNT; i++)
+        sphere[i][3] = ldexpf(1, -4 * (i % 30)); /* more sizes than levels */
+    scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    assert_int_equal(scene->world.loose.levels, CGT_LOOSE_LEVELS);
+    check_grid(scene);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+static void a_resolution_asked_for_is_given(void **state)
+{
+    (void)state;
+    test_random r = random_make(7);
+    cgt_context *context = context_make(2, NULL);
+    for (int kind = 0; kind < LOOSE_KINDS; kind++) {
+        const cgt_scene_options options = {
+            .structure = CGT_STRUCTURE_LOOSE_GRID,
+            .resolution = {1 + random_below(&r, 40), 1 + random_below(&r, 40), kind ? 1 + random_below(&r, 9) : 1024}};
+        loose_scene s = loose_make(&r, (loose_kind)kind, LOOSE_BOTH, 200);
+        cgt_scene *scene = loose_add(&s, context, &options);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        const cgt_loose_grid *g = &scene->world.loose;
+        assert_int_equal(g->levels, 1);
+        assert_memory_equal(g->level[0].size, options.resolution, sizeof options.resolution);
+        check_statistics(scene);
+        uint8_t *seen = calloc(scene->world.objects.count, 1);
+        level_found found;
+        assert_non_null(seen);
+        find_level(&scene->world, &g->level[0], seen, &found);
+        assert_int_equal(found.objects, scene->world.valid);
+        free(seen);
+        cgt_scene_release(scene);
+        loose_free(&s);
+    }
+    cgt_context_release(context);
+}
+
+/* ---- through the interface ---- */
+
+static void frames_are_those_of_other_structures(void **state)
+{
+    (void)state;
+    test_random r = random_make(8);
+    cgt_context *context = context_make(2, NULL);
+    planes want = planes_make(40, 30), got = planes_make(40, 30);
+    for (int kind = 0; kind < CLOUD_KINDS; kind++) {
+        cloud c = cloud_make(&r, (cloud_kind)kind, test_scaled(300));
+        cgt_scene *grid = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
+        cgt_scene *loose = scene_of(context, &loose_options, (const float(*)[4])c.sphere, c.count);
+        const cgt_camera camera = camera_before(&c);
+        for (int precision = CGT_PRECISION_ROBUST; precision <= CGT_PRECISION_EXACT; precision += 2) {
+            cgt_trace_options o;
+            cgt_trace_options_init(&o);
+            o.precision = (cgt_precision)precision;
+            frame_trace(grid, &camera, &want, &o);
+            frame_trace(loose, &camera, &got, &o);
+            assert_true(planes_equal(&got, &want));
+        }
+        cgt_scene_release(grid);
+        cgt_scene_release(loose);
+        cloud_free(&c);
+    }
+    planes_free(&want);
+    planes_free(&got);
+    cgt_context_release(context);
+}
+
+static void it_is_chosen_when_asked_for(void **state)
+{
+    (void)state;
+    const float far_off[2][4] = {{0x1p60f, 0, 0, 1}, {0, 0, 0, 1}};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_WIDE_TREE + 1)};
+    cgt_scene *scene = NULL;
+    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_ERROR_INVALID_ARGUMENT);
+    scene = scene_of(context, &loose_options, far_off, 2); /* beyond what a structure may hold */
+    assert_true(scene->world.everything && !scene->world.loose.levels);
+    cgt_scene_release(scene);
+    scene = scene_of(context, &loose_options, far_off, 0);
+    assert_false(scene->world.valid || scene->world.loose.levels);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_is_in_reach),
+        cmocka_unit_test(few_and_none),
+        cmocka_unit_test(many_are_sorted),
+        cmocka_unit_test(points_between_cells_are_in_reach),
+        cmocka_unit_test(cells_follow_the_axes),
+        cmocka_unit_test(a_full_axis_leaves_cells_to_the_others),
+        cmocka_unit_test(sizes_share_levels),
+        cmocka_unit_test(a_resolution_asked_for_is_given),
+        cmocka_unit_test(frames_are_those_of_other_structures),
+        cmocka_unit_test(it_is_chosen_when_asked_for),
+    };
+    test_begin("test_loose_grid");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

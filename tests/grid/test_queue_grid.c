@@ -1,0 +1,408 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The queue grid after a commit: no reference is lost, none is held twice, and the statistics are what a recount
+ * finds. Whether a cell is the right one is decided in long double, by the definition in queue_grid.h. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene.h"
+
+/* ---- one grid against its spheres ---- */
+
+/* True where the cell refers to the object; fails the test where it does so twice. */
+static bool cell_holds(const cgt_queue_grid *g, uint32_t cell, uint32_t object)
+{
+    unsigned found = 0;
+    for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
+        found += g->voxel[cell].reference[i] == object;
+    for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++)
+        found += g->overflow[i].reference == object;
+    if (found > 1)
+        fail_msg("cell %u holds object %u %u times", cell, object, found);
+    return found == 1;
+}
+
+static uint32_t cell_of(const cgt_queue_grid *g, const long double p[3])
+{
+    uint32_t cell = 0;
+    for (int a = 0; a < 3; a++) {
+        const long double i = floorl((p[a] - g->org[a]) * g->rcell[a]), last = g->resolution[a] - 1;
+        cell += (uint32_t)(i < 0 ? 0 : i > last ? last : i) * g->stride[a];
+    }
+    return cell;
+}
+
+static void expect_held(const cgt_queue_grid *g, const float sphere[4], uint32_t object, const long double p[3])
+{
+    const uint32_t cell = cell_of(g, p);
+    if (!cell_holds(g, cell, object))
+        fail_msg("cell %u has a point of sphere %u (%a %a %a, r %a) and no reference to it", cell, object,
+                 (double)sphere[0], (double)sphere[1], (double)sphere[2], (double)sphere[3]);
+}
+
+/* The centre, the six extremes, and random points: on the surface, which reaches furthest, and inside. */
+static void check_superset(const cgt_queue_grid *g, const float sphere[4], uint32_t object, test_random *r,
+                           uint32_t points)
+{
+    for (uint32_t k = 0; k < points + 7; k++) {
+        long double p[3] = {sphere[0], sphere[1], sphere[2]};
+        if (k >= 1 && k < 7)
+            p[(k - 1) / 2] += k % 2 ? sphere[3] : -(long double)sphere[3];
+        if (k >= 7) {
+            float d[3];
+            random_direction(r, d);
+            const long double length =
+                sqrtl((long double)d[0] * d[0] + (long double)d[1] * d[1] + (long double)d[2] * d[2]);
+            const long double reach = (k % 4 ? 1 : random_float(r, 0, 1)) * (1 - 0x1p-50L) * sphere[3] / length;
+            for (int a = 0; a < 3; a++)
+                p[a] += reach * d[a];
+        }
+        expect_held(g, sphere, object, p);
+    }
+}
+
+/* Queues fill from the front, newest first; the overflow list is sorted by cell and holds what is older. */
+static void check_order(const cgt_queue_grid *g, uint64_t *references, uint32_t *overflow_cells)
+{
+    *references = g->overflows;
+    *overflow_cells = 0;
+    for (uint32_t cell = 0; cell < g->cells; cell++) {
+        const uint16_t *q = g->voxel[cell].reference;
+        int used = 0;
+        while (used < CGT_QUEUE_LENGTH && q[used] != CGT_QUEUE_NONE)
+            used++;
+        for (int i = used; i < CGT_QUEUE_LENGTH; i++)
+            assert_int_equal(q[i], CGT_QUEUE_NONE);
+        for (int i = 0; i < used; i++)
+            assert_true(q[i] < g->objects->count && (i == 0 || q[i] < q[i - 1]));
+        *references += (uint64_t)used;
+        const uint32_t first = cgt_queue_grid_overflow(g, cell);
+        if (first == g->overflows)
+            continue;
+        assert_int_equal(used, CGT_QUEUE_LENGTH);
+        ++*overflow_cells;
+        for (uint32_t i = first; i < g->overflows && g->overflow[i].cell == cell; i++)
+            assert_true(g->overflow[i].reference < q[CGT_QUEUE_LENGTH - 1]);
+    }
+    for (uint32_t i = 1; i < g->overflows; i++)
+        assert_true(g->overflow[i].cell >= g->overflow[i - 1].cell);
+}
+
+/* Larger than two cells anywhere is large for certain, smaller than a cell everywhere is not. */
+static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint32_t count, uint32_t large)
+{
+    uint32_t surely = 0, perhaps = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        bool wide = false, narrow = true;
+        if (!(sphere[i][3] >= 0))
+            continue;
+        for (int a = 0; a < 3; a++) {
+            const double cells = 2.0 * sphere[i][3] * g->rcell[a];
+            wide |= cells > 2 && g->resolution[a] > 2;
+            narrow &= cells + 2 * g->slack[a] < 0.99 || g->resolution[a] <= 2;
+        }
+        /* at the border of the grid a part may be cut off */
+        bool inside = true;
+        for (int a = 0; a < 3; a++) {
+            const double low = ((double)sphere[i][a] - sphere[i][3] - g->org[a]) * g->rcell[a];
+            inside &= low >= 0 && low + 2.0 * sphere[i][3] * g->rcell[a] < g->resolution[a];
+        }
+        surely += wide && inside;
+        perhaps += !narrow;
+    }
+    assert_in_range(large, surely, perhaps);
+}
+
+static cgt_scene_statistics check_grid(const cgt_scene *scene, const float (*sphere)[4], uint32_t count,
+                                       uint64_t stream)
+{
+    const cgt_queue_grid *g = &scene->world.grid;
+    cgt_scene_statistics s;
+    test_random r = random_make(stream);
+    uint64_t references = 0;
+    uint32_t overflow_cells = 0;
+    assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
+    assert_int_equal(s.structure, CGT_STRUCTURE_QUEUE_GRID);
+    assert_true(s.reason[0] && memchr(s.reason, 0, sizeof s.reason));
+    assert_int_equal((uint64_t)s.resolution[0] * s.resolution[1] * s.resolution[2], s.cells);
+    if (count)
+        check_order(g, &references, &overflow_cells);
+    assert_int_equal(s.references, references);
+    assert_int_equal(s.overflow_references, g->overflows);
+    assert_int_equal(s.overflow_cells, overflow_cells);
+    for (uint32_t i = 0; i < count; i++)
+        check_superset(g, sphere[i], i, &r, count < 100 ? 300 : 20);
+    if (count)
+        check_large(g, sphere, count, s.large_primitives);
+    return s;
+}
+
+static cgt_scene_options with_resolution(uint32_t x, uint32_t y, uint32_t z)
+{
+    return (cgt_scene_options){.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {x, y, z}};
+}
+
+/* ---- tests: each runs on every variant, whose kernels fill the grid ---- */
+
+static void random_clouds_lose_nothing(void **state)
+{
+    (void)state;
+    static const uint32_t edge[] = {0, 0, 1, 2, 9, 31, 64};
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        for (uint32_t round = 0; round < test_scaled(18) * CLOUD_KINDS; round++) {
+            test_random r = random_make(round);
+            const cloud_kind kind = (cloud_kind)(round % CLOUD_KINDS);
+            cloud c = cloud_make(&r, kind, random_below(&r, 1200));
+            const uint32_t n = edge[random_below(&r, TEST_COUNT(edge))];
+            const cgt_scene_options options =
+                with_resolution(n, n ? 1 + random_below(&r, 40) : 0, n ? 1 + random_below(&r, 40) : 0);
+            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])c.sphere, c.count);
+            const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])c.sphere, c.count, round);
+            if (n)
+                assert_memory_equal(s.resolution, options.resolution, sizeof s.resolution);
+            cgt_scene_release(scene);
+            cloud_free(&c);
+        }
+        cgt_context_release(context);
+    }
+}
+
+static void coincident_spheres_overflow(void **state)
+{
+    (void)state;
+    static const uint32_t counts[] = {15, 16, 17, 18, 33, 500};
+    float sphere[500][4];
+    for (int i = 0; i < 500; i++)
+        memcpy(sphere[i], (float[4]){1, 2, 3, 0.5f}, sizeof sphere[i]);
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        const cgt_scene_options options = with_resolution(1, 1, 1), chosen = with_resolution(0, 0, 0);
+        for (size_t k = 0; k < TEST_COUNT(counts); k++) {
+            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, counts[k]);
+            cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, counts[k], k);
+            assert_int_equal(s.references, counts[k]);
+            assert_int_equal(s.overflow_references, counts[k] > 16 ? counts[k] - 16 : 0);
+            assert_int_equal(s.overflow_cells, counts[k] > 16);
+            cgt_scene_release(scene);
+            scene = scene_of(context, &chosen, (const float(*)[4])sphere, counts[k]);
+            check_grid(scene, (const float(*)[4])sphere, counts[k], k);
+            cgt_scene_release(scene);
+        }
+        cgt_context_release(context);
+    }
+}
+
+static void one_sphere_covers_the_grid(void **state)
+{
+    (void)state;
+    float sphere[64][4];
+    test_random r = random_make(3);
+    for (int i = 0; i < 64; i++) {
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = random_float(&r, -1, 1);
+        sphere[i][3] = 0.01f;
+    }
+    memcpy(sphere[20], (float[4]){0, 0, 0, 50}, sizeof sphere[20]);
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        const cgt_scene_options options = with_resolution(40, 24, 16);
+        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, 64);
+        const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, 64, 1);
+        assert_int_equal(s.large_primitives, 1);
+        /* the ball's part of its box is 0.52; its surface adds cells */
+        assert_in_range(s.references, s.cells / 2, s.cells * 7 / 10);
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+}
+
+static void spheres_on_cell_borders(void **state)
+{
+    (void)state;
+    enum { N = 512 };
+    float sphere[N][4];
+    for (int i = 0; i < N; i++) {
+        sphere[i][0] = (float)(i % 8);
+        sphere[i][1] = (float)(i / 8 % 8);
+        sphere[i][2] = (float)(i / 64);
+        sphere[i][3] = (const float[]){0, 0.5f, 1, 0.25f}[i % 4];
+    }
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        for (uint32_t n = 1; n <= 36; n += n < 12 ? 1 : 3) {
+            const cgt_scene_options options = with_resolution(n, n, n);
+            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, N);
+            check_grid(scene, (const float(*)[4])sphere, N, n);
+            cgt_scene_release(scene);
+        }
+        cgt_context_release(context);
+    }
+}
+
+static void flat_and_tiny_extents(void **state)
+{
+    (void)state;
+    static const float place[][3] = {{0, 0, 0},      {1, 2, 3},          {1e5f, -1e5f, 7},
+                                     {1e-30f, 0, 0}, {1e9f, 1e9f, 1e9f}, {-0x1p54f, 0, 0x1p54f}};
+    static const float radius[] = {0, 1e-30f, 1e-3f, 1, 1e6f};
+    float sphere[40][4];
+    test_random r = random_make(5);
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        for (uint32_t k = 0; k < TEST_COUNT(place) * TEST_COUNT(radius) * 4; k++) {
+            const float *p = place[k % TEST_COUNT(place)], q = radius[k / TEST_COUNT(place) % TEST_COUNT(radius)];
+            const uint32_t flat =
+                k / (uint32_t)(TEST_COUNT(place) * TEST_COUNT(radius)); /* axes without extent: 3 is a point */
+            for (int i = 0; i < 40; i++) {
+                for (uint32_t a = 0; a < 3; a++)
+                    sphere[i][a] = p[a] + (a < flat ? 0 : (float)random_below(&r, 5) * (q + 1e-20f));
+                sphere[i][3] = q;
+            }
+            const cgt_scene_options options = k % 2 ? with_resolution(16, 8, 5) : with_resolution(0, 0, 0);
+            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, 40);
+            check_grid(scene, (const float(*)[4])sphere, 40, k);
+            cgt_scene_release(scene);
+        }
+        cgt_context_release(context);
+    }
+}
+
+static void radii_of_six_orders(void **state)
+{
+    (void)state;
+    enum { N = 700 };
+    float sphere[N][4];
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        uint64_t overflows = 0;
+        for (uint32_t round = 0; round < 6; round++) {
+            test_random r = random_make(round);
+            const uint32_t n = 8 + 7 * round;
+            for (int i = 0; i < N; i++) {
+                for (int a = 0; a < 3; a++)
+                    sphere[i][a] = random_float(&r, -1000, 1000);
+                sphere[i][3] = random_log(&r, 1e-3f, 1e3f);
+            }
+            const cgt_scene_options options = round % 2 ? with_resolution(n, n, n) : with_resolution(0, 0, 0);
+            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, N);
+            const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, N, round);
+            assert_true(s.large_primitives > 0);
+            overflows += s.overflow_references;
+            cgt_scene_release(scene);
+        }
+        assert_true(overflows > 0);
+        cgt_context_release(context);
+    }
+}
+
+/* ---- limits ---- */
+
+/* 65,535 objects are the last that 16 bits refer to; one more makes the references wide, and none is lost. */
+static void references_widen_beyond_65535(void **state)
+{
+    (void)state;
+    const uint32_t most = 65535;
+    float(*sphere)[4] = malloc((most + 1) * sizeof *sphere);
+    assert_non_null(sphere);
+    for (uint32_t i = 0; i <= most; i++)
+        memcpy(sphere[i], (float[4]){(float)(i % 64), (float)(i / 64 % 64), (float)(i / 4096), 0.3f}, sizeof *sphere);
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(2, variant);
+        const cgt_scene_options grid = with_resolution(0, 0, 0);
+        cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])sphere, most);
+        for (uint32_t count = most; count <= most + 1; count++) {
+            const cgt_spheres spheres = spheres_of((const float(*)[4])sphere, count);
+            cgt_scene_statistics s;
+            assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
+            assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+            assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
+            assert_int_equal(s.reference_bits, count == most ? 16 : 32);
+            for (uint32_t k = 0; k < 64; k++) { /* from inside some spheres, the last one among them */
+                const uint32_t i = k ? (count - 1) / k : count - 1;
+                const truth_ray ray = {{sphere[i][0], sphere[i][1], sphere[i][2]}, {0, 0, -1}, 0, 1};
+                assert_int_equal(ray_trace(scene, ray).primitive, i);
+            }
+        }
+        cgt_scene_release(scene);
+        cgt_context_release(context);
+    }
+    free(sphere);
+}
+
+static void local_store_budget(void **state)
+{
+    (void)state;
+    enum { N = 2000 };
+    static const struct {
+        uint32_t resolution[3], count;
+        int fits;
+    } row[] = {{{16, 16, 16}, N, 1}, {{17, 16, 16}, N, 0}, {{16, 17, 16}, N, 0},   {{16, 16, 17}, N, 0},
+               {{17, 1, 1}, 10, 0},  {{8, 8, 8}, N, 1},    {{16, 16, 16}, 5000, 0}};
+    float sphere[5000][4];
+    test_random r = random_make(8);
+    for (int i = 0; i < 5000; i++) {
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = random_float(&r, 0, 16);
+        sphere[i][3] = 0.1f;
+    }
+    cgt_context *context = context_make(1, NULL);
+    for (size_t k = 0; k < TEST_COUNT(row); k++) {
+        const cgt_scene_options options =
+            with_resolution(row[k].resolution[0], row[k].resolution[1], row[k].resolution[2]);
+        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, row[k].count);
+        const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, row[k].count, k);
+        assert_int_equal(s.local_store_bytes, 32 * s.cells + 8 * s.overflow_references + 16 * row[k].count);
+        assert_int_equal(s.fits_local_store, row[k].fits);
+        assert_int_equal(s.fits_local_store, s.local_store_bytes <= (256 - 64) * 1024 && row[k].resolution[0] <= 16 &&
+                                                 row[k].resolution[1] <= 16 && row[k].resolution[2] <= 16);
+        cgt_scene_release(scene);
+    }
+    cgt_context_release(context);
+}
+
+static void largest_resolutions_are_accepted(void **state)
+{
+    (void)state;
+    static const uint32_t size[][3] = {{1024, 1, 1}, {1, 1024, 1}, {1, 1, 1024}, {1, 1, 1}, {1024, 128, 8}};
+    test_random r = random_make(9);
+    cloud c = cloud_make(&r, CLOUD_UNIFORM, 200);
+    cgt_context *context = context_make(1, NULL);
+    for (size_t k = 0; k < TEST_COUNT(size); k++) {
+        const cgt_scene_options options = with_resolution(size[k][0], size[k][1], size[k][2]);
+        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])c.sphere, c.count);
+        const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])c.sphere, c.count, k);
+        assert_memory_equal(s.resolution, size[k], sizeof s.resolution);
+        cgt_scene_release(scene);
+    }
+    cgt_context_release(context);
+    cloud_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_clouds_lose_nothing),
+        cmocka_unit_test(coincident_spheres_overflow),
+        cmocka_unit_test(one_sphere_covers_the_grid),
+        cmocka_unit_test(spheres_on_cell_borders),
+        cmocka_unit_test(flat_and_tiny_extents),
+        cmocka_unit_test(radii_of_six_orders),
+        cmocka_unit_test(references_widen_beyond_65535),
+        cmocka_unit_test(local_store_budget),
+        cmocka_unit_test(largest_resolutions_are_accepted),
+    };
+    test_begin("test_queue_grid");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

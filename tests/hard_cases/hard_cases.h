@@ -1,0 +1,92 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The hard cases of ray casting, by name: scenes with rays on which single precision fails, on which structures lose
+ * primitives, on which conventions show. Float input, the same for the same seed. Each is a test and a row of
+ * cgt-bench accuracy.
+ *
+ * Two rows of the literature belong to structures that are not here: splits through the origin and primitives in the
+ * splitting plane belong to the kd-tree, exits through edges and corners of a leaf to its ropes. */
+#ifndef HARD_CASES_H
+#define HARD_CASES_H
+
+#include "hard_cases/hard_scene.h"
+
+/* What makes a case hard: at least one ray, primitive or cell must show it, or the case tests nothing. */
+typedef enum hard_trait {
+    HARD_DOUBLE = 1,     /* single precision leaves decisions open (double_tests) */
+    HARD_EXACT = 2,      /* so does double (exact_tests) */
+    HARD_FAST_FAILS = 4, /* with CGT_PRECISION_FAST some hits are missed, invented or wrong */
+    HARD_OVERFLOW = 8,   /* voxels overflow */
+    HARD_SPREAD = 16,    /* there are more references than primitives */
+    HARD_SKIPPED = 32,   /* primitives are skipped */
+    HARD_FLAT = 64,      /* triangles without an area */
+    HARD_SPLITS = 128,   /* packets split */
+    HARD_INVALID = 256,  /* rays are invalid */
+    HARD_MISSES = 512    /* rays aimed near primitives miss */
+} hard_trait;
+
+/* What a first trace found for a ray. */
+typedef struct hard_found {
+    float t; /* infinite: nothing */
+    float normal[3];
+} hard_found;
+
+typedef struct hard_case {
+    const char *row;  /* what is hard */
+    const char *name; /* the case of it */
+    void (*make)(hard_scene *s);
+    hard_place place;
+    unsigned traits; /* hard_trait values, combined */
+    /* NULL, or changes ray i of the scene by what tracing it found: the case is traced twice */
+    void (*follow)(hard_scene *s, uint32_t i, const hard_found *found);
+} hard_case;
+
+size_t hard_case_count(void);
+const hard_case *hard_case_at(size_t i);
+
+/* Makes a case with so many rays; the same for the same seed and case. False where memory is refused. */
+bool hard_case_make(const hard_case *c, uint32_t rays, hard_scene *s);
+
+/* Rewrites the rays of a case with `follow` by what the first trace found. */
+void hard_case_follow(const hard_case *c, hard_scene *s, const hard_found *found);
+
+/* Tables of the topics. */
+typedef struct hard_table {
+    const hard_case *first;
+    size_t count;
+} hard_table;
+#define HARD_TABLE(cases)                                                                                              \
+    {                                                                                                                  \
+        (cases), sizeof(cases) / sizeof((cases)[0])                                                                    \
+    }
+extern const hard_table hard_cases_edges, hard_cases_grid, hard_cases_input, hard_cases_rays, hard_cases_spheres,
+    hard_cases_triangles;
+
+/* Places. */
+#define HARD_HERE                                                                                                      \
+    {                                                                                                                  \
+        1, { 0, 0, 0 }                                                                                                 \
+    }
+#define HARD_TINY                                                                                                      \
+    {                                                                                                                  \
+        1e-6, { 0, 0, 0 }                                                                                              \
+    }
+#define HARD_LARGE                                                                                                     \
+    {                                                                                                                  \
+        1e6, { 0, 0, 0 }                                                                                               \
+    }
+#define HARD_2M50                                                                                                      \
+    {                                                                                                                  \
+        0x1p-50, { 0, 0, 0 }                                                                                           \
+    }
+#define HARD_2P50                                                                                                      \
+    {                                                                                                                  \
+        0x1p50, { 0, 0, 0 }                                                                                            \
+    }
+#define HARD_FAR                                                                                                       \
+    {                                                                                                                  \
+        2, { 148376, 1234, -223423 }                                                                                   \
+    }
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Small worlds with random kd-trees, and rays that are hard on ropes: in split planes, through edges and corners of
+ * leaves, from them, without some components. What fails here fails the test. */
+#ifndef KD_ROPE_CASES_H
+#define KD_ROPE_CASES_H
+
+#include "support/kd/random_tree.h"
+#include "support/scenes.h"
+
+#include "core/memory.h"
+
+#define ROPE_MOST_OBJECTS 96u
+
+typedef enum rope_place {
+    ROPE_PLACE_ANYWHERE, /* about 1 in size */
+    ROPE_PLACE_LATTICE,  /* all coordinates are small whole numbers */
+    ROPE_PLACE_PLANAR,   /* the same, in one plane across an axis: the root has no thickness */
+    ROPE_PLACES
+} rope_place;
+
+typedef struct rope_case {
+    cgt_world world; /* with a tree with ropes */
+    cgt_object_array array[2];
+    float sphere[ROPE_MOST_OBJECTS][4];
+    float vertex[3 * ROPE_MOST_OBJECTS][3];
+    cgt_buffer nodes, references, leaves, triangles;
+    rope_place place;
+    float unit; /* a power of two: the factor of all coordinates */
+} rope_case;
+
+rope_case *rope_case_make(test_random *r, cgt_context *context, rope_place place);
+void rope_case_free(rope_case *c);
+
+/* A ray that starts in the world or around it, with any range; coordinates and directions are not extreme. */
+truth_ray rope_case_ray(test_random *r, const rope_case *c);
+
+#endif

@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Worlds and flattened kd-trees for the tests of kd-trees. What fails here fails the test. */
+#ifndef KD_TREES_H
+#define KD_TREES_H
+
+#include "support/kd/kd_check.h"
+#include "support/kd/random_tree.h"
+#include "support/scenes.h"
+
+/* A scene of a cloud of spheres and of triangles of like number among them, some of both not valid. Committed; its
+ * world is world_of(scene). */
+cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, uint32_t objects);
+const cgt_world *world_of(const cgt_scene *scene);
+void mixed_scene_free(cgt_scene *scene);
+
+/* A flattened tree and its memory. */
+typedef struct flat_tree {
+    cgt_context *context;
+    cgt_buffer nodes, references, leaves;
+    cgt_kd_tree tree;
+} flat_tree;
+
+/* Flattens into what flat has; zero it before the first call. */
+cgt_result flatten(flat_tree *flat, cgt_context *context, const cgt_kd_raw *raw, cgt_kd_layout layout,
+                   uint32_t break_level, bool ropes);
+void flat_tree_free(flat_tree *flat);
+
+const char *layout_name(cgt_kd_layout layout);
+
+#endif

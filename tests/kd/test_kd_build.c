@@ -1,0 +1,309 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The builders of kd-trees, before flattening: every object is in every leaf that it touches, decided exactly; the tree
+ * is the same for any number of threads and any order of tasks; limits, degenerate scenes, memory that is refused. */
+#define _POSIX_C_SOURCE 200809L
+#include "kd/kd_build_cases.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "structures/random_soup.h"
+
+static const cgt_kd_builder builders[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};
+static const char *const builder_names[] = {"binned", "sweep"};
+
+static cgt_context *one_thread;
+
+/* Builds with both builders, checks every leaf against every object. */
+static void check_scene(const char *name, const cgt_scene *scene)
+{
+    for (size_t b = 0; b < TEST_COUNT(builders); b++) {
+        cgt_buffer work = {NULL, 0};
+        cgt_kd_raw raw;
+        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &cgt_kd_default_costs, &raw),
+                         CGT_OK);
+        const char *wrong = raw_tree_check(&raw, &scene->world, &cgt_kd_default_costs);
+        if (wrong)
+            fail_msg("%s, %s: %s", name, builder_names[b], wrong);
+        cgt_buffer_release(&one_thread->memory, &work);
+    }
+}
+
+static cgt_scene *commit_soup(cgt_context *context, hard_scene *s)
+{
+    cgt_scene *scene = NULL;
+    assert_int_equal(hard_commit(context, s, (const uint32_t[3]){0, 0, 0}, &scene), CGT_OK);
+    return scene;
+}
+
+/* ---- scenes at random ---- */
+
+static void test_leaves(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < SOUP_KINDS; kind++)
+        for (uint32_t round = 0; round < 1 + test_scaled(4); round++) {
+            hard_scene s = soup_make((soup_kind)kind, 100 * (uint64_t)kind + round, round % 2 ? 500 : 60);
+            cgt_scene *scene = commit_soup(one_thread, &s);
+            check_scene(soup_name((soup_kind)kind), scene);
+            cgt_scene_release(scene);
+            hard_scene_free(&s);
+        }
+    for (int kind = 0; kind < CLOUD_KINDS; kind++) {
+        test_random r = random_make(2000 + (uint64_t)kind);
+        cloud c = cloud_make(&r, (cloud_kind)kind, 300);
+        cgt_scene *scene = scene_of(one_thread, NULL, (const float(*)[4])c.sphere, c.count);
+        check_scene(cloud_name((cloud_kind)kind), scene);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+}
+
+/* Where there is a top, built chunk by chunk, of one scene from more than one chunk of objects. */
+static void test_large(void **state)
+{
+    (void)state;
+    const uint32_t count = 1500 + test_scaled(4500);
+    for (int kind = 0; kind < SOUP_KINDS; kind++) {
+        hard_scene s = soup_make((soup_kind)kind, 900 + (uint64_t)kind, kind == SOUP_MIXED ? count : count / 4);
+        cgt_scene *scene = commit_soup(one_thread, &s);
+        check_scene(soup_name((soup_kind)kind), scene);
+        cgt_scene_release(scene);
+        hard_scene_free(&s);
+    }
+}
+
+/* The sweep knows all planes, the bins few of them; but both are greedy. Where a step costs much, either may stop
+ * before splits that would pay off further down; where it costs little, the sweep finds the better tree, but for scenes
+ * where few giants decide what the tree costs. */
+static void test_costs(void **state)
+{
+    const cgt_kd_costs costs = {.inner = 0.4, .test = {1, 1}, .empty_cut_off = 0.1};
+    double sum[2] = {0, 0};
+    (void)state;
+    for (int kind = 0; kind < SOUP_KINDS; kind++) {
+        double cost[2];
+        hard_scene s = soup_make((soup_kind)kind, 700 + (uint64_t)kind, 1500);
+        cgt_scene *scene = commit_soup(one_thread, &s);
+        for (size_t b = 0; b < TEST_COUNT(builders); b++) {
+            cgt_buffer work = {NULL, 0};
+            cgt_kd_raw raw;
+            assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &costs, &raw), CGT_OK);
+            cost[b] = raw.cost;
+            cgt_buffer_release(&one_thread->memory, &work);
+        }
+        print_message("%s: cost %.4g binned, %.4g swept\n", soup_name((soup_kind)kind), cost[0], cost[1]);
+        assert_true(cost[1] < (kind == SOUP_SIX_ORDERS ? 1.3 : 1.02) * cost[0]);
+        sum[0] += 1;
+        sum[1] += cost[1] / cost[0];
+        cgt_scene_release(scene);
+        hard_scene_free(&s);
+    }
+    assert_true(sum[1] < sum[0]);
+}
+
+/* ---- degenerate scenes ---- */
+
+static void test_degenerate(void **state)
+{
+    static const char *const name[DEGENERATE_KINDS] = {DEGENERATE_NAMES};
+    (void)state;
+    for (int kind = 0; kind < DEGENERATE_KINDS; kind++)
+        for (uint32_t count = 1; count <= 700; count = count < 4 ? count + 1 : 3 * count) {
+            degenerate_scene d;
+            degenerate_make(&d, (degenerate_kind)kind, count);
+            cgt_scene *scene = degenerate_commit(one_thread, &d);
+            check_scene(name[kind], scene);
+            cgt_scene_release(scene);
+            degenerate_free(&d);
+        }
+}
+
+/* ---- the same tree ---- */
+
+static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    (*(uint32_t *)user)++;
+    while (count-- > 0)
+        task(argument, count);
+}
+
+static uint64_t tree_of(cgt_context *context, const cgt_scene *scene, cgt_kd_builder builder)
+{
+    cgt_buffer work = {NULL, 0};
+    cgt_kd_raw raw;
+    assert_int_equal(cgt_kd_build(context, &work, &scene->world, builder, &cgt_kd_default_costs, &raw), CGT_OK);
+    const uint64_t hash = raw_tree_hash(&raw);
+    cgt_buffer_release(&context->memory, &work);
+    return hash;
+}
+
+static void check_same(cgt_context *other, const cgt_scene *scene)
+{
+    for (size_t b = 0; b < TEST_COUNT(builders); b++)
+        assert_true(tree_of(other, scene, builders[b]) == tree_of(one_thread, scene, builders[b]));
+}
+
+static void test_same_tree(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < SOUP_KINDS; kind++) {
+        hard_scene s = soup_make((soup_kind)kind, 300 + (uint64_t)kind, 2500 + test_scaled(20000));
+        cgt_scene *scene = commit_soup(one_thread, &s);
+        static const uint32_t threads[] = {2, 3, 7};
+        for (size_t i = 0; i < TEST_COUNT(threads); i++) {
+            cgt_context *context = context_make(threads[i], NULL);
+            check_same(context, scene);
+            cgt_context_release(context);
+        }
+        uint32_t batches = 0;
+        cgt_context *context;
+        cgt_context_options options;
+        cgt_context_options_init(&options);
+        options.tasks = (cgt_task_runner){&batches, run_backwards};
+        assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+        check_same(context, scene);
+        assert_true(batches > 8);
+        cgt_context_release(context);
+        cgt_scene_release(scene);
+        hard_scene_free(&s);
+    }
+}
+
+/* ---- limits ---- */
+
+/* A fan: all triangles meet in a point, so that each leaf there would be split for ever. */
+static void test_limits(void **state)
+{
+    (void)state;
+    for (size_t b = 0; b < TEST_COUNT(builders); b++) {
+        degenerate_scene d;
+        degenerate_make(&d, DEGENERATE_FAN, 300);
+        cgt_scene *scene = degenerate_commit(one_thread, &d);
+        cgt_buffer work = {NULL, 0};
+        cgt_kd_raw raw;
+        cgt_kd_costs costs = {.inner = 1e-3, .test = {1, 1}, .empty_cut_off = 0};
+        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &costs, &raw), CGT_OK);
+        const char *wrong = raw_tree_check(&raw, &scene->world, &costs);
+        if (wrong)
+            fail_msg("%s: %s", builder_names[b], wrong);
+        assert_true(raw.limited > 0);
+        costs.inner = 1e30; /* then a leaf is best, and nothing limits it */
+        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &costs, &raw), CGT_OK);
+        assert_int_equal(raw.limited, 0);
+        assert_true(cgt_kd_is_leaf(raw.node[0]));
+        assert_int_equal(cgt_kd_count(raw.node[0]), scene->world.valid);
+        cgt_buffer_release(&one_thread->memory, &work);
+        cgt_scene_release(scene);
+        degenerate_free(&d);
+    }
+}
+
+/* ---- memory ---- */
+
+typedef struct counted {
+    size_t calls, live, fail_at;
+} counted;
+
+static void *count_allocate(void *user, size_t bytes, size_t alignment)
+{
+    counted *c = user;
+    void *memory = NULL;
+    if (++c->calls == c->fail_at || posix_memalign(&memory, alignment, bytes))
+        return NULL;
+    memset(memory, 0xa5, bytes);
+    c->live++;
+    return memory;
+}
+
+static void count_release(void *user, void *memory, size_t bytes)
+{
+    counted *c = user;
+    (void)bytes;
+    c->live--;
+    free(memory);
+}
+
+/* Each allocation of a build fails in turn; then the build works, and once more it needs none. */
+static void check_memory(cgt_context *context, counted *c, const cgt_scene *scene, cgt_kd_builder builder)
+{
+    char text[256] = "";
+    cgt_buffer work = {NULL, 0};
+    cgt_kd_raw raw;
+    size_t failures = 0;
+    for (cgt_result result = CGT_ERROR_OUT_OF_MEMORY; result != CGT_OK; failures++) {
+        c->calls = 0;
+        c->fail_at = failures + 1;
+        result = cgt_kd_build(context, &work, &scene->world, builder, &cgt_kd_default_costs, &raw);
+        if (result == CGT_OK)
+            break;
+        assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
+        cgt_error_message(context, text, sizeof text);
+        assert_non_null(strstr(text, "out of memory"));
+    }
+    assert_true(failures >= 1);
+    const uint64_t hash = raw_tree_hash(&raw);
+    c->calls = c->fail_at = 0;
+    assert_int_equal(cgt_kd_build(context, &work, &scene->world, builder, &cgt_kd_default_costs, &raw), CGT_OK);
+    assert_int_equal(c->calls, 0);
+    assert_true(raw_tree_hash(&raw) == hash);
+    cgt_buffer_release(&context->memory, &work);
+}
+
+static void test_memory(void **state)
+{
+    counted c = {0, 0, 0};
+    cgt_context *context;
+    cgt_context_options options;
+    (void)state;
+    cgt_context_options_init(&options);
+    options.threads = 2;
+    options.memory = (cgt_memory_hooks){&c, count_allocate, count_release};
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    hard_scene s = soup_make(SOUP_MIXED, 5, 3000);
+    cgt_scene *scene = commit_soup(context, &s);
+    const size_t live = c.live;
+    for (size_t b = 0; b < TEST_COUNT(builders); b++)
+        check_memory(context, &c, scene, builders[b]);
+    assert_int_equal(c.live, live);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    assert_int_equal(c.live, 0);
+    hard_scene_free(&s);
+}
+
+/* More objects than a tree can number: refused before anything is read. */
+static void test_too_many(void **state)
+{
+    static const uint32_t counts[] = {UINT32_MAX - 1, 0x80000000u, 0x40000000u, 0x20000000u};
+    char text[256] = "";
+    (void)state;
+    for (size_t i = 0; i < TEST_COUNT(counts); i++)
+        for (size_t b = 0; b < TEST_COUNT(builders); b++) {
+            cgt_world world = {.valid = counts[i], .objects = {.count = counts[i]}};
+            cgt_buffer work = {NULL, 0};
+            cgt_kd_raw raw;
+            assert_int_equal(cgt_kd_build(one_thread, &work, &world, builders[b], &cgt_kd_default_costs, &raw),
+                             CGT_ERROR_TOO_LARGE);
+            cgt_error_message(one_thread, text, sizeof text);
+            assert_non_null(strstr(text, "too many"));
+            assert_null(work.data);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_leaves),     cmocka_unit_test(test_large),     cmocka_unit_test(test_costs),
+        cmocka_unit_test(test_degenerate), cmocka_unit_test(test_same_tree), cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_memory),     cmocka_unit_test(test_too_many),
+    };
+    test_begin("test_kd_build");
+    one_thread = context_make(1, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    cgt_context_release(one_thread);
+    return failed;
+}

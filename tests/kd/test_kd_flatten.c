@@ -1,0 +1,330 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Flattening: every layout of a random tree holds the same splits and leaves, in the order that its name promises,
+ * whatever the number of threads; memory that is refused, and trees that are too large. */
+#define _POSIX_C_SOURCE 200809L
+#include "kd/kd_trees.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    cgt_kd_layout layout;
+    uint32_t break_level;
+    uint32_t levels; /* that are breadth first */
+} layouts[] = {
+    {CGT_KD_LAYOUT_AUTO, 0, 1},    {CGT_KD_LAYOUT_DEPTH_FIRST, 0, 1}, {CGT_KD_LAYOUT_BREADTH_FIRST, 0, 50},
+    {CGT_KD_LAYOUT_MIXED, 1, 1},   {CGT_KD_LAYOUT_MIXED, 2, 2},       {CGT_KD_LAYOUT_MIXED, 7, 7},
+    {CGT_KD_LAYOUT_MIXED, 50, 50},
+};
+
+/* ---- the order of nodes, from the definitions ---- */
+
+/* By final number: the node of the raw tree. */
+typedef struct expected_order {
+    uint32_t *raw;
+    uint32_t nodes;
+} expected_order;
+
+static void append_pair(expected_order *o, const cgt_kd_raw *raw, uint32_t parent)
+{
+    o->raw[o->nodes++] = raw->node[parent].word[1];
+    o->raw[o->nodes++] = raw->node[parent].word[1] + 1;
+}
+
+/* All below a node, depth first. */
+static void append_below(expected_order *o, const cgt_kd_raw *raw, uint32_t node)
+{
+    if (cgt_kd_is_leaf(raw->node[node]))
+        return;
+    append_pair(o, raw, node);
+    append_below(o, raw, raw->node[node].word[1]);
+    append_below(o, raw, raw->node[node].word[1] + 1);
+}
+
+static expected_order expect_order(const cgt_kd_raw *raw, uint32_t levels)
+{
+    expected_order o = {malloc((raw->nodes + (size_t)2) * sizeof(uint32_t)), 2};
+    assert_non_null(o.raw);
+    o.raw[0] = 0;
+    uint32_t begin = 0, end = 1; /* of a level */
+    for (uint32_t level = 1; level < levels && begin < end; level++) {
+        const uint32_t next = o.nodes;
+        for (uint32_t i = begin; i < end; i++)
+            if (!cgt_kd_is_leaf(raw->node[o.raw[i]]))
+                append_pair(&o, raw, o.raw[i]);
+        begin = next;
+        end = o.nodes;
+    }
+    for (uint32_t i = begin; i < end; i++)
+        append_below(&o, raw, o.raw[i]);
+    return o;
+}
+
+static void check_leaf(const cgt_kd_raw *raw, const cgt_kd_tree *tree, cgt_kd_node was, uint32_t node, uint32_t number,
+                       uint64_t *next)
+{
+    const cgt_kd_node n = tree->node[node];
+    const uint32_t count = cgt_kd_count(was), *object = cgt_kd_references(tree, &tree->node[node]);
+    assert_true(cgt_kd_is_leaf(n) && cgt_kd_count(n) == count);
+    if (count)
+        assert_memory_equal(object, raw->reference + was.word[1], count * sizeof *object);
+    if (tree->leaf) {
+        assert_int_equal(n.word[1], number);
+        assert_int_equal(tree->leaf[number].count, count);
+    }
+    if (count > 1 || tree->leaf) { /* references are in the order of the nodes too */
+        assert_true((tree->leaf ? tree->leaf[number].first : n.word[1]) == *next);
+        *next += count;
+    }
+}
+
+/* That tree is raw in the order of a layout. */
+static void check_order(const cgt_kd_raw *raw, const cgt_kd_tree *tree, uint32_t levels)
+{
+    const expected_order o = expect_order(raw, levels);
+    uint32_t *final = calloc(raw->nodes, sizeof *final), leaves = 0;
+    uint64_t next = 0;
+    assert_non_null(final);
+    assert_int_equal(tree->nodes, o.nodes);
+    for (uint32_t i = 0; i < o.nodes; i++)
+        if (i != 1)
+            final[o.raw[i]] = i;
+    for (uint32_t i = 0; i < o.nodes; i++) {
+        if (i == 1)
+            continue;
+        const cgt_kd_node was = raw->node[o.raw[i]];
+        if (cgt_kd_is_leaf(was)) {
+            check_leaf(raw, tree, was, i, leaves++, &next);
+        } else {
+            assert_int_equal(tree->node[i].word[0], was.word[0]);
+            assert_int_equal(tree->node[i].word[1], final[was.word[1]]);
+        }
+    }
+    assert_true(tree->references == next);
+    assert_int_equal(tree->leaves, leaves);
+    assert_memory_equal(tree->low, raw->low, sizeof raw->low);
+    assert_memory_equal(tree->high, raw->high, sizeof raw->high);
+    free(final);
+    free(o.raw);
+}
+
+static void check_layouts(cgt_context *context, const cgt_world *world, const cgt_kd_raw *raw, flat_tree *flat)
+{
+    for (size_t i = 0; i < TEST_COUNT(layouts); i++)
+        for (int ropes = 0; ropes < 2; ropes++) {
+            assert_int_equal(flatten(flat, context, raw, layouts[i].layout, layouts[i].break_level, ropes), CGT_OK);
+            assert_true(!flat->tree.leaf == !ropes);
+            check_order(raw, &flat->tree, layouts[i].levels);
+            const char *fault = kd_check(&flat->tree, world);
+            if (fault)
+                fail_msg("%s, break level %u, ropes %d: %s", layout_name(layouts[i].layout), layouts[i].break_level,
+                         ropes, fault);
+        }
+}
+
+static void layouts_keep_splits_and_leaves(void **state)
+{
+    cgt_context *context = context_make(2, NULL);
+    flat_tree flat = {0};
+    uint32_t deepest = 0, largest = 0, empty = 0;
+    (void)state;
+    for (uint32_t round = 0; round < CLOUD_KINDS + test_scaled(9 * CLOUD_KINDS); round++) {
+        test_random r = random_make(round);
+        cgt_scene *scene = mixed_scene(context, round % CLOUD_KINDS, round, 1 + random_below(&r, 120));
+        random_tree tree =
+            random_tree_make(&r, world_of(scene), random_below(&r, CGT_KD_MAX_DEPTH), 1 + random_below(&r, 8));
+        check_layouts(context, world_of(scene), &tree.raw, &flat);
+        deepest = flat.tree.depth > deepest ? flat.tree.depth : deepest;
+        largest = flat.tree.nodes > largest ? flat.tree.nodes : largest;
+        empty += flat.tree.empty_leaves;
+        random_tree_free(&tree);
+        mixed_scene_free(scene);
+    }
+    print_message("depth up to %u, up to %u nodes, %u empty leaves\n", deepest, largest, empty);
+    assert_true(deepest > 4 && largest > 20);
+    flat_tree_free(&flat);
+    cgt_context_release(context);
+}
+
+static void one_leaf(void **state)
+{
+    cgt_context *context = context_make(1, NULL);
+    flat_tree flat = {0};
+    (void)state;
+    for (uint32_t objects = 1; objects < 12; objects += 5) {
+        cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, objects, objects);
+        random_tree tree = random_tree_leaf(world_of(scene));
+        check_layouts(context, world_of(scene), &tree.raw, &flat);
+        assert_int_equal(flat.tree.nodes, 2);
+        assert_int_equal(flat.tree.depth, 0);
+        random_tree_free(&tree);
+        mixed_scene_free(scene);
+    }
+    flat_tree_free(&flat);
+    cgt_context_release(context);
+}
+
+/* ---- threads ---- */
+
+static void threads_make_the_same_bytes(void **state)
+{
+    static const uint32_t threads[] = {2, 3, 8};
+    cgt_context *alone = context_make(1, NULL);
+    cgt_scene *scene = mixed_scene(alone, CLOUD_UNIFORM, 1, 4000);
+    test_random r = random_make(1);
+    random_tree tree;
+    flat_tree want = {0}, got = {0};
+    (void)state;
+    do { /* until there are enough nodes for tasks, and not all of them in one subtree */
+        tree = random_tree_make(&r, world_of(scene), 40, 4);
+        assert_int_equal(flatten(&want, alone, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_OK);
+        if (want.tree.nodes < 16384)
+            random_tree_free(&tree);
+    } while (want.tree.nodes < 16384);
+    check_layouts(alone, world_of(scene), &tree.raw, &want);
+    print_message("%u nodes, %llu references\n", want.tree.nodes, (unsigned long long)want.tree.references);
+    for (size_t t = 0; t < TEST_COUNT(threads); t++) {
+        cgt_context *context = context_make(threads[t], NULL);
+        for (size_t i = 0; i < TEST_COUNT(layouts); i++) {
+            const bool ropes = i & 1;
+            assert_int_equal(flatten(&want, alone, &tree.raw, layouts[i].layout, layouts[i].break_level, ropes), 0);
+            assert_int_equal(flatten(&got, context, &tree.raw, layouts[i].layout, layouts[i].break_level, ropes), 0);
+            const cgt_kd_tree *a = &want.tree, *b = &got.tree;
+            assert_int_equal(a->nodes, b->nodes);
+            assert_int_equal(a->references, b->references);
+            assert_int_equal(a->depth, b->depth);
+            assert_int_equal(a->leaves, b->leaves);
+            assert_int_equal(a->empty_leaves, b->empty_leaves);
+            assert_memory_equal(a->node, b->node, a->nodes * sizeof *a->node);
+            assert_memory_equal(a->reference, b->reference, a->references * sizeof *a->reference);
+            if (ropes)
+                assert_memory_equal(a->leaf, b->leaf, a->leaves * sizeof *a->leaf);
+        }
+        flat_tree_free(&got);
+        got = (flat_tree){0};
+        cgt_context_release(context);
+    }
+    random_tree_free(&tree);
+    flat_tree_free(&want);
+    mixed_scene_free(scene);
+    cgt_context_release(alone);
+}
+
+/* ---- what cannot be done ---- */
+
+typedef struct refusal {
+    uint32_t calls, refused; /* the call that is refused, from 1; 0: none */
+} refusal;
+
+static void *hook_allocate(void *user, size_t bytes, size_t alignment)
+{
+    refusal *f = user;
+    void *memory = NULL;
+    if (++f->calls == f->refused)
+        return NULL;
+    return posix_memalign(&memory, alignment < sizeof memory ? sizeof memory : alignment, bytes) == 0 ? memory : NULL;
+}
+
+static void hook_release(void *user, void *memory, size_t bytes)
+{
+    (void)user;
+    (void)bytes;
+    free(memory);
+}
+
+static void refused_memory(void **state)
+{
+    refusal refuse = {0};
+    cgt_context_options options;
+    cgt_context *context = NULL;
+    (void)state;
+    cgt_context_options_init(&options);
+    options.threads = 1;
+    options.memory = (cgt_memory_hooks){&refuse, hook_allocate, hook_release};
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, 1, 50);
+    test_random r = random_make(2);
+    random_tree tree = random_tree_make(&r, world_of(scene), 10, 2);
+    for (uint32_t call = 1; call <= 3; call++) {
+        flat_tree flat = {0};
+        refuse = (refusal){0, call};
+        assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, true), CGT_ERROR_OUT_OF_MEMORY);
+        assert_non_null(strstr(context_message(context), "kd-tree: out of memory"));
+        assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, true), CGT_OK);
+        assert_null(kd_check(&flat.tree, world_of(scene)));
+        assert_int_equal(refuse.calls, 4); /* three buffers, one of them asked for twice; nothing else */
+        assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_BREADTH_FIRST, 0, true), CGT_OK);
+        assert_int_equal(refuse.calls, 4); /* the same size again: nothing is allocated */
+        flat_tree_free(&flat);
+    }
+    refuse = (refusal){0};
+    random_tree_free(&tree);
+    mixed_scene_free(scene);
+    cgt_context_release(context);
+}
+
+/* A chain of splits at the lower end of the root, `depth` of them; the last leaf has all objects, like the others. */
+static random_tree chain(const cgt_world *world, uint32_t depth)
+{
+    random_tree tree = random_tree_leaf(world);
+    const cgt_kd_node leaf = tree.node[0];
+    free(tree.node);
+    tree.node = calloc(2 * depth + 1, sizeof *tree.node);
+    assert_non_null(tree.node);
+    for (uint32_t i = 0; i < depth; i++) {
+        tree.node[i ? 2 * i : 0] =
+            cgt_kd_inner(0, cgt_kd_round_split(0.5f * (world->low[0] + world->high[0])), 2 * i + 1);
+        tree.node[2 * i + 1] = tree.node[2 * i + 2] = leaf;
+    }
+    tree.raw.node = tree.node;
+    tree.raw.nodes = 2 * depth + 1;
+    return tree;
+}
+
+static void too_large(void **state)
+{
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, 3, 20);
+    random_tree deep = chain(world_of(scene), CGT_KD_MAX_DEPTH);
+    flat_tree flat = {0};
+    (void)state;
+    check_layouts(context, world_of(scene), &deep.raw, &flat);
+    assert_int_equal(flat.tree.depth, CGT_KD_MAX_DEPTH);
+    random_tree_free(&deep);
+
+    deep = chain(world_of(scene), CGT_KD_MAX_DEPTH + 1);
+    for (size_t i = 0; i < TEST_COUNT(layouts); i++)
+        assert_int_equal(flatten(&flat, context, &deep.raw, layouts[i].layout, layouts[i].break_level, false),
+                         CGT_ERROR_TOO_LARGE);
+    deep.raw.nodes = CGT_KD_MAX_NODES;
+    assert_int_equal(flatten(&flat, context, &deep.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_ERROR_TOO_LARGE);
+    random_tree_free(&deep);
+
+    deep = chain(world_of(scene), 4); /* five leaves of 2^30 - 1 references */
+    for (uint32_t i = 1; i < deep.raw.nodes; i++)
+        if (cgt_kd_is_leaf(deep.node[i]))
+            deep.node[i] = cgt_kd_leaf_node((1u << 30) - 1, 0);
+    for (int ropes = 0; ropes < 2; ropes++)
+        assert_int_equal(flatten(&flat, context, &deep.raw, CGT_KD_LAYOUT_AUTO, 0, ropes), CGT_ERROR_TOO_LARGE);
+    assert_non_null(strstr(context_message(context), "5368709115 references"));
+    random_tree_free(&deep);
+    flat_tree_free(&flat);
+    mixed_scene_free(scene);
+    cgt_context_release(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(layouts_keep_splits_and_leaves),
+        cmocka_unit_test(one_leaf),
+        cmocka_unit_test(threads_make_the_same_bytes),
+        cmocka_unit_test(refused_memory),
+        cmocka_unit_test(too_large),
+    };
+    test_begin("test_kd_flatten");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

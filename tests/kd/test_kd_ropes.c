@@ -1,0 +1,380 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays along ropes, one by one and in packets, of the variant that this is compiled for: the hits are those of brute
+ * force; the leaves that a ray comes to cover it without a gap, by arithmetic that shares nothing with the library; and
+ * none comes twice. */
+#include "support/oracle/dyadic.h"
+#include "support/kd/kd_check.h"
+#include "kd/kd_rope_cases.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact/near_times.h"
+#include "query/trace_settings.h"
+
+static void visit(uint32_t first, unsigned lanes, uint32_t leaf);
+#define ROPE_VISIT(first, lanes, leaf) visit(first, lanes, leaf)
+#include "kernel/kd/kd_rope_packet.h"
+#include "kernel/kd/kd_rope_single.h"
+
+#define RAYS 64u
+
+static cgt_context *context;
+
+static int setup(void **state)
+{
+    (void)state;
+    context = context_make(1, NULL);
+    return 0;
+}
+static int teardown(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
+/* ---- packets ---- */
+
+/* Rays that share nothing but the world; or their origin, too. */
+static void make_rays(test_random *r, const rope_case *c, bool common_origin, truth_ray ray[RAYS])
+{
+    for (uint32_t k = 0; k < RAYS; k++) {
+        ray[k] = rope_case_ray(r, c);
+        if (common_origin)
+            memcpy(ray[k].org, ray[0].org, sizeof ray[k].org);
+    }
+}
+
+static void fill_packet(packet *p, const truth_ray ray[RAYS], bool common_origin, bool any_hit, uint64_t closed)
+{
+    memset(p, 0, sizeof *p);
+    p->lanes = RAYS;
+    p->common_origin = common_origin;
+    p->any_hit = any_hit;
+    for (uint32_t k = 0; k < RAYS; k++) {
+        float dd = 0;
+        for (int a = 0; a < 3; a++) {
+            p->org[a][k] = ray[k].org[a];
+            p->dir[a][k] = ray[k].dir[a];
+            dd += ray[k].dir[a] * ray[k].dir[a];
+        }
+        p->rdd[k] = 1 / dd;
+        p->t_min[k] = ray[k].t_min;
+        p->t_max[k] = ray[k].t_max;
+        p->low[k] = p->high[k] = closed >> k & 1 || ray[k].t_min > ray[k].t_max ? -INFINITY : ray[k].t_max;
+        p->object[k] = CGT_NONE;
+        p->rays += p->high[k] != -INFINITY;
+    }
+}
+
+static void trace_all(const cgt_world *world, packet *p, cgt_counts *counts)
+{
+    for (uint32_t object = 0; object < world->objects.count; object++) {
+        const cgt_shape shape = cgt_objects_shape(&world->objects, object);
+        if (cgt_shape_check(&shape) == CGT_OBJECT_VALID)
+            for (uint32_t i = 0; i < p->lanes; i++)
+                filter_decide(&world->objects, p, i, object, counts);
+    }
+}
+
+static void print_ray(const truth_ray *ray)
+{
+    print_message("org %a %a %a, dir %a %a %a, range %a %a\n", (double)ray->org[0], (double)ray->org[1],
+                  (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2],
+                  (double)ray->t_min, (double)ray->t_max);
+}
+
+/* ---- hits ---- */
+
+typedef struct tally {
+    uint64_t rays, hits, wrong;
+    cgt_counts counts;
+} tally;
+
+static void compare_hits(const rope_case *c, const truth_ray ray[RAYS], const packet *truth, packet *p,
+                         cgt_kd_traversal traversal, tally *sum)
+{
+    cgt_counts counts = {0};
+    const cgt_trace_settings settings = {.kd_traversal = traversal, .mailbox = sum->rays / RAYS % 2};
+    CGT_KERNEL(cgt_kd_ropes_trace)(&c->world, p, &settings, &counts);
+    for (uint32_t k = 0; k < RAYS; k++) {
+        const bool hit = truth->object[k] != CGT_NONE;
+        const bool same = p->any_hit ? (p->object[k] != CGT_NONE) == hit : p->object[k] == truth->object[k];
+        sum->rays++;
+        sum->hits += hit;
+        if (same)
+            continue;
+        if (!sum->wrong++) {
+            print_message("object %u, expected %u, %s, place %d: ", p->object[k], truth->object[k],
+                          traversal == CGT_KD_TRAVERSAL_SINGLE ? "single" : "packet", (int)c->place);
+            print_ray(&ray[k]);
+        }
+    }
+    for (size_t i = 0; i < CGT_COUNTS; i++)
+        ((uint64_t *)&sum->counts)[i] += ((const uint64_t *)&counts)[i];
+}
+
+static void hits_are_those_of_brute_force(void **state)
+{
+    (void)state;
+    test_random r = random_make(1);
+    tally sum[2] = {{0}, {0}};
+    packet *truth = aligned_alloc(64, (sizeof *truth + 63) / 64 * 64),
+           *p = aligned_alloc(64, (sizeof *p + 63) / 64 * 64);
+    assert_true(truth && p);
+    for (uint32_t round = 6 + test_scaled(600); round; round--) {
+        rope_case *c = rope_case_make(&r, context, (rope_place)(round % ROPE_PLACES));
+        truth_ray ray[RAYS];
+        cgt_counts unused = {0};
+        for (int turn = 0; turn < 4; turn++) {
+            const bool common_origin = turn == 3, any_hit = turn == 1;
+            uint64_t closed = random_bits(&r);
+            closed &= random_bits(&r); /* one of four is closed */
+            make_rays(&r, c, common_origin, ray);
+            fill_packet(truth, ray, common_origin, any_hit, closed);
+            trace_all(&c->world, truth, &unused);
+            fill_packet(p, ray, common_origin, any_hit, closed);
+            compare_hits(c, ray, truth, p, CGT_KD_TRAVERSAL_SINGLE, &sum[0]);
+            fill_packet(p, ray, common_origin, any_hit, closed);
+            compare_hits(c, ray, truth, p, CGT_KD_TRAVERSAL_PACKET, &sum[1]);
+        }
+        rope_case_free(c);
+    }
+    for (int i = 0; i < 2; i++) {
+        const cgt_counts *n = &sum[i].counts;
+        print_message("%s: %llu rays, %llu hits, %llu nodes, %llu leaves, %llu rope steps, %llu exact\n",
+                      i ? "packets" : "single", (unsigned long long)sum[i].rays, (unsigned long long)sum[i].hits,
+                      (unsigned long long)n->nodes, (unsigned long long)n->leaves, (unsigned long long)n->rope_steps,
+                      (unsigned long long)n->exact_steps);
+        assert_int_equal(sum[i].wrong, 0);
+        assert_int_equal(n->rope_loops, 0);
+        assert_true(sum[i].hits * 20 > sum[i].rays && sum[i].hits * 20 < 19 * sum[i].rays);
+        assert_true(n->exact_steps > 0 && n->nodes > 0 && n->rope_steps > 0 && n->packets > 0);
+    }
+    free(truth);
+    free(p);
+}
+
+/* ---- leaves ---- */
+
+/* Parameters as fractions with a positive denominator. */
+typedef struct fraction {
+    dyadic p, q;
+} fraction;
+
+static int order(const fraction *a, const fraction *b)
+{
+    const dyadic left = dyadic_mul(&a->p, &b->q), right = dyadic_mul(&b->p, &a->q);
+    return dyadic_sub(&left, &right).sign;
+}
+
+static fraction whole(float t) { return (fraction){dyadic_of_float(t), dyadic_make(1, 0)}; }
+
+/* The part of a line in a closed box; false where there is none. A direction is not zero, so ends are finite. */
+static bool part_in_box(const truth_ray *ray, const float low[3], const float high[3], fraction *near, fraction *far)
+{
+    bool some = false;
+    for (int a = 0; a < 3; a++) {
+        const dyadic d = dyadic_of_float(ray->dir[a]), o = dyadic_of_float(ray->org[a]);
+        if (d.sign == 0) {
+            if (ray->org[a] < low[a] || ray->org[a] > high[a])
+                return false;
+            continue;
+        }
+        for (int end = 0; end < 2; end++) {
+            const dyadic plane = dyadic_of_float((d.sign > 0) == end ? high[a] : low[a]), to = dyadic_sub(&plane, &o);
+            const fraction t = {dyadic_signed(&to, d.sign), dyadic_signed(&d, d.sign)};
+            if (end == 0 ? !some || order(&t, near) > 0 : !some || order(&t, far) < 0)
+                *(end ? far : near) = t;
+        }
+        some = true;
+    }
+    return order(near, far) <= 0;
+}
+
+#define MOST_VISITS 4096u
+static struct visits {
+    uint32_t count[RAYS];
+    uint32_t leaf[RAYS][MOST_VISITS];
+} visits;
+
+static void visit(uint32_t first, unsigned lanes, uint32_t leaf)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t k = first + (uint32_t)__builtin_ctz(lanes);
+        assert_true(visits.count[k] < MOST_VISITS);
+        visits.leaf[k][visits.count[k]++] = leaf;
+    }
+}
+
+static bool comes_twice(const uint32_t *leaf, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (leaf[i] == leaf[k])
+                return true;
+    return false;
+}
+
+typedef struct cover {
+    uint64_t rays, misses, leaves, touched; /* touched: passed at one point only */
+} cover;
+
+/* NULL, or what is wrong with the leaves that ray k came to; `high` is where it could stop. */
+static const char *judge_leaves(const cgt_kd_tree *tree, const truth_ray *ray, uint32_t k, float high, cover *sum)
+{
+    fraction near, far, reached, in, out;
+    const uint32_t count = visits.count[k], *leaf = visits.leaf[k];
+    bool late = false;
+    sum->rays++;
+    if (!part_in_box(ray, tree->low, tree->high, &near, &far)) {
+        sum->misses++;
+        return count ? "leaves where the root is missed" : NULL;
+    }
+    reached = near;
+    if (ray->t_min > -INFINITY) {
+        const fraction first = whole(ray->t_min);
+        if (order(&first, &near) > 0)
+            reached = first;
+        if (order(&first, &far) > 0)
+            return NULL; /* the root is behind the range */
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!part_in_box(ray, tree->leaf[leaf[i]].low, tree->leaf[leaf[i]].high, &in, &out))
+            return "a leaf that the ray does not touch";
+        if (order(&in, &reached) > 0)
+            return "a gap before a leaf";
+        if (order(&out, &reached) > 0)
+            reached = out;
+        sum->touched += order(&in, &out) == 0;
+        sum->leaves++;
+    }
+    if (high < INFINITY) {
+        const fraction last = whole(high);
+        late = order(&reached, &last) > 0;
+    }
+    if (!late && (!count || order(&reached, &far) < 0))
+        return "the end is missing";
+    return comes_twice(leaf, count) ? "a leaf comes twice" : NULL;
+}
+
+static void judge_packet(const rope_case *c, const truth_ray ray[RAYS], const packet *p, cover *sum)
+{
+    for (uint32_t k = 0; k < RAYS; k++) {
+        if (p->high[k] == -INFINITY)
+            continue; /* stopped anywhere, or never started */
+        const char *wrong = judge_leaves(&c->world.kd, &ray[k], k, p->high[k], sum);
+        if (!wrong)
+            continue;
+        print_ray(&ray[k]);
+        fail_msg("%s, %u leaves, high %a", wrong, visits.count[k], (double)p->high[k]);
+    }
+}
+
+static void leaves_cover_the_rays(void **state)
+{
+    (void)state;
+    test_random r = random_make(2);
+    cover sum[2] = {{0}, {0}};
+    packet *p = aligned_alloc(64, (sizeof *p + 63) / 64 * 64);
+    leaf_tests *l = aligned_alloc(64, (sizeof *l + 63) / 64 * 64);
+    assert_true(p && l);
+    for (uint32_t round = 6 + test_scaled(120); round; round--) {
+        rope_case *c = rope_case_make(&r, context, (rope_place)(round % ROPE_PLACES));
+        const char *fault = kd_check(&c->world.kd, &c->world);
+        const bool any_hit = random_below(&r, 4) == 0;
+        truth_ray ray[RAYS];
+        cgt_counts counts = {0};
+        const cgt_trace_settings settings = {.mailbox = random_below(&r, 2)};
+        if (fault)
+            fail_msg("%s", fault);
+        make_rays(&r, c, false, ray);
+        for (int packets = 0; packets < 2; packets++) {
+            memset(visits.count, 0, sizeof visits.count);
+            fill_packet(p, ray, false, any_hit, 0);
+            leaf_tests_make(&c->world, p, &settings, &counts, l);
+            for (uint32_t i = 0; i < RAYS; i += packets ? CGT_LANES : 1)
+                (packets ? rope_trace_vector : rope_trace_ray)(&c->world.kd, l, i);
+            judge_packet(c, ray, p, &sum[packets]);
+        }
+        assert_int_equal(counts.rope_loops, 0);
+        rope_case_free(c);
+    }
+    for (int i = 0; i < 2; i++) {
+        print_message("%s: %llu rays, %llu miss the root, %llu leaves, %llu of them at one point\n",
+                      i ? "packets" : "single", (unsigned long long)sum[i].rays, (unsigned long long)sum[i].misses,
+                      (unsigned long long)sum[i].leaves, (unsigned long long)sum[i].touched);
+        assert_true(sum[i].misses * 50 > sum[i].rays && sum[i].misses * 2 < sum[i].rays);
+        assert_true(sum[i].leaves > sum[i].rays / 2 && sum[i].touched > 0);
+    }
+    free(p);
+    free(l);
+}
+
+/* ---- faces ---- */
+
+/* A leaf that each ray could leave by either of two faces, with a rope for each axis. */
+static void set_leaf(packet *p, uint32_t k, const cgt_plane_time t[2], uint32_t swap, cgt_kd_leaf *leaf)
+{
+    for (uint32_t a = 0; a < 3; a++) {
+        const cgt_plane_time of = a == 2 ? (cgt_plane_time){0x1p54f, 0, 1} : t[a ^ swap];
+        p->org[a][k] = of.org;
+        p->dir[a][k] = of.dir;
+        leaf->low[a] = -0x1p54f;
+        leaf->high[a] = of.plane;
+        for (uint32_t side = 0; side < 2; side++)
+            leaf->rope[2 * a + side] = leaf->wide_rope[2 * a + side] = 10 * a + side;
+    }
+}
+
+static void faces_at_nearly_the_same_time(void **state)
+{
+    (void)state;
+    test_random r = random_make(3);
+    packet *p = aligned_alloc(64, (sizeof *p + 63) / 64 * 64);
+    uint64_t by_axis[2] = {0, 0};
+    assert_non_null(p);
+    memset(p, 0, sizeof *p);
+    for (uint32_t round = 200 + test_scaled(20000); round; round--) {
+        cgt_kd_leaf leaf = {.first = 0};
+        cgt_plane_time t[2];
+        rope_packet many;
+        rope_ray one;
+        const int k = near_times_make(&r, t);
+        const uint32_t swap = random_below(&r, 2), axis = (k > 0) ^ swap, lane = random_below(&r, CGT_LANES);
+        if (k == 0)
+            continue; /* either will do */
+        for (uint32_t i = 0; i < CGT_LANES; i++)
+            set_leaf(p, i, t, swap, &leaf);
+        rope_ray_make(p, lane, &one);
+        assert_int_equal(rope_ray_leave(p, lane, &one, &leaf), 10 * axis + 1);
+        assert_int_equal(one.last.axis, axis);
+        rope_packet_make(p, 0, &many);
+        for (uint32_t i = 0; i < CGT_LANES; i++)
+            many.node[i] = 99;
+        rope_packet_leave(&many, &leaf, 1u << lane);
+        for (uint32_t i = 0; i < CGT_LANES; i++)
+            assert_int_equal(many.node[i], i == lane ? 10 * axis + 1 : 99);
+        assert_int_equal(many.axis[lane], axis);
+        by_axis[axis]++;
+    }
+    assert_true(by_axis[0] > 10 && by_axis[1] > 10);
+    free(p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_are_those_of_brute_force),
+        cmocka_unit_test(leaves_cover_the_rays),
+        cmocka_unit_test(faces_at_nearly_the_same_time),
+    };
+    test_begin("test_kd_ropes");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, setup, teardown);
+}

@@ -1,0 +1,293 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The bounds of points against a light tile by tile, of the variant that this is compiled for: of points whose light
+ * passes corners, edges and silhouettes to within rounding, or that lie on surfaces, none gets another answer than by
+ * exact decisions. Then the bounds are made tighter until some does: the unit roundoff of the tests of rays, and the
+ * margin of tiles. The tiles are compiled into the test, where the library finds them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/scenes.h"
+
+static float filter_u = 0x1p-24f, margin_used = 0x1p-17f;
+#define FILTER_U filter_u
+#define LIGHT_MARGIN margin_used
+#include "kernel/light/light_grid.c"
+
+#define OBJECTS 240u
+#define COPIES                                                                                                         \
+    16u /* of each point, to within rounding: all of a group of lanes, whose slopes are then as good as one */
+#define POINTS (64u * COPIES)
+#define SHRUNK 11u /* times a quarter of the bound before, then 0 */
+
+typedef enum content { SPHERES, SPECKS, TRIANGLES, CONTENTS } content;
+
+typedef struct subject {
+    cgt_context *context;
+    cgt_scene *tiles, *exact; /* the same by other means */
+    cloud spheres;
+    float (*corner)[9];
+    content what;
+    cgt_light light;
+    float at[3][POINTS];
+    uint8_t is[POINTS];
+    uint64_t hidden;
+} subject;
+
+/* ---- scenes ---- */
+
+static cgt_scene *commit(const subject *s, cgt_structure structure)
+{
+    const cgt_spheres spheres = spheres_of((const float(*)[4])s->spheres.sphere, OBJECTS);
+    const cgt_triangles triangles = {.count = OBJECTS, .vertex_count = 3 * OBJECTS, .vertices = s->corner[0]};
+    cgt_scene_options options;
+    cgt_scene *scene;
+    uint32_t geometry;
+    cgt_scene_options_init(&options);
+    options.structure = structure;
+    assert_int_equal(cgt_scene_create(s->context, &options, &scene), CGT_OK);
+    if (s->what == TRIANGLES)
+        assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &geometry), CGT_OK);
+    else
+        assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    return scene;
+}
+
+static void subject_make(test_random *r, content what, subject *s)
+{
+    static const cloud_kind kinds[] = {CLOUD_UNIFORM, CLOUD_FAR, CLOUD_LATTICE};
+    memset(s, 0, sizeof *s);
+    s->context = context_make(1, CGT_VARIANT_NAME);
+    s->spheres = cloud_make(r, kinds[random_below(r, TEST_COUNT(kinds))], OBJECTS);
+    s->what = what;
+    s->corner = malloc(OBJECTS * sizeof *s->corner);
+    assert_non_null(s->corner);
+    for (uint32_t i = 0; i < OBJECTS; i++) {
+        float *sphere = s->spheres.sphere[i];
+        for (int k = 0; k < 9; k++) /* some are neighbours that share an edge */
+            s->corner[i][k] =
+                i % 4 == 1 && k >= 3 ? s->corner[i - 1][k] : sphere[k % 3] + sphere[3] * random_float(r, -1, 1);
+        if (what == SPECKS) /* hardly more than points: their windows are little but margin */
+            sphere[3] = s->spheres.reach * 0x1p-23f;
+    }
+    s->tiles = commit(s, CGT_STRUCTURE_LOOSE_GRID);
+    s->exact = commit(s, CGT_STRUCTURE_QUEUE_GRID);
+}
+
+static void subject_free(subject *s)
+{
+    cgt_scene_release(s->tiles);
+    cgt_scene_release(s->exact);
+    cgt_context_release(s->context);
+    cloud_free(&s->spheres);
+    free(s->corner);
+}
+
+/* ---- what is asked ---- */
+
+/* From any side; parallel light half of the time, of short numbers, so that lines pass exactly through corners. */
+static void place_light(test_random *r, subject *s)
+{
+    const float far = s->spheres.reach * (float[]){2.5f, 4, 10}[random_below(r, 3)];
+    const uint32_t axis = random_below(r, 3);
+    s->light.w = (float)random_below(r, 2);
+    for (uint32_t a = 0; a < 3; a++) {
+        const float share = a == axis ? (random_below(r, 2) ? 1.f : -1.f) : random_float(r, -0.4f, 0.4f);
+        s->light.position[a] = s->light.w == 1 ? s->spheres.middle[a] + share * far : rintf(share * 64) / 64;
+    }
+}
+
+/* The way from a place to the light. */
+static void to_light(const subject *s, const float at[3], float d[3])
+{
+    for (int a = 0; a < 3; a++)
+        d[a] = s->light.w == 1 ? s->light.position[a] - at[a] : s->light.position[a];
+}
+
+/* A corner, a point of an edge, or one of a silhouette as the light sees it. */
+static void hard_point(test_random *r, const subject *s, float e[3])
+{
+    const uint32_t i = random_below(r, OBJECTS);
+    const float *sphere = s->spheres.sphere[i], share = random_below(r, 2) ? random_float(r, 0, 1) : 0;
+    const uint32_t k = random_below(r, 3);
+    float d[3], side[3], across[3], length = 0, dd = 0, along = 0;
+    if (s->what == TRIANGLES) {
+        for (uint32_t a = 0; a < 3; a++) {
+            const float *from = &s->corner[i][3 * k], *to = &s->corner[i][3 * ((k + 1) % 3)];
+            e[a] = from[a] + share * (to[a] - from[a]);
+        }
+        return;
+    }
+    to_light(s, sphere, d);
+    random_direction(r, side);
+    for (int a = 0; a < 3; a++) {
+        dd += d[a] * d[a];
+        along += d[a] * side[a];
+    }
+    for (int a = 0; a < 3; a++) {
+        across[a] = side[a] - along / dd * d[a];
+        length += across[a] * across[a];
+    }
+    /* rays to a place touch the sphere a little before its middle */
+    const float ahead = s->light.w == 1 ? sphere[3] * sphere[3] / dd : 0;
+    const float beside = sphere[3] * sqrtf(1 - (s->light.w == 1 ? ahead : 0)) / sqrtf(length);
+    for (int a = 0; a < 3; a++)
+        e[a] = sphere[a] + ahead * d[a] + beside * across[a];
+}
+
+static void place_points(test_random *r, subject *s)
+{
+    for (uint32_t i = 0; i < POINTS; i += COPIES) {
+        float e[3], d[3];
+        hard_point(r, s, e);
+        to_light(s, e, d);
+        float away = (float[]){0, 0.25f, 0.5f, 1}[random_below(r, 4)];
+        if (s->light.w == 0)
+            away *= s->spheres.reach;
+        for (uint32_t k = 0; k < COPIES; k++)
+            for (int a = 0; a < 3; a++) {
+                float p = e[a] - away * d[a];
+                for (uint32_t n = random_below(r, 3); n; n--)
+                    p = nextafterf(p, random_below(r, 2) ? INFINITY : -INFINITY);
+                s->at[a][i + k] = p;
+            }
+    }
+}
+
+static void find_truth(subject *s)
+{
+    static float dir[3][POINTS], t_max[POINTS];
+    cgt_trace_statistics statistics;
+    cgt_trace_options options;
+    for (uint32_t i = 0; i < POINTS; i++) {
+        float d[3];
+        to_light(s, (const float[]){s->at[0][i], s->at[1][i], s->at[2][i]}, d);
+        for (int a = 0; a < 3; a++)
+            dir[a][i] = d[a];
+        t_max[i] = s->light.w == 1 ? 1 : INFINITY;
+    }
+    const cgt_rays rays = {
+        .count = POINTS, .org = {s->at[0], s->at[1], s->at[2]}, .dir = {dir[0], dir[1], dir[2]}, .t_max = t_max};
+    cgt_trace_options_init(&options);
+    options.precision = CGT_PRECISION_EXACT;
+    options.statistics = &statistics;
+    assert_int_equal(cgt_occluded_rays(s->exact, &rays, s->is, &options), CGT_OK);
+    s->hidden = statistics.hits;
+}
+
+/* ---- tests ---- */
+
+typedef struct tally {
+    uint64_t lost, invented;
+} tally;
+
+static void add_wrong(const subject *s, tally *sum)
+{
+    static uint8_t got[POINTS];
+    const cgt_points points = {.count = POINTS, .position = {s->at[0], s->at[1], s->at[2]}};
+    const bool told = filter_u == 0x1p-24f && margin_used == 0x1p-17f;
+    cgt_trace_statistics statistics;
+    cgt_trace_options options;
+    cgt_trace_options_init(&options);
+    options.statistics = &statistics;
+    memset(got, 7, sizeof got);
+    assert_int_equal(cgt_occluded_light(s->tiles, &s->light, &points, got, &options), CGT_OK);
+    assert_true(statistics.tiles > 0);
+    for (uint32_t i = 0; i < POINTS; i++) {
+        assert_true(got[i] < 2);
+        sum->lost += s->is[i] > got[i];
+        sum->invented += s->is[i] < got[i];
+        if (told && s->is[i] != got[i] && sum->lost + sum->invented < 4)
+            print_message("content %d, light %a %a %a, %g: point %a %a %a is %s\n", (int)s->what,
+                          (double)s->light.position[0], (double)s->light.position[1], (double)s->light.position[2],
+                          (double)s->light.w, (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
+                          got[i] ? "in the light" : "in shadow");
+    }
+}
+
+/* Both bounds shrink apart: a tally for each bound, 0 of the roundoff, 1 of the margin, and each step. */
+static void ask(test_random *r, content what, bool shrink, tally sum[2][SHRUNK + 2], uint64_t *hidden)
+{
+    static subject s;
+    const uint32_t stride = test_samples() ? 3 : 1; /* ends at the last step, too */
+    subject_make(r, what, &s);
+    for (uint32_t k = 0; k < 4; k++) {
+        place_light(r, &s);
+        place_points(r, &s);
+        find_truth(&s);
+        *hidden += s.hidden;
+        for (uint32_t bound = 0; bound < 2; bound++)
+            for (uint32_t step = 0; step < (shrink ? SHRUNK + 2 : 1 - bound); step += stride) {
+                const float factor = step > SHRUNK ? 0 : ldexpf(1, -2 * (int)step);
+                *(bound ? &margin_used : &filter_u) *= factor;
+                add_wrong(&s, &sum[bound][step]);
+                filter_u = 0x1p-24f;
+                margin_used = 0x1p-17f;
+            }
+    }
+    subject_free(&s);
+}
+
+static void bounds_hold(void **state)
+{
+    (void)state;
+    const uint32_t turns = 2 + test_scaled(250);
+    for (int what = 0; what < CONTENTS; what++) {
+        test_random r = random_make(800 + (uint64_t)what);
+        tally sum[2][SHRUNK + 2] = {{{0}}};
+        uint64_t hidden = 0;
+        for (uint32_t turn = 0; turn < turns; turn++)
+            ask(&r, (content)what, false, sum, &hidden);
+        print_message("content %d: %llu of %llu in shadow\n", what, (unsigned long long)hidden, 4ull * turns * POINTS);
+        assert_true(hidden > turns && hidden < 4ull * turns * POINTS);
+        assert_int_equal(sum[0][0].lost, 0);
+        assert_int_equal(sum[0][0].invented, 0);
+    }
+}
+
+/* The first step at which there are any. */
+static uint32_t first_wrong(const tally *sum, bool invented)
+{
+    uint32_t step = 0;
+    while (step < SHRUNK + 2 && !(invented ? sum[step].invented : sum[step].lost))
+        step++;
+    return step;
+}
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    uint32_t of_margin = SHRUNK + 2;
+    for (int what = 0; what < CONTENTS; what++) {
+        test_random r = random_make(850 + (uint64_t)what);
+        tally sum[2][SHRUNK + 2] = {{{0}}};
+        uint64_t hidden = 0;
+        for (uint32_t turn = 2 + test_scaled(6); turn; turn--)
+            ask(&r, (content)what, true, sum, &hidden);
+        const uint32_t lost = first_wrong(sum[0], false), invented = first_wrong(sum[0], true);
+        const uint32_t missed = first_wrong(sum[1], false);
+        print_message("content %d: the roundoff loses at 4^-%u and invents at 4^-%u, the margin loses at 4^-%u\n", what,
+                      lost, invented, missed);
+        of_margin = missed < of_margin ? missed : of_margin;
+        for (int bound = 0; bound < 2; bound++)
+            assert_true(sum[bound][0].lost + sum[bound][0].invented == 0);
+        assert_int_equal(first_wrong(sum[1], true), SHRUNK + 2); /* a margin cannot */
+        assert_true(lost < SHRUNK + 2 && (what == SPECKS || invented < SHRUNK + 2));
+    }
+    assert_true(of_margin > 0 && of_margin < SHRUNK + 2);
+}
+
+int main(void)
+{
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bounds_hold),
+        cmocka_unit_test(bounds_break_where_they_are_tightened),
+    };
+    test_begin("test_light_bounds");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,168 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The shipped trajectory against brute force: every pixel of frames of a real simulation has the hit that exists among
+ * all spheres, and its t. The brute force (support/truth.c) looks at every sphere, in double with a margin to leave out
+ * what is surely missed, in wide arithmetic for the rest; it shares no line with the library. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "trajectory/trajectory.h"
+
+#define DATA CGT_DATA_DIR "/pour2k.lammpstrj"
+
+static trajectory *file;
+
+static int open_file(void **state)
+{
+    (void)state;
+    char error[512] = "";
+    file = trajectory_open(DATA, NULL, error, sizeof error);
+    if (!file)
+        print_error("%s\n", error);
+    return file ? 0 : -1;
+}
+
+static int close_file(void **state)
+{
+    (void)state;
+    trajectory_close(file);
+    return 0;
+}
+
+static trajectory_frame read_frame(uint64_t number)
+{
+    char error[512] = "";
+    trajectory_frame frame = {0};
+    if (trajectory_rewind(file, error, sizeof error))
+        fail_msg("%s", error);
+    for (uint64_t i = 0; i < number; i++)
+        if (trajectory_skip(file, error, sizeof error) != 1)
+            fail_msg("%s", error);
+    if (trajectory_read(file, &frame, error, sizeof error) != 1)
+        fail_msg("%s", error);
+    assert_int_equal(frame.number, number);
+    return frame;
+}
+
+/* Around the box, from above, and from among the spheres. */
+static cgt_camera place_camera(const trajectory_frame *f, int place)
+{
+    cgt_camera camera;
+    float middle[3], size = 0;
+    cgt_camera_init(&camera);
+    for (int a = 0; a < 3; a++) {
+        middle[a] = 0.5f * (f->box_min[a] + f->box_max[a]);
+        size = fmaxf(size, f->box_max[a] - f->box_min[a]);
+    }
+    middle[2] = f->box_min[2] + 0.2f * size; /* they fall to the bottom */
+    const float angle = 0.7f + 2.1f * (float)place;
+    memcpy(camera.target, middle, sizeof middle);
+    memcpy(camera.up, (float[3]){0, 0, 1}, sizeof camera.up);
+    camera.eye[0] = middle[0] + 1.4f * size * cosf(angle);
+    camera.eye[1] = middle[1] + 1.4f * size * sinf(angle);
+    camera.eye[2] = middle[2] + 0.5f * size;
+    if (place == 2)
+        camera.projection = CGT_ORTHOGRAPHIC, camera.height = 0.6f * size;
+    if (place == 3) {
+        memcpy(camera.eye, middle, sizeof middle);
+        camera.target[0] += 1;
+        camera.fov = 100;
+    }
+    return camera;
+}
+
+static void pixels_of_the_trajectory(void **state)
+{
+    (void)state;
+    static const uint64_t number[] = {0, 3, 12, 30, 52, 75};
+    const uint32_t width = test_scaled(320) < 64 ? 64 : test_scaled(320), height = width * 9 / 16;
+    planes p = planes_make(width, height), other = planes_make(width, height);
+    uint64_t hits = 0, doubts = 0;
+    for (size_t k = 0; k < TEST_COUNT(number); k++) {
+        const trajectory_frame f = read_frame(number[k]);
+        const float(*sphere)[4] = (const float(*)[4])f.xyzr;
+        const cgt_camera camera = place_camera(&f, (int)(k % 4));
+        truth_ray *rays = frame_rays(&camera, width, height);
+        bool first = true;
+        uint32_t turn = (uint32_t)k;
+        FOR_EACH_VARIANT(variant)
+        {
+            const cgt_scene_options made = structure_in_turn(turn++);
+            cgt_context *context = context_make(2, variant);
+            cgt_scene *scene = scene_of(context, &made, sphere, f.count);
+            frame_trace(scene, &camera, first ? &p : &other, NULL);
+            if (!first)
+                assert_true(planes_equal(&p, &other));
+            first = false;
+            cgt_scene_release(scene);
+            cgt_context_release(context);
+        }
+        doubts += frame_judge(&p, rays, sphere, f.count);
+        for (size_t i = 0; i < p.elements; i++)
+            hits += p.primitive[i] != CGT_NONE;
+        free(rays);
+    }
+    print_message("%llu hits in %zu frames of %ux%u, %llu beyond double precision\n", (unsigned long long)hits,
+                  TEST_COUNT(number), width, height, (unsigned long long)doubts);
+    assert_true(hits > p.elements / 2);
+    assert_true(doubts < 5);
+    planes_free(&p);
+    planes_free(&other);
+}
+
+static void rays_through_the_trajectory(void **state)
+{
+    (void)state;
+    const trajectory_frame f = read_frame(60);
+    const float(*sphere)[4] = (const float(*)[4])f.xyzr;
+    const cloud c = {.count = f.count, .middle = {10, 6, 4}, .reach = 8};
+    const truth_scene truth = {sphere, f.count};
+    const uint32_t count = test_scaled(20000);
+    truth_ray *ray = malloc(count * sizeof *ray);
+    ray_hit *hit = malloc(count * sizeof *hit), *again = malloc(count * sizeof *again);
+    uint8_t *occluded = malloc(count);
+    test_random r = random_make(1);
+    uint64_t doubts = 0, hits = 0;
+    assert_true(ray && hit && again && occluded);
+    for (uint32_t i = 0; i < count; i++)
+        ray[i] = ray_random(&r, &c);
+    cgt_context *context = context_make(2, NULL);
+    const cgt_rays rays = ray_array(ray, count);
+    for (uint32_t k = 0; k < CGT_STRUCTURE_WIDE_TREE; k++) { /* hits are the same bits through each */
+        const cgt_scene_options made = structure_in_turn(k);
+        cgt_scene *scene = scene_of(context, &made, sphere, f.count);
+        rays_trace(scene, ray, count, again, NULL);
+        assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+        for (uint32_t i = 0; i < count; i++)
+            assert_int_equal(occluded[i], again[i].primitive != CGT_NONE);
+        if (k)
+            assert_memory_equal(again, hit, count * sizeof *hit);
+        else
+            memcpy(hit, again, count * sizeof *hit);
+        cgt_scene_release(scene);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, &doubts);
+        if (wrong)
+            fail_msg("ray %u: %s", i, wrong);
+        hits += hit[i].primitive != CGT_NONE;
+    }
+    assert_true(hits > count / 4 && doubts <= count / 1000 + 1);
+    cgt_context_release(context);
+    free(occluded);
+    free(again);
+    free(hit);
+    free(ray);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_of_the_trajectory),
+                                       cmocka_unit_test(rays_through_the_trajectory)};
+    test_begin("oracle_brute_force");
+    return cmocka_run_group_tests(tests, open_file, close_file);
+}

@@ -1,0 +1,50 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays and objects for the tests of leaves, and what is exactly true of them. The rays of a case are aimed at its first
+ * object; its other objects are that one again, moved a little, or elsewhere beside it. */
+#ifndef LANE_CASES_H
+#define LANE_CASES_H
+
+#include "support/oracle/oracle.h"
+#include "support/test.h"
+
+#define CASE_LANES 16 /* whole vectors at any width */
+
+typedef enum case_family {
+    CASE_INTERIOR,
+    CASE_EDGES,    /* or the silhouette of a sphere */
+    CASE_VERTICES, /* of spheres: from the surface */
+    CASE_LATTICE,  /* small whole numbers: hits exactly at vertices and edges, and along the plane */
+    CASE_COPLANAR, /* nearly, and exactly; of spheres: silhouettes from afar */
+    CASE_NEEDLES,  /* of spheres: of radius 0 and hardly more */
+    CASE_TINY,     /* in a large world */
+    CASE_FAR,
+    CASE_INSIDE,
+    CASE_RANGES, /* that begin before the origin, near the hit or beyond it */
+    CASE_AXES,   /* components of the direction that are 0, -0 or tiny */
+    CASE_FLAT,   /* of triangles: in the plane but for a small part of a unit roundoff, from beside a corner */
+    CASE_ANY,    /* any numbers that rays through a structure may have */
+    CASE_FAMILIES
+} case_family;
+
+const char *case_name(case_family f);
+
+typedef struct lane_case {
+    case_family family;
+    oracle_primitive object[CASE_LANES];
+    truth_ray ray[CASE_LANES]; /* of ranges without end */
+    float magnitude;           /* the world's largest coordinate */
+} lane_case;
+
+void case_make(test_random *r, oracle_kind kind, case_family f, lane_case *c);
+
+/* Of each ray with the first object, and of the first ray with each object. */
+typedef struct case_truth {
+    bool hit[2][CASE_LANES];
+    truth_real t[2][CASE_LANES];
+} case_truth;
+
+void case_judge(const lane_case *c, case_truth *truth);
+
+#endif

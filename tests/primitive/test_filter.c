@@ -1,0 +1,299 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The single-precision filter of the variant that this is compiled for, against the truth in wide arithmetic: a certain
+ * miss is a miss, a certain hit is a hit, and the interval holds its t. Then the bounds are made tighter, by giving
+ * FILTER_U less than the unit roundoff, until they break: a bound that never broke would be too wide to be of use. */
+#include "support/oracle/truth.h"
+#include "support/test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "vector.h"
+
+static float filter_u = 0x1p-24f;
+#define FILTER_U filter_u
+#include "kernel/primitive/sphere_filter.h"
+
+#define LANES 16 /* rays per packet: whole vectors at any width */
+
+typedef enum family {
+    GRAZING,
+    CROSSING,
+    INSIDE,
+    AT_SURFACE,
+    LOOKING_BACK,
+    USUAL_FAMILIES,
+    ANY_SIZE = USUAL_FAMILIES,
+    FAMILIES
+} family;
+
+static const char *const family_name[FAMILIES] = {"grazing",        "crossing",     "inside",
+                                                  "at the surface", "looking back", "any size"};
+
+/* ---- packets ---- */
+
+typedef struct aim {
+    double c[3]; /* from the origin to the centre */
+    double cc, r;
+} aim;
+
+/* Directions that pass the centre at `beside` radii. */
+static void aim_direction(test_random *r, const aim *to, double beside, float length, float dir[3])
+{
+    float d[3];
+    double side[3], dc = 0, square = 0;
+    random_direction(r, d);
+    for (int a = 0; a < 3; a++)
+        dc += d[a] * to->c[a];
+    for (int a = 0; a < 3; a++) {
+        side[a] = d[a] - dc / to->cc * to->c[a];
+        square += side[a] * side[a];
+    }
+    /* a line at distance b from the centre goes through the point b / sqrt(1 - b^2 / cc) beside it */
+    const double b = beside * to->r, slant = b * b < to->cc * 0.999999 ? sqrt(1 - b * b / to->cc) : 1e-3;
+    const double reach = b / slant / sqrt(square > 1e-12 ? square : 1);
+    const double k = length / sqrt(to->cc + b / slant * b / slant);
+    for (int a = 0; a < 3; a++)
+        dir[a] = (float)((to->c[a] + reach * side[a]) * k);
+}
+
+static double away(test_random *r, family f)
+{
+    switch (f) {
+    case INSIDE: return random_float(r, 0.01f, 0.99f);
+    case AT_SURFACE: return 1 + (double)random_log(r, 1e-7f, 1e-2f) * (random_below(r, 2) ? 1 : -1);
+    default: return 1 + (double)random_log(r, 1e-3f, 1e6f);
+    }
+}
+
+/* A packet of one family around one sphere: from one origin, or from origins close to each other. */
+static void make_packet(test_random *r, family f, packet *p, float sphere[4])
+{
+    float origin[3], d[3];
+    const double distance = away(r, f);
+    const bool common = random_below(r, 2), back = f == LOOKING_BACK || (f == ANY_SIZE && random_below(r, 2));
+    float length = random_log(r, 1e-3f, 1e3f), offset = random_below(r, 2) ? 1 : random_log(r, 1, 1e4f);
+    memset(p, 0, sizeof *p);
+    sphere[3] = random_log(r, 1e-3f, 1e3f);
+    if (f == ANY_SIZE) { /* products leave the range of float; coordinates stay below 2^55, directions above 2^-55 */
+        sphere[3] = ldexpf(sphere[3], (int)random_below(r, 100) - 80);
+        length = ldexpf(1, (int)random_below(r, 100) - 50);
+        offset *= sphere[3];
+    }
+    for (int a = 0; a < 3; a++)
+        sphere[a] = random_float(r, -1, 1) * offset;
+    random_direction(r, d);
+    for (int a = 0; a < 3; a++)
+        origin[a] = (float)(sphere[a] + distance * sphere[3] * d[a]);
+    p->lanes = p->rays = LANES;
+    p->common_origin = common;
+    for (int i = 0; i < LANES; i++) {
+        aim to = {.r = sphere[3]};
+        float dir[3];
+        for (int a = 0; a < 3; a++) {
+            p->org[a][i] = common ? origin[a] : origin[a] + random_float(r, -0.1f, 0.1f) * sphere[3];
+            to.c[a] = (double)sphere[a] - p->org[a][i];
+            to.cc += to.c[a] * to.c[a];
+        }
+        const double fine = 1 + (double)random_float(r, -1, 1) * random_log(r, 1e-8f, 1e-2f);
+        aim_direction(r, &to, f == GRAZING || random_below(r, 4) == 0 ? fine : random_float(r, 0, 1.1f), length, dir);
+        float dd = 0;
+        for (int a = 0; a < 3; a++) {
+            p->dir[a][i] = f == LOOKING_BACK ? -dir[a] : dir[a];
+            dd += dir[a] * dir[a];
+        }
+        p->rdd[i] = 1 / dd;
+        p->t_min[i] = back ? -INFINITY : 0;
+        p->t_max[i] = p->low[i] = p->high[i] = INFINITY;
+        p->object[i] = CGT_NONE;
+    }
+}
+
+/* ---- judging ---- */
+
+typedef struct tally {
+    uint64_t lanes, hits, open;       /* open: left to double precision */
+    uint64_t lost, invented, outside; /* what must not happen */
+} tally;
+
+static void judge_lane(const packet *p, int i, const float sphere[4], bool certain, bool open, float low, float high,
+                       tally *sum)
+{
+    const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]},
+                dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
+    const truth_roots roots = truth_sphere(org, dir, sphere);
+    const truth_real t = (float)roots.near >= p->t_min[i] ? roots.near : roots.far;
+    const bool hit = roots.hit && (float)t >= p->t_min[i];
+    sum->lanes++;
+    sum->hits += hit;
+    sum->open += open;
+    if (open || truth_in_doubt(&roots))
+        return;
+    if (!certain)
+        sum->lost += hit;
+    else if (!hit)
+        sum->invented++;
+    else
+        sum->outside += !(low <= t && t <= high);
+}
+
+/* The sphere in one lane of a vector; other spheres beside it. */
+static void judge_packet(test_random *r, const packet *p, const float sphere[4], tally *sum)
+{
+    const int k = (int)random_below(r, CGT_LANES);
+    filter_packet of_packet;
+    filter_spheres s;
+    filter_result f;
+    filter_packet_make(p, 1, &of_packet);
+    for (int i = 0; i < CGT_LANES; i++) {
+        for (int a = 0; a < 3; a++)
+            s.center[a][i] = i == k ? sphere[a] : random_float(r, -10, 10);
+        s.radius[i] = i == k ? sphere[3] : random_float(r, 0, 10);
+        s.object[i] = (uint32_t)i;
+    }
+    filter_spheres_bound(&of_packet, &s);
+    const filter_sphere q = filter_sphere_get(p, &s, k, p->common_origin);
+    for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
+        const bool some = filter_sphere_rays(p, &q, i, p->common_origin, &f);
+        const unsigned certain = some ? spux_mask_bits(f.certain) : 0, open = some ? spux_mask_bits(f.open) : 0;
+        assert_int_equal(certain & open, 0);
+        for (int lane = 0; lane < CGT_LANES; lane++)
+            judge_lane(p, (int)i + lane, sphere, certain >> lane & 1, open >> lane & 1, some ? f.low[lane] : 0,
+                       some ? f.high[lane] : 0, sum);
+    }
+}
+
+static tally judge_family(family f, uint32_t packets, float scale)
+{
+    tally sum = {0};
+    test_random r = random_make(f);
+    filter_u = 0x1p-24f * scale;
+    for (uint32_t k = 0; k < packets; k++) {
+        packet p;
+        float sphere[4];
+        make_packet(&r, f, &p, sphere);
+        judge_packet(&r, &p, sphere, &sum);
+    }
+    filter_u = 0x1p-24f;
+    return sum;
+}
+
+/* ---- tests ---- */
+
+static void bounds_hold(void **state)
+{
+    (void)state;
+    for (int f = 0; f < FAMILIES; f++) {
+        const tally t = judge_family((family)f, test_scaled(10000), 1);
+        print_message("%s: %llu rays, %llu hits, %llu open; lost %llu, invented %llu, outside %llu\n", family_name[f],
+                      (unsigned long long)t.lanes, (unsigned long long)t.hits, (unsigned long long)t.open,
+                      (unsigned long long)t.lost, (unsigned long long)t.invented, (unsigned long long)t.outside);
+        assert_int_equal(t.lost, 0);
+        assert_int_equal(t.invented, 0);
+        assert_int_equal(t.outside, 0);
+        assert_true(t.hits > t.lanes / 5 && t.open < t.lanes); /* the filter had something to tell */
+        if (f == CROSSING)
+            assert_true(t.open < t.lanes / 2);
+    }
+}
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    float lost_at = 0, invented_at = 0, outside_at = 0;
+    for (float scale = 1; scale > 0x1p-12f; scale *= 0.70710678f) {
+        tally sum = {0};
+        for (int f = 0; f < USUAL_FAMILIES; f++) {
+            const tally t = judge_family((family)f, test_scaled(4000), scale);
+            sum.lost += t.lost;
+            sum.invented += t.invented;
+            sum.outside += t.outside;
+        }
+        if (sum.lost && !lost_at)
+            lost_at = scale;
+        if (sum.invented && !invented_at)
+            invented_at = scale;
+        if (sum.outside && !outside_at)
+            outside_at = scale;
+        if (lost_at && invented_at && outside_at)
+            break;
+    }
+    print_message("first failures: a hit lost at %.3g of the bounds, one invented at %.3g, t outside at %.3g\n",
+                  (double)lost_at, (double)invented_at, (double)outside_at);
+    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    assert_true(lost_at > 0x1p-6f && lost_at < 1);
+    assert_true(invented_at > 0x1p-11f && invented_at < 1); /* certain only beyond 17 eps */
+    assert_true(outside_at > 0x1p-6f && outside_at < 1);
+}
+
+/* A second sphere is judged by the interval of the best hit so far: nearer for certain, farther for certain, or open. */
+static void order_of_two_spheres(void **state)
+{
+    (void)state;
+    test_random r = random_make(100);
+    uint64_t certain = 0, open = 0;
+    for (uint32_t round = test_scaled(20000); round; round--) {
+        packet p;
+        float sphere[4], other[4];
+        filter_packet of_packet;
+        filter_spheres s;
+        filter_result f;
+        make_packet(&r, CROSSING, &p, sphere);
+        memcpy(other, sphere, sizeof other);
+        other[random_below(&r, 4)] *= 1 + random_log(&r, 1e-8f, 1e-1f) * (random_below(&r, 2) ? 1.f : -1.f);
+        filter_packet_make(&p, 1, &of_packet);
+        memset(&s, 0, sizeof s);
+        for (int k = 0; k < 2; k++) {
+            for (int a = 0; a < 3; a++)
+                s.center[a][k] = k ? other[a] : sphere[a];
+            s.radius[k] = k ? other[3] : sphere[3];
+            s.object[k] = (uint32_t)k;
+        }
+        filter_spheres_bound(&of_packet, &s);
+        for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
+            const filter_sphere first = filter_sphere_get(&p, &s, 0, p.common_origin),
+                                second = filter_sphere_get(&p, &s, 1, p.common_origin);
+            if (!filter_sphere_rays(&p, &first, i, p.common_origin, &f))
+                continue;
+            const unsigned hit = spux_mask_bits(f.certain);
+            spux_store(p.low + i, spux_select(spux_load(p.low + i), f.low, f.certain));
+            spux_store(p.high + i, spux_select(spux_load(p.high + i), f.high, f.certain));
+            spux_store_uint(p.object + i, spux_select(spux_load_uint(p.object + i), spux_vuint(0), f.certain));
+            const bool some = filter_sphere_rays(&p, &second, i, p.common_origin, &f);
+            const unsigned nearer = some ? spux_mask_bits(f.certain) : 0, left = some ? spux_mask_bits(f.open) : 0;
+            for (uint32_t lane = 0; lane < CGT_LANES; lane++) {
+                const uint32_t j = i + lane;
+                if (!(hit >> lane & 1))
+                    continue;
+                const float org[3] = {p.org[0][j], p.org[1][j], p.org[2][j]},
+                            dir[3] = {p.dir[0][j], p.dir[1][j], p.dir[2][j]};
+                const truth_roots a = truth_sphere(org, dir, sphere), b = truth_sphere(org, dir, other);
+                const truth_real t = (float)b.near >= 0 ? b.near : b.far; /* the origin may be inside the other one */
+                if (left >> lane & 1)
+                    open++;
+                else if (nearer >> lane & 1) {
+                    certain++;
+                    assert_true(b.hit && t < a.near);
+                } else if (b.hit && !truth_in_doubt(&b)) {
+                    assert_true(t > a.near || (float)t < 0);
+                }
+            }
+        }
+    }
+    print_message("nearer for certain %llu times, left open %llu times\n", (unsigned long long)certain,
+                  (unsigned long long)open);
+    assert_true(certain > 100 && open > 100);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds_hold),
+                                       cmocka_unit_test(bounds_break_where_they_are_tightened),
+                                       cmocka_unit_test(order_of_two_spheres)};
+    test_begin("test_filter");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

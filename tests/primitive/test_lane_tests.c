@@ -1,0 +1,329 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The single-precision tests of leaves, of the variant that this is compiled for, against the exact oracle: a certain
+ * hit is a hit, in the range, and the interval holds its t; what is neither certain nor open is no hit; and no hit is
+ * nearer than the interval of an open lane begins. All of it for a vector of rays with one object, and for one ray with
+ * a vector of objects. Then the bounds are made tighter, by giving FILTER_U less than the unit roundoff, until they
+ * break: a bound that never broke would be too wide to be of use. */
+#include "primitive/lane_cases.h"
+#include "support/scenes.h"
+#include "support/tightened.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "vector.h"
+
+static float filter_u = 0x1p-24f;
+#define FILTER_U filter_u
+#include "kernel/primitive/lane_tests.h"
+
+static cgt_context *context;
+static cgt_buffer leaf_memory;
+
+/* ---- what the tests take ---- */
+
+typedef struct subject {
+    packet p; /* of the case's rays */
+    cgt_world world;
+    cgt_object_array array;
+    lane_case of;
+} subject;
+
+static void subject_make(const lane_case *c, subject *s)
+{
+    const bool spheres = c->object[0].kind == ORACLE_SPHERE;
+    int exponent = 0;
+    s->of = *c;
+    for (int i = 0; i < CASE_LANES; i++) {
+        float dd = 0;
+        for (int a = 0; a < 3; a++) {
+            s->p.org[a][i] = c->ray[i].org[a];
+            s->p.dir[a][i] = c->ray[i].dir[a];
+            dd += s->p.dir[a][i] * s->p.dir[a][i];
+        }
+        s->p.rdd[i] = 1 / dd;
+        s->p.t_min[i] = c->ray[i].t_min;
+    }
+    frexpf(c->magnitude, &exponent);
+    s->world = (cgt_world){.scale = ldexpf(1, exponent < -100 ? 100 : -exponent)}; /* as a commit chooses it */
+    if (spheres)
+        return;
+    s->array = (cgt_object_array){
+        .kind = CGT_KIND_TRIANGLES, .count = CASE_LANES, .points = 3 * CASE_LANES, .point_stride = 3 * sizeof(float)};
+    /* the corners of each object, one after the other */
+    static float corner[CASE_LANES][9];
+    for (int i = 0; i < CASE_LANES; i++)
+        memcpy(corner[i], c->object[i].data, sizeof corner[i]);
+    s->array.point = (const char *)corner;
+    s->world.objects = (cgt_objects){.array = &s->array, .arrays = 1, .count = CASE_LANES, .triangles = CASE_LANES};
+    assert_int_equal(cgt_leaf_triangles_make(context, &leaf_memory, &s->world), CGT_OK);
+}
+
+/* Object k in every lane. */
+static bool test_one(const subject *s, const lane_rays *r, lane_hits *q)
+{
+    const float *x = s->of.object[0].data;
+    if (s->of.object[0].kind == ORACLE_SPHERE) {
+        const vfloat center[3] = {spux_vfloat(x[0]), spux_vfloat(x[1]), spux_vfloat(x[2])};
+        return lane_sphere(r, center, spux_vfloat(x[3]), q);
+    }
+    lane_triangles triangle;
+    lane_triangles_of_one(&s->world.triangle[0], &triangle);
+    return lane_triangle(r, &triangle, q);
+}
+
+/* Objects k to k + CGT_LANES - 1. */
+static bool test_vector(const subject *s, const lane_rays *r, int k, lane_hits *q)
+{
+    _Alignas(64) float row[11][CGT_LANES];
+    vfloat field[11];
+    const bool spheres = s->of.object[0].kind == ORACLE_SPHERE;
+    memset(row, 0, sizeof row);
+    for (int lane = 0; lane < CGT_LANES; lane++) {
+        if (spheres) {
+            for (int a = 0; a < 4; a++)
+                row[a][lane] = s->of.object[k + lane].data[a];
+            continue;
+        }
+        const cgt_leaf_triangle *t = &s->world.triangle[k + lane];
+        for (int a = 0; a < 3; a++) {
+            row[a][lane] = t->vertex[a];
+            row[3 + a][lane] = t->edge[0][a];
+            row[6 + a][lane] = t->edge[1][a];
+        }
+        row[9][lane] = t->sum[0];
+        row[10][lane] = t->sum[1];
+    }
+    for (int i = 0; i < 11; i++)
+        field[i] = spux_load(row[i]);
+    if (spheres)
+        return lane_sphere(r, field, field[3], q);
+    const lane_triangles triangles = {.vertex = {field[0], field[1], field[2]},
+                                      .edge = {{field[3], field[4], field[5]}, {field[6], field[7], field[8]}},
+                                      .sum = {field[9], field[10]}};
+    return lane_triangle(r, &triangles, q);
+}
+
+/* ---- judging ---- */
+
+typedef struct tally {
+    uint64_t lanes, hits, certain, open;
+    uint64_t lost, invented, outside; /* what must not happen */
+} tally;
+
+static void print_lane(const subject *s, int form, int i, const char *what, const truth_real *t, float low, float high)
+{
+    const truth_ray *ray = &s->of.ray[form ? 0 : i];
+    const oracle_primitive *q = &s->of.object[form ? i : 0];
+    print_message("%s: t %a, interval %a %a, world's scale %a\n  org {%a, %a, %a} dir {%a, %a, %a} t_min %a\n ", what,
+                  (double)*t, (double)low, (double)high, (double)s->world.scale, (double)ray->org[0],
+                  (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1],
+                  (double)ray->dir[2], (double)ray->t_min);
+    for (int k = 0; k < (q->kind == ORACLE_SPHERE ? 4 : 9); k++)
+        print_message(" %a", (double)q->data[k]);
+    print_message("\n");
+}
+
+/* What the traversal takes of an open lane is where the interval begins. */
+static void judge_lane(const subject *s, const case_truth *truth, int form, int i, bool certain, bool open, float low,
+                       float high, tally *sum)
+{
+    const truth_real *t = &truth->t[form][i];
+    const bool hit = truth->hit[form][i], told = filter_u == 0x1p-24f;
+    const char *wrong = NULL;
+    sum->lanes++;
+    sum->hits += hit;
+    sum->certain += certain;
+    sum->open += open;
+    if (hit && !certain && !open) {
+        sum->lost++;
+        wrong = "a hit lost";
+    } else if (certain && !hit) {
+        sum->invented++;
+        wrong = "a hit invented";
+    } else if ((certain && !(low <= *t && *t <= high && low > s->of.ray[form ? 0 : i].t_min)) ||
+               (open && hit && low > *t)) {
+        sum->outside++;
+        wrong = certain ? "t of a certain hit outside" : "t of an open hit outside";
+    }
+    if (wrong && told && sum->lost + sum->invented + sum->outside <= 3)
+        print_lane(s, form, i, wrong, t, low, high);
+}
+
+static void judge_vector(const subject *s, const case_truth *truth, int form, int i, const lane_hits *q, bool some,
+                         tally *sum)
+{
+    const unsigned certain = some ? spux_mask_bits(q->certain) : 0, open = some ? spux_mask_bits(q->open) : 0;
+    assert_int_equal(certain & open, 0);
+    for (int lane = 0; lane < CGT_LANES; lane++)
+        judge_lane(s, truth, form, i + lane, certain >> lane & 1, open >> lane & 1, some ? q->low[lane] : 0,
+                   some ? q->high[lane] : 0, sum);
+}
+
+/* sum: of a vector of rays, and of a vector of objects. */
+static void judge(const subject *s, const case_truth *truth, tally sum[2])
+{
+    lane_rays r;
+    lane_hits q;
+    for (int i = 0; i < CASE_LANES; i += CGT_LANES) {
+        lane_rays_of_packet(&s->p, (uint32_t)i, s->world.scale, &r);
+        bool some = test_one(s, &r, &q);
+        judge_vector(s, truth, 0, i, &q, some, &sum[0]);
+        lane_rays_of_one(&s->p, 0, s->world.scale, &r);
+        some = test_vector(s, &r, i, &q);
+        judge_vector(s, truth, 1, i, &q, some, &sum[1]);
+    }
+}
+
+/* ---- tests ---- */
+
+static const oracle_kind kinds[] = {ORACLE_TRIANGLE, ORACLE_SPHERE};
+
+static void print_and_check(case_family f, const char *form, const tally *t)
+{
+    print_message("%s, %s: %llu lanes, %llu hits, %llu certain, %llu open; lost %llu, invented %llu, outside %llu\n",
+                  case_name(f), form, (unsigned long long)t->lanes, (unsigned long long)t->hits,
+                  (unsigned long long)t->certain, (unsigned long long)t->open, (unsigned long long)t->lost,
+                  (unsigned long long)t->invented, (unsigned long long)t->outside);
+    assert_int_equal(t->lost, 0);
+    assert_int_equal(t->invented, 0);
+    assert_int_equal(t->outside, 0);
+    /* each kind of answer is there; of rays in the plane nothing is certain, and inside hardly any lane is open */
+    assert_true(t->hits >= 3 && (f == CASE_INTERIOR || t->open >= 3));
+    assert_true(f == CASE_FLAT || (t->certain >= 3 && t->lanes - t->certain - t->open >= 3));
+}
+
+static void bounds_hold(void **state)
+{
+    const oracle_kind kind = *(const oracle_kind *)*state;
+    static subject s;
+    for (int f = 0; f < CASE_FAMILIES; f++) {
+        test_random r = random_make(100 * (uint64_t)kind + (uint64_t)f);
+        tally sum[2] = {{0}};
+        if (f == CASE_FLAT && kind == ORACLE_SPHERE)
+            continue;
+        for (uint32_t k = 100 + test_scaled(f == CASE_ANY ? 1000 : 350); k; k--) {
+            lane_case c;
+            case_truth truth;
+            case_make(&r, kind, (case_family)f, &c);
+            case_judge(&c, &truth);
+            subject_make(&c, &s);
+            judge(&s, &truth, sum);
+        }
+        print_and_check((case_family)f, "one object", &sum[0]);
+        print_and_check((case_family)f, "one ray", &sum[1]);
+    }
+}
+
+/* Where bounds of earlier days did not hold. */
+static const struct {
+    float triangle[9], magnitude;
+    truth_ray ray;
+} known[] = {
+    /* nearly in the plane, from beside a corner: t is far from what single precision makes of it */
+    {{0, 0, 0, -0x1.2c4d0ap-3f, 0x1.82d198p-1f, -0x1.ba065ap-6f, 0x1.de4b92p-1f, 0x1.313ef8p-4f, 0x1.f80624p-1f},
+     0.75f,
+     {{0x1.7b22aep-15f, -0x1.e85dap-13f, 0x1.17083p-17f},
+      {-0x1.a6203p-2f, -0x1.7b51fcp-2f, -0x1.f64b0ep-2f},
+      -INFINITY,
+      INFINITY}},
+    /* products of the direction and an edge underflow, and are multiplied with the origin */
+    {{0x1p-132f, -0x1p-133f, 0x1p-132f, -0x1p-132f, 0x1p-133f, -0x1p-132f, -0x1p-131f, 0x1p-131f, 0x1p-131f},
+     0x1p-19f,
+     {{-0x1.8p+32f, 0x1.8p+32f, -0x1p+33f}, {0x1.8p-36f, -0x1.8p-36f, 0x1p-35f}, 0, INFINITY}},
+    /* the reciprocal of the determinant underflows where it is scaled at once */
+    {{0, 0, -0x1p-103f, 0, 0, 0x1p-103f, -0x1.8p-104f, 0x1p-103f, 0x1p-105f},
+     0x1p-103f,
+     {{-0x1p-47f, 0x1p-48f, 0x1p-47f}, {0x1p+43f, -0x1p+42f, -0x1p+43f}, -INFINITY, INFINITY}},
+};
+
+static void known_cases(void **state)
+{
+    (void)state;
+    static subject s;
+    tally sum[2] = {{0}};
+    for (size_t i = 0; i < TEST_COUNT(known); i++) {
+        lane_case c = {.family = CASE_ANY, .magnitude = known[i].magnitude};
+        case_truth truth;
+        for (int k = 0; k < CASE_LANES; k++) {
+            c.object[k] = (oracle_primitive){.kind = ORACLE_TRIANGLE};
+            memcpy(c.object[k].data, known[i].triangle, sizeof known[i].triangle);
+            c.ray[k] = known[i].ray;
+        }
+        case_judge(&c, &truth);
+        subject_make(&c, &s);
+        judge(&s, &truth, sum);
+    }
+    for (int form = 0; form < 2; form++) {
+        assert_int_equal(sum[form].lost + sum[form].invented + sum[form].outside, 0);
+        assert_int_equal(sum[form].hits, TEST_COUNT(known) * CASE_LANES);
+    }
+}
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    const oracle_kind kind = *(const oracle_kind *)*state;
+    static const case_family hard[] = {CASE_EDGES, CASE_VERTICES, CASE_COPLANAR, CASE_NEEDLES, CASE_FAR};
+    static subject s;
+    tally sum[STEPS] = {{0}};
+    for (size_t f = 0; f < TEST_COUNT(hard); f++) {
+        test_random r = random_make(50 + 100 * (uint64_t)kind + f);
+        for (uint32_t k = 150 + test_scaled(250); k; k--) {
+            lane_case c;
+            case_truth truth;
+            float scale = 0x1p-24f;
+            case_make(&r, kind, hard[f], &c);
+            case_judge(&c, &truth);
+            subject_make(&c, &s);
+            for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
+                tally both[2] = {{0}};
+                filter_u = scale;
+                judge(&s, &truth, both);
+                sum[step].lost += both[0].lost + both[1].lost;
+                sum[step].invented += both[0].invented + both[1].invented;
+                sum[step].outside += both[0].outside + both[1].outside;
+            }
+            filter_u = 0x1p-24f;
+        }
+    }
+    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-7);
+    /* spheres are certain only beyond 17 eps */
+    check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented),
+                kind == ORACLE_SPHERE ? 0x1p-11 : 0x1p-7);
+    check_break("t outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
+}
+
+static int prepare(void **state)
+{
+    (void)state;
+    context = context_make(1, NULL);
+    return context ? 0 : -1;
+}
+
+static int clean_up(void **state)
+{
+    (void)state;
+    cgt_buffer_release(&context->memory, &leaf_memory);
+    cgt_context_release(context);
+    return 0;
+}
+
+int main(void)
+{
+    static const char *const name[2][2] = {{"triangles: bounds hold", "triangles: bounds break where tightened"},
+                                           {"spheres: bounds hold", "spheres: bounds break where tightened"}};
+    struct CMUnitTest tests[2 * TEST_COUNT(kinds) + 1] = {cmocka_unit_test(known_cases)};
+    test_begin("test_lane_tests");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    for (size_t k = 0; k < TEST_COUNT(kinds); k++)
+        for (int part = 0; part < 2; part++)
+            tests[1 + 2 * k + (size_t)part] =
+                (struct CMUnitTest){.name = name[k][part],
+                                    .test_func = part ? bounds_break_where_they_are_tightened : bounds_hold,
+                                    .initial_state = (void *)(uintptr_t)&kinds[k]};
+    return cmocka_run_group_tests(tests, prepare, clean_up);
+}

@@ -1,0 +1,369 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The parts that cgt-render is made of: colours, names, contact sheets, progress. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "picture/coloring.h"
+#include "picture/colormap.h"
+#include "picture/contact_sheet.h"
+#include "common/out_path.h"
+#include "common/program.h"
+#include "picture/srgb.h"
+
+static void assert_near(double a, double b, double within)
+{
+    if (!(fabs(a - b) <= within))
+        fail_msg("%.9g is not %.9g within %g", a, b, within);
+}
+
+/* ---- sRGB --------------------------------------------------------------------------------------------------- */
+
+static void srgb_has_the_values_of_the_standard(void **state)
+{
+    (void)state;
+    assert_near(srgb_to_linear(0.5f), 0.21404114, 1e-6);
+    assert_near(srgb_from_linear(0.18f), 0.46135613, 1e-6);
+    assert_near(srgb_from_linear(0.002f), 0.02584, 1e-6);
+    assert_true(srgb_to_linear(0.0f) == 0.0f && srgb_to_linear(1.0f) == 1.0f);
+    assert_true(srgb_to_linear(-3.0f) == 0.0f && srgb_from_linear(7.0f) > 0.999f);
+    assert_true(srgb_from_linear(NAN) == 0.0f);
+}
+
+static void srgb_tables_follow_the_curve(void **state)
+{
+    srgb_tables tables;
+    (void)state;
+    srgb_tables_init(&tables);
+    for (int i = 0; i < 256; i++)
+        assert_int_equal(srgb_encode(&tables, tables.decode[i]), i); /* every code survives the way there and back */
+    for (int i = -10; i <= 100010; i++) {
+        const float x = (float)i / 100000.0f;
+        assert_near(srgb_encode(&tables, x), srgb_from_linear(x) * 255.0f, 1.0);
+    }
+    assert_int_equal(srgb_encode(&tables, NAN), 0);
+    assert_int_equal(srgb_encode(&tables, INFINITY), 255);
+}
+
+/* ---- Colours ------------------------------------------------------------------------------------------------ */
+
+static void maps_are_the_published_ones(void **state)
+{
+    /* Entries 0, 64, 128, 191 and 255 of the 256 that matplotlib publishes, in 8 bits. */
+    static const int at[5] = {0, 64, 128, 191, 255};
+    static const uint8_t viridis[5][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {92, 200, 99}, {253, 231, 37}};
+    static const uint8_t plasma[5][3] = {{13, 8, 135}, {126, 3, 168}, {204, 71, 120}, {248, 148, 65}, {240, 249, 33}};
+    float c[3];
+    (void)state;
+    for (int i = 0; i < 5; i++)
+        for (int k = 0; k < 3; k++) {
+            colormap_at(colormap_find("viridis"), (float)at[i] / 255.0f, c);
+            assert_near(c[k] * 255.0f, viridis[i][k], 1.5);
+            colormap_at(colormap_find("plasma"), (float)at[i] / 255.0f, c);
+            assert_near(c[k] * 255.0f, plasma[i][k], 2.6);
+        }
+    assert_null(colormap_find("rainbow"));
+}
+
+static void maps_are_continuous_and_clamp(void **state)
+{
+    (void)state;
+    for (const char *const *name = colormap_names(); *name; name++) {
+        const colormap *map = colormap_find(*name);
+        float last[3], c[3];
+        assert_non_null(map);
+        colormap_at(map, 0.0f, last);
+        colormap_at(map, NAN, c);
+        assert_memory_equal(c, last, sizeof c);
+        colormap_at(map, -1.0f, c);
+        assert_memory_equal(c, last, sizeof c);
+        for (int i = 1; i <= 2000; i++) {
+            colormap_at(map, (float)i / 2000.0f, c);
+            for (int k = 0; k < 3; k++)
+                assert_near(c[k], last[k], 0.004);
+            memcpy(last, c, sizeof last);
+        }
+        colormap_at(map, INFINITY, c);
+        assert_memory_equal(c, last, sizeof c);
+    }
+}
+
+/* Brighter is more: the lightness of viridis rises all the way, which is what makes it readable in grey. */
+static void viridis_rises_in_lightness(void **state)
+{
+    float last = -1.0f;
+    (void)state;
+    for (int i = 0; i <= 100; i++) {
+        float c[3];
+        colormap_at(colormap_find("viridis"), (float)i / 100.0f, c);
+        const float y =
+            0.2126f * srgb_to_linear(c[0]) + 0.7152f * srgb_to_linear(c[1]) + 0.0722f * srgb_to_linear(c[2]);
+        assert_true(y > last);
+        last = y;
+    }
+}
+
+static void kinds_differ_and_repeat(void **state)
+{
+    float a[3], b[3];
+    (void)state;
+    for (uint32_t i = 1; i <= COLORMAP_TYPES; i++) {
+        colormap_type(i, a);
+        for (uint32_t j = i + 1; j <= COLORMAP_TYPES; j++) {
+            colormap_type(j, b);
+            assert_true(fabsf(a[0] - b[0]) + fabsf(a[1] - b[1]) + fabsf(a[2] - b[2]) > 0.2f);
+        }
+        colormap_type(i + COLORMAP_TYPES, b);
+        assert_memory_equal(a, b, sizeof a);
+    }
+    colormap_type(1, a);
+    assert_near(a[0] * 255.0f, 230.0, 0.01); /* Okabe and Ito's orange */
+    assert_near(a[1] * 255.0f, 159.0, 0.01);
+    colormap_type(0, a); /* any number is valid */
+    colormap_type(UINT32_MAX, a);
+}
+
+static void values_find_their_entries(void **state)
+{
+    const float xyzr[20] = {0}, speeds[5] = {1.0f, 3.0f, 2.0f, NAN, 9.0f};
+    const uint32_t ids[5] = {10, 20, 4000000000u, 15, 0}, types[5] = {1, 2, 9, 0, 8};
+    const trajectory_frame frame = {.count = 5, .xyzr = xyzr, .id = ids, .type = types};
+    coloring c;
+    (void)state;
+    assert_int_equal(coloring_init(&c, COLORING_SPEED, NULL, 1.0f, 3.0f), 0);
+    assert_int_equal(coloring_apply(&c, &frame, speeds), 0);
+    assert_int_equal(c.index[0], 0);
+    assert_int_equal(c.index[1], COLORING_STEPS - 1);
+    assert_near(c.index[2], (COLORING_STEPS - 1) / 2.0, 0.51);
+    assert_int_equal(c.index[3], COLORING_UNKNOWN);
+    assert_int_equal(c.index[4], COLORING_STEPS - 1);
+    coloring_free(&c);
+    assert_int_equal(coloring_init(&c, COLORING_ID, NULL, 10.0f, 20.0f), 0);
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(c.index[0], 0);
+    assert_int_equal(c.index[2], COLORING_STEPS - 1);
+    assert_int_equal(c.index[4], 0);
+    coloring_free(&c);
+    assert_int_equal(coloring_init(&c, COLORING_ID, NULL, 7.0f, 7.0f), 0); /* one value only: no division by zero */
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(c.index[1], 0);
+    coloring_free(&c);
+    assert_int_equal(coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_int_equal(c.index[0], c.index[2]); /* 1 and 9 */
+    assert_int_equal(c.index[3], c.index[4]); /* 0 and 8 */
+    assert_int_not_equal(c.index[0], c.index[1]);
+    coloring_free(&c);
+}
+
+/* Height is that of a sphere's centre, or of each vertex; ids and types are the triangles', of which there are two. */
+static void triangles_find_their_entries(void **state)
+{
+    const float xyzr[8] = {9, 0, 9, 1, 0, 9, 0, 1};
+    const float position[12] = {0, -1, 0, 1, 0, 0, 0, 3, 0, 5, NAN, 5}, speeds[4] = {0, 1, 3, NAN};
+    const uint32_t index[6] = {0, 1, 2, 1, 2, 3}, types[2] = {1, 2};
+    const trajectory_frame spheres = {.count = 2, .xyzr = xyzr};
+    const trajectory_frame frame = {
+        .kind = TRAJECTORY_TRIANGLES, .count = 4, .triangles = 2, .index = index, .position = position, .type = types};
+    coloring c;
+    (void)state;
+    assert_int_equal(coloring_init(&c, COLORING_HEIGHT, NULL, -1.0f, 3.0f), 0);
+    c.axis = 1;
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_true(c.per_vertex);
+    assert_int_equal(c.index[0], 0);
+    assert_near(c.index[1], (COLORING_STEPS - 1) / 4.0, 0.51);
+    assert_int_equal(c.index[2], COLORING_STEPS - 1);
+    assert_int_equal(c.index[3], COLORING_UNKNOWN);
+    assert_int_equal(coloring_apply(&c, &spheres, NULL), 0);
+    assert_false(c.per_vertex);
+    assert_near(c.index[0], (COLORING_STEPS - 1) / 4.0, 0.51);
+    assert_int_equal(c.index[1], COLORING_STEPS - 1);
+    coloring_free(&c);
+    assert_int_equal(coloring_init(&c, COLORING_SPEED, NULL, 0.0f, 3.0f), 0);
+    assert_int_equal(coloring_apply(&c, &frame, speeds), 0);
+    assert_true(c.per_vertex && c.index[2] == COLORING_STEPS - 1 && c.index[3] == COLORING_UNKNOWN);
+    coloring_free(&c);
+    assert_int_equal(coloring_init(&c, COLORING_TYPE, NULL, 0.0f, 0.0f), 0);
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_true(!c.per_vertex && c.index[0] == 0 && c.index[1] == 1);
+    coloring_free(&c);
+    assert_int_equal(coloring_init_plain(&c, (const float[]){0.5f, 1.0f, 0.0f}), 0);
+    assert_int_equal(coloring_apply(&c, &frame, NULL), 0);
+    assert_true(!c.per_vertex && c.index[0] == 0 && c.index[1] == 0);
+    assert_near(c.palette[0][0], 0.21404114, 1e-6);
+    assert_true(c.palette[0][1] == 1.0f && c.palette[0][2] == 0.0f);
+    coloring_free(&c);
+}
+
+/* ---- Names -------------------------------------------------------------------------------------------------- */
+
+static void check_name(const char *pattern, uint64_t number, const char *expected)
+{
+    char error[200], name[64];
+    out_path path;
+    assert_int_equal(out_path_parse(&path, pattern, error, sizeof error), 0);
+    assert_int_equal(out_path_name(&path, number, name, sizeof name), 0);
+    assert_string_equal(name, expected);
+}
+
+static void names_follow_patterns(void **state)
+{
+    static const char *const wrong[] = {"",  "out/",     "%s.png",  "%d%d.png", "%04x.png",
+                                        "%", "a%0d.png", "%4d.png", "%n",       "%010d.png"};
+    char error[200], name[8];
+    out_path path;
+    (void)state;
+    check_name("out/f_%04d.png", 7, "out/f_0007.png");
+    check_name("out/f_%04d.png", 123456, "out/f_123456.png");
+    check_name("%d", 0, "0");
+    check_name("100%%_%02d%%.exr", 3, "100%_03%.exr");
+    check_name("plain.png", 9, "plain.png");
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        assert_int_equal(out_path_parse(&path, wrong[i], error, sizeof error), -1);
+    assert_int_equal(out_path_parse(&path, "f%04d.png", error, sizeof error), 0);
+    assert_int_equal(out_path_name(&path, 1, name, sizeof name), -1); /* does not fit */
+    assert_true(out_path_ends_in("a.PNG", ".png") && !out_path_ends_in(".png", ".png") &&
+                !out_path_ends_in("apng", ".png"));
+}
+
+/* ---- Contact sheets ----------------------------------------------------------------------------------------- */
+
+static uint64_t count_wanted(const contact_sheet *sheet, uint64_t frames)
+{
+    uint64_t wanted = 0;
+    for (uint64_t k = 0; k < frames; k++)
+        wanted += contact_sheet_wants(sheet, k) ? 1 : 0;
+    return wanted;
+}
+
+static void sheets_take_evenly_spaced_frames(void **state)
+{
+    (void)state;
+    for (uint64_t frames = 1; frames < 60; frames++) {
+        contact_sheet *sheet = contact_sheet_create(4, 3, frames, 64, 32);
+        uint32_t width, height;
+        assert_non_null(sheet);
+        assert_true(contact_sheet_wants(sheet, 0));
+        assert_true(contact_sheet_wants(sheet, frames - 1));
+        assert_int_equal(count_wanted(sheet, frames + 5), frames < 12 ? frames : 12);
+        assert_non_null(contact_sheet_pixels(sheet, &width, &height));
+        const uint32_t cells = frames < 12 ? (uint32_t)frames : 12;
+        assert_int_equal(width, (cells < 4 ? cells : 4) * 72 + 8);
+        assert_int_equal(height, (cells + 3) / 4 * 40 + 8);
+        contact_sheet_release(sheet);
+    }
+    contact_sheet *huge = contact_sheet_create(100, 100, UINT64_MAX, 8, 8);
+    assert_non_null(huge);
+    assert_true(contact_sheet_wants(huge, UINT64_MAX - 1));
+    contact_sheet_release(huge);
+}
+
+static void sheets_refuse_nonsense(void **state)
+{
+    uint32_t width, height;
+    (void)state;
+    assert_null(contact_sheet_create(0, 3, 10, 64, 32));
+    assert_null(contact_sheet_create(4, 101, 10, 64, 32));
+    assert_null(contact_sheet_create(4, 3, 0, 64, 32));
+    assert_null(contact_sheet_create(4, 3, 10, 0, 32));
+    contact_sheet *thin = contact_sheet_create(1, 1, 1, 65536, 1); /* scaled to nothing but one row */
+    assert_non_null(thin);
+    contact_sheet_pixels(thin, &width, &height);
+    assert_int_equal(width, CONTACT_SHEET_THUMB + 16);
+    assert_int_equal(height, 1 + 16);
+    contact_sheet_release(thin);
+}
+
+/* Columns of black and white in turn: scaled down to a mean of light, which is not the mean of codes. */
+static void sheets_scale_in_linear_light(void **state)
+{
+    enum { W = 642, H = 10 };
+    static uint8_t rgb[H][W][3];
+    uint32_t width, height;
+    (void)state;
+    for (int y = 0; y < H; y++)
+        for (int x = 0; x < W; x++)
+            memset(rgb[y][x], x % 2 ? 255 : 0, 3);
+    contact_sheet *sheet = contact_sheet_create(1, 1, 1, W, H);
+    assert_non_null(sheet);
+    contact_sheet_add(sheet, 0, 0, &rgb[0][0][0]);
+    contact_sheet_add(sheet, 1, 1, &rgb[0][0][0]); /* not on the sheet: ignored */
+    const uint8_t *pixels = contact_sheet_pixels(sheet, &width, &height);
+    assert_int_equal(width, 320 + 16);
+    assert_near(pixels[((size_t)10 * width + 8 + 160) * 3], 188, 1); /* half the light, in sRGB */
+    assert_int_equal(pixels[0], 40);                                 /* paper */
+    contact_sheet_release(sheet);
+}
+
+/* ---- Progress ----------------------------------------------------------------------------------------------- */
+
+/* Where standard error is no terminal, progress is whole lines without control characters, and errors stand alone. */
+static void progress_is_plain_lines_in_a_file(void **state)
+{
+    char text[2000];
+    program_progress progress;
+    FILE *file = tmpfile();
+    (void)state;
+    assert_non_null(file);
+    fflush(stderr);
+    const int saved = dup(STDERR_FILENO);
+    assert_true(saved >= 0 && dup2(fileno(file), STDERR_FILENO) >= 0);
+    program_progress_start(&progress, "rendering", "frames", 100.0, 0);
+    progress.start -= 60.0; /* as if a minute had gone by */
+    progress.last -= 60.0;
+    program_progress_update(&progress, 25.0, -1.0);
+    program_progress_update(&progress, 26.0, -1.0); /* too soon */
+    program_error("something %s", "happened");
+    program_progress_end(&progress);
+    program_progress_start(&progress, "silent", "frames", 100.0, 1);
+    progress.last -= 60.0;
+    program_progress_update(&progress, 25.0, -1.0);
+    program_progress_end(&progress);
+    fflush(stderr);
+    dup2(saved, STDERR_FILENO);
+    close(saved);
+    rewind(file);
+    const size_t length = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[length] = '\0';
+    assert_null(strpbrk(text, "\r\033"));
+    assert_non_null(strstr(text, "25 frames"));
+    assert_non_null(strstr(text, " 25 %"));
+    assert_non_null(strstr(text, "03:00 left"));
+    assert_null(strstr(text, "26 frames"));
+    assert_null(strstr(text, "silent"));
+    assert_non_null(strstr(text, "\ncgt-test: something happened\n"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(srgb_has_the_values_of_the_standard),
+        cmocka_unit_test(srgb_tables_follow_the_curve),
+        cmocka_unit_test(maps_are_the_published_ones),
+        cmocka_unit_test(maps_are_continuous_and_clamp),
+        cmocka_unit_test(viridis_rises_in_lightness),
+        cmocka_unit_test(kinds_differ_and_repeat),
+        cmocka_unit_test(values_find_their_entries),
+        cmocka_unit_test(triangles_find_their_entries),
+        cmocka_unit_test(names_follow_patterns),
+        cmocka_unit_test(sheets_take_evenly_spaced_frames),
+        cmocka_unit_test(sheets_refuse_nonsense),
+        cmocka_unit_test(sheets_scale_in_linear_light),
+        cmocka_unit_test(progress_is_plain_lines_in_a_file),
+    };
+    program_init("cgt-test");
+    return cmocka_run_group_tests_name("render_parts", tests, NULL, NULL);
+}

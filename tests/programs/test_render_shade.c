@@ -1,0 +1,210 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * How cgt-render shades: tiles made by hand, and the light and colours that their pixels must have. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "picture/shade.h"
+#include "picture/srgb.h"
+
+static void assert_near(double a, double b, double within)
+{
+    if (!(fabs(a - b) <= within))
+        fail_msg("%.9g is not %.9g within %g", a, b, within);
+}
+
+typedef struct tile_case {
+    float t[16], normal[3][16], u[16], v[16];
+    uint32_t primitive[16];
+    cgt_tile tile;
+    shade_job job;
+    uint8_t rgb[16 * 3];
+    image_pixel pixels[16];
+    srgb_tables tables;
+    uint16_t index[2];
+    float palette[3][3];
+} tile_case;
+
+/* A frame of 4x4 hits, all of them misses; light and eye in front. */
+static void set_up(tile_case *c, uint32_t samples)
+{
+    memset(c, 0, sizeof *c);
+    for (int i = 0; i < 16; i++) {
+        c->t[i] = INFINITY;
+        c->primitive[i] = CGT_NONE;
+    }
+    c->tile = (cgt_tile){.width = 4,
+                         .height = 4,
+                         .row_stride = 4,
+                         .t = c->t,
+                         .primitive = c->primitive,
+                         .normal = {c->normal[0], c->normal[1], c->normal[2]},
+                         .u = c->u,
+                         .v = c->v};
+    srgb_tables_init(&c->tables);
+    c->index[1] = 1;
+    for (int k = 0; k < 3; k++)
+        c->palette[1][k] = 0.25f * (float)(k + 1);
+    c->job.width = c->job.height = 4 / samples;
+    c->job.samples = samples;
+    c->job.rgb = c->rgb;
+    c->job.pixels = c->pixels;
+    c->job.index = c->index;
+    c->job.palette = (const float(*)[3])c->palette;
+    c->job.light[2] = 1.0f;
+    c->job.tables = &c->tables;
+    c->job.background[0] = 0.5f;
+    cgt_camera_init(&c->job.camera);
+    c->job.camera.fov = 0.01f; /* all rays go along -z, nearly */
+    shade_begin(&c->job);
+}
+
+static void hit(tile_case *c, int pixel, uint32_t primitive, float t, float nx, float nz)
+{
+    c->primitive[pixel] = primitive;
+    c->t[pixel] = t;
+    c->normal[0][pixel] = nx;
+    c->normal[2][pixel] = nz;
+}
+
+static void shading_lights_what_faces_it(void **state)
+{
+    static tile_case c;
+    (void)state;
+    set_up(&c, 1);
+    hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
+    hit(&c, 1, 1, 2.0f, 0.8f, 0.6f);
+    hit(&c, 2, 1, 2.0f, 1.0f, 0.0f);
+    hit(&c, 3, 0, 2.0f, 0.0f, 1.0f);
+    hit(&c, 5, 1, 2.0f, 0.0f, -1.0f); /* from inside: the headlight alone reaches it */
+    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_int_equal(atomic_load(&c.job.hits), 5);
+    assert_true(c.pixels[5].r > c.pixels[2].r && c.pixels[5].r < c.pixels[1].r);
+    assert_true(c.pixels[0].r > c.pixels[1].r && c.pixels[1].r > c.pixels[2].r && c.pixels[2].r > 0.0f);
+    assert_near(c.pixels[0].g / c.pixels[0].r, 2.0, 1e-5); /* the palette's proportions */
+    assert_near(c.pixels[0].b / c.pixels[0].r, 3.0, 1e-5);
+    assert_near(c.pixels[3].r, 0.0, 0.0); /* a black sphere stays black */
+    assert_near(c.pixels[4].r, 0.5, 0.0); /* nothing hit */
+    assert_int_equal(c.pixels[4].id, CGT_NONE);
+    assert_true(isinf(c.pixels[4].z));
+    assert_int_equal(c.rgb[4 * 3], 188); /* 0.5 in sRGB */
+    assert_int_equal(c.rgb[4 * 3 + 1], 0);
+    assert_near(c.rgb[0], srgb_from_linear(c.pixels[0].r) * 255.0f, 1.0);
+}
+
+/* Both sides of a triangle are lit alike, by the normals of its vertices where there are some. */
+static void shading_of_triangles(void **state)
+{
+    static const uint32_t vertices[6] = {0, 1, 2, 0, 1, 3};
+    static const float normals[12] = {0, 0, 5, 0, 0, 0.1f, 0.6f, 0, 0.8f, 0, 0, 0};
+    static tile_case c;
+    (void)state;
+    set_up(&c, 1);
+    c.job.triangle = vertices;
+    hit(&c, 0, 1, 2.0f, 0.0f, 1.0f);
+    hit(&c, 1, 1, 2.0f, 0.0f, -1.0f); /* seen from behind */
+    hit(&c, 2, 1, 2.0f, 0.6f, 0.8f);
+    assert_int_equal(shade_fields(&c.job) & CGT_FIELD_UV, 0);
+    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_true(c.pixels[0].r == c.pixels[1].r && c.pixels[2].r < c.pixels[0].r);
+    const float flat = c.pixels[0].r, tilted = c.pixels[2].r;
+
+    c.job.vertex_normal = normals;
+    assert_true(shade_fields(&c.job) & CGT_FIELD_UV);
+    for (int i = 0; i < 4; i++)
+        hit(&c, i, 0, 2.0f, 0.0f, i == 1 ? -1.0f : 1.0f);
+    c.v[1] = c.v[2] = 1.0f; /* at vertex 2, from behind and from the front */
+    c.v[3] = 0.5f;          /* between the vertices 0 and 2, whose normals' lengths do not matter */
+    hit(&c, 4, 1, 2.0f, 0.0f, 1.0f);
+    c.v[4] = 1.0f; /* at vertex 3, which has no normal: the triangle's own */
+    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_near(c.pixels[0].r, flat * 0.0f, 0.0); /* primitive 0 is black */
+    c.index[0] = 1;
+    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_near(c.pixels[0].r, flat, 1e-6);
+    assert_near(c.pixels[1].r, tilted, 1e-5);
+    assert_near(c.pixels[2].r, tilted, 1e-5);
+    const float half = cosf(0.5f * acosf(0.8f));
+    assert_near(c.pixels[3].r, tilted + (flat - tilted) * (half - 0.8f) / 0.2f, 1e-4); /* linear in the cosine */
+    assert_near(c.pixels[4].r, flat, 1e-6);
+}
+
+/* Colours of vertices are mixed along the palette; one that is not known stays so. */
+static void shading_mixes_colours(void **state)
+{
+    static const uint32_t vertices[3] = {0, 1, 2};
+    static const uint16_t entries[3] = {0, 2, 2};
+    static tile_case c;
+    (void)state;
+    set_up(&c, 1);
+    for (int k = 0; k < 3; k++) {
+        c.palette[1][k] = k == 1 ? 1.0f : 0.0f;
+        c.palette[2][k] = k == 2 ? 1.0f : 0.0f;
+    }
+    c.job.triangle = vertices;
+    c.job.index = entries;
+    c.job.mix = 1;
+    c.job.palette_steps = 3;
+    assert_true(shade_fields(&c.job) & CGT_FIELD_UV);
+    for (int i = 0; i < 3; i++)
+        hit(&c, i, 0, 2.0f, 0.0f, 1.0f);
+    c.u[1] = c.v[1] = 0.25f;
+    c.u[2] = 0.25f;
+    c.v[2] = 0.75f;
+    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_true(c.pixels[0].g == 0.0f && c.pixels[0].b == 0.0f);
+    assert_true(c.pixels[1].g > 0.0f && c.pixels[1].b == 0.0f);
+    assert_true(c.pixels[2].g == 0.0f && c.pixels[2].b > 0.0f);
+    c.job.palette_steps = 2;
+    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    assert_true(c.pixels[0].b > 0.0f && c.pixels[1].b > 0.0f);
+}
+
+static void shading_averages_light_and_keeps_the_nearest(void **state)
+{
+    static tile_case one, four;
+    (void)state;
+    set_up(&one, 1);
+    hit(&one, 0, 1, 3.0f, 0.0f, 1.0f);
+    assert_int_equal(shade_tile(&one.job, &one.tile), 0);
+    set_up(&four, 2);
+    hit(&four, 0, 1, 3.0f, 0.0f, 1.0f);
+    hit(&four, 5, 0, 2.0f, 0.0f, 1.0f);
+    assert_int_equal(shade_tile(&four.job, &four.tile), 0);
+    assert_near(four.pixels[0].r, (one.pixels[0].r + 0.0f + 0.5f + 0.5f) / 4.0f, 1e-6);
+    assert_int_equal(four.pixels[0].id, 0);
+    assert_near(four.pixels[0].z, 2.0, 0.0);
+    assert_int_equal(four.pixels[3].id, CGT_NONE);
+    assert_int_equal(atomic_load(&four.job.hits), 2);
+}
+
+static void shading_stops_when_told_to(void **state)
+{
+    static tile_case c;
+    volatile sig_atomic_t stop = 1;
+    (void)state;
+    set_up(&c, 2);
+    c.job.stop = &stop;
+    assert_int_not_equal(shade_tile(&c.job, &c.tile), 0);
+    stop = 0;
+    assert_int_equal(shade_tile(&c.job, &c.tile), 0);
+    c.tile.x = 1; /* would split a block of samples */
+    assert_int_not_equal(shade_tile(&c.job, &c.tile), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shading_lights_what_faces_it), cmocka_unit_test(shading_of_triangles),
+        cmocka_unit_test(shading_mixes_colours),        cmocka_unit_test(shading_averages_light_and_keeps_the_nearest),
+        cmocka_unit_test(shading_stops_when_told_to),
+    };
+    return cmocka_run_group_tests_name("render_shade", tests, NULL, NULL);
+}

@@ -1,0 +1,414 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Meshes that move: a glTF file written here, whose vertices are worked out by hand, and characters that others made. */
+#define _GNU_SOURCE
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "readers/trajectory_scratch.h"
+
+#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
+
+#ifdef CGT_HAVE_MESHES
+
+/* ---- The file ----------------------------------------------------------------------------------------------- */
+
+/* Mesh 0, a triangle in z = 0, is shown by two nodes below a parent at (10, 0, 0) that scales x by 2: `turned` turns it
+ * by 90 degrees about x, `mirrored` has scale (-1, 1, 1). Mesh 1 is a strip along y on two bones: `hips`, and `tip` one
+ * unit above it; its node stands at z = 7.
+ *   clip "bend"   0 to 2 s: hips go from 0 to 4 along x in 2 s; tip turns by 90 degrees about z in the first second
+ *   clip "still"  one key at 0 s: mirrored has scale (-3, 3, 3) */
+static const char gltf_scene[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 3, 5]}],\n"
+    "\"nodes\": [{\"name\": \"parent\", \"translation\": [10, 0, 0], \"scale\": [2, 1, 1], \"children\": [1, 2]},\n"
+    "{\"name\": \"turned\", \"mesh\": 0, \"rotation\": [0.70710678118, 0, 0, 0.70710678118]},\n"
+    "{\"name\": \"mirrored\", \"mesh\": 0, \"scale\": [-1, 1, 1]},\n"
+    "{\"name\": \"hips\", \"children\": [4]}, {\"name\": \"tip\", \"translation\": [0, 1, 0]},\n"
+    "{\"name\": \"skin\", \"mesh\": 1, \"skin\": 0, \"translation\": [0, 0, 7]}],\n"
+    "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 1}}]},\n"
+    "{\"primitives\": [{\"attributes\": {\"POSITION\": 2, \"JOINTS_0\": 4, \"WEIGHTS_0\": 5}, \"indices\": 3}]}],\n"
+    "\"skins\": [{\"joints\": [3, 4], \"inverseBindMatrices\": 6}],\n"
+    "\"animations\": [{\"name\": \"bend\",\n"
+    "\"channels\": [{\"sampler\": 0, \"target\": {\"node\": 4, \"path\": \"rotation\"}},\n"
+    "{\"sampler\": 1, \"target\": {\"node\": 3, \"path\": \"translation\"}}],\n"
+    "\"samplers\": [{\"input\": 7, \"output\": 8}, {\"input\": 9, \"output\": 10}]},\n"
+    "{\"name\": \"still\", \"channels\": [{\"sampler\": 0, \"target\": {\"node\": 2, \"path\": \"scale\"}}],\n"
+    "\"samplers\": [{\"input\": 11, \"output\": 12}]}],\n";
+
+/* The parts of the buffer, in the order of their accessors. */
+static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+static const float triangle_normals[9] = {0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0.6f, 0, 0.8f};
+static const float strip[15] = {0, 0, 0, 1, 1, 0, 0, 2, 0, 5, 5, 5, 0, 2, 0};
+static const uint16_t strip_index[9] = {0, 1, 2, 0, 2, 3, 0, 1, 4};
+static const uint8_t joints[20] = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+/* of the first bone; half of each, in weights that are no shares; of the second; of none; of the first */
+static const float weights[20] = {1, 0, 0, 0, 0.25f, 0.25f, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
+static const float inverse_binds[32] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
+                                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
+static const float tip_times[2] = {0, 1};
+static const float tip_rotations[8] = {0, 0, 0, 1, 0, 0, 0.70710678118f, 0.70710678118f};
+static const float hips_times[2] = {0, 2};
+static const float hips_positions[6] = {0, 0, 0, 4, 0, 0};
+static const float still_time[1] = {0};
+static const float still_scale[3] = {-3, 3, 3};
+
+typedef struct buffer_part {
+    const void *data;
+    uint32_t bytes, number_bytes; /* all of them; one number */
+    uint32_t count;               /* elements */
+    const char *accessor;         /* what else the accessor says */
+} buffer_part;
+
+#define FLOATS(array, count, type, more)                                                                               \
+    {                                                                                                                  \
+        array, sizeof(array), 4, count, "5126, \"type\": \"" type "\"" more                                            \
+    }
+static const buffer_part buffer_parts[] = {
+    FLOATS(triangle, 3, "VEC3", ", \"min\": [0, 0, 0], \"max\": [1, 1, 0]"),
+    FLOATS(triangle_normals, 3, "VEC3", ""),
+    FLOATS(strip, 5, "VEC3", ", \"min\": [0, 0, 0], \"max\": [5, 5, 5]"),
+    {strip_index, sizeof strip_index, 2, 9, "5123, \"type\": \"SCALAR\""},
+    {joints, sizeof joints, 1, 5, "5121, \"type\": \"VEC4\""},
+    FLOATS(weights, 5, "VEC4", ""),
+    FLOATS(inverse_binds, 2, "MAT4", ""),
+    FLOATS(tip_times, 2, "SCALAR", ", \"min\": [0], \"max\": [1]"),
+    FLOATS(tip_rotations, 2, "VEC4", ""),
+    FLOATS(hips_times, 2, "SCALAR", ", \"min\": [0], \"max\": [2]"),
+    FLOATS(hips_positions, 2, "VEC3", ""),
+    FLOATS(still_time, 1, "SCALAR", ", \"min\": [0], \"max\": [0]"),
+    FLOATS(still_scale, 1, "VEC3", ""),
+};
+#define BUFFER_PARTS (sizeof buffer_parts / sizeof buffer_parts[0])
+
+/* Copies a part as little-endian bytes; each begins at a multiple of 4. */
+static void put_part(unsigned char *buffer, const buffer_part *part)
+{
+    const unsigned char *const data = part->data;
+    const uint16_t one = 1;
+    unsigned char first;
+    memcpy(&first, &one, 1);
+    for (uint32_t i = 0; i < part->bytes; i++) {
+        const uint32_t place = i % part->number_bytes;
+        buffer[i - place + (first ? place : part->number_bytes - 1 - place)] = data[i];
+    }
+}
+
+static void print_base64(FILE *file, const unsigned char *bytes, size_t size)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        const uint32_t group = (uint32_t)bytes[i] << 16 | (uint32_t)(i + 1 < size ? bytes[i + 1] : 0) << 8 |
+                               (uint32_t)(i + 2 < size ? bytes[i + 2] : 0);
+        for (size_t k = 0; k < 4; k++) {
+            fputc(i + k > size ? '=' : letters[group >> (18 - 6 * k) & 63], file);
+        }
+    }
+}
+
+/* Writes the file, the strip's last triangle with this vertex at its end, and returns its path. */
+static const char *write_gltf_ending_with(uint16_t vertex)
+{
+    uint16_t index[9];
+    memcpy(index, strip_index, sizeof index);
+    index[8] = vertex;
+    unsigned char buffer[1024] = {0};
+    uint32_t at[BUFFER_PARTS], size = 0;
+    for (size_t i = 0; i < BUFFER_PARTS; i++) {
+        at[i] = size;
+        assert_true(size + buffer_parts[i].bytes + 4 <= sizeof buffer);
+        buffer_part part = buffer_parts[i];
+        part.data = part.data == strip_index ? index : part.data;
+        put_part(buffer + size, &part);
+        size += (buffer_parts[i].bytes + 3) / 4 * 4;
+    }
+    const char *path = scratch_path(".gltf");
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(gltf_scene, file);
+    for (size_t i = 0; i < BUFFER_PARTS; i++) {
+        fprintf(file, "%s{\"bufferView\": %zu, \"count\": %u, \"componentType\": %s}%s",
+                i == 0 ? "\"accessors\": [" : "", i, (unsigned)buffer_parts[i].count, buffer_parts[i].accessor,
+                i + 1 == BUFFER_PARTS ? "],\n" : ",\n");
+    }
+    for (size_t i = 0; i < BUFFER_PARTS; i++) {
+        fprintf(file, "%s{\"buffer\": 0, \"byteOffset\": %u, \"byteLength\": %u}%s", i == 0 ? "\"bufferViews\": [" : "",
+                (unsigned)at[i], (unsigned)buffer_parts[i].bytes, i + 1 == BUFFER_PARTS ? "],\n" : ",\n");
+    }
+    fprintf(file, "\"buffers\": [{\"byteLength\": %u, \"uri\": \"data:application/octet-stream;base64,",
+            (unsigned)size);
+    print_base64(file, buffer, size);
+    fputs("\"}]}\n", file);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+static const char *write_gltf(void) { return write_gltf_ending_with(strip_index[8]); }
+
+/* ---- What is expected --------------------------------------------------------------------------------------- */
+
+static trajectory *open_clip(const char *path, const char *clip, double fps)
+{
+    trajectory_options options;
+    trajectory_options_init(&options);
+    options.clip = clip;
+    options.fps = fps;
+    return scratch_open(path, &options);
+}
+
+/* Corner k of triangle i of a frame. */
+static const float *corner(const trajectory_frame *f, const float *values, uint32_t i, uint32_t k)
+{
+    assert_true(i < f->triangles);
+    assert_true(f->index[3 * i + k] < f->count);
+    return values + 3 * (size_t)f->index[3 * i + k];
+}
+
+static void expect_vector(const float *v, double x, double y, double z)
+{
+    const double wanted[3] = {x, y, z};
+    for (int i = 0; i < 3; i++) {
+        if (!(fabs((double)v[i] - wanted[i]) <= 2e-6)) {
+            fail_msg("(%.9g, %.9g, %.9g) is not (%.9g, %.9g, %.9g)", (double)v[0], (double)v[1], (double)v[2], x, y, z);
+        }
+    }
+}
+
+#define STRIP 2 /* the first triangle of the strip: the tree's order */
+
+/* Where the hips and the tip's turn put the strip. */
+static void expect_strip(const trajectory_frame *f, double hips, double degrees)
+{
+    const double angle = degrees * acos(-1.0) / 180.0;
+    const double c = cos(angle), s = sin(angle);
+    /* the tip turns what it carries about (0, 1), then all goes with the hips */
+    expect_vector(corner(f, f->position, STRIP, 0), hips, 0, 0);
+    expect_vector(corner(f, f->position, STRIP, 1), hips + 0.5 * (1 + c), 1 + 0.5 * s, 0);
+    expect_vector(corner(f, f->position, STRIP, 2), hips - s, 1 + c, 0);
+    expect_vector(corner(f, f->position, STRIP + 1, 2), 5, 5, 12);   /* no bone: it follows its node */
+    expect_vector(corner(f, f->position, STRIP + 2, 2), hips, 2, 0); /* equal to another vertex but for its bone */
+}
+
+static void nodes_move_their_meshes(void **state)
+{
+    (void)state;
+    const trajectory_frame f = scratch_read(open_clip(write_gltf(), NULL, 0.0));
+    assert_int_equal(f.triangles, 5);
+    assert_int_equal(f.count, 11);
+    const trajectory_mesh *m = trajectory_get_mesh(scratch_open_one);
+    assert_true(m->meshes == 2 && m->instances == 3 && m->bones == 2 && m->clips == 2);
+    expect_vector(corner(&f, f.position, 0, 0), 10, 0, 0);
+    expect_vector(corner(&f, f.position, 0, 1), 12, 0, 0);
+    expect_vector(corner(&f, f.position, 0, 2), 10, 0, 1);
+    /* normals go by the inverse transpose: (0.6, -0.8, 0) under a scale of 2 along x */
+    const double length = sqrt(0.3 * 0.3 + 0.8 * 0.8);
+    expect_vector(corner(&f, f.vertex_normal, 0, 1), 0.3 / length, -0.8 / length, 0);
+    /* mirrored: the corners go round the other way, so that the outside stays where the normal is */
+    expect_vector(corner(&f, f.position, 1, 0), 10, 0, 0);
+    expect_vector(corner(&f, f.position, 1, 1), 10, 1, 0);
+    expect_vector(corner(&f, f.position, 1, 2), 8, 0, 0);
+    expect_vector(corner(&f, f.vertex_normal, 1, 1), -0.3 / length, 0, 0.8 / length);
+    /* the strip has none */
+    expect_vector(corner(&f, f.vertex_normal, STRIP, 1), 0, 0, 0);
+}
+
+static void bones_bend_the_strip(void **state)
+{
+    (void)state;
+    static const struct {
+        double fps;
+        unsigned frames;
+    } rates[] = {{1, 3}, {2, 5}, {30, 61}, {0.4, 1}, {0.5, 2}, {0, 61}, {7, 15}, {1.4999999999, 4}};
+    const char *path = write_gltf();
+    for (size_t r = 0; r < sizeof rates / sizeof rates[0]; r++) {
+        trajectory *t = open_clip(path, "bend", rates[r].fps);
+        const double fps = rates[r].fps > 0.0 ? rates[r].fps : 30.0;
+        for (unsigned i = 0; i < rates[r].frames; i++) {
+            const double seconds = i / fps;
+            const trajectory_frame f = scratch_read(t);
+            assert_int_equal(f.number, i);
+            expect_strip(&f, 2.0 * fmin(seconds, 2.0), 90.0 * fmin(seconds, 1.0));
+            expect_vector(corner(&f, f.position, 1, 2), 8, 0, 0);
+        }
+        scratch_expect_end(t);
+    }
+}
+
+/* Frames do not depend on the ones before them. */
+static void frames_by_skipping(void **state)
+{
+    (void)state;
+    char error[1024] = "";
+    trajectory *t = open_clip(write_gltf(), "0", 4.0);
+    uint64_t frames = 0;
+    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(frames, 9);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+        }
+        const trajectory_frame f = scratch_read(t);
+        assert_int_equal(f.number, 3);
+        expect_strip(&f, 1.5, 67.5);
+        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+    }
+}
+
+static void clips_without_a_duration_are_one_frame(void **state)
+{
+    (void)state;
+    const char *path = write_gltf();
+    static const char *const names[] = {"still", "1"};
+    for (int i = 0; i < 2; i++) {
+        trajectory *t = open_clip(path, names[i], 0.0);
+        const trajectory_frame f = scratch_read(t);
+        expect_strip(&f, 0, 0);
+        expect_vector(corner(&f, f.position, 1, 2), 4, 0, 0);
+        scratch_expect_end(t);
+    }
+}
+
+static void unknown_clips_are_refused(void **state)
+{
+    (void)state;
+    trajectory_options options;
+    trajectory_options_init(&options);
+    const char *path = write_gltf();
+    options.clip = "jump";
+    scratch_expect_error(path, &options, 0, "no clip 'jump'; there are 0 'bend' (2 s), 1 'still' (0 s)");
+    options.clip = "2";
+    scratch_expect_error(path, &options, 0, "no clip '2'; there are");
+    options.clip = "-1";
+    scratch_expect_error(path, &options, 0, "no clip '-1'; there are");
+    options.clip = "";
+    scratch_expect_error(path, &options, 0, "no clip ''; there are");
+    scratch_expect_error(scratch_text(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), &options, 0,
+                         "no clip '': the file has no animation");
+    options.clip = "bend";
+    options.fps = 1e6;
+    scratch_expect_error(path, &options, 0, "the clip lasts 2 s: more than 1000000 frames");
+}
+
+/* assimp leaves such a triangle out and says so in its log alone. */
+static void lost_triangles_are_an_error(void **state)
+{
+    (void)state;
+    scratch_expect_error(write_gltf_ending_with(5), NULL, 0, "not all of the file could be read; assimp: ");
+    scratch_expect_error(write_gltf_ending_with(65535), NULL, 0, "not all of the file could be read; assimp: ");
+    assert_int_equal(scratch_read(open_clip(write_gltf_ending_with(0), NULL, 0.0)).triangles, 5);
+}
+
+/* A skin may do without matrices. assimp 5.2 dies of it, and must not take the program with it. */
+static void files_that_assimp_does_not_survive(void **state)
+{
+    (void)state;
+    char text[8192], error[1024] = "";
+    const char *path = write_gltf();
+    FILE *file = fopen(path, "r+");
+    assert_non_null(file);
+    const size_t size = fread(text, 1, sizeof text - 1, file);
+    text[size] = '\0';
+    char *matrices = strstr(text, "inverseBindMatrices");
+    assert_non_null(matrices);
+    *matrices = 'I'; /* a word that glTF does not have */
+    rewind(file);
+    assert_int_equal(fwrite(text, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+    trajectory *t = trajectory_open(path, NULL, error, sizeof error);
+    if (t == NULL) {
+        assert_int_equal(strncmp(error, path, strlen(path)), 0);
+        assert_non_null(strstr(error, "assimp cannot read this file"));
+    } else { /* a later assimp */
+        trajectory_frame frame;
+        assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 1);
+        assert_int_equal(frame.triangles, 5);
+        trajectory_close(t);
+    }
+}
+
+/* ---- Characters ---------------------------------------------------------------------------------------------- */
+
+/* A character that walks stays in one piece: no edge of its surface grows beyond a third of it. */
+static void characters_stay_in_one_piece(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *path, *clip;
+        unsigned frames;
+    } files[] = {
+        {"/usr/share/assimp/models/X/Testwuson.X", "Wuson_Walk", 109},
+        {"/usr/share/assimp/models/X/Testwuson.X", "Wuson_Run", 30},
+        {"/usr/share/assimp/models/X/Testwuson.X", "Wuson_Bind", 1},
+        {"/usr/share/assimp/models/X/BCN_Epileptic.X", NULL, 100},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        if (access(files[i].path, R_OK) != 0) {
+            print_message("not here: %s\n", files[i].path);
+            continue;
+        }
+        trajectory *t = open_clip(files[i].path, files[i].clip, 30.0);
+        for (unsigned n = 0; n < files[i].frames; n++) {
+            const trajectory_frame f = scratch_read(t);
+            double low = INFINITY, high = -INFINITY, longest = 0.0;
+            for (uint32_t k = 0; k < 3 * f.triangles; k++) {
+                const float *p = f.position + 3 * f.index[k];
+                const float *q = f.position + 3 * f.index[k % 3 == 2 ? k - 2 : k + 1];
+                longest =
+                    fmax(longest, hypot(hypot((double)(p[0] - q[0]), (double)(p[1] - q[1])), (double)(p[2] - q[2])));
+                low = fmin(low, (double)p[1]);
+                high = fmax(high, (double)p[1]);
+            }
+            assert_true(longest > 0.0 && longest < (high - low) / 3.0);
+            assert_true(high - low > 1.0 && high - low < 2.5);
+        }
+        scratch_expect_end(t);
+    }
+}
+
+/* Where a file does not say how long a tick is, 25 are a second. */
+static void ticks_have_a_length(void **state)
+{
+    (void)state;
+    char error[1024] = "";
+    const char *path = "/usr/share/assimp/models/3DS/RotatingCube.3DS"; /* of 181 ticks */
+    if (access(path, R_OK) != 0) {
+        print_message("not here: %s\n", path);
+        return;
+    }
+    uint64_t frames = 0;
+    assert_int_equal(trajectory_count_frames(open_clip(path, NULL, 25.0), &frames, error, sizeof error), 0);
+    assert_int_equal(frames, 182);
+    assert_int_equal(trajectory_count_frames(open_clip(path, NULL, 5.0), &frames, error, sizeof error), 0);
+    assert_int_equal(frames, 37);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(nodes_move_their_meshes),
+        TEST(bones_bend_the_strip),
+        TEST(frames_by_skipping),
+        TEST(clips_without_a_duration_are_one_frame),
+        TEST(unknown_clips_are_refused),
+        TEST(characters_stay_in_one_piece),
+        TEST(ticks_have_a_length),
+        TEST(lost_triangles_are_an_error),
+        TEST(files_that_assimp_does_not_survive),
+    };
+    return cmocka_run_group_tests_name("mesh_animation", tests, NULL, NULL);
+}
+
+#else
+
+int main(void)
+{
+    fprintf(stderr, "this build has no assimp\n");
+    return 77; /* ctest: skipped */
+}
+
+#endif

@@ -1,0 +1,483 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Trajectories: opening, LAMMPS dumps, and the one in examples/data. */
+#define _GNU_SOURCE
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <fcntl.h>
+#include <math.h>
+#include <sys/stat.h>
+
+#include "readers/trajectory_scratch.h"
+
+#define HEAD(step, count) "ITEM: TIMESTEP\n" step "\nITEM: NUMBER OF ATOMS\n" count "\n"
+#define BOX "ITEM: BOX BOUNDS pp pp ff\n-1 3\n0 8\n10.5 12.5\n"
+
+static const char DUMP[] = ".lammpstrj";
+
+/* ---- The shipped file --------------------------------------------------------------------------------------- */
+
+static void shipped_file_is_whole(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
+    uint32_t before = 0;
+    trajectory_frame frame = {0};
+    for (uint64_t number = 0; number < 76; number++) {
+        frame = scratch_read(t);
+        assert_int_equal(frame.number, number);
+        assert_int_equal(frame.step, 150 * (int64_t)number);
+        assert_true(number < 3 ? frame.count == 0 : frame.count >= 63);
+        assert_true(frame.count >= before);
+        assert_non_null(frame.xyzr);
+        assert_true(frame.box_min[0] == 0.0f && frame.box_max[0] == 20.0f && frame.box_max[1] == 12.0f);
+        for (uint32_t i = 0; i < frame.count; i++) {
+            assert_int_equal(frame.id[i], i + 1);
+            assert_true(frame.xyzr[4 * i + 3] >= 0.3f && frame.xyzr[4 * i + 3] <= 0.6f);
+        }
+        before = frame.count;
+    }
+    assert_int_equal(frame.count, 2000);
+    uint32_t of_type[5] = {0};
+    for (uint32_t i = 0; i < 2000; i++) {
+        assert_in_range(frame.type[i], 1, 4);
+        of_type[frame.type[i]]++;
+    }
+    for (int type = 1; type <= 4; type++) {
+        assert_int_equal(of_type[type], 500);
+    }
+    scratch_expect_end(t);
+}
+
+static void shipped_file_counts_and_rewinds(void **state)
+{
+    (void)state;
+    char error[1024] = "";
+    trajectory *t = scratch_open(CGT_DATA_DIR "/pour2k.lammpstrj", NULL);
+    for (int i = 0; i < 40; i++) {
+        assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+    }
+    const trajectory_frame frame = scratch_read(t);
+    assert_int_equal(frame.number, 40);
+    assert_true(trajectory_progress(t) > 0.2 && trajectory_progress(t) < 0.8);
+    float *copy = malloc(16 * (size_t)frame.count);
+    assert_non_null(copy);
+    memcpy(copy, frame.xyzr, 16 * (size_t)frame.count);
+    uint64_t frames = 0;
+    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(frames, 76);
+    trajectory_frame again = {0};
+    for (int i = 0; i <= 40; i++) {
+        again = scratch_read(t);
+    }
+    assert_int_equal(again.count, frame.count);
+    assert_memory_equal(copy, again.xyzr, 16 * (size_t)frame.count);
+    free(copy);
+}
+
+/* The texts of files below have one line of the file per literal where that reads best. */
+/* clang-format off */
+
+/* ---- Columns and boxes -------------------------------------------------------------------------------------- */
+
+static void columns_in_any_order_and_changing(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(
+        scratch_text(DUMP,
+                     HEAD("7", "2") BOX "ITEM: ATOMS z q x id radius y type vz vx vy \n"
+                                        "3 junk 1 11 .25 2 5 9 7 8 \n-6e0\t- 4 12 +1.5 5. 6 0 -1 1e-3\n"
+                     HEAD("9", "1") "ITEM: ATOMS diameter x y z\n3 1 2 4\n"
+                     HEAD("9", "1") "ITEM: ATOMS radius diameter x y z\n3 1 1 2 4\n"
+                     HEAD("-3", "1") "ITEM: ATOMS x y z vx vy\n1 2 4 5 6\n"),
+        NULL);
+    trajectory_frame f = scratch_read(t);
+    assert_int_equal(f.count, 2);
+    assert_int_equal(f.step, 7);
+    scratch_expect_sphere(&f, 0, 1, 2, 3, 0.25f);
+    scratch_expect_sphere(&f, 1, 4, 5, -6, 1.5f);
+    assert_int_equal(f.id[1], 12);
+    assert_int_equal(f.type[0], 5);
+    assert_true(f.velocity[0] == 7 && f.velocity[1] == 8 && f.velocity[2] == 9 && f.velocity[4] == 1e-3f);
+    assert_true(f.box_min[0] == -1 && f.box_max[0] == 3 && f.box_min[2] == 10.5f && f.box_max[2] == 12.5f);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 1, 2, 4, 1.5f);
+    assert_true(f.id == NULL && f.type == NULL && f.velocity == NULL);
+    assert_true(f.box_min[0] > f.box_max[0]);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 1, 2, 4, 3);
+    f = scratch_read(t);
+    assert_int_equal(f.step, -3);
+    assert_null(f.velocity);
+    scratch_expect_end(t);
+}
+
+static void wrapped_or_smooth_as_asked(void **state)
+{
+    (void)state;
+    const char *path =
+        scratch_text(DUMP,
+                     HEAD("0", "1") BOX "ITEM: ATOMS x y z xu yu zu xs ys zs xsu ysu zsu\n"
+                                        "1 2 3 4 5 6 0.5 0.5 0.5 0.25 0.25 0.25\n"
+                     HEAD("1", "1") BOX "ITEM: ATOMS x y z xu yu xsu ysu zsu\n1 2 3 4 5 .5 .5 1\n"
+                     HEAD("2", "1") BOX "ITEM: ATOMS xs ys zs xu yu zu\n0.5 0.5 0.5 4 5 6\n");
+    trajectory_options options;
+    trajectory_options_init(&options);
+    trajectory *t = scratch_open(path, &options);
+    trajectory_frame f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 1, 4, 12.5f, 0.5f);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
+    options.wrapped = 1;
+    options.radius = 2;
+    t = scratch_open(path, &options);
+    for (int i = 0; i < 2; i++) {
+        f = scratch_read(t);
+        scratch_expect_sphere(&f, 0, 1, 2, 3, 2);
+    }
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 1, 4, 11.5f, 2);
+}
+
+static void scaled_coordinates_use_the_box(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(
+        scratch_text(DUMP,
+                     HEAD("0", "2") BOX "ITEM: ATOMS xs ys zs radius\n0 0 0 1\n0.25 0.5 1.5 1\n"
+                     /* corner 0, 0, 0, lengths 4, 8, 2, tilts xy = 1, xz = -2, yz = 3: bounds as LAMMPS widens them */
+                     HEAD("1", "2") "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-2 5 1\n0 11 -2\n0 2 3\n"
+                                    "ITEM: ATOMS xsu ysu zsu radius\n0 0 0 1\n0.5 0.5 0.5 1\n"
+                     HEAD("2", "1") "ITEM: BOX BOUNDS abc origin pp pp pp\n0 2 0 10\n-4 0 0 20\n0 0 8 30\n"
+                                    "ITEM: ATOMS xs ys zs radius\n0.5 0.25 0.75 1\n"),
+        NULL);
+    trajectory_frame f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, -1, 0, 10.5f, 1);
+    scratch_expect_sphere(&f, 1, 0, 4, 13.5f, 1);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 0, 0, 0, 1);
+    scratch_expect_sphere(&f, 1, 1.5f, 5.5f, 1, 1);
+    assert_true(f.box_min[0] == -2 && f.box_max[0] == 5 && f.box_max[1] == 11);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 9, 21, 36, 1);
+    assert_true(f.box_min[0] == 6 && f.box_max[0] == 10 && f.box_max[1] == 22 && f.box_max[2] == 38);
+}
+
+/* ---- Counts, lines, values ---------------------------------------------------------------------------------- */
+
+static void empty_frames_and_files(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(
+        scratch_text(DUMP,
+                     HEAD("0", "0") BOX "ITEM: ATOMS id x y z \n"
+                     HEAD("1", "1") "ITEM: ATOMS x y z\n1 2 3\n"
+                     HEAD("2", "0") "ITEM: ATOMS x y z"),
+        NULL);
+    trajectory_frame f = scratch_read(t);
+    assert_int_equal(f.count, 0);
+    assert_true(f.xyzr != NULL && f.id != NULL);
+    f = scratch_read(t);
+    assert_int_equal(f.count, 1);
+    f = scratch_read(t);
+    assert_int_equal(f.count, 0);
+    assert_int_equal(f.number, 2);
+    scratch_expect_end(t);
+    scratch_expect_end(scratch_open(scratch_text(DUMP, ""), NULL));
+    scratch_expect_end(scratch_open(scratch_text(DUMP, "\n \r\n"), NULL));
+}
+
+static void other_systems_lines(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(
+        scratch_text(DUMP, "ITEM: UNITS\r\nlj\r\nITEM: TIME\r\n0.5\r\nITEM: TIMESTEP\r\n10\r\nITEM: NUMBER OF ATOMS\r\n"
+                           "1\r\nITEM: BOX BOUNDS\r\n0 1\r\n0 1\r\n0 1\r\nITEM: ATOMS x y radius z\r\n1 2 3 4\r\n\r\n\n"
+                           "ITEM: TIME\n1\n" HEAD("20", "1") "ITEM: ATOMS x y z type\n5 6 7 8"),
+        NULL);
+    trajectory_frame f = scratch_read(t);
+    assert_int_equal(f.step, 10);
+    scratch_expect_sphere(&f, 0, 1, 2, 4, 3);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 5, 6, 7, 0.5f);
+    assert_int_equal(f.type[0], 8);
+    scratch_expect_end(t);
+}
+
+static void values_pass_as_they_are(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(
+        scratch_text(DUMP, HEAD("0", "3") "ITEM: ATOMS x y z radius\nnan -inf inf -2\n-nan 1e39 -1e-60 0\n1e-45 "
+                                          "16777217 0.1 nan\n"),
+        NULL);
+    const trajectory_frame f = scratch_read(t);
+    assert_int_equal(f.count, 3);
+    const float *v = f.xyzr;
+    assert_true(isnan(v[0]) && v[1] == -INFINITY && v[2] == INFINITY && v[3] == -2.0f);
+    assert_true(isnan(v[4]) && v[5] == INFINITY && v[6] == 0.0f && signbit(v[6]) && v[7] == 0.0f);
+    assert_true(v[8] == 1e-45f && v[9] == 16777216.0f && v[10] == 0.1f && isnan(v[11]));
+}
+
+static void counts_grow_and_shrink(void **state)
+{
+    (void)state;
+    static const unsigned counts[] = {3, 10000, 0, 1, 20000, 4097};
+    const char *path = scratch_path(DUMP);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (unsigned k = 0; k < 6; k++) {
+        fprintf(file, HEAD("%u", "%u") "ITEM: ATOMS id x y z radius vx vy vz\n", k, counts[k]);
+        for (unsigned i = 0; i < counts[k]; i++) {
+            fprintf(file, "%u %u %u 0.5 %u 1 %u 2\n", i + k, i, k, i % 7, i);
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+    trajectory *t = scratch_open(path, NULL);
+    for (unsigned k = 0; k < 6; k++) {
+        const trajectory_frame f = scratch_read(t);
+        assert_int_equal(f.count, counts[k]);
+        for (unsigned i = 0; i < counts[k]; i++) {
+            scratch_expect_sphere(&f, i, (float)i, (float)k, 0.5f, (float)(i % 7));
+            assert_true(f.id[i] == i + k && f.velocity[3 * i + 1] == (float)i);
+        }
+    }
+    scratch_expect_end(t);
+}
+
+/* ---- Damage ------------------------------------------------------------------------------------------------- */
+
+/* Cut after each byte in turn: whole frames come, then either the end, where nothing is missing, or an error. */
+static void every_truncation_is_noticed(void **state)
+{
+    (void)state;
+    static const char text[] = HEAD("0", "0") BOX "ITEM: ATOMS type x y z\n"
+                               HEAD("1", "2") BOX "ITEM: ATOMS type x y z\n1 2 3 4\n5 6 7 8\n"
+                               HEAD("2", "1") BOX "ITEM: ATOMS type x y z\n1 2 3 4\n";
+    /* The last word of each frame is one character: with a longer one, a cut inside it could not be told. */
+    size_t ends[3];
+    const char *p = text;
+    for (int i = 0; i < 3; i++) {
+        p = strstr(p + 1, i < 2 ? "\nITEM: TIMESTEP" : "nothing else");
+        ends[i] = p != NULL ? (size_t)(p - text) + 1 : sizeof text - 1;
+        p = p != NULL ? p : text;
+    }
+    const char *path = scratch_path(DUMP);
+    for (size_t size = 0; size < sizeof text; size++) {
+        /* A frame is whole with or without its last line feed. */
+        unsigned whole = 0;
+        while (whole < 3 && size + 1 >= ends[whole]) {
+            whole++;
+        }
+        const int clean = size == 0 || (whole > 0 && size <= ends[whole - 1]);
+        scratch_fill(path, text, size);
+        if (!clean) {
+            scratch_expect_error(path, NULL, whole, ":");
+            continue;
+        }
+        trajectory *t = scratch_open(path, NULL);
+        for (unsigned i = 0; i < whole; i++) {
+            assert_int_equal(scratch_read(t).step, i);
+        }
+        scratch_expect_end(t);
+    }
+}
+
+typedef struct damaged {
+    const char *text;
+    unsigned frames; /* whole ones before the damage */
+    const char *what;
+} damaged;
+
+#define ROWS "ITEM: ATOMS id x y z\n"
+static const damaged damaged_texts[] = {
+    {HEAD("0", "2") ROWS "1 1 2 3\n2 1 2\n", 0, ":7: 3 columns where 4 are expected"},
+    {HEAD("0", "2") ROWS "1 1 2 3\n\n2 1 2 3\n", 0, ":7: 0 columns"},
+    {HEAD("0", "1") ROWS "1 1 2 3 4\n", 0, ":6: more than the expected 4 columns: '4'"},
+    {HEAD("0", "1") ROWS "1 1 2 x3\n", 0, ":6: column 4: 'x3' is not a number"},
+    {HEAD("0", "1") ROWS "1 1 2.3.4 3\n", 0, ":6: column 3"},
+    {HEAD("0", "1") ROWS "1 0x10 2 3\n", 0, ":6: column 2"},
+    {HEAD("0", "1") ROWS "1 1 1e 3\n", 0, ":6: column 3"},
+    {HEAD("0", "1") ROWS "1 1 - 3\n", 0, ":6: column 3"},
+    {HEAD("0", "1") ROWS "-1 1 2 3\n", 0, ":6: column 1: '-1' is not an id"},
+    {HEAD("0", "1") ROWS "4294967296 1 2 3\n", 0, ":6: column 1"},
+    {HEAD("0", "1") "ITEM: ATOMS type x y z\n1.5 1 2 3\n", 0, ":6: column 1: '1.5' is not a type"},
+    {HEAD("0", "2") ROWS "1 1 2 3\n" HEAD("1", "1") ROWS "1 1 2 3\n", 0, ":7: a new section after 1 of 2"},
+    {HEAD("0", "1") ROWS "1 1 2 3\n2 1 2 3\n", 1, ":7: '2 1 2 3' is not a section"},
+    {HEAD("0", "1") "ITEM: ATOMS id x y\n1 1 2\n", 0, ":5: no columns x y z"},
+    {HEAD("0", "1") "ITEM: ATOMS\n1 1 2\n", 0, ":5: no columns x y z"},
+    {HEAD("0", "1") "ITEM: ATOMS xs ys zs\n1 1 2\n", 0, ":5: scaled coordinates without"},
+    {HEAD("0", "-1") ROWS, 0, ":4: '-1' is not a number of spheres"},
+    {HEAD("0", "1.0") ROWS, 0, ":4: '1.0' is not a number of spheres"},
+    {HEAD("0", "18446744073709551616") ROWS, 0, ":4: '18446744073709551616' is not a number"},
+    {HEAD("0", "18446744073709551615") ROWS, 0, ":4: 18446744073709551615 spheres are more than the limit"},
+    {HEAD("0", "2147483649") ROWS, 0, ":4: 2147483649 spheres are more than the limit of 2147483648"},
+    {HEAD("0", "2000000000") ROWS "1 1 2 3\n", 0, ":6: the file ends after 1 of 2000000000 spheres"},
+    {HEAD("0", "") ROWS, 0, ":4: one value"},
+    {HEAD("0 1", "1") ROWS, 0, ":2: one value"},
+    {HEAD("9223372036854775808", "1") ROWS, 0, ":2: '9223372036854775808' is not a time step"},
+    {HEAD("zero", "1") ROWS, 0, ":2: 'zero' is not a time step"},
+    {"ITEM: NUMBER OF ATOMS\n0\n" ROWS, 0, ":3: ITEM: ATOMS without TIMESTEP"},
+    {"ITEM: TIMESTEP\n0\n" ROWS, 0, ":3: ITEM: ATOMS without NUMBER OF ATOMS"},
+    {HEAD("0", "2") "ITEM: NUMBER OF ATOMS\n1\n" ROWS "1 1 2 3\n", 0, ":5: the frame before this line"},
+    {"ITEM: TIMESTEP\n0\n" BOX BOX ROWS, 0, ":7: the frame before this line has no ITEM: ATOMS"},
+    {HEAD("0", "1") HEAD("1", "1") ROWS "1 1 2 3\n", 0, ":5: the frame before this line has no ITEM: ATOMS"},
+    {"ITEM: TIMESTEP\n0\nITEM: BOX BOUNDS pp pp pp\n0 1\n0\n0 1\n", 0, ":5: 1 numbers where the box bounds need 2"},
+    {"ITEM: TIMESTEP\n0\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1 0\n0 1\n", 0, ":5: more than the 2 numbers"},
+    {"ITEM: TIMESTEP\n0\nITEM: BOX BOUNDS xy xz yz\n0 1 0\n0 1\n0 1\n", 0, ":5: 2 numbers where the box bounds need 3"},
+    {"ITEM: TIMESTEP\n0\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 nan\n0 1\n", 0, ":5: 'nan' is not a bound"},
+    {"ITEM: TIMESTEP\n0\nITEM: BOX BOUNDS pp pp pp\n0 1\n1 0\n0 1\n", 0, ":5: the lower bound"},
+    {"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n0\n", 0, ":3: 'ITEM: NUMBER OF ENTRIES' is not a section"},
+    {"ITEM: TIMESTEPS\n0\n", 0, ":1: 'ITEM: TIMESTEPS' is not a section"},
+    {"\x7f\x45LF\x02", 0, ":1: '?ELF?' is not a section"},
+    {"\n\n3\n", 0, ":3: '3' is not a section"},
+};
+
+/* clang-format on */
+static void damage_is_named_with_its_line(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof damaged_texts / sizeof damaged_texts[0]; i++) {
+        const damaged *d = &damaged_texts[i];
+        scratch_expect_error(scratch_text(DUMP, d->text), NULL, d->frames, d->what);
+    }
+}
+
+static void zero_bytes_are_no_numbers(void **state)
+{
+    (void)state;
+    static const char text[] = HEAD("0", "1") ROWS "1 1 2\0 3\n";
+    scratch_expect_error(scratch_bytes(DUMP, text, sizeof text - 1), NULL, 0, ":6: column 3: '2?' is not a number");
+}
+
+static void limits_hold(void **state)
+{
+    (void)state;
+    const char *text = HEAD("0", "2") ROWS "1 1 2 3\n2 1 2 3\n" HEAD("1", "3") ROWS "1 1 2 3\n2 1 2 3\n3 1 2 3\n";
+    trajectory_options options;
+    trajectory_options_init(&options);
+    options.max_count = 2;
+    scratch_expect_error(scratch_text(DUMP, text), &options, 1, ":11: 3 spheres are more than the limit of 2");
+}
+
+/* Long lines of blanks are read, endless ones are refused before they fill the memory. */
+static void long_lines(void **state)
+{
+    (void)state;
+    static char text[3000000];
+    const size_t head = (size_t)snprintf(text, sizeof text, "%s", HEAD("0", "1") "ITEM: ATOMS x y z\n1");
+    memset(text + head, ' ', 700000);
+    strcpy(text + head + 700000, "2 3\n");
+    trajectory *t = scratch_open(scratch_text(DUMP, text), NULL);
+    const trajectory_frame f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 1, 2, 3, 0.5f);
+    memset(text + head, '7', sizeof text - 1 - head);
+    scratch_expect_error(scratch_text(DUMP, text), NULL, 0, ":6: the line is longer than 1 MiB");
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------------------ */
+
+static void cannot_be_opened(void **state)
+{
+    (void)state;
+    trajectory_options options;
+    trajectory_options_init(&options);
+    scratch_expect_error("no/such/file.lammpstrj", NULL, 0, "No such file");
+    scratch_expect_error("file.pdb", NULL, 0, "the ending is not one of");
+    scratch_expect_error(".frames", NULL, 0, "the ending is not one of");
+    options.radius = -1.0f;
+    scratch_expect_error(scratch_text(DUMP, ""), &options, 0, "radius");
+    options.radius = NAN;
+    scratch_expect_error(scratch_text(DUMP, ""), &options, 0, "radius");
+    const char *folder = scratch_path(DUMP);
+    assert_int_equal(unlink(folder), 0);
+    assert_int_equal(mkdir(folder, 0700), 0);
+    char error[1024] = "";
+    trajectory *t = trajectory_open(folder, NULL, error, sizeof error);
+    assert_int_equal(rmdir(folder), 0);
+    assert_null(t);
+    assert_non_null(strstr(error, "directory"));
+    assert_null(trajectory_open("file.pdb", NULL, NULL, 0));
+}
+
+static void endings_of_any_case(void **state)
+{
+    (void)state;
+    scratch_expect_end(scratch_open(scratch_text(".LAMMPSTRJ", ""), NULL));
+    scratch_expect_end(scratch_open(scratch_text(".dump", ""), NULL));
+    scratch_expect_end(scratch_open(scratch_text(".XYZ", ""), NULL));
+    scratch_expect_end(scratch_open(scratch_text(".extxyz", ""), NULL));
+}
+
+/* A pipe is read like a file, but not twice. */
+static void pipes_are_read_once(void **state)
+{
+    (void)state;
+    const char *path = scratch_path(DUMP);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    const int both = open(path, O_RDWR); /* a writer and a reader, so that neither side waits */
+    assert_true(both >= 0);
+    const char *text = HEAD("0", "1") ROWS "1 1 2 3\n" HEAD("1", "1") ROWS "1 4 5 6\n";
+    assert_int_equal(write(both, text, strlen(text)), strlen(text));
+    trajectory *t = scratch_open(path, NULL);
+    assert_int_equal(close(both), 0);
+    trajectory_frame f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 1, 2, 3, 0.5f);
+    assert_true(trajectory_progress(t) < 0);
+    char error[1024] = "";
+    uint64_t frames = 0;
+    assert_int_equal(trajectory_rewind(t, error, sizeof error), -1);
+    assert_non_null(strstr(error, path));
+    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), -1);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 4, 5, 6, 0.5f);
+    scratch_expect_end(t);
+}
+
+/* Rewinding heals an error: the frames before it can be read again. */
+static void rewinding_after_an_error(void **state)
+{
+    (void)state;
+    const char *path = scratch_text(DUMP, HEAD("5", "1") ROWS "1 1 2 3\n" HEAD("6", "1") ROWS "1 1 2\n");
+    scratch_expect_error(path, NULL, 1, ":12: 3 columns");
+    char error[1024] = "";
+    assert_int_equal(trajectory_rewind(scratch_open_one, error, sizeof error), 0);
+    const trajectory_frame f = scratch_read(scratch_open_one);
+    assert_int_equal(f.number, 0);
+    assert_int_equal(f.step, 5);
+}
+
+#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(shipped_file_is_whole),
+        TEST(shipped_file_counts_and_rewinds),
+        TEST(columns_in_any_order_and_changing),
+        TEST(wrapped_or_smooth_as_asked),
+        TEST(scaled_coordinates_use_the_box),
+        TEST(empty_frames_and_files),
+        TEST(other_systems_lines),
+        TEST(values_pass_as_they_are),
+        TEST(counts_grow_and_shrink),
+        TEST(every_truncation_is_noticed),
+        TEST(damage_is_named_with_its_line),
+        TEST(zero_bytes_are_no_numbers),
+        TEST(limits_hold),
+        TEST(long_lines),
+        TEST(cannot_be_opened),
+        TEST(endings_of_any_case),
+        TEST(pipes_are_read_once),
+        TEST(rewinding_after_an_error),
+    };
+    return cmocka_run_group_tests_name("trajectory", tests, NULL, NULL);
+}

@@ -1,0 +1,272 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * .frames of spheres: the bytes, reading what was written, damage. The bytes are spelt out, so that a machine of the other byte
+ * order has to agree. */
+#define _GNU_SOURCE
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include "readers/trajectory_scratch.h"
+
+static const char FRAMES[] = ".frames";
+
+/* Two frames: none, and one sphere at (1, -2, 0.5) with radius 3. */
+static const unsigned char two_frames[] = {
+    'C', 'G', 'T', 'F', 'R', 'A', 'M',  '1',  1, 0, 0, 0,    2, 0, 0, 0,    0, 0, 0,    0,    0, 0, 0, 0, /* header */
+    0,   0,   0,   0,                                                                                     /* none */
+    1,   0,   0,   0,   0,   0,   0x80, 0x3f, 0, 0, 0, 0xc0, 0, 0, 0, 0x3f, 0, 0, 0x40, 0x40,             /* one */
+};
+
+static void bytes_are_little_endian(void **state)
+{
+    (void)state;
+    trajectory *t = scratch_open(scratch_bytes(FRAMES, two_frames, sizeof two_frames), NULL);
+    trajectory_frame f = scratch_read(t);
+    assert_int_equal(f.count, 0);
+    assert_non_null(f.xyzr);
+    f = scratch_read(t);
+    assert_int_equal(f.count, 1);
+    assert_true(f.number == 1 && f.step == 1);
+    scratch_expect_sphere(&f, 0, 1, -2, 0.5f, 3);
+    assert_true(f.kind == TRAJECTORY_SPHERES && f.triangles == 0 && f.index == NULL && f.position == NULL);
+    assert_true(f.id == NULL && f.type == NULL && f.velocity == NULL && f.box_min[0] > f.box_max[0]);
+    scratch_expect_end(t);
+
+    char error[1024] = "";
+    const char *path = scratch_path(FRAMES);
+    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    assert_non_null(w);
+    const float sphere[4] = {1, -2, 0.5f, 3};
+    assert_int_equal(frames_writer_add(w, NULL, 0, error, sizeof error), 0);
+    assert_int_equal(frames_writer_add(w, sphere, 1, error, sizeof error), 0);
+    assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
+    unsigned char written[sizeof two_frames + 1];
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    assert_int_equal(fread(written, 1, sizeof written, file), sizeof two_frames);
+    assert_int_equal(fclose(file), 0);
+    assert_memory_equal(written, two_frames, sizeof two_frames);
+}
+
+/* The bits of float number i of a frame: all kinds, NaN with a payload among them. */
+static uint32_t bits_of(uint32_t frame, uint32_t i)
+{
+    const uint32_t bits = (i + 1) * 2654435761u ^ frame * 40503u;
+    return i % 11 == 0 ? 0x7fc12345u : i % 13 == 0 ? 0xff800000u : bits;
+}
+
+static const uint32_t round_trip_counts[] = {0, 5, 70000, 1, 0, 131072};
+#define ROUND_TRIP_FRAMES (sizeof round_trip_counts / sizeof round_trip_counts[0])
+
+static void write_round_trip(const char *path)
+{
+    char error[1024] = "";
+    uint32_t *values = malloc(131072 * 16);
+    assert_non_null(values);
+    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    assert_non_null(w);
+    for (uint32_t k = 0; k < ROUND_TRIP_FRAMES; k++) {
+        for (uint32_t i = 0; i < 4 * round_trip_counts[k]; i++) {
+            values[i] = bits_of(k, i);
+        }
+        float *floats = (float *)(void *)values;
+        assert_int_equal(frames_writer_add(w, floats, round_trip_counts[k], error, sizeof error), 0);
+    }
+    assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
+    free(values);
+}
+
+static void what_is_written_is_read(void **state)
+{
+    (void)state;
+    const char *path = scratch_path(FRAMES);
+    write_round_trip(path);
+    trajectory *t = scratch_open(path, NULL);
+    char error[1024] = "";
+    uint64_t frames = 0;
+    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(frames, ROUND_TRIP_FRAMES);
+    assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+    for (uint32_t k = 1; k < ROUND_TRIP_FRAMES; k++) {
+        const trajectory_frame f = scratch_read(t);
+        assert_int_equal(f.number, k);
+        assert_int_equal(f.count, round_trip_counts[k]);
+        for (uint32_t i = 0; i < 4 * f.count; i++) {
+            uint32_t bits;
+            memcpy(&bits, f.xyzr + i, sizeof bits);
+            assert_int_equal(bits, bits_of(k, i));
+        }
+    }
+    scratch_expect_end(t);
+}
+
+static void no_frames_at_all(void **state)
+{
+    (void)state;
+    char error[1024] = "";
+    const char *path = scratch_path(FRAMES);
+    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    assert_non_null(w);
+    assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
+    scratch_expect_end(scratch_open(path, NULL));
+}
+
+static void headers_are_checked(void **state)
+{
+    (void)state;
+    static const scratch_change changes[] = {
+        {4, 0x324d4152, 0, "not a .frames file"},
+        {8, 2, 2, "data follow the 2 frames"}, /* a sphere has a number more than a vertex */
+        {8, 0x01000000, 0, "kind 16777216 is neither"},
+        {12, 0, 0, "the header says 0 frames, but data follow"},
+        {12, 1, 1, "data follow the 1 frames"},
+        {12, 3, 2, "frame 2: the file ends in the count"},
+        {12, 0xffffffff, 0, "4294967295 frames cannot lie in 24 bytes"},
+        {16, 1, 0, "a file of spheres says 1 triangles"},
+        {20, 1, 0, "the header must end in zeros"},
+        {24, 1, 1, "frame 1: the file ends before the last of 1077936128 spheres"}, /* 3.0f is taken for a count */
+        {28, 2, 1, "frame 1: the file ends before the last of 2 spheres"},
+        {28, 0x7fffffff, 1, "frame 1: the file ends before the last of 2147483647 spheres"},
+        {28, 0xffffffff, 1, "frame 1: 4294967295 spheres are more than the limit of 2147483648"},
+        {28, 0, 2, "data follow the 2 frames"},
+    };
+    scratch_expect_errors(two_frames, sizeof two_frames, changes, sizeof changes / sizeof changes[0]);
+}
+
+static void every_truncation_is_noticed(void **state)
+{
+    (void)state;
+    const char *path = scratch_path(FRAMES);
+    for (size_t size = 0; size < sizeof two_frames; size++) {
+        scratch_fill(path, two_frames, size);
+        /* Below 32 bytes even two empty frames would not fit, which is seen when opening. */
+        scratch_expect_error(path, NULL, size >= 32, size < 8 ? "not a .frames file" : "cut off");
+    }
+}
+
+static void skipping_notices_damage(void **state)
+{
+    (void)state;
+    char error[1024] = "";
+    trajectory *t = scratch_open(scratch_bytes(FRAMES, two_frames, sizeof two_frames - 1), NULL);
+    assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+    assert_int_equal(trajectory_skip(t, error, sizeof error), -1);
+    assert_non_null(strstr(error, "frame 1: the file ends before"));
+    /* The other way round: a frame with something in it is skipped, and the next one is short by a byte. */
+    unsigned char bytes[24 + 20 + 20 - 1] = {0};
+    memcpy(bytes, two_frames, 24);
+    memcpy(bytes + 24, two_frames + 28, 20);
+    scratch_put_u32(bytes, 44, 1);
+    t = scratch_open(scratch_bytes(FRAMES, bytes, sizeof bytes), NULL);
+    assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
+    assert_int_equal(trajectory_skip(t, error, sizeof error), -1);
+}
+
+static void limit_of_the_options(void **state)
+{
+    (void)state;
+    trajectory_options options;
+    trajectory_options_init(&options);
+    options.max_count = 4;
+    const char *path = scratch_path(FRAMES);
+    write_round_trip(path);
+    scratch_expect_error(path, &options, 1, "frame 1: 5 spheres are more than the limit of 4");
+}
+
+/* A pipe has no size that a count could be checked against: memory grows with what comes. */
+static void pipes_are_read(void **state)
+{
+    (void)state;
+    unsigned char bytes[sizeof two_frames];
+    for (int damage = 0; damage < 2; damage++) {
+        memcpy(bytes, two_frames, sizeof bytes);
+        scratch_put_u32(bytes, 28, damage ? 0x7fffffff : 1);
+        const char *path = scratch_path(FRAMES);
+        assert_int_equal(unlink(path), 0);
+        assert_int_equal(mkfifo(path, 0600), 0);
+        const int both = open(path, O_RDWR);
+        assert_true(both >= 0);
+        assert_int_equal(write(both, bytes, sizeof bytes), sizeof bytes);
+        trajectory *t = scratch_open(path, NULL);
+        assert_int_equal(close(both), 0);
+        assert_int_equal(scratch_read(t).count, 0);
+        if (damage) {
+            char error[1024] = "";
+            trajectory_frame frame;
+            assert_int_equal(trajectory_read(t, &frame, error, sizeof error), -1);
+            assert_non_null(strstr(error, "frame 1: the file ends in the spheres"));
+        } else {
+            const trajectory_frame f = scratch_read(t);
+            scratch_expect_sphere(&f, 0, 1, -2, 0.5f, 3);
+            scratch_expect_end(t);
+        }
+    }
+}
+
+static void files_left_half_written_are_refused(void **state)
+{
+    (void)state;
+    char error[1024] = "";
+    const char *path = scratch_path(FRAMES);
+    frames_writer *w = frames_writer_open(path, error, sizeof error);
+    assert_non_null(w);
+    static const float spheres[4 * 8192];
+    assert_int_equal(frames_writer_add(w, spheres, 8192, error, sizeof error), 0);
+    /* Part of the 128 KiB is in the file already, the header's count is not. */
+    scratch_expect_error(path, NULL, 0, "the header says 0 frames, but data follow");
+    assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
+    assert_int_equal(scratch_read(scratch_open(path, NULL)).count, 8192);
+}
+
+static void writing_that_fails(void **state)
+{
+    (void)state;
+    char error[1024] = "";
+    assert_null(frames_writer_open("no/such/folder/x.frames", error, sizeof error));
+    assert_non_null(strstr(error, "no/such/folder/x.frames: No such file"));
+    assert_int_equal(frames_writer_close(NULL, error, sizeof error), 0);
+    if (access("/dev/full", W_OK) != 0) {
+        print_message("no /dev/full here: a full disk is not tested\n");
+        return;
+    }
+    frames_writer *w = frames_writer_open("/dev/full", error, sizeof error);
+    assert_non_null(w);
+    static const float spheres[4 * 8192];
+    assert_int_equal(frames_writer_add(w, spheres, 8192, error, sizeof error), -1);
+    assert_non_null(strstr(error, strerror(ENOSPC)));
+    error[0] = '\0';
+    assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
+    assert_non_null(strstr(error, strerror(ENOSPC)));
+    /* So little that it is only written by close. */
+    w = frames_writer_open("/dev/full", error, sizeof error);
+    assert_non_null(w);
+    assert_int_equal(frames_writer_add(w, spheres, 1, error, sizeof error), 0);
+    assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
+}
+
+#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(bytes_are_little_endian),
+        TEST(what_is_written_is_read),
+        TEST(no_frames_at_all),
+        TEST(headers_are_checked),
+        TEST(every_truncation_is_noticed),
+        TEST(skipping_notices_damage),
+        TEST(limit_of_the_options),
+        TEST(pipes_are_read),
+        TEST(files_left_half_written_are_refused),
+        TEST(writing_that_fails),
+    };
+    return cmocka_run_group_tests_name("trajectory_frames", tests, NULL, NULL);
+}

@@ -1,0 +1,179 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Numbers of text files: the short way gives the bits of strtof and strtod, for every kind of number. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "trajectory/trajectory_text.h"
+
+static uint64_t seed, random_state;
+
+static uint64_t next_random(void)
+{
+    random_state ^= random_state << 13;
+    random_state ^= random_state >> 7;
+    random_state ^= random_state << 17;
+    return random_state;
+}
+
+static text_span span_of(const char *text)
+{
+    const text_span span = {text, text + strlen(text)};
+    return span;
+}
+
+static uint32_t float_bits(float f)
+{
+    uint32_t bits;
+    memcpy(&bits, &f, sizeof bits);
+    return bits;
+}
+
+static uint64_t double_bits(double d)
+{
+    uint64_t bits;
+    memcpy(&bits, &d, sizeof bits);
+    return bits;
+}
+
+/* Reads text both ways and compares the bits. */
+static void compare(const char *text)
+{
+    float f = 0, f_wanted = strtof(text, NULL);
+    double d = 0, d_wanted = strtod(text, NULL);
+    if (!text_float(span_of(text), &f) || (float_bits(f) != float_bits(f_wanted) && !isnan(f_wanted))) {
+        fail_msg("'%s' as a float: %.9g, not %.9g (seed %llu)", text, (double)f, (double)f_wanted,
+                 (unsigned long long)seed);
+    }
+    if (!text_double(span_of(text), &d) || (double_bits(d) != double_bits(d_wanted) && !isnan(d_wanted))) {
+        fail_msg("'%s' as a double: %.17g, not %.17g (seed %llu)", text, d, d_wanted, (unsigned long long)seed);
+    }
+}
+
+static void random_numbers_have_the_right_bits(void **state)
+{
+    (void)state;
+    static const char formats[7][8] = {"%g", "%.3f", "%.9g", "%.17g", "%.8e", "%.0f", "%+.12f"};
+    for (int i = 0; i < 40000; i++) {
+        const uint64_t bits = next_random();
+        const uint32_t low = (uint32_t)bits;
+        char text[512];
+        double d;
+        float f;
+        memcpy(&d, &bits, sizeof d);
+        memcpy(&f, &low, sizeof f);
+        snprintf(text, sizeof text, formats[i % 7], (double)f);
+        compare(text);
+        snprintf(text, sizeof text, formats[i % 7], ((double)(bits >> 40) - 8388608.0) / 1000.0);
+        compare(text);
+        snprintf(text, sizeof text, formats[i % 5 == 1 ? 0 : i % 5], d);
+        compare(text);
+    }
+}
+
+/* Half-way between two floats, and next to it: where rounding twice goes wrong. */
+static void numbers_between_two_floats(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 20000; i++) {
+        char text[128];
+        const uint32_t mantissa = (uint32_t)(next_random() >> 41) | 0x800000u;
+        const int shift = (int)(next_random() % 40) - 30;
+        const double middle = ldexp((double)mantissa + 0.5, shift);
+        snprintf(text, sizeof text, "%.17g", middle);
+        compare(text);
+        const double exact_digits = (double)mantissa + 0.5;
+        snprintf(text, sizeof text, "%.1f", exact_digits);
+        compare(text);
+        snprintf(text, sizeof text, "%.1f00000001", exact_digits);
+        compare(text);
+        snprintf(text, sizeof text, "%.0f.49999999", (double)mantissa);
+        compare(text);
+        snprintf(text, sizeof text, "%.17g", nextafter(middle, i % 2 ? INFINITY : -INFINITY));
+        compare(text);
+    }
+}
+
+static void other_spellings(void **state)
+{
+    (void)state;
+    /* clang-format off */
+    static const char *const right[] = {
+        "0", "-0", "+0.0", "5.", ".5", "-.5e+3", "1e22", "1e23", "1e-22", "1e-23", "1E5", "00012.50", "1e+05", "1e0000",
+        "0e12345", "inf", "-inf", "Infinity", "nan", "-nan", "1e39", "-1e39", "1e-46", "7e-46", "1.17549e-38",
+        "3.4028236e38", "1e999", "1e-999", "9007199254740993", "123456789012345678901234567890",
+        "0.000000000000000000000000000001",
+    };
+    static const char *const wrong[] = {
+        "", "-", "+", ".", "e5", "1e", "1e+", "1.2.3", "1,5", "0x10", "0X1p3", "1f", "--1", "+-1", "1 2", "one",
+        "1e5.0",
+    };
+    /* clang-format on */
+    for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
+        compare(right[i]);
+    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        float f = 7;
+        double d = 7;
+        if (text_float(span_of(wrong[i]), &f) || text_double(span_of(wrong[i]), &d) || f != 7 || d != 7) {
+            fail_msg("'%s' was read as a number", wrong[i]);
+        }
+    }
+}
+
+static void whole_numbers(void **state)
+{
+    (void)state;
+    uint64_t u = 0;
+    int64_t i = 0;
+    assert_true(text_u64(span_of("18446744073709551615"), UINT64_MAX, &u) && u == UINT64_MAX);
+    assert_false(text_u64(span_of("18446744073709551616"), UINT64_MAX, &u));
+    assert_false(text_u64(span_of("99999999999999999999"), UINT64_MAX, &u));
+    assert_true(text_u64(span_of("+007"), 7, &u) && u == 7);
+    assert_false(text_u64(span_of("8"), 7, &u));
+    assert_false(text_u64(span_of("17"), 7, &u));
+    assert_false(text_u64(span_of(""), 7, &u) || text_u64(span_of("+"), 7, &u) || text_u64(span_of("-1"), 7, &u));
+    assert_true(text_i64(span_of("-9223372036854775807"), &i) && i == -INT64_MAX);
+    assert_true(text_i64(span_of("9223372036854775807"), &i) && i == INT64_MAX);
+    assert_false(text_i64(span_of("9223372036854775808"), &i));
+    assert_false(text_i64(span_of("-+1"), &i) || text_i64(span_of("--1"), &i) || text_i64(span_of("1.0"), &i));
+}
+
+static void quotes_are_safe_to_print(void **state)
+{
+    (void)state;
+    char buffer[TEXT_QUOTE_SIZE];
+    assert_string_equal(text_quote(span_of("a\033[2Jb\xff"), buffer), "a?[2Jb?");
+    assert_string_equal(text_quote(span_of(""), buffer), "");
+    char longer[200];
+    memset(longer, 'x', sizeof longer - 1);
+    longer[sizeof longer - 1] = '\0';
+    assert_int_equal(strlen(text_quote(span_of(longer), buffer)), TEXT_QUOTE_SIZE - 1);
+    assert_string_equal(buffer + TEXT_QUOTE_SIZE - 4, "...");
+}
+
+int main(void)
+{
+    const char *given = getenv("CGT_TEST_SEED");
+    seed = given != NULL ? strtoull(given, NULL, 10) : (uint64_t)time(NULL);
+    random_state = (seed + 1) * 0x9e3779b97f4a7c15u | 1;
+    print_message("CGT_TEST_SEED=%llu\n", (unsigned long long)seed);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_numbers_have_the_right_bits),
+        cmocka_unit_test(numbers_between_two_floats),
+        cmocka_unit_test(other_spellings),
+        cmocka_unit_test(whole_numbers),
+        cmocka_unit_test(quotes_are_safe_to_print),
+    };
+    return cmocka_run_group_tests_name("trajectory_text", tests, NULL, NULL);
+}

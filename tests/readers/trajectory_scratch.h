@@ -1,0 +1,170 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the tests of the trajectory readers share: scratch files, and expectations about whole files. Include cmocka
+ * first. Files lie in TMPDIR and are removed by scratch_teardown, also after a test that failed. */
+#ifndef TRAJECTORY_SCRATCH_H
+#define TRAJECTORY_SCRATCH_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "trajectory/trajectory.h"
+
+#define SCRATCH_MOST 8
+static char scratch_paths[SCRATCH_MOST][512];
+static int scratch_count;
+static trajectory *scratch_open_one; /* closed by the teardown */
+
+static int scratch_teardown(void **state)
+{
+    (void)state;
+    trajectory_close(scratch_open_one);
+    scratch_open_one = NULL;
+    for (int i = 0; i < scratch_count; i++) {
+        unlink(scratch_paths[i]);
+    }
+    scratch_count = 0;
+    return 0;
+}
+
+/* Makes an empty file with this ending and returns its path. Files of a test that has many are reused in turn. */
+static inline const char *scratch_path(const char *ending)
+{
+    if (scratch_count == SCRATCH_MOST) {
+        scratch_teardown(NULL);
+    }
+    char *path = scratch_paths[scratch_count];
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof scratch_paths[0], "%s/cgt-test-XXXXXX%s", folder != NULL ? folder : P_tmpdir, ending);
+    const int descriptor = mkstemps(path, (int)strlen(ending));
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    scratch_count++;
+    return path;
+}
+
+static inline void scratch_fill(const char *path, const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static inline const char *scratch_bytes(const char *ending, const void *bytes, size_t size)
+{
+    const char *path = scratch_path(ending);
+    scratch_fill(path, bytes, size);
+    return path;
+}
+
+static inline const char *scratch_text(const char *ending, const char *text)
+{
+    return scratch_bytes(ending, text, strlen(text));
+}
+
+/* Opens a file that must open. */
+static inline trajectory *scratch_open(const char *path, const trajectory_options *options)
+{
+    char error[1024] = "";
+    trajectory_close(scratch_open_one);
+    scratch_open_one = trajectory_open(path, options, error, sizeof error);
+    if (scratch_open_one == NULL) {
+        fail_msg("not opened: %s", error);
+    }
+    return scratch_open_one;
+}
+
+/* Reads a frame that must be there. */
+static inline trajectory_frame scratch_read(trajectory *t)
+{
+    char error[1024] = "";
+    trajectory_frame frame;
+    const int got = trajectory_read(t, &frame, error, sizeof error);
+    if (got != 1) {
+        fail_msg("no frame: %d %s", got, error);
+    }
+    return frame;
+}
+
+static inline void scratch_expect_end(trajectory *t)
+{
+    char error[1024] = "";
+    trajectory_frame frame;
+    assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 0);
+    assert_int_equal(trajectory_read(t, &frame, error, sizeof error), 0);
+}
+
+static inline void scratch_expect_sphere(const trajectory_frame *frame, uint32_t i, float x, float y, float z, float r)
+{
+    const float wanted[4] = {x, y, z, r};
+    assert_true(i < frame->count);
+    for (int k = 0; k < 4; k++) {
+        if (frame->xyzr[4 * i + (uint32_t)k] != wanted[k]) {
+            fail_msg("sphere %u, value %d: %.9g, not %.9g", i, k, (double)frame->xyzr[4 * i + (uint32_t)k],
+                     (double)wanted[k]);
+        }
+    }
+}
+
+/* After `frames` whole frames, or at once when opening, the file is refused with a text that begins with its path and
+ * holds `what`; asked again, with the same text. */
+static inline void scratch_expect_error(const char *path, const trajectory_options *options, unsigned frames,
+                                        const char *what)
+{
+    char error[1024] = "", again[1024] = "";
+    trajectory_frame frame;
+    trajectory_close(scratch_open_one);
+    scratch_open_one = trajectory_open(path, options, error, sizeof error);
+    trajectory *t = scratch_open_one;
+    if (t != NULL) {
+        for (unsigned i = 0; i < frames; i++) {
+            scratch_read(t);
+        }
+        if (trajectory_read(t, &frame, error, sizeof error) != -1) {
+            fail_msg("no error where \"%s\" was expected", what);
+        }
+        assert_int_equal(trajectory_read(t, &frame, again, sizeof again), -1);
+        assert_string_equal(error, again);
+        assert_int_equal(trajectory_skip(t, again, sizeof again), -1);
+    }
+    if (strncmp(error, path, strlen(path)) != 0 || strstr(error + strlen(path), what) == NULL) {
+        fail_msg("the error \"%s\" lacks its path or \"%s\"", error, what);
+    }
+}
+
+/* ---- .frames, byte by byte ----------------------------------------------------------------------------------- */
+
+static inline void scratch_put_u32(unsigned char *bytes, size_t at, uint32_t value)
+{
+    for (size_t i = 0; i < 4; i++) {
+        bytes[at + i] = (unsigned char)(value >> (8 * i));
+    }
+}
+
+/* A number that a file may not hold where it is, and what is said of it after so many frames. */
+typedef struct scratch_change {
+    size_t at;
+    uint32_t value;
+    unsigned frames;
+    const char *what;
+} scratch_change;
+
+/* Each change alone makes a good .frames file a bad one. */
+static inline void scratch_expect_errors(const unsigned char *good, size_t size, const scratch_change *changes,
+                                         size_t count)
+{
+    unsigned char *bytes = malloc(size);
+    assert_non_null(bytes);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(bytes, good, size);
+        scratch_put_u32(bytes, changes[i].at, changes[i].value);
+        scratch_expect_error(scratch_bytes(".frames", bytes, size), NULL, changes[i].frames, changes[i].what);
+    }
+    free(bytes);
+}
+
+#endif

@@ -1,0 +1,17 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The libcgt authors
+# SPDX-License-Identifier: MIT
+#
+# build_by_hand.sh SOURCE_DIR CC [EMULATOR...]
+# The library builds by one line of cc, without CMake, and the program that results casts a ray.
+set -eu
+cd "$1"
+cc=$2
+shift 2
+program=$(mktemp)
+trap 'rm -f "$program"' EXIT
+
+"$cc" -std=c11 -O2 -ffp-contract=off -DCGT_HAVE_PORTABLE -DCGT_VARIANT=portable -DCGT_VARIANT_PORTABLE -DCGT_LANES=4 \
+    -DCGT_SPU_PORTABLE -Iinclude -Isimd -Isrc $(find src backends -name "*.c" | LC_ALL=C sort) tests/repository/consumer/consumer.c \
+    -o "$program" -lpthread -lm
+"$@" "$program"

@@ -1,0 +1,303 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * FAST precision through trees and the loose grid, by every triangle test: its answers are those of ROBUST but where single precision
+ * cannot tell, and close to them in t, u, v and the normal; any hit is found where a nearest one is; nothing is NaN; and
+ * closed meshes do not leak at shared edges. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hard_cases/hard_run.h"
+#include "primitive/triangle_scenes.h"
+
+enum { RAYS = 1024, TRIANGLES = 150, SPHERES = 50 };
+
+/* ---- ways through structures ---- */
+
+typedef struct way {
+    cgt_structure structure;
+    cgt_kd_builder builder;
+    cgt_kd_traversal traversal;
+} way;
+
+static const way ways[] = {
+    {CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
+    {CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_SINGLE},
+    {CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},
+    {CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_SINGLE},
+    {CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_PACKET},
+    {CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
+};
+
+static cgt_scene *commit(cgt_context *context, const hard_scene *s, const way *w)
+{
+    cgt_scene_options options;
+    cgt_scene *scene;
+    cgt_scene_options_init(&options);
+    options.structure = w->structure;
+    options.kd_builder = w->builder;
+    if (hard_commit_with(context, s, &options, &scene) != CGT_OK)
+        fail_msg("%s", context_message(context));
+    return scene;
+}
+
+static cgt_trace_options fast_way(const way *w, int test, bool mailbox)
+{
+    cgt_trace_options options = with_precision(CGT_PRECISION_FAST);
+    options.kd_traversal = w->traversal;
+    options.triangle_test = (cgt_triangle_test)test;
+    options.mailbox = mailbox;
+    return options;
+}
+
+/* ---- where single precision cannot tell ---- */
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    for (int i = 0; i < 3; i++)
+        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* Whether a line passes a triangle at an edge, or in its plane. */
+static bool passes_edge(const oracle_primitive *q, const double org[3], const double dir[3])
+{
+    double e[2][3], s[3], n[3], across[3], beside[3];
+    for (int a = 0; a < 3; a++) {
+        s[a] = org[a] - q->data[a];
+        for (int k = 0; k < 2; k++)
+            e[k][a] = (double)q->data[3 * k + 3 + a] - q->data[a];
+    }
+    cross(e[0], e[1], n);
+    cross(dir, e[1], across);
+    cross(s, e[0], beside);
+    const double den = dot(e[0], across), u = dot(s, across) / den, v = dot(dir, beside) / den;
+    const double least = fmin(fmin(u, v), 1 - u - v);
+    return !(fabs(den) > 1e-3 * sqrt(dot(dir, dir) * dot(n, n))) || fabs(least) < 1e-3;
+}
+
+static bool passes_silhouette(const oracle_primitive *q, const double org[3], const double dir[3])
+{
+    double c[3], side[3];
+    for (int a = 0; a < 3; a++)
+        c[a] = q->data[a] - org[a];
+    cross(dir, c, side);
+    const double beside = sqrt(dot(side, side) / dot(dir, dir)), r = q->data[3];
+    return fabs(beside - r) < 1e-3 * r || fabs(sqrt(dot(c, c)) - r) < 1e-3 * r;
+}
+
+/* Whether it takes more than single precision to tell that the named primitive is hit. Where none is named, the other
+ * answer names what is doubtful. */
+static bool in_doubt(const oracle_scene *scene, const full_hit *hit, const truth_ray *ray)
+{
+    double org[3], dir[3];
+    if (hit->geometry == CGT_NONE)
+        return false;
+    for (int a = 0; a < 3; a++) {
+        org[a] = ray->org[a];
+        dir[a] = ray->dir[a];
+    }
+    const uint32_t first = hit->geometry ? TRIANGLES : 0; /* in the order of ids */
+    assert_true(hit->primitive < scene->count - first);
+    const oracle_primitive *q = &scene->primitive[first + hit->primitive];
+    assert_true(q->geometry == hit->geometry && q->primitive == hit->primitive);
+    return q->kind == ORACLE_TRIANGLE ? passes_edge(q, org, dir) : passes_silhouette(q, org, dir);
+}
+
+/* ---- ordinary scenes ---- */
+
+typedef struct tally {
+    uint64_t rays, hits, other;
+    double t, uv, normal; /* the largest errors */
+} tally;
+
+static double length_of(const float d[3])
+{
+    return sqrt((double)d[0] * d[0] + (double)d[1] * d[1] + (double)d[2] * d[2]);
+}
+
+static bool is_number(const full_hit *h)
+{
+    const float sum = h->uv[0] + h->uv[1] + h->normal[0] + h->normal[1] + h->normal[2];
+    return h->geometry == CGT_NONE ? !isnan(h->t) && !isnan(sum) : isfinite(h->t) && isfinite(sum);
+}
+
+static void judge(const oracle_scene *truth, const truth_ray *ray, const full_hit *is, const full_hit *fast, tally *sum)
+{
+    const double size = length_of(ray->dir), apart = fabs((double)fast->t - (double)is->t) * size;
+    const bool same = fast->geometry == is->geometry && fast->primitive == is->primitive;
+    sum->rays++;
+    sum->hits += fast->geometry != CGT_NONE;
+    sum->other += !same;
+    assert_true(is_number(fast));
+    if (!same && !(apart < 1e-4) && !in_doubt(truth, fast, ray) && !in_doubt(truth, is, ray))
+        fail_msg("geometry %d, primitive %d at %a, but %d, %d at %a; org %a %a %a dir %a %a %a", (int)fast->geometry,
+                 (int)fast->primitive, (double)fast->t, (int)is->geometry, (int)is->primitive, (double)is->t,
+                 (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
+                 (double)ray->dir[1], (double)ray->dir[2]);
+    if (!same || is->geometry == CGT_NONE || in_doubt(truth, is, ray))
+        return; /* in a triangle's plane t, u and v may be anything */
+    sum->t = fmax(sum->t, apart);
+    for (int k = 0; k < 2; k++)
+        sum->uv = fmax(sum->uv, fabs((double)fast->uv[k] - (double)is->uv[k]));
+    for (int a = 0; a < 3; a++)
+        sum->normal = fmax(sum->normal, fabs((double)fast->normal[a] - (double)is->normal[a]));
+}
+
+/* Triangles and spheres about the origin. */
+static hard_scene make_scene(test_random *r)
+{
+    hard_scene s = {.place = {.scale = 1}};
+    triangle given[TRIANGLES];
+    random_triangles(r, 0.3f, given, TRIANGLES);
+    hard_new_geometry(&s);
+    for (int i = 0; i < TRIANGLES; i++)
+        hard_raw_triangle(&s, (const float(*)[3])given[i]);
+    hard_new_geometry(&s);
+    for (int i = 0; i < SPHERES; i++) {
+        float sphere[4] = {0, 0, 0, random_log(r, 0.01f, 0.15f)};
+        for (int a = 0; a < 3; a++)
+            sphere[a] = random_float(r, -1, 1);
+        hard_raw_sphere(&s, sphere);
+    }
+    assert_false(s.failed);
+    return s;
+}
+
+static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_ray *ray, const full_hit *is,
+                        const cgt_trace_options *options, tally *sum)
+{
+    static full_hit hit[RAYS];
+    static uint8_t occluded[RAYS];
+    const cgt_rays rays = ray_array(ray, RAYS);
+    memset(hit, 0x77, sizeof hit);
+    memset(occluded, 0x77, sizeof occluded);
+    trace_all(scene, ray, RAYS, hit, options);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, options), CGT_OK);
+    for (int i = 0; i < RAYS; i++) {
+        judge(&truth->scene, &ray[i], &is[i], &hit[i], sum);
+        assert_int_equal(occluded[i], hit[i].geometry != CGT_NONE);
+    }
+}
+
+static void fast_is_close_to_robust(void **state)
+{
+    (void)state;
+    static truth_ray ray[RAYS];
+    static full_hit is[RAYS];
+    /* of the ways: in a sample two rounds share them. The rays stay many, for the share of other hits is judged. */
+    const uint32_t step = test_samples() ? 2 : 1;
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        tally sum = {0};
+        for (uint32_t round = 0; round < 1 + test_scaled(11); round++) {
+            test_random r = random_make(600 + round);
+            hard_truth truth;
+            hard_scene s = make_scene(&r);
+            random_rays(&r, ray, RAYS);
+            assert_true(hard_truth_make(&s, &truth));
+            for (uint32_t w = test_sample_start(round, step); w < TEST_COUNT(ways); w += step) {
+                cgt_scene *scene = commit(context, &s, &ways[w]);
+                trace_all(scene, ray, RAYS, is, NULL);
+                for (int test = 0; test <= CGT_TRIANGLE_ACCELERATED; test++) {
+                    const cgt_trace_options fast = fast_way(&ways[w], test, (round + w / step) % 2);
+                    check_scene(scene, &truth, ray, is, &fast, &sum);
+                }
+                cgt_scene_release(scene);
+            }
+            hard_truth_free(&truth);
+            hard_scene_free(&s);
+        }
+        print_message("%s: %llu of %llu rays otherwise, %llu hits; t within %.2g units, u and v %.2g, normal %.2g\n",
+                      variant, (unsigned long long)sum.other, (unsigned long long)sum.rays,
+                      (unsigned long long)sum.hits, sum.t, sum.uv, sum.normal);
+        assert_true(sum.hits > sum.rays / 4);
+        assert_true(sum.other * 1000 <= sum.rays);
+        assert_true(sum.t < 1e-4 && sum.uv < 1e-3 && sum.normal < 1e-4);
+        cgt_context_release(context);
+    }
+}
+
+/* ---- closed meshes ---- */
+
+/* Which of its rays is aimed at a vertex: there more than two triangles meet, and each may round to a miss. */
+static bool at_vertex(uint32_t i) { return i % 8 == 0; }
+
+/* Rays from inside at vertices and at points of edges. */
+static hard_scene make_closed(closed_kind kind, uint64_t stream)
+{
+    hard_scene s = {.wanted = test_samples() ? 320 : RAYS, .place = {.scale = 1}, .random = random_make(stream)};
+    float org[3] = {0}, v[3][3], point[3];
+    hard_closed_mesh(&s, kind, kind == CLOSED_CUBE || kind == CLOSED_OCTAHEDRON ? 4 : 12);
+    for (uint32_t n = 0; hard_wants_ray(&s); n++) {
+        if (n % 32 == 0) {
+            double inside[3];
+            closed_mesh_inside(&(closed_mesh){.kind = kind}, &s.random, inside);
+            hard_put(&s, inside, org);
+        }
+        assert_true(hard_any_triangle(&s, v));
+        const uint32_t k = random_below(&s.random, 3);
+        const double share = at_vertex(n) ? 0 : n % 4 ? hard_real(&s, 0.01, 0.99) : 0.5;
+        for (int a = 0; a < 3; a++)
+            point[a] = (float)(v[k][a] + share * ((double)v[(k + 1) % 3][a] - v[k][a]));
+        hard_aim(&s, org, point, 1);
+    }
+    assert_false(s.failed);
+    return s;
+}
+
+typedef struct leaks {
+    uint64_t rays, edges, vertices; /* that leak at an edge, at a vertex */
+} leaks;
+
+static void count_leaks(const cgt_scene *scene, const hard_scene *s, const cgt_trace_options *options, leaks *sum)
+{
+    static full_hit hit[RAYS];
+    trace_all(scene, s->ray, s->rays, hit, options);
+    for (uint32_t i = 0; i < s->rays; i++) {
+        assert_true(is_number(&hit[i]));
+        sum->rays++;
+        if (hit[i].geometry == CGT_NONE)
+            ++*(at_vertex(i) ? &sum->vertices : &sum->edges);
+    }
+}
+
+static void closed_meshes_do_not_leak(void **state)
+{
+    (void)state;
+    leaks sum = {0}, others = {0};
+    FOR_EACH_VARIANT(variant)
+    {
+        cgt_context *context = context_make(1, variant);
+        for (uint32_t round = 0; round < CLOSED_KINDS * test_scaled(4); round++) {
+            hard_scene s = make_closed((closed_kind)(round % CLOSED_KINDS), 700 + round);
+            for (size_t w = 0; w < TEST_COUNT(ways); w++) {
+                cgt_scene *scene = commit(context, &s, &ways[w]);
+                cgt_trace_options fast = fast_way(&ways[w], CGT_TRIANGLE_WATERTIGHT, round % 2);
+                count_leaks(scene, &s, &fast, &sum);
+                fast.triangle_test = CGT_TRIANGLE_MOLLER_TRUMBORE;
+                count_leaks(scene, &s, &fast, &others);
+                cgt_scene_release(scene);
+            }
+            hard_scene_free(&s);
+        }
+        cgt_context_release(context);
+    }
+    print_message("%llu rays: %llu leak at edges, %llu at vertices; with Moeller-Trumbore %llu and %llu\n",
+                  (unsigned long long)sum.rays, (unsigned long long)sum.edges, (unsigned long long)sum.vertices,
+                  (unsigned long long)others.edges, (unsigned long long)others.vertices);
+    assert_true(others.edges > 0); /* the rays are where single precision leaks */
+    assert_int_equal(sum.edges, 0);
+    assert_true(sum.vertices * 200 < sum.rays);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fast_is_close_to_robust),
+                                       cmocka_unit_test(closed_meshes_do_not_leak)};
+    test_begin("test_fast_structures");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

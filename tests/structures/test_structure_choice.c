@@ -1,0 +1,284 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Which structure a scene gets: what is asked for, from one commit to the next too; options that are refused; and what
+ * AUTO chooses, and says why. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "structures/picture.h"
+#include "structures/random_soup.h"
+#include "support/closed_meshes.h"
+#include "hard_cases/hard_run.h"
+
+#define WIDTH 45u
+#define HEIGHT 31u
+
+static cgt_scene_options of_structure(cgt_structure structure)
+{
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    o.structure = structure;
+    return o;
+}
+
+static cgt_scene_statistics statistics_of(const cgt_scene *scene)
+{
+    cgt_scene_statistics st;
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    return st;
+}
+
+/* ---- what is refused ---- */
+
+static void refuse(cgt_context *context, cgt_scene *committed, const cgt_scene_options *o, const char *word)
+{
+    cgt_scene *scene = committed;
+    const cgt_camera camera = camera_before(&(cloud){.reach = 1});
+    planes p = planes_make(WIDTH, HEIGHT);
+    assert_int_equal(cgt_scene_create(context, o, &scene), CGT_ERROR_INVALID_ARGUMENT);
+    assert_null(scene);
+    assert_non_null(strstr(context_message(context), word));
+    assert_int_equal(cgt_scene_set_options(committed, o), CGT_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(context_message(context), word));
+    frame_trace(committed, &camera, &p, NULL); /* nothing has changed: it still may be traced */
+    planes_free(&p);
+}
+
+static void options_out_of_range_are_refused(void **state)
+{
+    (void)state;
+    static const float sphere[1][4] = {{0, 0, 0, 1}};
+    static const int wrong[] = {-1, 6, 99}, wrong_kind[] = {-1, 2, 3}, wrong_builder[] = {-1, 3, 4},
+                     wrong_traversal[] = {-1, 3, 77};
+    static const uint32_t wrong_level[] = {51, 1000, CGT_NONE};
+    cgt_context *context = context_make(1, NULL);
+    const cgt_scene_options good = of_structure(CGT_STRUCTURE_KD);
+    cgt_scene *scene = scene_of(context, &good, sphere, 1);
+    for (int i = 0; i < 3; i++) {
+        cgt_scene_options o = good;
+        o.structure = (cgt_structure)wrong[i];
+        refuse(context, scene, &o, "structure");
+        o = good;
+        o.rays = (cgt_ray_kind)wrong_kind[i];
+        refuse(context, scene, &o, "rays");
+        o = good;
+        o.kd_builder = (cgt_kd_builder)wrong_builder[i];
+        refuse(context, scene, &o, "kd_builder");
+        o = good;
+        o.kd_layout = (cgt_kd_layout)wrong[i];
+        refuse(context, scene, &o, "kd_layout");
+        o = good;
+        o.kd_break_level = wrong_level[i];
+        refuse(context, scene, &o, "kd_break_level");
+        cgt_trace_options t;
+        full_hit hit;
+        const truth_ray ray = {{0, 0, 5}, {0, 0, -1}, 0, INFINITY};
+        cgt_trace_options_init(&t);
+        t.kd_traversal = (cgt_kd_traversal)wrong_traversal[i];
+        assert_int_equal(trace_array(scene, &ray, 1, &hit, &t), CGT_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(context_message(context), "kd_traversal"));
+    }
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* ---- from one structure to another ---- */
+
+/* Everything that moves: half the numbers, so that the shape of the scene changes with its size. */
+static void move(hard_scene *s, float factor)
+{
+    for (uint32_t g = 0; g < s->geometries; g++) {
+        for (uint32_t i = 0; i < s->geometry[g].spheres; i++)
+            s->geometry[g].sphere[i][i % 3] *= factor;
+        for (uint32_t i = 0; i < s->geometry[g].vertices; i++)
+            s->geometry[g].vertex[i][i % 3] *= factor;
+    }
+}
+
+static void check_as_one_cell(cgt_context *context, const hard_scene *s, const cgt_scene *scene,
+                              const cgt_camera *camera, picture q[2])
+{
+    cgt_scene_options one_cell = of_structure(CGT_STRUCTURE_QUEUE_GRID);
+    cgt_scene *fresh;
+    memcpy(one_cell.resolution, (uint32_t[]){1, 1, 1}, sizeof one_cell.resolution);
+    if (hard_commit_with(context, s, &one_cell, &fresh) != CGT_OK)
+        fail_msg("%s", context_message(context));
+    picture_trace(scene, camera, NULL, &q[0]);
+    picture_trace(fresh, camera, NULL, &q[1]);
+    assert_memory_equal(q[0].hit, q[1].hit, WIDTH * HEIGHT * sizeof *q[0].hit);
+    cgt_scene_release(fresh);
+}
+
+/* One scene through many commits: other options, data that moved, both, or an error in between. */
+static void a_scene_changes_its_structure(void **state)
+{
+    (void)state;
+    static const cgt_structure first[] = {
+        CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
+        CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD_ROPES,
+        CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_WIDE_TREE}; /* the fourth is not set */
+    const uint32_t steps = 8 + test_scaled(72);
+    cgt_context *context = context_make(2, NULL);
+    hard_scene s = soup_make(SOUP_MIXED, 17, 700);
+    picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
+    test_random r = random_make(4711);
+    cgt_scene_options o = of_structure(CGT_STRUCTURE_KD_ROPES);
+    uint32_t built[CGT_STRUCTURE_WIDE_TREE + 1] = {0};
+    cgt_scene *scene;
+    assert_int_equal(hard_commit_with(context, &s, &o, &scene), CGT_OK);
+    for (uint32_t step = 0; step < steps; step++) {
+        const cgt_camera camera = soup_camera(&s);
+        if (step % 4 != 3) {
+            o = structure_random(&r);
+            o.structure = step < TEST_COUNT(first) ? first[step] : o.structure;
+            assert_int_equal(cgt_scene_set_options(scene, &o), CGT_OK);
+        }
+        if (step % 3)
+            move(&s, step % 2 ? 0.75f : 1.25f);
+        const cgt_frame frame = frame_of(&q[0].p);
+        if (step % 4 != 3)
+            assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_ERROR_NOT_COMMITTED);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        const cgt_scene_statistics st = statistics_of(scene);
+        assert_true(o.structure == CGT_STRUCTURE_AUTO || st.structure == o.structure);
+        const bool tree = st.structure == CGT_STRUCTURE_KD || st.structure == CGT_STRUCTURE_KD_ROPES;
+        assert_int_equal(st.kd_leaves != 0, tree);
+        const bool wide = st.structure == CGT_STRUCTURE_WIDE_TREE;
+        assert_int_equal(st.wide_blocks != 0, wide);
+        assert_int_equal(st.cells == 0, tree || wide);
+        assert_int_equal(st.levels != 0, st.structure == CGT_STRUCTURE_LOOSE_GRID);
+        built[st.structure]++;
+        check_as_one_cell(context, &s, scene, &camera, q);
+    }
+    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_WIDE_TREE; k++)
+        assert_true(built[k] > 0);
+    for (int k = 0; k < 2; k++)
+        picture_free(&q[k]);
+    cgt_scene_release(scene);
+    hard_scene_free(&s);
+    cgt_context_release(context);
+}
+
+/* Geometries of both kinds come and go under a tree. */
+static void geometries_come_and_go(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    hard_scene s = soup_make(SOUP_MIXED, 23, 400);
+    static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES};
+    for (int k = 0; k < 2; k++) {
+        const cgt_scene_options o = of_structure(structure[k]);
+        const cgt_camera camera = camera_before(&(cloud){.reach = 1});
+        picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
+        cgt_scene *scene;
+        assert_int_equal(hard_commit_with(context, &s, &o, &scene), CGT_OK);
+        for (uint32_t g = s.geometries; g-- > 0;) { /* the last one first: the ids stay those of a fresh scene */
+            hard_scene fewer = s;
+            fewer.geometries = g;
+            assert_int_equal(cgt_scene_remove_geometry(scene, g), CGT_OK);
+            assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+            check_as_one_cell(context, &fewer, scene, &camera, q);
+            const cgt_scene_statistics st = statistics_of(scene);
+            assert_int_equal(st.primitives, hard_scene_primitives(&fewer));
+            assert_int_equal(st.kd_leaves > 0, g > 0);
+        }
+        picture_free(&q[0]);
+        picture_free(&q[1]);
+        cgt_scene_release(scene);
+    }
+    hard_scene_free(&s);
+    cgt_context_release(context);
+}
+
+/* ---- what AUTO chooses ---- */
+
+/* Commits with AUTO; checks the hits too. */
+static cgt_scene_statistics choose(const hard_scene *s, cgt_ray_kind rays)
+{
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene_options o = of_structure(CGT_STRUCTURE_AUTO);
+    const cgt_camera camera = camera_before(&(cloud){.reach = 1});
+    picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
+    cgt_scene *scene;
+    o.rays = rays;
+    assert_int_equal(hard_commit_with(context, s, &o, &scene), CGT_OK);
+    check_as_one_cell(context, s, scene, &camera, q);
+    const cgt_scene_statistics st = statistics_of(scene);
+    print_message("%s\n", st.reason);
+    assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
+    assert_int_equal(strstr(st.reason, "kd-tree") != NULL, st.kd_leaves != 0);
+    picture_free(&q[0]);
+    picture_free(&q[1]);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+    return st;
+}
+
+/* An even cloud of small spheres. */
+static hard_scene even_cloud(uint32_t count)
+{
+    hard_scene s = {.place = {.scale = 1}, .random = random_make(5)};
+    for (uint32_t i = 0; i < count; i++) {
+        double center[3];
+        hard_point(&s, -1, 1, center);
+        hard_sphere(&s, center, 0.02);
+    }
+    assert_false(s.failed);
+    return s;
+}
+
+static void rays_that_run_apart_get_a_tree(void **state)
+{
+    (void)state;
+    hard_scene s = even_cloud(2000);
+    assert_int_equal(choose(&s, CGT_RAYS_INCOHERENT).structure, CGT_STRUCTURE_WIDE_TREE);
+    assert_int_equal(choose(&s, CGT_RAYS_CAMERA).structure, CGT_STRUCTURE_LOOSE_GRID);
+    hard_scene_free(&s);
+}
+
+/* A fine mesh in a coarse one that is hundreds of times as large. */
+static void a_teapot_in_a_stadium_gets_a_level_of_its_own(void **state)
+{
+    (void)state;
+    hard_scene s = {.place = {.scale = 1}, .random = random_make(6)};
+    closed_mesh stadium, teapot;
+    assert_true(closed_mesh_make(&stadium, (closed_kind)0, 8) && closed_mesh_make(&teapot, (closed_kind)0, 40));
+    hard_mesh(&s, &stadium, 1, (double[3]){0, 0, 0});
+    hard_mesh(&s, &teapot, 1.0 / 300, (double[3]){0.1, 0.05, 0.2});
+    closed_mesh_free(&stadium);
+    closed_mesh_free(&teapot);
+    assert_false(s.failed);
+    const cgt_scene_statistics st = choose(&s, CGT_RAYS_CAMERA);
+    assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
+    assert_true(st.levels > 1);
+    hard_scene_free(&s);
+}
+
+static void auto_chooses_for_any_scene(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < SOUP_KINDS; kind++)
+        for (uint32_t count = 0; count <= 600; count = 5 * count + (count < 4)) { /* 0, 1, 6, 30, 150 */
+            hard_scene s = soup_make((soup_kind)kind, 40 + (uint64_t)kind, count);
+            choose(&s, count % 2 ? CGT_RAYS_INCOHERENT : CGT_RAYS_CAMERA);
+            hard_scene_free(&s);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(options_out_of_range_are_refused),
+        cmocka_unit_test(a_scene_changes_its_structure),
+        cmocka_unit_test(geometries_come_and_go),
+        cmocka_unit_test(rays_that_run_apart_get_a_tree),
+        cmocka_unit_test(a_teapot_in_a_stadium_gets_a_level_of_its_own),
+        cmocka_unit_test(auto_chooses_for_any_scene),
+    };
+    test_begin("test_structure_choice");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,390 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Every structure finds the same hits, bit for bit: grids, kd-tree and kd-tree with ropes, by each builder, in each
+ * layout, traversed ray by ray and in packets, with one thread, three, and a task runner that runs backwards. What they
+ * are held against is a grid of one cell, in which every primitive meets every ray. */
+#include "structures/structure_scenes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "structures/picture.h"
+#include "hard_cases/hard_run.h"
+
+/* ---- contexts: every variant that runs here, with each kind of threads ---- */
+
+#define MOST_CONTEXTS 24u
+
+static cgt_context *contexts[MOST_CONTEXTS];
+static uint32_t context_count;
+
+static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    (void)user;
+    for (uint32_t i = count; i-- > 0;)
+        task(argument, i);
+}
+
+static int make_contexts(void **state)
+{
+    (void)state;
+    FOR_EACH_VARIANT(variant)
+    for (uint32_t kind = 0; kind < 3 && context_count < MOST_CONTEXTS; kind++) {
+        cgt_context_options o;
+        cgt_context_options_init(&o);
+        o.variant = variant;
+        o.threads = kind == 1 ? 3 : 1;
+        o.tasks.run = kind == 2 ? run_backwards : NULL;
+        if (cgt_context_create(&o, &contexts[context_count++]) != CGT_OK)
+            return -1;
+    }
+    return 0;
+}
+
+static int free_contexts(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < context_count; i++)
+        cgt_context_release(contexts[i]);
+    return 0;
+}
+
+/* ---- ways to the same hits ---- */
+
+typedef struct layout {
+    cgt_kd_layout layout;
+    uint32_t break_level;
+} layout;
+
+static const layout layouts[] = {{CGT_KD_LAYOUT_DEPTH_FIRST, 0},
+                                 {CGT_KD_LAYOUT_BREADTH_FIRST, 0},
+                                 {CGT_KD_LAYOUT_MIXED, 1},
+                                 {CGT_KD_LAYOUT_MIXED, 3},
+                                 {CGT_KD_LAYOUT_MIXED, 50}};
+#define TREES (2 * 2 * (uint32_t)TEST_COUNT(layouts))
+static const cgt_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRID},
+                                          {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {5, 9, 7}},
+                                          {.structure = CGT_STRUCTURE_LOOSE_GRID},
+                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
+                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}},
+                                          {.structure = CGT_STRUCTURE_WIDE_TREE}};
+#define WAYS (TREES + (uint32_t)TEST_COUNT(grids))
+
+static cgt_scene_options scene_way(uint32_t number)
+{
+    cgt_scene_options o;
+    cgt_scene_options_init(&o);
+    if (number < TREES) {
+        o.structure = number % 2 ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD;
+        o.kd_builder = number / 2 % 2 ? CGT_KD_BUILDER_SWEEP : CGT_KD_BUILDER_BINNED;
+        o.kd_layout = layouts[number / 4].layout;
+        o.kd_break_level = layouts[number / 4].break_level;
+    } else {
+        o.structure = grids[number - TREES].structure;
+        memcpy(o.resolution, grids[number - TREES].resolution, sizeof o.resolution);
+    }
+    return o;
+}
+
+static cgt_trace_options trace_way(uint32_t number, cgt_trace_statistics *statistics)
+{
+    cgt_trace_options o;
+    cgt_trace_options_init(&o);
+    o.kd_traversal = number % 2 ? CGT_KD_TRAVERSAL_PACKET : CGT_KD_TRAVERSAL_SINGLE;
+    o.mailbox = number / 2 % 2;
+    o.packet = (uint32_t[]){0, 4, 8, 16}[number / 3 % 4];
+    o.tile = o.packet == 4 ? CGT_TILE_STRIP : CGT_TILE_AUTO;
+    o.cull = (cgt_cull)(number % 3);
+    o.statistics = statistics;
+    return o;
+}
+
+/* ---- what is asked, and the answers of one cell ---- */
+
+#define MOST_RAYS 640u
+#define RAYS test_between(320, MOST_RAYS)
+#define FRAMES 2 /* perspective, orthographic */
+static const uint32_t sizes[FRAMES][2] = {{37, 21}, {19, 43}};
+
+typedef struct answers {
+    full_hit *frame[FRAMES], *ray;
+} answers;
+
+typedef struct question {
+    structure_scene s;
+    cgt_camera camera[FRAMES];
+    answers is[2]; /* in ROBUST, in EXACT */
+    picture picture[FRAMES];
+    uint64_t hits, fast, fast_rays; /* fast: answers of FAST that are not those of ROBUST */
+} question;
+
+static void fail_way(const question *q, const cgt_scene_options *so, const cgt_trace_options *to, const char *what,
+                     uint32_t i, const full_hit *got, const full_hit *is)
+{
+    fail_msg("%s: structure %d, builder %d, layout %d, break level %u, traversal %d, mailbox %d, packet %u, precision "
+             "%d: %s %u: geometry %d, primitive %d, t %a; in one cell %d, %d, %a",
+             q->s.name, (int)so->structure, (int)so->kd_builder, (int)so->kd_layout, so->kd_break_level,
+             (int)to->kd_traversal, to->mailbox, to->packet, (int)to->precision, what, i, (int)got->geometry,
+             (int)got->primitive, (double)got->t, (int)is->geometry, (int)is->primitive, (double)is->t);
+}
+
+static cgt_scene *commit(const question *q, cgt_context *context, const cgt_scene_options *options)
+{
+    cgt_scene *scene;
+    if (hard_commit_with(context, &q->s.scene, options, &scene) != CGT_OK)
+        fail_msg("%s: %s", q->s.name, context_message(context));
+    return scene;
+}
+
+static full_hit *copy_of(const full_hit *hits, size_t count)
+{
+    full_hit *copy = malloc((count + 1) * sizeof *copy);
+    assert_non_null(copy);
+    memcpy(copy, hits, count * sizeof *copy);
+    return copy;
+}
+
+/* Traces the scene as one cell. */
+static question ask(structure_kind kind, uint64_t stream)
+{
+    question q = {.s = structure_scene_make(kind, stream)};
+    cgt_scene_options one_cell;
+    full_hit hit[MOST_RAYS];
+    cgt_scene_options_init(&one_cell);
+    one_cell.structure = CGT_STRUCTURE_QUEUE_GRID;
+    memcpy(one_cell.resolution, (uint32_t[]){1, 1, 1}, sizeof one_cell.resolution);
+    structure_rays(&q.s, RAYS);
+    cgt_scene *scene = commit(&q, contexts[0], &one_cell);
+    for (int f = 0; f < FRAMES; f++) {
+        q.camera[f] = camera_random(&q.s.scene.random, &q.s.where);
+        q.camera[f].projection = f ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+        q.camera[f].height = 2 * q.s.where.reach;
+        q.picture[f] = picture_make(sizes[f][0], sizes[f][1]);
+    }
+    for (int exact = 0; exact < 2; exact++) {
+        cgt_trace_options o;
+        cgt_trace_options_init(&o);
+        o.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+        for (int f = 0; f < FRAMES; f++) {
+            picture_trace(scene, &q.camera[f], &o, &q.picture[f]);
+            q.is[exact].frame[f] = copy_of(q.picture[f].hit, q.picture[f].p.elements);
+        }
+        assert_int_equal(trace_array(scene, q.s.scene.ray, RAYS, hit, &o), CGT_OK);
+        q.is[exact].ray = copy_of(hit, RAYS);
+    }
+    for (uint32_t i = 0; i < RAYS; i++)
+        q.hits += q.is[0].ray[i].geometry != CGT_NONE;
+    cgt_scene_release(scene);
+    return q;
+}
+
+static void forget(question *q)
+{
+    for (int f = 0; f < FRAMES; f++) {
+        picture_free(&q->picture[f]);
+        for (int exact = 0; exact < 2; exact++)
+            free(q->is[exact].frame[f]);
+    }
+    for (int exact = 0; exact < 2; exact++)
+        free(q->is[exact].ray);
+    structure_scene_free(&q->s);
+}
+
+/* ---- statistics ---- */
+
+static void check_tree(const question *q, const cgt_scene_options *o, const cgt_scene_statistics *st)
+{
+    const uint32_t skipped = st->skipped_not_finite + st->skipped_radius + st->skipped_degenerate,
+                   valid = st->primitives - skipped;
+    const bool ropes = o->structure == CGT_STRUCTURE_KD_ROPES;
+    assert_int_equal(st->kd_nodes, 2 * st->kd_leaves - 1);
+    assert_true(st->kd_empty_leaves < st->kd_leaves);
+    assert_true(st->kd_depth <= (uint32_t)(8 + 1.3 * log2(valid)));
+    assert_true(st->kd_depth >= ceil(log2(st->kd_leaves)));
+    assert_true(st->kd_largest_leaf >= 1 && st->kd_largest_leaf <= valid);
+    assert_true(st->references <= (uint64_t)st->kd_largest_leaf * (st->kd_leaves - st->kd_empty_leaves));
+    assert_true(st->references >= valid);
+    assert_true(st->kd_cost > 0 && isfinite(st->kd_cost));
+    assert_int_equal(st->kd_builder, o->kd_builder);
+    assert_int_equal(st->kd_layout, o->kd_layout);
+    assert_int_equal(st->reference_bits, 32);
+    assert_true(st->structure_bytes >= st->kd_nodes * (size_t)8 + (ropes ? st->kd_leaves * (size_t)80 : 0));
+    assert_true(st->structure_bytes <= 8 + st->kd_nodes * (size_t)8 + st->references * 4 + st->kd_leaves * (size_t)80);
+    assert_true(q->s.skipped == 0 || skipped == q->s.skipped);
+}
+
+static bool is_tree(const cgt_scene_options *o)
+{
+    return o->structure == CGT_STRUCTURE_KD || o->structure == CGT_STRUCTURE_KD_ROPES;
+}
+
+/* Returns whether there is a structure: not over nothing, nor where coordinates are too large for one. */
+static bool check_commit(const question *q, const cgt_scene *scene, const cgt_scene_options *o)
+{
+    cgt_scene_statistics st;
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    const bool tree = is_tree(o);
+    assert_int_equal(st.structure, o->structure);
+    assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
+    assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
+    assert_int_equal(st.geometries, q->s.scene.geometries);
+    const bool there = st.cells || st.kd_nodes || st.wide_nodes, wide = o->structure == CGT_STRUCTURE_WIDE_TREE;
+    const bool some = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
+    assert_true(there || !some || strstr(q->s.name, "beyond"));
+    if (tree && there)
+        check_tree(q, o, &st);
+    assert_int_equal(st.cells != 0, there && !tree && !wide);
+    assert_int_equal(st.wide_nodes != 0, there && wide);
+    assert_int_equal(st.kd_leaves != 0, there && tree);
+    return there;
+}
+
+static void check_counts(const cgt_trace_statistics *c, const cgt_scene_options *o, bool there, uint64_t rays,
+                         uint64_t hits)
+{
+    const bool tree = there && (is_tree(o) || o->structure == CGT_STRUCTURE_WIDE_TREE);
+    assert_int_equal(c->rays, rays);
+    assert_int_equal(c->hits, hits);
+    assert_int_equal(c->rope_loops, 0);
+    assert_true(!hits || !tree || c->leaves);
+    assert_int_equal(c->wide_rays != 0, o->structure == CGT_STRUCTURE_WIDE_TREE && there && rays);
+    assert_true(!hits || !there || !is_tree(o) || c->references);
+    assert_true(o->structure != CGT_STRUCTURE_KD_ROPES || c->rope_steps <= c->leaves);
+    assert_true(tree ? !c->cells && !c->slices : !c->nodes && !c->leaves);
+    assert_true(o->structure == CGT_STRUCTURE_KD_ROPES || !c->rope_steps);
+    assert_true(c->exact_tests <= c->double_tests && c->double_tests <= c->ray_tests);
+}
+
+/* ---- one way ---- */
+
+static void compare(const question *q, const cgt_scene_options *so, const cgt_trace_options *to, const char *what,
+                    const full_hit *got, const full_hit *is, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (memcmp(&got[i], &is[i], sizeof *got) != 0)
+            fail_way(q, so, to, what, i, &got[i], &is[i]);
+}
+
+/* The rays as arrays of their own with gaps; those of ranges that are the defaults are left out where all are. */
+static void trace_strided(const cgt_scene *scene, const truth_ray *ray, uint32_t step, full_hit *hit,
+                          const cgt_trace_options *o)
+{
+    float *in = malloc(8 * (size_t)RAYS * step * sizeof *in), *array[8];
+    assert_non_null(in);
+    for (uint32_t k = 0; k < 8; k++) {
+        array[k] = in + (size_t)k * RAYS * step;
+        for (uint32_t i = 0; i < RAYS * step; i++)
+            array[k][i] = NAN; /* in the gaps */
+        for (uint32_t i = 0; i < RAYS; i++)
+            memcpy(&array[k][i * step], (const float *)(const void *)&ray[i] + k, sizeof(float));
+    }
+    const cgt_rays rays = {.count = RAYS,
+                           .stride = step * sizeof(float),
+                           .org = {array[0], array[1], array[2]},
+                           .dir = {array[3], array[4], array[5]},
+                           .t_min = array[6],
+                           .t_max = array[7]};
+    const cgt_hits hits = hit_array(hit);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, o), CGT_OK);
+    free(in);
+}
+
+static void check_any_hit(const question *q, const cgt_scene *scene, const cgt_scene_options *so,
+                          const cgt_trace_options *to, bool there)
+{
+    uint8_t occluded[MOST_RAYS];
+    const cgt_rays rays = ray_array(q->s.scene.ray, RAYS);
+    memset(occluded, 0x77, sizeof occluded);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, to), CGT_OK);
+    for (uint32_t i = 0; i < RAYS; i++)
+        if (occluded[i] != (q->is[0].ray[i].geometry != CGT_NONE))
+            fail_way(q, so, to, "any hit of ray", i, &q->is[0].ray[i], &q->is[0].ray[i]);
+    check_counts(to->statistics, so, there, RAYS, q->hits);
+}
+
+/* FAST may differ, but rarely: it is traced for that, too. */
+static void count_fast(question *q, const cgt_scene *scene, cgt_trace_options o)
+{
+    full_hit hit[MOST_RAYS];
+    o.precision = CGT_PRECISION_FAST;
+    assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, &o), CGT_OK);
+    assert_int_equal(o.statistics->rope_loops, 0);
+    q->fast_rays += RAYS;
+    for (uint32_t i = 0; i < RAYS; i++)
+        q->fast += hit[i].primitive != q->is[0].ray[i].primitive || hit[i].geometry != q->is[0].ray[i].geometry;
+}
+
+static void check_way(question *q, cgt_context *context, uint32_t number, uint32_t round)
+{
+    const cgt_scene_options so = scene_way(number);
+    cgt_trace_statistics counts;
+    full_hit hit[MOST_RAYS];
+    cgt_scene *scene = commit(q, context, &so);
+    const bool there = check_commit(q, scene, &so);
+    for (uint32_t traversal = 0; traversal < 2; traversal++) {
+        cgt_trace_options to = trace_way(2 * (number + round) + traversal, &counts);
+        const bool exact = (number + round + traversal) % 4 == 0;
+        const answers *is = &q->is[exact];
+        to.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+        for (int f = 0; f < FRAMES; f++) {
+            picture_trace(scene, &q->camera[f], &to, &q->picture[f]);
+            compare(q, &so, &to, f ? "orthographic pixel" : "pixel", q->picture[f].hit, is->frame[f],
+                    sizes[f][0] * sizes[f][1]);
+        }
+        memset(hit, 0x77, sizeof hit);
+        if ((number + traversal) % 3)
+            trace_strided(scene, q->s.scene.ray, 1 + number % 3, hit, &to);
+        else
+            assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, &to), CGT_OK);
+        compare(q, &so, &to, "ray", hit, is->ray, RAYS);
+        check_counts(&counts, &so, there, RAYS, q->hits);
+        check_any_hit(q, scene, &so, &to, there);
+        count_fast(q, scene, to);
+    }
+    cgt_scene_release(scene);
+}
+
+/* ---- all ways ---- */
+
+static void test_kind(void **state)
+{
+    const structure_kind kind = *(const structure_kind *)*state;
+    const uint32_t scaled = test_scaled(4), rounds = kind == STRUCTURE_LARGE || kind == STRUCTURE_BEYOND ? 1 : scaled;
+    /* of the ways, where it is slow; prime to them */
+    const uint32_t step = test_samples() ? 11 : test_scaled(10) < 2 ? 3 : 1;
+    for (uint32_t round = 0; round < rounds; round++) {
+        question q = ask(kind, 100 * (uint64_t)kind + round);
+        for (uint32_t number = test_sample_start(round + (uint32_t)kind, step); number < WAYS; number += step)
+            check_way(&q, contexts[(number + 7 * round + (uint32_t)kind) % context_count], number, round);
+        print_message("%s: %llu of %u rays hit; FAST: %llu of %llu other hits\n", q.s.name, (unsigned long long)q.hits,
+                      RAYS, (unsigned long long)q.fast, (unsigned long long)q.fast_rays);
+        if (kind < STRUCTURE_COINCIDENT) {
+            assert_true(q.hits > RAYS / 100);
+            assert_true(q.fast < q.fast_rays / 50);
+        }
+        if (kind == STRUCTURE_NONE || kind == STRUCTURE_ALL_SKIPPED)
+            assert_int_equal(q.hits, 0);
+        forget(&q);
+    }
+}
+
+int main(void)
+{
+    static struct CMUnitTest tests[STRUCTURE_KINDS];
+    static structure_kind kinds[STRUCTURE_KINDS];
+    static char name[STRUCTURE_KINDS][64];
+    test_begin("test_structures");
+    for (size_t i = 0; i < TEST_COUNT(tests); i++) {
+        kinds[i] = (structure_kind)i;
+        snprintf(name[i], sizeof name[i], "%s: %s",
+                 i < STRUCTURE_CLOUD        ? "triangles"
+                 : i < STRUCTURE_COINCIDENT ? "spheres"
+                                            : "scene",
+                 structure_name(kinds[i]));
+        tests[i] = (struct CMUnitTest){.name = name[i], .test_func = test_kind, .initial_state = &kinds[i]};
+    }
+    return cmocka_run_group_tests(tests, make_contexts, free_contexts);
+}

@@ -1,0 +1,18 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Whether a shape touches a closed box, decided exactly: what leaves of a kd-tree must list. */
+#ifndef KD_TOUCH_H
+#define KD_TOUCH_H
+
+#include "model/primitive.h"
+
+typedef struct kd_box {
+    float low[3], high[3];
+} kd_box;
+
+/* A sphere is its surface: a box within the ball does not touch it. The shape is finite, a triangle has an area, and
+ * coordinates are within CGT_WORLD_LARGEST. */
+bool kd_touches(const cgt_shape *shape, const kd_box *box);
+
+#endif

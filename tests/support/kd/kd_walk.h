@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What the parts of the checker of kd-trees share. */
+#ifndef KD_WALK_H
+#define KD_WALK_H
+
+#include "support/kd/kd_touch.h"
+#include "model/committed_scene.h"
+
+typedef struct kd_walk {
+    const cgt_kd_tree *tree;
+    const cgt_world *world;
+    kd_box *box;      /* by node */
+    uint32_t *parent; /* by node; CGT_NONE for the root and for nodes that are not reached */
+    bool *reached;    /* by node */
+    double (*low)[3]; /* bounds of valid objects, by object */
+    double (*high)[3];
+    bool *valid;    /* by object */
+    uint8_t *used;  /* by reference */
+    uint32_t *list; /* objects that may touch the nodes on the way from the root, one list after the other */
+    uint32_t depth, leaves, empty_leaves;
+    bool faulty;
+} kd_walk;
+
+/* Keeps the first message. */
+void kd_fault(kd_walk *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* After the walk: leaves in the order of the nodes, and their ropes. */
+void kd_check_leaves(kd_walk *w);
+
+#endif

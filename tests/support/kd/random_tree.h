@@ -1,0 +1,31 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Valid kd-trees that no heuristic would make, as a builder leaves them: random axes and splits, some on a bound or on
+ * a coordinate of an object, some that cut off a thin slab or nothing, pairs of children in random order with gaps.
+ * Each object is in every leaf whose closed box its bounds touch. */
+#ifndef RANDOM_TREE_H
+#define RANDOM_TREE_H
+
+#include "build/kd/kd_build.h"
+#include "support/random.h"
+
+typedef struct random_tree {
+    cgt_kd_raw raw; /* points into the next two */
+    cgt_kd_node *node;
+    uint32_t *reference;
+} random_tree;
+
+/* Bounds of a valid object, rounded outwards. */
+void object_bounds(const cgt_objects *objects, uint32_t object, double low[3], double high[3]);
+
+/* Over the valid objects of a world, of which there is at least one. max_depth: inner nodes above a leaf, below
+ * CGT_KD_MAX_DEPTH. A node of more than leaf_size objects is mostly split, one of fewer seldom. */
+random_tree random_tree_make(test_random *r, const cgt_world *world, uint32_t max_depth, uint32_t leaf_size);
+
+/* One leaf with all valid objects. */
+random_tree random_tree_leaf(const cgt_world *world);
+
+void random_tree_free(random_tree *tree);
+
+#endif

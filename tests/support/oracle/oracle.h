@@ -1,0 +1,82 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The truth about rays, spheres and triangles: hit or miss and the order of hits are decided exactly on the float
+ * input, in whole numbers as wide as it takes; t, u, v and the normal are computed from those in binary128. It shares
+ * nothing with the library: not its formulas, not its arithmetic, not its structures. */
+#ifndef ORACLE_H
+#define ORACLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "support/oracle/truth.h"
+
+#define ORACLE_NONE UINT32_MAX
+
+typedef enum oracle_kind { ORACLE_SPHERE, ORACLE_TRIANGLE } oracle_kind;
+
+typedef struct oracle_primitive {
+    oracle_kind kind;
+    uint32_t geometry, primitive; /* ids, for ties and for verdicts */
+    float data[9];                /* x, y, z, r; or three vertices */
+} oracle_primitive;
+
+/* The primitives may be the caller's own array. Without bounds all is right, too, but large scenes take ten times as
+ * long. */
+typedef struct oracle_scene {
+    const oracle_primitive *primitive;
+    uint32_t count;
+    const struct oracle_bounds *bounds; /* of the primitives, by the functions below; or NULL */
+} oracle_scene;
+
+/* ---- Scenes of their own memory: start with {0}, add geometries, end with oracle_scene_free ---- */
+
+/* What is wrong with the input, or lack of memory, ends the program with a message: a test cannot go on without. */
+void oracle_scene_add_spheres(oracle_scene *scene, uint32_t geometry, const float (*sphere)[4], uint32_t count);
+
+/* index: NULL for 3i, 3i + 1, 3i + 2 */
+void oracle_scene_add_triangles(oracle_scene *scene, uint32_t geometry, const float (*vertex)[3], uint32_t vertex_count,
+                                const uint32_t (*index)[3], uint32_t count);
+
+void oracle_scene_free(oracle_scene *scene);
+
+/* ---- Hits ---- */
+
+typedef struct oracle_hit {
+    uint32_t index;       /* in the scene; ORACLE_NONE: no hit */
+    bool far;             /* a sphere's second root */
+    truth_real t;         /* within some units in the last place of truth_real, as u, v and a triangle's normal are */
+    truth_real uv[2];     /* 0 on spheres */
+    truth_real normal[3]; /* of unit length; of a point, which has none, against the ray */
+} oracle_hit;
+
+/* The nearest hit by the contract of cgt.h, by brute force over the scene. Primitives that are not finite, spheres of
+ * negative radius and triangles without area take no part. A ray that is not finite or has no direction hits nothing. */
+oracle_hit oracle_trace(const oracle_scene *scene, const truth_ray *ray);
+
+/* The same for one primitive; false where it is not hit in the ray's range. The hit's index is 0. */
+bool oracle_hits(const oracle_primitive *primitive, const truth_ray *ray, oracle_hit *hit);
+
+/* What is wrong with an answer: 0, or ... */
+typedef enum oracle_verdict {
+    ORACLE_RIGHT = 0,
+    ORACLE_MISSED,   /* there is a hit, and none was given */
+    ORACLE_INVENTED, /* a hit was given, and there is none */
+    ORACLE_WRONG     /* another primitive is the nearest, or wins the tie */
+} oracle_verdict;
+
+/* Judges the primitive that an answer names (geometry ORACLE_NONE: no hit). Where t lies within 2^-6 ulp of where the
+ * range's end rounds, hit and miss are both right; nothing else is in doubt. *truth: the exact hit; where such a doubt
+ * makes another answer right, that answer's. */
+oracle_verdict oracle_judge(const oracle_scene *scene, const truth_ray *ray, uint32_t geometry, uint32_t primitive,
+                            oracle_hit *truth);
+
+/* Distance of a float from an exact value in ulp of the exact value rounded to float (denormals: 2^-149); infinity
+ * where the float is not finite. */
+double oracle_ulp(truth_real exact, float got);
+
+/* Angle in radians between an exact normal and a given one; infinity where that is no direction. */
+double oracle_angle(const truth_real exact[3], const float got[3]);
+
+#endif

@@ -1,0 +1,433 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Frames by tiles, of the variant that this is compiled for, are those that packets through the queue grid give, bit for
+ * bit; and the march over the grid leaves out nothing that a ray hits. */
+#include "hard_cases/hard_run.h"
+#include "tile/tile_compare.h"
+
+#include "kernel/tile/tile_march.h"
+
+static cgt_context *context;
+
+static cgt_scene *queue_scene(const float (*sphere)[4], uint32_t count)
+{
+    cgt_scene_options options;
+    cgt_scene_options_init(&options);
+    options.structure = CGT_STRUCTURE_QUEUE_GRID;
+    return scene_of(context, &options, sphere, count);
+}
+
+static const uint32_t sizes[][2] = {{1, 1}, {3, 70}, {64, 64}, {65, 63}, {100, 65}};
+
+/* A huge one, one about the eye, points, and a copy. */
+static void add_special_spheres(cloud *c, const float eye[3])
+{
+    for (int a = 0; a < 3; a++) {
+        c->sphere[0][a] = c->middle[a] - 30 * c->reach;
+        c->sphere[1][a] = eye[a] + 1e-3f * c->reach;
+    }
+    c->sphere[0][3] = 49 * c->reach;
+    for (uint32_t i = 2; i < 6; i++)
+        c->sphere[i][3] = 0;
+    memcpy(c->sphere[7], c->sphere[6], sizeof c->sphere[7]);
+}
+
+/* Clouds of every kind from outside and from within; ranges; spheres about the eye. */
+static void frames_of_clouds(void **state)
+{
+    (void)state;
+    uint32_t parallel = 0;
+    for (int kind = 0; kind < CLOUD_KINDS; kind++) {
+        test_random r = random_make(300 + (uint64_t)kind);
+        frames_tally tally = {0};
+        for (uint32_t round = 0; round < test_scaled(8); round++) {
+            cloud c = cloud_make(&r, (cloud_kind)kind, 1 + random_below(&r, round % 4 ? 300 : 3000));
+            loose_reference grid;
+            cgt_camera camera = camera_random(&r, &c);
+            if (round % 4 == 1 && c.count > 20)
+                add_special_spheres(&c, camera.eye);
+            cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+            assert_true(loose_reference_make(&scene->world.objects, random_float(&r, 0.5f, 16), &grid));
+            for (uint32_t i = 0; i < 3; i++) {
+                const uint32_t *size = sizes[random_below(&r, TEST_COUNT(sizes))];
+                camera = camera_random(&r, &c);
+                camera.projection = i ? CGT_PERSPECTIVE : camera.projection;
+                if (i == 2)
+                    make_orthographic(&r, c.reach * random_log(&r, 0.01f, 8), &camera);
+                if (random_below(&r, 4) == 0)
+                    camera.t_min = c.reach * random_float(&r, 0, 4);
+                if (random_below(&r, 4) == 0)
+                    camera.t_max = camera.t_min + c.reach * random_log(&r, 1e-3f, 100);
+                compare_frame(scene, &grid, &camera, size[0], size[1], cloud_name((cloud_kind)kind), &tally);
+            }
+            loose_reference_free(&grid);
+            cgt_scene_release(scene);
+            cloud_free(&c);
+        }
+        print_tally(cloud_name((cloud_kind)kind), &tally);
+        assert_true(tally.served > 0);
+        parallel += tally.parallel; /* not where origins of float are some pixels apart */
+    }
+    assert_true(parallel > 0);
+}
+
+static void frame_of_many_tiles(void **state)
+{
+    (void)state;
+    test_random r = random_make(320);
+    cloud c = cloud_make(&r, CLOUD_UNIFORM, 2000);
+    loose_reference grid;
+    frames_tally tally = {0};
+    cgt_camera camera = camera_before(&c);
+    cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+    assert_true(loose_reference_make(&scene->world.objects, 8, &grid));
+    compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
+    make_orthographic(&r, 2 * c.reach, &camera);
+    compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
+    print_tally("many tiles", &tally);
+    assert_int_equal(tally.served, 2);
+    /* culling and windows are of use: by far not every object meets every ray */
+    assert_true(tally.counts.ray_tests < tally.counts.rays * 100);
+    loose_reference_free(&grid);
+    cgt_scene_release(scene);
+    cloud_free(&c);
+}
+
+/* A whole frame by tiles into planes that begin on lines, past the caches or not; 8 planes of `pixels`. */
+static void trace_lines(const cgt_world *world, const cgt_camera_rays *rays, uint32_t width, uint32_t height,
+                        bool stream, uint32_t *to)
+{
+    const size_t pixels = (size_t)width * height;
+    const cgt_trace_settings settings = {.packet = 8,
+                                         .precision = CGT_PRECISION_ROBUST,
+                                         .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY |
+                                                   CGT_FIELD_NORMAL | CGT_FIELD_UV};
+    cgt_counts counts = {0};
+    cgt_region r = {.width = width, .height = height, .row_stride = width, .stream = stream};
+    memset(to, stream ? 0x55 : 0x77, 8 * pixels * sizeof *to);
+    r.t = (float *)to;
+    r.primitive = to + pixels;
+    r.geometry = to + 2 * pixels;
+    for (int a = 0; a < 3; a++)
+        r.normal[a] = (float *)to + (3 + (size_t)a) * pixels;
+    r.u = (float *)to + 6 * pixels;
+    r.v = (float *)to + 7 * pixels;
+    CGT_KERNEL(cgt_trace_tile)(world, rays, &settings, &r, &counts);
+}
+
+static void compare_lines(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera)
+{
+    const uint32_t width = 192, height = 128;
+    const size_t bytes = 8 * (size_t)width * height * sizeof(uint32_t);
+    const cgt_camera_rays rays = rays_of(camera, width, height);
+    uint32_t *memory = aligned_alloc(64, 2 * bytes), *other = memory + bytes / sizeof *memory;
+    cgt_world world = scene->world;
+    assert_non_null(memory);
+    world.loose = grid->grid;
+    trace_lines(&world, &rays, width, height, false, memory);
+    trace_lines(&world, &rays, width, height, true, other);
+    assert_memory_equal(memory, other, bytes);
+    free(memory);
+}
+
+/* Objects in few of the tiles, or in none: whole tiles see nothing. */
+static void frames_of_sky(void **state)
+{
+    (void)state;
+    test_random r = random_make(360);
+    frames_tally tally = {0};
+    for (uint32_t round = 0; round < 6; round++) {
+        cloud c = cloud_make(&r, CLOUD_UNIFORM, 100);
+        loose_reference grid;
+        cgt_camera camera = camera_before(&c);
+        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        for (int a = 0; a < 3; a++) { /* to the side, with the cloud in a corner, or behind */
+            const float away = camera.target[a] - camera.eye[a];
+            camera.eye[a] -= 8 * away;
+            camera.target[a] += (a == 0 ? 2 * c.reach : 0) - (round % 3 == 2 ? 20 * away : 0);
+        }
+        if (round > 2)
+            make_orthographic(&r, 12 * c.reach, &camera);
+        compare_frame(scene, &grid, &camera, 192, 128, "sky", &tally);
+        compare_lines(scene, &grid, &camera);
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_tally("sky", &tally);
+    assert_true(tally.served == tally.frames && tally.counts.hits > 0);
+    assert_true(tally.counts.hits < tally.counts.rays / 8);
+}
+
+/* Pictures from far below a pixel of the usual ones to far above the usual scenes, each of its own scene. */
+static void orthographic_frames_at_every_scale(void **state)
+{
+    (void)state;
+    static const int exponent[] = {-36, -24, -8, 8, 24, 36};
+    test_random r = random_make(350);
+    frames_tally tally = {0};
+    for (uint32_t round = 0; round < 6 + test_scaled(18); round++) {
+        const float scale = ldexpf(1, exponent[round % 6]);
+        cloud c = cloud_make(&r, round % 12 < 6 ? CLOUD_UNIFORM : CLOUD_MIXED, 200);
+        loose_reference grid;
+        for (uint32_t i = 0; i < 4 * c.count; i++)
+            c.sphere[i / 4][i % 4] *= scale;
+        for (int a = 0; a < 3; a++)
+            c.middle[a] *= scale;
+        c.reach *= scale;
+        cgt_camera camera = round % 3 ? camera_random(&r, &c) : camera_before(&c);
+        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        make_orthographic(&r, 2 * c.reach, &camera);
+        compare_frame(scene, &grid, &camera, 70, 66, "scales", &tally);
+        camera.height *= 0x1p-6f;
+        compare_frame(scene, &grid, &camera, 70, 66, "scales", &tally);
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_tally("scales", &tally);
+    assert_true(tally.parallel >= tally.frames / 2 && tally.counts.hits > 0);
+}
+
+/* Centres without radii beside them, and a radius for all: what no vector load reads. */
+static void frames_of_two_geometries(void **state)
+{
+    (void)state;
+    test_random r = random_make(330);
+    frames_tally tally = {0};
+    for (uint32_t round = 0; round < test_scaled(4); round++) {
+        cloud c = cloud_make(&r, CLOUD_UNIFORM, 400);
+        float center[200][3];
+        uint32_t id;
+        cgt_scene *scene;
+        loose_reference grid;
+        for (uint32_t i = 0; i < 200; i++)
+            memcpy(center[i], c.sphere[200 + i], sizeof center[i]);
+        const cgt_spheres second = {.count = 200, .centers = center[0], .radius = 0.1f * c.reach};
+        cgt_spheres first = spheres_of((const float(*)[4])c.sphere, 200);
+        const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+        assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+        assert_int_equal(cgt_scene_add_spheres(scene, &first, &id), CGT_OK);
+        assert_int_equal(cgt_scene_add_spheres(scene, &second, &id), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        cgt_camera camera = camera_before(&c);
+        compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
+        make_orthographic(&r, c.reach, &camera);
+        compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_tally("two geometries", &tally);
+    assert_true(tally.served == tally.frames && tally.counts.hits > 0);
+}
+
+/* A picture's height as a share of the world's extent. */
+static float height_of(const cgt_world *world, float share)
+{
+    float most = 0;
+    for (int a = 0; a < 3; a++)
+        most = fmaxf(most, world->high[a] - world->low[a]);
+    const float height = most * share;
+    return height > 0 && height < INFINITY ? height : 1;
+}
+
+/* Cameras where the hard rays start, looking where they look; then orthographic ones there. */
+static void frames_of_hard_cases(void **state)
+{
+    (void)state;
+    frames_tally tally = {0};
+    test_random r = random_make(335);
+    uint32_t cases = 0;
+    /* where it is slow smaller pictures, and of each case as many rays as there are openings below */
+    const bool small = test_samples();
+    const uint32_t width = small ? 13 : 21, height = small ? 11 : 23, rays_of_case = small ? 3 : 3 + test_scaled(5);
+    for (size_t i = 0; i < hard_case_count(); i++) {
+        const hard_case *h = hard_case_at(i);
+        hard_scene s;
+        cgt_scene *scene;
+        loose_reference grid;
+        const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+        assert_true(hard_case_make(h, rays_of_case, &s));
+        assert_int_equal(hard_commit_with(context, &s, &options, &scene), CGT_OK);
+        if (!scene->world.valid) {
+            cgt_scene_release(scene);
+            hard_scene_free(&s);
+            continue;
+        }
+        cases++;
+        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        for (uint32_t k = 0; k < s.rays; k++) {
+            cgt_camera camera;
+            cgt_camera_rays rays;
+            char message[160];
+            const truth_ray *ray = &s.ray[k];
+            cgt_camera_init(&camera);
+            for (int a = 0; a < 3; a++) {
+                camera.eye[a] = ray->org[a];
+                camera.target[a] = ray->org[a] + ray->dir[a];
+            }
+            camera.up[0] = 0.3f;
+            camera.fov = k % 3 ? 20.f * (float)(k % 3) : 1;
+            if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
+                compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
+            make_orthographic(&r, height_of(&scene->world, random_log(&r, 1e-3f, 4)), &camera);
+            if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
+                compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
+        }
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        hard_scene_free(&s);
+    }
+    print_tally("hard cases", &tally);
+    assert_true(cases >= 3 && tally.served >= 3 && tally.parallel >= 3);
+}
+
+/* A wall before the camera, which all its rays meet at one t, and one right behind it; where the range ends or begins
+ * there, every pixel is for double to decide. */
+static void frames_of_walls_where_ranges_end(void **state)
+{
+    (void)state;
+    const float wall = 3, behind = nextafterf(wall, 4), beyond = nextafterf(behind, 4), before = nextafterf(wall, 0);
+    const float end[][2] = {{0, wall},          {0, before},        {0, behind},        {wall, INFINITY},
+                            {behind, INFINITY}, {beyond, INFINITY}, {before, INFINITY}, {0, INFINITY}};
+    const float z[2] = {-wall, -behind};
+    float vertex[2][4][3];
+    frames_tally tally = {0};
+    uint64_t hits[sizeof end / sizeof end[0]];
+    uint32_t id;
+    cgt_scene *scene;
+    loose_reference grid;
+    for (int w = 0; w < 2; w++)
+        for (int k = 0; k < 4; k++) {
+            vertex[w][k][0] = k & 1 ? 5.f : -5.f;
+            vertex[w][k][1] = k & 2 ? 5.f : -5.f;
+            vertex[w][k][2] = z[w];
+        }
+    const uint32_t index[4][3] = {{4, 5, 6}, {7, 6, 5}, {0, 1, 2}, {3, 2, 1}}; /* the nearer one has higher numbers */
+    const cgt_triangles walls = {.count = 4, .indices = index[0], .vertex_count = 8, .vertices = vertex[0][0]};
+    const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
+    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_triangles(scene, &walls, &id), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+    for (size_t i = 0; i < sizeof end / sizeof end[0]; i++) {
+        const uint64_t so_far = tally.counts.hits;
+        cgt_camera camera;
+        cgt_camera_init(&camera);
+        camera.eye[2] = 0;
+        camera.target[2] = -1;
+        camera.t_min = end[i][0];
+        camera.t_max = end[i][1];
+        compare_frame(scene, &grid, &camera, 70, 66, "walls", &tally);
+        hits[i] = tally.counts.hits - so_far;
+    }
+    print_tally("walls", &tally);
+    assert_true(hits[7] > 0 && hits[0] == hits[7] && hits[1] == 0 && hits[2] == hits[7]);
+    assert_true(hits[3] == hits[7] && hits[4] == hits[7] && hits[5] == 0 && hits[6] == hits[7]);
+    loose_reference_free(&grid);
+    cgt_scene_release(scene);
+}
+
+/* ---- the march ---- */
+
+/* Every object that a ray hits is visited, once, in a slice that is not said to begin beyond the hit. */
+static void march_visits_what_rays_hit(void **state)
+{
+    (void)state;
+    static tile t;
+    uint64_t hits = 0, visits = 0, objects = 0;
+    test_random r = random_make(340);
+    for (uint32_t round = 0; round < 5 + test_scaled(120); round++) {
+        cloud c = cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), 1 + random_below(&r, 400));
+        cgt_camera camera = camera_random(&r, &c);
+        camera.projection = CGT_PERSPECTIVE;
+        if (round % 3 == 2)
+            make_orthographic(&r, c.reach * random_float(&r, 0.3f, 4), &camera);
+        loose_reference grid;
+        tile_march m;
+        tile_slice s;
+        float near[401] = {0};
+        uint32_t seen[401] = {0};
+        const uint32_t edge = random_below(&r, 3) ? 200 + random_below(&r, 2000) : 12;
+        const cgt_camera_rays rays = rays_of(&camera, edge, edge);
+        cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
+        assert_true(loose_reference_make(&scene->world.objects, random_float(&r, 0.5f, 8), &grid));
+        t.rays = &rays;
+        t.columns = t.rows = 12;
+        tile_camera_make(&rays, &t.camera);
+        tile_parallel_make(&t);
+        tile_tables_make(&t, random_below(&r, edge - 11), random_below(&r, edge - 11));
+        tile_norms_make(&t);
+        tile_march_make(&t, &grid.grid, &m);
+        float before = 0;
+        while (tile_march_next(&m, &s)) {
+            assert_true((float)s.near_t >= before);
+            before = (float)s.near_t;
+            for (uint32_t i = 0; i < tile_slice_runs(&m, &s); i++) {
+                uint32_t count;
+                const uint32_t *reference = tile_slice_run(&m, &s, i, &count);
+                for (uint32_t k = 0; k < count; k++, visits++) {
+                    near[reference[k]] = before;
+                    seen[reference[k]]++;
+                }
+            }
+        }
+        for (uint32_t k = 0; k < c.count; k++) {
+            assert_true(seen[k] <= 1);
+            for (uint32_t p = 0; p < 144; p++) {
+                uint64_t exact = 0;
+                const cgt_ray ray = tile_ray(&t, tile_index(p % 12, p / 12));
+                cgt_decided_hit hit = {.shape = cgt_objects_shape(&scene->world.objects, k)};
+                if (!cgt_decide_hit(&ray, &hit, &exact))
+                    continue;
+                hits++;
+                assert_int_equal(seen[k], 1);
+                assert_true((double)near[k] <= hit.t * (1 + 1e-6));
+            }
+        }
+        objects += c.count;
+        loose_reference_free(&grid);
+        cgt_scene_release(scene);
+        cloud_free(&c);
+    }
+    print_message("%llu objects, %llu visits, %llu hits\n", (unsigned long long)objects, (unsigned long long)visits,
+                  (unsigned long long)hits);
+    assert_true(hits > 100 && visits < objects);
+}
+
+static int prepare(void **state)
+{
+    (void)state;
+    context = context_make(1, NULL);
+    return context ? 0 : -1;
+}
+
+static int clean_up(void **state)
+{
+    (void)state;
+    cgt_context_release(context);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(march_visits_what_rays_hit),
+        cmocka_unit_test(frame_of_many_tiles),
+        cmocka_unit_test(frames_of_clouds),
+        cmocka_unit_test(frames_of_two_geometries),
+        cmocka_unit_test(frames_of_sky),
+        cmocka_unit_test(orthographic_frames_at_every_scale),
+        cmocka_unit_test(frames_of_walls_where_ranges_end),
+        cmocka_unit_test(frames_of_hard_cases),
+    };
+    test_begin("test_tile_frames");
+    if (!test_variant_runs(CGT_VARIANT_NAME))
+        return TEST_SKIPPED;
+    return cmocka_run_group_tests(tests, prepare, clean_up);
+}

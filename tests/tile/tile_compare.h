@@ -1,0 +1,174 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * One frame by tiles and by packets, of the variant that this is compiled for, compared bit for bit. What fails here
+ * fails the test. */
+#ifndef TILE_COMPARE_H
+#define TILE_COMPARE_H
+
+#include "support/loose_reference.h"
+#include "support/scenes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kernel/packet/packet.h"
+
+#include "scene/scene.h"
+#include "query/tile_limits.h"
+
+static inline cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, uint32_t height)
+{
+    cgt_camera_rays rays;
+    char message[160];
+    assert_int_equal(cgt_camera_prepare(camera, width, height, &rays, message), CGT_OK);
+    return rays;
+}
+
+/* Makes a camera orthographic, its picture so high; often one that looks along an axis, either way. */
+static inline void make_orthographic(test_random *r, float height, cgt_camera *camera)
+{
+    camera->projection = CGT_ORTHOGRAPHIC;
+    camera->height = height;
+    if (random_below(r, 2))
+        return;
+    const uint32_t axis = random_below(r, 3);
+    float distance = 0;
+    for (int a = 0; a < 3; a++)
+        distance += fabsf(camera->target[a] - camera->eye[a]);
+    for (uint32_t a = 0; a < 3; a++) {
+        const float ahead = random_below(r, 2) ? distance : -distance;
+        camera->target[a] = camera->eye[a] + (a == axis ? ahead : 0);
+        camera->up[a] = a == (axis + 1) % 3 ? (random_below(r, 2) ? 1.f : -1.f) : 0;
+    }
+}
+
+static inline cgt_region region_of(const planes *p, float *uv)
+{
+    cgt_region r = {.width = p->width, .height = p->height, .row_stride = p->width};
+    r.t = p->t;
+    r.primitive = p->primitive;
+    r.geometry = p->geometry;
+    for (int a = 0; a < 3; a++)
+        r.normal[a] = p->normal[a];
+    r.u = uv;
+    r.v = uv + p->elements;
+    return r;
+}
+
+typedef struct frames_tally {
+    uint32_t frames, served, parallel; /* parallel: of the served ones */
+    cgt_counts counts;                 /* of the served ones */
+} frames_tally;
+
+static inline void fail_at(const planes *got, const planes *wanted, const cgt_camera_rays *c, const char *what)
+{
+    size_t i = 0;
+    while (i < 6 * got->elements && got->memory[i] == wanted->memory[i])
+        i++;
+    if (i == 6 * got->elements)
+        fail_msg("%s: u or v", what);
+    i %= got->elements;
+    fail_msg("%s: %u x %u, pixel %zu: %u at %a, not %u at %a; eye %a %a %a", what, got->width, got->height, i,
+             got->primitive[i], (double)got->t[i], wanted->primitive[i], (double)wanted->t[i], (double)c->eye[0],
+             (double)c->eye[1], (double)c->eye[2]);
+}
+
+/* What FAST tiles are off by from ROBUST ones, in pixels that hit a sphere: the same sphere, and t and the normal as near
+ * as resolve_fast_vectors.h says, with room. Other pixels get the same bits. */
+static inline void compare_fast(const cgt_world *world, const cgt_camera_rays *c, const planes *got,
+                                const planes *wanted, const char *what)
+{
+    assert_memory_equal(got->primitive, wanted->primitive, got->elements * sizeof *got->primitive);
+    assert_memory_equal(got->geometry, wanted->geometry, got->elements * sizeof *got->geometry);
+    for (size_t i = 0; i < got->elements; i++) {
+        const bool hit = wanted->primitive[i] != CGT_NONE;
+        const cgt_object_array *a = world->objects.array;
+        while (hit && a->geometry != wanted->geometry[i])
+            a++;
+        double square = 0, dd = 0, off = 0;
+        if (!hit || a->kind != CGT_KIND_SPHERES) {
+            assert_memory_equal(&got->t[i], &wanted->t[i], sizeof(float));
+            continue;
+        }
+        const cgt_sphere q = cgt_array_sphere(a, wanted->primitive[i]);
+        const double centre[3] = {q.x, q.y, q.z};
+        for (int k = 0; k < 3; k++) {
+            const double reach = fabs((double)c->fwd[k]) + fabs((double)c->right[k]) + fabs((double)c->up[k]);
+            const double n = (double)got->normal[k][i] - (double)wanted->normal[k][i];
+            square += (centre[k] - (double)c->eye[k]) * (centre[k] - (double)c->eye[k]);
+            dd += reach * reach;
+            off += n * n;
+        }
+        const double far = sqrt(square) + (double)q.r;
+        const double least = far * 0x1p-18 + sqrt(far * (double)q.r * 0x1p-18);
+        const double t = fabs((double)got->t[i] - (double)wanted->t[i]);
+        if (!(t <= least || t * sqrt(dd) <= least) || !(sqrt(off) * (double)q.r <= least))
+            fail_msg("%s: pixel %zu: FAST has t %a, not %a, and a normal %a off", what, i, (double)got->t[i],
+                     (double)wanted->t[i], sqrt(off));
+    }
+}
+
+/* Both ways over one frame. */
+static inline void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera,
+                                 uint32_t width, uint32_t height, const char *what, frames_tally *tally)
+{
+    const cgt_camera_rays rays = rays_of(camera, width, height);
+    cgt_trace_settings settings = {.packet = 8,
+                                   .cull = CGT_CULL_BLOCKS,
+                                   .precision = tally->frames % 4 == 3 ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST,
+                                   .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL |
+                                             CGT_FIELD_UV};
+    planes wanted = planes_make(width, height), got = planes_make(width, height);
+    cgt_world world = scene->world;
+    cgt_counts counts = {0}, other = {0};
+    world.loose = grid->grid;
+    memset(wanted.memory, 0x77, 6 * wanted.elements * sizeof(uint32_t));
+    memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
+    float *uv = malloc(4 * wanted.elements * sizeof(float));
+    assert_non_null(uv);
+    memset(uv, 0x66, 4 * wanted.elements * sizeof(float));
+    cgt_region to_wanted = region_of(&wanted, uv), to_got = region_of(&got, uv + 2 * wanted.elements);
+    if (tally->frames % 3 == 2) { /* what is not asked for goes other ways */
+        to_wanted.u = to_wanted.v = to_got.u = to_got.v = NULL;
+        settings.fields &= ~CGT_FIELD_UV;
+    }
+    CGT_KERNEL(cgt_trace_region)(&scene->world, &rays, &settings, &to_wanted, &other);
+    CGT_KERNEL(cgt_trace_tile)(&world, &rays, &settings, &to_got, &counts);
+    if (!planes_equal(&wanted, &got) || memcmp(uv, uv + 2 * wanted.elements, 2 * wanted.elements * sizeof(float)) != 0)
+        fail_at(&got, &wanted, &rays, what);
+    assert_int_equal(counts.rays, other.rays);
+    assert_int_equal(counts.hits, other.hits);
+    tally->frames++;
+    if (cgt_tile_serves(&world, &rays)) {
+        cgt_trace_settings fast = settings;
+        cgt_counts fast_counts = {0};
+        fast.precision = CGT_PRECISION_FAST;
+        CGT_KERNEL(cgt_trace_tile)(&world, &rays, &fast, &to_got, &fast_counts);
+        compare_fast(&world, &rays, &got, &wanted, what);
+        assert_int_equal(fast_counts.hits, counts.hits);
+    }
+    if (cgt_tile_serves(&world, &rays)) {
+        const uint64_t *from = (const uint64_t *)&counts;
+        uint64_t *to = (uint64_t *)&tally->counts;
+        tally->served++;
+        tally->parallel += camera->projection == CGT_ORTHOGRAPHIC;
+        for (size_t i = 0; i < CGT_COUNTS; i++)
+            to[i] += from[i];
+    }
+    free(uv);
+    planes_free(&wanted);
+    planes_free(&got);
+}
+
+static inline void print_tally(const char *what, const frames_tally *t)
+{
+    print_message("%s: %u frames, %u by tiles, %u orthographic: %llu rays, %llu hits, %llu ray tests, %llu in double, "
+                  "%llu exact\n",
+                  what, t->frames, t->served, t->parallel, (unsigned long long)t->counts.rays,
+                  (unsigned long long)t->counts.hits, (unsigned long long)t->counts.ray_tests,
+                  (unsigned long long)t->counts.double_tests, (unsigned long long)t->counts.exact_tests);
+}
+
+#endif
