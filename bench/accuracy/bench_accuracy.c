@@ -42,7 +42,7 @@ static int runs(const char *variant)
 /* Variants that the CPU runs; the names are the library's, which outlive the command line. */
 static void add_variant(accuracy_job *job, struct argp_state *state, const char *text)
 {
-    for (const char *const *name = cgt_variants(); *name; name++)
+    for (const char *const *name = cgt_get_variant_names(); *name; name++)
         if (!strcmp(*name, text)) {
             if (!runs(*name))
                 argp_error(state, "-V: this CPU does not run %s", text);
@@ -58,7 +58,7 @@ static void add_variant(accuracy_job *job, struct argp_state *state, const char 
 
 static void add_all_variants(accuracy_job *job)
 {
-    for (const char *const *name = cgt_variants(); *name && job->variants < ACCURACY_MOST_VARIANTS; name++)
+    for (const char *const *name = cgt_get_variant_names(); *name && job->variants < ACCURACY_MOST_VARIANTS; name++)
         if (runs(*name))
             job->variant[job->variants++] = *name;
 }

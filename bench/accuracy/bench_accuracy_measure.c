@@ -65,16 +65,16 @@ int accuracy_each_choice(const accuracy_job *job, const accuracy_subject *subjec
     static const struct {
         cgt_precision precision;
         cgt_triangle_test test;
-    } ways[] = {{CGT_PRECISION_FAST, CGT_TRIANGLE_WATERTIGHT},
-                {CGT_PRECISION_FAST, CGT_TRIANGLE_MOLLER_TRUMBORE},
-                {CGT_PRECISION_FAST, CGT_TRIANGLE_ACCELERATED},
-                {CGT_PRECISION_ROBUST, CGT_TRIANGLE_WATERTIGHT},
-                {CGT_PRECISION_EXACT, CGT_TRIANGLE_WATERTIGHT}};
+    } ways[] = {{CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
+                {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_MOLLER_TRUMBORE},
+                {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_ACCELERATED},
+                {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_WATERTIGHT},
+                {CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_WATERTIGHT}};
     int code = PROGRAM_OK;
     for (size_t v = 0; v < job->variants; v++)
         for (size_t w = 0; w < sizeof ways / sizeof ways[0] && code == PROGRAM_OK; w++) {
             const accuracy_choice choice = {job->variant[v], ways[w].precision, ways[w].test, NULL};
-            if (subject->triangles || choice.test == CGT_TRIANGLE_WATERTIGHT)
+            if (subject->triangles || choice.test == CGT_TRIANGLE_TEST_WATERTIGHT)
                 code = visit(job, subject, &choice);
         }
     return code;
@@ -101,7 +101,7 @@ static void judge(const accuracy_subject *subject, const full_hit *hits, errors 
     for (uint32_t i = 0; i < subject->scene.rays; i++) {
         oracle_hit exact;
         if (hard_judge(&subject->scene, &subject->truth, i, &hits[i], &exact) != ORACLE_RIGHT ||
-            exact.index == ORACLE_NONE || hits[i].geometry == CGT_NONE)
+            exact.index == ORACLE_NONE || hits[i].geometry == CGT_INVALID_ID)
             continue; /* values are compared where the hit is the same */
         e->t.value[e->t.count++] = oracle_ulp(exact.t, hits[i].t);
         e->angle.value[e->angle.count++] = oracle_angle(exact.normal, hits[i].normal);

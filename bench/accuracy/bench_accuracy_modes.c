@@ -32,14 +32,14 @@ typedef struct mode {
 } mode;
 
 /* The first one, in the first variant and ROBUST, is what the others are compared with. */
-static const mode modes[] = {{"camera,packet=16", MODE_CAMERA, 16, CGT_TILE_SQUARE, 1},
-                             {"camera,packet=8", MODE_CAMERA, 8, CGT_TILE_SQUARE, 1},
-                             {"camera,packet=4", MODE_CAMERA, 4, CGT_TILE_SQUARE, 1},
-                             {"camera,strips", MODE_CAMERA, 0, CGT_TILE_STRIP, 1},
-                             {"camera,packet=16,threads=3", MODE_CAMERA, 16, CGT_TILE_SQUARE, 3},
-                             {"array of rays", MODE_ARRAY, 0, CGT_TILE_AUTO, 1},
-                             {"array of rays,threads=3", MODE_ARRAY, 0, CGT_TILE_AUTO, 3},
-                             {"single rays", MODE_SINGLE, 0, CGT_TILE_AUTO, 1}};
+static const mode modes[] = {{"camera,packet=16", MODE_CAMERA, 16, CGT_TILE_SHAPE_SQUARE, 1},
+                             {"camera,packet=8", MODE_CAMERA, 8, CGT_TILE_SHAPE_SQUARE, 1},
+                             {"camera,packet=4", MODE_CAMERA, 4, CGT_TILE_SHAPE_SQUARE, 1},
+                             {"camera,strips", MODE_CAMERA, 0, CGT_TILE_SHAPE_STRIP, 1},
+                             {"camera,packet=16,threads=3", MODE_CAMERA, 16, CGT_TILE_SHAPE_SQUARE, 3},
+                             {"array of rays", MODE_ARRAY, 0, CGT_TILE_SHAPE_AUTO, 1},
+                             {"array of rays,threads=3", MODE_ARRAY, 0, CGT_TILE_SHAPE_AUTO, 3},
+                             {"single rays", MODE_SINGLE, 0, CGT_TILE_SHAPE_AUTO, 1}};
 #define MODES (sizeof modes / sizeof modes[0])
 
 /* What a mode finds: the scene's hits, and t of the probes of three axes. */
@@ -249,7 +249,7 @@ static differences compare(const modes_job *job)
         const bool same = a->geometry == b->geometry && a->primitive == b->primitive;
         d.hits += !same;
         d.values += memcmp(a, b, sizeof *a) != 0;
-        if (same && a->geometry != CGT_NONE)
+        if (same && a->geometry != CGT_INVALID_ID)
             d.t_ulp = fmax(d.t_ulp, ulp_distance(a->t, b->t));
         if (hard_judge(&job->subject.scene, &job->subject.truth, i, b, &exact) == ORACLE_RIGHT &&
             exact.index != ORACLE_NONE)

@@ -97,7 +97,7 @@ static int parse_grid(const char *text, uint32_t resolution[3], char *error, siz
 /* The name of a variant in this build; that the CPU runs it is for the context to say. */
 static int parse_variant(const char *text, const char **variant, char *error, size_t error_size)
 {
-    const char *const *names = cgt_variants();
+    const char *const *names = cgt_get_variant_names();
     size_t length = (size_t)snprintf(error, error_size, "%s: this build has", text);
     for (; *names; names++) {
         if (!strcmp(text, *names)) {

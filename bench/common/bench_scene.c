@@ -116,7 +116,7 @@ cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t co
                       built != CGT_STRUCTURE_AUTO;
     if (result == CGT_ERROR_UNSUPPORTED || other) {
         char message[256] = "";
-        cgt_error_message(scene->context, message, sizeof message);
+        cgt_context_get_error_message(scene->context, message, sizeof message);
         program_error("%s: no %s: left out: %s%s", path, bench_structure_name(build->structure),
                       other ? "the library builds " : message, other ? bench_structure_name(built) : "");
         build->left_out = 1;
@@ -129,8 +129,8 @@ int bench_scene_failed(const cgt_context *context, const char *what, cgt_result 
 {
     char message[512] = "";
     if (context)
-        cgt_error_message(context, message, sizeof message);
-    program_error("%s: %s%s%s", what, cgt_result_string(result), message[0] ? ": " : "", message);
+        cgt_context_get_error_message(context, message, sizeof message);
+    program_error("%s: %s%s%s", what, cgt_get_result_string(result), message[0] ? ": " : "", message);
     return PROGRAM_FAILED;
 }
 
@@ -148,21 +148,21 @@ const char *bench_cull_name(cgt_cull cull)
 
 const char *bench_tile_name(cgt_tile_shape tile)
 {
-    return tile == CGT_TILE_SQUARE ? "square" : tile == CGT_TILE_STRIP ? "strip" : "auto";
+    return tile == CGT_TILE_SHAPE_SQUARE ? "square" : tile == CGT_TILE_SHAPE_STRIP ? "strip" : "auto";
 }
 
 static const char *const precisions[] = {
     [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact"};
-static const char *const triangle_tests[] = {[CGT_TRIANGLE_WATERTIGHT] = "watertight",
-                                             [CGT_TRIANGLE_MOLLER_TRUMBORE] = "moller-trumbore",
-                                             [CGT_TRIANGLE_ACCELERATED] = "accelerated"};
+static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_WATERTIGHT] = "watertight",
+                                             [CGT_TRIANGLE_TEST_MOLLER_TRUMBORE] = "moller-trumbore",
+                                             [CGT_TRIANGLE_TEST_ACCELERATED] = "accelerated"};
 
 static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
                                          [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
                                          [CGT_STRUCTURE_KD] = "kd",
                                          [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
                                          [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
-                                         [CGT_STRUCTURE_WIDE_TREE] = "wide-tree"};
+                                         [CGT_STRUCTURE_BVH] = "wide-tree"};
 static const char *const kd_traversals[] = {
     [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
@@ -282,7 +282,7 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "variant", choice->variant);
     if (choice->packet)
         append(name, "packet", packet);
-    if (choice->tile != CGT_TILE_AUTO)
+    if (choice->tile != CGT_TILE_SHAPE_AUTO)
         append(name, "tile", bench_tile_name(choice->tile));
     if (choice->loop != CGT_LOOP_AUTO)
         append(name, "loop", bench_loop_name(choice->loop));
@@ -292,7 +292,7 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "mailbox", "off");
     if (choice->precision_named || choice->precision != CGT_PRECISION_ROBUST)
         append(name, "precision", bench_precision_name(choice->precision));
-    if (choice->test != CGT_TRIANGLE_WATERTIGHT)
+    if (choice->test != CGT_TRIANGLE_TEST_WATERTIGHT)
         append(name, "test", bench_triangle_test_name(choice->test));
     if (choice->grid)
         append(name, "grid", choice->grid);

@@ -89,7 +89,7 @@ cgt_result floor_open_scene(floor_job *job, bench_scene *scene, cgt_context *con
     const floor_settings *settings = job->settings;
     cgt_result result = bench_scene_create(scene, context, moving, settings->shared.resolution);
     if (result == CGT_OK)
-        result = bench_scene_structure(scene, settings->structure.asked[0], CGT_RAYS_CAMERA, &job->choice.kd,
+        result = bench_scene_structure(scene, settings->structure.asked[0], CGT_RAY_KIND_COHERENT, &job->choice.kd,
                                        settings->shared.resolution);
     bench_scene_set_triangles(scene, index, triangles);
     return result;
@@ -109,7 +109,7 @@ static int prepare(floor_job *job)
     const cgt_result result = bench_context_create(shared->threads, shared->variant, &job->context);
     if (result != CGT_OK)
         return bench_scene_failed(NULL, shared->variant ? shared->variant : "context", result);
-    job->threads = bench_threads_create(cgt_context_threads(job->context));
+    job->threads = bench_threads_create(cgt_context_get_threads(job->context));
     if (job->threads && !bench_planes_create_with_uv(&job->planes, shared->width, shared->height))
         return PROGRAM_OK;
     program_error("out of memory or threads");

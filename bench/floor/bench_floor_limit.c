@@ -146,7 +146,7 @@ static void print_terms(floor_job *job, const limit_scene *s, const limit_counts
                         const double low[3], double seen_ms)
 {
     const floor_tests *tests = &job->tests[s->index ? 1 : 0];
-    const uint32_t threads = cgt_context_threads(job->context);
+    const uint32_t threads = cgt_context_get_threads(job->context);
     const struct {
         const char *name;
         double ms;

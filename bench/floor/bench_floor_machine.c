@@ -77,7 +77,7 @@ static double measure(floor_job *job, memory_job *memory, bench_task *task)
 
 int floor_measure_memory(floor_job *job)
 {
-    const uint32_t threads = cgt_context_threads(job->context);
+    const uint32_t threads = cgt_context_get_threads(job->context);
     memory_job memory = {.count = (size_t)job->settings->megabytes * 1048576 / sizeof(uint64_t), .parts = threads};
     memory.words = aligned_alloc(64, memory.count * sizeof *memory.words);
     memory.sums = calloc(threads, sizeof *memory.sums);

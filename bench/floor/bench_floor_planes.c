@@ -100,7 +100,7 @@ int floor_measure_fields(floor_job *job, const bench_scene *scene, const char *p
         double *times = ms + (size_t)way * rounds;
         const double median = bench_median(times, rounds);
         const char *target = way % FLOOR_TARGETS == FLOOR_VISITOR ? "visitor" : "planes";
-        const uint32_t threads = cgt_context_threads(job->context);
+        const uint32_t threads = cgt_context_get_threads(job->context);
         snprintf(item, sizeof item, "%s:%s", target, sets[way / FLOOR_TARGETS].name);
         floor_row(job, part, name, item, threads, times[0], "ms");
         snprintf(item, sizeof item, "%s:%s:median", target, sets[way / FLOOR_TARGETS].name);

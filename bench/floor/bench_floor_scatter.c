@@ -149,7 +149,7 @@ static double time_rounds(const floor_job *job, scatter_job *scatter)
 double floor_measure_scatter(const floor_job *job, const float *position, uint32_t width, uint32_t count)
 {
     scatter_job scatter = {
-        .count = count, .cells = count / OBJECTS_A_CELL + 1, .parts = cgt_context_threads(job->context)};
+        .count = count, .cells = count / OBJECTS_A_CELL + 1, .parts = cgt_context_get_threads(job->context)};
     double ns = -1.0;
     if (count == 0)
         return 0.0;

@@ -135,7 +135,7 @@ static cgt_result open_frame(tests_bench *bench, int which)
     cgt_result result = floor_open_scene(bench->job, &f->scene, bench->context, f->moving,
                                          bench->triangles ? f->index : NULL, bench->triangles ? f->count : 0);
     if (result == CGT_OK)
-        result = bench_scene_structure(&f->scene, structure, CGT_RAYS_CAMERA, &bench->job->choice.kd, one_cell);
+        result = bench_scene_structure(&f->scene, structure, CGT_RAY_KIND_COHERENT, &bench->job->choice.kd, one_cell);
     if (result == CGT_OK)
         result = bench_scene_commit(&f->scene, bench->triangles ? 3 * f->count : f->count);
     f->passes = 1;

@@ -116,8 +116,8 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             name_index(state, "--loop", argument, "nested", "flattened") == 1 ? CGT_LOOP_NESTED : CGT_LOOP_FLATTENED;
         return 0;
     case OPTION_TILE:
-        settings->tile =
-            name_index(state, "--tile", argument, "square", "strip") == 1 ? CGT_TILE_SQUARE : CGT_TILE_STRIP;
+        settings->tile = name_index(state, "--tile", argument, "square", "strip") == 1 ? CGT_TILE_SHAPE_SQUARE
+                                                                                       : CGT_TILE_SHAPE_STRIP;
         return 0;
     case OPTION_CULL: settings->cull = cull_by_name(state, argument); return 0;
     case OPTION_NO_MAILBOX: settings->mailbox = 0; return 0;
@@ -133,9 +133,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case ARGP_KEY_END:
         if (settings->orthographic && (settings->lit || settings->ao))
             argp_error(state, "-O: of primary rays alone: leave out -l and -a");
-        if (settings->test != CGT_TRIANGLE_WATERTIGHT && settings->precision != CGT_PRECISION_FAST)
+        if (settings->test != CGT_TRIANGLE_TEST_WATERTIGHT && settings->precision != CGT_PRECISION_FAST)
             argp_error(state, "--test %s: only with -p fast", bench_triangle_test_name(settings->test));
-        if (settings->all && (settings->shared.packet || settings->tile != CGT_TILE_AUTO))
+        if (settings->all && (settings->shared.packet || settings->tile != CGT_TILE_SHAPE_AUTO))
             argp_error(state, "--all goes through packets and tiles itself: leave out -k and --tile");
         return 0;
     default: return ARGP_ERR_UNKNOWN;
@@ -147,7 +147,7 @@ static void make_orthographic(cgt_camera *c)
     double square = 0.0;
     for (int a = 0; a < 3; a++)
         square += ((double)c->target[a] - c->eye[a]) * ((double)c->target[a] - c->eye[a]);
-    c->projection = CGT_ORTHOGRAPHIC;
+    c->projection = CGT_PROJECTION_ORTHOGRAPHIC;
     c->height = (float)(2.0 * sqrt(square) * tan(c->fov * 3.14159265358979323846 / 360.0));
 }
 
@@ -232,7 +232,7 @@ static cgt_result describe(frame_job *job, const bench_scene *scene, const bench
     fprintf(stderr,
             "variant %s, structure %s (%s), grid %ux%ux%u, kd-tree of %u nodes in %u levels, packet %u, tile %s, "
             "loop %s, %u primitives, %u skipped, %zu bytes, %.2f ray tests per ray\n",
-            cgt_context_variant(job->context), bench_structure_name(built.structure), built.reason,
+            cgt_context_get_variant(job->context), bench_structure_name(built.structure), built.reason,
             (unsigned)built.resolution[0], (unsigned)built.resolution[1], (unsigned)built.resolution[2],
             (unsigned)built.kd_nodes, (unsigned)built.kd_depth, (unsigned)traced.packet_size,
             bench_tile_name(traced.tile), bench_loop_name(traced.loop), (unsigned)built.primitives,
@@ -246,7 +246,7 @@ static void print_row(frame_job *job, const bench_choice *choice, cgt_structure 
 {
     char name[BENCH_NAME_SIZE];
     bench_choice_name(choice, structure, name);
-    printf("%s\t%u", name, (unsigned)cgt_context_threads(job->context));
+    printf("%s\t%u", name, (unsigned)cgt_context_get_threads(job->context));
     for (int column = 0; column < COLUMNS; column++)
         printf("\t%.3f", bench_median(job->ms[column], measured));
     printf("\t%llu\t%llu\n", (unsigned long long)bench_planes_hits(&job->planes), (unsigned long long)open);
@@ -264,7 +264,7 @@ static int run_row(frame_job *job, const bench_choice *choice)
 
     cgt_result result = bench_scene_create(&scene, job->context, job->input.moving, shared->resolution);
     if (result == CGT_OK)
-        result = bench_scene_structure(&scene, job->settings->structure.asked[0], CGT_RAYS_CAMERA, &choice->kd,
+        result = bench_scene_structure(&scene, job->settings->structure.asked[0], CGT_RAY_KIND_COHERENT, &choice->kd,
                                        shared->resolution);
     if (result == CGT_OK) {
         bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
@@ -290,7 +290,8 @@ static int run_rows(frame_job *job)
     static const struct {
         uint32_t packet;
         cgt_tile_shape tile;
-    } shapes[] = {{4, CGT_TILE_SQUARE}, {8, CGT_TILE_SQUARE}, {16, CGT_TILE_SQUARE}, {4, CGT_TILE_STRIP}};
+    } shapes[] = {
+        {4, CGT_TILE_SHAPE_SQUARE}, {8, CGT_TILE_SHAPE_SQUARE}, {16, CGT_TILE_SHAPE_SQUARE}, {4, CGT_TILE_SHAPE_STRIP}};
     const frame_settings *settings = job->settings;
     const uint32_t *cells = settings->shared.resolution;
     char grid[48] = "";
@@ -352,7 +353,7 @@ static int prepare(frame_job *job)
         return PROGRAM_FAILED;
     }
     bench_camera_axes_init(&job->axes, &shared->camera, shared->width, shared->height);
-    job->threads = bench_threads_create(cgt_context_threads(job->context));
+    job->threads = bench_threads_create(cgt_context_get_threads(job->context));
     int complete = job->threads && !bench_planes_create(&job->planes, shared->width, shared->height);
     complete = complete && (job->rays = bench_rays_create(job->threads, &job->axes, &job->planes, settings->ao));
     if (shared->repeat > SIZE_MAX / job->input.frames)

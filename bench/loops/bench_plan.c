@@ -81,7 +81,7 @@ static void add_groups(bench_plan *plan, const bench_settings *settings, const c
 /* Contexts of all variants that are asked for and that the CPU runs, with their groups and rows. */
 static int add_variants(bench_plan *plan, const bench_settings *settings)
 {
-    for (const char *const *name = cgt_variants(); *name; name++) {
+    for (const char *const *name = cgt_get_variant_names(); *name; name++) {
         cgt_context *context = NULL;
         if (settings->variant && strcmp(settings->variant, *name) != 0)
             continue;

@@ -65,7 +65,7 @@ void pareto_error_add(pareto_error *error, const bench_planes *truth, const benc
 {
     const size_t pixels = (size_t)truth->width * truth->height;
     for (size_t i = 0; i < pixels; i++)
-        pareto_error_ray(error, truth->primitive[i] != CGT_NONE, frame->primitive[i] != CGT_NONE,
+        pareto_error_ray(error, truth->primitive[i] != CGT_INVALID_ID, frame->primitive[i] != CGT_INVALID_ID,
                          truth->primitive[i] == frame->primitive[i], truth->t[i], frame->t[i]);
 }
 

@@ -33,7 +33,7 @@ APART void make_packet(const pareto_work *work, packet *p)
         }
         p->rdd[i] = 1 / square;
         p->t_max[i] = p->low[i] = p->high[i] = INFINITY;
-        p->object[i] = CGT_NONE;
+        p->object[i] = CGT_INVALID_ID;
     }
     p->rays = p->lanes = PARETO_RAYS;
     p->common_origin = p->from_origin = p->fast = true;

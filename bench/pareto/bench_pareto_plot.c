@@ -21,9 +21,9 @@ static size_t way_of(const pareto_row *row)
 {
     if (row->precision != CGT_PRECISION_FAST)
         return row->precision == CGT_PRECISION_EXACT ? EXACT : ROBUST;
-    return row->test == CGT_TRIANGLE_MOLLER_TRUMBORE ? FAST_MOLLER_TRUMBORE
-           : row->test == CGT_TRIANGLE_ACCELERATED   ? FAST_ACCELERATED
-                                                     : FAST;
+    return row->test == CGT_TRIANGLE_TEST_MOLLER_TRUMBORE ? FAST_MOLLER_TRUMBORE
+           : row->test == CGT_TRIANGLE_TEST_ACCELERATED   ? FAST_ACCELERATED
+                                                          : FAST;
 }
 
 /* Index of a name in a list, which it joins where it is new and there is room. */

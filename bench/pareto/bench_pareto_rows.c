@@ -22,11 +22,11 @@ typedef struct way {
 
 /* EXACT is the first: what it finds is the truth for all. The second is what costs are over. Spheres have no tests to
  * choose: their ways end before the first other test. */
-static const way ways[MOST_WAYS] = {{CGT_PRECISION_EXACT, CGT_TRIANGLE_WATERTIGHT},
-                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_WATERTIGHT},
-                                    {CGT_PRECISION_ROBUST, CGT_TRIANGLE_WATERTIGHT},
-                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_MOLLER_TRUMBORE},
-                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_ACCELERATED}};
+static const way ways[MOST_WAYS] = {{CGT_PRECISION_EXACT, CGT_TRIANGLE_TEST_WATERTIGHT},
+                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_WATERTIGHT},
+                                    {CGT_PRECISION_ROBUST, CGT_TRIANGLE_TEST_WATERTIGHT},
+                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_MOLLER_TRUMBORE},
+                                    {CGT_PRECISION_FAST, CGT_TRIANGLE_TEST_ACCELERATED}};
 enum { SPHERE_WAYS = 3, FAST_WAY = 1 };
 
 /* One variant's scene, and its times: of each frame. */
@@ -162,7 +162,7 @@ static int add_rows(scene_job *job, pareto_table *table, size_t scene)
                              .precision = ways[w].precision,
                              .test = ways[w].test,
                              .triangles = job->input.index != NULL,
-                             .threads = cgt_context_threads(at->context),
+                             .threads = cgt_context_get_threads(at->context),
                              .build_ms = median_of(job, at->build_ms, NULL),
                              .trace_ms = median_of(job, at->trace_ms[w], NULL),
                              .ms = median_of(job, at->trace_ms[w], at->build_ms),
@@ -228,7 +228,7 @@ static int prepare(scene_job *job)
         return PROGRAM_FAILED;
     }
     int code = PROGRAM_OK;
-    for (const char *const *name = cgt_variants(); *name && code == PROGRAM_OK; name++)
+    for (const char *const *name = cgt_get_variant_names(); *name && code == PROGRAM_OK; name++)
         if (job->lane_count < MOST_VARIANTS && (!settings->variant || !strcmp(settings->variant, *name)))
             code = add_lane(job, *name, values);
     return code;

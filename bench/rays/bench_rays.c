@@ -70,7 +70,7 @@ static void add_batches(sweep_settings *settings, struct argp_state *state, cons
 static void set_defaults(sweep_settings *settings, struct argp_state *state)
 {
     static const cgt_structure everything[] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD,
-                                               CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_WIDE_TREE};
+                                               CGT_STRUCTURE_KD_ROPES, CGT_STRUCTURE_BVH};
     bench_structure_settings *structure = &settings->structure;
     if (!settings->batches)
         add_batches(settings, state, "1,16,64,256,1024,4096,16384,65536,all");
@@ -136,7 +136,7 @@ static void report_row(const sweep_job *job, const sweep_subject *subject, size_
     accuracy_report_text(report, subject->config);
     accuracy_report_text(report, job->scene_name);
     accuracy_report_count(report, subject->build.built.primitives);
-    accuracy_report_count(report, cgt_context_threads(job->context));
+    accuracy_report_count(report, cgt_context_get_threads(job->context));
     for (int i = 0; i < 3; i++)
         accuracy_report_text(report, names[i]);
     accuracy_report_count(report, job->rays.count);
@@ -208,7 +208,7 @@ static void name_subject(sweep_subject *subject, const bench_choice *choice)
 static cgt_result create_subject(sweep_job *job, sweep_subject *subject, cgt_structure structure)
 {
     const bench_settings *shared = &job->settings->shared;
-    const bench_choice choice = {.variant = cgt_context_variant(job->context),
+    const bench_choice choice = {.variant = cgt_context_get_variant(job->context),
                                  .cull = CGT_CULL_BLOCKS,
                                  .mailbox = 1,
                                  .kd = job->settings->structure.kd};
@@ -218,7 +218,7 @@ static cgt_result create_subject(sweep_job *job, sweep_subject *subject, cgt_str
     if (!complete)
         return CGT_ERROR_OUT_OF_MEMORY;
     subject->build.structure = structure;
-    subject->build.rays = CGT_RAYS_INCOHERENT;
+    subject->build.rays = CGT_RAY_KIND_INCOHERENT;
     subject->build.kd = choice.kd;
     name_subject(subject, &choice);
     const cgt_result result = bench_scene_create(&subject->scene, job->context, job->input.moving, shared->resolution);
@@ -253,7 +253,7 @@ static cgt_result prepare(sweep_job *job)
     if (result != CGT_OK)
         return result;
     bench_camera_axes_init(&job->axes, &shared->camera, shared->width, shared->height);
-    job->threads = bench_threads_create(cgt_context_threads(job->context));
+    job->threads = bench_threads_create(cgt_context_get_threads(job->context));
     if (!job->threads)
         return CGT_ERROR_THREADS;
     if (bench_planes_create(&job->planes, shared->width, shared->height) ||

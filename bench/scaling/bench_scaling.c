@@ -102,7 +102,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 static uint32_t cpus(void)
 {
     cgt_context *context = NULL;
-    const uint32_t threads = bench_context_create(0, NULL, &context) == CGT_OK ? cgt_context_threads(context) : 1;
+    const uint32_t threads = bench_context_create(0, NULL, &context) == CGT_OK ? cgt_context_get_threads(context) : 1;
     cgt_context_release(context);
     return threads ? threads : 1;
 }

@@ -53,8 +53,8 @@ static cgt_result open_scene(point_job *job, const bench_choice *choice)
     if (result == CGT_OK)
         result = bench_scene_create(&job->scene, job->context, job->moving.now, shared->resolution);
     if (result == CGT_OK)
-        result = bench_scene_structure(&job->scene, job->settings->structure.asked[0], CGT_RAYS_CAMERA, &choice->kd,
-                                       shared->resolution);
+        result = bench_scene_structure(&job->scene, job->settings->structure.asked[0], CGT_RAY_KIND_COHERENT,
+                                       &choice->kd, shared->resolution);
     if (result == CGT_OK)
         bench_scene_set_triangles(&job->scene, job->moving.index, job->moving.triangles);
     bench_choice_options(choice, NULL, &job->trace);
@@ -102,7 +102,7 @@ static cgt_result measure_frames(point_job *job)
 static void keep(point_job *job, const bench_choice *choice)
 {
     scaling_point *point = job->point;
-    point->threads = cgt_context_threads(job->context);
+    point->threads = cgt_context_get_threads(job->context);
     point->hits = bench_planes_hits(&job->planes);
     bench_choice_name(choice, point->built.structure, point->config);
     for (int c = 0; c < SCALING_COLUMNS; c++) {

@@ -97,9 +97,9 @@ int structures_open(structures_job *job, const structures_settings *settings, co
     if (result != CGT_OK)
         return bench_scene_failed(job->context, path, result);
     bench_scene_set_triangles(&job->scene, job->input.index, job->input.triangles);
-    job->variant = cgt_context_variant(job->context);
+    job->variant = cgt_context_get_variant(job->context);
     bench_camera_axes_init(&job->axes, &shared->camera, shared->width, shared->height);
-    job->threads = bench_threads_create(cgt_context_threads(job->context));
+    job->threads = bench_threads_create(cgt_context_get_threads(job->context));
     int complete = job->threads && !structures_results_create(&job->expected, shared->width, shared->height) &&
                    !structures_results_create(&job->found, shared->width, shared->height);
     complete =

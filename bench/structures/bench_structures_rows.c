@@ -70,7 +70,7 @@ static void add_all(structures_job *job, cgt_structure structure)
                                             CGT_KD_LAYOUT_MIXED};
     for (size_t b = 0; b < sizeof builders / sizeof builders[0]; b++)
         for (size_t l = 0; l < sizeof layouts / sizeof layouts[0]; l++)
-            add_group(job, structure, CGT_RAYS_CAMERA,
+            add_group(job, structure, CGT_RAY_KIND_COHERENT,
                       &(bench_kd_choice){.builder = builders[b], .layout = layouts[l]});
 }
 
@@ -86,15 +86,15 @@ static void add_structure(structures_job *job, cgt_structure structure)
         if (kd.builder == CGT_KD_BUILDER_AUTO)
             kd.builder = CGT_KD_BUILDER_BINNED;
     }
-    add_group(job, structure, CGT_RAYS_CAMERA, &kd);
+    add_group(job, structure, CGT_RAY_KIND_COHERENT, &kd);
     if (structure == CGT_STRUCTURE_AUTO)
-        add_group(job, structure, CGT_RAYS_INCOHERENT, &kd);
+        add_group(job, structure, CGT_RAY_KIND_INCOHERENT, &kd);
 }
 
 int structures_plan(structures_job *job)
 {
     static const cgt_structure everything[] = {CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD,
-                                               CGT_STRUCTURE_KD_ROPES,   CGT_STRUCTURE_WIDE_TREE,  CGT_STRUCTURE_AUTO};
+                                               CGT_STRUCTURE_KD_ROPES,   CGT_STRUCTURE_BVH,        CGT_STRUCTURE_AUTO};
     const bench_structure_settings *asked = &job->settings->structure;
     const size_t values = job->input.frames * job->settings->shared.repeat;
     for (size_t i = 0; i < (asked->count ? asked->count : sizeof everything / sizeof everything[0]); i++)
@@ -143,7 +143,7 @@ void structures_row_name(const structures_job *job, const structures_row *row, c
     }
     char without[BENCH_NAME_SIZE]; /* the name of no structure: all behind it is what was set */
     bench_choice_name(&choice, CGT_STRUCTURE_AUTO, without);
-    snprintf(name, BENCH_NAME_SIZE, "auto%s%s", group->rays == CGT_RAYS_INCOHERENT ? ",rays=incoherent" : "",
+    snprintf(name, BENCH_NAME_SIZE, "auto%s%s", group->rays == CGT_RAY_KIND_INCOHERENT ? ",rays=incoherent" : "",
              without + strcspn(without, ","));
 }
 

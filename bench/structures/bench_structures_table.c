@@ -73,7 +73,7 @@ static void report_row(const structures_job *job, const structures_row *row, acc
     accuracy_report_text(report, name);
     accuracy_report_text(report, job->scene_name);
     accuracy_report_count(report, built->primitives);
-    accuracy_report_count(report, cgt_context_threads(job->context));
+    accuracy_report_count(report, cgt_context_get_threads(job->context));
     for (int column = 0; column < STRUCTURES_COLUMNS; column++) {
         memcpy(scratch, row->ms[column], job->measured * sizeof *scratch);
         accuracy_report_real(report, bench_median(scratch, job->measured));

@@ -213,7 +213,7 @@ int program_parse_camera(const char *text, cgt_camera *camera, char *error, size
     if (!(v[9] > 0.0f && v[9] < 180.0f)) {
         return refuse(error, error_size, "the angle %g is not above 0 and below 180 degrees", (double)v[9]);
     }
-    camera->projection = CGT_PERSPECTIVE;
+    camera->projection = CGT_PROJECTION_PERSPECTIVE;
     memcpy(camera->eye, eye, sizeof camera->eye);
     memcpy(camera->target, target, sizeof camera->target);
     memcpy(camera->up, up, sizeof camera->up);

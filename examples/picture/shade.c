@@ -39,7 +39,7 @@ void shade_begin(shade_job *job)
     normalize(job->right);
     cross(job->right, job->forward, job->up);
     /* The headlight of an orthographic camera shines along the view everywhere. */
-    const float half = camera->projection == CGT_PERSPECTIVE ? tanf(camera->fov * 0.00872664626f) : 0.0f;
+    const float half = camera->projection == CGT_PROJECTION_PERSPECTIVE ? tanf(camera->fov * 0.00872664626f) : 0.0f;
     const float aspect = (float)job->width / (float)job->height;
     for (int c = 0; c < 3; c++) {
         job->right[c] *= half * aspect;
@@ -102,12 +102,12 @@ static void triangle_normals(const shade_job *job, const cgt_tile *tile, size_t 
         const uint32_t primitive = tile->primitive[at + i];
         float own[3], mixed[3], away = 0.0f;
         for (int c = 0; c < 3; c++) {
-            own[c] = primitive == CGT_NONE ? 0.0f : tile->normal[c][at + i];
+            own[c] = primitive == CGT_INVALID_ID ? 0.0f : tile->normal[c][at + i];
             away += own[c] * (rays->first[c] + (float)i * rays->step[c]);
         }
         const float *n = own;
         int turn = away > 0.0f;
-        if (job->vertex_normal && primitive != CGT_NONE &&
+        if (job->vertex_normal && primitive != CGT_INVALID_ID &&
             mixed_normal(job, primitive, tile->u[at + i], tile->v[at + i], mixed)) {
             turn = (dot(own, mixed) < 0.0f) != turn;
             n = mixed;
@@ -161,7 +161,7 @@ static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t at, ui
     uint32_t hits = 0;
     for (uint32_t i = 0; i < count; i++) {
         float *pixel = sum[i >> shift];
-        if (primitive[i] == CGT_NONE) {
+        if (primitive[i] == CGT_INVALID_ID) {
             for (int c = 0; c < 3; c++)
                 pixel[c] += job->background[c];
             continue;
@@ -178,25 +178,25 @@ static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t at, ui
 static void nearest(const shade_job *job, const cgt_tile *tile, size_t at, image_pixel *pixel)
 {
     pixel->z = INFINITY;
-    pixel->id = CGT_NONE;
+    pixel->id = CGT_INVALID_ID;
     for (uint32_t j = 0; j < job->samples; j++)
         for (uint32_t i = 0; i < job->samples; i++) {
             const size_t k = at + j * tile->row_stride + i;
-            if (tile->primitive[k] == CGT_NONE || tile->t[k] >= pixel->z)
+            if (tile->primitive[k] == CGT_INVALID_ID || tile->t[k] >= pixel->z)
                 continue;
             pixel->z = tile->t[k];
             pixel->id = tile->primitive[k];
         }
 }
 
-/* Whether `count` x `samples` hits from element `at` on are all misses: CGT_NONE is all ones. */
+/* Whether `count` x `samples` hits from element `at` on are all misses: CGT_INVALID_ID is all ones. */
 static int is_background(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count)
 {
-    uint32_t all = CGT_NONE;
+    uint32_t all = CGT_INVALID_ID;
     for (uint32_t row = 0; row < job->samples; row++)
         for (uint32_t i = 0; i < count; i++)
             all &= tile->primitive[at + row * tile->row_stride + i];
-    return all == CGT_NONE;
+    return all == CGT_INVALID_ID;
 }
 
 static void fill_background(const shade_job *job, size_t first, uint32_t pixels)
@@ -208,7 +208,7 @@ static void fill_background(const shade_job *job, size_t first, uint32_t pixels)
         memcpy(job->rgb + (first + k) * 3, rgb, sizeof rgb);
     for (uint32_t k = 0; job->pixels && k < pixels; k++)
         job->pixels[first + k] =
-            (image_pixel){job->background[0], job->background[1], job->background[2], INFINITY, CGT_NONE};
+            (image_pixel){job->background[0], job->background[1], job->background[2], INFINITY, CGT_INVALID_ID};
 }
 
 /* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */

@@ -235,8 +235,8 @@ static void print_summary(const renderer *r)
     printf("%s: %" PRIu32 "x%" PRIu32, o->input, o->width, o->height);
     if (o->samples > 1)
         printf(", %" PRIu32 " rays a pixel", o->samples * o->samples);
-    printf(", %" PRIu32 " thread%s, variant %s\n", cgt_context_threads(r->context),
-           cgt_context_threads(r->context) == 1 ? "" : "s", cgt_context_variant(r->context));
+    printf(", %" PRIu32 " thread%s, variant %s\n", cgt_context_get_threads(r->context),
+           cgt_context_get_threads(r->context) == 1 ? "" : "s", cgt_context_get_variant(r->context));
     printf("camera            -c %.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", (double)c->eye[0],
            (double)c->eye[1], (double)c->eye[2], (double)c->target[0], (double)c->target[1], (double)c->target[2],
            (double)c->up[0], (double)c->up[1], (double)c->up[2], (double)c->fov);

@@ -21,9 +21,9 @@ int render_fail_library(renderer *r, const char *what, cgt_result result)
 {
     char message[512] = "";
     if (r->context)
-        cgt_error_message(r->context, message, sizeof message);
+        cgt_context_get_error_message(r->context, message, sizeof message);
     program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->source.frame.number, what,
-                  *message ? message : cgt_result_string(result));
+                  *message ? message : cgt_get_result_string(result));
     return -1;
 }
 
@@ -31,7 +31,7 @@ static void on_log(void *user, cgt_log_level level, const char *message)
 {
     static const char *const names[] = {"error", "warning", "info"};
     (void)user;
-    program_error("%s: %s", level <= CGT_LOG_INFO ? names[level] : "log", message);
+    program_error("%s: %s", level <= CGT_LOG_LEVEL_INFO ? names[level] : "log", message);
 }
 
 static int make_folders(renderer *r)
@@ -236,7 +236,7 @@ static int create_scene(renderer *r)
     cgt_result result = cgt_context_create(&options, &r->context);
     if (result) {
         program_error("cannot start the library%s%s: %s", options.variant ? " with variant " : "",
-                      options.variant ? options.variant : "", cgt_result_string(result));
+                      options.variant ? options.variant : "", cgt_get_result_string(result));
         return -1;
     }
     result = cgt_scene_create(r->context, NULL, &r->scene);

@@ -17,7 +17,7 @@ typedef struct picture {
     _Alignas(64) float t[PIXELS];
     _Alignas(64) float normal[3][PIXELS];
     _Alignas(64) uint32_t primitive[PIXELS], geometry[PIXELS];
-    float openness[PIXELS];
+    float visibility[PIXELS];
     uint8_t rgb[PIXELS][3];
 } picture;
 
@@ -49,26 +49,26 @@ static cgt_result add_things(cgt_scene *scene, const float center[BALLS][3])
 static cgt_result look(const cgt_scene *scene, const cgt_camera *camera, uint32_t samples, picture *p)
 {
     cgt_frame frame;
-    cgt_ambient ambient;
+    cgt_ambient_options ambient;
     cgt_frame_init(&frame, WIDTH, HEIGHT);
     frame.t = p->t;
     frame.primitive = p->primitive;
     frame.geometry = p->geometry;
     for (int a = 0; a < 3; a++)
         frame.normal[a] = p->normal[a];
-    cgt_ambient_init(&ambient);
+    cgt_ambient_options_init(&ambient);
     ambient.samples = samples;
     const cgt_result result = cgt_trace_camera(scene, camera, &frame, NULL);
-    return result ? result : cgt_trace_ambient(scene, camera, &frame, &ambient, p->openness, NULL);
+    return result ? result : cgt_ambient_occlusion(scene, camera, &frame, &ambient, p->visibility, NULL);
 }
 
 static void draw(picture *p)
 {
     for (int i = 0; i < PIXELS; i++) {
-        const int plain = p->primitive[i] == CGT_NONE || p->geometry[i] == FLOOR;
+        const int plain = p->primitive[i] == CGT_INVALID_ID || p->geometry[i] == FLOOR;
         for (int k = 0; k < 3; k++) {
             const float colour = plain ? 0.9f : 0.6f + 0.4f * cosf(0.9f * (float)p->primitive[i] + 2.1f * (float)k);
-            p->rgb[i][k] = (uint8_t)(255 * sqrtf(p->openness[i] * colour)); /* about what a screen expects */
+            p->rgb[i][k] = (uint8_t)(255 * sqrtf(p->visibility[i] * colour)); /* about what a screen expects */
         }
     }
 }
@@ -90,8 +90,8 @@ static void report(const picture *p)
     double sum = 0;
     int hits = 0;
     for (int i = 0; i < PIXELS; i++)
-        if (p->primitive[i] != CGT_NONE) {
-            sum += (double)p->openness[i];
+        if (p->primitive[i] != CGT_INVALID_ID) {
+            sum += (double)p->visibility[i];
             hits++;
         }
     printf("%d pixels see %.1f %% of the sky\n", hits, hits ? 100 * sum / hits : 0);
@@ -119,7 +119,7 @@ int main(int argc, char **argv)
     camera.target[1] = 2;
     camera.fov = 38;
     cgt_scene_options_init(&options);
-    options.rays = CGT_RAYS_INCOHERENT; /* most rays are those that look for the sky */
+    options.rays = CGT_RAY_KIND_INCOHERENT; /* most rays are those that look for the sky */
 
     cgt_result result = cgt_context_create(NULL, &context);
     if (!result)
@@ -133,8 +133,8 @@ int main(int argc, char **argv)
     if (result) {
         char message[256] = "";
         if (context)
-            cgt_error_message(context, message, sizeof message);
-        fprintf(stderr, "ambient-occlusion: %s %s\n", cgt_result_string(result), message);
+            cgt_context_get_error_message(context, message, sizeof message);
+        fprintf(stderr, "ambient-occlusion: %s %s\n", cgt_get_result_string(result), message);
     } else {
         draw(&p);
         report(&p);

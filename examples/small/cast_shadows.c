@@ -75,7 +75,7 @@ static void find_positions(const cgt_camera *camera, picture *p)
         const int column = i % WIDTH, row = i / WIDTH;
         const float x = (2 * ((float)column + 0.5f) / WIDTH - 1) * h * a;
         const float y = (1 - 2 * ((float)row + 0.5f) / HEIGHT) * h;
-        const int hit = p->primitive[i] != CGT_NONE;
+        const int hit = p->primitive[i] != CGT_INVALID_ID;
         for (int k = 0; k < 3; k++)
             p->position[k][i] = hit ? eye[k] + p->t[i] * (fwd[k] + x * right[k] + y * up[k]) : 0;
         p->t_min[i] = 0.001f; /* of the way to the lamp: away from the surface that the point lies on */
@@ -90,7 +90,7 @@ static cgt_result ask_for_the_lamp(const cgt_scene *scene, picture *p)
                                .position = {p->position[0], p->position[1], p->position[2]},
                                .t_min = p->t_min,
                                .t_max = p->t_max};
-    return cgt_occluded_light(scene, &light, &points, p->occluded, NULL);
+    return cgt_occluded_points(scene, &light, &points, p->occluded, NULL);
 }
 
 /* Lambert where the lamp is seen, a little light everywhere. */
@@ -108,7 +108,7 @@ static float brightness(const picture *p, int i)
 static void draw(picture *p)
 {
     for (int i = 0; i < PIXELS; i++) {
-        const int hit = p->primitive[i] != CGT_NONE;
+        const int hit = p->primitive[i] != CGT_INVALID_ID;
         const float light = hit ? brightness(p, i) : 0.05f, hue = 0.4f * (float)p->primitive[i];
         for (int k = 0; k < 3; k++) {
             const int plain = !hit || p->geometry[i] == FLOOR;
@@ -134,7 +134,7 @@ static void report(const picture *p)
 {
     int hits = 0, dark = 0;
     for (int i = 0; i < PIXELS; i++) {
-        hits += p->primitive[i] != CGT_NONE;
+        hits += p->primitive[i] != CGT_INVALID_ID;
         dark += p->occluded[i];
     }
     printf("%d of %d points do not see the lamp\n", dark, hits);
@@ -172,8 +172,8 @@ int main(int argc, char **argv)
     if (result) {
         char message[256] = "";
         if (context)
-            cgt_error_message(context, message, sizeof message);
-        fprintf(stderr, "cast-shadows: %s %s\n", cgt_result_string(result), message);
+            cgt_context_get_error_message(context, message, sizeof message);
+        fprintf(stderr, "cast-shadows: %s %s\n", cgt_get_result_string(result), message);
     } else {
         draw(&p);
         report(&p);

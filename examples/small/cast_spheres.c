@@ -27,7 +27,7 @@ static int draw_tile(void *user, const cgt_tile *tile)
             const uint32_t primitive = tile->primitive[pixel];
             const int lit = tile->normal[1][pixel] > 0.0f; /* from above */
             picture[tile->y + j][tile->x + i] =
-                (char)(primitive == CGT_NONE ? '.' : (lit ? 'A' : 'a') + (int)primitive);
+                (char)(primitive == CGT_INVALID_ID ? '.' : (lit ? 'A' : 'a') + (int)primitive);
         }
     return 0; /* anything else stops the frame */
 }
@@ -67,7 +67,7 @@ static cgt_result look(const cgt_scene *scene)
     const cgt_rays rays = {.count = 1, .org = {&org[0], &org[1], &org[2]}, .dir = {&dir[0], &dir[1], &dir[2]}};
     const cgt_hits hits = {.t = &t, .primitive = &primitive};
     result = cgt_trace_rays(scene, &rays, &hits, NULL);
-    if (result == CGT_OK && primitive == CGT_NONE)
+    if (result == CGT_OK && primitive == CGT_INVALID_ID)
         puts("the ray hits nothing\n");
     else if (result == CGT_OK)
         printf("the ray hits sphere %c at t = %g\n\n", 'A' + (int)primitive, (double)t);
@@ -105,8 +105,8 @@ int main(void)
     if (result) {
         char message[256] = "";
         if (context)
-            cgt_error_message(context, message, sizeof message);
-        fprintf(stderr, "cast-spheres: %s %s\n", cgt_result_string(result), message);
+            cgt_context_get_error_message(context, message, sizeof message);
+        fprintf(stderr, "cast-spheres: %s %s\n", cgt_get_result_string(result), message);
     }
     cgt_scene_release(scene); /* NULL is fine */
     cgt_context_release(context);

@@ -11,7 +11,7 @@
  * A frame is: move your data, cgt_scene_commit, cgt_trace_camera.
  *
  * Conventions of every call
- *   Result   cgt_result. On an error nothing is changed but the text that cgt_error_message returns.
+ *   Result   cgt_result. On an error nothing is changed but the text that cgt_context_get_error_message returns.
  *   NULL     allowed only where a text below says so.
  *   Threads  a scene is changed and committed by one thread at a time, while no thread traces it; a committed
  *            scene may be traced by any number of threads at once. There is no global state.
@@ -56,10 +56,10 @@ typedef enum cgt_result {
 } cgt_result;
 
 /* Returns a sentence for the code, in English, for ever valid. Unknown codes get a sentence too. */
-CGT_API const char *cgt_result_string(cgt_result result);
+CGT_API const char *cgt_get_result_string(cgt_result result);
 
 /* Returns the version of the library that is linked, as "major.minor.patch"; compare with CGT_VERSION_STRING. */
-CGT_API const char *cgt_version(void);
+CGT_API const char *cgt_get_version(void);
 
 /* ---- Hooks -------------------------------------------------------------------------------------------------- */
 
@@ -72,7 +72,7 @@ typedef struct cgt_memory_hooks {
     void (*release)(void *user, void *memory, size_t bytes);       /* default: the C library's */
 } cgt_memory_hooks;
 
-typedef enum cgt_log_level { CGT_LOG_ERROR = 0, CGT_LOG_WARNING, CGT_LOG_INFO } cgt_log_level;
+typedef enum cgt_log_level { CGT_LOG_LEVEL_ERROR = 0, CGT_LOG_LEVEL_WARNING, CGT_LOG_LEVEL_INFO } cgt_log_level;
 
 /* Log. write gets one line without a line feed; it may be called from any thread that calls the library. */
 typedef struct cgt_log_hook {
@@ -99,7 +99,7 @@ typedef struct cgt_context cgt_context;
 typedef struct cgt_context_options {
     uint32_t threads;        /* threads that work, the caller's included: 1 starts none; 0 (default) one per CPU that
                                 the process may use; at most 1024. Ignored where tasks.run is set. */
-    const char *variant;     /* name of a row of cgt_variants; NULL (default): the widest that this CPU runs */
+    const char *variant;     /* name of a row of cgt_get_variant_names; NULL (default): the widest that this CPU runs */
     cgt_memory_hooks memory; /* both functions or neither */
     cgt_log_hook log;
     cgt_task_runner tasks;
@@ -121,22 +121,22 @@ CGT_API void cgt_context_release(cgt_context *context);
 /* Copies the message of the last call on this context, or on a scene of it, that failed into text (ended by a zero,
  * cut to size bytes; NULL with size 0 to ask for the length). Returns the length of the whole message; 0 where no
  * call has failed. Any thread may call it; where several threads fail at once, one of their messages is kept. */
-CGT_API size_t cgt_error_message(const cgt_context *context, char *text, size_t size);
+CGT_API size_t cgt_context_get_error_message(const cgt_context *context, char *text, size_t size);
 
 /* Returns the name of the variant that the context uses, valid as long as the library is loaded. */
-CGT_API const char *cgt_context_variant(const cgt_context *context);
+CGT_API const char *cgt_context_get_variant(const cgt_context *context);
 
 /* Returns the number of threads that work for the context; 0 where the caller's task runner does. */
-CGT_API uint32_t cgt_context_threads(const cgt_context *context);
+CGT_API uint32_t cgt_context_get_threads(const cgt_context *context);
 
 /* Returns the names of all variants in this build, narrowest first, ended by NULL. A CPU need not run them all. */
-CGT_API const char *const *cgt_variants(void);
+CGT_API const char *const *cgt_get_variant_names(void);
 
 /* ---- Scene -------------------------------------------------------------------------------------------------- */
 
 typedef struct cgt_scene cgt_scene;
 
-#define CGT_NONE UINT32_MAX /* the primitive and the geometry of a ray that hits nothing */
+#define CGT_INVALID_ID UINT32_MAX /* the primitive and the geometry of a ray that hits nothing */
 
 /* Spheres in the caller's arrays. The library copies nothing: the arrays stay readable and unchanged from
  * cgt_scene_commit to the last trace before the next commit. Pointers are aligned as a float is.
@@ -182,14 +182,14 @@ typedef enum cgt_structure {
     CGT_STRUCTURE_LOOSE_GRID, /* uniform grids, one for each class of sizes; each primitive lies in one cell, that of its
                                  middle: 4 to 6 bytes a primitive, built in linear time. A camera's frame goes through
                                  it by tiles of 64x64 pixels, see cgt_trace_options.packet */
-    CGT_STRUCTURE_WIDE_TREE   /* tree of boxes with as many children to a node as the variant has lanes, over copies of
+    CGT_STRUCTURE_BVH         /* tree of boxes with as many children to a node as the variant has lanes, over copies of
                                  the primitives: for rays that start anywhere and go anywhere */
 } cgt_structure;
 
 /* What rays the scene is mostly traced with, for AUTO. */
 typedef enum cgt_ray_kind {
-    CGT_RAYS_CAMERA = 0, /* cgt_trace_camera, or arrays in which neighbours run side by side */
-    CGT_RAYS_INCOHERENT  /* arrays of rays that start anywhere and go anywhere: occlusion, bounces, queries */
+    CGT_RAY_KIND_COHERENT = 0, /* cgt_trace_camera, or arrays in which neighbours run side by side */
+    CGT_RAY_KIND_INCOHERENT    /* arrays of rays that start anywhere and go anywhere: occlusion, bounces, queries */
 } cgt_ray_kind;
 
 /* How a kd-tree is built. Both minimise the surface-area heuristic (MacDonald, Booth 1990) and give the same tree for
@@ -286,11 +286,11 @@ typedef struct cgt_scene_statistics {
     size_t local_store_bytes;     /* structure and primitives together: what a Cell SPU has to hold */
     int fits_local_store;         /* 1 where local_store_bytes, with 64 KB for program and stack, is within
                                      256 KB, and a queue grid is at most 16x16x16 */
-    uint32_t wide_nodes;          /* of the wide tree; all wide_ fields are 0 where there is none */
-    uint32_t wide_blocks;         /* its leaves: up to as many primitives as the variant has lanes, copied */
-    uint32_t wide_depth;          /* nodes on the longest way from the root to a leaf */
-    size_t wide_bytes;            /* nodes and blocks */
-    double wide_ms;               /* building it, at the commit or, for AUTO, when rays came that wanted it */
+    uint32_t bvh_nodes;           /* of the wide tree; all wide_ fields are 0 where there is none */
+    uint32_t bvh_leaves;          /* its leaves: up to as many primitives as the variant has lanes, copied */
+    uint32_t bvh_depth;           /* nodes on the longest way from the root to a leaf */
+    size_t bvh_bytes;             /* nodes and blocks */
+    double bvh_build_ms;          /* building it, at the commit or, for AUTO, when rays came that wanted it */
     double bounds_ms;             /* reading, checking and bounding the primitives */
     double build_ms;              /* filling the structure */
     double commit_ms;             /* the whole call */
@@ -303,17 +303,17 @@ CGT_API cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_st
 /* What a hit can carry; unasked fields cost nothing. */
 typedef enum cgt_field {
     CGT_FIELD_T = 1,         /* float: distance in units of the ray's direction; +infinity for none */
-    CGT_FIELD_PRIMITIVE = 2, /* uint32: index in its geometry; CGT_NONE for none */
-    CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_NONE for none */
+    CGT_FIELD_PRIMITIVE = 2, /* uint32: index in its geometry; CGT_INVALID_ID for none */
+    CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_INVALID_ID for none */
     CGT_FIELD_NORMAL = 8,    /* 3 floats: unit normal, outward of a sphere, of a triangle along
                                 (v1 - v0) x (v2 - v0); 0, 0, 0 for none */
     CGT_FIELD_UV = 16 /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; 0, 0 on a sphere and for none */
 } cgt_field;
 
 typedef enum cgt_tile_shape {
-    CGT_TILE_AUTO = 0, /* chosen: square */
-    CGT_TILE_SQUARE,   /* 64x64 pixels */
-    CGT_TILE_STRIP     /* Chapman's: four scanlines, 1,280 pixels at most, written in scanline order; packets are 4x4 */
+    CGT_TILE_SHAPE_AUTO = 0, /* chosen: square */
+    CGT_TILE_SHAPE_SQUARE,   /* 64x64 pixels */
+    CGT_TILE_SHAPE_STRIP /* Chapman's: four scanlines, 1,280 pixels at most, written in scanline order; packets are 4x4 */
 } cgt_tile_shape;
 
 typedef enum cgt_loop {
@@ -348,9 +348,9 @@ typedef enum cgt_precision { CGT_PRECISION_ROBUST = 0, CGT_PRECISION_FAST, CGT_P
 
 /* How FAST tests triangles. ROBUST and EXACT need an error bound, which WATERTIGHT has. */
 typedef enum cgt_triangle_test {
-    CGT_TRIANGLE_WATERTIGHT = 0,  /* edge functions of the ray's Pluecker coordinates */
-    CGT_TRIANGLE_MOLLER_TRUMBORE, /* Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997 */
-    CGT_TRIANGLE_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */
+    CGT_TRIANGLE_TEST_WATERTIGHT = 0, /* edge functions of the ray's Pluecker coordinates */
+    CGT_TRIANGLE_TEST_MOLLER_TRUMBORE, /* Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997 */
+    CGT_TRIANGLE_TEST_ACCELERATED      /* projected onto the main plane (Wald 2004), from 48 bytes a triangle */
 } cgt_triangle_test;
 
 /* What a trace did. Handed out only where a statistics pointer is set. Where tiles went through a loose grid as a whole
@@ -361,7 +361,7 @@ typedef struct cgt_trace_statistics {
     uint64_t invalid_rays;    /* with a NaN or an infinity in origin or direction, a zero direction, or a NaN range:
                                  they hit nothing */
     uint64_t hits;            /* rays with a hit; occluded rays in the any-hit form */
-    uint64_t wide_rays;       /* that went through a wide tree */
+    uint64_t bvh_rays;        /* that went through a wide tree */
     uint64_t tiles;           /* tiles of a camera's frame, or of points against a light, that went through a loose grid
                                  as a whole, not by packets */
     uint64_t packets;         /* packets traversed: common main axis and sign */
@@ -406,7 +406,7 @@ typedef struct cgt_trace_options {
 
 CGT_API void cgt_trace_options_init(cgt_trace_options *options);
 
-typedef enum cgt_projection { CGT_PERSPECTIVE = 0, CGT_ORTHOGRAPHIC } cgt_projection;
+typedef enum cgt_projection { CGT_PROJECTION_PERSPECTIVE = 0, CGT_PROJECTION_ORTHOGRAPHIC } cgt_projection;
 
 /* A camera. With fwd, right, up its orthonormal axes, h = tan(fov / 2) and a = width / height, the ray of pixel
  * (x, y), row 0 at the top, is
@@ -491,11 +491,11 @@ typedef struct cgt_rays {
     const float *t_max;   /* NULL: +infinity for all. Below t_min: the ray hits nothing. */
     const uint32_t *mask; /* a geometry counts for a ray where its mask and the ray's have a bit in common: a ray with
                              0 hits nothing. NULL: all bits set, for all */
-    const uint32_t *ignored_primitive; /* a primitive that the ray does not find, such as the one that it leaves:
-                                          CGT_NONE for none; NULL: none for all. Its equals are found. One that its
+    const uint32_t *skip_primitive; /* a primitive that the ray does not find, such as the one that it leaves:
+                                          CGT_INVALID_ID for none; NULL: none for all. Its equals are found. One that its
                                           geometry does not have is none */
-    const uint32_t *ignored_geometry;  /* the geometry of that primitive, CGT_NONE or another that does not exist for
-                                          none; NULL: 0 for all. Not read where ignored_primitive is NULL */
+    const uint32_t *skip_geometry;  /* the geometry of that primitive, CGT_INVALID_ID or another that does not exist for
+                                          none; NULL: 0 for all. Not read where skip_primitive is NULL */
 } cgt_rays;
 
 /* Hits in the caller's arrays: element i of each at byte i * stride. NULL: not wanted. */
@@ -533,13 +533,13 @@ typedef struct cgt_points {
     size_t stride;            /* bytes, a multiple of 4; 0 (default): 4 */
     const float *position[3]; /* x, y, z */
     const float *t_min;       /* NULL: 0 for all. A little more keeps a point on a surface from finding that surface,
-                                 where ignored_primitive does not */
+                                 where skip_primitive does not */
     const float *t_max;       /* NULL: the way to the light, 1 or +infinity. Below t_min: the point is not occluded,
                                  and costs nothing */
     const uint32_t *mask;     /* of the ray to the light; this and the next as of cgt_rays */
-    const uint32_t *ignored_primitive; /* the one that the point lies on: a frame's planes will do, and no offset is
+    const uint32_t *skip_primitive; /* the one that the point lies on: a frame's planes will do, and no offset is
                                           needed */
-    const uint32_t *ignored_geometry;
+    const uint32_t *skip_geometry;
 } cgt_points;
 
 /* Sets occluded[i] to 1 where anything lies between point i and the light, else to 0. The ray of a point is
@@ -553,18 +553,18 @@ typedef struct cgt_points {
  * exactly; points that lie apart from each other go as other rays do. The points are cut into chunks of 4,096, each a
  * task: fastest is a call for up to so many that belong together, such as a picture's tile, by whichever of the caller's
  * threads has made them; it uses no other thread. occluded: points->count bytes. Errors and memory: as cgt_trace_rays. */
-CGT_API cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
-                                      uint8_t *occluded, const cgt_trace_options *options);
+CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
+                                       uint8_t *occluded, const cgt_trace_options *options);
 
 /* Ambient occlusion of a frame's pixels. */
-typedef struct cgt_ambient {
+typedef struct cgt_ambient_options {
     uint32_t samples; /* rays of a pixel, 1 to 1,024; default 16 */
     float radius;     /* what a ray meets beyond does not count: world units, above 0; default +infinity */
     uint32_t seed;    /* another one gives other directions; default 0 */
-} cgt_ambient;
+} cgt_ambient_options;
 
 /* Fills in the defaults. */
-CGT_API void cgt_ambient_init(cgt_ambient *ambient);
+CGT_API void cgt_ambient_options_init(cgt_ambient_options *ambient);
 
 /* How much of the sky the pixels of a frame see: openness gets, for each, the share of its rays that meet nothing,
  * 1 where the frame has no hit.
@@ -582,8 +582,9 @@ CGT_API void cgt_ambient_init(cgt_ambient *ambient);
  * Square", 1997). They are the same bits for any number of threads and every variant, and so is openness, but in
  * precision FAST. A pixel whose t or normal is not finite is open. Errors and memory: as cgt_trace_rays; INVALID_ARGUMENT
  * where a plane is missing, too. */
-CGT_API cgt_result cgt_trace_ambient(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
-                                     const cgt_ambient *ambient, float *openness, const cgt_trace_options *options);
+CGT_API cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                                         const cgt_ambient_options *ambient, float *visibility,
+                                         const cgt_trace_options *options);
 
 #ifdef __cplusplus
 }

@@ -89,11 +89,11 @@ static void log_commit(const cgt_scene *scene)
         snprintf(text, sizeof text,
                  "commit: of %u primitives %u skipped: not finite, %u skipped: negative radius, %u skipped: no area",
                  st->primitives, st->skipped_not_finite, st->skipped_radius, st->skipped_degenerate);
-        log->write(log->user, CGT_LOG_WARNING, text);
+        log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
     }
     snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
              st->triangles, st->resolution[0], st->resolution[1], st->resolution[2], st->commit_ms, st->reason);
-    log->write(log->user, CGT_LOG_INFO, text);
+    log->write(log->user, CGT_LOG_LEVEL_INFO, text);
 }
 
 /* Beyond 2^100 the filter's products leave the range of float; what is smaller is decided in double. */
@@ -133,7 +133,7 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_object_summary *s)
     if (world->structure == CGT_STRUCTURE_QUEUE_GRID)
         return cgt_queue_grid_commit(scene, s);
     snprintf(reason, bytes, "%s", why);
-    if (world->structure == CGT_STRUCTURE_WIDE_TREE)
+    if (world->structure == CGT_STRUCTURE_BVH)
         return cgt_wide_tree_commit(scene);
     return cgt_kd_commit(scene, world->structure == CGT_STRUCTURE_KD_ROPES);
 }
@@ -169,7 +169,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     scene->statistics = (cgt_scene_statistics){0};
     scene->world = (cgt_world){0};
     atomic_store_explicit(&scene->wide_is_built, false, memory_order_relaxed);
-    atomic_store_explicit(&scene->wide_rays, 0, memory_order_relaxed);
+    atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);
     cgt_float_environment_enter(&callers);
     const cgt_result result = build(scene);
     cgt_float_environment_leave(&callers);

@@ -11,7 +11,7 @@
 
 #define MAX_THREADS 1024u
 
-const char *cgt_version(void) { return CGT_VERSION_STRING; }
+const char *cgt_get_version(void) { return CGT_VERSION_STRING; }
 
 double cgt_now_ms(void)
 {
@@ -25,7 +25,7 @@ void cgt_context_options_init(cgt_context_options *options) { memset(options, 0,
 static cgt_result refuse(const cgt_context_options *o, cgt_result result, const char *message)
 {
     if (o->log.write)
-        o->log.write(o->log.user, CGT_LOG_ERROR, message);
+        o->log.write(o->log.user, CGT_LOG_LEVEL_ERROR, message);
     return result;
 }
 
@@ -123,9 +123,9 @@ void cgt_context_release(cgt_context *context)
     cgt_free(&memory, context, sizeof *context);
 }
 
-const char *cgt_context_variant(const cgt_context *context) { return context->kernel->name; }
+const char *cgt_context_get_variant(const cgt_context *context) { return context->kernel->name; }
 
-uint32_t cgt_context_threads(const cgt_context *context) { return context->threads; }
+uint32_t cgt_context_get_threads(const cgt_context *context) { return context->threads; }
 
 void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count)
 {

@@ -8,7 +8,7 @@
 
 #include "core/context.h"
 
-const char *cgt_result_string(cgt_result result)
+const char *cgt_get_result_string(cgt_result result)
 {
     switch (result) {
     case CGT_OK: return "no error";
@@ -34,11 +34,11 @@ cgt_result cgt_fail(cgt_context *context, cgt_result result, const char *format,
     memcpy(context->message, text, sizeof text);
     pthread_mutex_unlock(&context->message_lock);
     if (context->log.write)
-        context->log.write(context->log.user, CGT_LOG_ERROR, text);
+        context->log.write(context->log.user, CGT_LOG_LEVEL_ERROR, text);
     return result;
 }
 
-size_t cgt_error_message(const cgt_context *context, char *text, size_t size)
+size_t cgt_context_get_error_message(const cgt_context *context, char *text, size_t size)
 {
     cgt_context *c = (cgt_context *)context; /* the lock changes, nothing that the caller sees */
     if (!c)

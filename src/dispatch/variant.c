@@ -86,7 +86,7 @@ static const char *const names[ROWS + 1] = {
     NULL,
 };
 
-const char *const *cgt_variants(void) { return names; }
+const char *const *cgt_get_variant_names(void) { return names; }
 
 static void disable_unknown(const char *name, size_t length)
 {

@@ -17,7 +17,7 @@
  *
  * Ropes (Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", 2007):
  * each leaf has its box and, for each of its six faces, the node on the other side: rope[2 a] beyond the lower face of
- * axis a, rope[2 a + 1] beyond the upper one; CGT_NONE where the tree ends. Ropes of packets lead to the sibling of an
+ * axis a, rope[2 a + 1] beyond the upper one; CGT_INVALID_ID where the tree ends. Ropes of packets lead to the sibling of an
  * ancestor, whose face holds the leaf's; those of single rays are pushed down to the smallest node that still holds
  * the whole face. */
 #ifndef CGT_KD_TREE_H

@@ -68,7 +68,7 @@ typedef struct cgt_object_summary {
     uint32_t skipped_not_finite;
     uint32_t skipped_radius;
     uint32_t skipped_degenerate;
-    uint32_t bad_index;   /* the first object with an index out of range; CGT_NONE: none */
+    uint32_t bad_index;   /* the first object with an index out of range; CGT_INVALID_ID: none */
     float min[3], max[3]; /* outwards rounded */
     double diameter[4];   /* sums of the powers 0 to 3 of the diameters; 0 where they were not wished for */
     float magnitude;      /* largest coordinate of any bound */

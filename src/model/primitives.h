@@ -64,7 +64,7 @@ static inline bool cgt_objects_hidden(const cgt_objects *objects, uint32_t mask)
     return hidden;
 }
 
-/* The object of a primitive; CGT_NONE where there is no such geometry, or the geometry has no such primitive. */
+/* The object of a primitive; CGT_INVALID_ID where there is no such geometry, or the geometry has no such primitive. */
 static inline uint32_t cgt_objects_number(const cgt_objects *objects, uint32_t geometry, uint32_t primitive)
 {
     uint32_t low = 0, high = objects->arrays;
@@ -76,7 +76,7 @@ static inline uint32_t cgt_objects_number(const cgt_objects *objects, uint32_t g
             high = middle;
     }
     if (low == objects->arrays || objects->array[low].geometry != geometry || primitive >= objects->array[low].count)
-        return CGT_NONE;
+        return CGT_INVALID_ID;
     return objects->array[low].first + primitive;
 }
 

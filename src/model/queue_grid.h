@@ -34,7 +34,7 @@ typedef struct cgt_voxel {
 } cgt_voxel;
 
 typedef struct cgt_wide_voxel {
-    uint32_t reference[CGT_QUEUE_LENGTH]; /* CGT_NONE: none */
+    uint32_t reference[CGT_QUEUE_LENGTH]; /* CGT_INVALID_ID: none */
 } cgt_wide_voxel;
 
 typedef struct cgt_overflow {

@@ -58,8 +58,8 @@ static inline void cgt_ambient_axes(const float n[3], float across[2][3])
 /* The directions of pixel (x, y) about the unit vector n: on a disc (Shirley, Chiu 1997), and from there up to the
  * sphere, which makes their density that of the cosine. On the disc an angle is at most pi / 4 from an axis, where
  * these terms of sine and cosine are within 2^-24. */
-static inline void cgt_ambient_directions(const cgt_ambient_points *points, const cgt_ambient *ambient, uint32_t x,
-                                          uint32_t y, const float n[3], float *const dir[3])
+static inline void cgt_ambient_directions(const cgt_ambient_points *points, const cgt_ambient_options *ambient,
+                                          uint32_t x, uint32_t y, const float n[3], float *const dir[3])
 {
     const uint32_t scramble = cgt_ambient_mix(x ^ cgt_ambient_mix(y ^ cgt_ambient_mix(ambient->seed)));
     const uint32_t other = cgt_ambient_mix(scramble);

@@ -29,7 +29,7 @@ static bool finite3(const float v[3]) { return isfinite(v[0]) && isfinite(v[1]) 
 
 void cgt_camera_init(cgt_camera *camera)
 {
-    *camera = (cgt_camera){.projection = CGT_PERSPECTIVE,
+    *camera = (cgt_camera){.projection = CGT_PROJECTION_PERSPECTIVE,
                            .eye = {0, 0, 5},
                            .up = {0, 1, 0},
                            .fov = 45,
@@ -41,7 +41,7 @@ void cgt_camera_init(cgt_camera *camera)
 /* NULL, or what is wrong. */
 static const char *check(const cgt_camera *c)
 {
-    if (c->projection != CGT_PERSPECTIVE && c->projection != CGT_ORTHOGRAPHIC)
+    if (c->projection != CGT_PROJECTION_PERSPECTIVE && c->projection != CGT_PROJECTION_ORTHOGRAPHIC)
         return "projection is unknown";
     if (!finite3(c->eye))
         return "eye is not finite";
@@ -49,9 +49,9 @@ static const char *check(const cgt_camera *c)
         return "target is not finite";
     if (!finite3(c->up))
         return "up is not finite";
-    if (c->projection == CGT_PERSPECTIVE && !(c->fov > 0 && c->fov < 180))
+    if (c->projection == CGT_PROJECTION_PERSPECTIVE && !(c->fov > 0 && c->fov < 180))
         return "fov must be above 0 and below 180 degrees";
-    if (c->projection == CGT_ORTHOGRAPHIC && !(c->height > 0 && isfinite(c->height)))
+    if (c->projection == CGT_PROJECTION_ORTHOGRAPHIC && !(c->height > 0 && isfinite(c->height)))
         return "height must be above 0 and finite";
     if (!(c->t_min >= 0))
         return "t_min must be 0 or more";
@@ -100,7 +100,7 @@ cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t
         snprintf(message, 160, "camera: %s", wrong);
         return CGT_ERROR_INVALID_ARGUMENT;
     }
-    const bool orthographic = camera->projection == CGT_ORTHOGRAPHIC;
+    const bool orthographic = camera->projection == CGT_PROJECTION_ORTHOGRAPHIC;
     const double half = orthographic ? 0.5 * camera->height : tan(camera->fov * (3.14159265358979323846 / 360));
     *rays = (cgt_camera_rays){.eye = {camera->eye[0], camera->eye[1], camera->eye[2]},
                               .pixel = {2.f / (float)width, 2.f / (float)height},

@@ -48,7 +48,7 @@ typedef struct cgt_region {
 /* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as
  * an array. */
 typedef struct cgt_counts {
-    uint64_t rays, invalid_rays, hits, wide_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
+    uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,
         double_tests, exact_tests, exact_values, early_exits;
 } cgt_counts;

@@ -18,9 +18,9 @@ void cgt_scene_options_init(cgt_scene_options *options) { memset(options, 0, siz
 static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
 {
     const uint32_t *r = o->resolution;
-    if ((unsigned)o->structure > CGT_STRUCTURE_WIDE_TREE)
+    if ((unsigned)o->structure > CGT_STRUCTURE_BVH)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: structure %d is unknown", (int)o->structure);
-    if ((unsigned)o->rays > CGT_RAYS_INCOHERENT)
+    if ((unsigned)o->rays > CGT_RAY_KIND_INCOHERENT)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: rays %d is unknown", (int)o->rays);
     if ((unsigned)o->kd_builder > CGT_KD_BUILDER_SWEEP)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_builder %d is unknown", (int)o->kd_builder);
@@ -60,7 +60,7 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     s->options = *options;
     s->self = s;
     atomic_init(&s->wide_is_built, false);
-    atomic_init(&s->wide_rays, 0);
+    atomic_init(&s->bvh_rays, 0);
     if (pthread_mutex_init(&s->wide_lock, NULL)) {
         cgt_free(&context->memory, s, sizeof *s);
         return cgt_fail(context, CGT_ERROR_THREADS, "the system refused a lock");
@@ -158,7 +158,7 @@ static uint64_t count_with(const cgt_scene *scene, uint32_t id, uint32_t count)
 static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry *geometry)
 {
     const uint64_t sum = count_with(scene, id, primitives_of(geometry));
-    if (sum >= CGT_NONE)
+    if (sum >= CGT_INVALID_ID)
         return cgt_fail(scene->context, CGT_ERROR_TOO_LARGE, "scene: %llu primitives in all: at most 2^32 - 2",
                         (unsigned long long)sum);
     if (id == scene->geometries) {

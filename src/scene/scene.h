@@ -55,10 +55,10 @@ struct cgt_scene {
     bool committed;      /* nothing changed since the last commit */
     cgt_world world;
     cgt_scene_statistics statistics;
-    struct cgt_scene *self;     /* for what tracing builds */
-    pthread_mutex_t wide_lock;  /* of a wide tree that tracing builds, and of the statistics with it */
-    atomic_bool wide_is_built;  /* by tracing */
-    _Atomic uint64_t wide_rays; /* that would have gone through it, since the commit */
+    struct cgt_scene *self;    /* for what tracing builds */
+    pthread_mutex_t wide_lock; /* of a wide tree that tracing builds, and of the statistics with it */
+    atomic_bool wide_is_built; /* by tracing */
+    _Atomic uint64_t bvh_rays; /* that would have gone through it, since the commit */
 };
 
 /* Memory that a scene holds. */

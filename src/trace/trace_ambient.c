@@ -18,8 +18,8 @@
 typedef struct ambient_job {
     const cgt_scene *scene;
     const cgt_frame *frame;
-    cgt_ambient ambient;
-    float *openness;
+    cgt_ambient_options ambient;
+    float *visibility;
     cgt_camera_rays camera;
     bool hides; /* the camera's mask leaves something out */
     cgt_trace_settings settings;
@@ -50,8 +50,8 @@ static void trace_batch(const ambient_job *job, batch *b)
                            .dir = {b->dir[0], b->dir[1], b->dir[2]},
                            .t_max = isinf(job->ambient.radius) ? NULL : b->t_max,
                            .mask = job->hides ? b->mask : NULL,
-                           .ignored_primitive = b->primitive,
-                           .ignored_geometry = b->geometry};
+                           .skip_primitive = b->primitive,
+                           .skip_geometry = b->geometry};
     if (!b->rays)
         return;
     s->context->kernel->trace_rays(&s->world, &rays, 0, b->rays, &job->settings, NULL, b->occluded, &b->counts);
@@ -59,7 +59,7 @@ static void trace_batch(const ambient_job *job, batch *b)
         uint32_t open = samples;
         for (uint32_t k = 0; k < samples; k++)
             open -= b->occluded[i * samples + k];
-        job->openness[b->element[i]] = (float)open / (float)samples;
+        job->visibility[b->element[i]] = (float)open / (float)samples;
     }
     b->rays = b->pixels = 0;
 }
@@ -119,8 +119,8 @@ static void trace_tile(void *argument, uint32_t index)
         const size_t element = (size_t)y * job->row_stride + x;
         if (x >= f->width || y >= f->height)
             continue;
-        if (f->primitive[element] == CGT_NONE) {
-            job->openness[element] = 1;
+        if (f->primitive[element] == CGT_INVALID_ID) {
+            job->visibility[element] = 1;
             continue;
         }
         if (b.rays + job->ambient.samples > BATCH)
@@ -134,9 +134,12 @@ static void trace_tile(void *argument, uint32_t index)
 
 /* ---- the call ---- */
 
-void cgt_ambient_init(cgt_ambient *ambient) { *ambient = (cgt_ambient){.samples = 16, .radius = INFINITY}; }
+void cgt_ambient_options_init(cgt_ambient_options *ambient)
+{
+    *ambient = (cgt_ambient_options){.samples = 16, .radius = INFINITY};
+}
 
-static cgt_result check_ambient(cgt_context *c, const cgt_ambient *a, const cgt_frame *f)
+static cgt_result check_ambient(cgt_context *c, const cgt_ambient_options *a, const cgt_frame *f)
 {
     if (!a->samples || a->samples > CGT_AMBIENT_SAMPLES)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: %u samples: 1 to %u", a->samples, CGT_AMBIENT_SAMPLES);
@@ -169,14 +172,15 @@ static cgt_result prepare(ambient_job *job, const cgt_camera *camera, const cgt_
     return result == CGT_OK ? result : cgt_fail(c, result, "%s", message);
 }
 
-cgt_result cgt_trace_ambient(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
-                             const cgt_ambient *ambient, float *openness, const cgt_trace_options *options)
+cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                                 const cgt_ambient_options *ambient, float *visibility,
+                                 const cgt_trace_options *options)
 {
     cgt_trace_counter counter;
-    if (!scene || !camera || !frame || !openness)
+    if (!scene || !camera || !frame || !visibility)
         return CGT_ERROR_INVALID_ARGUMENT;
-    ambient_job job = {.scene = scene, .frame = frame, .openness = openness};
-    cgt_ambient_init(&job.ambient);
+    ambient_job job = {.scene = scene, .frame = frame, .visibility = visibility};
+    cgt_ambient_options_init(&job.ambient);
     if (ambient)
         job.ambient = *ambient;
     cgt_result result = prepare(&job, camera, options, &counter);

@@ -20,7 +20,7 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
 {
     if (o->packet != 0 && o->packet != 4 && o->packet != 8 && o->packet != 16)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", o->packet);
-    if ((unsigned)o->tile > CGT_TILE_STRIP)
+    if ((unsigned)o->tile > CGT_TILE_SHAPE_STRIP)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: tile is unknown");
     if ((unsigned)o->loop > CGT_LOOP_FLATTENED)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
@@ -30,17 +30,17 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: kd_traversal is unknown");
     if ((unsigned)o->precision > CGT_PRECISION_EXACT)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: precision is unknown");
-    if ((unsigned)o->triangle_test > CGT_TRIANGLE_ACCELERATED)
+    if ((unsigned)o->triangle_test > CGT_TRIANGLE_TEST_ACCELERATED)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: triangle_test is unknown");
-    if (o->triangle_test != CGT_TRIANGLE_WATERTIGHT && o->precision != CGT_PRECISION_FAST)
+    if (o->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT && o->precision != CGT_PRECISION_FAST)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
                         "trace options: this triangle_test has no error bound: precision must be FAST");
-    s->strip = camera && o->tile == CGT_TILE_STRIP;
+    s->strip = camera && o->tile == CGT_TILE_SHAPE_STRIP;
     if (s->strip && o->packet > 4)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
                         "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
-    s->tiled = camera && !o->packet && o->tile == CGT_TILE_AUTO && o->loop == CGT_LOOP_AUTO &&
-               o->cull == CGT_CULL_BLOCKS && o->mailbox && o->triangle_test == CGT_TRIANGLE_WATERTIGHT;
+    s->tiled = camera && !o->packet && o->tile == CGT_TILE_SHAPE_AUTO && o->loop == CGT_LOOP_AUTO &&
+               o->cull == CGT_CULL_BLOCKS && o->mailbox && o->triangle_test == CGT_TRIANGLE_TEST_WATERTIGHT;
     s->packet = s->strip ? 4 : o->packet ? o->packet : CHOSEN_PACKET;
     s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;
@@ -96,32 +96,33 @@ void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *s
     for (size_t i = 0; i < CGT_COUNTS; i++)
         value[i] = atomic_load_explicit(&counter->sum[i], memory_order_relaxed);
     memcpy(&c, value, sizeof c);
-    *options->statistics = (cgt_trace_statistics){.rays = c.rays,
-                                                  .invalid_rays = c.invalid_rays,
-                                                  .hits = c.hits,
-                                                  .wide_rays = c.wide_rays,
-                                                  .tiles = c.tiles,
-                                                  .packets = c.packets,
-                                                  .split_packets = c.split_packets,
-                                                  .slices = c.slices,
-                                                  .cells = c.cells,
-                                                  .nodes = c.nodes,
-                                                  .leaves = c.leaves,
-                                                  .rope_steps = c.rope_steps,
-                                                  .exact_steps = c.exact_steps,
-                                                  .rope_loops = c.rope_loops,
-                                                  .references = c.references,
-                                                  .mailbox_skipped = c.mailbox_skipped,
-                                                  .cull_tests = c.cull_tests,
-                                                  .culled = c.culled,
-                                                  .packet_tests = c.packet_tests,
-                                                  .ray_tests = c.ray_tests,
-                                                  .double_tests = c.double_tests,
-                                                  .exact_tests = c.exact_tests,
-                                                  .exact_values = c.exact_values,
-                                                  .early_exits = c.early_exits,
-                                                  .packet_size = settings->packet,
-                                                  .tile = settings->strip ? CGT_TILE_STRIP : CGT_TILE_SQUARE,
-                                                  .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED,
-                                                  .trace_ms = cgt_now_ms() - counter->start_ms};
+    *options->statistics =
+        (cgt_trace_statistics){.rays = c.rays,
+                               .invalid_rays = c.invalid_rays,
+                               .hits = c.hits,
+                               .bvh_rays = c.bvh_rays,
+                               .tiles = c.tiles,
+                               .packets = c.packets,
+                               .split_packets = c.split_packets,
+                               .slices = c.slices,
+                               .cells = c.cells,
+                               .nodes = c.nodes,
+                               .leaves = c.leaves,
+                               .rope_steps = c.rope_steps,
+                               .exact_steps = c.exact_steps,
+                               .rope_loops = c.rope_loops,
+                               .references = c.references,
+                               .mailbox_skipped = c.mailbox_skipped,
+                               .cull_tests = c.cull_tests,
+                               .culled = c.culled,
+                               .packet_tests = c.packet_tests,
+                               .ray_tests = c.ray_tests,
+                               .double_tests = c.double_tests,
+                               .exact_tests = c.exact_tests,
+                               .exact_values = c.exact_values,
+                               .early_exits = c.early_exits,
+                               .packet_size = settings->packet,
+                               .tile = settings->strip ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE,
+                               .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED,
+                               .trace_ms = cgt_now_ms() - counter->start_ms};
 }

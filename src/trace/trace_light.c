@@ -90,8 +90,8 @@ static cgt_result check_points(cgt_context *c, const cgt_points *p)
     return cgt_check_stride(c, "points", p->stride, p->count);
 }
 
-cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
-                              uint8_t *occluded, const cgt_trace_options *options)
+cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
+                               uint8_t *occluded, const cgt_trace_options *options)
 {
     cgt_trace_counter counter;
     if (!scene || !light || !points || (!occluded && points->count))
@@ -111,8 +111,8 @@ cgt_result cgt_occluded_light(const cgt_scene *scene, const cgt_light *light, co
                             .t_min = points->t_min,
                             .t_max = points->t_max,
                             .mask = points->mask,
-                            .ignored_primitive = points->ignored_primitive,
-                            .ignored_geometry = points->ignored_geometry};
+                            .skip_primitive = points->skip_primitive,
+                            .skip_geometry = points->skip_geometry};
     const bool tiles = tiles_serve(&job);
     result = cgt_wide_tree_want(scene, tiles ? 0 : points->count, &job.settings.wide);
     if (result != CGT_OK)

@@ -328,7 +328,7 @@ static void trace_all(const cgt_scene *scene, uint32_t frame)
         cgt_trace_options o;
         cgt_trace_statistics st;
         cgt_trace_options_init(&o);
-        o.tile = way % 2 ? CGT_TILE_STRIP : CGT_TILE_SQUARE;
+        o.tile = way % 2 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE;
         o.loop = way / 2 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
         o.mailbox = way / 4 % 2;
         o.kd_traversal = (cgt_kd_traversal)(way % 3);

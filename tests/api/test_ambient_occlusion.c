@@ -27,7 +27,7 @@
 /* ---- a frame with all that is needed ---- */
 
 typedef struct view {
-    float t[PIXELS], normal[3][PIXELS], openness[PIXELS];
+    float t[PIXELS], normal[3][PIXELS], visibility[PIXELS];
     uint32_t primitive[PIXELS], geometry[PIXELS];
     cgt_camera camera;
     cgt_frame frame;
@@ -48,10 +48,10 @@ static void view_make(view *v, const float eye[3], const float target[3])
         v->frame.normal[a] = v->normal[a];
 }
 
-static cgt_ambient ambient_of(uint32_t samples, float radius, uint32_t seed)
+static cgt_ambient_options ambient_of(uint32_t samples, float radius, uint32_t seed)
 {
-    cgt_ambient a;
-    cgt_ambient_init(&a);
+    cgt_ambient_options a;
+    cgt_ambient_options_init(&a);
     assert_true(a.samples == 16 && a.radius == INFINITY && a.seed == 0);
     a.samples = samples;
     a.radius = radius;
@@ -60,31 +60,32 @@ static cgt_ambient ambient_of(uint32_t samples, float radius, uint32_t seed)
 }
 
 /* Traces the frame and how open it is; what lies beside the picture must stay. Returns the number of pixels hit. */
-static uint32_t look(const cgt_scene *scene, view *v, const cgt_ambient *ambient, const cgt_trace_options *options)
+static uint32_t look(const cgt_scene *scene, view *v, const cgt_ambient_options *ambient,
+                     const cgt_trace_options *options)
 {
     uint32_t hits = 0;
-    memset(v->openness, 0x55, sizeof v->openness);
+    memset(v->visibility, 0x55, sizeof v->visibility);
     assert_int_equal(cgt_trace_camera(scene, &v->camera, &v->frame, NULL), CGT_OK);
-    assert_int_equal(cgt_trace_ambient(scene, &v->camera, &v->frame, ambient, v->openness, options), CGT_OK);
+    assert_int_equal(cgt_ambient_occlusion(scene, &v->camera, &v->frame, ambient, v->visibility, options), CGT_OK);
     for (uint32_t i = 0; i < PIXELS; i++) {
         if (i % STRIDE >= WIDTH || i >= ROWS) {
-            assert_memory_equal(&v->openness[i], "\x55\x55\x55\x55", 4);
+            assert_memory_equal(&v->visibility[i], "\x55\x55\x55\x55", 4);
             continue;
         }
-        assert_true(v->openness[i] >= 0 && v->openness[i] <= 1);
-        hits += v->primitive[i] != CGT_NONE;
-        if (v->primitive[i] == CGT_NONE)
-            assert_true(v->openness[i] == 1);
+        assert_true(v->visibility[i] >= 0 && v->visibility[i] <= 1);
+        hits += v->primitive[i] != CGT_INVALID_ID;
+        if (v->primitive[i] == CGT_INVALID_ID)
+            assert_true(v->visibility[i] == 1);
     }
     return hits;
 }
 
-static void expect_all(const view *v, float openness)
+static void expect_all(const view *v, float visibility)
 {
     for (uint32_t i = 0; i < ROWS; i++)
-        if (i % STRIDE < WIDTH && v->openness[i] != openness)
-            fail_msg("pixel %u, %u sees %g of the sky, not %g", i % STRIDE, i / STRIDE, (double)v->openness[i],
-                     (double)openness);
+        if (i % STRIDE < WIDTH && v->visibility[i] != visibility)
+            fail_msg("pixel %u, %u sees %g of the sky, not %g", i % STRIDE, i / STRIDE, (double)v->visibility[i],
+                     (double)visibility);
 }
 
 /* ---- scenes ---- */
@@ -134,13 +135,13 @@ static void what_stands_alone_is_open(void **state)
     (void)state;
     static view v;
     const float ball[1][4] = {{0.3f, 0.1f, 0.2f, 1.1f}};
-    const cgt_ambient ambient = ambient_of(33, INFINITY, 5);
+    const cgt_ambient_options ambient = ambient_of(33, INFINITY, 5);
     cgt_context *context = context_make(2, NULL);
-    for (uint32_t k = test_sample_start(0, STEP); k < CGT_STRUCTURE_WIDE_TREE; k += STEP)
+    for (uint32_t k = test_sample_start(0, STEP); k < CGT_STRUCTURE_BVH; k += STEP)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
             cgt_scene *scene = scene_make(context, k, true, NULL, 0);
             view_make(&v, (float[]){1.3f, orthographic ? -4 : 3, 7}, (float[]){0, 0, 0.1f});
-            v.camera.projection = orthographic ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+            v.camera.projection = orthographic ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
             assert_true(look(scene, &v, &ambient, NULL) > MANY);
             expect_all(&v, 1);
             cgt_scene_release(scene);
@@ -161,9 +162,9 @@ static void inside_a_box_it_is_dark(void **state)
 {
     (void)state;
     static view v;
-    const cgt_ambient ambient = ambient_of(50, INFINITY, 1);
+    const cgt_ambient_options ambient = ambient_of(50, INFINITY, 1);
     cgt_context *context = context_make(2, NULL);
-    for (uint32_t k = test_sample_start(1, STEP); k < CGT_STRUCTURE_WIDE_TREE; k += STEP) {
+    for (uint32_t k = test_sample_start(1, STEP); k < CGT_STRUCTURE_BVH; k += STEP) {
         cgt_scene *scene = box_make(context, k);
         view_make(&v, (float[]){0.1f, 0.2f, 0.3f}, (float[]){1, 0.5f, -1});
         v.camera.fov = 100;
@@ -185,29 +186,30 @@ static void a_ball_hides_what_it_must(void **state)
     cgt_scene *scene = scene_make(context, 0, true, ball, 1);
     view_make(&v, (float[]){0, -30, 0.1f}, (float[]){0, 0, 0}); /* from below, through the floor's other side */
     v.camera.fov = 0.5f;
-    cgt_ambient ambient = ambient_of(1024, INFINITY, 0);
+    cgt_ambient_options ambient = ambient_of(1024, INFINITY, 0);
     look(scene, &v, &ambient, NULL);
     expect_all(&v, 1);                                            /* the side below is turned away from the ball */
     view_make(&v, (float[]){0.5f, 0.25f, 0}, (float[]){0, 0, 0}); /* from between ball and floor */
     v.camera.fov = 0.5f;
     look(scene, &v, &ambient, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
-        if (i % STRIDE < WIDTH && fabsf(v.openness[i] - 0.75f) > 0.01f)
-            fail_msg("%g of the sky is open, not 3/4", (double)v.openness[i]);
+        if (i % STRIDE < WIDTH && fabsf(v.visibility[i] - 0.75f) > 0.01f)
+            fail_msg("%g of the sky is open, not 3/4", (double)v.visibility[i]);
     ambient.radius = 0.99f;
     look(scene, &v, &ambient, NULL);
     expect_all(&v, 1);
     ambient.radius = 1.02f; /* some of the nearest part */
     look(scene, &v, &ambient, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
-        assert_true(i % STRIDE >= WIDTH || (v.openness[i] < 1 && v.openness[i] > 0.9f));
+        assert_true(i % STRIDE >= WIDTH || (v.visibility[i] < 1 && v.visibility[i] > 0.9f));
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
 
 /* ---- the same rays one by one ---- */
 
-static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambient *ambient, uint32_t x, uint32_t y)
+static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambient_options *ambient, uint32_t x,
+                          uint32_t y)
 {
     static cgt_ambient_points points;
     static float dir[3][CGT_AMBIENT_SAMPLES], org[3][CGT_AMBIENT_SAMPLES], t_max[CGT_AMBIENT_SAMPLES];
@@ -237,8 +239,8 @@ static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambie
                            .org = {org[0], org[1], org[2]},
                            .dir = {dir[0], dir[1], dir[2]},
                            .t_max = t_max,
-                           .ignored_primitive = ignored[0],
-                           .ignored_geometry = ignored[1]};
+                           .skip_primitive = ignored[0],
+                           .skip_geometry = ignored[1]};
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
     for (uint32_t k = 0; k < ambient->samples; k++)
         open += !occluded[k];
@@ -253,11 +255,11 @@ static void it_is_the_share_of_these_rays(void **state)
     static const uint32_t samples[] = {1, 16, 100, 1024};
     static const float radii[] = {INFINITY, 1.5f, INFINITY, 3};
     for (size_t s = 0; s < TEST_COUNT(samples); s++) {
-        const cgt_ambient ambient = ambient_of(samples[s], radii[s], 77 * (uint32_t)s);
+        const cgt_ambient_options ambient = ambient_of(samples[s], radii[s], 77 * (uint32_t)s);
         bool first = true;
         FOR_EACH_VARIANT(variant)
         for (uint32_t threads = 1; threads < 3; threads++)
-            for (uint32_t k = 0; k < CGT_STRUCTURE_WIDE_TREE; k++) {
+            for (uint32_t k = 0; k < CGT_STRUCTURE_BVH; k++) {
                 if (samples[s] > 50 && (k + threads) % 4 != s % 2) /* the long ones take turns */
                     continue;
                 if (samples[s] <= 50 && (k + threads) % STEP != test_sample_start((uint32_t)s, STEP))
@@ -268,7 +270,7 @@ static void it_is_the_share_of_these_rays(void **state)
                 cgt_scene *scene = scene_make(context, k, true, ball, 4);
                 view *const to = first ? &v : &other;
                 view_make(to, (float[]){2, 3, 8}, (float[]){0, 1, 0});
-                to->camera.projection = s == 2 ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+                to->camera.projection = s == 2 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
                 to->camera.height = 6;
                 cgt_trace_options_init(&options);
                 options.precision = k % 2 ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
@@ -279,14 +281,14 @@ static void it_is_the_share_of_these_rays(void **state)
                     double sum = 0;
                     for (uint32_t i = 0; i < ROWS; i++) {
                         const uint32_t x = i % STRIDE, y = i / STRIDE;
-                        if (x >= WIDTH || v.primitive[i] == CGT_NONE || (x + y) % 3)
+                        if (x >= WIDTH || v.primitive[i] == CGT_INVALID_ID || (x + y) % 3)
                             continue;
-                        sum += (double)v.openness[i];
-                        assert_true(v.openness[i] == open_by_rays(scene, &v, &ambient, x, y));
+                        sum += (double)v.visibility[i];
+                        assert_true(v.visibility[i] == open_by_rays(scene, &v, &ambient, x, y));
                     }
                     assert_true(sum > MANY / 10 && sum < 0.97 * hits);
                 } else
-                    assert_memory_equal(v.openness, other.openness, sizeof v.openness);
+                    assert_memory_equal(v.visibility, other.visibility, sizeof v.visibility);
                 first = false;
                 cgt_scene_release(scene);
                 cgt_context_release(context);
@@ -301,7 +303,7 @@ static void the_camera_mask_is_theirs(void **state)
     static const float corner[4][3] = {{-9, 5, -9}, {9, 5, -9}, {9, 5, 9}, {-9, 5, 9}};
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
     const cgt_triangles roof = {.count = 2, .indices = index[0], .vertex_count = 4, .vertices = corner[0], .mask = 2};
-    const cgt_ambient ambient = ambient_of(16, INFINITY, 0);
+    const cgt_ambient_options ambient = ambient_of(16, INFINITY, 0);
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_make(context, 3, true, NULL, 0);
     uint32_t id;
@@ -311,7 +313,7 @@ static void the_camera_mask_is_theirs(void **state)
     v.camera.fov = 10;
     look(scene, &v, &ambient, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
-        assert_true(i % STRIDE >= WIDTH || v.openness[i] < 0.8f);
+        assert_true(i % STRIDE >= WIDTH || v.visibility[i] < 0.8f);
     v.camera.mask = 1;
     look(scene, &v, &ambient, NULL);
     expect_all(&v, 1);
@@ -327,7 +329,7 @@ static void directions_are_cosine_weighted(void **state)
     static cgt_ambient_points points;
     static float dir[3][CGT_AMBIENT_SAMPLES];
     test_random r = random_make(9);
-    const cgt_ambient ambient = ambient_of(CGT_AMBIENT_SAMPLES, INFINITY, 3);
+    const cgt_ambient_options ambient = ambient_of(CGT_AMBIENT_SAMPLES, INFINITY, 3);
     cgt_ambient_points_make(ambient.samples, &points);
     for (uint32_t k = 0; k < test_between(30, 300); k++) {
         float n[3], axes[2][3];
@@ -365,9 +367,9 @@ static void seeds_and_pixels_differ(void **state)
     static cgt_ambient_points points;
     float dir[4][3][4];
     const float n[3] = {0, 0, 1};
-    const cgt_ambient a = ambient_of(4, 1, 0), b = ambient_of(4, 1, 1);
+    const cgt_ambient_options a = ambient_of(4, 1, 0), b = ambient_of(4, 1, 1);
     const struct {
-        const cgt_ambient *of;
+        const cgt_ambient_options *of;
         uint32_t x, y;
     } which[4] = {{&a, 5, 6}, {&a, 6, 6}, {&a, 5, 7}, {&b, 5, 6}};
     cgt_ambient_points_make(4, &points);
@@ -381,11 +383,11 @@ static void seeds_and_pixels_differ(void **state)
 
 /* ---- what is refused, and what is odd ---- */
 
-static cgt_result call(const cgt_scene *scene, const view *v, const cgt_ambient *ambient)
+static cgt_result call(const cgt_scene *scene, const view *v, const cgt_ambient_options *ambient)
 {
     float out[PIXELS];
     memset(out, 0x55, sizeof out);
-    const cgt_result result = cgt_trace_ambient(scene, &v->camera, &v->frame, ambient, out, NULL);
+    const cgt_result result = cgt_ambient_occlusion(scene, &v->camera, &v->frame, ambient, out, NULL);
     for (uint32_t i = 0; i < PIXELS && result != CGT_OK; i++)
         assert_memory_equal(&out[i], "\x55\x55\x55\x55", 4);
     return result;
@@ -397,16 +399,16 @@ static void bad_arguments_are_refused(void **state)
     static view v, w;
     static float out[PIXELS];
     const float ball[1][4] = {{0, 0, 0, 1}};
-    const cgt_ambient good = ambient_of(2, 1, 0);
+    const cgt_ambient_options good = ambient_of(2, 1, 0);
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, ball, 1);
     view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
     look(scene, &v, &good, NULL);
-    assert_int_equal(cgt_trace_ambient(NULL, &v.camera, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_trace_ambient(scene, NULL, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_trace_ambient(scene, &v.camera, NULL, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    const cgt_ambient bad[] = {{0, 1, 0}, {1025, 1, 0}, {UINT32_MAX, 1, 0}, {4, 0, 0}, {4, -1, 0}, {4, NAN, 0}};
+    assert_int_equal(cgt_ambient_occlusion(NULL, &v.camera, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_ambient_occlusion(scene, NULL, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, NULL, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    const cgt_ambient_options bad[] = {{0, 1, 0}, {1025, 1, 0}, {UINT32_MAX, 1, 0}, {4, 0, 0}, {4, -1, 0}, {4, NAN, 0}};
     for (size_t i = 0; i < TEST_COUNT(bad); i++) {
         assert_int_equal(call(scene, &v, &bad[i]), CGT_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(context_message(context), "ambient"));
@@ -442,7 +444,8 @@ static void bad_arguments_are_refused(void **state)
     cgt_trace_options options;
     cgt_trace_options_init(&options);
     options.cull = (cgt_cull)7;
-    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &good, out, &options), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &good, out, &options),
+                     CGT_ERROR_INVALID_ARGUMENT);
     const cgt_scene_options made = structure_in_turn(0);
     assert_int_equal(cgt_scene_set_options(scene, &made), CGT_OK);
     assert_int_equal(call(scene, &v, &good), CGT_ERROR_NOT_COMMITTED);
@@ -455,7 +458,7 @@ static void odd_pixels_are_open(void **state)
     (void)state;
     static view v;
     const float balls[2][4] = {{0, 0, 0, 1}, {0, 0, 0, 50}};
-    const cgt_ambient ambient = ambient_of(9, INFINITY, 0);
+    const cgt_ambient_options ambient = ambient_of(9, INFINITY, 0);
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, balls, 2);
     view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
@@ -465,14 +468,14 @@ static void odd_pixels_are_open(void **state)
     v.t[3] = NAN;
     v.t[4] = INFINITY;
     v.normal[1][5] = NAN;
-    v.primitive[6] = CGT_NONE;
-    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &ambient, v.openness, NULL), CGT_OK);
+    v.primitive[6] = CGT_INVALID_ID;
+    assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &ambient, v.visibility, NULL), CGT_OK);
     for (uint32_t x = 0; x < WIDTH; x++)
-        assert_true(v.openness[x] == (x >= 3 && x <= 6 ? 1 : 0));
+        assert_true(v.visibility[x] == (x >= 3 && x <= 6 ? 1 : 0));
     v.primitive[7] = 2; /* ids of nothing ignore nothing */
-    v.geometry[8] = CGT_NONE;
-    assert_int_equal(cgt_trace_ambient(scene, &v.camera, &v.frame, &ambient, v.openness, NULL), CGT_OK);
-    assert_true(v.openness[7] == 0 && v.openness[8] == 0);
+    v.geometry[8] = CGT_INVALID_ID;
+    assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &ambient, v.visibility, NULL), CGT_OK);
+    assert_true(v.visibility[7] == 0 && v.visibility[8] == 0);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

@@ -38,7 +38,7 @@ static void expect_refused(const cgt_scene *scene, const cgt_camera *camera, con
     options.statistics = &statistics;
     const cgt_result result = cgt_trace_camera(scene, camera, frame, &options);
     if (result != expected)
-        fail_msg("%s: %s", word, cgt_result_string(result));
+        fail_msg("%s: %s", word, cgt_get_result_string(result));
     if (!strstr(context_message(context), word))
         fail_msg("\"%s\" does not speak of %s", context_message(context), word);
     assert_memory_equal(&statistics, &before, sizeof statistics);
@@ -56,7 +56,7 @@ static void bad_cameras_are_refused(void **state)
     frame.t = t;
     cgt_camera_init(&good);
     ortho = good;
-    ortho.projection = CGT_ORTHOGRAPHIC;
+    ortho.projection = CGT_PROJECTION_ORTHOGRAPHIC;
 #define REFUSE(from, change, word)                                                                                     \
     do {                                                                                                               \
         c = from;                                                                                                      \
@@ -160,7 +160,7 @@ static void formula_ray(const cgt_camera *c, uint32_t width, uint32_t height, ui
     cross(fwd, up, right);
     normalise(right);
     cross(right, fwd, up);
-    const bool flat = c->projection == CGT_ORTHOGRAPHIC;
+    const bool flat = c->projection == CGT_PROJECTION_ORTHOGRAPHIC;
     const long double h =
         flat ? (long double)c->height / 2 : tanl((long double)c->fov * 3.14159265358979323846264338L / 360);
     const long double px = (2 * (x + 0.5L) / width - 1) * h * width / height, py = (1 - 2 * (y + 0.5L) / height) * h;
@@ -184,7 +184,7 @@ static void rays_are_those_of_the_formula(void **state)
             vec3 org, dir;
             formula_ray(&camera, width, height, i % width, i / width, org, dir);
             /* right and up are at most as long as the opening makes them */
-            const double half = camera.projection == CGT_ORTHOGRAPHIC
+            const double half = camera.projection == CGT_PROJECTION_ORTHOGRAPHIC
                                     ? 0.5 * (double)camera.height
                                     : tan((double)camera.fov * 3.14159265358979 / 360);
             const double longest = 1 + half * (1 + (double)width / height);
@@ -237,7 +237,7 @@ static uint32_t count_hits(const planes *p)
 {
     uint32_t hits = 0;
     for (size_t i = 0; i < p->elements; i++)
-        hits += p->primitive[i] != CGT_NONE;
+        hits += p->primitive[i] != CGT_INVALID_ID;
     return hits;
 }
 
@@ -294,7 +294,7 @@ static void along_26_directions(void **state)
                 point_camera(&camera, direction, c.middle, place == 0 ? 3 * c.reach : 0);
                 camera.fov = 50;
                 if (place == 2)
-                    camera.projection = CGT_ORTHOGRAPHIC, camera.height = 2 * c.reach;
+                    camera.projection = CGT_PROJECTION_ORTHOGRAPHIC, camera.height = 2 * c.reach;
                 const uint32_t hits = look(scene, &camera, &c, &p);
                 assert_true(kind != 1 || hits > 0);
                 if (place)
@@ -320,7 +320,7 @@ static void wide_and_narrow_openings(void **state)
         test_random r = random_make(round);
         cloud c = cloud_make(&r, CLOUD_UNIFORM, 400);
         cgt_camera camera = camera_random(&r, &c);
-        camera.projection = CGT_PERSPECTIVE;
+        camera.projection = CGT_PROJECTION_PERSPECTIVE;
         camera.fov = fov[round % TEST_COUNT(fov)];
         const cgt_scene_options made = structure_in_turn(round + round / (uint32_t)TEST_COUNT(fov));
         const bool grid = made.structure == CGT_STRUCTURE_QUEUE_GRID || made.structure == CGT_STRUCTURE_LOOSE_GRID;
@@ -357,7 +357,7 @@ static void ranges_are_clipped(void **state)
         camera.t_max = round % 3 ? camera.t_min + random_float(&r, 0, 2) * c.reach : INFINITY;
         if (round % 5 == 0 && all) { /* exactly at what a pixel sees */
             size_t i = random_below(&r, (uint32_t)p.elements);
-            while (whole.primitive[i] == CGT_NONE)
+            while (whole.primitive[i] == CGT_INVALID_ID)
                 i = (i + 1) % p.elements;
             camera.t_min = camera.t_max = whole.t[i];
             frame_trace(scene, &camera, &p, NULL);
@@ -365,7 +365,7 @@ static void ranges_are_clipped(void **state)
         }
         fewer += look(scene, &camera, &c, &p) < all;
         for (size_t i = 0; i < p.elements; i++)
-            others += p.primitive[i] != whole.primitive[i] && p.primitive[i] != CGT_NONE;
+            others += p.primitive[i] != whole.primitive[i] && p.primitive[i] != CGT_INVALID_ID;
         cgt_scene_release(scene);
         cloud_free(&c);
     }

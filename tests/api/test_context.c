@@ -27,7 +27,7 @@ static void record_log(void *user, cgt_log_level level, const char *message)
 {
     log_record *log = user;
     log->lines++;
-    log->errors += level == CGT_LOG_ERROR;
+    log->errors += level == CGT_LOG_LEVEL_ERROR;
     log->bad_line |= !*message || strchr(message, '\n');
     log->level = level;
     snprintf(log->last, sizeof log->last, "%s", message);
@@ -95,10 +95,10 @@ static void defaults_take_every_cpu(void **state)
     cpu_set_t set;
     assert_int_equal(cgt_context_create(NULL, &context), CGT_OK);
     assert_int_equal(sched_getaffinity(0, sizeof set, &set), 0);
-    assert_int_equal(cgt_context_threads(context), CPU_COUNT(&set));
+    assert_int_equal(cgt_context_get_threads(context), CPU_COUNT(&set));
     cgt_context_release(context);
     context = context_make(3, NULL);
-    assert_int_equal(cgt_context_threads(context), 3);
+    assert_int_equal(cgt_context_get_threads(context), 3);
     cgt_context_release(context);
     cgt_context_release(NULL);
 }
@@ -107,16 +107,16 @@ static void variants_are_found_by_name(void **state)
 {
     (void)state;
     const char *widest = NULL;
-    assert_string_equal(cgt_variants()[0], "portable");
+    assert_string_equal(cgt_get_variant_names()[0], "portable");
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
-        assert_string_equal(cgt_context_variant(context), variant);
+        assert_string_equal(cgt_context_get_variant(context), variant);
         cgt_context_release(context);
         widest = variant;
     }
     cgt_context *context = context_make(1, NULL);
-    assert_string_equal(cgt_context_variant(context), widest);
+    assert_string_equal(cgt_context_get_variant(context), widest);
     cgt_context_release(context);
 }
 
@@ -124,13 +124,13 @@ static void results_and_version_have_words(void **state)
 {
     (void)state;
     for (int i = CGT_OK; i <= CGT_ERROR_STOPPED + 1; i++) {
-        const char *text = cgt_result_string((cgt_result)i);
+        const char *text = cgt_get_result_string((cgt_result)i);
         assert_true(text && strlen(text) > 5);
         for (int k = CGT_OK; k < i; k++)
-            assert_string_not_equal(text, cgt_result_string((cgt_result)k));
+            assert_string_not_equal(text, cgt_get_result_string((cgt_result)k));
     }
-    assert_string_equal(cgt_result_string((cgt_result)-5), cgt_result_string((cgt_result)12345));
-    assert_string_equal(cgt_version(), CGT_VERSION_STRING);
+    assert_string_equal(cgt_get_result_string((cgt_result)-5), cgt_get_result_string((cgt_result)12345));
+    assert_string_equal(cgt_get_version(), CGT_VERSION_STRING);
 }
 
 /* ---- messages ---- */
@@ -144,24 +144,24 @@ static void messages_are_kept_and_cut(void **state)
     cgt_scene *scene = NULL;
     char text[300], cut[8];
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-    assert_int_equal(cgt_error_message(context, text, sizeof text), 0);
+    assert_int_equal(cgt_context_get_error_message(context, text, sizeof text), 0);
     assert_string_equal(text, "");
-    assert_int_equal(cgt_error_message(NULL, NULL, 0), 0);
+    assert_int_equal(cgt_context_get_error_message(NULL, NULL, 0), 0);
     assert_int_equal(cgt_scene_create(context, NULL, &scene), CGT_OK);
     assert_int_equal(cgt_scene_remove_geometry(scene, 4711), CGT_ERROR_INVALID_ARGUMENT);
-    const size_t length = cgt_error_message(context, NULL, 0);
-    assert_int_equal(cgt_error_message(context, text, sizeof text), length);
+    const size_t length = cgt_context_get_error_message(context, NULL, 0);
+    assert_int_equal(cgt_context_get_error_message(context, text, sizeof text), length);
     assert_int_equal(strlen(text), length);
     assert_non_null(strstr(text, "4711"));
     assert_string_equal(text, log.last); /* the log got the same words */
-    assert_int_equal(log.level, CGT_LOG_ERROR);
+    assert_int_equal(log.level, CGT_LOG_LEVEL_ERROR);
     memset(cut, 'x', sizeof cut);
-    assert_int_equal(cgt_error_message(context, cut, sizeof cut - 1), length);
+    assert_int_equal(cgt_context_get_error_message(context, cut, sizeof cut - 1), length);
     assert_int_equal(strlen(cut), sizeof cut - 2);
     assert_int_equal(cut[sizeof cut - 1], 'x');
     assert_memory_equal(cut, text, sizeof cut - 2);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK); /* a success leaves it */
-    assert_int_equal(cgt_error_message(context, NULL, 0), length);
+    assert_int_equal(cgt_context_get_error_message(context, NULL, 0), length);
     cgt_scene_release(scene);
     cgt_context_release(context);
     assert_false(log.bad_line);
@@ -176,7 +176,7 @@ static void log_tells_what_was_skipped(void **state)
     const float sphere[2][4] = {{0, 0, 0, 1}, {0, 0, 0, -1}};
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
-    assert_true(log.lines > 0 && log.level == CGT_LOG_INFO);
+    assert_true(log.lines > 0 && log.level == CGT_LOG_LEVEL_INFO);
     cgt_scene_release(scene);
     log = (log_record){0};
     scene = scene_of(context, NULL, sphere, 2);
@@ -210,7 +210,7 @@ static void keep_message(void *user, cgt_log_level level, const char *message)
     snprintf(user, 200, "%s", message);
 }
 
-/* What a child finds with the mask: the variant's place in cgt_variants, or REFUSED; -signal where it was ended. */
+/* What a child finds with the mask: the variant's place in cgt_get_variant_names, or REFUSED; -signal where it was ended. */
 static int child_with_mask(const char *mask, const char *variant)
 {
     fflush(NULL);
@@ -233,7 +233,7 @@ static int child_with_mask(const char *mask, const char *variant)
         if (result == CGT_ERROR_UNSUPPORTED && strstr(message, "CGT_DISABLE_CPU"))
             _exit(REFUSED);
         int place = 0;
-        while (result == CGT_OK && strcmp(cgt_variants()[place], cgt_context_variant(context)) != 0)
+        while (result == CGT_OK && strcmp(cgt_get_variant_names()[place], cgt_context_get_variant(context)) != 0)
             place++;
         _exit(result == CGT_OK ? place : 98);
     }
@@ -246,8 +246,8 @@ static void variants_can_be_masked(void **state)
 {
     (void)state;
     int place[8], running = 0;
-    for (int i = 0; cgt_variants()[i]; i++)
-        if (test_variant_runs(cgt_variants()[i]))
+    for (int i = 0; cgt_get_variant_names()[i]; i++)
+        if (test_variant_runs(cgt_get_variant_names()[i]))
             place[running++] = i;
     const int widest = place[running - 1];
     assert_int_equal(place[0], 0);
@@ -262,7 +262,7 @@ static void variants_can_be_masked(void **state)
     /* without the wider ones each is the widest; without itself the one before it is, and itself is refused */
     char mask[100] = "";
     for (int k = running - 1; k > 0; k--) {
-        const char *name = cgt_variants()[place[k]];
+        const char *name = cgt_get_variant_names()[place[k]];
         assert_int_equal(child_with_mask(mask, NULL), place[k]);
         assert_int_equal(child_with_mask(mask, name), place[k]);
         snprintf(mask + strlen(mask), sizeof mask - strlen(mask), "%s%s", *mask ? "," : "", name);

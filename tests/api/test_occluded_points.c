@@ -37,7 +37,7 @@ static void place_points(question *q, cgt_scene *scene)
         const uint32_t near = i % 64 && random_below(r, 2) ? i - 1 : i;
         for (int a = 0; a < 3; a++) {
             p[a] = ray[near].org[a];
-            if (hit[near].primitive != CGT_NONE)
+            if (hit[near].primitive != CGT_INVALID_ID)
                 p[a] += hit[near].t * ray[near].dir[a];
             if (near != i)
                 p[a] += random_float(r, -1e-3f, 1e-3f) * q->s.where.reach;
@@ -131,7 +131,7 @@ static void check_answers(const question *q, const cgt_scene *scene, cgt_trace_o
     options.statistics = &by_rays;
     assert_int_equal(cgt_occluded_rays(scene, &rays, is, &options), CGT_OK);
     options.statistics = &by_points;
-    assert_int_equal(cgt_occluded_light(scene, &q->light, &points, got, &options), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &q->light, &points, got, &options), CGT_OK);
     for (uint32_t i = 0; i < count; i++)
         if (got[i] != is[i])
             fail_msg("%s, light %a %a %a, %g: point %u, %a %a %a, is %s", q->s.name, (double)q->light.position[0],
@@ -158,7 +158,7 @@ static void answers_are_those_of_rays(void **state)
         for (uint32_t number = 0; number < (uint32_t)STRUCTURE_KINDS * test_scaled(2); number++) {
             const structure_kind kind = (structure_kind)(number % STRUCTURE_KINDS);
             question q = ask(context[0], kind, 700 + number, number + number / STRUCTURE_KINDS);
-            for (uint32_t k = test_sample_start(number, step); k < CGT_STRUCTURE_WIDE_TREE; k += step) {
+            for (uint32_t k = test_sample_start(number, step); k < CGT_STRUCTURE_BVH; k += step) {
                 const cgt_scene_options made = structure_in_turn(k);
                 cgt_trace_options options;
                 cgt_scene *scene;
@@ -211,7 +211,7 @@ static void a_ball_throws_a_shadow(void **state)
                 const cgt_light light = {.position = {0, 2, 0}, .w = (float)w};
                 /* a cone of sine 1/2 about the light, or a cylinder */
                 const float radius2 = w ? 4.f / 3 : 0.25f;
-                assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, &options), CGT_OK);
+                assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, &options), CGT_OK);
                 for (uint32_t i = 0; i < SIDE * SIDE; i++) {
                     const float d2 = at[0][i] * at[0][i] + at[2][i] * at[2][i];
                     if (fabsf(d2 - radius2) > 1e-4f)
@@ -233,10 +233,10 @@ static void a_range_leaves_the_surface_out(void **state)
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
     cgt_points points = {.count = 1, .position = {&point[0], &point[1], &point[2]}};
     uint8_t occluded = 7;
-    assert_int_equal(cgt_occluded_light(scene, &light, &points, &occluded, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, &occluded, NULL), CGT_OK);
     assert_int_equal(occluded, 1);
     points.t_min = &little;
-    assert_int_equal(cgt_occluded_light(scene, &light, &points, &occluded, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, &occluded, NULL), CGT_OK);
     assert_int_equal(occluded, 0);
     cgt_scene_release(scene);
     cgt_context_release(context);
@@ -253,38 +253,38 @@ static void bad_arguments_are_refused(void **state)
     const cgt_points good = {.count = 2, .position = {x, x, x}};
     const cgt_light light = {.position = {0, 0, 5}, .w = 1};
     uint8_t occluded[2] = {7, 7};
-    assert_int_equal(cgt_occluded_light(NULL, &light, &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_occluded_light(scene, NULL, &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_occluded_light(scene, &light, NULL, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_occluded_light(scene, &light, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_points(NULL, &light, &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_points(scene, NULL, &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_points(scene, &light, NULL, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_points(scene, &light, &good, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
     const cgt_light bad[] = {{{NAN, 0, 0}, 1}, {{0, INFINITY, 0}, 1}, {{0, 0, -INFINITY}, 0}, {{0, 0, 0}, 0},
                              {{0, 1, 0}, NAN}, {{0, 1, 0}, 0.5f},     {{0, 1, 0}, -1}};
     for (size_t i = 0; i < TEST_COUNT(bad); i++) {
-        assert_int_equal(cgt_occluded_light(scene, &bad[i], &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(cgt_occluded_points(scene, &bad[i], &good, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(context_message(context), "light"));
     }
     for (int a = 0; a < 3; a++) {
         cgt_points points = good;
         points.position[a] = NULL;
-        assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
     }
     cgt_points points = good;
     points.stride = 6;
-    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_ERROR_INVALID_ARGUMENT);
     points.stride = 4;
     points.count = UINT64_MAX / 2;
-    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_ERROR_TOO_LARGE);
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_ERROR_TOO_LARGE);
     cgt_trace_options options;
     cgt_trace_options_init(&options);
     options.cull = (cgt_cull)7;
-    assert_int_equal(cgt_occluded_light(scene, &light, &good, occluded, &options), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_occluded_points(scene, &light, &good, occluded, &options), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(occluded[0], 7);
     assert_int_equal(occluded[1], 7);
     points = (cgt_points){.count = 0};
-    assert_int_equal(cgt_occluded_light(scene, &light, &points, NULL, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, NULL, NULL), CGT_OK);
     const cgt_scene_options made = structure_in_turn(0);
     assert_int_equal(cgt_scene_set_options(scene, &made), CGT_OK);
-    assert_int_equal(cgt_occluded_light(scene, &light, &good, occluded, NULL), CGT_ERROR_NOT_COMMITTED);
+    assert_int_equal(cgt_occluded_points(scene, &light, &good, occluded, NULL), CGT_ERROR_NOT_COMMITTED);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
@@ -304,10 +304,10 @@ static void nothing_is_allocated(void **state)
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
     assert_true(allocations > 0);
     /* the first points of a scene may have a tree built for them, whose memory the next ones find */
-    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_OK);
     const unsigned before = allocations;
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_int_equal(cgt_occluded_light(scene, &light, &points, occluded, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_OK);
     assert_int_equal(allocations, before);
     cgt_scene_release(scene);
     cgt_context_release(context);

@@ -46,7 +46,7 @@ static bool same_hit(const ray_hit *a, const ray_hit *b) { return memcmp(a, b, s
 
 static void expect_no_hit(const ray_hit *h)
 {
-    assert_true(h->t == INFINITY && h->primitive == CGT_NONE && h->geometry == CGT_NONE);
+    assert_true(h->t == INFINITY && h->primitive == CGT_INVALID_ID && h->geometry == CGT_INVALID_ID);
     for (int a = 0; a < 3; a++)
         assert_true(h->normal[a] == 0);
 }
@@ -59,7 +59,7 @@ static void judge(const truth_ray *rays, const ray_hit *hits, uint32_t count)
         const char *wrong = truth_judge(&truth, &rays[i], hits[i].primitive, hits[i].t, &doubts);
         if (wrong)
             fail_msg("%s, ray %u: %s (sphere %u, t %a): org %a %a %a dir %a %a %a range %a %a",
-                     cgt_context_variant(context), i, wrong, hits[i].primitive, (double)hits[i].t,
+                     cgt_context_get_variant(context), i, wrong, hits[i].primitive, (double)hits[i].t,
                      (double)rays[i].org[0], (double)rays[i].org[1], (double)rays[i].org[2], (double)rays[i].dir[0],
                      (double)rays[i].dir[1], (double)rays[i].dir[2], (double)rays[i].t_min, (double)rays[i].t_max);
     }
@@ -70,7 +70,7 @@ static uint32_t count_hits(const ray_hit *hits, uint32_t count)
 {
     uint32_t sum = 0;
     for (uint32_t i = 0; i < count; i++)
-        sum += hits[i].primitive != CGT_NONE;
+        sum += hits[i].primitive != CGT_INVALID_ID;
     return sum;
 }
 
@@ -312,7 +312,7 @@ static void invalid_rays(test_random *r)
             expect_no_hit(&hit[i]);
         else
             judge(&ray[i], &hit[i], 1);
-        assert_int_equal(occluded[i], hit[i].primitive != CGT_NONE);
+        assert_int_equal(occluded[i], hit[i].primitive != CGT_INVALID_ID);
     }
     for (uint32_t i = 0; i < rays_used; i += 7) { /* alone, without neighbours to lean on */
         rays_trace(scene, &ray[i], 1, again, NULL);
@@ -350,7 +350,7 @@ static void garbage_rays(test_random *r)
         assert_true(same_hit(&again[0], &hit[i]));
         if (i % 3 == 0)
             judge(&ray[i], &hit[i], 1);
-        if (hit[i].primitive == CGT_NONE)
+        if (hit[i].primitive == CGT_INVALID_ID)
             expect_no_hit(&hit[i]);
         else
             assert_true(hit[i].primitive < spheres.count && hit[i].t >= ray[i].t_min && hit[i].t <= ray[i].t_max);
@@ -438,7 +438,7 @@ static void occluded_rays(test_random *r)
             memset(occluded, 9, sizeof occluded);
             assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &o), CGT_OK);
             for (uint32_t i = 0; i < rays_used; i++)
-                assert_int_equal(occluded[i], hit[i].primitive != CGT_NONE);
+                assert_int_equal(occluded[i], hit[i].primitive != CGT_INVALID_ID);
             assert_int_equal(occluded[rays_used], 9);
             assert_int_equal(s.hits, count_hits(hit, rays_used));
             rays_trace(scene, ray, rays_used, again, &o);

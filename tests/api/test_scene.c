@@ -277,14 +277,14 @@ static void empty_scenes_are_valid(void **state)
         for (int a = 0; a < 3; a++)
             assert_true(s.bounds_min[a] == 0 && s.bounds_max[a] == 0);
         const ray_hit hit = ray_trace(scene, ahead);
-        assert_true(hit.t == INFINITY && hit.primitive == CGT_NONE && hit.geometry == CGT_NONE);
+        assert_true(hit.t == INFINITY && hit.primitive == CGT_INVALID_ID && hit.geometry == CGT_INVALID_ID);
         assert_true(hit.normal[0] == 0 && hit.normal[1] == 0 && hit.normal[2] == 0);
         planes p = planes_make(70, 5);
         cgt_camera camera;
         cgt_camera_init(&camera);
         frame_trace(scene, &camera, &p, NULL);
         for (size_t i = 0; i < p.elements; i++)
-            assert_true(p.t[i] == INFINITY && p.primitive[i] == CGT_NONE);
+            assert_true(p.t[i] == INFINITY && p.primitive[i] == CGT_INVALID_ID);
         planes_free(&p);
         add(scene, round == 0 ? spheres_of(NULL, 0) : spheres_of(skipped, 2));
     }

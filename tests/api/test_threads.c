@@ -125,7 +125,7 @@ static unsigned trace_everything(const cgt_scene *scene, const world *w)
     wrong += cgt_trace_rays(scene, &rays, &to, NULL) != CGT_OK || memcmp(hits, w->hits, p.elements * sizeof *hits) != 0;
     wrong += cgt_occluded_rays(scene, &rays, occluded, NULL) != CGT_OK;
     for (size_t i = 0; i < p.elements; i++)
-        wrong += occluded[i] != (w->hits[i].primitive != CGT_NONE);
+        wrong += occluded[i] != (w->hits[i].primitive != CGT_INVALID_ID);
     free(occluded);
     free(hits);
     free(p.memory);
@@ -175,7 +175,7 @@ static void one_thread_starts_none(void **state)
     world w = make_world(1, 20000);
     watch seen = {0};
     cgt_context *context = context_make(1, NULL);
-    assert_int_equal(cgt_context_threads(context), 1);
+    assert_int_equal(cgt_context_get_threads(context), 1);
     assert_int_equal(count_threads(), before);
     const cgt_scene_options grid = {.structure = CGT_STRUCTURE_QUEUE_GRID};
     cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])w.spheres.sphere, w.spheres.count);
@@ -269,7 +269,7 @@ static void a_runner_does_all_the_work(void **state)
     options.threads = 8; /* ignored */
     options.tasks = (cgt_task_runner){&r, run_even_then_odd};
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
-    assert_int_equal(cgt_context_threads(context), 0);
+    assert_int_equal(cgt_context_get_threads(context), 0);
     assert_int_equal(count_threads(), before);
     const cgt_scene_options grid = {.structure = CGT_STRUCTURE_QUEUE_GRID};
     cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])w.spheres.sphere, w.spheres.count);
@@ -320,7 +320,7 @@ static void *call(void *argument)
             c->wrong += cgt_scene_create(context, &made, &scene) != CGT_OK;
             c->wrong += cgt_scene_add_spheres(scene, &spheres, &id) != CGT_OK;
             c->wrong += cgt_scene_add_spheres(scene, &bad, &id) != CGT_ERROR_INVALID_ARGUMENT; /* messages at once */
-            c->wrong += cgt_error_message(context, message, sizeof message) == 0;
+            c->wrong += cgt_context_get_error_message(context, message, sizeof message) == 0;
             c->wrong += cgt_scene_commit(scene) != CGT_OK;
         }
         c->wrong += trace_everything(scene, c->world);

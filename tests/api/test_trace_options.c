@@ -77,7 +77,7 @@ static void compare_all_options(picture *p, const cgt_scene *scene, const char *
         cgt_trace_options o;
         cgt_trace_options_init(&o);
         o.packet = (const uint32_t[]){4, 8, 16, 0}[choice % 4]; /* the last: strips */
-        o.tile = o.packet ? CGT_TILE_SQUARE : CGT_TILE_STRIP;
+        o.tile = o.packet ? CGT_TILE_SHAPE_SQUARE : CGT_TILE_SHAPE_STRIP;
         o.loop = choice / 4 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
         o.cull = (cgt_cull)(choice / 8 % 3);
         o.mailbox = (int)(choice / 24);
@@ -92,7 +92,7 @@ static void compare_all_traversals(picture *p, const cgt_scene *scene, const cha
         cgt_trace_options o;
         cgt_trace_options_init(&o);
         o.packet = (const uint32_t[]){4, 8, 16, 0}[choice % 4]; /* the last: strips */
-        o.tile = o.packet ? CGT_TILE_SQUARE : CGT_TILE_STRIP;
+        o.tile = o.packet ? CGT_TILE_SHAPE_SQUARE : CGT_TILE_SHAPE_STRIP;
         o.kd_traversal = choice / 4 % 2 ? CGT_KD_TRAVERSAL_PACKET : CGT_KD_TRAVERSAL_SINGLE;
         o.mailbox = (int)(choice / 8);
         compare(p, scene, &o, where);
@@ -281,7 +281,7 @@ static void every_machine_gives_the_same_bits(void **state)
             h = hash(hash(h, bits_of(hit[i].t)), hit[i].primitive);
             for (int a = 0; a < 3; a++)
                 h = hash(h, bits_of(hit[i].normal[a]));
-            hits += hit[i].primitive != CGT_NONE;
+            hits += hit[i].primitive != CGT_INVALID_ID;
         }
         print_message("%s, structure %d: %u of %d rays hit, hash 0x%016llx\n", variant, k, hits, RAYS,
                       (unsigned long long)h);
@@ -327,7 +327,7 @@ static void bad_options_are_refused(void **state)
         if (i >= 10)
             o.kd_traversal = (cgt_kd_traversal)(i == 10 ? 3 : -1);
         if (i == 8 || i == 9)
-            o.tile = CGT_TILE_STRIP, o.packet = i == 8 ? 8 : 16;
+            o.tile = CGT_TILE_SHAPE_STRIP, o.packet = i == 8 ? 8 : 16;
         assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(context_message(context), word[i]));
         assert_true(t == 7);
@@ -346,12 +346,12 @@ static cgt_trace_statistics count(const cgt_scene *scene, picture *p, cgt_trace_
     assert_int_equal(s.rays, p->got.elements);
     uint64_t hits = 0;
     for (size_t i = 0; i < p->got.elements; i++)
-        hits += p->got.primitive[i] != CGT_NONE;
+        hits += p->got.primitive[i] != CGT_INVALID_ID;
     assert_int_equal(s.hits, hits);
     assert_int_equal(s.invalid_rays, 0);
     assert_int_equal(s.loop, o.loop == CGT_LOOP_AUTO ? s.loop : o.loop);
-    assert_int_equal(s.tile, o.tile == CGT_TILE_AUTO ? CGT_TILE_SQUARE : o.tile);
-    assert_int_equal(s.packet_size, o.tile == CGT_TILE_STRIP ? 4 : o.packet ? o.packet : s.packet_size);
+    assert_int_equal(s.tile, o.tile == CGT_TILE_SHAPE_AUTO ? CGT_TILE_SHAPE_SQUARE : o.tile);
+    assert_int_equal(s.packet_size, o.tile == CGT_TILE_SHAPE_STRIP ? 4 : o.packet ? o.packet : s.packet_size);
     assert_true(s.trace_ms >= 0 && s.packets > 0 && s.slices >= s.packets && s.cells > 0 && s.references > 0);
     assert_true(s.culled <= s.cull_tests && s.mailbox_skipped <= s.references && s.double_tests <= s.ray_tests);
     assert_true(s.packet_tests + s.culled + s.mailbox_skipped == s.references);
@@ -383,7 +383,7 @@ static void statistics_add_up(void **state)
             for (o.packet = 4; o.packet <= 16; o.packet *= 2)
                 count(scene, &p, o);
             o.packet = 0;
-            o.tile = CGT_TILE_STRIP;
+            o.tile = CGT_TILE_SHAPE_STRIP;
             count(scene, &p, o);
         }
         cgt_scene_release(scene);
@@ -411,7 +411,7 @@ static void tiles_are_counted(void **state)
         cgt_trace_options_init(&o);
         o.statistics = &s;
         o.packet = k == 1 ? 8 : 0;
-        o.tile = k == 2 ? CGT_TILE_STRIP : CGT_TILE_AUTO;
+        o.tile = k == 2 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;
         o.loop = k == 3 ? CGT_LOOP_NESTED : CGT_LOOP_AUTO;
         o.cull = k == 4 ? CGT_CULL_FRUSTUM : CGT_CULL_BLOCKS;
         o.mailbox = k != 5;

@@ -26,7 +26,7 @@ __attribute__((unused)) static bool cpu_supports(const char *feature)
 
 static bool in_build(const char *name)
 {
-    for (const char *const *v = cgt_variants(); *v; v++)
+    for (const char *const *v = cgt_get_variant_names(); *v; v++)
         if (strcmp(*v, name) == 0)
             return true;
     return false;

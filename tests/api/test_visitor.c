@@ -32,7 +32,7 @@ static int open_scene(void **state)
     frame_trace(scene, &camera, &expected, NULL);
     uint32_t hits = 0;
     for (size_t i = 0; i < expected.elements; i++)
-        hits += expected.primitive[i] != CGT_NONE;
+        hits += expected.primitive[i] != CGT_INVALID_ID;
     return hits > expected.elements / 10 ? 0 : -1;
 }
 
@@ -52,7 +52,7 @@ static void rows_may_lie_apart(void **state)
 {
     (void)state;
     enum { STRIDE = WIDTH + 13 };
-    for (int tile = CGT_TILE_AUTO; tile <= CGT_TILE_STRIP; tile++) {
+    for (int tile = CGT_TILE_SHAPE_AUTO; tile <= CGT_TILE_SHAPE_STRIP; tile++) {
         uint32_t *memory = malloc((size_t)6 * STRIDE * HEIGHT * sizeof *memory);
         cgt_trace_options o;
         cgt_frame frame;
@@ -160,8 +160,8 @@ static visit *visit_make(uint32_t fields, cgt_tile_shape shape)
     v->tiles = planes_make(WIDTH, HEIGHT);
     memset(v->tiles.memory, 0x5a, 6 * v->tiles.elements * sizeof(uint32_t));
     v->fields = fields;
-    v->tile_width = shape == CGT_TILE_STRIP ? 1280 : 64;
-    v->tile_height = shape == CGT_TILE_STRIP ? 4 : 64;
+    v->tile_width = shape == CGT_TILE_SHAPE_STRIP ? 1280 : 64;
+    v->tile_height = shape == CGT_TILE_SHAPE_STRIP ? 4 : 64;
     return v;
 }
 
@@ -179,7 +179,7 @@ static void any_fields_to_planes_and_visitors(void **state)
     for (uint32_t plane_fields = 0; plane_fields < 16; plane_fields++)
         for (uint32_t visitor_fields = test_sample_start(plane_fields, step); visitor_fields < 16;
              visitor_fields += step)
-            for (int tile = CGT_TILE_SQUARE; tile <= CGT_TILE_STRIP; tile++) {
+            for (int tile = CGT_TILE_SHAPE_SQUARE; tile <= CGT_TILE_SHAPE_STRIP; tile++) {
                 visit *v = visit_make(visitor_fields, (cgt_tile_shape)tile);
                 cgt_frame frame = frame_with(&p, plane_fields);
                 cgt_trace_options o;
@@ -191,7 +191,7 @@ static void any_fields_to_planes_and_visitors(void **state)
                 memset(p.memory, 0x5a, 6 * p.elements * sizeof(uint32_t));
                 assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_OK);
                 assert_int_equal(v->wrong, 0);
-                assert_int_equal(v->calls, tile == CGT_TILE_STRIP ? (HEIGHT + 3) / 4 : 3 * 2);
+                assert_int_equal(v->calls, tile == CGT_TILE_SHAPE_STRIP ? (HEIGHT + 3) / 4 : 3 * 2);
                 for (int i = 0; i < WIDTH * HEIGHT; i++)
                     assert_int_equal(v->seen[i], 1);
                 check_planes(&p, plane_fields);
@@ -218,7 +218,7 @@ static void fields_without_a_visitor_are_ignored(void **state)
 static void a_visitor_stops_the_frame(void **state)
 {
     (void)state;
-    for (int tile = CGT_TILE_SQUARE; tile <= CGT_TILE_STRIP; tile++)
+    for (int tile = CGT_TILE_SHAPE_SQUARE; tile <= CGT_TILE_SHAPE_STRIP; tile++)
         for (unsigned stop_at = 1; stop_at <= 6; stop_at += 5) {
             visit *v = visit_make(CGT_FIELD_T, (cgt_tile_shape)tile);
             cgt_trace_options o;
@@ -246,11 +246,11 @@ static void a_visitor_stops_the_frame(void **state)
 static void strips_span_the_width(void **state)
 {
     (void)state;
-    visit *v = visit_make(CGT_FIELD_T, CGT_TILE_STRIP);
+    visit *v = visit_make(CGT_FIELD_T, CGT_TILE_SHAPE_STRIP);
     cgt_trace_options o;
     cgt_frame frame;
     cgt_trace_options_init(&o);
-    o.tile = CGT_TILE_STRIP;
+    o.tile = CGT_TILE_SHAPE_STRIP;
     cgt_frame_init(&frame, WIDTH, HEIGHT);
     frame.visitor = visit_tile;
     frame.visitor_user = v;

@@ -25,10 +25,10 @@ static void check_tree(const cgt_scene *scene, const char *what)
     if (wrong)
         fail_msg("%s: %s", what, wrong);
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-    assert_int_equal(st.wide_nodes, scene->world.wide.nodes);
-    assert_int_equal(st.wide_blocks, scene->world.wide.sphere_blocks + scene->world.wide.triangle_blocks);
-    assert_int_equal(st.wide_depth, scene->world.wide.depth);
-    assert_true(st.bytes >= st.wide_bytes && !st.wide_bytes == !st.wide_nodes);
+    assert_int_equal(st.bvh_nodes, scene->world.wide.nodes);
+    assert_int_equal(st.bvh_leaves, scene->world.wide.sphere_blocks + scene->world.wide.triangle_blocks);
+    assert_int_equal(st.bvh_depth, scene->world.wide.depth);
+    assert_true(st.bytes >= st.bvh_bytes && !st.bvh_bytes == !st.bvh_nodes);
 }
 
 static cgt_scene_options options_of(cgt_structure structure)
@@ -56,7 +56,7 @@ static cgt_result want(const cgt_scene *scene, uint64_t rays)
 
 static void check_scene(const loose_scene *s, const char *what)
 {
-    const cgt_scene_options asked = options_of(CGT_STRUCTURE_WIDE_TREE), automatic = options_of(CGT_STRUCTURE_AUTO);
+    const cgt_scene_options asked = options_of(CGT_STRUCTURE_BVH), automatic = options_of(CGT_STRUCTURE_AUTO);
     cgt_scene *scene[4];
     for (int k = 0; k < 4; k++) {
         scene[k] = loose_add(s, contexts[k % 2], k < 2 ? &asked : &automatic);
@@ -190,7 +190,7 @@ static void test_places(void **state)
 
 static void test_nothing(void **state)
 {
-    const cgt_scene_options o = options_of(CGT_STRUCTURE_WIDE_TREE);
+    const cgt_scene_options o = options_of(CGT_STRUCTURE_BVH);
     const float nowhere[1][4] = {{NAN, 0, 0, 1}};
     (void)state;
     for (uint32_t count = 0; count < 2; count++) {
@@ -306,7 +306,7 @@ static bool build_failing(const loose_scene *s, const cgt_scene_options *o, size
     const bool failed = result != CGT_OK;
     if (failed) {
         assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
-        assert_true(cgt_error_message(context, NULL, 0) > 0);
+        assert_true(cgt_context_get_error_message(context, NULL, 0) > 0);
         assert_true(!lazy || (!scene->world.wide.node && scene->committed));
         m.fail_at = 0;
         result = lazy ? want(scene, scene->world.valid) : cgt_scene_commit(scene);
@@ -321,7 +321,7 @@ static bool build_failing(const loose_scene *s, const cgt_scene_options *o, size
 static void test_every_allocation_fails(void **state)
 {
     test_random r = random_make(5);
-    const cgt_scene_options o[2] = {options_of(CGT_STRUCTURE_AUTO), options_of(CGT_STRUCTURE_WIDE_TREE)};
+    const cgt_scene_options o[2] = {options_of(CGT_STRUCTURE_AUTO), options_of(CGT_STRUCTURE_BVH)};
     (void)state;
     for (int k = 0; k < 4; k++) {
         /* many with threads: the grid's pairs take the middles' place */
@@ -343,7 +343,7 @@ static void test_steady_state(void **state)
     cgt_context *context = context_of(&m, 2);
     (void)state;
     for (int lazy = 0; lazy < 2; lazy++) {
-        const cgt_scene_options o = options_of(lazy ? CGT_STRUCTURE_AUTO : CGT_STRUCTURE_WIDE_TREE);
+        const cgt_scene_options o = options_of(lazy ? CGT_STRUCTURE_AUTO : CGT_STRUCTURE_BVH);
         cgt_scene *scene = scene_of(context, &o, (const float(*)[4])c.sphere, c.count);
         size_t calls = 0;
         for (int frame = 0; frame < 12; frame++) {

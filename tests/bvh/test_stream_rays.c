@@ -64,7 +64,7 @@ static void subject_make(test_random *r, cloud_kind kind, content what, float sc
     cgt_scene_options options;
     uint32_t geometry;
     cgt_scene_options_init(&options);
-    options.structure = CGT_STRUCTURE_WIDE_TREE;
+    options.structure = CGT_STRUCTURE_BVH;
     memset(s, 0, sizeof *s);
     s->context = context_make(1, CGT_VARIANT_NAME);
     s->spheres = cloud_make(r, kind, OBJECTS);
@@ -182,10 +182,10 @@ static bool ray_counts(const truth_ray *q)
 static found find_truth(const subject *s, const given_ray *g)
 {
     const cgt_objects *objects = &s->scene->world.objects;
-    found f = {INFINITY, CGT_NONE, CGT_NONE};
+    found f = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
     cgt_counts counts = {0};
     cgt_ray ray = {.t_min = g->ray.t_min < -FLT_MAX ? -FLT_MAX : g->ray.t_min, .t_max = g->ray.t_max};
-    uint32_t winner = CGT_NONE;
+    uint32_t winner = CGT_INVALID_ID;
     double t;
     memcpy(ray.line.org, g->ray.org, sizeof g->ray.org);
     memcpy(ray.line.dir, g->ray.dir, sizeof g->ray.dir);
@@ -215,13 +215,13 @@ static void make_rays(test_random *r, subject *s, uint32_t count)
             aim(r, s, &g->ray);
         s->ignores = false;
         const found f = find_truth(s, g);
-        if (f.primitive != CGT_NONE && i % 5 == 0) /* ranges that begin or end at the hit, to the last bit */
+        if (f.primitive != CGT_INVALID_ID && i % 5 == 0) /* ranges that begin or end at the hit, to the last bit */
             *(random_below(r, 2) ? &g->ray.t_max : &g->ray.t_min) = f.t;
-        if (f.primitive != CGT_NONE && i % 11 == 0)
+        if (f.primitive != CGT_INVALID_ID && i % 11 == 0)
             *(random_below(r, 2) ? &g->ray.t_max : &g->ray.t_min) =
                 nextafterf(f.t, random_below(r, 2) ? INFINITY : -INFINITY);
         const uint32_t which = random_below(r, 4);
-        g->primitive = which == 0 ? CGT_NONE : which == 1 ? random_below(r, 2 * OBJECTS) : f.primitive;
+        g->primitive = which == 0 ? CGT_INVALID_ID : which == 1 ? random_below(r, 2 * OBJECTS) : f.primitive;
         g->geometry = which == 1 ? random_below(r, arrays + 1) : f.geometry;
     }
 }
@@ -236,8 +236,8 @@ static cgt_rays array_of(const given_ray *q, uint64_t count, bool ignores)
                       .dir = {&q->ray.dir[0], &q->ray.dir[1], &q->ray.dir[2]},
                       .t_min = &q->ray.t_min,
                       .t_max = &q->ray.t_max,
-                      .ignored_primitive = ignores ? &q->primitive : NULL,
-                      .ignored_geometry = ignores ? &q->geometry : NULL};
+                      .skip_primitive = ignores ? &q->primitive : NULL,
+                      .skip_geometry = ignores ? &q->geometry : NULL};
 }
 
 /* How many answers are wrong. */
@@ -245,7 +245,7 @@ static uint64_t wrong_answers(const subject *s, uint32_t count, bool tell)
 {
     uint64_t wrong = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const bool none = truth[i].primitive == CGT_NONE;
+        const bool none = truth[i].primitive == CGT_INVALID_ID;
         if (same_bits(hit[i].t, truth[i].t) && hit[i].primitive == truth[i].primitive &&
             hit[i].geometry == truth[i].geometry && occluded[i] == !none)
             continue;
@@ -311,11 +311,11 @@ static void check_endless(test_random *r, subject *s, uint32_t count)
         given_ray *g = &given[i];
         g->ray.t_max = INFINITY;
         truth[i] = find_truth(s, g);
-        if (i % 3 || truth[i].primitive == CGT_NONE)
+        if (i % 3 || truth[i].primitive == CGT_INVALID_ID)
             continue;
         g->ray.t_min = nextafterf(truth[i].t, INFINITY);
         truth[i] = find_truth(s, g);
-        if (truth[i].primitive == CGT_NONE)
+        if (truth[i].primitive == CGT_INVALID_ID)
             continue;
         g->ray.t_min = random_below(r, 2) ? truth[i].t : nextafterf(truth[i].t, INFINITY);
         truth[i] = find_truth(s, g);
@@ -372,7 +372,7 @@ static void make_neighbours(test_random *r, subject *s, uint32_t count)
             from[a] = sphere[a] + (a == axis ? 0.5f * side * s->spheres.reach : 0);
     for (uint32_t i = 0; i < count; i++) {
         given_ray *g = &given[i];
-        *g = (given_ray){.ray = ray_random(r, &s->spheres), .primitive = CGT_NONE};
+        *g = (given_ray){.ray = ray_random(r, &s->spheres), .primitive = CGT_INVALID_ID};
         g->ray.t_min = before == 0 && i % 64 == 5 ? -random_log(r, 1e-6f, 1) : 0;
         g->ray.t_max = INFINITY;
         for (uint32_t a = 0; a < 3; a++)
@@ -387,7 +387,7 @@ static void make_neighbours(test_random *r, subject *s, uint32_t count)
             g->ray.t_max = along ? INFINITY : random_float(r, 0, 0.3f) * s->spheres.reach;
         s->ignores = false;
         const found f = find_truth(s, g);
-        if (f.primitive != CGT_NONE && ends == 2)
+        if (f.primitive != CGT_INVALID_ID && ends == 2)
             g->ray.t_max = random_below(r, 4) ? f.t : nextafterf(f.t, 0);
     }
 }
@@ -479,7 +479,7 @@ static void counts_add_up(void **state)
                    (q->dir[0] == 0 && q->dir[1] == 0 && q->dir[2] == 0);
         s.ignores = false;
         truth[i] = find_truth(&s, &given[i]);
-        hits += truth[i].primitive != CGT_NONE;
+        hits += truth[i].primitive != CGT_INVALID_ID;
     }
     for (int turn = 0; turn < 4; turn++) {
         const bool any = turn % 2;
@@ -495,7 +495,7 @@ static void counts_add_up(void **state)
         else
             assert_int_equal(cgt_trace_rays(s.scene, &rays, &none, &options), CGT_OK);
         assert_int_equal(n.rays, RAYS);
-        assert_int_equal(n.wide_rays, RAYS);
+        assert_int_equal(n.bvh_rays, RAYS);
         assert_int_equal(n.invalid_rays, invalid);
         assert_int_equal(n.hits, hits);
         assert_true(n.nodes && n.leaves && n.packet_tests && n.ray_tests >= n.packet_tests);
@@ -542,7 +542,7 @@ static void margins_break_where_they_are_made_smaller(void **state)
             }
             given[i] = (given_ray){.ray = q};
             truth[i] = find_truth(&s, &given[i]);
-            hits += truth[i].primitive != CGT_NONE;
+            hits += truth[i].primitive != CGT_INVALID_ID;
         }
         const cgt_rays rays = array_of(given, RAYS, false);
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {

@@ -51,7 +51,7 @@ static view view_at(uint32_t number)
     memcpy(v.camera.target, target[number], sizeof v.camera.target);
     v.camera.fov = number == 2 ? 80 : 50;
     v.camera.height = 2.3f;
-    v.camera.projection = number == 1 || number == 4 ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+    v.camera.projection = number == 1 || number == 4 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
     v.camera.mask = v.some ? SOME : 0;
     return v;
 }
@@ -114,7 +114,7 @@ static void ask_points(questions *q, const cgt_scene *scene)
     truth_ray *ray = frame_rays(&v.camera, WIDTH, HEIGHT);
     frame_trace(scene, &v.camera, &p, NULL);
     for (uint32_t i = 0; i < PIXELS; i++) {
-        const bool hit = p.primitive[i] != CGT_NONE;
+        const bool hit = p.primitive[i] != CGT_INVALID_ID;
         for (int a = 0; a < 3; a++)
             q->point[a][i] = ray[i].org[a] + (hit ? p.t[i] : 4) * ray[i].dir[a];
         q->ignored[0][i] = p.primitive[i];
@@ -153,8 +153,8 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
 {
     const cgt_points points = {.count = PIXELS,
                                .position = {q->point[0], q->point[1], q->point[2]},
-                               .ignored_primitive = q->ignored[0],
-                               .ignored_geometry = q->ignored[1]};
+                               .skip_primitive = q->ignored[0],
+                               .skip_geometry = q->ignored[1]};
     for (uint32_t i = 0; i < LIGHTS; i++) {
         if (!is_asked(q, i))
             continue;
@@ -162,7 +162,7 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
         cgt_trace_options o;
         cgt_trace_options_init(&o);
         o.statistics = &st;
-        assert_int_equal(cgt_occluded_light(scene, &lights[i], &points, a->shadow[i], &o), CGT_OK);
+        assert_int_equal(cgt_occluded_points(scene, &lights[i], &points, a->shadow[i], &o), CGT_OK);
         assert_true(st.hits > PIXELS / 20 && st.hits < PIXELS);
         assert_int_equal(st.tiles > 0, scene->world.loose.levels > 0);
     }
@@ -184,9 +184,9 @@ static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t 
         o.statistics = &st;
         o.cull = (cgt_cull)(i / each % 3);
         assert_int_equal(trace_array(scene, q->ray + i, some, a->hit + i, &o), CGT_OK);
-        wide += st.wide_rays;
+        wide += st.bvh_rays;
         assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded + i, &o), CGT_OK);
-        wide += st.wide_rays;
+        wide += st.bvh_rays;
     }
     return wide;
 }
@@ -227,7 +227,7 @@ static answers *ask_kd(cgt_context *context, questions *q, const mesh *m, test_r
     trace_lights(scene, q, a);
     trace_some(scene, q, 0, q->rays, q->rays, a);
     for (uint32_t i = 0; i < q->rays; i++)
-        hits += a->hit[i].primitive != CGT_NONE;
+        hits += a->hit[i].primitive != CGT_INVALID_ID;
     assert_true(hits > q->rays / 2 && hits < q->rays);
     cgt_scene_release(scene);
     return a;

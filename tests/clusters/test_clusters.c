@@ -57,7 +57,7 @@ static bool gets_clusters(cgt_context *context, const cgt_scene_options *options
 static void neighbours_do(void **state)
 {
     (void)state;
-    const cgt_scene_options incoherent = {.rays = CGT_RAYS_INCOHERENT};
+    const cgt_scene_options incoherent = {.rays = CGT_RAY_KIND_INCOHERENT};
     cgt_context *context = context_make(2, NULL);
     mesh m = mesh_of(LEAST, 1);
     for (uint32_t spoiled = 0; spoiled < 2; spoiled++) {

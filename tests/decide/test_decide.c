@@ -124,7 +124,7 @@ static uint64_t expect_canonical(const cgt_scene *scene, const oracle_primitive 
         uint64_t exact = 0;
         bool far;
         const bool is_hit = cgt_decide_hit(&of, &decided, &exact);
-        assert_int_equal(hit[i].primitive, is_hit ? 0 : CGT_NONE);
+        assert_int_equal(hit[i].primitive, is_hit ? 0 : CGT_INVALID_ID);
         if (!is_hit)
             continue;
         const double t = q->kind == ORACLE_SPHERE ? cgt_canonical_sphere_t(&of, shape.sphere, &far)

@@ -110,7 +110,7 @@ static full_hit trace_kind(RTCScene scene, const truth_ray *ray)
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcIntersect1(scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return (full_hit){.t = INFINITY, .primitive = CGT_NONE, .geometry = CGT_NONE};
+        return (full_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
     return (full_hit){.t = query.ray.tfar,
                       .primitive = query.hit.primID,
                       .geometry = query.hit.geomID,
@@ -119,12 +119,12 @@ static full_hit trace_kind(RTCScene scene, const truth_ray *ray)
 
 full_hit embree_trace(const embree_scene *scene, const truth_ray *ray)
 {
-    full_hit best = {.t = INFINITY, .primitive = CGT_NONE, .geometry = CGT_NONE};
+    full_hit best = {.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
     if (scene->spheres)
         best = trace_kind(scene->spheres, ray);
     if (scene->triangles) {
         const full_hit other = trace_kind(scene->triangles, ray);
-        if (other.geometry != CGT_NONE && !(best.t <= other.t))
+        if (other.geometry != CGT_INVALID_ID && !(best.t <= other.t))
             best = other;
     }
     return best;

@@ -69,9 +69,9 @@ static void judge_difference(const subject *w, const truth_ray *ray, const full_
         fail_ray(ray, ours, theirs, name[verdict]);
     if (exact.index != ORACLE_NONE && oracle_ulp(exact.t, ours->t) > 0.51)
         fail_ray(ray, ours, theirs, "t is off");
-    sum->missed += theirs->geometry == CGT_NONE;
-    sum->invented += ours->geometry == CGT_NONE;
-    sum->other += ours->geometry != CGT_NONE && theirs->geometry != CGT_NONE;
+    sum->missed += theirs->geometry == CGT_INVALID_ID;
+    sum->invented += ours->geometry == CGT_INVALID_ID;
+    sum->other += ours->geometry != CGT_INVALID_ID && theirs->geometry != CGT_INVALID_ID;
 }
 
 /* The same primitive, and other numbers: ours must be within the bounds of cgt.h. u and v of ROBUST are a rounding off,
@@ -96,7 +96,7 @@ static void judge(const subject *w, const truth_ray *ray, const full_hit *ours, 
     const full_hit theirs = embree_trace(&w->embree, ray);
     const bool same = ours->geometry == theirs.geometry && ours->primitive == theirs.primitive;
     sum->rays++;
-    sum->hits += ours->geometry != CGT_NONE;
+    sum->hits += ours->geometry != CGT_INVALID_ID;
     sum->same += same;
     if (!same)
         judge_difference(w, ray, ours, &theirs, sum);
@@ -111,7 +111,7 @@ static const cgt_scene_options *next_structure(void)
         {.structure = CGT_STRUCTURE_KD},
         {.structure = CGT_STRUCTURE_QUEUE_GRID},
         {.structure = CGT_STRUCTURE_LOOSE_GRID},
-        {.structure = CGT_STRUCTURE_WIDE_TREE},
+        {.structure = CGT_STRUCTURE_BVH},
         {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
         {.structure = CGT_STRUCTURE_KD, .kd_builder = CGT_KD_BUILDER_SWEEP, .kd_layout = CGT_KD_LAYOUT_MIXED},
         {.structure = CGT_STRUCTURE_KD_ROPES, .kd_layout = CGT_KD_LAYOUT_BREADTH_FIRST},

@@ -16,7 +16,7 @@ static cgt_camera any_camera(fuzz_model *m)
     cgt_camera c;
     cgt_camera_init(&c);
     const uint8_t how = fuzz_byte(&m->bytes);
-    c.projection = how == 255 ? (cgt_projection)7 : how & 1 ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+    c.projection = how == 255 ? (cgt_projection)7 : how & 1 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
     for (int k = 0; k < 3; k++) {
         c.eye[k] = fuzz_float(&m->bytes);
         c.target[k] = how & 2 ? fuzz_float(&m->bytes) : 0;
@@ -126,7 +126,7 @@ static void trace_visited(fuzz_model *m, const cgt_camera *camera, const planes 
     frame.visitor_user = &v;
     frame.visitor_fields = 31;
     const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, o);
-    FUZZ_CHECK(result == (v.stop ? CGT_ERROR_STOPPED : CGT_OK), "frame: %s", cgt_result_string(result));
+    FUZZ_CHECK(result == (v.stop ? CGT_ERROR_STOPPED : CGT_OK), "frame: %s", cgt_get_result_string(result));
     for (size_t i = 0; i < pixels && !v.stop; i++)
         FUZZ_CHECK(v.seen[i] == 1, "pixel %zu is visited %u times", i, v.seen[i]);
     free(v.seen);
@@ -161,7 +161,7 @@ static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camer
     o->statistics = &statistics;
     const cgt_frame frame = frame_into(p);
     const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, o);
-    FUZZ_CHECK(result == CGT_OK, "frame: %s", cgt_result_string(result));
+    FUZZ_CHECK(result == CGT_OK, "frame: %s", cgt_get_result_string(result));
     take_pixels(p, a.other);
     fuzz_check_hits(m, &a, a.other, o->precision);
     fuzz_check_counts(&a, a.other, &statistics);
@@ -180,17 +180,17 @@ static void trace_ambient(fuzz_model *m, const cgt_camera *camera, const planes 
     static const uint32_t samples[] = {1, 3, 16, 100};
     const size_t elements = p->row_stride * p->height;
     float *open = memset(fuzz_allocate(elements * sizeof *open), 0xff, elements * sizeof *open); /* NaN */
-    const cgt_ambient ambient = {
+    const cgt_ambient_options ambient = {
         .samples = samples[how >> 3 & 3], .radius = how & 32 ? 1.5f : INFINITY, .seed = how >> 6};
     const cgt_frame frame = frame_into(p);
     cgt_trace_statistics statistics;
     uint64_t hits = 0;
     o->statistics = &statistics;
-    const cgt_result result = cgt_trace_ambient(m->scene, camera, &frame, &ambient, open, o);
-    FUZZ_CHECK(result == CGT_OK, "ambient: %s", cgt_result_string(result));
+    const cgt_result result = cgt_ambient_occlusion(m->scene, camera, &frame, &ambient, open, o);
+    FUZZ_CHECK(result == CGT_OK, "ambient: %s", cgt_get_result_string(result));
     o->statistics = NULL;
     for (size_t i = 0; i < elements; i++) {
-        const bool inside = i % p->row_stride < p->width, hit = inside && frame.primitive[i] != CGT_NONE;
+        const bool inside = i % p->row_stride < p->width, hit = inside && frame.primitive[i] != CGT_INVALID_ID;
         hits += hit;
         FUZZ_CHECK(inside ? open[i] >= 0 && open[i] <= 1 : isnan(open[i]), "ambient: element %zu is %g", i,
                    (double)open[i]);
@@ -216,7 +216,7 @@ void fuzz_trace_camera(fuzz_model *m)
         const cgt_result result = cgt_trace_camera(m->scene, &camera, &frame, &o);
         FUZZ_CHECK((!legal && result == CGT_ERROR_INVALID_ARGUMENT) ||
                        (!m->committed && result == CGT_ERROR_NOT_COMMITTED),
-                   "frame: %s", cgt_result_string(result));
+                   "frame: %s", cgt_get_result_string(result));
         fuzz_check_error(m, result);
     } else {
         check_frame(m, &camera, &prepared, &p, &o, how);

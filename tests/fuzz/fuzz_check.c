@@ -38,8 +38,8 @@ cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     o.kd_traversal = (cgt_kd_traversal)(packet < 250 ? packet / 8 % 3 : 3);
     o.mailbox = (int)fuzz_below(&m->bytes, 3) - 1;
     *legal &= packet < 250 && o.packet != 5;
-    *legal &= (o.triangle_test == CGT_TRIANGLE_WATERTIGHT || o.precision == CGT_PRECISION_FAST);
-    *legal &= !camera || o.tile != CGT_TILE_STRIP || o.packet <= 4;
+    *legal &= (o.triangle_test == CGT_TRIANGLE_TEST_WATERTIGHT || o.precision == CGT_PRECISION_FAST);
+    *legal &= !camera || o.tile != CGT_TILE_SHAPE_STRIP || o.packet <= 4;
     return o;
 }
 
@@ -76,7 +76,7 @@ bool fuzz_ray_is_invalid(const truth_ray *ray)
 
 static void check_miss(const full_hit *h, uint32_t i)
 {
-    FUZZ_CHECK(h->primitive == CGT_NONE && h->geometry == CGT_NONE, "ray %u: half a miss", i);
+    FUZZ_CHECK(h->primitive == CGT_INVALID_ID && h->geometry == CGT_INVALID_ID, "ray %u: half a miss", i);
     FUZZ_CHECK(h->t == INFINITY, "ray %u: t %a of a miss", i, (double)h->t);
     FUZZ_CHECK(h->normal[0] == 0 && h->normal[1] == 0 && h->normal[2] == 0, "ray %u: the normal of a miss", i);
     FUZZ_CHECK(h->uv[0] == 0 && h->uv[1] == 0, "ray %u: u and v of a miss", i);
@@ -98,7 +98,7 @@ static bool can_be_hit(const fuzz_geometry *g, uint32_t i)
 static void describe(const fuzz_model *m, const truth_ray *ray, const full_hit *h)
 {
     float number[9];
-    fprintf(stderr, "variant %s\norg %a %a %a\ndir %a %a %a\nrange %a %a\n", cgt_context_variant(m->context),
+    fprintf(stderr, "variant %s\norg %a %a %a\ndir %a %a %a\nrange %a %a\n", cgt_context_get_variant(m->context),
             (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1],
             (double)ray->dir[2], (double)ray->t_min, (double)ray->t_max);
     fprintf(stderr, "hit %u.%u t %a u %a v %a normal %a %a %a\n", h->geometry, h->primitive, (double)h->t,
@@ -149,7 +149,7 @@ static void check_hit(const fuzz_model *m, const truth_ray *ray, const full_hit 
 void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit *hit, cgt_precision precision)
 {
     for (uint32_t i = 0; i < a->count; i++) {
-        if (hit[i].geometry == CGT_NONE)
+        if (hit[i].geometry == CGT_INVALID_ID)
             check_miss(&hit[i], i);
         else
             check_hit(m, &a->ray[i], &hit[i], i, precision);
@@ -160,7 +160,7 @@ void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_tra
 {
     uint64_t hits = 0, invalid = 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        hits += hit[i].geometry != CGT_NONE;
+        hits += hit[i].geometry != CGT_INVALID_ID;
         invalid += fuzz_ray_is_invalid(&a->ray[i]);
     }
     FUZZ_CHECK(s->rays == a->count, "%llu rays counted of %u", (unsigned long long)s->rays, a->count);
@@ -266,7 +266,7 @@ void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a)
                   : verdict == ORACLE_INVENTED ? "invented"
                                                : "another primitive is nearer",
                   h->geometry, h->primitive, (double)h->t);
-        if (h->geometry != CGT_NONE)
+        if (h->geometry != CGT_INVALID_ID)
             check_values(m, ray, h, &truth, i);
     }
     oracle_scene_free(&scene);

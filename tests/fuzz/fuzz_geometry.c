@@ -219,7 +219,7 @@ static bool make_geometry(fuzz_model *m, fuzz_geometry *g)
 void fuzz_add(fuzz_model *m)
 {
     fuzz_geometry g;
-    uint32_t lowest = 0, id = CGT_NONE;
+    uint32_t lowest = 0, id = CGT_INVALID_ID;
     while (lowest < FUZZ_GEOMETRIES && m->geometry[lowest].used)
         lowest++;
     if (lowest == FUZZ_GEOMETRIES)
@@ -228,10 +228,10 @@ void fuzz_add(fuzz_model *m)
     cgt_result result = call_add(m, &g, &id);
     if (result == CGT_ERROR_OUT_OF_MEMORY) {
         fuzz_check_error(m, result);
-        FUZZ_CHECK(id == CGT_NONE, "add: an id after an error");
+        FUZZ_CHECK(id == CGT_INVALID_ID, "add: an id after an error");
         result = call_add(m, &g, &id);
     }
-    FUZZ_CHECK(bad == (result != CGT_OK), "add: %s", cgt_result_string(result));
+    FUZZ_CHECK(bad == (result != CGT_OK), "add: %s", cgt_get_result_string(result));
     if (result == CGT_OK) {
         FUZZ_CHECK(id == lowest, "add: id %u, not %u", id, lowest);
         m->geometry[id] = g;
@@ -251,7 +251,7 @@ void fuzz_update(fuzz_model *m)
     fuzz_geometry *const old = &m->geometry[id];
     const bool bad = make_geometry(m, &g) || !old->used || old->triangular != g.triangular;
     const cgt_result result = call_update(m, id, &g);
-    FUZZ_CHECK(bad == (result != CGT_OK), "update: %s", cgt_result_string(result));
+    FUZZ_CHECK(bad == (result != CGT_OK), "update: %s", cgt_get_result_string(result));
     if (result == CGT_OK) {
         fuzz_release_geometry(old);
         *old = g;
@@ -265,10 +265,10 @@ void fuzz_update(fuzz_model *m)
 void fuzz_remove(fuzz_model *m)
 {
     const uint8_t byte = fuzz_byte(&m->bytes);
-    const uint32_t id = byte == 255 ? CGT_NONE : byte % FUZZ_GEOMETRIES;
+    const uint32_t id = byte == 255 ? CGT_INVALID_ID : byte % FUZZ_GEOMETRIES;
     const bool there = id < FUZZ_GEOMETRIES && m->geometry[id].used;
     const cgt_result result = cgt_scene_remove_geometry(m->scene, id);
-    FUZZ_CHECK(there == (result == CGT_OK), "remove: %s", cgt_result_string(result));
+    FUZZ_CHECK(there == (result == CGT_OK), "remove: %s", cgt_get_result_string(result));
     if (!there) {
         fuzz_check_error(m, result);
         return;

@@ -158,7 +158,7 @@ static void take_hits(const arrays *a, uint32_t fields, const full_hit *like, fu
 
 static void must(fuzz_model *m, cgt_result result, bool legal)
 {
-    FUZZ_CHECK((result == CGT_OK) == legal, "trace: %s", cgt_result_string(result));
+    FUZZ_CHECK((result == CGT_OK) == legal, "trace: %s", cgt_get_result_string(result));
     if (result != CGT_OK)
         fuzz_check_error(m, result);
 }
@@ -194,8 +194,9 @@ static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *
     uint8_t *occluded = memset(fuzz_allocate(a->count), 0x77, a->count);
     MUST(m, cgt_occluded_rays(m->scene, rays, occluded, o), true);
     for (uint32_t i = 0; i < a->count; i++)
-        FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_NONE), "ray %u: any hit says %u, nearest hit %u.%u", i,
-                   occluded[i], a->other[i].geometry, a->other[i].primitive);
+        FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_INVALID_ID),
+                   "ray %u: any hit says %u, nearest hit %u.%u", i, occluded[i], a->other[i].geometry,
+                   a->other[i].primitive);
     fuzz_check_counts(a, a->other, o->statistics);
     free(occluded);
 }
@@ -221,9 +222,9 @@ static void make_filters(const fuzz_answers *a, filters *f)
         f->primitive[i] = a->robust[i].primitive;
         f->geometry[i] = a->robust[i].geometry;
         if ((hash >> 3 & 3) == 0)
-            f->primitive[i] = (hash >> 5 & 7) == 7 ? CGT_NONE - 1 : hash >> 5 & 15;
+            f->primitive[i] = (hash >> 5 & 7) == 7 ? CGT_INVALID_ID - 1 : hash >> 5 & 15;
         if ((hash >> 9 & 3) == 0)
-            f->geometry[i] = (hash >> 11 & 7) == 7 ? CGT_NONE : hash >> 11 & 7;
+            f->geometry[i] = (hash >> 11 & 7) == 7 ? CGT_INVALID_ID : hash >> 11 & 7;
     }
 }
 
@@ -268,13 +269,13 @@ static void nearest_left(const fuzz_model *m, const truth_ray *from, const filte
     cgt_ray ray = {.t_min = from->t_min < -FLT_MAX ? -FLT_MAX : from->t_min, .t_max = from->t_max};
     memcpy(ray.line.org, from->org, sizeof ray.line.org);
     memcpy(ray.line.dir, from->dir, sizeof ray.line.dir);
-    *h = (full_hit){.t = INFINITY, .primitive = CGT_NONE, .geometry = CGT_NONE};
+    *h = (full_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
     for (uint32_t id = 0; id < FUZZ_GEOMETRIES && !fuzz_ray_is_invalid(from); id++) {
         const fuzz_geometry *g = &m->geometry[id];
         for (uint32_t i = 0; g->used && mask_of(g) & f->mask[of] && i < fuzz_count(g); i++) {
             if ((id == f->geometry[of] && i == f->primitive[of]) || !meets(&ray, g, i, &hit))
                 continue;
-            if (h->primitive != CGT_NONE && cgt_decide_order(&ray, &hit, &best, &exact) >= 0)
+            if (h->primitive != CGT_INVALID_ID && cgt_decide_order(&ray, &hit, &best, &exact) >= 0)
                 continue;
             best = hit;
             *h = (full_hit){.t = (float)hit.t, .primitive = i, .geometry = id};
@@ -299,18 +300,19 @@ static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace
                            .t_min = number[6],
                            .t_max = number[7],
                            .mask = f.mask,
-                           .ignored_primitive = f.primitive,
-                           .ignored_geometry = f.geometry};
+                           .skip_primitive = f.primitive,
+                           .skip_geometry = f.geometry};
     const cgt_hits hits = {.t = t, .primitive = primitive, .geometry = geometry};
     must(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
     must(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
     for (uint32_t i = 0; i < a->count; i++) {
         hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
-        FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_NONE), "ray %u, filtered: any hit says %u", i, occluded[i]);
-        FUZZ_CHECK(hit[i].geometry == CGT_NONE ||
+        FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_INVALID_ID), "ray %u, filtered: any hit says %u", i,
+                   occluded[i]);
+        FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID ||
                        (hit[i].geometry < FUZZ_GEOMETRIES && mask_of(&m->geometry[hit[i].geometry]) & f.mask[i]),
                    "ray %u: hits geometry %u, which its mask leaves out", i, hit[i].geometry);
-        FUZZ_CHECK(hit[i].geometry == CGT_NONE || hit[i].geometry != f.geometry[i] ||
+        FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID || hit[i].geometry != f.geometry[i] ||
                        hit[i].primitive != f.primitive[i],
                    "ray %u: hits what it ignores", i);
         nearest_left(m, &a->ray[i], &f, i, &left);
@@ -358,7 +360,7 @@ static void copy_scene(const fuzz_model *m, cgt_scene *scene)
         const fuzz_geometry *g = &m->geometry[i];
         const cgt_result result = g->triangular ? cgt_scene_add_triangles(scene, &g->triangles, &id)
                                                 : cgt_scene_add_spheres(scene, g->used ? &g->spheres : &nothing, &id);
-        FUZZ_CHECK(result == CGT_OK && id == i, "a scene cannot be made again: %s", cgt_result_string(result));
+        FUZZ_CHECK(result == CGT_OK && id == i, "a scene cannot be made again: %s", cgt_get_result_string(result));
     }
     FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a scene cannot be committed again");
 }
@@ -376,7 +378,7 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *va
     grid.structure = CGT_STRUCTURE_QUEUE_GRID;
     memcpy(grid.resolution, resolution, sizeof grid.resolution);
     const cgt_result result = cgt_context_create(&options, &context);
-    FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_result_string(result));
+    FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_get_result_string(result));
     if (result != CGT_OK)
         return;
     FUZZ_CHECK(cgt_scene_create(context, &grid, &scene) == CGT_OK, "no second scene");
@@ -411,7 +413,7 @@ void fuzz_trace_rays(fuzz_model *m)
     fuzz_answers a = fuzz_answers_make(ray, count);
     if (!m->committed) {
         const cgt_result result = trace_array(m->scene, ray, count, a.robust, NULL);
-        FUZZ_CHECK(result == CGT_ERROR_NOT_COMMITTED, "trace: %s", cgt_result_string(result));
+        FUZZ_CHECK(result == CGT_ERROR_NOT_COMMITTED, "trace: %s", cgt_get_result_string(result));
         fuzz_check_error(m, result);
     } else {
         trace_defaults(m, &a);

@@ -15,7 +15,7 @@
 static void on_log(void *user, cgt_log_level level, const char *message)
 {
     fuzz_model *const m = user;
-    FUZZ_CHECK((unsigned)level <= CGT_LOG_INFO && message[0] && !strchr(message, '\n'), "log: \"%s\"", message);
+    FUZZ_CHECK((unsigned)level <= CGT_LOG_LEVEL_INFO && message[0] && !strchr(message, '\n'), "log: \"%s\"", message);
     m->log_lines++;
 }
 
@@ -30,8 +30,10 @@ static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t c
 void fuzz_check_error(fuzz_model *m, cgt_result result)
 {
     char text[8];
-    FUZZ_CHECK(cgt_error_message(m->context, NULL, 0) > 0, "no message for: %s", cgt_result_string(result));
-    FUZZ_CHECK(cgt_error_message(m->context, text, sizeof text) > 0 && text[0] && memchr(text, 0, sizeof text),
+    FUZZ_CHECK(cgt_context_get_error_message(m->context, NULL, 0) > 0, "no message for: %s",
+               cgt_get_result_string(result));
+    FUZZ_CHECK(cgt_context_get_error_message(m->context, text, sizeof text) > 0 && text[0] &&
+                   memchr(text, 0, sizeof text),
                "a message is cut without an end");
     FUZZ_CHECK(result != CGT_ERROR_OUT_OF_MEMORY || m->memory.failed, "out of memory, but no allocation has failed");
     m->memory.failed = false;
@@ -41,7 +43,7 @@ void fuzz_check_error(fuzz_model *m, cgt_result result)
 
 const char *fuzz_variant(uint8_t number)
 {
-    const char *const *const names = cgt_variants();
+    const char *const *const names = cgt_get_variant_names();
     uint32_t variants = 0;
     while (names[variants])
         variants++;
@@ -69,7 +71,7 @@ static bool create_context(fuzz_model *m)
     }
     if (result == CGT_ERROR_UNSUPPORTED) /* this CPU */
         return false;
-    FUZZ_CHECK((result == CGT_OK) == legal && !m->context == !legal, "context: %s", cgt_result_string(result));
+    FUZZ_CHECK((result == CGT_OK) == legal && !m->context == !legal, "context: %s", cgt_get_result_string(result));
     return legal;
 }
 
@@ -80,7 +82,7 @@ static cgt_scene_options any_structure(uint8_t how)
     cgt_scene_options_init(&o);
     o.structure = how == 255 ? (cgt_structure)9 : (cgt_structure)((how & 1) + (how >> 1 & 2));
     if (o.structure == CGT_STRUCTURE_AUTO && how & 16)
-        o.structure = how & 32 ? CGT_STRUCTURE_WIDE_TREE : CGT_STRUCTURE_LOOSE_GRID;
+        o.structure = how & 32 ? CGT_STRUCTURE_BVH : CGT_STRUCTURE_LOOSE_GRID;
     o.kd_builder = how == 254 ? (cgt_kd_builder)3 : (cgt_kd_builder)((how >> 3) % 3);
     o.kd_layout = how == 253 ? (cgt_kd_layout)4 : (cgt_kd_layout)(how >> 5 & 3);
     o.kd_break_level = how == 252 ? 51 : how % 51;
@@ -91,7 +93,7 @@ static cgt_scene_options any_structure(uint8_t how)
 /* Resolutions that take little memory and time, or that must be refused. */
 static cgt_scene_options any_options(fuzz_model *m, bool *legal)
 {
-    static const uint32_t edges[] = {1, 2, 3, 4, 5, 7, 8, 16, 33, 64, 1024, 1025, 0, CGT_NONE};
+    static const uint32_t edges[] = {1, 2, 3, 4, 5, 7, 8, 16, 33, 64, 1024, 1025, 0, CGT_INVALID_ID};
     const uint8_t how = fuzz_byte(&m->bytes);
     cgt_scene_options o = any_structure(how);
     *legal = how < 252;
@@ -117,13 +119,13 @@ static void create_scene(fuzz_model *m)
     const cgt_scene_options o = any_options(m, &legal);
     cgt_result result = cgt_scene_create(m->context, &o, &m->scene);
     FUZZ_CHECK(legal || (result != CGT_OK && result != CGT_ERROR_OUT_OF_MEMORY), "scene: %s",
-               cgt_result_string(result));
+               cgt_get_result_string(result));
     for (int i = 0; i < 2 && result != CGT_OK; i++) {
         FUZZ_CHECK(!m->scene, "scene: an object after an error");
         fuzz_check_error(m, result);
         result = cgt_scene_create(m->context, legal ? &o : NULL, &m->scene);
     }
-    FUZZ_CHECK(result == CGT_OK && m->scene, "scene: %s", cgt_result_string(result));
+    FUZZ_CHECK(result == CGT_OK && m->scene, "scene: %s", cgt_get_result_string(result));
 }
 
 static void set_options(fuzz_model *m)
@@ -131,7 +133,7 @@ static void set_options(fuzz_model *m)
     bool legal;
     const cgt_scene_options o = any_options(m, &legal);
     const cgt_result result = cgt_scene_set_options(m->scene, &o);
-    FUZZ_CHECK((result == CGT_OK) == legal, "scene options: %s", cgt_result_string(result));
+    FUZZ_CHECK((result == CGT_OK) == legal, "scene options: %s", cgt_get_result_string(result));
     if (legal)
         m->committed = false;
     else
@@ -197,7 +199,7 @@ bool fuzz_commit(fuzz_model *m)
         fuzz_check_error(m, result);
         result = cgt_scene_commit(m->scene);
     }
-    FUZZ_CHECK(result == (good ? CGT_OK : CGT_ERROR_INVALID_ARGUMENT), "commit: %s", cgt_result_string(result));
+    FUZZ_CHECK(result == (good ? CGT_OK : CGT_ERROR_INVALID_ARGUMENT), "commit: %s", cgt_get_result_string(result));
     m->committed = result == CGT_OK;
     if (m->committed)
         check_statistics(m);

@@ -58,7 +58,7 @@ static void add_plainly(cgt_object_summary *s, const cgt_shape *q, double sum[3]
 
 static cgt_object_summary summarise_plainly(const cgt_objects *o)
 {
-    cgt_object_summary s = {.bad_index = CGT_NONE};
+    cgt_object_summary s = {.bad_index = CGT_INVALID_ID};
     for (int a = 0; a < 3; a++) {
         s.min[a] = INFINITY;
         s.max[a] = -INFINITY;
@@ -180,13 +180,13 @@ static void the_first_bad_index_is_told(void **state)
     test_random r = random_make(4);
     for (uint32_t round = 0; round < test_scaled(200); round++) {
         const uint32_t count = 1 + random_below(&r, COUNT), vertices = random_below(&r, 5);
-        uint32_t *index = malloc(count * 3 * sizeof *index), bad = CGT_NONE;
+        uint32_t *index = malloc(count * 3 * sizeof *index), bad = CGT_INVALID_ID;
         assert_non_null(index);
         for (uint32_t i = 0; i < count; i++)
             for (uint32_t k = 0; k < 3; k++) {
                 const bool wrong = random_below(&r, 60) == 0 || !vertices;
                 index[3 * i + k] = wrong ? (random_below(&r, 2) ? vertices : UINT32_MAX) : random_below(&r, vertices);
-                if (wrong && bad == CGT_NONE)
+                if (wrong && bad == CGT_INVALID_ID)
                     bad = i;
             }
         const cgt_triangles t = {
@@ -200,9 +200,9 @@ static void the_first_bad_index_is_told(void **state)
             char text[64];
             assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
             assert_int_equal(cgt_scene_add_triangles(scene, &t, &id), CGT_OK);
-            assert_int_equal(cgt_scene_commit(scene), bad == CGT_NONE ? CGT_OK : CGT_ERROR_INVALID_ARGUMENT);
+            assert_int_equal(cgt_scene_commit(scene), bad == CGT_INVALID_ID ? CGT_OK : CGT_ERROR_INVALID_ARGUMENT);
             snprintf(text, sizeof text, "triangle %u has index", bad);
-            if (bad != CGT_NONE)
+            if (bad != CGT_INVALID_ID)
                 assert_non_null(strstr(context_message(context), text));
             cgt_scene_release(scene);
             cgt_context_release(context);

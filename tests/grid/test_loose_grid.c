@@ -466,7 +466,7 @@ static void it_is_chosen_when_asked_for(void **state)
     (void)state;
     const float far_off[2][4] = {{0x1p60f, 0, 0, 1}, {0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
-    cgt_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_WIDE_TREE + 1)};
+    cgt_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_BVH + 1)};
     cgt_scene *scene = NULL;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_ERROR_INVALID_ARGUMENT);
     scene = scene_of(context, &loose_options, far_off, 2); /* beyond what a structure may hold */

@@ -97,7 +97,7 @@ static void check_rays(const cgt_scene *loose, const truth_ray *ray, const full_
         assert_int_equal(cgt_occluded_rays(loose, &rays, occluded + i, NULL), CGT_OK);
     }
     for (uint32_t i = 0; i < RAYS; i++)
-        if (memcmp(&hit[i], &is[i], sizeof is[i]) != 0 || occluded[i] != (is[i].primitive != CGT_NONE))
+        if (memcmp(&hit[i], &is[i], sizeof is[i]) != 0 || occluded[i] != (is[i].primitive != CGT_INVALID_ID))
             fail_msg("%u x %u x %u cells, bundles of %u: ray %u, org %a %a %a, dir %a %a %a: primitive %d at %a, any "
                      "hit %d; in one cell %d at %a",
                      options->resolution[0], options->resolution[1], options->resolution[2], bundle, i,
@@ -151,7 +151,7 @@ static void rays_find_what_reaches_out(void **state)
                 assert_int_equal(trace_array(cell, ray, RAYS, is, NULL), CGT_OK);
                 check_rays(loose, ray, is, way ? bundle : 1, &o);
                 for (uint32_t i = 0; i < RAYS; i++)
-                    hits += is[i].primitive != CGT_NONE;
+                    hits += is[i].primitive != CGT_INVALID_ID;
                 rays += RAYS;
             }
             cgt_scene_release(cell);

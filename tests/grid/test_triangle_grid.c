@@ -18,7 +18,7 @@ static uint32_t reference_at(const cgt_queue_grid *g, uint32_t cell, int i)
     if (g->wide)
         return g->wide_voxel[cell].reference[i];
     const uint32_t reference = g->voxel[cell].reference[i];
-    return reference == CGT_QUEUE_NONE ? CGT_NONE : reference;
+    return reference == CGT_QUEUE_NONE ? CGT_INVALID_ID : reference;
 }
 
 static unsigned times_held(const cgt_queue_grid *g, uint32_t cell, uint32_t object)
@@ -38,13 +38,13 @@ static uint64_t count_references(const cgt_queue_grid *g, uint32_t *overflow_cel
     *overflow_cells = 0;
     for (uint32_t cell = 0; cell < g->cells; cell++) {
         int used = 0;
-        while (used < CGT_QUEUE_LENGTH && reference_at(g, cell, used) != CGT_NONE)
+        while (used < CGT_QUEUE_LENGTH && reference_at(g, cell, used) != CGT_INVALID_ID)
             used++;
         for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
             if (i < used)
                 assert_true(i == 0 || reference_at(g, cell, i) < reference_at(g, cell, i - 1));
             else
-                assert_int_equal(reference_at(g, cell, i), CGT_NONE);
+                assert_int_equal(reference_at(g, cell, i), CGT_INVALID_ID);
         references += (uint64_t)used;
         const uint32_t first = cgt_queue_grid_overflow(g, cell);
         if (first == g->overflows)

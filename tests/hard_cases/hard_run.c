@@ -64,7 +64,7 @@ cgt_result hard_follow(cgt_context *context, const hard_case *c, hard_scene *s)
         cgt_scene_release(scene);
     }
     for (uint32_t i = 0; result == CGT_OK && i < s->rays; i++) {
-        found[i].t = hit[i].geometry == CGT_NONE ? INFINITY : hit[i].t;
+        found[i].t = hit[i].geometry == CGT_INVALID_ID ? INFINITY : hit[i].t;
         memcpy(found[i].normal, hit[i].normal, sizeof found[i].normal);
     }
     if (result == CGT_OK)

@@ -106,7 +106,7 @@ static void trace(const subject *s, const cgt_scene *scene, const truth_ray *ray
     memset(hits, 0x77, count * sizeof *hits);
     const cgt_result result = trace_array(scene, rays, count, hits, options);
     if (result != CGT_OK)
-        fail_msg("%s: %s", s->variant, cgt_result_string(result));
+        fail_msg("%s: %s", s->variant, cgt_get_result_string(result));
 }
 
 static void judge(const subject *s, const full_hit *answers)
@@ -117,8 +117,8 @@ static void judge(const subject *s, const full_hit *answers)
         const oracle_verdict verdict = hard_judge(&s->scene, &s->truth, i, &answers[i], &exact);
         if (verdict != ORACLE_RIGHT)
             fail_ray(s, i, &answers[i], name[verdict]);
-        const bool is_miss = answers[i].geometry == CGT_NONE;
-        if (is_miss && !(answers[i].primitive == CGT_NONE && answers[i].t == INFINITY))
+        const bool is_miss = answers[i].geometry == CGT_INVALID_ID;
+        if (is_miss && !(answers[i].primitive == CGT_INVALID_ID && answers[i].t == INFINITY))
             fail_ray(s, i, &answers[i], "a miss with a primitive or a t");
     }
 }
@@ -146,7 +146,7 @@ static void check_orders(subject *s, const cgt_scene *scene)
     const cgt_rays arrays = ray_array(s->scene.ray, rays);
     assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, NULL), CGT_OK);
     for (uint32_t i = 0; i < rays; i++)
-        if (occluded[i] != (s->robust[i].geometry != CGT_NONE))
+        if (occluded[i] != (s->robust[i].geometry != CGT_INVALID_ID))
             fail_ray(s, i, &s->robust[i], occluded[i] ? "occluded, but no hit" : "a hit, but not occluded");
     free(occluded);
 }
@@ -224,7 +224,7 @@ static void check_values(const subject *s)
         if (robust->geometry != exact->geometry || robust->primitive != exact->primitive ||
             !same_bits(robust->t, exact->t))
             fail_ray(s, i, exact, "EXACT: another hit or t");
-        if (index == ORACLE_NONE || robust->geometry == CGT_NONE)
+        if (index == ORACLE_NONE || robust->geometry == CGT_INVALID_ID)
             continue;
         const oracle_primitive *p = &s->truth.scene.primitive[index];
         if (p->geometry != robust->geometry || p->primitive != robust->primitive)
@@ -274,7 +274,7 @@ static void count_fast_errors(subject *s, const cgt_scene *scene)
     cgt_trace_options options;
     cgt_trace_options_init(&options);
     options.precision = CGT_PRECISION_FAST;
-    for (int test = CGT_TRIANGLE_WATERTIGHT; test <= CGT_TRIANGLE_ACCELERATED; test++) {
+    for (int test = CGT_TRIANGLE_TEST_WATERTIGHT; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
         options.triangle_test = (cgt_triangle_test)test;
         trace(s, scene, s->scene.ray, s->scene.rays, s->answer, &options);
         const hard_tally tally = hard_judge_all(&s->scene, &s->truth, s->answer);
@@ -327,7 +327,7 @@ static void check_structure(subject *s, cgt_context *context, const other_struct
     const cgt_rays arrays = ray_array(s->scene.ray, rays);
     assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, &options), CGT_OK);
     for (uint32_t i = 0; i < rays; i++)
-        if (occluded[i] != (s->robust[i].geometry != CGT_NONE))
+        if (occluded[i] != (s->robust[i].geometry != CGT_INVALID_ID))
             fail_ray(s, i, &s->robust[i], occluded[i] ? "occluded, but no hit" : "a hit, but not occluded");
     free(occluded);
     cgt_scene_release(scene);
@@ -512,7 +512,7 @@ static void test_range_ends_at_found_t(void **state)
             truth_ray ray = s.ray[i];
             full_hit found, again;
             assert_int_equal(trace_array(scene, &ray, 1, &found, NULL), CGT_OK);
-            if (found.geometry == CGT_NONE)
+            if (found.geometry == CGT_INVALID_ID)
                 continue;
             hits++;
             ray.t_max = found.t;
@@ -520,7 +520,7 @@ static void test_range_ends_at_found_t(void **state)
             assert_memory_equal(&again, &found, sizeof found);
             ray.t_max = nextafterf(found.t, -INFINITY);
             assert_int_equal(trace_array(scene, &ray, 1, &again, NULL), CGT_OK);
-            assert_int_equal(again.geometry, CGT_NONE);
+            assert_int_equal(again.geometry, CGT_INVALID_ID);
             ray = s.ray[i];
             ray.t_min = found.t;
             assert_int_equal(trace_array(scene, &ray, 1, &again, NULL), CGT_OK);

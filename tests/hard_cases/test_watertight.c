@@ -156,7 +156,7 @@ static void fail_ray(const subject *w, size_t v, uint32_t i, const char *what)
 static void check_answers(const subject *w, size_t v, const uint32_t *primitive, leaks *sum)
 {
     for (uint32_t i = 0; i < w->s.rays; i++) {
-        if (primitive[i] == CGT_NONE)
+        if (primitive[i] == CGT_INVALID_ID)
             fail_ray(w, v, i, "a leak");
         if (sum->rays++ % JUDGED)
             continue;
@@ -171,7 +171,7 @@ static uint64_t count_misses(const uint32_t *primitive, uint32_t count)
 {
     uint64_t misses = 0;
     for (uint32_t i = 0; i < count; i++)
-        misses += primitive[i] == CGT_NONE;
+        misses += primitive[i] == CGT_INVALID_ID;
     return misses;
 }
 
@@ -191,7 +191,7 @@ static void check_mesh(closed_kind kind, const location *at, uint32_t rays, leak
     cgt_trace_options fast;
     cgt_trace_options_init(&fast);
     fast.precision = CGT_PRECISION_FAST;
-    fast.triangle_test = CGT_TRIANGLE_MOLLER_TRUMBORE;
+    fast.triangle_test = CGT_TRIANGLE_TEST_MOLLER_TRUMBORE;
     subject_make(&w, kind, at->place, (uint64_t)kind * 100 + (uint64_t)(at - locations));
     const uint32_t least = (uint32_t)w.variants, all = rays / CHUNK + 1, chunks = all < least ? least : all;
     if (rays / chunks < CHUNK)

@@ -241,7 +241,7 @@ static void check_memory(cgt_context *context, counted *c, const cgt_scene *scen
         if (result == CGT_OK)
             break;
         assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
-        cgt_error_message(context, text, sizeof text);
+        cgt_context_get_error_message(context, text, sizeof text);
         assert_non_null(strstr(text, "out of memory"));
     }
     assert_true(failures >= 1);
@@ -288,7 +288,7 @@ static void test_too_many(void **state)
             cgt_kd_raw raw;
             assert_int_equal(cgt_kd_build(one_thread, &work, &world, builders[b], &cgt_kd_default_costs, &raw),
                              CGT_ERROR_TOO_LARGE);
-            cgt_error_message(one_thread, text, sizeof text);
+            cgt_context_get_error_message(one_thread, text, sizeof text);
             assert_non_null(strstr(text, "too many"));
             assert_null(work.data);
         }

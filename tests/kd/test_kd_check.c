@@ -318,13 +318,13 @@ static void wrong_box(spoilt *s)
 static void wrong_wide_rope(spoilt *s)
 {
     uint32_t *rope = &any_leaf(s)->wide_rope[random_below(&s->random, 6)];
-    *rope = *rope == CGT_NONE ? 0 : CGT_NONE;
+    *rope = *rope == CGT_INVALID_ID ? 0 : CGT_INVALID_ID;
 }
 
 static void lost_rope(spoilt *s)
 {
     uint32_t *rope = &any_leaf(s)->rope[random_below(&s->random, 6)];
-    *rope = *rope == CGT_NONE ? 0 : CGT_NONE;
+    *rope = *rope == CGT_INVALID_ID ? 0 : CGT_INVALID_ID;
 }
 
 /* Another node than the one it leads to; 1 is none. */
@@ -332,7 +332,7 @@ static void rope_elsewhere(spoilt *s)
 {
     for (;;) {
         uint32_t *rope = &any_leaf(s)->rope[random_below(&s->random, 6)];
-        if (*rope == CGT_NONE)
+        if (*rope == CGT_INVALID_ID)
             continue;
         *rope = *rope == 0 ? 1 : s->tree.nodes + random_below(&s->random, 2) - 1;
         if (*rope == s->tree.nodes - 1)
@@ -358,7 +358,7 @@ static void rope_too_far(spoilt *s)
     for (uint32_t i = 0; i < s->tree.leaves; i++)
         for (uint32_t side = 0; side < 6; side++) {
             const uint32_t rope = s->leaf[i].rope[side];
-            if (rope != CGT_NONE && !cgt_kd_is_leaf(s->node[rope])) {
+            if (rope != CGT_INVALID_ID && !cgt_kd_is_leaf(s->node[rope])) {
                 s->leaf[i].rope[side] = s->node[rope].word[1] + random_below(&s->random, 2);
                 return;
             }

@@ -66,7 +66,7 @@ static void fill_packet(packet *p, const truth_ray ray[RAYS], bool common_origin
         p->t_min[k] = ray[k].t_min;
         p->t_max[k] = ray[k].t_max;
         p->low[k] = p->high[k] = closed >> k & 1 || ray[k].t_min > ray[k].t_max ? -INFINITY : ray[k].t_max;
-        p->object[k] = CGT_NONE;
+        p->object[k] = CGT_INVALID_ID;
         p->rays += p->high[k] != -INFINITY;
     }
 }
@@ -102,8 +102,8 @@ static void compare_hits(const rope_case *c, const truth_ray ray[RAYS], const pa
     const cgt_trace_settings settings = {.kd_traversal = traversal, .mailbox = sum->rays / RAYS % 2};
     CGT_KERNEL(cgt_kd_ropes_trace)(&c->world, p, &settings, &counts);
     for (uint32_t k = 0; k < RAYS; k++) {
-        const bool hit = truth->object[k] != CGT_NONE;
-        const bool same = p->any_hit ? (p->object[k] != CGT_NONE) == hit : p->object[k] == truth->object[k];
+        const bool hit = truth->object[k] != CGT_INVALID_ID;
+        const bool same = p->any_hit ? (p->object[k] != CGT_INVALID_ID) == hit : p->object[k] == truth->object[k];
         sum->rays++;
         sum->hits += hit;
         if (same)

@@ -194,7 +194,7 @@ static void add_wrong(const subject *s, tally *sum)
     cgt_trace_options_init(&options);
     options.statistics = &statistics;
     memset(got, 7, sizeof got);
-    assert_int_equal(cgt_occluded_light(s->tiles, &s->light, &points, got, &options), CGT_OK);
+    assert_int_equal(cgt_occluded_points(s->tiles, &s->light, &points, got, &options), CGT_OK);
     assert_true(statistics.tiles > 0);
     for (uint32_t i = 0; i < POINTS; i++) {
         assert_true(got[i] < 2);

@@ -113,14 +113,14 @@ static void look(question *q, test_random *r, const cgt_scene *scene, const crow
 {
     planes p = planes_make(SIDE, SIDE);
     q->camera = random_below(r, 3) ? camera_before(&c->balls) : camera_random(r, &c->balls);
-    if (random_below(r, 2) && q->camera.projection == CGT_PERSPECTIVE) /* a part of it, from nearer */
+    if (random_below(r, 2) && q->camera.projection == CGT_PROJECTION_PERSPECTIVE) /* a part of it, from nearer */
         q->camera.fov /= 4;
     truth_ray *ray = frame_rays(&q->camera, SIDE, SIDE);
     frame_trace(scene, &q->camera, &p, NULL);
     for (uint32_t i = 0; i < POINTS; i++) {
         const uint32_t pixel = i < SIDE * SIDE ? i : SIDE;
         const truth_ray *of = &ray[pixel];
-        const bool hit = p.primitive[pixel] != CGT_NONE;
+        const bool hit = p.primitive[pixel] != CGT_INVALID_ID;
         float length = 0;
         for (int a = 0; a < 3; a++)
             length += of->dir[a] * of->dir[a];
@@ -194,7 +194,7 @@ static void ask(question *q, test_random *r, uint32_t number)
             p->t_max = INFINITY;
         p->mask = (uint32_t[]){4, 1, 2, 0, UINT32_MAX}[random_below(r, 5)];
         if (number % 11 == 10)
-            p->primitive = random_below(r, 4) ? p->primitive + 1 : CGT_NONE;
+            p->primitive = random_below(r, 4) ? p->primitive + 1 : CGT_INVALID_ID;
     }
     if (q->shuffled)
         shuffle(q, r);
@@ -224,8 +224,8 @@ static void answer(question *q, const cgt_scene *scene)
                                     : q->light.w == 1 ? ends
                                                       : NULL,
                            .mask = q->masks ? &p->mask : NULL,
-                           .ignored_primitive = q->ignores ? &p->primitive : NULL,
-                           .ignored_geometry = q->ignores ? &p->geometry : NULL};
+                           .skip_primitive = q->ignores ? &p->primitive : NULL,
+                           .skip_geometry = q->ignores ? &p->geometry : NULL};
     cgt_trace_options_init(&options);
     options.statistics = &q->by_rays;
     assert_int_equal(cgt_occluded_rays(scene, &rays, q->is, &options), CGT_OK);
@@ -242,8 +242,8 @@ static cgt_points points_of(const question *q)
                          .t_min = &p->t_min,
                          .t_max = &p->t_max,
                          .mask = &p->mask,
-                         .ignored_primitive = &p->primitive,
-                         .ignored_geometry = &p->geometry};
+                         .skip_primitive = &p->primitive,
+                         .skip_geometry = &p->geometry};
     if (q->packed) {
         points = (cgt_points){q->count, 0, {at[0], at[1], at[2]}, t_min, t_max, mask, primitive, geometry};
         for (uint32_t i = 0; i < q->count; i++) {
@@ -261,7 +261,7 @@ static cgt_points points_of(const question *q)
     if (!q->masks)
         points.mask = NULL;
     if (!q->ignores)
-        points.ignored_primitive = points.ignored_geometry = NULL;
+        points.skip_primitive = points.skip_geometry = NULL;
     return points;
 }
 
@@ -275,7 +275,7 @@ static uint64_t check(const question *q, const cgt_scene *scene, const crowd *c,
     cgt_trace_options_init(&options);
     options.statistics = &by_points;
     memset(got, 0x77, sizeof got);
-    assert_int_equal(cgt_occluded_light(scene, &q->light, &points, got, &options), CGT_OK);
+    assert_int_equal(cgt_occluded_points(scene, &q->light, &points, got, &options), CGT_OK);
     for (uint32_t i = 0; i < q->count; i++)
         if (got[i] != q->is[i])
             fail_msg("%s, %u %s objects of content %d, light %u at %a %a %a, %g; point %u of %u, at %a %a %a, range %a "
@@ -320,7 +320,7 @@ static void check_scene(uint32_t number, uint32_t step, tally *sum)
                          number % 5 == 4 ? SMALL : LARGE);
     const char *name[MOST_VARIANTS];
     cgt_context *context[MOST_VARIANTS][2], *other = context_make(2, NULL);
-    cgt_scene *scene[MOST_VARIANTS][2], *truth = crowd_commit(other, &c, CGT_STRUCTURE_WIDE_TREE);
+    cgt_scene *scene[MOST_VARIANTS][2], *truth = crowd_commit(other, &c, CGT_STRUCTURE_BVH);
     uint32_t variants = 0;
     FOR_EACH_VARIANT(variant)
     {

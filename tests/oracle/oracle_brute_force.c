@@ -66,7 +66,7 @@ static cgt_camera place_camera(const trajectory_frame *f, int place)
     camera.eye[1] = middle[1] + 1.4f * size * sinf(angle);
     camera.eye[2] = middle[2] + 0.5f * size;
     if (place == 2)
-        camera.projection = CGT_ORTHOGRAPHIC, camera.height = 0.6f * size;
+        camera.projection = CGT_PROJECTION_ORTHOGRAPHIC, camera.height = 0.6f * size;
     if (place == 3) {
         memcpy(camera.eye, middle, sizeof middle);
         camera.target[0] += 1;
@@ -103,7 +103,7 @@ static void pixels_of_the_trajectory(void **state)
         }
         doubts += frame_judge(&p, rays, sphere, f.count);
         for (size_t i = 0; i < p.elements; i++)
-            hits += p.primitive[i] != CGT_NONE;
+            hits += p.primitive[i] != CGT_INVALID_ID;
         free(rays);
     }
     print_message("%llu hits in %zu frames of %ux%u, %llu beyond double precision\n", (unsigned long long)hits,
@@ -132,13 +132,13 @@ static void rays_through_the_trajectory(void **state)
         ray[i] = ray_random(&r, &c);
     cgt_context *context = context_make(2, NULL);
     const cgt_rays rays = ray_array(ray, count);
-    for (uint32_t k = 0; k < CGT_STRUCTURE_WIDE_TREE; k++) { /* hits are the same bits through each */
+    for (uint32_t k = 0; k < CGT_STRUCTURE_BVH; k++) { /* hits are the same bits through each */
         const cgt_scene_options made = structure_in_turn(k);
         cgt_scene *scene = scene_of(context, &made, sphere, f.count);
         rays_trace(scene, ray, count, again, NULL);
         assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
         for (uint32_t i = 0; i < count; i++)
-            assert_int_equal(occluded[i], again[i].primitive != CGT_NONE);
+            assert_int_equal(occluded[i], again[i].primitive != CGT_INVALID_ID);
         if (k)
             assert_memory_equal(again, hit, count * sizeof *hit);
         else
@@ -149,7 +149,7 @@ static void rays_through_the_trajectory(void **state)
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, &doubts);
         if (wrong)
             fail_msg("ray %u: %s", i, wrong);
-        hits += hit[i].primitive != CGT_NONE;
+        hits += hit[i].primitive != CGT_INVALID_ID;
     }
     assert_true(hits > count / 4 && doubts <= count / 1000 + 1);
     cgt_context_release(context);

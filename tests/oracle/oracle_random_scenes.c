@@ -29,7 +29,7 @@ static const cgt_scene_options structures[] = {
     {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {40, 40, 40}},
     {.structure = CGT_STRUCTURE_LOOSE_GRID},
     {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {7, 5, 3}},
-    {.structure = CGT_STRUCTURE_WIDE_TREE},
+    {.structure = CGT_STRUCTURE_BVH},
     {.structure = CGT_STRUCTURE_KD},
     {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
 };
@@ -61,7 +61,8 @@ static void judge_kernel(const subject *s, const full_hit *answers, const char *
             fail_msg("the kernel: %s, %s, %s: ray %u: %s: geometry %d, primitive %d, t %a; exactly %a", s->variant,
                      precision, soup_name(s->kind), i, name[verdict], (int)answers[i].geometry,
                      (int)answers[i].primitive, (double)answers[i].t, (double)exact.t);
-        if (exact.index != ORACLE_NONE && answers[i].geometry != CGT_NONE && oracle_ulp(exact.t, answers[i].t) > 0.51)
+        if (exact.index != ORACLE_NONE && answers[i].geometry != CGT_INVALID_ID &&
+            oracle_ulp(exact.t, answers[i].t) > 0.51)
             fail_msg("the kernel: %s, %s, %s: ray %u: t is %g ulp off", s->variant, precision, soup_name(s->kind), i,
                      oracle_ulp(exact.t, answers[i].t));
     }
@@ -92,7 +93,7 @@ static cgt_trace_options way(uint32_t number)
     cgt_trace_options o;
     cgt_trace_options_init(&o);
     o.packet = shape == 3 ? 4 : 4u << shape;
-    o.tile = shape == 3 ? CGT_TILE_STRIP : CGT_TILE_SQUARE;
+    o.tile = shape == 3 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE;
     o.loop = loop ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
     o.cull = cull == 0 ? CGT_CULL_NONE : cull == 1 ? CGT_CULL_FRUSTUM : CGT_CULL_BLOCKS;
     o.mailbox = cull % 2 == loop;
@@ -156,11 +157,11 @@ static cgt_camera camera_of_round(hard_scene *s, uint32_t round)
         for (int a = 0; a < 3; a++)
             camera.eye[a] = (float)hard_real(s, -0.3, 0.3);
     if (round % 2) {
-        camera.projection = CGT_PERSPECTIVE;
+        camera.projection = CGT_PROJECTION_PERSPECTIVE;
         camera.fov = random_float(&s->random, 40, 120);
     }
     if (round % 4 == 2) {
-        camera.projection = CGT_ORTHOGRAPHIC;
+        camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
         camera.height = random_float(&s->random, 0.5f, 3);
     }
     return camera;
@@ -228,7 +229,7 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
         }
         assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, NULL), CGT_OK);
         for (uint32_t i = 0; i < rays; i++)
-            assert_int_equal(occluded[i], expected[i].geometry != CGT_NONE);
+            assert_int_equal(occluded[i], expected[i].geometry != CGT_INVALID_ID);
         cgt_scene_release(scene);
     }
     cgt_context_release(context);
@@ -270,7 +271,7 @@ static void test_rays(void **state)
         check_rays(&s, expected, got, occluded);
     }
     for (uint32_t i = 0; i < rays; i++)
-        hits += expected[i].geometry != CGT_NONE;
+        hits += expected[i].geometry != CGT_INVALID_ID;
     assert_true(hits > rays / 100 && hits < rays);
     hard_truth_free(&s.truth);
     hard_scene_free(&s.scene);

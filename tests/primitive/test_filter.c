@@ -107,7 +107,7 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
         p->rdd[i] = 1 / dd;
         p->t_min[i] = back ? -INFINITY : 0;
         p->t_max[i] = p->low[i] = p->high[i] = INFINITY;
-        p->object[i] = CGT_NONE;
+        p->object[i] = CGT_INVALID_ID;
     }
 }
 

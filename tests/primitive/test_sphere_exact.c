@@ -47,10 +47,10 @@ static tally judge(const float sphere[4], const truth_ray *ray, uint32_t count)
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, &sum.doubts);
         if (wrong)
             fail_msg("%s (%s, t %a): sphere %a %a %a r %a, org %a %a %a, dir %a %a %a", wrong,
-                     cgt_context_variant(context), (double)hit[i].t, (double)sphere[0], (double)sphere[1],
+                     cgt_context_get_variant(context), (double)hit[i].t, (double)sphere[0], (double)sphere[1],
                      (double)sphere[2], (double)sphere[3], (double)ray[i].org[0], (double)ray[i].org[1],
                      (double)ray[i].org[2], (double)ray[i].dir[0], (double)ray[i].dir[1], (double)ray[i].dir[2]);
-        if (hit[i].primitive == CGT_NONE)
+        if (hit[i].primitive == CGT_INVALID_ID)
             continue;
         sum.hits++;
         const truth_roots roots = truth_sphere(ray[i].org, ray[i].dir, sphere);
@@ -80,7 +80,7 @@ static void add_tally(tally *sum, tally t)
 static void print_tally(const char *what, tally t)
 {
     print_message("%s, %s: %llu rays, %llu hits, %llu beyond double, %llu grazing with t off\n",
-                  cgt_context_variant(context), what, (unsigned long long)t.rays, (unsigned long long)t.hits,
+                  cgt_context_get_variant(context), what, (unsigned long long)t.rays, (unsigned long long)t.hits,
                   (unsigned long long)t.doubts, (unsigned long long)t.loose);
 }
 
@@ -222,7 +222,7 @@ static float t_of(const float sphere[4], truth_ray ray)
 {
     cgt_scene *scene = scene_of_one(sphere);
     const ray_hit hit = ray_trace(scene, ray);
-    assert_true((hit.primitive == CGT_NONE) == (hit.t == INFINITY));
+    assert_true((hit.primitive == CGT_INVALID_ID) == (hit.t == INFINITY));
     cgt_scene_release(scene);
     return hit.t;
 }
@@ -282,7 +282,7 @@ static void zero_radius_rays(void)
         ray.org[i % 3] += 0x1p-10f; /* exact, too */
         assert_true(t_of(point, ray) == INFINITY);
     }
-    print_message("%s: %u of %d rays through a point hit it\n", cgt_context_variant(context), through, ROUNDS);
+    print_message("%s: %u of %d rays through a point hit it\n", cgt_context_get_variant(context), through, ROUNDS);
     assert_true(through > ROUNDS * 3 / 4);
     assert_true(t_of(point, (truth_ray){{3, -2, 7}, {0, 1, 0}, 0, INFINITY}) == 0);
     cgt_scene *scene = scene_of_one(point);
@@ -374,7 +374,7 @@ static void ties_rays(void)
             }
         const cgt_scene_options made = structure_in_turn(round);
         assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
-        uint32_t first[2] = {CGT_NONE, CGT_NONE}, id;
+        uint32_t first[2] = {CGT_INVALID_ID, CGT_INVALID_ID}, id;
         for (uint32_t g = 0; g < 2; g++) {
             const cgt_spheres spheres = spheres_of((const float(*)[4])sphere[g], N);
             assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
@@ -388,7 +388,7 @@ static void ties_rays(void)
         for (int i = 0; i < RAYS; i++)
             ray[i] = aim(&r, (const float[3]){5, 6, 7}, q, 0.99f, 1);
         rays_trace(scene, ray, RAYS, hit, NULL);
-        const uint32_t geometry = first[0] == CGT_NONE;
+        const uint32_t geometry = first[0] == CGT_INVALID_ID;
         for (int i = 0; i < RAYS; i++) {
             assert_int_equal(hit[i].geometry, geometry);
             assert_int_equal(hit[i].primitive, first[geometry]);

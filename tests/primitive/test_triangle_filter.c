@@ -140,7 +140,7 @@ static void make_range(test_random *r, family f, packet *p, int i, double t)
     p->t_min[i] = f == LOOKING_BACK && choice % 2 ? -INFINITY : choice == 0 && near_t >= 0 ? near_t : 0;
     p->t_max[i] = choice == 2 ? near_t : INFINITY;
     p->low[i] = p->high[i] = p->t_max[i];
-    p->object[i] = CGT_NONE;
+    p->object[i] = CGT_INVALID_ID;
 }
 
 /* A packet of one family before one triangle: from one origin, or from origins close to each other. */

@@ -63,7 +63,7 @@ static void hits_mean_what_is_said(void **state)
                     continue;
                 trace_all(scene, ray, RAYS, hit, &options);
                 for (int i = 0; i < RAYS; i++) {
-                    if (hit[i].primitive == CGT_NONE)
+                    if (hit[i].primitive == CGT_INVALID_ID)
                         continue;
                     check_meaning(&hit[i], &ray[i], (const float(*)[3])given[hit[i].primitive]);
                     const float towards = hit[i].normal[0] * ray[i].dir[0] + hit[i].normal[1] * ray[i].dir[1] +
@@ -197,7 +197,7 @@ static void frames_carry_u_and_v(void **state)
         for (int j = 0; j < HEIGHT; j++)
             for (int i = 0; i < WIDTH; i++) {
                 const float u = whole.uv[0][j][i], v = whole.uv[1][j][i];
-                const bool is_hit = whole.geometry[j][i] != CGT_NONE;
+                const bool is_hit = whole.geometry[j][i] != CGT_INVALID_ID;
                 assert_true(is_hit ? u >= 0 && v >= 0 && u + v < 1.000001f : u == 0 && v == 0);
                 hits += is_hit;
             }
@@ -218,7 +218,7 @@ static void spheres_beside_triangles_have_no_share(void **state)
     trace_all(scene, ray, RAYS, hit, NULL);
     uint32_t of_kind[2] = {0, 0};
     for (int i = 0; i < RAYS; i++) {
-        if (hit[i].geometry == CGT_NONE)
+        if (hit[i].geometry == CGT_INVALID_ID)
             continue;
         of_kind[hit[i].geometry]++;
         if (hit[i].geometry == 1)
@@ -246,9 +246,9 @@ static void arguments_are_checked(void **state)
         for (int test = -1; test < 5; test++) {
             cgt_trace_options options = with_precision((cgt_precision)precision);
             options.triangle_test = (cgt_triangle_test)test;
-            const bool known =
-                precision >= 0 && precision <= CGT_PRECISION_EXACT && test >= 0 && test <= CGT_TRIANGLE_ACCELERATED;
-            const bool good = known && (test == CGT_TRIANGLE_WATERTIGHT || precision == CGT_PRECISION_FAST);
+            const bool known = precision >= 0 && precision <= CGT_PRECISION_EXACT && test >= 0 &&
+                               test <= CGT_TRIANGLE_TEST_ACCELERATED;
+            const bool good = known && (test == CGT_TRIANGLE_TEST_WATERTIGHT || precision == CGT_PRECISION_FAST);
             assert_int_equal(trace_array(scene, ray, RAYS, hit, &options), good ? CGT_OK : bad);
             if (!known)
                 assert_non_null(strstr(context_message(context), "unknown"));
@@ -289,7 +289,7 @@ static void the_lowest_ids_win(void **state)
             scene_commit(context, scene);
             trace_all(scene, ray, RAYS, hit, NULL);
             for (int i = 0; i < RAYS; i++) {
-                assert_int_equal(hit[i].geometry, expected[i].geometry == CGT_NONE ? CGT_NONE : 0);
+                assert_int_equal(hit[i].geometry, expected[i].geometry == CGT_INVALID_ID ? CGT_INVALID_ID : 0);
                 assert_int_equal(hit[i].primitive, expected[i].primitive);
                 assert_true(same_bits(hit[i].t, expected[i].t));
                 order += hit[i].geometry == 0;
@@ -347,13 +347,13 @@ static void occluded_is_nearest_exists(void **state)
             options.statistics = &s;
             trace_all(scene, ray, RAYS, hit, &options);
             for (int i = 0; i < RAYS; i++) /* ranges that end at the hit, or just before */
-                if (hit[i].geometry != CGT_NONE && i % 3)
+                if (hit[i].geometry != CGT_INVALID_ID && i % 3)
                     ray[i].t_max = i % 3 == 1 ? hit[i].t : nextafterf(hit[i].t, -INFINITY);
             trace_all(scene, ray, RAYS, hit, &options);
             const cgt_rays rays = ray_array(ray, RAYS);
             assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &options), CGT_OK);
             for (int i = 0; i < RAYS; i++)
-                assert_int_equal(occluded[i], hit[i].geometry != CGT_NONE);
+                assert_int_equal(occluded[i], hit[i].geometry != CGT_INVALID_ID);
             assert_int_equal(s.hits, hits_in(hit, RAYS));
             assert_int_equal(s.rays, RAYS);
             cgt_scene_release(scene);

@@ -79,7 +79,7 @@ static void fast_is_close_on_ordinary_scenes(void **state)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
-        for (int test = 0; test <= CGT_TRIANGLE_ACCELERATED; test++) {
+        for (int test = 0; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
             uint64_t rays = 0, same = 0;
             double t = 0, uv = 0, normal = 0;
             cgt_trace_options fast = with_precision(CGT_PRECISION_FAST);
@@ -93,7 +93,7 @@ static void fast_is_close_on_ordinary_scenes(void **state)
                         hit[i].geometry == expected[i].geometry && hit[i].primitive == expected[i].primitive;
                     rays++;
                     same += equal;
-                    if (!equal || hit[i].geometry == CGT_NONE)
+                    if (!equal || hit[i].geometry == CGT_INVALID_ID)
                         continue;
                     t = fmax(t, fabs((double)hit[i].t - expected[i].t) * length_of(ray[i].dir));
                     for (int k = 0; k < 2; k++)
@@ -184,7 +184,7 @@ static void extreme_rays_at_ordinary_scenes(void **state)
         for (int i = 0; i < 256; i++) {
             oracle_hit of;
             assert_int_equal(oracle_judge(&truth, &ray[i], hit[i].geometry, hit[i].primitive, &of), ORACLE_RIGHT);
-            hits += i % 8 == 3 && hit[i].geometry != CGT_NONE;
+            hits += i % 8 == 3 && hit[i].geometry != CGT_INVALID_ID;
         }
         assert_true(hits > 3);
         oracle_scene_free(&truth);

@@ -19,7 +19,7 @@ static uint32_t count_hits(const full_hit *of)
 {
     uint32_t hits = 0;
     for (int i = 0; i < RAYS; i++)
-        hits += of[i].geometry != CGT_NONE;
+        hits += of[i].geometry != CGT_INVALID_ID;
     return hits;
 }
 
@@ -115,7 +115,7 @@ static void several_geometries(void **state)
 {
     (void)state;
     static const uint32_t at_first[6][2] = {{0, 0}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {3, 0}};
-    static const uint32_t without[6][2] = {{0, 0}, {0, 1}, {CGT_NONE, CGT_NONE}, {2, 0}, {2, 1}, {3, 0}};
+    static const uint32_t without[6][2] = {{0, 0}, {0, 1}, {CGT_INVALID_ID, CGT_INVALID_ID}, {2, 0}, {2, 1}, {3, 0}};
     triangle t[6];
     float sphere[6][4];
     for (int i = 0; i < 6; i++) {
@@ -157,7 +157,7 @@ static void several_geometries(void **state)
         assert_int_equal(cgt_scene_update_triangles(scene, 2, &none), CGT_OK);
         assert_int_equal(cgt_scene_add_triangles(scene, &none, &id), CGT_OK);
         scene_commit(context, scene);
-        expect_ids(scene, (const uint32_t[4][2]){{0, 0}, {0, 1}, {1, 0}, {CGT_NONE, CGT_NONE}}, 4);
+        expect_ids(scene, (const uint32_t[4][2]){{0, 0}, {0, 1}, {1, 0}, {CGT_INVALID_ID, CGT_INVALID_ID}}, 4);
         cgt_scene_release(scene);
         cgt_context_release(context);
     }
@@ -365,7 +365,7 @@ static void skipped_triangles_are_counted(void **state)
         assert_int_equal(s.skipped_radius, 0);
         trace(scene, hit);
         for (int i = 0; i < RAYS; i++) {
-            if (hit[i].primitive != CGT_NONE)
+            if (hit[i].primitive != CGT_INVALID_ID)
                 hit[i].primitive = number[hit[i].primitive];
             assert_memory_equal(&hit[i], &expected[i], sizeof hit[i]);
         }
@@ -403,8 +403,8 @@ static void what_is_not_used_does_no_harm(void **state)
     cgt_scene_release(scene);
     scene = scene_of_triangles(context, NULL, nothing, 2);
     trace_all(scene, &down, 1, hit, NULL);
-    assert_int_equal(hit[0].geometry, CGT_NONE);
-    assert_int_equal(hit[0].primitive, CGT_NONE);
+    assert_int_equal(hit[0].geometry, CGT_INVALID_ID);
+    assert_int_equal(hit[0].primitive, CGT_INVALID_ID);
     assert_true(hit[0].t == INFINITY && hit[0].uv[0] == 0 && hit[0].uv[1] == 0 && hit[0].normal[2] == 0);
     cgt_scene_release(scene);
     cgt_context_release(context);

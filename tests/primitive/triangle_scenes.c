@@ -24,7 +24,7 @@ cgt_scene *scene_begin(cgt_context *context)
 uint32_t scene_add_triangles(cgt_scene *scene, const triangle *t, uint32_t count)
 {
     const cgt_triangles triangles = triangles_of(t, count);
-    uint32_t id = CGT_NONE;
+    uint32_t id = CGT_INVALID_ID;
     assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
     return id;
 }
@@ -32,7 +32,7 @@ uint32_t scene_add_triangles(cgt_scene *scene, const triangle *t, uint32_t count
 uint32_t scene_add_spheres(cgt_scene *scene, const float (*sphere)[4], uint32_t count)
 {
     const cgt_spheres spheres = spheres_of(sphere, count);
-    uint32_t id = CGT_NONE;
+    uint32_t id = CGT_INVALID_ID;
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
     return id;
 }
@@ -98,6 +98,6 @@ uint32_t hits_in(const full_hit *of, uint32_t count)
 {
     uint32_t hits = 0;
     for (uint32_t i = 0; i < count; i++)
-        hits += of[i].geometry != CGT_NONE;
+        hits += of[i].geometry != CGT_INVALID_ID;
     return hits;
 }

@@ -106,7 +106,7 @@ static void cameras(void **state)
     }
     assert_int_equal(program_parse_camera("1,2,-3,4,5,6,0,0,2,38.5", &camera, error, sizeof error), 0);
     assert_true(camera.eye[0] == 1 && camera.eye[2] == -3 && camera.target[1] == 5 && camera.up[2] == 2);
-    assert_true(camera.fov == 38.5f && camera.t_max == 9 && camera.projection == CGT_PERSPECTIVE);
+    assert_true(camera.fov == 38.5f && camera.t_max == 9 && camera.projection == CGT_PROJECTION_PERSPECTIVE);
     /* Far apart and tiny: neither overflows nor counts as zero. */
     assert_int_equal(program_parse_camera("0,0,1e30,0,0,0,0,1e-30,0,45", &camera, error, sizeof error), 0);
 }

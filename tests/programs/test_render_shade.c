@@ -38,7 +38,7 @@ static void set_up(tile_case *c, uint32_t samples)
     memset(c, 0, sizeof *c);
     for (int i = 0; i < 16; i++) {
         c->t[i] = INFINITY;
-        c->primitive[i] = CGT_NONE;
+        c->primitive[i] = CGT_INVALID_ID;
     }
     c->tile = (cgt_tile){.width = 4,
                          .height = 4,
@@ -92,7 +92,7 @@ static void shading_lights_what_faces_it(void **state)
     assert_near(c.pixels[0].b / c.pixels[0].r, 3.0, 1e-5);
     assert_near(c.pixels[3].r, 0.0, 0.0); /* a black sphere stays black */
     assert_near(c.pixels[4].r, 0.5, 0.0); /* nothing hit */
-    assert_int_equal(c.pixels[4].id, CGT_NONE);
+    assert_int_equal(c.pixels[4].id, CGT_INVALID_ID);
     assert_true(isinf(c.pixels[4].z));
     assert_int_equal(c.rgb[4 * 3], 188); /* 0.5 in sRGB */
     assert_int_equal(c.rgb[4 * 3 + 1], 0);
@@ -181,7 +181,7 @@ static void shading_averages_light_and_keeps_the_nearest(void **state)
     assert_near(four.pixels[0].r, (one.pixels[0].r + 0.0f + 0.5f + 0.5f) / 4.0f, 1e-6);
     assert_int_equal(four.pixels[0].id, 0);
     assert_near(four.pixels[0].z, 2.0, 0.0);
-    assert_int_equal(four.pixels[3].id, CGT_NONE);
+    assert_int_equal(four.pixels[3].id, CGT_INVALID_ID);
     assert_int_equal(atomic_load(&four.job.hits), 2);
 }
 

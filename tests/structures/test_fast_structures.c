@@ -93,7 +93,7 @@ static bool passes_silhouette(const oracle_primitive *q, const double org[3], co
 static bool in_doubt(const oracle_scene *scene, const full_hit *hit, const truth_ray *ray)
 {
     double org[3], dir[3];
-    if (hit->geometry == CGT_NONE)
+    if (hit->geometry == CGT_INVALID_ID)
         return false;
     for (int a = 0; a < 3; a++) {
         org[a] = ray->org[a];
@@ -121,7 +121,7 @@ static double length_of(const float d[3])
 static bool is_number(const full_hit *h)
 {
     const float sum = h->uv[0] + h->uv[1] + h->normal[0] + h->normal[1] + h->normal[2];
-    return h->geometry == CGT_NONE ? !isnan(h->t) && !isnan(sum) : isfinite(h->t) && isfinite(sum);
+    return h->geometry == CGT_INVALID_ID ? !isnan(h->t) && !isnan(sum) : isfinite(h->t) && isfinite(sum);
 }
 
 static void judge(const oracle_scene *truth, const truth_ray *ray, const full_hit *is, const full_hit *fast, tally *sum)
@@ -129,7 +129,7 @@ static void judge(const oracle_scene *truth, const truth_ray *ray, const full_hi
     const double size = length_of(ray->dir), apart = fabs((double)fast->t - (double)is->t) * size;
     const bool same = fast->geometry == is->geometry && fast->primitive == is->primitive;
     sum->rays++;
-    sum->hits += fast->geometry != CGT_NONE;
+    sum->hits += fast->geometry != CGT_INVALID_ID;
     sum->other += !same;
     assert_true(is_number(fast));
     if (!same && !(apart < 1e-4) && !in_doubt(truth, fast, ray) && !in_doubt(truth, is, ray))
@@ -137,7 +137,7 @@ static void judge(const oracle_scene *truth, const truth_ray *ray, const full_hi
                  (int)fast->primitive, (double)fast->t, (int)is->geometry, (int)is->primitive, (double)is->t,
                  (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
                  (double)ray->dir[1], (double)ray->dir[2]);
-    if (!same || is->geometry == CGT_NONE || in_doubt(truth, is, ray))
+    if (!same || is->geometry == CGT_INVALID_ID || in_doubt(truth, is, ray))
         return; /* in a triangle's plane t, u and v may be anything */
     sum->t = fmax(sum->t, apart);
     for (int k = 0; k < 2; k++)
@@ -178,7 +178,7 @@ static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_r
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, options), CGT_OK);
     for (int i = 0; i < RAYS; i++) {
         judge(&truth->scene, &ray[i], &is[i], &hit[i], sum);
-        assert_int_equal(occluded[i], hit[i].geometry != CGT_NONE);
+        assert_int_equal(occluded[i], hit[i].geometry != CGT_INVALID_ID);
     }
 }
 
@@ -202,7 +202,7 @@ static void fast_is_close_to_robust(void **state)
             for (uint32_t w = test_sample_start(round, step); w < TEST_COUNT(ways); w += step) {
                 cgt_scene *scene = commit(context, &s, &ways[w]);
                 trace_all(scene, ray, RAYS, is, NULL);
-                for (int test = 0; test <= CGT_TRIANGLE_ACCELERATED; test++) {
+                for (int test = 0; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
                     const cgt_trace_options fast = fast_way(&ways[w], test, (round + w / step) % 2);
                     check_scene(scene, &truth, ray, is, &fast, &sum);
                 }
@@ -260,7 +260,7 @@ static void count_leaks(const cgt_scene *scene, const hard_scene *s, const cgt_t
     for (uint32_t i = 0; i < s->rays; i++) {
         assert_true(is_number(&hit[i]));
         sum->rays++;
-        if (hit[i].geometry == CGT_NONE)
+        if (hit[i].geometry == CGT_INVALID_ID)
             ++*(at_vertex(i) ? &sum->vertices : &sum->edges);
     }
 }
@@ -276,9 +276,9 @@ static void closed_meshes_do_not_leak(void **state)
             hard_scene s = make_closed((closed_kind)(round % CLOSED_KINDS), 700 + round);
             for (size_t w = 0; w < TEST_COUNT(ways); w++) {
                 cgt_scene *scene = commit(context, &s, &ways[w]);
-                cgt_trace_options fast = fast_way(&ways[w], CGT_TRIANGLE_WATERTIGHT, round % 2);
+                cgt_trace_options fast = fast_way(&ways[w], CGT_TRIANGLE_TEST_WATERTIGHT, round % 2);
                 count_leaks(scene, &s, &fast, &sum);
-                fast.triangle_test = CGT_TRIANGLE_MOLLER_TRUMBORE;
+                fast.triangle_test = CGT_TRIANGLE_TEST_MOLLER_TRUMBORE;
                 count_leaks(scene, &s, &fast, &others);
                 cgt_scene_release(scene);
             }

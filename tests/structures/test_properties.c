@@ -20,7 +20,7 @@ static cgt_trace_options random_options(test_random *r)
     o.cull = (cgt_cull)random_below(r, 3);
     o.mailbox = (int)random_below(r, 2);
     o.kd_traversal = (cgt_kd_traversal)random_below(r, 3);
-    o.tile = o.packet <= 4 ? (cgt_tile_shape)random_below(r, 3) : CGT_TILE_SQUARE;
+    o.tile = o.packet <= 4 ? (cgt_tile_shape)random_below(r, 3) : CGT_TILE_SHAPE_SQUARE;
     return o;
 }
 
@@ -104,7 +104,7 @@ static void nearest_hit_is_that_of_brute_force(void **state)
             judge_rays(scene, &c, &r, false, &options, &doubts);
             judge_rays(scene, &c, &r, true, &options, &doubts);
             for (size_t i = 0; i < p.elements; i++)
-                hits += p.primitive[i] != CGT_NONE;
+                hits += p.primitive[i] != CGT_INVALID_ID;
             pixels += p.elements;
             cgt_scene_release(scene);
             free(rays);

@@ -69,7 +69,7 @@ static subject subject_make(structure_kind kind, uint64_t stream)
 static cgt_scene *commit(cgt_context *context, const subject *t, const cgt_scene_options *options)
 {
     cgt_scene *scene;
-    uint32_t id, gap = CGT_NONE;
+    uint32_t id, gap = CGT_INVALID_ID;
     const cgt_spheres nothing = {0};
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     for (uint32_t i = 0; i < t->parts; i++) {
@@ -82,7 +82,7 @@ static cgt_scene *commit(cgt_context *context, const subject *t, const cgt_scene
             assert_int_equal(cgt_scene_add_spheres(scene, &q->spheres, &id), CGT_OK);
         assert_int_equal(id, q->id);
     }
-    if (gap != CGT_NONE)
+    if (gap != CGT_INVALID_ID)
         assert_int_equal(cgt_scene_remove_geometry(scene, gap), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
@@ -108,8 +108,8 @@ static cgt_rays rays_of(const filtered_ray *ray, uint32_t count, uint32_t what)
     cgt_rays r = ray_array(&ray->ray, count);
     r.stride = sizeof *ray;
     r.mask = what & GIVEN_MASK ? &ray->mask : NULL;
-    r.ignored_primitive = what & GIVEN_PRIMITIVE ? &ray->primitive : NULL;
-    r.ignored_geometry = what & GIVEN_GEOMETRY ? &ray->geometry : NULL;
+    r.skip_primitive = what & GIVEN_PRIMITIVE ? &ray->primitive : NULL;
+    r.skip_geometry = what & GIVEN_GEOMETRY ? &ray->geometry : NULL;
     return r;
 }
 
@@ -127,11 +127,11 @@ static void make_filters(subject *t, const cgt_scene *scene, filtered_ray *ray)
                                 .geometry = hit[i].geometry};
         const uint32_t kind = i / 64 % 5 ? random_below(r, 12) : 12;
         if (kind == 0)
-            ray[i].primitive = CGT_NONE;
+            ray[i].primitive = CGT_INVALID_ID;
         else if (kind == 1)
             ray[i].primitive = 1000000 + random_below(r, 100); /* out of range of all but the largest */
         else if (kind == 2)
-            ray[i].geometry = (uint32_t[]){1, 99, CGT_NONE}[random_below(r, 3)];
+            ray[i].geometry = (uint32_t[]){1, 99, CGT_INVALID_ID}[random_below(r, 3)];
         else if (kind == 3) {
             ray[i].geometry = random_below(r, MOST_PARTS);
             ray[i].primitive = random_below(r, 100);
@@ -186,12 +186,12 @@ static bool takes_part(const cgt_shape *shape)
 static answer truth_of(const subject *t, const filtered_ray *f, uint32_t what)
 {
     const uint32_t mask = what & GIVEN_MASK ? f->mask : UINT32_MAX;
-    const uint32_t primitive = what & GIVEN_PRIMITIVE ? f->primitive : CGT_NONE;
+    const uint32_t primitive = what & GIVEN_PRIMITIVE ? f->primitive : CGT_INVALID_ID;
     const uint32_t geometry = what & GIVEN_GEOMETRY ? f->geometry : 0;
     const float t_min = f->ray.t_min < -3e38f ? -3.4028234664e38f : f->ray.t_min;
     cgt_ray ray = {.t_min = t_min, .t_max = f->ray.t_max};
     cgt_decided_hit best = {.t = 0};
-    answer a = {INFINITY, CGT_NONE, CGT_NONE};
+    answer a = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
     uint64_t exact = 0;
     memcpy(ray.line.org, f->ray.org, sizeof ray.line.org);
     memcpy(ray.line.dir, f->ray.dir, sizeof ray.line.dir);
@@ -202,7 +202,7 @@ static answer truth_of(const subject *t, const filtered_ray *f, uint32_t what)
             cgt_decided_hit hit = {.shape = shape_at(&t->part[k], i)};
             if (!takes_part(&hit.shape) || !cgt_decide_hit(&ray, &hit, &exact))
                 continue;
-            if (a.primitive == CGT_NONE || cgt_decide_order(&ray, &hit, &best, &exact) < 0) {
+            if (a.primitive == CGT_INVALID_ID || cgt_decide_order(&ray, &hit, &best, &exact) < 0) {
                 best = hit;
                 a = (answer){(float)hit.t, i, t->part[k].id};
             }
@@ -241,8 +241,8 @@ static void compare(const subject *t, const cgt_scene *scene, const filtered_ray
     for (uint32_t i = 0; i < count; i++) {
         const answer got = {hit[i].t, hit[i].primitive, hit[i].geometry};
         const bool same = memcmp(&got, &truth[i], sizeof got) == 0;
-        found += got.primitive != CGT_NONE;
-        if (got.primitive != CGT_NONE && is_left_out(t, &ray[i], what, &hit[i]))
+        found += got.primitive != CGT_INVALID_ID;
+        if (got.primitive != CGT_INVALID_ID && is_left_out(t, &ray[i], what, &hit[i]))
             fail_msg("%s, ray %u: hits %u.%u, which is left out", t->s.name, i, got.geometry, got.primitive);
         if (!same && options.precision != CGT_PRECISION_FAST)
             fail_msg("%s, ray %u: hits %u.%u at %a, not %u.%u at %a", t->s.name, i, got.geometry, got.primitive,
@@ -253,7 +253,7 @@ static void compare(const subject *t, const cgt_scene *scene, const filtered_ray
     memset(occluded, 7, sizeof occluded);
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &options), CGT_OK);
     for (uint32_t i = 0; i < count; i++)
-        if (occluded[i] != (hit[i].primitive != CGT_NONE))
+        if (occluded[i] != (hit[i].primitive != CGT_INVALID_ID))
             fail_msg("%s, ray %u: any hit %u, nearest hit %u.%u", t->s.name, i, occluded[i], hit[i].geometry,
                      hit[i].primitive);
     assert_int_equal(statistics.hits, found);
@@ -290,7 +290,7 @@ static void hits_are_those_of_what_is_left(void **state)
             cgt_context *own = context_make(1 + 2 * (number % 2), variant);
             /* a sample: half of the structures, by turns of two, for what follows from number + k takes turns of one */
             const uint32_t step = test_samples() ? 2 : 1;
-            for (uint32_t k = test_sample_start(number / 2, step); k < CGT_STRUCTURE_WIDE_TREE; k += step) {
+            for (uint32_t k = test_sample_start(number / 2, step); k < CGT_STRUCTURE_BVH; k += step) {
                 const cgt_scene_options made = structure_in_turn(k);
                 cgt_trace_options options;
                 cgt_trace_options_init(&options);
@@ -301,7 +301,7 @@ static void hits_are_those_of_what_is_left(void **state)
                 for (int single = 0; single < 2; single++) {
                     options.kd_traversal = single ? CGT_KD_TRAVERSAL_SINGLE : CGT_KD_TRAVERSAL_PACKET;
                     options.precision = single ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
-                    options.triangle_test = CGT_TRIANGLE_WATERTIGHT;
+                    options.triangle_test = CGT_TRIANGLE_TEST_WATERTIGHT;
                     compare(&t, scene, ray, truth, count, what, &options, &sum);
                     options.precision = CGT_PRECISION_FAST;
                     options.triangle_test = (cgt_triangle_test)((number + k) % 3);
@@ -330,8 +330,8 @@ static uint32_t hit_of(const cgt_scene *scene, uint32_t primitive, uint32_t geom
                            .org = {&org[0], &org[1], &org[2]},
                            .dir = {&dir[0], &dir[1], &dir[2]},
                            .mask = &mask,
-                           .ignored_primitive = &primitive,
-                           .ignored_geometry = &geometry};
+                           .skip_primitive = &primitive,
+                           .skip_geometry = &geometry};
     const cgt_hits hits = {.primitive = &found};
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
     return found;
@@ -342,25 +342,25 @@ static void copies_are_found(void **state)
     (void)state;
     const float sphere[4][4] = {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, -9, 1}, {0, 0, 0, NAN}};
     cgt_context *context = context_make(1, NULL);
-    for (uint32_t k = 0; k < CGT_STRUCTURE_WIDE_TREE; k++) {
+    for (uint32_t k = 0; k < CGT_STRUCTURE_BVH; k++) {
         const cgt_scene_options made = structure_in_turn(k);
         cgt_scene *scene = scene_of(context, &made, sphere, 4);
-        assert_int_equal(hit_of(scene, CGT_NONE, 0, 1), 0);
+        assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 1), 0);
         assert_int_equal(hit_of(scene, 0, 0, 1), 1);
         assert_int_equal(hit_of(scene, 1, 0, 1), 0);
         assert_int_equal(hit_of(scene, 2, 0, 1), 0);
         assert_int_equal(hit_of(scene, 3, 0, 1), 0);
         assert_int_equal(hit_of(scene, 4, 0, 1), 0); /* beyond the last */
-        assert_int_equal(hit_of(scene, CGT_NONE - 1, 0, 1), 0);
+        assert_int_equal(hit_of(scene, CGT_INVALID_ID - 1, 0, 1), 0);
         assert_int_equal(hit_of(scene, 0, 1, 1), 0); /* no such geometry */
-        assert_int_equal(hit_of(scene, 0, CGT_NONE, 1), 0);
-        assert_int_equal(hit_of(scene, CGT_NONE, CGT_NONE, 1), 0);
-        assert_int_equal(hit_of(scene, CGT_NONE, 0, 0), CGT_NONE);
-        assert_int_equal(hit_of(scene, CGT_NONE, 0, 0x80000000u), 0);
+        assert_int_equal(hit_of(scene, 0, CGT_INVALID_ID, 1), 0);
+        assert_int_equal(hit_of(scene, CGT_INVALID_ID, CGT_INVALID_ID, 1), 0);
+        assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0), CGT_INVALID_ID);
+        assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0x80000000u), 0);
         cgt_scene_release(scene);
     }
     cgt_scene *empty = scene_of(context, NULL, NULL, 0);
-    assert_int_equal(hit_of(empty, 0, 0, 1), CGT_NONE);
+    assert_int_equal(hit_of(empty, 0, 0, 1), CGT_INVALID_ID);
     cgt_scene_release(empty);
     cgt_context_release(context);
 }
@@ -373,16 +373,16 @@ static void masks_change_with_commits(void **state)
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
     cgt_spheres spheres = spheres_of(sphere, 1);
-    assert_int_equal(hit_of(scene, CGT_NONE, 0, 4), 0);
+    assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), 0);
     spheres.mask = 3;
     assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_int_equal(hit_of(scene, CGT_NONE, 0, 4), CGT_NONE);
-    assert_int_equal(hit_of(scene, CGT_NONE, 0, 6), 0);
+    assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), CGT_INVALID_ID);
+    assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 6), 0);
     spheres.mask = 0;
     assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_int_equal(hit_of(scene, CGT_NONE, 0, 4), 0);
+    assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), 0);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
@@ -398,7 +398,7 @@ static void any_layout(void **state)
     static full_hit hit[RAYS], again[RAYS];
     cgt_context *context = context_make(2, NULL);
     subject t = subject_make((structure_kind)SOUP_MIXED, 41);
-    for (uint32_t k = 0; k < CGT_STRUCTURE_WIDE_TREE; k++) {
+    for (uint32_t k = 0; k < CGT_STRUCTURE_BVH; k++) {
         const cgt_scene_options made = structure_in_turn(k);
         cgt_scene *scene = commit(context, &t, &made);
         make_filters(&t, scene, ray);
@@ -416,8 +416,8 @@ static void any_layout(void **state)
                             .t_min = number[6],
                             .t_max = number[7],
                             .mask = word[0],
-                            .ignored_primitive = word[1],
-                            .ignored_geometry = word[2]};
+                            .skip_primitive = word[1],
+                            .skip_geometry = word[2]};
         cgt_hits hits = hit_array(hit);
         assert_int_equal(cgt_trace_rays(scene, &a, &hits, NULL), CGT_OK);
         hits = hit_array(again);
@@ -459,10 +459,10 @@ static void lights_are_filtered_too(void **state)
                                        .stride = sizeof *ray,
                                        .position = {rays.org[0], rays.org[1], rays.org[2]},
                                        .mask = rays.mask,
-                                       .ignored_primitive = rays.ignored_primitive,
-                                       .ignored_geometry = rays.ignored_geometry};
+                                       .skip_primitive = rays.skip_primitive,
+                                       .skip_geometry = rays.skip_geometry};
             assert_int_equal(cgt_occluded_rays(scene, &rays, by_rays, NULL), CGT_OK);
-            assert_int_equal(cgt_occluded_light(scene, &light, &points, by_points, NULL), CGT_OK);
+            assert_int_equal(cgt_occluded_points(scene, &light, &points, by_points, NULL), CGT_OK);
             assert_memory_equal(by_rays, by_points, RAYS);
             for (uint32_t i = 0; i < RAYS; i++)
                 hidden += by_rays[i];
@@ -495,9 +495,9 @@ static void cameras_have_masks(void **state)
     {
         cgt_context *context = context_make(2, variant);
         subject t = subject_make((structure_kind)SOUP_MIXED, 77);
-        for (uint32_t number = 0; number < CGT_STRUCTURE_WIDE_TREE * TEST_COUNT(masks); number++) {
+        for (uint32_t number = 0; number < CGT_STRUCTURE_BVH * TEST_COUNT(masks); number++) {
             const cgt_scene_options made = structure_in_turn(number);
-            const uint32_t mask = masks[number / CGT_STRUCTURE_WIDE_TREE];
+            const uint32_t mask = masks[number / CGT_STRUCTURE_BVH];
             cgt_scene *scene = commit(context, &t, &made);
             cgt_camera camera = soup_camera(&t.s.scene);
             cgt_camera_rays of;
@@ -521,7 +521,7 @@ static void cameras_have_masks(void **state)
                 assert_int_equal(p.primitive[i], hit[i].primitive);
                 assert_int_equal(p.geometry[i], hit[i].geometry);
                 assert_true(p.t[i] == hit[i].t);
-                seen += hit[i].primitive != CGT_NONE;
+                seen += hit[i].primitive != CGT_INVALID_ID;
             }
             planes_free(&p);
             cgt_scene_release(scene);

@@ -54,7 +54,7 @@ static void options_out_of_range_are_refused(void **state)
     static const float sphere[1][4] = {{0, 0, 0, 1}};
     static const int wrong[] = {-1, 6, 99}, wrong_kind[] = {-1, 2, 3}, wrong_builder[] = {-1, 3, 4},
                      wrong_traversal[] = {-1, 3, 77};
-    static const uint32_t wrong_level[] = {51, 1000, CGT_NONE};
+    static const uint32_t wrong_level[] = {51, 1000, CGT_INVALID_ID};
     cgt_context *context = context_make(1, NULL);
     const cgt_scene_options good = of_structure(CGT_STRUCTURE_KD);
     cgt_scene *scene = scene_of(context, &good, sphere, 1);
@@ -117,17 +117,16 @@ static void check_as_one_cell(cgt_context *context, const hard_scene *s, const c
 static void a_scene_changes_its_structure(void **state)
 {
     (void)state;
-    static const cgt_structure first[] = {
-        CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
-        CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD_ROPES,
-        CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_WIDE_TREE}; /* the fourth is not set */
+    static const cgt_structure first[] = {CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
+                                          CGT_STRUCTURE_AUTO,       CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_KD_ROPES,
+                                          CGT_STRUCTURE_LOOSE_GRID, CGT_STRUCTURE_BVH}; /* the fourth is not set */
     const uint32_t steps = 8 + test_scaled(72);
     cgt_context *context = context_make(2, NULL);
     hard_scene s = soup_make(SOUP_MIXED, 17, 700);
     picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
     test_random r = random_make(4711);
     cgt_scene_options o = of_structure(CGT_STRUCTURE_KD_ROPES);
-    uint32_t built[CGT_STRUCTURE_WIDE_TREE + 1] = {0};
+    uint32_t built[CGT_STRUCTURE_BVH + 1] = {0};
     cgt_scene *scene;
     assert_int_equal(hard_commit_with(context, &s, &o, &scene), CGT_OK);
     for (uint32_t step = 0; step < steps; step++) {
@@ -147,14 +146,14 @@ static void a_scene_changes_its_structure(void **state)
         assert_true(o.structure == CGT_STRUCTURE_AUTO || st.structure == o.structure);
         const bool tree = st.structure == CGT_STRUCTURE_KD || st.structure == CGT_STRUCTURE_KD_ROPES;
         assert_int_equal(st.kd_leaves != 0, tree);
-        const bool wide = st.structure == CGT_STRUCTURE_WIDE_TREE;
-        assert_int_equal(st.wide_blocks != 0, wide);
+        const bool wide = st.structure == CGT_STRUCTURE_BVH;
+        assert_int_equal(st.bvh_leaves != 0, wide);
         assert_int_equal(st.cells == 0, tree || wide);
         assert_int_equal(st.levels != 0, st.structure == CGT_STRUCTURE_LOOSE_GRID);
         built[st.structure]++;
         check_as_one_cell(context, &s, scene, &camera, q);
     }
-    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_WIDE_TREE; k++)
+    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_BVH; k++)
         assert_true(built[k] > 0);
     for (int k = 0; k < 2; k++)
         picture_free(&q[k]);
@@ -235,8 +234,8 @@ static void rays_that_run_apart_get_a_tree(void **state)
 {
     (void)state;
     hard_scene s = even_cloud(2000);
-    assert_int_equal(choose(&s, CGT_RAYS_INCOHERENT).structure, CGT_STRUCTURE_WIDE_TREE);
-    assert_int_equal(choose(&s, CGT_RAYS_CAMERA).structure, CGT_STRUCTURE_LOOSE_GRID);
+    assert_int_equal(choose(&s, CGT_RAY_KIND_INCOHERENT).structure, CGT_STRUCTURE_BVH);
+    assert_int_equal(choose(&s, CGT_RAY_KIND_COHERENT).structure, CGT_STRUCTURE_LOOSE_GRID);
     hard_scene_free(&s);
 }
 
@@ -252,7 +251,7 @@ static void a_teapot_in_a_stadium_gets_a_level_of_its_own(void **state)
     closed_mesh_free(&stadium);
     closed_mesh_free(&teapot);
     assert_false(s.failed);
-    const cgt_scene_statistics st = choose(&s, CGT_RAYS_CAMERA);
+    const cgt_scene_statistics st = choose(&s, CGT_RAY_KIND_COHERENT);
     assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
     assert_true(st.levels > 1);
     hard_scene_free(&s);
@@ -264,7 +263,7 @@ static void auto_chooses_for_any_scene(void **state)
     for (int kind = 0; kind < SOUP_KINDS; kind++)
         for (uint32_t count = 0; count <= 600; count = 5 * count + (count < 4)) { /* 0, 1, 6, 30, 150 */
             hard_scene s = soup_make((soup_kind)kind, 40 + (uint64_t)kind, count);
-            choose(&s, count % 2 ? CGT_RAYS_INCOHERENT : CGT_RAYS_CAMERA);
+            choose(&s, count % 2 ? CGT_RAY_KIND_INCOHERENT : CGT_RAY_KIND_COHERENT);
             hard_scene_free(&s);
         }
 }

@@ -70,7 +70,7 @@ static const cgt_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRID
                                           {.structure = CGT_STRUCTURE_LOOSE_GRID},
                                           {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
                                           {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}},
-                                          {.structure = CGT_STRUCTURE_WIDE_TREE}};
+                                          {.structure = CGT_STRUCTURE_BVH}};
 #define WAYS (TREES + (uint32_t)TEST_COUNT(grids))
 
 static cgt_scene_options scene_way(uint32_t number)
@@ -96,7 +96,7 @@ static cgt_trace_options trace_way(uint32_t number, cgt_trace_statistics *statis
     o.kd_traversal = number % 2 ? CGT_KD_TRAVERSAL_PACKET : CGT_KD_TRAVERSAL_SINGLE;
     o.mailbox = number / 2 % 2;
     o.packet = (uint32_t[]){0, 4, 8, 16}[number / 3 % 4];
-    o.tile = o.packet == 4 ? CGT_TILE_STRIP : CGT_TILE_AUTO;
+    o.tile = o.packet == 4 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;
     o.cull = (cgt_cull)(number % 3);
     o.statistics = statistics;
     return o;
@@ -160,7 +160,7 @@ static question ask(structure_kind kind, uint64_t stream)
     cgt_scene *scene = commit(&q, contexts[0], &one_cell);
     for (int f = 0; f < FRAMES; f++) {
         q.camera[f] = camera_random(&q.s.scene.random, &q.s.where);
-        q.camera[f].projection = f ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+        q.camera[f].projection = f ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
         q.camera[f].height = 2 * q.s.where.reach;
         q.picture[f] = picture_make(sizes[f][0], sizes[f][1]);
     }
@@ -176,7 +176,7 @@ static question ask(structure_kind kind, uint64_t stream)
         q.is[exact].ray = copy_of(hit, RAYS);
     }
     for (uint32_t i = 0; i < RAYS; i++)
-        q.hits += q.is[0].ray[i].geometry != CGT_NONE;
+        q.hits += q.is[0].ray[i].geometry != CGT_INVALID_ID;
     cgt_scene_release(scene);
     return q;
 }
@@ -231,13 +231,13 @@ static bool check_commit(const question *q, const cgt_scene *scene, const cgt_sc
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
     assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
     assert_int_equal(st.geometries, q->s.scene.geometries);
-    const bool there = st.cells || st.kd_nodes || st.wide_nodes, wide = o->structure == CGT_STRUCTURE_WIDE_TREE;
+    const bool there = st.cells || st.kd_nodes || st.bvh_nodes, wide = o->structure == CGT_STRUCTURE_BVH;
     const bool some = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
     assert_true(there || !some || strstr(q->s.name, "beyond"));
     if (tree && there)
         check_tree(q, o, &st);
     assert_int_equal(st.cells != 0, there && !tree && !wide);
-    assert_int_equal(st.wide_nodes != 0, there && wide);
+    assert_int_equal(st.bvh_nodes != 0, there && wide);
     assert_int_equal(st.kd_leaves != 0, there && tree);
     return there;
 }
@@ -245,12 +245,12 @@ static bool check_commit(const question *q, const cgt_scene *scene, const cgt_sc
 static void check_counts(const cgt_trace_statistics *c, const cgt_scene_options *o, bool there, uint64_t rays,
                          uint64_t hits)
 {
-    const bool tree = there && (is_tree(o) || o->structure == CGT_STRUCTURE_WIDE_TREE);
+    const bool tree = there && (is_tree(o) || o->structure == CGT_STRUCTURE_BVH);
     assert_int_equal(c->rays, rays);
     assert_int_equal(c->hits, hits);
     assert_int_equal(c->rope_loops, 0);
     assert_true(!hits || !tree || c->leaves);
-    assert_int_equal(c->wide_rays != 0, o->structure == CGT_STRUCTURE_WIDE_TREE && there && rays);
+    assert_int_equal(c->bvh_rays != 0, o->structure == CGT_STRUCTURE_BVH && there && rays);
     assert_true(!hits || !there || !is_tree(o) || c->references);
     assert_true(o->structure != CGT_STRUCTURE_KD_ROPES || c->rope_steps <= c->leaves);
     assert_true(tree ? !c->cells && !c->slices : !c->nodes && !c->leaves);
@@ -300,7 +300,7 @@ static void check_any_hit(const question *q, const cgt_scene *scene, const cgt_s
     memset(occluded, 0x77, sizeof occluded);
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, to), CGT_OK);
     for (uint32_t i = 0; i < RAYS; i++)
-        if (occluded[i] != (q->is[0].ray[i].geometry != CGT_NONE))
+        if (occluded[i] != (q->is[0].ray[i].geometry != CGT_INVALID_ID))
             fail_way(q, so, to, "any hit of ray", i, &q->is[0].ray[i], &q->is[0].ray[i]);
     check_counts(to->statistics, so, there, RAYS, q->hits);
 }

@@ -35,7 +35,7 @@ cgt_camera camera_random(test_random *r, const cloud *c)
     random_direction(r, camera.up);
     camera.fov = random_below(r, 4) ? random_float(r, 20, 80) : random_float(r, 1, 179);
     if (random_below(r, 4) == 0) {
-        camera.projection = CGT_ORTHOGRAPHIC;
+        camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
         camera.height = c->reach * random_float(r, 0.3f, 4);
     }
     return camera;
@@ -104,7 +104,7 @@ uint64_t frame_judge(const planes *p, const truth_ray *rays, const float (*spher
     uint64_t doubts = 0;
     for (size_t i = 0; i < p->elements; i++) {
         const char *wrong = truth_judge(&scene, &rays[i], p->primitive[i], p->t[i], &doubts);
-        if (!wrong && p->geometry[i] != (p->primitive[i] == CGT_NONE ? CGT_NONE : 0))
+        if (!wrong && p->geometry[i] != (p->primitive[i] == CGT_INVALID_ID ? CGT_INVALID_ID : 0))
             wrong = "the geometry is wrong";
         if (wrong)
             fail_msg("pixel %zu: %s (sphere %u, t %a): org %a %a %a dir %a %a %a", i, wrong, p->primitive[i],

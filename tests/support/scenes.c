@@ -12,7 +12,7 @@
 
 const char *variant_next(size_t *index)
 {
-    for (const char *name; (name = cgt_variants()[*index]);) {
+    for (const char *name; (name = cgt_get_variant_names()[*index]);) {
         ++*index;
         if (test_variant_runs(name))
             return name;
@@ -59,7 +59,7 @@ const char *context_message(const cgt_context *context)
 {
     static char text[512];
     text[0] = 0;
-    cgt_error_message(context, text, sizeof text);
+    cgt_context_get_error_message(context, text, sizeof text);
     return text;
 }
 
@@ -134,7 +134,7 @@ cgt_scene_options structure_random(test_random *r)
 {
     cgt_scene_options o;
     cgt_scene_options_init(&o);
-    o.structure = (cgt_structure)random_below(r, CGT_STRUCTURE_WIDE_TREE + 1);
+    o.structure = (cgt_structure)random_below(r, CGT_STRUCTURE_BVH + 1);
     o.rays = (cgt_ray_kind)random_below(r, 2);
     o.kd_builder = (cgt_kd_builder)random_below(r, 3);
     o.kd_layout = (cgt_kd_layout)random_below(r, 4);
@@ -146,7 +146,7 @@ cgt_scene_options structure_in_turn(uint32_t turn)
 {
     cgt_scene_options o;
     cgt_scene_options_init(&o);
-    o.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + turn % CGT_STRUCTURE_WIDE_TREE);
+    o.structure = (cgt_structure)(CGT_STRUCTURE_QUEUE_GRID + turn % CGT_STRUCTURE_BVH);
     return o;
 }
 
@@ -154,7 +154,7 @@ cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, cons
 {
     const cgt_spheres spheres = spheres_of(sphere, count);
     cgt_scene *scene = NULL;
-    uint32_t geometry = CGT_NONE;
+    uint32_t geometry = CGT_INVALID_ID;
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &geometry), CGT_OK);
     assert_int_equal(geometry, 0);

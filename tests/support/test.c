@@ -38,7 +38,7 @@ bool test_variant_runs(const char *name)
     if (result == CGT_OK)
         cgt_context_release(context);
     else
-        printf("%s: %s\n", name, cgt_result_string(result));
+        printf("%s: %s\n", name, cgt_get_result_string(result));
     if (result == CGT_OK || result == CGT_ERROR_UNSUPPORTED)
         return result == CGT_OK;
     exit(1);

@@ -52,7 +52,7 @@ static void frames_of_clouds(void **state)
             for (uint32_t i = 0; i < 3; i++) {
                 const uint32_t *size = sizes[random_below(&r, TEST_COUNT(sizes))];
                 camera = camera_random(&r, &c);
-                camera.projection = i ? CGT_PERSPECTIVE : camera.projection;
+                camera.projection = i ? CGT_PROJECTION_PERSPECTIVE : camera.projection;
                 if (i == 2)
                     make_orthographic(&r, c.reach * random_log(&r, 0.01f, 8), &camera);
                 if (random_below(&r, 4) == 0)
@@ -345,7 +345,7 @@ static void march_visits_what_rays_hit(void **state)
     for (uint32_t round = 0; round < 5 + test_scaled(120); round++) {
         cloud c = cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), 1 + random_below(&r, 400));
         cgt_camera camera = camera_random(&r, &c);
-        camera.projection = CGT_PERSPECTIVE;
+        camera.projection = CGT_PROJECTION_PERSPECTIVE;
         if (round % 3 == 2)
             make_orthographic(&r, c.reach * random_float(&r, 0.3f, 4), &camera);
         loose_reference grid;

@@ -287,7 +287,7 @@ static void frames_of_edges_on_rays(void **state)
         const float eye[3] = {0, 0, plain ? 0.f : 0.3f}, up[3] = {0, 1, plain ? 0.f : 0.2f};
         const float target[3] = {plain ? 0.f : 0.7f, 0, plain ? 1.f : 2.f};
         cgt_camera camera = looking(eye, target, up, 90);
-        camera.projection = parallel ? CGT_ORTHOGRAPHIC : CGT_PERSPECTIVE;
+        camera.projection = parallel ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
         const cgt_camera_rays rays = rays_of(&camera, 64, 64);
         double vertex[2][17][17][3];
         for (int layer = 0; layer < 2; layer++)

@@ -152,7 +152,7 @@ static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint
     random_direction(r, camera.up);
     camera.fov = random_below(r, 2) ? random_float(r, 20, 100) : random_log(r, 0.5f, 160);
     if (parallel) {
-        camera.projection = CGT_ORTHOGRAPHIC;
+        camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
         camera.height = scale * (random_below(r, 2) ? random_float(r, 0.5f, 4) : random_log(r, 1e-3f, 30));
         if (random_below(r, 3) == 0) /* along an axis */
             for (int a = 0; a < 3; a++) {
@@ -300,7 +300,7 @@ static void serves_what_it_can(void **state)
     camera.fov = 160;
     rays = rays_of(&camera, 64, 64);
     assert_true(cgt_tile_serves_camera(&rays));
-    camera.projection = CGT_ORTHOGRAPHIC;
+    camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
     rays = rays_of(&camera, 64, 64);
     assert_true(cgt_tile_serves_camera(&rays));
     rays.eye[1] = 0x1p20f; /* origins of float are some pixels apart */

@@ -155,7 +155,7 @@ static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint
     random_direction(r, camera.up);
     camera.fov = random_below(r, 2) ? random_float(r, 20, 100) : random_log(r, 0.5f, 160);
     if (parallel) {
-        camera.projection = CGT_ORTHOGRAPHIC;
+        camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
         camera.height = scale * (random_below(r, 2) ? random_float(r, 0.5f, 4) : random_log(r, 1e-3f, 30));
         if (random_below(r, 3) == 0) /* along an axis */
             for (int a = 0; a < 3; a++) {
@@ -409,7 +409,7 @@ static void pairs_are_decided_as_ever(void **state)
         memcpy(point, pair, sizeof point);
         if (!cgt_triangle_has_area(&pair[0]) || !cgt_triangle_has_area(&pair[1]))
             continue;
-        s.object.object = s.winner.object = CGT_NONE;
+        s.object.object = s.winner.object = CGT_INVALID_ID;
         s.planes = TILE_PLANES_UNKNOWN;
         for (int a = 0; a < 3; a++)
             ray.line.org[a] = random_float(&r, -4, 4);
@@ -422,7 +422,7 @@ static void pairs_are_decided_as_ever(void **state)
             cgt_decided_hit best = {.shape = cgt_objects_shape(&objects, !object)};
             uint64_t exact = 0;
             double t[2] = {0, 0};
-            const uint32_t winner = cgt_decide_hit(&ray, &best, &exact) ? !object : CGT_NONE;
+            const uint32_t winner = cgt_decide_hit(&ray, &best, &exact) ? !object : CGT_INVALID_ID;
             const tile_answer answer = tile_decide_pair(&objects, &ray, winner, object, &s, &t[0], &counts);
             const bool beats = filter_beats(&objects, &ray, winner, object, &t[1], &counts);
             answers[answer]++;

@@ -29,7 +29,7 @@ static inline cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, 
 /* Makes a camera orthographic, its picture so high; often one that looks along an axis, either way. */
 static inline void make_orthographic(test_random *r, float height, cgt_camera *camera)
 {
-    camera->projection = CGT_ORTHOGRAPHIC;
+    camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
     camera->height = height;
     if (random_below(r, 2))
         return;
@@ -83,7 +83,7 @@ static inline void compare_fast(const cgt_world *world, const cgt_camera_rays *c
     assert_memory_equal(got->primitive, wanted->primitive, got->elements * sizeof *got->primitive);
     assert_memory_equal(got->geometry, wanted->geometry, got->elements * sizeof *got->geometry);
     for (size_t i = 0; i < got->elements; i++) {
-        const bool hit = wanted->primitive[i] != CGT_NONE;
+        const bool hit = wanted->primitive[i] != CGT_INVALID_ID;
         const cgt_object_array *a = world->objects.array;
         while (hit && a->geometry != wanted->geometry[i])
             a++;
@@ -153,7 +153,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
         const uint64_t *from = (const uint64_t *)&counts;
         uint64_t *to = (uint64_t *)&tally->counts;
         tally->served++;
-        tally->parallel += camera->projection == CGT_ORTHOGRAPHIC;
+        tally->parallel += camera->projection == CGT_PROJECTION_ORTHOGRAPHIC;
         for (size_t i = 0; i < CGT_COUNTS; i++)
             to[i] += from[i];
     }

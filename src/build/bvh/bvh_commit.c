@@ -316,12 +316,12 @@ static void report(cgt_scene *scene, const cgt_wide_tree *tree, double ms)
 {
     const cgt_wide_builder *w = scene->context->kernel->wide;
     cgt_scene_statistics *st = &scene->statistics;
-    st->wide_nodes = tree->nodes;
-    st->wide_blocks = tree->sphere_blocks + tree->triangle_blocks;
-    st->wide_depth = tree->depth;
-    st->wide_bytes = (size_t)tree->nodes * w->node_bytes + (size_t)tree->sphere_blocks * w->block_bytes[0] +
-                     (size_t)tree->triangle_blocks * w->block_bytes[1];
-    st->wide_ms = ms;
+    st->bvh_nodes = tree->nodes;
+    st->bvh_leaves = tree->sphere_blocks + tree->triangle_blocks;
+    st->bvh_depth = tree->depth;
+    st->bvh_bytes = (size_t)tree->nodes * w->node_bytes + (size_t)tree->sphere_blocks * w->block_bytes[0] +
+                    (size_t)tree->triangle_blocks * w->block_bytes[1];
+    st->bvh_build_ms = ms;
     st->bytes = cgt_scene_bytes(scene);
 }
 
@@ -345,8 +345,8 @@ cgt_result cgt_wide_tree_commit(cgt_scene *scene)
         return result;
     st->references = scene->world.valid;
     st->reference_bits = 32;
-    st->structure_bytes = st->wide_bytes;
-    st->local_store_bytes = st->wide_bytes;
+    st->structure_bytes = st->bvh_bytes;
+    st->local_store_bytes = st->bvh_bytes;
     st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
     return CGT_OK;
 }
@@ -376,14 +376,14 @@ cgt_result cgt_wide_tree_want(const cgt_scene *scene, uint64_t rays, bool *is_bu
     *is_built = false;
     if (scene->options.structure != CGT_STRUCTURE_AUTO || world->structure != CGT_STRUCTURE_LOOSE_GRID ||
         !world->valid || world->everything) {
-        *is_built = world->structure == CGT_STRUCTURE_WIDE_TREE && world->wide.node;
+        *is_built = world->structure == CGT_STRUCTURE_BVH && world->wide.node;
         return CGT_OK;
     }
     if (atomic_load_explicit(&self->wide_is_built, memory_order_acquire)) {
         *is_built = true;
         return CGT_OK;
     }
-    const uint64_t before = atomic_fetch_add_explicit(&self->wide_rays, rays, memory_order_relaxed);
+    const uint64_t before = atomic_fetch_add_explicit(&self->bvh_rays, rays, memory_order_relaxed);
     if (!rays || before + rays < enough_rays(world->valid))
         return CGT_OK;
     return build_for_rays(self, is_built);

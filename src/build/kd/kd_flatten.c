@@ -134,7 +134,7 @@ static inline void walk(flattening *f, step root, uint32_t stop, place *at, find
                 stack[waiting++] = (step){n.word[1] + side, pair + side, s.depth + 1};
         }
     }
-    if (stop != CGT_NONE)
+    if (stop != CGT_INVALID_ID)
         f->parts = parts;
 }
 
@@ -156,7 +156,7 @@ static inline void walk_part(flattening *f, uint32_t i, bool write)
     findings found = {0};
     for (uint32_t run = 0; run < f->runs; run++)
         at[run] = write ? kept[run] : (place){0};
-    walk(f, f->part[i].root, CGT_NONE, at, &found, write);
+    walk(f, f->part[i].root, CGT_INVALID_ID, at, &found, write);
     if (write)
         return;
     for (uint32_t run = 0; run < f->runs; run++)

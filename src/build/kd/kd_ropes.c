@@ -24,7 +24,7 @@ static uint32_t push_down(const cgt_kd_node *node, uint32_t rope, const linked_n
 {
     const uint32_t across = face / 2;
     const bool upwards = face & 1;
-    while (rope != CGT_NONE && !cgt_kd_is_leaf(node[rope])) {
+    while (rope != CGT_INVALID_ID && !cgt_kd_is_leaf(node[rope])) {
         const uint32_t axis = cgt_kd_axis(node[rope]);
         const float split = cgt_kd_split(node[rope]);
         bool upper;
@@ -107,7 +107,7 @@ void cgt_kd_link_leaves(cgt_context *context, const cgt_kd_tree *tree, cgt_kd_le
     memcpy(root.low, tree->low, sizeof tree->low);
     memcpy(root.high, tree->high, sizeof tree->high);
     for (uint32_t face = 0; face < 6; face++)
-        root.rope[face] = root.wide_rope[face] = CGT_NONE;
+        root.rope[face] = root.wide_rope[face] = CGT_INVALID_ID;
     link_below(&l, &root, PARTS_DEPTH);
     cgt_run_tasks(context, link_part, &l, l.parts);
 }

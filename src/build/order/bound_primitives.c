@@ -27,7 +27,7 @@ typedef struct summary_job {
 static void empty_summary(cgt_object_summary *s)
 {
     *s = (cgt_object_summary){
-        .min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}, .bad_index = CGT_NONE};
+        .min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}, .bad_index = CGT_INVALID_ID};
 }
 
 /* Clusters that the chunk's objects are in: chunks have whole ones, but for the last. */
@@ -52,12 +52,12 @@ static void summarise_chunk(void *argument, uint32_t index)
         wishes.classes += index;
         memset(wishes.classes->used, 0, sizeof wishes.classes->used);
     }
-    for (uint32_t object = first; object < end && s.bad_index == CGT_NONE; a++) {
+    for (uint32_t object = first; object < end && s.bad_index == CGT_INVALID_ID; a++) {
         const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
         job->kernel->summarise(a, object, stop, &wishes, &s);
         object = stop;
     }
-    if (wishes.cluster && s.bad_index == CGT_NONE)
+    if (wishes.cluster && s.bad_index == CGT_INVALID_ID)
         summarise_clusters(job, first, end, wishes.classes);
     job->part[index] = s;
     cgt_float_environment_leave(&callers);
@@ -116,7 +116,7 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, bool clusters, summ
     const cgt_objects *o = &scene->world.objects;
     const char *why;
     const cgt_structure structure = cgt_choose_structure(&scene->options, &why);
-    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID || structure == CGT_STRUCTURE_WIDE_TREE;
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID || structure == CGT_STRUCTURE_BVH;
     cgt_buffer *buffer = scene->buffer;
     cgt_result result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_SUMMARIES], chunks, sizeof(cgt_object_summary));
     if (result == CGT_OK && loose)
@@ -149,7 +149,7 @@ static cgt_result summarise(cgt_scene *scene, bool clusters, cgt_object_summary 
     empty_summary(s);
     for (uint32_t i = 0; i < chunks; i++)
         merge_summary(s, &job.part[i]);
-    if (s->bad_index != CGT_NONE)
+    if (s->bad_index != CGT_INVALID_ID)
         return bad_index(scene, s->bad_index);
     if (job.wishes.classes)
         merge_classes(job.wishes.classes, chunks);
@@ -168,7 +168,7 @@ cgt_result cgt_summarise(cgt_scene *scene, cgt_object_summary *s)
     const char *why;
     const cgt_structure structure = cgt_choose_structure(&scene->options, &why);
     const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.resolution[0];
-    const bool tree = structure == CGT_STRUCTURE_WIDE_TREE;
+    const bool tree = structure == CGT_STRUCTURE_BVH;
     const cgt_cluster_use use = loose || tree ? cgt_choose_clusters(&scene->world.objects) : CGT_CLUSTERS_NONE;
     const bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);
     const cgt_result result = summarise(scene, clusters, s);

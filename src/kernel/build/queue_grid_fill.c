@@ -36,19 +36,19 @@ static void find_corners(const cgt_queue_grid *grid, corners *c)
 
 /* ---- pushes ---- */
 
-/* CGT_NONE where the queue is not full. */
+/* CGT_INVALID_ID where the queue is not full. */
 CGT_SPU_INLINE uint32_t oldest_of(const cgt_queue_grid *grid, uint32_t cell)
 {
     if (grid->wide)
         return grid->wide_voxel[cell].reference[CGT_QUEUE_LENGTH - 1];
     const uint16_t oldest = grid->voxel[cell].reference[CGT_QUEUE_LENGTH - 1];
-    return oldest == CGT_QUEUE_NONE ? CGT_NONE : oldest;
+    return oldest == CGT_QUEUE_NONE ? CGT_INVALID_ID : oldest;
 }
 
 static void save_oldest(const cgt_queue_grid *grid, uint32_t cell, cgt_overflow_list *overflow)
 {
     const uint32_t oldest = oldest_of(grid, cell);
-    if (oldest != CGT_NONE)
+    if (oldest != CGT_INVALID_ID)
         overflow->entry[overflow->count++] = (cgt_overflow){cell, oldest};
 }
 
@@ -80,12 +80,12 @@ static void push_corners(const cgt_queue_grid *grid, const corners *c, int lane,
     const uint32_t x[2] = {(uint32_t)c->low[0][lane], (uint32_t)c->high[0][lane]};
     const uint32_t y[2] = {(uint32_t)c->low[1][lane] * stride[1], (uint32_t)c->high[1][lane] * stride[1]};
     const uint32_t z[2] = {(uint32_t)c->low[2][lane] * stride[2], (uint32_t)c->high[2][lane] * stride[2]};
-    uint32_t cell[8], oldest = CGT_NONE;
+    uint32_t cell[8], oldest = CGT_INVALID_ID;
     for (int k = 0; k < 8; k++)
         cell[k] = x[k & 1] + y[k >> 1 & 1] + z[k >> 2];
     for (int k = 0; k < 8; k++)
         oldest &= oldest_of(grid, cell[k]);
-    if (oldest != CGT_NONE)
+    if (oldest != CGT_INVALID_ID)
         save_oldest8(grid, cell, overflow);
     if (grid->wide)
         queue_push8_wide(grid->wide_voxel, cell, object);

@@ -32,7 +32,7 @@ CGT_SPU_INLINE bool packet_ray_make(const wide_call *c, uint32_t i, wide_ray *r)
     r->near = r->near > -WIDE_LARGEST_T ? r->near : -WIDE_LARGEST_T;
     r->far = r->far < WIDE_LARGEST_T ? r->far : WIDE_LARGEST_T;
     r->number = i;
-    r->best = (wide_best){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_NONE, 0};
+    r->best = (wide_best){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
     wide_slack(c, org, slack);
     wide_ray_planes(c, rdir, slack, r);
     return farthest <= WIDE_LARGEST_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
@@ -61,7 +61,7 @@ CGT_SPU_INLINE void packet_trace_rays(const wide_call *c, packet *p, bool any_hi
             continue;
         }
         wide_single_trace(c, &r, 0, any_hit);
-        if (r.best.object == CGT_NONE)
+        if (r.best.object == CGT_INVALID_ID)
             continue;
         p->object[i] = r.best.object;
         p->low[i] = p->high[i] = -INFINITY; /* settled */
@@ -76,7 +76,7 @@ void CGT_KERNEL(cgt_wide_trace)(const cgt_world *world, packet *p, const cgt_tra
     p->fast = false; /* decided exactly, and so resolved as ROBUST is */
     wide_call_make(world, counts, &c);
     c.p = p;
-    counts->wide_rays += p->rays;
+    counts->bvh_rays += p->rays;
     c.any_hit = p->any_hit;
     if (p->selective) {
         c.hides = true;

@@ -53,7 +53,7 @@ typedef struct wide_call {
     float most[3]; /* P */
     bool any_hit;
     bool hides;              /* there are rays that do not see everything: wide_hidden */
-    const uint32_t *ignored; /* of each ray an object, or CGT_NONE; NULL: nobody ignores anything */
+    const uint32_t *ignored; /* of each ray an object, or CGT_INVALID_ID; NULL: nobody ignores anything */
     const uint32_t *mask;    /* of each ray; NULL: masks hide nothing */
 } wide_call;
 
@@ -122,7 +122,7 @@ CGT_SPU_INLINE cgt_ray wide_given_ray(const wide_call *c, uint32_t i)
 /* A ray's best hit so far: its t is in [low, high]. */
 typedef struct wide_best {
     float low, high;
-    uint32_t object; /* CGT_NONE: none yet */
+    uint32_t object; /* CGT_INVALID_ID: none yet */
     uint32_t unused;
 } wide_best;
 
@@ -134,7 +134,7 @@ __attribute__((noinline, cold, unused)) static bool wide_decide(const wide_call 
     if (best->object == object || best->high == -INFINITY)
         return false;
     const cgt_ray ray = wide_given_ray(c, i);
-    if (!filter_beats(&c->world->objects, &ray, c->any_hit ? CGT_NONE : best->object, object, &t, c->counts))
+    if (!filter_beats(&c->world->objects, &ray, c->any_hit ? CGT_INVALID_ID : best->object, object, &t, c->counts))
         return false;
     best->object = object;
     best->low = best->high = -INFINITY;

@@ -27,7 +27,7 @@ void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_t
         trace_extreme(world, p, counts);
     else if (world->structure == CGT_STRUCTURE_LOOSE_GRID)
         CGT_KERNEL(cgt_loose_grid_trace)(world, p, settings, counts);
-    else if (world->structure == CGT_STRUCTURE_WIDE_TREE)
+    else if (world->structure == CGT_STRUCTURE_BVH)
         CGT_KERNEL(cgt_wide_trace)(world, p, settings, counts);
     else if (world->structure == CGT_STRUCTURE_KD)
         CGT_KERNEL(cgt_kd_trace)(world, p, settings, counts);

@@ -32,8 +32,8 @@ static void trace_range(const rays_call *c, const ray_order *order, uint32_t fir
         return;
     }
     for (uint32_t k = 0; k < count; k++) {
-        c->occluded[ray_at(order, first + k)] = p->object[k] != CGT_NONE;
-        c->counts->hits += p->object[k] != CGT_NONE;
+        c->occluded[ray_at(order, first + k)] = p->object[k] != CGT_INVALID_ID;
+        c->counts->hits += p->object[k] != CGT_INVALID_ID;
     }
 }
 

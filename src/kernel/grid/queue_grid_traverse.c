@@ -43,7 +43,7 @@ CGT_SPU_INLINE uint32_t copy_wide(const cgt_wide_voxel *voxel, uint32_t *to)
     for (uint32_t k = 0; k < CGT_QUEUE_LENGTH; k += CGT_LANES) {
         const vuint reference = spux_load_uint(voxel->reference + k);
         spux_store_unaligned_uint(to + k, reference);
-        none |= spux_mask_bits(spu_cmpeq(reference, spux_vuint(CGT_NONE))) << k;
+        none |= spux_mask_bits(spu_cmpeq(reference, spux_vuint(CGT_INVALID_ID))) << k;
     }
     return (uint32_t)__builtin_ctz(none);
 }

@@ -35,7 +35,7 @@ typedef struct rope_packet {
     _Alignas(64) float plane[CGT_LANES]; /* the last that each ray crossed */
     _Alignas(64) uint32_t axis[CGT_LANES];
     _Alignas(64) float time[CGT_LANES];    /* of that, rounded */
-    _Alignas(64) uint32_t node[CGT_LANES]; /* current; CGT_NONE: done */
+    _Alignas(64) uint32_t node[CGT_LANES]; /* current; CGT_INVALID_ID: done */
     uint64_t exact_steps;
 } rope_packet;
 
@@ -145,7 +145,7 @@ static void rope_packet_enter(rope_packet *r, const cgt_kd_tree *tree)
         inside |= 1u << lane;
     }
     const vmask in = spux_mask_from_bits(inside & part);
-    spux_store_uint(r->node, spux_select(spux_vuint(CGT_NONE), spux_vuint(0), in));
+    spux_store_uint(r->node, spux_select(spux_vuint(CGT_INVALID_ID), spux_vuint(0), in));
 }
 
 /* ---- down ---- */
@@ -253,16 +253,16 @@ CGT_SPU_INLINE void rope_packet_leave(rope_packet *r, const cgt_kd_leaf *leaf, u
 
 /* ---- all ---- */
 
-/* The node to go on from, the highest of those of rays that are not done; CGT_NONE where all are. A ray is done where
+/* The node to go on from, the highest of those of rays that are not done; CGT_INVALID_ID where all are. A ray is done where
  * it has left the root, or can meet nothing more that counts; t rounds to the ends of the range. */
 CGT_SPU_INLINE uint32_t rope_packet_next(rope_packet *r, unsigned *active)
 {
     const vfloat high = spux_load(r->p->high + r->first), time = spux_load(r->time);
     const vmask late = spu_cmpgt(spu_sub(time, rope_packet_margin(time, high)), high);
     const vmask done = spu_or(late, spu_cmpeq(high, spux_vfloat(-INFINITY)));
-    const vuint node = spux_select(spux_load_uint(r->node), spux_vuint(CGT_NONE), done);
+    const vuint node = spux_select(spux_load_uint(r->node), spux_vuint(CGT_INVALID_ID), done);
     spux_store_uint(r->node, node);
-    /* one more, so that CGT_NONE is below all */
+    /* one more, so that CGT_INVALID_ID is below all */
     const uint32_t next = spux_hmax(spu_add(node, spux_vuint(1))) - 1;
     *active = spux_mask_bits(spu_cmpeq(node, spux_vuint(next)));
     return next;
@@ -279,12 +279,12 @@ static void rope_trace_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i
     rope_packet_make(l->p, i, &r);
     rope_packet_enter(&r, tree);
     uint32_t at = rope_packet_next(&r, &active);
-    if (at == CGT_NONE)
+    if (at == CGT_INVALID_ID)
         return;
     lane_rays_of_packet(l->p, i, l->scale, &of_leaves);
     leaf_mailbox_clear(l);
     l->counts->packets++;
-    for (; at != CGT_NONE; at = rope_packet_next(&r, &active)) {
+    for (; at != CGT_INVALID_ID; at = rope_packet_next(&r, &active)) {
         const cgt_kd_node n = rope_packet_down(&r, tree, at, &active, l->counts);
         const cgt_kd_leaf *leaf = &tree->leaf[n.word[1]];
         steps += spux_count_bits(active);

@@ -108,7 +108,7 @@ static void rope_trace_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     lane_rays_of_one(p, i, l->scale, &of_leaves);
     leaf_mailbox_clear(l);
     rope_ray_set_last(&r, last);
-    while (at != CGT_NONE && !rope_ray_is_done(p, i, &r)) {
+    while (at != CGT_INVALID_ID && !rope_ray_is_done(p, i, &r)) {
         cgt_kd_node n = tree->node[at];
         while (!cgt_kd_is_leaf(n)) {
             nodes++;

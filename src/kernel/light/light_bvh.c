@@ -114,8 +114,8 @@ __attribute__((noinline)) static void trace_apart(const light_call *c, uint64_t 
                      .t_min = own.t_min,
                      .t_max = own.t_max,
                      .mask = copy_numbers(c, points->mask, first, count, own.mask),
-                     .ignored_primitive = copy_numbers(c, points->ignored_primitive, first, count, own.primitive),
-                     .ignored_geometry = copy_numbers(c, points->ignored_geometry, first, count, own.geometry)};
+                     .skip_primitive = copy_numbers(c, points->skip_primitive, first, count, own.primitive),
+                     .skip_geometry = copy_numbers(c, points->skip_geometry, first, count, own.geometry)};
     for (int a = 0; a < 3; a++) {
         for (uint32_t k = 0; k < count; k++) {
             own.org[a][k] = ray_element(&c->source, points->org[a], first + k);
@@ -148,7 +148,7 @@ static bool trace_points(const light_call *c, light_packet *l, uint32_t first, u
     if (l->rays.rays && light_packet_make(c->world, l)) {
         const bool done = light_traverse(c, l);
         c->counts->packets++;
-        c->counts->wide_rays += done ? count : 0;
+        c->counts->bvh_rays += done ? count : 0;
         *work += l->work;
         if (!done) {
             c->counts->invalid_rays = invalid;

@@ -72,7 +72,7 @@ CGT_SPU_INLINE bool light_points_load(const light_call *c, uint32_t first, uint3
         spux_store(p->t_max + i, t_max);
         spux_store(p->low + i, t_max);
         spux_store(p->high + i, t_max);
-        spux_store_uint(p->object + i, spux_vuint(CGT_NONE));
+        spux_store_uint(p->object + i, spux_vuint(CGT_INVALID_ID));
     }
     for (int a = 0; a < 3; a++)
         p->light[a] = c->light.position[a];
@@ -83,7 +83,7 @@ CGT_SPU_INLINE bool light_points_load(const light_call *c, uint32_t first, uint3
 CGT_SPU_INLINE bool light_points_dense(const light_call *c)
 {
     const cgt_rays *points = c->source.rays;
-    return c->source.stride == sizeof(float) && !points->mask && !points->ignored_primitive;
+    return c->source.stride == sizeof(float) && !points->mask && !points->skip_primitive;
 }
 
 /* Points first to first + count - 1 of the order, at most a packet. Returns false where one of several is extreme: read
@@ -102,10 +102,10 @@ CGT_SPU_INLINE void light_hand_out(const light_call *c, const packet *p, uint32_
     uint8_t *restrict occluded = c->occluded + c->order.first; /* bytes, which may be a part of anything else */
     if (!from)
         for (size_t k = 0; k < count; k++) /* of sizes that cannot wrap: a compiler makes vectors of it */
-            occluded[(size_t)first + k] = object[k] != CGT_NONE;
+            occluded[(size_t)first + k] = object[k] != CGT_INVALID_ID;
     else
         for (size_t k = 0; k < count; k++)
-            occluded[from[k]] = object[k] != CGT_NONE;
+            occluded[from[k]] = object[k] != CGT_INVALID_ID;
 }
 
 /* Counts those of the first `count` points that have. */

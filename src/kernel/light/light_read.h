@@ -122,7 +122,7 @@ CGT_SPU_INLINE bool tile_read_rays(const light_call *c, light_tile *t, light_pac
         spux_store(p->t_min + i, spux_vfloat(0));
         spux_store(p->t_max + i, end);
         spux_store(p->high + i, end);
-        spux_store_uint(p->object + i, spux_vuint(CGT_NONE));
+        spux_store_uint(p->object + i, spux_vuint(CGT_INVALID_ID));
         spux_store(seen.w + i, w);
         for (int a = 0; a < 2; a++)
             spux_store(seen.at[a] + i, at[a]);

@@ -45,7 +45,7 @@ CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trac
         }
         spux_store(p->t_min + i, spux_vfloat(c->t_min));
         spux_store(p->t_max + i, spux_vfloat(c->t_max));
-        spux_store_uint(p->ignored + i, spux_vuint(CGT_NONE));
+        spux_store_uint(p->ignored + i, spux_vuint(CGT_INVALID_ID));
         spux_store_uint(p->mask + i, spux_vuint(c->mask));
     }
 }
@@ -83,7 +83,7 @@ CGT_SPU_INLINE void camera_packet_rays(const cgt_camera_rays *c, uint32_t x0, ui
         spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
         spux_store(p->low + i, t_max);
         spux_store(p->high + i, t_max);
-        spux_store_uint(p->object + i, spux_vuint(CGT_NONE));
+        spux_store_uint(p->object + i, spux_vuint(CGT_INVALID_ID));
     }
     if (columns < edge || rows < edge)
         close_outside(p, edge, columns, rows);

@@ -30,9 +30,10 @@ typedef struct packet {
     _Alignas(64) float t_max[PACKET_MAX_RAYS];
     _Alignas(64) float low[PACKET_MAX_RAYS];
     _Alignas(64) float high[PACKET_MAX_RAYS];
-    _Alignas(64) uint32_t object[PACKET_MAX_RAYS];             /* CGT_NONE: none yet */
+    _Alignas(64) uint32_t object[PACKET_MAX_RAYS];             /* CGT_INVALID_ID: none yet */
     _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
-    _Alignas(64) uint32_t ignored[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_NONE:
+    _Alignas(
+        64) uint32_t ignored[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_INVALID_ID:
                                                        none; and its mask */
     _Alignas(64) uint32_t mask[PACKET_MAX_RAYS];
     /* only for triangles of packets without a common origin: */

@@ -84,10 +84,10 @@ CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, u
 CGT_SPU_INLINE uint32_t ray_ignored(const cgt_objects *objects, const ray_source *s, uint64_t i)
 {
     const cgt_rays *r = s->rays;
-    const uint32_t primitive = r->ignored_primitive ? ray_number(s, r->ignored_primitive, i) : CGT_NONE;
-    if (primitive == CGT_NONE)
-        return CGT_NONE;
-    return cgt_objects_number(objects, r->ignored_geometry ? ray_number(s, r->ignored_geometry, i) : 0, primitive);
+    const uint32_t primitive = r->skip_primitive ? ray_number(s, r->skip_primitive, i) : CGT_INVALID_ID;
+    if (primitive == CGT_INVALID_ID)
+        return CGT_INVALID_ID;
+    return cgt_objects_number(objects, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
 }
 
 /* What counts for the rays of a packet, where they say so. */
@@ -96,13 +96,13 @@ static void ray_packet_select(const cgt_world *world, const ray_source *s, const
 {
     uint32_t common = UINT32_MAX;
     p->selective = p->masked = false;
-    if (!s->rays->mask && !s->rays->ignored_primitive)
+    if (!s->rays->mask && !s->rays->skip_primitive)
         return;
     for (uint32_t k = 0; k < count; k++) {
         const uint64_t i = ray_at(order, first + k);
         p->mask[k] = s->rays->mask ? ray_number(s, s->rays->mask, i) : UINT32_MAX;
         p->ignored[k] = ray_ignored(&world->objects, s, i);
-        p->selective |= p->ignored[k] != CGT_NONE;
+        p->selective |= p->ignored[k] != CGT_INVALID_ID;
         common &= p->mask[k];
         if (!p->mask[k] && state[k] < RAY_EMPTY_MASK)
             state[k] = RAY_EMPTY_MASK;
@@ -122,7 +122,7 @@ static void ray_packet_close_lane(packet *p, uint32_t k, uint32_t good)
     p->t_min[k] = p->t_min[good];
     p->t_max[k] = p->t_max[good];
     p->low[k] = p->high[k] = -INFINITY;
-    p->ignored[k] = CGT_NONE;
+    p->ignored[k] = CGT_INVALID_ID;
     p->mask[k] = 0;
 }
 
@@ -147,7 +147,7 @@ static void ray_packet_gather_packet(packet *p, uint32_t count, const ray_state 
     p->rays = 0;
     p->common_origin = true;
     for (uint32_t k = 0; k < p->lanes; k++) {
-        p->object[k] = CGT_NONE;
+        p->object[k] = CGT_INVALID_ID;
         if (k < count && state[k] <= RAY_EXTREME)
             p->low[k] = p->high[k] = p->t_max[k], p->rays++;
         else

@@ -117,7 +117,7 @@ typedef struct filter_result {
     vmask open;       /* to be decided: neither certain nor certainly not */
 } filter_result;
 
-/* Decides whether the ray hits object before its winner so far (CGT_NONE: none yet), and where. */
+/* Decides whether the ray hits object before its winner so far (CGT_INVALID_ID: none yet), and where. */
 CGT_SPU_INLINE bool filter_beats(const cgt_objects *objects, const cgt_ray *ray, uint32_t winner, uint32_t object,
                                  double *t, cgt_counts *counts)
 {
@@ -127,7 +127,7 @@ CGT_SPU_INLINE bool filter_beats(const cgt_objects *objects, const cgt_ray *ray,
     const bool meets = cgt_decide_hit(ray, &hit, &exact), met_exactly = exact != 0;
     counts->exact_tests += met_exactly;
     *t = hit.t;
-    if (!meets || winner == CGT_NONE)
+    if (!meets || winner == CGT_INVALID_ID)
         return meets;
     cgt_decided_hit best = {.shape = cgt_objects_shape(objects, winner)};
     cgt_decide_t(ray, &best);
@@ -150,7 +150,7 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_objects *o
         return; /* met before; or the ray takes no part */
     if (p->selective && select_leaves_out(p, i, object, select_mask(objects, p, object)))
         return;
-    if (!filter_beats(objects, &ray, p->any_hit ? CGT_NONE : winner, object, &t, counts))
+    if (!filter_beats(objects, &ray, p->any_hit ? CGT_INVALID_ID : winner, object, &t, counts))
         return;
     p->object[i] = object;
     if (p->any_hit) {

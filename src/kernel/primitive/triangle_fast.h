@@ -103,10 +103,10 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
     if ((mode).decides) {                                                                                              \
         const filter_triangle q = filter_triangle_get(of_packet, s, k, (mode).common_origin);                          \
         call(filter_triangle_rays, &q);                                                                                \
-    } else if ((p)->triangle_test == CGT_TRIANGLE_MOLLER_TRUMBORE) {                                                   \
+    } else if ((p)->triangle_test == CGT_TRIANGLE_TEST_MOLLER_TRUMBORE) {                                              \
         const moller_trumbore_triangle q = moller_trumbore_get(s, k);                                                  \
         call(moller_trumbore_rays, &q);                                                                                \
-    } else if ((p)->triangle_test == CGT_TRIANGLE_ACCELERATED) {                                                       \
+    } else if ((p)->triangle_test == CGT_TRIANGLE_TEST_ACCELERATED) {                                                  \
         const accelerated_triangle q = accelerated_get(s, k);                                                          \
         call(accelerated_rays, &q);                                                                                    \
     } else {                                                                                                           \

@@ -48,7 +48,7 @@ CGT_SPU_INLINE void fast_normal_of_triangle(float scale, uint32_t i, const winne
 static void fast_normals(const cgt_world *world, const packet *p, const winners *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++) {
-        if (p->object[i] == CGT_NONE)
+        if (p->object[i] == CGT_INVALID_ID)
             hits->normal[0][i] = hits->normal[1][i] = hits->normal[2][i] = 0;
         else if (!world->objects.triangles || w->is_sphere[i])
             fast_normal_of_sphere(p, i, w, hits);
@@ -60,10 +60,10 @@ static void fast_normals(const cgt_world *world, const packet *p, const winners 
 static void resolve_fast(const cgt_world *world, const packet *p, uint32_t fields, const winners *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++)
-        hits->t[i] = p->object[i] != CGT_NONE ? p->high[i] : INFINITY;
+        hits->t[i] = p->object[i] != CGT_INVALID_ID ? p->high[i] : INFINITY;
     if (fields & CGT_FIELD_UV)
         for (uint32_t i = 0; i < p->lanes; i++) {
-            const bool triangle = p->object[i] != CGT_NONE && world->objects.triangles && !w->is_sphere[i];
+            const bool triangle = p->object[i] != CGT_INVALID_ID && world->objects.triangles && !w->is_sphere[i];
             hits->u[i] = triangle ? p->u[i] : 0;
             hits->v[i] = triangle ? p->v[i] : 0;
         }

@@ -17,7 +17,7 @@
 CGT_SPU_INLINE void look_up_spheres(const cgt_objects *objects, const packet *p, uint32_t i, winners *w,
                                     packet_hits *hits)
 {
-    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
+    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_INVALID_ID);
     vfloat d[4] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
     vuint primitive = none, geometry = none;
     unsigned left = ~spux_mask_bits(spu_cmpeq(object, none)) & CGT_ALL_LANES;
@@ -44,7 +44,7 @@ CGT_SPU_INLINE void look_up_spheres(const cgt_objects *objects, const packet *p,
 CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const packet *p, uint32_t i, unsigned hit, winners *w,
                                  packet_hits *hits)
 {
-    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_NONE);
+    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_INVALID_ID);
     const vmask missed = spu_cmpeq(object, none);
     const vuint number = spux_select(object, spux_vuint(p->object[i + (uint32_t)__builtin_ctz(hit)]), missed);
     vfloat d[4];
@@ -58,7 +58,7 @@ CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const packet *p,
 CGT_SPU_INLINE void find_spheres(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
                                  winners *w, packet_hits *hits)
 {
-    const vuint none = spux_vuint(CGT_NONE);
+    const vuint none = spux_vuint(CGT_INVALID_ID);
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
         const unsigned hit = ~spux_mask_bits(spu_cmpeq(spux_load_uint(p->object + i), none)) & CGT_ALL_LANES;
         if (objects->arrays == 1 && hit)
@@ -81,20 +81,20 @@ CGT_SPU_INLINE void look_up_shapes(const cgt_objects *objects, const packet *p, 
                                    winners *w, packet_hits *hits)
 {
     static const cgt_triangle nothing = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
-    uint32_t last = CGT_NONE;
+    uint32_t last = CGT_INVALID_ID;
     cgt_shape shape = {.kind = CGT_KIND_TRIANGLES, .triangle = nothing};
     const cgt_object_array *a = NULL;
     for (uint32_t i = first; i < first + count; i++) {
         const uint32_t object = p->object[i];
-        const bool hit = object != CGT_NONE;
+        const bool hit = object != CGT_INVALID_ID;
         if (hit && object != last) {
             a = cgt_objects_array(objects, object);
             shape = cgt_array_shape(a, object - a->first);
             last = object;
         }
         const bool sphere = hit && shape.kind == CGT_KIND_SPHERES;
-        hits->primitive[i] = hit ? object - a->first : CGT_NONE;
-        hits->geometry[i] = hit ? a->geometry : CGT_NONE;
+        hits->primitive[i] = hit ? object - a->first : CGT_INVALID_ID;
+        hits->geometry[i] = hit ? a->geometry : CGT_INVALID_ID;
         w->is_sphere[i] = sphere;
         w->hits += hit;
         set_triangle(w, i, hit && !sphere ? &shape.triangle : &nothing);
@@ -128,7 +128,7 @@ CGT_SPU_INLINE void load_triangles(const cgt_object_array *array, vuint object, 
 CGT_SPU_INLINE void find_triangles(const cgt_object_array *array, const packet *p, uint32_t first, uint32_t count,
                                    winners *w, packet_hits *hits)
 {
-    const vuint none = spux_vuint(CGT_NONE);
+    const vuint none = spux_vuint(CGT_INVALID_ID);
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
         const vuint object = spux_load_uint(p->object + i);
         const vmask missed = spu_cmpeq(object, none);
@@ -172,8 +172,8 @@ CGT_SPU_INLINE void fill_none(uint32_t first, uint32_t count, uint32_t fields, p
 CGT_SPU_INLINE void fill_nobody(uint32_t first, uint32_t count, packet_hits *hits)
 {
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
-        spux_store_uint(hits->primitive + i, spux_vuint(CGT_NONE));
-        spux_store_uint(hits->geometry + i, spux_vuint(CGT_NONE));
+        spux_store_uint(hits->primitive + i, spux_vuint(CGT_INVALID_ID));
+        spux_store_uint(hits->geometry + i, spux_vuint(CGT_INVALID_ID));
     }
 }
 
@@ -183,7 +183,7 @@ CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, ui
 {
     vuint any = spux_vuint(0);
     for (uint32_t i = first; i < first + count; i += CGT_LANES)
-        any = spu_or(any, spu_xor(spux_load_uint(p->object + i), spux_vuint(CGT_NONE)));
+        any = spu_or(any, spu_xor(spux_load_uint(p->object + i), spux_vuint(CGT_INVALID_ID)));
     const bool none = spux_all(spu_cmpeq(any, spux_vuint(0)));
     if (none || objects->triangles || settings->fields & CGT_FIELD_UV)
         fill_none(first, count, settings->fields, hits);

@@ -219,7 +219,7 @@ CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, vfloat t_
 CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal, bool alone, const winners *w,
                                           packet_hits *hits, cgt_counts *counts)
 {
-    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_NONE));
+    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_INVALID_ID));
     const vmask hit = alone ? spux_not(nobody) : spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(1));
     vfloat sphere[4], org[3], dir[3], n[3], t;
     for (int a = 0; a < 4; a++)

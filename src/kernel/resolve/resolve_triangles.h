@@ -394,7 +394,7 @@ __attribute__((noinline)) static void resolve_triangle_lane(const packet *p, siz
 CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t fields, bool exact, bool alone,
                                             const winners *w, packet_hits *hits, cgt_counts *counts)
 {
-    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_NONE));
+    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_INVALID_ID));
     const vmask hit =
         alone ? spux_not(nobody) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), nobody);
     const vfloat zero = spux_vfloat(0);

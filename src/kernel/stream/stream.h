@@ -114,7 +114,7 @@ CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t at, bool any_hit, wide_r
     r->far = d[RECORD_FAR];
     r->number = at / STREAM_RECORD;
     if (any_hit)
-        r->best = (wide_best){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_NONE, 0};
+        r->best = (wide_best){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
     else
         r->best = s->best[r->number];
 }

@@ -118,7 +118,7 @@ __attribute__((noinline, cold, unused)) static unsigned leaf_decide_any(stream *
     unsigned hit = 0;
     for (; open; open &= open - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(open);
-        wide_best best = {0, 0, CGT_NONE, 0};
+        wide_best best = {0, 0, CGT_INVALID_ID, 0};
         hit |= (unsigned)wide_decide(&s->call, at[k] / STREAM_RECORD, object, &best) << k;
     }
     return hit;

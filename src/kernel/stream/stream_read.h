@@ -147,7 +147,7 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     if (any_hit)
         return;
     const vfloat inside = spu_sub(spu_nmsub(spux_abs(last), spux_vfloat(0x1p-18f), last), spux_vfloat(0x1p-84f));
-    const vfloat nobody = (vfloat)spux_vuint(CGT_NONE);
+    const vfloat nobody = (vfloat)spux_vuint(CGT_INVALID_ID);
     spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, nobody, nobody});
 }
 
@@ -224,7 +224,7 @@ CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_
     float *nobody = stream_record(s, STREAM_NOBODY);
     for (uint32_t k = 0; k < STREAM_RECORD; k++)
         nobody[k] = 1;
-    stream_keep(s, STREAM_NOBODY, -INFINITY, -INFINITY, CGT_NONE);
+    stream_keep(s, STREAM_NOBODY, -INFINITY, -INFINITY, CGT_INVALID_ID);
     s->changed = 0;
 }
 

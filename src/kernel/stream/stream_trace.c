@@ -87,10 +87,11 @@ __attribute__((noinline, cold)) static void stream_trace_extreme(stream *s, cons
 {
     const cgt_objects *objects = &s->call.world->objects;
     for (uint32_t i = 0; i < count; i++) {
-        wide_best best = {0, 0, CGT_NONE, 0};
+        wide_best best = {0, 0, CGT_INVALID_ID, 0};
         const uint32_t number = list[i] / STREAM_RECORD;
         const cgt_ray ray = wide_given_ray(&s->call, number);
-        for (uint32_t object = 0; object < objects->count && !(s->call.any_hit && best.object != CGT_NONE); object++) {
+        for (uint32_t object = 0; object < objects->count && !(s->call.any_hit && best.object != CGT_INVALID_ID);
+             object++) {
             const cgt_shape shape = cgt_objects_shape(objects, object);
             double t;
             if (cgt_shape_check(&shape) != CGT_OBJECT_VALID || wide_hidden(&s->call, number, object))
@@ -100,7 +101,7 @@ __attribute__((noinline, cold)) static void stream_trace_extreme(stream *s, cons
             if (filter_beats(objects, &ray, best.object, object, &t, s->call.counts))
                 best.object = object;
         }
-        if (best.object == CGT_NONE)
+        if (best.object == CGT_INVALID_ID)
             continue;
         if (s->call.any_hit)
             stream_close(s, list[i]);
@@ -202,10 +203,10 @@ CGT_SPU_INLINE void stream_fill_packet(const stream *s, uint32_t first, uint32_t
         stream_lanes_load(&s->call, first + i, left < CGT_LANES ? left : CGT_LANES, &q);
         _Alignas(CGT_VECTOR_BYTES) uint32_t object[CGT_LANES];
         for (uint32_t k = 0; k < CGT_LANES; k++)
-            object[k] = k < left ? s->best[first + i + k].object : CGT_NONE;
+            object[k] = k < left ? s->best[first + i + k].object : CGT_INVALID_ID;
         const vuint winner = spux_load_uint(object);
         /* rays without a hit may be anything, and are replaced by one that does no harm */
-        const vmask none = spu_cmpeq(winner, spux_vuint(CGT_NONE));
+        const vmask none = spu_cmpeq(winner, spux_vuint(CGT_INVALID_ID));
         vfloat dd = spux_vfloat(0);
         for (int a = 0; a < 3; a++) {
             const vfloat d = spux_select(q.dir[a], spux_vfloat(1), none);
@@ -231,7 +232,7 @@ __attribute__((noinline)) static void stream_ask(const stream *s, uint32_t first
     if (objects->arrays != 1 || (!points && !a->index))
         return;
     for (uint32_t i = first; i < end; i++) {
-        const uint32_t object = s->best[i].object == CGT_NONE ? 0 : s->best[i].object;
+        const uint32_t object = s->best[i].object == CGT_INVALID_ID ? 0 : s->best[i].object;
         uint32_t corner[3];
         if (!points) {
             __builtin_prefetch((const char *)a->index + (size_t)object * a->index_stride);
@@ -360,12 +361,12 @@ void CGT_KERNEL(cgt_wide_trace_rays)(const cgt_world *world, const cgt_rays *ray
     if (!hits)
         memset(s.occluded, 0, count);
     counts->rays += count;
-    counts->wide_rays += count;
+    counts->bvh_rays += count;
     if (s.call.any_hit)
         stream_read(&s, count, true, start, number);
     else
         stream_read(&s, count, false, start, number);
-    if (rays->ignored_primitive || rays->mask)
+    if (rays->skip_primitive || rays->mask)
         stream_find_hidden(&s, count);
     if (world->valid && fits)
         stream_trace_all(&s, start, number);

@@ -55,7 +55,7 @@ typedef struct tile_span {
 
 typedef struct tile {
     _Alignas(64) float z[TILE_PIXELS + TILE_PAD];
-    _Alignas(64) uint32_t object[TILE_PIXELS + TILE_PAD]; /* CGT_NONE: none yet */
+    _Alignas(64) uint32_t object[TILE_PIXELS + TILE_PAD]; /* CGT_INVALID_ID: none yet */
     _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD];   /* linear: where in `listed` a pixel's object is */
     _Alignas(64) float px[TILE_PAIR + TILE_PAD];          /* of a pair of rows; NaN where a window leaves the tile */
     _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];      /* the two rows of a pair by turns */
@@ -298,7 +298,7 @@ CGT_SPU_INLINE void tile_clear(tile *t)
     t->open = true;
     for (uint32_t i = 0; i < TILE_PIXELS + TILE_PAD; i += CGT_LANES) {
         spux_store(t->z + i, spux_vfloat(INFINITY));
-        spux_store_uint(t->object + i, spux_vuint(CGT_NONE));
+        spux_store_uint(t->object + i, spux_vuint(CGT_INVALID_ID));
     }
 }
 

@@ -32,7 +32,7 @@ CGT_SPU_INLINE void tile_decide(const cgt_objects *objects, tile *t, uint32_t i,
     double hit_t;
     if (winner == object || t->z[i] == -INFINITY)
         return;
-    if (winner != CGT_NONE && tile_same_shape(objects, object, winner)) {
+    if (winner != CGT_INVALID_ID && tile_same_shape(objects, object, winner)) {
         tile_win(t, i, object < winner ? object : winner);
         return;
     }
@@ -84,7 +84,8 @@ CGT_SPU_INLINE void tile_flush_run(const cgt_objects *objects, tile *t, const ti
     tile_run r = {.beats = 0};
     if (winner == object)
         return;
-    if (tile_see_object(objects, eye, object, s) && (winner == CGT_NONE || tile_see_winner(objects, eye, winner, s)))
+    if (tile_see_object(objects, eye, object, s) &&
+        (winner == CGT_INVALID_ID || tile_see_winner(objects, eye, winner, s)))
         tile_judge_run(t, s, winner, q->pixel + first, count, &r, counts);
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = q->pixel[first + k];
@@ -105,7 +106,7 @@ __attribute__((noinline, unused)) static void tile_flush_pairs(const cgt_objects
                                                                cgt_counts *counts)
 {
     tile_pair_seen s; /* large: not all of it is set */
-    s.object.object = s.winner.object = CGT_NONE;
+    s.object.object = s.winner.object = CGT_INVALID_ID;
     s.planes = TILE_PLANES_UNKNOWN;
     for (uint32_t k = 0, run; k < q->entries; k += run) {
         run = tile_run_length(t, q, k);

@@ -60,7 +60,7 @@ CGT_SPU_INLINE void tile_judge_spheres(const cgt_object_array *array, const tile
         v->winner[k] = t->object[q->pixel[entry]];
     }
     const vuint object = spux_load_uint(number), winner = spux_load_uint(v->winner);
-    const vmask alone = spu_cmpeq(winner, spux_vuint(CGT_NONE));
+    const vmask alone = spu_cmpeq(winner, spux_vuint(CGT_INVALID_ID));
     const vfloat t_max = spux_vfloat(t->rays->t_max), infinity = spux_vfloat(INFINITY);
     vdouble behind[2], ahead[2], margin[2];
     vfloat dir[3];

@@ -23,7 +23,7 @@
 
 /* A triangle's plane; den_error is over the 1-norm of a direction, den of none. */
 typedef struct tile_seen_plane {
-    uint32_t object; /* CGT_NONE: none yet */
+    uint32_t object; /* CGT_INVALID_ID: none yet */
     cgt_triangle triangle;
     cgt_triangle_plane plane;
 } tile_seen_plane;
@@ -49,7 +49,7 @@ CGT_SPU_INLINE bool tile_see_plane(const cgt_objects *objects, const float eye[3
 {
     static const float one[3] = {1, 0, 0}; /* of norm 1 */
     const cgt_shape shape = cgt_objects_shape(objects, object);
-    s->object = CGT_NONE;
+    s->object = CGT_INVALID_ID;
     if (shape.kind == CGT_KIND_SPHERES)
         return false;
     s->object = object;
@@ -182,7 +182,7 @@ CGT_SPU_INLINE tile_answer tile_decide_pair(const cgt_objects *objects, const cg
     const float rounded = (float)*hit_t;
     if (!(rounded >= ray->t_min && rounded <= ray->t_max && rounded < INFINITY))
         return TILE_LOSES;
-    if (winner == CGT_NONE)
+    if (winner == CGT_INVALID_ID)
         return TILE_BEATS;
     if (!tile_see_winner(objects, line->org, winner, s))
         return TILE_OPEN;
@@ -282,7 +282,7 @@ typedef struct tile_run {
     unsigned beats, loses; /* lanes as bits */
 } tile_run;
 
-/* So many entries, at most a vector, of what s has seen; winner: CGT_NONE where they have none. */
+/* So many entries, at most a vector, of what s has seen; winner: CGT_INVALID_ID where they have none. */
 CGT_SPU_INLINE void tile_judge_run(const tile *t, tile_pair_seen *s, uint32_t winner, const uint16_t *pixel,
                                    uint32_t count, tile_run *r, cgt_counts *counts)
 {
@@ -302,7 +302,7 @@ CGT_SPU_INLINE void tile_judge_run(const tile *t, tile_pair_seen *s, uint32_t wi
                                  spu_cmpgt(spux_vfloat(INFINITY), rounded));
     const vmask hits = spu_and(between, a.safe);
     vmask ordered = spu_and(hits, within);
-    if (winner != CGT_NONE) {
+    if (winner != CGT_INVALID_ID) {
         const tile_run_plane b = tile_run_plane_of(q, &l);
         tile_run_order(p, q, &a, &b, &nearer, &farther);
         ordered = spu_and(ordered, b.safe);

@@ -9,7 +9,7 @@
 #include "kernel/tile/tile.h"
 
 typedef struct tile_met {
-    uint32_t some[TILE_PIXELS / CGT_LANES]; /* an object, CGT_NONE where there is none */
+    uint32_t some[TILE_PIXELS / CGT_LANES]; /* an object, CGT_INVALID_ID where there is none */
     bool alone[TILE_PIXELS / CGT_LANES];    /* and no other */
 } tile_met;
 
@@ -33,7 +33,7 @@ CGT_SPU_INLINE bool tile_meet(const tile *t, const cgt_region *r, tile_met *m, c
             vuint object[2];
             tile_rows(t->object, x, y, object);
             for (uint32_t k = 0; k < 2; k++) {
-                const unsigned missed = spux_mask_bits(spu_cmpeq(object[k], spux_vuint(CGT_NONE)));
+                const unsigned missed = spux_mask_bits(spu_cmpeq(object[k], spux_vuint(CGT_INVALID_ID)));
                 const unsigned hit = ~missed & CGT_ALL_LANES;
                 const uint32_t lane = (uint32_t)__builtin_ctz(hit | 1u << (CGT_LANES - 1));
                 const uint32_t some = t->object[tile_index(x, y) + 2 * lane + k];

@@ -68,7 +68,7 @@ typedef struct tile_pixels {
     uint32_t x, row; /* of the first one */
     vuint object;
     vmask missed;
-    uint32_t some; /* an object that one of them has met, CGT_NONE where there is none */
+    uint32_t some; /* an object that one of them has met, CGT_INVALID_ID where there is none */
     bool alone;    /* and no other */
 } tile_pixels;
 
@@ -216,9 +216,9 @@ CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_world *world, const tile 
     const vfloat zero = spux_vfloat(0);
     const uint32_t i = tile_met_index(x, row);
     const tile_pixels p = {
-        x, row, object, spu_cmpeq(object, spux_vuint(CGT_NONE)), kept.met->some[i], kept.met->alone[i]};
+        x, row, object, spu_cmpeq(object, spux_vuint(CGT_INVALID_ID)), kept.met->some[i], kept.met->alone[i]};
     tile_hits h = {object, spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}, 0};
-    if (p.some == CGT_NONE || !wish.fields)
+    if (p.some == CGT_INVALID_ID || !wish.fields)
         return h;
     vfloat dir[3];
     tile_sight_at(kept.sight, x, row, dir);
@@ -296,7 +296,7 @@ CGT_SPU_INLINE void tile_put(void *plane, tile_place to, vuint v)
 
 CGT_SPU_INLINE void tile_put_hits(tile_place to, uint32_t geometry, tile_hits h)
 {
-    const vuint none = spux_vuint(CGT_NONE);
+    const vuint none = spux_vuint(CGT_INVALID_ID);
     const cgt_region *r = to.region;
     tile_put(r->t, to, (vuint)h.t);
     tile_put(r->primitive, to, h.object);
@@ -410,7 +410,7 @@ __attribute__((noinline, unused)) static void tile_resolve_sphere_array(const cg
                                                                         const cgt_region *r, tile_wish wish,
                                                                         tile_kept kept, cgt_counts *counts)
 {
-    tile_prepared_sphere prepared = {.number = CGT_NONE};
+    tile_prepared_sphere prepared = {.number = CGT_INVALID_ID};
     kept.sphere = &prepared;
     wish.triangles = wish.parallel = false;
     if (!(wish.fields & CGT_FIELD_NORMAL))
@@ -487,17 +487,17 @@ CGT_SPU_INLINE void tile_resolve_array(const cgt_world *world, const tile *t, co
 __attribute__((noinline, unused)) static void tile_resolve_nothing(const cgt_region *r)
 {
     const vfloat zero = spux_vfloat(0);
-    const tile_hits none = {spux_vuint(CGT_NONE), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}, 0};
+    const tile_hits none = {spux_vuint(CGT_INVALID_ID), spux_vfloat(INFINITY), zero, zero, {zero, zero, zero}, 0};
     if (!tile_streams(r)) {
         for (uint32_t y = 0; y < r->height; y++)
             for (uint32_t x = 0; x < r->width; x += CGT_LANES)
-                tile_put_hits((tile_place){r, false, x, y, (size_t)y * r->row_stride + x}, CGT_NONE, none);
+                tile_put_hits((tile_place){r, false, x, y, (size_t)y * r->row_stride + x}, CGT_INVALID_ID, none);
         return;
     }
     tile_lines lines;
     const cgt_region q = tile_lines_region(r, &lines);
     for (uint32_t k = 0; k < 2 * TILE_LINE; k += CGT_LANES)
-        tile_put_hits((tile_place){&q, false, 0, 0, k}, CGT_NONE, none);
+        tile_put_hits((tile_place){&q, false, 0, 0, k}, CGT_INVALID_ID, none);
     for (uint32_t y = 0; y < r->height; y += 2)
         for (uint32_t x = 0; x < r->width; x += TILE_LINE)
             tile_stream_lines(r, &q, x, y);
@@ -516,7 +516,7 @@ CGT_SPU_INLINE void tile_strip_rays(const tile *t, uint32_t y, packet *p)
             for (uint32_t k = 0; k < 2; k++) {
                 const uint32_t i = (row + k) * TILE_EDGE + x;
                 spux_store_uint(p->object + i, object[k]);
-                if (spux_all(spu_cmpeq(object[k], spux_vuint(CGT_NONE))))
+                if (spux_all(spu_cmpeq(object[k], spux_vuint(CGT_INVALID_ID))))
                     continue;
                 vfloat dir[3];
                 tile_directions(t, t->parallel, spux_load_unaligned(t->column + x), spux_vfloat(t->row[y + row + k]),

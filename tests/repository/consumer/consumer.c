@@ -25,13 +25,13 @@ static int cast(cgt_scene *scene)
     if (cgt_scene_commit(scene) != CGT_OK || cgt_trace_rays(scene, &rays, &hits, NULL) != CGT_OK)
         return 1;
     printf("t %g %g, primitive %u %u\n", (double)t[0], (double)t[1], (unsigned)primitive[0], (unsigned)primitive[1]);
-    return !(t[0] == 4.f && primitive[0] == 0 && isinf(t[1]) && primitive[1] == CGT_NONE);
+    return !(t[0] == 4.f && primitive[0] == 0 && isinf(t[1]) && primitive[1] == CGT_INVALID_ID);
 }
 
 int main(void)
 {
-    if (strcmp(cgt_version(), CGT_VERSION_STRING) != 0) {
-        fprintf(stderr, "header %s, library %s\n", CGT_VERSION_STRING, cgt_version());
+    if (strcmp(cgt_get_version(), CGT_VERSION_STRING) != 0) {
+        fprintf(stderr, "header %s, library %s\n", CGT_VERSION_STRING, cgt_get_version());
         return 1;
     }
     cgt_context *context = NULL;
@@ -42,7 +42,7 @@ int main(void)
     if (status) {
         char text[256] = "";
         if (context)
-            cgt_error_message(context, text, sizeof text);
+            cgt_context_get_error_message(context, text, sizeof text);
         fprintf(stderr, "wrong: %s\n", text);
     }
     cgt_scene_release(scene);

@@ -180,7 +180,7 @@ static void run(kd_walk *w)
             kd_fault(w, "the box of the root is none");
     }
     for (uint32_t i = 0; i < tree->nodes; i++)
-        w->parent[i] = CGT_NONE;
+        w->parent[i] = CGT_INVALID_ID;
     w->reached[0] = true;
     const size_t listed = list_objects(w);
     if (!w->faulty)

@@ -5,16 +5,16 @@
  * nothing that the library computed. */
 #include "support/kd/kd_walk.h"
 
-/* The sibling at the lowest ancestor that is split across the face; CGT_NONE beyond the root. */
+/* The sibling at the lowest ancestor that is split across the face; CGT_INVALID_ID beyond the root. */
 static uint32_t across(const kd_walk *w, uint32_t node, uint32_t axis, bool upper)
 {
-    for (uint32_t parent; (parent = w->parent[node]) != CGT_NONE; node = parent) {
+    for (uint32_t parent; (parent = w->parent[node]) != CGT_INVALID_ID; node = parent) {
         const cgt_kd_node n = w->tree->node[parent];
         const bool is_upper = node != n.word[1];
         if (cgt_kd_axis(n) == axis && is_upper != upper)
             return is_upper ? n.word[1] : n.word[1] + 1;
     }
-    return CGT_NONE;
+    return CGT_INVALID_ID;
 }
 
 static bool holds(const kd_box *box, const kd_box *face)
@@ -27,7 +27,7 @@ static bool holds(const kd_box *box, const kd_box *face)
 
 static bool below(const kd_walk *w, uint32_t node, uint32_t ancestor)
 {
-    while (node != ancestor && node != CGT_NONE)
+    while (node != ancestor && node != CGT_INVALID_ID)
         node = w->parent[node];
     return node == ancestor;
 }
@@ -43,7 +43,7 @@ static void check_rope(kd_walk *w, uint32_t node, const cgt_kd_leaf *leaf, uint3
                  wide);
         return;
     }
-    if (wide == CGT_NONE || rope == CGT_NONE) {
+    if (wide == CGT_INVALID_ID || rope == CGT_INVALID_ID) {
         if (wide != rope)
             kd_fault(w, "leaf %u, face %u: the rope leads to node %u, the wide one to %u", node, side, rope, wide);
         return;

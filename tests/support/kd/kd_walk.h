@@ -12,7 +12,7 @@ typedef struct kd_walk {
     const cgt_kd_tree *tree;
     const cgt_world *world;
     kd_box *box;      /* by node */
-    uint32_t *parent; /* by node; CGT_NONE for the root and for nodes that are not reached */
+    uint32_t *parent; /* by node; CGT_INVALID_ID for the root and for nodes that are not reached */
     bool *reached;    /* by node */
     double (*low)[3]; /* bounds of valid objects, by object */
     double (*high)[3];
