@@ -17,33 +17,33 @@
 #include "core/tasks.h"
 
 #define WORKER_STACK ((size_t)2 << 20)
-#define LOOKOUT_NS 50000
+#define SPIN_NS 50000
 
 /* One call of run: it lives on the caller's stack while it is in the pool's list. */
 typedef struct job {
     cgt_task *task;
     void *argument;
     uint32_t count;
-    atomic_uint next;    /* the first index that nobody took; may run past count by one per worker */
-    atomic_uint helpers; /* workers inside; changed under the pool's lock */
-    struct job *link;    /* the next job; under the pool's lock */
+    atomic_uint next;           /* the first index that nobody took; may run past count by one per worker */
+    atomic_uint active_workers; /* workers inside; changed under the pool's lock */
+    struct job *link;           /* the next job; under the pool's lock */
 } job;
 
 typedef struct pool {
     pthread_mutex_t lock;
-    pthread_cond_t work; /* a job has come, or stop */
-    pthread_cond_t done; /* a worker has left a job */
+    pthread_cond_t job_posted;  /* a job has come, or stop */
+    pthread_cond_t worker_left; /* a worker has left a job */
     job *jobs;
-    atomic_uint posted; /* jobs so far; changed under the lock */
+    atomic_uint posted_jobs; /* jobs so far; changed under the lock */
     bool stop;
-    uint32_t workers; /* started, the caller not counted */
-    uint32_t room;    /* length of thread */
+    uint32_t workers;  /* started, the caller not counted */
+    uint32_t capacity; /* length of thread */
     pthread_t thread[];
 } pool;
 
-static size_t pool_bytes(uint32_t room) { return sizeof(pool) + room * sizeof(pthread_t); }
+static size_t pool_bytes(uint32_t capacity) { return sizeof(pool) + capacity * sizeof(pthread_t); }
 
-static void take_tasks(job *j)
+static void run_tasks(job *j)
 {
     /* checked before it is taken: a job that many look at cannot count past the end of the type */
     while (atomic_load_explicit(&j->next, memory_order_relaxed) < j->count) {
@@ -54,7 +54,7 @@ static void take_tasks(job *j)
     }
 }
 
-static job *find_work(const pool *p)
+static job *find_job(const pool *p)
 {
     job *j = p->jobs;
     while (j && atomic_load_explicit(&j->next, memory_order_relaxed) >= j->count)
@@ -69,7 +69,7 @@ static int64_t now_ns(void)
     return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
 }
 
-static void rest(void)
+static void spin_pause(void)
 {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
@@ -79,14 +79,14 @@ static void rest(void)
 }
 
 /* Waits until it is so that a number is this one, or is not, but not for long. Returns whether that came. */
-static bool look_out(atomic_uint *number, unsigned value, bool is)
+static bool spin_until(atomic_uint *number, unsigned value, bool equal)
 {
-    const int64_t end = now_ns() + LOOKOUT_NS;
+    const int64_t end = now_ns() + SPIN_NS;
     do
         for (int k = 0; k < 32; k++) {
-            if ((atomic_load_explicit(number, memory_order_acquire) == value) == is)
+            if ((atomic_load_explicit(number, memory_order_acquire) == value) == equal)
                 return true;
-            rest();
+            spin_pause();
         }
     while (now_ns() < end);
     return false;
@@ -98,27 +98,27 @@ static void *worker(void *state)
     bool idle = true;
     pthread_mutex_lock(&p->lock);
     while (!p->stop) {
-        job *j = find_work(p);
+        job *j = find_job(p);
         if (!j && idle) {
-            pthread_cond_wait(&p->work, &p->lock);
+            pthread_cond_wait(&p->job_posted, &p->lock);
             continue;
         }
         if (!j) {
-            const unsigned posted = atomic_load_explicit(&p->posted, memory_order_relaxed);
+            const unsigned posted_jobs = atomic_load_explicit(&p->posted_jobs, memory_order_relaxed);
             pthread_mutex_unlock(&p->lock);
-            (void)look_out(&p->posted, posted, false);
+            (void)spin_until(&p->posted_jobs, posted_jobs, false);
             pthread_mutex_lock(&p->lock);
             idle = true;
             continue;
         }
-        atomic_fetch_add_explicit(&j->helpers, 1, memory_order_relaxed);
+        atomic_fetch_add_explicit(&j->active_workers, 1, memory_order_relaxed);
         pthread_mutex_unlock(&p->lock);
-        take_tasks(j);
+        run_tasks(j);
         pthread_mutex_lock(&p->lock);
         idle = false;
         /* the last one: the caller may see it at once, and the job is gone */
-        if (atomic_fetch_sub_explicit(&j->helpers, 1, memory_order_release) == 1)
-            pthread_cond_broadcast(&p->done);
+        if (atomic_fetch_sub_explicit(&j->active_workers, 1, memory_order_release) == 1)
+            pthread_cond_broadcast(&p->worker_left);
     }
     pthread_mutex_unlock(&p->lock);
     return NULL;
@@ -126,10 +126,10 @@ static void *worker(void *state)
 
 static void remove_job(pool *p, const job *j)
 {
-    job **at = &p->jobs;
-    while (*at != j)
-        at = &(*at)->link;
-    *at = j->link;
+    job **link_at = &p->jobs;
+    while (*link_at != j)
+        link_at = &(*link_at)->link;
+    *link_at = j->link;
 }
 
 static void host_run(void *state, cgt_task *task, void *argument, uint32_t count)
@@ -137,25 +137,25 @@ static void host_run(void *state, cgt_task *task, void *argument, uint32_t count
     pool *p = state;
     job j = {.task = task, .argument = argument, .count = count};
     atomic_init(&j.next, 0);
-    atomic_init(&j.helpers, 0);
+    atomic_init(&j.active_workers, 0);
     pthread_mutex_lock(&p->lock);
     j.link = p->jobs;
     p->jobs = &j;
-    atomic_fetch_add_explicit(&p->posted, 1, memory_order_release);
-    pthread_cond_broadcast(&p->work);
+    atomic_fetch_add_explicit(&p->posted_jobs, 1, memory_order_release);
+    pthread_cond_broadcast(&p->job_posted);
     pthread_mutex_unlock(&p->lock);
 
-    take_tasks(&j);
+    run_tasks(&j);
 
     /* nobody can enter once it is out of the list; wait for those inside */
     pthread_mutex_lock(&p->lock);
     remove_job(p, &j);
     pthread_mutex_unlock(&p->lock);
-    if (look_out(&j.helpers, 0, true))
+    if (spin_until(&j.active_workers, 0, true))
         return;
     pthread_mutex_lock(&p->lock);
-    while (atomic_load_explicit(&j.helpers, memory_order_acquire))
-        pthread_cond_wait(&p->done, &p->lock);
+    while (atomic_load_explicit(&j.active_workers, memory_order_acquire))
+        pthread_cond_wait(&p->worker_left, &p->lock);
     pthread_mutex_unlock(&p->lock);
 }
 
@@ -166,27 +166,27 @@ static void host_destroy(const cgt_memory_hooks *memory, void *state)
         return;
     pthread_mutex_lock(&p->lock);
     p->stop = true;
-    pthread_cond_broadcast(&p->work);
+    pthread_cond_broadcast(&p->job_posted);
     pthread_mutex_unlock(&p->lock);
     for (uint32_t i = 0; i < p->workers; i++)
         pthread_join(p->thread[i], NULL);
-    pthread_cond_destroy(&p->done);
-    pthread_cond_destroy(&p->work);
+    pthread_cond_destroy(&p->worker_left);
+    pthread_cond_destroy(&p->job_posted);
     pthread_mutex_destroy(&p->lock);
-    cgt_free(memory, p, pool_bytes(p->room));
+    cgt_free(memory, p, pool_bytes(p->capacity));
 }
 
-static bool make_locks(pool *p)
+static bool init_locks(pool *p)
 {
     if (pthread_mutex_init(&p->lock, NULL))
         return false;
-    if (pthread_cond_init(&p->work, NULL)) {
+    if (pthread_cond_init(&p->job_posted, NULL)) {
         pthread_mutex_destroy(&p->lock);
         return false;
     }
-    if (!pthread_cond_init(&p->done, NULL))
+    if (!pthread_cond_init(&p->worker_left, NULL))
         return true;
-    pthread_cond_destroy(&p->work);
+    pthread_cond_destroy(&p->job_posted);
     pthread_mutex_destroy(&p->lock);
     return false;
 }
@@ -200,7 +200,7 @@ static bool start_workers(pool *p)
         return false;
     /* some C libraries give threads less than a task takes; where this is refused the default has to do */
     (void)pthread_attr_setstacksize(&attributes, WORKER_STACK);
-    while (started && p->workers < p->room) {
+    while (started && p->workers < p->capacity) {
         started = !pthread_create(&p->thread[p->workers], &attributes, worker, p);
         p->workers += started;
     }
@@ -210,18 +210,18 @@ static bool start_workers(pool *p)
 
 static cgt_result host_create(const cgt_memory_hooks *memory, uint32_t threads, void **state)
 {
-    const uint32_t room = threads - 1;
-    pool *p = cgt_allocate(memory, pool_bytes(room));
+    const uint32_t capacity = threads - 1;
+    pool *p = cgt_allocate(memory, pool_bytes(capacity));
     *state = NULL;
     if (!p)
         return CGT_ERROR_OUT_OF_MEMORY;
     p->jobs = NULL;
-    atomic_init(&p->posted, 0);
+    atomic_init(&p->posted_jobs, 0);
     p->stop = false;
     p->workers = 0;
-    p->room = room;
-    if (!make_locks(p)) {
-        cgt_free(memory, p, pool_bytes(room));
+    p->capacity = capacity;
+    if (!init_locks(p)) {
+        cgt_free(memory, p, pool_bytes(capacity));
         return CGT_ERROR_THREADS;
     }
     if (!start_workers(p)) {

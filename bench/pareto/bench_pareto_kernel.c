@@ -33,7 +33,7 @@ APART void make_packet(const pareto_work *work, packet *p)
         }
         p->rdd[i] = 1 / square;
         p->t_max[i] = p->low[i] = p->high[i] = INFINITY;
-        p->object[i] = CGT_INVALID_ID;
+        p->prim[i] = CGT_INVALID_ID;
     }
     p->rays = p->lanes = PARETO_RAYS;
     p->common_origin = p->from_origin = p->fast = true;
@@ -46,7 +46,7 @@ CGT_SPU_INLINE void test_rays(const packet *p, filter_test *test, const void *pr
     for (uint32_t i = 0; i < PARETO_RAYS; i += CGT_LANES) {
         filter_result f;
         const bool any = test(p, primitive, i, true, &f);
-        spux_store(t + i, any ? spux_select(none, f.low, f.certain) : none);
+        spux_store(t + i, any ? spux_select(none, f.low, f.certain_hit) : none);
     }
 }
 
@@ -58,7 +58,7 @@ APART void test_spheres(const pareto_work *work, const packet *p, const filter_p
             for (int a = 0; a < 3; a++)
                 s.center[a][k] = work->primitive[first + k][a];
             s.radius[k] = work->primitive[first + k][3];
-            s.object[k] = 0;
+            s.prim[k] = 0;
         }
         filter_spheres_bound(of_packet, &s);
         for (uint32_t k = 0; k < CGT_LANES; k++) {
@@ -76,7 +76,7 @@ APART void test_triangles(const pareto_work *work, const packet *p, const filter
         for (uint32_t k = 0; k < CGT_LANES; k++) {
             for (int i = 0; i < 9; i++)
                 s.vertex[i / 3][i % 3][k] = work->primitive[first + k][i];
-            s.object[k] = 0;
+            s.prim[k] = 0;
         }
         if (work->test == PARETO_WATERTIGHT)
             filter_triangles_bound(of_packet, &s);
@@ -96,7 +96,7 @@ APART void test_triangles(const pareto_work *work, const packet *p, const filter
     }
 }
 
-APART void prepare(const packet *p, filter_packet *of_packet) { filter_packet_make(p, 1, of_packet); }
+APART void prepare(const packet *p, filter_packet *of_packet) { filter_packet_init(p, 1, of_packet); }
 
 void KERNEL_NAME(CGT_VARIANT)(const pareto_work *work);
 void KERNEL_NAME(CGT_VARIANT)(const pareto_work *work)

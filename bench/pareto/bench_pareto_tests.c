@@ -103,11 +103,11 @@ static void make_primitives(test_case *c, uint64_t *state)
 }
 
 /* t of the exact hit, rounded; +infinity for a miss, and for what lies behind the origin. None is around it. */
-static float exact_t(const cgt_exact_ray *ray, const cgt_shape *shape)
+static float exact_t(const cgt_exact_ray *ray, const cgt_primitive *primitive)
 {
-    const cgt_exact_root root = {.shape = shape};
-    const int hit = shape->kind == CGT_KIND_SPHERES ? cgt_exact_line_meets_sphere(ray, shape->sphere)
-                                                    : cgt_exact_line_meets_triangle(ray, &shape->triangle);
+    const cgt_exact_root root = {.primitive = primitive};
+    const int hit = primitive->kind == CGT_KIND_SPHERES ? cgt_exact_line_hits_sphere(ray, primitive->sphere)
+                                                        : cgt_exact_line_hits_triangle(ray, &primitive->triangle);
     const double t = hit ? cgt_exact_t(ray, &root) : INFINITY;
     return t >= 0.0 ? (float)t : INFINITY;
 }
@@ -116,8 +116,8 @@ static void find_truth(test_case *c)
 {
     for (int k = 0; k < PRIMITIVES; k++) {
         const float *s = c->sphere[k];
-        const cgt_shape sphere = {.kind = CGT_KIND_SPHERES, .sphere = {s[0], s[1], s[2], s[3]}};
-        cgt_shape triangle = {.kind = CGT_KIND_TRIANGLES};
+        const cgt_primitive sphere = {.kind = CGT_KIND_SPHERES, .sphere = {s[0], s[1], s[2], s[3]}};
+        cgt_primitive triangle = {.kind = CGT_KIND_TRIANGLES};
         memcpy(triangle.triangle.v, c->triangle[k], sizeof triangle.triangle.v);
         for (int i = 0; i < PARETO_RAYS; i++) {
             cgt_exact_ray ray;

@@ -139,7 +139,7 @@ static void report_counts(const structures_job *job, const char *config, const w
 static int fetch_kinds(const structures_job *job, const char *config, const walkers kinds[KINDS],
                        accuracy_report *report)
 {
-    const cgt_kd_tree *tree = &job->scene.scene->world.kd;
+    const cgt_kd_tree *tree = &job->scene.scene->committed_scene.kd;
     for (int k = 0; k < KINDS; k++) {
         if (!kinds[k].rays->count)
             continue;

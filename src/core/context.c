@@ -22,7 +22,7 @@ double cgt_now_ms(void)
 
 void cgt_context_options_init(cgt_context_options *options) { memset(options, 0, sizeof *options); }
 
-static cgt_result refuse(const cgt_context_options *o, cgt_result result, const char *message)
+static cgt_result fail_create(const cgt_context_options *o, cgt_result result, const char *message)
 {
     if (o->log.write)
         o->log.write(o->log.user, CGT_LOG_LEVEL_ERROR, message);
@@ -36,20 +36,21 @@ static cgt_result find_variant(const cgt_context_options *o, const cgt_kernel **
     switch (state) {
     case CGT_VARIANT_RUNS: return CGT_OK;
     case CGT_VARIANT_DISABLED:
-        return refuse(o, CGT_ERROR_UNSUPPORTED,
-                      o->variant ? "variant: CGT_DISABLE_CPU disables it" : "variant: CGT_DISABLE_CPU leaves none");
+        return fail_create(o, CGT_ERROR_UNSUPPORTED,
+                           o->variant ? "variant: CGT_DISABLE_CPU disables it"
+                                      : "variant: CGT_DISABLE_CPU leaves none");
     case CGT_VARIANT_UNSUPPORTED:
-        return refuse(o, CGT_ERROR_UNSUPPORTED, "variant: this CPU lacks instructions that it needs");
-    default: return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "variant: not in this build");
+        return fail_create(o, CGT_ERROR_UNSUPPORTED, "variant: this CPU lacks instructions that it needs");
+    default: return fail_create(o, CGT_ERROR_INVALID_ARGUMENT, "variant: not in this build");
     }
 }
 
 static cgt_result check_options(const cgt_context_options *o, const cgt_kernel **kernel)
 {
     if (!o->memory.allocate != !o->memory.release)
-        return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "memory hooks: both functions are needed, or neither");
+        return fail_create(o, CGT_ERROR_INVALID_ARGUMENT, "memory hooks: both functions are needed, or neither");
     if (o->threads > MAX_THREADS)
-        return refuse(o, CGT_ERROR_INVALID_ARGUMENT, "threads: at most 1024");
+        return fail_create(o, CGT_ERROR_INVALID_ARGUMENT, "threads: at most 1024");
     return find_variant(o, kernel);
 }
 
@@ -88,7 +89,7 @@ cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **
     const cgt_memory_hooks memory = options->memory.allocate ? options->memory : cgt_memory_default();
     cgt_context *c = cgt_allocate(&memory, sizeof *c);
     if (!c)
-        return refuse(options, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a context");
+        return fail_create(options, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a context");
     memset(c, 0, sizeof *c);
     c->memory = memory;
     c->log = options->log;
@@ -98,13 +99,13 @@ cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **
     atomic_init(&c->references, 1);
     if (pthread_mutex_init(&c->message_lock, NULL)) {
         cgt_free(&memory, c, sizeof *c);
-        return refuse(options, CGT_ERROR_THREADS, "the system refused a lock");
+        return fail_create(options, CGT_ERROR_THREADS, "the system refused a lock");
     }
     result = start_threads(c);
     if (result != CGT_OK) {
         pthread_mutex_destroy(&c->message_lock);
         cgt_free(&memory, c, sizeof *c);
-        return refuse(options, result, "the threads could not be started");
+        return fail_create(options, result, "the threads could not be started");
     }
     *context = c;
     return CGT_OK;

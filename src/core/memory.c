@@ -41,45 +41,46 @@ void cgt_free(const cgt_memory_hooks *hooks, void *memory, size_t bytes)
         hooks->release(hooks->user, memory, bytes ? bytes : 1);
 }
 
-static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t bytes, size_t kept)
+static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t bytes, size_t copied)
 {
     void *memory = cgt_allocate(hooks, bytes);
     if (!memory)
         return CGT_ERROR_OUT_OF_MEMORY;
-    if (kept)
-        memcpy(memory, buffer->data, kept);
+    if (copied)
+        memcpy(memory, buffer->data, copied);
     cgt_free(hooks, buffer->data, buffer->bytes);
     *buffer = (cgt_buffer){memory, bytes};
     return CGT_OK;
 }
 
 /* Half more than the buffer has, or what is wanted. */
-static size_t more_than(const cgt_buffer *buffer, size_t bytes)
+static size_t grown_capacity(const cgt_buffer *buffer, size_t bytes)
 {
-    const size_t more = buffer->bytes / 2;
-    return buffer->bytes <= SIZE_MAX - more && buffer->bytes + more > bytes ? buffer->bytes + more : bytes;
+    const size_t increment = buffer->bytes / 2;
+    return buffer->bytes <= SIZE_MAX - increment && buffer->bytes + increment > bytes ? buffer->bytes + increment
+                                                                                      : bytes;
 }
 
 cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
 {
     if (size && count > SIZE_MAX / size)
         return CGT_ERROR_TOO_LARGE;
-    return count * size <= buffer->bytes ? CGT_OK : resize(hooks, buffer, more_than(buffer, count * size), 0);
+    return count * size <= buffer->bytes ? CGT_OK : resize(hooks, buffer, grown_capacity(buffer, count * size), 0);
 }
 
 cgt_result cgt_buffer_reserve_scattered(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size)
 {
-    const void *before = buffer->data;
+    const void *old_data = buffer->data;
     const cgt_result result = cgt_buffer_reserve(hooks, buffer, count, size);
 #ifdef MADV_HUGEPAGE
-    if (buffer->data != before) {
+    if (buffer->data != old_data) {
         char *data = buffer->data;
         const size_t skipped = (HUGE_PAGE - (uintptr_t)data % HUGE_PAGE) % HUGE_PAGE;
         if (buffer->bytes >= skipped + HUGE_PAGE) /* where there are none, nothing is lost */
             (void)madvise(data + skipped, (buffer->bytes - skipped) / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
     }
 #else
-    (void)before;
+    (void)old_data;
 #endif
     return result;
 }
@@ -90,7 +91,7 @@ cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, si
         return CGT_ERROR_TOO_LARGE;
     if (count * size <= buffer->bytes)
         return CGT_OK;
-    return resize(hooks, buffer, more_than(buffer, count * size), buffer->bytes);
+    return resize(hooks, buffer, grown_capacity(buffer, count * size), buffer->bytes);
 }
 
 void cgt_buffer_release(const cgt_memory_hooks *hooks, cgt_buffer *buffer)

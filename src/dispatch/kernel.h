@@ -15,7 +15,7 @@
 typedef struct cgt_overflow_list {
     cgt_overflow *entry;
     uint32_t count, capacity;
-    uint32_t wanted; /* room that the next object needs, where the fill stopped for lack of it */
+    uint32_t needed_entries; /* room that the next object needs, where the fill stopped for lack of it */
 } cgt_overflow_list;
 
 typedef struct cgt_fill_counts {
@@ -24,19 +24,19 @@ typedef struct cgt_fill_counts {
 } cgt_fill_counts;
 
 /* What the cells of objects are found from. A key is a cell of all levels; `skipped` is beyond them. */
-typedef struct cgt_loose_keys {
+typedef struct cgt_loose_keys_job {
     const cgt_loose_grid *grid; /* levels are there */
-    const float *middle;        /* of triangles, see cgt_summary_wishes */
+    const float *middle;        /* of triangles, see cgt_bounds_request */
     uint32_t triangles;
     uint32_t skipped;
-} cgt_loose_keys;
+} cgt_loose_keys_job;
 
 struct cgt_cluster;
 
 typedef struct cgt_kernel {
     const char *name;
     uint32_t lanes;
-    const struct cgt_wide_builder *wide; /* steps that build a wide tree (bvh_build.h) */
+    const struct cgt_bvh_builder *bvh_builder; /* steps that build a wide tree (bvh_build.h) */
 
     /* Pushes the valid ones of objects first to end - 1 to the voxels, in ascending order. Returns end, or the object
      * before which it stopped because the overflow list might not hold what that object spills. */
@@ -45,42 +45,43 @@ typedef struct cgt_kernel {
 
     /* Adds objects first to end - 1, all of one array, to a summary, in order, and to what else is wished for. Stops at
      * the first index that is out of range. */
-    void (*summarise)(const cgt_object_array *array, uint32_t first, uint32_t end, const cgt_summary_wishes *wishes,
-                      cgt_object_summary *summary);
+    void (*compute_bounds)(const cgt_primitive_array *array, uint32_t first, uint32_t end,
+                           const cgt_bounds_request *request, cgt_primitive_bounds *bounds);
 
     /* Turns the corners of clusters, gathered by all that a chunk's objects are in, to middles and sizes, and adds those to
      * classes. Writes whole vectors. */
-    void (*summarise_clusters)(struct cgt_cluster *cluster, uint32_t count, cgt_size_classes *classes);
+    void (*compute_cluster_bounds)(struct cgt_cluster *cluster, uint32_t count, cgt_size_classes *classes);
 
     /* The cells of objects first to end - 1, all of one array, to key[0] and on; skipped ones get job->skipped. */
-    void (*loose_grid_keys)(const cgt_loose_keys *job, const cgt_object_array *array, uint32_t first, uint32_t end,
-                            uint32_t *key);
+    void (*loose_grid_keys)(const cgt_loose_keys_job *job, const cgt_primitive_array *array, uint32_t first,
+                            uint32_t end, uint32_t *key);
 
     /* The same of clusters, to key[0] and on. */
-    void (*loose_grid_cluster_keys)(const cgt_loose_keys *job, const struct cgt_cluster *cluster, uint32_t count,
+    void (*loose_grid_cluster_keys)(const cgt_loose_keys_job *job, const struct cgt_cluster *cluster, uint32_t count,
                                     uint32_t *key);
 
     /* Traces the pixels of a region of a camera's frame. */
-    void (*trace_region)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
-                         const cgt_region *region, cgt_counts *counts);
+    void (*trace_region)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
+                         const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
 
     /* The same, tile by tile, where tiles serve (tile_limits.h); else as trace_region does. */
-    void (*trace_tile)(const cgt_world *world, const cgt_camera_rays *camera, const cgt_trace_settings *settings,
-                       const cgt_region *region, cgt_counts *counts);
+    void (*trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
+                       const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
 
     /* Traces rays first to end - 1 of an array, at most CGT_RAYS_CHUNK, or CGT_STREAM_CHUNK where settings->wide is set
      * and not world->everything; hits is NULL where occluded is not. */
-    void (*trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
+    void (*trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first, uint64_t end,
                        const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts);
 
     /* Any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`. */
-    void (*trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
-                        uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
+    void (*trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points, const cgt_light *light,
+                        uint64_t first, uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded,
+                        cgt_counts *counts);
 
     /* With a loose grid: about how many objects lie in the cone about the light and points first to end - 1, at most
      * CGT_RAYS_CHUNK. UINT32_MAX where tiles do not serve the light. */
-    uint64_t (*light_objects)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
-                              uint64_t end);
+    uint64_t (*light_prims)(const cgt_committed_scene *committed_scene, const cgt_rays *points, const cgt_light *light,
+                            uint64_t first, uint64_t end);
 } cgt_kernel;
 
 #define CGT_KERNEL_JOIN_(name, variant) name##_##variant

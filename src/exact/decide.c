@@ -11,9 +11,9 @@
 
 /* ---- canonical t ---- */
 
-static double exact_root(const cgt_ray *ray, const cgt_shape *shape, bool far)
+static double exact_root(const cgt_ray *ray, const cgt_primitive *primitive, bool far)
 {
-    const cgt_exact_root root = {shape, far};
+    const cgt_exact_root root = {primitive, far};
     return cgt_exact_t(&ray->line, &root);
 }
 
@@ -26,11 +26,11 @@ double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
         return near;
     const double half = sqrt(e.disc);
     const bool unsafe = cgt_sphere_double_unsafe(e, half) != 0;
-    const cgt_shape shape = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
+    const cgt_primitive primitive = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
     cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
     if (unsafe) {
-        root.near = exact_root(ray, &shape, false);
-        root.far = exact_root(ray, &shape, true);
+        root.near = exact_root(ray, &primitive, false);
+        root.far = exact_root(ray, &primitive, true);
     }
     *far = !((float)root.near >= ray->t_min);
     return *far ? root.far : root.near;
@@ -41,22 +41,22 @@ double cgt_canonical_triangle_t(const cgt_ray *ray, const cgt_triangle *triangle
     const cgt_triangle_plane p = cgt_triangle_double_plane(ray->line.org, ray->line.dir, triangle);
     if (cgt_triangle_double_t_safe(&p))
         return p.num / p.den;
-    const cgt_shape shape = {.kind = CGT_KIND_TRIANGLES, .triangle = *triangle};
-    return exact_root(ray, &shape, false);
+    const cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES, .triangle = *triangle};
+    return exact_root(ray, &primitive, false);
 }
 
 void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit)
 {
     hit->far = false;
-    if (hit->shape.kind == CGT_KIND_SPHERES)
-        hit->t = cgt_canonical_sphere_t(ray, hit->shape.sphere, &hit->far);
+    if (hit->primitive.kind == CGT_KIND_SPHERES)
+        hit->t = cgt_canonical_sphere_t(ray, hit->primitive.sphere, &hit->far);
     else
-        hit->t = cgt_canonical_triangle_t(ray, &hit->shape.triangle);
+        hit->t = cgt_canonical_triangle_t(ray, &hit->primitive.triangle);
 }
 
 /* ---- hit or miss ---- */
 
-static bool line_meets_sphere(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
+static bool line_hits_sphere(const cgt_ray *ray, cgt_sphere sphere, uint64_t *exact)
 {
     const cgt_sphere_terms e = cgt_sphere_double_terms(ray->line.org, ray->line.dir, sphere);
     const double error = cgt_sphere_double_disc_error(ray->line.org, ray->line.dir, sphere);
@@ -65,30 +65,31 @@ static bool line_meets_sphere(const cgt_ray *ray, cgt_sphere sphere, uint64_t *e
     if (e.disc < -error)
         return false;
     ++*exact;
-    return cgt_exact_line_meets_sphere(&ray->line, sphere);
+    return cgt_exact_line_hits_sphere(&ray->line, sphere);
 }
 
-static bool line_meets_triangle(const cgt_ray *ray, const cgt_triangle *triangle, uint64_t *exact)
+static bool line_hits_triangle(const cgt_ray *ray, const cgt_triangle *triangle, uint64_t *exact)
 {
     const cgt_triangle_sides s = cgt_triangle_double_sides(ray->line.org, ray->line.dir, triangle);
-    int left = 0, right = 0;
+    int positive = 0, negative = 0;
     for (int k = 0; k < 3; k++) {
-        left += s.w[k] > s.error[k];
-        right += s.w[k] < -s.error[k];
+        positive += s.w[k] > s.error[k];
+        negative += s.w[k] < -s.error[k];
     }
-    if (left && right)
+    if (positive && negative)
         return false;
-    if (left == 3 || right == 3)
+    if (positive == 3 || negative == 3)
         return true;
     ++*exact;
-    return cgt_exact_line_meets_triangle(&ray->line, triangle);
+    return cgt_exact_line_hits_triangle(&ray->line, triangle);
 }
 
 bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
 {
-    const bool meets = hit->shape.kind == CGT_KIND_SPHERES ? line_meets_sphere(ray, hit->shape.sphere, exact)
-                                                           : line_meets_triangle(ray, &hit->shape.triangle, exact);
-    if (!meets)
+    const bool is_hit = hit->primitive.kind == CGT_KIND_SPHERES
+                            ? line_hits_sphere(ray, hit->primitive.sphere, exact)
+                            : line_hits_triangle(ray, &hit->primitive.triangle, exact);
+    if (!is_hit)
         return false;
     cgt_decide_t(ray, hit);
     const float rounded = (float)hit->t;
@@ -97,7 +98,7 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
 
 /* ---- order ---- */
 
-static bool same_shape(const cgt_shape *a, const cgt_shape *b)
+static bool same_primitive(const cgt_primitive *a, const cgt_primitive *b)
 {
     if (a->kind != b->kind)
         return false;
@@ -107,11 +108,11 @@ static bool same_shape(const cgt_shape *a, const cgt_shape *b)
 
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact)
 {
-    if (fabs(a->t - b->t) > CGT_ORDER_MARGIN * (fabs(a->t) + fabs(b->t)))
+    if (fabs(a->t - b->t) > CGT_ORDER_ERROR * (fabs(a->t) + fabs(b->t)))
         return a->t < b->t ? -1 : 1;
-    if (a->far == b->far && same_shape(&a->shape, &b->shape))
+    if (a->far == b->far && same_primitive(&a->primitive, &b->primitive))
         return 0;
-    const cgt_exact_root root_a = {&a->shape, a->far}, root_b = {&b->shape, b->far};
+    const cgt_exact_root root_a = {&a->primitive, a->far}, root_b = {&b->primitive, b->far};
     ++*exact;
     return cgt_exact_compare(&ray->line, &root_a, &root_b);
 }

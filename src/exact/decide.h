@@ -16,7 +16,7 @@ typedef struct cgt_ray {
 } cgt_ray;
 
 typedef struct cgt_decided_hit {
-    cgt_shape shape;
+    cgt_primitive primitive;
     double t; /* canonical */
     bool far; /* a sphere's second root */
 } cgt_decided_hit;
@@ -30,7 +30,7 @@ void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit);
 
 /* Of the sum of two canonical values: where they differ by more, that is the order of the exact ones. More than the
  * errors of both together. */
-#define CGT_ORDER_MARGIN 0x1p-27
+#define CGT_ORDER_ERROR 0x1p-27
 
 /* Sign of the exact t(a) - t(b). */
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact);

@@ -83,8 +83,8 @@ static inline double cgt_sphere_double_disc_error(const float org[3], const floa
         distance += fabs((double)center[a] - (double)org[a]);
         dd += (double)dir[a] * (double)dir[a];
     }
-    const double wide = 4 * CGT_DOUBLE_U * distance, r = q.r;
-    return 9 * (CGT_DOUBLE_U * r * (distance + r) + wide * wide) * dd;
+    const double eps_c = 4 * CGT_DOUBLE_U * distance, r = q.r;
+    return 9 * (CGT_DOUBLE_U * r * (distance + r) + eps_c * eps_c) * dd;
 }
 
 /* Both roots; NaN for a miss. */

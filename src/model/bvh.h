@@ -3,7 +3,7 @@
  *
  * The wide tree: nodes with as many children as the variant has lanes, their boxes as structure of arrays, and leaf
  * blocks of as many primitives of one kind, copied and transposed, so that a ray tests a node or a leaf at once, and
- * many rays one child or primitive after the other. Nodes and blocks depend on the variant: kernel/wide_node.h.
+ * many rays one child or primitive after the other. Nodes and blocks depend on the variant: kernel/bvh_node.h.
  *
  * Memory as measured: 34 bytes a sphere and 80 a triangle at 16 lanes, 39 and 82 at 8, 48 and 85 at 4, nodes among
  * them. A commit works in 46 bytes a sphere and 61 a triangle more, which it keeps for the next; few objects take some
@@ -12,27 +12,27 @@
  * Built from scratch in linear time: the levels of a loose grid, each numbered along a Morton curve, are sorted by
  * cell, and binary trees by highest differing bit are collapsed to wide nodes (Lauterbach et al. 2009, "Fast BVH
  * Construction on GPUs"; Wald et al. 2008, "Getting Rid of Packets"). */
-#ifndef CGT_WIDE_TREE_H
-#define CGT_WIDE_TREE_H
+#ifndef CGT_BVH_H
+#define CGT_BVH_H
 
 #include <stdint.h>
 
 /* Children are numbered by codes: a node, or a block of a leaf with its count and kind. */
-#define CGT_WIDE_LEAF 0x80000000u
-#define CGT_WIDE_TRIANGLES 0x40000000u /* of a leaf; else spheres */
-#define CGT_WIDE_COUNT_SHIFT 26u       /* four bits: primitives of a leaf less one */
-#define CGT_WIDE_INDEX 0x03ffffffu /* of a leaf's block among its kind's; of a node without CGT_WIDE_LEAF all bits */
-#define CGT_WIDE_NONE UINT32_MAX   /* no child; its box is empty */
+#define CGT_BVH_LEAF 0x80000000u
+#define CGT_BVH_TRIANGLE_LEAF 0x40000000u /* of a leaf; else spheres */
+#define CGT_BVH_COUNT_SHIFT 26u           /* four bits: primitives of a leaf less one */
+#define CGT_BVH_INDEX_MASK 0x03ffffffu /* of a leaf's block among its kind's; of a node without CGT_BVH_LEAF all bits */
+#define CGT_BVH_NO_CHILD UINT32_MAX    /* no child; its box is empty */
 
-#define CGT_WIDE_MAX_DEPTH 64u /* nodes from the root to a leaf, at most */
+#define CGT_BVH_MAX_DEPTH 64u /* nodes from the root to a leaf, at most */
 
-typedef struct cgt_wide_tree {
-    const void *node;     /* wide_node, the root first; there is one wherever an object is valid */
-    const void *sphere;   /* wide_spheres */
-    const void *triangle; /* wide_triangles */
+typedef struct cgt_bvh {
+    const void *node;     /* bvh_node, the root first; there is one wherever an object is valid */
+    const void *sphere;   /* sphere_block */
+    const void *triangle; /* triangle_block */
     uint32_t nodes, sphere_blocks, triangle_blocks;
-    uint32_t depth;        /* nodes on the longest way from the root to a leaf, at most CGT_WIDE_MAX_DEPTH */
+    uint32_t depth;        /* nodes on the longest way from the root to a leaf, at most CGT_BVH_MAX_DEPTH */
     float low[3], high[3]; /* bounds of all objects, rounded outwards */
-} cgt_wide_tree;
+} cgt_bvh;
 
 #endif

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * What rays are traced against: the objects of a commit, their bounds, and the structure that was built over them. */
-#ifndef CGT_WORLD_H
-#define CGT_WORLD_H
+#ifndef CGT_COMMITTED_SCENE_H
+#define CGT_COMMITTED_SCENE_H
 
 #include "model/kd_tree.h"
 #include "model/loose_grid.h"
@@ -11,25 +11,25 @@
 #include "model/bvh.h"
 
 /* Beyond this, squares of coordinates leave the range of float: no structure then. */
-#define CGT_WORLD_LARGEST 0x1p55f
+#define CGT_MAX_COORDINATE 0x1p55f
 
 typedef struct cgt_leaf_triangle cgt_leaf_triangle;
 
-typedef struct cgt_world {
-    cgt_objects objects;
+typedef struct cgt_committed_scene {
+    cgt_primitives prims;
     uint32_t valid;          /* objects that were not skipped */
     float low[3], high[3];   /* bounds of those, rounded outwards */
     float scale;             /* a power of two: the largest coordinate times it is between 1/2 and 2 */
-    bool masked;             /* some object's geometry has a mask with a bit unset */
-    bool everything;         /* coordinates beyond CGT_WORLD_LARGEST: every ray tests every object in double */
+    bool has_masks;          /* some object's geometry has a mask with a bit unset */
+    bool brute_force;        /* coordinates beyond CGT_MAX_COORDINATE: every ray tests every object in double */
     cgt_structure structure; /* which of the next is built; none where `everything`, or no object is valid */
     cgt_queue_grid grid;
     cgt_kd_tree kd;
     cgt_loose_grid loose;
     const struct cgt_cluster *cluster; /* what loose grids are of (triangle_cluster.h); NULL: objects */
-    bool tree_of_clusters;             /* wide trees are, too */
-    cgt_wide_tree wide; /* node is NULL until it is built: at the commit, or by the first rays that want it */
+    bool bvh_of_clusters;              /* wide trees are, too */
+    cgt_bvh bvh; /* node is NULL until it is built: at the commit, or by the first rays that want it */
     const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_triangle_number */
-} cgt_world;
+} cgt_committed_scene;
 
 #endif

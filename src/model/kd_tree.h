@@ -39,8 +39,8 @@ typedef struct cgt_kd_leaf {
     float low[3], high[3]; /* closed box */
     uint32_t first;        /* in `reference`, also of one object alone */
     uint32_t count;
-    uint32_t rope[6];      /* of single rays */
-    uint32_t wide_rope[6]; /* of packets */
+    uint32_t rope[6];        /* of single rays */
+    uint32_t packet_rope[6]; /* of packets */
 } cgt_kd_leaf;
 
 typedef struct cgt_kd_tree {
@@ -85,7 +85,10 @@ static inline cgt_kd_node cgt_kd_inner(uint32_t axis, float split, uint32_t lowe
     return n;
 }
 
-static inline cgt_kd_node cgt_kd_leaf_node(uint32_t count, uint32_t at) { return (cgt_kd_node){{count << 2 | 3, at}}; }
+static inline cgt_kd_node cgt_kd_leaf_node(uint32_t count, uint32_t index)
+{
+    return (cgt_kd_node){{count << 2 | 3, index}};
+}
 
 /* The objects of a leaf node. */
 static inline const uint32_t *cgt_kd_references(const cgt_kd_tree *tree, const cgt_kd_node *leaf)

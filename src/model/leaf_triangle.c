@@ -11,12 +11,12 @@
 #define CHUNK 4096u /* objects of one task */
 
 typedef struct triangles_job {
-    const cgt_objects *objects;
+    const cgt_primitives *prims;
     float scale;
     cgt_leaf_triangle *triangle;
 } triangles_job;
 
-static void make_triangle(const cgt_triangle *q, float scale, cgt_leaf_triangle *t)
+static void prepare_triangle(const cgt_triangle *q, float scale, cgt_leaf_triangle *t)
 {
     for (int a = 0; a < 3; a++)
         t->vertex[a] = q->v[0][a] * scale;
@@ -27,35 +27,35 @@ static void make_triangle(const cgt_triangle *q, float scale, cgt_leaf_triangle 
     }
 }
 
-static void make_chunk(void *argument, uint32_t index)
+static void prepare_chunk(void *argument, uint32_t index)
 {
     const triangles_job *job = argument;
-    const cgt_objects *o = job->objects;
+    const cgt_primitives *o = job->prims;
     const uint32_t first = index * CHUNK, end = o->count - first < CHUNK ? o->count : first + CHUNK;
-    const cgt_object_array *a = cgt_objects_array(o, first);
+    const cgt_primitive_array *a = cgt_primitives_array(o, first);
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
-    for (uint32_t object = first; object < end; object++) {
-        if (object - a->first == a->count)
+    for (uint32_t prim = first; prim < end; prim++) {
+        if (prim - a->first == a->count)
             a++;
         if (a->kind != CGT_KIND_TRIANGLES)
             continue;
-        const cgt_triangle q = cgt_array_triangle(a, object - a->first);
-        make_triangle(&q, job->scale, &job->triangle[cgt_array_triangle_number(a, object)]);
+        const cgt_triangle q = cgt_array_triangle(a, prim - a->first);
+        prepare_triangle(&q, job->scale, &job->triangle[cgt_array_triangle_number(a, prim)]);
     }
     cgt_float_environment_leave(&callers);
 }
 
-cgt_result cgt_leaf_triangles_make(cgt_context *context, cgt_buffer *memory, cgt_world *world)
+cgt_result cgt_leaf_triangles_init(cgt_context *context, cgt_buffer *memory, cgt_committed_scene *committed_scene)
 {
-    const cgt_objects *o = &world->objects;
+    const cgt_primitives *o = &committed_scene->prims;
     const cgt_result result =
         cgt_buffer_reserve_scattered(&context->memory, memory, o->triangles, sizeof(cgt_leaf_triangle));
     if (result != CGT_OK)
         return cgt_fail(context, result, "commit: out of memory for %u triangles in leaves", o->triangles);
-    triangles_job job = {.objects = o, .scale = world->scale, .triangle = memory->data};
+    triangles_job job = {.prims = o, .scale = committed_scene->scale, .triangle = memory->data};
     if (o->triangles)
-        cgt_run_tasks(context, make_chunk, &job, (uint32_t)(((uint64_t)o->count + CHUNK - 1) / CHUNK));
-    world->triangle = memory->data;
+        cgt_run_tasks(context, prepare_chunk, &job, (uint32_t)(((uint64_t)o->count + CHUNK - 1) / CHUNK));
+    committed_scene->triangle = memory->data;
     return CGT_OK;
 }

@@ -18,6 +18,6 @@ struct cgt_leaf_triangle {
 };
 
 /* Makes those of all triangles of the world, and hands them to it. Fails with OUT_OF_MEMORY, with a message. */
-cgt_result cgt_leaf_triangles_make(cgt_context *context, cgt_buffer *memory, cgt_world *world);
+cgt_result cgt_leaf_triangles_init(cgt_context *context, cgt_buffer *memory, cgt_committed_scene *committed_scene);
 
 #endif

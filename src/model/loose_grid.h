@@ -29,7 +29,7 @@ typedef struct cgt_loose_level {
     float rcell[3];   /* 1 / cell, rounded */
     uint32_t size[3]; /* cells along x, y, z, 1 to 1024 each, 2^24 in all */
     uint32_t first;   /* cell (0, 0, 0) in `start`; x runs fastest, then y, then z */
-    uint32_t objects;
+    uint32_t prims;
     float least;    /* sizes from here on belong to this level or one before it */
     float reach[3]; /* The bounds of an object in cell i lie within low + i cell - reach and low + (i + 1) cell + reach
                        along each axis, in exact arithmetic of these numbers: what rounding of keys adds is in it */
@@ -38,10 +38,10 @@ typedef struct cgt_loose_level {
 typedef struct cgt_loose_grid {
     cgt_loose_level level[CGT_LOOSE_LEVELS];
     uint32_t levels;
-    const uint32_t *start;  /* cell c holds object[start[c]] to object[start[c + 1] - 1]; cells + 1 of them */
-    const uint32_t *object; /* all valid objects, or with world.cluster all clusters that have some, ascending in each
+    const uint32_t *start; /* cell c holds object[start[c]] to object[start[c + 1] - 1]; cells + 1 of them */
+    const uint32_t *prim;  /* all valid objects, or with world.cluster all clusters that have some, ascending in each
                                cell */
-    uint32_t cells;         /* of all levels */
+    uint32_t cells;        /* of all levels */
 } cgt_loose_grid;
 
 #endif

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * One primitive by value, as the decisions and the resolve take it. */
-#ifndef CGT_SHAPE_H
-#define CGT_SHAPE_H
+#ifndef CGT_PRIMITIVE_H
+#define CGT_PRIMITIVE_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -18,12 +18,12 @@ typedef struct cgt_triangle {
 
 typedef enum cgt_kind { CGT_KIND_SPHERES = 0, CGT_KIND_TRIANGLES } cgt_kind;
 
-typedef struct cgt_shape {
+typedef struct cgt_primitive {
     cgt_kind kind;
     union {
         cgt_sphere sphere;
         cgt_triangle triangle;
     };
-} cgt_shape;
+} cgt_primitive;
 
 #endif

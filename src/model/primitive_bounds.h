@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * What the pass over all objects of a commit finds: what is skipped, bounds, sizes. Structures are planned from it. */
-#ifndef CGT_SUMMARY_H
-#define CGT_SUMMARY_H
+#ifndef CGT_PRIMITIVE_BOUNDS_H
+#define CGT_PRIMITIVE_BOUNDS_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,7 +19,8 @@ typedef struct cgt_size_class {
 } cgt_size_class;
 
 typedef struct cgt_size_classes {
-    uint32_t used[CGT_SIZE_CLASSES / 32]; /* bit k: class k has objects; without it what it holds is undefined */
+    uint32_t
+        used_classes[CGT_SIZE_CLASSES / 32]; /* bit k: class k has objects; without it what it holds is undefined */
     cgt_size_class of[CGT_SIZE_CLASSES];
 } cgt_size_classes;
 
@@ -27,8 +28,8 @@ typedef struct cgt_size_classes {
 static inline void cgt_size_classes_add(cgt_size_classes *to, uint32_t k, const cgt_size_class *c)
 {
     cgt_size_class *t = &to->of[k];
-    if (!(to->used[k / 32] >> k % 32 & 1)) {
-        to->used[k / 32] |= UINT32_C(1) << k % 32;
+    if (!(to->used_classes[k / 32] >> k % 32 & 1)) {
+        to->used_classes[k / 32] |= UINT32_C(1) << k % 32;
         *t = *c;
         return;
     }
@@ -45,7 +46,7 @@ static inline uint32_t cgt_size_classes_count(const cgt_size_classes *c)
 {
     uint32_t count = 0;
     for (uint32_t k = 0; k < CGT_SIZE_CLASSES; k++)
-        count += c->used[k / 32] >> k % 32 & 1 ? c->of[k].count : 0;
+        count += c->used_classes[k / 32] >> k % 32 & 1 ? c->of[k].count : 0;
     return count;
 }
 
@@ -54,16 +55,16 @@ struct cgt_cluster;
 /* What the pass is to find out besides. With classes it keeps, for each triangle by its number among them, the middle
  * of its bounds and its size, -1 where it is skipped: so that its vertices, which lie anywhere, are fetched once. Or it
  * keeps clusters, whose sizes the classes are of then. */
-typedef struct cgt_summary_wishes {
+typedef struct cgt_bounds_request {
     bool diameters;            /* sums of the diameters' powers: in order, so that they take longer than all the rest */
     cgt_size_classes *classes; /* gets the sizes; NULL: none */
     float *middle;             /* of triangles: planes of x, y, z and size; NULL where there are no classes */
     uint32_t triangles;        /* floats of a plane */
     struct cgt_cluster *cluster; /* triangle_cluster.h; NULL: none */
-} cgt_summary_wishes;
+} cgt_bounds_request;
 
 /* Lengths in world units. */
-typedef struct cgt_object_summary {
+typedef struct cgt_primitive_bounds {
     uint32_t valid; /* not skipped */
     uint32_t skipped_not_finite;
     uint32_t skipped_radius;
@@ -72,6 +73,6 @@ typedef struct cgt_object_summary {
     float min[3], max[3]; /* outwards rounded */
     double diameter[4];   /* sums of the powers 0 to 3 of the diameters; 0 where they were not wished for */
     float magnitude;      /* largest coordinate of any bound */
-} cgt_object_summary;
+} cgt_primitive_bounds;
 
 #endif

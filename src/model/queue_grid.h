@@ -25,7 +25,7 @@
 
 #define CGT_QUEUE_LENGTH 16
 #define CGT_QUEUE_NONE 0xffffu
-#define CGT_QUEUE_MAX_NARROW 65535u   /* objects for references of 16 bits: 0 to 65,534 */
+#define CGT_QUEUE_MAX_REFS16 65535u   /* objects for references of 16 bits: 0 to 65,534 */
 #define CGT_GRID_MAX_RESOLUTION 1024u /* per axis: a packet keeps the bounds of that many slices */
 #define CGT_GRID_MAX_CELLS (1u << 24) /* 512 MB of voxels, or 1 GB of wide ones */
 
@@ -33,9 +33,9 @@ typedef struct cgt_voxel {
     uint16_t reference[CGT_QUEUE_LENGTH];
 } cgt_voxel;
 
-typedef struct cgt_wide_voxel {
+typedef struct cgt_voxel32 {
     uint32_t reference[CGT_QUEUE_LENGTH]; /* CGT_INVALID_ID: none */
-} cgt_wide_voxel;
+} cgt_voxel32;
 
 typedef struct cgt_overflow {
     uint32_t cell;
@@ -43,30 +43,30 @@ typedef struct cgt_overflow {
 } cgt_overflow;
 
 typedef struct cgt_queue_grid {
-    const cgt_objects *objects;
-    float org[3];   /* lower corner, world */
-    float rcell[3]; /* cells per world unit */
-    float slack[3]; /* cells: bound of the rounding of g for any point of any object */
+    const cgt_primitives *prims;
+    float org[3];        /* lower corner, world */
+    float rcell[3];      /* cells per world unit */
+    float cell_error[3]; /* cells: bound of the rounding of g for any point of any object */
     uint32_t resolution[3];
     uint32_t stride[3]; /* voxels from one cell to the next along each axis; x fastest */
     uint32_t cells;
-    uint32_t most_cells;          /* that any arrangement of as many objects is given: room for them is reserved */
-    bool wide;                    /* wide voxels */
+    uint32_t max_cells;           /* that any arrangement of as many objects is given: room for them is reserved */
+    bool refs_are_32_bits;        /* wide voxels */
     cgt_voxel *voxel;             /* cells of them; NULL where there is no object */
-    cgt_wide_voxel *wide_voxel;   /* the same memory */
+    cgt_voxel32 *voxel32;         /* the same memory */
     const cgt_overflow *overflow; /* sorted by cell */
     uint32_t overflows;
 } cgt_queue_grid;
 
 static inline size_t cgt_queue_grid_voxel_bytes(const cgt_queue_grid *grid)
 {
-    return grid->wide ? sizeof(cgt_wide_voxel) : sizeof(cgt_voxel);
+    return grid->refs_are_32_bits ? sizeof(cgt_voxel32) : sizeof(cgt_voxel);
 }
 
 /* Chooses origin, resolution and slack. wanted: the caller's resolution, zeros where it is to be chosen. why: gets the
  * reason in words. Fails with TOO_LARGE where a wanted resolution is beyond the limits. */
-cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_object_summary *summary, const uint32_t wanted[3],
-                               char why[128]);
+cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_primitive_bounds *bounds, const uint32_t requested[3],
+                               char reason[128]);
 
 /* The first overflow entry of a cell; entries of that cell follow. Returns grid->overflows where it has none. */
 static inline uint32_t cgt_queue_grid_overflow(const cgt_queue_grid *grid, uint32_t cell)

@@ -31,8 +31,8 @@ typedef struct cgt_cluster {
 typedef enum cgt_cluster_use { CGT_CLUSTERS_NONE = 0, CGT_CLUSTERS_GRID, CGT_CLUSTERS_ALL } cgt_cluster_use;
 
 /* What should be, of these objects. */
-cgt_cluster_use cgt_choose_clusters(const cgt_objects *objects);
+cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims);
 
-static inline uint32_t cgt_clusters(uint32_t objects) { return objects / CGT_CLUSTER + (objects % CGT_CLUSTER > 0); }
+static inline uint32_t cgt_clusters(uint32_t prims) { return prims / CGT_CLUSTER + (prims % CGT_CLUSTER > 0); }
 
 #endif

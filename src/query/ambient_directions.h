@@ -15,7 +15,7 @@
 
 /* Of a sequence in the unit square, in units of 2^-32. */
 typedef struct cgt_ambient_points {
-    uint32_t at[2][CGT_AMBIENT_SAMPLES];
+    uint32_t coordinate[2][CGT_AMBIENT_SAMPLES];
 } cgt_ambient_points;
 
 /* A hash of 32 bits, one to one. */
@@ -28,14 +28,14 @@ static inline uint32_t cgt_ambient_mix(uint32_t x)
 }
 
 /* Sobol's first two dimensions: of 2^k points from a multiple of 2^k on, each of 2^k equal boxes of a grid has one. */
-static inline void cgt_ambient_points_make(uint32_t count, cgt_ambient_points *p)
+static inline void cgt_ambient_points_init(uint32_t count, cgt_ambient_points *p)
 {
     for (uint32_t k = 0; k < count; k++) {
         uint32_t first = 1u << 31, second = 1u << 31;
-        p->at[0][k] = p->at[1][k] = 0;
+        p->coordinate[0][k] = p->coordinate[1][k] = 0;
         for (uint32_t bits = k; bits; bits >>= 1, first >>= 1, second ^= second >> 1) {
-            p->at[0][k] ^= bits & 1 ? first : 0;
-            p->at[1][k] ^= bits & 1 ? second : 0;
+            p->coordinate[0][k] ^= bits & 1 ? first : 0;
+            p->coordinate[1][k] ^= bits & 1 ? second : 0;
         }
     }
 }
@@ -62,12 +62,12 @@ static inline void cgt_ambient_directions(const cgt_ambient_points *points, cons
                                           uint32_t x, uint32_t y, const float n[3], float *const dir[3])
 {
     const uint32_t scramble = cgt_ambient_mix(x ^ cgt_ambient_mix(y ^ cgt_ambient_mix(ambient->seed)));
-    const uint32_t other = cgt_ambient_mix(scramble);
+    const uint32_t scramble_v = cgt_ambient_mix(scramble);
     float across[2][3];
     cgt_ambient_axes(n, across);
     for (uint32_t k = 0; k < ambient->samples; k++) {
-        const float p = cgt_ambient_centred(points->at[0][k] ^ scramble);
-        const float q = cgt_ambient_centred(points->at[1][k] ^ other);
+        const float p = cgt_ambient_centred(points->coordinate[0][k] ^ scramble);
+        const float q = cgt_ambient_centred(points->coordinate[1][k] ^ scramble_v);
         const bool along_p = fabsf(p) > fabsf(q);
         const float r = along_p ? p : q, share = (along_p ? q : p) / r, w = share * share;
         const float sine =

@@ -11,7 +11,7 @@ typedef struct vec3 {
     double x, y, z;
 } vec3;
 
-static vec3 from(const float v[3]) { return (vec3){v[0], v[1], v[2]}; }
+static vec3 to_vec3(const float v[3]) { return (vec3){v[0], v[1], v[2]}; }
 static vec3 sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static vec3 scale(vec3 a, double k) { return (vec3){a.x * k, a.y * k, a.z * k}; }
 static double dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -39,7 +39,7 @@ void cgt_camera_init(cgt_camera *camera)
 }
 
 /* NULL, or what is wrong. */
-static const char *check(const cgt_camera *c)
+static const char *check_camera(const cgt_camera *c)
 {
     if (c->projection != CGT_PROJECTION_PERSPECTIVE && c->projection != CGT_PROJECTION_ORTHOGRAPHIC)
         return "projection is unknown";
@@ -60,9 +60,9 @@ static const char *check(const cgt_camera *c)
     return NULL;
 }
 
-static const char *make_axes(const cgt_camera *c, vec3 *fwd, vec3 *right, vec3 *up)
+static const char *compute_axes(const cgt_camera *c, vec3 *fwd, vec3 *right, vec3 *up)
 {
-    vec3 f = sub(from(c->target), from(c->eye)), u = from(c->up);
+    vec3 f = sub(to_vec3(c->target), to_vec3(c->eye)), u = to_vec3(c->up);
     const double f_length = sqrt(dot(f, f)), u_length = sqrt(dot(u, u));
     if (!(f_length > 0))
         return "target must differ from eye";
@@ -93,11 +93,11 @@ cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t
                               char message[160])
 {
     vec3 fwd, right, up;
-    const char *wrong = check(camera);
-    if (!wrong)
-        wrong = make_axes(camera, &fwd, &right, &up);
-    if (wrong) {
-        snprintf(message, 160, "camera: %s", wrong);
+    const char *error = check_camera(camera);
+    if (!error)
+        error = compute_axes(camera, &fwd, &right, &up);
+    if (error) {
+        snprintf(message, 160, "camera: %s", error);
         return CGT_ERROR_INVALID_ARGUMENT;
     }
     const bool orthographic = camera->projection == CGT_PROJECTION_ORTHOGRAPHIC;

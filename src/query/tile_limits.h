@@ -11,33 +11,33 @@
 #include "model/committed_scene.h"
 
 /* Half a picture's width and height at distance 1: openings of 0.11 to 165 degrees. */
-#define CGT_TILE_NARROWEST 0x1p-10
-#define CGT_TILE_WIDEST 8.0
+#define CGT_TILE_MIN_EXTENT 0x1p-10
+#define CGT_TILE_MAX_EXTENT 8.0
 
 /* The same of an orthographic picture: squares and their reciprocals stay far from the ends of float's range. */
-#define CGT_TILE_SMALLEST 0x1p-40
-#define CGT_TILE_LARGEST 0x1p40
+#define CGT_TILE_MIN_PARALLEL_EXTENT 0x1p-40
+#define CGT_TILE_MAX_PARALLEL_EXTENT 0x1p40
 
 static inline double cgt_tile_dot(const float a[3], const float b[3])
 {
     return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1] + (double)a[2] * (double)b[2];
 }
 
-static inline bool cgt_tile_between(double length, double least, double most)
+static inline bool cgt_tile_in_range(double length, double least, double most)
 {
     return length >= least && length <= most;
 }
 
 /* Whether the picture has room for the windows' slack: rounding of the origins is at most half a pixel. Beyond that all
  * would be left open, and packets are faster. */
-static inline bool cgt_tile_serves_origins(const cgt_camera_rays *c, double right, double up)
+static inline bool cgt_tile_supports_origins(const cgt_camera_rays *c, double right, double up)
 {
     const double off = (2 * sqrt(cgt_tile_dot(c->eye, c->eye)) + 3 * right + 2 * up) * 0x1p-23;
     return off <= right * (double)c->pixel[0] && off <= up * (double)c->pixel[1];
 }
 
 /* The bounds of tile_spheres.h and tile_triangles.h hold for axes like these. Comparisons fail for what is not a number. */
-static inline bool cgt_tile_serves_camera(const cgt_camera_rays *c)
+static inline bool cgt_tile_supports_camera(const cgt_camera_rays *c)
 {
     const double right = sqrt(cgt_tile_dot(c->right, c->right)), up = sqrt(cgt_tile_dot(c->up, c->up));
     const bool unit = fabs(cgt_tile_dot(c->fwd, c->fwd) - 1) <= 0x1p-22;
@@ -45,17 +45,18 @@ static inline bool cgt_tile_serves_camera(const cgt_camera_rays *c)
                             fabs(cgt_tile_dot(c->fwd, c->up)) <= 0x1p-22 * up &&
                             fabs(cgt_tile_dot(c->right, c->up)) <= 0x1p-22 * right * up;
     for (int a = 0; a < 3; a++)
-        if (!(fabsf(c->eye[a]) <= CGT_WORLD_LARGEST))
+        if (!(fabsf(c->eye[a]) <= CGT_MAX_COORDINATE))
             return false;
-    const double least = c->orthographic ? CGT_TILE_SMALLEST : CGT_TILE_NARROWEST;
-    const double most = c->orthographic ? CGT_TILE_LARGEST : CGT_TILE_WIDEST;
-    return unit && orthogonal && cgt_tile_between(right, least, most) && cgt_tile_between(up, least, most) &&
-           (!c->orthographic || cgt_tile_serves_origins(c, right, up)) && c->t_min >= 0;
+    const double least = c->orthographic ? CGT_TILE_MIN_PARALLEL_EXTENT : CGT_TILE_MIN_EXTENT;
+    const double most = c->orthographic ? CGT_TILE_MAX_PARALLEL_EXTENT : CGT_TILE_MAX_EXTENT;
+    return unit && orthogonal && cgt_tile_in_range(right, least, most) && cgt_tile_in_range(up, least, most) &&
+           (!c->orthographic || cgt_tile_supports_origins(c, right, up)) && c->t_min >= 0;
 }
 
-static inline bool cgt_tile_serves(const cgt_world *world, const cgt_camera_rays *camera)
+static inline bool cgt_tile_supports(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera)
 {
-    return world->valid && !world->everything && world->loose.levels && cgt_tile_serves_camera(camera);
+    return committed_scene->valid && !committed_scene->brute_force && committed_scene->loose.levels &&
+           cgt_tile_supports_camera(camera);
 }
 
 #endif

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * What the tracing calls and the kernels hand to each other. */
-#ifndef CGT_TRACE_H
-#define CGT_TRACE_H
+#ifndef CGT_TRACE_SETTINGS_H
+#define CGT_TRACE_SETTINGS_H
 
 #include <stdbool.h>
 
@@ -27,7 +27,7 @@ typedef struct cgt_trace_settings {
     cgt_precision precision;
     cgt_triangle_test triangle_test;
     bool light_tiles; /* points against a light go through the loose grid, tile by tile */
-    bool wide;       /* there is a wide tree that rays may go through. Where it is false, another thread may be building
+    bool use_bvh;    /* there is a wide tree that rays may go through. Where it is false, another thread may be building
                         one: world->wide must not be looked at then */
     uint32_t fields; /* cgt_field values that anybody wants */
 } cgt_trace_settings;
@@ -42,7 +42,7 @@ typedef struct cgt_region {
     uint32_t *geometry;
     float *normal[3];
     float *u, *v;
-    bool stream; /* nobody reads the planes soon */
+    bool nontemporal; /* nobody reads the planes soon */
 } cgt_region;
 
 /* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as

@@ -58,10 +58,10 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     memset(s, 0, sizeof *s);
     s->context = context;
     s->options = *options;
-    s->self = s;
-    atomic_init(&s->wide_is_built, false);
+    s->mutable_scene = s;
+    atomic_init(&s->bvh_is_built, false);
     atomic_init(&s->bvh_rays, 0);
-    if (pthread_mutex_init(&s->wide_lock, NULL)) {
+    if (pthread_mutex_init(&s->bvh_lock, NULL)) {
         cgt_free(&context->memory, s, sizeof *s);
         return cgt_fail(context, CGT_ERROR_THREADS, "the system refused a lock");
     }
@@ -77,7 +77,7 @@ void cgt_scene_release(cgt_scene *scene)
     cgt_context *context = scene->context;
     for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
         cgt_buffer_release(&context->memory, &scene->buffer[i]);
-    pthread_mutex_destroy(&scene->wide_lock);
+    pthread_mutex_destroy(&scene->bvh_lock);
     cgt_free(&context->memory, scene, sizeof *scene);
     cgt_context_release(context);
 }
@@ -90,7 +90,7 @@ cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *opti
     if (result != CGT_OK)
         return result;
     scene->options = *options;
-    scene->committed = false;
+    scene->is_committed = false;
     return CGT_OK;
 }
 
@@ -169,7 +169,7 @@ static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry
         scene->geometries++;
     }
     ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[id] = *geometry;
-    scene->committed = false;
+    scene->is_committed = false;
     return CGT_OK;
 }
 
@@ -249,7 +249,7 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
     if (!geometry_at(scene, geometry))
         return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "geometry %u does not exist", geometry);
     ((cgt_geometry *)scene->buffer[CGT_BUFFER_GEOMETRY].data)[geometry].used = false;
-    scene->committed = false;
+    scene->is_committed = false;
     return CGT_OK;
 }
 
@@ -257,9 +257,9 @@ cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics
 {
     if (!scene || !statistics)
         return CGT_ERROR_INVALID_ARGUMENT;
-    pthread_mutex_lock(&scene->self->wide_lock);
+    pthread_mutex_lock(&scene->mutable_scene->bvh_lock);
     *statistics = scene->statistics;
-    pthread_mutex_unlock(&scene->self->wide_lock);
+    pthread_mutex_unlock(&scene->mutable_scene->bvh_lock);
     return CGT_OK;
 }
 

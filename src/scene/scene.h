@@ -20,9 +20,9 @@ typedef struct cgt_geometry {
 /* Memory that a scene keeps from commit to commit. */
 typedef enum cgt_scene_buffer {
     CGT_BUFFER_GEOMETRY = 0, /* cgt_geometry, by id */
-    CGT_BUFFER_ARRAYS,       /* cgt_object_array of the commit */
-    CGT_BUFFER_SUMMARIES,    /* cgt_object_summary, one per chunk of objects */
-    CGT_BUFFER_VOXELS,       /* cgt_voxel or cgt_wide_voxel */
+    CGT_BUFFER_ARRAYS,       /* cgt_primitive_array of the commit */
+    CGT_BUFFER_BOUNDS,       /* cgt_primitive_bounds, one per chunk of objects */
+    CGT_BUFFER_VOXELS,       /* cgt_voxel or cgt_voxel32 */
     CGT_BUFFER_OVERFLOW,     /* cgt_overflow, as they came */
     CGT_BUFFER_OVERFLOW_SORTING,
     CGT_BUFFER_KD_NODES,
@@ -32,18 +32,18 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_KD_WORK,      /* what the builder needs while it runs */
     CGT_BUFFER_SIZE_CLASSES, /* cgt_size_classes, one per chunk of objects */
     CGT_BUFFER_LOOSE_START,
-    CGT_BUFFER_LOOSE_OBJECT,
-    CGT_BUFFER_LOOSE_WORK, /* middles of triangles; keys of all objects, or what is sorted by them */
-    CGT_BUFFER_LOOSE_BINS, /* where bins end in chunks of objects */
-    CGT_BUFFER_LOOSE_CLUSTERS,
-    CGT_BUFFER_WIDE_START,
-    CGT_BUFFER_WIDE_OBJECT, /* all objects by cell and leaf */
-    CGT_BUFFER_WIDE_LEAVES, /* where they part, see cgt_wide_build */
-    CGT_BUFFER_WIDE_WORK,   /* keys and objects of cells that are sorted on, then records of the binary tree */
-    CGT_BUFFER_WIDE_RANGES, /* cgt_wide_range, then a branch for each */
-    CGT_BUFFER_WIDE_NODES,
-    CGT_BUFFER_WIDE_SPHERES,
-    CGT_BUFFER_WIDE_TRIANGLES,
+    CGT_BUFFER_LOOSE_PRIM,
+    CGT_BUFFER_CELL_SORT_WORK, /* middles of triangles; keys of all objects, or what is sorted by them */
+    CGT_BUFFER_CELL_SORT_BINS, /* where bins end in chunks of objects */
+    CGT_BUFFER_CLUSTERS,
+    CGT_BUFFER_BVH_START,
+    CGT_BUFFER_BVH_PRIM,   /* all objects by cell and leaf */
+    CGT_BUFFER_BVH_LEAVES, /* where they part, see cgt_bvh_build */
+    CGT_BUFFER_BVH_WORK,   /* keys and objects of cells that are sorted on, then records of the binary tree */
+    CGT_BUFFER_BVH_RANGES, /* cgt_bvh_range, then a branch for each */
+    CGT_BUFFER_BVH_NODES,
+    CGT_BUFFER_BVH_SPHERES,
+    CGT_BUFFER_BVH_TRIANGLES,
     CGT_SCENE_BUFFERS
 } cgt_scene_buffer;
 
@@ -52,13 +52,13 @@ struct cgt_scene {
     cgt_scene_options options;
     cgt_buffer buffer[CGT_SCENE_BUFFERS];
     uint32_t geometries; /* in CGT_BUFFER_GEOMETRY, free ones included */
-    bool committed;      /* nothing changed since the last commit */
-    cgt_world world;
+    bool is_committed;   /* nothing changed since the last commit */
+    cgt_committed_scene committed_scene;
     cgt_scene_statistics statistics;
-    struct cgt_scene *self;    /* for what tracing builds */
-    pthread_mutex_t wide_lock; /* of a wide tree that tracing builds, and of the statistics with it */
-    atomic_bool wide_is_built; /* by tracing */
-    _Atomic uint64_t bvh_rays; /* that would have gone through it, since the commit */
+    struct cgt_scene *mutable_scene; /* for what tracing builds */
+    pthread_mutex_t bvh_lock;        /* of a wide tree that tracing builds, and of the statistics with it */
+    atomic_bool bvh_is_built;        /* by tracing */
+    _Atomic uint64_t bvh_rays;       /* that would have gone through it, since the commit */
 };
 
 /* Memory that a scene holds. */

@@ -9,7 +9,7 @@
 #include "core/float_environment.h"
 #include "scene/scene.h"
 #include "trace/trace_call.h"
-#include "build/bvh/bvh_on_demand.h"
+#include "builders/bvh/bvh_on_demand.h"
 
 #define TILE_BITS 5u
 #define TILE_EDGE (1u << TILE_BITS)
@@ -21,7 +21,7 @@ typedef struct ambient_job {
     cgt_ambient_options ambient;
     float *visibility;
     cgt_camera_rays camera;
-    bool hides; /* the camera's mask leaves something out */
+    bool has_masks; /* the camera's mask leaves something out */
     cgt_trace_settings settings;
     size_t row_stride;
     uint32_t tiles_across;
@@ -29,7 +29,7 @@ typedef struct ambient_job {
 } ambient_job;
 
 /* A task's state, on its stack. */
-typedef struct batch {
+typedef struct ray_batch {
     float org[3][BATCH], dir[3][BATCH], t_max[BATCH];
     uint32_t primitive[BATCH], geometry[BATCH], mask[BATCH];
     uint8_t occluded[BATCH];
@@ -37,11 +37,11 @@ typedef struct batch {
     size_t element[TILE_EDGE * TILE_EDGE]; /* of the planes, of each pixel */
     cgt_ambient_points points;
     cgt_counts counts;
-} batch;
+} ray_batch;
 
 /* ---- batches ---- */
 
-static void trace_batch(const ambient_job *job, batch *b)
+static void trace_batch(const ambient_job *job, ray_batch *b)
 {
     const cgt_scene *s = job->scene;
     const uint32_t samples = job->ambient.samples;
@@ -49,35 +49,36 @@ static void trace_batch(const ambient_job *job, batch *b)
                            .org = {b->org[0], b->org[1], b->org[2]},
                            .dir = {b->dir[0], b->dir[1], b->dir[2]},
                            .t_max = isinf(job->ambient.radius) ? NULL : b->t_max,
-                           .mask = job->hides ? b->mask : NULL,
+                           .mask = job->has_masks ? b->mask : NULL,
                            .skip_primitive = b->primitive,
                            .skip_geometry = b->geometry};
     if (!b->rays)
         return;
-    s->context->kernel->trace_rays(&s->world, &rays, 0, b->rays, &job->settings, NULL, b->occluded, &b->counts);
+    s->context->kernel->trace_rays(&s->committed_scene, &rays, 0, b->rays, &job->settings, NULL, b->occluded,
+                                   &b->counts);
     for (uint32_t i = 0; i < b->pixels; i++) {
-        uint32_t open = samples;
+        uint32_t unoccluded = samples;
         for (uint32_t k = 0; k < samples; k++)
-            open -= b->occluded[i * samples + k];
-        job->visibility[b->element[i]] = (float)open / (float)samples;
+            unoccluded -= b->occluded[i * samples + k];
+        job->visibility[b->element[i]] = (float)unoccluded / (float)samples;
     }
     b->rays = b->pixels = 0;
 }
 
 /* Adds the rays of a pixel with a hit. */
-static void add_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t element, batch *b)
+static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t element, ray_batch *b)
 {
     const cgt_frame *f = job->frame;
     const uint32_t first = b->rays, end = first + job->ambient.samples;
-    float org[3], dir[3], n[3], ahead = 0;
+    float org[3], dir[3], n[3], facing = 0;
     cgt_camera_pixel(&job->camera, x, y, org, dir);
     for (int a = 0; a < 3; a++) {
         n[a] = f->normal[a][element];
-        ahead += n[a] * dir[a];
+        facing += n[a] * dir[a];
     }
     for (int a = 0; a < 3; a++) {
         const float start = org[a] + f->t[element] * dir[a];
-        n[a] = ahead > 0 ? -n[a] : n[a];
+        n[a] = facing > 0 ? -n[a] : n[a];
         for (uint32_t i = first; i < end; i++)
             b->org[a][i] = start;
     }
@@ -87,8 +88,8 @@ static void add_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t ele
         b->t_max[i] = job->ambient.radius;
         b->mask[i] = job->camera.mask;
     }
-    float *const to[3] = {b->dir[0] + first, b->dir[1] + first, b->dir[2] + first};
-    cgt_ambient_directions(&b->points, &job->ambient, x, y, n, to);
+    float *const dir_out[3] = {b->dir[0] + first, b->dir[1] + first, b->dir[2] + first};
+    cgt_ambient_directions(&b->points, &job->ambient, x, y, n, dir_out);
     b->element[b->pixels++] = element;
     b->rays = end;
 }
@@ -103,19 +104,19 @@ static uint32_t even_bits(uint32_t i)
 }
 
 /* Pixels along a Morton curve, so that those of a batch are neighbours. */
-static void trace_tile(void *argument, uint32_t index)
+static void trace_ambient_tile(void *argument, uint32_t index)
 {
     const ambient_job *job = argument;
     const cgt_frame *f = job->frame;
-    const uint32_t left = index % job->tiles_across * TILE_EDGE, top = index / job->tiles_across * TILE_EDGE;
-    batch b;
+    const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
+    ray_batch b;
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
     b.counts = (cgt_counts){0};
     b.rays = b.pixels = 0;
-    cgt_ambient_points_make(job->ambient.samples, &b.points);
+    cgt_ambient_points_init(job->ambient.samples, &b.points);
     for (uint32_t i = 0; i < TILE_EDGE * TILE_EDGE; i++) {
-        const uint32_t x = left + even_bits(i), y = top + even_bits(i >> 1);
+        const uint32_t x = x0 + even_bits(i), y = y0 + even_bits(i >> 1);
         const size_t element = (size_t)y * job->row_stride + x;
         if (x >= f->width || y >= f->height)
             continue;
@@ -125,7 +126,7 @@ static void trace_tile(void *argument, uint32_t index)
         }
         if (b.rays + job->ambient.samples > BATCH)
             trace_batch(job, &b);
-        add_pixel(job, x, y, element, &b);
+        append_pixel(job, x, y, element, &b);
     }
     trace_batch(job, &b);
     cgt_float_environment_leave(&callers);
@@ -152,14 +153,14 @@ static cgt_result check_ambient(cgt_context *c, const cgt_ambient_options *a, co
 }
 
 /* Checks all and makes the camera's rays; of the counter only what counts is left to do. */
-static cgt_result prepare(ambient_job *job, const cgt_camera *camera, const cgt_trace_options *options,
-                          cgt_trace_counter *counter)
+static cgt_result prepare_job(ambient_job *job, const cgt_camera *camera, const cgt_trace_options *options,
+                              cgt_trace_counter *counter)
 {
     const cgt_frame *f = job->frame;
     cgt_context *c = job->scene->context;
     char message[160];
     cgt_float_environment callers;
-    cgt_result result = cgt_trace_begin(job->scene, options, false, &job->settings, counter);
+    cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, counter);
     if (result == CGT_OK)
         result = cgt_check_frame(c, f);
     if (result == CGT_OK)
@@ -183,18 +184,19 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     cgt_ambient_options_init(&job.ambient);
     if (ambient)
         job.ambient = *ambient;
-    cgt_result result = prepare(&job, camera, options, &counter);
+    cgt_result result = prepare_job(&job, camera, options, &counter);
     if (result == CGT_OK)
-        result =
-            cgt_wide_tree_want(scene, (uint64_t)frame->width * frame->height * job.ambient.samples, &job.settings.wide);
+        result = cgt_bvh_build_on_demand(scene, (uint64_t)frame->width * frame->height * job.ambient.samples,
+                                         &job.settings.use_bvh);
     if (result != CGT_OK)
         return result;
-    job.hides = cgt_objects_hidden(&scene->world.objects, job.camera.mask);
+    job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.settings.fields = 0;
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.tiles_across = (frame->width + TILE_EDGE - 1) / TILE_EDGE;
     job.counter = options && options->statistics ? &counter : NULL;
-    cgt_run_tasks(scene->context, trace_tile, &job, job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE));
-    cgt_trace_end(options, &job.settings, &counter);
+    cgt_run_tasks(scene->context, trace_ambient_tile, &job,
+                  job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE));
+    cgt_trace_store_statistics(options, &job.settings, &counter);
     return CGT_OK;
 }

@@ -8,15 +8,15 @@
 
 /* Measured by `cgt-bench loops` (docs/coherent_grid_traversal.md): the largest packets share the most work, whether a
  * sphere is 3 pixels across or 40; the loops are within a few per cent of each other on x86-64. */
-#define CHOSEN_PACKET 16
-#define CHOSEN_FLATTENED false
+#define DEFAULT_PACKET 16
+#define DEFAULT_FLATTENED false
 
 void cgt_trace_options_init(cgt_trace_options *options)
 {
     *options = (cgt_trace_options){.cull = CGT_CULL_BLOCKS, .mailbox = 1};
 }
 
-static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera, cgt_trace_settings *s)
+static cgt_result choose_settings(cgt_context *c, const cgt_trace_options *o, bool camera, cgt_trace_settings *s)
 {
     if (o->packet != 0 && o->packet != 4 && o->packet != 8 && o->packet != 16)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", o->packet);
@@ -41,30 +41,30 @@ static cgt_result choose(cgt_context *c, const cgt_trace_options *o, bool camera
                         "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
     s->tiled = camera && !o->packet && o->tile == CGT_TILE_SHAPE_AUTO && o->loop == CGT_LOOP_AUTO &&
                o->cull == CGT_CULL_BLOCKS && o->mailbox && o->triangle_test == CGT_TRIANGLE_TEST_WATERTIGHT;
-    s->packet = s->strip ? 4 : o->packet ? o->packet : CHOSEN_PACKET;
-    s->flattened = o->loop == CGT_LOOP_AUTO ? CHOSEN_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
+    s->packet = s->strip ? 4 : o->packet ? o->packet : DEFAULT_PACKET;
+    s->flattened = o->loop == CGT_LOOP_AUTO ? DEFAULT_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
     s->cull = o->cull;
     s->mailbox = o->mailbox;
     s->kd_traversal = o->kd_traversal == CGT_KD_TRAVERSAL_AUTO ? CGT_KD_TRAVERSAL_PACKET : o->kd_traversal;
     s->precision = o->precision;
     s->triangle_test = o->triangle_test;
-    s->wide = false; /* rays ask for it */
+    s->use_bvh = false; /* rays ask for it */
     if (!camera)
         s->packet = 0;
     return CGT_OK;
 }
 
-cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
-                           cgt_trace_settings *settings, cgt_trace_counter *counter)
+cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
+                             cgt_trace_settings *settings, cgt_trace_counter *counter)
 {
     cgt_trace_options defaults;
     cgt_trace_options_init(&defaults);
     counter->start_ms = options && options->statistics ? cgt_now_ms() : 0; /* a call of one ray takes as long */
     for (size_t i = 0; i < CGT_COUNTS; i++)
         atomic_init(&counter->sum[i], 0);
-    if (!scene->committed)
+    if (!scene->is_committed)
         return cgt_fail(scene->context, CGT_ERROR_NOT_COMMITTED, "trace: the scene was not committed since it changed");
-    return choose(scene->context, options ? options : &defaults, camera, settings);
+    return choose_settings(scene->context, options ? options : &defaults, camera, settings);
 }
 
 cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count)
@@ -87,7 +87,8 @@ void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
             atomic_fetch_add_explicit(&counter->sum[i], value[i], memory_order_relaxed);
 }
 
-void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *settings, cgt_trace_counter *counter)
+void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trace_settings *settings,
+                                cgt_trace_counter *counter)
 {
     uint64_t value[CGT_COUNTS];
     cgt_counts c;

@@ -13,8 +13,8 @@ typedef struct cgt_trace_counter {
 } cgt_trace_counter;
 
 /* Checks that the scene may be traced and makes the choices that the options leave open. */
-cgt_result cgt_trace_begin(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
-                           cgt_trace_settings *settings, cgt_trace_counter *counter);
+cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
+                             cgt_trace_settings *settings, cgt_trace_counter *counter);
 
 /* Whether so many elements of a caller's array, `what`, can be told apart by addresses and be shared out to tasks. */
 cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count);
@@ -26,6 +26,7 @@ cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f);
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts);
 
 /* Fills in the caller's statistics, where asked for. */
-void cgt_trace_end(const cgt_trace_options *options, const cgt_trace_settings *settings, cgt_trace_counter *counter);
+void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trace_settings *settings,
+                                cgt_trace_counter *counter);
 
 #endif

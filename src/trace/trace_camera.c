@@ -40,7 +40,7 @@ static cgt_region region_in_planes(const frame_job *job, uint32_t x, uint32_t y,
     const cgt_frame *f = job->frame;
     const size_t first = (size_t)y * job->row_stride + x;
     cgt_region r = {
-        .x = x, .y = y, .width = width, .height = height, .row_stride = job->row_stride, .stream = !f->visitor};
+        .x = x, .y = y, .width = width, .height = height, .row_stride = job->row_stride, .nontemporal = !f->visitor};
     r.t = f->t ? f->t + first : NULL;
     r.primitive = f->primitive ? f->primitive + first : NULL;
     r.geometry = f->geometry ? f->geometry + first : NULL;
@@ -56,7 +56,7 @@ static cgt_region region_in_buffer(const frame_job *job, const cgt_region *plane
     const uint32_t fields = job->settings.fields;
     cgt_region r = *planes;
     r.row_stride = planes->width;
-    r.stream = false;
+    r.nontemporal = false;
     r.t = fields & CGT_FIELD_T ? (float *)buffer[0] : NULL;
     r.primitive = fields & CGT_FIELD_PRIMITIVE ? buffer[1] : NULL;
     r.geometry = fields & CGT_FIELD_GEOMETRY ? buffer[2] : NULL;
@@ -89,33 +89,33 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
 
 static int call_visitor(const cgt_frame *f, const cgt_region *r)
 {
-    const uint32_t wanted = f->visitor_fields;
-    const bool normal = wanted & CGT_FIELD_NORMAL, uv = wanted & CGT_FIELD_UV;
+    const uint32_t fields = f->visitor_fields;
+    const bool normal = fields & CGT_FIELD_NORMAL, uv = fields & CGT_FIELD_UV;
     const cgt_tile tile = {
         .x = r->x,
         .y = r->y,
         .width = r->width,
         .height = r->height,
         .row_stride = r->row_stride,
-        .t = wanted & CGT_FIELD_T ? r->t : NULL,
-        .primitive = wanted & CGT_FIELD_PRIMITIVE ? r->primitive : NULL,
-        .geometry = wanted & CGT_FIELD_GEOMETRY ? r->geometry : NULL,
+        .t = fields & CGT_FIELD_T ? r->t : NULL,
+        .primitive = fields & CGT_FIELD_PRIMITIVE ? r->primitive : NULL,
+        .geometry = fields & CGT_FIELD_GEOMETRY ? r->geometry : NULL,
         .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL},
         .u = uv ? r->u : NULL,
         .v = uv ? r->v : NULL};
     return f->visitor(f->visitor_user, &tile);
 }
 
-static void trace_into(const frame_job *job, const cgt_region *r)
+static void trace_region_into(const frame_job *job, const cgt_region *r)
 {
     const cgt_scene *s = job->scene;
     cgt_counts counts = {0};
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
-    if (s->world.structure == CGT_STRUCTURE_LOOSE_GRID && job->settings.tiled)
-        s->context->kernel->trace_tile(&s->world, &job->camera, &job->settings, r, &counts);
+    if (s->committed_scene.structure == CGT_STRUCTURE_LOOSE_GRID && job->settings.tiled)
+        s->context->kernel->trace_tile(&s->committed_scene, &job->camera, &job->settings, r, &counts);
     else
-        s->context->kernel->trace_region(&s->world, &job->camera, &job->settings, r, &counts);
+        s->context->kernel->trace_region(&s->committed_scene, &job->camera, &job->settings, r, &counts);
     cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
@@ -125,13 +125,13 @@ __attribute__((noinline)) static int trace_buffered(const frame_job *job, const 
 {
     uint32_t buffer[8][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
-    trace_into(job, &tile);
+    trace_region_into(job, &tile);
     const int stop = job->frame->visitor ? call_visitor(job->frame, &tile) : 0;
     copy_to_planes(planes, &tile);
     return stop;
 }
 
-static void trace_tile(void *argument, uint32_t index)
+static void trace_frame_tile(void *argument, uint32_t index)
 {
     frame_job *job = argument;
     const cgt_frame *f = job->frame;
@@ -145,7 +145,7 @@ static void trace_tile(void *argument, uint32_t index)
     if (job->buffered)
         stop = trace_buffered(job, &planes);
     else {
-        trace_into(job, &planes);
+        trace_region_into(job, &planes);
         if (f->visitor)
             stop = call_visitor(f, &planes);
     }
@@ -155,7 +155,8 @@ static void trace_tile(void *argument, uint32_t index)
 
 cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
 {
-    const uint32_t all = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
+    const uint32_t all_fields =
+        CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
     if (!f->width || !f->height)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: %u x %u pixels: at least 1 x 1", f->width, f->height);
     if (f->width > 65536 || f->height > 65536)
@@ -168,7 +169,7 @@ cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: normal: all three planes or none");
     if (!f->u != !f->v)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: u and v: both planes or none");
-    if (f->visitor_fields & ~all)
+    if (f->visitor_fields & ~all_fields)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
     return CGT_OK;
 }
@@ -178,7 +179,7 @@ void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
     *frame = (cgt_frame){.width = width, .height = height};
 }
 
-static void cut_tiles(frame_job *job)
+static void compute_tiling(frame_job *job)
 {
     const cgt_frame *f = job->frame;
     const uint32_t visitor_fields = f->visitor ? f->visitor_fields : 0;
@@ -199,7 +200,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     if (!scene || !camera || !frame)
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_context *c = scene->context;
-    cgt_result result = cgt_trace_begin(scene, options, true, &job.settings, &counter);
+    cgt_result result = cgt_trace_prepare(scene, options, true, &job.settings, &counter);
     if (result == CGT_OK)
         result = cgt_check_frame(c, frame);
     if (result != CGT_OK)
@@ -210,13 +211,14 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     cgt_float_environment_leave(&callers);
     if (result != CGT_OK)
         return cgt_fail(c, result, "%s", message);
-    if (!cgt_objects_hidden(&scene->world.objects, job.camera.mask))
+    if (!cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask))
         job.camera.mask = UINT32_MAX;
     job.settings.tiled &= job.camera.mask == UINT32_MAX;
-    cut_tiles(&job);
+    compute_tiling(&job);
     job.counter = options && options->statistics ? &counter : NULL;
     atomic_init(&job.stopped, false);
-    cgt_run_tasks(c, trace_tile, &job, job.tiles_across * ((frame->height + job.tile_height - 1) / job.tile_height));
-    cgt_trace_end(options, &job.settings, &counter);
+    cgt_run_tasks(c, trace_frame_tile, &job,
+                  job.tiles_across * ((frame->height + job.tile_height - 1) / job.tile_height));
+    cgt_trace_store_statistics(options, &job.settings, &counter);
     return atomic_load(&job.stopped) ? cgt_fail(c, CGT_ERROR_STOPPED, "the visitor stopped the frame") : CGT_OK;
 }

@@ -7,12 +7,12 @@
 #include "core/float_environment.h"
 #include "scene/scene.h"
 #include "trace/trace_call.h"
-#include "build/bvh/bvh_on_demand.h"
+#include "builders/bvh/bvh_on_demand.h"
 
 /* Chunks of a call that are looked at to choose a way, and the objects that a tile may take for each point: more, and a
  * tree is faster. Measured. */
-#define CHUNKS_ASKED 8u
-#define OBJECTS_PER_POINT 16u
+#define SAMPLED_CHUNKS 8u
+#define PRIMS_PER_POINT 16u
 
 #define FEW_POINTS 256u /* go through a wide tree where there is one */
 
@@ -27,8 +27,8 @@ typedef struct light_job {
 
 static uint64_t chunk_end(const light_job *job, uint64_t first)
 {
-    const uint64_t left = job->points.count - first;
-    return first + (left < CGT_RAYS_CHUNK ? left : CGT_RAYS_CHUNK);
+    const uint64_t remaining = job->points.count - first;
+    return first + (remaining < CGT_RAYS_CHUNK ? remaining : CGT_RAYS_CHUNK);
 }
 
 static void trace_chunk(void *argument, uint32_t index)
@@ -39,31 +39,32 @@ static void trace_chunk(void *argument, uint32_t index)
     cgt_counts counts = {0};
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
-    s->context->kernel->trace_light(&s->world, &job->points, job->light, first, end, &job->settings, job->occluded,
-                                    &counts);
+    s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
+                                    job->occluded, &counts);
     cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
 /* Whether neighbours among the points are near enough to each other, as the light sees them, for tiles: of most chunks. */
-static bool tiles_serve(const light_job *job)
+static bool choose_tiles(const light_job *job)
 {
     const cgt_scene *s = job->scene;
-    const cgt_world *world = &s->world;
+    const cgt_committed_scene *committed_scene = &s->committed_scene;
     const uint64_t chunks = (job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK;
-    const uint64_t asked = chunks < CHUNKS_ASKED ? chunks : CHUNKS_ASKED;
-    uint64_t served = 0;
+    const uint64_t sampled = chunks < SAMPLED_CHUNKS ? chunks : SAMPLED_CHUNKS;
+    uint64_t coherent = 0;
     cgt_float_environment callers;
-    if (!world->loose.levels || !world->valid || world->everything || world->scale > 0x1p60f || world->scale < 0x1p-60f)
+    if (!committed_scene->loose.levels || !committed_scene->valid || committed_scene->brute_force ||
+        committed_scene->scale > 0x1p60f || committed_scene->scale < 0x1p-60f)
         return false;
     cgt_float_environment_enter(&callers);
-    for (uint64_t k = 0; k < asked; k++) {
-        const uint64_t first = chunks * k / asked * CGT_RAYS_CHUNK, end = chunk_end(job, first);
-        served += s->context->kernel->light_objects(world, &job->points, job->light, first, end) <=
-                  OBJECTS_PER_POINT * (end - first);
+    for (uint64_t k = 0; k < sampled; k++) {
+        const uint64_t first = chunks * k / sampled * CGT_RAYS_CHUNK, end = chunk_end(job, first);
+        coherent += s->context->kernel->light_prims(committed_scene, &job->points, job->light, first, end) <=
+                    PRIMS_PER_POINT * (end - first);
     }
     cgt_float_environment_leave(&callers);
-    return 2 * served > asked;
+    return 2 * coherent > sampled;
 }
 
 static cgt_result check_light(cgt_context *c, const cgt_light *light)
@@ -98,7 +99,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_context *c = scene->context;
     light_job job = {.scene = scene, .light = light, .occluded = occluded};
-    cgt_result result = cgt_trace_begin(scene, options, false, &job.settings, &counter);
+    cgt_result result = cgt_trace_prepare(scene, options, false, &job.settings, &counter);
     if (result == CGT_OK)
         result = check_light(c, light);
     if (result == CGT_OK)
@@ -113,14 +114,14 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
                             .mask = points->mask,
                             .skip_primitive = points->skip_primitive,
                             .skip_geometry = points->skip_geometry};
-    const bool tiles = tiles_serve(&job);
-    result = cgt_wide_tree_want(scene, tiles ? 0 : points->count, &job.settings.wide);
+    const bool tiles = choose_tiles(&job);
+    result = cgt_bvh_build_on_demand(scene, tiles ? 0 : points->count, &job.settings.use_bvh);
     if (result != CGT_OK)
         return result;
-    job.settings.light_tiles = tiles && !(job.settings.wide && points->count < FEW_POINTS);
+    job.settings.light_tiles = tiles && !(job.settings.use_bvh && points->count < FEW_POINTS);
     job.settings.fields = 0;
     job.counter = options && options->statistics ? &counter : NULL;
     cgt_run_tasks(c, trace_chunk, &job, (uint32_t)((points->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
-    cgt_trace_end(options, &job.settings, &counter);
+    cgt_trace_store_statistics(options, &job.settings, &counter);
     return CGT_OK;
 }

@@ -5,7 +5,7 @@
 #include "core/float_environment.h"
 #include "scene/scene.h"
 #include "trace/trace_call.h"
-#include "build/bvh/bvh_on_demand.h"
+#include "builders/bvh/bvh_on_demand.h"
 
 typedef struct rays_job {
     const cgt_scene *scene;
@@ -21,12 +21,13 @@ static void trace_chunk(void *argument, uint32_t index)
 {
     const rays_job *job = argument;
     const cgt_scene *s = job->scene;
-    const uint64_t first = (uint64_t)index * job->chunk, left = job->rays->count - first,
-                   end = first + (left < job->chunk ? left : job->chunk);
+    const uint64_t first = (uint64_t)index * job->chunk, remaining = job->rays->count - first,
+                   end = first + (remaining < job->chunk ? remaining : job->chunk);
     cgt_counts counts = {0};
     cgt_float_environment callers;
     cgt_float_environment_enter(&callers);
-    s->context->kernel->trace_rays(&s->world, job->rays, first, end, &job->settings, job->hits, job->occluded, &counts);
+    s->context->kernel->trace_rays(&s->committed_scene, job->rays, first, end, &job->settings, job->hits, job->occluded,
+                                   &counts);
     cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
@@ -56,32 +57,32 @@ static uint32_t hit_fields(const cgt_hits *h)
 }
 
 /* Large chunks where each thread gets two of them; how many threads a caller's runner has, nobody knows. */
-static uint32_t chunk_of(const rays_job *job)
+static uint32_t choose_chunk(const rays_job *job)
 {
     const cgt_scene *s = job->scene;
     const uint64_t threads = s->context->threads ? s->context->threads : 64;
-    const bool streams = job->settings.wide && !s->world.everything;
+    const bool streams = job->settings.use_bvh && !s->committed_scene.brute_force;
     return streams && job->rays->count >= threads * 2 * CGT_STREAM_CHUNK ? CGT_STREAM_CHUNK : CGT_RAYS_CHUNK;
 }
 
-static cgt_result trace(rays_job *job, const cgt_trace_options *options)
+static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
 {
     cgt_context *c = job->scene->context;
     cgt_trace_counter counter;
-    cgt_result result = cgt_trace_begin(job->scene, options, false, &job->settings, &counter);
+    cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, &counter);
     if (result == CGT_OK)
         result = check_rays(c, job->rays);
     if (result == CGT_OK && job->hits)
         result = check_hits(c, job->hits, job->rays->count);
     if (result == CGT_OK)
-        result = cgt_wide_tree_want(job->scene, job->rays->count, &job->settings.wide);
+        result = cgt_bvh_build_on_demand(job->scene, job->rays->count, &job->settings.use_bvh);
     if (result != CGT_OK)
         return result;
     job->settings.fields = job->hits ? hit_fields(job->hits) : 0;
     job->counter = options && options->statistics ? &counter : NULL;
-    job->chunk = chunk_of(job);
+    job->chunk = choose_chunk(job);
     cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
-    cgt_trace_end(options, &job->settings, &counter);
+    cgt_trace_store_statistics(options, &job->settings, &counter);
     return CGT_OK;
 }
 
@@ -91,7 +92,7 @@ cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cg
     if (!scene || !rays || !hits)
         return CGT_ERROR_INVALID_ARGUMENT;
     rays_job job = {.scene = scene, .rays = rays, .hits = hits};
-    return trace(&job, options);
+    return trace_array(&job, options);
 }
 
 cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
@@ -100,5 +101,5 @@ cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8
     if (!scene || !rays || (!occluded && rays->count))
         return CGT_ERROR_INVALID_ARGUMENT;
     rays_job job = {.scene = scene, .rays = rays, .occluded = occluded};
-    return trace(&job, options);
+    return trace_array(&job, options);
 }

@@ -33,7 +33,7 @@ typedef struct view {
     cgt_frame frame;
 } view;
 
-static void view_make(view *v, const float eye[3], const float target[3])
+static void light_init_projection(view *v, const float eye[3], const float target[3])
 {
     memset(v, 0x55, sizeof *v);
     cgt_camera_init(&v->camera);
@@ -140,13 +140,13 @@ static void what_stands_alone_is_open(void **state)
     for (uint32_t k = test_sample_start(0, STEP); k < CGT_STRUCTURE_BVH; k += STEP)
         for (int orthographic = 0; orthographic < 2; orthographic++) {
             cgt_scene *scene = scene_make(context, k, true, NULL, 0);
-            view_make(&v, (float[]){1.3f, orthographic ? -4 : 3, 7}, (float[]){0, 0, 0.1f});
+            light_init_projection(&v, (float[]){1.3f, orthographic ? -4 : 3, 7}, (float[]){0, 0, 0.1f});
             v.camera.projection = orthographic ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
             assert_true(look(scene, &v, &ambient, NULL) > MANY);
             expect_all(&v, 1);
             cgt_scene_release(scene);
             scene = scene_make(context, k, false, ball, 1);
-            view_make(&v, (float[]){1, 2, 3}, (float[]){0, 0, 0});
+            light_init_projection(&v, (float[]){1, 2, 3}, (float[]){0, 0, 0});
             assert_true(look(scene, &v, &ambient, NULL) > MANY);
             expect_all(&v, 1);
             cgt_scene_release(scene);
@@ -166,7 +166,7 @@ static void inside_a_box_it_is_dark(void **state)
     cgt_context *context = context_make(2, NULL);
     for (uint32_t k = test_sample_start(1, STEP); k < CGT_STRUCTURE_BVH; k += STEP) {
         cgt_scene *scene = box_make(context, k);
-        view_make(&v, (float[]){0.1f, 0.2f, 0.3f}, (float[]){1, 0.5f, -1});
+        light_init_projection(&v, (float[]){0.1f, 0.2f, 0.3f}, (float[]){1, 0.5f, -1});
         v.camera.fov = 100;
         assert_int_equal(look(scene, &v, &ambient, NULL), WIDTH * HEIGHT);
         expect_all(&v, 0);
@@ -184,12 +184,13 @@ static void a_ball_hides_what_it_must(void **state)
     const float ball[1][4] = {{0, 2, 0, 1}};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_make(context, 0, true, ball, 1);
-    view_make(&v, (float[]){0, -30, 0.1f}, (float[]){0, 0, 0}); /* from below, through the floor's other side */
+    light_init_projection(&v, (float[]){0, -30, 0.1f},
+                          (float[]){0, 0, 0}); /* from below, through the floor's other side */
     v.camera.fov = 0.5f;
     cgt_ambient_options ambient = ambient_of(1024, INFINITY, 0);
     look(scene, &v, &ambient, NULL);
-    expect_all(&v, 1);                                            /* the side below is turned away from the ball */
-    view_make(&v, (float[]){0.5f, 0.25f, 0}, (float[]){0, 0, 0}); /* from between ball and floor */
+    expect_all(&v, 1); /* the side below is turned away from the ball */
+    light_init_projection(&v, (float[]){0.5f, 0.25f, 0}, (float[]){0, 0, 0}); /* from between ball and floor */
     v.camera.fov = 0.5f;
     look(scene, &v, &ambient, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
@@ -213,7 +214,7 @@ static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambie
 {
     static cgt_ambient_points points;
     static float dir[3][CGT_AMBIENT_SAMPLES], org[3][CGT_AMBIENT_SAMPLES], t_max[CGT_AMBIENT_SAMPLES];
-    static uint32_t ignored[2][CGT_AMBIENT_SAMPLES];
+    static uint32_t skip_prim[2][CGT_AMBIENT_SAMPLES];
     static uint8_t occluded[CGT_AMBIENT_SAMPLES];
     const uint32_t i = y * STRIDE + x;
     cgt_camera_rays camera;
@@ -226,21 +227,21 @@ static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambie
         ahead += v->normal[a][i] * ray.dir[a];
     for (int a = 0; a < 3; a++)
         n[a] = ahead > 0 ? -v->normal[a][i] : v->normal[a][i];
-    cgt_ambient_points_make(ambient->samples, &points);
+    cgt_ambient_points_init(ambient->samples, &points);
     cgt_ambient_directions(&points, ambient, x, y, n, (float *const[]){dir[0], dir[1], dir[2]});
     for (uint32_t k = 0; k < ambient->samples; k++) {
         for (int a = 0; a < 3; a++)
             org[a][k] = ray.org[a] + v->t[i] * ray.dir[a];
         t_max[k] = ambient->radius;
-        ignored[0][k] = v->primitive[i];
-        ignored[1][k] = v->geometry[i];
+        skip_prim[0][k] = v->primitive[i];
+        skip_prim[1][k] = v->geometry[i];
     }
     const cgt_rays rays = {.count = ambient->samples,
                            .org = {org[0], org[1], org[2]},
                            .dir = {dir[0], dir[1], dir[2]},
                            .t_max = t_max,
-                           .skip_primitive = ignored[0],
-                           .skip_geometry = ignored[1]};
+                           .skip_primitive = skip_prim[0],
+                           .skip_geometry = skip_prim[1]};
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
     for (uint32_t k = 0; k < ambient->samples; k++)
         open += !occluded[k];
@@ -269,7 +270,7 @@ static void it_is_the_share_of_these_rays(void **state)
                 cgt_context *context = context_make(threads, variant);
                 cgt_scene *scene = scene_make(context, k, true, ball, 4);
                 view *const to = first ? &v : &other;
-                view_make(to, (float[]){2, 3, 8}, (float[]){0, 1, 0});
+                light_init_projection(to, (float[]){2, 3, 8}, (float[]){0, 1, 0});
                 to->camera.projection = s == 2 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
                 to->camera.height = 6;
                 cgt_trace_options_init(&options);
@@ -309,7 +310,7 @@ static void the_camera_mask_is_theirs(void **state)
     uint32_t id;
     assert_int_equal(cgt_scene_add_triangles(scene, &roof, &id), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    view_make(&v, (float[]){0, 3, 3}, (float[]){0, 0, 0});
+    light_init_projection(&v, (float[]){0, 3, 3}, (float[]){0, 0, 0});
     v.camera.fov = 10;
     look(scene, &v, &ambient, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
@@ -330,7 +331,7 @@ static void directions_are_cosine_weighted(void **state)
     static float dir[3][CGT_AMBIENT_SAMPLES];
     test_random r = random_make(9);
     const cgt_ambient_options ambient = ambient_of(CGT_AMBIENT_SAMPLES, INFINITY, 3);
-    cgt_ambient_points_make(ambient.samples, &points);
+    cgt_ambient_points_init(ambient.samples, &points);
     for (uint32_t k = 0; k < test_between(30, 300); k++) {
         float n[3], axes[2][3];
         double length = 0, mean[3] = {0}, square[2] = {0};
@@ -372,7 +373,7 @@ static void seeds_and_pixels_differ(void **state)
         const cgt_ambient_options *of;
         uint32_t x, y;
     } which[4] = {{&a, 5, 6}, {&a, 6, 6}, {&a, 5, 7}, {&b, 5, 6}};
-    cgt_ambient_points_make(4, &points);
+    cgt_ambient_points_init(4, &points);
     for (int i = 0; i < 4; i++) {
         cgt_ambient_directions(&points, which[i].of, which[i].x, which[i].y, n,
                                (float *const[]){dir[i][0], dir[i][1], dir[i][2]});
@@ -402,7 +403,7 @@ static void bad_arguments_are_refused(void **state)
     const cgt_ambient_options good = ambient_of(2, 1, 0);
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, ball, 1);
-    view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
+    light_init_projection(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
     look(scene, &v, &good, NULL);
     assert_int_equal(cgt_ambient_occlusion(NULL, &v.camera, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
     assert_int_equal(cgt_ambient_occlusion(scene, NULL, &v.frame, &good, out, NULL), CGT_ERROR_INVALID_ARGUMENT);
@@ -461,7 +462,7 @@ static void odd_pixels_are_open(void **state)
     const cgt_ambient_options ambient = ambient_of(9, INFINITY, 0);
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, NULL, balls, 2);
-    view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
+    light_init_projection(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
     v.camera.fov = 10;
     look(scene, &v, &ambient, NULL);
     expect_all(&v, 0); /* within the larger one */
@@ -490,7 +491,7 @@ static void nothing_is_allocated(void **state)
     unsigned allocations = 0;
     cgt_context *context = context_counting(&allocations);
     cgt_scene *scene = scene_of(context, NULL, ball, 1);
-    view_make(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
+    light_init_projection(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
     look(scene, &v, NULL, NULL); /* may have a tree built, whose memory the next frame finds */
     const unsigned before = allocations;
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);

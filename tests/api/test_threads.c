@@ -68,22 +68,22 @@ static void expect_threads(unsigned expected)
 
 /* ---- a scene that is worth several tasks ---- */
 
-typedef struct world {
+typedef struct committed_scene {
     cloud spheres;
     cgt_camera camera;
     planes expected;
     truth_ray *rays;
     ray_hit *hits;
-} world;
+} committed_scene;
 
 #define WIDTH test_between(130, 200) /* several tiles either way */
 #define HEIGHT test_between(70, 130)
 #define TILES ((WIDTH + 63) / 64 * ((HEIGHT + 63) / 64))
 
-static world make_world(uint64_t stream, uint32_t count)
+static committed_scene make_world(uint64_t stream, uint32_t count)
 {
     test_random r = random_make(stream);
-    world w = {.spheres = cloud_make(&r, CLOUD_UNIFORM, count), .expected = planes_make(WIDTH, HEIGHT)};
+    committed_scene w = {.spheres = cloud_make(&r, CLOUD_UNIFORM, count), .expected = planes_make(WIDTH, HEIGHT)};
     w.camera = camera_before(&w.spheres);
     w.rays = frame_rays(&w.camera, WIDTH, HEIGHT);
     w.hits = malloc(w.expected.elements * sizeof *w.hits);
@@ -97,7 +97,7 @@ static world make_world(uint64_t stream, uint32_t count)
     return w;
 }
 
-static void free_world(world *w)
+static void free_world(committed_scene *w)
 {
     planes_free(&w->expected);
     free(w->rays);
@@ -106,7 +106,7 @@ static void free_world(world *w)
 }
 
 /* Frame, rays and any-hit rays against what they should be; the number of those that differ. For any thread. */
-static unsigned trace_everything(const cgt_scene *scene, const world *w)
+static unsigned trace_everything(const cgt_scene *scene, const committed_scene *w)
 {
     planes p = {.width = WIDTH, .height = HEIGHT, .elements = (size_t)WIDTH * HEIGHT};
     const cgt_rays rays = ray_array(w->rays, p.elements);
@@ -154,7 +154,7 @@ static int watch_tile(void *user, const cgt_tile *tile)
     return 0;
 }
 
-static void watch_frame(const cgt_scene *scene, const world *w, watch *seen)
+static void watch_frame(const cgt_scene *scene, const committed_scene *w, watch *seen)
 {
     cgt_frame frame;
     seen->caller = pthread_self();
@@ -172,7 +172,7 @@ static void one_thread_starts_none(void **state)
     const unsigned before = count_settled_threads();
     if (!before)
         skip();
-    world w = make_world(1, 20000);
+    committed_scene w = make_world(1, 20000);
     watch seen = {0};
     cgt_context *context = context_make(1, NULL);
     assert_int_equal(cgt_context_get_threads(context), 1);
@@ -196,7 +196,7 @@ static void a_pool_starts_one_less_and_ends_them(void **state)
     const unsigned before = count_settled_threads();
     if (!before)
         skip();
-    world w = make_world(2, 1000);
+    committed_scene w = make_world(2, 1000);
     for (size_t i = 0; i < TEST_COUNT(threads); i++) {
         watch seen = {0};
         cgt_context *context = context_make(threads[i], NULL);
@@ -260,7 +260,7 @@ static void a_runner_does_all_the_work(void **state)
 {
     (void)state;
     const unsigned before = count_settled_threads();
-    world w = make_world(3, 30000);
+    committed_scene w = make_world(3, 30000);
     runner r = {.caller = pthread_self()};
     watch seen = {0};
     cgt_context_options options;
@@ -295,7 +295,7 @@ typedef struct caller {
     pthread_t thread;
     cgt_context *context; /* shared, or NULL: one of its own */
     cgt_scene *scene;     /* shared, or NULL: one of its own */
-    const world *world;
+    const committed_scene *committed_scene;
     unsigned rounds, wrong;
 } caller;
 
@@ -311,7 +311,8 @@ static void *call(void *argument)
         c->wrong++;
     for (unsigned round = 0; round < c->rounds && !c->wrong; round++) {
         cgt_scene *scene = c->scene;
-        const cgt_spheres spheres = spheres_of((const float(*)[4])c->world->spheres.sphere, c->world->spheres.count);
+        const cgt_spheres spheres =
+            spheres_of((const float(*)[4])c->committed_scene->spheres.sphere, c->committed_scene->spheres.count);
         const cgt_spheres bad = {.count = 1};
         const cgt_scene_options made = structure_in_turn(round);
         uint32_t id;
@@ -323,7 +324,7 @@ static void *call(void *argument)
             c->wrong += cgt_context_get_error_message(context, message, sizeof message) == 0;
             c->wrong += cgt_scene_commit(scene) != CGT_OK;
         }
-        c->wrong += trace_everything(scene, c->world);
+        c->wrong += trace_everything(scene, c->committed_scene);
         if (!c->scene)
             cgt_scene_release(scene);
     }
@@ -345,14 +346,14 @@ static void run_callers(caller *c)
 static void many_threads_trace_one_scene(void **state)
 {
     (void)state;
-    world w = make_world(4, 800);
+    committed_scene w = make_world(4, 800);
     for (uint32_t threads = 1; threads <= 3; threads++) {
         cgt_context *context = context_make(threads, NULL);
         const cgt_scene_options made = structure_in_turn(threads + 2); /* ropes, the loose grid, the queue grid */
         cgt_scene *scene = scene_of(context, &made, (const float(*)[4])w.spheres.sphere, w.spheres.count);
         caller c[CALLERS] = {0};
         for (int i = 0; i < CALLERS; i++)
-            c[i] = (caller){.context = context, .scene = scene, .world = &w, .rounds = test_scaled(10)};
+            c[i] = (caller){.context = context, .scene = scene, .committed_scene = &w, .rounds = test_scaled(10)};
         run_callers(c);
         cgt_scene_release(scene);
         cgt_context_release(context);
@@ -363,11 +364,11 @@ static void many_threads_trace_one_scene(void **state)
 static void many_threads_have_scenes_of_one_context(void **state)
 {
     (void)state;
-    world w[2] = {make_world(5, 9000), make_world(6, 300)};
+    committed_scene w[2] = {make_world(5, 9000), make_world(6, 300)};
     cgt_context *context = context_make(3, NULL);
     caller c[CALLERS] = {0};
     for (int i = 0; i < CALLERS; i++)
-        c[i] = (caller){.context = context, .world = &w[i % 2], .rounds = test_scaled(10)};
+        c[i] = (caller){.context = context, .committed_scene = &w[i % 2], .rounds = test_scaled(10)};
     run_callers(c);
     cgt_context_release(context);
     for (int i = 0; i < 2; i++)
@@ -378,10 +379,10 @@ static void many_threads_have_contexts(void **state)
 {
     (void)state;
     const unsigned before = count_settled_threads();
-    world w[2] = {make_world(7, 9000), make_world(8, 300)};
+    committed_scene w[2] = {make_world(7, 9000), make_world(8, 300)};
     caller c[CALLERS] = {0};
     for (int i = 0; i < CALLERS; i++)
-        c[i] = (caller){.world = &w[i % 2], .rounds = test_scaled(10)};
+        c[i] = (caller){.committed_scene = &w[i % 2], .rounds = test_scaled(10)};
     run_callers(c);
     for (int i = 0; i < 2; i++)
         free_world(&w[i]);

@@ -32,13 +32,13 @@ typedef struct visit {
 } visit;
 
 typedef struct walk {
-    const cgt_world *world;
-    const cgt_wide_tree *tree;
-    const wide_node *node;
+    const cgt_committed_scene *committed_scene;
+    const cgt_bvh *tree;
+    const bvh_node *node;
     uint8_t *met;      /* objects */
     uint8_t *met_node; /* and nodes */
     visit *stack;
-    uint32_t waiting, nodes, blocks[2], objects, depth;
+    uint32_t waiting, nodes, blocks[2], prims, depth;
 } walk;
 
 /* ---- leaves ---- */
@@ -69,13 +69,13 @@ static bool triangle_within(const cgt_triangle *q, const float low[3], const flo
     return within;
 }
 
-static const char *check_sphere(const wide_spheres *b, uint32_t k, const cgt_sphere *q)
+static const char *check_sphere(const sphere_block *b, uint32_t k, const cgt_sphere *q)
 {
     const float got[4] = {b->center[0][k], b->center[1][k], b->center[2][k], b->radius[k]};
-    return memcmp(got, q, sizeof got) ? fault("sphere %u is not as the caller has it", b->object[k]) : NULL;
+    return memcmp(got, q, sizeof got) ? fault("sphere %u is not as the caller has it", b->prim[k]) : NULL;
 }
 
-static const char *check_triangle(const wide_triangles *b, uint32_t k, const cgt_triangle *q, float scale)
+static const char *check_triangle(const triangle_block *b, uint32_t k, const cgt_triangle *q, float scale)
 {
     bool same = true;
     for (int a = 0; a < 3; a++)
@@ -89,36 +89,36 @@ static const char *check_triangle(const wide_triangles *b, uint32_t k, const cgt
         }
         same &= b->sum[e][k] == sum;
     }
-    return same ? NULL : fault("triangle %u is not as it should be", b->object[k]);
+    return same ? NULL : fault("triangle %u is not as it should be", b->prim[k]);
 }
 
 static const char *check_leaf(walk *w, uint32_t code, const float low[3], const float high[3])
 {
-    const cgt_kind kind = code & CGT_WIDE_TRIANGLES ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES;
-    const uint32_t number = code & CGT_WIDE_INDEX, count = wide_leaf_count(code);
+    const cgt_kind kind = code & CGT_BVH_TRIANGLE_LEAF ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES;
+    const uint32_t number = code & CGT_BVH_INDEX_MASK, count = bvh_leaf_count(code);
     const uint32_t blocks = kind == CGT_KIND_SPHERES ? w->tree->sphere_blocks : w->tree->triangle_blocks;
-    const wide_spheres *spheres = (const wide_spheres *)w->tree->sphere + number;
-    const wide_triangles *triangles = (const wide_triangles *)w->tree->triangle + number;
+    const sphere_block *spheres = (const sphere_block *)w->tree->sphere + number;
+    const triangle_block *triangles = (const triangle_block *)w->tree->triangle + number;
     if (number >= blocks || count > CGT_LANES)
         return fault("leaf %08x: number or count", code);
-    const uint32_t *object = kind == CGT_KIND_SPHERES ? spheres->object : triangles->object;
+    const uint32_t *prim = kind == CGT_KIND_SPHERES ? spheres->prim : triangles->prim;
     w->blocks[kind]++;
-    w->objects += count;
+    w->prims += count;
     for (uint32_t k = 0; k < CGT_LANES; k++) {
-        if (object[k] >= w->world->objects.count)
-            return fault("leaf %08x: object %u", code, object[k]);
-        if (k < count ? w->met[object[k]]++ : object[k] != object[count - 1])
-            return fault("object %u lies in two places", object[k]);
-        if (k && object[k] == object[k - 1])
+        if (prim[k] >= w->committed_scene->prims.count)
+            return fault("leaf %08x: object %u", code, prim[k]);
+        if (k < count ? w->met[prim[k]]++ : prim[k] != prim[count - 1])
+            return fault("object %u lies in two places", prim[k]);
+        if (k && prim[k] == prim[k - 1])
             continue;
-        const cgt_shape q = cgt_objects_shape(&w->world->objects, object[k]);
-        if (q.kind != kind || cgt_shape_check(&q) != CGT_OBJECT_VALID)
-            return fault("object %u is of the other kind, or not valid", object[k]);
+        const cgt_primitive q = cgt_primitives_get(&w->committed_scene->prims, prim[k]);
+        if (q.kind != kind || cgt_primitive_check(&q) != CGT_PRIMITIVE_VALID)
+            return fault("object %u is of the other kind, or not valid", prim[k]);
         const bool sphere = kind == CGT_KIND_SPHERES;
         if (sphere ? !sphere_within(&q.sphere, low, high) : !triangle_within(&q.triangle, low, high))
-            return fault("object %u is not within its leaf", object[k]);
-        const char *wrong =
-            sphere ? check_sphere(spheres, k, &q.sphere) : check_triangle(triangles, k, &q.triangle, w->world->scale);
+            return fault("object %u is not within its leaf", prim[k]);
+        const char *wrong = sphere ? check_sphere(spheres, k, &q.sphere)
+                                   : check_triangle(triangles, k, &q.triangle, w->committed_scene->scale);
         if (wrong)
             return wrong;
     }
@@ -127,7 +127,7 @@ static const char *check_leaf(walk *w, uint32_t code, const float low[3], const 
 
 /* ---- nodes ---- */
 
-static double along(const wide_node *n, uint32_t child, uint32_t octant)
+static double along(const bvh_node *n, uint32_t child, uint32_t octant)
 {
     double sum = 0;
     for (uint32_t a = 0; a < 3; a++) {
@@ -138,7 +138,7 @@ static double along(const wide_node *n, uint32_t child, uint32_t octant)
 }
 
 /* Sums were rounded. */
-static const char *check_order(const wide_node *n, uint32_t number, uint32_t octant)
+static const char *check_order(const bvh_node *n, uint32_t number, uint32_t octant)
 {
     const uint8_t *order = n->order[octant];
     double size = 0;
@@ -159,10 +159,10 @@ static const char *check_order(const wide_node *n, uint32_t number, uint32_t oct
 
 static const char *check_children(walk *w, const visit *v)
 {
-    const wide_node *n = &w->node[v->node];
+    const bvh_node *n = &w->node[v->node];
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         visit child = {.node = n->child[k], .depth = v->depth + 1};
-        bool within = true, empty = n->child[k] == CGT_WIDE_NONE;
+        bool within = true, empty = n->child[k] == CGT_BVH_NO_CHILD;
         for (int a = 0; a < 3; a++) {
             child.low[a] = n->low[a][k];
             child.high[a] = n->high[a][k];
@@ -174,7 +174,7 @@ static const char *check_children(walk *w, const visit *v)
         if (k >= n->children)
             continue;
         const char *wrong = NULL;
-        if (child.node & CGT_WIDE_LEAF)
+        if (child.node & CGT_BVH_LEAF)
             wrong = check_leaf(w, child.node, child.low, child.high);
         else if (child.node >= w->tree->nodes || w->met_node[child.node]++)
             wrong = fault("node %u: child %u has number %u", v->node, k, child.node);
@@ -188,7 +188,7 @@ static const char *check_children(walk *w, const visit *v)
 
 static const char *check_node(walk *w, const visit *v)
 {
-    const wide_node *n = &w->node[v->node];
+    const bvh_node *n = &w->node[v->node];
     const char *wrong = NULL;
     w->nodes++;
     w->depth = v->depth > w->depth ? v->depth : w->depth;
@@ -201,25 +201,25 @@ static const char *check_node(walk *w, const visit *v)
 
 static const char *check_counts(const walk *w)
 {
-    const cgt_wide_tree *t = w->tree;
+    const cgt_bvh *t = w->tree;
     if (w->nodes != t->nodes || w->blocks[0] != t->sphere_blocks || w->blocks[1] != t->triangle_blocks)
         return fault("%u nodes, %u and %u blocks of %u, %u and %u", w->nodes, w->blocks[0], w->blocks[1], t->nodes,
                      t->sphere_blocks, t->triangle_blocks);
-    if (w->objects != w->world->valid)
-        return fault("%u objects of %u", w->objects, w->world->valid);
-    if (w->depth != t->depth || t->depth > CGT_WIDE_MAX_DEPTH)
+    if (w->prims != w->committed_scene->valid)
+        return fault("%u objects of %u", w->prims, w->committed_scene->valid);
+    if (w->depth != t->depth || t->depth > CGT_BVH_MAX_DEPTH)
         return fault("depth %u, it says %u", w->depth, t->depth);
     return NULL;
 }
 
-const char *wide_check(const cgt_world *world)
+const char *wide_check(const cgt_committed_scene *committed_scene)
 {
-    const cgt_wide_tree *t = &world->wide;
-    walk w = {.world = world, .tree = t, .node = t->node};
+    const cgt_bvh *t = &committed_scene->bvh;
+    walk w = {.committed_scene = committed_scene, .tree = t, .node = t->node};
     const char *wrong = NULL;
     if (!t->node)
-        return world->valid && !world->everything ? fault("there is none") : NULL;
-    w.met = calloc((size_t)world->objects.count + 1, 1);
+        return committed_scene->valid && !committed_scene->brute_force ? fault("there is none") : NULL;
+    w.met = calloc((size_t)committed_scene->prims.count + 1, 1);
     w.met_node = calloc((size_t)t->nodes + 1, 1);
     w.stack = malloc(((size_t)t->nodes + 1) * sizeof *w.stack);
     if (!w.met || !w.met_node || !w.stack)
@@ -241,14 +241,14 @@ const char *wide_check(const cgt_world *world)
     return wrong ? wrong : check_counts(&w);
 }
 
-bool wide_equal(const cgt_wide_tree *a, const cgt_wide_tree *b)
+bool wide_equal(const cgt_bvh *a, const cgt_bvh *b)
 {
-    const wide_node *n = a->node, *m = b->node;
+    const bvh_node *n = a->node, *m = b->node;
     bool same = a->nodes == b->nodes && a->sphere_blocks == b->sphere_blocks &&
                 a->triangle_blocks == b->triangle_blocks && a->depth == b->depth &&
                 !memcmp(a->low, b->low, sizeof a->low) && !memcmp(a->high, b->high, sizeof a->high);
     for (uint32_t i = 0; same && i < a->nodes; i++) /* without what pads a node */
-        same = !memcmp(&n[i], &m[i], offsetof(wide_node, unused) + sizeof n[i].unused);
-    return same && (!a->sphere_blocks || !memcmp(a->sphere, b->sphere, a->sphere_blocks * sizeof(wide_spheres))) &&
-           (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(wide_triangles)));
+        same = !memcmp(&n[i], &m[i], offsetof(bvh_node, unused) + sizeof n[i].unused);
+    return same && (!a->sphere_blocks || !memcmp(a->sphere, b->sphere, a->sphere_blocks * sizeof(sphere_block))) &&
+           (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(triangle_block)));
 }

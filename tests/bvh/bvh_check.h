@@ -14,10 +14,10 @@
  *   leaves     counts in range, one kind; lanes beyond repeat the last object; numbers are those of the objects, of
  *              triangles those that a commit works out (leaf_triangle.h)
  *   objects    each valid one in one block, no other
- *   counts     nodes, blocks, depth; the depth within CGT_WIDE_MAX_DEPTH */
-const char *wide_check(const cgt_world *world);
+ *   counts     nodes, blocks, depth; the depth within CGT_BVH_MAX_DEPTH */
+const char *wide_check(const cgt_committed_scene *committed_scene);
 
 /* Whether two trees have the same bits. */
-bool wide_equal(const cgt_wide_tree *a, const cgt_wide_tree *b);
+bool wide_equal(const cgt_bvh *a, const cgt_bvh *b);
 
 #endif

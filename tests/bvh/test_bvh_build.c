@@ -20,14 +20,15 @@ static cgt_context *contexts[2]; /* of one thread, and of two */
 
 static void check_tree(const cgt_scene *scene, const char *what)
 {
-    const char *wrong = wide_check(&scene->world);
+    const char *wrong = wide_check(&scene->committed_scene);
     cgt_scene_statistics st;
     if (wrong)
         fail_msg("%s: %s", what, wrong);
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-    assert_int_equal(st.bvh_nodes, scene->world.wide.nodes);
-    assert_int_equal(st.bvh_leaves, scene->world.wide.sphere_blocks + scene->world.wide.triangle_blocks);
-    assert_int_equal(st.bvh_depth, scene->world.wide.depth);
+    assert_int_equal(st.bvh_nodes, scene->committed_scene.bvh.nodes);
+    assert_int_equal(st.bvh_leaves,
+                     scene->committed_scene.bvh.sphere_blocks + scene->committed_scene.bvh.triangle_blocks);
+    assert_int_equal(st.bvh_depth, scene->committed_scene.bvh.depth);
     assert_true(st.bytes >= st.bvh_bytes && !st.bvh_bytes == !st.bvh_nodes);
 }
 
@@ -62,9 +63,9 @@ static void check_scene(const loose_scene *s, const char *what)
         scene[k] = loose_add(s, contexts[k % 2], k < 2 ? &asked : &automatic);
         assert_int_equal(cgt_scene_commit(scene[k]), CGT_OK);
         if (k >= 2)
-            assert_int_equal(want(scene[k], scene[k]->world.valid / 8 + 1), CGT_OK);
+            assert_int_equal(want(scene[k], scene[k]->committed_scene.valid / 8 + 1), CGT_OK);
         check_tree(scene[k], what);
-        if (!wide_equal(&scene[0]->world.wide, &scene[k]->world.wide))
+        if (!wide_equal(&scene[0]->committed_scene.bvh, &scene[k]->committed_scene.bvh))
             fail_msg("%s: tree %d differs", what, k);
     }
     for (int k = 0; k < 4; k++)
@@ -195,7 +196,7 @@ static void test_nothing(void **state)
     (void)state;
     for (uint32_t count = 0; count < 2; count++) {
         cgt_scene *scene = scene_of(contexts[0], &o, nowhere, count);
-        assert_null(scene->world.wide.node);
+        assert_null(scene->committed_scene.bvh.node);
         assert_int_equal(want(scene, 10), CGT_OK);
         cgt_scene_release(scene);
     }
@@ -213,15 +214,15 @@ static void test_threshold(void **state)
     (void)state;
     for (int round = 0; round < 2; round++) {
         assert_int_equal(want(scene, 150), CGT_OK);
-        assert_null(scene->world.wide.node);
+        assert_null(scene->committed_scene.bvh.node);
         assert_int_equal(want(scene, 150), CGT_OK);
-        assert_non_null(scene->world.wide.node);
+        assert_non_null(scene->committed_scene.bvh.node);
         check_tree(scene, "threshold");
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        assert_null(scene->world.wide.node);
+        assert_null(scene->committed_scene.bvh.node);
     }
     assert_int_equal(want(asked, 20000), CGT_OK);
-    assert_null(asked->world.wide.node);
+    assert_null(asked->committed_scene.bvh.node);
     cgt_scene_release(asked);
     cgt_scene_release(scene);
     cloud_free(&c);
@@ -251,7 +252,7 @@ static void test_several_threads(void **state)
             assert_int_equal(pthread_join(thread[i], &failed), 0);
             assert_null(failed);
         }
-        assert_non_null(scene->world.wide.node);
+        assert_non_null(scene->committed_scene.bvh.node);
         check_tree(scene, "several threads");
         cgt_scene_release(scene);
         cloud_free(&c);
@@ -302,14 +303,14 @@ static bool build_failing(const loose_scene *s, const cgt_scene_options *o, size
     if (lazy)
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     m.fail_at = m.calls + fail;
-    cgt_result result = lazy ? want(scene, scene->world.valid) : cgt_scene_commit(scene);
+    cgt_result result = lazy ? want(scene, scene->committed_scene.valid) : cgt_scene_commit(scene);
     const bool failed = result != CGT_OK;
     if (failed) {
         assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
         assert_true(cgt_context_get_error_message(context, NULL, 0) > 0);
-        assert_true(!lazy || (!scene->world.wide.node && scene->committed));
+        assert_true(!lazy || (!scene->committed_scene.bvh.node && scene->is_committed));
         m.fail_at = 0;
-        result = lazy ? want(scene, scene->world.valid) : cgt_scene_commit(scene);
+        result = lazy ? want(scene, scene->committed_scene.valid) : cgt_scene_commit(scene);
     }
     assert_int_equal(result, CGT_OK);
     check_tree(scene, "memory");

@@ -17,13 +17,13 @@
 static uint32_t arena_used = 16384, flight_stack = 64;
 static float fly_least, fly_apart, fly_most; /* when the rays of a call go in flight */
 static float slack_scale = 1, filter_u = 0x1p-24f;
-#define FILTER_U filter_u
-#define FLIGHT_STACK_USED flight_stack
+#define FILTER_ROUNDOFF filter_u
+#define INTERLEAVED_STACK_USED flight_stack
 #define STREAM_ARENA_USED arena_used
-#define STREAM_FLY_LEAST fly_least
-#define STREAM_FLY_APART fly_apart
-#define STREAM_FLY_MOST fly_most
-#define WIDE_SLACK slack_scale
+#define INTERLEAVE_MIN_RAYS fly_least
+#define INTERLEAVE_SPREAD_RAYS fly_apart
+#define INTERLEAVE_MAX_RAYS fly_most
+#define BVH_ERROR_SCALE slack_scale
 #include "kernel/stream/stream_trace.c"
 
 /* With an emulator or sanitizers. */
@@ -181,7 +181,7 @@ static bool ray_counts(const truth_ray *q)
 
 static found find_truth(const subject *s, const given_ray *g)
 {
-    const cgt_objects *objects = &s->scene->world.objects;
+    const cgt_primitives *prims = &s->scene->committed_scene.prims;
     found f = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
     cgt_counts counts = {0};
     cgt_ray ray = {.t_min = g->ray.t_min < -FLT_MAX ? -FLT_MAX : g->ray.t_min, .t_max = g->ray.t_max};
@@ -191,13 +191,13 @@ static found find_truth(const subject *s, const given_ray *g)
     memcpy(ray.line.dir, g->ray.dir, sizeof g->ray.dir);
     if (!ray_counts(&g->ray))
         return f;
-    for (uint32_t i = 0; i < objects->count; i++) {
-        const cgt_object_array *a = cgt_objects_array(objects, i);
-        const cgt_shape shape = cgt_objects_shape(objects, i);
-        if (cgt_shape_check(&shape) != CGT_OBJECT_VALID ||
+    for (uint32_t i = 0; i < prims->count; i++) {
+        const cgt_primitive_array *a = cgt_primitives_array(prims, i);
+        const cgt_primitive shape = cgt_primitives_get(prims, i);
+        if (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID ||
             (s->ignores && g->geometry == a->geometry && g->primitive == i - a->first))
             continue;
-        if (!filter_beats(objects, &ray, winner, i, &t, &counts))
+        if (!filter_is_closer(prims, &ray, winner, i, &t, &counts))
             continue;
         winner = i;
         f = (found){(float)t, i - a->first, a->geometry};
@@ -207,7 +207,7 @@ static found find_truth(const subject *s, const given_ray *g)
 
 static void make_rays(test_random *r, subject *s, uint32_t count)
 {
-    const uint32_t arrays = s->scene->world.objects.arrays;
+    const uint32_t arrays = s->scene->committed_scene.prims.arrays;
     for (uint32_t i = 0; i < count; i++) {
         given_ray *g = &given[i];
         *g = (given_ray){.ray = i % 2 ? hard_ray(r, s) : ray_random(r, &s->spheres)};
@@ -256,7 +256,7 @@ static uint64_t wrong_answers(const subject *s, uint32_t count, bool tell)
                           i, (double)hit[i].t, hit[i].primitive, hit[i].geometry, occluded[i], (double)truth[i].t,
                           truth[i].primitive, truth[i].geometry, (double)q->org[0], (double)q->org[1],
                           (double)q->org[2], (double)q->dir[0], (double)q->dir[1], (double)q->dir[2], (double)q->t_min,
-                          (double)q->t_max, (double)s->scene->world.scale);
+                          (double)q->t_max, (double)s->scene->committed_scene.scale);
         wrong += !tell;
     }
     return wrong;
@@ -283,8 +283,8 @@ static void let_fly(bool all)
 
 static void check(subject *s, uint32_t count)
 {
-    static const uint32_t least = CGT_WIDE_MAX_DEPTH * STREAM_LEAST, arenas[] = {CGT_WIDE_STREAM_ARENA, least},
-                          stacks[] = {FLIGHT_STACK, 1};
+    static const uint32_t least = CGT_BVH_MAX_DEPTH * STREAM_MIN_WORDS, arenas[] = {CGT_STREAM_ARENA, least},
+                          stacks[] = {INTERLEAVED_STACK, 1};
     for (int ignores = 0; ignores < 2; ignores++) {
         s->ignores = ignores;
         for (uint32_t i = 0; i < count; i++)
@@ -298,8 +298,8 @@ static void check(subject *s, uint32_t count)
                 trace(s, &rays, 0, NULL);
                 assert_int_equal(wrong_answers(s, count, true), 0);
             }
-        arena_used = CGT_WIDE_STREAM_ARENA;
-        flight_stack = FLIGHT_STACK;
+        arena_used = CGT_STREAM_ARENA;
+        flight_stack = INTERLEAVED_STACK;
     }
 }
 

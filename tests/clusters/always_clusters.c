@@ -5,7 +5,7 @@
  * are, and wherever they lie. */
 #include "model/triangle_cluster.h"
 
-cgt_cluster_use cgt_choose_clusters(const cgt_objects *objects)
+cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims)
 {
-    return objects->spheres ? CGT_CLUSTERS_NONE : CGT_CLUSTERS_ALL;
+    return prims->spheres ? CGT_CLUSTERS_NONE : CGT_CLUSTERS_ALL;
 }

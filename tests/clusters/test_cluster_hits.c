@@ -61,7 +61,7 @@ typedef struct questions {
     uint32_t rays, sample;
     truth_ray ray[RAYS];
     float point[3][PIXELS];
-    uint32_t ignored[2][PIXELS]; /* the triangle that the point is on, and its geometry */
+    uint32_t skip_prim[2][PIXELS]; /* the triangle that the point is on, and its geometry */
 } questions;
 
 typedef struct answers {
@@ -117,8 +117,8 @@ static void ask_points(questions *q, const cgt_scene *scene)
         const bool hit = p.primitive[i] != CGT_INVALID_ID;
         for (int a = 0; a < 3; a++)
             q->point[a][i] = ray[i].org[a] + (hit ? p.t[i] : 4) * ray[i].dir[a];
-        q->ignored[0][i] = p.primitive[i];
-        q->ignored[1][i] = p.geometry[i];
+        q->skip_prim[0][i] = p.primitive[i];
+        q->skip_prim[1][i] = p.geometry[i];
     }
     free(ray);
     planes_free(&p);
@@ -127,7 +127,8 @@ static void ask_points(questions *q, const cgt_scene *scene)
 /* Frames: by tiles where the scene has a grid; by packets where a view does not show all, with each culling in turn. */
 static void trace_frames(const cgt_scene *scene, const questions *q, uint32_t turn, answers *a)
 {
-    const bool grid = scene->world.loose.levels > 0, several = scene->world.objects.arrays > HIDDEN_PART;
+    const bool grid = scene->committed_scene.loose.levels > 0,
+               several = scene->committed_scene.prims.arrays > HIDDEN_PART;
     for (uint32_t i = 0; i < VIEWS; i++) {
         if (!is_asked(q, i))
             continue;
@@ -153,8 +154,8 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
 {
     const cgt_points points = {.count = PIXELS,
                                .position = {q->point[0], q->point[1], q->point[2]},
-                               .skip_primitive = q->ignored[0],
-                               .skip_geometry = q->ignored[1]};
+                               .skip_primitive = q->skip_prim[0],
+                               .skip_geometry = q->skip_prim[1]};
     for (uint32_t i = 0; i < LIGHTS; i++) {
         if (!is_asked(q, i))
             continue;
@@ -164,7 +165,7 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
         o.statistics = &st;
         assert_int_equal(cgt_occluded_points(scene, &lights[i], &points, a->shadow[i], &o), CGT_OK);
         assert_true(st.hits > PIXELS / 20 && st.hits < PIXELS);
-        assert_int_equal(st.tiles > 0, scene->world.loose.levels > 0);
+        assert_int_equal(st.tiles > 0, scene->committed_scene.loose.levels > 0);
     }
 }
 
@@ -172,7 +173,7 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
 static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t first, uint32_t count, uint32_t each,
                            answers *a)
 {
-    uint64_t wide = 0;
+    uint64_t bvh = 0;
     memset(a->hit + first, 0x77, count * sizeof a->hit[0]);
     memset(a->occluded + first, 0x77, count);
     for (uint32_t i = first; i < first + count; i += each) {
@@ -184,11 +185,11 @@ static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t 
         o.statistics = &st;
         o.cull = (cgt_cull)(i / each % 3);
         assert_int_equal(trace_array(scene, q->ray + i, some, a->hit + i, &o), CGT_OK);
-        wide += st.bvh_rays;
+        bvh += st.bvh_rays;
         assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded + i, &o), CGT_OK);
-        wide += st.bvh_rays;
+        bvh += st.bvh_rays;
     }
-    return wide;
+    return bvh;
 }
 
 static void compare_answers(const answers *got, const answers *want, const questions *q, const char *what)
@@ -237,7 +238,7 @@ static answers *ask_kd(cgt_context *context, questions *q, const mesh *m, test_r
 static void check_grid(cgt_context *context, const questions *q, const mesh *m, uint32_t turn, const answers *want)
 {
     cgt_scene *scene = committed(context, &loose_grid, m);
-    assert_non_null(scene->world.cluster);
+    assert_non_null(scene->committed_scene.cluster);
     answers *got = answers_make();
     trace_frames(scene, q, turn, got);
     trace_lights(scene, q, got);
@@ -253,7 +254,7 @@ static void check_grid(cgt_context *context, const questions *q, const mesh *m, 
 static void check_automatic(const cgt_scene *scene, const questions *q, const answers *want)
 {
     answers *got = answers_make();
-    assert_true(scene->world.cluster && !scene->world.wide.node);
+    assert_true(scene->committed_scene.cluster && !scene->committed_scene.bvh.node);
     assert_int_equal(trace_some(scene, q, 0, FEW / 2, 1, got), 0);
     assert_int_equal(trace_some(scene, q, FEW / 2, FEW / 2, BUNDLE, got), 0);
     assert_int_equal(trace_some(scene, q, FEW, q->rays - FEW, q->rays - FEW, got), 2 * (q->rays - FEW));
@@ -333,7 +334,7 @@ static void move(bool loosened)
             mesh_spoil(&m);
         mesh_store(&m);
         commit(scene);
-        assert_int_equal(scene->world.tree_of_clusters, !loosened);
+        assert_int_equal(scene->committed_scene.bvh_of_clusters, !loosened);
         assert_true(!step || allocations == before);
         answers *want = ask_kd(other, q, &m, &r, step);
         check_automatic(scene, q, want);
@@ -375,7 +376,7 @@ static void trees_move_in_their_memory(void **state)
         mesh_store(&m);
         ask_rays(q, &m, &r);
         commit(scene);
-        assert_true(scene->world.cluster && scene->world.wide.node);
+        assert_true(scene->committed_scene.cluster && scene->committed_scene.bvh.node);
         assert_true(!step || allocations == before);
         before = allocations;
         cgt_scene *kd = committed(other, &kd_tree, &m);

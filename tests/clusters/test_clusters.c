@@ -18,17 +18,17 @@ static cgt_scene_statistics statistics_of(const cgt_scene *scene)
 }
 
 /* The valid triangles of cluster c as bits, one after the other. */
-static uint32_t valid_of(const cgt_objects *o, uint32_t c)
+static uint32_t valid_of(const cgt_primitives *o, uint32_t c)
 {
     uint32_t valid = 0;
     for (uint32_t k = 0; k < CGT_CLUSTER && c * CGT_CLUSTER + k < o->count; k++) {
-        const cgt_triangle q = cgt_objects_triangle(o, c * CGT_CLUSTER + k);
-        valid |= (uint32_t)(cgt_triangle_check(&q) == CGT_OBJECT_VALID) << k;
+        const cgt_triangle q = cgt_primitives_triangle(o, c * CGT_CLUSTER + k);
+        valid |= (uint32_t)(cgt_triangle_check(&q) == CGT_PRIMITIVE_VALID) << k;
     }
     return valid;
 }
 
-static uint32_t count_used(const cgt_objects *o)
+static uint32_t count_used(const cgt_primitives *o)
 {
     uint32_t used = 0;
     for (uint32_t c = 0; c < cgt_clusters(o->count); c++)
@@ -41,10 +41,10 @@ static uint32_t count_used(const cgt_objects *o)
 static cgt_cluster_use use_of(cgt_context *context, const cgt_scene_options *options, const mesh *m)
 {
     cgt_scene *scene = committed(context, options, m);
-    const cgt_world *w = &scene->world;
-    const cgt_cluster_use use = !w->cluster           ? CGT_CLUSTERS_NONE
-                                : w->tree_of_clusters ? CGT_CLUSTERS_ALL
-                                                      : CGT_CLUSTERS_GRID;
+    const cgt_committed_scene *w = &scene->committed_scene;
+    const cgt_cluster_use use = !w->cluster          ? CGT_CLUSTERS_NONE
+                                : w->bvh_of_clusters ? CGT_CLUSTERS_ALL
+                                                     : CGT_CLUSTERS_GRID;
     cgt_scene_release(scene);
     return use;
 }
@@ -66,8 +66,8 @@ static void neighbours_do(void **state)
         mesh_store(&m);
         cgt_scene *scene = committed(context, &automatic, &m);
         const cgt_scene_statistics st = statistics_of(scene);
-        const uint32_t used = count_used(&scene->world.objects);
-        assert_non_null(scene->world.cluster);
+        const uint32_t used = count_used(&scene->committed_scene.prims);
+        assert_non_null(scene->committed_scene.cluster);
         assert_int_equal(st.references, used);
         assert_int_equal(used == LEAST / CGT_CLUSTER, !spoiled);
         assert_int_equal(st.skipped_not_finite > 0 && st.skipped_degenerate > 0, spoiled);
@@ -128,23 +128,23 @@ static void each_commit_decides(void **state)
     uint32_t id;
     mesh_store(&m);
     cgt_scene *scene = committed(context, &automatic, &m);
-    assert_non_null(scene->world.cluster);
+    assert_non_null(scene->committed_scene.cluster);
     mesh_shuffle(&m, &r);
     mesh_store(&m);
     commit(scene);
-    assert_null(scene->world.cluster);
+    assert_null(scene->committed_scene.cluster);
     assert_int_equal(statistics_of(scene).references, LEAST + 5);
     assert_null(strstr(statistics_of(scene).reason, "runs of 8"));
     mesh_place(&m, 0.5);
     mesh_store(&m);
     commit(scene);
-    assert_non_null(scene->world.cluster);
+    assert_non_null(scene->committed_scene.cluster);
     assert_int_equal(cgt_scene_add_spheres(scene, &sphere, &id), CGT_OK);
     commit(scene);
-    assert_null(scene->world.cluster);
+    assert_null(scene->committed_scene.cluster);
     assert_int_equal(cgt_scene_update_spheres(scene, id, &none), CGT_OK);
     commit(scene);
-    assert_non_null(scene->world.cluster);
+    assert_non_null(scene->committed_scene.cluster);
     cgt_scene_release(scene);
     mesh_free(&m);
     cgt_context_release(context);
@@ -170,7 +170,7 @@ static void an_index_out_of_range_is_told(void **state)
         assert_non_null(strstr(context_message(context), text));
         *index = before;
         commit(scene);
-        assert_non_null(scene->world.cluster);
+        assert_non_null(scene->committed_scene.cluster);
     }
     cgt_scene_release(scene);
     mesh_free(&m);
@@ -179,7 +179,7 @@ static void an_index_out_of_range_is_told(void **state)
 /* ---- boxes ---- */
 
 /* Every number is a difference of floats, which double holds but for what rounding of the box itself is above. */
-static void check_box(const cgt_objects *o, const cgt_cluster *box, uint32_t c)
+static void check_box(const cgt_primitives *o, const cgt_cluster *box, uint32_t c)
 {
     const uint32_t valid = valid_of(o, c);
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -187,7 +187,7 @@ static void check_box(const cgt_objects *o, const cgt_cluster *box, uint32_t c)
     for (uint32_t k = 0; k < CGT_CLUSTER; k++) {
         if (!(valid >> k & 1))
             continue;
-        const cgt_triangle q = cgt_objects_triangle(o, c * CGT_CLUSTER + k);
+        const cgt_triangle q = cgt_primitives_triangle(o, c * CGT_CLUSTER + k);
         for (int i = 0; i < 9; i++) {
             const int a = i % 3;
             const double at = (double)q.v[i / 3][a];
@@ -217,10 +217,10 @@ static void boxes_hold_what_is_valid(void **state)
         mesh_spoil(&m);
         mesh_store(&m);
         cgt_scene *scene = committed(context, &automatic, &m);
-        const cgt_world *w = &scene->world;
+        const cgt_committed_scene *w = &scene->committed_scene;
         assert_non_null(w->cluster);
-        for (uint32_t c = 0; c < cgt_clusters(w->objects.count); c++) {
-            check_box(&w->objects, &w->cluster[c], c);
+        for (uint32_t c = 0; c < cgt_clusters(w->prims.count); c++) {
+            check_box(&w->prims, &w->cluster[c], c);
             empty += !w->cluster[c].valid;
         }
         assert_true(empty > 20);
@@ -245,7 +245,7 @@ static bool within_reach(const cgt_loose_level *l, const uint32_t cell[3], const
 }
 
 /* Returns how many clusters the level holds. */
-static uint32_t check_level(const cgt_world *w, const cgt_loose_level *l, uint8_t *seen)
+static uint32_t check_level(const cgt_committed_scene *w, const cgt_loose_level *l, uint8_t *seen)
 {
     const cgt_loose_grid *g = &w->loose;
     const uint32_t cells = l->size[0] * l->size[1] * l->size[2], *start = g->start + l->first;
@@ -253,16 +253,16 @@ static uint32_t check_level(const cgt_world *w, const cgt_loose_level *l, uint8_
         const uint32_t row = k / l->size[0], cell[3] = {k % l->size[0], row % l->size[1], row / l->size[1]};
         assert_true(start[k] <= start[k + 1]);
         for (uint32_t i = start[k]; i < start[k + 1]; i++) {
-            const uint32_t c = g->object[i];
-            assert_true(c < cgt_clusters(w->objects.count));
-            assert_true(i == start[k] || c > g->object[i - 1]);
+            const uint32_t c = g->prim[i];
+            assert_true(c < cgt_clusters(w->prims.count));
+            assert_true(i == start[k] || c > g->prim[i - 1]);
             assert_int_equal(seen[c]++, 0);
             if (!within_reach(l, cell, &w->cluster[c]))
                 fail_msg("cluster %u is out of reach of cell %u %u %u", c, cell[0], cell[1], cell[2]);
         }
     }
-    assert_int_equal(start[cells] - start[0], l->objects);
-    return l->objects;
+    assert_int_equal(start[cells] - start[0], l->prims);
+    return l->prims;
 }
 
 static void each_is_in_one_cell(void **state)
@@ -275,8 +275,8 @@ static void each_is_in_one_cell(void **state)
         mesh_spoil(&m);
         mesh_store(&m);
         cgt_scene *scene = committed(context, &automatic, &m);
-        const cgt_world *w = &scene->world;
-        const uint32_t clusters = cgt_clusters(w->objects.count);
+        const cgt_committed_scene *w = &scene->committed_scene;
+        const uint32_t clusters = cgt_clusters(w->prims.count);
         uint8_t *seen = calloc(clusters, 1);
         uint32_t held = 0;
         assert_true(seen && w->cluster && w->loose.levels > 1);
@@ -284,7 +284,7 @@ static void each_is_in_one_cell(void **state)
             held += check_level(w, &w->loose.level[k], seen);
         assert_int_equal(w->loose.start[w->loose.cells], held);
         for (uint32_t c = 0; c < clusters; c++)
-            assert_int_equal(seen[c], valid_of(&w->objects, c) != 0);
+            assert_int_equal(seen[c], valid_of(&w->prims, c) != 0);
         free(seen);
         cgt_scene_release(scene);
         mesh_free(&m);
@@ -294,16 +294,16 @@ static void each_is_in_one_cell(void **state)
 
 /* ---- everywhere the same ---- */
 
-static void compare_worlds(const cgt_world *a, const cgt_world *b)
+static void compare_worlds(const cgt_committed_scene *a, const cgt_committed_scene *b)
 {
     const cgt_loose_grid *g = &a->loose, *h = &b->loose;
     assert_true(a->cluster && b->cluster);
     assert_int_equal(g->levels, h->levels);
     assert_int_equal(g->cells, h->cells);
-    assert_memory_equal(a->cluster, b->cluster, cgt_clusters(a->objects.count) * sizeof *a->cluster);
+    assert_memory_equal(a->cluster, b->cluster, cgt_clusters(a->prims.count) * sizeof *a->cluster);
     assert_memory_equal(g->level, h->level, g->levels * sizeof g->level[0]);
     assert_memory_equal(g->start, h->start, (g->cells + 1) * sizeof g->start[0]);
-    assert_memory_equal(g->object, h->object, g->start[g->cells] * sizeof g->object[0]);
+    assert_memory_equal(g->prim, h->prim, g->start[g->cells] * sizeof g->prim[0]);
 }
 
 static void variants_and_threads_change_nothing(void **state)
@@ -323,7 +323,7 @@ static void variants_and_threads_change_nothing(void **state)
         for (size_t k = 0; k < TEST_COUNT(threads); k++) {
             cgt_context *context = context_make(threads[k], variant);
             cgt_scene *got = committed(context, &automatic, &m);
-            compare_worlds(&got->world, &want->world);
+            compare_worlds(&got->committed_scene, &want->committed_scene);
             cgt_scene_release(got);
             cgt_context_release(context);
         }

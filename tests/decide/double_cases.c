@@ -88,9 +88,9 @@ void double_case_make(test_random *r, double_family f, bool sphere, oracle_primi
         scale_all(r, q, ray);
 }
 
-cgt_shape double_case_shape_of(const oracle_primitive *q)
+cgt_primitive double_case_shape_of(const oracle_primitive *q)
 {
-    cgt_shape shape = {.kind = q->kind == ORACLE_SPHERE ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES};
+    cgt_primitive shape = {.kind = q->kind == ORACLE_SPHERE ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES};
     if (q->kind == ORACLE_SPHERE)
         shape.sphere = (cgt_sphere){q->data[0], q->data[1], q->data[2], q->data[3]};
     else

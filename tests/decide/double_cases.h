@@ -29,7 +29,7 @@ truth_ray double_case_ray(test_random *r, double_family f, const oracle_primitiv
 void double_case_make(test_random *r, double_family f, bool sphere, oracle_primitive *q, truth_ray *ray);
 
 /* As the library takes them. */
-cgt_shape double_case_shape_of(const oracle_primitive *q);
+cgt_primitive double_case_shape_of(const oracle_primitive *q);
 cgt_ray double_case_ray_of(const truth_ray *ray);
 
 #endif

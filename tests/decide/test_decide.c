@@ -25,7 +25,7 @@ static bool judge_decision(const oracle_primitive *q, const truth_ray *ray, cgt_
 {
     const cgt_ray of = double_case_ray_of(ray);
     oracle_hit exact;
-    *hit = (cgt_decided_hit){.shape = double_case_shape_of(q)};
+    *hit = (cgt_decided_hit){.primitive = double_case_shape_of(q)};
     const bool is_hit = oracle_hits(q, ray, &exact), decided = cgt_decide_hit(&of, hit, &count->exact);
     if (decided != is_hit) { /* where t lies at the range's end and rounds either way, either answer is right */
         const oracle_scene scene = {.primitive = q, .count = 1};
@@ -112,7 +112,7 @@ static uint64_t expect_canonical(const cgt_scene *scene, const oracle_primitive 
                                  cgt_precision precision)
 {
     static full_hit hit[RAYS];
-    const cgt_shape shape = double_case_shape_of(q);
+    const cgt_primitive primitive = double_case_shape_of(q);
     cgt_trace_options options;
     uint64_t hits = 0;
     cgt_trace_options_init(&options);
@@ -120,15 +120,15 @@ static uint64_t expect_canonical(const cgt_scene *scene, const oracle_primitive 
     assert_int_equal(trace_array(scene, ray, RAYS, hit, &options), CGT_OK);
     for (int i = 0; i < RAYS; i++) {
         const cgt_ray of = double_case_ray_of(&ray[i]);
-        cgt_decided_hit decided = {.shape = shape};
+        cgt_decided_hit decided = {.primitive = primitive};
         uint64_t exact = 0;
         bool far;
         const bool is_hit = cgt_decide_hit(&of, &decided, &exact);
         assert_int_equal(hit[i].primitive, is_hit ? 0 : CGT_INVALID_ID);
         if (!is_hit)
             continue;
-        const double t = q->kind == ORACLE_SPHERE ? cgt_canonical_sphere_t(&of, shape.sphere, &far)
-                                                  : cgt_canonical_triangle_t(&of, &shape.triangle);
+        const double t = q->kind == ORACLE_SPHERE ? cgt_canonical_sphere_t(&of, primitive.sphere, &far)
+                                                  : cgt_canonical_triangle_t(&of, &primitive.triangle);
         assert_true(same_bits(hit[i].t, (float)t) || (t == 0 && hit[i].t == 0));
         hits++;
     }

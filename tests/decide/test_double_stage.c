@@ -65,7 +65,7 @@ static void expect_near(const char *what, const nearness *n, double least)
 static void judge_triangle(const oracle_primitive *q, const truth_ray *ray, nearness *sides, nearness *num,
                            nearness *den)
 {
-    const cgt_shape shape = double_case_shape_of(q);
+    const cgt_primitive shape = double_case_shape_of(q);
     const cgt_triangle *t = &shape.triangle;
     const cgt_triangle_sides s = cgt_triangle_double_sides(ray->org, ray->dir, t);
     const cgt_triangle_plane p = cgt_triangle_double_plane(ray->org, ray->dir, t);
@@ -171,7 +171,7 @@ static void safe_values_are(void **state)
             double_case_make(&r, (double_family)f, sphere, &q, &ray);
             if (!oracle_line_make(&ray, &line) || !oracle_roots(&line, &q, roots))
                 continue;
-            const cgt_shape shape = double_case_shape_of(&q);
+            const cgt_primitive shape = double_case_shape_of(&q);
             const cgt_sphere_terms e = cgt_sphere_double_terms(ray.org, ray.dir, shape.sphere);
             const cgt_triangle_plane p = cgt_triangle_double_plane(ray.org, ray.dir, &shape.triangle);
             const bool is_safe = sphere ? !cgt_sphere_double_unsafe(e, sqrt(e.disc)) : cgt_triangle_double_t_safe(&p);

@@ -11,8 +11,8 @@
 #define EXACT_TEXT_(x) #x
 #define EXACT_TEXT(x) EXACT_TEXT_(x)
 
-#define cgt_exact_line_meets_triangle EXACT_JOIN(EXACT_BUILD, line_meets_triangle)
-#define cgt_exact_line_meets_sphere EXACT_JOIN(EXACT_BUILD, line_meets_sphere)
+#define cgt_exact_line_hits_triangle EXACT_JOIN(EXACT_BUILD, line_meets_triangle)
+#define cgt_exact_line_hits_sphere EXACT_JOIN(EXACT_BUILD, line_meets_sphere)
 #define cgt_exact_compare EXACT_JOIN(EXACT_BUILD, compare)
 #define cgt_exact_t EXACT_JOIN(EXACT_BUILD, t)
 #define cgt_exact_uv EXACT_JOIN(EXACT_BUILD, uv)
@@ -33,8 +33,8 @@
 
 const exact_build EXACT_BUILD_STRUCT(EXACT_BUILD) = {
     .name = EXACT_TEXT(EXACT_BUILD),
-    .line_meets_triangle = cgt_exact_line_meets_triangle,
-    .line_meets_sphere = cgt_exact_line_meets_sphere,
+    .line_meets_triangle = cgt_exact_line_hits_triangle,
+    .line_meets_sphere = cgt_exact_line_hits_sphere,
     .compare = cgt_exact_compare,
     .t = cgt_exact_t,
     .uv = cgt_exact_uv,

@@ -14,10 +14,10 @@ const char *exact_family_name(exact_family family)
     return name[family];
 }
 
-bool exact_meets(const cgt_exact_ray *ray, const cgt_shape *shape)
+bool exact_meets(const cgt_exact_ray *ray, const cgt_primitive *shape)
 {
-    return shape->kind == CGT_KIND_SPHERES ? cgt_exact_line_meets_sphere(ray, shape->sphere)
-                                           : cgt_exact_line_meets_triangle(ray, &shape->triangle);
+    return shape->kind == CGT_KIND_SPHERES ? cgt_exact_line_hits_sphere(ray, shape->sphere)
+                                           : cgt_exact_line_hits_triangle(ray, &shape->triangle);
 }
 
 /* ---- Numbers ---- */
@@ -163,7 +163,7 @@ static void make_close(test_random *r, exact_case *c)
         c->shape[3].sphere.r = one_ulp_off(r, c->shape[3].sphere.r);
 }
 
-static void make_sphere(test_random *r, exact_family family, cgt_shape *shape)
+static void make_sphere(test_random *r, exact_family family, cgt_primitive *shape)
 {
     float f[4];
     shape->kind = CGT_KIND_SPHERES;

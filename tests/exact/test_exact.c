@@ -9,19 +9,19 @@
 
 #include "exact/exact_cases.h"
 
-static cgt_shape triangle_of(const float v[9])
+static cgt_primitive triangle_of(const float v[9])
 {
-    cgt_shape shape = {.kind = CGT_KIND_TRIANGLES};
+    cgt_primitive shape = {.kind = CGT_KIND_TRIANGLES};
     memcpy(&shape.triangle, v, sizeof shape.triangle);
     return shape;
 }
 
-static cgt_shape sphere_of(float x, float y, float z, float r)
+static cgt_primitive sphere_of(float x, float y, float z, float r)
 {
-    return (cgt_shape){.kind = CGT_KIND_SPHERES, .sphere = {x, y, z, r}};
+    return (cgt_primitive){.kind = CGT_KIND_SPHERES, .sphere = {x, y, z, r}};
 }
 
-static int compare(const cgt_exact_ray *ray, const cgt_shape *a, bool far_a, const cgt_shape *b, bool far_b)
+static int compare(const cgt_exact_ray *ray, const cgt_primitive *a, bool far_a, const cgt_primitive *b, bool far_b)
 {
     const cgt_exact_root p = {a, far_a}, q = {b, far_b};
     const int order = cgt_exact_compare(ray, &p, &q);
@@ -29,7 +29,7 @@ static int compare(const cgt_exact_ray *ray, const cgt_shape *a, bool far_a, con
     return order;
 }
 
-static double t_of(const cgt_exact_ray *ray, const cgt_shape *shape, bool far)
+static double t_of(const cgt_exact_ray *ray, const cgt_primitive *shape, bool far)
 {
     return cgt_exact_t(ray, &(cgt_exact_root){shape, far});
 }
@@ -43,7 +43,7 @@ static cgt_exact_ray upwards(float x, float y) { return (cgt_exact_ray){{x, y, -
 static void edges_and_vertices_belong(void **state)
 {
     (void)state;
-    const cgt_shape shape = triangle_of(corner);
+    const cgt_primitive shape = triangle_of(corner);
     static const float inside[][2] = {{0, 0},
                                       {4, 0},
                                       {0, 4},
@@ -75,7 +75,7 @@ static void edges_and_vertices_belong(void **state)
 static void parallel_lines_and_no_area(void **state)
 {
     (void)state;
-    const cgt_shape shape = triangle_of(corner);
+    const cgt_primitive shape = triangle_of(corner);
     static const float flat[][9] = {{0, 0, 1, 2, 0, 1, 4, 0, 1},  /* three on a line */
                                     {1, 1, 1, 1, 1, 1, 4, 0, 1},  /* two equal */
                                     {1, 1, 1, 1, 1, 1, 1, 1, 1}}; /* a point */
@@ -87,7 +87,7 @@ static void parallel_lines_and_no_area(void **state)
     const cgt_exact_ray within = {{1, 1, 1}, {1, 0, 0x1p-149f}};
     assert_true(exact_meets(&within, &shape) && t_of(&within, &shape, false) == 0);
     for (size_t i = 0; i < TEST_COUNT(flat); i++) {
-        const cgt_shape degenerate = triangle_of(flat[i]);
+        const cgt_primitive degenerate = triangle_of(flat[i]);
         const cgt_exact_ray through = upwards(1, i ? 1 : 0);
         double normal[3];
         assert_false(exact_meets(&through, &degenerate));
@@ -101,7 +101,7 @@ static void needles(void **state)
 {
     (void)state;
     const float long_edge[9] = {0, 0, 1, 0x1p20f, 0x1p20f, 1, 0x1p20f, 0x1.000002p20f, 1};
-    cgt_shape shape = triangle_of(long_edge);
+    cgt_primitive shape = triangle_of(long_edge);
     const float next = nextafterf(3, 4); /* 3 + 2^-22; the upper edge is at 3 + 1.5 2^-22 */
     const cgt_exact_ray ray = upwards(3, 3), inside = upwards(3, next), over = upwards(3, nextafterf(next, 4)),
                         under = upwards(3, nextafterf(3, 2));
@@ -134,8 +134,8 @@ static void tangents(void **state)
         const float *c = touch[i].centre;
         const float r = touch[i].r, smaller = nextafterf(r, 0), larger = nextafterf(r, INFINITY);
         const cgt_exact_ray *ray = &touch[i].ray;
-        const cgt_shape exact = sphere_of(c[0], c[1], c[2], r), less = sphere_of(c[0], c[1], c[2], smaller),
-                        more = sphere_of(c[0], c[1], c[2], larger);
+        const cgt_primitive exact = sphere_of(c[0], c[1], c[2], r), less = sphere_of(c[0], c[1], c[2], smaller),
+                            more = sphere_of(c[0], c[1], c[2], larger);
         assert_true(exact_meets(ray, &exact));
         assert_false(exact_meets(ray, &less));
         assert_true(exact_meets(ray, &more));
@@ -151,8 +151,8 @@ static void points(void **state)
 {
     (void)state;
     const cgt_exact_ray ray = {{1, 1, 1}, {1, 2, 3}};
-    const cgt_shape on = sphere_of(3, 5, 7, 0), beside = sphere_of(3, 5, nextafterf(7, 8), 0),
-                    at_origin = sphere_of(1, 1, 1, 0);
+    const cgt_primitive on = sphere_of(3, 5, 7, 0), beside = sphere_of(3, 5, nextafterf(7, 8), 0),
+                        at_origin = sphere_of(1, 1, 1, 0);
     assert_true(exact_meets(&ray, &on) && t_of(&ray, &on, false) == 2 && t_of(&ray, &on, true) == 2);
     assert_false(exact_meets(&ray, &beside));
     assert_true(exact_meets(&ray, &at_origin) && t_of(&ray, &at_origin, true) == 0);
@@ -164,7 +164,7 @@ static void points(void **state)
 static void origins_at_the_surface(void **state)
 {
     (void)state;
-    const cgt_shape s = sphere_of(0, 0, 0, 5);
+    const cgt_primitive s = sphere_of(0, 0, 0, 5);
     const cgt_exact_ray along = {{3, 4, 0}, {1, 0, 0}}, back = {{3, 4, 0}, {-1, 0, 0}};
     assert_true(t_of(&along, &s, true) == 0 && t_of(&along, &s, false) == -6);
     assert_true(t_of(&back, &s, false) == 0 && t_of(&back, &s, true) == 6);
@@ -173,7 +173,7 @@ static void origins_at_the_surface(void **state)
     assert_true(t_of(&down, &s, false) == (double)off - 5);
     const cgt_exact_ray up = {{nextafterf(5, 0), 0, 0}, {0x1p-30f, 0, 0}};
     assert_true(t_of(&up, &s, true) == (5 - (double)nextafterf(5, 0)) * 0x1p30);
-    const cgt_shape ground = sphere_of(0, -0x1p100f, 0, 0x1p100f); /* the origin rests on it, to the last bit */
+    const cgt_primitive ground = sphere_of(0, -0x1p100f, 0, 0x1p100f); /* the origin rests on it, to the last bit */
     const cgt_exact_ray from_ground = {{0, 0x1p-149f, 0}, {0, -1, 0}};
     assert_true(t_of(&from_ground, &ground, false) == 0x1p-149);
 }
@@ -186,7 +186,7 @@ static void equal_by_construction(void **state)
     const cgt_exact_ray ray = {{0, 0, 0}, {0, 0, 1}};
     const float plane[9] = {-9, -9, 6, 9, -9, 6, 0, 9, 6}, tilted[9] = {-1, -1, 5, 1, -1, 6, 0, 2, 7};
     const struct {
-        cgt_shape shape;
+        cgt_primitive shape;
         bool far;
     } six[] = {{triangle_of(plane), false},    {triangle_of(tilted), false},     {sphere_of(3, 0, 10, 5), false},
                {sphere_of(0, 4, 9, 5), false}, {sphere_of(0, 0, 11, 5), false},  {sphere_of(3, 4, 6, 5), false},
@@ -216,7 +216,7 @@ static void irrational_roots(void **state)
 {
     (void)state;
     const cgt_exact_ray ray = {{0, 0, 0}, {0, 0, 1}};
-    const cgt_shape sphere = sphere_of(1, 0, 10, 2);
+    const cgt_primitive sphere = sphere_of(1, 0, 10, 2);
     for (int far = 0; far < 2; far++) {
         const double root = far ? 10 + sqrt(3) : 10 - sqrt(3);
         float z = (float)root;
@@ -224,7 +224,7 @@ static void irrational_roots(void **state)
         for (int i = 0; i < 8; i++)
             z = nextafterf(z, 0);
         for (int i = 0; i < 16; i++, z = nextafterf(z, 100)) {
-            const cgt_shape plane = triangle_of((const float[9]){-1, -1, z, 1, -1, z, 0, 1, z});
+            const cgt_primitive plane = triangle_of((const float[9]){-1, -1, z, 1, -1, z, 0, 1, z});
             const double from_middle = z - 10.0; /* 24 bits; its square is exact */
             const int order = (from_middle * from_middle > 3) != (far != 0) ? -1 : 1;
             assert_int_equal(compare(&ray, &plane, false, &sphere, far), order);

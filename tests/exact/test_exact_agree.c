@@ -53,7 +53,7 @@ static truth_ray whole_line(const cgt_exact_ray *ray)
     return line;
 }
 
-static oracle_primitive as_oracle(const cgt_shape *shape)
+static oracle_primitive as_oracle(const cgt_primitive *shape)
 {
     oracle_primitive p = {.kind = shape->kind == CGT_KIND_SPHERES ? ORACLE_SPHERE : ORACLE_TRIANGLE};
     if (p.kind == ORACLE_SPHERE)
@@ -63,7 +63,7 @@ static oracle_primitive as_oracle(const cgt_shape *shape)
     return p;
 }
 
-static bool meets(const exact_build *build, const cgt_exact_ray *ray, const cgt_shape *shape)
+static bool meets(const exact_build *build, const cgt_exact_ray *ray, const cgt_primitive *shape)
 {
     return shape->kind == CGT_KIND_SPHERES ? build->line_meets_sphere(ray, shape->sphere)
                                            : build->line_meets_triangle(ray, &shape->triangle);
@@ -86,8 +86,8 @@ static void check_normal(const cgt_triangle *triangle, const truth_real exact[3]
     assert_true(largest >= 0.5 && largest <= 4);
 }
 
-static void check_values(const cgt_exact_ray *ray, const cgt_shape *shape, const oracle_line *line, const roots *all,
-                         int i)
+static void check_values(const cgt_exact_ray *ray, const cgt_primitive *shape, const oracle_line *line,
+                         const roots *all, int i)
 {
     double uv[2];
     oracle_hit truth;
@@ -106,7 +106,7 @@ static void check_values(const cgt_exact_ray *ray, const cgt_shape *shape, const
 
 /* ---- Agreement ---- */
 
-static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_shape *shape, bool hit)
+static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_primitive *shape, bool hit)
 {
     double uv[2], other_uv[2], n[3], other_n[3];
     for (size_t b = 0; b < TEST_COUNT(others); b++) {
@@ -126,7 +126,8 @@ static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_shape *sha
 }
 
 /* Adds the roots of one primitive: hit or miss as the oracle has it, and by all builds. */
-static void add_roots(const cgt_exact_ray *ray, const cgt_shape *shape, const oracle_line *line, roots *all, tally *sum)
+static void add_roots(const cgt_exact_ray *ray, const cgt_primitive *shape, const oracle_line *line, roots *all,
+                      tally *sum)
 {
     oracle_root truth[2];
     const oracle_primitive primitive = as_oracle(shape);
@@ -163,7 +164,8 @@ static void compare_pair(const cgt_exact_ray *ray, roots *all, int i, int j, tal
     for (size_t b = 0; b < TEST_COUNT(others); b++)
         assert_int_equal(others[b]->compare(ray, &all->root[i], &all->root[j]), order);
     if (i != j)
-        sum->pairs[(all->root[i].shape->kind == CGT_KIND_SPHERES) + (all->root[j].shape->kind == CGT_KIND_SPHERES)]++;
+        sum->pairs[(all->root[i].primitive->kind == CGT_KIND_SPHERES) +
+                   (all->root[j].primitive->kind == CGT_KIND_SPHERES)]++;
     sum->equal += i != j && order == 0;
 
     const truth_real a = all->truth[i].t, b = all->truth[j].t, distance = a < b ? b - a : a - b;

@@ -234,17 +234,17 @@ static uint32_t mask_of(const fuzz_geometry *g)
     return mask ? mask : UINT32_MAX;
 }
 
-static cgt_shape shape_at(const fuzz_geometry *g, uint32_t i)
+static cgt_primitive shape_at(const fuzz_geometry *g, uint32_t i)
 {
-    cgt_shape shape = {.kind = g->triangular ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES};
+    cgt_primitive primitive = {.kind = g->triangular ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES};
     float sphere[4];
     if (g->triangular)
-        fuzz_triangle_at(g, i, shape.triangle.v);
+        fuzz_triangle_at(g, i, primitive.triangle.v);
     else {
         fuzz_sphere_at(g, i, sphere);
-        shape.sphere = (cgt_sphere){sphere[0], sphere[1], sphere[2], sphere[3]};
+        primitive.sphere = (cgt_sphere){sphere[0], sphere[1], sphere[2], sphere[3]};
     }
-    return shape;
+    return primitive;
 }
 
 /* Whether primitive i of a geometry takes part and is met; where, in *hit. */
@@ -252,13 +252,14 @@ static bool meets(const cgt_ray *ray, const fuzz_geometry *g, uint32_t i, cgt_de
 {
     uint64_t exact = 0;
     float zero = 0;
-    *hit = (cgt_decided_hit){.shape = shape_at(g, i)};
+    *hit = (cgt_decided_hit){.primitive = shape_at(g, i)};
     if (g->triangular)
         for (int k = 0; k < 9; k++)
-            zero += hit->shape.triangle.v[k / 3][k % 3] * 0;
+            zero += hit->primitive.triangle.v[k / 3][k % 3] * 0;
     else
-        zero += hit->shape.sphere.x * 0 + hit->shape.sphere.y * 0 + hit->shape.sphere.z * 0 + hit->shape.sphere.r * 0;
-    return zero == 0 && (g->triangular || hit->shape.sphere.r >= 0) && cgt_decide_hit(ray, hit, &exact);
+        zero += hit->primitive.sphere.x * 0 + hit->primitive.sphere.y * 0 + hit->primitive.sphere.z * 0 +
+                hit->primitive.sphere.r * 0;
+    return zero == 0 && (g->triangular || hit->primitive.sphere.r >= 0) && cgt_decide_hit(ray, hit, &exact);
 }
 
 /* By brute force. Only t and the ids of *h are written. */

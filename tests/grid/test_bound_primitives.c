@@ -10,13 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build/commit.h"
+#include "builders/commit.h"
 
 #define CHUNK 8192u /* the sums of the diameters are taken by so many objects */
 
 /* ---- the plain pass ---- */
 
-static double bounds_of(const cgt_shape *q, float low[3], float high[3])
+static double bounds_of(const cgt_primitive *q, float low[3], float high[3])
 {
     double extent = 0;
     if (q->kind == CGT_KIND_SPHERES) {
@@ -36,14 +36,14 @@ static double bounds_of(const cgt_shape *q, float low[3], float high[3])
     return extent / 3;
 }
 
-static void add_plainly(cgt_object_summary *s, const cgt_shape *q, double sum[3])
+static void add_plainly(cgt_primitive_bounds *s, const cgt_primitive *q, double sum[3])
 {
     float low[3], high[3];
-    const cgt_object_state state = cgt_shape_check(q);
-    s->skipped_not_finite += state == CGT_OBJECT_NOT_FINITE;
-    s->skipped_radius += state == CGT_OBJECT_NEGATIVE_RADIUS;
-    s->skipped_degenerate += state == CGT_OBJECT_DEGENERATE;
-    if (state != CGT_OBJECT_VALID)
+    const cgt_primitive_state state = cgt_primitive_check(q);
+    s->skipped_not_finite += state == CGT_PRIMITIVE_NOT_FINITE;
+    s->skipped_radius += state == CGT_PRIMITIVE_NEGATIVE_RADIUS;
+    s->skipped_degenerate += state == CGT_PRIMITIVE_DEGENERATE;
+    if (state != CGT_PRIMITIVE_VALID)
         return;
     const double d = bounds_of(q, low, high);
     for (int a = 0; a < 3; a++) {
@@ -56,9 +56,9 @@ static void add_plainly(cgt_object_summary *s, const cgt_shape *q, double sum[3]
     sum[2] += d * d * d;
 }
 
-static cgt_object_summary summarise_plainly(const cgt_objects *o)
+static cgt_primitive_bounds summarise_plainly(const cgt_primitives *o)
 {
-    cgt_object_summary s = {.bad_index = CGT_INVALID_ID};
+    cgt_primitive_bounds s = {.bad_index = CGT_INVALID_ID};
     for (int a = 0; a < 3; a++) {
         s.min[a] = INFINITY;
         s.max[a] = -INFINITY;
@@ -66,7 +66,7 @@ static cgt_object_summary summarise_plainly(const cgt_objects *o)
     for (uint32_t first = 0; first < o->count; first += CHUNK) {
         double sum[3] = {0, 0, 0};
         for (uint32_t i = first; i < o->count && i - first < CHUNK; i++) {
-            const cgt_shape q = cgt_objects_shape(o, i);
+            const cgt_primitive q = cgt_primitives_get(o, i);
             add_plainly(&s, &q, sum);
         }
         for (int k = 0; k < 3; k++)
@@ -81,7 +81,7 @@ static cgt_object_summary summarise_plainly(const cgt_objects *o)
     return s;
 }
 
-static void compare(const cgt_object_summary *a, const cgt_object_summary *b, bool diameters)
+static void compare(const cgt_primitive_bounds *a, const cgt_primitive_bounds *b, bool diameters)
 {
     assert_int_equal(a->valid, b->valid);
     assert_int_equal(a->skipped_not_finite, b->skipped_not_finite);
@@ -104,10 +104,10 @@ static void check_scene(const loose_scene *s, uint32_t threads, const char *vari
         const cgt_scene_options options = {.structure = structure[k]};
         cgt_context *context = context_make(threads, variant);
         cgt_scene *scene = loose_add(s, context, &options);
-        cgt_object_summary got = {0};
+        cgt_primitive_bounds got = {0};
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        assert_int_equal(cgt_summarise(scene, &got), CGT_OK);
-        const cgt_object_summary want = summarise_plainly(&scene->world.objects);
+        assert_int_equal(cgt_compute_bounds(scene, &got), CGT_OK);
+        const cgt_primitive_bounds want = summarise_plainly(&scene->committed_scene.prims);
         compare(&got, &want, structure[k] != CGT_STRUCTURE_LOOSE_GRID);
         cgt_scene_release(scene);
         cgt_context_release(context);

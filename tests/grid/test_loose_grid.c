@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build/grid/loose_grid_build.h"
+#include "builders/grid/loose_grid_build.h"
 #include "scene/scene.h"
 #include "support/oracle/dyadic.h"
 
@@ -18,9 +18,9 @@ static const cgt_scene_options loose_options = {.structure = CGT_STRUCTURE_LOOSE
 
 /* ---- one grid against its objects ---- */
 
-static void bounds_of(const cgt_objects *objects, uint32_t object, dyadic low[3], dyadic high[3])
+static void bounds_of(const cgt_primitives *prims, uint32_t prim, dyadic low[3], dyadic high[3])
 {
-    const cgt_shape q = cgt_objects_shape(objects, object);
+    const cgt_primitive q = cgt_primitives_get(prims, prim);
     const float center[3] = {q.sphere.x, q.sphere.y, q.sphere.z};
     for (int a = 0; a < 3; a++) {
         if (q.kind == CGT_KIND_SPHERES) {
@@ -36,11 +36,11 @@ static void bounds_of(const cgt_objects *objects, uint32_t object, dyadic low[3]
 }
 
 /* The largest half extent, and each; rounded. */
-static double halves_of(const cgt_objects *objects, uint32_t object, double half[3])
+static double halves_of(const cgt_primitives *prims, uint32_t prim, double half[3])
 {
     dyadic low[3], high[3];
     double size = 0;
-    bounds_of(objects, object, low, high);
+    bounds_of(prims, prim, low, high);
     for (int a = 0; a < 3; a++) {
         const dyadic extent = dyadic_sub(&high[a], &low[a]);
         half[a] = (double)dyadic_real(&extent) / 2;
@@ -69,7 +69,7 @@ static bool within_reach(const cgt_loose_level *level, const uint32_t cell[3], c
 }
 
 /* What the rounding of a middle adds to a half extent at most. */
-static double doubt_of(const cgt_world *w)
+static double doubt_of(const cgt_committed_scene *w)
 {
     double magnitude = 0;
     for (int a = 0; a < 3; a++)
@@ -79,12 +79,12 @@ static double doubt_of(const cgt_world *w)
 
 /* The objects of a level: what they are, and how many of the smaller ones are there as guests. */
 typedef struct level_found {
-    uint32_t objects;
+    uint32_t prims;
     double largest, smallest, half[3];
     uint32_t guests; /* smaller than a quarter of the largest */
 } level_found;
 
-static void find_level(const cgt_world *w, const cgt_loose_level *level, uint8_t *seen, level_found *f)
+static void find_level(const cgt_committed_scene *w, const cgt_loose_level *level, uint8_t *seen, level_found *f)
 {
     const uint32_t cells = level->size[0] * level->size[1] * level->size[2];
     *f = (level_found){.smallest = INFINITY};
@@ -94,33 +94,33 @@ static void find_level(const cgt_world *w, const cgt_loose_level *level, uint8_t
         const uint32_t cell[3] = {c % level->size[0], row % level->size[1], row / level->size[1]};
         assert_true(begin <= end && end <= w->valid);
         for (uint32_t i = begin; i < end; i++) {
-            const uint32_t object = w->loose.object[i];
+            const uint32_t prim = w->loose.prim[i];
             dyadic low[3], high[3];
             double half[3];
-            assert_true(object < w->objects.count && (i == begin || object > w->loose.object[i - 1]));
-            assert_int_equal(seen[object]++, 0);
-            bounds_of(&w->objects, object, low, high);
+            assert_true(prim < w->prims.count && (i == begin || prim > w->loose.prim[i - 1]));
+            assert_int_equal(seen[prim]++, 0);
+            bounds_of(&w->prims, prim, low, high);
             if (!within_reach(level, cell, low, high))
-                fail_msg("object %u is out of reach of cell %u %u %u", object, cell[0], cell[1], cell[2]);
-            const double size = halves_of(&w->objects, object, half);
+                fail_msg("object %u is out of reach of cell %u %u %u", prim, cell[0], cell[1], cell[2]);
+            const double size = halves_of(&w->prims, prim, half);
             f->largest = fmax(f->largest, size);
             f->smallest = fmin(f->smallest, size);
             for (int a = 0; a < 3; a++)
                 f->half[a] = fmax(f->half[a], half[a]);
-            f->objects++;
+            f->prims++;
         }
     }
     for (uint32_t i = w->loose.start[level->first]; i < w->loose.start[level->first + cells]; i++) {
         double half[3];
-        f->guests += halves_of(&w->objects, w->loose.object[i], half) + doubt_of(w) < f->largest * (0.25 - 0x1p-20);
+        f->guests += halves_of(&w->prims, w->loose.prim[i], half) + doubt_of(w) < f->largest * (0.25 - 0x1p-20);
     }
 }
 
 static void check_level(const cgt_loose_level *level, const level_found *f, bool last, double doubt)
 {
-    const uint32_t hosts = f->objects - f->guests;
-    assert_int_equal(f->objects, level->objects);
-    assert_true(f->objects > 0 && f->smallest + doubt >= level->least * (1 - 0x1p-20));
+    const uint32_t hosts = f->prims - f->guests;
+    assert_int_equal(f->prims, level->prims);
+    assert_true(f->prims > 0 && f->smallest + doubt >= level->least * (1 - 0x1p-20));
     assert_true(last || f->guests <= hosts / 8 + 8);
     for (int a = 0; a < 3; a++) {
         assert_true(level->size[a] >= 1 && level->size[a] <= 1024 && level->cell[a] > 0);
@@ -134,9 +134,9 @@ static void check_level(const cgt_loose_level *level, const level_found *f, bool
 
 static void check_grid(const cgt_scene *scene)
 {
-    const cgt_world *w = &scene->world;
+    const cgt_committed_scene *w = &scene->committed_scene;
     const cgt_loose_grid *g = &w->loose;
-    uint8_t *seen = calloc(w->objects.count + 1, 1);
+    uint8_t *seen = calloc(w->prims.count + 1, 1);
     level_found found[CGT_LOOSE_LEVELS];
     uint32_t cells = 0;
     assert_non_null(seen);
@@ -155,35 +155,35 @@ static void check_grid(const cgt_scene *scene)
     }
     assert_int_equal(cells, g->cells);
     assert_true(cells <= w->valid / 2 + 64);
-    for (uint32_t object = 0; object < w->objects.count; object++) {
-        const cgt_shape q = cgt_objects_shape(&w->objects, object);
-        assert_int_equal(seen[object], cgt_shape_check(&q) == CGT_OBJECT_VALID);
+    for (uint32_t prim = 0; prim < w->prims.count; prim++) {
+        const cgt_primitive q = cgt_primitives_get(&w->prims, prim);
+        assert_int_equal(seen[prim], cgt_primitive_check(&q) == CGT_PRIMITIVE_VALID);
     }
     free(seen);
 }
 
 static void check_statistics(const cgt_scene *scene)
 {
-    const cgt_loose_grid *g = &scene->world.loose;
+    const cgt_loose_grid *g = &scene->committed_scene.loose;
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
     assert_int_equal(st.cells, g->cells);
     assert_int_equal(st.levels, g->levels);
-    assert_int_equal(st.references, scene->world.valid);
-    assert_int_equal(st.structure_bytes, 4 * ((uint64_t)g->cells + 1 + scene->world.valid));
+    assert_int_equal(st.references, scene->committed_scene.valid);
+    assert_int_equal(st.structure_bytes, 4 * ((uint64_t)g->cells + 1 + scene->committed_scene.valid));
     assert_memory_equal(st.resolution, g->level[g->levels - 1].size, sizeof st.resolution);
     assert_non_null(strstr(st.reason, "loose grid"));
     assert_true(st.bytes >= st.structure_bytes);
 }
 
-static void compare_grids(const cgt_loose_grid *a, const cgt_loose_grid *b, uint32_t objects)
+static void compare_grids(const cgt_loose_grid *a, const cgt_loose_grid *b, uint32_t prims)
 {
     assert_int_equal(a->levels, b->levels);
     assert_int_equal(a->cells, b->cells);
     assert_memory_equal(a->level, b->level, a->levels * sizeof a->level[0]);
     assert_memory_equal(a->start, b->start, (a->cells + 1) * sizeof a->start[0]);
-    assert_memory_equal(a->object, b->object, objects * sizeof a->object[0]);
+    assert_memory_equal(a->prim, b->prim, prims * sizeof a->prim[0]);
 }
 
 /* ---- scenes of every kind ---- */
@@ -200,8 +200,8 @@ static void check_everywhere(const loose_scene *s)
 {
     cgt_context *context = context_make(1, NULL);
     cgt_scene *first = commit(s, context);
-    const bool built = first->world.valid > 0;
-    assert_false(first->world.everything);
+    const bool built = first->committed_scene.valid > 0;
+    assert_false(first->committed_scene.brute_force);
     if (built) {
         check_grid(first);
         check_statistics(first);
@@ -211,7 +211,7 @@ static void check_everywhere(const loose_scene *s)
         cgt_context *other = context_make(threads == 4 ? 5 : threads, variant);
         cgt_scene *scene = commit(s, other);
         if (built)
-            compare_grids(&first->world.loose, &scene->world.loose, first->world.valid);
+            compare_grids(&first->committed_scene.loose, &scene->committed_scene.loose, first->committed_scene.valid);
         cgt_scene_release(scene);
         cgt_context_release(other);
     }
@@ -254,7 +254,8 @@ static void compare_sorts(const loose_scene *s, const cgt_scene_options *options
         scene[i] = loose_add(s, context[i], options);
         assert_int_equal(cgt_scene_commit(scene[i]), CGT_OK);
         if (i)
-            compare_grids(&scene[0]->world.loose, &scene[i]->world.loose, scene[0]->world.valid);
+            compare_grids(&scene[0]->committed_scene.loose, &scene[i]->committed_scene.loose,
+                          scene[0]->committed_scene.valid);
         if (i && check)
             check_grid(scene[i]);
     }
@@ -271,7 +272,8 @@ static void many_are_sorted(void **state)
     (void)state;
     test_random r = random_make(3);
     for (size_t k = 0; k < TEST_COUNT(kind); k++) {
-        const uint32_t count = k < 2 ? CGT_LOOSE_FEW_ALONE + 5003 : 17000 + test_scaled(40000); /* by bins and not */
+        const uint32_t count =
+            k < 2 ? CGT_CELL_SORT_DIRECT_SERIAL + 5003 : 17000 + test_scaled(40000); /* by bins and not */
         loose_scene s = loose_make(&r, kind[k], k % 2 ? LOOSE_BOTH : LOOSE_SPHERES, count);
         cgt_scene_options options = loose_options;
         compare_sorts(&s, &options, k == 0 || k == 3);
@@ -299,7 +301,7 @@ static void points_between_cells_are_in_reach(void **state)
         for (int i = 0; i < COUNT; i++)
             point[i][0] = i ? last : first;
         cgt_scene *scene = scene_of(context, &options, (const float(*)[4])point, COUNT);
-        const cgt_loose_level level = scene->world.loose.level[0];
+        const cgt_loose_level level = scene->committed_scene.loose.level[0];
         for (int i = 1; i < COUNT - 1; i++) {
             float x = (float)(level.low[0] + (double)(i / 3) * level.cell[0]);
             for (uint32_t steps = random_below(&r, 4); steps; steps--)
@@ -307,15 +309,17 @@ static void points_between_cells_are_in_reach(void **state)
             point[i][0] = fminf(fmaxf(x, first), last);
         }
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        assert_memory_equal(&scene->world.loose.level[0], &level, sizeof level);
+        assert_memory_equal(&scene->committed_scene.loose.level[0], &level, sizeof level);
         uint8_t *seen = calloc(COUNT, 1);
         level_found found;
         assert_non_null(seen);
-        find_level(&scene->world, &level, seen, &found);
-        assert_int_equal(found.objects, COUNT);
+        find_level(&scene->committed_scene, &level, seen, &found);
+        assert_int_equal(found.prims, COUNT);
         for (uint32_t c = 0; c < CELLS; c++)
-            for (uint32_t i = scene->world.loose.start[c]; i < scene->world.loose.start[c + 1]; i++) {
-                const double g = ((double)point[scene->world.loose.object[i]][0] - level.low[0]) / level.cell[0];
+            for (uint32_t i = scene->committed_scene.loose.start[c]; i < scene->committed_scene.loose.start[c + 1];
+                 i++) {
+                const double g =
+                    ((double)point[scene->committed_scene.loose.prim[i]][0] - level.low[0]) / level.cell[0];
                 wrong += g < c || g > c + 1.0;
             }
         free(seen);
@@ -336,10 +340,10 @@ static void cells_follow_the_axes(void **state)
     for (int kind = 0; kind <= LOOSE_LINE; kind++) {
         loose_scene s = loose_make(&r, (loose_kind)kind, LOOSE_SPHERES, count);
         cgt_scene *scene = commit(&s, context);
-        const cgt_loose_level *level = &scene->world.loose.level[0];
-        assert_int_equal(scene->world.loose.levels, 1);
+        const cgt_loose_level *level = &scene->committed_scene.loose.level[0];
+        assert_int_equal(scene->committed_scene.loose.levels, 1);
         if (kind == LOOSE_UNIFORM)
-            assert_in_range(scene->world.loose.cells, count / 16, count / 4);
+            assert_in_range(scene->committed_scene.loose.cells, count / 16, count / 4);
         assert_int_equal(level->size[0] > 1, kind != LOOSE_LINE);
         assert_true(level->size[1] > 1);
         assert_int_equal(level->size[2] > 1, kind == LOOSE_UNIFORM || kind == LOOSE_CLUSTERED);
@@ -365,9 +369,9 @@ static void a_full_axis_leaves_cells_to_the_others(void **state)
     }
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
-    const cgt_loose_level *level = &scene->world.loose.level[0];
+    const cgt_loose_level *level = &scene->committed_scene.loose.level[0];
     assert_int_equal(level->size[0], 1024);
-    assert_true(level->size[1] > 1 && scene->world.loose.cells >= COUNT / 16);
+    assert_true(level->size[1] > 1 && scene->committed_scene.loose.cells >= COUNT / 16);
     cgt_scene_release(scene);
     cgt_context_release(context);
     free(sphere);
@@ -386,18 +390,18 @@ static void sizes_share_levels(void **state)
         sphere[i][3] = i < 300 ? 0.3f : i < 600 ? 1e-3f : 1e-30f; /* three sizes, far apart */
     }
     cgt_scene *scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
-    assert_int_equal(scene->world.loose.levels, 3);
+    assert_int_equal(scene->committed_scene.loose.levels, 3);
     cgt_scene_release(scene);
     for (int i = 0; i < COUNT; i++)
         sphere[i][3] = i < 850 ? random_float(&r, 0.3f, 0.59f) : 1e-3f; /* few small ones: guests */
     scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
-    assert_int_equal(scene->world.loose.levels, 1);
+    assert_int_equal(scene->committed_scene.loose.levels, 1);
     check_grid(scene);
     cgt_scene_release(scene);
     for (int i = 0; i < COUNT; i++)
         sphere[i][3] = ldexpf(1, -4 * (i % 30)); /* more sizes than levels */
     scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
-    assert_int_equal(scene->world.loose.levels, CGT_LOOSE_LEVELS);
+    assert_int_equal(scene->committed_scene.loose.levels, CGT_LOOSE_LEVELS);
     check_grid(scene);
     cgt_scene_release(scene);
     cgt_context_release(context);
@@ -415,15 +419,15 @@ static void a_resolution_asked_for_is_given(void **state)
         loose_scene s = loose_make(&r, (loose_kind)kind, LOOSE_BOTH, 200);
         cgt_scene *scene = loose_add(&s, context, &options);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        const cgt_loose_grid *g = &scene->world.loose;
+        const cgt_loose_grid *g = &scene->committed_scene.loose;
         assert_int_equal(g->levels, 1);
         assert_memory_equal(g->level[0].size, options.resolution, sizeof options.resolution);
         check_statistics(scene);
-        uint8_t *seen = calloc(scene->world.objects.count, 1);
+        uint8_t *seen = calloc(scene->committed_scene.prims.count, 1);
         level_found found;
         assert_non_null(seen);
-        find_level(&scene->world, &g->level[0], seen, &found);
-        assert_int_equal(found.objects, scene->world.valid);
+        find_level(&scene->committed_scene, &g->level[0], seen, &found);
+        assert_int_equal(found.prims, scene->committed_scene.valid);
         free(seen);
         cgt_scene_release(scene);
         loose_free(&s);
@@ -470,10 +474,10 @@ static void it_is_chosen_when_asked_for(void **state)
     cgt_scene *scene = NULL;
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_ERROR_INVALID_ARGUMENT);
     scene = scene_of(context, &loose_options, far_off, 2); /* beyond what a structure may hold */
-    assert_true(scene->world.everything && !scene->world.loose.levels);
+    assert_true(scene->committed_scene.brute_force && !scene->committed_scene.loose.levels);
     cgt_scene_release(scene);
     scene = scene_of(context, &loose_options, far_off, 0);
-    assert_false(scene->world.valid || scene->world.loose.levels);
+    assert_false(scene->committed_scene.valid || scene->committed_scene.loose.levels);
     cgt_scene_release(scene);
     cgt_context_release(context);
 }

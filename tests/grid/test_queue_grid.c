@@ -14,15 +14,15 @@
 /* ---- one grid against its spheres ---- */
 
 /* True where the cell refers to the object; fails the test where it does so twice. */
-static bool cell_holds(const cgt_queue_grid *g, uint32_t cell, uint32_t object)
+static bool cell_holds(const cgt_queue_grid *g, uint32_t cell, uint32_t prim)
 {
     unsigned found = 0;
     for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
-        found += g->voxel[cell].reference[i] == object;
+        found += g->voxel[cell].reference[i] == prim;
     for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++)
-        found += g->overflow[i].reference == object;
+        found += g->overflow[i].reference == prim;
     if (found > 1)
-        fail_msg("cell %u holds object %u %u times", cell, object, found);
+        fail_msg("cell %u holds object %u %u times", cell, prim, found);
     return found == 1;
 }
 
@@ -36,16 +36,16 @@ static uint32_t cell_of(const cgt_queue_grid *g, const long double p[3])
     return cell;
 }
 
-static void expect_held(const cgt_queue_grid *g, const float sphere[4], uint32_t object, const long double p[3])
+static void expect_held(const cgt_queue_grid *g, const float sphere[4], uint32_t prim, const long double p[3])
 {
     const uint32_t cell = cell_of(g, p);
-    if (!cell_holds(g, cell, object))
-        fail_msg("cell %u has a point of sphere %u (%a %a %a, r %a) and no reference to it", cell, object,
+    if (!cell_holds(g, cell, prim))
+        fail_msg("cell %u has a point of sphere %u (%a %a %a, r %a) and no reference to it", cell, prim,
                  (double)sphere[0], (double)sphere[1], (double)sphere[2], (double)sphere[3]);
 }
 
 /* The centre, the six extremes, and random points: on the surface, which reaches furthest, and inside. */
-static void check_superset(const cgt_queue_grid *g, const float sphere[4], uint32_t object, test_random *r,
+static void check_superset(const cgt_queue_grid *g, const float sphere[4], uint32_t prim, test_random *r,
                            uint32_t points)
 {
     for (uint32_t k = 0; k < points + 7; k++) {
@@ -61,7 +61,7 @@ static void check_superset(const cgt_queue_grid *g, const float sphere[4], uint3
             for (int a = 0; a < 3; a++)
                 p[a] += reach * d[a];
         }
-        expect_held(g, sphere, object, p);
+        expect_held(g, sphere, prim, p);
     }
 }
 
@@ -78,7 +78,7 @@ static void check_order(const cgt_queue_grid *g, uint64_t *references, uint32_t 
         for (int i = used; i < CGT_QUEUE_LENGTH; i++)
             assert_int_equal(q[i], CGT_QUEUE_NONE);
         for (int i = 0; i < used; i++)
-            assert_true(q[i] < g->objects->count && (i == 0 || q[i] < q[i - 1]));
+            assert_true(q[i] < g->prims->count && (i == 0 || q[i] < q[i - 1]));
         *references += (uint64_t)used;
         const uint32_t first = cgt_queue_grid_overflow(g, cell);
         if (first == g->overflows)
@@ -103,7 +103,7 @@ static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint3
         for (int a = 0; a < 3; a++) {
             const double cells = 2.0 * sphere[i][3] * g->rcell[a];
             wide |= cells > 2 && g->resolution[a] > 2;
-            narrow &= cells + 2 * g->slack[a] < 0.99 || g->resolution[a] <= 2;
+            narrow &= cells + 2 * g->cell_error[a] < 0.99 || g->resolution[a] <= 2;
         }
         /* at the border of the grid a part may be cut off */
         bool inside = true;
@@ -120,7 +120,7 @@ static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint3
 static cgt_scene_statistics check_grid(const cgt_scene *scene, const float (*sphere)[4], uint32_t count,
                                        uint64_t stream)
 {
-    const cgt_queue_grid *g = &scene->world.grid;
+    const cgt_queue_grid *g = &scene->committed_scene.grid;
     cgt_scene_statistics s;
     test_random r = random_make(stream);
     uint64_t references = 0;

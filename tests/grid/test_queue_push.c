@@ -21,7 +21,7 @@ static struct words {
         memcpy((p), &v_, sizeof v_);                                                                                   \
     } while (0)
 #define CGT_QUEUE_SHUFFLE(a, b, pattern) (words.shuffles++, spu_shuffle(a, b, pattern))
-#include "kernel/build/queue_push.h"
+#include "kernel/builders/queue_push.h"
 
 #define CELLS 12
 
@@ -97,10 +97,10 @@ static void equal_corners_hold_the_reference_once(void **state)
     for (uint32_t round = test_scaled(400); round; round--) {
         queues q;
         clear(&q);
-        for (uint16_t object = 0; object < 60; object++) {
+        for (uint16_t prim = 0; prim < 60; prim++) {
             uint32_t cell[8];
             const uint32_t kinds = 1 + random_below(&r, CELLS);
-            const uint16_t reference = random_below(&r, 2) ? object : (uint16_t)(65534 - object);
+            const uint16_t reference = random_below(&r, 2) ? prim : (uint16_t)(65534 - prim);
             for (int k = 0; k < 8; k++)
                 cell[k] = random_below(&r, kinds);
             queue_push8(q.voxel, cell, spu_splats(reference));

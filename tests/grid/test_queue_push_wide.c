@@ -6,13 +6,13 @@
 
 #include <string.h>
 
-#include "kernel/build/queue_push.h"
+#include "kernel/builders/queue_push.h"
 
 #define CELLS 12
 
 /* A grid of queues and what a plain program makes of the same pushes. */
 typedef struct queues {
-    _Alignas(64) cgt_wide_voxel voxel[CELLS];
+    _Alignas(64) cgt_voxel32 voxel[CELLS];
     uint32_t model[CELLS][CGT_QUEUE_LENGTH];
 } queues;
 
@@ -43,7 +43,7 @@ static void newest_comes_first(void **state)
         queues q;
         clear(&q);
         for (uint32_t i = 0; i < 40; i++) { /* from the 17th on the oldest goes out */
-            queue_push1_wide(&q.voxel[5], spu_splats(base[b] + i));
+            queue_push1_32(&q.voxel[5], spu_splats(base[b] + i));
             model_push(&q, 5, base[b] + i);
             check(&q);
         }
@@ -57,18 +57,18 @@ static void equal_corners_hold_the_reference_once(void **state)
     for (uint32_t round = 2 + test_scaled(400); round; round--) {
         queues q;
         clear(&q);
-        for (uint32_t object = 0; object < 60; object++) {
+        for (uint32_t prim = 0; prim < 60; prim++) {
             uint32_t cell[8];
             const uint32_t kinds = 1 + random_below(&r, CELLS), high = random_below(&r, 2) ? 0 : 0xabcd0000;
             for (int k = 0; k < 8; k++)
                 cell[k] = random_below(&r, kinds);
-            queue_push8_wide(q.voxel, cell, high + object);
+            queue_push8_32(q.voxel, cell, high + prim);
             for (uint32_t c = 0; c < CELLS; c++) {
                 bool touched = false;
                 for (int k = 0; k < 8; k++)
                     touched |= cell[k] == c;
                 if (touched)
-                    model_push(&q, c, high + object);
+                    model_push(&q, c, high + prim);
             }
             check(&q);
         }

@@ -15,19 +15,19 @@
 
 static uint32_t reference_at(const cgt_queue_grid *g, uint32_t cell, int i)
 {
-    if (g->wide)
-        return g->wide_voxel[cell].reference[i];
+    if (g->refs_are_32_bits)
+        return g->voxel32[cell].reference[i];
     const uint32_t reference = g->voxel[cell].reference[i];
     return reference == CGT_QUEUE_NONE ? CGT_INVALID_ID : reference;
 }
 
-static unsigned times_held(const cgt_queue_grid *g, uint32_t cell, uint32_t object)
+static unsigned times_held(const cgt_queue_grid *g, uint32_t cell, uint32_t prim)
 {
     unsigned found = 0;
     for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
-        found += reference_at(g, cell, i) == object;
+        found += reference_at(g, cell, i) == prim;
     for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++)
-        found += g->overflow[i].reference == object;
+        found += g->overflow[i].reference == prim;
     return found;
 }
 
@@ -112,7 +112,7 @@ static int32_t clamped(double g, uint32_t resolution)
 
 /* Every cell that the triangle touches refers to it once, and no cell refers to it twice. Returns how many cells it
  * touches, or comes near to by the grid's own slack. */
-static uint64_t check_triangle(const cgt_queue_grid *g, const triangle t, uint32_t object)
+static uint64_t check_triangle(const cgt_queue_grid *g, const triangle t, uint32_t prim)
 {
     const polygon q = in_grid_space(g, t);
     int32_t low[3], high[3], cell[3];
@@ -126,10 +126,11 @@ static uint64_t check_triangle(const cgt_queue_grid *g, const triangle t, uint32
             for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
                 const uint32_t at =
                     (uint32_t)cell[0] + (uint32_t)cell[1] * g->stride[1] + (uint32_t)cell[2] * g->stride[2];
-                const unsigned held = times_held(g, at, object);
+                const unsigned held = times_held(g, at, prim);
                 if (held > 1 || (!held && touches(g, &q, cell, 0)))
-                    fail_msg("cell %d %d %d refers to triangle %u %u times", cell[0], cell[1], cell[2], object, held);
-                near += touches(g, &q, cell, 0x1p-18 + 2 * g->slack[0] + 2 * g->slack[1] + 2 * g->slack[2]);
+                    fail_msg("cell %d %d %d refers to triangle %u %u times", cell[0], cell[1], cell[2], prim, held);
+                near +=
+                    touches(g, &q, cell, 0x1p-18 + 2 * g->cell_error[0] + 2 * g->cell_error[1] + 2 * g->cell_error[2]);
             }
     return near;
 }
@@ -150,7 +151,7 @@ static cgt_scene *gridded(cgt_context *context, const uint32_t resolution[3], co
 static cgt_scene_statistics check_scene(const cgt_scene *scene, const triangle *t, uint32_t count, uint32_t step,
                                         uint64_t *near)
 {
-    const cgt_queue_grid *g = &scene->world.grid;
+    const cgt_queue_grid *g = &scene->committed_scene.grid;
     cgt_scene_statistics s;
     uint32_t overflow_cells;
     assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
@@ -159,7 +160,7 @@ static cgt_scene_statistics check_scene(const cgt_scene *scene, const triangle *
     assert_int_equal(s.references, count_references(g, &overflow_cells));
     assert_int_equal(s.overflow_references, g->overflows);
     assert_int_equal(s.overflow_cells, overflow_cells);
-    assert_int_equal(s.reference_bits, count > CGT_QUEUE_MAX_NARROW ? 32 : 16);
+    assert_int_equal(s.reference_bits, count > CGT_QUEUE_MAX_REFS16 ? 32 : 16);
     *near = 0;
     for (uint32_t i = 0; i < count; i += step)
         *near += check_triangle(g, t[i], i);
@@ -245,7 +246,7 @@ static void large_triangles_take_few_useless_cells(void **state)
             references += s.references;
             touched += near;
             for (uint32_t i = 0; i < COUNT; i++) {
-                const polygon q = in_grid_space(&scene->world.grid, (const float(*)[3])t[i]);
+                const polygon q = in_grid_space(&scene->committed_scene.grid, (const float(*)[3])t[i]);
                 double cells = 1;
                 for (int a = 0; a < 3; a++)
                     cells *=
@@ -308,7 +309,7 @@ static void references_widen_beyond_65535(void **state)
             uint64_t near;
             cgt_scene *scene = gridded(context, NULL, (const triangle *)t, counts[k]);
             const cgt_scene_statistics s = check_scene(scene, (const triangle *)t, counts[k], k ? 7 : 61, &near);
-            check_triangle(&scene->world.grid, (const float(*)[3])t[counts[k] - 1], counts[k] - 1);
+            check_triangle(&scene->committed_scene.grid, (const float(*)[3])t[counts[k] - 1], counts[k] - 1);
             assert_true(s.overflow_references > 0);
             cgt_scene_release(scene);
         }

@@ -15,10 +15,10 @@
 
 typedef struct check {
     const cgt_kd_raw *raw;
-    const cgt_world *world;
+    const cgt_committed_scene *committed_scene;
     const cgt_kd_costs *costs;
     uint8_t *reached; /* of each node */
-    uint32_t most_depth;
+    uint32_t max_leaf_depth;
     double root_area, cost;
     char *text;
 } check;
@@ -33,7 +33,7 @@ static double half_area(const kd_box *b)
 }
 
 /* Whether the bounds, rounded outwards, touch the box. */
-static bool bounds_touch(const cgt_shape *shape, const kd_box *box)
+static bool bounds_touch(const cgt_primitive *shape, const kd_box *box)
 {
     for (int a = 0; a < 3; a++) {
         const cgt_triangle *t = &shape->triangle;
@@ -50,31 +50,31 @@ static bool bounds_touch(const cgt_shape *shape, const kd_box *box)
     return true;
 }
 
-static bool listed(const uint32_t *reference, uint32_t count, uint32_t object)
+static bool listed(const uint32_t *reference, uint32_t count, uint32_t prim)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (reference[i] == object)
+        if (reference[i] == prim)
             return true;
     return false;
 }
 
-static bool say(uint32_t node, const char *what, uint32_t object)
+static bool say(uint32_t node, const char *what, uint32_t prim)
 {
-    snprintf(fault, sizeof fault, "node %u: %s (object %u)", node, what, object);
+    snprintf(fault, sizeof fault, "node %u: %s (object %u)", node, what, prim);
     return false;
 }
 
 static bool check_leaf(check *c, uint32_t number, const kd_box *box, const uint32_t *near, uint32_t count)
 {
-    const cgt_objects *o = &c->world->objects;
+    const cgt_primitives *o = &c->committed_scene->prims;
     const uint32_t references = cgt_kd_count(c->raw->node[number]);
     const uint32_t *reference = c->raw->reference + c->raw->node[number].word[1];
     double weight = 0;
     for (uint32_t i = 0; i < references; i++) {
         if (reference[i] >= o->count || (i && reference[i] <= reference[i - 1]))
             return say(number, "references do not ascend", reference[i]);
-        const cgt_shape shape = cgt_objects_shape(o, reference[i]);
-        if (cgt_shape_check(&shape) != CGT_OBJECT_VALID)
+        const cgt_primitive shape = cgt_primitives_get(o, reference[i]);
+        if (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID)
             return say(number, "not a valid object", reference[i]);
         if (!bounds_touch(&shape, box))
             return say(number, "its bounds are away from the leaf", reference[i]);
@@ -97,7 +97,7 @@ static bool check_node(check *c, uint32_t number, const kd_box *box, uint32_t de
     uint32_t *touching = malloc((count + 1) * sizeof *touching), some = 0;
     assert_non_null(touching);
     for (uint32_t i = 0; i < count; i++) {
-        const cgt_shape shape = cgt_objects_shape(&c->world->objects, near[i]);
+        const cgt_primitive shape = cgt_primitives_get(&c->committed_scene->prims, near[i]);
         if (kd_touches(&shape, box))
             touching[some++] = near[i];
     }
@@ -111,7 +111,7 @@ static bool check_node(check *c, uint32_t number, const kd_box *box, uint32_t de
         lower.high[axis] = upper.low[axis] = split;
         c->cost += c->costs->inner * half_area(box) / c->root_area;
         good = split > box->low[axis] && split < box->high[axis] ? true : say(number, "the split is not inside", 0);
-        good = good && (depth < c->most_depth ? true : say(number, "too deep", 0));
+        good = good && (depth < c->max_leaf_depth ? true : say(number, "too deep", 0));
         good = good && (node.word[1] % 2 == 0 ? true : say(number, "children are not a pair", 0));
         good = good && check_node(c, node.word[1], &lower, depth + 1, touching, some) &&
                check_node(c, node.word[1] + 1, &upper, depth + 1, touching, some);
@@ -120,19 +120,19 @@ static bool check_node(check *c, uint32_t number, const kd_box *box, uint32_t de
     return good;
 }
 
-const char *raw_tree_check(const cgt_kd_raw *raw, const cgt_world *world, const cgt_kd_costs *costs)
+const char *raw_tree_check(const cgt_kd_raw *raw, const cgt_committed_scene *committed_scene, const cgt_kd_costs *costs)
 {
-    check c = {.raw = raw, .world = world, .costs = costs, .reached = calloc(raw->nodes, 1)};
-    uint32_t *valid = malloc((world->objects.count + 1) * sizeof *valid), count = 0;
+    check c = {.raw = raw, .committed_scene = committed_scene, .costs = costs, .reached = calloc(raw->nodes, 1)};
+    uint32_t *valid = malloc((committed_scene->prims.count + 1) * sizeof *valid), count = 0;
     assert_non_null(valid);
     assert_non_null(c.reached);
-    for (uint32_t i = 0; i < world->objects.count; i++) {
-        const cgt_shape shape = cgt_objects_shape(&world->objects, i);
-        if (cgt_shape_check(&shape) == CGT_OBJECT_VALID)
+    for (uint32_t i = 0; i < committed_scene->prims.count; i++) {
+        const cgt_primitive shape = cgt_primitives_get(&committed_scene->prims, i);
+        if (cgt_primitive_check(&shape) == CGT_PRIMITIVE_VALID)
             valid[count++] = i;
     }
-    assert_int_equal(count, world->valid);
-    c.most_depth = (uint32_t)floor(8 + 1.3 * log2(count));
+    assert_int_equal(count, committed_scene->valid);
+    c.max_leaf_depth = (uint32_t)floor(8 + 1.3 * log2(count));
     kd_box box;
     memcpy(box.low, raw->low, sizeof box.low);
     memcpy(box.high, raw->high, sizeof box.high);
@@ -168,7 +168,7 @@ static void hash_node(const cgt_kd_raw *raw, uint32_t number, uint64_t *hash)
 
 uint64_t raw_tree_hash(const cgt_kd_raw *raw)
 {
-    uint64_t hash = raw->limited, bits;
+    uint64_t hash = raw->limited_leaves, bits;
     memcpy(&bits, &raw->cost, sizeof bits);
     mix(&hash, bits);
     hash_node(raw, 0, &hash);
@@ -287,8 +287,8 @@ cgt_scene *degenerate_commit(cgt_context *context, const degenerate_scene *d)
     if (d->triangles)
         assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_true(scene->world.valid > 0);
-    assert_false(scene->world.everything);
+    assert_true(scene->committed_scene.valid > 0);
+    assert_false(scene->committed_scene.brute_force);
     return scene;
 }
 

@@ -5,7 +5,7 @@
 #ifndef KD_BUILD_CASES_H
 #define KD_BUILD_CASES_H
 
-#include "build/kd/kd_build.h"
+#include "builders/kd/kd_build.h"
 #include "scene/scene.h"
 #include "hard_cases/hard_run.h"
 #include "support/scenes.h"
@@ -15,7 +15,8 @@
 /* NULL, or what is wrong with a tree, until the next call: nodes reached once, splits inside their boxes, depth within
  * 8 + 1.3 log2 N, references ascending, every valid object in every leaf that it touches, no object in a leaf that its
  * bounds do not touch, the cost. */
-const char *raw_tree_check(const cgt_kd_raw *raw, const cgt_world *world, const cgt_kd_costs *costs);
+const char *raw_tree_check(const cgt_kd_raw *raw, const cgt_committed_scene *committed_scene,
+                           const cgt_kd_costs *costs);
 
 /* Of all that the tree means, wherever it lies. */
 uint64_t raw_tree_hash(const cgt_kd_raw *raw);

@@ -59,20 +59,20 @@ static float rounded(double value, bool up)
     return nearest > value ? nextafterf(nearest, -INFINITY) : nearest;
 }
 
-static void bound_world(cgt_world *w)
+static void set_scene_bounds(cgt_committed_scene *w)
 {
     float largest = 0;
     for (int a = 0; a < 3; a++) {
         w->low[a] = INFINITY;
         w->high[a] = -INFINITY;
     }
-    for (uint32_t i = 0; i < w->objects.count; i++) {
+    for (uint32_t i = 0; i < w->prims.count; i++) {
         double low[3], high[3];
-        const cgt_shape s = cgt_objects_shape(&w->objects, i);
-        if (cgt_shape_check(&s) != CGT_OBJECT_VALID)
+        const cgt_primitive s = cgt_primitives_get(&w->prims, i);
+        if (cgt_primitive_check(&s) != CGT_PRIMITIVE_VALID)
             continue;
         w->valid++;
-        object_bounds(&w->objects, i, low, high);
+        object_bounds(&w->prims, i, low, high);
         for (int a = 0; a < 3; a++) {
             const float l = rounded(low[a], false), h = rounded(high[a], true);
             w->low[a] = l < w->low[a] ? l : w->low[a];
@@ -87,29 +87,29 @@ static void make_objects(test_random *r, rope_case *c)
 {
     const uint32_t count = 1 + random_below(r, ROPE_MOST_OBJECTS), spheres = random_below(r, 3) * count / 2;
     const uint32_t triangles = count - spheres;
-    cgt_objects *o = &c->world.objects;
+    cgt_primitives *o = &c->committed_scene.prims;
     make_spheres(r, c, spheres);
     make_triangles(r, c, triangles);
     if (c->place == ROPE_PLACE_PLANAR)
         flatten_case(r, c, ROPE_MOST_OBJECTS);
-    *o = (cgt_objects){.array = c->array, .count = count, .spheres = spheres, .triangles = triangles};
+    *o = (cgt_primitives){.array = c->array, .count = count, .spheres = spheres, .triangles = triangles};
     if (spheres)
-        c->array[o->arrays++] = (cgt_object_array){.kind = CGT_KIND_SPHERES,
-                                                   .point = (const char *)c->sphere,
-                                                   .point_stride = sizeof c->sphere[0],
-                                                   .radius = (const char *)&c->sphere[0][3],
-                                                   .radius_stride = sizeof c->sphere[0],
-                                                   .count = spheres};
+        c->array[o->arrays++] = (cgt_primitive_array){.kind = CGT_KIND_SPHERES,
+                                                      .point = (const char *)c->sphere,
+                                                      .point_stride = sizeof c->sphere[0],
+                                                      .radius = (const char *)&c->sphere[0][3],
+                                                      .radius_stride = sizeof c->sphere[0],
+                                                      .count = spheres};
     if (triangles)
-        c->array[o->arrays++] = (cgt_object_array){.kind = CGT_KIND_TRIANGLES,
-                                                   .first = spheres,
-                                                   .others = spheres,
-                                                   .geometry = 1,
-                                                   .point = (const char *)c->vertex,
-                                                   .point_stride = sizeof c->vertex[0],
-                                                   .count = triangles,
-                                                   .points = 3 * triangles};
-    bound_world(&c->world);
+        c->array[o->arrays++] = (cgt_primitive_array){.kind = CGT_KIND_TRIANGLES,
+                                                      .first = spheres,
+                                                      .spheres_before = spheres,
+                                                      .geometry = 1,
+                                                      .point = (const char *)c->vertex,
+                                                      .point_stride = sizeof c->vertex[0],
+                                                      .count = triangles,
+                                                      .points = 3 * triangles};
+    set_scene_bounds(&c->committed_scene);
 }
 
 /* A tree that a builder makes, or one that none would. */
@@ -125,13 +125,13 @@ static void make_tree(test_random *r, cgt_context *context, rope_case *c)
     cgt_buffer work = {0};
     if (built) {
         const cgt_kd_costs cheap = {.inner = 0.1, .test = {1, 1}, .empty_cut_off = 0.2}; /* deep trees */
-        assert_int_equal(cgt_kd_build(context, &work, &c->world, builder, &cheap, &tree.raw), CGT_OK);
+        assert_int_equal(cgt_kd_build(context, &work, &c->committed_scene, builder, &cheap, &tree.raw), CGT_OK);
     } else {
         const uint32_t depth = depths[random_below(r, TEST_COUNT(depths))];
-        tree = random_tree_make(r, &c->world, depth, random_below(r, 2));
+        tree = random_tree_make(r, &c->committed_scene, depth, random_below(r, 2));
     }
-    assert_int_equal(cgt_kd_flatten(context, &memory, &tree.raw, layout, 3, true, &c->world.kd), CGT_OK);
-    assert_int_equal(cgt_leaf_triangles_make(context, &c->triangles, &c->world), CGT_OK);
+    assert_int_equal(cgt_kd_flatten(context, &memory, &tree.raw, layout, 3, true, &c->committed_scene.kd), CGT_OK);
+    assert_int_equal(cgt_leaf_triangles_init(context, &c->triangles, &c->committed_scene), CGT_OK);
     random_tree_free(&tree);
     cgt_buffer_release(&hooks, &work);
 }
@@ -144,11 +144,11 @@ rope_case *rope_case_make(test_random *r, cgt_context *context, rope_place place
     c->place = place;
     c->unit = units[random_below(r, TEST_COUNT(units))];
     do {
-        c->world.valid = 0;
+        c->committed_scene.valid = 0;
         make_objects(r, c);
-    } while (!c->world.valid);
+    } while (!c->committed_scene.valid);
     make_tree(r, context, c);
-    c->world.structure = CGT_STRUCTURE_KD_ROPES;
+    c->committed_scene.structure = CGT_STRUCTURE_KD_ROPES;
     return c;
 }
 
@@ -167,7 +167,7 @@ void rope_case_free(rope_case *c)
 /* A corner of a leaf, or a point of its box where `inside` has the axis' bit. */
 static void leaf_point(test_random *r, const rope_case *c, unsigned inside, float p[3])
 {
-    const cgt_kd_leaf *leaf = &c->world.kd.leaf[random_below(r, c->world.kd.leaves)];
+    const cgt_kd_leaf *leaf = &c->committed_scene.kd.leaf[random_below(r, c->committed_scene.kd.leaves)];
     for (int a = 0; a < 3; a++) {
         const float low = leaf->low[a], high = leaf->high[a];
         p[a] = inside >> a & 1 ? random_float(r, low, high) : random_below(r, 2) ? low : high;

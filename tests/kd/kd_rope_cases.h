@@ -21,8 +21,8 @@ typedef enum rope_place {
 } rope_place;
 
 typedef struct rope_case {
-    cgt_world world; /* with a tree with ropes */
-    cgt_object_array array[2];
+    cgt_committed_scene committed_scene; /* with a tree with ropes */
+    cgt_primitive_array array[2];
     float sphere[ROPE_MOST_OBJECTS][4];
     float vertex[3 * ROPE_MOST_OBJECTS][3];
     cgt_buffer nodes, references, leaves, triangles;

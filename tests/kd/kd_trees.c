@@ -13,11 +13,11 @@
 static cloud spheres; /* of the scene that is there */
 static triangle *triangles;
 
-cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, uint32_t objects)
+cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, uint32_t prims)
 {
     test_random r = random_make(stream);
-    const uint32_t half = objects / 2;
-    spheres = cloud_make(&r, kind, objects - half);
+    const uint32_t half = prims / 2;
+    spheres = cloud_make(&r, kind, prims - half);
     triangles = calloc(half + 1, sizeof *triangles);
     assert_non_null(triangles);
     for (uint32_t i = 0; i < half; i++) {
@@ -41,7 +41,7 @@ cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, u
     return scene;
 }
 
-const cgt_world *world_of(const cgt_scene *scene) { return &scene->world; }
+const cgt_committed_scene *world_of(const cgt_scene *scene) { return &scene->committed_scene; }
 
 void mixed_scene_free(cgt_scene *scene)
 {

@@ -11,8 +11,8 @@
 
 /* A scene of a cloud of spheres and of triangles of like number among them, some of both not valid. Committed; its
  * world is world_of(scene). */
-cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, uint32_t objects);
-const cgt_world *world_of(const cgt_scene *scene);
+cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, uint32_t prims);
+const cgt_committed_scene *world_of(const cgt_scene *scene);
 void mixed_scene_free(cgt_scene *scene);
 
 /* A flattened tree and its memory. */

@@ -23,9 +23,9 @@ static void check_scene(const char *name, const cgt_scene *scene)
     for (size_t b = 0; b < TEST_COUNT(builders); b++) {
         cgt_buffer work = {NULL, 0};
         cgt_kd_raw raw;
-        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &cgt_kd_default_costs, &raw),
-                         CGT_OK);
-        const char *wrong = raw_tree_check(&raw, &scene->world, &cgt_kd_default_costs);
+        assert_int_equal(
+            cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &cgt_kd_default_costs, &raw), CGT_OK);
+        const char *wrong = raw_tree_check(&raw, &scene->committed_scene, &cgt_kd_default_costs);
         if (wrong)
             fail_msg("%s, %s: %s", name, builder_names[b], wrong);
         cgt_buffer_release(&one_thread->memory, &work);
@@ -91,7 +91,8 @@ static void test_costs(void **state)
         for (size_t b = 0; b < TEST_COUNT(builders); b++) {
             cgt_buffer work = {NULL, 0};
             cgt_kd_raw raw;
-            assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &costs, &raw), CGT_OK);
+            assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &costs, &raw),
+                             CGT_OK);
             cost[b] = raw.cost;
             cgt_buffer_release(&one_thread->memory, &work);
         }
@@ -135,7 +136,8 @@ static uint64_t tree_of(cgt_context *context, const cgt_scene *scene, cgt_kd_bui
 {
     cgt_buffer work = {NULL, 0};
     cgt_kd_raw raw;
-    assert_int_equal(cgt_kd_build(context, &work, &scene->world, builder, &cgt_kd_default_costs, &raw), CGT_OK);
+    assert_int_equal(cgt_kd_build(context, &work, &scene->committed_scene, builder, &cgt_kd_default_costs, &raw),
+                     CGT_OK);
     const uint64_t hash = raw_tree_hash(&raw);
     cgt_buffer_release(&context->memory, &work);
     return hash;
@@ -186,16 +188,16 @@ static void test_limits(void **state)
         cgt_buffer work = {NULL, 0};
         cgt_kd_raw raw;
         cgt_kd_costs costs = {.inner = 1e-3, .test = {1, 1}, .empty_cut_off = 0};
-        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &costs, &raw), CGT_OK);
-        const char *wrong = raw_tree_check(&raw, &scene->world, &costs);
+        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &costs, &raw), CGT_OK);
+        const char *wrong = raw_tree_check(&raw, &scene->committed_scene, &costs);
         if (wrong)
             fail_msg("%s: %s", builder_names[b], wrong);
-        assert_true(raw.limited > 0);
+        assert_true(raw.limited_leaves > 0);
         costs.inner = 1e30; /* then a leaf is best, and nothing limits it */
-        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->world, builders[b], &costs, &raw), CGT_OK);
-        assert_int_equal(raw.limited, 0);
+        assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &costs, &raw), CGT_OK);
+        assert_int_equal(raw.limited_leaves, 0);
         assert_true(cgt_kd_is_leaf(raw.node[0]));
-        assert_int_equal(cgt_kd_count(raw.node[0]), scene->world.valid);
+        assert_int_equal(cgt_kd_count(raw.node[0]), scene->committed_scene.valid);
         cgt_buffer_release(&one_thread->memory, &work);
         cgt_scene_release(scene);
         degenerate_free(&d);
@@ -237,7 +239,7 @@ static void check_memory(cgt_context *context, counted *c, const cgt_scene *scen
     for (cgt_result result = CGT_ERROR_OUT_OF_MEMORY; result != CGT_OK; failures++) {
         c->calls = 0;
         c->fail_at = failures + 1;
-        result = cgt_kd_build(context, &work, &scene->world, builder, &cgt_kd_default_costs, &raw);
+        result = cgt_kd_build(context, &work, &scene->committed_scene, builder, &cgt_kd_default_costs, &raw);
         if (result == CGT_OK)
             break;
         assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
@@ -247,7 +249,8 @@ static void check_memory(cgt_context *context, counted *c, const cgt_scene *scen
     assert_true(failures >= 1);
     const uint64_t hash = raw_tree_hash(&raw);
     c->calls = c->fail_at = 0;
-    assert_int_equal(cgt_kd_build(context, &work, &scene->world, builder, &cgt_kd_default_costs, &raw), CGT_OK);
+    assert_int_equal(cgt_kd_build(context, &work, &scene->committed_scene, builder, &cgt_kd_default_costs, &raw),
+                     CGT_OK);
     assert_int_equal(c->calls, 0);
     assert_true(raw_tree_hash(&raw) == hash);
     cgt_buffer_release(&context->memory, &work);
@@ -283,11 +286,12 @@ static void test_too_many(void **state)
     (void)state;
     for (size_t i = 0; i < TEST_COUNT(counts); i++)
         for (size_t b = 0; b < TEST_COUNT(builders); b++) {
-            cgt_world world = {.valid = counts[i], .objects = {.count = counts[i]}};
+            cgt_committed_scene committed_scene = {.valid = counts[i], .prims = {.count = counts[i]}};
             cgt_buffer work = {NULL, 0};
             cgt_kd_raw raw;
-            assert_int_equal(cgt_kd_build(one_thread, &work, &world, builders[b], &cgt_kd_default_costs, &raw),
-                             CGT_ERROR_TOO_LARGE);
+            assert_int_equal(
+                cgt_kd_build(one_thread, &work, &committed_scene, builders[b], &cgt_kd_default_costs, &raw),
+                CGT_ERROR_TOO_LARGE);
             cgt_context_get_error_message(one_thread, text, sizeof text);
             assert_non_null(strstr(text, "too many"));
             assert_null(work.data);

@@ -10,13 +10,13 @@
 #include <string.h>
 
 #include "support/kd/kd_touch.h"
-#include "kernel/build/triangle_box.h"
+#include "kernel/builders/triangle_box.h"
 
 /* ---- shapes and boxes ---- */
 
 static bool ball_touches(float x, float y, float z, float r, kd_box box)
 {
-    const cgt_shape shape = {.kind = CGT_KIND_SPHERES, .sphere = {x, y, z, r}};
+    const cgt_primitive shape = {.kind = CGT_KIND_SPHERES, .sphere = {x, y, z, r}};
     return kd_touches(&shape, &box);
 }
 
@@ -44,7 +44,7 @@ static void spheres_at_the_limit(void **state)
 
 static bool triangle_touches(const float v[3][3], kd_box box)
 {
-    cgt_shape shape = {.kind = CGT_KIND_TRIANGLES};
+    cgt_primitive shape = {.kind = CGT_KIND_TRIANGLES};
     memcpy(shape.triangle.v, v, sizeof shape.triangle.v);
     return kd_touches(&shape, &box);
 }
@@ -87,7 +87,7 @@ static bool library_touches(const cgt_triangle *q, const kd_box *box)
     for (int a = 0; a < 3; a++)
         if (fmax(fmax(v[0][a], v[1][a]), v[2][a]) < box->low[a] || fmin(fmin(v[0][a], v[1][a]), v[2][a]) > box->high[a])
             return false;
-    cgt_triangle_box_make((const double(*)[3])v, half, &t);
+    cgt_triangle_box_init((const double(*)[3])v, half, &t);
     return cgt_triangle_box_touches(&t, center);
 }
 
@@ -99,7 +99,7 @@ static void triangles_of_both_opinions(void **state)
     const uint32_t rounds = 3000 + test_scaled(18000);
     (void)state;
     for (uint32_t round = 0; round < rounds; round++) {
-        cgt_shape s = {.kind = CGT_KIND_TRIANGLES};
+        cgt_primitive s = {.kind = CGT_KIND_TRIANGLES};
         kd_box box;
         for (int a = 0; a < 3; a++) {
             for (int k = 0; k < 3; k++)
@@ -107,7 +107,7 @@ static void triangles_of_both_opinions(void **state)
             box.low[a] = lattice(&r);
             box.high[a] = box.low[a] + (float)random_below(&r, 3);
         }
-        if (cgt_shape_check(&s) != CGT_OBJECT_VALID)
+        if (cgt_primitive_check(&s) != CGT_PRIMITIVE_VALID)
             continue;
         const bool touch = kd_touches(&s, &box);
         assert_int_equal(touch, library_touches(&s.triangle, &box));
@@ -131,7 +131,7 @@ static void triangles_of_both_opinions(void **state)
 
 /* A copy of a tree that may be spoilt. */
 typedef struct spoilt {
-    const cgt_world *world;
+    const cgt_committed_scene *committed_scene;
     cgt_kd_tree tree;
     cgt_kd_node *node;
     uint32_t *reference;
@@ -150,9 +150,9 @@ static void *copy(const void *from, size_t bytes)
     return to;
 }
 
-static spoilt spoilt_make(const cgt_kd_tree *tree, const cgt_world *world, uint64_t stream)
+static spoilt spoilt_make(const cgt_kd_tree *tree, const cgt_committed_scene *committed_scene, uint64_t stream)
 {
-    spoilt s = {.world = world, .tree = *tree, .random = random_make(stream)};
+    spoilt s = {.committed_scene = committed_scene, .tree = *tree, .random = random_make(stream)};
     s.tree.node = s.node = copy(tree->node, tree->nodes * sizeof *tree->node);
     s.tree.reference = s.reference = copy(tree->reference, tree->references * sizeof *tree->reference);
     if (tree->leaf)
@@ -168,12 +168,12 @@ static void spoilt_free(spoilt *s)
 }
 
 /* A random leaf of at least so many objects, or an inner node. */
-static uint32_t any_node(spoilt *s, bool leaf, uint32_t objects)
+static uint32_t any_node(spoilt *s, bool leaf, uint32_t prims)
 {
     for (;;) {
         const uint32_t i = random_below(&s->random, s->tree.nodes);
         const cgt_kd_node n = s->node[i];
-        if (i != 1 && cgt_kd_is_leaf(n) == leaf && (!leaf || cgt_kd_count(n) >= objects))
+        if (i != 1 && cgt_kd_is_leaf(n) == leaf && (!leaf || cgt_kd_count(n) >= prims))
             return i;
     }
 }
@@ -186,25 +186,25 @@ static uint32_t *objects_of(spoilt *s, uint32_t leaf)
 
 static void swap_objects(spoilt *s)
 {
-    uint32_t *object = objects_of(s, any_node(s, true, 2)), first = object[0];
-    object[0] = object[1];
-    object[1] = first;
+    uint32_t *prim = objects_of(s, any_node(s, true, 2)), first = prim[0];
+    prim[0] = prim[1];
+    prim[1] = first;
 }
 
 static void repeat_object(spoilt *s)
 {
-    uint32_t *object = objects_of(s, any_node(s, true, 2));
-    object[1] = object[0];
+    uint32_t *prim = objects_of(s, any_node(s, true, 2));
+    prim[1] = prim[0];
 }
 
 static void list_skipped_object(spoilt *s)
 {
-    const cgt_objects *objects = &s->world->objects;
+    const cgt_primitives *prims = &s->committed_scene->prims;
     for (;;) {
         const uint32_t leaf = any_node(s, true, 2), last = objects_of(s, leaf)[cgt_kd_count(s->node[leaf]) - 1];
-        const uint32_t i = random_below(&s->random, objects->count);
-        const cgt_shape shape = cgt_objects_shape(objects, i);
-        if (i < last && cgt_shape_check(&shape) != CGT_OBJECT_VALID) {
+        const uint32_t i = random_below(&s->random, prims->count);
+        const cgt_primitive shape = cgt_primitives_get(prims, i);
+        if (i < last && cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID) {
             objects_of(s, leaf)[0] = i;
             return;
         }
@@ -214,7 +214,7 @@ static void list_skipped_object(spoilt *s)
 static void list_no_object(spoilt *s)
 {
     const uint32_t leaf = any_node(s, true, 2);
-    objects_of(s, leaf)[cgt_kd_count(s->node[leaf]) - 1] = s->world->objects.count;
+    objects_of(s, leaf)[cgt_kd_count(s->node[leaf]) - 1] = s->committed_scene->prims.count;
 }
 
 static void refer_beyond(spoilt *s)
@@ -317,7 +317,7 @@ static void wrong_box(spoilt *s)
 
 static void wrong_wide_rope(spoilt *s)
 {
-    uint32_t *rope = &any_leaf(s)->wide_rope[random_below(&s->random, 6)];
+    uint32_t *rope = &any_leaf(s)->packet_rope[random_below(&s->random, 6)];
     *rope = *rope == CGT_INVALID_ID ? 0 : CGT_INVALID_ID;
 }
 
@@ -345,8 +345,8 @@ static void rope_not_pushed_down(spoilt *s)
 {
     for (uint32_t i = 0; i < s->tree.leaves; i++)
         for (uint32_t side = 0; side < 6; side++)
-            if (s->leaf[i].rope[side] != s->leaf[i].wide_rope[side]) {
-                s->leaf[i].rope[side] = s->leaf[i].wide_rope[side];
+            if (s->leaf[i].rope[side] != s->leaf[i].packet_rope[side]) {
+                s->leaf[i].rope[side] = s->leaf[i].packet_rope[side];
                 return;
             }
     fail_msg("no rope is pushed down");
@@ -371,14 +371,14 @@ static void omit_object(spoilt *s)
 {
     for (;;) {
         const uint32_t leaf = any_node(s, true, 2), count = cgt_kd_count(s->node[leaf]);
-        uint32_t *object = objects_of(s, leaf), i = random_below(&s->random, count);
+        uint32_t *prim = objects_of(s, leaf), i = random_below(&s->random, count);
         kd_box box;
         memcpy(box.low, s->leaf[s->node[leaf].word[1]].low, sizeof box.low);
         memcpy(box.high, s->leaf[s->node[leaf].word[1]].high, sizeof box.high);
-        const cgt_shape shape = cgt_objects_shape(&s->world->objects, object[i]);
+        const cgt_primitive shape = cgt_primitives_get(&s->committed_scene->prims, prim[i]);
         if (!kd_touches(&shape, &box))
             continue;
-        memmove(object + i, object + i + 1, (count - 1 - i) * sizeof *object);
+        memmove(prim + i, prim + i + 1, (count - 1 - i) * sizeof *prim);
         s->node[leaf] = cgt_kd_leaf_node(count - 1, s->node[leaf].word[1]);
         s->leaf[s->node[leaf].word[1]].count--;
         return;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "build/kd/split/kd_clip.h"
+#include "builders/kd/split/kd_clip.h"
 #include "support/kd/kd_touch.h"
 #include "support/test.h"
 
@@ -39,14 +39,14 @@ static float number(test_random *r, place where)
     }
 }
 
-static cgt_shape random_triangle(test_random *r, place where)
+static cgt_primitive random_triangle(test_random *r, place where)
 {
-    cgt_shape shape = {.kind = CGT_KIND_TRIANGLES};
+    cgt_primitive shape = {.kind = CGT_KIND_TRIANGLES};
     do
         for (int k = 0; k < 3; k++)
             for (int a = 0; a < 3; a++)
                 shape.triangle.v[k][a] = number(r, where);
-    while (cgt_shape_check(&shape) != CGT_OBJECT_VALID);
+    while (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID);
     return shape;
 }
 
@@ -79,7 +79,7 @@ static void say(const char *what, const cgt_triangle *q, const kd_box *box)
 }
 
 /* Nothing of the triangle may be in the box but outside of the bounds. */
-static void check_outside(const cgt_shape *shape, const kd_box *box, const cgt_kd_box *bounds)
+static void check_outside(const cgt_primitive *shape, const kd_box *box, const cgt_kd_box *bounds)
 {
     for (int a = 0; a < 3; a++) {
         kd_box lower = *box, upper = *box;
@@ -93,7 +93,7 @@ static void check_outside(const cgt_shape *shape, const kd_box *box, const cgt_k
 }
 
 /* A little inside of each face there is something, where the bounds are tight. */
-static uint32_t count_tight(const cgt_shape *shape, const kd_box *box, const cgt_kd_box *bounds)
+static uint32_t count_tight(const cgt_primitive *shape, const kd_box *box, const cgt_kd_box *bounds)
 {
     uint32_t tight = 0;
     for (int a = 0; a < 3; a++) {
@@ -116,7 +116,7 @@ static void test_boxes(void **state)
     for (int where = 0; where < PLACES; where++) {
         test_random r = random_make((uint64_t)where);
         for (uint32_t i = 0; i < 100 + test_scaled(CASES); i++) {
-            const cgt_shape shape = random_triangle(&r, (place)where);
+            const cgt_primitive shape = random_triangle(&r, (place)where);
             const kd_box box = random_box(&r, (place)where, &shape.triangle);
             cgt_kd_box clip, bounds;
             memcpy(&clip, &box, sizeof clip);
@@ -147,13 +147,13 @@ static void test_sides(void **state)
     for (int where = 0; where < PLACES; where++) {
         test_random r = random_make(100 + (uint64_t)where);
         for (uint32_t i = 0; i < 100 + test_scaled(CASES); i++) {
-            const cgt_shape shape = random_triangle(&r, (place)where);
+            const cgt_primitive shape = random_triangle(&r, (place)where);
             const uint32_t axis = random_below(&r, 3);
             const float split = number(&r, (place)where);
             const float *x = &shape.triangle.v[0][axis];
             if (split < fminf(x[0], fminf(x[3], x[6])) || split > fmaxf(x[0], fmaxf(x[3], x[6])))
                 continue;
-            cgt_kd_span side[2];
+            cgt_kd_bounds4 side[2];
             cgt_kd_clip_sides(&shape.triangle, axis, split, side);
             for (int s = 0; s < 2; s++) {
                 kd_box box = {{-0x1p56f, -0x1p56f, -0x1p56f}, {0x1p56f, 0x1p56f, 0x1p56f}};

@@ -67,10 +67,10 @@ static void check_leaf(const cgt_kd_raw *raw, const cgt_kd_tree *tree, cgt_kd_no
                        uint64_t *next)
 {
     const cgt_kd_node n = tree->node[node];
-    const uint32_t count = cgt_kd_count(was), *object = cgt_kd_references(tree, &tree->node[node]);
+    const uint32_t count = cgt_kd_count(was), *prim = cgt_kd_references(tree, &tree->node[node]);
     assert_true(cgt_kd_is_leaf(n) && cgt_kd_count(n) == count);
     if (count)
-        assert_memory_equal(object, raw->reference + was.word[1], count * sizeof *object);
+        assert_memory_equal(prim, raw->reference + was.word[1], count * sizeof *prim);
     if (tree->leaf) {
         assert_int_equal(n.word[1], number);
         assert_int_equal(tree->leaf[number].count, count);
@@ -111,14 +111,15 @@ static void check_order(const cgt_kd_raw *raw, const cgt_kd_tree *tree, uint32_t
     free(o.raw);
 }
 
-static void check_layouts(cgt_context *context, const cgt_world *world, const cgt_kd_raw *raw, flat_tree *flat)
+static void check_layouts(cgt_context *context, const cgt_committed_scene *committed_scene, const cgt_kd_raw *raw,
+                          flat_tree *flat)
 {
     for (size_t i = 0; i < TEST_COUNT(layouts); i++)
         for (int ropes = 0; ropes < 2; ropes++) {
             assert_int_equal(flatten(flat, context, raw, layouts[i].layout, layouts[i].break_level, ropes), CGT_OK);
             assert_true(!flat->tree.leaf == !ropes);
             check_order(raw, &flat->tree, layouts[i].levels);
-            const char *fault = kd_check(&flat->tree, world);
+            const char *fault = kd_check(&flat->tree, committed_scene);
             if (fault)
                 fail_msg("%s, break level %u, ropes %d: %s", layout_name(layouts[i].layout), layouts[i].break_level,
                          ropes, fault);
@@ -154,8 +155,8 @@ static void one_leaf(void **state)
     cgt_context *context = context_make(1, NULL);
     flat_tree flat = {0};
     (void)state;
-    for (uint32_t objects = 1; objects < 12; objects += 5) {
-        cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, objects, objects);
+    for (uint32_t prims = 1; prims < 12; prims += 5) {
+        cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, prims, prims);
         random_tree tree = random_tree_leaf(world_of(scene));
         check_layouts(context, world_of(scene), &tree.raw, &flat);
         assert_int_equal(flat.tree.nodes, 2);
@@ -267,16 +268,16 @@ static void refused_memory(void **state)
 }
 
 /* A chain of splits at the lower end of the root, `depth` of them; the last leaf has all objects, like the others. */
-static random_tree chain(const cgt_world *world, uint32_t depth)
+static random_tree chain(const cgt_committed_scene *committed_scene, uint32_t depth)
 {
-    random_tree tree = random_tree_leaf(world);
+    random_tree tree = random_tree_leaf(committed_scene);
     const cgt_kd_node leaf = tree.node[0];
     free(tree.node);
     tree.node = calloc(2 * depth + 1, sizeof *tree.node);
     assert_non_null(tree.node);
     for (uint32_t i = 0; i < depth; i++) {
         tree.node[i ? 2 * i : 0] =
-            cgt_kd_inner(0, cgt_kd_round_split(0.5f * (world->low[0] + world->high[0])), 2 * i + 1);
+            cgt_kd_inner(0, cgt_kd_round_split(0.5f * (committed_scene->low[0] + committed_scene->high[0])), 2 * i + 1);
         tree.node[2 * i + 1] = tree.node[2 * i + 2] = leaf;
     }
     tree.raw.node = tree.node;

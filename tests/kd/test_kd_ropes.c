@@ -66,18 +66,18 @@ static void fill_packet(packet *p, const truth_ray ray[RAYS], bool common_origin
         p->t_min[k] = ray[k].t_min;
         p->t_max[k] = ray[k].t_max;
         p->low[k] = p->high[k] = closed >> k & 1 || ray[k].t_min > ray[k].t_max ? -INFINITY : ray[k].t_max;
-        p->object[k] = CGT_INVALID_ID;
+        p->prim[k] = CGT_INVALID_ID;
         p->rays += p->high[k] != -INFINITY;
     }
 }
 
-static void trace_all(const cgt_world *world, packet *p, cgt_counts *counts)
+static void trace_all(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
 {
-    for (uint32_t object = 0; object < world->objects.count; object++) {
-        const cgt_shape shape = cgt_objects_shape(&world->objects, object);
-        if (cgt_shape_check(&shape) == CGT_OBJECT_VALID)
+    for (uint32_t prim = 0; prim < committed_scene->prims.count; prim++) {
+        const cgt_primitive shape = cgt_primitives_get(&committed_scene->prims, prim);
+        if (cgt_primitive_check(&shape) == CGT_PRIMITIVE_VALID)
             for (uint32_t i = 0; i < p->lanes; i++)
-                filter_decide(&world->objects, p, i, object, counts);
+                filter_decide(&committed_scene->prims, p, i, prim, counts);
     }
 }
 
@@ -100,16 +100,16 @@ static void compare_hits(const rope_case *c, const truth_ray ray[RAYS], const pa
 {
     cgt_counts counts = {0};
     const cgt_trace_settings settings = {.kd_traversal = traversal, .mailbox = sum->rays / RAYS % 2};
-    CGT_KERNEL(cgt_kd_ropes_trace)(&c->world, p, &settings, &counts);
+    CGT_KERNEL(cgt_kd_ropes_trace)(&c->committed_scene, p, &settings, &counts);
     for (uint32_t k = 0; k < RAYS; k++) {
-        const bool hit = truth->object[k] != CGT_INVALID_ID;
-        const bool same = p->any_hit ? (p->object[k] != CGT_INVALID_ID) == hit : p->object[k] == truth->object[k];
+        const bool hit = truth->prim[k] != CGT_INVALID_ID;
+        const bool same = p->any_hit ? (p->prim[k] != CGT_INVALID_ID) == hit : p->prim[k] == truth->prim[k];
         sum->rays++;
         sum->hits += hit;
         if (same)
             continue;
         if (!sum->wrong++) {
-            print_message("object %u, expected %u, %s, place %d: ", p->object[k], truth->object[k],
+            print_message("object %u, expected %u, %s, place %d: ", p->prim[k], truth->prim[k],
                           traversal == CGT_KD_TRAVERSAL_SINGLE ? "single" : "packet", (int)c->place);
             print_ray(&ray[k]);
         }
@@ -136,7 +136,7 @@ static void hits_are_those_of_brute_force(void **state)
             closed &= random_bits(&r); /* one of four is closed */
             make_rays(&r, c, common_origin, ray);
             fill_packet(truth, ray, common_origin, any_hit, closed);
-            trace_all(&c->world, truth, &unused);
+            trace_all(&c->committed_scene, truth, &unused);
             fill_packet(p, ray, common_origin, any_hit, closed);
             compare_hits(c, ray, truth, p, CGT_KD_TRAVERSAL_SINGLE, &sum[0]);
             fill_packet(p, ray, common_origin, any_hit, closed);
@@ -267,7 +267,7 @@ static void judge_packet(const rope_case *c, const truth_ray ray[RAYS], const pa
     for (uint32_t k = 0; k < RAYS; k++) {
         if (p->high[k] == -INFINITY)
             continue; /* stopped anywhere, or never started */
-        const char *wrong = judge_leaves(&c->world.kd, &ray[k], k, p->high[k], sum);
+        const char *wrong = judge_leaves(&c->committed_scene.kd, &ray[k], k, p->high[k], sum);
         if (!wrong)
             continue;
         print_ray(&ray[k]);
@@ -285,7 +285,7 @@ static void leaves_cover_the_rays(void **state)
     assert_true(p && l);
     for (uint32_t round = 6 + test_scaled(120); round; round--) {
         rope_case *c = rope_case_make(&r, context, (rope_place)(round % ROPE_PLACES));
-        const char *fault = kd_check(&c->world.kd, &c->world);
+        const char *fault = kd_check(&c->committed_scene.kd, &c->committed_scene);
         const bool any_hit = random_below(&r, 4) == 0;
         truth_ray ray[RAYS];
         cgt_counts counts = {0};
@@ -296,9 +296,9 @@ static void leaves_cover_the_rays(void **state)
         for (int packets = 0; packets < 2; packets++) {
             memset(visits.count, 0, sizeof visits.count);
             fill_packet(p, ray, false, any_hit, 0);
-            leaf_tests_make(&c->world, p, &settings, &counts, l);
+            leaf_tests_init(&c->committed_scene, p, &settings, &counts, l);
             for (uint32_t i = 0; i < RAYS; i += packets ? CGT_LANES : 1)
-                (packets ? rope_trace_vector : rope_trace_ray)(&c->world.kd, l, i);
+                (packets ? rope_trace_vector : rope_trace_ray)(&c->committed_scene.kd, l, i);
             judge_packet(c, ray, p, &sum[packets]);
         }
         assert_int_equal(counts.rope_loops, 0);
@@ -327,7 +327,7 @@ static void set_leaf(packet *p, uint32_t k, const cgt_plane_time t[2], uint32_t 
         leaf->low[a] = -0x1p54f;
         leaf->high[a] = of.plane;
         for (uint32_t side = 0; side < 2; side++)
-            leaf->rope[2 * a + side] = leaf->wide_rope[2 * a + side] = 10 * a + side;
+            leaf->rope[2 * a + side] = leaf->packet_rope[2 * a + side] = 10 * a + side;
     }
 }
 
@@ -350,10 +350,10 @@ static void faces_at_nearly_the_same_time(void **state)
             continue; /* either will do */
         for (uint32_t i = 0; i < CGT_LANES; i++)
             set_leaf(p, i, t, swap, &leaf);
-        rope_ray_make(p, lane, &one);
+        rope_ray_init(p, lane, &one);
         assert_int_equal(rope_ray_leave(p, lane, &one, &leaf), 10 * axis + 1);
         assert_int_equal(one.last.axis, axis);
-        rope_packet_make(p, 0, &many);
+        rope_packet_init(p, 0, &many);
         for (uint32_t i = 0; i < CGT_LANES; i++)
             many.node[i] = 99;
         rope_packet_leave(&many, &leaf, 1u << lane);

@@ -232,26 +232,27 @@ typedef struct workshop {
     cgt_context *context[3]; /* of 1, 2 and 3 threads */
     cgt_buffer work[3];
     flat_tree flat[3];
-    uint64_t nodes, references, leaves, limited;
+    uint64_t nodes, references, leaves, limited_leaves;
 } workshop;
 
-static void build(workshop *w, size_t i, const cgt_world *world, cgt_kd_builder builder, cgt_kd_raw *raw)
+static void build(workshop *w, size_t i, const cgt_committed_scene *committed_scene, cgt_kd_builder builder,
+                  cgt_kd_raw *raw)
 {
-    if (cgt_kd_build(w->context[i], &w->work[i], world, builder, &cgt_kd_default_costs, raw) != CGT_OK)
+    if (cgt_kd_build(w->context[i], &w->work[i], committed_scene, builder, &cgt_kd_default_costs, raw) != CGT_OK)
         fail_msg("%s", context_message(w->context[i]));
 }
 
-static void check_builder(workshop *w, const cgt_world *world, size_t builder, const char *scene)
+static void check_builder(workshop *w, const cgt_committed_scene *committed_scene, size_t builder, const char *scene)
 {
     cgt_kd_raw raw, other;
-    build(w, 0, world, builders[builder].builder, &raw);
+    build(w, 0, committed_scene, builders[builder].builder, &raw);
     for (size_t i = 0; i < 2 * TEST_COUNT(layouts); i++) {
         const size_t l = i / 2;
         const bool ropes = i % 2;
         const cgt_kd_tree *tree = &w->flat[0].tree;
         assert_int_equal(flatten(&w->flat[0], w->context[0], &raw, layouts[l].layout, layouts[l].break_level, ropes),
                          CGT_OK);
-        const char *fault = kd_check(tree, world);
+        const char *fault = kd_check(tree, committed_scene);
         if (fault)
             fail_msg("%s, %s, %s, ropes %d: %s", scene, builders[builder].name, layout_name(layouts[l].layout), ropes,
                      fault);
@@ -259,13 +260,13 @@ static void check_builder(workshop *w, const cgt_world *world, size_t builder, c
         w->references += tree->references;
         w->leaves += tree->leaves;
     }
-    w->limited += raw.limited;
+    w->limited_leaves += raw.limited_leaves;
     for (size_t i = 1; i < TEST_COUNT(w->context); i++) { /* of the last layout, with ropes */
-        build(w, i, world, builders[builder].builder, &other);
+        build(w, i, committed_scene, builders[builder].builder, &other);
         assert_int_equal(flatten(&w->flat[i], w->context[i], &other, layouts[2].layout, layouts[2].break_level, true),
                          CGT_OK);
         check_same(&w->flat[0].tree, &w->flat[i].tree);
-        assert_true(other.cost == raw.cost && other.limited == raw.limited);
+        assert_true(other.cost == raw.cost && other.limited_leaves == raw.limited_leaves);
     }
 }
 
@@ -290,7 +291,7 @@ static void print_workshop(const char *what, const workshop *w)
 {
     print_message("%s: %llu nodes, %llu references, %llu leaves, %llu of them limited\n", what,
                   (unsigned long long)w->nodes, (unsigned long long)w->references, (unsigned long long)w->leaves,
-                  (unsigned long long)w->limited);
+                  (unsigned long long)w->limited_leaves);
 }
 
 /* ---- tests ---- */
@@ -309,7 +310,7 @@ static void scenes_of_all_kinds(void **state)
             if (t.triangles)
                 scene_add_triangles(scene, (const triangle *)t.triangle, t.triangles);
             scene_commit(w.context[0], scene);
-            assert_true(world_of(scene)->valid > 0 && !world_of(scene)->everything);
+            assert_true(world_of(scene)->valid > 0 && !world_of(scene)->brute_force);
             for (size_t b = 0; b < TEST_COUNT(builders); b++)
                 check_builder(&w, world_of(scene), b, kinds[kind].name);
             cgt_scene_release(scene);

@@ -12,7 +12,7 @@
 #include "support/scenes.h"
 
 static float filter_u = 0x1p-24f, margin_used = 0x1p-17f;
-#define FILTER_U filter_u
+#define FILTER_ROUNDOFF filter_u
 #define LIGHT_MARGIN margin_used
 #include "kernel/light/light_grid.c"
 

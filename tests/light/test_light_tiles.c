@@ -31,12 +31,12 @@ typedef struct crowd {
 } crowd;
 
 /* Triangles are as large as the spheres that they stand for; of four, two share an edge. */
-static crowd crowd_make(test_random *r, cloud_kind kind, content what, uint32_t objects)
+static crowd crowd_make(test_random *r, cloud_kind kind, content what, uint32_t prims)
 {
-    crowd c = {.balls = cloud_make(r, kind, objects), .what = what, .name = cloud_name(kind)};
-    c.corner = malloc(objects * sizeof *c.corner);
+    crowd c = {.balls = cloud_make(r, kind, prims), .what = what, .name = cloud_name(kind)};
+    c.corner = malloc(prims * sizeof *c.corner);
     assert_non_null(c.corner);
-    for (uint32_t i = 0; i < objects; i++)
+    for (uint32_t i = 0; i < prims; i++)
         for (int k = 0; k < 9; k++)
             c.corner[i][k] = i % 4 == 1 && k >= 3
                                  ? c.corner[i - 1][k]
@@ -138,7 +138,7 @@ static void look(question *q, test_random *r, const cgt_scene *scene, const crow
 static void place_light(question *q, test_random *r, const crowd *c, uint32_t kind)
 {
     const float *middle = c->balls.middle, reach = c->balls.reach;
-    const float *object = c->balls.sphere[random_below(r, c->balls.count)];
+    const float *prim = c->balls.sphere[random_below(r, c->balls.count)];
     const float *on = q->plain[random_below(r, SIDE * SIDE)].at;
     const uint32_t axis = random_below(r, 3);
     float aside[3];
@@ -152,7 +152,7 @@ static void place_light(question *q, test_random *r, const crowd *c, uint32_t ki
         case LIGHT_FAR: *to = middle[a] + 8 * reach * aside[a]; break;
         case LIGHT_VERY_FAR: *to = middle[a] + 1e6f * (reach + fabsf(middle[a])) * (inside < 0 ? -1.f : 1.f); break;
         case LIGHT_AMONG: *to = middle[a] + reach * inside; break;
-        case LIGHT_IN_OBJECT: *to = object[a] + 0.5f * object[3] * inside; break;
+        case LIGHT_IN_OBJECT: *to = prim[a] + 0.5f * prim[3] * inside; break;
         case LIGHT_ON_SURFACE: *to = on[a]; break;
         case LIGHT_BEHIND: *to = middle[a] - 3 * (eye - middle[a]) + reach * inside; break;
         case LIGHT_AT_EYE: *to = eye; break;

@@ -66,7 +66,7 @@ static inline truth_ray ray_to(const float org[3], const double target[3])
 }
 
 /* From a random point to one of the triangle's plane: on an edge, at a vertex, anywhere. */
-static inline truth_ray ray_at(test_random *r, box b, const float (*v)[3])
+static inline truth_ray ray_index(test_random *r, box b, const float (*v)[3])
 {
     float org[3];
     double target[3];

@@ -122,7 +122,7 @@ static void triangles_as_by_textbook(void **state)
         for (int i = 0; i < 3; i++)
             random_point(&r, b, v[i]);
         memcpy(p.data, v, sizeof v);
-        const truth_ray ray = ray_at(&r, b, (const float(*)[3])v);
+        const truth_ray ray = ray_index(&r, b, (const float(*)[3])v);
         const int expected = textbook_triangle(&ray, (const float(*)[3])v, tuv);
         if (expected == 0)
             continue;
@@ -229,7 +229,7 @@ static void names_and_scales_do_not_matter(void **state)
                 v[i][a] = (float)((int32_t)random_below(&r, 1 << 20) - (1 << 19)) * 0x1p-17f;
         memcpy(p.data, v, sizeof v);
         p.data[3] = round % 2 ? p.data[3] : fabsf(p.data[3]);
-        truth_ray ray = ray_at(&r, b, (const float(*)[3])v);
+        truth_ray ray = ray_index(&r, b, (const float(*)[3])v);
         for (int a = 0; a < 3; a++) {
             ray.org[a] = rintf(ray.org[a] * 0x1p17f) * 0x1p-17f;
             ray.dir[a] = rintf(ray.dir[a] * 0x1p17f) * 0x1p-17f;

@@ -119,7 +119,7 @@ static truth_ray random_ray(test_random *r, box b, const oracle_scene *scene)
             for (int a = 0; a < 3; a++)
                 v[i][a] = p->data[a] + p->data[3] * v[i][a];
         }
-    truth_ray ray = ray_at(r, b, (const float(*)[3])v);
+    truth_ray ray = ray_index(r, b, (const float(*)[3])v);
     if (random_below(r, 4) == 0) {
         ray.t_min = random_float(r, -1, 1);
         ray.t_max = random_below(r, 2) ? ray.t_min + random_float(r, 0, 1) : INFINITY;

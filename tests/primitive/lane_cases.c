@@ -111,14 +111,14 @@ static void scale_object(oracle_primitive *q, int exponent)
 /* The first object again, with other corners first or moved a little; or somewhere beside it. */
 static void other_object(test_random *r, lane_case *c, int k, double size)
 {
-    oracle_primitive *q = &c->object[k];
+    oracle_primitive *q = &c->prim[k];
     const uint32_t numbers = numbers_of(q->kind);
-    *q = c->object[0];
+    *q = c->prim[0];
     switch (random_below(r, 4)) {
     case 0:
         if (q->kind == ORACLE_TRIANGLE)
             for (uint32_t i = 0; i < 9; i++)
-                q->data[i] = c->object[0].data[(i + 3 * (uint32_t)k) % 9];
+                q->data[i] = c->prim[0].data[(i + 3 * (uint32_t)k) % 9];
         break;
     case 1:
         for (uint32_t i = 0; i < numbers; i++)
@@ -127,7 +127,7 @@ static void other_object(test_random *r, lane_case *c, int k, double size)
     default: q->data[random_below(r, numbers)] += (float)size * random_log(r, 1e-9f, 1e-1f) * sign(r); break;
     }
     if (!is_valid(q))
-        *q = c->object[0];
+        *q = c->prim[0];
 }
 
 static void make_objects(test_random *r, oracle_kind kind, lane_case *c)
@@ -136,20 +136,20 @@ static void make_objects(test_random *r, oracle_kind kind, lane_case *c)
     const bool any = c->family == CASE_ANY;
     const int exponent = any ? (int)random_below(r, 185) - 135 : worlds[random_below(r, TEST_COUNT(worlds))];
     do {
-        c->object[0] = (oracle_primitive){.kind = kind};
+        c->prim[0] = (oracle_primitive){.kind = kind};
         if (is_lattice(c->family))
-            shape_lattice(r, &c->object[0]);
+            shape_lattice(r, &c->prim[0]);
         else
-            shape_object(r, c->family, &c->object[0]);
-        scale_object(&c->object[0], exponent);
-    } while (!is_valid(&c->object[0]));
-    const subject s = describe(&c->object[0]);
+            shape_object(r, c->family, &c->prim[0]);
+        scale_object(&c->prim[0], exponent);
+    } while (!is_valid(&c->prim[0]));
+    const subject s = describe(&c->prim[0]);
     for (int k = 1; k < CASE_LANES; k++)
         other_object(r, c, k, s.size);
     c->magnitude = 0;
     for (int k = 0; k < CASE_LANES; k++)
         for (uint32_t i = 0; i < numbers_of(kind); i++)
-            c->magnitude = fmaxf(c->magnitude, fabsf(c->object[k].data[i]));
+            c->magnitude = fmaxf(c->magnitude, fabsf(c->prim[k].data[i]));
     if (c->family == CASE_TINY)
         c->magnitude *= ldexpf(1, (int)random_below(r, 14));
     if (any) {
@@ -260,7 +260,7 @@ static void flatten(test_random *r, const double point[3], float org[3], double 
 static void make_ray(test_random *r, const lane_case *c, const subject *s, const float from[3], double length,
                      truth_ray *ray)
 {
-    const oracle_primitive *q = &c->object[0];
+    const oracle_primitive *q = &c->prim[0];
     double point[3], to[3], square = 0;
     memcpy(ray->org, from, sizeof ray->org);
     if (q->kind == ORACLE_SPHERE)
@@ -287,10 +287,10 @@ static void make_ray(test_random *r, const lane_case *c, const subject *s, const
  */
 static void make_lattice_ray(test_random *r, const lane_case *c, truth_ray *ray)
 {
-    const float *v = c->object[0].data;
+    const float *v = c->prim[0].data;
     const bool any = c->family == CASE_ANY;
     const uint32_t to = random_below(r, 3), k = 3 * random_below(r, 3), l = 3 * random_below(r, 3);
-    const float unit = c->object[0].kind == ORACLE_SPHERE ? v[3] : fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[3])));
+    const float unit = c->prim[0].kind == ORACLE_SPHERE ? v[3] : fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[3])));
     const int size = unit > 0 ? ilogbf(unit) : -135, most = 53 - size - 3;
     const int far = any ? (int)random_below(r, (uint32_t)(most > 1 ? most : 1)) : (int)random_below(r, 8);
     const int length = (int)random_below(r, 99) - 50;
@@ -300,7 +300,7 @@ static void make_lattice_ray(test_random *r, const lane_case *c, truth_ray *ray)
             d[a] = (float)random_below(r, 9) - 4;
     while (d[0] == 0 && d[1] == 0 && d[2] == 0);
     for (int a = 0; a < 3; a++) {
-        const bool corners = to && c->object[0].kind == ORACLE_TRIANGLE;
+        const bool corners = to && c->prim[0].kind == ORACLE_TRIANGLE;
         const float aim = corners ? 0.5f * v[(int)k + a] + 0.5f * v[(int)l + a] : 0;
         ray->org[a] = aim - ldexpf(d[a], size + far);
         ray->dir[a] = ldexpf(d[a], any ? length : (int)random_below(r, 2));
@@ -344,7 +344,7 @@ static double flattest(const float *v, float d[3])
  * in the origin is what brings the hit to t = -1: single precision does not see it. */
 static void make_flat_rays(test_random *r, lane_case *c, const subject *s)
 {
-    const float *v = c->object[0].data;
+    const float *v = c->prim[0].data;
     const double share = (double)random_float(r, 0.3f, 0.7f), size = s->size;
     double square = 0;
     float d[3];
@@ -371,7 +371,7 @@ void case_make(test_random *r, oracle_kind kind, case_family f, lane_case *c)
     float origin[3];
     c->family = f;
     make_objects(r, kind, c);
-    const subject s = describe(&c->object[0]);
+    const subject s = describe(&c->prim[0]);
     make_origin(r, f, kind, &s, origin);
     const int exponent = random_below(r, 2) ? (int)random_below(r, 101) - 50 : 0;
     const bool fan = random_below(r, 2);
@@ -396,9 +396,9 @@ void case_judge(const lane_case *c, case_truth *truth)
 {
     for (int i = 0; i < CASE_LANES; i++) {
         oracle_hit hit;
-        truth->hit[0][i] = oracle_hits(&c->object[0], &c->ray[i], &hit);
+        truth->hit[0][i] = oracle_hits(&c->prim[0], &c->ray[i], &hit);
         truth->t[0][i] = hit.t;
-        truth->hit[1][i] = oracle_hits(&c->object[i], &c->ray[0], &hit);
+        truth->hit[1][i] = oracle_hits(&c->prim[i], &c->ray[0], &hit);
         truth->t[1][i] = hit.t;
     }
 }

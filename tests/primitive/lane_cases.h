@@ -32,7 +32,7 @@ const char *case_name(case_family f);
 
 typedef struct lane_case {
     case_family family;
-    oracle_primitive object[CASE_LANES];
+    oracle_primitive prim[CASE_LANES];
     truth_ray ray[CASE_LANES]; /* of ranges without end */
     float magnitude;           /* the world's largest coordinate */
 } lane_case;

@@ -3,7 +3,7 @@
  *
  * The single-precision filter of the variant that this is compiled for, against the truth in wide arithmetic: a certain
  * miss is a miss, a certain hit is a hit, and the interval holds its t. Then the bounds are made tighter, by giving
- * FILTER_U less than the unit roundoff, until they break: a bound that never broke would be too wide to be of use. */
+ * FILTER_ROUNDOFF less than the unit roundoff, until they break: a bound that never broke would be too wide to be of use. */
 #include "support/oracle/truth.h"
 #include "support/test.h"
 
@@ -13,7 +13,7 @@
 #include "vector.h"
 
 static float filter_u = 0x1p-24f;
-#define FILTER_U filter_u
+#define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/sphere_filter.h"
 
 #define LANES 16 /* rays per packet: whole vectors at any width */
@@ -107,19 +107,19 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
         p->rdd[i] = 1 / dd;
         p->t_min[i] = back ? -INFINITY : 0;
         p->t_max[i] = p->low[i] = p->high[i] = INFINITY;
-        p->object[i] = CGT_INVALID_ID;
+        p->prim[i] = CGT_INVALID_ID;
     }
 }
 
 /* ---- judging ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, open;       /* open: left to double precision */
+    uint64_t lanes, hits, undecided;  /* open: left to double precision */
     uint64_t lost, invented, outside; /* what must not happen */
 } tally;
 
-static void judge_lane(const packet *p, int i, const float sphere[4], bool certain, bool open, float low, float high,
-                       tally *sum)
+static void judge_lane(const packet *p, int i, const float sphere[4], bool certain_hit, bool undecided, float low,
+                       float high, tally *sum)
 {
     const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]},
                 dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
@@ -128,10 +128,10 @@ static void judge_lane(const packet *p, int i, const float sphere[4], bool certa
     const bool hit = roots.hit && (float)t >= p->t_min[i];
     sum->lanes++;
     sum->hits += hit;
-    sum->open += open;
-    if (open || truth_in_doubt(&roots))
+    sum->undecided += undecided;
+    if (undecided || truth_in_doubt(&roots))
         return;
-    if (!certain)
+    if (!certain_hit)
         sum->lost += hit;
     else if (!hit)
         sum->invented++;
@@ -146,21 +146,22 @@ static void judge_packet(test_random *r, const packet *p, const float sphere[4],
     filter_packet of_packet;
     filter_spheres s;
     filter_result f;
-    filter_packet_make(p, 1, &of_packet);
+    filter_packet_init(p, 1, &of_packet);
     for (int i = 0; i < CGT_LANES; i++) {
         for (int a = 0; a < 3; a++)
             s.center[a][i] = i == k ? sphere[a] : random_float(r, -10, 10);
         s.radius[i] = i == k ? sphere[3] : random_float(r, 0, 10);
-        s.object[i] = (uint32_t)i;
+        s.prim[i] = (uint32_t)i;
     }
     filter_spheres_bound(&of_packet, &s);
     const filter_sphere q = filter_sphere_get(p, &s, k, p->common_origin);
     for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
         const bool some = filter_sphere_rays(p, &q, i, p->common_origin, &f);
-        const unsigned certain = some ? spux_mask_bits(f.certain) : 0, open = some ? spux_mask_bits(f.open) : 0;
-        assert_int_equal(certain & open, 0);
+        const unsigned certain_hit = some ? spux_mask_bits(f.certain_hit) : 0,
+                       undecided = some ? spux_mask_bits(f.undecided) : 0;
+        assert_int_equal(certain_hit & undecided, 0);
         for (int lane = 0; lane < CGT_LANES; lane++)
-            judge_lane(p, (int)i + lane, sphere, certain >> lane & 1, open >> lane & 1, some ? f.low[lane] : 0,
+            judge_lane(p, (int)i + lane, sphere, certain_hit >> lane & 1, undecided >> lane & 1, some ? f.low[lane] : 0,
                        some ? f.high[lane] : 0, sum);
     }
 }
@@ -188,14 +189,14 @@ static void bounds_hold(void **state)
     for (int f = 0; f < FAMILIES; f++) {
         const tally t = judge_family((family)f, test_scaled(10000), 1);
         print_message("%s: %llu rays, %llu hits, %llu open; lost %llu, invented %llu, outside %llu\n", family_name[f],
-                      (unsigned long long)t.lanes, (unsigned long long)t.hits, (unsigned long long)t.open,
+                      (unsigned long long)t.lanes, (unsigned long long)t.hits, (unsigned long long)t.undecided,
                       (unsigned long long)t.lost, (unsigned long long)t.invented, (unsigned long long)t.outside);
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
-        assert_true(t.hits > t.lanes / 5 && t.open < t.lanes); /* the filter had something to tell */
+        assert_true(t.hits > t.lanes / 5 && t.undecided < t.lanes); /* the filter had something to tell */
         if (f == CROSSING)
-            assert_true(t.open < t.lanes / 2);
+            assert_true(t.undecided < t.lanes / 2);
     }
 }
 
@@ -233,7 +234,7 @@ static void order_of_two_spheres(void **state)
 {
     (void)state;
     test_random r = random_make(100);
-    uint64_t certain = 0, open = 0;
+    uint64_t certain_hit = 0, undecided = 0;
     for (uint32_t round = test_scaled(20000); round; round--) {
         packet p;
         float sphere[4], other[4];
@@ -243,13 +244,13 @@ static void order_of_two_spheres(void **state)
         make_packet(&r, CROSSING, &p, sphere);
         memcpy(other, sphere, sizeof other);
         other[random_below(&r, 4)] *= 1 + random_log(&r, 1e-8f, 1e-1f) * (random_below(&r, 2) ? 1.f : -1.f);
-        filter_packet_make(&p, 1, &of_packet);
+        filter_packet_init(&p, 1, &of_packet);
         memset(&s, 0, sizeof s);
         for (int k = 0; k < 2; k++) {
             for (int a = 0; a < 3; a++)
                 s.center[a][k] = k ? other[a] : sphere[a];
             s.radius[k] = k ? other[3] : sphere[3];
-            s.object[k] = (uint32_t)k;
+            s.prim[k] = (uint32_t)k;
         }
         filter_spheres_bound(&of_packet, &s);
         for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
@@ -257,12 +258,13 @@ static void order_of_two_spheres(void **state)
                                 second = filter_sphere_get(&p, &s, 1, p.common_origin);
             if (!filter_sphere_rays(&p, &first, i, p.common_origin, &f))
                 continue;
-            const unsigned hit = spux_mask_bits(f.certain);
-            spux_store(p.low + i, spux_select(spux_load(p.low + i), f.low, f.certain));
-            spux_store(p.high + i, spux_select(spux_load(p.high + i), f.high, f.certain));
-            spux_store_uint(p.object + i, spux_select(spux_load_uint(p.object + i), spux_vuint(0), f.certain));
+            const unsigned hit = spux_mask_bits(f.certain_hit);
+            spux_store(p.low + i, spux_select(spux_load(p.low + i), f.low, f.certain_hit));
+            spux_store(p.high + i, spux_select(spux_load(p.high + i), f.high, f.certain_hit));
+            spux_store_uint(p.prim + i, spux_select(spux_load_uint(p.prim + i), spux_vuint(0), f.certain_hit));
             const bool some = filter_sphere_rays(&p, &second, i, p.common_origin, &f);
-            const unsigned nearer = some ? spux_mask_bits(f.certain) : 0, left = some ? spux_mask_bits(f.open) : 0;
+            const unsigned nearer = some ? spux_mask_bits(f.certain_hit) : 0,
+                           left = some ? spux_mask_bits(f.undecided) : 0;
             for (uint32_t lane = 0; lane < CGT_LANES; lane++) {
                 const uint32_t j = i + lane;
                 if (!(hit >> lane & 1))
@@ -272,9 +274,9 @@ static void order_of_two_spheres(void **state)
                 const truth_roots a = truth_sphere(org, dir, sphere), b = truth_sphere(org, dir, other);
                 const truth_real t = (float)b.near >= 0 ? b.near : b.far; /* the origin may be inside the other one */
                 if (left >> lane & 1)
-                    open++;
+                    undecided++;
                 else if (nearer >> lane & 1) {
-                    certain++;
+                    certain_hit++;
                     assert_true(b.hit && t < a.near);
                 } else if (b.hit && !truth_in_doubt(&b)) {
                     assert_true(t > a.near || (float)t < 0);
@@ -282,9 +284,9 @@ static void order_of_two_spheres(void **state)
             }
         }
     }
-    print_message("nearer for certain %llu times, left open %llu times\n", (unsigned long long)certain,
-                  (unsigned long long)open);
-    assert_true(certain > 100 && open > 100);
+    print_message("nearer for certain %llu times, left open %llu times\n", (unsigned long long)certain_hit,
+                  (unsigned long long)undecided);
+    assert_true(certain_hit > 100 && undecided > 100);
 }
 
 int main(void)

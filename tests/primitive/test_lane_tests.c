@@ -4,7 +4,7 @@
  * The single-precision tests of leaves, of the variant that this is compiled for, against the exact oracle: a certain
  * hit is a hit, in the range, and the interval holds its t; what is neither certain nor open is no hit; and no hit is
  * nearer than the interval of an open lane begins. All of it for a vector of rays with one object, and for one ray with
- * a vector of objects. Then the bounds are made tighter, by giving FILTER_U less than the unit roundoff, until they
+ * a vector of objects. Then the bounds are made tighter, by giving FILTER_ROUNDOFF less than the unit roundoff, until they
  * break: a bound that never broke would be too wide to be of use. */
 #include "primitive/lane_cases.h"
 #include "support/scenes.h"
@@ -16,7 +16,7 @@
 #include "vector.h"
 
 static float filter_u = 0x1p-24f;
-#define FILTER_U filter_u
+#define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/lane_tests.h"
 
 static cgt_context *context;
@@ -26,14 +26,14 @@ static cgt_buffer leaf_memory;
 
 typedef struct subject {
     packet p; /* of the case's rays */
-    cgt_world world;
-    cgt_object_array array;
+    cgt_committed_scene committed_scene;
+    cgt_primitive_array array;
     lane_case of;
 } subject;
 
 static void subject_make(const lane_case *c, subject *s)
 {
-    const bool spheres = c->object[0].kind == ORACLE_SPHERE;
+    const bool spheres = c->prim[0].kind == ORACLE_SPHERE;
     int exponent = 0;
     s->of = *c;
     for (int i = 0; i < CASE_LANES; i++) {
@@ -47,31 +47,33 @@ static void subject_make(const lane_case *c, subject *s)
         s->p.t_min[i] = c->ray[i].t_min;
     }
     frexpf(c->magnitude, &exponent);
-    s->world = (cgt_world){.scale = ldexpf(1, exponent < -100 ? 100 : -exponent)}; /* as a commit chooses it */
+    s->committed_scene =
+        (cgt_committed_scene){.scale = ldexpf(1, exponent < -100 ? 100 : -exponent)}; /* as a commit chooses it */
     if (spheres)
         return;
-    s->array = (cgt_object_array){
+    s->array = (cgt_primitive_array){
         .kind = CGT_KIND_TRIANGLES, .count = CASE_LANES, .points = 3 * CASE_LANES, .point_stride = 3 * sizeof(float)};
     /* the corners of each object, one after the other */
     static float corner[CASE_LANES][9];
     for (int i = 0; i < CASE_LANES; i++)
-        memcpy(corner[i], c->object[i].data, sizeof corner[i]);
+        memcpy(corner[i], c->prim[i].data, sizeof corner[i]);
     s->array.point = (const char *)corner;
-    s->world.objects = (cgt_objects){.array = &s->array, .arrays = 1, .count = CASE_LANES, .triangles = CASE_LANES};
-    assert_int_equal(cgt_leaf_triangles_make(context, &leaf_memory, &s->world), CGT_OK);
+    s->committed_scene.prims =
+        (cgt_primitives){.array = &s->array, .arrays = 1, .count = CASE_LANES, .triangles = CASE_LANES};
+    assert_int_equal(cgt_leaf_triangles_init(context, &leaf_memory, &s->committed_scene), CGT_OK);
 }
 
 /* Object k in every lane. */
 static bool test_one(const subject *s, const lane_rays *r, lane_hits *q)
 {
-    const float *x = s->of.object[0].data;
-    if (s->of.object[0].kind == ORACLE_SPHERE) {
+    const float *x = s->of.prim[0].data;
+    if (s->of.prim[0].kind == ORACLE_SPHERE) {
         const vfloat center[3] = {spux_vfloat(x[0]), spux_vfloat(x[1]), spux_vfloat(x[2])};
-        return lane_sphere(r, center, spux_vfloat(x[3]), q);
+        return lane_test_sphere(r, center, spux_vfloat(x[3]), q);
     }
     lane_triangles triangle;
-    lane_triangles_of_one(&s->world.triangle[0], &triangle);
-    return lane_triangle(r, &triangle, q);
+    lane_triangles_of_one(&s->committed_scene.triangle[0], &triangle);
+    return lane_test_triangle(r, &triangle, q);
 }
 
 /* Objects k to k + CGT_LANES - 1. */
@@ -79,15 +81,15 @@ static bool test_vector(const subject *s, const lane_rays *r, int k, lane_hits *
 {
     _Alignas(64) float row[11][CGT_LANES];
     vfloat field[11];
-    const bool spheres = s->of.object[0].kind == ORACLE_SPHERE;
+    const bool spheres = s->of.prim[0].kind == ORACLE_SPHERE;
     memset(row, 0, sizeof row);
     for (int lane = 0; lane < CGT_LANES; lane++) {
         if (spheres) {
             for (int a = 0; a < 4; a++)
-                row[a][lane] = s->of.object[k + lane].data[a];
+                row[a][lane] = s->of.prim[k + lane].data[a];
             continue;
         }
-        const cgt_leaf_triangle *t = &s->world.triangle[k + lane];
+        const cgt_leaf_triangle *t = &s->committed_scene.triangle[k + lane];
         for (int a = 0; a < 3; a++) {
             row[a][lane] = t->vertex[a];
             row[3 + a][lane] = t->edge[0][a];
@@ -99,26 +101,26 @@ static bool test_vector(const subject *s, const lane_rays *r, int k, lane_hits *
     for (int i = 0; i < 11; i++)
         field[i] = spux_load(row[i]);
     if (spheres)
-        return lane_sphere(r, field, field[3], q);
+        return lane_test_sphere(r, field, field[3], q);
     const lane_triangles triangles = {.vertex = {field[0], field[1], field[2]},
                                       .edge = {{field[3], field[4], field[5]}, {field[6], field[7], field[8]}},
                                       .sum = {field[9], field[10]}};
-    return lane_triangle(r, &triangles, q);
+    return lane_test_triangle(r, &triangles, q);
 }
 
 /* ---- judging ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, certain, open;
+    uint64_t lanes, hits, certain_hit, undecided;
     uint64_t lost, invented, outside; /* what must not happen */
 } tally;
 
 static void print_lane(const subject *s, int form, int i, const char *what, const truth_real *t, float low, float high)
 {
     const truth_ray *ray = &s->of.ray[form ? 0 : i];
-    const oracle_primitive *q = &s->of.object[form ? i : 0];
+    const oracle_primitive *q = &s->of.prim[form ? i : 0];
     print_message("%s: t %a, interval %a %a, world's scale %a\n  org {%a, %a, %a} dir {%a, %a, %a} t_min %a\n ", what,
-                  (double)*t, (double)low, (double)high, (double)s->world.scale, (double)ray->org[0],
+                  (double)*t, (double)low, (double)high, (double)s->committed_scene.scale, (double)ray->org[0],
                   (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1],
                   (double)ray->dir[2], (double)ray->t_min);
     for (int k = 0; k < (q->kind == ORACLE_SPHERE ? 4 : 9); k++)
@@ -127,26 +129,26 @@ static void print_lane(const subject *s, int form, int i, const char *what, cons
 }
 
 /* What the traversal takes of an open lane is where the interval begins. */
-static void judge_lane(const subject *s, const case_truth *truth, int form, int i, bool certain, bool open, float low,
-                       float high, tally *sum)
+static void judge_lane(const subject *s, const case_truth *truth, int form, int i, bool certain_hit, bool undecided,
+                       float low, float high, tally *sum)
 {
     const truth_real *t = &truth->t[form][i];
     const bool hit = truth->hit[form][i], told = filter_u == 0x1p-24f;
     const char *wrong = NULL;
     sum->lanes++;
     sum->hits += hit;
-    sum->certain += certain;
-    sum->open += open;
-    if (hit && !certain && !open) {
+    sum->certain_hit += certain_hit;
+    sum->undecided += undecided;
+    if (hit && !certain_hit && !undecided) {
         sum->lost++;
         wrong = "a hit lost";
-    } else if (certain && !hit) {
+    } else if (certain_hit && !hit) {
         sum->invented++;
         wrong = "a hit invented";
-    } else if ((certain && !(low <= *t && *t <= high && low > s->of.ray[form ? 0 : i].t_min)) ||
-               (open && hit && low > *t)) {
+    } else if ((certain_hit && !(low <= *t && *t <= high && low > s->of.ray[form ? 0 : i].t_min)) ||
+               (undecided && hit && low > *t)) {
         sum->outside++;
-        wrong = certain ? "t of a certain hit outside" : "t of an open hit outside";
+        wrong = certain_hit ? "t of a certain hit outside" : "t of an open hit outside";
     }
     if (wrong && told && sum->lost + sum->invented + sum->outside <= 3)
         print_lane(s, form, i, wrong, t, low, high);
@@ -155,10 +157,11 @@ static void judge_lane(const subject *s, const case_truth *truth, int form, int 
 static void judge_vector(const subject *s, const case_truth *truth, int form, int i, const lane_hits *q, bool some,
                          tally *sum)
 {
-    const unsigned certain = some ? spux_mask_bits(q->certain) : 0, open = some ? spux_mask_bits(q->open) : 0;
-    assert_int_equal(certain & open, 0);
+    const unsigned certain_hit = some ? spux_mask_bits(q->certain_hit) : 0,
+                   undecided = some ? spux_mask_bits(q->undecided) : 0;
+    assert_int_equal(certain_hit & undecided, 0);
     for (int lane = 0; lane < CGT_LANES; lane++)
-        judge_lane(s, truth, form, i + lane, certain >> lane & 1, open >> lane & 1, some ? q->low[lane] : 0,
+        judge_lane(s, truth, form, i + lane, certain_hit >> lane & 1, undecided >> lane & 1, some ? q->low[lane] : 0,
                    some ? q->high[lane] : 0, sum);
 }
 
@@ -168,10 +171,10 @@ static void judge(const subject *s, const case_truth *truth, tally sum[2])
     lane_rays r;
     lane_hits q;
     for (int i = 0; i < CASE_LANES; i += CGT_LANES) {
-        lane_rays_of_packet(&s->p, (uint32_t)i, s->world.scale, &r);
+        lane_rays_of_packet(&s->p, (uint32_t)i, s->committed_scene.scale, &r);
         bool some = test_one(s, &r, &q);
         judge_vector(s, truth, 0, i, &q, some, &sum[0]);
-        lane_rays_of_one(&s->p, 0, s->world.scale, &r);
+        lane_rays_of_one(&s->p, 0, s->committed_scene.scale, &r);
         some = test_vector(s, &r, i, &q);
         judge_vector(s, truth, 1, i, &q, some, &sum[1]);
     }
@@ -185,14 +188,14 @@ static void print_and_check(case_family f, const char *form, const tally *t)
 {
     print_message("%s, %s: %llu lanes, %llu hits, %llu certain, %llu open; lost %llu, invented %llu, outside %llu\n",
                   case_name(f), form, (unsigned long long)t->lanes, (unsigned long long)t->hits,
-                  (unsigned long long)t->certain, (unsigned long long)t->open, (unsigned long long)t->lost,
+                  (unsigned long long)t->certain_hit, (unsigned long long)t->undecided, (unsigned long long)t->lost,
                   (unsigned long long)t->invented, (unsigned long long)t->outside);
     assert_int_equal(t->lost, 0);
     assert_int_equal(t->invented, 0);
     assert_int_equal(t->outside, 0);
     /* each kind of answer is there; of rays in the plane nothing is certain, and inside hardly any lane is open */
-    assert_true(t->hits >= 3 && (f == CASE_INTERIOR || t->open >= 3));
-    assert_true(f == CASE_FLAT || (t->certain >= 3 && t->lanes - t->certain - t->open >= 3));
+    assert_true(t->hits >= 3 && (f == CASE_INTERIOR || t->undecided >= 3));
+    assert_true(f == CASE_FLAT || (t->certain_hit >= 3 && t->lanes - t->certain_hit - t->undecided >= 3));
 }
 
 static void bounds_hold(void **state)
@@ -248,8 +251,8 @@ static void known_cases(void **state)
         lane_case c = {.family = CASE_ANY, .magnitude = known[i].magnitude};
         case_truth truth;
         for (int k = 0; k < CASE_LANES; k++) {
-            c.object[k] = (oracle_primitive){.kind = ORACLE_TRIANGLE};
-            memcpy(c.object[k].data, known[i].triangle, sizeof known[i].triangle);
+            c.prim[k] = (oracle_primitive){.kind = ORACLE_TRIANGLE};
+            memcpy(c.prim[k].data, known[i].triangle, sizeof known[i].triangle);
             c.ray[k] = known[i].ray;
         }
         case_judge(&c, &truth);

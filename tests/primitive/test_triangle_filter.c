@@ -3,7 +3,7 @@
  *
  * The single-precision filter of triangles, of the variant that this is compiled for, against the exact oracle: a
  * certain miss is a miss, a certain hit is a hit, and the interval holds its t. Then the bounds are made tighter, by
- * giving FILTER_U less than the unit roundoff, until they break: a bound that never broke would be too wide to be of
+ * giving FILTER_ROUNDOFF less than the unit roundoff, until they break: a bound that never broke would be too wide to be of
  * use. */
 #include "support/oracle/oracle.h"
 #include "support/test.h"
@@ -15,7 +15,7 @@
 #include "vector.h"
 
 static float filter_u = 0x1p-24f;
-#define FILTER_U filter_u
+#define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/triangle_filter.h"
 
 #define LANES 16 /* rays per packet: whole vectors at any width */
@@ -140,7 +140,7 @@ static void make_range(test_random *r, family f, packet *p, int i, double t)
     p->t_min[i] = f == LOOKING_BACK && choice % 2 ? -INFINITY : choice == 0 && near_t >= 0 ? near_t : 0;
     p->t_max[i] = choice == 2 ? near_t : INFINITY;
     p->low[i] = p->high[i] = p->t_max[i];
-    p->object[i] = CGT_INVALID_ID;
+    p->prim[i] = CGT_INVALID_ID;
 }
 
 /* A packet of one family before one triangle: from one origin, or from origins close to each other. */
@@ -180,7 +180,7 @@ static void make_packet(test_random *r, family f, packet *p, subject *s)
 /* ---- judging ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, open;       /* open: left to double precision */
+    uint64_t lanes, hits, undecided;  /* open: left to double precision */
     uint64_t lost, invented, outside; /* what must not happen */
 } tally;
 
@@ -217,14 +217,15 @@ static truth_of_packet truth_of(const packet *p, const subject *s)
     return truth;
 }
 
-static void judge_lane(const truth_of_packet *truth, int i, bool certain, bool open, float low, float high, tally *sum)
+static void judge_lane(const truth_of_packet *truth, int i, bool certain_hit, bool undecided, float low, float high,
+                       tally *sum)
 {
     sum->lanes++;
     sum->hits += truth->hit[i];
-    sum->open += open;
-    if (open)
+    sum->undecided += undecided;
+    if (undecided)
         return;
-    if (!certain)
+    if (!certain_hit)
         sum->lost += truth->hit[i];
     else if (!truth->hit[i])
         sum->invented++;
@@ -238,7 +239,7 @@ static void set_triangle(filter_triangles *s, int k, const subject *of, uint32_t
     for (int i = 0; i < 3; i++)
         for (int a = 0; a < 3; a++)
             s->vertex[i][a][k] = of->vertex[i][a];
-    s->object[k] = number;
+    s->prim[k] = number;
 }
 
 static void fill_triangles(test_random *r, filter_triangles *s)
@@ -255,9 +256,9 @@ static void fill_triangles(test_random *r, filter_triangles *s)
 static filter_packet bound_packet(packet *p, float scale)
 {
     filter_packet of_packet;
-    filter_packet_make(p, scale, &of_packet);
+    filter_packet_init(p, scale, &of_packet);
     if (!p->common_origin)
-        filter_moments_make(p, &of_packet);
+        filter_moments_init(p, &of_packet);
     return of_packet;
 }
 
@@ -273,10 +274,12 @@ static void judge_packet(test_random *r, packet *p, const subject *of, const tru
     const filter_triangle q = filter_triangle_get(&of_packet, &s, k, p->common_origin);
     for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
         const bool some = filter_triangle_rays(p, &q, i, p->common_origin, &f);
-        const unsigned certain = some ? spux_mask_bits(f.certain) : 0, open = some ? spux_mask_bits(f.open) : 0;
-        assert_int_equal(certain & open, 0);
+        const unsigned certain_hit = some ? spux_mask_bits(f.certain_hit) : 0,
+                       undecided = some ? spux_mask_bits(f.undecided) : 0;
+        assert_int_equal(certain_hit & undecided, 0);
         for (int lane = 0; lane < CGT_LANES; lane++)
-            judge_lane(truth, (int)i + lane, certain >> lane & 1, open >> lane & 1, f.low[lane], f.high[lane], sum);
+            judge_lane(truth, (int)i + lane, certain_hit >> lane & 1, undecided >> lane & 1, f.low[lane], f.high[lane],
+                       sum);
     }
 }
 
@@ -296,13 +299,13 @@ static void bounds_hold(void **state)
             judge_packet(&r, &p, &s, &truth, &t);
         }
         print_message("%s: %llu rays, %llu hits, %llu open; lost %llu, invented %llu, outside %llu\n", families[f].name,
-                      (unsigned long long)t.lanes, (unsigned long long)t.hits, (unsigned long long)t.open,
+                      (unsigned long long)t.lanes, (unsigned long long)t.hits, (unsigned long long)t.undecided,
                       (unsigned long long)t.lost, (unsigned long long)t.invented, (unsigned long long)t.outside);
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
         assert_true(t.hits * 100 > t.lanes * families[f].least_hits); /* the filter had something to tell */
-        assert_true(t.open * 100 < t.lanes * families[f].most_open);
+        assert_true(t.undecided * 100 < t.lanes * families[f].most_open);
     }
 }
 
@@ -335,20 +338,20 @@ static void bounds_break_where_they_are_tightened(void **state)
 /* ---- two triangles ---- */
 
 typedef struct order_counts {
-    uint64_t certain, not_nearer, open;
+    uint64_t certain_hit, not_nearer, undecided;
 } order_counts;
 
-static void judge_order(const packet *p, int i, const oracle_primitive both[2], bool nearer, bool open,
+static void judge_order(const packet *p, int i, const oracle_primitive both[2], bool nearer, bool undecided,
                         order_counts *count)
 {
     const truth_ray ray = ray_of(p, i);
     const oracle_hit best = oracle_trace(&(oracle_scene){.primitive = both, .count = 2}, &ray);
-    count->open += open;
-    if (open)
+    count->undecided += undecided;
+    if (undecided)
         return;
     /* of equal ones the first wins: 1 means strictly nearer */
     assert_int_equal(best.index, nearer ? 1 : 0);
-    ++*(nearer ? &count->certain : &count->not_nearer);
+    ++*(nearer ? &count->certain_hit : &count->not_nearer);
 }
 
 /* The second triangle of a packet is judged by the interval of the best hit so far. */
@@ -367,18 +370,19 @@ static void order_packet(packet *p, const subject *first, const subject *second,
     for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
         if (!filter_triangle_rays(p, &a, i, p->common_origin, &f))
             continue;
-        const unsigned hit = spux_mask_bits(f.certain);
-        spux_store(p->low + i, spux_select(spux_load(p->low + i), f.low, f.certain));
-        spux_store(p->high + i, spux_select(spux_load(p->high + i), f.high, f.certain));
-        spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), spux_vuint(0), f.certain));
+        const unsigned hit = spux_mask_bits(f.certain_hit);
+        spux_store(p->low + i, spux_select(spux_load(p->low + i), f.low, f.certain_hit));
+        spux_store(p->high + i, spux_select(spux_load(p->high + i), f.high, f.certain_hit));
+        spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), spux_vuint(0), f.certain_hit));
         const bool again = filter_triangle_rays(p, &a, i, p->common_origin, &f);
         if (again) /* met before: neither better than itself nor in doubt */
-            assert_int_equal((spux_mask_bits(f.certain) | spux_mask_bits(f.open)) & hit, 0);
+            assert_int_equal((spux_mask_bits(f.certain_hit) | spux_mask_bits(f.undecided)) & hit, 0);
         const bool some = filter_triangle_rays(p, &b, i, p->common_origin, &f);
-        const unsigned nearer = some ? spux_mask_bits(f.certain) : 0, open = some ? spux_mask_bits(f.open) : 0;
+        const unsigned nearer = some ? spux_mask_bits(f.certain_hit) : 0,
+                       undecided = some ? spux_mask_bits(f.undecided) : 0;
         for (int lane = 0; lane < CGT_LANES; lane++)
             if (hit >> lane & 1)
-                judge_order(p, (int)i + lane, both, nearer >> lane & 1, open >> lane & 1, count);
+                judge_order(p, (int)i + lane, both, nearer >> lane & 1, undecided >> lane & 1, count);
     }
 }
 
@@ -399,9 +403,9 @@ static void order_of_two_triangles(void **state)
         order_packet(&p, &first, &second, &count);
     }
     print_message("nearer for certain %llu times, not nearer %llu, left open %llu times\n",
-                  (unsigned long long)count.certain, (unsigned long long)count.not_nearer,
-                  (unsigned long long)count.open);
-    assert_true(count.certain > 50 && count.not_nearer > 50 && count.open > 50);
+                  (unsigned long long)count.certain_hit, (unsigned long long)count.not_nearer,
+                  (unsigned long long)count.undecided);
+    assert_true(count.certain_hit > 50 && count.not_nearer > 50 && count.undecided > 50);
 }
 
 int main(void)

@@ -414,12 +414,12 @@ static void transposes(void **state)
                 assert_true(to[1 + y * EDGE + x] == (x < n && y < n ? from[x * STRIDE + y] : -1));
     }
     vfloat row[CGT_LANES];
-    vuint fours[FOURS];
+    vuint fours[BLOCK_ROWS];
     lanes l;
-    for (uint32_t k = 0; k < FOURS; k++)
+    for (uint32_t k = 0; k < BLOCK_ROWS; k++)
         fours[k] = spu_add(spux_lane_index(), spux_vuint(100 * k));
     spux_transpose_fours(fours);
-    for (uint32_t k = 0; k < FOURS; k++) {
+    for (uint32_t k = 0; k < BLOCK_ROWS; k++) {
         l.u = fours[k];
         for (uint32_t i = 0; i < CGT_LANES; i++)
             check_number("spux_transpose_fours", l.eu[i], 100 * (i / 4) + 4 * k + i % 4);

@@ -9,11 +9,11 @@
 /* The word at both widths on operands of one type (f, s, u): d and e. */
 #define WORD2(word, t)                                                                                                 \
     d.t = spu_##word(a.t, b.t);                                                                                        \
-    for (int g = 0; g < FOURS; g++)                                                                                    \
+    for (int g = 0; g < BLOCK_ROWS; g++)                                                                               \
     e.t##4 [g] = spu_##word(a.t##4 [g], b.t##4 [g])
 #define COMPARE(word, t)                                                                                               \
     do {                                                                                                               \
-        for (int g = 0; g < FOURS; g++)                                                                                \
+        for (int g = 0; g < BLOCK_ROWS; g++)                                                                           \
             e.u4[g] = (vec_uint4)spu_##word(a.t##4 [g], b.t##4 [g]);                                                   \
         check_mask("spu_" #word " " #t, spu_##word(a.t, b.t), &e);                                                     \
     } while (0)
@@ -33,7 +33,7 @@ static void check_fused(const lanes a, const lanes b, const lanes c)
         e[2].ef[i] = fmaf(-a.ef[i], b.ef[i], c.ef[i]);
     }
     if (CGT_LANES == 4)
-        for (int g = 0; g < FOURS; g++) {
+        for (int g = 0; g < BLOCK_ROWS; g++) {
             e[0].f4[g] = spu_madd(a.f4[g], b.f4[g], c.f4[g]);
             e[1].f4[g] = spu_msub(a.f4[g], b.f4[g], c.f4[g]);
             e[2].f4[g] = spu_nmsub(a.f4[g], b.f4[g], c.f4[g]);
@@ -67,7 +67,7 @@ static void check_float_words(const lanes a, const lanes b, const lanes c)
     WORD2(nor, f);
     check_bits("spu_nor f", &d, &e);
     d.f = spu_sel(a.f, b.f, c.u);
-    for (int g = 0; g < FOURS; g++)
+    for (int g = 0; g < BLOCK_ROWS; g++)
         e.f4[g] = spu_sel(a.f4[g], b.f4[g], c.u4[g]);
     check_bits("spu_sel f", &d, &e);
 }
@@ -114,7 +114,7 @@ static void check_int_words(const lanes a, const lanes b, const lanes m)
     COMPARE(cmpeq, u);
     COMPARE(cmpeq, s);
     d.u = spu_sel(a.u, b.u, m.u);
-    for (int g = 0; g < FOURS; g++)
+    for (int g = 0; g < BLOCK_ROWS; g++)
         e.u4[g] = spu_sel(a.u4[g], b.u4[g], m.u4[g]);
     check_bits("spu_sel u", &d, &e);
     d.s = spu_sel(a.s, b.s, m.u);
@@ -133,16 +133,16 @@ static void int_words(void **state)
 
 #define CONVTS(n)                                                                                                      \
     d.s = spu_convts(a.f, n);                                                                                          \
-    for (int g = 0; g < FOURS; g++)                                                                                    \
+    for (int g = 0; g < BLOCK_ROWS; g++)                                                                               \
         e.s4[g] = spu_convts(a.f4[g], n);                                                                              \
     check_bits("spu_convts " #n, &d, &e)
 #define CONVTF(n)                                                                                                      \
     d.f = spu_convtf(i.s, n);                                                                                          \
-    for (int g = 0; g < FOURS; g++)                                                                                    \
+    for (int g = 0; g < BLOCK_ROWS; g++)                                                                               \
         e.f4[g] = spu_convtf(i.s4[g], n);                                                                              \
     check_bits("spu_convtf s " #n, &d, &e);                                                                            \
     d.f = spu_convtf(i.u, n);                                                                                          \
-    for (int g = 0; g < FOURS; g++)                                                                                    \
+    for (int g = 0; g < BLOCK_ROWS; g++)                                                                               \
         e.f4[g] = spu_convtf(i.u4[g], n);                                                                              \
     check_bits("spu_convtf u " #n, &d, &e)
 

@@ -156,30 +156,32 @@ typedef struct answer {
     uint32_t primitive, geometry;
 } answer;
 
-static cgt_shape shape_at(const part *q, uint32_t i)
+static cgt_primitive shape_at(const part *q, uint32_t i)
 {
-    cgt_shape shape = {.kind = q->kind};
+    cgt_primitive primitive = {.kind = q->kind};
     if (q->kind == CGT_KIND_TRIANGLES) {
         const uint32_t *corner = q->triangles.indices + 3 * (size_t)i;
         for (int k = 0; k < 3; k++)
-            memcpy(shape.triangle.v[k], q->triangles.vertices + 3 * (size_t)corner[k], sizeof shape.triangle.v[k]);
+            memcpy(primitive.triangle.v[k], q->triangles.vertices + 3 * (size_t)corner[k],
+                   sizeof primitive.triangle.v[k]);
     } else
-        memcpy(&shape.sphere, (const char *)q->spheres.centers + i * q->spheres.center_stride, sizeof shape.sphere);
-    return shape;
+        memcpy(&primitive.sphere, (const char *)q->spheres.centers + i * q->spheres.center_stride,
+               sizeof primitive.sphere);
+    return primitive;
 }
 
 /* Whether a primitive takes part, by the definition in cgt.h. */
-static bool takes_part(const cgt_shape *shape)
+static bool takes_part(const cgt_primitive *primitive)
 {
     float zero = 0;
-    if (shape->kind == CGT_KIND_SPHERES) {
-        const cgt_sphere q = shape->sphere;
+    if (primitive->kind == CGT_KIND_SPHERES) {
+        const cgt_sphere q = primitive->sphere;
         zero = q.x * 0 + q.y * 0 + q.z * 0 + q.r * 0;
         return zero == 0 && q.r >= 0;
     }
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
-            zero += shape->triangle.v[k][a] * 0;
+            zero += primitive->triangle.v[k][a] * 0;
     return zero == 0;
 }
 
@@ -199,8 +201,8 @@ static answer truth_of(const subject *t, const filtered_ray *f, uint32_t what)
         for (uint32_t i = 0; i < part_count(&t->part[k]) && (t->part[k].mask & mask); i++) {
             if (t->part[k].id == geometry && i == primitive)
                 continue;
-            cgt_decided_hit hit = {.shape = shape_at(&t->part[k], i)};
-            if (!takes_part(&hit.shape) || !cgt_decide_hit(&ray, &hit, &exact))
+            cgt_decided_hit hit = {.primitive = shape_at(&t->part[k], i)};
+            if (!takes_part(&hit.primitive) || !cgt_decide_hit(&ray, &hit, &exact))
                 continue;
             if (a.primitive == CGT_INVALID_ID || cgt_decide_order(&ray, &hit, &best, &exact) < 0) {
                 best = hit;

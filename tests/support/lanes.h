@@ -12,16 +12,16 @@
 #include "vector.h"
 
 #define ROUNDS 20000
-#define FOURS (CGT_LANES / 4)
+#define BLOCK_ROWS (CGT_LANES / 4)
 
 /* One vector, as a whole, as vectors of four and as elements. */
 typedef union lanes {
     vfloat f;
     vint s;
     vuint u;
-    vec_float4 f4[FOURS];
-    vec_int4 s4[FOURS];
-    vec_uint4 u4[FOURS];
+    vec_float4 f4[BLOCK_ROWS];
+    vec_int4 s4[BLOCK_ROWS];
+    vec_uint4 u4[BLOCK_ROWS];
     float ef[CGT_LANES];
     int32_t es[CGT_LANES];
     uint32_t eu[CGT_LANES];

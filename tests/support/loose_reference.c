@@ -11,7 +11,7 @@ typedef struct box {
     double low[3], high[3];
 } box;
 
-static box box_of(const cgt_shape *shape)
+static box box_of(const cgt_primitive *shape)
 {
     box b;
     for (int a = 0; a < 3; a++) {
@@ -38,13 +38,13 @@ static double size_of(const box *b)
 }
 
 /* Visits the valid objects, ascending. */
-typedef void visit(void *user, uint32_t object, const box *b);
+typedef void visit(void *user, uint32_t prim, const box *b);
 
-static void visit_all(const cgt_objects *objects, visit *each, void *user)
+static void visit_all(const cgt_primitives *prims, visit *each, void *user)
 {
-    for (uint32_t i = 0; i < objects->count; i++) {
-        const cgt_shape shape = cgt_objects_shape(objects, i);
-        if (cgt_shape_check(&shape) != CGT_OBJECT_VALID)
+    for (uint32_t i = 0; i < prims->count; i++) {
+        const cgt_primitive shape = cgt_primitives_get(prims, i);
+        if (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID)
             continue;
         const box b = box_of(&shape);
         each(user, i, &b);
@@ -57,15 +57,15 @@ typedef struct plan {
     double largest;
     double low[CGT_LOOSE_LEVELS][3], high[CGT_LOOSE_LEVELS][3]; /* of the objects' middles */
     double reach[CGT_LOOSE_LEVELS][3];
-    uint32_t objects[CGT_LOOSE_LEVELS];
+    uint32_t prims[CGT_LOOSE_LEVELS];
     uint32_t number[CGT_LOOSE_LEVELS]; /* of a class of sizes: its level */
     uint32_t *at;                      /* NULL: not yet */
 } plan;
 
-static void find_largest(void *user, uint32_t object, const box *b)
+static void find_largest(void *user, uint32_t prim, const box *b)
 {
     plan *p = user;
-    (void)object;
+    (void)prim;
     p->largest = fmax(p->largest, size_of(b));
 }
 
@@ -79,17 +79,17 @@ static uint32_t class_of(const plan *p, const box *b)
     return k;
 }
 
-static void measure(void *user, uint32_t object, const box *b)
+static void measure(void *user, uint32_t prim, const box *b)
 {
     plan *p = user;
     const uint32_t k = class_of(p, b);
-    (void)object;
+    (void)prim;
     for (int a = 0; a < 3; a++) {
         const double middle = 0.5 * (b->low[a] + b->high[a]);
-        p->low[k][a] = p->objects[k] ? fmin(p->low[k][a], middle) : middle;
-        p->high[k][a] = p->objects[k] ? fmax(p->high[k][a], middle) : middle;
+        p->low[k][a] = p->prims[k] ? fmin(p->low[k][a], middle) : middle;
+        p->high[k][a] = p->prims[k] ? fmax(p->high[k][a], middle) : middle;
     }
-    p->objects[k]++;
+    p->prims[k]++;
 }
 
 static uint32_t cell_of(const cgt_loose_level *l, int a, double middle)
@@ -98,7 +98,7 @@ static uint32_t cell_of(const cgt_loose_level *l, int a, double middle)
     return k < 0 ? 0 : k >= l->size[a] ? l->size[a] - 1 : (uint32_t)k;
 }
 
-static void count_one(void *user, uint32_t object, const box *b)
+static void count_one(void *user, uint32_t prim, const box *b)
 {
     plan *p = user;
     const uint32_t class = class_of(p, b), number = p->number[class];
@@ -111,7 +111,7 @@ static void count_one(void *user, uint32_t object, const box *b)
     }
     const uint32_t cell = l->first + (at[2] * l->size[1] + at[1]) * l->size[0] + at[0];
     if (p->at)
-        p->r->object[p->at[cell]++] = object;
+        p->r->prim[p->at[cell]++] = prim;
     else
         p->r->start[cell + 1]++;
 }
@@ -119,7 +119,7 @@ static void count_one(void *user, uint32_t object, const box *b)
 static void lay_out(plan *p, uint32_t class, double per_cell, cgt_loose_level *l)
 {
     double extent[3], largest = 0, volume = 1;
-    const double cells = fmax(p->objects[class] / per_cell, 1);
+    const double cells = fmax(p->prims[class] / per_cell, 1);
     for (int a = 0; a < 3; a++) {
         extent[a] = p->high[class][a] - p->low[class][a];
         largest = fmax(largest, extent[a]);
@@ -133,33 +133,33 @@ static void lay_out(plan *p, uint32_t class, double per_cell, cgt_loose_level *l
         l->low[a] = (float)p->low[class][a];
         l->cell[a] = fmaxf((float)(extent[a] / size), 0x1p-100f) * (1 + 0x1p-20f);
     }
-    l->objects = p->objects[class];
+    l->prims = p->prims[class];
     l->first = p->r->grid.cells;
     p->r->grid.cells += l->size[0] * l->size[1] * l->size[2];
 }
 
-bool loose_reference_make(const cgt_objects *objects, double per_cell, loose_reference *r)
+bool loose_reference_make(const cgt_primitives *prims, double per_cell, loose_reference *r)
 {
     plan p = {.r = r};
     *r = (loose_reference){0};
-    visit_all(objects, find_largest, &p);
-    visit_all(objects, measure, &p);
+    visit_all(prims, find_largest, &p);
+    visit_all(prims, measure, &p);
     for (uint32_t k = 0; k < CGT_LOOSE_LEVELS; k++) {
         p.number[k] = r->grid.levels;
-        if (p.objects[k])
+        if (p.prims[k])
             lay_out(&p, k, per_cell, &r->grid.level[r->grid.levels++]);
     }
     r->start = calloc(r->grid.cells + 1, sizeof *r->start);
-    r->object = malloc((objects->count + 1) * sizeof *r->object);
+    r->prim = malloc((prims->count + 1) * sizeof *r->prim);
     uint32_t *at = malloc((r->grid.cells + 1) * sizeof *at);
-    if (r->start && r->object && at) {
-        visit_all(objects, count_one, &p);
+    if (r->start && r->prim && at) {
+        visit_all(prims, count_one, &p);
         for (uint32_t c = 0; c < r->grid.cells; c++)
             r->start[c + 1] += r->start[c];
         for (uint32_t c = 0; c <= r->grid.cells; c++)
             at[c] = r->start[c];
         p.at = at;
-        visit_all(objects, count_one, &p);
+        visit_all(prims, count_one, &p);
         for (uint32_t k = 0; k < r->grid.levels; k++)
             for (int a = 0; a < 3; a++) /* what rounding adds, too */
                 r->grid.level[k].reach[a] =
@@ -167,8 +167,8 @@ bool loose_reference_make(const cgt_objects *objects, double per_cell, loose_ref
     }
     free(at);
     r->grid.start = r->start;
-    r->grid.object = r->object;
-    if (r->start && r->object && at)
+    r->grid.prim = r->prim;
+    if (r->start && r->prim && at)
         return true;
     loose_reference_free(r);
     return false;
@@ -177,6 +177,6 @@ bool loose_reference_make(const cgt_objects *objects, double per_cell, loose_ref
 void loose_reference_free(loose_reference *r)
 {
     free(r->start);
-    free(r->object);
+    free(r->prim);
     *r = (loose_reference){0};
 }

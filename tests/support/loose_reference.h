@@ -9,12 +9,12 @@
 
 typedef struct loose_reference {
     cgt_loose_grid grid;
-    uint32_t *start, *object;
+    uint32_t *start, *prim;
 } loose_reference;
 
 /* Of the valid objects. per_cell: how many of a level's objects share a cell on average. False where memory is refused.
  * Release with loose_reference_free. */
-bool loose_reference_make(const cgt_objects *objects, double per_cell, loose_reference *r);
+bool loose_reference_make(const cgt_primitives *prims, double per_cell, loose_reference *r);
 void loose_reference_free(loose_reference *r);
 
 #endif

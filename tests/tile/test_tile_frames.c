@@ -48,7 +48,7 @@ static void frames_of_clouds(void **state)
             if (round % 4 == 1 && c.count > 20)
                 add_special_spheres(&c, camera.eye);
             cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-            assert_true(loose_reference_make(&scene->world.objects, random_float(&r, 0.5f, 16), &grid));
+            assert_true(loose_reference_make(&scene->committed_scene.prims, random_float(&r, 0.5f, 16), &grid));
             for (uint32_t i = 0; i < 3; i++) {
                 const uint32_t *size = sizes[random_below(&r, TEST_COUNT(sizes))];
                 camera = camera_random(&r, &c);
@@ -81,7 +81,7 @@ static void frame_of_many_tiles(void **state)
     frames_tally tally = {0};
     cgt_camera camera = camera_before(&c);
     cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-    assert_true(loose_reference_make(&scene->world.objects, 8, &grid));
+    assert_true(loose_reference_make(&scene->committed_scene.prims, 8, &grid));
     compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
     make_orthographic(&r, 2 * c.reach, &camera);
     compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
@@ -95,8 +95,8 @@ static void frame_of_many_tiles(void **state)
 }
 
 /* A whole frame by tiles into planes that begin on lines, past the caches or not; 8 planes of `pixels`. */
-static void trace_lines(const cgt_world *world, const cgt_camera_rays *rays, uint32_t width, uint32_t height,
-                        bool stream, uint32_t *to)
+static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_camera_rays *rays, uint32_t width,
+                        uint32_t height, bool nontemporal, uint32_t *to)
 {
     const size_t pixels = (size_t)width * height;
     const cgt_trace_settings settings = {.packet = 8,
@@ -104,8 +104,8 @@ static void trace_lines(const cgt_world *world, const cgt_camera_rays *rays, uin
                                          .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY |
                                                    CGT_FIELD_NORMAL | CGT_FIELD_UV};
     cgt_counts counts = {0};
-    cgt_region r = {.width = width, .height = height, .row_stride = width, .stream = stream};
-    memset(to, stream ? 0x55 : 0x77, 8 * pixels * sizeof *to);
+    cgt_region r = {.width = width, .height = height, .row_stride = width, .nontemporal = nontemporal};
+    memset(to, nontemporal ? 0x55 : 0x77, 8 * pixels * sizeof *to);
     r.t = (float *)to;
     r.primitive = to + pixels;
     r.geometry = to + 2 * pixels;
@@ -113,7 +113,7 @@ static void trace_lines(const cgt_world *world, const cgt_camera_rays *rays, uin
         r.normal[a] = (float *)to + (3 + (size_t)a) * pixels;
     r.u = (float *)to + 6 * pixels;
     r.v = (float *)to + 7 * pixels;
-    CGT_KERNEL(cgt_trace_tile)(world, rays, &settings, &r, &counts);
+    CGT_KERNEL(cgt_trace_tile)(committed_scene, rays, &settings, &r, &counts);
 }
 
 static void compare_lines(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera)
@@ -122,11 +122,11 @@ static void compare_lines(const cgt_scene *scene, const loose_reference *grid, c
     const size_t bytes = 8 * (size_t)width * height * sizeof(uint32_t);
     const cgt_camera_rays rays = rays_of(camera, width, height);
     uint32_t *memory = aligned_alloc(64, 2 * bytes), *other = memory + bytes / sizeof *memory;
-    cgt_world world = scene->world;
+    cgt_committed_scene committed_scene = scene->committed_scene;
     assert_non_null(memory);
-    world.loose = grid->grid;
-    trace_lines(&world, &rays, width, height, false, memory);
-    trace_lines(&world, &rays, width, height, true, other);
+    committed_scene.loose = grid->grid;
+    trace_lines(&committed_scene, &rays, width, height, false, memory);
+    trace_lines(&committed_scene, &rays, width, height, true, other);
     assert_memory_equal(memory, other, bytes);
     free(memory);
 }
@@ -142,7 +142,7 @@ static void frames_of_sky(void **state)
         loose_reference grid;
         cgt_camera camera = camera_before(&c);
         cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
         for (int a = 0; a < 3; a++) { /* to the side, with the cloud in a corner, or behind */
             const float away = camera.target[a] - camera.eye[a];
             camera.eye[a] -= 8 * away;
@@ -179,7 +179,7 @@ static void orthographic_frames_at_every_scale(void **state)
         c.reach *= scale;
         cgt_camera camera = round % 3 ? camera_random(&r, &c) : camera_before(&c);
         cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
         make_orthographic(&r, 2 * c.reach, &camera);
         compare_frame(scene, &grid, &camera, 70, 66, "scales", &tally);
         camera.height *= 0x1p-6f;
@@ -213,7 +213,7 @@ static void frames_of_two_geometries(void **state)
         assert_int_equal(cgt_scene_add_spheres(scene, &first, &id), CGT_OK);
         assert_int_equal(cgt_scene_add_spheres(scene, &second, &id), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
         cgt_camera camera = camera_before(&c);
         compare_frame(scene, &grid, &camera, 90, 40, "two geometries", &tally);
         make_orthographic(&r, c.reach, &camera);
@@ -227,11 +227,11 @@ static void frames_of_two_geometries(void **state)
 }
 
 /* A picture's height as a share of the world's extent. */
-static float height_of(const cgt_world *world, float share)
+static float height_of(const cgt_committed_scene *committed_scene, float share)
 {
     float most = 0;
     for (int a = 0; a < 3; a++)
-        most = fmaxf(most, world->high[a] - world->low[a]);
+        most = fmaxf(most, committed_scene->high[a] - committed_scene->low[a]);
     const float height = most * share;
     return height > 0 && height < INFINITY ? height : 1;
 }
@@ -254,13 +254,13 @@ static void frames_of_hard_cases(void **state)
         const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
         assert_true(hard_case_make(h, rays_of_case, &s));
         assert_int_equal(hard_commit_with(context, &s, &options, &scene), CGT_OK);
-        if (!scene->world.valid) {
+        if (!scene->committed_scene.valid) {
             cgt_scene_release(scene);
             hard_scene_free(&s);
             continue;
         }
         cases++;
-        assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+        assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
         for (uint32_t k = 0; k < s.rays; k++) {
             cgt_camera camera;
             cgt_camera_rays rays;
@@ -275,7 +275,7 @@ static void frames_of_hard_cases(void **state)
             camera.fov = k % 3 ? 20.f * (float)(k % 3) : 1;
             if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
                 compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
-            make_orthographic(&r, height_of(&scene->world, random_log(&r, 1e-3f, 4)), &camera);
+            make_orthographic(&r, height_of(&scene->committed_scene, random_log(&r, 1e-3f, 4)), &camera);
             if (cgt_camera_prepare(&camera, width, height, &rays, message) == CGT_OK)
                 compare_frame(scene, &grid, &camera, width, height, h->name, &tally);
         }
@@ -314,7 +314,7 @@ static void frames_of_walls_where_ranges_end(void **state)
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_triangles(scene, &walls, &id), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_true(loose_reference_make(&scene->world.objects, 4, &grid));
+    assert_true(loose_reference_make(&scene->committed_scene.prims, 4, &grid));
     for (size_t i = 0; i < sizeof end / sizeof end[0]; i++) {
         const uint64_t so_far = tally.counts.hits;
         cgt_camera camera;
@@ -340,7 +340,7 @@ static void march_visits_what_rays_hit(void **state)
 {
     (void)state;
     static tile t;
-    uint64_t hits = 0, visits = 0, objects = 0;
+    uint64_t hits = 0, visits = 0, prims = 0;
     test_random r = random_make(340);
     for (uint32_t round = 0; round < 5 + test_scaled(120); round++) {
         cloud c = cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), 1 + random_below(&r, 400));
@@ -356,21 +356,21 @@ static void march_visits_what_rays_hit(void **state)
         const uint32_t edge = random_below(&r, 3) ? 200 + random_below(&r, 2000) : 12;
         const cgt_camera_rays rays = rays_of(&camera, edge, edge);
         cgt_scene *scene = queue_scene((const float(*)[4])c.sphere, c.count);
-        assert_true(loose_reference_make(&scene->world.objects, random_float(&r, 0.5f, 8), &grid));
+        assert_true(loose_reference_make(&scene->committed_scene.prims, random_float(&r, 0.5f, 8), &grid));
         t.rays = &rays;
         t.columns = t.rows = 12;
-        tile_camera_make(&rays, &t.camera);
-        tile_parallel_make(&t);
-        tile_tables_make(&t, random_below(&r, edge - 11), random_below(&r, edge - 11));
-        tile_norms_make(&t);
-        tile_march_make(&t, &grid.grid, &m);
+        tile_init_camera(&rays, &t.camera);
+        tile_init_parallel(&t);
+        tile_init_tables(&t, random_below(&r, edge - 11), random_below(&r, edge - 11));
+        tile_init_norms(&t);
+        tile_march_init(&t, &grid.grid, &m);
         float before = 0;
-        while (tile_march_next(&m, &s)) {
+        while (tile_march_next_slice(&m, &s)) {
             assert_true((float)s.near_t >= before);
             before = (float)s.near_t;
-            for (uint32_t i = 0; i < tile_slice_runs(&m, &s); i++) {
+            for (uint32_t i = 0; i < tile_slice_run_count(&m, &s); i++) {
                 uint32_t count;
-                const uint32_t *reference = tile_slice_run(&m, &s, i, &count);
+                const uint32_t *reference = tile_slice_get_run(&m, &s, i, &count);
                 for (uint32_t k = 0; k < count; k++, visits++) {
                     near[reference[k]] = before;
                     seen[reference[k]]++;
@@ -381,8 +381,8 @@ static void march_visits_what_rays_hit(void **state)
             assert_true(seen[k] <= 1);
             for (uint32_t p = 0; p < 144; p++) {
                 uint64_t exact = 0;
-                const cgt_ray ray = tile_ray(&t, tile_index(p % 12, p / 12));
-                cgt_decided_hit hit = {.shape = cgt_objects_shape(&scene->world.objects, k)};
+                const cgt_ray ray = tile_pixel_ray(&t, tile_index(p % 12, p / 12));
+                cgt_decided_hit hit = {.primitive = cgt_primitives_get(&scene->committed_scene.prims, k)};
                 if (!cgt_decide_hit(&ray, &hit, &exact))
                     continue;
                 hits++;
@@ -390,14 +390,14 @@ static void march_visits_what_rays_hit(void **state)
                 assert_true((double)near[k] <= hit.t * (1 + 1e-6));
             }
         }
-        objects += c.count;
+        prims += c.count;
         loose_reference_free(&grid);
         cgt_scene_release(scene);
         cloud_free(&c);
     }
-    print_message("%llu objects, %llu visits, %llu hits\n", (unsigned long long)objects, (unsigned long long)visits,
+    print_message("%llu objects, %llu visits, %llu hits\n", (unsigned long long)prims, (unsigned long long)visits,
                   (unsigned long long)hits);
-    assert_true(hits > 100 && visits < objects);
+    assert_true(hits > 100 && visits < prims);
 }
 
 static int prepare(void **state)

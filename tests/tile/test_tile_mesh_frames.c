@@ -44,7 +44,7 @@ static both both_of(hard_scene *s, double per_cell)
     both b;
     assert_false(s->failed);
     assert_int_equal(hard_commit_with(context, s, &options, &b.scene), CGT_OK);
-    assert_true(loose_reference_make(&b.scene->world.objects, per_cell, &b.grid));
+    assert_true(loose_reference_make(&b.scene->committed_scene.prims, per_cell, &b.grid));
     return b;
 }
 
@@ -161,13 +161,13 @@ static void add_spheres(hard_scene *s, uint32_t count)
     }
 }
 
-static void frames_of_soups(uint64_t stream, bool mixed, const char *what)
+static void frames_of_soups(uint64_t nontemporal, bool mixed, const char *what)
 {
     static const hard_place place[] = {
         {.scale = 1}, {.scale = 1e4}, {.scale = 1e-3, .offset = {10, -3, 5}}, {.scale = 0x1p-34}, {.scale = 0x1p36}};
     frames_tally tally = {0};
     for (uint32_t round = 0; round < 1 + test_scaled(14); round++) {
-        hard_scene s = {.place = place[round % 5], .random = random_make(stream + round)};
+        hard_scene s = {.place = place[round % 5], .random = random_make(nontemporal + round)};
         add_triangles(&s, 1 + random_below(&s.random, round % 2 ? 40 : 600));
         if (mixed) {
             add_spheres(&s, 1 + random_below(&s.random, 200));

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Spheres over the pixels of a tile, of the variant that this is compiled for: the bounds of single precision hold
- * against the truth in wide arithmetic. Then they are made tighter, by giving FILTER_U less than the unit roundoff, until
+ * against the truth in wide arithmetic. Then they are made tighter, by giving FILTER_ROUNDOFF less than the unit roundoff, until
  * they break. */
 #include "support/test.h"
 #include "support/oracle/truth.h"
@@ -14,7 +14,7 @@
 #include "vector.h"
 
 static float filter_u = 0x1p-24f;
-#define FILTER_U filter_u
+#define FILTER_ROUNDOFF filter_u
 #include "kernel/tile_draw/tile_sphere_draw.h"
 #include "kernel/tile_draw/tile_parallel_spheres.h"
 
@@ -37,23 +37,23 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y
     t->rays = rays;
     t->columns = columns;
     t->rows = rows;
-    tile_camera_make(rays, &t->camera);
-    tile_parallel_make(t);
-    tile_tables_make(t, x, y);
-    tile_norms_make(t);
-    tile_cone_make(t);
+    tile_init_camera(rays, &t->camera);
+    tile_init_parallel(t);
+    tile_init_tables(t, x, y);
+    tile_init_norms(t);
+    tile_init_cone(t);
     if (t->parallel)
-        tile_parallel_gap_make(t, c, r, 2 * c);
+        tile_init_parallel_depth_error(t, c, r, 2 * c);
     else
-        tile_gap_make(t, c, r, 2 * c);
-    tile_open(t, 2 * c);
-    tile_open_pixels(t);
+        tile_init_sphere_depth_error(t, c, r, 2 * c);
+    tile_init_pixels(t, 2 * c);
+    tile_ensure_pixels(t);
 }
 
 /* ---- bounds ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, certain, open, slow;
+    uint64_t lanes, hits, certain, undecided, double_lanes;
     uint64_t lost, invented, outside; /* what must not happen */
 } tally;
 
@@ -68,7 +68,7 @@ static void find_truth(const tile *t, const float sphere[4], tile_truth *truth)
     for (uint32_t y = 0; y < t->rows; y++)
         for (uint32_t x = 0; x < t->columns; x++) {
             const uint32_t i = tile_index(x, y);
-            const cgt_ray ray = tile_ray(t, i);
+            const cgt_ray ray = tile_pixel_ray(t, i);
             const truth_roots root = truth_sphere(ray.line.org, ray.line.dir, sphere);
             const truth_real px = t->column[x], py = t->row[y];
             truth->hit[i] = root.hit && root.near >= 0;
@@ -80,58 +80,58 @@ static void find_truth(const tile *t, const float sphere[4], tile_truth *truth)
 static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth, tally *sum)
 {
     static tile_queue queue;
-    static bool open[TILE_PIXELS];
-    const cgt_object_array array = {.kind = CGT_KIND_SPHERES,
-                                    .point = (const char *)sphere,
-                                    .point_stride = 16,
-                                    .radius = (const char *)(sphere + 3),
-                                    .radius_stride = 16,
-                                    .count = 1};
-    const cgt_objects objects = {.array = &array, .arrays = 1, .count = 1, .spheres = 1};
+    static bool undecided[TILE_PIXELS];
+    const cgt_primitive_array array = {.kind = CGT_KIND_SPHERES,
+                                       .point = (const char *)sphere,
+                                       .point_stride = 16,
+                                       .radius = (const char *)(sphere + 3),
+                                       .radius_stride = 16,
+                                       .count = 1};
+    const cgt_primitives prims = {.array = &array, .arrays = 1, .count = 1, .spheres = 1};
     const uint32_t reference = 0;
     const vfloat zero = spux_vfloat(0);
     vfloat v[4];
-    vuint object;
-    tile_found found;
+    vuint prim;
+    tile_visible_spheres found;
     tile_spheres s;
     cgt_counts counts = {0};
     found.count = 0;
     queue.entries = 0;
-    memset(open, 0, sizeof open);
-    tile_spheres_fetch(&objects, &reference, 1, v, &object);
+    memset(undecided, 0, sizeof undecided);
+    tile_gather_spheres(&prims, &reference, 1, v, &prim);
     assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
-    s.fast = s.slow = s.small[0] = s.small[1] = 0;
+    s.single_lanes = s.double_lanes = s.small_lanes[0] = s.small_lanes[1] = 0;
     if (t->parallel)
-        tile_parallel_spheres_find(t, v, object, 1, &found);
+        tile_cull_parallel_spheres(t, v, prim, 1, &found);
     else
-        tile_spheres_find(t, v, object, 1, &found);
+        tile_cull_spheres(t, v, prim, 1, &found);
     if (found.count && t->parallel)
-        tile_parallel_spheres_make(t, &found, 0, &s);
+        tile_init_parallel_spheres(t, &found, 0, &s);
     else if (found.count)
-        tile_spheres_make(t, &found, 0, &s);
-    sum->slow += s.slow & 1;
-    if (s.slow & 1)
+        tile_init_spheres(t, &found, 0, &s);
+    sum->double_lanes += s.double_lanes & 1;
+    if (s.double_lanes & 1)
         return;
-    tile_box box;
-    if (s.fast & s.small[1] & 1)
-        tile_sphere_draw_small(&objects, t, &s, 0, s.small[0] & 1 ? 3 : 4, &queue, &counts);
-    else if (s.fast & 1 && tile_clip(t, &s, 0, &box))
-        tile_sphere_draw(&objects, t, &s, 0, box, &queue, &counts);
+    tile_rect rect;
+    if (s.single_lanes & s.small_lanes[1] & 1)
+        tile_rasterise_small_sphere(&prims, t, &s, 0, s.small_lanes[0] & 1 ? 3 : 4, &queue, &counts);
+    else if (s.single_lanes & 1 && tile_clip_window(t, &s, 0, &rect))
+        tile_rasterise_sphere(&prims, t, &s, 0, rect, &queue, &counts);
     for (uint32_t k = 0; k < queue.entries; k++)
-        open[queue.pixel[k]] = true;
+        undecided[queue.pixel[k]] = true;
     for (uint32_t y = 0; y < t->rows; y++)
         for (uint32_t x = 0; x < t->columns; x++) {
             const uint32_t i = tile_index(x, y);
-            const bool certain = t->object[i] == 0;
+            const bool certain = t->prim[i] == 0;
             sum->lanes++;
             sum->hits += truth->hit[i];
             sum->certain += certain;
-            sum->open += open[i];
-            sum->lost += truth->hit[i] && !certain && !open[i];
+            sum->undecided += undecided[i];
+            sum->lost += truth->hit[i] && !certain && !undecided[i];
             sum->invented += certain && !truth->hit[i];
             sum->outside += certain && truth->hit[i] &&
                             !((truth_real)t->z[i] <= truth->depth[i] &&
-                              truth->depth[i] <= (truth_real)t->z[i] + (truth_real)t->gap);
+                              truth->depth[i] <= (truth_real)t->z[i] + (truth_real)t->depth_error);
         }
 }
 
@@ -167,7 +167,7 @@ static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint
     const float px = ((float)(at[0] + random_below(r, 8)) + 0.5f) * rays->pixel[0] - 1;
     const float py = 1 - ((float)(at[1] + random_below(r, 8)) + 0.5f) * rays->pixel[1];
     float side[3], along = 0, square = 0;
-    const cgt_exact_ray line = tile_line(rays, parallel, px, py);
+    const cgt_exact_ray line = tile_pixel_line(rays, parallel, px, py);
     const float *d = line.dir;
     random_direction(r, away);
     for (int a = 0; a < 3; a++) {
@@ -216,19 +216,20 @@ static void check_bounds(uint64_t stream, bool parallel)
         float sphere[4];
         make_case(&r, parallel, &rays, at, sphere);
         const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
-        if (cgt_tile_serves_camera(&rays))
+        if (cgt_tile_supports_camera(&rays))
             judge_case(&rays, at, sphere, usual, &truth, true, &sum);
     }
     print_message(
         "%llu lanes, %llu hits, %llu certain, %llu open, %llu spheres slow; lost %llu, invented %llu, outside "
         "%llu\n",
         (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
-        (unsigned long long)sum.open, (unsigned long long)sum.slow, (unsigned long long)sum.lost,
+        (unsigned long long)sum.undecided, (unsigned long long)sum.double_lanes, (unsigned long long)sum.lost,
         (unsigned long long)sum.invented, (unsigned long long)sum.outside);
     assert_int_equal(sum.lost, 0);
     assert_int_equal(sum.invented, 0);
     assert_int_equal(sum.outside, 0);
-    assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
+    assert_true(sum.certain > 100 && sum.undecided > 20 && sum.hits > 100 &&
+                sum.lanes - sum.certain - sum.undecided > 100);
 }
 
 static void bounds_hold(void **state)
@@ -254,7 +255,7 @@ static void check_tightened_bounds(uint64_t stream, bool parallel)
         float sphere[4], scale = 0x1p-24f;
         make_case(&r, parallel, &rays, at, sphere);
         const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
-        if (!cgt_tile_serves_camera(&rays))
+        if (!cgt_tile_supports_camera(&rays))
             continue;
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             filter_u = scale;
@@ -288,29 +289,29 @@ static void serves_what_it_can(void **state)
     cgt_camera camera;
     cgt_camera_init(&camera);
     cgt_camera_rays rays = rays_of(&camera, 64, 64);
-    assert_true(cgt_tile_serves_camera(&rays));
+    assert_true(cgt_tile_supports_camera(&rays));
     rays.eye[1] = 0x1p56f;
-    assert_false(cgt_tile_serves_camera(&rays));
+    assert_false(cgt_tile_supports_camera(&rays));
     camera.fov = 0.01f;
     rays = rays_of(&camera, 64, 64);
-    assert_false(cgt_tile_serves_camera(&rays));
+    assert_false(cgt_tile_supports_camera(&rays));
     camera.fov = 179.9f;
     rays = rays_of(&camera, 64, 64);
-    assert_false(cgt_tile_serves_camera(&rays));
+    assert_false(cgt_tile_supports_camera(&rays));
     camera.fov = 160;
     rays = rays_of(&camera, 64, 64);
-    assert_true(cgt_tile_serves_camera(&rays));
+    assert_true(cgt_tile_supports_camera(&rays));
     camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
     rays = rays_of(&camera, 64, 64);
-    assert_true(cgt_tile_serves_camera(&rays));
+    assert_true(cgt_tile_supports_camera(&rays));
     rays.eye[1] = 0x1p20f; /* origins of float are some pixels apart */
-    assert_false(cgt_tile_serves_camera(&rays));
+    assert_false(cgt_tile_supports_camera(&rays));
     camera.height = 0x1p-41f;
     rays = rays_of(&camera, 64, 64);
-    assert_false(cgt_tile_serves_camera(&rays));
+    assert_false(cgt_tile_supports_camera(&rays));
     camera.height = 0x1p42f;
     rays = rays_of(&camera, 64, 64);
-    assert_false(cgt_tile_serves_camera(&rays));
+    assert_false(cgt_tile_supports_camera(&rays));
 }
 
 int main(void)

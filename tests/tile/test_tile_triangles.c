@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Triangles over the pixels of a tile, of the variant that this is compiled for: the bounds of single precision hold
- * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_U less than the unit
+ * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_ROUNDOFF less than the unit
  * roundoff, until they break. */
 #include "support/test.h"
 #include "support/tightened.h"
@@ -13,7 +13,7 @@
 #include "vector.h"
 
 static float filter_u = 0x1p-24f;
-#define FILTER_U filter_u
+#define FILTER_ROUNDOFF filter_u
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_draw/tile_triangle_draw.h"
 
@@ -24,27 +24,27 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, const uint32_t at[2], 
     t->rays = rays;
     t->linear = linear;
     t->columns = t->rows = 8;
-    tile_camera_make(rays, &t->camera);
-    tile_parallel_make(t);
-    tile_tables_make(t, at[0], at[1]);
-    tile_norms_make(t);
-    tile_parts_make(t);
-    tile_cone_make(t);
+    tile_init_camera(rays, &t->camera);
+    tile_init_parallel(t);
+    tile_init_tables(t, at[0], at[1]);
+    tile_init_norms(t);
+    tile_init_parts(t);
+    tile_init_cone(t);
     if (t->parallel) {
-        tile_parallel_gap_make(t, c, 0, 2 * c);
-        tile_parallel_gap_widen(t, c, at[0] % 2);
+        tile_init_parallel_depth_error(t, c, 0, 2 * c);
+        tile_widen_parallel_error(t, c, at[0] % 2);
     } else {
-        tile_gap_make(t, c, 0, 2 * c);
-        tile_gap_widen(t, c);
+        tile_init_sphere_depth_error(t, c, 0, 2 * c);
+        tile_widen_depth_error(t, c);
     }
-    tile_open(t, 2 * c);
-    tile_open_pixels(t);
+    tile_init_pixels(t, 2 * c);
+    tile_ensure_pixels(t);
 }
 
 /* ---- bounds ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, certain, open, slow, coarse;
+    uint64_t lanes, hits, certain, undecided, double_lanes, coarse;
     uint64_t beyond, aside;           /* triangles that whole tiles miss */
     uint64_t lost, invented, outside; /* what must not happen */
 } tally;
@@ -59,8 +59,8 @@ static void find_truth(const tile *t, const cgt_triangle *q, tile_truth *truth)
 {
     for (uint32_t k = 0; k < t->rows * t->columns; k++) {
         const uint32_t i = tile_index(k % t->columns, k / t->columns);
-        const cgt_ray ray = tile_ray(t, i);
-        cgt_decided_hit hit = {.shape = {.kind = CGT_KIND_TRIANGLES, .triangle = *q}};
+        const cgt_ray ray = tile_pixel_ray(t, i);
+        cgt_decided_hit hit = {.primitive = {.kind = CGT_KIND_TRIANGLES, .triangle = *q}};
         uint64_t exact = 0;
         truth->hit[i] = cgt_decide_hit(&ray, &hit, &exact);
         truth->hit_t[i] = hit.t;
@@ -70,7 +70,7 @@ static void find_truth(const tile *t, const cgt_triangle *q, tile_truth *truth)
 static bool depth_holds(const tile *t, uint32_t i, double hit_t)
 {
     const double depth = t->linear ? -1 / hit_t : hit_t * tile_norm(t, i), rounding = fabs(depth) * 0x1p-40;
-    return (double)t->z[i] <= depth + rounding && depth <= tile_depth_end(t, (double)t->z[i]) + rounding;
+    return (double)t->z[i] <= depth + rounding && depth <= tile_depth_bound(t, (double)t->z[i]) + rounding;
 }
 
 static bool any_hit(const tile *t, const tile_truth *truth)
@@ -85,54 +85,54 @@ static bool any_hit(const tile *t, const tile_truth *truth)
 static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *truth, tally *sum)
 {
     static tile_queue queue;
-    static bool open[TILE_PIXELS];
+    static bool undecided[TILE_PIXELS];
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 0, 0}};
     float point[4][3] = {{0}};
     memcpy(point, q->v, sizeof q->v);
-    const cgt_object_array array = {.kind = CGT_KIND_TRIANGLES,
-                                    .point = (const char *)point,
-                                    .point_stride = 12,
-                                    .index = (const char *)index,
-                                    .index_stride = 12,
-                                    .count = 2,
-                                    .points = 4};
-    const cgt_objects objects = {.array = &array, .arrays = 1, .count = 2, .triangles = 2};
+    const cgt_primitive_array array = {.kind = CGT_KIND_TRIANGLES,
+                                       .point = (const char *)point,
+                                       .point_stride = 12,
+                                       .index = (const char *)index,
+                                       .index_stride = 12,
+                                       .count = 2,
+                                       .points = 4};
+    const cgt_primitives prims = {.array = &array, .arrays = 1, .count = 2, .triangles = 2};
     const uint32_t reference = 0;
     vfloat v[3][3];
     tile_triangles s;
     cgt_counts counts = {0};
     queue.entries = 0;
-    memset(open, 0, sizeof open);
-    tile_triangles_objects(&reference, 1, s.object);
-    tile_triangles_fetch(&objects, s.object, v);
+    memset(undecided, 0, sizeof undecided);
+    tile_load_references(&reference, 1, s.prim);
+    tile_gather_triangles(&prims, s.prim, v);
     if (t->parallel)
-        tile_parallel_triangles_make(t, v, 1, &s);
+        tile_init_parallel_triangles(t, v, 1, &s);
     else
-        tile_triangles_make(t, v, 1, &s);
-    sum->slow += s.slow & 1;
-    if (s.slow & 1)
+        tile_init_triangles(t, v, 1, &s);
+    sum->double_lanes += s.double_lanes & 1;
+    if (s.double_lanes & 1)
         return;
-    sum->coarse += s.fast & 1 && s.certain[0] == INFINITY;
-    if (s.fast & 1 && spux_mask_bits(tile_triangles_beyond(t, &s)) & 1) {
+    sum->coarse += s.single_lanes & 1 && s.certain[0] == INFINITY;
+    if (s.single_lanes & 1 && spux_mask_bits(tile_cull_triangles_by_forms(t, &s)) & 1) {
         sum->beyond++;
         sum->lost += any_hit(t, truth);
     }
-    if (s.fast & 1 && t->linear)
-        tile_triangle_draw(&objects, t, &s, 0, TILE_LINEAR, &queue, &counts);
-    else if (s.fast & 1 && t->parallel)
-        tile_triangle_draw(&objects, t, &s, 0, TILE_PARALLEL, &queue, &counts);
-    else if (s.fast & 1)
-        tile_triangle_draw(&objects, t, &s, 0, TILE_PERSPECTIVE, &queue, &counts);
+    if (s.single_lanes & 1 && t->linear)
+        tile_rasterise_triangle(&prims, t, &s, 0, TILE_LINEAR, &queue, &counts);
+    else if (s.single_lanes & 1 && t->parallel)
+        tile_rasterise_triangle(&prims, t, &s, 0, TILE_PARALLEL, &queue, &counts);
+    else if (s.single_lanes & 1)
+        tile_rasterise_triangle(&prims, t, &s, 0, TILE_PERSPECTIVE, &queue, &counts);
     for (uint32_t k = 0; k < queue.entries; k++)
-        open[queue.pixel[k]] = true;
+        undecided[queue.pixel[k]] = true;
     for (uint32_t k = 0; k < t->rows * t->columns; k++) {
         const uint32_t i = tile_index(k % t->columns, k / t->columns);
-        const bool certain = t->object[i] == 0;
+        const bool certain = t->prim[i] == 0;
         sum->lanes++;
         sum->hits += truth->hit[i];
         sum->certain += certain;
-        sum->open += open[i];
-        sum->lost += truth->hit[i] && !certain && !open[i];
+        sum->undecided += undecided[i];
+        sum->lost += truth->hit[i] && !certain && !undecided[i];
         sum->invented += certain && !truth->hit[i];
         sum->outside += certain && truth->hit[i] && !depth_holds(t, i, truth->hit_t[i]);
     }
@@ -173,7 +173,7 @@ static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint
     const float size = t * (random_below(r, 3) ? random_log(r, 1e-4f, 1) : random_log(r, 1, 100));
     const float share = random_below(r, 4) ? random_float(r, 0, 1) : 0; /* of the edge, before the ray */
     const float width = random_below(r, 3) ? 1 : random_log(r, 1e-7f, 1);
-    const cgt_exact_ray line = tile_line(rays, parallel, px, py);
+    const cgt_exact_ray line = tile_pixel_line(rays, parallel, px, py);
     random_direction(r, e[0]);
     random_direction(r, e[1]);
     if (parallel && random_below(r, 4) == 0) { /* nearly along the rays */
@@ -227,7 +227,7 @@ static void check_bounds(uint64_t stream, bool parallel)
         uint32_t at[2];
         cgt_triangle q;
         make_case(&r, parallel, &rays, at, &q);
-        if (!cgt_tile_serves_camera(&rays) || !cgt_triangle_has_area(&q))
+        if (!cgt_tile_supports_camera(&rays) || !cgt_triangle_has_area(&q))
             continue;
         if (!parallel)
             judge_case(&rays, at, &q, true, &truth, true, &sum);
@@ -236,12 +236,14 @@ static void check_bounds(uint64_t stream, bool parallel)
     print_message("%llu lanes, %llu hits, %llu certain, %llu open; triangles: %llu slow, %llu coarse; lost %llu, "
                   "invented %llu, outside %llu\n",
                   (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
-                  (unsigned long long)sum.open, (unsigned long long)sum.slow, (unsigned long long)sum.coarse,
-                  (unsigned long long)sum.lost, (unsigned long long)sum.invented, (unsigned long long)sum.outside);
+                  (unsigned long long)sum.undecided, (unsigned long long)sum.double_lanes,
+                  (unsigned long long)sum.coarse, (unsigned long long)sum.lost, (unsigned long long)sum.invented,
+                  (unsigned long long)sum.outside);
     assert_int_equal(sum.lost, 0);
     assert_int_equal(sum.invented, 0);
     assert_int_equal(sum.outside, 0);
-    assert_true(sum.certain > 100 && sum.open > 20 && sum.hits > 100 && sum.lanes - sum.certain - sum.open > 100);
+    assert_true(sum.certain > 100 && sum.undecided > 20 && sum.hits > 100 &&
+                sum.lanes - sum.certain - sum.undecided > 100);
     assert_true(parallel || sum.beyond > 0);
 }
 
@@ -267,7 +269,7 @@ static void check_tightened_bounds(uint64_t stream, bool parallel)
         uint32_t at[2];
         cgt_triangle q;
         make_case(&r, parallel, &rays, at, &q);
-        if (!cgt_tile_serves_camera(&rays) || !cgt_triangle_has_area(&q))
+        if (!cgt_tile_supports_camera(&rays) || !cgt_triangle_has_area(&q))
             continue;
         float scale = 0x1p-24f;
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
@@ -303,7 +305,7 @@ static bool make_beside(test_random *r, cgt_camera_rays *rays, uint32_t at[2], c
     static tile t;
     float size[3];
     make_case(r, false, rays, at, q);
-    if (!cgt_tile_serves_camera(rays))
+    if (!cgt_tile_supports_camera(rays))
         return false;
     tile_of(&t, rays, at, 1, true);
     const bool across = random_below(r, 2), first = random_below(r, 2);
@@ -314,7 +316,7 @@ static bool make_beside(test_random *r, cgt_camera_rays *rays, uint32_t at[2], c
         size[k] = scale * (k ? random_float(r, -1, 1) : random_float(r, 0.1f, 1));
     for (int k = 0; k < 3; k++) {
         const float along = other[random_below(r, 8)] + (k && random_below(r, 2) ? random_float(r, -3, 3) : 0);
-        const cgt_exact_ray line = tile_line(rays, false, across ? side : along, across ? along : side);
+        const cgt_exact_ray line = tile_pixel_line(rays, false, across ? side : along, across ? along : side);
         const float *out = across ? rays->right : rays->up;
         const float off = k && random_below(r, 2) ? outward * scale * random_float(r, 0, 1) : 0;
         for (int a = 0; a < 3; a++)
@@ -329,8 +331,8 @@ static void judge_beside(const tile *t, const cgt_triangle *q, const tile_truth 
     vfloat v[3][3];
     for (int k = 0; k < 9; k++)
         v[k / 3][k % 3] = spux_vfloat(q->v[k / 3][k % 3]);
-    const tile_triangles_seen seen = tile_triangles_see(t, v);
-    const bool aside = spux_mask_bits(tile_triangles_aside(t, &seen)) & 1, hit = any_hit(t, truth);
+    const tile_projected_triangles seen = tile_project_triangles(t, v);
+    const bool aside = spux_mask_bits(tile_cull_triangles_by_sides(t, &seen)) & 1, hit = any_hit(t, truth);
     sum->lanes++;
     sum->hits += hit;
     sum->aside += aside;
@@ -398,47 +400,47 @@ static void pairs_are_decided_as_ever(void **state)
     uint64_t answers[3] = {0}, planes[5] = {0};
     for (uint32_t round = 500 + test_scaled(4000); round; round--) {
         float point[6][3];
-        const cgt_object_array array = {
+        const cgt_primitive_array array = {
             .kind = CGT_KIND_TRIANGLES, .point = (const char *)point, .point_stride = 12, .count = 2, .points = 6};
-        const cgt_objects objects = {.array = &array, .arrays = 1, .count = 2, .triangles = 2};
+        const cgt_primitives prims = {.array = &array, .arrays = 1, .count = 2, .triangles = 2};
         cgt_triangle pair[2];
-        tile_pair_seen s;
+        tile_pair_cache s;
         cgt_counts counts = {0};
         cgt_ray ray = {.t_min = random_below(&r, 4) ? 0 : 1, .t_max = random_below(&r, 4) ? INFINITY : 3};
         make_pair(&r, pair);
         memcpy(point, pair, sizeof point);
         if (!cgt_triangle_has_area(&pair[0]) || !cgt_triangle_has_area(&pair[1]))
             continue;
-        s.object.object = s.winner.object = CGT_INVALID_ID;
+        s.prim.prim = s.closest.prim = CGT_INVALID_ID;
         s.planes = TILE_PLANES_UNKNOWN;
         for (int a = 0; a < 3; a++)
             ray.line.org[a] = random_float(&r, -4, 4);
         for (uint32_t k = 0; k < 12; k++) {
-            const uint32_t object = k / 4 & 1, of = random_below(&r, 2);
+            const uint32_t prim = k / 4 & 1, of = random_below(&r, 2);
             const float x = random_float(&r, 0, 1), y = random_float(&r, 0, 1 - x);
             for (int a = 0; a < 3; a++)
                 ray.line.dir[a] =
                     (1 - x - y) * pair[of].v[0][a] + x * pair[of].v[1][a] + y * pair[of].v[2][a] - ray.line.org[a];
-            cgt_decided_hit best = {.shape = cgt_objects_shape(&objects, !object)};
+            cgt_decided_hit best = {.primitive = cgt_primitives_get(&prims, !prim)};
             uint64_t exact = 0;
             double t[2] = {0, 0};
-            const uint32_t winner = cgt_decide_hit(&ray, &best, &exact) ? !object : CGT_INVALID_ID;
-            const tile_answer answer = tile_decide_pair(&objects, &ray, winner, object, &s, &t[0], &counts);
-            const bool beats = filter_beats(&objects, &ray, winner, object, &t[1], &counts);
-            answers[answer]++;
-            if (answer == TILE_OPEN)
+            const uint32_t closest = cgt_decide_hit(&ray, &best, &exact) ? !prim : CGT_INVALID_ID;
+            const tile_decision decision = tile_decide_pair(&prims, &ray, closest, prim, &s, &t[0], &counts);
+            const bool accepted = filter_is_closer(&prims, &ray, closest, prim, &t[1], &counts);
+            answers[decision]++;
+            if (decision == TILE_UNDECIDED)
                 continue;
             planes[s.planes]++;
-            assert_int_equal(answer == TILE_BEATS, beats);
-            assert_true(answer == TILE_LOSES || t[0] == t[1]);
+            assert_int_equal(decision == TILE_ACCEPTED, accepted);
+            assert_true(decision == TILE_REJECTED || t[0] == t[1]);
         }
     }
     print_message("open %llu, loses %llu, beats %llu; planes: cross %llu, same %llu, nearer %llu, farther %llu\n",
-                  (unsigned long long)answers[TILE_OPEN], (unsigned long long)answers[TILE_LOSES],
-                  (unsigned long long)answers[TILE_BEATS], (unsigned long long)planes[TILE_PLANES_CROSS],
+                  (unsigned long long)answers[TILE_UNDECIDED], (unsigned long long)answers[TILE_REJECTED],
+                  (unsigned long long)answers[TILE_ACCEPTED], (unsigned long long)planes[TILE_PLANES_CROSS],
                   (unsigned long long)planes[TILE_PLANES_SAME], (unsigned long long)planes[TILE_PLANES_NEARER],
                   (unsigned long long)planes[TILE_PLANES_FARTHER]);
-    assert_true(answers[TILE_LOSES] > 500 && answers[TILE_BEATS] > 500);
+    assert_true(answers[TILE_REJECTED] > 500 && answers[TILE_ACCEPTED] > 500);
     assert_true(planes[TILE_PLANES_SAME] > 20 && planes[TILE_PLANES_NEARER] > 20 && planes[TILE_PLANES_FARTHER] > 20);
 }
 
@@ -465,7 +467,8 @@ static void thin_triangles_are_certain(void **state)
         tile_of(&t, &rays, at, farthest_of(&rays, &q), true);
         find_truth(&t, &q, &truth);
         judge_triangle(&t, &q, &truth, &sum);
-        assert_true(sum.slow == 0 && sum.coarse == 0 && sum.certain > 0 && sum.lost + sum.invented + sum.outside == 0);
+        assert_true(sum.double_lanes == 0 && sum.coarse == 0 && sum.certain > 0 &&
+                    sum.lost + sum.invented + sum.outside == 0);
     }
 }
 
@@ -482,17 +485,17 @@ static void fetches_every_triangle(void **state)
         point[k / 3][k % 3] = random_float(&r, -1, 1);
     for (int k = 0; k < 180; k++)
         index[k / 3][k % 3] = random_below(&r, k < 150 ? 39 : 40);
-    cgt_object_array array = {.kind = CGT_KIND_TRIANGLES,
-                              .first = 7,
-                              .point = (const char *)point,
-                              .point_stride = 12,
-                              .index = (const char *)index,
-                              .index_stride = 12,
-                              .count = 60,
-                              .points = 40};
-    const cgt_objects objects = {.array = &array, .arrays = 1, .count = 67, .triangles = 60};
+    cgt_primitive_array array = {.kind = CGT_KIND_TRIANGLES,
+                                 .first = 7,
+                                 .point = (const char *)point,
+                                 .point_stride = 12,
+                                 .index = (const char *)index,
+                                 .index_stride = 12,
+                                 .count = 60,
+                                 .points = 40};
+    const cgt_primitives prims = {.array = &array, .arrays = 1, .count = 67, .triangles = 60};
     for (uint32_t round = 0; round < 200; round++) {
-        _Alignas(CGT_VECTOR_BYTES) uint32_t object[CGT_LANES];
+        _Alignas(CGT_VECTOR_BYTES) uint32_t prim[CGT_LANES];
         uint32_t reference[CGT_LANES] = {0};
         vfloat v[3][3];
         const uint32_t count = 1 + random_below(&r, CGT_LANES);
@@ -500,11 +503,11 @@ static void fetches_every_triangle(void **state)
         array.count = array.index ? 60 : 13;
         for (uint32_t k = 0; k < count; k++)
             reference[k] = 7 + random_below(&r, array.count - (round % 2 ? 0 : array.count / 6));
-        tile_triangles_objects(reference, count, object);
-        tile_triangles_fetch(&objects, object, v);
+        tile_load_references(reference, count, prim);
+        tile_gather_triangles(&prims, prim, v);
         for (uint32_t k = 0; k < CGT_LANES; k++) {
-            assert_int_equal(object[k], reference[k < count ? k : 0]);
-            const cgt_triangle q = cgt_objects_triangle(&objects, object[k]);
+            assert_int_equal(prim[k], reference[k < count ? k : 0]);
+            const cgt_triangle q = cgt_primitives_triangle(&prims, prim[k]);
             for (int i = 0; i < 9; i++) {
                 _Alignas(64) float lane[CGT_LANES];
                 spux_store(lane, v[i / 3][i % 3]);

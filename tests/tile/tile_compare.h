@@ -77,14 +77,14 @@ static inline void fail_at(const planes *got, const planes *wanted, const cgt_ca
 
 /* What FAST tiles are off by from ROBUST ones, in pixels that hit a sphere: the same sphere, and t and the normal as near
  * as resolve_fast_vectors.h says, with room. Other pixels get the same bits. */
-static inline void compare_fast(const cgt_world *world, const cgt_camera_rays *c, const planes *got,
+static inline void compare_fast(const cgt_committed_scene *committed_scene, const cgt_camera_rays *c, const planes *got,
                                 const planes *wanted, const char *what)
 {
     assert_memory_equal(got->primitive, wanted->primitive, got->elements * sizeof *got->primitive);
     assert_memory_equal(got->geometry, wanted->geometry, got->elements * sizeof *got->geometry);
     for (size_t i = 0; i < got->elements; i++) {
         const bool hit = wanted->primitive[i] != CGT_INVALID_ID;
-        const cgt_object_array *a = world->objects.array;
+        const cgt_primitive_array *a = committed_scene->prims.array;
         while (hit && a->geometry != wanted->geometry[i])
             a++;
         double square = 0, dd = 0, off = 0;
@@ -121,9 +121,9 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
                                    .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL |
                                              CGT_FIELD_UV};
     planes wanted = planes_make(width, height), got = planes_make(width, height);
-    cgt_world world = scene->world;
+    cgt_committed_scene committed_scene = scene->committed_scene;
     cgt_counts counts = {0}, other = {0};
-    world.loose = grid->grid;
+    committed_scene.loose = grid->grid;
     memset(wanted.memory, 0x77, 6 * wanted.elements * sizeof(uint32_t));
     memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
     float *uv = malloc(4 * wanted.elements * sizeof(float));
@@ -134,22 +134,22 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
         to_wanted.u = to_wanted.v = to_got.u = to_got.v = NULL;
         settings.fields &= ~CGT_FIELD_UV;
     }
-    CGT_KERNEL(cgt_trace_region)(&scene->world, &rays, &settings, &to_wanted, &other);
-    CGT_KERNEL(cgt_trace_tile)(&world, &rays, &settings, &to_got, &counts);
+    CGT_KERNEL(cgt_trace_region)(&scene->committed_scene, &rays, &settings, &to_wanted, &other);
+    CGT_KERNEL(cgt_trace_tile)(&committed_scene, &rays, &settings, &to_got, &counts);
     if (!planes_equal(&wanted, &got) || memcmp(uv, uv + 2 * wanted.elements, 2 * wanted.elements * sizeof(float)) != 0)
         fail_at(&got, &wanted, &rays, what);
     assert_int_equal(counts.rays, other.rays);
     assert_int_equal(counts.hits, other.hits);
     tally->frames++;
-    if (cgt_tile_serves(&world, &rays)) {
+    if (cgt_tile_supports(&committed_scene, &rays)) {
         cgt_trace_settings fast = settings;
         cgt_counts fast_counts = {0};
         fast.precision = CGT_PRECISION_FAST;
-        CGT_KERNEL(cgt_trace_tile)(&world, &rays, &fast, &to_got, &fast_counts);
-        compare_fast(&world, &rays, &got, &wanted, what);
+        CGT_KERNEL(cgt_trace_tile)(&committed_scene, &rays, &fast, &to_got, &fast_counts);
+        compare_fast(&committed_scene, &rays, &got, &wanted, what);
         assert_int_equal(fast_counts.hits, counts.hits);
     }
-    if (cgt_tile_serves(&world, &rays)) {
+    if (cgt_tile_supports(&committed_scene, &rays)) {
         const uint64_t *from = (const uint64_t *)&counts;
         uint64_t *to = (uint64_t *)&tally->counts;
         tally->served++;

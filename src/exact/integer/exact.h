@@ -21,15 +21,15 @@ typedef struct cgt_exact_ray {
 
 /* One root of a primitive: far chooses a sphere's second; false for triangles. */
 typedef struct cgt_exact_root {
-    const cgt_shape *shape; /* finite; the line of the ray meets it */
+    const cgt_primitive *primitive; /* finite; the line of the ray meets it */
     bool far;
 } cgt_exact_root;
 
 /* True where the line through the ray meets the closed triangle and is not parallel to its plane. */
-bool cgt_exact_line_meets_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle);
+bool cgt_exact_line_hits_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle);
 
 /* True where the line through the ray meets the closed ball: D >= 0. */
-bool cgt_exact_line_meets_sphere(const cgt_exact_ray *ray, cgt_sphere sphere);
+bool cgt_exact_line_hits_sphere(const cgt_exact_ray *ray, cgt_sphere sphere);
 
 /* Sign of t(a) - t(b): -1, 0 or 1. */
 int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b);

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-bool cgt_exact_line_meets_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle)
+bool cgt_exact_line_hits_triangle(const cgt_exact_ray *ray, const cgt_triangle *triangle)
 {
     cgt_exact_integer edge[3];
     cgt_exact_edge_terms(ray, triangle, edge);
@@ -18,7 +18,7 @@ bool cgt_exact_line_meets_triangle(const cgt_exact_ray *ray, const cgt_triangle 
     return above != below; /* of one sign or zero; all zero is a line in the plane, or no area */
 }
 
-bool cgt_exact_line_meets_sphere(const cgt_exact_ray *ray, cgt_sphere sphere)
+bool cgt_exact_line_hits_sphere(const cgt_exact_ray *ray, cgt_sphere sphere)
 {
     cgt_exact_quadratic quadratic;
     cgt_exact_sphere_terms(ray, sphere, &quadratic);
@@ -83,8 +83,8 @@ static int compare_quadratics(const cgt_exact_ray *ray, const cgt_exact_root *a,
     cgt_exact_quadratic p, q;
     cgt_exact_integer middle, rest, product;
     uint32_t shift_p, shift_q;
-    cgt_exact_sphere_terms(ray, a->shape->sphere, &p);
-    cgt_exact_sphere_terms(ray, b->shape->sphere, &q);
+    cgt_exact_sphere_terms(ray, a->primitive->sphere, &p);
+    cgt_exact_sphere_terms(ray, b->primitive->sphere, &q);
     common_unit(p.exponent, q.exponent, &shift_p, &shift_q);
     shift_quadratic(&p, shift_p);
     shift_quadratic(&q, shift_q);
@@ -113,7 +113,7 @@ static int compare_quadratic_with_plane(const cgt_exact_ray *ray, const cgt_exac
     cgt_exact_plane p;
     cgt_exact_integer left, right, root;
     uint32_t shift_q, shift_p;
-    cgt_exact_sphere_terms(ray, a->shape->sphere, &q);
+    cgt_exact_sphere_terms(ray, a->primitive->sphere, &q);
     cgt_exact_plane_terms(ray, b, &p);
     common_unit(q.exponent, p.exponent, &shift_q, &shift_p);
     shift_quadratic(&q, shift_q);
@@ -127,7 +127,7 @@ static int compare_quadratic_with_plane(const cgt_exact_ray *ray, const cgt_exac
     return sign_with_root(&left, side, &root) * p.determinant.sign;
 }
 
-static bool same_shapes(const cgt_shape *a, const cgt_shape *b)
+static bool same_primitive(const cgt_primitive *a, const cgt_primitive *b)
 {
     if (a->kind != b->kind)
         return false;
@@ -137,13 +137,13 @@ static bool same_shapes(const cgt_shape *a, const cgt_shape *b)
 
 int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b)
 {
-    if (a->far == b->far && same_shapes(a->shape, b->shape))
+    if (a->far == b->far && same_primitive(a->primitive, b->primitive))
         return 0;
-    if (a->shape->kind == CGT_KIND_TRIANGLES && b->shape->kind == CGT_KIND_TRIANGLES)
-        return compare_planes(ray, &a->shape->triangle, &b->shape->triangle);
-    if (a->shape->kind == CGT_KIND_TRIANGLES)
-        return -compare_quadratic_with_plane(ray, b, &a->shape->triangle);
-    if (b->shape->kind == CGT_KIND_TRIANGLES)
-        return compare_quadratic_with_plane(ray, a, &b->shape->triangle);
+    if (a->primitive->kind == CGT_KIND_TRIANGLES && b->primitive->kind == CGT_KIND_TRIANGLES)
+        return compare_planes(ray, &a->primitive->triangle, &b->primitive->triangle);
+    if (a->primitive->kind == CGT_KIND_TRIANGLES)
+        return -compare_quadratic_with_plane(ray, b, &a->primitive->triangle);
+    if (b->primitive->kind == CGT_KIND_TRIANGLES)
+        return compare_quadratic_with_plane(ray, a, &b->primitive->triangle);
     return compare_quadratics(ray, a, b);
 }

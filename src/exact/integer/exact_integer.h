@@ -122,9 +122,9 @@ static inline void cgt_exact_subtract_sizes(cgt_exact_integer *out, const cgt_ex
     const uint32_t size = a->size, common = b->size;
     cgt_exact_limb borrow = 0;
     for (uint32_t i = 0; i < size; i++) {
-        const cgt_exact_limb from = a->limb[i], take = i < common ? b->limb[i] : 0, rest = from - take;
+        const cgt_exact_limb from = a->limb[i], subtrahend = i < common ? b->limb[i] : 0, rest = from - subtrahend;
         out->limb[i] = rest - borrow;
-        borrow = (cgt_exact_limb)((from < take) | (rest < borrow));
+        borrow = (cgt_exact_limb)((from < subtrahend) | (rest < borrow));
     }
     out->size = size;
     out->sign = sign;
@@ -192,9 +192,9 @@ static inline void cgt_exact_shift_left(cgt_exact_integer *x, uint32_t bits)
         return;
     cgt_exact_limb above = 0; /* what the limb above got from the one below comes with the next round */
     for (uint32_t i = x->size; i-- > 0;) {
-        const cgt_exact_two_limbs moved = (cgt_exact_two_limbs)x->limb[i] << rest;
-        x->limb[i + limbs + 1] = (cgt_exact_limb)(moved >> CGT_EXACT_LIMB_BITS) | above;
-        above = (cgt_exact_limb)moved;
+        const cgt_exact_two_limbs shifted = (cgt_exact_two_limbs)x->limb[i] << rest;
+        x->limb[i + limbs + 1] = (cgt_exact_limb)(shifted >> CGT_EXACT_LIMB_BITS) | above;
+        above = (cgt_exact_limb)shifted;
     }
     x->limb[limbs] = above;
     for (uint32_t i = 0; i < limbs; i++)

@@ -7,25 +7,25 @@
 #include "exact/integer/exact_vector.h"
 
 /* What all start from: the direction, and a primitive's points seen from the origin. */
-typedef struct view {
+typedef struct ray_frame {
     cgt_exact_unit length, direction;
     bool narrow;
     cgt_exact_vector dir, org;
-} view;
+} ray_frame;
 
 static cgt_exact_range range_of_triangle(const cgt_triangle *triangle)
 {
     cgt_exact_range range = CGT_EXACT_NO_RANGE;
     for (int k = 0; k < 3; k++)
-        range = cgt_exact_range_with(range, triangle->v[k]);
+        range = cgt_exact_range_extend(range, triangle->v[k]);
     return range;
 }
 
 /* The range is that of the primitive's positions and lengths. */
-static void look(view *w, const cgt_exact_ray *ray, cgt_exact_range primitive)
+static void load_ray(ray_frame *w, const cgt_exact_ray *ray, cgt_exact_range primitive)
 {
-    w->length = cgt_exact_unit_of(cgt_exact_range_with(primitive, ray->org));
-    w->direction = cgt_exact_unit_of(cgt_exact_range_with(CGT_EXACT_NO_RANGE, ray->dir));
+    w->length = cgt_exact_unit_of(cgt_exact_range_extend(primitive, ray->org));
+    w->direction = cgt_exact_unit_of(cgt_exact_range_extend(CGT_EXACT_NO_RANGE, ray->dir));
     w->narrow = cgt_exact_is_narrow(w->length, w->direction);
     cgt_exact_load(&w->dir, ray->dir, w->direction, w->narrow);
     cgt_exact_load(&w->org, ray->org, w->length, w->narrow);
@@ -33,12 +33,12 @@ static void look(view *w, const cgt_exact_ray *ray, cgt_exact_range primitive)
 
 void cgt_exact_edge_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_integer edge[3])
 {
-    view w;
+    ray_frame w;
     cgt_exact_vector v[3];
     cgt_exact_cross cross;
-    look(&w, ray, range_of_triangle(triangle));
+    load_ray(&w, ray, range_of_triangle(triangle));
     for (int k = 0; k < 3; k++)
-        cgt_exact_load_seen(&v[k], triangle->v[k], &w.org, w.length);
+        cgt_exact_load_relative(&v[k], triangle->v[k], &w.org, w.length);
     for (int k = 0; k < 3; k++) {
         cgt_exact_cross_product(&cross, &v[(k + 1) % 3], &v[(k + 2) % 3]);
         cgt_exact_triple_product(&edge[k], &cross, &w.dir);
@@ -47,12 +47,12 @@ void cgt_exact_edge_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle
 
 void cgt_exact_plane_terms(const cgt_exact_ray *ray, const cgt_triangle *triangle, cgt_exact_plane *plane)
 {
-    view w;
+    ray_frame w;
     cgt_exact_vector v[3];
     cgt_exact_cross normal;
-    look(&w, ray, range_of_triangle(triangle));
+    load_ray(&w, ray, range_of_triangle(triangle));
     for (int k = 0; k < 3; k++)
-        cgt_exact_load_seen(&v[k], triangle->v[k], &w.org, w.length);
+        cgt_exact_load_relative(&v[k], triangle->v[k], &w.org, w.length);
     for (int k = 1; k < 3; k++)
         cgt_exact_vector_subtract(&v[k], &v[k], &v[0]);
     cgt_exact_cross_product(&normal, &v[1], &v[2]);
@@ -64,11 +64,11 @@ void cgt_exact_plane_terms(const cgt_exact_ray *ray, const cgt_triangle *triangl
 void cgt_exact_sphere_terms(const cgt_exact_ray *ray, cgt_sphere sphere, cgt_exact_quadratic *quadratic)
 {
     const float position[3] = {sphere.x, sphere.y, sphere.z}, length[3] = {sphere.r, 0, 0};
-    view w;
+    ray_frame w;
     cgt_exact_vector centre, radius;
     cgt_exact_integer square, product;
-    look(&w, ray, cgt_exact_range_with(cgt_exact_range_with(CGT_EXACT_NO_RANGE, position), length));
-    cgt_exact_load_seen(&centre, position, &w.org, w.length);
+    load_ray(&w, ray, cgt_exact_range_extend(cgt_exact_range_extend(CGT_EXACT_NO_RANGE, position), length));
+    cgt_exact_load_relative(&centre, position, &w.org, w.length);
     cgt_exact_load(&radius, length, w.length, w.narrow);
     cgt_exact_dot_product(&quadratic->middle, &w.dir, &centre);
     cgt_exact_dot_product(&quadratic->scale, &w.dir, &w.dir);

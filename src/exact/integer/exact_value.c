@@ -70,8 +70,8 @@ static double sphere_t(const cgt_exact_ray *ray, cgt_sphere sphere, bool far)
 
 double cgt_exact_t(const cgt_exact_ray *ray, const cgt_exact_root *root)
 {
-    return root->shape->kind == CGT_KIND_SPHERES ? sphere_t(ray, root->shape->sphere, root->far)
-                                                 : plane_t(ray, &root->shape->triangle);
+    return root->primitive->kind == CGT_KIND_SPHERES ? sphere_t(ray, root->primitive->sphere, root->far)
+                                                     : plane_t(ray, &root->primitive->triangle);
 }
 
 void cgt_exact_uv(const cgt_exact_ray *ray, const cgt_triangle *triangle, double uv[2])

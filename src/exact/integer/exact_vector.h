@@ -51,7 +51,7 @@ typedef struct cgt_exact_range {
 
 #define CGT_EXACT_NO_RANGE ((cgt_exact_range){.least = UINT32_MAX, .most = 0})
 
-static inline cgt_exact_range cgt_exact_range_with(cgt_exact_range range, const float value[3])
+static inline cgt_exact_range cgt_exact_range_extend(cgt_exact_range range, const float value[3])
 {
     for (int i = 0; i < 3; i++) {
         uint32_t bits;
@@ -157,8 +157,8 @@ static inline void cgt_exact_vector_subtract(cgt_exact_vector *out, const cgt_ex
 }
 
 /* out = value - from, the value in from's unit */
-static inline void cgt_exact_load_seen(cgt_exact_vector *out, const float value[3], const cgt_exact_vector *from,
-                                       cgt_exact_unit unit)
+static inline void cgt_exact_load_relative(cgt_exact_vector *out, const float value[3], const cgt_exact_vector *from,
+                                           cgt_exact_unit unit)
 {
     if (from->narrow) { /* as above, but without a way through memory, which processors wait for */
         out->narrow = true;
@@ -174,8 +174,8 @@ static inline void cgt_exact_load_seen(cgt_exact_vector *out, const float value[
 
 /* ---- Products of wide vectors ------------------------------------------------------------------------------------ */
 
-static inline void cgt_exact_wide_cross(cgt_exact_integer out[3], const cgt_exact_integer a[3],
-                                        const cgt_exact_integer b[3])
+static inline void cgt_exact_big_cross(cgt_exact_integer out[3], const cgt_exact_integer a[3],
+                                       const cgt_exact_integer b[3])
 {
     cgt_exact_integer product;
     for (int i = 0; i < 3; i++) {
@@ -186,8 +186,7 @@ static inline void cgt_exact_wide_cross(cgt_exact_integer out[3], const cgt_exac
     }
 }
 
-static inline void cgt_exact_wide_dot(cgt_exact_integer *out, const cgt_exact_integer a[3],
-                                      const cgt_exact_integer b[3])
+static inline void cgt_exact_big_dot(cgt_exact_integer *out, const cgt_exact_integer a[3], const cgt_exact_integer b[3])
 {
     cgt_exact_integer product;
     cgt_exact_multiply(out, &a[0], &b[0]);
@@ -236,7 +235,7 @@ static inline void cgt_exact_cross_product(cgt_exact_cross *out, const cgt_exact
         return;
     }
 #endif
-    cgt_exact_wide_cross(out->large, a->large, b->large);
+    cgt_exact_big_cross(out->large, a->large, b->large);
 }
 
 static inline void cgt_exact_cross_components(const cgt_exact_cross *cross, cgt_exact_integer out[3])
@@ -270,7 +269,7 @@ static inline void cgt_exact_triple_product(cgt_exact_integer *out, const cgt_ex
     }
 #endif
     CGT_EXACT_REACHED(wide);
-    cgt_exact_wide_dot(out, cross->large, v->large);
+    cgt_exact_big_dot(out, cross->large, v->large);
 }
 
 /* *out = a . b */
@@ -285,7 +284,7 @@ static inline void cgt_exact_dot_product(cgt_exact_integer *out, const cgt_exact
     }
 #endif
     CGT_EXACT_REACHED(wide_dot);
-    cgt_exact_wide_dot(out, a->large, b->large);
+    cgt_exact_big_dot(out, a->large, b->large);
 }
 
 #endif

@@ -2,15 +2,15 @@
  * SPDX-License-Identifier: MIT
  *
  * Nodes and leaf blocks of the wide tree, as wide as the variant. */
-#ifndef CGT_WIDE_NODE_H
-#define CGT_WIDE_NODE_H
+#ifndef CGT_BVH_NODE_H
+#define CGT_BVH_NODE_H
 
 #include "model/bvh.h"
 #include "dispatch/kernel.h"
 #include "vector.h"
 
 /* Children are packed: those that there are come first. */
-typedef struct wide_node {
+typedef struct bvh_node {
     _Alignas(CGT_VECTOR_BYTES) float low[3][CGT_LANES]; /* of children, rounded outwards; +infinity without a child */
     float high[3][CGT_LANES];                           /* -infinity without a child */
     uint32_t child[CGT_LANES];                          /* see bvh.h */
@@ -21,22 +21,22 @@ typedef struct wide_node {
                                     number of children */
     uint32_t children;        /* 2 to CGT_LANES; 1 in a root only */
     uint32_t unused[3];
-} wide_node;
+} bvh_node;
 
 /* A leaf's primitives; lanes beyond its count repeat the last one. */
-typedef struct wide_spheres {
+typedef struct sphere_block {
     _Alignas(CGT_VECTOR_BYTES) float center[3][CGT_LANES];
     float radius[CGT_LANES];
-    uint32_t object[CGT_LANES];
-} wide_spheres;
+    uint32_t prim[CGT_LANES];
+} sphere_block;
 
-typedef struct wide_triangles { /* fields of leaf_triangle.h, by the same arithmetic: times the world's scale */
+typedef struct triangle_block { /* fields of leaf_triangle.h, by the same arithmetic: times the world's scale */
     _Alignas(CGT_VECTOR_BYTES) float vertex[3][CGT_LANES];
     float edge[2][3][CGT_LANES];
     float sum[2][CGT_LANES];
-    uint32_t object[CGT_LANES];
-} wide_triangles;
+    uint32_t prim[CGT_LANES];
+} triangle_block;
 
-CGT_SPU_INLINE uint32_t wide_leaf_count(uint32_t code) { return (code >> CGT_WIDE_COUNT_SHIFT & 15) + 1; }
+CGT_SPU_INLINE uint32_t bvh_leaf_count(uint32_t code) { return (code >> CGT_BVH_COUNT_SHIFT & 15) + 1; }
 
 #endif

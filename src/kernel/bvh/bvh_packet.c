@@ -5,10 +5,10 @@
 #include "kernel/bvh/bvh_single.h"
 
 /* Ray i, normalised. Returns false where the bounds do not cover it. */
-CGT_SPU_INLINE bool packet_ray_make(const wide_call *c, uint32_t i, wide_ray *r)
+CGT_SPU_INLINE bool bvh_ray_from_packet(const bvh_call *c, uint32_t i, bvh_ray *r)
 {
     const packet *p = c->p;
-    float longest = 0, farthest = 0, org[3], slack[3], rdir[3];
+    float longest = 0, farthest = 0, org[3], slab_error[3], rdir[3];
     uint32_t bits, inverse_bits;
     float power, inverse; /* 2^k and 2^-k */
     for (int a = 0; a < 3; a++)
@@ -24,67 +24,67 @@ CGT_SPU_INLINE bool packet_ray_make(const wide_call *c, uint32_t i, wide_ray *r)
         r->dir[a] = p->dir[a][i] * inverse;
         org[a] = fabsf(r->org[a]);
         farthest = org[a] > farthest ? org[a] : farthest;
-        rdir[a] = 1 / (fabsf(r->dir[a]) < WIDE_FLAT ? copysignf(WIDE_FLAT, r->dir[a]) : r->dir[a]);
+        rdir[a] = 1 / (fabsf(r->dir[a]) < BVH_MIN_DIR ? copysignf(BVH_MIN_DIR, r->dir[a]) : r->dir[a]);
     }
     const float t_min = p->t_min[i], t_max = p->t_max[i];
     r->near = (t_min - fabsf(t_min) * 0x1p-20f) * speed - 0x1p-86f;
     r->far = (t_max + fabsf(t_max) * 0x1p-20f) * speed + 0x1p-86f;
-    r->near = r->near > -WIDE_LARGEST_T ? r->near : -WIDE_LARGEST_T;
-    r->far = r->far < WIDE_LARGEST_T ? r->far : WIDE_LARGEST_T;
+    r->near = r->near > -BVH_MAX_T ? r->near : -BVH_MAX_T;
+    r->far = r->far < BVH_MAX_T ? r->far : BVH_MAX_T;
     r->number = i;
-    r->best = (wide_best){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
-    wide_slack(c, org, slack);
-    wide_ray_planes(c, rdir, slack, r);
-    return farthest <= WIDE_LARGEST_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
+    r->best = (best_hit){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
+    bvh_slab_error(c, org, slab_error);
+    bvh_ray_set_slabs(c, rdir, slab_error, r);
+    return farthest <= BVH_MAX_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
 }
 
 /* A ray that takes part, against every object. */
-__attribute__((noinline, cold)) static void packet_ray_extreme(const wide_call *c, packet *p, uint32_t i)
+__attribute__((noinline, cold)) static void bvh_packet_ray_extreme(const bvh_call *c, packet *p, uint32_t i)
 {
-    const cgt_objects *objects = &c->world->objects;
-    for (uint32_t object = 0; object < objects->count; object++) {
-        const cgt_shape shape = cgt_objects_shape(objects, object);
-        if (cgt_shape_check(&shape) == CGT_OBJECT_VALID && !wide_hidden(c, i, object))
-            filter_decide(objects, p, i, object, c->counts);
+    const cgt_primitives *prims = &c->committed_scene->prims;
+    for (uint32_t prim = 0; prim < prims->count; prim++) {
+        const cgt_primitive primitive = cgt_primitives_get(prims, prim);
+        if (cgt_primitive_check(&primitive) == CGT_PRIMITIVE_VALID && !bvh_ray_skips(c, i, prim))
+            filter_decide(prims, p, i, prim, c->counts);
     }
 }
 
-CGT_SPU_INLINE void packet_trace_rays(const wide_call *c, packet *p, bool any_hit)
+CGT_SPU_INLINE void bvh_packet_trace_rays(const bvh_call *c, packet *p, bool any_hit)
 {
     for (uint32_t i = 0; i < p->lanes; i++) {
-        wide_ray r;
+        bvh_ray r;
         if (p->high[i] == -INFINITY || p->t_min[i] > FLT_MAX || p->t_max[i] < -FLT_MAX)
             continue; /* takes no part, or no t is in its range */
         c->counts->packets++;
-        if (c->scale > 0x1p60f || c->scale < 0x1p-60f || !packet_ray_make(c, i, &r)) {
-            packet_ray_extreme(c, p, i);
+        if (c->scale > 0x1p60f || c->scale < 0x1p-60f || !bvh_ray_from_packet(c, i, &r)) {
+            bvh_packet_ray_extreme(c, p, i);
             continue;
         }
-        wide_single_trace(c, &r, 0, any_hit);
-        if (r.best.object == CGT_INVALID_ID)
+        bvh_single_trace(c, &r, 0, any_hit);
+        if (r.best.prim == CGT_INVALID_ID)
             continue;
-        p->object[i] = r.best.object;
+        p->prim[i] = r.best.prim;
         p->low[i] = p->high[i] = -INFINITY; /* settled */
     }
 }
 
-void CGT_KERNEL(cgt_wide_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
-                                cgt_counts *counts)
+void CGT_KERNEL(cgt_bvh_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                               const cgt_trace_settings *settings, cgt_counts *counts)
 {
-    wide_call c;
+    bvh_call c;
     (void)settings;
     p->fast = false; /* decided exactly, and so resolved as ROBUST is */
-    wide_call_make(world, counts, &c);
+    bvh_call_init(committed_scene, counts, &c);
     c.p = p;
     counts->bvh_rays += p->rays;
     c.any_hit = p->any_hit;
-    if (p->selective) {
-        c.hides = true;
-        c.ignored = p->ignored;
-        c.mask = p->masked ? p->mask : NULL;
+    if (p->skips_prims) {
+        c.skips_prims = true;
+        c.skip_prim = p->skip_prim;
+        c.mask = p->has_masks ? p->mask : NULL;
     }
     if (p->any_hit)
-        packet_trace_rays(&c, p, true);
+        bvh_packet_trace_rays(&c, p, true);
     else
-        packet_trace_rays(&c, p, false);
+        bvh_packet_trace_rays(&c, p, false);
 }

@@ -26,76 +26,76 @@
  * A test shrinks E until hits are lost.
  *
  * Many rays may share one E: that of the largest |o|. */
-#ifndef CGT_WIDE_RAY_H
-#define CGT_WIDE_RAY_H
+#ifndef CGT_BVH_RAY_H
+#define CGT_BVH_RAY_H
 
 #include "kernel/primitive/lane_tests.h"
 #include "kernel/packet/ray_packet.h"
 #include "kernel/bvh/bvh_node.h"
 
-#ifndef WIDE_SLACK /* a test gives it less, to find where hits are lost */
-#define WIDE_SLACK 1.f
+#ifndef BVH_ERROR_SCALE /* a test gives it less, to find where hits are lost */
+#define BVH_ERROR_SCALE 1.f
 #endif
 
-#define WIDE_LARGEST_ORG 0x1p60f
-#define WIDE_LARGEST_T 0x1p100f
-#define WIDE_FLAT 0x1p-40f
+#define BVH_MAX_ORG 0x1p60f
+#define BVH_MAX_T 0x1p100f
+#define BVH_MIN_DIR 0x1p-40f
 
 /* The call, as all its rays see it. Either they come from arrays or from a packet. */
-typedef struct wide_call {
-    const cgt_world *world;
-    const cgt_wide_tree *tree;
+typedef struct bvh_call {
+    const cgt_committed_scene *committed_scene;
+    const cgt_bvh *tree;
     const ray_source *source;
     uint64_t first; /* ray 0 of the array */
     const packet *p;
     cgt_counts *counts;
     float scale;
-    float most[3]; /* P */
+    float max_plane[3]; /* P */
     bool any_hit;
-    bool hides;              /* there are rays that do not see everything: wide_hidden */
-    const uint32_t *ignored; /* of each ray an object, or CGT_INVALID_ID; NULL: nobody ignores anything */
-    const uint32_t *mask;    /* of each ray; NULL: masks hide nothing */
-} wide_call;
+    bool skips_prims;          /* there are rays that do not see everything: bvh_ray_skips */
+    const uint32_t *skip_prim; /* of each ray an object, or CGT_INVALID_ID; NULL: nobody ignores anything */
+    const uint32_t *mask;      /* of each ray; NULL: masks hide nothing */
+} bvh_call;
 
 /* Whether the call can go through the tree at all; else rays are extreme. */
-CGT_SPU_INLINE bool wide_call_make(const cgt_world *world, cgt_counts *counts, wide_call *c)
+CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cgt_counts *counts, bvh_call *c)
 {
     memset(c, 0, sizeof *c);
-    c->world = world;
-    c->tree = &world->wide;
+    c->committed_scene = committed_scene;
+    c->tree = &committed_scene->bvh;
     c->counts = counts;
-    c->scale = world->scale;
+    c->scale = committed_scene->scale;
     for (int a = 0; a < 3; a++) {
-        const float low = fabsf(world->wide.low[a]), high = fabsf(world->wide.high[a]);
-        c->most[a] = (low > high ? low : high) * c->scale * (1 + 0x1p-20f);
+        const float low = fabsf(committed_scene->bvh.low[a]), high = fabsf(committed_scene->bvh.high[a]);
+        c->max_plane[a] = (low > high ? low : high) * c->scale * (1 + 0x1p-20f);
     }
     return c->scale <= 0x1p60f && c->scale >= 0x1p-60f;
 }
 
 /* E of a ray, or of the largest of several. */
-CGT_SPU_INLINE void wide_slack(const wide_call *c, const float org[3], float slack[3])
+CGT_SPU_INLINE void bvh_slab_error(const bvh_call *c, const float org[3], float slab_error[3])
 {
-    float most = 0;
+    float max_plane = 0;
     for (int a = 0; a < 3; a++) {
-        slack[a] = org[a] + c->most[a];
-        most = slack[a] > most ? slack[a] : most;
+        slab_error[a] = org[a] + c->max_plane[a];
+        max_plane = slab_error[a] > max_plane ? slab_error[a] : max_plane;
     }
     for (int a = 0; a < 3; a++)
-        slack[a] = (slack[a] * 0x1p-20f + (most * 0x1p-37f + 0x1p-85f)) * WIDE_SLACK;
+        slab_error[a] = (slab_error[a] * 0x1p-20f + (max_plane * 0x1p-37f + 0x1p-85f)) * BVH_ERROR_SCALE;
 }
 
 /* Whether ray i does not see an object: the one that it ignores, or of a geometry that its mask leaves out. */
-CGT_SPU_INLINE bool wide_hidden(const wide_call *c, uint32_t i, uint32_t object)
+CGT_SPU_INLINE bool bvh_ray_skips(const bvh_call *c, uint32_t i, uint32_t prim)
 {
-    if (c->ignored && c->ignored[i] == object)
+    if (c->skip_prim && c->skip_prim[i] == prim)
         return true;
-    return c->mask && !(c->mask[i] & cgt_objects_array(&c->world->objects, object)->mask);
+    return c->mask && !(c->mask[i] & cgt_primitives_array(&c->committed_scene->prims, prim)->mask);
 }
 
 /* ---- deciding ---- */
 
 /* Ray i as the caller gave it. */
-CGT_SPU_INLINE cgt_ray wide_given_ray(const wide_call *c, uint32_t i)
+CGT_SPU_INLINE cgt_ray bvh_input_ray(const bvh_call *c, uint32_t i)
 {
     cgt_ray ray;
     if (c->p) {
@@ -108,35 +108,36 @@ CGT_SPU_INLINE cgt_ray wide_given_ray(const wide_call *c, uint32_t i)
         return ray;
     }
     const cgt_rays *r = c->source->rays;
-    const uint64_t at = c->first + i;
+    const uint64_t index = c->first + i;
     for (int a = 0; a < 3; a++) {
-        ray.line.org[a] = ray_element(c->source, r->org[a], at);
-        ray.line.dir[a] = ray_element(c->source, r->dir[a], at);
+        ray.line.org[a] = ray_element(c->source, r->org[a], index);
+        ray.line.dir[a] = ray_element(c->source, r->dir[a], index);
     }
-    ray.t_min = r->t_min ? ray_element(c->source, r->t_min, at) : 0;
-    ray.t_max = r->t_max ? ray_element(c->source, r->t_max, at) : INFINITY;
+    ray.t_min = r->t_min ? ray_element(c->source, r->t_min, index) : 0;
+    ray.t_max = r->t_max ? ray_element(c->source, r->t_max, index) : INFINITY;
     ray.t_min = ray.t_min < -FLT_MAX ? -FLT_MAX : ray.t_min;
     return ray;
 }
 
 /* A ray's best hit so far: its t is in [low, high]. */
-typedef struct wide_best {
+typedef struct best_hit {
     float low, high;
-    uint32_t object; /* CGT_INVALID_ID: none yet */
+    uint32_t prim; /* CGT_INVALID_ID: none yet */
     uint32_t unused;
-} wide_best;
+} best_hit;
 
 /* Decides whether object beats the best hit of ray i, which it then is. Of any-hit rays low and high become -infinity. */
-__attribute__((noinline, cold, unused)) static bool wide_decide(const wide_call *c, uint32_t i, uint32_t object,
-                                                                wide_best *best)
+__attribute__((noinline, cold, unused)) static bool bvh_decide(const bvh_call *c, uint32_t i, uint32_t prim,
+                                                               best_hit *best)
 {
     double t;
-    if (best->object == object || best->high == -INFINITY)
+    if (best->prim == prim || best->high == -INFINITY)
         return false;
-    const cgt_ray ray = wide_given_ray(c, i);
-    if (!filter_beats(&c->world->objects, &ray, c->any_hit ? CGT_INVALID_ID : best->object, object, &t, c->counts))
+    const cgt_ray ray = bvh_input_ray(c, i);
+    if (!filter_is_closer(&c->committed_scene->prims, &ray, c->any_hit ? CGT_INVALID_ID : best->prim, prim, &t,
+                          c->counts))
         return false;
-    best->object = object;
+    best->prim = prim;
     best->low = best->high = -INFINITY;
     if (c->any_hit)
         return true;

@@ -2,42 +2,42 @@
  * SPDX-License-Identifier: MIT
  *
  * One ray through the wide tree: lanes are the children of a node, or the primitives of a leaf. */
-#ifndef CGT_WIDE_SINGLE_H
-#define CGT_WIDE_SINGLE_H
+#ifndef CGT_BVH_SINGLE_H
+#define CGT_BVH_SINGLE_H
 
 #include "kernel/bvh/bvh_ray.h"
 
 /* A normalised ray. Numbers of planes are as the tree has them: rdir is times the world's scale. */
-typedef struct wide_ray {
+typedef struct bvh_ray {
     float org[3], dir[3];
     float rdir[3], first[3], last[3]; /* t = plane rdir + first or last */
     float near, far;                  /* far: of best.high too */
     uint32_t octant;
     uint32_t number; /* of the call */
-    wide_best best;
-} wide_ray;
+    best_hit best;
+} bvh_ray;
 
 /* What slabs need besides origin and direction. */
-CGT_SPU_INLINE void wide_ray_planes(const wide_call *c, const float rdir[3], const float slack[3], wide_ray *r)
+CGT_SPU_INLINE void bvh_ray_set_slabs(const bvh_call *c, const float rdir[3], const float slab_error[3], bvh_ray *r)
 {
     r->octant = 0;
     for (int a = 0; a < 3; a++) {
-        const float shift = r->org[a] * rdir[a], wide = slack[a] * fabsf(rdir[a]);
+        const float shift = r->org[a] * rdir[a], t_error = slab_error[a] * fabsf(rdir[a]);
         r->rdir[a] = rdir[a] * c->scale;
-        r->first[a] = -shift - wide;
-        r->last[a] = wide - shift;
+        r->first[a] = -shift - t_error;
+        r->last[a] = t_error - shift;
         r->octant |= (uint32_t)(rdir[a] < 0) << a;
     }
 }
 
 /* ---- a leaf ---- */
 
-typedef struct wide_lanes {
-    lane_rays ray; /* the same in every lane; t_min is `near` */
-    vfloat inside; /* after which t is in the range for certain */
-} wide_lanes;
+typedef struct bvh_leaf_ray {
+    lane_rays ray;   /* the same in every lane; t_min is `near` */
+    vfloat t_inside; /* after which t is in the range for certain */
+} bvh_leaf_ray;
 
-CGT_SPU_INLINE void wide_lanes_make(const wide_call *c, const wide_ray *r, wide_lanes *l)
+CGT_SPU_INLINE void bvh_leaf_ray_init(const bvh_call *c, const bvh_ray *r, bvh_leaf_ray *l)
 {
     for (int a = 0; a < 3; a++) {
         l->ray.org[a] = spux_vfloat(r->org[a]);
@@ -50,61 +50,62 @@ CGT_SPU_INLINE void wide_lanes_make(const wide_call *c, const wide_ray *r, wide_
     }
     /* |d| is from 1 to 2 sqrt(3), its largest component below 2: bounds of all directions will do */
     l->ray.rlength = spux_vfloat(1);
-    l->ray.most = spux_vfloat(2);
+    l->ray.max_dir = spux_vfloat(2);
     l->ray.underflow = spux_vfloat(0x1.8p-117f);
     for (int a = 0; a < 3; a++)
         l->ray.scaled_org[a] = l->ray.org[a];
     l->ray.unscale = spux_vfloat(1);
     l->ray.t_min = spux_vfloat(r->near);
-    l->inside = spux_vfloat(r->near + fabsf(r->near) * 0x1p-18f + 0x1p-84f);
+    l->t_inside = spux_vfloat(r->near + fabsf(r->near) * 0x1p-18f + 0x1p-84f);
 }
 
-/* Keeps what the ray found out about the lanes' objects, as leaf_keep_ray does. */
-CGT_SPU_INLINE void wide_single_keep(const wide_call *c, wide_ray *r, const wide_lanes *l, const lane_hits *q,
-                                     const uint32_t *object, unsigned used, bool any_hit)
+/* Keeps what the ray found out about the lanes' objects, as leaf_update_ray does. */
+CGT_SPU_INLINE void bvh_single_update(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, const lane_hits *q,
+                                      const uint32_t *prim, unsigned used_lanes, bool any_hit)
 {
-    const vmask sure = spu_and(q->certain, spu_cmpgt(q->low, l->inside));
-    const vmask may = spu_andc(spu_or(q->certain, q->open), spu_cmpgt(q->low, spux_vfloat(r->best.high)));
-    unsigned certain = spux_mask_bits(spu_and(may, sure)) & used, open = spux_mask_bits(spu_andc(may, sure)) & used;
-    if (!(certain | open))
+    const vmask in_range = spu_and(q->certain_hit, spu_cmpgt(q->low, l->t_inside));
+    const vmask possible = spu_andc(spu_or(q->certain_hit, q->undecided), spu_cmpgt(q->low, spux_vfloat(r->best.high)));
+    unsigned certain_hit = spux_mask_bits(spu_and(possible, in_range)) & used_lanes,
+             undecided = spux_mask_bits(spu_andc(possible, in_range)) & used_lanes;
+    if (!(certain_hit | undecided))
         return;
     _Alignas(CGT_VECTOR_BYTES) float low[CGT_LANES], high[CGT_LANES];
     spux_store(low, q->low);
     spux_store(high, q->high);
-    for (; certain; certain &= certain - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(certain);
-        if (c->hides && wide_hidden(c, r->number, object[k]))
+    for (; certain_hit; certain_hit &= certain_hit - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(certain_hit);
+        if (c->skips_prims && bvh_ray_skips(c, r->number, prim[k]))
             continue;
         if (high[k] < r->best.low) {
-            r->best.object = object[k];
+            r->best.prim = prim[k];
             r->best.low = any_hit ? -INFINITY : low[k];
             r->best.high = any_hit ? -INFINITY : high[k];
         } else if (low[k] <= r->best.high)
-            open |= 1u << k;
+            undecided |= 1u << k;
     }
-    for (; open; open &= open - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(open);
-        if (low[k] > r->best.high || (c->hides && wide_hidden(c, r->number, object[k])))
+    for (; undecided; undecided &= undecided - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(undecided);
+        if (low[k] > r->best.high || (c->skips_prims && bvh_ray_skips(c, r->number, prim[k])))
             continue;
-        wide_decide(c, r->number, object[k], &r->best);
+        bvh_decide(c, r->number, prim[k], &r->best);
     }
     r->far = r->best.high;
 }
 
-CGT_SPU_INLINE void wide_single_spheres(const wide_call *c, wide_ray *r, const wide_lanes *l, const wide_spheres *b,
-                                        unsigned used, bool any_hit)
+CGT_SPU_INLINE void bvh_single_spheres(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, const sphere_block *b,
+                                       unsigned used_lanes, bool any_hit)
 {
     const vfloat scale = spux_vfloat(c->scale);
     lane_hits q;
     vfloat center[3];
     for (int a = 0; a < 3; a++)
         center[a] = spu_mul(spux_load(b->center[a]), scale);
-    if (lane_sphere(&l->ray, center, spu_mul(spux_load(b->radius), scale), &q))
-        wide_single_keep(c, r, l, &q, b->object, used, any_hit);
+    if (lane_test_sphere(&l->ray, center, spu_mul(spux_load(b->radius), scale), &q))
+        bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 
-CGT_SPU_INLINE void wide_single_triangles(const wide_call *c, wide_ray *r, const wide_lanes *l, const wide_triangles *b,
-                                          unsigned used, bool any_hit)
+CGT_SPU_INLINE void bvh_single_triangles(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, const triangle_block *b,
+                                         unsigned used_lanes, bool any_hit)
 {
     lane_hits q;
     lane_triangles t;
@@ -115,36 +116,36 @@ CGT_SPU_INLINE void wide_single_triangles(const wide_call *c, wide_ray *r, const
     }
     t.sum[0] = spux_load(b->sum[0]);
     t.sum[1] = spux_load(b->sum[1]);
-    if (lane_triangle(&l->ray, &t, &q))
-        wide_single_keep(c, r, l, &q, b->object, used, any_hit);
+    if (lane_test_triangle(&l->ray, &t, &q))
+        bvh_single_update(c, r, l, &q, b->prim, used_lanes, any_hit);
 }
 
-CGT_SPU_INLINE void wide_single_leaf(const wide_call *c, wide_ray *r, const wide_lanes *l, uint32_t code, bool any_hit)
+CGT_SPU_INLINE void bvh_single_leaf(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, uint32_t code, bool any_hit)
 {
-    const uint32_t count = wide_leaf_count(code), index = code & CGT_WIDE_INDEX;
-    const unsigned used = CGT_ALL_LANES >> (CGT_LANES - count);
+    const uint32_t count = bvh_leaf_count(code), index = code & CGT_BVH_INDEX_MASK;
+    const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
     c->counts->leaves++;
     c->counts->packet_tests += count;
     c->counts->ray_tests += CGT_LANES;
-    if (code & CGT_WIDE_TRIANGLES)
-        wide_single_triangles(c, r, l, (const wide_triangles *)c->tree->triangle + index, used, any_hit);
+    if (code & CGT_BVH_TRIANGLE_LEAF)
+        bvh_single_triangles(c, r, l, (const triangle_block *)c->tree->triangle + index, used_lanes, any_hit);
     else
-        wide_single_spheres(c, r, l, (const wide_spheres *)c->tree->sphere + index, used, any_hit);
+        bvh_single_spheres(c, r, l, (const sphere_block *)c->tree->sphere + index, used_lanes, any_hit);
 }
 
 /* ---- a node ---- */
 
 /* A node takes one entry away and adds at most CGT_LANES; stores are of whole vectors. */
-#define WIDE_STACK (CGT_WIDE_MAX_DEPTH * (CGT_LANES - 1) + 1 + CGT_LANES)
+#define BVH_STACK_SIZE (CGT_BVH_MAX_DEPTH * (CGT_LANES - 1) + 1 + CGT_LANES)
 
-typedef struct wide_stack {
-    uint32_t code[WIDE_STACK];
-    float near[WIDE_STACK]; /* where the ray enters; of nearest hits only */
+typedef struct bvh_stack {
+    uint32_t code[BVH_STACK_SIZE];
+    float near[BVH_STACK_SIZE]; /* where the ray enters; of nearest hits only */
     uint32_t top;
-} wide_stack;
+} bvh_stack;
 
 /* The lanes of children, those to be visited last first. */
-CGT_SPU_INLINE vuint wide_backwards(const wide_node *n, uint32_t octant)
+CGT_SPU_INLINE vuint bvh_push_order(const bvh_node *n, uint32_t octant)
 {
     const bool reverse = octant > 3;
     const vuint order = spux_load_bytes(n->order[reverse ? 7 - octant : octant]);
@@ -154,8 +155,7 @@ CGT_SPU_INLINE vuint wide_backwards(const wide_node *n, uint32_t octant)
 }
 
 /* Pushes the children that the ray passes. */
-CGT_SPU_INLINE void wide_single_node(const wide_call *c, const wide_ray *r, const wide_node *n, wide_stack *s,
-                                     bool any_hit)
+CGT_SPU_INLINE void bvh_single_node(const bvh_call *c, const bvh_ray *r, const bvh_node *n, bvh_stack *s, bool any_hit)
 {
     vfloat enter = spux_vfloat(r->near), leave = spux_vfloat(r->far);
     for (int a = 0; a < 3; a++) {
@@ -170,10 +170,10 @@ CGT_SPU_INLINE void wide_single_node(const wide_call *c, const wide_ray *r, cons
     vmask passed = spu_and(spux_cmpge(leave, enter), spux_mask_first(n->children));
     c->counts->nodes++;
     if (!any_hit && spux_any(passed)) {
-        const vuint back = wide_backwards(n, r->octant);
-        enter = spux_permute(enter, back);
-        code = spux_permute(code, back);
-        passed = spu_and(spux_cmpge(spux_permute(leave, back), enter), spux_mask_first(n->children));
+        const vuint order = bvh_push_order(n, r->octant);
+        enter = spux_permute(enter, order);
+        code = spux_permute(code, order);
+        passed = spu_and(spux_cmpge(spux_permute(leave, order), enter), spux_mask_first(n->children));
     }
     spux_store_unaligned_uint(s->code + s->top, spux_compress(code, passed));
     if (!any_hit)
@@ -182,19 +182,19 @@ CGT_SPU_INLINE void wide_single_node(const wide_call *c, const wide_ray *r, cons
 }
 
 /* The ray through what hangs on a code. */
-CGT_SPU_INLINE void wide_single_trace(const wide_call *c, wide_ray *r, uint32_t code, bool any_hit)
+CGT_SPU_INLINE void bvh_single_trace(const bvh_call *c, bvh_ray *r, uint32_t code, bool any_hit)
 {
-    wide_stack s;
-    wide_lanes l;
-    wide_lanes_make(c, r, &l);
+    bvh_stack s;
+    bvh_leaf_ray l;
+    bvh_leaf_ray_init(c, r, &l);
     s.top = 0;
     for (;;) {
-        if (code & CGT_WIDE_LEAF) {
-            wide_single_leaf(c, r, &l, code, any_hit);
+        if (code & CGT_BVH_LEAF) {
+            bvh_single_leaf(c, r, &l, code, any_hit);
             if (any_hit && r->far == -INFINITY)
                 return;
         } else
-            wide_single_node(c, r, (const wide_node *)c->tree->node + code, &s, any_hit);
+            bvh_single_node(c, r, (const bvh_node *)c->tree->node + code, &s, any_hit);
         do {
             if (!s.top)
                 return;

@@ -5,23 +5,23 @@
  * rays share a direction, or where they end: large packets have much in common. */
 #include "kernel/light/light_points.h"
 
-#define LIGHT_PACKET 128u /* rays; measured: larger ones share more of spheres, smaller ones of fine meshes */
+#define LIGHT_PACKET_RAYS 128u /* rays; measured: larger ones share more of spheres, smaller ones of fine meshes */
 
-void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light, uint64_t first,
-                                 uint64_t end, const cgt_trace_settings *settings, uint8_t *occluded,
-                                 cgt_counts *counts)
+void CGT_KERNEL(cgt_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+                                 const cgt_light *light, uint64_t first, uint64_t end,
+                                 const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
     packet p;
     if (settings->light_tiles) {
-        CGT_KERNEL(cgt_tile_trace_light)(world, points, light, first, end, settings, occluded, counts);
+        CGT_KERNEL(cgt_tile_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
         return;
     }
-    if (settings->wide) {
-        CGT_KERNEL(cgt_wide_trace_light)(world, points, light, first, end, settings, occluded, counts);
+    if (settings->use_bvh) {
+        CGT_KERNEL(cgt_bvh_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
         return;
     }
-    const light_call c = {.world = world,
-                          .source = ray_source_make(points, light),
+    const light_call c = {.committed_scene = committed_scene,
+                          .source = ray_source_init(points, light),
                           .light = *light,
                           .order = {first, NULL},
                           .settings = settings,
@@ -32,7 +32,7 @@ void CGT_KERNEL(cgt_trace_light)(const cgt_world *world, const cgt_rays *points,
     p.fast = settings->precision == CGT_PRECISION_FAST;
     p.triangle_test = settings->triangle_test;
     counts->rays += count;
-    for (uint32_t i = 0; i < count; i += LIGHT_PACKET)
-        light_trace_packet(&c, i, count - i < LIGHT_PACKET ? count - i : LIGHT_PACKET, &p);
+    for (uint32_t i = 0; i < count; i += LIGHT_PACKET_RAYS)
+        light_trace_packet(&c, i, count - i < LIGHT_PACKET_RAYS ? count - i : LIGHT_PACKET_RAYS, &p);
     light_count_hits(&c, count);
 }

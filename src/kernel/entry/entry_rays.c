@@ -9,7 +9,7 @@
 
 /* The call, as all its packets see it. */
 typedef struct rays_call {
-    const cgt_world *world;
+    const cgt_committed_scene *committed_scene;
     ray_source source;
     const cgt_trace_settings *settings;
     const cgt_hits *hits;
@@ -17,23 +17,23 @@ typedef struct rays_call {
     cgt_counts *counts;
 } rays_call;
 
-static void trace_range(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p)
+static void trace_packet(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p)
 {
     packet_hits h;
-    if (!ray_packet_make(c->world, &c->source, order, first, count, p, c->counts)) {
+    if (!ray_packet_init(c->committed_scene, &c->source, order, first, count, p, c->counts)) {
         for (uint32_t k = 0; k < count; k++)
-            trace_range(c, order, first + k, 1, p);
+            trace_packet(c, order, first + k, 1, p);
         return;
     }
-    CGT_KERNEL(cgt_packet_trace)(c->world, p, c->settings, c->counts);
+    CGT_KERNEL(cgt_packet_trace)(c->committed_scene, p, c->settings, c->counts);
     if (c->hits) {
-        CGT_KERNEL(cgt_packet_resolve)(c->world, p, c->settings, &h, c->counts);
+        CGT_KERNEL(cgt_packet_resolve)(c->committed_scene, p, c->settings, &h, c->counts);
         ray_store_hits(&h, order, first, count, c->hits);
         return;
     }
     for (uint32_t k = 0; k < count; k++) {
-        c->occluded[ray_at(order, first + k)] = p->object[k] != CGT_INVALID_ID;
-        c->counts->hits += p->object[k] != CGT_INVALID_ID;
+        c->occluded[ray_index(order, first + k)] = p->prim[k] != CGT_INVALID_ID;
+        c->counts->hits += p->prim[k] != CGT_INVALID_ID;
     }
 }
 
@@ -69,35 +69,36 @@ static bool order_rays(const ray_source *s, uint64_t first, uint32_t count, uint
 }
 
 /* Packets through whatever structure there is. Not inline: its arrays and those of streams are not there at once. */
-__attribute__((noinline)) static void trace_packets(const cgt_world *world, const cgt_rays *rays, uint64_t first,
-                                                    uint64_t end, const cgt_trace_settings *settings,
+__attribute__((noinline)) static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_rays *rays,
+                                                    uint64_t first, uint64_t end, const cgt_trace_settings *settings,
                                                     const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts)
 {
     packet p;
     uint32_t from[CGT_RAYS_CHUNK];
-    const rays_call c = {.world = world,
-                         .source = ray_source_make(rays, NULL),
+    const rays_call c = {.committed_scene = committed_scene,
+                         .source = ray_source_init(rays, NULL),
                          .settings = settings,
                          .hits = hits,
                          .occluded = occluded,
                          .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
-    const bool tree = world->structure == CGT_STRUCTURE_KD || world->structure == CGT_STRUCTURE_KD_ROPES;
+    const bool tree =
+        committed_scene->structure == CGT_STRUCTURE_KD || committed_scene->structure == CGT_STRUCTURE_KD_ROPES;
     const ray_order order = {first, tree && order_rays(&c.source, first, count, from) ? from : NULL};
     p.any_hit = hits == NULL;
     p.fast = settings->precision == CGT_PRECISION_FAST;
     p.triangle_test = settings->triangle_test;
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += RAY_PACKET)
-        trace_range(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, &p);
+        trace_packet(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, &p);
 }
 
-void CGT_KERNEL(cgt_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
-                                const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
-                                cgt_counts *counts)
+void CGT_KERNEL(cgt_trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
+                                uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
+                                uint8_t *occluded, cgt_counts *counts)
 {
-    if (settings->wide && !world->everything)
-        CGT_KERNEL(cgt_wide_trace_rays)(world, rays, first, end, settings, hits, occluded, counts);
+    if (settings->use_bvh && !committed_scene->brute_force)
+        CGT_KERNEL(cgt_bvh_trace_rays)(committed_scene, rays, first, end, settings, hits, occluded, counts);
     else
-        trace_packets(world, rays, first, end, settings, hits, occluded, counts);
+        trace_packets(committed_scene, rays, first, end, settings, hits, occluded, counts);
 }

@@ -19,154 +19,155 @@
 
 #include "kernel/packet/frustum.h"
 
-#define LOOSE_SPACE 1024u /* divisions of the space: how near to its first ray the frustum begins */
+#define LOOSE_GRID_SPACE_CELLS 1024u /* divisions of the space: how near to its first ray the frustum begins */
 
 /* A level, seen along the frustum; w counts from the frustum's w0. */
-typedef struct loose_march_level {
-    vec_float4 bound, step, most; /* lower bounds of cells u, -u, v, -v, as lines over w; the last cells */
-    float begin, pitch;           /* where objects of slice 0 begin; from one slice to the next */
-    float thickness;              /* of a slice and its reach */
-    uint32_t next, end;           /* slices, counted along the rays */
-} loose_march_level;
+typedef struct loose_grid_march_level {
+    vec_float4 bound, step, last_cells; /* lower bounds of cells u, -u, v, -v, as lines over w; the last cells */
+    float begin, pitch;                 /* where objects of slice 0 begin; from one slice to the next */
+    float thickness;                    /* of a slice and its reach */
+    uint32_t next, end;                 /* slices, counted along the rays */
+} loose_grid_march_level;
 
-typedef struct loose_march {
+typedef struct loose_grid_march {
     const cgt_loose_grid *grid;
     const frustum *frustum;
     float low, high; /* w of the part of the frustum that passes the space */
-    loose_march_level level[CGT_LOOSE_LEVELS];
-} loose_march;
+    loose_grid_march_level level[CGT_LOOSE_LEVELS];
+} loose_grid_march;
 
 /* Cells low to high of u, then of v. */
-typedef struct loose_slice {
+typedef struct loose_grid_slice {
     const cgt_loose_level *level;
-    uint32_t along; /* the cell along w */
+    uint32_t w_cell; /* the cell along w */
     vec_int4 cells;
-} loose_slice;
+} loose_grid_slice;
 
 /* The bounds of all objects as a space, nowhere thinner than what float can divide. */
-CGT_SPU_INLINE void loose_space_make(const cgt_world *world, frustum_space *s)
+CGT_SPU_INLINE void loose_grid_init_space(const cgt_committed_scene *committed_scene, frustum_space *s)
 {
     double extent[3], largest = 0, magnitude = 0;
     for (int a = 0; a < 3; a++) {
-        const double low = (double)world->low[a], high = (double)world->high[a];
+        const double low = (double)committed_scene->low[a], high = (double)committed_scene->high[a];
         extent[a] = high - low;
         largest = extent[a] > largest ? extent[a] : largest;
         magnitude = -low > magnitude ? -low : magnitude;
         magnitude = high > magnitude ? high : magnitude;
     }
-    double least = largest * 0x1p-10 > magnitude * 0x1p-18 ? largest * 0x1p-10 : magnitude * 0x1p-18;
-    least = least > 0x1p-50 ? least : 0x1p-50;
+    double min_extent = largest * 0x1p-10 > magnitude * 0x1p-18 ? largest * 0x1p-10 : magnitude * 0x1p-18;
+    min_extent = min_extent > 0x1p-50 ? min_extent : 0x1p-50;
     for (int a = 0; a < 3; a++) {
-        const double more = extent[a] < least ? least - extent[a] : 0;
-        s->org[a] = (float)((double)world->low[a] - more / 2);
-        const double rest = (double)world->high[a] - (double)s->org[a];
-        s->rcell[a] = (float)(LOOSE_SPACE / (rest > least ? rest : least));
+        const double padding = extent[a] < min_extent ? min_extent - extent[a] : 0;
+        s->org[a] = (float)((double)committed_scene->low[a] - padding / 2);
+        const double rest = (double)committed_scene->high[a] - (double)s->org[a];
+        s->rcell[a] = (float)(LOOSE_GRID_SPACE_CELLS / (rest > min_extent ? rest : min_extent));
         /* 16 roundings of 2^-24 each, of the coordinate and of the point behind it */
-        s->slack[a] = 0x1p-20f * ((float)LOOSE_SPACE + (float)magnitude * s->rcell[a]);
-        s->resolution[a] = LOOSE_SPACE;
+        s->cell_error[a] = 0x1p-20f * ((float)LOOSE_GRID_SPACE_CELLS + (float)magnitude * s->rcell[a]);
+        s->resolution[a] = LOOSE_GRID_SPACE_CELLS;
     }
 }
 
 /* The lines of axis k (0: u, 1: v) in the level's cells: with U = (x - org) R in the space, a point's cell coordinate
  * (x - low) / cell is U / (R cell) + (org - low) / cell. */
-CGT_SPU_INLINE void loose_march_lines(const loose_march *m, const frustum_space *s, const cgt_loose_level *from, int k,
-                                      loose_march_level *l)
+CGT_SPU_INLINE void loose_grid_march_init_lines(const loose_grid_march *m, const frustum_space *s,
+                                                const cgt_loose_level *grid_level, int k, loose_grid_march_level *l)
 {
     const frustum *f = m->frustum;
     const int axis = k ? f->v : f->u;
-    const double rcell = 1 / (double)from->cell[axis], scale = rcell / (double)s->rcell[axis];
-    const double shift = ((double)s->org[axis] - (double)from->low[axis]) * rcell;
-    const double reach = (double)from->reach[axis] * rcell;
+    const double rcell = 1 / (double)grid_level->cell[axis], scale = rcell / (double)s->rcell[axis];
+    const double shift = ((double)s->org[axis] - (double)grid_level->low[axis]) * rcell;
+    const double reach = (double)grid_level->reach[axis] * rcell;
     for (int i = 2 * k; i < 2 * k + 2; i++) {
         const double bound = scale * (double)f->bound[i], step = scale * (double)f->step[i];
         const double size = fabs(bound) + fabs(shift) + reach + fabs(step) * (double)m->high + 1;
-        const double least = bound + (i & 1 ? -shift : shift) - reach - size * 0x1p-20;
+        const double lower = bound + (i & 1 ? -shift : shift) - reach - size * 0x1p-20;
         const bool steep = !(size < 0x1p60);
-        l->bound[i] = steep ? -0x1p24f : (float)least;
+        l->bound[i] = steep ? -0x1p24f : (float)lower;
         l->step[i] = steep ? 0 : (float)step;
     }
 }
 
-CGT_SPU_INLINE void loose_march_slices(const loose_march *m, const frustum_space *s, const cgt_loose_level *from,
-                                       loose_march_level *l)
+CGT_SPU_INLINE void loose_grid_march_init_slices(const loose_grid_march *m, const frustum_space *s,
+                                                 const cgt_loose_level *grid_level, loose_grid_march_level *l)
 {
     const frustum *f = m->frustum;
     const int w = f->w;
-    const double r = (double)s->rcell[w], cell = (double)from->cell[w], reach = (double)from->reach[w];
-    const double low = (double)from->low[w] - (double)s->org[w], length = cell * from->size[w];
+    const double r = (double)s->rcell[w], cell = (double)grid_level->cell[w], reach = (double)grid_level->reach[w];
+    const double low = (double)grid_level->low[w] - (double)s->org[w], length = cell * grid_level->size[w];
     const double first =
         (f->reverse ? s->resolution[w] - (low + length + reach) * r : (low - reach) * r) - (double)f->w0;
     const double pitch = cell * r, thickness = (cell + 2 * reach) * r;
-    const double wide = (fabs(first) + length * r + thickness + s->resolution[w]) * 0x1p-20;
-    const double begin = first - wide, thick = thickness + 2 * wide;
-    const double before = ((double)m->low - begin - thick) / pitch, last = ((double)m->high - begin) / pitch + 1;
+    const double error = (fabs(first) + length * r + thickness + s->resolution[w]) * 0x1p-20;
+    const double begin = first - error, padded_thickness = thickness + 2 * error;
+    const double first_slice = ((double)m->low - begin - padded_thickness) / pitch,
+                 last = ((double)m->high - begin) / pitch + 1;
     l->begin = (float)begin;
     l->pitch = (float)pitch;
-    l->thickness = (float)(thick + wide);
-    l->next = before > 0 ? before < from->size[w] ? (uint32_t)before : from->size[w] : 0;
-    l->end = last < from->size[w] ? last > 0 ? (uint32_t)last : 0 : from->size[w];
+    l->thickness = (float)(padded_thickness + error);
+    l->next = first_slice > 0 ? first_slice < grid_level->size[w] ? (uint32_t)first_slice : grid_level->size[w] : 0;
+    l->end = last < grid_level->size[w] ? last > 0 ? (uint32_t)last : 0 : grid_level->size[w];
 }
 
 /* The frustum and its space stay as they are while the march goes on. */
-CGT_SPU_INLINE void loose_march_make(const cgt_loose_grid *grid, const frustum_space *s, const frustum *f,
-                                     loose_march *m)
+CGT_SPU_INLINE void loose_grid_march_init(const cgt_loose_grid *grid, const frustum_space *s, const frustum *f,
+                                          loose_grid_march *m)
 {
     m->grid = grid;
     m->frustum = f;
-    m->level[0] = (loose_march_level){0}; /* there is one, which the compiler cannot know */
+    m->level[0] = (loose_grid_march_level){0}; /* there is one, which the compiler cannot know */
     m->low = (float)f->first - f->w0;
     m->high = (float)f->end - f->w0;
     for (uint32_t i = 0; i < grid->levels; i++) {
-        const cgt_loose_level *from = &grid->level[i];
-        loose_march_level *l = &m->level[i];
+        const cgt_loose_level *grid_level = &grid->level[i];
+        loose_grid_march_level *l = &m->level[i];
         l->next = l->end = 0;
-        l->most = frustum_most((float)(from->size[f->u] - 1), (float)(from->size[f->v] - 1));
-        loose_march_lines(m, s, from, 0, l);
-        loose_march_lines(m, s, from, 1, l);
-        loose_march_slices(m, s, from, l);
+        l->last_cells = frustum_max_cells((float)(grid_level->size[f->u] - 1), (float)(grid_level->size[f->v] - 1));
+        loose_grid_march_init_lines(m, s, grid_level, 0, l);
+        loose_grid_march_init_lines(m, s, grid_level, 1, l);
+        loose_grid_march_init_slices(m, s, grid_level, l);
     }
 }
 
 /* Cells of slice k of a level that the frustum may need. */
-CGT_SPU_INLINE vec_int4 loose_march_cells(const loose_march *m, const loose_march_level *l, uint32_t k)
+CGT_SPU_INLINE vec_int4 loose_grid_march_cells(const loose_grid_march *m, const loose_grid_march_level *l, uint32_t k)
 {
     const float begin = l->begin + (float)k * l->pitch, end = begin + l->thickness;
-    const float near = begin > m->low ? begin : m->low, far = end < m->high ? end : m->high;
-    return frustum_cells(spu_madd(l->step, spu_splats(near), l->bound), spu_madd(l->step, spu_splats(far), l->bound),
-                         l->most);
+    const float w_begin = begin > m->low ? begin : m->low, w_end = end < m->high ? end : m->high;
+    return frustum_cells(spu_madd(l->step, spu_splats(w_begin), l->bound),
+                         spu_madd(l->step, spu_splats(w_end), l->bound), l->last_cells);
 }
 
 /* The level whose next slice begins nearest, and where; NULL: none has any left. */
-CGT_SPU_INLINE loose_march_level *loose_march_nearest(loose_march *m, float *begin)
+CGT_SPU_INLINE loose_grid_march_level *loose_grid_march_nearest(loose_grid_march *m, float *begin)
 {
-    loose_march_level *nearest = NULL;
+    loose_grid_march_level *nearest = NULL;
     for (uint32_t i = 0; i < m->grid->levels; i++) {
-        loose_march_level *l = &m->level[i];
-        const float at = l->begin + (float)l->next * l->pitch;
-        if (l->next < l->end && (!nearest || at < *begin)) {
+        loose_grid_march_level *l = &m->level[i];
+        const float level_begin = l->begin + (float)l->next * l->pitch;
+        if (l->next < l->end && (!nearest || level_begin < *begin)) {
             nearest = l;
-            *begin = at;
+            *begin = level_begin;
         }
     }
     return nearest;
 }
 
-CGT_SPU_INLINE loose_slice loose_march_take(loose_march *m, loose_march_level *l)
+CGT_SPU_INLINE loose_grid_slice loose_grid_march_next_slice(loose_grid_march *m, loose_grid_march_level *l)
 {
-    loose_slice s = {.level = &m->grid->level[l - m->level], .cells = loose_march_cells(m, l, l->next)};
-    s.along = m->frustum->reverse ? s.level->size[m->frustum->w] - 1 - l->next : l->next;
+    loose_grid_slice s = {.level = &m->grid->level[l - m->level], .cells = loose_grid_march_cells(m, l, l->next)};
+    s.w_cell = m->frustum->reverse ? s.level->size[m->frustum->w] - 1 - l->next : l->next;
     l->next++;
     return s;
 }
 
 /* The objects of cells (x, y, z) to (x + more, y, z). */
-CGT_SPU_INLINE const uint32_t *loose_run(const cgt_loose_grid *grid, const cgt_loose_level *l, uint32_t x, uint32_t y,
-                                         uint32_t z, uint32_t more, uint32_t *count)
+CGT_SPU_INLINE const uint32_t *loose_grid_cell_run(const cgt_loose_grid *grid, const cgt_loose_level *l, uint32_t x,
+                                                   uint32_t y, uint32_t z, uint32_t extra, uint32_t *count)
 {
     const uint32_t cell = l->first + (z * l->size[1] + y) * l->size[0] + x;
     const uint32_t first = grid->start[cell];
-    *count = grid->start[cell + more + 1] - first;
-    return grid->object + first;
+    *count = grid->start[cell + extra + 1] - first;
+    return grid->prim + first;
 }
 
 #endif

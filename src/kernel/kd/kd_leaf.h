@@ -15,57 +15,57 @@
 
 /* What leaf tests need, made once a packet. */
 typedef struct leaf_tests {
-    const cgt_objects *objects;
+    const cgt_primitives *prims;
     packet *p;
     cgt_counts *counts;
     const cgt_leaf_triangle *triangle;
     float scale;
     bool mailbox;
-    uint32_t seen[LEAF_MAILBOX]; /* objects that the rays in work have met lately */
-    filter_packet filter;        /* in FAST precision */
+    uint32_t visited[LEAF_MAILBOX]; /* objects that the rays in work have met lately */
+    filter_packet filter;           /* in FAST precision */
     /* of the leaf in work: lanes beyond its count hold what they held before */
     filter_spheres spheres;
     filter_triangles triangles;                       /* in FAST precision */
     _Alignas(64) float row[LEAF_TRIANGLE][CGT_LANES]; /* else: fields of leaf triangles */
 } leaf_tests;
 
-CGT_SPU_INLINE void leaf_tests_make(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
-                                    cgt_counts *counts, leaf_tests *l)
+CGT_SPU_INLINE void leaf_tests_init(const cgt_committed_scene *committed_scene, packet *p,
+                                    const cgt_trace_settings *settings, cgt_counts *counts, leaf_tests *l)
 {
-    l->objects = &world->objects;
+    l->prims = &committed_scene->prims;
     l->p = p;
     l->counts = counts;
-    l->triangle = world->triangle;
-    l->scale = world->scale;
+    l->triangle = committed_scene->triangle;
+    l->scale = committed_scene->scale;
     l->mailbox = settings->mailbox;
-    if (world->objects.spheres) {
+    if (committed_scene->prims.spheres) {
         memset(l->spheres.center, 0, sizeof l->spheres.center);
         memset(l->spheres.radius, 0, sizeof l->spheres.radius);
     }
-    if (world->objects.triangles) {
+    if (committed_scene->prims.triangles) {
         memset(l->triangles.vertex, 0, sizeof l->triangles.vertex);
         memset(l->row, 0, sizeof l->row);
     }
     if (!p->fast)
         return;
-    filter_packet_make(p, world->scale, &l->filter);
-    if (world->objects.triangles && !p->common_origin)
-        filter_moments_make(p, &l->filter);
+    filter_packet_init(p, committed_scene->scale, &l->filter);
+    if (committed_scene->prims.triangles && !p->common_origin)
+        filter_moments_init(p, &l->filter);
 }
 
 /* Before other rays. */
 CGT_SPU_INLINE void leaf_mailbox_clear(leaf_tests *l)
 {
     if (l->mailbox)
-        memset(l->seen, 0xff, sizeof l->seen);
+        memset(l->visited, 0xff, sizeof l->visited);
 }
 
 /* Whether the rays in work have met the object; remembers it. */
-CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t object)
+CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t prim)
 {
-    uint32_t *seen = &l->seen[object % LEAF_MAILBOX];
-    const bool has = *seen == object;
-    *seen = object;
+    uint32_t *visited = &l->visited[prim % LEAF_MAILBOX];
+    const bool has = *visited == prim;
+    *visited = prim;
     l->counts->mailbox_skipped += has;
     return has;
 }
@@ -73,42 +73,43 @@ CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t object)
 /* ---- a vector of rays ---- */
 
 /* Keeps what lanes found out about the object that all of them tested. */
-CGT_SPU_INLINE void leaf_keep_vector(leaf_tests *l, uint32_t object, uint32_t i, const lane_hits *q)
+CGT_SPU_INLINE void leaf_update_vector(leaf_tests *l, uint32_t prim, uint32_t i, const lane_hits *q)
 {
     packet *p = l->p;
     const vfloat low = spux_load(p->low + i), high = spux_load(p->high + i);
-    const vuint winner = spux_load_uint(p->object + i), number = spux_vuint(object);
-    vmask nearer = spu_and(q->certain, spu_cmpgt(low, q->high));
-    vmask settled = spu_or(spu_or(nearer, spu_cmpgt(q->low, high)), spu_cmpeq(winner, number));
-    if (p->selective) {
-        const vmask left_out = select_left_out_of_one(l->objects, p, i, object);
+    const vuint best_prim = spux_load_uint(p->prim + i), number = spux_vuint(prim);
+    vmask nearer = spu_and(q->certain_hit, spu_cmpgt(low, q->high));
+    vmask decided = spu_or(spu_or(nearer, spu_cmpgt(q->low, high)), spu_cmpeq(best_prim, number));
+    if (p->skips_prims) {
+        const vmask left_out = rays_skipping_one(l->prims, p, i, prim);
         nearer = spu_andc(nearer, left_out);
-        settled = spu_or(settled, left_out);
+        decided = spu_or(decided, left_out);
     }
     const vfloat closed = spux_vfloat(-INFINITY);
     spux_store(p->low + i, spux_select(low, p->any_hit ? closed : q->low, nearer));
     spux_store(p->high + i, spux_select(high, p->any_hit ? closed : q->high, nearer));
-    spux_store_uint(p->object + i, spux_select(winner, number, nearer));
-    for (unsigned left = spux_mask_bits(spu_andc(spu_or(q->certain, q->open), settled)); left; left &= left - 1)
-        filter_decide(l->objects, p, i + (uint32_t)__builtin_ctz(left), object, l->counts);
+    spux_store_uint(p->prim + i, spux_select(best_prim, number, nearer));
+    for (unsigned remaining = spux_mask_bits(spu_andc(spu_or(q->certain_hit, q->undecided), decided)); remaining;
+         remaining &= remaining - 1)
+        filter_decide(l->prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, l->counts);
 }
 
-static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t object, uint32_t i)
+static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t prim, uint32_t i)
 {
-    const cgt_object_array *a = cgt_objects_array(l->objects, object);
+    const cgt_primitive_array *a = cgt_primitives_array(l->prims, prim);
     lane_hits q;
-    bool some;
+    bool may_hit;
     if (a->kind == CGT_KIND_SPHERES) {
-        const cgt_sphere s = cgt_array_sphere(a, object - a->first);
+        const cgt_sphere s = cgt_array_sphere(a, prim - a->first);
         const vfloat center[3] = {spux_vfloat(s.x), spux_vfloat(s.y), spux_vfloat(s.z)};
-        some = lane_sphere(r, center, spux_vfloat(s.r), &q);
+        may_hit = lane_test_sphere(r, center, spux_vfloat(s.r), &q);
     } else {
         lane_triangles triangle;
-        lane_triangles_of_one(&l->triangle[cgt_array_triangle_number(a, object)], &triangle);
-        some = lane_triangle(r, &triangle, &q);
+        lane_triangles_of_one(&l->triangle[cgt_array_triangle_number(a, prim)], &triangle);
+        may_hit = lane_test_triangle(r, &triangle, &q);
     }
-    if (some)
-        leaf_keep_vector(l, object, i, &q);
+    if (may_hit)
+        leaf_update_vector(l, prim, i, &q);
 }
 
 /* ---- a vector of rays in FAST precision ---- */
@@ -116,14 +117,14 @@ static void leaf_test_one(leaf_tests *l, const lane_rays *r, uint32_t object, ui
 static void leaf_fast_spheres(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
 {
     filter_spheres *s = &l->spheres;
-    filter_spheres_fetch(l->objects, reference, count, count, s);
+    filter_gather_spheres(l->prims, reference, count, count, s);
     filter_spheres_bound(&l->filter, s);
     for (uint32_t k = 0; k < count; k++) {
 #define CALL(mode)                                                                                                     \
     {                                                                                                                  \
         filter_sphere q = filter_sphere_get(l->p, s, (int)k, (mode).common_origin);                                    \
         q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);                                                               \
-        filter_vector(l->objects, l->p, filter_sphere_rays_fast, &q, s->object[k], i, mode, l->counts);                \
+        filter_vector(l->prims, l->p, filter_sphere_rays_fast, &q, s->prim[k], i, mode, l->counts);                    \
     }
         FILTER_FOR_MODE(l->p, false, CALL)
 #undef CALL
@@ -133,10 +134,10 @@ static void leaf_fast_spheres(leaf_tests *l, const uint32_t *reference, uint32_t
 static void leaf_fast_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, uint32_t i)
 {
     filter_triangles *s = &l->triangles;
-    filter_triangles_fetch(l->objects, reference, count, count, s);
+    filter_gather_triangles(l->prims, reference, count, count, s);
     filter_triangles_prepare_fast(&l->filter, s);
     for (uint32_t k = 0; k < count; k++) {
-#define TEST(test, q) filter_vector(l->objects, l->p, test, q, s->object[k], i, chosen, l->counts)
+#define TEST(test, q) filter_vector(l->prims, l->p, test, q, s->prim[k], i, chosen, l->counts)
 #define CALL(mode)                                                                                                     \
     {                                                                                                                  \
         const filter_mode chosen = mode;                                                                               \
@@ -153,7 +154,7 @@ static void leaf_test_fast(leaf_tests *l, const uint32_t *reference, uint32_t co
     l->counts->packet_tests += count;
     while (count) {
         cgt_kind kind;
-        const uint32_t run = leaf_run(l->objects, reference, count, &kind);
+        const uint32_t run = leaf_same_kind_run(l->prims, reference, count, &kind);
         if (kind == CGT_KIND_SPHERES)
             leaf_fast_spheres(l, reference, run, i);
         else
@@ -167,8 +168,8 @@ static void leaf_test_fast(leaf_tests *l, const uint32_t *reference, uint32_t co
  * the right one takes as long. */
 CGT_SPU_INLINE void leaf_prefetch(const leaf_tests *l, const uint32_t *reference, uint32_t count)
 {
-    const cgt_object_array *a = l->objects->array;
-    if (l->objects->arrays != 1)
+    const cgt_primitive_array *a = l->prims->array;
+    if (l->prims->arrays != 1)
         return;
     for (uint32_t k = 0; k < count; k++)
         __builtin_prefetch(l->triangle ? (const void *)&l->triangle[reference[k]] : cgt_array_point(a, reference[k]));
@@ -197,10 +198,10 @@ CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const ui
 /* ---- one ray ---- */
 
 /* At most a vector of triangles to the first lanes; the others hold what they held before. */
-CGT_SPU_INLINE void leaf_fetch_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, lane_triangles *q)
+CGT_SPU_INLINE void leaf_gather_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, lane_triangles *q)
 {
     for (uint32_t k = 0; k < count; k++) {
-        const cgt_object_array *a = cgt_objects_array(l->objects, reference[k]);
+        const cgt_primitive_array *a = cgt_primitives_array(l->prims, reference[k]);
         const cgt_leaf_triangle *t = &l->triangle[cgt_array_triangle_number(a, reference[k])];
         for (int c = 0; c < 3; c++) {
             l->row[c][k] = t->vertex[c];
@@ -236,20 +237,20 @@ CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint3
     while (count) {
         cgt_kind kind;
         lane_hits q;
-        bool some;
-        const uint32_t run = leaf_run(l->objects, reference, count, &kind);
+        bool may_hit;
+        const uint32_t run = leaf_same_kind_run(l->prims, reference, count, &kind);
         if (kind == CGT_KIND_SPHERES) {
             filter_spheres *s = &l->spheres;
-            filter_spheres_fetch(l->objects, reference, run, run, s);
+            filter_gather_spheres(l->prims, reference, run, run, s);
             const vfloat center[3] = {spux_load(s->center[0]), spux_load(s->center[1]), spux_load(s->center[2])};
-            some = lane_sphere(r, center, spux_load(s->radius), &q);
+            may_hit = lane_test_sphere(r, center, spux_load(s->radius), &q);
         } else {
             lane_triangles triangles;
-            leaf_fetch_triangles(l, reference, run, &triangles);
-            some = lane_triangle(r, &triangles, &q);
+            leaf_gather_triangles(l, reference, run, &triangles);
+            may_hit = lane_test_triangle(r, &triangles, &q);
         }
-        if (some)
-            leaf_keep_ray(l->objects, l->p, i, &q, reference, run, l->counts);
+        if (may_hit)
+            leaf_update_ray(l->prims, l->p, i, &q, reference, run, l->counts);
         reference += run;
         count -= run;
     }

@@ -90,7 +90,7 @@ __attribute__((noinline, unused)) static bool rope_enter(const packet *p, uint32
                                                          const float high[3], rope_time *last)
 {
     const float start = rope_start(p->t_min[i]);
-    bool some = start >= -FLT_MAX;
+    bool has_time = start >= -FLT_MAX;
     if (p->t_min[i] > FLT_MAX)
         return false; /* a range of nothing but infinity */
     *last = (rope_time){start, ROPE_START};
@@ -99,9 +99,9 @@ __attribute__((noinline, unused)) static bool rope_enter(const packet *p, uint32
         if (p->dir[a][i] == 0) {
             if (p->org[a][i] < low[a] || p->org[a][i] > high[a])
                 return false;
-        } else if (!some || rope_order(p, i, t, *last) > 0) {
+        } else if (!has_time || rope_order(p, i, t, *last) > 0) {
             *last = t;
-            some = true;
+            has_time = true;
         }
     }
     return rope_order(p, i, *last, rope_leave(p, i, low, high)) <= 0;

@@ -20,9 +20,9 @@
 #include "kernel/kd/kd_leaf.h"
 #include "kernel/kd/kd_rope.h"
 
-#define ROPE_WIDE 0x1p-20f
-#define ROPE_TINY 0x1p-126f
-#define ROPE_FLAT 0x1p-70f
+#define ROPE_REL_ERROR 0x1p-20f
+#define ROPE_ABS_ERROR 0x1p-126f
+#define ROPE_MIN_DIR 0x1p-70f
 #define ROPE_NEVER 0x1p127f
 
 typedef struct rope_packet {
@@ -31,7 +31,7 @@ typedef struct rope_packet {
     vfloat org[3], rdir[3];
     vmask ahead[3];                            /* lanes whose direction has that sign, as a mask */
     unsigned forward[3], backward[3], zero[3]; /* the same as bits; and those without such a component */
-    unsigned some_zero, unsure;          /* axes with any of those; lanes with a component too small to divide by */
+    unsigned zero_axes, imprecise;       /* axes with any of those; lanes with a component too small to divide by */
     _Alignas(64) float plane[CGT_LANES]; /* the last that each ray crossed */
     _Alignas(64) uint32_t axis[CGT_LANES];
     _Alignas(64) float time[CGT_LANES];    /* of that, rounded */
@@ -39,24 +39,24 @@ typedef struct rope_packet {
     uint64_t exact_steps;
 } rope_packet;
 
-static void rope_packet_make(const packet *p, uint32_t i, rope_packet *r)
+static void rope_packet_init(const packet *p, uint32_t i, rope_packet *r)
 {
     const vfloat zero = spux_vfloat(0), one = spux_vfloat(1);
     r->p = p;
     r->first = i;
-    r->some_zero = r->unsure = 0;
+    r->zero_axes = r->imprecise = 0;
     r->exact_steps = 0;
     for (int a = 0; a < 3; a++) {
         const vfloat d = spux_load(p->dir[a] + i);
-        const vmask flat = spu_cmpgt(spux_vfloat(ROPE_FLAT), spux_abs(d));
+        const vmask flat = spu_cmpgt(spux_vfloat(ROPE_MIN_DIR), spux_abs(d));
         r->org[a] = spux_load(p->org[a] + i);
         r->ahead[a] = spu_cmpgt(d, zero);
         r->forward[a] = spux_mask_bits(r->ahead[a]);
         r->backward[a] = spux_mask_bits(spu_cmpgt(zero, d));
         r->zero[a] = ~(r->forward[a] | r->backward[a]) & CGT_ALL_LANES;
         r->rdir[a] = spux_select(spux_div(one, spux_select(d, one, flat)), spux_vfloat(NAN), flat);
-        r->some_zero |= (unsigned)(r->zero[a] != 0) << a;
-        r->unsure |= spux_mask_bits(flat) & ~r->zero[a];
+        r->zero_axes |= (unsigned)(r->zero[a] != 0) << a;
+        r->imprecise |= spux_mask_bits(flat) & ~r->zero[a];
     }
 }
 
@@ -70,15 +70,15 @@ CGT_SPU_INLINE vfloat rope_packet_time(const rope_packet *r, uint32_t axis, vflo
 CGT_SPU_INLINE vfloat rope_packet_time_or(const rope_packet *r, uint32_t axis, vfloat plane, float never)
 {
     const vfloat t = rope_packet_time(r, axis, plane);
-    if (!(r->some_zero >> axis & 1))
+    if (!(r->zero_axes >> axis & 1))
         return t;
     return spux_select(t, spux_vfloat(never), spux_mask_from_bits(r->zero[axis]));
 }
 
 /* By how much times have to differ to be in order. */
-CGT_SPU_INLINE vfloat rope_packet_margin(vfloat a, vfloat b)
+CGT_SPU_INLINE vfloat rope_packet_error(vfloat a, vfloat b)
 {
-    return spu_madd(spu_add(spux_abs(a), spux_abs(b)), spux_vfloat(ROPE_WIDE), spux_vfloat(ROPE_TINY));
+    return spu_madd(spu_add(spux_abs(a), spux_abs(b)), spux_vfloat(ROPE_REL_ERROR), spux_vfloat(ROPE_ABS_ERROR));
 }
 
 CGT_SPU_INLINE void rope_packet_set(rope_packet *r, uint32_t lane, rope_time last)
@@ -97,46 +97,46 @@ CGT_SPU_INLINE void rope_packet_set(rope_packet *r, uint32_t lane, rope_time las
 
 /* The lanes that certainly enter the root, with their last planes; *open: those that may or may not, or not certainly
  * by that plane. */
-static unsigned rope_packet_enter_fast(rope_packet *r, const cgt_kd_tree *tree, unsigned *open)
+static unsigned rope_packet_enter_fast(rope_packet *r, const cgt_kd_tree *tree, unsigned *undecided)
 {
     const packet *p = r->p;
     const vfloat t_min = spux_load(p->t_min + r->first), never = spux_vfloat(-ROPE_NEVER);
-    const vfloat start = spu_sub(t_min, spu_madd(spux_abs(t_min), spux_vfloat(0x1p-22f), spux_vfloat(ROPE_TINY)));
+    const vfloat start = spu_sub(t_min, spu_madd(spux_abs(t_min), spux_vfloat(0x1p-22f), spux_vfloat(ROPE_ABS_ERROR)));
     const vmask endless = spu_cmpgt(spux_vfloat(-FLT_MAX), start);
     vfloat near = spux_select(start, never, endless), plane = start, leave[3];
     vuint axis = spux_vuint(ROPE_START);
-    unsigned missed = 0, doubt = r->unsure;
+    unsigned missed = 0, unordered = r->imprecise;
     for (uint32_t a = 0; a < 3; a++) {
         const vfloat low = spux_vfloat(tree->low[a]), high = spux_vfloat(tree->high[a]);
         const vfloat side = spux_select(high, low, r->ahead[a]);
         const vfloat t = rope_packet_time_or(r, a, side, -ROPE_NEVER), difference = spu_sub(t, near);
         const vmask later = spu_cmpgt(t, near);
-        doubt |= ~spux_mask_bits(spu_cmpgt(spux_abs(difference), rope_packet_margin(t, near))) & ~r->zero[a];
+        unordered |= ~spux_mask_bits(spu_cmpgt(spux_abs(difference), rope_packet_error(t, near))) & ~r->zero[a];
         near = spux_select(near, t, later);
         plane = spux_select(plane, side, later);
         axis = spux_select(axis, spux_vuint(a), later);
         missed |= r->zero[a] & spux_mask_bits(spu_or(spu_cmpgt(low, r->org[a]), spu_cmpgt(r->org[a], high)));
         leave[a] = rope_packet_time_or(r, a, spux_select(low, high, r->ahead[a]), ROPE_NEVER);
     }
-    const vfloat far = spux_min(spux_min(leave[0], leave[1]), leave[2]), margin = rope_packet_margin(near, far);
+    const vfloat far = spux_min(spux_min(leave[0], leave[1]), leave[2]), margin = rope_packet_error(near, far);
     const unsigned hit = spux_mask_bits(spu_cmpgt(spu_sub(far, near), margin));
-    missed |= spux_mask_bits(spu_cmpgt(spu_sub(near, far), margin)) & ~r->unsure;
+    missed |= spux_mask_bits(spu_cmpgt(spu_sub(near, far), margin)) & ~r->imprecise;
     spux_store(r->plane, plane);
     spux_store_uint(r->axis, axis);
     spux_store(r->time, near);
-    *open = (doubt | ~hit) & ~missed & CGT_ALL_LANES;
-    return hit & ~missed & ~doubt;
+    *undecided = (unordered | ~hit) & ~missed & CGT_ALL_LANES;
+    return hit & ~missed & ~unordered;
 }
 
 /* Puts all lanes that meet the root there. */
 static void rope_packet_enter(rope_packet *r, const cgt_kd_tree *tree)
 {
     const packet *p = r->p;
-    unsigned open, inside = rope_packet_enter_fast(r, tree, &open);
+    unsigned undecided, inside = rope_packet_enter_fast(r, tree, &undecided);
     const vmask closed = spu_cmpeq(spux_load(p->high + r->first), spux_vfloat(-INFINITY));
     const unsigned part = ~spux_mask_bits(closed);
-    for (open &= part; open; open &= open - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(open);
+    for (undecided &= part; undecided; undecided &= undecided - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(undecided);
         rope_time last;
         r->exact_steps++;
         if (!rope_enter(p, r->first + lane, tree->low, tree->high, &last))
@@ -154,7 +154,7 @@ static void rope_packet_enter(rope_packet *r, const cgt_kd_tree *tree)
 CGT_SPU_INLINE unsigned rope_packet_above(rope_packet *r, uint32_t axis, float split, unsigned active)
 {
     const vfloat s = spux_vfloat(split), t = rope_packet_time(r, axis, s), time = spux_load(r->time);
-    const vfloat plane = spux_load(r->plane), margin = rope_packet_margin(t, time);
+    const vfloat plane = spux_load(r->plane), margin = rope_packet_error(t, time);
     const unsigned forward = r->forward[axis], zero = r->zero[axis];
     const unsigned before = spux_mask_bits(spu_cmpgt(spu_sub(t, time), margin));
     const unsigned after = spux_mask_bits(spu_cmpgt(spu_sub(time, t), margin));
@@ -166,8 +166,8 @@ CGT_SPU_INLINE unsigned rope_packet_above(rope_packet *r, uint32_t axis, float s
     }
     if (zero)
         above = (above & ~zero) | (zero & spux_mask_bits(spu_cmpgt(r->org[axis], s)));
-    for (unsigned open = active & ~(before | after | same | zero); open; open &= open - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(open);
+    for (unsigned undecided = active & ~(before | after | same | zero); undecided; undecided &= undecided - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(undecided);
         const rope_time last = {r->plane[lane], r->axis[lane]};
         r->exact_steps++;
         above &= ~(1u << lane);
@@ -190,21 +190,21 @@ CGT_SPU_INLINE uint32_t rope_packet_choose(const rope_packet *r, uint32_t axis, 
 }
 
 /* From a node down to a leaf; rays that go elsewhere wait there. */
-CGT_SPU_INLINE cgt_kd_node rope_packet_down(rope_packet *r, const cgt_kd_tree *tree, uint32_t at, unsigned *active,
-                                            cgt_counts *counts)
+CGT_SPU_INLINE cgt_kd_node rope_packet_down(rope_packet *r, const cgt_kd_tree *tree, uint32_t node_index,
+                                            unsigned *active, cgt_counts *counts)
 {
-    cgt_kd_node n = tree->node[at];
-    for (; !cgt_kd_is_leaf(n); n = tree->node[at]) {
+    cgt_kd_node n = tree->node[node_index];
+    for (; !cgt_kd_is_leaf(n); n = tree->node[node_index]) {
         const uint32_t axis = cgt_kd_axis(n);
         const unsigned above = rope_packet_above(r, axis, cgt_kd_split(n), *active), below = *active & ~above;
         const uint32_t upper = rope_packet_choose(r, axis, below, above);
-        const unsigned others = upper ? below : above;
-        at = n.word[1] + upper;
+        const unsigned diverted = upper ? below : above;
+        node_index = n.word[1] + upper;
         counts->nodes++;
-        if (others) {
-            const vuint node = spux_load_uint(r->node), other = spux_vuint(n.word[1] + !upper);
-            spux_store_uint(r->node, spux_select(node, other, spux_mask_from_bits(others)));
-            *active &= ~others;
+        if (diverted) {
+            const vuint node = spux_load_uint(r->node), sibling = spux_vuint(n.word[1] + !upper);
+            spux_store_uint(r->node, spux_select(node, sibling, spux_mask_from_bits(diverted)));
+            *active &= ~diverted;
         }
     }
     return n;
@@ -212,15 +212,15 @@ CGT_SPU_INLINE cgt_kd_node rope_packet_down(rope_packet *r, const cgt_kd_tree *t
 
 /* ---- leave ---- */
 
-CGT_SPU_INLINE void rope_packet_leave_exactly(rope_packet *r, const cgt_kd_leaf *leaf, unsigned open)
+CGT_SPU_INLINE void rope_packet_leave_exactly(rope_packet *r, const cgt_kd_leaf *leaf, unsigned undecided)
 {
-    for (; open; open &= open - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(open);
+    for (; undecided; undecided &= undecided - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(undecided);
         const rope_time last = rope_leave(r->p, r->first + lane, leaf->low, leaf->high);
         const bool forward = r->forward[last.axis] >> lane & 1;
         r->exact_steps++;
         rope_packet_set(r, lane, last);
-        r->node[lane] = leaf->wide_rope[2 * last.axis + forward];
+        r->node[lane] = leaf->packet_rope[2 * last.axis + forward];
     }
 }
 
@@ -231,7 +231,8 @@ CGT_SPU_INLINE void rope_packet_leave(rope_packet *r, const cgt_kd_leaf *leaf, u
     vuint rope[3];
     for (uint32_t a = 0; a < 3; a++) {
         plane[a] = spux_select(spux_vfloat(leaf->low[a]), spux_vfloat(leaf->high[a]), r->ahead[a]);
-        rope[a] = spux_select(spux_vuint(leaf->wide_rope[2 * a]), spux_vuint(leaf->wide_rope[2 * a + 1]), r->ahead[a]);
+        rope[a] =
+            spux_select(spux_vuint(leaf->packet_rope[2 * a]), spux_vuint(leaf->packet_rope[2 * a + 1]), r->ahead[a]);
         t[a] = rope_packet_time_or(r, a, plane[a], ROPE_NEVER);
     }
     const vmask is1 = spu_cmpgt(t[0], t[1]);
@@ -242,13 +243,13 @@ CGT_SPU_INLINE void rope_packet_leave(rope_packet *r, const cgt_kd_leaf *leaf, u
     const vfloat last = spux_select(spux_select(plane[0], plane[1], is1), plane[2], is2);
     const vuint axis = spux_select(spux_select(spux_vuint(0), spux_vuint(1), is1), spux_vuint(2), is2);
     const vuint node = spux_select(spux_select(rope[0], rope[1], is1), rope[2], is2);
-    const unsigned sure = spux_mask_bits(spu_cmpgt(spu_sub(second, first), rope_packet_margin(second, first)));
+    const unsigned in_order = spux_mask_bits(spu_cmpgt(spu_sub(second, first), rope_packet_error(second, first)));
     spux_store(r->plane, spux_select(spux_load(r->plane), last, changed));
     spux_store(r->time, spux_select(spux_load(r->time), first, changed));
     spux_store_uint(r->axis, spux_select(spux_load_uint(r->axis), axis, changed));
     spux_store_uint(r->node, spux_select(spux_load_uint(r->node), node, changed));
-    if (active & (r->unsure | ~sure))
-        rope_packet_leave_exactly(r, leaf, active & (r->unsure | ~sure));
+    if (active & (r->imprecise | ~in_order))
+        rope_packet_leave_exactly(r, leaf, active & (r->imprecise | ~in_order));
 }
 
 /* ---- all ---- */
@@ -258,8 +259,8 @@ CGT_SPU_INLINE void rope_packet_leave(rope_packet *r, const cgt_kd_leaf *leaf, u
 CGT_SPU_INLINE uint32_t rope_packet_next(rope_packet *r, unsigned *active)
 {
     const vfloat high = spux_load(r->p->high + r->first), time = spux_load(r->time);
-    const vmask late = spu_cmpgt(spu_sub(time, rope_packet_margin(time, high)), high);
-    const vmask done = spu_or(late, spu_cmpeq(high, spux_vfloat(-INFINITY)));
+    const vmask beyond = spu_cmpgt(spu_sub(time, rope_packet_error(time, high)), high);
+    const vmask done = spu_or(beyond, spu_cmpeq(high, spux_vfloat(-INFINITY)));
     const vuint node = spux_select(spux_load_uint(r->node), spux_vuint(CGT_INVALID_ID), done);
     spux_store_uint(r->node, node);
     /* one more, so that CGT_INVALID_ID is below all */
@@ -275,17 +276,17 @@ static void rope_trace_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i
     uint32_t leaves = 0;
     unsigned active;
     rope_packet r;
-    lane_rays of_leaves;
-    rope_packet_make(l->p, i, &r);
+    lane_rays test_rays;
+    rope_packet_init(l->p, i, &r);
     rope_packet_enter(&r, tree);
-    uint32_t at = rope_packet_next(&r, &active);
-    if (at == CGT_INVALID_ID)
+    uint32_t node_index = rope_packet_next(&r, &active);
+    if (node_index == CGT_INVALID_ID)
         return;
-    lane_rays_of_packet(l->p, i, l->scale, &of_leaves);
+    lane_rays_of_packet(l->p, i, l->scale, &test_rays);
     leaf_mailbox_clear(l);
     l->counts->packets++;
-    for (; at != CGT_INVALID_ID; at = rope_packet_next(&r, &active)) {
-        const cgt_kd_node n = rope_packet_down(&r, tree, at, &active, l->counts);
+    for (; node_index != CGT_INVALID_ID; node_index = rope_packet_next(&r, &active)) {
+        const cgt_kd_node n = rope_packet_down(&r, tree, node_index, &active, l->counts);
         const cgt_kd_leaf *leaf = &tree->leaf[n.word[1]];
         steps += spux_count_bits(active);
         if (steps > most) { /* only a broken tree has loops */
@@ -295,7 +296,7 @@ static void rope_trace_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i
         leaves++;
         ROPE_VISIT(i, active, n.word[1]);
         if (leaf->count)
-            leaf_test_vector(l, &of_leaves, tree->reference + leaf->first, leaf->count, i);
+            leaf_test_vector(l, &test_rays, tree->reference + leaf->first, leaf->count, i);
         rope_packet_leave(&r, leaf, active);
     }
     l->counts->leaves += leaves;

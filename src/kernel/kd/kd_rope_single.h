@@ -12,7 +12,7 @@
 #include "kernel/kd/kd_leaf.h"
 #include "kernel/kd/kd_rope.h"
 
-#define ROPE_RAY_WIDE 0x1p-50
+#define ROPE_RAY_REL_ERROR 0x1p-50
 
 /* Along an axis without a component of the direction splits are passed long before or long after; in the plane of a
  * split either side will do. Faces are never left by. */
@@ -28,7 +28,7 @@ typedef struct rope_ray {
     uint64_t exact_steps;
 } rope_ray;
 
-static void rope_ray_make(const packet *p, uint32_t i, rope_ray *r)
+static void rope_ray_init(const packet *p, uint32_t i, rope_ray *r)
 {
     for (int a = 0; a < 3; a++) {
         const float d = p->dir[a][i];
@@ -50,7 +50,10 @@ CGT_SPU_INLINE void rope_ray_set_last(rope_ray *r, rope_time last)
     r->time = ((double)last.plane - r->org[last.axis]) * r->rdir[last.axis];
 }
 
-CGT_SPU_INLINE bool rope_ray_differ(double a, double b) { return fabs(a - b) > (fabs(a) + fabs(b)) * ROPE_RAY_WIDE; }
+CGT_SPU_INLINE bool rope_ray_differ(double a, double b)
+{
+    return fabs(a - b) > (fabs(a) + fabs(b)) * ROPE_RAY_REL_ERROR;
+}
 
 /* Whether the ray is above the split of a node a moment after its last plane: 0 or 1. */
 CGT_SPU_INLINE uint32_t rope_ray_above(const packet *p, uint32_t i, rope_ray *r, uint32_t axis, float split)
@@ -73,7 +76,7 @@ CGT_SPU_INLINE uint32_t rope_ray_leave(const packet *p, uint32_t i, rope_ray *r,
     }
     const double first01 = t[1] < t[0] ? t[1] : t[0], second01 = t[1] < t[0] ? t[0] : t[1];
     const double first = t[2] < first01 ? t[2] : first01;
-    const double rest = t[2] < first01 ? first01 : t[2], second = rest < second01 ? rest : second01;
+    const double later = t[2] < first01 ? first01 : t[2], second = later < second01 ? later : second01;
     const uint32_t axis = t[2] < first01 ? 2 : t[1] < t[0];
     r->last = (rope_time){plane[axis], axis};
     r->time = first;
@@ -95,21 +98,21 @@ CGT_SPU_INLINE bool rope_ray_is_done(const packet *p, uint32_t i, const rope_ray
 static void rope_trace_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
 {
     const packet *p = l->p;
-    uint32_t at = 0, nodes = 0, leaves = 0;
+    uint32_t node_index = 0, nodes = 0, leaves = 0;
     rope_ray r;
     rope_time last;
-    lane_rays of_leaves;
+    lane_rays test_rays;
     if (p->high[i] == -INFINITY)
         return;
-    rope_ray_make(p, i, &r);
+    rope_ray_init(p, i, &r);
     l->counts->packets++;
     if (!rope_enter(p, i, tree->low, tree->high, &last))
         return;
-    lane_rays_of_one(p, i, l->scale, &of_leaves);
+    lane_rays_of_one(p, i, l->scale, &test_rays);
     leaf_mailbox_clear(l);
     rope_ray_set_last(&r, last);
-    while (at != CGT_INVALID_ID && !rope_ray_is_done(p, i, &r)) {
-        cgt_kd_node n = tree->node[at];
+    while (node_index != CGT_INVALID_ID && !rope_ray_is_done(p, i, &r)) {
+        cgt_kd_node n = tree->node[node_index];
         while (!cgt_kd_is_leaf(n)) {
             nodes++;
             n = tree->node[n.word[1] + rope_ray_above(p, i, &r, cgt_kd_axis(n), cgt_kd_split(n))];
@@ -121,8 +124,8 @@ static void rope_trace_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
         }
         ROPE_VISIT(i, 1u, n.word[1]);
         if (leaf->count)
-            leaf_test_ray(l, &of_leaves, tree->reference + leaf->first, leaf->count, i);
-        at = rope_ray_leave(p, i, &r, leaf);
+            leaf_test_ray(l, &test_rays, tree->reference + leaf->first, leaf->count, i);
+        node_index = rope_ray_leave(p, i, &r, leaf);
     }
     l->counts->nodes += nodes;
     l->counts->leaves += leaves;

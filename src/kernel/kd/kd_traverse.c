@@ -20,15 +20,15 @@
 #include "kernel/kd/kd_leaf.h"
 #include "kernel/packet/ray_box.h"
 
-#define PLANE_WIDE 0x1p-20f
-#define PLANE_FLAT 0x1p-70f
+#define PLANE_REL_ERROR 0x1p-20f
+#define PLANE_MIN_DIR 0x1p-70f
 
 /* ---- a vector of rays ---- */
 
 typedef struct kd_rays {
     vfloat org[3], rdir[3];
     vfloat first[3], last[3]; /* -org * rdir, widened both ways */
-    vmask other[3];           /* lanes that reach the children of a split in the other order than most do */
+    vmask opposite[3];        /* lanes that reach the children of a split in the other order than most do */
     vmask flat[3];            /* lanes whose direction has no such component, or hardly any */
     vmask zero[3];            /* of those, the ones that have none */
     uint32_t mixed;           /* axes for which any lane is one of these, as bits */
@@ -40,7 +40,7 @@ typedef struct kd_entry {
     cgt_kd_node node;
 } kd_entry;
 
-CGT_SPU_INLINE void kd_rays_make(const packet *p, const cgt_kd_tree *tree, uint32_t i, kd_rays *r)
+CGT_SPU_INLINE void kd_rays_init(const packet *p, const cgt_kd_tree *tree, uint32_t i, kd_rays *r)
 {
     const vfloat zero = spux_vfloat(0);
     r->mixed = r->reverse = 0;
@@ -50,16 +50,16 @@ CGT_SPU_INLINE void kd_rays_make(const packet *p, const cgt_kd_tree *tree, uint3
         const bool most = spux_count_bits(spux_mask_bits(above)) > CGT_LANES / 2;
         const vfloat largest = spux_max(spux_abs(spux_vfloat(tree->low[a])), spux_abs(spux_vfloat(tree->high[a])));
         r->org[a] = org;
-        r->flat[a] = spu_cmpgt(spux_vfloat(PLANE_FLAT), spux_abs(d));
+        r->flat[a] = spu_cmpgt(spux_vfloat(PLANE_MIN_DIR), spux_abs(d));
         r->zero[a] = spu_cmpeq(d, zero);
         r->rdir[a] = spux_div(spux_vfloat(1), spux_select(d, spux_vfloat(1), r->flat[a]));
-        r->other[a] = most ? spux_not(above) : above;
+        r->opposite[a] = most ? spux_not(above) : above;
         const vfloat to_plane = spu_mul(spu_add(spux_abs(org), largest), spux_abs(r->rdir[a]));
-        const vfloat wide = spu_madd(to_plane, spux_vfloat(PLANE_WIDE), spux_vfloat(0x1p-120f));
+        const vfloat t_error = spu_madd(to_plane, spux_vfloat(PLANE_REL_ERROR), spux_vfloat(0x1p-120f));
         const vfloat t = spu_mul(org, r->rdir[a]);
-        r->first[a] = spu_sub(spu_sub(zero, wide), t);
-        r->last[a] = spu_sub(wide, t);
-        r->mixed |= (uint32_t)spux_any(spu_or(r->other[a], r->flat[a])) << a;
+        r->first[a] = spu_sub(spu_sub(zero, t_error), t);
+        r->last[a] = spu_sub(t_error, t);
+        r->mixed |= (uint32_t)spux_any(spu_or(r->opposite[a], r->flat[a])) << a;
         r->reverse |= (uint32_t)most << a;
     }
 }
@@ -70,30 +70,31 @@ typedef struct kd_parts {
 } kd_parts;
 
 /* Where any lane goes another way than most, or along the split. */
-CGT_SPU_INLINE void kd_cut_mixed(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, vfloat low,
-                                 vfloat high, kd_parts *q)
+CGT_SPU_INLINE void kd_split_mixed(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, vfloat low,
+                                   vfloat high, kd_parts *q)
 {
     /* below the plane for ever, or above, or both; what counts as from below */
-    const vfloat zero = spux_vfloat(0), never = spux_vfloat(INFINITY), ever = spux_vfloat(-INFINITY);
+    const vfloat zero = spux_vfloat(0), t_never = spux_vfloat(INFINITY), t_always = spux_vfloat(-INFINITY);
     const vfloat delta = spu_sub(spux_vfloat(split), r->org[axis]);
-    const vmask below = spu_and(r->zero[axis], spu_cmpgt(delta, zero)), other = r->other[axis];
+    const vmask below = spu_and(r->zero[axis], spu_cmpgt(delta, zero)), opposite = r->opposite[axis];
     const vmask above = spu_and(r->zero[axis], spu_cmpgt(zero, delta));
-    low = spux_select(low, spux_select(ever, never, below), r->flat[axis]);
-    high = spux_select(high, spux_select(never, ever, above), r->flat[axis]);
+    low = spux_select(low, spux_select(t_always, t_never, below), r->flat[axis]);
+    high = spux_select(high, spux_select(t_never, t_always, above), r->flat[axis]);
     const vfloat first_far = spux_min(high, far), second_near = spux_max(low, near);
-    q->near[0] = spux_select(near, second_near, other);
-    q->far[0] = spux_select(first_far, far, other);
-    q->near[1] = spux_select(second_near, near, other);
-    q->far[1] = spux_select(far, first_far, other);
+    q->near[0] = spux_select(near, second_near, opposite);
+    q->far[0] = spux_select(first_far, far, opposite);
+    q->near[1] = spux_select(second_near, near, opposite);
+    q->far[1] = spux_select(far, first_far, opposite);
 }
 
-CGT_SPU_INLINE void kd_cut(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, kd_parts *q)
+CGT_SPU_INLINE void kd_split_intervals(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far,
+                                       kd_parts *q)
 {
     const vfloat plane = spux_vfloat(split);
     const vfloat low = spu_madd(plane, r->rdir[axis], r->first[axis]);
     const vfloat high = spu_madd(plane, r->rdir[axis], r->last[axis]);
     if (r->mixed >> axis & 1) {
-        kd_cut_mixed(r, axis, split, near, far, low, high, q);
+        kd_split_mixed(r, axis, split, near, far, low, high, q);
         return;
     }
     q->near[0] = near;
@@ -106,10 +107,11 @@ CGT_SPU_INLINE void kd_cut(const kd_rays *r, uint32_t axis, float split, vfloat 
 CGT_SPU_INLINE void kd_enter(const packet *p, const cgt_kd_tree *tree, uint32_t i, vfloat *near, vfloat *far)
 {
     vmask outside = spux_mask_none();
-    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i), wide = spux_vfloat(PLANE_WIDE);
+    const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i),
+                 t_error = spux_vfloat(PLANE_REL_ERROR);
     /* t is rounded before it is compared with the range */
-    *near = spu_sub(t_min, spu_mul(spux_abs(t_min), wide));
-    *far = spu_add(t_max, spu_mul(spux_abs(t_max), wide));
+    *near = spu_sub(t_min, spu_mul(spux_abs(t_min), t_error));
+    *far = spu_add(t_max, spu_mul(spux_abs(t_max), t_error));
     for (int a = 0; a < 3; a++)
         ray_box_slab(p, i, a, tree->low[a], tree->high[a], near, far, &outside);
     outside = spu_or(outside, spu_cmpeq(spux_load(p->high + i), spux_vfloat(-INFINITY)));
@@ -124,14 +126,14 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     uint32_t top = 0, nodes = 0;
     cgt_kd_node n = tree->node[0];
     kd_rays r;
-    lane_rays of_leaves;
+    lane_rays test_rays;
     vfloat near, far;
-    kd_rays_make(p, tree, i, &r);
+    kd_rays_init(p, tree, i, &r);
     kd_enter(p, tree, i, &near, &far);
     if (spux_none(spux_cmpge(far, near)))
         return;
     leaf_mailbox_clear(l);
-    lane_rays_of_packet(p, i, l->scale, &of_leaves);
+    lane_rays_of_packet(p, i, l->scale, &test_rays);
     l->counts->packets++;
     for (;;) {
         if (!cgt_kd_is_leaf(n)) {
@@ -141,7 +143,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
             const cgt_kd_node lower = tree->node[n.word[1]], upper = tree->node[n.word[1] + 1];
             kd_parts q;
             nodes++;
-            kd_cut(&r, axis, cgt_kd_split(n), near, far, &q);
+            kd_split_intervals(&r, axis, cgt_kd_split(n), near, far, &q);
             if (spux_none(spux_cmpge(q.far[0], q.near[0]))) {
                 near = q.near[1];
                 far = q.far[1];
@@ -157,7 +159,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
         }
         l->counts->leaves++;
         if (cgt_kd_count(n))
-            leaf_test_vector(l, &of_leaves, cgt_kd_references(tree, &n), cgt_kd_count(n), i);
+            leaf_test_vector(l, &test_rays, cgt_kd_references(tree, &n), cgt_kd_count(n), i);
         const vfloat best = spux_load(p->high + i);
         do {
             if (!top) {
@@ -185,12 +187,12 @@ typedef struct kd_ray_entry {
     uint32_t node;
 } kd_ray_entry;
 
-CGT_SPU_INLINE void kd_ray_make(const packet *p, uint32_t i, kd_ray *r)
+CGT_SPU_INLINE void kd_ray_init(const packet *p, uint32_t i, kd_ray *r)
 {
     r->reverse = r->flat = r->zero = 0;
     for (int a = 0; a < 3; a++) {
         const float d = p->dir[a][i];
-        const bool flat = fabsf(d) < PLANE_FLAT;
+        const bool flat = fabsf(d) < PLANE_MIN_DIR;
         r->org[a] = p->org[a][i];
         r->rdir[a] = flat ? 0 : 1 / d;
         r->reverse |= (unsigned)(d < 0) << a;
@@ -203,9 +205,10 @@ CGT_SPU_INLINE void kd_ray_make(const packet *p, uint32_t i, kd_ray *r)
 CGT_SPU_INLINE unsigned kd_ray_sides(const kd_ray *r, uint32_t axis, float split, float near, float far, float *low,
                                      float *high)
 {
-    const float delta = split - r->org[axis], t = delta * r->rdir[axis], wide = fabsf(t) * PLANE_WIDE + 0x1p-126f;
-    *low = t - wide;
-    *high = t + wide;
+    const float delta = split - r->org[axis], t = delta * r->rdir[axis],
+                t_error = fabsf(t) * PLANE_REL_ERROR + 0x1p-126f;
+    *low = t - t_error;
+    *high = t + t_error;
     if (r->flat >> axis & 1) {
         *low = -INFINITY;
         *high = INFINITY;
@@ -220,31 +223,31 @@ static void traverse_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i, flo
 {
     packet *p = l->p;
     kd_ray_entry stack[CGT_KD_MAX_DEPTH];
-    uint32_t top = 0, at = 0, nodes = 0, leaves = 0;
+    uint32_t top = 0, node_index = 0, nodes = 0, leaves = 0;
     kd_ray r;
-    lane_rays of_leaves;
-    kd_ray_make(p, i, &r);
+    lane_rays test_rays;
+    kd_ray_init(p, i, &r);
     leaf_mailbox_clear(l);
-    lane_rays_of_one(p, i, l->scale, &of_leaves);
+    lane_rays_of_one(p, i, l->scale, &test_rays);
     for (;;) {
-        cgt_kd_node n = tree->node[at];
+        cgt_kd_node n = tree->node[node_index];
         while (!cgt_kd_is_leaf(n)) {
             const uint32_t axis = cgt_kd_axis(n), reverse = r.reverse >> axis & 1;
             float low, high;
             const unsigned sides = kd_ray_sides(&r, axis, cgt_kd_split(n), near, far, &low, &high);
             nodes++;
-            at = n.word[1];
+            node_index = n.word[1];
             if (sides == 3) {
-                stack[top++] = (kd_ray_entry){low > near ? low : near, far, at + !reverse};
+                stack[top++] = (kd_ray_entry){low > near ? low : near, far, node_index + !reverse};
                 far = high < far ? high : far;
-                at += reverse;
+                node_index += reverse;
             } else
-                at += sides == 2;
-            n = tree->node[at];
+                node_index += sides == 2;
+            n = tree->node[node_index];
         }
         leaves++;
         if (cgt_kd_count(n))
-            leaf_test_ray(l, &of_leaves, cgt_kd_references(tree, &tree->node[at]), cgt_kd_count(n), i);
+            leaf_test_ray(l, &test_rays, cgt_kd_references(tree, &tree->node[node_index]), cgt_kd_count(n), i);
         do {
             if (!top) {
                 l->counts->nodes += nodes;
@@ -255,7 +258,7 @@ static void traverse_ray(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i, flo
             near = stack[top].near;
         } while (p->high[i] < near);
         far = stack[top].far;
-        at = stack[top].node;
+        node_index = stack[top].node;
     }
 }
 
@@ -266,22 +269,23 @@ static void traverse_rays(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     kd_enter(l->p, tree, i, &first, &last);
     spux_store(near, first);
     spux_store(far, last);
-    for (unsigned left = spux_mask_bits(spux_cmpge(last, first)); left; left &= left - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(left);
+    for (unsigned remaining = spux_mask_bits(spux_cmpge(last, first)); remaining; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         l->counts->packets++;
         if (l->p->high[i + k] >= near[k]) /* a neighbour's test may have closed it */
             traverse_ray(tree, l, i + k, near[k], far[k]);
     }
 }
 
-void CGT_KERNEL(cgt_kd_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings, cgt_counts *counts)
+void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
+                              cgt_counts *counts)
 {
     leaf_tests l;
-    leaf_tests_make(world, p, settings, counts, &l);
+    leaf_tests_init(committed_scene, p, settings, counts, &l);
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
-            traverse_rays(&world->kd, &l, i);
+            traverse_rays(&committed_scene->kd, &l, i);
         else
-            traverse_vector(&world->kd, &l, i);
+            traverse_vector(&committed_scene->kd, &l, i);
     }
 }

@@ -10,74 +10,75 @@
 #include "kernel/light/light_leaf.h"
 #include "kernel/light/light_points.h"
 
-#define LIGHT_RAYS 64u
-#define LIGHT_STACK (CGT_WIDE_MAX_DEPTH * (CGT_LANES - 1) + 1)
+#define LIGHT_BVH_PACKET_RAYS 64u
+#define LIGHT_STACK_SIZE (CGT_BVH_MAX_DEPTH * (CGT_LANES - 1) + 1)
 
 /* Packets that tell whether a chunk goes on as packets, and the work, in visits and tests, that one may take. Measured. */
-#define LIGHT_TRIED 4u
-#ifndef LIGHT_WORK
-#define LIGHT_WORK 160u
+#define LIGHT_TRIAL_PACKETS 4u
+#ifndef LIGHT_PACKET_WORK
+#define LIGHT_PACKET_WORK 160u
 #endif
-#define LIGHT_TOO_MUCH (4 * LIGHT_WORK) /* of one packet: it is left off */
+#define LIGHT_MAX_WORK (4 * LIGHT_PACKET_WORK) /* of one packet: it is left off */
 
 /* ---- nodes and leaves ---- */
 
 static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
 {
-    const cgt_wide_tree *tree = &c->world->wide;
-    const uint32_t block = code & CGT_WIDE_INDEX, count = wide_leaf_count(code);
-    const bool of_triangles = code & CGT_WIDE_TRIANGLES;
-    const wide_spheres *spheres = of_triangles ? NULL : (const wide_spheres *)tree->sphere + block;
-    const wide_triangles *triangles = of_triangles ? (const wide_triangles *)tree->triangle + block : NULL;
+    const cgt_bvh *tree = &c->committed_scene->bvh;
+    const uint32_t block = code & CGT_BVH_INDEX_MASK, count = bvh_leaf_count(code);
+    const bool is_triangle_leaf = code & CGT_BVH_TRIANGLE_LEAF;
+    const sphere_block *spheres = is_triangle_leaf ? NULL : (const sphere_block *)tree->sphere + block;
+    const triangle_block *triangles = is_triangle_leaf ? (const triangle_block *)tree->triangle + block : NULL;
     light_primitives q;
-    if (of_triangles)
-        light_place_triangles(l, triangles, c->world->scale, &q);
+    if (is_triangle_leaf)
+        light_transform_triangles(l, triangles, c->committed_scene->scale, &q);
     else
-        light_place_spheres(l, spheres, &q);
-    const vmask meets = of_triangles ? light_meets(&l->frustum, &q, 3) : light_meets(&l->frustum, &q, 1);
-    const unsigned left = spux_mask_bits(meets) & CGT_ALL_LANES >> (CGT_LANES - count);
-    const uint32_t tests = spux_count_bits(left);
+        light_transform_spheres(l, spheres, &q);
+    const vmask overlaps =
+        is_triangle_leaf ? light_frustum_overlaps(&l->frustum, &q, 3) : light_frustum_overlaps(&l->frustum, &q, 1);
+    const unsigned remaining = spux_mask_bits(overlaps) & CGT_ALL_LANES >> (CGT_LANES - count);
+    const uint32_t tests = spux_count_bits(remaining);
     c->counts->leaves++;
     c->counts->cull_tests += count;
     c->counts->culled += count - tests;
     c->counts->packet_tests += tests;
     c->counts->ray_tests += (uint64_t)tests * l->rays.lanes;
     l->work += 1 + tests;
-    if (!left)
+    if (!remaining)
         return;
-    if (!of_triangles)
-        light_test_spheres(c->world, l, spheres, left, c->counts);
+    if (!is_triangle_leaf)
+        light_test_spheres(c->committed_scene, l, spheres, remaining, c->counts);
     else if (l->rays.to_light)
-        light_test_triangles(c->world, l, triangles, left, true, c->counts);
+        light_test_triangles(c->committed_scene, l, triangles, remaining, true, c->counts);
     else
-        light_test_triangles(c->world, l, triangles, left, false, c->counts);
-    if (!l->open)
-        l->last = code;
+        light_test_triangles(c->committed_scene, l, triangles, remaining, false, c->counts);
+    if (!l->undecided)
+        l->last_leaf = code;
 }
 
 /* False where it took too much work: what was found by then is right, the rest is not known. The leaf that closed the
  * packet before comes first: shadows are larger than packets. */
 static bool light_traverse(const light_call *c, light_packet *l)
 {
-    const wide_node *nodes = c->world->wide.node;
-    uint32_t stack[LIGHT_STACK], top = 0, code = 0;
+    const bvh_node *nodes = c->committed_scene->bvh.node;
+    uint32_t stack[LIGHT_STACK_SIZE], top = 0, code = 0;
     l->work = 0;
-    if (l->last && l->open) {
-        light_test_leaf(c, l, l->last);
-        if (l->open)
-            l->last = 0;
+    if (l->last_leaf && l->undecided) {
+        light_test_leaf(c, l, l->last_leaf);
+        if (l->undecided)
+            l->last_leaf = 0;
     }
-    while (l->open) {
-        if (l->work > LIGHT_TOO_MUCH)
+    while (l->undecided) {
+        if (l->work > LIGHT_MAX_WORK)
             return false;
-        if (code & CGT_WIDE_LEAF) {
+        if (code & CGT_BVH_LEAF) {
             light_test_leaf(c, l, code);
         } else {
-            const wide_node *node = &nodes[code];
+            const bvh_node *node = &nodes[code];
             c->counts->nodes++;
             l->work++;
-            for (unsigned left = light_children(l, node); left; left &= left - 1)
-                stack[top++] = node->child[__builtin_ctz(left)];
+            for (unsigned remaining = light_visible_children(l, node); remaining; remaining &= remaining - 1)
+                stack[top++] = node->child[__builtin_ctz(remaining)];
         }
         if (!top)
             return true;
@@ -94,8 +95,8 @@ typedef struct light_rays {
     uint32_t mask[CGT_RAYS_CHUNK], primitive[CGT_RAYS_CHUNK], geometry[CGT_RAYS_CHUNK];
 } light_rays;
 
-static const uint32_t *copy_numbers(const light_call *c, const uint32_t *from, uint64_t first, uint32_t count,
-                                    uint32_t *to)
+static const uint32_t *light_copy_ids(const light_call *c, const uint32_t *from, uint64_t first, uint32_t count,
+                                      uint32_t *to)
 {
     if (!from)
         return NULL;
@@ -105,47 +106,48 @@ static const uint32_t *copy_numbers(const light_call *c, const uint32_t *from, u
 }
 
 /* Points first to end - 1 as rays like any others. */
-__attribute__((noinline)) static void trace_apart(const light_call *c, uint64_t first, uint64_t end)
+__attribute__((noinline)) static void light_trace_single_rays(const light_call *c, uint64_t first, uint64_t end)
 {
-    light_rays own;
+    light_rays copy;
     const cgt_rays *points = c->source.rays;
     const uint32_t count = (uint32_t)(end - first);
     cgt_rays rays = {.count = count,
-                     .t_min = own.t_min,
-                     .t_max = own.t_max,
-                     .mask = copy_numbers(c, points->mask, first, count, own.mask),
-                     .skip_primitive = copy_numbers(c, points->skip_primitive, first, count, own.primitive),
-                     .skip_geometry = copy_numbers(c, points->skip_geometry, first, count, own.geometry)};
+                     .t_min = copy.t_min,
+                     .t_max = copy.t_max,
+                     .mask = light_copy_ids(c, points->mask, first, count, copy.mask),
+                     .skip_primitive = light_copy_ids(c, points->skip_primitive, first, count, copy.primitive),
+                     .skip_geometry = light_copy_ids(c, points->skip_geometry, first, count, copy.geometry)};
     for (int a = 0; a < 3; a++) {
         for (uint32_t k = 0; k < count; k++) {
-            own.org[a][k] = ray_element(&c->source, points->org[a], first + k);
-            own.dir[a][k] = ray_direction(&c->source, first + k, a, own.org[a][k]);
+            copy.org[a][k] = ray_element(&c->source, points->org[a], first + k);
+            copy.dir[a][k] = ray_direction(&c->source, first + k, a, copy.org[a][k]);
         }
-        rays.org[a] = own.org[a];
-        rays.dir[a] = own.dir[a];
+        rays.org[a] = copy.org[a];
+        rays.dir[a] = copy.dir[a];
     }
     for (uint32_t k = 0; k < count; k++) {
-        own.t_min[k] = points->t_min ? ray_element(&c->source, points->t_min, first + k) : 0;
-        own.t_max[k] = points->t_max ? ray_element(&c->source, points->t_max, first + k) : c->source.t_max;
+        copy.t_min[k] = points->t_min ? ray_element(&c->source, points->t_min, first + k) : 0;
+        copy.t_max[k] = points->t_max ? ray_element(&c->source, points->t_max, first + k) : c->source.t_max;
     }
-    CGT_KERNEL(cgt_wide_trace_rays)(c->world, &rays, 0, count, c->settings, NULL, c->occluded + first, c->counts);
+    CGT_KERNEL(cgt_bvh_trace_rays)
+    (c->committed_scene, &rays, 0, count, c->settings, NULL, c->occluded + first, c->counts);
     c->counts->rays -= count; /* the call has counted them */
 }
 
 /* Points first to first + count - 1 of the order, and the work that they took. False where it was too much: then they
  * are as they were before. */
-static bool trace_points(const light_call *c, light_packet *l, uint32_t first, uint32_t count, uint64_t *work)
+static bool light_trace_points(const light_call *c, light_packet *l, uint32_t first, uint32_t count, uint64_t *work)
 {
     const uint64_t invalid = c->counts->invalid_rays;
-    if (!light_points_read(c, first, count, &l->rays)) {
+    if (!light_read_packet(c, first, count, &l->rays)) {
         for (uint32_t k = 0; k < count; k++)
-            if (!trace_points(c, l, first + k, 1, work)) {
+            if (!light_trace_points(c, l, first + k, 1, work)) {
                 c->counts->invalid_rays = invalid;
                 return false;
             }
         return true;
     }
-    if (l->rays.rays && light_packet_make(c->world, l)) {
+    if (l->rays.rays && light_packet_init(c->committed_scene, l)) {
         const bool done = light_traverse(c, l);
         c->counts->packets++;
         c->counts->bvh_rays += done ? count : 0;
@@ -155,18 +157,18 @@ static bool trace_points(const light_call *c, light_packet *l, uint32_t first, u
             return false;
         }
     } else
-        CGT_KERNEL(cgt_packet_trace)(c->world, &l->rays, c->settings, c->counts);
-    light_hand_out(c, &l->rays, first, count);
+        CGT_KERNEL(cgt_packet_trace)(c->committed_scene, &l->rays, c->settings, c->counts);
+    light_store_occluded(c, &l->rays, first, count);
     return true;
 }
 
-void CGT_KERNEL(cgt_wide_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
-                                      uint64_t first, uint64_t end, const cgt_trace_settings *settings,
-                                      uint8_t *occluded, cgt_counts *counts)
+void CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+                                     const cgt_light *light, uint64_t first, uint64_t end,
+                                     const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
     light_packet l;
-    const light_call c = {.world = world,
-                          .source = ray_source_make(points, light),
+    const light_call c = {.committed_scene = committed_scene,
+                          .source = ray_source_init(points, light),
                           .light = *light,
                           .order = {first, NULL},
                           .settings = settings,
@@ -177,16 +179,17 @@ void CGT_KERNEL(cgt_wide_trace_light)(const cgt_world *world, const cgt_rays *po
     uint64_t work = 0;
     l.rays.any_hit = true;
     l.rays.fast = false;
-    l.last = 0;
+    l.last_leaf = 0;
     counts->rays += count;
     while (light_is_near(&c) && done < count &&
-           (done < LIGHT_TRIED * LIGHT_RAYS || LIGHT_RAYS * work <= (uint64_t)LIGHT_WORK * done)) {
-        const uint32_t more = count - done < LIGHT_RAYS ? count - done : LIGHT_RAYS;
-        if (!trace_points(&c, &l, done, more, &work))
+           (done < LIGHT_TRIAL_PACKETS * LIGHT_BVH_PACKET_RAYS ||
+            LIGHT_BVH_PACKET_RAYS * work <= (uint64_t)LIGHT_PACKET_WORK * done)) {
+        const uint32_t batch = count - done < LIGHT_BVH_PACKET_RAYS ? count - done : LIGHT_BVH_PACKET_RAYS;
+        if (!light_trace_points(&c, &l, done, batch, &work))
             break;
-        done += more;
+        done += batch;
     }
     light_count_hits(&c, done);
     if (done < count)
-        trace_apart(&c, first + done, end);
+        light_trace_single_rays(&c, first + done, end);
 }

@@ -20,7 +20,7 @@
 #include "kernel/packet/ray_packet.h"
 #include "kernel/bvh/bvh_node.h"
 
-#define LIGHT_STEEPEST 2.f
+#define LIGHT_MAX_SLOPE 2.f
 #ifndef LIGHT_MARGIN /* a test gives it other values, to find where it breaks */
 #define LIGHT_MARGIN 0x1p-17f
 #endif
@@ -36,79 +36,80 @@ typedef struct light_frustum {
 typedef struct light_packet {
     packet rays;
     light_frustum frustum;
-    _Alignas(CGT_VECTOR_BYTES) float way[3][PACKET_MAX_RAYS]; /* x, see light_leaf.h */
-    float square[PACKET_MAX_RAYS];                            /* d.d */
-    float longest, farthest; /* of all x: the largest component, and the largest sum of their sizes */
-    bool plain;              /* every range is from 0, to 1 at a light that has a place, to infinity else */
-    uint64_t open;           /* vectors with rays that have met nothing, as bits */
-    int axis[3];             /* the main one first */
-    float sign;              /* of the way from the reference along it */
-    float reference[3];
-    float margin;  /* without 1 + |a| */
-    uint32_t last; /* the leaf that closed the last rays of the packet before; 0: none */
+    _Alignas(CGT_VECTOR_BYTES) float ray_terms[3][PACKET_MAX_RAYS]; /* x, see light_leaf.h */
+    float square[PACKET_MAX_RAYS];                                  /* d.d */
+    float max_component, max_sum; /* of all x: the largest component, and the largest sum of their sizes */
+    bool default_ranges;          /* every range is from 0, to 1 at a light that has a place, to infinity else */
+    uint64_t undecided;           /* vectors with rays that have met nothing, as bits */
+    int axis[3];                  /* the main one first */
+    float sign;                   /* of the way from the reference along it */
+    float origin[3];
+    float margin;       /* without 1 + |a| */
+    uint32_t last_leaf; /* the leaf that closed the last rays of the packet before; 0: none */
     uint64_t work;
 } light_packet;
 
-static float larger(float a, float b) { return a > b ? a : b; }
+static float light_max(float a, float b) { return a > b ? a : b; }
 
 /* The main axis and the reference, by any ray that takes part. False where there is no common way. */
-static bool light_orient(const packet *p, const float org[3], const float dir[3], light_packet *l)
+static bool light_init_axes(const packet *p, const float org[3], const float dir[3], light_packet *l)
 {
-    const bool ends = p->to_light;
-    float most = 0;
+    const bool is_point = p->to_light;
+    float upper = 0;
     l->axis[0] = 0;
     for (int a = 0; a < 3; a++) {
-        const float d = ends ? org[a] - p->light[a] : dir[a];
-        if (fabsf(d) > most) {
-            most = fabsf(d);
+        const float d = is_point ? org[a] - p->light[a] : dir[a];
+        if (fabsf(d) > upper) {
+            upper = fabsf(d);
             l->axis[0] = a;
             l->sign = d < 0 ? -1 : 1;
         }
-        l->reference[a] = ends ? p->light[a] : org[a];
+        l->origin[a] = is_point ? p->light[a] : org[a];
     }
     l->axis[1] = (l->axis[0] + 1) % 3;
     l->axis[2] = (l->axis[0] + 2) % 3;
-    return most > 0;
+    return upper > 0;
 }
 
 /* The same by the last lane: a ray that takes part, or a copy of one. */
-static bool light_orient_last(light_packet *l)
+static bool light_init_axes_from_last(light_packet *l)
 {
     const packet *p = &l->rays;
-    const uint32_t last = p->lanes - 1;
-    const float org[3] = {p->org[0][last], p->org[1][last], p->org[2][last]};
-    const float dir[3] = {p->dir[0][last], p->dir[1][last], p->dir[2][last]};
-    return light_orient(p, org, dir, l);
+    const uint32_t last_lane = p->lanes - 1;
+    const float org[3] = {p->org[0][last_lane], p->org[1][last_lane], p->org[2][last_lane]};
+    const float dir[3] = {p->dir[0][last_lane], p->dir[1][last_lane], p->dir[2][last_lane]};
+    return light_init_axes(p, org, dir, l);
 }
 
 /* farthest: lanes with the largest sizes of points along each axis. */
-CGT_SPU_INLINE void light_margin_of(const cgt_world *world, const vfloat farthest[3], light_packet *l)
+CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene, const vfloat max_org[3],
+                                     light_packet *l)
 {
     float magnitude = 0;
     for (int a = 0; a < 3; a++)
-        magnitude = larger(magnitude, larger(fabsf(world->low[a]), fabsf(world->high[a])) + spux_hmax(farthest[a]) +
-                                          fabsf(l->reference[a]));
+        magnitude = light_max(magnitude, light_max(fabsf(committed_scene->low[a]), fabsf(committed_scene->high[a])) +
+                                             spux_hmax(max_org[a]) + fabsf(l->origin[a]));
     l->margin = magnitude * LIGHT_MARGIN;
 }
 
-static void light_margin(const cgt_world *world, const packet *p, light_packet *l)
+static void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
 {
-    vfloat farthest[3];
+    vfloat max_org[3];
     for (int a = 0; a < 3; a++) {
-        farthest[a] = spux_vfloat(0);
+        max_org[a] = spux_vfloat(0);
         for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
-            farthest[a] = spux_max(farthest[a], spux_abs(spux_load(p->org[a] + i)));
+            max_org[a] = spux_max(max_org[a], spux_abs(spux_load(p->org[a] + i)));
     }
-    light_margin_of(world, farthest, l);
+    light_set_margin(committed_scene, max_org, l);
 }
 
 /* Adds margins. */
-static void light_frustum_finish(const light_packet *l, light_frustum *f)
+static void light_frustum_add_margins(const light_packet *l, light_frustum *f)
 {
     for (int a = 0; a < 2; a++)
         for (int k = 0; k < 2; k++) {
-            const float slope = f->slope[a][k], wide = l->margin * (1 + fabsf(slope));
-            f->offset[a][k] += k ? wide : -wide;
+            const float slope = f->slope[a][k], error = l->margin * (1 + fabsf(slope));
+            f->offset[a][k] += k ? error : -error;
             f->length[a][k] = __builtin_sqrtf(1 + slope * slope) * (1 + 0x1p-20f);
         }
     f->w[0] -= l->margin;
@@ -116,73 +117,73 @@ static void light_frustum_finish(const light_packet *l, light_frustum *f)
 }
 
 /* Rays to a light at a place. False where they leave too many directions to it. */
-static bool light_frustum_place(const packet *p, const light_packet *l, light_frustum *f)
+static bool light_frustum_init_point(const packet *p, const light_packet *l, light_frustum *f)
 {
     const vfloat zero = spux_vfloat(0);
-    vfloat least[3], most[3];
-    vmask wild = spux_mask_none();
+    vfloat lower[3], upper[3];
+    vmask diverging = spux_mask_none();
     for (int a = 0; a < 3; a++) {
-        least[a] = spux_vfloat(INFINITY);
-        most[a] = spux_vfloat(-INFINITY);
+        lower[a] = spux_vfloat(INFINITY);
+        upper[a] = spux_vfloat(-INFINITY);
     }
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const int main = l->axis[0];
         const vfloat w =
-            spu_mul(spu_sub(spux_load(p->org[main] + i), spux_vfloat(l->reference[main])), spux_vfloat(l->sign));
+            spu_mul(spu_sub(spux_load(p->org[main] + i), spux_vfloat(l->origin[main])), spux_vfloat(l->sign));
         const vfloat rw = spux_div(spux_vfloat(1), w);
-        wild = spu_or(wild, spux_not(spu_cmpgt(w, zero)));
-        least[0] = spux_min(least[0], w);
-        most[0] = spux_max(most[0], w);
+        diverging = spu_or(diverging, spux_not(spu_cmpgt(w, zero)));
+        lower[0] = spux_min(lower[0], w);
+        upper[0] = spux_max(upper[0], w);
         for (int k = 1; k < 3; k++) {
             const int a = l->axis[k];
-            const vfloat slope = spu_mul(spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->reference[a])), rw);
-            wild = spu_or(wild, spux_not(spu_cmpgt(spux_vfloat(LIGHT_STEEPEST), spux_abs(slope))));
-            least[k] = spux_min(least[k], slope);
-            most[k] = spux_max(most[k], slope);
+            const vfloat slope = spu_mul(spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->origin[a])), rw);
+            diverging = spu_or(diverging, spux_not(spu_cmpgt(spux_vfloat(LIGHT_MAX_SLOPE), spux_abs(slope))));
+            lower[k] = spux_min(lower[k], slope);
+            upper[k] = spux_max(upper[k], slope);
         }
     }
-    if (spux_any(wild))
+    if (spux_any(diverging))
         return false;
     f->w[0] = 0;
-    f->w[1] = spux_hmax(most[0]);
+    f->w[1] = spux_hmax(upper[0]);
     for (int k = 1; k < 3; k++) {
-        f->slope[k - 1][0] = spux_hmin(least[k]);
-        f->slope[k - 1][1] = spux_hmax(most[k]);
+        f->slope[k - 1][0] = spux_hmin(lower[k]);
+        f->slope[k - 1][1] = spux_hmax(upper[k]);
         f->offset[k - 1][0] = f->offset[k - 1][1] = 0;
     }
-    light_frustum_finish(l, f);
+    light_frustum_add_margins(l, f);
     return true;
 }
 
 /* The same with parallel rays. */
-static void light_frustum_parallel(const packet *p, const light_packet *l, light_frustum *f)
+static void light_frustum_init_parallel(const packet *p, const light_packet *l, light_frustum *f)
 {
     const int main = l->axis[0];
     vfloat low_w = spux_vfloat(INFINITY);
     for (int k = 1; k < 3; k++) {
         const int a = l->axis[k];
         const float slope = p->dir[a][0] / (l->sign * p->dir[main][0]);
-        vfloat least = spux_vfloat(INFINITY), most = spux_vfloat(-INFINITY);
+        vfloat lower = spux_vfloat(INFINITY), upper = spux_vfloat(-INFINITY);
         for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
             const vfloat w =
-                spu_mul(spu_sub(spux_load(p->org[main] + i), spux_vfloat(l->reference[main])), spux_vfloat(l->sign));
-            const vfloat v = spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->reference[a]));
+                spu_mul(spu_sub(spux_load(p->org[main] + i), spux_vfloat(l->origin[main])), spux_vfloat(l->sign));
+            const vfloat v = spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->origin[a]));
             const vfloat offset = spu_nmsub(spux_vfloat(slope), w, v);
             low_w = spux_min(low_w, w);
-            least = spux_min(least, offset);
-            most = spux_max(most, offset);
+            lower = spux_min(lower, offset);
+            upper = spux_max(upper, offset);
         }
         f->slope[k - 1][0] = f->slope[k - 1][1] = slope;
-        f->offset[k - 1][0] = spux_hmin(least);
-        f->offset[k - 1][1] = spux_hmax(most);
+        f->offset[k - 1][0] = spux_hmin(lower);
+        f->offset[k - 1][1] = spux_hmax(upper);
     }
     f->w[0] = spux_hmin(low_w);
     f->w[1] = INFINITY;
-    light_frustum_finish(l, f);
+    light_frustum_add_margins(l, f);
 }
 
 /* Whether all rays stay between their points and the light. */
-static bool light_ranges_fit(const packet *p, light_packet *l)
+static bool light_check_ranges(const packet *p, light_packet *l)
 {
     const vfloat end = spux_vfloat(p->to_light ? 1 : INFINITY);
     vmask beyond = spux_mask_none(), other = spux_mask_none();
@@ -191,69 +192,70 @@ static bool light_ranges_fit(const packet *p, light_packet *l)
         beyond = spu_or(beyond, spu_or(spu_cmpgt(spux_vfloat(0), t_min), spu_cmpgt(t_max, end)));
         other = spu_or(other, spu_or(spu_cmpgt(t_min, spux_vfloat(0)), spu_cmpgt(end, t_max)));
     }
-    l->plain = spux_none(other);
+    l->default_ranges = spux_none(other);
     return spux_none(beyond);
 }
 
 /* What the tests of leaves take. */
-static void light_ways(const packet *p, float scale, light_packet *l)
+static void light_compute_terms(const packet *p, float scale, light_packet *l)
 {
-    vfloat longest = spux_vfloat(0), farthest = spux_vfloat(0);
-    l->open = 0;
+    vfloat max_component = spux_vfloat(0), max_sum = spux_vfloat(0);
+    l->undecided = 0;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         vfloat sum = spux_vfloat(0), square = spux_vfloat(0);
         for (int a = 0; a < 3; a++) {
             const vfloat d = spux_load(p->dir[a] + i);
-            const vfloat x = spu_mul(p->to_light ? d : spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->reference[a])),
+            const vfloat x = spu_mul(p->to_light ? d : spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->origin[a])),
                                      spux_vfloat(scale));
             square = spu_madd(d, d, square);
-            longest = spux_max(longest, spux_abs(x));
+            max_component = spux_max(max_component, spux_abs(x));
             sum = spu_add(sum, spux_abs(x));
-            spux_store(l->way[a] + i, x);
+            spux_store(l->ray_terms[a] + i, x);
         }
-        farthest = spux_max(farthest, sum);
+        max_sum = spux_max(max_sum, sum);
         spux_store(l->square + i, square);
-        l->open |= (uint64_t)spux_any(spu_cmpgt(spux_load(p->high + i), spux_vfloat(-INFINITY))) << i / CGT_LANES;
+        l->undecided |= (uint64_t)spux_any(spu_cmpgt(spux_load(p->high + i), spux_vfloat(-INFINITY))) << i / CGT_LANES;
     }
-    l->longest = spux_hmax(longest);
-    l->farthest = spux_hmax(farthest);
+    l->max_component = spux_hmax(max_component);
+    l->max_sum = spux_hmax(max_sum);
 }
 
-__attribute__((unused)) static bool light_packet_make(const cgt_world *world, light_packet *l)
+__attribute__((unused)) static bool light_packet_init(const cgt_committed_scene *committed_scene, light_packet *l)
 {
     const packet *p = &l->rays;
-    if (p->extreme || !light_ranges_fit(p, l) || !light_orient_last(l))
+    if (p->extreme || !light_check_ranges(p, l) || !light_init_axes_from_last(l))
         return false;
-    light_margin(world, p, l);
+    light_compute_margin(committed_scene, p, l);
     if (!p->to_light)
-        light_frustum_parallel(p, l, &l->frustum);
-    else if (!light_frustum_place(p, l, &l->frustum))
+        light_frustum_init_parallel(p, l, &l->frustum);
+    else if (!light_frustum_init_point(p, l, &l->frustum))
         return false;
-    light_ways(p, world->scale, l);
+    light_compute_terms(p, committed_scene->scale, l);
     return true;
 }
 
 /* Children that the frustum may meet, as bits. */
-CGT_SPU_INLINE unsigned light_children(const light_packet *l, const wide_node *node)
+CGT_SPU_INLINE unsigned light_visible_children(const light_packet *l, const bvh_node *node)
 {
     const light_frustum *f = &l->frustum;
     const int main = l->axis[0];
-    const vfloat at = spux_vfloat(l->reference[main]);
-    const bool back = l->sign < 0;
-    const vfloat below = spu_sub(spux_load(node->low[main]), at), above = spu_sub(spux_load(node->high[main]), at);
+    const vfloat main_origin = spux_vfloat(l->origin[main]);
+    const bool reversed = l->sign < 0;
+    const vfloat below = spu_sub(spux_load(node->low[main]), main_origin),
+                 above = spu_sub(spux_load(node->high[main]), main_origin);
     const vfloat minus = spux_vfloat(-0.f);
-    const vfloat w0 = back ? spu_xor(above, minus) : below, w1 = back ? spu_xor(below, minus) : above;
+    const vfloat w0 = reversed ? spu_xor(above, minus) : below, w1 = reversed ? spu_xor(below, minus) : above;
     vmask out = spu_or(spu_cmpgt(spux_vfloat(f->w[0]), w1), spu_cmpgt(w0, spux_vfloat(f->w[1])));
     for (int k = 0; k < 2; k++) {
         const int a = l->axis[k + 1];
-        const vfloat reference = spux_vfloat(l->reference[a]);
-        const vfloat low = spu_sub(spux_load(node->low[a]), reference);
-        const vfloat high = spu_sub(spux_load(node->high[a]), reference);
+        const vfloat origin = spux_vfloat(l->origin[a]);
+        const vfloat low = spu_sub(spux_load(node->low[a]), origin);
+        const vfloat high = spu_sub(spux_load(node->high[a]), origin);
         const vfloat s0 = spux_vfloat(f->slope[k][0]), s1 = spux_vfloat(f->slope[k][1]);
-        const vfloat most = spu_sub(high, spux_min(spu_mul(s0, w0), spu_mul(s0, w1)));
-        const vfloat least = spu_sub(low, spux_max(spu_mul(s1, w0), spu_mul(s1, w1)));
-        out = spu_or(
-            out, spu_or(spu_cmpgt(spux_vfloat(f->offset[k][0]), most), spu_cmpgt(least, spux_vfloat(f->offset[k][1]))));
+        const vfloat upper = spu_sub(high, spux_min(spu_mul(s0, w0), spu_mul(s0, w1)));
+        const vfloat lower = spu_sub(low, spux_max(spu_mul(s1, w0), spu_mul(s1, w1)));
+        out = spu_or(out, spu_or(spu_cmpgt(spux_vfloat(f->offset[k][0]), upper),
+                                 spu_cmpgt(lower, spux_vfloat(f->offset[k][1]))));
     }
     return ~spux_mask_bits(out) & (CGT_ALL_LANES >> (CGT_LANES - node->children));
 }
@@ -265,19 +267,19 @@ typedef struct light_primitives {
     float scale; /* that they are multiplied with */
 } light_primitives;
 
-CGT_SPU_INLINE void light_place(const light_packet *l, const float point[3][CGT_LANES], float scale, vfloat w[1],
-                                vfloat v[2])
+CGT_SPU_INLINE void light_transform_points(const light_packet *l, const float point[3][CGT_LANES], float scale,
+                                           vfloat w[1], vfloat v[2])
 {
     const int main = l->axis[0];
-    w[0] = spu_mul(spu_sub(spux_load(point[main]), spux_vfloat(l->reference[main] * scale)), spux_vfloat(l->sign));
+    w[0] = spu_mul(spu_sub(spux_load(point[main]), spux_vfloat(l->origin[main] * scale)), spux_vfloat(l->sign));
     for (int k = 0; k < 2; k++)
-        v[k] = spu_sub(spux_load(point[l->axis[k + 1]]), spux_vfloat(l->reference[l->axis[k + 1]] * scale));
+        v[k] = spu_sub(spux_load(point[l->axis[k + 1]]), spux_vfloat(l->origin[l->axis[k + 1]] * scale));
 }
 
-CGT_SPU_INLINE void light_place_spheres(const light_packet *l, const wide_spheres *s, light_primitives *q)
+CGT_SPU_INLINE void light_transform_spheres(const light_packet *l, const sphere_block *s, light_primitives *q)
 {
     vfloat v[2];
-    light_place(l, s->center, 1, q->w, v);
+    light_transform_points(l, s->center, 1, q->w, v);
     for (int k = 0; k < 3; k++) {
         q->w[k] = q->w[0];
         q->v[0][k] = v[0];
@@ -287,11 +289,11 @@ CGT_SPU_INLINE void light_place_spheres(const light_packet *l, const wide_sphere
     q->scale = 1;
 }
 
-CGT_SPU_INLINE void light_place_triangles(const light_packet *l, const wide_triangles *s, float scale,
-                                          light_primitives *q)
+CGT_SPU_INLINE void light_transform_triangles(const light_packet *l, const triangle_block *s, float scale,
+                                              light_primitives *q)
 {
     vfloat v[2];
-    light_place(l, s->vertex, scale, q->w, v);
+    light_transform_points(l, s->vertex, scale, q->w, v);
     for (int k = 0; k < 3; k++) {
         const vfloat sign = spux_vfloat(l->sign);
         q->w[k] = k ? spu_madd(spux_load(s->edge[k - 1][l->axis[0]]), sign, q->w[0]) : q->w[0];
@@ -303,7 +305,7 @@ CGT_SPU_INLINE void light_place_triangles(const light_packet *l, const wide_tria
 }
 
 /* Primitives of a leaf that a frustum may meet. */
-CGT_SPU_INLINE vmask light_meets(const light_frustum *f, const light_primitives *q, int vertices)
+CGT_SPU_INLINE vmask light_frustum_overlaps(const light_frustum *f, const light_primitives *q, int vertices)
 {
     const vfloat scale = spux_vfloat(q->scale);
     vfloat low = q->w[0], high = q->w[0];
@@ -315,15 +317,15 @@ CGT_SPU_INLINE vmask light_meets(const light_frustum *f, const light_primitives 
                        spu_cmpgt(spu_sub(low, q->radius), spu_mul(spux_vfloat(f->w[1]), scale)));
     for (int a = 0; a < 2; a++) {
         const vfloat s0 = spux_vfloat(f->slope[a][0]), s1 = spux_vfloat(f->slope[a][1]);
-        vfloat most = spu_nmsub(s0, q->w[0], q->v[a][0]), least = spu_nmsub(s1, q->w[0], q->v[a][0]);
+        vfloat upper = spu_nmsub(s0, q->w[0], q->v[a][0]), lower = spu_nmsub(s1, q->w[0], q->v[a][0]);
         for (int k = 1; k < vertices; k++) {
-            most = spux_max(most, spu_nmsub(s0, q->w[k], q->v[a][k]));
-            least = spux_min(least, spu_nmsub(s1, q->w[k], q->v[a][k]));
+            upper = spux_max(upper, spu_nmsub(s0, q->w[k], q->v[a][k]));
+            lower = spux_min(lower, spu_nmsub(s1, q->w[k], q->v[a][k]));
         }
-        const vfloat wide0 = spu_mul(q->radius, spux_vfloat(f->length[a][0]));
-        const vfloat wide1 = spu_mul(q->radius, spux_vfloat(f->length[a][1]));
-        out = spu_or(out, spu_cmpgt(spu_mul(spux_vfloat(f->offset[a][0]), scale), spu_add(most, wide0)));
-        out = spu_or(out, spu_cmpgt(spu_sub(least, wide1), spu_mul(spux_vfloat(f->offset[a][1]), scale)));
+        const vfloat radius0 = spu_mul(q->radius, spux_vfloat(f->length[a][0]));
+        const vfloat radius1 = spu_mul(q->radius, spux_vfloat(f->length[a][1]));
+        out = spu_or(out, spu_cmpgt(spu_mul(spux_vfloat(f->offset[a][0]), scale), spu_add(upper, radius0)));
+        out = spu_or(out, spu_cmpgt(spu_sub(lower, radius1), spu_mul(spux_vfloat(f->offset[a][1]), scale)));
     }
     return spux_not(out);
 }

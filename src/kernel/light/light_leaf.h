@@ -34,30 +34,30 @@
 #include "kernel/primitive/lane_tests.h"
 #include "kernel/light/light_frustum.h"
 
-#define LIGHT_NUM (12 * FILTER_U * (1 + 0x1p-7f))
-#define LIGHT_LOST (1.125f * FILTER_U) /* q */
-#define LIGHT_DEPTH (1 + 0x1p-10f)     /* what is of second order where t is compared with a range */
-#define LIGHT_BALL (26 * FILTER_U)
-#define LIGHT_INSIDE (8 * FILTER_U)
-#define LIGHT_MIDDLE (1 - 16 * FILTER_U)
+#define LIGHT_EPS_NUM (12 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
+#define LIGHT_EPS_ROUNDING (1.125f * FILTER_ROUNDOFF) /* q */
+#define LIGHT_DEPTH_FACTOR (1 + 0x1p-10f)             /* what is of second order where t is compared with a range */
+#define LIGHT_EPS_DISC (26 * FILTER_ROUNDOFF)
+#define LIGHT_EPS_INNER (8 * FILTER_ROUNDOFF)
+#define LIGHT_MIDDLE_FACTOR (1 - 16 * FILTER_ROUNDOFF)
 
 /* ---- what is found ---- */
 
 /* Closes the rays of a vector that hit for certain; the open ones are decided. */
-CGT_SPU_INLINE void light_close(const cgt_objects *objects, light_packet *l, uint32_t i, uint32_t object, vmask certain,
-                                vmask open, cgt_counts *counts)
+CGT_SPU_INLINE void light_store_hits(const cgt_primitives *prims, light_packet *l, uint32_t i, uint32_t prim,
+                                     vmask certain_hit, vmask undecided, cgt_counts *counts)
 {
     packet *p = &l->rays;
     const vfloat high = spux_load(p->high + i), closed = spux_vfloat(-INFINITY);
-    certain = spu_and(certain, spu_cmpgt(high, closed));
-    if (p->selective)
-        certain = spu_andc(certain, select_left_out_of_one(objects, p, i, object));
-    spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), spux_vuint(object), certain));
-    spux_store(p->high + i, spux_select(high, closed, certain));
-    for (unsigned left = spux_mask_bits(open); left; left &= left - 1)
-        filter_decide(objects, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+    certain_hit = spu_and(certain_hit, spu_cmpgt(high, closed));
+    if (p->skips_prims)
+        certain_hit = spu_andc(certain_hit, rays_skipping_one(prims, p, i, prim));
+    spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), spux_vuint(prim), certain_hit));
+    spux_store(p->high + i, spux_select(high, closed, certain_hit));
+    for (unsigned remaining = spux_mask_bits(undecided); remaining; remaining &= remaining - 1)
+        filter_decide(prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, counts);
     if (spux_none(spu_cmpgt(spux_load(p->high + i), closed)))
-        l->open &= ~((uint64_t)1 << i / CGT_LANES);
+        l->undecided &= ~((uint64_t)1 << i / CGT_LANES);
 }
 
 /* ---- triangles ---- */
@@ -66,29 +66,29 @@ typedef struct light_triangles {
     _Alignas(CGT_VECTOR_BYTES) float u[3][CGT_LANES]; /* what x is multiplied with for U, V and T, or D */
     float v[3][CGT_LANES];
     float n[3][CGT_LANES];
-    float at_u[CGT_LANES], at_v[CGT_LANES]; /* and what is added; of parallel rays alone */
-    float at_n[CGT_LANES];                  /* to T */
-    float den[CGT_LANES];                   /* D of parallel rays */
+    float offset_u[CGT_LANES], offset_v[CGT_LANES]; /* and what is added; of parallel rays alone */
+    float offset_n[CGT_LANES];                      /* to T */
+    float den[CGT_LANES];                           /* D of parallel rays */
     float side[CGT_LANES], den_error[CGT_LANES], num_error[CGT_LANES];
-    float first[CGT_LANES], last[CGT_LANES]; /* errors at t = 0 and 1 */
+    float error_t_min[CGT_LANES], error_t_max[CGT_LANES]; /* errors at t = 0 and 1 */
 } light_triangles;
 
-CGT_SPU_INLINE void light_triangles_make(const light_packet *l, const wide_triangles *leaf, float scale, bool place,
+CGT_SPU_INLINE void light_init_triangles(const light_packet *l, const triangle_block *leaf, float scale, bool is_point,
                                          light_triangles *q)
 {
     vfloat e[2][3], g[3], d[3], u[3], v[3], n[3];
     const vfloat zero = spux_vfloat(0);
-    float longest = place ? l->longest : 0;
+    float max_component = is_point ? l->max_component : 0;
     for (int a = 0; a < 3; a++) {
         e[0][a] = spux_load(leaf->edge[0][a]);
         e[1][a] = spux_load(leaf->edge[1][a]);
-        g[a] = spu_sub(spux_vfloat(l->reference[a] * scale), spux_load(leaf->vertex[a]));
-        d[a] = place ? zero : spux_vfloat(l->rays.dir[a][0] * scale);
-        if (!place)
-            longest = larger(longest, fabsf(l->rays.dir[a][0] * scale));
+        g[a] = spu_sub(spux_vfloat(l->origin[a] * scale), spux_load(leaf->vertex[a]));
+        d[a] = is_point ? zero : spux_vfloat(l->rays.dir[a][0] * scale);
+        if (!is_point)
+            max_component = light_max(max_component, fabsf(l->rays.dir[a][0] * scale));
     }
-    const vfloat far = spu_add(lane_sum(g), spux_vfloat(place ? 0 : l->farthest));
-    if (place) {
+    const vfloat max_offset = spu_add(lane_sum(g), spux_vfloat(is_point ? 0 : l->max_sum));
+    if (is_point) {
         lane_cross(e[1], g, u);
         lane_cross(g, e[0], v);
         lane_cross(e[1], e[0], n);
@@ -97,29 +97,29 @@ CGT_SPU_INLINE void light_triangles_make(const light_packet *l, const wide_trian
         lane_cross(e[0], d, v);
         lane_cross(e[0], e[1], n);
         spux_store(q->den, lane_dot(e[0], u));
-        spux_store(q->at_u, lane_dot(g, u));
-        spux_store(q->at_v, lane_dot(g, v));
+        spux_store(q->offset_u, lane_dot(g, u));
+        spux_store(q->offset_v, lane_dot(g, v));
     }
-    spux_store(q->at_n, spu_xor(lane_dot(g, n), spux_vfloat(place ? -0.f : 0.f)));
+    spux_store(q->offset_n, spu_xor(lane_dot(g, n), spux_vfloat(is_point ? -0.f : 0.f)));
     for (int a = 0; a < 3; a++) {
         spux_store(q->u[a], u[a]);
         spux_store(q->v[a], v[a]);
         spux_store(q->n[a], n[a]);
     }
     const vfloat sum0 = spux_load(leaf->sum[0]), sum1 = spux_load(leaf->sum[1]);
-    const vfloat product = spu_mul(sum0, sum1), most = spux_vfloat(longest);
-    const vfloat under = spu_mul(spu_madd(far, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f)),
-                                 spux_vfloat(1 + larger(longest, l->longest)));
-    const vfloat lost = spux_vfloat(place ? LIGHT_LOST * l->farthest : 0);
-    const vfloat edges = spu_mul(spu_add(sum0, sum1), spu_madd(far, spux_vfloat(LANE_THIRD), lost));
-    spux_store(q->side, spu_madd(most, spu_madd(product, spux_vfloat(LANE_THIRD), edges), under));
-    const vfloat den_error = spu_madd(spu_mul(most, product), spux_vfloat(LANE_PLANE), under);
-    const vfloat num_error =
-        spu_madd(spu_mul(product, spux_vfloat(LIGHT_NUM)), spu_add(far, spux_vfloat(l->longest)), under);
+    const vfloat product = spu_mul(sum0, sum1), max_x = spux_vfloat(max_component);
+    const vfloat underflow = spu_mul(spu_madd(max_offset, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f)),
+                                     spux_vfloat(1 + light_max(max_component, l->max_component)));
+    const vfloat rounding = spux_vfloat(is_point ? LIGHT_EPS_ROUNDING * l->max_sum : 0);
+    const vfloat edges = spu_mul(spu_add(sum0, sum1), spu_madd(max_offset, spux_vfloat(LANE_EPS_W), rounding));
+    spux_store(q->side, spu_madd(max_x, spu_madd(product, spux_vfloat(LANE_EPS_W), edges), underflow));
+    const vfloat den_error = spu_madd(spu_mul(max_x, product), spux_vfloat(LANE_EPS_PLANE), underflow);
+    const vfloat num_error = spu_madd(spu_mul(product, spux_vfloat(LIGHT_EPS_NUM)),
+                                      spu_add(max_offset, spux_vfloat(l->max_component)), underflow);
     spux_store(q->den_error, den_error);
     spux_store(q->num_error, num_error);
-    spux_store(q->first, spu_mul(num_error, spux_vfloat(LIGHT_DEPTH)));
-    spux_store(q->last, spu_mul(spu_add(den_error, num_error), spux_vfloat(LIGHT_DEPTH)));
+    spux_store(q->error_t_min, spu_mul(num_error, spux_vfloat(LIGHT_DEPTH_FACTOR)));
+    spux_store(q->error_t_max, spu_mul(spu_add(den_error, num_error), spux_vfloat(LIGHT_DEPTH_FACTOR)));
 }
 
 CGT_SPU_INLINE vfloat light_dot(const vfloat x[3], const float n[3][CGT_LANES], uint32_t k)
@@ -129,136 +129,138 @@ CGT_SPU_INLINE vfloat light_dot(const vfloat x[3], const float n[3][CGT_LANES], 
 }
 
 typedef struct light_sides {
-    vfloat least, most;  /* of U, V and W */
-    vfloat den, num;     /* |D|, and T with D's sign */
-    vmask beside, steep; /* the line passes outside; D's sign is right */
+    vfloat lower, upper;        /* of U, V and W */
+    vfloat den, num;            /* |D|, and T with D's sign */
+    vmask outside, den_certain; /* the line passes outside; D's sign is right */
 } light_sides;
 
-CGT_SPU_INLINE void light_sides_make(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
-                                     bool place, light_sides *f)
+CGT_SPU_INLINE void light_compute_sides(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
+                                        bool is_point, light_sides *f)
 {
     vfloat x[3];
     for (int a = 0; a < 3; a++)
-        x[a] = spux_load(l->way[a] + i);
+        x[a] = spux_load(l->ray_terms[a] + i);
     vfloat u = light_dot(x, q->u, k), v = light_dot(x, q->v, k);
-    if (!place) {
-        u = spu_add(u, spux_vfloat(q->at_u[k]));
-        v = spu_add(v, spux_vfloat(q->at_v[k]));
+    if (!is_point) {
+        u = spu_add(u, spux_vfloat(q->offset_u[k]));
+        v = spu_add(v, spux_vfloat(q->offset_v[k]));
     }
-    const vfloat along = light_dot(x, q->n, k), den = place ? along : spux_vfloat(q->den[k]);
+    const vfloat along = light_dot(x, q->n, k), den = is_point ? along : spux_vfloat(q->den[k]);
     const vfloat w = spu_sub(spu_sub(den, u), v), sign = spu_and(den, spux_vfloat(-0.f));
-    f->least = spux_min(u, spux_min(v, w));
-    f->most = spux_max(u, spux_max(v, w));
+    f->lower = spux_min(u, spux_min(v, w));
+    f->upper = spux_max(u, spux_max(v, w));
     f->den = spu_xor(den, sign);
-    f->num = spu_xor(spu_add(along, spux_vfloat(q->at_n[k])), sign);
-    f->beside = spu_and(spu_cmpgt(f->most, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f->least));
-    f->steep = spu_cmpgt(f->den, spux_vfloat(q->den_error[k]));
+    f->num = spu_xor(spu_add(along, spux_vfloat(q->offset_n[k])), sign);
+    f->outside = spu_and(spu_cmpgt(f->upper, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f->lower));
+    f->den_certain = spu_cmpgt(f->den, spux_vfloat(q->den_error[k]));
 }
 
 /* Whether any ray of a vector may pass inside all edges of what is not surely behind it: the surface that it leaves is,
  * where the light sees it. */
-CGT_SPU_INLINE bool light_triangle_reached(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
-                                           bool place)
+CGT_SPU_INLINE bool light_triangle_may_hit(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
+                                           bool is_point)
 {
     light_sides f;
-    light_sides_make(l, q, k, i, place, &f);
-    return !spux_all(spu_or(f.beside, spu_and(f.steep, spu_cmpgt(spux_vfloat(-q->first[k]), f.num))));
+    light_compute_sides(l, q, k, i, is_point, &f);
+    return !spux_all(spu_or(f.outside, spu_and(f.den_certain, spu_cmpgt(spux_vfloat(-q->error_t_min[k]), f.num))));
 }
 
 /* Rays whose t is surely beyond their range, and those whose t is surely within, where den is surely above 0. */
-typedef struct light_depth {
+typedef struct light_range_test {
     vmask out, in;
-} light_depth;
+} light_range_test;
 
-CGT_SPU_INLINE light_depth light_depth_of(const packet *p, const light_triangles *q, uint32_t k, uint32_t i, vfloat den,
-                                          vfloat num)
+CGT_SPU_INLINE light_range_test light_test_ranges(const packet *p, const light_triangles *q, uint32_t k, uint32_t i,
+                                                  vfloat den, vfloat num)
 {
     const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i);
     const vfloat den_error = spux_vfloat(q->den_error[k]), num_error = spux_vfloat(q->num_error[k]);
-    const vfloat enlarge = spux_vfloat(LIGHT_DEPTH), infinity = spux_vfloat(INFINITY);
-    const vfloat first = spu_mul(spu_madd(t_min, den_error, num_error), enlarge);
-    const vfloat last = spu_mul(spu_madd(t_max, den_error, num_error), enlarge);
-    const vmask before = spu_or(spu_cmpeq(t_max, infinity), spu_cmpgt(spu_msub(t_max, den, num), last));
-    return (light_depth){
-        .out = spu_or(spu_cmpgt(spu_msub(t_min, den, first), num), spu_cmpgt(num, spu_madd(t_max, den, last))),
-        .in = spu_and(spu_cmpgt(spu_nmsub(t_min, den, num), first), before)};
+    const vfloat enlarge = spux_vfloat(LIGHT_DEPTH_FACTOR), infinity = spux_vfloat(INFINITY);
+    const vfloat error_t_min = spu_mul(spu_madd(t_min, den_error, num_error), enlarge);
+    const vfloat error_t_max = spu_mul(spu_madd(t_max, den_error, num_error), enlarge);
+    const vmask before = spu_or(spu_cmpeq(t_max, infinity), spu_cmpgt(spu_msub(t_max, den, num), error_t_max));
+    return (light_range_test){.out = spu_or(spu_cmpgt(spu_msub(t_min, den, error_t_min), num),
+                                            spu_cmpgt(num, spu_madd(t_max, den, error_t_max))),
+                              .in = spu_and(spu_cmpgt(spu_nmsub(t_min, den, num), error_t_min), before)};
 }
 
 /* The same of rays from t = 0, to 1 at a light that has a place. */
-CGT_SPU_INLINE light_depth light_depth_plain(const light_triangles *q, uint32_t k, vfloat den, vfloat num, bool place)
+CGT_SPU_INLINE light_range_test light_test_default_range(const light_triangles *q, uint32_t k, vfloat den, vfloat num,
+                                                         bool is_point)
 {
-    const vfloat first = spux_vfloat(q->first[k]), last = spux_vfloat(q->last[k]);
-    light_depth d = {.out = spu_cmpgt(spux_vfloat(-q->first[k]), num), .in = spu_cmpgt(num, first)};
-    if (place) {
-        d.out = spu_or(d.out, spu_cmpgt(num, spu_add(den, last)));
-        d.in = spu_and(d.in, spu_cmpgt(spu_sub(den, num), last));
+    const vfloat error_t_min = spux_vfloat(q->error_t_min[k]), error_t_max = spux_vfloat(q->error_t_max[k]);
+    light_range_test d = {.out = spu_cmpgt(spux_vfloat(-q->error_t_min[k]), num), .in = spu_cmpgt(num, error_t_min)};
+    if (is_point) {
+        d.out = spu_or(d.out, spu_cmpgt(num, spu_add(den, error_t_max)));
+        d.in = spu_and(d.in, spu_cmpgt(spu_sub(den, num), error_t_max));
     }
     return d;
 }
 
-CGT_SPU_INLINE void light_triangle_vector(const cgt_objects *objects, light_packet *l, const light_triangles *q,
-                                          uint32_t k, uint32_t i, uint32_t object, bool place, cgt_counts *counts)
+CGT_SPU_INLINE void light_test_triangle(const cgt_primitives *prims, light_packet *l, const light_triangles *q,
+                                        uint32_t k, uint32_t i, uint32_t prim, bool is_point, cgt_counts *counts)
 {
     const packet *p = &l->rays;
     light_sides f;
-    light_sides_make(l, q, k, i, place, &f);
-    const light_depth depth =
-        l->plain ? light_depth_plain(q, k, f.den, f.num, place) : light_depth_of(p, q, k, i, f.den, f.num);
-    const vmask may = spux_not(spu_or(f.beside, spu_and(depth.out, f.steep)));
-    if (spux_none(may))
+    light_compute_sides(l, q, k, i, is_point, &f);
+    const light_range_test depth = l->default_ranges ? light_test_default_range(q, k, f.den, f.num, is_point)
+                                                     : light_test_ranges(p, q, k, i, f.den, f.num);
+    const vmask possible = spux_not(spu_or(f.outside, spu_and(depth.out, f.den_certain)));
+    if (spux_none(possible))
         return;
     const vmask inside =
-        spu_or(spu_cmpgt(f.least, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f.most));
-    const vmask certain = spu_and(spu_and(inside, f.steep), depth.in);
-    light_close(objects, l, i, object, certain, spu_andc(may, certain), counts);
+        spu_or(spu_cmpgt(f.lower, spux_vfloat(q->side[k])), spu_cmpgt(spux_vfloat(-q->side[k]), f.upper));
+    const vmask certain_hit = spu_and(spu_and(inside, f.den_certain), depth.in);
+    light_store_hits(prims, l, i, prim, certain_hit, spu_andc(possible, certain_hit), counts);
 }
 
 /* A leaf's triangles, those of `left`, against the whole packet. */
-CGT_SPU_INLINE void light_test_triangles(const cgt_world *world, light_packet *l, const wide_triangles *leaf,
-                                         unsigned left, bool place, cgt_counts *counts)
+CGT_SPU_INLINE void light_test_triangles(const cgt_committed_scene *committed_scene, light_packet *l,
+                                         const triangle_block *leaf, unsigned remaining, bool is_point,
+                                         cgt_counts *counts)
 {
     light_triangles q;
-    light_triangles_make(l, leaf, world->scale, place, &q);
-    for (; left; left &= left - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(left);
+    light_init_triangles(l, leaf, committed_scene->scale, is_point, &q);
+    for (; remaining; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         uint64_t reached = 0;
         for (uint32_t i = 0; i < l->rays.lanes; i += CGT_LANES)
-            reached |= (uint64_t)light_triangle_reached(l, &q, k, i, place) << i / CGT_LANES;
-        for (reached &= l->open; reached; reached &= reached - 1)
-            light_triangle_vector(&world->objects, l, &q, k, (uint32_t)__builtin_ctzll(reached) * CGT_LANES,
-                                  leaf->object[k], place, counts);
+            reached |= (uint64_t)light_triangle_may_hit(l, &q, k, i, is_point) << i / CGT_LANES;
+        for (reached &= l->undecided; reached; reached &= reached - 1)
+            light_test_triangle(&committed_scene->prims, l, &q, k, (uint32_t)__builtin_ctzll(reached) * CGT_LANES,
+                                leaf->prim[k], is_point, counts);
     }
 }
 
 /* ---- spheres ---- */
 
 /* Of a leaf's spheres those that the light is surely outside of, as bits. */
-CGT_SPU_INLINE unsigned light_outside(const light_packet *l, const wide_spheres *leaf, float scale)
+CGT_SPU_INLINE unsigned light_outside_spheres(const light_packet *l, const sphere_block *leaf, float scale)
 {
     const vfloat radius = spux_load(leaf->radius), square = spu_mul(radius, radius);
-    const float longest = l->longest / scale; /* of the directions: what q is measured by */
+    const float max_component = l->max_component / scale; /* of the directions: what q is measured by */
     vfloat distance = spux_vfloat(0);
     if (!l->rays.to_light)
         return CGT_ALL_LANES;
     for (int a = 0; a < 3; a++) {
-        const vfloat c = spu_sub(spux_load(leaf->center[a]), spux_vfloat(l->reference[a]));
+        const vfloat c = spu_sub(spux_load(leaf->center[a]), spux_vfloat(l->origin[a]));
         distance = spu_madd(c, c, distance);
     }
-    const vfloat error = spu_madd(spu_add(distance, square), spux_vfloat(12 * FILTER_U),
-                                  spux_vfloat(12 * FILTER_U * longest * longest + 0x1p-118f));
+    const vfloat error = spu_madd(spu_add(distance, square), spux_vfloat(12 * FILTER_ROUNDOFF),
+                                  spux_vfloat(12 * FILTER_ROUNDOFF * max_component * max_component + 0x1p-118f));
     return spux_mask_bits(spu_cmpgt(spu_sub(distance, square), error));
 }
 
 typedef struct light_roots {
-    vfloat dd, distance;       /* A, c.c */
-    vfloat inner, inner_error; /* C */
-    vfloat middle, all, error; /* B, and B^2 - A C */
-    vmask surely, outside;     /* B is not 0; C is above it */
-    vmask missed;              /* the sphere lies beside the line, or behind the origin */
+    vfloat dd, distance;           /* A, c.c */
+    vfloat inner, inner_error;     /* C */
+    vfloat middle, disc, error;    /* B, and B^2 - A C */
+    vmask middle_certain, outside; /* B is not 0; C is above it */
+    vmask missed;                  /* the sphere lies beside the line, or behind the origin */
 } light_roots;
 
-CGT_SPU_INLINE void light_roots_make(const light_packet *l, const wide_spheres *leaf, uint32_t k, float square,
-                                     uint32_t i, light_roots *f)
+CGT_SPU_INLINE void light_compute_roots(const light_packet *l, const sphere_block *leaf, uint32_t k, float square,
+                                        uint32_t i, light_roots *f)
 {
     const vfloat zero = spux_vfloat(0);
     vfloat c[3], d[3];
@@ -271,41 +273,41 @@ CGT_SPU_INLINE void light_roots_make(const light_packet *l, const wide_spheres *
     f->middle = lane_dot(d, c);
     f->inner = spu_sub(f->distance, spux_vfloat(square));
     const vfloat size = spu_add(f->distance, spux_vfloat(square + 0x1p-97f));
-    f->inner_error = spu_mul(size, spux_vfloat(LIGHT_INSIDE));
-    f->error = spu_madd(spu_mul(f->dd, spux_vfloat(LIGHT_BALL)), size, spux_vfloat(0x1p-118f));
-    f->all = spu_msub(f->middle, f->middle, spu_mul(f->dd, f->inner));
-    f->surely = spu_cmpgt(spu_mul(f->middle, f->middle), spu_mul(f->error, spux_vfloat(2 * FILTER_U)));
+    f->inner_error = spu_mul(size, spux_vfloat(LIGHT_EPS_INNER));
+    f->error = spu_madd(spu_mul(f->dd, spux_vfloat(LIGHT_EPS_DISC)), size, spux_vfloat(0x1p-118f));
+    f->disc = spu_msub(f->middle, f->middle, spu_mul(f->dd, f->inner));
+    f->middle_certain = spu_cmpgt(spu_mul(f->middle, f->middle), spu_mul(f->error, spux_vfloat(2 * FILTER_ROUNDOFF)));
     f->outside = spu_cmpgt(f->inner, f->inner_error);
-    const vmask behind = spu_and(f->outside, spu_and(f->surely, spu_cmpgt(zero, f->middle)));
-    f->missed = spu_or(spu_cmpgt(spu_sub(zero, f->error), f->all), behind);
+    const vmask behind = spu_and(f->outside, spu_and(f->middle_certain, spu_cmpgt(zero, f->middle)));
+    f->missed = spu_or(spu_cmpgt(spu_sub(zero, f->error), f->disc), behind);
 }
 
 /* What does not depend on the ray, of all spheres of a leaf. */
 typedef struct light_spheres {
     _Alignas(CGT_VECTOR_BYTES) float square[CGT_LANES]; /* r^2 */
-    unsigned simple;                                    /* where the rule of plain ranges holds, as bits */
+    unsigned plain_rule;                                /* where the rule of plain ranges holds, as bits */
 } light_spheres;
 
-CGT_SPU_INLINE void light_spheres_make(const light_packet *l, const wide_spheres *leaf, float scale, light_spheres *q)
+CGT_SPU_INLINE void light_init_spheres(const light_packet *l, const sphere_block *leaf, float scale, light_spheres *q)
 {
     const vfloat radius = spux_load(leaf->radius);
     spux_store(q->square, spu_mul(radius, radius));
-    q->simple = l->plain ? light_outside(l, leaf, scale) : 0;
+    q->plain_rule = l->default_ranges ? light_outside_spheres(l, leaf, scale) : 0;
 }
 
 /* Whether any ray of a vector may meet the sphere. */
-CGT_SPU_INLINE bool light_sphere_reached(const light_packet *l, const light_spheres *q, const wide_spheres *leaf,
+CGT_SPU_INLINE bool light_sphere_may_hit(const light_packet *l, const light_spheres *q, const sphere_block *leaf,
                                          uint32_t k, uint32_t i)
 {
     light_roots f;
-    light_roots_make(l, leaf, k, q->square[k], i, &f);
+    light_compute_roots(l, leaf, k, q->square[k], i, &f);
     return !spux_all(f.missed);
 }
 
 /* Rays that the simple rule leaves open. */
-__attribute__((noinline)) static void light_sphere_open(const cgt_world *world, light_packet *l,
-                                                        const wide_spheres *leaf, uint32_t k, uint32_t i,
-                                                        const vmask *lanes, cgt_counts *counts)
+__attribute__((noinline)) static void light_test_undecided_sphere(const cgt_committed_scene *committed_scene,
+                                                                  light_packet *l, const sphere_block *leaf, uint32_t k,
+                                                                  uint32_t i, const vmask *lanes, cgt_counts *counts)
 {
     packet *p = &l->rays;
     const vfloat center[3] = {spux_vfloat(leaf->center[0][k]), spux_vfloat(leaf->center[1][k]),
@@ -313,53 +315,56 @@ __attribute__((noinline)) static void light_sphere_open(const cgt_world *world, 
     lane_rays r;
     lane_hits q;
     spux_store(p->rdd + i, spux_div(spux_vfloat(1), spux_load(l->square + i))); /* few rays come here */
-    lane_rays_of_packet(p, i, world->scale, &r);
-    if (!lane_sphere(&r, center, spux_vfloat(leaf->radius[k]), &q))
+    lane_rays_of_packet(p, i, committed_scene->scale, &r);
+    if (!lane_test_sphere(&r, center, spux_vfloat(leaf->radius[k]), &q))
         return;
     const vfloat t_max = spux_load(p->t_max + i);
-    const vmask may = spu_andc(spu_and(spu_or(q.certain, q.open), *lanes), spu_cmpgt(q.low, t_max));
-    const vmask certain =
-        spu_and(spu_and(q.certain, *lanes), spu_or(spu_cmpgt(t_max, q.high), spu_cmpeq(t_max, spux_vfloat(INFINITY))));
-    light_close(&world->objects, l, i, leaf->object[k], certain, spu_andc(may, certain), counts);
+    const vmask possible = spu_andc(spu_and(spu_or(q.certain_hit, q.undecided), *lanes), spu_cmpgt(q.low, t_max));
+    const vmask certain_hit = spu_and(spu_and(q.certain_hit, *lanes),
+                                      spu_or(spu_cmpgt(t_max, q.high), spu_cmpeq(t_max, spux_vfloat(INFINITY))));
+    light_store_hits(&committed_scene->prims, l, i, leaf->prim[k], certain_hit, spu_andc(possible, certain_hit),
+                     counts);
 }
 
-CGT_SPU_INLINE void light_sphere_vector(const cgt_world *world, light_packet *l, const wide_spheres *leaf, uint32_t k,
-                                        float square, bool simple, uint32_t i, cgt_counts *counts)
+CGT_SPU_INLINE void light_test_sphere(const cgt_committed_scene *committed_scene, light_packet *l,
+                                      const sphere_block *leaf, uint32_t k, float square, bool plain_rule, uint32_t i,
+                                      cgt_counts *counts)
 {
     light_roots f;
-    light_roots_make(l, leaf, k, square, i, &f);
-    vmask open = spu_andc(spu_cmpgt(spux_load(l->rays.high + i), spux_vfloat(-INFINITY)), f.missed);
-    vmask certain = spux_mask_none();
-    if (simple) {
+    light_compute_roots(l, leaf, k, square, i, &f);
+    vmask undecided = spu_andc(spu_cmpgt(spux_load(l->rays.high + i), spux_vfloat(-INFINITY)), f.missed);
+    vmask certain_hit = spux_mask_none();
+    if (plain_rule) {
         const vfloat zero = spux_vfloat(0);
         const vmask inside = spu_cmpgt(spu_sub(zero, f.inner_error), f.inner);
-        vmask ahead = spu_and(f.surely, spu_cmpgt(f.middle, zero));
+        vmask ahead = spu_and(f.middle_certain, spu_cmpgt(f.middle, zero));
         if (l->rays.to_light)
-            ahead = spu_and(ahead, spu_and(spu_cmpgt(spu_mul(f.dd, spux_vfloat(LIGHT_MIDDLE)), f.middle),
+            ahead = spu_and(ahead, spu_and(spu_cmpgt(spu_mul(f.dd, spux_vfloat(LIGHT_MIDDLE_FACTOR)), f.middle),
                                            spu_cmpgt(spu_mul(f.dd, spux_vfloat(4)), f.distance)));
-        certain = spu_and(open, spu_or(inside, spu_and(spu_and(f.outside, ahead), spu_cmpgt(f.all, f.error))));
-        open = spu_andc(open, certain);
+        certain_hit =
+            spu_and(undecided, spu_or(inside, spu_and(spu_and(f.outside, ahead), spu_cmpgt(f.disc, f.error))));
+        undecided = spu_andc(undecided, certain_hit);
     }
-    if (spux_any(certain))
-        light_close(&world->objects, l, i, leaf->object[k], certain, spux_mask_none(), counts);
-    if (spux_any(open))
-        light_sphere_open(world, l, leaf, k, i, &open, counts);
+    if (spux_any(certain_hit))
+        light_store_hits(&committed_scene->prims, l, i, leaf->prim[k], certain_hit, spux_mask_none(), counts);
+    if (spux_any(undecided))
+        light_test_undecided_sphere(committed_scene, l, leaf, k, i, &undecided, counts);
 }
 
 /* A leaf's spheres, those of `left`, against the whole packet. */
-CGT_SPU_INLINE void light_test_spheres(const cgt_world *world, light_packet *l, const wide_spheres *leaf, unsigned left,
-                                       cgt_counts *counts)
+CGT_SPU_INLINE void light_test_spheres(const cgt_committed_scene *committed_scene, light_packet *l,
+                                       const sphere_block *leaf, unsigned remaining, cgt_counts *counts)
 {
     light_spheres q;
-    light_spheres_make(l, leaf, world->scale, &q);
-    for (; left; left &= left - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(left);
+    light_init_spheres(l, leaf, committed_scene->scale, &q);
+    for (; remaining; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         uint64_t reached = 0;
         for (uint32_t i = 0; i < l->rays.lanes; i += CGT_LANES)
-            reached |= (uint64_t)light_sphere_reached(l, &q, leaf, k, i) << i / CGT_LANES;
-        for (reached &= l->open; reached; reached &= reached - 1)
-            light_sphere_vector(world, l, leaf, k, q.square[k], q.simple >> k & 1,
-                                (uint32_t)__builtin_ctzll(reached) * CGT_LANES, counts);
+            reached |= (uint64_t)light_sphere_may_hit(l, &q, leaf, k, i) << i / CGT_LANES;
+        for (reached &= l->undecided; reached; reached &= reached - 1)
+            light_test_sphere(committed_scene, l, leaf, k, q.square[k], q.plain_rule >> k & 1,
+                              (uint32_t)__builtin_ctzll(reached) * CGT_LANES, counts);
     }
 }
 

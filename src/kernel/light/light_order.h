@@ -13,7 +13,7 @@
 _Static_assert(CGT_RAYS_CHUNK <= UINT16_MAX, "a chunk is counted in 16 bits");
 
 /* Bits 0 to 7 to every second place. */
-CGT_SPU_INLINE vuint spread_bits(vuint i)
+CGT_SPU_INLINE vuint light_spread_bits(vuint i)
 {
     i = spu_and(spu_or(i, spu_sl(i, 4)), spux_vuint(0x0f0f));
     i = spu_and(spu_or(i, spu_sl(i, 2)), spux_vuint(0x3333));
@@ -21,40 +21,40 @@ CGT_SPU_INLINE vuint spread_bits(vuint i)
 }
 
 /* Where the light sees points, along two axes, in any unit: for orders and estimates, which change no answer. */
-typedef struct light_view {
-    bool place;
+typedef struct light_projection {
+    bool is_point;
     uint32_t main;
-    float reference[3], slope[2];
-} light_view;
+    float origin[3], slope[2];
+} light_projection;
 
 /* With the way of a chunk's middle point as the main one. */
-static light_view view_make(const light_call *c, uint32_t count)
+static light_projection light_init_projection(const light_call *c, uint32_t count)
 {
-    light_view v = {.place = c->light.w == 1};
-    float way[3];
+    light_projection v = {.is_point = c->light.w == 1};
+    float main_dir[3];
     for (uint32_t a = 0; a < 3; a++) {
         const float o = ray_element(&c->source, c->source.rays->org[a], c->order.first + count / 2);
-        way[a] = v.place ? o - c->light.position[a] : c->light.position[a];
-        v.reference[a] = v.place ? c->light.position[a] : o;
-        v.main = fabsf(way[a]) > fabsf(way[v.main]) ? a : v.main;
+        main_dir[a] = v.is_point ? o - c->light.position[a] : c->light.position[a];
+        v.origin[a] = v.is_point ? c->light.position[a] : o;
+        v.main = fabsf(main_dir[a]) > fabsf(main_dir[v.main]) ? a : v.main;
     }
     for (uint32_t a = 0; a < 2; a++)
-        v.slope[a] = v.place ? 0 : way[(v.main + 1 + a) % 3] / way[v.main];
+        v.slope[a] = v.is_point ? 0 : main_dir[(v.main + 1 + a) % 3] / main_dir[v.main];
     return v;
 }
 
-CGT_SPU_INLINE void view_see(const light_view *v, const vfloat point[3], vfloat at[2])
+CGT_SPU_INLINE void light_apply_projection(const light_projection *v, const vfloat point[3], vfloat coord[2])
 {
     vfloat from[3];
     for (int a = 0; a < 3; a++)
-        from[a] = spu_sub(point[a], spux_vfloat(v->reference[a]));
-    const vfloat w = from[v->main], rw = v->place ? spux_div(spux_vfloat(1), w) : spux_vfloat(1);
+        from[a] = spu_sub(point[a], spux_vfloat(v->origin[a]));
+    const vfloat w = from[v->main], rw = v->is_point ? spux_div(spux_vfloat(1), w) : spux_vfloat(1);
     for (uint32_t a = 0; a < 2; a++)
-        at[a] = spu_mul(spu_nmsub(spux_vfloat(v->slope[a]), w, from[(v->main + 1 + a) % 3]), rw);
+        coord[a] = spu_mul(spu_nmsub(spux_vfloat(v->slope[a]), w, from[(v->main + 1 + a) % 3]), rw);
 }
 
 /* Points k to k + CGT_LANES - 1 of a chunk; the last one again beyond its end. */
-CGT_SPU_INLINE void chunk_load(const light_call *c, uint32_t k, uint32_t count, vfloat point[3])
+CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t count, vfloat point[3])
 {
     for (int a = 0; a < 3; a++) {
         const float *org = c->source.rays->org[a];
@@ -70,40 +70,40 @@ CGT_SPU_INLINE void chunk_load(const light_call *c, uint32_t k, uint32_t count, 
 }
 
 /* Points that the light sees side by side to the same groups, along a Morton curve. */
-static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
+static void light_sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
 {
-    _Alignas(64) float place[2][CGT_RAYS_CHUNK];
+    _Alignas(64) float position[2][CGT_RAYS_CHUNK];
     _Alignas(64) uint32_t key[CGT_RAYS_CHUNK];
     uint16_t start[SORT_CELLS * SORT_CELLS][SORT_RUNS] = {{0}}, sum = 0;
     const uint32_t run = count / SORT_RUNS;
-    const light_view view = view_make(c, count);
-    vfloat least[2], most[2], scale[2];
+    const light_projection projection = light_init_projection(c, count);
+    vfloat lower[2], upper[2], scale[2];
     for (int a = 0; a < 2; a++) {
-        least[a] = spux_vfloat(INFINITY);
-        most[a] = spux_vfloat(-INFINITY);
+        lower[a] = spux_vfloat(INFINITY);
+        upper[a] = spux_vfloat(-INFINITY);
     }
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        vfloat point[3], at[2];
-        chunk_load(c, k, count, point);
-        view_see(&view, point, at);
+        vfloat point[3], coord[2];
+        light_load_points(c, k, count, point);
+        light_apply_projection(&projection, point, coord);
         for (int a = 0; a < 2; a++) {
-            spux_store(place[a] + k, at[a]);
-            least[a] = spux_min(least[a], at[a]);
-            most[a] = spux_max(most[a], at[a]);
+            spux_store(position[a] + k, coord[a]);
+            lower[a] = spux_min(lower[a], coord[a]);
+            upper[a] = spux_max(upper[a], coord[a]);
         }
     }
     for (int a = 0; a < 2; a++) {
-        const float first = spux_hmin(least[a]), length = spux_hmax(most[a]) - first;
-        least[a] = spux_vfloat(first);
+        const float first = spux_hmin(lower[a]), length = spux_hmax(upper[a]) - first;
+        lower[a] = spux_vfloat(first);
         scale[a] = spux_vfloat(length > 0 ? SORT_CELLS / length : 0);
     }
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vuint cell[2];
         for (int a = 0; a < 2; a++) {
-            const vfloat at = spu_mul(spu_sub(spux_load(place[a] + k), least[a]), scale[a]);
-            cell[a] = (vuint)spu_convts(spux_min(spux_max(at, spux_vfloat(0)), spux_vfloat(SORT_CELLS - 1)), 0);
+            const vfloat coord = spu_mul(spu_sub(spux_load(position[a] + k), lower[a]), scale[a]);
+            cell[a] = (vuint)spu_convts(spux_min(spux_max(coord, spux_vfloat(0)), spux_vfloat(SORT_CELLS - 1)), 0);
         }
-        spux_store_uint(key + k, spu_and(spu_or(spread_bits(cell[0]), spu_sl(spread_bits(cell[1]), 1)),
+        spux_store_uint(key + k, spu_and(spu_or(light_spread_bits(cell[0]), spu_sl(light_spread_bits(cell[1]), 1)),
                                          spux_vuint(SORT_CELLS * SORT_CELLS - 1)));
     }
     for (uint32_t i = 0; i < run; i++)
@@ -113,9 +113,9 @@ static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_R
         start[key[k]][SORT_RUNS - 1]++;
     for (uint32_t k = 0; k < SORT_CELLS * SORT_CELLS; k++)
         for (uint32_t r = 0; r < SORT_RUNS; r++) {
-            const uint16_t some = start[k][r];
+            const uint16_t cell_count = start[k][r];
             start[k][r] = sum;
-            sum = (uint16_t)(sum + some);
+            sum = (uint16_t)(sum + cell_count);
         }
     for (uint32_t i = 0; i < run; i++) /* points of a cell keep their order: neighbours in the arrays lie together */
         for (uint32_t r = 0; r < SORT_RUNS; r++)
@@ -126,25 +126,25 @@ static void sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_R
 
 /* Whether neighbours in the arrays are mostly far from each other, as far as some of them tell: a third of what the
  * light sees of their chunk. */
-static bool is_scattered(const light_call *c, uint32_t count)
+static bool light_is_scattered(const light_call *c, uint32_t count)
 {
-    const light_view view = view_make(c, count);
-    float least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY}, sum = 0, all = 0;
+    const light_projection projection = light_init_projection(c, count);
+    float lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY}, sum = 0, total = 0;
     uint32_t groups = 0;
     for (uint32_t k = 0; k + CGT_LANES <= count; k += (count / 16 / CGT_LANES + 1) * CGT_LANES, groups++) {
-        vfloat point[3], at[2];
-        chunk_load(c, k, count, point);
-        view_see(&view, point, at);
+        vfloat point[3], coord[2];
+        light_load_points(c, k, count, point);
+        light_apply_projection(&projection, point, coord);
         for (int a = 0; a < 2; a++) {
-            const float low = spux_hmin(at[a]), high = spux_hmax(at[a]);
+            const float low = spux_hmin(coord[a]), high = spux_hmax(coord[a]);
             sum += high - low;
-            least[a] = low < least[a] ? low : least[a];
-            most[a] = larger(most[a], high);
+            lower[a] = low < lower[a] ? low : lower[a];
+            upper[a] = light_max(upper[a], high);
         }
     }
     for (int a = 0; a < 2; a++)
-        all += most[a] - least[a];
-    return !(sum * 3 <= all * (float)groups);
+        total += upper[a] - lower[a];
+    return !(sum * 3 <= total * (float)groups);
 }
 
 #endif

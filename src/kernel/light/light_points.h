@@ -9,10 +9,10 @@
 
 /* How far a light may be, in world's sizes: where all rays are longer, single precision could not tell primitives of
  * usual size apart by what they have in common at the light. */
-#define LIGHT_FARTHEST 64.f
+#define LIGHT_MAX_DISTANCE 64.f
 
 typedef struct light_call {
-    const cgt_world *world;
+    const cgt_committed_scene *committed_scene;
     ray_source source;
     cgt_light light; /* the source's */
     ray_order order;
@@ -26,12 +26,12 @@ CGT_SPU_INLINE bool light_is_near(const light_call *c)
 {
     float farthest = 0;
     for (int a = 0; a < 3; a++)
-        farthest += c->light.w == 1 ? fabsf(c->light.position[a]) * c->world->scale : 0;
-    return farthest <= LIGHT_FARTHEST;
+        farthest += c->light.w == 1 ? fabsf(c->light.position[a]) * c->committed_scene->scale : 0;
+    return farthest <= LIGHT_MAX_DISTANCE;
 }
 
 /* Numbers i to i + CGT_LANES - 1 of an array, in the order. */
-CGT_SPU_INLINE vfloat light_points_get(const ray_order *order, const float *array, uint32_t i)
+CGT_SPU_INLINE vfloat light_gather_points(const ray_order *order, const float *array, uint32_t i)
 {
     const float *from = array + order->first;
     return order->from ? spux_gather(from, (vint)spux_load_unaligned_uint(order->from + i))
@@ -39,48 +39,49 @@ CGT_SPU_INLINE vfloat light_points_get(const ray_order *order, const float *arra
 }
 
 /* Whole vectors of points, all of them rays as they should be: else false, and they are read one by one. */
-CGT_SPU_INLINE bool light_points_load(const light_call *c, uint32_t first, uint32_t count, packet *p)
+CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
     const cgt_rays *points = c->source.rays;
     const ray_order *order = &c->order;
-    const bool ends = c->light.w == 1;
-    vmask good = spux_mask_all();
+    const bool is_point = c->light.w == 1;
+    vmask valid = spux_mask_all();
     p->lanes = p->rays = count;
-    p->common_origin = p->from_origin = p->extreme = p->selective = p->masked = false;
-    p->to_light = ends;
+    p->common_origin = p->from_origin = p->extreme = p->skips_prims = p->has_masks = false;
+    p->to_light = is_point;
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
-        vfloat zero = spux_vfloat(0), largest = zero, longest = zero, dd = zero;
+        vfloat zero = spux_vfloat(0), largest = zero, max_component = zero, dd = zero;
         for (int a = 0; a < 3; a++) {
             const vfloat light = spux_vfloat(c->light.position[a]);
-            const vfloat o = light_points_get(order, points->org[a], first + i), d = ends ? spu_sub(light, o) : light;
+            const vfloat o = light_gather_points(order, points->org[a], first + i),
+                         d = is_point ? spu_sub(light, o) : light;
             zero = spu_madd(o, spux_vfloat(0), zero); /* not a number where o is not finite */
             largest = spux_max(largest, spux_abs(o));
-            longest = spux_max(longest, spux_abs(d));
+            max_component = spux_max(max_component, spux_abs(d));
             dd = spu_add(dd, spu_mul(d, d));
             spux_store(p->org[a] + i, o);
             spux_store(p->dir[a] + i, d);
         }
-        const vfloat t_min = points->t_min ? light_points_get(order, points->t_min, first + i) : spux_vfloat(0);
+        const vfloat t_min = points->t_min ? light_gather_points(order, points->t_min, first + i) : spux_vfloat(0);
         const vfloat t_max =
-            points->t_max ? light_points_get(order, points->t_max, first + i) : spux_vfloat(c->source.t_max);
-        good = spu_and(good, spu_cmpeq(zero, spux_vfloat(0)));
-        good = spu_and(good, spu_and(spux_cmpge(t_max, t_min), spux_cmpge(t_min, spux_vfloat(0))));
-        good = spu_and(good, spu_and(spux_cmpge(spux_vfloat(PACKET_LARGEST), spux_max(largest, longest)),
-                                     spux_cmpge(longest, spux_vfloat(PACKET_SHORTEST))));
+            points->t_max ? light_gather_points(order, points->t_max, first + i) : spux_vfloat(c->source.t_max);
+        valid = spu_and(valid, spu_cmpeq(zero, spux_vfloat(0)));
+        valid = spu_and(valid, spu_and(spux_cmpge(t_max, t_min), spux_cmpge(t_min, spux_vfloat(0))));
+        valid = spu_and(valid, spu_and(spux_cmpge(spux_vfloat(PACKET_MAX_COORDINATE), spux_max(largest, max_component)),
+                                       spux_cmpge(max_component, spux_vfloat(PACKET_MIN_DIR))));
         spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
         spux_store(p->t_min + i, t_min);
         spux_store(p->t_max + i, t_max);
         spux_store(p->low + i, t_max);
         spux_store(p->high + i, t_max);
-        spux_store_uint(p->object + i, spux_vuint(CGT_INVALID_ID));
+        spux_store_uint(p->prim + i, spux_vuint(CGT_INVALID_ID));
     }
     for (int a = 0; a < 3; a++)
         p->light[a] = c->light.position[a];
-    return spux_all(good);
+    return spux_all(valid);
 }
 
 /* Whether the points are arrays of their own, and nothing but the light and their ranges matters. */
-CGT_SPU_INLINE bool light_points_dense(const light_call *c)
+CGT_SPU_INLINE bool light_points_are_dense(const light_call *c)
 {
     const cgt_rays *points = c->source.rays;
     return c->source.stride == sizeof(float) && !points->mask && !points->skip_primitive;
@@ -88,24 +89,24 @@ CGT_SPU_INLINE bool light_points_dense(const light_call *c)
 
 /* Points first to first + count - 1 of the order, at most a packet. Returns false where one of several is extreme: read
  * them apart then. */
-CGT_SPU_INLINE bool light_points_read(const light_call *c, uint32_t first, uint32_t count, packet *p)
+CGT_SPU_INLINE bool light_read_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
-    const bool dense = count % CGT_LANES == 0 && light_points_dense(c);
-    return (dense && light_points_load(c, first, count, p)) ||
-           ray_packet_make(c->world, &c->source, &c->order, first, count, p, c->counts);
+    const bool dense = count % CGT_LANES == 0 && light_points_are_dense(c);
+    return (dense && light_load_packet(c, first, count, p)) ||
+           ray_packet_init(c->committed_scene, &c->source, &c->order, first, count, p, c->counts);
 }
 
 /* Whether points first to first + count - 1 of the order have met something. */
-CGT_SPU_INLINE void light_hand_out(const light_call *c, const packet *p, uint32_t first, uint32_t count)
+CGT_SPU_INLINE void light_store_occluded(const light_call *c, const packet *p, uint32_t first, uint32_t count)
 {
-    const uint32_t *restrict from = c->order.from ? c->order.from + first : NULL, *restrict object = p->object;
+    const uint32_t *restrict from = c->order.from ? c->order.from + first : NULL, *restrict prim = p->prim;
     uint8_t *restrict occluded = c->occluded + c->order.first; /* bytes, which may be a part of anything else */
     if (!from)
         for (size_t k = 0; k < count; k++) /* of sizes that cannot wrap: a compiler makes vectors of it */
-            occluded[(size_t)first + k] = object[k] != CGT_INVALID_ID;
+            occluded[(size_t)first + k] = prim[k] != CGT_INVALID_ID;
     else
         for (size_t k = 0; k < count; k++)
-            occluded[from[k]] = object[k] != CGT_INVALID_ID;
+            occluded[from[k]] = prim[k] != CGT_INVALID_ID;
 }
 
 /* Counts those of the first `count` points that have. */
@@ -121,13 +122,13 @@ CGT_SPU_INLINE void light_count_hits(const light_call *c, uint32_t count)
 /* Points first to first + count - 1 of the order, at most a packet, through whatever structure there is. */
 __attribute__((unused)) static void light_trace_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
-    if (!ray_packet_make(c->world, &c->source, &c->order, first, count, p, c->counts)) {
+    if (!ray_packet_init(c->committed_scene, &c->source, &c->order, first, count, p, c->counts)) {
         for (uint32_t k = 0; k < count; k++)
             light_trace_packet(c, first + k, 1, p);
         return;
     }
-    CGT_KERNEL(cgt_packet_trace)(c->world, p, c->settings, c->counts);
-    light_hand_out(c, p, first, count);
+    CGT_KERNEL(cgt_packet_trace)(c->committed_scene, p, c->settings, c->counts);
+    light_store_occluded(c, p, first, count);
 }
 
 #endif

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Points whose rays have the usual ranges, from arrays of their own to a packet of a tile in one pass: the rays, what tests
- * take of them, and the slopes of their groups. It finds what light_points_load, light_margin, light_ways and tile_groups
+ * take of them, and the slopes of their groups. It finds what light_load_packet, light_compute_margin, light_compute_terms and light_compute_groups
  * do one after the other. */
 #ifndef CGT_LIGHT_READ_H
 #define CGT_LIGHT_READ_H
@@ -11,26 +11,26 @@
 
 /* The axes and the reference of a tile's packet, by any ray of it: the first packet's. False where there is no common
  * way. */
-static bool tile_orient(light_tile *t, light_packet *l, const float org[3], const float dir[3])
+static bool light_tile_init_axes(light_tile *t, light_packet *l, const float org[3], const float dir[3])
 {
     const light_packet *first = &t->packet[0];
     if (t->packets) {
         for (int a = 0; a < 3; a++) {
             l->axis[a] = first->axis[a];
-            l->reference[a] = first->reference[a];
+            l->origin[a] = first->origin[a];
         }
         l->sign = first->sign;
         return true;
     }
-    if (!light_orient(&l->rays, org, dir, l))
+    if (!light_init_axes(&l->rays, org, dir, l))
         return false;
     for (int a = 0; a < 2; a++)
-        t->slope[a] = t->place ? 0 : dir[l->axis[a + 1]] / (l->sign * dir[l->axis[0]]);
+        t->slope[a] = t->is_point ? 0 : dir[l->axis[a + 1]] / (l->sign * dir[l->axis[0]]);
     return true;
 }
 
 /* Lane k gets the least of all lanes of vector k; and the greatest. */
-CGT_SPU_INLINE vfloat least_of_each(vfloat v[CGT_LANES])
+CGT_SPU_INLINE vfloat light_reduce_min(vfloat v[CGT_LANES])
 {
     for (uint32_t n = CGT_LANES / 2; n; n /= 2)
         for (uint32_t k = 0; k < n; k++) {
@@ -40,7 +40,7 @@ CGT_SPU_INLINE vfloat least_of_each(vfloat v[CGT_LANES])
         }
     return v[0];
 }
-CGT_SPU_INLINE vfloat most_of_each(vfloat v[CGT_LANES])
+CGT_SPU_INLINE vfloat light_reduce_max(vfloat v[CGT_LANES])
 {
     for (uint32_t n = CGT_LANES / 2; n; n /= 2)
         for (uint32_t k = 0; k < n; k++) {
@@ -52,110 +52,111 @@ CGT_SPU_INLINE vfloat most_of_each(vfloat v[CGT_LANES])
 }
 
 /* What the light sees of a packet's rays: slopes or offsets, and w. */
-typedef struct light_seen {
-    _Alignas(CGT_VECTOR_BYTES) float at[2][PACKET_MAX_RAYS], w[PACKET_MAX_RAYS];
-} light_seen;
+typedef struct light_projected_rays {
+    _Alignas(CGT_VECTOR_BYTES) float coord[2][PACKET_MAX_RAYS], w[PACKET_MAX_RAYS];
+} light_projected_rays;
 
-CGT_SPU_INLINE void seen_load(const float *of, uint32_t lanes, vfloat v[CGT_LANES])
+CGT_SPU_INLINE void light_load_vectors(const float *values, uint32_t lanes, vfloat v[CGT_LANES])
 {
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        v[k] = spux_load(of + (k * CGT_LANES < lanes ? k * CGT_LANES : 0));
+        v[k] = spux_load(values + (k * CGT_LANES < lanes ? k * CGT_LANES : 0));
 }
 
 /* The groups of packet `number`, with as many lanes, all of them open: a vector of groups at a time. Those beyond the
  * packet's end get any numbers. */
-CGT_SPU_INLINE void tile_groups_store(light_tile *t, uint32_t number, const light_seen *seen, uint32_t lanes,
-                                      bool place)
+CGT_SPU_INLINE void light_store_groups(light_tile *t, uint32_t number, const light_projected_rays *projected,
+                                       uint32_t lanes, bool is_point)
 {
     for (uint32_t i = 0; i < lanes; i += CGT_LANES * CGT_LANES) {
-        const uint32_t group = number * PACKET_GROUPS + i / CGT_LANES;
+        const uint32_t group = number * LIGHT_PACKET_GROUPS + i / CGT_LANES;
         vfloat v[CGT_LANES];
         for (int a = 0; a < 2; a++) {
-            seen_load(seen->at[a] + i, lanes - i, v);
-            spux_store(t->low[a] + group, least_of_each(v));
-            seen_load(seen->at[a] + i, lanes - i, v);
-            spux_store(t->high[a] + group, most_of_each(v));
+            light_load_vectors(projected->coord[a] + i, lanes - i, v);
+            spux_store(t->low[a] + group, light_reduce_min(v));
+            light_load_vectors(projected->coord[a] + i, lanes - i, v);
+            spux_store(t->high[a] + group, light_reduce_max(v));
         }
-        seen_load(seen->w + i, lanes - i, v);
-        spux_store(t->end + group, place ? most_of_each(v) : spu_xor(least_of_each(v), spux_vfloat(-0.f)));
+        light_load_vectors(projected->w + i, lanes - i, v);
+        spux_store(t->end + group, is_point ? light_reduce_max(v) : spu_xor(light_reduce_min(v), spux_vfloat(-0.f)));
     }
 }
 
-/* Bounds of squares where what PACKET_LARGEST and PACKET_SHORTEST bound is surely within. */
-#define LIGHT_LARGEST2 0x1p109f
-#define LIGHT_SHORTEST2 0x1p-107f
+/* Bounds of squares where what PACKET_MAX_COORDINATE and PACKET_MIN_DIR bound is surely within. */
+#define LIGHT_MAX_SQUARE 0x1p109f
+#define LIGHT_MIN_SQUARE 0x1p-107f
 
-CGT_SPU_INLINE bool tile_read_rays(const light_call *c, light_tile *t, light_packet *l, uint32_t first, uint32_t count,
-                                   bool place)
+CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, light_packet *l, uint32_t first,
+                                         uint32_t count, bool is_point)
 {
-    const cgt_world *world = c->world;
-    const bool triangles = world->objects.triangles != 0;
-    const vfloat end = spux_vfloat(place ? 1 : INFINITY), scale = spux_vfloat(world->scale);
+    const cgt_committed_scene *committed_scene = c->committed_scene;
+    const bool triangles = committed_scene->prims.triangles != 0;
+    const vfloat end = spux_vfloat(is_point ? 1 : INFINITY), scale = spux_vfloat(committed_scene->scale);
     packet *p = &l->rays;
-    vfloat reach[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)}, longest = reach[0], farthest = reach[0];
-    vmask good = spux_mask_all();
-    light_seen seen;
+    vfloat reach[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)}, max_component = reach[0], max_sum = reach[0];
+    vmask valid = spux_mask_all();
+    light_projected_rays projected;
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
-        vfloat org[3], at[2], w, square = spux_vfloat(0), sum = square, size = square;
+        vfloat org[3], coord[2], w, square = spux_vfloat(0), sum = square, size = square;
         for (int a = 0; a < 3; a++) {
             const vfloat light = spux_vfloat(c->light.position[a]);
-            org[a] = light_points_get(&c->order, c->source.rays->org[a], first + i);
-            const vfloat d = place ? spu_sub(light, org[a]) : light;
-            const vfloat x = place ? d : spu_sub(org[a], spux_vfloat(l->reference[a]));
+            org[a] = light_gather_points(&c->order, c->source.rays->org[a], first + i);
+            const vfloat d = is_point ? spu_sub(light, org[a]) : light;
+            const vfloat x = is_point ? d : spu_sub(org[a], spux_vfloat(l->origin[a]));
             square = spu_madd(d, d, square);
             size = spu_add(size, spux_abs(org[a]));
             reach[a] = spux_max(reach[a], spux_abs(org[a]));
-            longest = spux_max(longest, spux_abs(x));
+            max_component = spux_max(max_component, spux_abs(x));
             sum = spu_add(sum, spux_abs(x));
             spux_store(p->org[a] + i, org[a]);
             spux_store(p->dir[a] + i, d);
             if (triangles)
-                spux_store(l->way[a] + i, spu_mul(x, scale));
+                spux_store(l->ray_terms[a] + i, spu_mul(x, scale));
         }
-        farthest = spux_max(farthest, sum);
+        max_sum = spux_max(max_sum, sum);
         /* false where a number is none */
-        good = spu_and(good, spux_cmpge(spux_vfloat(PACKET_LARGEST), size));
-        good = spu_and(good, spux_cmpge(spux_vfloat(LIGHT_LARGEST2), square));
-        good = spu_and(good, spux_cmpge(square, spux_vfloat(LIGHT_SHORTEST2)));
-        good = spu_andc(good, see_slopes(t, l, org, &w, at));
+        valid = spu_and(valid, spux_cmpge(spux_vfloat(PACKET_MAX_COORDINATE), size));
+        valid = spu_and(valid, spux_cmpge(spux_vfloat(LIGHT_MAX_SQUARE), square));
+        valid = spu_and(valid, spux_cmpge(square, spux_vfloat(LIGHT_MIN_SQUARE)));
+        valid = spu_andc(valid, light_project_rays(t, l, org, &w, coord));
         spux_store(l->square + i, square);
         spux_store(p->t_min + i, spux_vfloat(0));
         spux_store(p->t_max + i, end);
         spux_store(p->high + i, end);
-        spux_store_uint(p->object + i, spux_vuint(CGT_INVALID_ID));
-        spux_store(seen.w + i, w);
+        spux_store_uint(p->prim + i, spux_vuint(CGT_INVALID_ID));
+        spux_store(projected.w + i, w);
         for (int a = 0; a < 2; a++)
-            spux_store(seen.at[a] + i, at[a]);
+            spux_store(projected.coord[a] + i, coord[a]);
     }
-    if (!spux_all(good))
+    if (!spux_all(valid))
         return false;
     p->lanes = p->rays = count;
-    p->common_origin = p->from_origin = p->extreme = p->selective = p->masked = false;
-    l->plain = true;
-    l->open = UINT64_MAX >> (64 - count / CGT_LANES);
-    l->longest = spux_hmax(longest) * world->scale; /* a power of two */
-    l->farthest = spux_hmax(farthest) * world->scale;
-    light_margin_of(world, reach, l);
-    tile_groups_store(t, t->packets, &seen, count, place);
+    p->common_origin = p->from_origin = p->extreme = p->skips_prims = p->has_masks = false;
+    l->default_ranges = true;
+    l->undecided = UINT64_MAX >> (64 - count / CGT_LANES);
+    l->max_component = spux_hmax(max_component) * committed_scene->scale; /* a power of two */
+    l->max_sum = spux_hmax(max_sum) * committed_scene->scale;
+    light_set_margin(committed_scene, reach, l);
+    light_store_groups(t, t->packets, &projected, count, is_point);
     return true;
 }
 
-/* The tile's next packet: points first to first + count - 1 of the order, whole vectors of light_points_dense without
+/* The tile's next packet: points first to first + count - 1 of the order, whole vectors of light_points_are_dense without
  * ranges of their own. False where something about them is unusual. */
-static bool tile_read(const light_call *c, light_tile *t, light_packet *l, uint32_t first, uint32_t count)
+static bool light_tile_read(const light_call *c, light_tile *t, light_packet *l, uint32_t first, uint32_t count)
 {
     const ray_source *source = &c->source;
-    const uint64_t last = ray_at(&c->order, first + count - 1);
+    const uint64_t last = ray_index(&c->order, first + count - 1);
     float org[3], dir[3];
-    l->rays.to_light = t->place;
+    l->rays.to_light = t->is_point;
     for (int a = 0; a < 3; a++) {
         org[a] = ray_element(source, source->rays->org[a], last);
         dir[a] = ray_direction(source, last, a, org[a]);
         l->rays.light[a] = c->light.position[a];
     }
-    if (!tile_orient(t, l, org, dir))
+    if (!light_tile_init_axes(t, l, org, dir))
         return false;
-    return t->place ? tile_read_rays(c, t, l, first, count, true) : tile_read_rays(c, t, l, first, count, false);
+    return t->is_point ? light_tile_read_rays(c, t, l, first, count, true)
+                       : light_tile_read_rays(c, t, l, first, count, false);
 }
 
 #endif

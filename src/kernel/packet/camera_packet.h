@@ -27,8 +27,8 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
 
 /* What is the same for all packets of a perspective camera, and the range of t of any. masked: the camera's mask leaves
  * something out. */
-CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trace_settings *settings, uint32_t edge,
-                                        bool masked, packet *p)
+CGT_SPU_INLINE void camera_packet_init(const cgt_camera_rays *c, const cgt_trace_settings *settings, uint32_t edge,
+                                       bool has_masks, packet *p)
 {
     p->fast = settings->precision == CGT_PRECISION_FAST;
     p->triangle_test = settings->triangle_test;
@@ -37,7 +37,7 @@ CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trac
     p->from_origin = p->common_origin && c->t_min == 0;
     p->to_light = false;
     p->any_hit = false;
-    p->selective = p->masked = masked;
+    p->skips_prims = p->has_masks = has_masks;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         for (int a = 0; a < 3; a++) {
             spux_store(p->org[a] + i, spux_vfloat(c->eye[a]));
@@ -45,13 +45,13 @@ CGT_SPU_INLINE void camera_packet_begin(const cgt_camera_rays *c, const cgt_trac
         }
         spux_store(p->t_min + i, spux_vfloat(c->t_min));
         spux_store(p->t_max + i, spux_vfloat(c->t_max));
-        spux_store_uint(p->ignored + i, spux_vuint(CGT_INVALID_ID));
+        spux_store_uint(p->skip_prim + i, spux_vuint(CGT_INVALID_ID));
         spux_store_uint(p->mask + i, spux_vuint(c->mask));
     }
 }
 
 /* Pixels beyond the region take no part. */
-CGT_SPU_INLINE void close_outside(packet *p, uint32_t edge, uint32_t columns, uint32_t rows)
+CGT_SPU_INLINE void disable_outside(packet *p, uint32_t edge, uint32_t columns, uint32_t rows)
 {
     for (uint32_t i = 0; i < edge * edge; i++)
         if (lane_column(i, edge) >= columns || lane_row(i, edge) >= rows)
@@ -83,10 +83,10 @@ CGT_SPU_INLINE void camera_packet_rays(const cgt_camera_rays *c, uint32_t x0, ui
         spux_store(p->rdd + i, spux_div(spux_vfloat(1), dd));
         spux_store(p->low + i, t_max);
         spux_store(p->high + i, t_max);
-        spux_store_uint(p->object + i, spux_vuint(CGT_INVALID_ID));
+        spux_store_uint(p->prim + i, spux_vuint(CGT_INVALID_ID));
     }
     if (columns < edge || rows < edge)
-        close_outside(p, edge, columns, rows);
+        disable_outside(p, edge, columns, rows);
     p->rays = columns * rows;
 }
 
@@ -95,7 +95,7 @@ CGT_SPU_INLINE bool camera_is_extreme(const cgt_camera_rays *c)
 {
     for (int a = 0; a < 3; a++) {
         const float reach = __builtin_fabsf(c->eye[a]) + __builtin_fabsf(c->right[a]) + __builtin_fabsf(c->up[a]);
-        if (!(reach <= PACKET_LARGEST))
+        if (!(reach <= PACKET_MAX_COORDINATE))
             return true;
     }
     return false;
@@ -112,19 +112,19 @@ CGT_SPU_INLINE void store_row(void *to, const void *from, uint32_t row, uint32_t
         memcpy((uint32_t *)to + k, start + k / 4 * 16 + k % 4, 4);
 }
 
-/* The fours of a vector are rows of one block; FOURS vectors of blocks side by side are rows of a vector's length. */
-#define FOURS (CGT_LANES / 4)
+/* The fours of a vector are rows of one block; BLOCK_ROWS vectors of blocks side by side are rows of a vector's length. */
+#define BLOCK_ROWS (CGT_LANES / 4)
 
 CGT_SPU_INLINE void store_whole_plane(uint32_t *to, size_t row_stride, const uint32_t *from, uint32_t edge)
 {
-    for (uint32_t y = 0; y < edge; y += FOURS)
+    for (uint32_t y = 0; y < edge; y += BLOCK_ROWS)
         for (uint32_t x = 0; x < edge; x += CGT_LANES) {
             const uint32_t *block = from + y / 4 * 4 * edge + y % 4 * 4 + x * 4;
-            vuint v[FOURS];
-            for (uint32_t k = 0; k < FOURS; k++)
+            vuint v[BLOCK_ROWS];
+            for (uint32_t k = 0; k < BLOCK_ROWS; k++)
                 v[k] = spux_load_uint(block + 16 * k);
             spux_transpose_fours(v);
-            for (uint32_t k = 0; k < FOURS; k++)
+            for (uint32_t k = 0; k < BLOCK_ROWS; k++)
                 spux_store_unaligned_uint(to + (y + k) * row_stride + x, v[k]);
         }
 }

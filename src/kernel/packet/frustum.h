@@ -18,7 +18,7 @@
  * (p - org) * rcell, in real arithmetic on these floats. What single precision computes is within `slack` of them, for
  * any point of any object. */
 typedef struct frustum_space {
-    float org[3], rcell[3], slack[3];
+    float org[3], rcell[3], cell_error[3];
     uint32_t resolution[3];
 } frustum_space;
 
@@ -78,8 +78,8 @@ CGT_SPU_INLINE frustum_span frustum_span_of_slopes(float low, float high, float 
     return s;
 }
 
-CGT_SPU_INLINE void frustum_measure_common(const frustum_space *g, const frustum *f, const packet *p, float w1,
-                                           frustum_span span[2])
+CGT_SPU_INLINE void frustum_bound_common(const frustum_space *g, const frustum *f, const packet *p, float w1,
+                                         frustum_span span[2])
 {
     const int axis[2] = {f->u, f->v};
     vfloat low[2], high[2], ratio[2];
@@ -102,8 +102,8 @@ CGT_SPU_INLINE void frustum_measure_common(const frustum_space *g, const frustum
                                          grid_coordinate(g, axis[k], false, p->org[axis[k]][0]), ow, f->w0, w1);
 }
 
-CGT_SPU_INLINE frustum_span frustum_measure_axis(const frustum_space *g, const frustum *f, const packet *p, int axis,
-                                                 float w1)
+CGT_SPU_INLINE frustum_span frustum_bound_axis(const frustum_space *g, const frustum *f, const packet *p, int axis,
+                                               float w1)
 {
     vfloat low[2], high[2], magnitude = spux_vfloat(0);
     const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)}, ratio = spux_vfloat(g->rcell[axis] / g->rcell[f->w]);
@@ -128,7 +128,7 @@ CGT_SPU_INLINE frustum_span frustum_measure_axis(const frustum_space *g, const f
 }
 
 /* The coordinate w at which the first ray starts. */
-CGT_SPU_INLINE float frustum_start(const frustum_space *g, const frustum *f, const packet *p)
+CGT_SPU_INLINE float frustum_min_w(const frustum_space *g, const frustum *f, const packet *p)
 {
     vfloat least = spux_vfloat(INFINITY);
     if (p->from_origin) {
@@ -139,15 +139,15 @@ CGT_SPU_INLINE float frustum_start(const frustum_space *g, const frustum *f, con
         const vfloat o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
         const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), spux_vfloat(g->rcell[f->w]));
         const vfloat start = spu_madd(spux_load(p->t_min + i), dw, o);
-        const vfloat wide =
+        const vfloat rounding =
             spu_mul(spux_abs(o), spux_vfloat(0x1p-20f)); /* rounding of o, and of the sum where t_min > 0 */
-        least = spux_min(spu_sub(start, spu_add(wide, spu_mul(spux_abs(start), spux_vfloat(0x1p-20f)))), least);
+        least = spux_min(spu_sub(start, spu_add(rounding, spu_mul(spux_abs(start), spux_vfloat(0x1p-20f)))), least);
     }
     return spux_hmin(least);
 }
 
 /* The coordinate w beyond which no ray wants a hit any more; -inf where all are closed. */
-CGT_SPU_INLINE float frustum_far(const frustum_space *g, const frustum *f, const packet *p)
+CGT_SPU_INLINE float frustum_max_w(const frustum_space *g, const frustum *f, const packet *p)
 {
     vfloat most = spux_vfloat(-INFINITY);
     const vfloat rcell = spux_vfloat(g->rcell[f->w]);
@@ -157,18 +157,19 @@ CGT_SPU_INLINE float frustum_far(const frustum_space *g, const frustum *f, const
             o = grid_coordinates(g, f->w, f->reverse, spux_load(p->org[f->w] + i));
         const vfloat dw = spu_mul(spux_abs(spux_load(p->dir[f->w] + i)), rcell);
         const vfloat end = spu_madd(spux_load(p->high + i), dw, o);
-        const vfloat wide = spu_mul(spu_add(spux_abs(o), spux_abs(end)), spux_vfloat(0x1p-20f));
+        const vfloat rounding = spu_mul(spu_add(spux_abs(o), spux_abs(end)), spux_vfloat(0x1p-20f));
         /* a closed ray's end is -inf and its width +inf: their sum is not a number, and max keeps `most` */
-        most = spux_max(spu_add(end, wide), most);
+        most = spux_max(spu_add(end, rounding), most);
     }
-    return spux_hmax(most) + g->slack[f->w];
+    return spux_hmax(most) + g->cell_error[f->w];
 }
 
 /* The same for rays that start at a common origin, from the farthest end of any, in cells from there. */
-CGT_SPU_INLINE float frustum_far_from_origin(const frustum_space *g, const frustum *f, const packet *p, float reach)
+CGT_SPU_INLINE float frustum_max_w_from_origin(const frustum_space *g, const frustum *f, const packet *p, float reach)
 {
     const float o = grid_coordinate(g, f->w, f->reverse, p->org[f->w][0]), end = o + reach;
-    return reach == -INFINITY ? reach : end + (__builtin_fabsf(o) + __builtin_fabsf(end)) * 0x1p-20f + g->slack[f->w];
+    return reach == -INFINITY ? reach
+                              : end + (__builtin_fabsf(o) + __builtin_fabsf(end)) * 0x1p-20f + g->cell_error[f->w];
 }
 
 /* A line of bounds as a plane in world space: how far, in cells of `axis`, a sphere of radius 1 reaches over it. */
@@ -185,12 +186,12 @@ CGT_SPU_INLINE void frustum_clip(frustum *f)
     const float limit[4] = {f->last[1] + 1, 0, f->last[2] + 1, 0};
     float from = 0, to = (float)f->end;
     for (int k = 0; k < 4; k++) {
-        const float room = limit[k] - f->bound[k], w = f->w0 + room / f->step[k];
+        const float margin = limit[k] - f->bound[k], w = f->w0 + margin / f->step[k];
         if (f->step[k] > 0 && w < to)
             to = w;
         if (f->step[k] < 0 && w > from)
             from = w;
-        if (!(f->step[k] > 0) && !(f->step[k] < 0) && room < 0)
+        if (!(f->step[k] > 0) && !(f->step[k] < 0) && margin < 0)
             to = -1;
     }
     const float end = to + 2, first = from - 2;
@@ -203,7 +204,7 @@ CGT_SPU_INLINE void frustum_clip(frustum *f)
 }
 
 /* Returns false where the packet does not meet the grid. */
-CGT_SPU_INLINE bool frustum_make(const frustum_space *g, const packet *p, int w, bool reverse, frustum *f)
+CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w, bool reverse, frustum *f)
 {
     f->w = w;
     f->u = w == 0 ? 1 : 0; /* x fastest: cells of a row lie side by side where they can */
@@ -213,11 +214,11 @@ CGT_SPU_INLINE bool frustum_make(const frustum_space *g, const packet *p, int w,
     for (int a = 0; a < 3; a++)
         f->last[a] = (float)(g->resolution[axis[a]] - 1);
     f->end = g->resolution[w];
-    f->w_near = frustum_start(g, f, p) - g->slack[w];
+    f->w_near = frustum_min_w(g, f, p) - g->cell_error[w];
     if (!(f->w_near < (float)f->end))
         return false;
     /* rays that end within the grid spread no further: those to a light have crossed there */
-    const float w_far = p->from_origin ? INFINITY : frustum_far(g, f, p);
+    const float w_far = p->from_origin ? INFINITY : frustum_max_w(g, f, p);
     if (!(w_far >= 0))
         return false;
     if (w_far < (float)f->end)
@@ -229,14 +230,15 @@ CGT_SPU_INLINE bool frustum_make(const frustum_space *g, const packet *p, int w,
     const float w1 = (float)f->end, rlength = 1 / (w1 - f->w0);
     frustum_span span[2];
     if (p->common_origin)
-        frustum_measure_common(g, f, p, w1, span);
+        frustum_bound_common(g, f, p, w1, span);
     else {
-        span[0] = frustum_measure_axis(g, f, p, f->u, w1);
-        span[1] = frustum_measure_axis(g, f, p, f->v, w1);
+        span[0] = frustum_bound_axis(g, f, p, f->u, w1);
+        span[1] = frustum_bound_axis(g, f, p, f->v, w1);
     }
     const frustum_span u = span[0], v = span[1];
     /* 9 roundings to a line's value at a plane, 4 more on the way to a slice */
-    const float error_u = u.magnitude * 0x1p-20f + g->slack[f->u], error_v = v.magnitude * 0x1p-20f + g->slack[f->v];
+    const float error_u = u.magnitude * 0x1p-20f + g->cell_error[f->u],
+                error_v = v.magnitude * 0x1p-20f + g->cell_error[f->v];
     f->bound = (vec_float4){u.low[0] - error_u, -u.high[0] - error_u, v.low[0] - error_v, -v.high[0] - error_v};
     const vec_float4 at_end = {u.low[1] - error_u, -u.high[1] - error_u, v.low[1] - error_v, -v.high[1] - error_v};
     f->step = spu_mul(spu_sub(at_end, f->bound), spu_splats(rlength));
@@ -252,7 +254,7 @@ CGT_SPU_INLINE bool frustum_make(const frustum_space *g, const packet *p, int w,
 }
 
 /* The cells between the lower bounds of u, -u, v, -v at two planes, or the lower of them where the bounds are lines
- * between: low and high of u, low and high of v; none where low > high. most: those of the axes, see frustum_most. */
+ * between: low and high of u, low and high of v; none where low > high. most: those of the axes, see frustum_max_cells. */
 CGT_SPU_INLINE vec_int4 frustum_cells(vec_float4 near, vec_float4 far, vec_float4 most)
 {
     const vec_float4 sign = {1, -1, 1, -1};
@@ -265,7 +267,7 @@ CGT_SPU_INLINE vec_int4 frustum_cells(vec_float4 near, vec_float4 far, vec_float
 }
 
 /* The last cells of the axes u and v as frustum_cells takes them. */
-CGT_SPU_INLINE vec_float4 frustum_most(float last_u, float last_v)
+CGT_SPU_INLINE vec_float4 frustum_max_cells(float last_u, float last_v)
 {
     return (vec_float4){last_u + 1, last_u, last_v + 1, last_v};
 }
@@ -274,7 +276,7 @@ CGT_SPU_INLINE vec_float4 frustum_most(float last_u, float last_v)
 CGT_SPU_INLINE vec_int4 frustum_slice(const frustum *f, uint32_t slice)
 {
     const vec_float4 near = spu_madd(f->step, spu_splats((float)slice - f->w0), f->bound), far = spu_add(near, f->step);
-    return frustum_cells(near, far, frustum_most(f->last[1], f->last[2]));
+    return frustum_cells(near, far, frustum_max_cells(f->last[1], f->last[2]));
 }
 
 #endif

@@ -30,10 +30,10 @@ typedef struct packet {
     _Alignas(64) float t_max[PACKET_MAX_RAYS];
     _Alignas(64) float low[PACKET_MAX_RAYS];
     _Alignas(64) float high[PACKET_MAX_RAYS];
-    _Alignas(64) uint32_t object[PACKET_MAX_RAYS];             /* CGT_INVALID_ID: none yet */
+    _Alignas(64) uint32_t prim[PACKET_MAX_RAYS];               /* CGT_INVALID_ID: none yet */
     _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
-    _Alignas(
-        64) uint32_t ignored[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_INVALID_ID:
+    _Alignas(64)
+        uint32_t skip_prim[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_INVALID_ID:
                                                        none; and its mask */
     _Alignas(64) uint32_t mask[PACKET_MAX_RAYS];
     /* only for triangles of packets without a common origin: */
@@ -46,8 +46,8 @@ typedef struct packet {
     bool from_origin;   /* and all start there: t_min is 0 */
     bool to_light;      /* all run from their origins to `light`, where t is 1, but for rounding */
     float light[3];
-    bool selective;                  /* some ray ignores an object, or has a mask that leaves one out */
-    bool masked;                     /* selective, by masks too */
+    bool skips_prims;                /* some ray ignores an object, or has a mask that leaves one out */
+    bool has_masks;                  /* selective, by masks too */
     bool any_hit;                    /* the first hit found closes a ray */
     bool fast;                       /* FAST precision */
     cgt_triangle_test triangle_test; /* in FAST precision */
@@ -55,44 +55,44 @@ typedef struct packet {
 } packet;
 
 /* Largest coordinate and the range of direction lengths for which the bounds of the filter hold. */
-#define PACKET_LARGEST 0x1p55f
-#define PACKET_SHORTEST 0x1p-55f
+#define PACKET_MAX_COORDINATE 0x1p55f
+#define PACKET_MIN_DIR 0x1p-55f
 
 /* A region of a camera's frame: packet by packet through any structure; and tile by tile through a loose grid,
  * or packet by packet where tiles do not serve (tile_limits.h). */
-void CGT_KERNEL(cgt_trace_region)(const cgt_world *world, const cgt_camera_rays *camera,
+void CGT_KERNEL(cgt_trace_region)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
-void CGT_KERNEL(cgt_trace_tile)(const cgt_world *world, const cgt_camera_rays *camera,
+void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                 const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
 
 /* Finds the hits of all rays of the packet, through whatever structure there is; and through each. */
-void CGT_KERNEL(cgt_packet_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
-                                  cgt_counts *counts);
-void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
-                                      cgt_counts *counts);
-void CGT_KERNEL(cgt_loose_grid_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
-                                      cgt_counts *counts);
-void CGT_KERNEL(cgt_kd_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
+void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                                  const cgt_trace_settings *settings, cgt_counts *counts);
+void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                                      const cgt_trace_settings *settings, cgt_counts *counts);
+void CGT_KERNEL(cgt_loose_grid_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                                      const cgt_trace_settings *settings, cgt_counts *counts);
+void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
                               cgt_counts *counts);
-void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
-                                    cgt_counts *counts);
-void CGT_KERNEL(cgt_wide_trace)(const cgt_world *world, packet *p, const cgt_trace_settings *settings,
-                                cgt_counts *counts);
+void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                                    const cgt_trace_settings *settings, cgt_counts *counts);
+void CGT_KERNEL(cgt_bvh_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                               const cgt_trace_settings *settings, cgt_counts *counts);
 
-/* Points against a light through a loose grid; and see light_objects of cgt_kernel. */
-void CGT_KERNEL(cgt_tile_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
-                                      uint64_t first, uint64_t end, const cgt_trace_settings *settings,
-                                      uint8_t *occluded, cgt_counts *counts);
-uint64_t CGT_KERNEL(cgt_tile_light_objects)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
-                                            uint64_t first, uint64_t end);
+/* Points against a light through a loose grid; and see light_prims of cgt_kernel. */
+void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+                                      const cgt_light *light, uint64_t first, uint64_t end,
+                                      const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
+uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+                                          const cgt_light *light, uint64_t first, uint64_t end);
 
 /* Arrays of rays, and points against a light, through the wide tree: see trace_rays and trace_light of cgt_kernel. */
-void CGT_KERNEL(cgt_wide_trace_light)(const cgt_world *world, const cgt_rays *points, const cgt_light *light,
-                                      uint64_t first, uint64_t end, const cgt_trace_settings *settings,
-                                      uint8_t *occluded, cgt_counts *counts);
-void CGT_KERNEL(cgt_wide_trace_rays)(const cgt_world *world, const cgt_rays *rays, uint64_t first, uint64_t end,
-                                     const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
-                                     cgt_counts *counts);
+void CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+                                     const cgt_light *light, uint64_t first, uint64_t end,
+                                     const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
+void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
+                                    uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
+                                    uint8_t *occluded, cgt_counts *counts);
 
 /* The hits of a packet, ready to be handed out. */
 typedef struct packet_hits {
@@ -104,7 +104,7 @@ typedef struct packet_hits {
 } packet_hits;
 
 /* Computes the fields of the winners that the settings ask for, canonically. Counts the hits and returns how many. */
-uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_world *world, const packet *p, const cgt_trace_settings *settings,
-                                        packet_hits *hits, cgt_counts *counts);
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_committed_scene *committed_scene, const packet *p,
+                                        const cgt_trace_settings *settings, packet_hits *hits, cgt_counts *counts);
 
 #endif

@@ -8,7 +8,8 @@
 #include "kernel/packet/packet.h"
 
 /* Traces a packet through a structure. */
-typedef void packet_tracer(const cgt_world *world, packet *p, const cgt_trace_settings *settings, cgt_counts *counts);
+typedef void packet_tracer(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
+                           cgt_counts *counts);
 
 #define PACKET_CLASSES 6u
 
@@ -36,11 +37,11 @@ static bool packet_all_equal(const uint32_t *class, uint32_t count)
 }
 
 /* Copies the rays of one part to a packet of their own; from[] tells where each came from. */
-static void packet_extract(const packet *p, const uint32_t *part, uint32_t wanted, packet *sub, uint32_t *from)
+static void packet_extract(const packet *p, const uint32_t *part, uint32_t part_number, packet *sub, uint32_t *from)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < p->lanes; i++)
-        if (part[i] == wanted && p->high[i] != -INFINITY)
+        if (part[i] == part_number && p->high[i] != -INFINITY)
             from[n++] = i;
     sub->rays = n;
     sub->lanes = (n + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
@@ -55,9 +56,9 @@ static void packet_extract(const packet *p, const uint32_t *part, uint32_t wante
         sub->t_max[k] = p->t_max[i];
         sub->low[k] = k < n ? p->low[i] : -INFINITY;
         sub->high[k] = k < n ? p->high[i] : -INFINITY;
-        sub->object[k] = p->object[i];
-        if (p->selective) {
-            sub->ignored[k] = p->ignored[i];
+        sub->prim[k] = p->prim[i];
+        if (p->skips_prims) {
+            sub->skip_prim[k] = p->skip_prim[i];
             sub->mask[k] = p->mask[i];
         }
         sub->u[k] = p->u[i];
@@ -66,8 +67,9 @@ static void packet_extract(const packet *p, const uint32_t *part, uint32_t wante
 }
 
 /* Traces the rays of a packet as several packets; part[i], below `parts`, is which one ray i goes to. */
-static void packet_trace_parts(const cgt_world *world, packet *p, const uint32_t *part, uint32_t parts,
-                               packet_tracer *trace, const cgt_trace_settings *settings, cgt_counts *counts)
+static void packet_trace_parts(const cgt_committed_scene *committed_scene, packet *p, const uint32_t *part,
+                               uint32_t parts, packet_tracer *trace, const cgt_trace_settings *settings,
+                               cgt_counts *counts)
 {
     packet sub;
     uint32_t from[PACKET_MAX_RAYS];
@@ -76,8 +78,8 @@ static void packet_trace_parts(const cgt_world *world, packet *p, const uint32_t
     sub.to_light = p->to_light;
     for (int a = 0; a < 3; a++)
         sub.light[a] = p->light[a];
-    sub.selective = p->selective;
-    sub.masked = p->masked;
+    sub.skips_prims = p->skips_prims;
+    sub.has_masks = p->has_masks;
     sub.any_hit = p->any_hit;
     sub.fast = p->fast;
     sub.triangle_test = p->triangle_test;
@@ -87,11 +89,11 @@ static void packet_trace_parts(const cgt_world *world, packet *p, const uint32_t
         packet_extract(p, part, k, &sub, from);
         if (!sub.rays)
             continue;
-        trace(world, &sub, settings, counts);
+        trace(committed_scene, &sub, settings, counts);
         for (uint32_t i = 0; i < sub.rays; i++) {
             p->low[from[i]] = sub.low[i];
             p->high[from[i]] = sub.high[i];
-            p->object[from[i]] = sub.object[i];
+            p->prim[from[i]] = sub.prim[i];
             if (p->fast) {
                 p->u[from[i]] = sub.u[i];
                 p->v[from[i]] = sub.v[i];
@@ -101,15 +103,15 @@ static void packet_trace_parts(const cgt_world *world, packet *p, const uint32_t
 }
 
 /* The rays in `parts` parts of equal size, at most as many as there are rays, neighbours together. */
-static void packet_trace_split(const cgt_world *world, packet *p, uint32_t parts, packet_tracer *trace,
-                               const cgt_trace_settings *settings, cgt_counts *counts)
+static void packet_trace_split(const cgt_committed_scene *committed_scene, packet *p, uint32_t parts,
+                               packet_tracer *trace, const cgt_trace_settings *settings, cgt_counts *counts)
 {
-    uint32_t part[PACKET_MAX_RAYS], seen = 0;
+    uint32_t part[PACKET_MAX_RAYS], active = 0;
     for (uint32_t i = 0; i < p->lanes; i++) {
-        part[i] = seen * parts / p->rays;
-        seen += p->high[i] != -INFINITY;
+        part[i] = active * parts / p->rays;
+        active += p->high[i] != -INFINITY;
     }
-    packet_trace_parts(world, p, part, parts, trace, settings, counts);
+    packet_trace_parts(committed_scene, p, part, parts, trace, settings, counts);
 }
 
 #endif

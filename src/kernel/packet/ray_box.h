@@ -14,7 +14,7 @@
 
 #include "kernel/packet/packet.h"
 
-#define RAY_BOX_WIDE 0x1p-20f
+#define RAY_BOX_REL_ERROR 0x1p-20f
 
 /* Narrows [near, far] to the slab of axis a; outside: rays that lie beside the slab for ever. */
 CGT_SPU_INLINE void ray_box_slab(const packet *p, uint32_t i, int a, float low, float high, vfloat *near, vfloat *far,
@@ -24,10 +24,10 @@ CGT_SPU_INLINE void ray_box_slab(const packet *p, uint32_t i, int a, float low, 
     const vfloat to_low = spu_sub(spux_vfloat(low), o), to_high = spu_sub(spux_vfloat(high), o);
     const vmask flat = spu_cmpgt(spux_vfloat(0x1p-100f), spux_abs(d));
     const vfloat r = spux_div(spux_vfloat(1), spux_select(d, spux_vfloat(1), flat));
-    const vfloat t0 = spu_mul(to_low, r), t1 = spu_mul(to_high, r), wide = spux_vfloat(RAY_BOX_WIDE);
+    const vfloat t0 = spu_mul(to_low, r), t1 = spu_mul(to_high, r), rel_error = spux_vfloat(RAY_BOX_REL_ERROR);
     const vfloat first = spux_min(t0, t1), last = spux_max(t0, t1), tiny = spux_vfloat(0x1p-126f);
-    const vfloat enter = spu_sub(first, spu_madd(spux_abs(first), wide, tiny));
-    const vfloat leave = spu_add(last, spu_madd(spux_abs(last), wide, tiny));
+    const vfloat enter = spu_sub(first, spu_madd(spux_abs(first), rel_error, tiny));
+    const vfloat leave = spu_add(last, spu_madd(spux_abs(last), rel_error, tiny));
     *near = spux_max(*near, spux_select(enter, spux_vfloat(-INFINITY), flat));
     *far = spux_min(*far, spux_select(leave, spux_vfloat(INFINITY), flat));
     *outside = spu_or(*outside, spu_and(spu_cmpeq(d, zero), spu_or(spu_cmpgt(to_low, zero), spu_cmpgt(zero, to_high))));

@@ -10,28 +10,28 @@
 #include "kernel/packet/packet.h"
 
 /* The mask of an object's geometry, where it matters. */
-CGT_SPU_INLINE uint32_t select_mask(const cgt_objects *objects, const packet *p, uint32_t object)
+CGT_SPU_INLINE uint32_t skip_mask_of(const cgt_primitives *prims, const packet *p, uint32_t prim)
 {
-    return p->masked ? cgt_objects_array(objects, object)->mask : UINT32_MAX;
+    return p->has_masks ? cgt_primitives_array(prims, prim)->mask : UINT32_MAX;
 }
 
 /* Whether the object, of that mask, does not count for ray i. */
-CGT_SPU_INLINE bool select_leaves_out(const packet *p, uint32_t i, uint32_t object, uint32_t mask)
+CGT_SPU_INLINE bool ray_skips(const packet *p, uint32_t i, uint32_t prim, uint32_t mask)
 {
-    return p->ignored[i] == object || !(p->mask[i] & mask);
+    return p->skip_prim[i] == prim || !(p->mask[i] & mask);
 }
 
 /* The same of rays i to i + CGT_LANES - 1. */
-CGT_SPU_INLINE vmask select_left_out(const packet *p, uint32_t i, vuint object, vuint mask)
+CGT_SPU_INLINE vmask rays_skipping(const packet *p, uint32_t i, vuint prim, vuint mask)
 {
     const vmask no_bit = spu_cmpeq(spu_and(spux_load_uint(p->mask + i), mask), spux_vuint(0));
-    return spu_or(no_bit, spu_cmpeq(spux_load_uint(p->ignored + i), object));
+    return spu_or(no_bit, spu_cmpeq(spux_load_uint(p->skip_prim + i), prim));
 }
 
 /* The same, where the object's mask is not at hand. */
-CGT_SPU_INLINE vmask select_left_out_of_one(const cgt_objects *objects, const packet *p, uint32_t i, uint32_t object)
+CGT_SPU_INLINE vmask rays_skipping_one(const cgt_primitives *prims, const packet *p, uint32_t i, uint32_t prim)
 {
-    return select_left_out(p, i, spux_vuint(object), spux_vuint(select_mask(objects, p, object)));
+    return rays_skipping(p, i, spux_vuint(prim), spux_vuint(skip_mask_of(prims, p, prim)));
 }
 
 #endif

@@ -18,7 +18,7 @@ typedef struct ray_source {
     float t_max;            /* of rays without one of their own */
 } ray_source;
 
-CGT_SPU_INLINE ray_source ray_source_make(const cgt_rays *rays, const cgt_light *light)
+CGT_SPU_INLINE ray_source ray_source_init(const cgt_rays *rays, const cgt_light *light)
 {
     const bool ends = light && light->w == 1; /* at the light */
     return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ends ? 1 : INFINITY};
@@ -38,7 +38,7 @@ typedef struct ray_order {
     const uint32_t *from; /* NULL: as they come */
 } ray_order;
 
-CGT_SPU_INLINE uint64_t ray_at(const ray_order *o, uint32_t i) { return o->first + (o->from ? o->from[i] : i); }
+CGT_SPU_INLINE uint64_t ray_index(const ray_order *o, uint32_t i) { return o->first + (o->from ? o->from[i] : i); }
 
 /* The direction's component along an axis. Towards a point it is one difference, rounded once. */
 CGT_SPU_INLINE float ray_direction(const ray_source *s, uint64_t i, int a, float o)
@@ -72,7 +72,8 @@ static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k
         return RAY_INVALID;
     if (t_min > t_max)
         return RAY_EMPTY_RANGE;
-    return largest > PACKET_LARGEST || longest > PACKET_LARGEST || longest < PACKET_SHORTEST ? RAY_EXTREME : RAY_OPEN;
+    return largest > PACKET_MAX_COORDINATE || longest > PACKET_MAX_COORDINATE || longest < PACKET_MIN_DIR ? RAY_EXTREME
+                                                                                                          : RAY_OPEN;
 }
 
 CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, uint64_t i)
@@ -81,56 +82,57 @@ CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, u
 }
 
 /* The object that a ray ignores. */
-CGT_SPU_INLINE uint32_t ray_ignored(const cgt_objects *objects, const ray_source *s, uint64_t i)
+CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_source *s, uint64_t i)
 {
     const cgt_rays *r = s->rays;
     const uint32_t primitive = r->skip_primitive ? ray_number(s, r->skip_primitive, i) : CGT_INVALID_ID;
     if (primitive == CGT_INVALID_ID)
         return CGT_INVALID_ID;
-    return cgt_objects_number(objects, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
+    return cgt_primitives_number(prims, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
 }
 
 /* What counts for the rays of a packet, where they say so. */
-static void ray_packet_select(const cgt_world *world, const ray_source *s, const ray_order *order, uint32_t first,
-                              uint32_t count, packet *p, ray_state *state)
+static void ray_packet_select(const cgt_committed_scene *committed_scene, const ray_source *s, const ray_order *order,
+                              uint32_t first, uint32_t count, packet *p, ray_state *state)
 {
-    uint32_t common = UINT32_MAX;
-    p->selective = p->masked = false;
+    uint32_t common_mask = UINT32_MAX;
+    p->skips_prims = p->has_masks = false;
     if (!s->rays->mask && !s->rays->skip_primitive)
         return;
     for (uint32_t k = 0; k < count; k++) {
-        const uint64_t i = ray_at(order, first + k);
+        const uint64_t i = ray_index(order, first + k);
         p->mask[k] = s->rays->mask ? ray_number(s, s->rays->mask, i) : UINT32_MAX;
-        p->ignored[k] = ray_ignored(&world->objects, s, i);
-        p->selective |= p->ignored[k] != CGT_INVALID_ID;
-        common &= p->mask[k];
+        p->skip_prim[k] = ray_ignored(&committed_scene->prims, s, i);
+        p->skips_prims |= p->skip_prim[k] != CGT_INVALID_ID;
+        common_mask &= p->mask[k];
         if (!p->mask[k] && state[k] < RAY_EMPTY_MASK)
             state[k] = RAY_EMPTY_MASK;
     }
-    p->masked = world->masked && common != UINT32_MAX;
-    p->selective |= p->masked;
+    p->has_masks = committed_scene->has_masks && common_mask != UINT32_MAX;
+    p->skips_prims |= p->has_masks;
 }
 
 /* A lane that takes no part repeats one that does, so that it widens no bound. */
-static void ray_packet_close_lane(packet *p, uint32_t k, uint32_t good)
+static void ray_packet_disable_lane(packet *p, uint32_t k, uint32_t valid_lane)
 {
     for (int a = 0; a < 3; a++) {
-        p->org[a][k] = p->org[a][good];
-        p->dir[a][k] = p->dir[a][good];
+        p->org[a][k] = p->org[a][valid_lane];
+        p->dir[a][k] = p->dir[a][valid_lane];
     }
-    p->rdd[k] = p->rdd[good];
-    p->t_min[k] = p->t_min[good];
-    p->t_max[k] = p->t_max[good];
+    p->rdd[k] = p->rdd[valid_lane];
+    p->t_min[k] = p->t_min[valid_lane];
+    p->t_max[k] = p->t_max[valid_lane];
     p->low[k] = p->high[k] = -INFINITY;
-    p->ignored[k] = CGT_INVALID_ID;
+    p->skip_prim[k] = CGT_INVALID_ID;
     p->mask[k] = 0;
 }
 
 /* Rays that miss the bounds of all objects take no part. */
-static void ray_packet_leave_out_outside(const cgt_world *world, const packet *p, uint32_t count, ray_state *state)
+static void ray_packet_cull_outside(const cgt_committed_scene *committed_scene, const packet *p, uint32_t count,
+                                    ray_state *state)
 {
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
-        const unsigned missed = spux_mask_bits(ray_box_missed(p, i, world->low, world->high));
+        const unsigned missed = spux_mask_bits(ray_box_missed(p, i, committed_scene->low, committed_scene->high));
         for (uint32_t k = i; k < count && k < i + CGT_LANES; k++)
             if (state[k] == RAY_OPEN && missed >> (k - i) & 1)
                 state[k] = RAY_OUTSIDE;
@@ -138,29 +140,30 @@ static void ray_packet_leave_out_outside(const cgt_world *world, const packet *p
 }
 
 /* The rays that take part, and the others made to repeat one of them. */
-static void ray_packet_gather_packet(packet *p, uint32_t count, const ray_state *state)
+static void ray_packet_init_lanes(packet *p, uint32_t count, const ray_state *state)
 {
-    uint32_t good = 0;
+    uint32_t valid_lane = 0;
     for (uint32_t k = 0; k < count; k++)
         if (state[k] <= RAY_EXTREME)
-            good = k;
+            valid_lane = k;
     p->rays = 0;
     p->common_origin = true;
     for (uint32_t k = 0; k < p->lanes; k++) {
-        p->object[k] = CGT_INVALID_ID;
+        p->prim[k] = CGT_INVALID_ID;
         if (k < count && state[k] <= RAY_EXTREME)
             p->low[k] = p->high[k] = p->t_max[k], p->rays++;
         else
-            ray_packet_close_lane(p, k, good);
+            ray_packet_disable_lane(p, k, valid_lane);
         for (int a = 0; a < 3; a++)
-            p->common_origin &= p->org[a][k] == p->org[a][good];
+            p->common_origin &= p->org[a][k] == p->org[a][valid_lane];
     }
 }
 
 /* Reads rays first to first + count - 1 of the order. Returns false where one of several is extreme: read them apart
  * then. */
-__attribute__((unused)) static bool ray_packet_make(const cgt_world *world, const ray_source *s, const ray_order *order,
-                                                    uint32_t first, uint32_t count, packet *p, cgt_counts *counts)
+__attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *committed_scene, const ray_source *s,
+                                                    const ray_order *order, uint32_t first, uint32_t count, packet *p,
+                                                    cgt_counts *counts)
 {
     ray_state state[PACKET_MAX_RAYS];
     uint32_t invalid = 0;
@@ -171,20 +174,20 @@ __attribute__((unused)) static bool ray_packet_make(const cgt_world *world, cons
         p->light[a] = s->light->position[a];
     p->extreme = false;
     for (uint32_t k = 0; k < count; k++) {
-        state[k] = read_ray(s, ray_at(order, first + k), p, k);
+        state[k] = read_ray(s, ray_index(order, first + k), p, k);
         if (state[k] == RAY_EXTREME && count > 1)
             return false;
         if (state[k] == RAY_EXTREME)
             p->extreme = true;
         invalid += state[k] == RAY_INVALID;
     }
-    ray_packet_select(world, s, order, first, count, p, state);
-    if (!p->extreme && !world->everything) {
+    ray_packet_select(committed_scene, s, order, first, count, p, state);
+    if (!p->extreme && !committed_scene->brute_force) {
         for (uint32_t k = count; k < p->lanes; k++)
-            ray_packet_close_lane(p, k, 0);
-        ray_packet_leave_out_outside(world, p, count, state);
+            ray_packet_disable_lane(p, k, 0);
+        ray_packet_cull_outside(committed_scene, p, count, state);
     }
-    ray_packet_gather_packet(p, count, state);
+    ray_packet_init_lanes(p, count, state);
     counts->invalid_rays += invalid;
     return true;
 }

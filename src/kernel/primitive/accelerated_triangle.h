@@ -26,7 +26,7 @@ typedef struct cgt_accelerated_triangle {
 
 _Static_assert(sizeof(cgt_accelerated_triangle) == 48, "three 16-byte blocks: a transfer by DMA takes whole ones");
 
-static inline cgt_accelerated_triangle cgt_accelerated_triangle_make(const cgt_triangle *q)
+static inline cgt_accelerated_triangle cgt_accelerated_triangle_init(const cgt_triangle *q)
 {
     float b[3], c[3], n[3], size[3];
     for (int a = 0; a < 3; a++) {

@@ -12,8 +12,8 @@
 #include "kernel/packet/block_cones.h"
 #include "kernel/packet/ray_mask.h"
 
-#ifndef FILTER_U /* a test gives it other values, to find where the bounds break */
-#define FILTER_U 0x1p-24f
+#ifndef FILTER_ROUNDOFF /* a test gives it other values, to find where the bounds break */
+#define FILTER_ROUNDOFF 0x1p-24f
 #endif
 
 /* What the bounds need to know of the rays. */
@@ -29,7 +29,7 @@ typedef struct filter_packet {
 } filter_packet;
 
 /* scale: the world's. */
-CGT_SPU_INLINE void filter_packet_make(const packet *p, float scale, filter_packet *f)
+CGT_SPU_INLINE void filter_packet_init(const packet *p, float scale, filter_packet *f)
 {
     vfloat most = spux_vfloat(0), least = spux_vfloat(INFINITY), t_min = least;
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
@@ -68,8 +68,8 @@ CGT_SPU_INLINE void filter_packet_make(const packet *p, float scale, filter_pack
 /* Before which t no ray meets anything in the spheres of a vector. The sums are rounded 8 times each, and lose 2^-74
  * where squares underflow; the distance from the filter's origin to a surface is at least what is left, where anything
  * is. */
-CGT_SPU_INLINE void filter_nearest(const filter_packet *f, const float center[3][CGT_LANES],
-                                   const float radius[CGT_LANES], float nearest[CGT_LANES])
+CGT_SPU_INLINE void filter_min_t(const filter_packet *f, const float center[3][CGT_LANES],
+                                 const float radius[CGT_LANES], float min_t[CGT_LANES])
 {
     const vfloat r = spux_load(radius);
     vfloat distance = spux_vfloat(f->org_reach), square = spux_vfloat(0);
@@ -82,12 +82,12 @@ CGT_SPU_INLINE void filter_nearest(const filter_packet *f, const float center[3]
         spu_mul(spux_sqrt(square), spux_vfloat(1 - 0x1p-20f)),
         spu_madd(spu_add(distance, r), spux_vfloat(0x1p-20f), spu_add(r, spux_vfloat(f->org_reach + 0x1p-74f))));
     const vmask outside = spu_cmpgt(near, spux_vfloat(0));
-    spux_store(nearest, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
+    spux_store(min_t, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
 }
 
 /* For triangles, where there is no common origin: the Pluecker coordinates of the rays, seen from the filter's origin,
  * and each ray's own length in place of the longest, since such directions may be of any. */
-CGT_SPU_INLINE void filter_moments_make(packet *p, filter_packet *f)
+CGT_SPU_INLINE void filter_moments_init(packet *p, filter_packet *f)
 {
     vfloat share[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
@@ -111,48 +111,48 @@ CGT_SPU_INLINE void filter_moments_make(packet *p, filter_packet *f)
 
 /* What a test finds out about the rays of a vector. */
 typedef struct filter_result {
-    vfloat low, high; /* the interval of t; twice the t in FAST precision */
-    vfloat u, v;      /* of triangles in FAST precision */
-    vmask certain;    /* a hit, certainly in the range and nearer than the best */
-    vmask open;       /* to be decided: neither certain nor certainly not */
+    vfloat low, high;  /* the interval of t; twice the t in FAST precision */
+    vfloat u, v;       /* of triangles in FAST precision */
+    vmask certain_hit; /* a hit, certainly in the range and nearer than the best */
+    vmask undecided;   /* to be decided: neither certain nor certainly not */
 } filter_result;
 
 /* Decides whether the ray hits object before its winner so far (CGT_INVALID_ID: none yet), and where. */
-CGT_SPU_INLINE bool filter_beats(const cgt_objects *objects, const cgt_ray *ray, uint32_t winner, uint32_t object,
-                                 double *t, cgt_counts *counts)
+CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t best_prim, uint32_t prim,
+                                     double *t, cgt_counts *counts)
 {
     uint64_t exact = 0;
     counts->double_tests++;
-    cgt_decided_hit hit = {.shape = cgt_objects_shape(objects, object)};
-    const bool meets = cgt_decide_hit(ray, &hit, &exact), met_exactly = exact != 0;
-    counts->exact_tests += met_exactly;
+    cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)};
+    const bool is_hit = cgt_decide_hit(ray, &hit, &exact), was_exact = exact != 0;
+    counts->exact_tests += was_exact;
     *t = hit.t;
-    if (!meets || winner == CGT_INVALID_ID)
-        return meets;
-    cgt_decided_hit best = {.shape = cgt_objects_shape(objects, winner)};
+    if (!is_hit || best_prim == CGT_INVALID_ID)
+        return is_hit;
+    cgt_decided_hit best = {.primitive = cgt_primitives_get(prims, best_prim)};
     cgt_decide_t(ray, &best);
     const int order = cgt_decide_order(ray, &hit, &best, &exact);
-    counts->exact_tests += exact && !met_exactly; /* once a test */
-    return order < 0 || (order == 0 && object < winner);
+    counts->exact_tests += exact && !was_exact; /* once a test */
+    return order < 0 || (order == 0 && prim < best_prim);
 }
 
 /* Decides whether object beats the best hit of ray i. */
-__attribute__((noinline, unused)) static void filter_decide(const cgt_objects *objects, packet *p, uint32_t i,
-                                                            uint32_t object, cgt_counts *counts)
+__attribute__((noinline, unused)) static void filter_decide(const cgt_primitives *prims, packet *p, uint32_t i,
+                                                            uint32_t prim, cgt_counts *counts)
 {
     const cgt_ray ray = {
         .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
         .t_min = p->t_min[i],
         .t_max = p->t_max[i]};
-    const uint32_t winner = p->object[i];
+    const uint32_t best_prim = p->prim[i];
     double t;
-    if (winner == object || p->high[i] == -INFINITY)
+    if (best_prim == prim || p->high[i] == -INFINITY)
         return; /* met before; or the ray takes no part */
-    if (p->selective && select_leaves_out(p, i, object, select_mask(objects, p, object)))
+    if (p->skips_prims && ray_skips(p, i, prim, skip_mask_of(prims, p, prim)))
         return;
-    if (!filter_beats(objects, &ray, p->any_hit ? CGT_INVALID_ID : winner, object, &t, counts))
+    if (!filter_is_closer(prims, &ray, p->any_hit ? CGT_INVALID_ID : best_prim, prim, &t, counts))
         return;
-    p->object[i] = object;
+    p->prim[i] = prim;
     if (p->any_hit) {
         p->low[i] = p->high[i] = -INFINITY;
         return;
@@ -166,16 +166,16 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_objects *o
 typedef bool filter_test(const packet *p, const void *primitive, uint32_t i, bool common_origin, filter_result *f);
 
 /* Decides the rays of a block that the filter leaves open. They are rare: they are found a second time here. */
-CGT_SPU_INLINE void filter_decide_block(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
-                                        uint32_t object, uint32_t first, uint32_t end, bool common_origin,
-                                        cgt_counts *counts)
+CGT_SPU_INLINE void filter_decide_block(const cgt_primitives *prims, packet *p, filter_test *test,
+                                        const void *primitive, uint32_t prim, uint32_t first, uint32_t end,
+                                        bool common_origin, cgt_counts *counts)
 {
     filter_result f;
     for (uint32_t i = first; i < end; i += CGT_LANES) {
         if (!test(p, primitive, i, common_origin, &f))
             continue;
-        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
-            filter_decide(objects, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+        for (unsigned remaining = spux_mask_bits(f.undecided); remaining; remaining &= remaining - 1)
+            filter_decide(prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, counts);
     }
 }
 
@@ -183,8 +183,8 @@ CGT_SPU_INLINE void filter_decide_block(const cgt_objects *objects, packet *p, f
 typedef struct filter_mode {
     bool common_origin;
     bool any_hit;
-    bool decides; /* not FAST */
-    bool keep_uv; /* FAST, triangles */
+    bool decides;  /* not FAST */
+    bool store_uv; /* FAST, triangles */
 } filter_mode;
 
 /* The modes are constants here, so that each gets a loop of its own. uv: FAST keeps u and v. */
@@ -201,68 +201,68 @@ typedef struct filter_mode {
     }
 
 /* Keeps what a test found out about a vector of rays. */
-CGT_SPU_INLINE void filter_keep(packet *p, uint32_t i, const filter_result *f, vuint object, filter_mode mode)
+CGT_SPU_INLINE void filter_store(packet *p, uint32_t i, const filter_result *f, vuint prim, filter_mode mode)
 {
-    const vfloat closed = spux_vfloat(-INFINITY);
-    spux_store(p->low + i, spux_select(spux_load(p->low + i), mode.any_hit ? closed : f->low, f->certain));
-    spux_store(p->high + i, spux_select(spux_load(p->high + i), mode.any_hit ? closed : f->high, f->certain));
-    spux_store_uint(p->object + i, spux_select(spux_load_uint(p->object + i), object, f->certain));
-    if (mode.keep_uv) {
-        spux_store(p->u + i, spux_select(spux_load(p->u + i), f->u, f->certain));
-        spux_store(p->v + i, spux_select(spux_load(p->v + i), f->v, f->certain));
+    const vfloat no_hit = spux_vfloat(-INFINITY);
+    spux_store(p->low + i, spux_select(spux_load(p->low + i), mode.any_hit ? no_hit : f->low, f->certain_hit));
+    spux_store(p->high + i, spux_select(spux_load(p->high + i), mode.any_hit ? no_hit : f->high, f->certain_hit));
+    spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), prim, f->certain_hit));
+    if (mode.store_uv) {
+        spux_store(p->u + i, spux_select(spux_load(p->u + i), f->u, f->certain_hit));
+        spux_store(p->v + i, spux_select(spux_load(p->v + i), f->v, f->certain_hit));
     }
 }
 
 /* Tests a vector of rays against a primitive; i is the first. */
-CGT_SPU_INLINE void filter_vector(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
-                                  uint32_t object, uint32_t i, filter_mode mode, cgt_counts *counts)
+CGT_SPU_INLINE void filter_vector(const cgt_primitives *prims, packet *p, filter_test *test, const void *primitive,
+                                  uint32_t prim, uint32_t i, filter_mode mode, cgt_counts *counts)
 {
     filter_result f;
     counts->ray_tests += CGT_LANES;
     if (!test(p, primitive, i, mode.common_origin, &f))
         return;
-    if (p->selective)
-        f.certain = spu_andc(f.certain, select_left_out_of_one(objects, p, i, object));
-    filter_keep(p, i, &f, spux_vuint(object), mode);
+    if (p->skips_prims)
+        f.certain_hit = spu_andc(f.certain_hit, rays_skipping_one(prims, p, i, prim));
+    filter_store(p, i, &f, spux_vuint(prim), mode);
     if (mode.decides)
-        for (unsigned left = spux_mask_bits(f.open); left; left &= left - 1)
-            filter_decide(objects, p, i + (uint32_t)__builtin_ctz(left), object, counts);
+        for (unsigned remaining = spux_mask_bits(f.undecided); remaining; remaining &= remaining - 1)
+            filter_decide(prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, counts);
 }
 
 /* Tests the rays of the reached blocks (as bits) against a primitive. */
-CGT_SPU_INLINE void filter_blocks(const cgt_objects *objects, packet *p, filter_test *test, const void *primitive,
-                                  uint32_t object, uint32_t reached, block_cones *blocks, filter_mode mode,
+CGT_SPU_INLINE void filter_blocks(const cgt_primitives *prims, packet *p, filter_test *test, const void *primitive,
+                                  uint32_t prim, uint32_t reached, block_cones *blocks, filter_mode mode,
                                   cgt_counts *counts)
 {
-    const vuint number = spux_vuint(object);
-    const bool selective = p->selective;
-    const vuint mask = spux_vuint(selective ? select_mask(objects, p, object) : UINT32_MAX);
+    const vuint number = spux_vuint(prim);
+    const bool skips_prims = p->skips_prims;
+    const vuint mask = spux_vuint(skips_prims ? skip_mask_of(prims, p, prim) : UINT32_MAX);
     for (; reached; reached &= reached - 1) {
         const uint32_t block = (uint32_t)__builtin_ctz(reached), first = block * BLOCK_RAYS, end = block_end(p, block);
-        vmask open = spux_mask_none(), changed = open;
+        vmask undecided = spux_mask_none(), updated = undecided;
         filter_result f;
         counts->ray_tests += end - first;
         for (uint32_t i = first; i < end; i += CGT_LANES) {
             if (!test(p, primitive, i, mode.common_origin, &f))
                 continue;
-            if (selective)
-                f.certain = spu_andc(f.certain, select_left_out(p, i, number, mask));
-            filter_keep(p, i, &f, number, mode);
-            open = spu_or(open, f.open);
-            changed = spu_or(changed, f.certain);
+            if (skips_prims)
+                f.certain_hit = spu_andc(f.certain_hit, rays_skipping(p, i, number, mask));
+            filter_store(p, i, &f, number, mode);
+            undecided = spu_or(undecided, f.undecided);
+            updated = spu_or(updated, f.certain_hit);
         }
-        if (mode.decides && spux_any(open))
-            filter_decide_block(objects, p, test, primitive, object, first, end, mode.common_origin, counts);
-        if (spux_any(changed))
-            block_far_update(p, blocks, block);
+        if (mode.decides && spux_any(undecided))
+            filter_decide_block(prims, p, test, primitive, prim, first, end, mode.common_origin, counts);
+        if (spux_any(updated))
+            block_update_far_t(p, blocks, block);
     }
 }
 
 /* In FAST precision: nearer than the best so far, or as near and of a lower id. t is in the ray's range, and finite. */
-CGT_SPU_INLINE vmask filter_fast_nearer(const packet *p, uint32_t i, vfloat t, vuint object)
+CGT_SPU_INLINE vmask filter_fast_closer(const packet *p, uint32_t i, vfloat t, vuint prim)
 {
     const vfloat best = spux_load(p->high + i);
-    const vmask lower = spu_cmpgt(spux_load_uint(p->object + i), object);
+    const vmask lower = spu_cmpgt(spux_load_uint(p->prim + i), prim);
     const vmask inside = spu_and(spux_cmpge(t, spux_load(p->t_min + i)), spu_cmpgt(spux_vfloat(INFINITY), spux_abs(t)));
     return spu_and(inside, spu_or(spu_cmpgt(best, t), spu_and(spu_cmpeq(best, t), lower)));
 }

@@ -3,15 +3,15 @@
  *
  * A vector of primitives from the caller's arrays, at any stride. Records of three numbers are read as four where
  * another record follows: its bytes are the caller's too. Near the end of an array they are read one by one. */
-#ifndef CGT_OBJECT_FETCH_H
-#define CGT_OBJECT_FETCH_H
+#ifndef CGT_GATHER_PRIMITIVES_H
+#define CGT_GATHER_PRIMITIVES_H
 
 #include "model/triangle_cluster.h"
 #include "dispatch/kernel.h"
 #include "vector.h"
 
 /* Spheres i to i + count - 1 to the first lanes: x, y, z, radius; zeros beyond. */
-CGT_SPU_INLINE void fetch_spheres(const cgt_object_array *a, uint32_t i, uint32_t count, vfloat d[4])
+CGT_SPU_INLINE void load_spheres(const cgt_primitive_array *a, uint32_t i, uint32_t count, vfloat d[4])
 {
     const bool inside = count == CGT_LANES && a->count - i > CGT_LANES;
     const bool records = a->radius == a->point + 3 * sizeof(float) && a->radius_stride == a->point_stride;
@@ -35,42 +35,42 @@ CGT_SPU_INLINE void fetch_spheres(const cgt_object_array *a, uint32_t i, uint32_
 }
 
 /* A number times a stride, of each lane: in vectors for the strides that there mostly are. */
-CGT_SPU_INLINE void fetch_offsets(vuint number, uint32_t stride, uint32_t at[CGT_LANES])
+CGT_SPU_INLINE void compute_offsets(vuint number, uint32_t stride, uint32_t offset[CGT_LANES])
 {
     if (stride == 4) {
-        spux_store_uint(at, spu_sl(number, 2));
+        spux_store_uint(offset, spu_sl(number, 2));
         return;
     }
     if (stride == 3) {
-        spux_store_uint(at, spu_add(number, spu_sl(number, 1)));
+        spux_store_uint(offset, spu_add(number, spu_sl(number, 1)));
         return;
     }
-    spux_store_uint(at, number);
+    spux_store_uint(offset, number);
     for (int k = 0; k < CGT_LANES; k++)
-        at[k] *= stride;
+        offset[k] *= stride;
 }
 
 /* Any spheres of an array; lane by lane where offsets are beyond 32 bits, or another record does not follow each. */
-CGT_SPU_INLINE void fetch_spheres_at(const cgt_object_array *a, vuint number, vfloat d[4])
+CGT_SPU_INLINE void gather_spheres(const cgt_primitive_array *a, vuint number, vfloat d[4])
 {
     const bool records = a->radius == a->point + 3 * sizeof(float) && a->radius_stride == a->point_stride;
     const bool fit = (uint64_t)a->count * (a->point_stride / sizeof(float)) <= UINT32_MAX;
-    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) uint32_t offset[CGT_LANES];
     _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES];
     if (fit && (records || spux_all(spu_cmpgt(spux_vuint(a->count - 1), number)))) {
-        fetch_offsets(number, (uint32_t)(a->point_stride / sizeof(float)), at);
-        spux_load_records4_at(cgt_array_point(a, 0), at, d);
+        compute_offsets(number, (uint32_t)(a->point_stride / sizeof(float)), offset);
+        spux_load_records4_at(cgt_array_point(a, 0), offset, d);
         if (records)
             return;
-        spux_store_uint(at, number);
+        spux_store_uint(offset, number);
         for (int k = 0; k < CGT_LANES; k++)
-            row[3][k] = *(const float *)(const void *)(a->radius + (size_t)at[k] * a->radius_stride);
+            row[3][k] = *(const float *)(const void *)(a->radius + (size_t)offset[k] * a->radius_stride);
         d[3] = spux_load(row[3]);
         return;
     }
-    spux_store_uint(at, number);
+    spux_store_uint(offset, number);
     for (uint32_t k = 0; k < CGT_LANES; k++) {
-        const cgt_sphere q = cgt_array_sphere(a, at[k]);
+        const cgt_sphere q = cgt_array_sphere(a, offset[k]);
         row[0][k] = q.x;
         row[1][k] = q.y;
         row[2][k] = q.z;
@@ -81,7 +81,7 @@ CGT_SPU_INLINE void fetch_spheres_at(const cgt_object_array *a, vuint number, vf
 }
 
 /* The corners of triangles i to i + count - 1, zeros beyond. */
-CGT_SPU_INLINE void fetch_corners(const cgt_object_array *a, uint32_t i, uint32_t count, vuint corner[3])
+CGT_SPU_INLINE void load_corners(const cgt_primitive_array *a, uint32_t i, uint32_t count, vuint corner[3])
 {
     if (a->index && count == CGT_LANES && a->count - i > CGT_LANES) {
         vfloat d[4];
@@ -104,10 +104,10 @@ CGT_SPU_INLINE void fetch_corners(const cgt_object_array *a, uint32_t i, uint32_
 
 /* The corners of any triangles of an array; lane by lane where offsets are beyond 32 bits, or another record does not
  * follow each. */
-CGT_SPU_INLINE void fetch_corners_at(const cgt_object_array *a, vuint number, vuint corner[3])
+CGT_SPU_INLINE void gather_corners(const cgt_primitive_array *a, vuint number, vuint corner[3])
 {
     const bool fit = (uint64_t)a->count * (a->index_stride / sizeof(uint32_t)) <= UINT32_MAX;
-    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES], row[3][CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) uint32_t offset[CGT_LANES], row[3][CGT_LANES];
     if (!a->index) {
         for (uint32_t k = 0; k < 3; k++)
             corner[k] = spu_add(spu_add(number, spu_sl(number, 1)), spux_vuint(k));
@@ -115,16 +115,16 @@ CGT_SPU_INLINE void fetch_corners_at(const cgt_object_array *a, vuint number, vu
     }
     if (fit && spux_all(spu_cmpgt(spux_vuint(a->count - 1), number))) {
         vfloat d[4];
-        fetch_offsets(number, (uint32_t)(a->index_stride / sizeof(uint32_t)), at);
-        spux_load_records4_at((const float *)(const void *)a->index, at, d);
+        compute_offsets(number, (uint32_t)(a->index_stride / sizeof(uint32_t)), offset);
+        spux_load_records4_at((const float *)(const void *)a->index, offset, d);
         for (int k = 0; k < 3; k++)
             corner[k] = (vuint)d[k];
         return;
     }
-    spux_store_uint(at, number);
+    spux_store_uint(offset, number);
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         uint32_t c[3];
-        cgt_array_corners(a, at[k], c);
+        cgt_array_corners(a, offset[k], c);
         for (int j = 0; j < 3; j++)
             row[j][k] = c[j];
     }
@@ -133,27 +133,27 @@ CGT_SPU_INLINE void fetch_corners_at(const cgt_object_array *a, vuint number, vu
 }
 
 /* Whether vertices of an array can be told by 32 bits that count floats. */
-CGT_SPU_INLINE bool fetch_vertices_fit(const cgt_object_array *a)
+CGT_SPU_INLINE bool vertices_fit_offsets(const cgt_primitive_array *a)
 {
     return (uint64_t)a->points * (a->point_stride / sizeof(float)) <= UINT32_MAX;
 }
 
 /* Vertices of an array by their numbers, which are in range. before_last: none is the last one, and they fit. */
-CGT_SPU_INLINE void fetch_vertices(const cgt_object_array *a, vuint corner, bool before_last, vfloat v[3])
+CGT_SPU_INLINE void gather_vertices(const cgt_primitive_array *a, vuint corner, bool before_last, vfloat v[3])
 {
-    _Alignas(CGT_VECTOR_BYTES) uint32_t at[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) uint32_t offset[CGT_LANES];
     if (before_last) {
         vfloat d[4];
-        fetch_offsets(corner, (uint32_t)(a->point_stride / sizeof(float)), at);
-        spux_load_records4_at((const float *)(const void *)a->point, at, d);
+        compute_offsets(corner, (uint32_t)(a->point_stride / sizeof(float)), offset);
+        spux_load_records4_at((const float *)(const void *)a->point, offset, d);
         for (int k = 0; k < 3; k++)
             v[k] = d[k];
         return;
     }
     _Alignas(CGT_VECTOR_BYTES) float row[3][CGT_LANES];
-    spux_store_uint(at, corner);
+    spux_store_uint(offset, corner);
     for (uint32_t k = 0; k < CGT_LANES; k++) {
-        const float *p = cgt_array_point(a, at[k]);
+        const float *p = cgt_array_point(a, offset[k]);
         for (int j = 0; j < 3; j++)
             row[j][k] = p[j];
     }
@@ -162,17 +162,17 @@ CGT_SPU_INLINE void fetch_vertices(const cgt_object_array *a, vuint corner, bool
 }
 
 /* Any triangles of an array. */
-CGT_SPU_INLINE void fetch_triangles_at(const cgt_object_array *a, vuint number, vfloat vertex[3][3])
+CGT_SPU_INLINE void gather_triangles(const cgt_primitive_array *a, vuint number, vfloat vertex[3][3])
 {
-    const bool fit = fetch_vertices_fit(a);
+    const bool fit = vertices_fit_offsets(a);
     vuint corner[3];
-    fetch_corners_at(a, number, corner);
+    gather_corners(a, number, corner);
     for (int k = 0; k < 3; k++)
-        fetch_vertices(a, corner[k], fit && spux_all(spu_cmpgt(spux_vuint(a->points - 1), corner[k])), vertex[k]);
+        gather_vertices(a, corner[k], fit && spux_all(spu_cmpgt(spux_vuint(a->points - 1), corner[k])), vertex[k]);
 }
 
 /* Asks for the vertices of triangles, whose indices are at hand. */
-CGT_SPU_INLINE void fetch_triangles_ask(const cgt_object_array *a, const uint32_t *reference, uint32_t count)
+CGT_SPU_INLINE void prefetch_triangles(const cgt_primitive_array *a, const uint32_t *reference, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
         const char *index = a->index + (size_t)reference[k] * a->index_stride;
@@ -186,31 +186,31 @@ CGT_SPU_INLINE void fetch_triangles_ask(const cgt_object_array *a, const uint32_
 /* ---- clusters ---- */
 
 /* A vector of clusters as they lie in memory: middle, valid, half, size. */
-CGT_SPU_INLINE void fetch_clusters_at(const cgt_cluster *cluster, const uint32_t number[CGT_LANES], vfloat d[8])
+CGT_SPU_INLINE void gather_clusters(const cgt_cluster *cluster, const uint32_t number[CGT_LANES], vfloat d[8])
 {
-    uint32_t at[CGT_LANES];
+    uint32_t offset[CGT_LANES];
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        at[k] = number[k] * (uint32_t)(sizeof *cluster / sizeof(float));
-    spux_load_records8_at(cluster->middle, at, d);
+        offset[k] = number[k] * (uint32_t)(sizeof *cluster / sizeof(float));
+    spux_load_records8_at(cluster->middle, offset, d);
 }
 
 /* The first clusters; lanes beyond count repeat the last one. */
-CGT_SPU_INLINE void fetch_clusters(const cgt_cluster *cluster, uint32_t count, vfloat d[8])
+CGT_SPU_INLINE void load_clusters(const cgt_cluster *cluster, uint32_t count, vfloat d[8])
 {
     uint32_t number[CGT_LANES];
     for (uint32_t k = 0; k < CGT_LANES; k++)
         number[k] = k < count ? k : count - 1;
-    fetch_clusters_at(cluster, number, d);
+    gather_clusters(cluster, number, d);
 }
 
 /* Those of references; lanes beyond count repeat the first one. */
-CGT_SPU_INLINE void fetch_clusters_of(const cgt_cluster *cluster, const uint32_t *reference, uint32_t count,
-                                      vfloat d[8])
+CGT_SPU_INLINE void gather_cluster_list(const cgt_cluster *cluster, const uint32_t *reference, uint32_t count,
+                                        vfloat d[8])
 {
     uint32_t number[CGT_LANES];
     for (uint32_t k = 0; k < CGT_LANES; k++)
         number[k] = reference[k < count ? k : 0];
-    fetch_clusters_at(cluster, number, d);
+    gather_clusters(cluster, number, d);
 }
 
 /* ---- keys ---- */

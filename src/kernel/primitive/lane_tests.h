@@ -26,17 +26,17 @@
 #include "model/leaf_triangle.h"
 
 /* Bounds of triangles, see above. */
-#define LANE_SIDE (9 * FILTER_U * (1 + 0x1p-7f))
-#define LANE_THIRD (11 * FILTER_U * (1 + 0x1p-7f))
-#define LANE_PLANE (10 * FILTER_U * (1 + 0x1p-7f))
+#define LANE_EPS_UV (9 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
+#define LANE_EPS_W (11 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
+#define LANE_EPS_PLANE (10 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 
 /* The rays of the lanes, all alike or each its own. */
 typedef struct lane_rays {
     vfloat org[3], dir[3];
     vfloat t_min;
-    vfloat rdd;             /* 1 / d.d; only where there are spheres, and so is the next */
-    vfloat rlength;         /* 1 / |d|, rounded up */
-    vfloat most, underflow; /* of triangles, and so is the next */
+    vfloat rdd;                /* 1 / d.d; only where there are spheres, and so is the next */
+    vfloat rlength;            /* 1 / |d|, rounded up */
+    vfloat max_dir, underflow; /* of triangles, and so is the next */
     vfloat scaled_org[3];
     vfloat unscale; /* 1 over the world's scale */
 } lane_rays;
@@ -44,14 +44,14 @@ typedef struct lane_rays {
 /* What the tests find: which lanes hit for certain, with an interval of t; and which may hit, not before `low`. */
 typedef struct lane_hits {
     vfloat low, high;
-    vmask certain, open;
+    vmask certain_hit, undecided;
 } lane_hits;
 
-CGT_SPU_INLINE void lane_rays_finish(lane_rays *r, float scale)
+CGT_SPU_INLINE void lane_rays_derive(lane_rays *r, float scale)
 {
     r->rlength = spu_mul(spux_sqrt(r->rdd), spux_vfloat(1 + 0x1p-18f));
-    r->most = spux_max(spux_abs(r->dir[0]), spux_max(spux_abs(r->dir[1]), spux_abs(r->dir[2])));
-    r->underflow = spu_madd(r->most, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
+    r->max_dir = spux_max(spux_abs(r->dir[0]), spux_max(spux_abs(r->dir[1]), spux_abs(r->dir[2])));
+    r->underflow = spu_madd(r->max_dir, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
     for (int a = 0; a < 3; a++)
         r->scaled_org[a] = spu_mul(r->org[a], spux_vfloat(scale));
     r->unscale = spux_vfloat(1 / scale);
@@ -66,7 +66,7 @@ CGT_SPU_INLINE void lane_rays_of_packet(const packet *p, uint32_t i, float scale
     }
     r->t_min = spux_load(p->t_min + i);
     r->rdd = spux_load(p->rdd + i);
-    lane_rays_finish(r, scale);
+    lane_rays_derive(r, scale);
 }
 
 /* Ray i of a packet in every lane. */
@@ -78,7 +78,7 @@ CGT_SPU_INLINE void lane_rays_of_one(const packet *p, uint32_t i, float scale, l
     }
     r->t_min = spux_vfloat(p->t_min[i]);
     r->rdd = spux_vfloat(p->rdd[i]);
-    lane_rays_finish(r, scale);
+    lane_rays_derive(r, scale);
 }
 
 CGT_SPU_INLINE vfloat lane_dot(const vfloat p[3], const vfloat q[3])
@@ -92,17 +92,17 @@ CGT_SPU_INLINE vfloat lane_sum(const vfloat v[3])
 }
 
 /* False where all surely miss. */
-CGT_SPU_INLINE bool lane_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, lane_hits *q)
+CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, lane_hits *q)
 {
     vfloat c[3], l[3];
     for (int a = 0; a < 3; a++)
         c[a] = spu_sub(center[a], r->org[a]);
     const vfloat distance = lane_sum(c), reach = spu_add(distance, radius), zero = spux_vfloat(0);
-    const vfloat wide = spu_mul(distance, spux_vfloat(26 * FILTER_U));
-    const vfloat eps =
-        spu_madd(spu_mul(radius, spux_vfloat(9 * FILTER_U)), reach, spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
+    const vfloat eps_c = spu_mul(distance, spux_vfloat(26 * FILTER_ROUNDOFF));
+    const vfloat eps = spu_madd(spu_mul(radius, spux_vfloat(9 * FILTER_ROUNDOFF)), reach,
+                                spu_madd(eps_c, eps_c, spux_vfloat(0x1p-120f)));
     const vfloat underflow = spu_madd(spu_mul(r->rlength, r->rlength), spux_vfloat(0x1p-122f), spux_vfloat(0x1p-62f));
-    const vfloat before = spu_madd(spu_mul(reach, spux_vfloat(18 * FILTER_U)), r->rlength, underflow);
+    const vfloat t_error = spu_madd(spu_mul(reach, spux_vfloat(18 * FILTER_ROUNDOFF)), r->rlength, underflow);
     const vfloat mid = spu_mul(lane_dot(r->dir, c), r->rdd);
     for (int a = 0; a < 3; a++)
         l[a] = spu_nmsub(mid, r->dir[a], c[a]);
@@ -111,14 +111,14 @@ CGT_SPU_INLINE bool lane_sphere(const lane_rays *r, const vfloat center[3], vflo
     if (spux_all(missed))
         return false;
     const vfloat half = spux_sqrt(spu_mul(spux_select(h, zero, missed), r->rdd));
-    const vfloat gap =
-        spu_madd(before, spux_vfloat(2), spu_mul(spux_sqrt(eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
-    q->low = spu_sub(spu_sub(mid, half), before);
-    q->high = spu_add(q->low, gap);
+    const vfloat t_width =
+        spu_madd(t_error, spux_vfloat(2), spu_mul(spux_sqrt(eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
+    q->low = spu_sub(spu_sub(mid, half), t_error);
+    q->high = spu_add(q->low, t_width);
     /* both roots before the range */
-    const vmask behind = spu_cmpgt(r->t_min, spu_add(spu_add(mid, half), before));
-    q->certain = spu_and(spu_cmpgt(h, spu_mul(eps, spux_vfloat(17))), spu_cmpgt(q->low, r->t_min));
-    q->open = spux_not(spu_or(spu_or(missed, behind), q->certain));
+    const vmask behind = spu_cmpgt(r->t_min, spu_add(spu_add(mid, half), t_error));
+    q->certain_hit = spu_and(spu_cmpgt(h, spu_mul(eps, spux_vfloat(17))), spu_cmpgt(q->low, r->t_min));
+    q->undecided = spux_not(spu_or(spu_or(missed, behind), q->certain_hit));
     return true;
 }
 
@@ -148,43 +148,45 @@ CGT_SPU_INLINE void lane_triangles_of_one(const cgt_leaf_triangle *t, lane_trian
 }
 
 /* Which lanes' lines pass inside all edges for certain, and which outside of one; all[k]: above, below; any[k]. */
-CGT_SPU_INLINE void lane_side(vfloat w, vfloat eps, vmask all[2], vmask any[2])
+CGT_SPU_INLINE void lane_test_side(vfloat w, vfloat eps, vmask inside_sides[2], vmask outside_sides[2])
 {
     const vmask above = spu_cmpgt(w, eps), below = spu_cmpgt(spu_xor(eps, spux_vfloat(-0.f)), w);
-    all[0] = spu_and(all[0], above);
-    all[1] = spu_and(all[1], below);
-    any[0] = spu_or(any[0], above);
-    any[1] = spu_or(any[1], below);
+    inside_sides[0] = spu_and(inside_sides[0], above);
+    inside_sides[1] = spu_and(inside_sides[1], below);
+    outside_sides[0] = spu_or(outside_sides[0], above);
+    outside_sides[1] = spu_or(outside_sides[1], below);
 }
 
 /* False where all surely miss. */
-CGT_SPU_INLINE bool lane_triangle(const lane_rays *r, const lane_triangles *triangle, lane_hits *q)
+CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles *triangle, lane_hits *q)
 {
     const vfloat *e1 = triangle->edge[0], *e2 = triangle->edge[1];
-    vmask all[2] = {spux_mask_all(), spux_mask_all()}, any[2] = {spux_mask_none(), spux_mask_none()};
-    vfloat from[3], across[3], beside[3];
+    vmask inside_sides[2] = {spux_mask_all(), spux_mask_all()}, outside_sides[2] = {spux_mask_none(), spux_mask_none()};
+    vfloat tvec[3], pvec[3], qvec[3];
     for (int a = 0; a < 3; a++)
-        from[a] = spu_sub(r->scaled_org[a], triangle->vertex[a]);
-    lane_cross(r->dir, e2, across);
-    lane_cross(from, e1, beside);
-    const vfloat u = lane_dot(from, across), v = lane_dot(r->dir, beside), den = lane_dot(e1, across);
-    const vfloat away = lane_sum(from), size = spu_mul(r->most, away),
+        tvec[a] = spu_sub(r->scaled_org[a], triangle->vertex[a]);
+    lane_cross(r->dir, e2, pvec);
+    lane_cross(tvec, e1, qvec);
+    const vfloat u = lane_dot(tvec, pvec), v = lane_dot(r->dir, qvec), den = lane_dot(e1, pvec);
+    const vfloat distance = lane_sum(tvec), size = spu_mul(r->max_dir, distance),
                  edges = spu_mul(triangle->sum[0], triangle->sum[1]);
     const vfloat eps_u = spu_mul(size, triangle->sum[1]), eps_v = spu_mul(size, triangle->sum[0]);
-    const vfloat eps_den = spu_mul(r->most, edges);
+    const vfloat eps_den = spu_mul(r->max_dir, edges);
     const vfloat underflow =
-        spu_madd(spu_mul(away, spux_vfloat(16)), spu_mul(r->underflow, spux_vfloat(0x1p-4f)), r->underflow);
-    lane_side(u, spu_madd(eps_u, spux_vfloat(LANE_SIDE), underflow), all, any);
-    lane_side(v, spu_madd(eps_v, spux_vfloat(LANE_SIDE), underflow), all, any);
-    lane_side(spu_sub(spu_sub(den, u), v),
-              spu_madd(spu_add(spu_add(eps_u, eps_v), eps_den), spux_vfloat(LANE_THIRD), underflow), all, any);
-    const vmask inside = spu_or(all[0], all[1]), outside = spu_and(any[0], any[1]);
+        spu_madd(spu_mul(distance, spux_vfloat(16)), spu_mul(r->underflow, spux_vfloat(0x1p-4f)), r->underflow);
+    lane_test_side(u, spu_madd(eps_u, spux_vfloat(LANE_EPS_UV), underflow), inside_sides, outside_sides);
+    lane_test_side(v, spu_madd(eps_v, spux_vfloat(LANE_EPS_UV), underflow), inside_sides, outside_sides);
+    lane_test_side(spu_sub(spu_sub(den, u), v),
+                   spu_madd(spu_add(spu_add(eps_u, eps_v), eps_den), spux_vfloat(LANE_EPS_W), underflow), inside_sides,
+                   outside_sides);
+    const vmask inside = spu_or(inside_sides[0], inside_sides[1]),
+                outside = spu_and(outside_sides[0], outside_sides[1]);
     if (spux_all(outside))
         return false;
-    const vfloat delta = spu_madd(eps_den, spux_vfloat(LANE_PLANE), r->underflow);
-    const vfloat num_error =
-        spu_madd(spu_madd(edges, spux_vfloat(LANE_PLANE), spux_vfloat(0x1p-118f)), away, spux_vfloat(0x1p-118f));
-    const vfloat num = lane_dot(e2, beside), rden = spux_div(spux_vfloat(1), den);
+    const vfloat delta = spu_madd(eps_den, spux_vfloat(LANE_EPS_PLANE), r->underflow);
+    const vfloat num_error = spu_madd(spu_madd(edges, spux_vfloat(LANE_EPS_PLANE), spux_vfloat(0x1p-118f)), distance,
+                                      spux_vfloat(0x1p-118f));
+    const vfloat num = lane_dot(e2, qvec), rden = spux_div(spux_vfloat(1), den);
     const vfloat t = spu_mul(num, rden), reach = spux_abs(t), tiny = spux_vfloat(0x1p-126f);
     const vfloat error = spu_mul(spu_madd(reach, delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
     const vfloat width = spu_madd(reach, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-124f)));
@@ -193,50 +195,52 @@ CGT_SPU_INLINE bool lane_triangle(const lane_rays *r, const lane_triangles *tria
     q->low = spux_select(spux_vfloat(-INFINITY), spu_msub(spu_sub(t, width), r->unscale, tiny), steep);
     q->high = spux_select(spux_vfloat(INFINITY), spu_madd(spu_add(t, width), r->unscale, tiny), steep);
     const vmask behind = spu_and(steep, spu_cmpgt(r->t_min, q->high));
-    q->certain = spu_and(spu_and(inside, steep), spu_cmpgt(q->low, r->t_min));
-    q->open = spux_not(spu_or(spu_or(outside, behind), q->certain));
+    q->certain_hit = spu_and(spu_and(inside, steep), spu_cmpgt(q->low, r->t_min));
+    q->undecided = spux_not(spu_or(spu_or(outside, behind), q->certain_hit));
     return true;
 }
 
 /* ---- one ray and a list ---- */
 
 /* How many of the first objects of a list are of one kind, at most a vector. */
-CGT_SPU_INLINE uint32_t leaf_run(const cgt_objects *objects, const uint32_t *reference, uint32_t count, cgt_kind *kind)
+CGT_SPU_INLINE uint32_t leaf_same_kind_run(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
+                                           cgt_kind *kind)
 {
-    const uint32_t most = count < CGT_LANES ? count : CGT_LANES;
-    uint32_t run = 1;
-    *kind = objects->spheres ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES;
-    if (!objects->spheres || !objects->triangles)
-        return most;
-    *kind = cgt_objects_array(objects, reference[0])->kind;
-    while (run < most && cgt_objects_array(objects, reference[run])->kind == *kind)
-        run++;
-    return run;
+    const uint32_t max_count = count < CGT_LANES ? count : CGT_LANES;
+    uint32_t same_kind = 1;
+    *kind = prims->spheres ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES;
+    if (!prims->spheres || !prims->triangles)
+        return max_count;
+    *kind = cgt_primitives_array(prims, reference[0])->kind;
+    while (same_kind < max_count && cgt_primitives_array(prims, reference[same_kind])->kind == *kind)
+        same_kind++;
+    return same_kind;
 }
 
 /* Keeps what ray i found out about the objects of the lanes, at most a vector. Lanes whose interval lies beyond the best
  * hit are out, those before it replace it, the others are decided. */
-__attribute__((unused)) static void leaf_keep_ray(const cgt_objects *objects, packet *p, uint32_t i, const lane_hits *q,
-                                                  const uint32_t *reference, uint32_t count, cgt_counts *counts)
+__attribute__((unused)) static void leaf_update_ray(const cgt_primitives *prims, packet *p, uint32_t i,
+                                                    const lane_hits *q, const uint32_t *reference, uint32_t count,
+                                                    cgt_counts *counts)
 {
-    const unsigned certain = spux_mask_bits(q->certain), used = CGT_ALL_LANES >> (CGT_LANES - count);
-    const vmask may = spu_andc(spu_or(q->certain, q->open), spu_cmpgt(q->low, spux_vfloat(p->high[i])));
+    const unsigned certain_hit = spux_mask_bits(q->certain_hit), used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
+    const vmask possible = spu_andc(spu_or(q->certain_hit, q->undecided), spu_cmpgt(q->low, spux_vfloat(p->high[i])));
     _Alignas(64) float low[CGT_LANES], high[CGT_LANES];
-    unsigned left = spux_mask_bits(may) & used;
-    if (!left)
+    unsigned remaining = spux_mask_bits(possible) & used_lanes;
+    if (!remaining)
         return;
     spux_store(low, q->low);
     spux_store(high, q->high);
-    for (; left; left &= left - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(left);
-        if (p->selective && select_leaves_out(p, i, reference[k], select_mask(objects, p, reference[k])))
+    for (; remaining; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
+        if (p->skips_prims && ray_skips(p, i, reference[k], skip_mask_of(prims, p, reference[k])))
             continue;
-        if (!(certain >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
-            filter_decide(objects, p, i, reference[k], counts);
+        if (!(certain_hit >> k & 1) || (high[k] >= p->low[i] && low[k] <= p->high[i])) {
+            filter_decide(prims, p, i, reference[k], counts);
         } else if (high[k] < p->low[i]) {
             p->low[i] = p->any_hit ? -INFINITY : low[k];
             p->high[i] = p->any_hit ? -INFINITY : high[k];
-            p->object[i] = reference[k];
+            p->prim[i] = reference[k];
         }
     }
 }

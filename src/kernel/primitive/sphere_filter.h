@@ -29,26 +29,26 @@
 typedef struct filter_spheres {
     _Alignas(64) float center[3][CGT_LANES];
     _Alignas(64) float radius[CGT_LANES];
-    _Alignas(64) float r2[CGT_LANES];      /* r^2 + eps */
-    _Alignas(64) float certain[CGT_LANES]; /* 17 eps */
-    _Alignas(64) float before[CGT_LANES];  /* e0: from the computed t down to the interval's start */
-    _Alignas(64) float gap[CGT_LANES];     /* the interval's length */
-    _Alignas(64) float nearest[CGT_LANES]; /* no ray meets the sphere before this t */
-    uint32_t object[CGT_LANES];
+    _Alignas(64) float r2[CGT_LANES];          /* r^2 + eps */
+    _Alignas(64) float certain_hit[CGT_LANES]; /* 17 eps */
+    _Alignas(64) float t_error[CGT_LANES];     /* e0: from the computed t down to the interval's start */
+    _Alignas(64) float t_width[CGT_LANES];     /* the interval's length */
+    _Alignas(64) float min_t[CGT_LANES];       /* no ray meets the sphere before this t */
+    uint32_t prim[CGT_LANES];
 } filter_spheres;
 
 /* Reads at most a vector of spheres to the first `lanes` lanes; beyond count they repeat the first. */
-CGT_SPU_INLINE void filter_spheres_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
-                                         uint32_t lanes, filter_spheres *s)
+CGT_SPU_INLINE void filter_gather_spheres(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
+                                          uint32_t lanes, filter_spheres *s)
 {
     for (uint32_t k = 0; k < lanes; k++) {
-        const uint32_t object = reference[k < count ? k : 0];
-        const cgt_sphere q = cgt_objects_sphere(objects, object);
+        const uint32_t prim = reference[k < count ? k : 0];
+        const cgt_sphere q = cgt_primitives_sphere(prims, prim);
         s->center[0][k] = q.x;
         s->center[1][k] = q.y;
         s->center[2][k] = q.z;
         s->radius[k] = q.r;
-        s->object[k] = object;
+        s->prim[k] = prim;
     }
 }
 
@@ -59,34 +59,34 @@ CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres 
     vfloat distance = spux_vfloat(f->org_reach);
     for (int a = 0; a < 3; a++)
         distance = spu_add(distance, spux_abs(spu_sub(spux_load(s->center[a]), spux_vfloat(f->org[a]))));
-    filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
-    const vfloat wide = spu_mul(distance, spux_vfloat(26 * FILTER_U)); /* 26^2 > 640 */
-    const vfloat eps = spu_madd(spu_mul(r, spux_vfloat(9 * FILTER_U)), spu_add(distance, r),
-                                spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
+    filter_min_t(f, (const float(*)[CGT_LANES])s->center, s->radius, s->min_t);
+    const vfloat eps_c = spu_mul(distance, spux_vfloat(26 * FILTER_ROUNDOFF)); /* 26^2 > 640 */
+    const vfloat eps = spu_madd(spu_mul(r, spux_vfloat(9 * FILTER_ROUNDOFF)), spu_add(distance, r),
+                                spu_madd(eps_c, eps_c, spux_vfloat(0x1p-120f)));
     const vfloat underflow = spux_vfloat(0x1p-62f + 0x1p-122f * f->rlength * f->rlength);
-    const vfloat e0 = spu_madd(spu_add(distance, r), spux_vfloat(18 * FILTER_U * f->rlength), underflow);
+    const vfloat e0 = spu_madd(spu_add(distance, r), spux_vfloat(18 * FILTER_ROUNDOFF * f->rlength), underflow);
     const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0.27f * f->rlength));
     spux_store(s->r2, spu_madd(r, r, eps));
-    spux_store(s->certain, spu_mul(eps, spux_vfloat(17)));
-    spux_store(s->before, e0);
-    spux_store(s->gap, spu_madd(e0, spux_vfloat(2), root));
+    spux_store(s->certain_hit, spu_mul(eps, spux_vfloat(17)));
+    spux_store(s->t_error, e0);
+    spux_store(s->t_width, spu_madd(e0, spux_vfloat(2), root));
 }
 
 /* One sphere as the vectors of a test. */
 typedef struct filter_sphere {
     vfloat center[3]; /* seen from the common origin, where there is one */
-    vfloat r2, certain, before, gap, nearest;
-    vuint object;
+    vfloat r2, certain_hit, t_error, t_width, min_t;
+    vuint prim;
 } filter_sphere;
 
 CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_spheres *s, int k, bool common_origin)
 {
     filter_sphere q = {.r2 = spux_vfloat(s->r2[k]),
-                       .certain = spux_vfloat(s->certain[k]),
-                       .before = spux_vfloat(s->before[k]),
-                       .gap = spux_vfloat(s->gap[k]),
-                       .nearest = spux_vfloat(s->nearest[k]),
-                       .object = spux_vuint(s->object[k])};
+                       .certain_hit = spux_vfloat(s->certain_hit[k]),
+                       .t_error = spux_vfloat(s->t_error[k]),
+                       .t_width = spux_vfloat(s->t_width[k]),
+                       .min_t = spux_vfloat(s->min_t[k]),
+                       .prim = spux_vuint(s->prim[k])};
     for (int a = 0; a < 3; a++)
         q.center[a] = spux_vfloat(common_origin ? s->center[a][k] - p->org[a][0] : s->center[a][k]);
     return q;
@@ -110,21 +110,21 @@ CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, u
     const vfloat lx = spu_nmsub(mid, dx, cx), ly = spu_nmsub(mid, dy, cy), lz = spu_nmsub(mid, dz, cz);
     const vfloat h = spu_sub(q->r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
     /* a miss; or the sphere's nearest point lies beyond the best, which spares the root of a hidden one */
-    const vmask missed = spu_or(spu_cmpgt(zero, h), spu_cmpgt(q->nearest, spux_load(p->high + i)));
+    const vmask missed = spu_or(spu_cmpgt(zero, h), spu_cmpgt(q->min_t, spux_load(p->high + i)));
     if (spux_all(missed))
         return false;
     const vfloat half = spux_sqrt(spu_mul(h, rdd)), t_min = spux_load(p->t_min + i);
-    const vfloat low = spu_sub(spu_sub(mid, half), q->before), high = spu_add(low, q->gap);
+    const vfloat low = spu_sub(spu_sub(mid, half), q->t_error), high = spu_add(low, q->t_width);
     /* beyond the best; or both roots before the range; or met before */
     const vmask beyond = spu_cmpgt(low, spux_load(p->high + i));
-    const vmask behind = spu_cmpgt(t_min, spu_add(spu_add(mid, half), q->before));
-    const vmask met = spu_cmpeq(spux_load_uint(p->object + i), q->object);
+    const vmask behind = spu_cmpgt(t_min, spu_add(spu_add(mid, half), q->t_error));
+    const vmask already_hit = spu_cmpeq(spux_load_uint(p->prim + i), q->prim);
     /* greater, not equal: where h / d.d leaves the range of float, low is -infinity and so may t_min be */
     const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spu_cmpgt(low, t_min));
     f->low = low;
     f->high = high;
-    f->certain = spu_and(spu_cmpgt(h, q->certain), nearer);
-    f->open = spux_not(spu_or(spu_or(spu_or(missed, beyond), spu_or(behind, met)), f->certain));
+    f->certain_hit = spu_and(spu_cmpgt(h, q->certain_hit), nearer);
+    f->undecided = spux_not(spu_or(spu_or(spu_or(missed, beyond), spu_or(behind, already_hit)), f->certain_hit));
     return true;
 }
 
@@ -150,24 +150,24 @@ CGT_SPU_INLINE bool filter_sphere_rays_fast(const packet *p, const void *primiti
     const vfloat half = spux_sqrt(spu_mul(h, rdd)), near = spu_sub(mid, half);
     const vfloat t = spux_select(near, spu_add(mid, half), spu_cmpgt(spux_load(p->t_min + i), near));
     f->low = f->high = t;
-    f->certain = spu_and(hit, filter_fast_nearer(p, i, t, q->object));
-    f->open = spux_mask_none();
+    f->certain_hit = spu_and(hit, filter_fast_closer(p, i, t, q->prim));
+    f->undecided = spux_mask_none();
     return true;
 }
 
 /* Tests the rays of the packet's blocks that sphere k of a vector may reach. */
-CGT_SPU_INLINE void filter_test_sphere(const cgt_objects *objects, packet *p, const filter_spheres *s, int k,
+CGT_SPU_INLINE void filter_test_sphere(const cgt_primitives *prims, packet *p, const filter_spheres *s, int k,
                                        block_cones *blocks, filter_mode mode, cgt_counts *counts)
 {
     filter_sphere q = filter_sphere_get(p, s, k, mode.common_origin);
     const float center[3] = {s->center[0][k], s->center[1][k], s->center[2][k]};
-    const uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
+    const uint32_t reached = block_cones_test_sphere(blocks, center, s->radius[k], s->min_t[k]);
     if (mode.decides) {
-        filter_blocks(objects, p, filter_sphere_rays, &q, s->object[k], reached, blocks, mode, counts);
+        filter_blocks(prims, p, filter_sphere_rays, &q, s->prim[k], reached, blocks, mode, counts);
         return;
     }
     q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);
-    filter_blocks(objects, p, filter_sphere_rays_fast, &q, s->object[k], reached, blocks, mode, counts);
+    filter_blocks(prims, p, filter_sphere_rays_fast, &q, s->prim[k], reached, blocks, mode, counts);
 }
 
 #endif

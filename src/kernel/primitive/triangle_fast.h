@@ -10,7 +10,7 @@
 #include "kernel/primitive/triangle_filter.h"
 
 /* What both share at the end: a hit where u, v and 1 - u - v are at least 0. */
-CGT_SPU_INLINE bool triangle_test_end(const packet *p, uint32_t i, vuint object, vfloat t, vfloat u, vfloat v,
+CGT_SPU_INLINE bool triangle_test_end(const packet *p, uint32_t i, vuint prim, vfloat t, vfloat u, vfloat v,
                                       filter_result *f)
 {
     const vfloat zero = spux_vfloat(0);
@@ -19,21 +19,21 @@ CGT_SPU_INLINE bool triangle_test_end(const packet *p, uint32_t i, vuint object,
     f->low = f->high = t;
     f->u = u;
     f->v = v;
-    f->certain = spu_and(inside, filter_fast_nearer(p, i, t, object));
-    f->open = spux_mask_none();
-    return spux_any(f->certain);
+    f->certain_hit = spu_and(inside, filter_fast_closer(p, i, t, prim));
+    f->undecided = spux_mask_none();
+    return spux_any(f->certain_hit);
 }
 
 /* ---- Moeller and Trumbore ---- */
 
 typedef struct moller_trumbore_triangle {
     vfloat v0[3], e1[3], e2[3];
-    vuint object;
+    vuint prim;
 } moller_trumbore_triangle;
 
 CGT_SPU_INLINE moller_trumbore_triangle moller_trumbore_get(const filter_triangles *s, int k)
 {
-    moller_trumbore_triangle q = {.object = spux_vuint(s->object[k])};
+    moller_trumbore_triangle q = {.prim = spux_vuint(s->prim[k])};
     for (int a = 0; a < 3; a++) {
         q.v0[a] = spux_vfloat(s->vertex[0][a][k]);
         q.e1[a] = spux_vfloat(s->vertex[1][a][k] - s->vertex[0][a][k]);
@@ -57,14 +57,14 @@ CGT_SPU_INLINE bool moller_trumbore_rays(const packet *p, const void *primitive,
     const vfloat u = spu_mul(filter_dot(s, h), r);
     filter_cross(s, q->e1, g);
     const vfloat v = spu_mul(filter_dot(d, g), r), t = spu_mul(filter_dot(q->e2, g), r);
-    return triangle_test_end(p, i, q->object, t, u, v, f);
+    return triangle_test_end(p, i, q->prim, t, u, v, f);
 }
 
 /* ---- accelerated ---- */
 
 typedef struct accelerated_triangle {
     cgt_accelerated_triangle triangle;
-    vuint object;
+    vuint prim;
 } accelerated_triangle;
 
 CGT_SPU_INLINE accelerated_triangle accelerated_get(const filter_triangles *s, int k)
@@ -73,7 +73,7 @@ CGT_SPU_INLINE accelerated_triangle accelerated_get(const filter_triangles *s, i
     for (int i = 0; i < 3; i++)
         for (int a = 0; a < 3; a++)
             q.v[i][a] = s->vertex[i][a][k];
-    return (accelerated_triangle){cgt_accelerated_triangle_make(&q), spux_vuint(s->object[k])};
+    return (accelerated_triangle){cgt_accelerated_triangle_init(&q), spux_vuint(s->prim[k])};
 }
 
 CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
@@ -93,7 +93,7 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
     const vfloat hu = spu_madd(t, du, ou), hv = spu_madd(t, dv, ov);
     const vfloat u = spu_madd(spux_vfloat(q->bnu), hu, spu_madd(spux_vfloat(q->bnv), hv, spux_vfloat(q->bd)));
     const vfloat v = spu_madd(spux_vfloat(q->cnu), hu, spu_madd(spux_vfloat(q->cnv), hv, spux_vfloat(q->cd)));
-    return triangle_test_end(p, i, g->object, t, u, v, f);
+    return triangle_test_end(p, i, g->prim, t, u, v, f);
 }
 
 /* ---- which one ---- */
@@ -115,16 +115,16 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
     }
 
 /* Tests the rays of the packet's blocks that triangle k of a vector may reach. */
-CGT_SPU_INLINE void filter_test_triangle(const cgt_objects *objects, packet *p, const filter_packet *of_packet,
+CGT_SPU_INLINE void filter_test_triangle(const cgt_primitives *prims, packet *p, const filter_packet *of_packet,
                                          const filter_triangles *s, int k, block_cones *blocks, filter_mode mode,
                                          cgt_counts *counts)
 {
-    const uint32_t object = s->object[k];
+    const uint32_t prim = s->prim[k];
     const float center[3] = {s->center[0][k], s->center[1][k], s->center[2][k]};
-    const uint32_t reached = block_cones_reached(blocks, center, s->radius[k], s->nearest[k]);
+    const uint32_t reached = block_cones_test_sphere(blocks, center, s->radius[k], s->min_t[k]);
     if (!reached)
         return;
-#define CALL(test, q) filter_blocks(objects, p, test, q, object, reached, blocks, mode, counts)
+#define CALL(test, q) filter_blocks(prims, p, test, q, prim, reached, blocks, mode, counts)
     FILTER_WITH_TRIANGLE(p, of_packet, s, k, mode, CALL)
 #undef CALL
 }

@@ -37,26 +37,26 @@ typedef struct filter_triangles {
     _Alignas(64) float vertex[3][3][CGT_LANES]; /* [k][a]: coordinate a of vertex k, world */
     _Alignas(64) float center[3][CGT_LANES];    /* of a sphere around it, world */
     _Alignas(64) float radius[CGT_LANES];
-    _Alignas(64) float nearest[CGT_LANES];          /* no ray meets it before this t */
+    _Alignas(64) float min_t[CGT_LANES];            /* no ray meets it before this t */
     _Alignas(64) float edge[3][3][CGT_LANES];       /* [k][a]: edge k, opposite vertex k, over eps_k */
     _Alignas(64) float edge_cross[3][3][CGT_LANES]; /* b x edge k, over eps_k */
     _Alignas(64) float normal[3][CGT_LANES];        /* n over delta */
     _Alignas(64) float num[CGT_LANES];              /* n.a over delta */
     _Alignas(64) float num_error[CGT_LANES];        /* of num */
-    uint32_t object[CGT_LANES];
+    uint32_t prim[CGT_LANES];
 } filter_triangles;
 
 /* Reads at most a vector of triangles to the first `lanes` lanes; beyond count they repeat the first. */
-CGT_SPU_INLINE void filter_triangles_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
-                                           uint32_t lanes, filter_triangles *s)
+CGT_SPU_INLINE void filter_gather_triangles(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
+                                            uint32_t lanes, filter_triangles *s)
 {
     for (uint32_t k = 0; k < lanes; k++) {
-        const uint32_t object = reference[k < count ? k : 0];
-        const cgt_triangle q = cgt_objects_triangle(objects, object);
+        const uint32_t prim = reference[k < count ? k : 0];
+        const cgt_triangle q = cgt_primitives_triangle(prims, prim);
         for (int i = 0; i < 3; i++)
             for (int a = 0; a < 3; a++)
                 s->vertex[i][a][k] = q.v[i][a];
-        s->object[k] = object;
+        s->prim[k] = prim;
     }
 }
 
@@ -74,8 +74,8 @@ CGT_SPU_INLINE void filter_triangles_enclose(filter_triangles *s)
         square = spu_madd(reach, reach, square);
         magnitude = spux_max(magnitude, spux_max(spux_abs(low), spux_abs(high)));
     }
-    const vfloat wide = spu_madd(magnitude, spux_vfloat(0x1p-22f), spux_vfloat(0x1p-62f));
-    spux_store(s->radius, spu_madd(spux_sqrt(square), spux_vfloat(1 + 0x1p-18f), wide));
+    const vfloat rounding = spu_madd(magnitude, spux_vfloat(0x1p-22f), spux_vfloat(0x1p-62f));
+    spux_store(s->radius, spu_madd(spux_sqrt(square), spux_vfloat(1 + 0x1p-18f), rounding));
 }
 
 CGT_SPU_INLINE vfloat filter_dot(const vfloat p[3], const vfloat q[3])
@@ -123,7 +123,7 @@ CGT_SPU_INLINE vfloat filter_permanent(const vfloat p[3], const vfloat q[3], con
 /* `roundings` u of the sum of sizes, and not less than 2^-20 of that of the lengths. */
 CGT_SPU_INLINE vfloat filter_triangles_error(float roundings, vfloat sizes, vfloat lengths)
 {
-    const float u = roundings * FILTER_U * (1 + 0x1p-7f);
+    const float u = roundings * FILTER_ROUNDOFF * (1 + 0x1p-7f);
     return spu_mul(spux_max(sizes, spu_mul(lengths, spux_vfloat(0x1p-20f))), spux_vfloat(u));
 }
 
@@ -135,7 +135,7 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
     /* the rays' Pluecker coordinates are scaled too */
     vmask wild = spu_cmpgt(spux_vfloat(f->longest * f->scale), spux_vfloat(0x1p100f));
     filter_triangles_enclose(s);
-    filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
+    filter_min_t(f, (const float(*)[CGT_LANES])s->center, s->radius, s->min_t);
     for (int k = 0; k < 3; k++) {
         for (int a = 0; a < 3; a++) {
             const vfloat before = spux_load(s->vertex[(k + 1) % 3][a]), after = spux_load(s->vertex[(k + 2) % 3][a]);
@@ -189,7 +189,7 @@ CGT_SPU_INLINE void filter_triangles_prepare_fast(const filter_packet *f, filter
     const vfloat scale = spux_vfloat(f->scale), minus = spux_vfloat(-0.f), plus = spux_vfloat(0);
     vfloat v[3][3], e[3][3], cross[3];
     filter_triangles_enclose(s);
-    filter_nearest(f, (const float(*)[CGT_LANES])s->center, s->radius, s->nearest);
+    filter_min_t(f, (const float(*)[CGT_LANES])s->center, s->radius, s->min_t);
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
             v[k][a] = spu_mul(spu_sub(spux_load(s->vertex[k][a]), spux_vfloat(f->org[a])), scale);
@@ -220,8 +220,8 @@ CGT_SPU_INLINE void filter_triangles_prepare_fast(const filter_packet *f, filter
 /* One triangle as the vectors of a test. */
 typedef struct filter_triangle {
     vfloat edge[3][3], edge_cross[3][3], normal[3];
-    vfloat num, num_error, nearest, longest;
-    vuint object;
+    vfloat num, num_error, min_t, longest;
+    vuint prim;
 } filter_triangle;
 
 CGT_SPU_INLINE filter_triangle filter_triangle_get(const filter_packet *f, const filter_triangles *s, int k,
@@ -229,9 +229,9 @@ CGT_SPU_INLINE filter_triangle filter_triangle_get(const filter_packet *f, const
 {
     filter_triangle q = {.num = spux_vfloat(s->num[k]),
                          .num_error = spux_vfloat(s->num_error[k]),
-                         .nearest = spux_vfloat(s->nearest[k]),
+                         .min_t = spux_vfloat(s->min_t[k]),
                          .longest = spux_vfloat(f->longest),
-                         .object = spux_vuint(s->object[k])};
+                         .prim = spux_vuint(s->prim[k])};
     for (int a = 0; a < 3; a++) {
         q.normal[a] = spux_vfloat(s->normal[a][k]);
         for (int i = 0; i < 3; i++) {
@@ -281,7 +281,7 @@ CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive,
     const vfloat least = spux_min(w[0], spux_min(w[1], w[2])), most = spux_max(w[0], spux_max(w[1], w[2]));
     /* on both sides of edges; or the nearest point lies beyond the best */
     const vmask missed =
-        spu_or(spu_and(spu_cmpgt(minus, least), spu_cmpgt(most, bound)), spu_cmpgt(q->nearest, spux_load(p->high + i)));
+        spu_or(spu_and(spu_cmpgt(minus, least), spu_cmpgt(most, bound)), spu_cmpgt(q->min_t, spux_load(p->high + i)));
     if (spux_all(missed))
         return false;
     filter_triangle_plane(p, q, i, common_origin, &num, &den);
@@ -291,13 +291,14 @@ CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive,
     const vfloat low = spu_sub(t, width), high = spu_add(t, width), t_min = spux_load(p->t_min + i);
     const vmask steep = spu_cmpgt(spux_abs(den), spu_mul(bound, spux_vfloat(4)));
     const vmask beyond = spu_cmpgt(low, spux_load(p->high + i)), behind = spu_cmpgt(t_min, high);
-    const vmask met = spu_cmpeq(spux_load_uint(p->object + i), q->object);
+    const vmask already_hit = spu_cmpeq(spux_load_uint(p->prim + i), q->prim);
     const vmask inside = spu_or(spu_cmpgt(least, bound), spu_cmpgt(minus, most));
     const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spu_cmpgt(low, t_min));
     f->low = low;
     f->high = high;
-    f->certain = spu_and(spu_and(inside, steep), nearer);
-    f->open = spux_not(spu_or(spu_or(missed, met), spu_or(spu_and(steep, spu_or(beyond, behind)), f->certain)));
+    f->certain_hit = spu_and(spu_and(inside, steep), nearer);
+    f->undecided =
+        spux_not(spu_or(spu_or(missed, already_hit), spu_or(spu_and(steep, spu_or(beyond, behind)), f->certain_hit)));
     return true;
 }
 
@@ -321,8 +322,8 @@ CGT_SPU_INLINE bool filter_triangle_rays_fast(const packet *p, const void *primi
     f->low = f->high = t;
     f->u = spux_div(w[1], divisor);
     f->v = spux_div(w[2], divisor);
-    f->certain = spu_and(hit, filter_fast_nearer(p, i, t, q->object));
-    f->open = spux_mask_none();
+    f->certain_hit = spu_and(hit, filter_fast_closer(p, i, t, q->prim));
+    f->undecided = spux_mask_none();
     return true;
 }
 

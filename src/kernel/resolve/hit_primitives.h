@@ -9,21 +9,21 @@
 
 #define RESOLVE_RAYS 16u
 
-typedef struct winners {
+typedef struct hit_primitives {
     _Alignas(64) float sphere[4][PACKET_MAX_RAYS];    /* x, y, z, r; 0 where no sphere is hit */
     _Alignas(64) float vertex[3][3][PACKET_MAX_RAYS]; /* [k][a]; only in scenes with triangles */
     _Alignas(64) uint32_t is_sphere[PACKET_MAX_RAYS]; /* 0 or 1; only in scenes with triangles */
     uint32_t hits;
-} winners;
+} hit_primitives;
 
-CGT_SPU_INLINE cgt_triangle winner_triangle(const winners *w, size_t i)
+CGT_SPU_INLINE cgt_triangle hit_primitive_triangle(const hit_primitives *w, size_t i)
 {
     return (cgt_triangle){{{w->vertex[0][0][i], w->vertex[0][1][i], w->vertex[0][2][i]},
                            {w->vertex[1][0][i], w->vertex[1][1][i], w->vertex[1][2][i]},
                            {w->vertex[2][0][i], w->vertex[2][1][i], w->vertex[2][2][i]}}};
 }
 
-CGT_SPU_INLINE cgt_sphere winner_sphere(const winners *w, size_t i)
+CGT_SPU_INLINE cgt_sphere hit_primitive_sphere(const hit_primitives *w, size_t i)
 {
     return (cgt_sphere){w->sphere[0][i], w->sphere[1][i], w->sphere[2][i], w->sphere[3][i]};
 }

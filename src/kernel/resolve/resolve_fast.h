@@ -17,7 +17,7 @@ CGT_SPU_INLINE void fast_normal_of_point(const packet *p, uint32_t i, packet_hit
     hits->normal[2][i] = (float)(z * k);
 }
 
-CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const winners *w, packet_hits *hits)
+CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const hit_primitives *w, packet_hits *hits)
 {
     if (w->sphere[3][i] == 0) {
         fast_normal_of_point(p, i, hits);
@@ -29,7 +29,7 @@ CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const win
 }
 
 /* Edges are scaled, so that their products stay in range. */
-CGT_SPU_INLINE void fast_normal_of_triangle(float scale, uint32_t i, const winners *w, packet_hits *hits)
+CGT_SPU_INLINE void fast_normal_of_triangle(float scale, uint32_t i, const hit_primitives *w, packet_hits *hits)
 {
     float e1[3], e2[3], n[3], square = 0;
     for (int a = 0; a < 3; a++) {
@@ -45,30 +45,32 @@ CGT_SPU_INLINE void fast_normal_of_triangle(float scale, uint32_t i, const winne
         hits->normal[a][i] = n[a] * k;
 }
 
-static void fast_normals(const cgt_world *world, const packet *p, const winners *w, packet_hits *hits)
+static void fast_normals(const cgt_committed_scene *committed_scene, const packet *p, const hit_primitives *w,
+                         packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++) {
-        if (p->object[i] == CGT_INVALID_ID)
+        if (p->prim[i] == CGT_INVALID_ID)
             hits->normal[0][i] = hits->normal[1][i] = hits->normal[2][i] = 0;
-        else if (!world->objects.triangles || w->is_sphere[i])
+        else if (!committed_scene->prims.triangles || w->is_sphere[i])
             fast_normal_of_sphere(p, i, w, hits);
         else
-            fast_normal_of_triangle(world->scale, i, w, hits);
+            fast_normal_of_triangle(committed_scene->scale, i, w, hits);
     }
 }
 
-static void resolve_fast(const cgt_world *world, const packet *p, uint32_t fields, const winners *w, packet_hits *hits)
+static void resolve_fast(const cgt_committed_scene *committed_scene, const packet *p, uint32_t fields,
+                         const hit_primitives *w, packet_hits *hits)
 {
     for (uint32_t i = 0; i < p->lanes; i++)
-        hits->t[i] = p->object[i] != CGT_INVALID_ID ? p->high[i] : INFINITY;
+        hits->t[i] = p->prim[i] != CGT_INVALID_ID ? p->high[i] : INFINITY;
     if (fields & CGT_FIELD_UV)
         for (uint32_t i = 0; i < p->lanes; i++) {
-            const bool triangle = p->object[i] != CGT_INVALID_ID && world->objects.triangles && !w->is_sphere[i];
+            const bool triangle = p->prim[i] != CGT_INVALID_ID && committed_scene->prims.triangles && !w->is_sphere[i];
             hits->u[i] = triangle ? p->u[i] : 0;
             hits->v[i] = triangle ? p->v[i] : 0;
         }
     if (fields & CGT_FIELD_NORMAL)
-        fast_normals(world, p, w, hits);
+        fast_normals(committed_scene, p, w, hits);
 }
 
 #endif

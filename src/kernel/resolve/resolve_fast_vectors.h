@@ -36,13 +36,13 @@ CGT_SPU_INLINE vmask resolve_fast_spheres(const vfloat org[3], const vfloat dir[
     const vfloat sum = spu_add(middle, spux_sqrt(spux_max(disc, zero)));
     *t = spux_div(product, sum);
     const vmask outside = spu_cmpgt(product, spu_mul(spu_add(cc, rr), spux_vfloat(0x1p-10f)));
-    const vmask known = spu_and(outside, spu_and(spu_cmpgt(middle, zero), spu_cmpgt(r, spux_vfloat(0x1p-56f))));
+    const vmask safe_lanes = spu_and(outside, spu_and(spu_cmpgt(middle, zero), spu_cmpgt(r, spux_vfloat(0x1p-56f))));
     if (normal) {
         const vfloat k = spux_div(spux_vfloat(1), r);
         for (int a = 0; a < 3; a++)
             n[a] = spu_mul(spu_sub(spu_mul(*t, dir[a]), c[a]), k);
     }
-    return spu_and(spu_and(known, spux_cmpge(*t, t_min)), spu_cmpgt(spux_vfloat(0x1p100f), spu_add(cc, rr)));
+    return spu_and(spu_and(safe_lanes, spux_cmpge(*t, t_min)), spu_cmpgt(spux_vfloat(0x1p100f), spu_add(cc, rr)));
 }
 
 #undef FAST_DOT

@@ -14,25 +14,25 @@
 /* ---- the winners ---- */
 
 /* Neighbours mostly hit the same sphere: each different one of a vector is looked up once. */
-CGT_SPU_INLINE void look_up_spheres(const cgt_objects *objects, const packet *p, uint32_t i, winners *w,
-                                    packet_hits *hits)
+CGT_SPU_INLINE void resolve_lookup_spheres(const cgt_primitives *prims, const packet *p, uint32_t i, hit_primitives *w,
+                                           packet_hits *hits)
 {
-    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_INVALID_ID);
+    const vuint prim = spux_load_uint(p->prim + i), none = spux_vuint(CGT_INVALID_ID);
     vfloat d[4] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
     vuint primitive = none, geometry = none;
-    unsigned left = ~spux_mask_bits(spu_cmpeq(object, none)) & CGT_ALL_LANES;
-    while (left) {
-        const uint32_t winner = p->object[i + (uint32_t)__builtin_ctz(left)];
-        const cgt_object_array *a = cgt_objects_array(objects, winner);
-        const cgt_sphere q = cgt_array_sphere(a, winner - a->first);
-        const vmask same = spu_cmpeq(object, spux_vuint(winner));
+    unsigned remaining = ~spux_mask_bits(spu_cmpeq(prim, none)) & CGT_ALL_LANES;
+    while (remaining) {
+        const uint32_t hit_prim = p->prim[i + (uint32_t)__builtin_ctz(remaining)];
+        const cgt_primitive_array *a = cgt_primitives_array(prims, hit_prim);
+        const cgt_sphere q = cgt_array_sphere(a, hit_prim - a->first);
+        const vmask same = spu_cmpeq(prim, spux_vuint(hit_prim));
         d[0] = spux_select(d[0], spux_vfloat(q.x), same);
         d[1] = spux_select(d[1], spux_vfloat(q.y), same);
         d[2] = spux_select(d[2], spux_vfloat(q.z), same);
         d[3] = spux_select(d[3], spux_vfloat(q.r), same);
-        primitive = spux_select(primitive, spux_vuint(winner - a->first), same);
+        primitive = spux_select(primitive, spux_vuint(hit_prim - a->first), same);
         geometry = spux_select(geometry, spux_vuint(a->geometry), same);
-        left &= ~spux_mask_bits(same);
+        remaining &= ~spux_mask_bits(same);
     }
     for (int a = 0; a < 4; a++)
         spux_store(w->sphere[a] + i, d[a]);
@@ -41,35 +41,35 @@ CGT_SPU_INLINE void look_up_spheres(const cgt_objects *objects, const packet *p,
 }
 
 /* Spheres of one array, of a vector that has a winner: its other lanes take that one's. */
-CGT_SPU_INLINE void load_spheres(const cgt_object_array *array, const packet *p, uint32_t i, unsigned hit, winners *w,
-                                 packet_hits *hits)
+CGT_SPU_INLINE void resolve_load_spheres(const cgt_primitive_array *array, const packet *p, uint32_t i, unsigned hit,
+                                         hit_primitives *w, packet_hits *hits)
 {
-    const vuint object = spux_load_uint(p->object + i), none = spux_vuint(CGT_INVALID_ID);
-    const vmask missed = spu_cmpeq(object, none);
-    const vuint number = spux_select(object, spux_vuint(p->object[i + (uint32_t)__builtin_ctz(hit)]), missed);
+    const vuint prim = spux_load_uint(p->prim + i), none = spux_vuint(CGT_INVALID_ID);
+    const vmask missed = spu_cmpeq(prim, none);
+    const vuint number = spux_select(prim, spux_vuint(p->prim[i + (uint32_t)__builtin_ctz(hit)]), missed);
     vfloat d[4];
-    fetch_spheres_at(array, number, d);
+    gather_spheres(array, number, d);
     for (int a = 0; a < 4; a++)
         spux_store(w->sphere[a] + i, d[a]);
-    spux_store_uint(hits->primitive + i, object);
+    spux_store_uint(hits->primitive + i, prim);
     spux_store_uint(hits->geometry + i, spux_select(spux_vuint(array->geometry), none, missed));
 }
 
-CGT_SPU_INLINE void find_spheres(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
-                                 winners *w, packet_hits *hits)
+CGT_SPU_INLINE void resolve_find_spheres(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
+                                         hit_primitives *w, packet_hits *hits)
 {
     const vuint none = spux_vuint(CGT_INVALID_ID);
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
-        const unsigned hit = ~spux_mask_bits(spu_cmpeq(spux_load_uint(p->object + i), none)) & CGT_ALL_LANES;
-        if (objects->arrays == 1 && hit)
-            load_spheres(objects->array, p, i, hit, w, hits);
+        const unsigned hit = ~spux_mask_bits(spu_cmpeq(spux_load_uint(p->prim + i), none)) & CGT_ALL_LANES;
+        if (prims->arrays == 1 && hit)
+            resolve_load_spheres(prims->array, p, i, hit, w, hits);
         else
-            look_up_spheres(objects, p, i, w, hits);
+            resolve_lookup_spheres(prims, p, i, w, hits);
         w->hits += spux_count_bits(hit);
     }
 }
 
-static void set_triangle(winners *w, uint32_t i, const cgt_triangle *q)
+static void set_triangle(hit_primitives *w, uint32_t i, const cgt_triangle *q)
 {
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
@@ -77,84 +77,84 @@ static void set_triangle(winners *w, uint32_t i, const cgt_triangle *q)
 }
 
 /* Triangles, or both kinds; what is not hit, or is of the other kind, gets a shape that computes to something. */
-CGT_SPU_INLINE void look_up_shapes(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
-                                   winners *w, packet_hits *hits)
+CGT_SPU_INLINE void resolve_lookup_mixed(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
+                                         hit_primitives *w, packet_hits *hits)
 {
-    static const cgt_triangle nothing = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    static const cgt_triangle dummy = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
     uint32_t last = CGT_INVALID_ID;
-    cgt_shape shape = {.kind = CGT_KIND_TRIANGLES, .triangle = nothing};
-    const cgt_object_array *a = NULL;
+    cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES, .triangle = dummy};
+    const cgt_primitive_array *a = NULL;
     for (uint32_t i = first; i < first + count; i++) {
-        const uint32_t object = p->object[i];
-        const bool hit = object != CGT_INVALID_ID;
-        if (hit && object != last) {
-            a = cgt_objects_array(objects, object);
-            shape = cgt_array_shape(a, object - a->first);
-            last = object;
+        const uint32_t prim = p->prim[i];
+        const bool hit = prim != CGT_INVALID_ID;
+        if (hit && prim != last) {
+            a = cgt_primitives_array(prims, prim);
+            primitive = cgt_array_primitive(a, prim - a->first);
+            last = prim;
         }
-        const bool sphere = hit && shape.kind == CGT_KIND_SPHERES;
-        hits->primitive[i] = hit ? object - a->first : CGT_INVALID_ID;
+        const bool sphere = hit && primitive.kind == CGT_KIND_SPHERES;
+        hits->primitive[i] = hit ? prim - a->first : CGT_INVALID_ID;
         hits->geometry[i] = hit ? a->geometry : CGT_INVALID_ID;
         w->is_sphere[i] = sphere;
         w->hits += hit;
-        set_triangle(w, i, hit && !sphere ? &shape.triangle : &nothing);
-        w->sphere[0][i] = sphere ? shape.sphere.x : 0;
-        w->sphere[1][i] = sphere ? shape.sphere.y : 0;
-        w->sphere[2][i] = sphere ? shape.sphere.z : 0;
-        w->sphere[3][i] = sphere ? shape.sphere.r : 0;
+        set_triangle(w, i, hit && !sphere ? &primitive.triangle : &dummy);
+        w->sphere[0][i] = sphere ? primitive.sphere.x : 0;
+        w->sphere[1][i] = sphere ? primitive.sphere.y : 0;
+        w->sphere[2][i] = sphere ? primitive.sphere.z : 0;
+        w->sphere[3][i] = sphere ? primitive.sphere.r : 0;
     }
 }
 
 /* A vector of triangles of one array, of which some lane, `some`, has a winner: the others take that one. */
-CGT_SPU_INLINE void load_triangles(const cgt_object_array *array, vuint object, vmask missed, uint32_t some, uint32_t i,
-                                   winners *w)
+CGT_SPU_INLINE void resolve_load_triangles(const cgt_primitive_array *array, vuint prim, vmask missed,
+                                           uint32_t fallback, uint32_t i, hit_primitives *w)
 {
-    const vuint number = spux_select(object, spux_vuint(some), missed);
+    const vuint number = spux_select(prim, spux_vuint(fallback), missed);
     vfloat vertex[3][3];
-    if (spux_all(spu_cmpeq(number, spux_vuint(some)))) { /* neighbours mostly hit the same */
-        const cgt_triangle q = cgt_array_triangle(array, some);
+    if (spux_all(spu_cmpeq(number, spux_vuint(fallback)))) { /* neighbours mostly hit the same */
+        const cgt_triangle q = cgt_array_triangle(array, fallback);
         for (int k = 0; k < 3; k++)
             for (int a = 0; a < 3; a++)
                 spux_store(w->vertex[k][a] + i, spux_vfloat(q.v[k][a]));
         return;
     }
-    fetch_triangles_at(array, number, vertex);
+    gather_triangles(array, number, vertex);
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
             spux_store(w->vertex[k][a] + i, vertex[k][a]);
 }
 
 /* Triangles of one array alone. */
-CGT_SPU_INLINE void find_triangles(const cgt_object_array *array, const packet *p, uint32_t first, uint32_t count,
-                                   winners *w, packet_hits *hits)
+CGT_SPU_INLINE void resolve_find_triangles(const cgt_primitive_array *array, const packet *p, uint32_t first,
+                                           uint32_t count, hit_primitives *w, packet_hits *hits)
 {
     const vuint none = spux_vuint(CGT_INVALID_ID);
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
-        const vuint object = spux_load_uint(p->object + i);
-        const vmask missed = spu_cmpeq(object, none);
+        const vuint prim = spux_load_uint(p->prim + i);
+        const vmask missed = spu_cmpeq(prim, none);
         const unsigned hit = ~spux_mask_bits(missed) & CGT_ALL_LANES;
         spux_store_uint(w->is_sphere + i, spux_vuint(0));
-        spux_store_uint(hits->primitive + i, object);
+        spux_store_uint(hits->primitive + i, prim);
         spux_store_uint(hits->geometry + i, spux_select(spux_vuint(array->geometry), none, missed));
-        load_triangles(array, object, missed, hit ? p->object[i + (uint32_t)__builtin_ctz(hit)] : 0, i, w);
+        resolve_load_triangles(array, prim, missed, hit ? p->prim[i + (uint32_t)__builtin_ctz(hit)] : 0, i, w);
         w->hits += spux_count_bits(hit);
     }
 }
 
-CGT_SPU_INLINE void find_winners(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
-                                 winners *w, packet_hits *hits)
+CGT_SPU_INLINE void resolve_load_hits(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
+                                      hit_primitives *w, packet_hits *hits)
 {
-    if (!objects->triangles)
-        find_spheres(objects, p, first, count, w, hits);
-    else if (objects->arrays == 1)
-        find_triangles(objects->array, p, first, count, w, hits);
+    if (!prims->triangles)
+        resolve_find_spheres(prims, p, first, count, w, hits);
+    else if (prims->arrays == 1)
+        resolve_find_triangles(prims->array, p, first, count, w, hits);
     else
-        look_up_shapes(objects, p, first, count, w, hits);
+        resolve_lookup_mixed(prims, p, first, count, w, hits);
 }
 
 /* ---- the fields ---- */
 
-CGT_SPU_INLINE void fill_none(uint32_t first, uint32_t count, uint32_t fields, packet_hits *hits)
+CGT_SPU_INLINE void fill_no_hit(uint32_t first, uint32_t count, uint32_t fields, packet_hits *hits)
 {
     const vfloat zero = spux_vfloat(0);
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
@@ -169,7 +169,7 @@ CGT_SPU_INLINE void fill_none(uint32_t first, uint32_t count, uint32_t fields, p
     }
 }
 
-CGT_SPU_INLINE void fill_nobody(uint32_t first, uint32_t count, packet_hits *hits)
+CGT_SPU_INLINE void fill_no_primitive(uint32_t first, uint32_t count, packet_hits *hits)
 {
     for (uint32_t i = first; i < first + count; i += CGT_LANES) {
         spux_store_uint(hits->primitive + i, spux_vuint(CGT_INVALID_ID));
@@ -178,48 +178,49 @@ CGT_SPU_INLINE void fill_nobody(uint32_t first, uint32_t count, packet_hits *hit
 }
 
 /* Rays first to first + count - 1. Each kind's loop writes the rays of its kind. */
-CGT_SPU_INLINE void resolve_rays(const cgt_objects *objects, const packet *p, uint32_t first, uint32_t count,
-                                 const cgt_trace_settings *settings, winners *w, packet_hits *hits, cgt_counts *counts)
+CGT_SPU_INLINE void resolve_rays(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
+                                 const cgt_trace_settings *settings, hit_primitives *w, packet_hits *hits,
+                                 cgt_counts *counts)
 {
-    vuint any = spux_vuint(0);
+    vuint hit_bits = spux_vuint(0);
     for (uint32_t i = first; i < first + count; i += CGT_LANES)
-        any = spu_or(any, spu_xor(spux_load_uint(p->object + i), spux_vuint(CGT_INVALID_ID)));
-    const bool none = spux_all(spu_cmpeq(any, spux_vuint(0)));
-    if (none || objects->triangles || settings->fields & CGT_FIELD_UV)
-        fill_none(first, count, settings->fields, hits);
+        hit_bits = spu_or(hit_bits, spu_xor(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID)));
+    const bool none = spux_all(spu_cmpeq(hit_bits, spux_vuint(0)));
+    if (none || prims->triangles || settings->fields & CGT_FIELD_UV)
+        fill_no_hit(first, count, settings->fields, hits);
     if (none) {
-        fill_nobody(first, count, hits);
+        fill_no_primitive(first, count, hits);
         return;
     }
-    find_winners(objects, p, first, count, w, hits);
-    if (objects->spheres)
-        resolve_spheres(p, first, count, settings, !objects->triangles, w, hits, counts);
-    if (objects->triangles)
-        resolve_triangles(p, first, count, settings, !objects->spheres, w, hits, counts);
+    resolve_load_hits(prims, p, first, count, w, hits);
+    if (prims->spheres)
+        resolve_spheres(p, first, count, settings, !prims->triangles, w, hits, counts);
+    if (prims->triangles)
+        resolve_triangles(p, first, count, settings, !prims->spheres, w, hits, counts);
 }
 
-static void resolve_all(const cgt_objects *objects, const packet *p, const cgt_trace_settings *settings, winners *w,
-                        packet_hits *hits, cgt_counts *counts)
+static void resolve_all(const cgt_primitives *prims, const packet *p, const cgt_trace_settings *settings,
+                        hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
     const uint32_t lanes = p->lanes;
     uint32_t i = 0;
     for (; i + RESOLVE_RAYS <= lanes; i += RESOLVE_RAYS) /* a length that the compiler knows */
-        resolve_rays(objects, p, i, RESOLVE_RAYS, settings, w, hits, counts);
+        resolve_rays(prims, p, i, RESOLVE_RAYS, settings, w, hits, counts);
     if (i < lanes)
-        resolve_rays(objects, p, i, lanes - i, settings, w, hits, counts);
+        resolve_rays(prims, p, i, lanes - i, settings, w, hits, counts);
 }
 
-uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_world *world, const packet *p, const cgt_trace_settings *settings,
-                                        packet_hits *hits, cgt_counts *counts)
+uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_committed_scene *committed_scene, const packet *p,
+                                        const cgt_trace_settings *settings, packet_hits *hits, cgt_counts *counts)
 {
-    const cgt_objects *objects = &world->objects;
-    winners w;
+    const cgt_primitives *prims = &committed_scene->prims;
+    hit_primitives w;
     w.hits = 0;
-    if (p->fast && !p->extreme && !world->everything) {
-        find_winners(objects, p, 0, p->lanes, &w, hits);
-        resolve_fast(world, p, settings->fields, &w, hits);
+    if (p->fast && !p->extreme && !committed_scene->brute_force) {
+        resolve_load_hits(prims, p, 0, p->lanes, &w, hits);
+        resolve_fast(committed_scene, p, settings->fields, &w, hits);
     } else
-        resolve_all(objects, p, settings, &w, hits, counts);
+        resolve_all(prims, p, settings, &w, hits, counts);
     counts->hits += w.hits;
     return w.hits;
 }

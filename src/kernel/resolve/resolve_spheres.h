@@ -37,7 +37,8 @@ CGT_SPU_INLINE void resolve_normals(const resolve_half h[2], const vdouble k[2],
 
 /* Returns the lanes whose t is cgt_canonical_sphere_t's, of those outside; t has the sign of the middle there. Both roots
  * before both quotients: a CPU has one slow unit for them, and one half's wait is the other one's work. */
-CGT_SPU_INLINE vmask resolve_nears(const vdouble product[2], vmask outside, vfloat t_min, resolve_half h[2], vfloat *t)
+CGT_SPU_INLINE vmask resolve_near_roots(const vdouble product[2], vmask outside, vfloat t_min, resolve_half h[2],
+                                        vfloat *t)
 {
     vdouble middle[2], square[2], disc[2], half[2], least[2];
     for (int i = 0; i < 2; i++) {
@@ -63,17 +64,17 @@ CGT_SPU_INLINE vmask resolve_nears(const vdouble product[2], vmask outside, vflo
 
 /* ---- the long way ---- */
 
-#define SPHERE_ROOM 0x1p-16 /* twice what cgt_sphere_double_unsafe asks for, and more */
+#define SPHERE_SAFE_RATIO 0x1p-16 /* twice what cgt_sphere_double_unsafe asks for, and more */
 
 /* Rays of some lanes, in place of what t and n have there. Returns those whose t is the near root, and safe:
  * cgt_sphere_double_unsafe is 0 there. The product, d.d times that of the roots, is so far above 0 that where t is the
  * middle is. */
 __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat org[3], const vfloat dir[3],
                                                                     const vfloat sphere[4], vfloat t_min, bool normal,
-                                                                    vmask some, vfloat *t, vfloat n[3])
+                                                                    vmask lanes, vfloat *t, vfloat n[3])
 {
     resolve_half h[2];
-    vdouble room[2], outside[2], k[2];
+    vdouble headroom[2], outside[2], k[2];
     vfloat normals[3];
     resolve_directions(dir, h);
     for (int i = 0; i < 2; i++) {
@@ -82,26 +83,28 @@ __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat
         for (int a = 0; a < 3; a++)
             h[i].c[a] = i ? spux_double_high(sphere[a]) - spux_double_high(org[a])
                           : spux_double_low(sphere[a]) - spux_double_low(org[a]);
-        const vdouble cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2], product = cc - rr, least = (cc + rr) * SPHERE_ROOM;
+        const vdouble cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2], product = cc - rr,
+                      least = (cc + rr) * SPHERE_SAFE_RATIO;
         const vdouble x = c[1] * d[2] - c[2] * d[1], y = c[2] * d[0] - c[0] * d[2], z = c[0] * d[1] - c[1] * d[0];
         const vdouble middle = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
         const vdouble half = spux_double_sqrt(rr * dd - (x * x + y * y + z * z));
         h[i].t = product / (middle + half);
-        room[i] = (middle + half) * half - least * dd;
+        headroom[i] = (middle + half) * half - least * dd;
         outside[i] = product - least;
         k[i] = spux_vdouble(1) / r;
     }
     const vfloat near = spux_float_of(h[0].t, h[1].t);
     const vmask ahead = spu_and(spu_cmpgt(near, spux_vfloat(0)), spux_cmpge(near, t_min));
-    const vmask safe = spu_and(spux_double_above0(room[0], room[1]), spux_double_above0(outside[0], outside[1]));
-    const vmask known = spu_and(spu_and(some, ahead), safe);
-    *t = spux_select(*t, near, known);
+    const vmask safe =
+        spu_and(spux_double_above0(headroom[0], headroom[1]), spux_double_above0(outside[0], outside[1]));
+    const vmask safe_lanes = spu_and(spu_and(lanes, ahead), safe);
+    *t = spux_select(*t, near, safe_lanes);
     if (!normal)
-        return known;
-    resolve_normals(h, k, known, normals);
+        return safe_lanes;
+    resolve_normals(h, k, safe_lanes, normals);
     for (int a = 0; a < 3; a++)
-        n[a] = spux_select(n[a], normals[a], known);
-    return spu_and(known, spu_cmpgt(sphere[3], spux_vfloat(0)));
+        n[a] = spux_select(n[a], normals[a], safe_lanes);
+    return spu_and(safe_lanes, spu_cmpgt(sphere[3], spux_vfloat(0)));
 }
 
 /* ---- rays one by one ---- */
@@ -132,23 +135,24 @@ __attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(cons
 
 /* The lanes that hit, what of them the short way knows. Returns what both ways know; the others are for
  * resolve_sphere_ray. */
-CGT_SPU_INLINE vmask resolve_spheres_rest(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
-                                          vfloat t_min, bool normal, vmask hit, vmask known, vfloat *t, vfloat n[3])
+CGT_SPU_INLINE vmask resolve_spheres_fallback(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
+                                              vfloat t_min, bool normal, vmask hit, vmask safe_lanes, vfloat *t,
+                                              vfloat n[3])
 {
-    const vmask left = spu_andc(hit, known);
-    if (!spux_any(left))
-        return known;
+    const vmask remaining = spu_andc(hit, safe_lanes);
+    if (!spux_any(remaining))
+        return safe_lanes;
     /* of copies, so that the others stay in registers */
     const vfloat o[3] = {org[0], org[1], org[2]}, d[3] = {dir[0], dir[1], dir[2]};
     const vfloat q[4] = {sphere[0], sphere[1], sphere[2], sphere[3]};
     vfloat long_t = *t, long_n[3];
     for (int a = 0; normal && a < 3; a++)
         long_n[a] = n[a];
-    const vmask more = resolve_spheres_long(o, d, q, t_min, normal, left, &long_t, long_n);
+    const vmask more = resolve_spheres_long(o, d, q, t_min, normal, remaining, &long_t, long_n);
     *t = long_t;
     for (int a = 0; normal && a < 3; a++)
         n[a] = long_n[a];
-    return spu_or(known, more);
+    return spu_or(safe_lanes, more);
 }
 
 /* What the short way asks for, but directions, which h has: centres and products. Returns the lanes outside. */
@@ -176,13 +180,13 @@ CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat sp
 {
     vdouble product[2];
     const vmask outside = resolve_terms(org, sphere, h, product);
-    const vmask known = resolve_nears(product, outside, t_min, h, t);
+    const vmask safe_lanes = resolve_near_roots(product, outside, t_min, h, t);
     if (normal) {
         const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
         const vdouble k[2] = {spux_vdouble(1) / r[0], spux_vdouble(1) / r[1]};
         resolve_normals(h, k, hit, n);
     }
-    return known;
+    return safe_lanes;
 }
 
 /* What rays from one origin to one sphere have in common. */
@@ -207,20 +211,20 @@ CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, vfloat t_
     const vdouble product[2] = {spux_vdouble(p->product), spux_vdouble(p->product)};
     for (int a = 0; a < 3; a++)
         h[0].c[a] = h[1].c[a] = spux_vdouble(p->c[a]);
-    const vmask known = resolve_nears(product, p->outside ? spux_mask_all() : spux_mask_none(), t_min, h, t);
+    const vmask safe_lanes = resolve_near_roots(product, p->outside ? spux_mask_all() : spux_mask_none(), t_min, h, t);
     if (normal) {
         const vdouble k[2] = {spux_vdouble(p->reciprocal), spux_vdouble(p->reciprocal)};
         resolve_normals(h, k, hit, n);
     }
-    return known;
+    return safe_lanes;
 }
 
 /* Lanes of a packet. */
-CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal, bool alone, const winners *w,
-                                          packet_hits *hits, cgt_counts *counts)
+CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal, bool single_kind,
+                                          const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
-    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_INVALID_ID));
-    const vmask hit = alone ? spux_not(nobody) : spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(1));
+    const vmask no_hit = spu_cmpeq(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID));
+    const vmask hit = single_kind ? spux_not(no_hit) : spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(1));
     vfloat sphere[4], org[3], dir[3], n[3], t;
     for (int a = 0; a < 4; a++)
         sphere[a] = spux_load(w->sphere[a] + i);
@@ -231,19 +235,19 @@ CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal
     const vfloat t_min = spux_load(p->t_min + i);
     resolve_half h[2];
     resolve_directions(dir, h);
-    vmask known = resolve_spheres_vector(org, sphere, t_min, normal, hit, h, &t, n);
-    known = resolve_spheres_rest(org, dir, sphere, t_min, normal, hit, known, &t, n);
-    spux_store(hits->t + i, spux_select(alone ? spux_vfloat(INFINITY) : spux_load(hits->t + i), t, hit));
+    vmask safe_lanes = resolve_spheres_vector(org, sphere, t_min, normal, hit, h, &t, n);
+    safe_lanes = resolve_spheres_fallback(org, dir, sphere, t_min, normal, hit, safe_lanes, &t, n);
+    spux_store(hits->t + i, spux_select(single_kind ? spux_vfloat(INFINITY) : spux_load(hits->t + i), t, hit));
     for (int a = 0; normal && a < 3; a++) {
-        const vfloat other = alone ? spux_vfloat(0) : spux_load(hits->normal[a] + i);
-        spux_store(hits->normal[a] + i, spux_select(other, n[a], hit));
+        const vfloat previous = single_kind ? spux_vfloat(0) : spux_load(hits->normal[a] + i);
+        spux_store(hits->normal[a] + i, spux_select(previous, n[a], hit));
     }
-    for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1) {
-        const size_t lane = i + (size_t)__builtin_ctz(left);
+    for (unsigned remaining = spux_mask_bits(spu_andc(hit, safe_lanes)); remaining; remaining &= remaining - 1) {
+        const size_t lane = i + (size_t)__builtin_ctz(remaining);
         const cgt_ray ray = {.line = {.org = {p->org[0][lane], p->org[1][lane], p->org[2][lane]},
                                       .dir = {p->dir[0][lane], p->dir[1][lane], p->dir[2][lane]}},
                              .t_min = p->t_min[lane]};
-        const resolved_sphere s = resolve_sphere_ray(&ray, winner_sphere(w, lane), counts);
+        const resolved_sphere s = resolve_sphere_ray(&ray, hit_primitive_sphere(w, lane), counts);
         hits->t[lane] = s.t;
         for (int a = 0; normal && a < 3; a++)
             hits->normal[a][lane] = s.normal[a];
@@ -251,14 +255,14 @@ CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal
 }
 
 CGT_SPU_INLINE void resolve_spheres(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
-                                    bool alone, const winners *w, packet_hits *hits, cgt_counts *counts)
+                                    bool single_kind, const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
     if (settings->fields & CGT_FIELD_NORMAL)
         for (size_t i = first; i < first + count; i += CGT_LANES)
-            resolve_spheres_lanes(p, i, true, alone, w, hits, counts);
+            resolve_spheres_lanes(p, i, true, single_kind, w, hits, counts);
     else if (settings->fields & CGT_FIELD_T)
         for (size_t i = first; i < first + count; i += CGT_LANES)
-            resolve_spheres_lanes(p, i, false, alone, w, hits, counts);
+            resolve_spheres_lanes(p, i, false, single_kind, w, hits, counts);
 }
 
 #endif

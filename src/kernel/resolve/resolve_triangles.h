@@ -53,12 +53,12 @@ static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
 {
     const double error = triangle_edges(q);
     double sum = 0;
-    bool each = true;
+    bool each_safe = true;
     for (int a = 0; a < 3; a++) {
-        each = each && error <= CGT_DOUBLE_SAFE * fabs(n[a]);
+        each_safe = each_safe && error <= CGT_DOUBLE_SAFE * fabs(n[a]);
         sum += CGT_DOUBLE_SAFE * fabs(n[a]);
     }
-    return exact ? each : error <= sum;
+    return exact ? each_safe : error <= sum;
 }
 
 /* The fields of one triangle's hit. */
@@ -72,18 +72,18 @@ resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields,
 {
     const cgt_triangle_plane plane = cgt_triangle_double_plane(ray->line.org, ray->line.dir, q);
     resolved_triangle h = {0};
-    bool exactly = false;
+    bool was_exact = false;
     if (fields & CGT_FIELD_T) {
         h.t = (float)cgt_canonical_triangle_t(ray, q);
-        exactly = !cgt_triangle_double_t_safe(&plane);
+        was_exact = !cgt_triangle_double_t_safe(&plane);
     }
     if (fields & CGT_FIELD_UV) {
         double share[2];
-        exactly |= resolve_ray_uv(ray, q, &plane, exact, share);
+        was_exact |= resolve_ray_uv(ray, q, &plane, exact, share);
         h.u = share_of(share[0]);
         h.v = share_of(share[1]);
     }
-    counts->exact_values += exactly;
+    counts->exact_values += was_exact;
     if (fields & CGT_FIELD_NORMAL) {
         double n[3] = {plane.n[0], plane.n[1], plane.n[2]};
         if (!normal_is_safe(q, n, exact))
@@ -100,7 +100,7 @@ resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields,
 /* Half a vector: the steps of cgt_triangle_double_plane, in its order. */
 typedef struct resolve_half_plane {
     vdouble d[3], org[3], v[3][3];
-    vdouble n[3], num, den, edges, sure_t, sure_den; /* the last two: above 0 where t and den are safe */
+    vdouble n[3], num, den, edges, t_margin, den_margin; /* the last two: above 0 where t and den are safe */
 } resolve_half_plane;
 
 #define NORM1(x) (spux_double_abs((x)[0]) + spux_double_abs((x)[1]) + spux_double_abs((x)[2]))
@@ -135,14 +135,14 @@ CGT_SPU_INLINE void resolve_half_normal(resolve_half_plane *h)
         h->n[k] = CGT_CROSS(e1, e2, (k + 1) % 3, (k + 2) % 3);
     h->edges = NORM1(e1) * NORM1(e2) * CGT_TRIANGLE_DOUBLE_ERROR;
     h->num = DOT(h->n, a);
-    h->sure_t = spux_double_abs(h->num) * CGT_DOUBLE_SAFE - h->edges * NORM1(a);
+    h->t_margin = spux_double_abs(h->num) * CGT_DOUBLE_SAFE - h->edges * NORM1(a);
 }
 
-CGT_SPU_INLINE void resolve_half_plane_make(resolve_half_plane *h)
+CGT_SPU_INLINE void resolve_half_plane_init(resolve_half_plane *h)
 {
     resolve_half_normal(h);
     h->den = DOT(h->d, h->n);
-    h->sure_den = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - h->edges * NORM1(h->d);
+    h->den_margin = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - h->edges * NORM1(h->d);
 }
 
 /* The cross product of the edge from vertex `from` to `to`, as cgt_triangle_double_edge has it; returns the bound. */
@@ -159,11 +159,11 @@ CGT_SPU_INLINE vdouble resolve_half_edge(const resolve_half_plane *h, int from, 
 }
 
 /* w1 or w2: the side of the edge, as cgt_triangle_double_sides has it; and what is above 0 where it is safe. */
-CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, int to, vdouble *sure)
+CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, int to, vdouble *margin)
 {
     vdouble cross[3];
     const vdouble error = resolve_half_edge(h, from, to, cross), side = DOT(h->d, cross);
-    *sure = spux_double_abs(side) * CGT_DOUBLE_SAFE - NORM1(h->d) * error;
+    *margin = spux_double_abs(side) * CGT_DOUBLE_SAFE - NORM1(h->d) * error;
     return side;
 }
 
@@ -182,23 +182,23 @@ CGT_SPU_INLINE vfloat shares_of(vdouble low, vdouble high)
 CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
 {
     const vdouble r[2] = {spux_vdouble(1) / h[0].den, spux_vdouble(1) / h[1].den};
-    vmask known = spux_double_above0(h[0].sure_den, h[1].sure_den);
+    vmask safe_lanes = spux_double_above0(h[0].den_margin, h[1].den_margin);
     for (int k = 0; k < 2; k++) { /* w1 is of the edge from v2 to v0, w2 from v0 to v1 */
         const int from = k ? 0 : 2, end = k ? 1 : 0;
-        vdouble sure[2];
-        const vdouble low = resolve_half_side(&h[0], from, end, &sure[0]);
-        const vdouble high = resolve_half_side(&h[1], from, end, &sure[1]);
+        vdouble margin[2];
+        const vdouble low = resolve_half_side(&h[0], from, end, &margin[0]);
+        const vdouble high = resolve_half_side(&h[1], from, end, &margin[1]);
         *(k ? &to->v : &to->u) = shares_of(low * r[0], high * r[1]);
         if (exact)
-            known = spu_and(known, spux_double_above0(sure[0], sure[1]));
+            safe_lanes = spu_and(safe_lanes, spux_double_above0(margin[0], margin[1]));
     }
-    return known;
+    return safe_lanes;
 }
 
 CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], bool exact, resolved_triangles *to)
 {
     vdouble r[2], sum[2];
-    vmask known = spux_mask_all();
+    vmask safe_lanes = spux_mask_all();
     for (int k = 0; k < 2; k++) {
         r[k] = spux_vdouble(1) / spux_double_sqrt(DOT(h[k].n, h[k].n));
         sum[k] = NORM1(h[k].n) * CGT_DOUBLE_SAFE - h[k].edges;
@@ -206,10 +206,11 @@ CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], bool e
     for (int a = 0; a < 3; a++) {
         to->normal[a] = spux_float_of(h[0].n[a] * r[0], h[1].n[a] * r[1]);
         if (exact)
-            known = spu_and(known, spux_double_above0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
-                                                      spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
+            safe_lanes =
+                spu_and(safe_lanes, spux_double_above0(spux_double_abs(h[0].n[a]) * CGT_DOUBLE_SAFE - h[0].edges,
+                                                       spux_double_abs(h[1].n[a]) * CGT_DOUBLE_SAFE - h[1].edges));
     }
-    return exact ? known : spux_double_above0(sum[0], sum[1]);
+    return exact ? safe_lanes : spux_double_above0(sum[0], sum[1]);
 }
 
 /* Returns the lanes that are right; the others are for resolve_triangle_ray. */
@@ -217,19 +218,20 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
                                               uint32_t fields, bool exact, resolved_triangles *to)
 {
     resolve_half_plane h[2];
-    vmask known = spux_mask_all();
+    vmask safe_lanes = spux_mask_all();
     resolve_half_load(org, dir, vertex, h);
-    resolve_half_plane_make(&h[0]);
-    resolve_half_plane_make(&h[1]);
+    resolve_half_plane_init(&h[0]);
+    resolve_half_plane_init(&h[1]);
     if (fields & CGT_FIELD_T) {
         to->t = spux_float_of(h[0].num / h[0].den, h[1].num / h[1].den);
-        known = spu_and(spux_double_above0(h[0].sure_t, h[1].sure_t), spux_double_above0(h[0].sure_den, h[1].sure_den));
+        safe_lanes = spu_and(spux_double_above0(h[0].t_margin, h[1].t_margin),
+                             spux_double_above0(h[0].den_margin, h[1].den_margin));
     }
     if (fields & CGT_FIELD_UV)
-        known = spu_and(known, resolve_vector_uv(h, exact, to));
+        safe_lanes = spu_and(safe_lanes, resolve_vector_uv(h, exact, to));
     if (fields & CGT_FIELD_NORMAL)
-        known = spu_and(known, resolve_vector_normal(h, exact, to));
-    return known;
+        safe_lanes = spu_and(safe_lanes, resolve_vector_normal(h, exact, to));
+    return safe_lanes;
 }
 
 /* ---- triangles seen from one origin ---- */
@@ -242,23 +244,23 @@ enum { PREPARED_SIDE = 0, PREPARED_SIDE_ERROR = 6 };
 #define PREPARED_RECORD 8u
 
 /* |d| is summed up otherwise than for a single ray: the bound allows for its rounding. */
-#define PREPARED_SLACK 1.01
+#define PREPARED_ERROR_SCALE 1.01
 
 CGT_SPU_INLINE void prepare_half_plane(resolve_half_plane *h, uint32_t fields, bool exact, vdouble record[8])
 {
     const vdouble safe = spux_vdouble(CGT_DOUBLE_SAFE), one = spux_vdouble(1);
-    vdouble sure = one;
+    vdouble margin = one;
     resolve_half_normal(h);
     if (fields & CGT_FIELD_T)
-        sure = h->sure_t;
+        margin = h->t_margin;
     if (fields & CGT_FIELD_NORMAL) {
         const vdouble r = one / spux_double_sqrt(DOT(h->n, h->n));
         if (!exact)
-            sure = spux_double_select(spux_vdouble(-1), sure, NORM1(h->n) * safe - h->edges);
+            margin = spux_double_select(spux_vdouble(-1), margin, NORM1(h->n) * safe - h->edges);
         for (int a = 0; a < 3; a++) {
             record[PREPARED_NORMAL + a] = h->n[a] * r;
             if (exact)
-                sure = spux_double_select(spux_vdouble(-1), sure, spux_double_abs(h->n[a]) * safe - h->edges);
+                margin = spux_double_select(spux_vdouble(-1), margin, spux_double_abs(h->n[a]) * safe - h->edges);
         }
     } else
         for (int a = 0; a < 3; a++)
@@ -266,7 +268,8 @@ CGT_SPU_INLINE void prepare_half_plane(resolve_half_plane *h, uint32_t fields, b
     for (int a = 0; a < 3; a++)
         record[PREPARED_N + a] = h->n[a];
     record[PREPARED_NUM] = h->num;
-    record[PREPARED_ERROR] = spux_double_select(spux_vdouble(INFINITY), h->edges * spux_vdouble(PREPARED_SLACK), sure);
+    record[PREPARED_ERROR] =
+        spux_double_select(spux_vdouble(INFINITY), h->edges * spux_vdouble(PREPARED_ERROR_SCALE), margin);
 }
 
 CGT_SPU_INLINE void prepare_half_sides(const resolve_half_plane *h, vdouble record[8])
@@ -276,7 +279,7 @@ CGT_SPU_INLINE void prepare_half_sides(const resolve_half_plane *h, vdouble reco
         const vdouble error = resolve_half_edge(h, k ? 0 : 2, k ? 1 : 0, cross);
         for (int a = 0; a < 3; a++)
             record[PREPARED_SIDE + 3 * k + a] = cross[a];
-        record[PREPARED_SIDE_ERROR + k] = error * spux_vdouble(PREPARED_SLACK);
+        record[PREPARED_SIDE_ERROR + k] = error * spux_vdouble(PREPARED_ERROR_SCALE);
     }
 }
 
@@ -301,16 +304,16 @@ CGT_SPU_INLINE void prepare_triangles(const float eye[3], const vfloat vertex[3]
 
 /* Half a vector of rays, each to a triangle of its own: records as vectors. */
 typedef struct prepared_half {
-    vdouble t, den, sure;
+    vdouble t, den, margin;
     vdouble normal[3];
-    vdouble side[2], sure_side[2];
+    vdouble side[2], side_margin[2];
 } prepared_half;
 
 CGT_SPU_INLINE void resolve_prepared_half(const vdouble d[3], const vdouble record[8], prepared_half *h)
 {
     h->den = DOT(d, record + PREPARED_N);
     h->t = record[PREPARED_NUM] / h->den;
-    h->sure = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_ERROR];
+    h->margin = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_ERROR];
     for (int a = 0; a < 3; a++)
         h->normal[a] = record[PREPARED_NORMAL + a];
 }
@@ -321,7 +324,7 @@ CGT_SPU_INLINE void resolve_prepared_sides(const vdouble d[3], const vdouble rec
     for (int k = 0; k < 2; k++) {
         const vdouble w = DOT(d, record + PREPARED_SIDE + 3 * k);
         h->side[k] = w * r;
-        h->sure_side[k] = spux_double_abs(w) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_SIDE_ERROR + k];
+        h->side_margin[k] = spux_double_abs(w) * CGT_DOUBLE_SAFE - NORM1(d) * record[PREPARED_SIDE_ERROR + k];
     }
 }
 
@@ -329,44 +332,44 @@ CGT_SPU_INLINE void resolve_prepared_sides(const vdouble d[3], const vdouble rec
 CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t fields, bool exact,
                                              resolved_triangles *to)
 {
-    vmask known = spux_double_above0(h[0].sure, h[1].sure);
+    vmask safe_lanes = spux_double_above0(h[0].margin, h[1].margin);
     to->t = spux_float_of(h[0].t, h[1].t);
     if (fields & CGT_FIELD_UV) {
         to->u = shares_of(h[0].side[0], h[1].side[0]);
         to->v = shares_of(h[0].side[1], h[1].side[1]);
         for (int k = 0; exact && k < 2; k++)
-            known = spu_and(known, spux_double_above0(h[0].sure_side[k], h[1].sure_side[k]));
+            safe_lanes = spu_and(safe_lanes, spux_double_above0(h[0].side_margin[k], h[1].side_margin[k]));
     }
     if (fields & CGT_FIELD_NORMAL)
         for (int a = 0; a < 3; a++)
             to->normal[a] = spux_float_of(h[0].normal[a], h[1].normal[a]);
-    return known;
+    return safe_lanes;
 }
 
 /* The records at `at`, so many doubles from `record`, of half a vector; at is NULL: this one in every lane. */
-CGT_SPU_INLINE void prepared_load(const double *record, const uint32_t *at, vdouble q[8])
+CGT_SPU_INLINE void prepared_load(const double *record, const uint32_t *offset, vdouble q[8])
 {
-    if (at)
-        spux_double_load8_at(record, at, q);
+    if (offset)
+        spux_double_load8_at(record, offset, q);
     else
         for (uint32_t k = 0; k < 8; k++)
             q[k] = spux_vdouble(record[k]);
 }
 
 /* Rays from the origin, each to its record, see above. */
-CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *at, const vfloat dir[3], uint32_t fields,
-                                      bool exact, resolved_triangles *to)
+CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *offset, const vfloat dir[3],
+                                      uint32_t fields, bool exact, resolved_triangles *to)
 {
     prepared_half h[2];
     for (uint32_t half = 0; half < 2; half++) {
-        const uint32_t *own = at ? at + half * CGT_DOUBLES : NULL;
+        const uint32_t *half_offset = offset ? offset + half * CGT_DOUBLES : NULL;
         vdouble d[3], q[8];
         for (int a = 0; a < 3; a++)
             d[a] = half ? spux_double_high(dir[a]) : spux_double_low(dir[a]);
-        prepared_load(record, own, q);
+        prepared_load(record, half_offset, q);
         resolve_prepared_half(d, q, &h[half]);
         if (fields & CGT_FIELD_UV) {
-            prepared_load(record + PREPARED_RECORD, own, q);
+            prepared_load(record + PREPARED_RECORD, half_offset, q);
             resolve_prepared_sides(d, q, &h[half]);
         }
     }
@@ -374,9 +377,10 @@ CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *at, 
 }
 
 __attribute__((noinline)) static void resolve_triangle_lane(const packet *p, size_t i, uint32_t fields, bool exact,
-                                                            const winners *w, packet_hits *hits, cgt_counts *counts)
+                                                            const hit_primitives *w, packet_hits *hits,
+                                                            cgt_counts *counts)
 {
-    const cgt_triangle q = winner_triangle(w, i);
+    const cgt_triangle q = hit_primitive_triangle(w, i);
     const cgt_ray ray = {
         .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}}};
     const resolved_triangle h = resolve_triangle_ray(&ray, &q, fields, exact, counts);
@@ -391,12 +395,12 @@ __attribute__((noinline)) static void resolve_triangle_lane(const packet *p, siz
 }
 
 /* Lanes of a packet. */
-CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t fields, bool exact, bool alone,
-                                            const winners *w, packet_hits *hits, cgt_counts *counts)
+CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t fields, bool exact, bool single_kind,
+                                            const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
-    const vmask nobody = spu_cmpeq(spux_load_uint(p->object + i), spux_vuint(CGT_INVALID_ID));
+    const vmask no_hit = spu_cmpeq(spux_load_uint(p->prim + i), spux_vuint(CGT_INVALID_ID));
     const vmask hit =
-        alone ? spux_not(nobody) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), nobody);
+        single_kind ? spux_not(no_hit) : spu_andc(spu_cmpeq(spux_load_uint(w->is_sphere + i), spux_vuint(0)), no_hit);
     const vfloat zero = spux_vfloat(0);
     vfloat org[3], dir[3], vertex[3][3];
     resolved_triangles h = {zero, zero, zero, {zero, zero, zero}};
@@ -406,7 +410,7 @@ CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t 
         for (int k = 0; k < 3; k++)
             vertex[k][a] = spux_load(w->vertex[k][a] + i);
     }
-    const vmask known = resolve_triangles_vector(org, dir, vertex, fields, exact, &h);
+    const vmask safe_lanes = resolve_triangles_vector(org, dir, vertex, fields, exact, &h);
     if (fields & CGT_FIELD_T)
         spux_store(hits->t + i, spux_select(spux_load(hits->t + i), h.t, hit));
     if (fields & CGT_FIELD_UV) {
@@ -415,19 +419,19 @@ CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t 
     }
     for (int a = 0; fields & CGT_FIELD_NORMAL && a < 3; a++)
         spux_store(hits->normal[a] + i, spux_select(spux_load(hits->normal[a] + i), h.normal[a], hit));
-    for (unsigned left = spux_mask_bits(spu_andc(hit, known)); left; left &= left - 1)
-        resolve_triangle_lane(p, i + (size_t)__builtin_ctz(left), fields, exact, w, hits, counts);
+    for (unsigned remaining = spux_mask_bits(spu_andc(hit, safe_lanes)); remaining; remaining &= remaining - 1)
+        resolve_triangle_lane(p, i + (size_t)__builtin_ctz(remaining), fields, exact, w, hits, counts);
 }
 
 CGT_SPU_INLINE void resolve_triangles(const packet *p, size_t first, size_t count, const cgt_trace_settings *settings,
-                                      bool alone, const winners *w, packet_hits *hits, cgt_counts *counts)
+                                      bool single_kind, const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
     const uint32_t fields = settings->fields;
     const bool exact = settings->precision == CGT_PRECISION_EXACT;
     if (!(fields & (CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV)))
         return;
     for (size_t i = first; i < first + count; i += CGT_LANES)
-        resolve_triangles_lanes(p, i, fields, exact, alone, w, hits, counts);
+        resolve_triangles_lanes(p, i, fields, exact, single_kind, w, hits, counts);
 }
 
 #undef DOT

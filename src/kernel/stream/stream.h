@@ -9,23 +9,23 @@
  * call's frame. Beside it there are, one at a time, the levels of a list with the stack of a single ray, 20 KB, or rays in
  * flight, 40 KB, or a packet, its hits and the frame of the resolve, 49 KB: a call stays below 860 KB. Points against a
  * light come with 177 KB more, ambient occlusion with 181 KB. */
-#ifndef CGT_WIDE_STREAM_H
-#define CGT_WIDE_STREAM_H
+#ifndef CGT_STREAM_H
+#define CGT_STREAM_H
 
 #include "kernel/bvh/bvh_single.h"
 
-#define CGT_WIDE_STREAM_ARENA 16384u /* words */
-#ifndef STREAM_ARENA_USED            /* a test makes it as small as it may be */
-#define STREAM_ARENA_USED CGT_WIDE_STREAM_ARENA
+#define CGT_STREAM_ARENA 16384u /* words */
+#ifndef STREAM_ARENA_USED       /* a test makes it as small as it may be */
+#define STREAM_ARENA_USED CGT_STREAM_ARENA
 #endif
 
-#define STREAM_RECORD 16u                                /* floats: one line of the cache */
-#define STREAM_NOBODY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
-#define STREAM_FAR 16.f                                  /* origins beyond, normalised, go one by one */
-#define STREAM_LIST(count) ((count) + 2u * CGT_LANES)    /* words for a list of so many rays, filled up */
+#define STREAM_RECORD 16u                                   /* floats: one line of the cache */
+#define STREAM_DUMMY_RAY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
+#define STREAM_MAX_ORG 16.f                                 /* origins beyond, normalised, go one by one */
+#define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of so many rays, filled up */
 
 /* Octants, then the rays that do not go in streams. */
-enum { STREAM_SINGLE = 8, STREAM_EXTREME, STREAM_NONE, STREAM_KEYS };
+enum { STREAM_SINGLE = 8, STREAM_EXTREME, STREAM_SKIPPED, STREAM_KEYS };
 
 /* Where the numbers of a record are: t's range stands in both halves, that of nodes and that of leaves. */
 enum {
@@ -41,40 +41,40 @@ enum {
 
 typedef struct stream {
     _Alignas(64) float record[CGT_STREAM_CHUNK + 1][STREAM_RECORD];
-    _Alignas(64) wide_best best[CGT_STREAM_CHUNK + 1]; /* of nearest hits */
-    _Alignas(64) uint32_t arena[CGT_WIDE_STREAM_ARENA];
-    _Alignas(64) uint32_t all[CGT_STREAM_CHUNK + STREAM_KEYS * CGT_LANES]; /* records, by key */
+    _Alignas(64) best_hit best[CGT_STREAM_CHUNK + 1]; /* of nearest hits */
+    _Alignas(64) uint32_t arena[CGT_STREAM_ARENA];
+    _Alignas(64) uint32_t ray_list[CGT_STREAM_CHUNK + STREAM_KEYS * CGT_LANES]; /* records, by key */
     union {
         _Alignas(64) uint32_t key[CGT_STREAM_CHUNK]; /* until they are sorted */
-        uint32_t ignored[CGT_STREAM_CHUNK];          /* objects; where rays ignore any, and so is the next */
+        uint32_t skip_prim[CGT_STREAM_CHUNK];        /* objects; where rays ignore any, and so is the next */
     };
     uint32_t mask[CGT_STREAM_CHUNK];
-    wide_call call;
-    float slack[3];                                             /* E of all rays of streams */
-    float begin_low[3], begin_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
-    float apart;     /* how far their origins lie apart, along an axis, as a share of the tree's size */
-    uint32_t octant; /* in work */
+    bvh_call call;
+    float slab_error[3];                                    /* E of all rays of streams */
+    float org_low[3], org_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
+    float origin_spread; /* how far their origins lie apart, along an axis, as a share of the tree's size */
+    uint32_t octant;     /* in work */
     float reach_low[3], reach_high[3]; /* no ray of the octant comes to what lies outside */
-    uint32_t changed;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
+    uint32_t updates;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */
 } stream;
 
-CGT_SPU_INLINE float *stream_record(stream *s, uint32_t at) { return &s->record[0][0] + at; }
+CGT_SPU_INLINE float *stream_record(stream *s, uint32_t offset) { return &s->record[0][0] + offset; }
 
 /* Where the octant's rays may come to: from the least origin or the least end of all streams to the greatest. */
-CGT_SPU_INLINE void stream_begin_octant(stream *s, uint32_t octant)
+CGT_SPU_INLINE void stream_set_octant(stream *s, uint32_t octant)
 {
     s->octant = octant;
     for (int a = 0; a < 3; a++) {
         const bool from_above = octant >> a & 1;
-        s->reach_low[a] = from_above ? s->end_low[a] : s->begin_low[a];
-        s->reach_high[a] = from_above ? s->begin_high[a] : s->end_high[a];
+        s->reach_low[a] = from_above ? s->end_low[a] : s->org_low[a];
+        s->reach_high[a] = from_above ? s->org_high[a] : s->end_high[a];
     }
 }
 
 /* Boxes that the octant's rays may reach, as bits: lanes hold bounds that are off by less than they were moved outwards,
  * by 2^-85 at least. A ray that counts stays after its origin but for so much. */
-CGT_SPU_INLINE unsigned stream_in_reach(const stream *s, const vfloat low[3], const vfloat high[3])
+CGT_SPU_INLINE unsigned stream_reachable(const stream *s, const vfloat low[3], const vfloat high[3])
 {
     vmask out = spux_mask_none();
     for (int a = 0; a < 3; a++)
@@ -84,51 +84,51 @@ CGT_SPU_INLINE unsigned stream_in_reach(const stream *s, const vfloat low[3], co
 }
 
 /* An any-hit ray has found its hit: none is wanted any more. */
-CGT_SPU_INLINE void stream_close(stream *s, uint32_t at)
+CGT_SPU_INLINE void stream_set_occluded(stream *s, uint32_t offset)
 {
-    stream_record(s, at)[RECORD_FAR] = stream_record(s, at)[RECORD_LEAF_FAR] = -INFINITY;
-    s->occluded[at / STREAM_RECORD] = 1;
-    s->changed++;
+    stream_record(s, offset)[RECORD_FAR] = stream_record(s, offset)[RECORD_LEAF_FAR] = -INFINITY;
+    s->occluded[offset / STREAM_RECORD] = 1;
+    s->updates++;
 }
 
 /* Keeps a ray's best hit. */
-CGT_SPU_INLINE void stream_keep(stream *s, uint32_t at, float low, float high, uint32_t object)
+CGT_SPU_INLINE void stream_set_best(stream *s, uint32_t offset, float low, float high, uint32_t prim)
 {
-    wide_best *b = &s->best[at / STREAM_RECORD];
+    best_hit *b = &s->best[offset / STREAM_RECORD];
     b->low = low;
     b->high = high;
-    b->object = object;
-    stream_record(s, at)[RECORD_FAR] = stream_record(s, at)[RECORD_LEAF_FAR] = high;
-    s->changed++;
+    b->prim = prim;
+    stream_record(s, offset)[RECORD_FAR] = stream_record(s, offset)[RECORD_LEAF_FAR] = high;
+    s->updates++;
 }
 
 /* A record as a single ray, but for the planes. */
-CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t at, bool any_hit, wide_ray *r)
+CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t offset, bool any_hit, bvh_ray *r)
 {
-    const float *d = stream_record(s, at);
+    const float *d = stream_record(s, offset);
     for (int a = 0; a < 3; a++) {
         r->org[a] = d[RECORD_ORG + a];
         r->dir[a] = d[RECORD_DIR + a];
     }
     r->near = d[RECORD_NEAR];
     r->far = d[RECORD_FAR];
-    r->number = at / STREAM_RECORD;
+    r->number = offset / STREAM_RECORD;
     if (any_hit)
-        r->best = (wide_best){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
+        r->best = (best_hit){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
     else
         r->best = s->best[r->number];
 }
 
 /* Keeps what the ray has found, if it was wanted. */
-CGT_SPU_INLINE void stream_ray_keep(stream *s, uint32_t at, const wide_ray *r, bool any_hit)
+CGT_SPU_INLINE void stream_ray_store(stream *s, uint32_t offset, const bvh_ray *r, bool any_hit)
 {
-    const float far = stream_record(s, at)[RECORD_FAR];
+    const float far = stream_record(s, offset)[RECORD_FAR];
     if (far == -INFINITY)
         return;
     if (any_hit && r->far == -INFINITY)
-        stream_close(s, at);
-    if (!any_hit && (r->far != far || r->best.object != s->best[r->number].object))
-        stream_keep(s, at, r->best.low, r->best.high, r->best.object);
+        stream_set_occluded(s, offset);
+    if (!any_hit && (r->far != far || r->best.prim != s->best[r->number].prim))
+        stream_set_best(s, offset, r->best.low, r->best.high, r->best.prim);
 }
 
 #endif

@@ -3,22 +3,22 @@
  *
  * A leaf of the wide tree and a list of rays: lanes are rays, one primitive after the other. The tests are those of
  * lane_tests.h, in the normalised space of bvh_ray.h, where coordinates of the scene are at most 2, those of origins at
- * most STREAM_FAR, and |d| is from 1 to 2 sqrt(3). Their bounds grow with the distance from the origin and with the
+ * most STREAM_MAX_ORG, and |d| is from 1 to 2 sqrt(3). Their bounds grow with the distance from the origin and with the
  * primitive's size; here a leaf's primitives share them, by the leaf's box and by its largest primitive, so that they
  * are worked out once for a vector of rays and not for each primitive. */
-#ifndef CGT_WIDE_STREAM_LEAF_H
-#define CGT_WIDE_STREAM_LEAF_H
+#ifndef CGT_STREAM_LEAF_H
+#define CGT_STREAM_LEAF_H
 
 #include "kernel/stream/stream.h"
 
 /* Where a leaf is: its box's middle, and the sum of half its edges, enlarged by the roundings of both. */
-typedef struct leaf_place {
+typedef struct leaf_box {
     float middle[3], half;
-} leaf_place;
+} leaf_box;
 
-CGT_SPU_INLINE leaf_place leaf_place_make(const wide_node *n, uint32_t child, float scale)
+CGT_SPU_INLINE leaf_box leaf_box_init(const bvh_node *n, uint32_t child, float scale)
 {
-    leaf_place p;
+    leaf_box p;
     p.half = 0;
     for (int a = 0; a < 3; a++) {
         const float low = n->low[a][child] * scale, high = n->high[a][child] * scale;
@@ -30,13 +30,13 @@ CGT_SPU_INLINE leaf_place leaf_place_make(const wide_node *n, uint32_t child, fl
 }
 
 /* Primitives of a leaf that the octant's rays may reach. */
-typedef struct leaf_members {
+typedef struct leaf_candidates {
     uint8_t lane[16]; /* as many as a node's code may tell of */
     uint32_t count;
-} leaf_members;
+} leaf_candidates;
 
 /* Of the leaf's first `count` those that are in reach; without a branch: what is left out is written over. */
-CGT_SPU_INLINE void leaf_members_make(unsigned in_reach, uint32_t count, leaf_members *m)
+CGT_SPU_INLINE void leaf_candidates_init(unsigned in_reach, uint32_t count, leaf_candidates *m)
 {
     m->count = 0;
     for (uint32_t k = 0; k < count; k++) {
@@ -47,28 +47,28 @@ CGT_SPU_INLINE void leaf_members_make(unsigned in_reach, uint32_t count, leaf_me
 
 /* The rays of a vector. */
 typedef struct leaf_rays {
-    const uint32_t *at;
+    const uint32_t *offset;
     vfloat org[3], dir[3];
     vfloat near, far;       /* outer ends of the range; far: of the best hit */
     vfloat near_in, far_in; /* inner ones; far_in: `low` of the best hit */
-    vfloat away;            /* A */
-    vuint object;           /* of the best hit */
+    vfloat distance;        /* A */
+    vuint prim;             /* of the best hit */
     vmask hit;              /* any: rays that have one; nearest: rays that have another one */
     vmask closed;           /* any: those of them that had one before, and whatever fills up the list */
 } leaf_rays;
 
-CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *at, const leaf_place *place, bool any_hit, leaf_rays *r)
+CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *offset, const leaf_box *box, bool any_hit, leaf_rays *r)
 {
     vfloat d[8];
-    r->at = at;
-    spux_load_records8_at(stream_record(s, RECORD_ORG), at, d);
-    vfloat away = spux_vfloat(place->half);
+    r->offset = offset;
+    spux_load_records8_at(stream_record(s, RECORD_ORG), offset, d);
+    vfloat distance = spux_vfloat(box->half);
     for (int a = 0; a < 3; a++) {
         r->org[a] = d[a];
-        away = spu_add(away, spux_abs(spu_sub(spux_vfloat(place->middle[a]), d[a])));
+        distance = spu_add(distance, spux_abs(spu_sub(spux_vfloat(box->middle[a]), d[a])));
     }
     /* 4 roundings of numbers below 64, and those of what the sphere test adds */
-    r->away = spu_madd(away, spux_vfloat(0x1p-20f), away);
+    r->distance = spu_madd(distance, spux_vfloat(0x1p-20f), distance);
     r->near = d[3];
     for (int a = 0; a < 3; a++)
         r->dir[a] = d[4 + a];
@@ -79,11 +79,11 @@ CGT_SPU_INLINE void leaf_rays_load(stream *s, const uint32_t *at, const leaf_pla
         return;
     }
     _Alignas(CGT_VECTOR_BYTES) uint32_t quarter[CGT_LANES];
-    spux_store_uint(quarter, spu_sr(spux_load_uint(at), 2));
+    spux_store_uint(quarter, spu_sr(spux_load_uint(offset), 2));
     spux_load_records4_at(&s->best[0].low, quarter, d);
     r->far_in = d[0];
     r->far = d[1];
-    r->object = (vuint)d[2];
+    r->prim = (vuint)d[2];
 }
 
 /* The inner ends of the range. */
@@ -96,30 +96,30 @@ CGT_SPU_INLINE void leaf_rays_narrow(leaf_rays *r, bool any_hit)
 }
 
 /* What tests found out about a primitive: low and high only of nearest hits. */
-typedef struct leaf_found {
+typedef struct leaf_result {
     vfloat low, high;
-    vmask certain, may; /* may: certain ones too */
-} leaf_found;
+    vmask certain_hit, possible; /* may: certain ones too */
+} leaf_result;
 
 /* Lanes that do not see the object. */
-CGT_SPU_INLINE vmask leaf_hidden(const stream *s, const leaf_rays *r, uint32_t object)
+CGT_SPU_INLINE vmask leaf_skipping_rays(const stream *s, const leaf_rays *r, uint32_t prim)
 {
     unsigned hidden = 0;
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        if (r->at[k] != STREAM_NOBODY)
-            hidden |= (unsigned)wide_hidden(&s->call, r->at[k] / STREAM_RECORD, object) << k;
+        if (r->offset[k] != STREAM_DUMMY_RAY)
+            hidden |= (unsigned)bvh_ray_skips(&s->call, r->offset[k] / STREAM_RECORD, prim) << k;
     return spux_mask_from_bits(hidden);
 }
 
 /* Decides any-hit lanes; returns those that hit. */
-__attribute__((noinline, cold, unused)) static unsigned leaf_decide_any(stream *s, const uint32_t *at, unsigned open,
-                                                                        uint32_t object)
+__attribute__((noinline, cold, unused)) static unsigned leaf_decide_any(stream *s, const uint32_t *offset,
+                                                                        unsigned undecided, uint32_t prim)
 {
     unsigned hit = 0;
-    for (; open; open &= open - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(open);
-        wide_best best = {0, 0, CGT_INVALID_ID, 0};
-        hit |= (unsigned)wide_decide(&s->call, at[k] / STREAM_RECORD, object, &best) << k;
+    for (; undecided; undecided &= undecided - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(undecided);
+        best_hit best = {0, 0, CGT_INVALID_ID, 0};
+        hit |= (unsigned)bvh_decide(&s->call, offset[k] / STREAM_RECORD, prim, &best) << k;
     }
     return hit;
 }
@@ -127,78 +127,81 @@ __attribute__((noinline, cold, unused)) static unsigned leaf_decide_any(stream *
 typedef struct leaf_best {
     _Alignas(CGT_VECTOR_BYTES) float low[CGT_LANES];
     float high[CGT_LANES];
-    uint32_t object[CGT_LANES];
+    uint32_t prim[CGT_LANES];
 } leaf_best;
 
 /* Decides nearest-hit lanes; returns those that have another best hit. */
 __attribute__((noinline, cold, unused)) static unsigned
-leaf_decide_nearest(stream *s, const uint32_t *at, unsigned open, uint32_t object, leaf_best *b)
+leaf_decide_closest(stream *s, const uint32_t *offset, unsigned undecided, uint32_t prim, leaf_best *b)
 {
-    unsigned changed = 0;
-    for (; open; open &= open - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(open);
-        wide_best best = {b->low[k], b->high[k], b->object[k], 0};
-        if (!wide_decide(&s->call, at[k] / STREAM_RECORD, object, &best))
+    unsigned updates = 0;
+    for (; undecided; undecided &= undecided - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(undecided);
+        best_hit best = {b->low[k], b->high[k], b->prim[k], 0};
+        if (!bvh_decide(&s->call, offset[k] / STREAM_RECORD, prim, &best))
             continue;
         b->low[k] = best.low;
         b->high[k] = best.high;
-        b->object[k] = best.object;
-        changed |= 1u << k;
+        b->prim[k] = best.prim;
+        updates |= 1u << k;
     }
-    return changed;
+    return updates;
 }
 
 /* Takes what a test found out. */
-CGT_SPU_INLINE void leaf_take(stream *s, leaf_rays *r, const leaf_found *f, uint32_t object, bool any_hit, bool hides)
+CGT_SPU_INLINE void leaf_update_hits(stream *s, leaf_rays *r, const leaf_result *f, uint32_t prim, bool any_hit,
+                                     bool skips_prims)
 {
-    vmask certain = f->certain, may = f->may;
-    if (hides) {
-        const vmask hidden = leaf_hidden(s, r, object);
-        certain = spu_andc(certain, hidden);
-        may = spu_andc(may, hidden);
+    vmask certain_hit = f->certain_hit, possible = f->possible;
+    if (skips_prims) {
+        const vmask hidden = leaf_skipping_rays(s, r, prim);
+        certain_hit = spu_andc(certain_hit, hidden);
+        possible = spu_andc(possible, hidden);
     }
     if (any_hit) {
-        const vmask open = spu_andc(may, spu_or(certain, r->hit));
-        r->hit = spu_or(r->hit, certain);
-        if (__builtin_expect(spux_any(open), 0))
-            r->hit = spu_or(r->hit, spux_mask_from_bits(leaf_decide_any(s, r->at, spux_mask_bits(open), object)));
+        const vmask undecided = spu_andc(possible, spu_or(certain_hit, r->hit));
+        r->hit = spu_or(r->hit, certain_hit);
+        if (__builtin_expect(spux_any(undecided), 0))
+            r->hit =
+                spu_or(r->hit, spux_mask_from_bits(leaf_decide_any(s, r->offset, spux_mask_bits(undecided), prim)));
         return;
     }
-    const vmask open = spu_andc(may, certain);
-    r->hit = spu_or(r->hit, certain);
-    r->far_in = spux_select(r->far_in, f->low, certain);
-    r->far = spux_select(r->far, f->high, certain);
-    r->object = spux_select(r->object, spux_vuint(object), certain);
-    if (__builtin_expect(spux_any(open), 0)) {
+    const vmask undecided = spu_andc(possible, certain_hit);
+    r->hit = spu_or(r->hit, certain_hit);
+    r->far_in = spux_select(r->far_in, f->low, certain_hit);
+    r->far = spux_select(r->far, f->high, certain_hit);
+    r->prim = spux_select(r->prim, spux_vuint(prim), certain_hit);
+    if (__builtin_expect(spux_any(undecided), 0)) {
         leaf_best b;
         spux_store(b.low, r->far_in);
         spux_store(b.high, r->far);
-        spux_store_uint(b.object, r->object);
-        r->hit = spu_or(r->hit, spux_mask_from_bits(leaf_decide_nearest(s, r->at, spux_mask_bits(open), object, &b)));
+        spux_store_uint(b.prim, r->prim);
+        r->hit =
+            spu_or(r->hit, spux_mask_from_bits(leaf_decide_closest(s, r->offset, spux_mask_bits(undecided), prim, &b)));
         r->far_in = spux_load(b.low);
         r->far = spux_load(b.high);
-        r->object = spux_load_uint(b.object);
+        r->prim = spux_load_uint(b.prim);
     }
 }
 
 /* Any hit: which primitives are open in each lane, a bit of each. */
-CGT_SPU_INLINE vuint leaf_open_add(vuint open, uint32_t k, vmask lanes)
+CGT_SPU_INLINE vuint leaf_undecided_add(vuint undecided, uint32_t k, vmask lanes)
 {
     static const uint32_t bit[16] = {1u << 0, 1u << 1, 1u << 2,  1u << 3,  1u << 4,  1u << 5,  1u << 6,  1u << 7,
                                      1u << 8, 1u << 9, 1u << 10, 1u << 11, 1u << 12, 1u << 13, 1u << 14, 1u << 15};
-    return spux_select(open, spu_or(open, spux_vuint(bit[k])), lanes);
+    return spux_select(undecided, spu_or(undecided, spux_vuint(bit[k])), lanes);
 }
 
 /* Those of any lane. */
-CGT_SPU_INLINE uint32_t leaf_open_left(vuint open)
+CGT_SPU_INLINE uint32_t leaf_undecided_union(vuint undecided)
 {
-    _Alignas(CGT_VECTOR_BYTES) uint32_t left[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) uint32_t remaining[CGT_LANES];
     uint32_t primitives = 0;
-    if (__builtin_expect(spux_all(spu_cmpeq(open, spux_vuint(0))), 1))
+    if (__builtin_expect(spux_all(spu_cmpeq(undecided, spux_vuint(0))), 1))
         return 0;
-    spux_store_uint(left, open);
+    spux_store_uint(remaining, undecided);
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        primitives |= left[k];
+        primitives |= remaining[k];
     return primitives;
 }
 
@@ -210,17 +213,17 @@ CGT_SPU_INLINE void leaf_rays_store(stream *s, const leaf_rays *r, bool any_hit)
     if (any_hit) {
         hit &= ~spux_mask_bits(r->closed);
         for (; hit; hit &= hit - 1)
-            stream_close(s, r->at[__builtin_ctz(hit)]);
+            stream_set_occluded(s, r->offset[__builtin_ctz(hit)]);
         return;
     }
     if (!hit)
         return;
     spux_store(b.low, r->far_in);
     spux_store(b.high, r->far);
-    spux_store_uint(b.object, r->object);
+    spux_store_uint(b.prim, r->prim);
     for (; hit; hit &= hit - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(hit);
-        stream_keep(s, r->at[k], b.low[k], b.high[k], b.object[k]);
+        stream_set_best(s, r->offset[k], b.low[k], b.high[k], b.prim[k]);
     }
 }
 

@@ -3,20 +3,20 @@
  *
  * A node of the wide tree and a list of rays of one octant: masks of the rays that pass each child, and lists of them; see
  * stream_trace.c. */
-#ifndef CGT_WIDE_STREAM_NODE_H
-#define CGT_WIDE_STREAM_NODE_H
+#ifndef CGT_STREAM_NODE_H
+#define CGT_STREAM_NODE_H
 
 #include "kernel/stream/stream.h"
 
 /* Words of the masks of a piece of so many vectors, in whole vectors; and what a piece of one vector takes. */
-#define STREAM_MASKS(chunks) ((CGT_LANES * (chunks) / 2 + CGT_LANES - 1) / CGT_LANES * CGT_LANES)
-#define STREAM_LEAST (STREAM_MASKS(1u) + STREAM_LIST(CGT_LANES))
+#define STREAM_MASK_WORDS(chunks) ((CGT_LANES * (chunks) / 2 + CGT_LANES - 1) / CGT_LANES * CGT_LANES)
+#define STREAM_MIN_WORDS (STREAM_MASK_WORDS(1u) + STREAM_LIST_WORDS(CGT_LANES))
 
-_Static_assert(CGT_WIDE_STREAM_ARENA >= CGT_WIDE_MAX_DEPTH * STREAM_LEAST, "a piece fits at every depth");
+_Static_assert(CGT_STREAM_ARENA >= CGT_BVH_MAX_DEPTH * STREAM_MIN_WORDS, "a piece fits at every depth");
 
 /* A node on the way down, and the piece of its list that is in work. */
 typedef struct stream_level {
-    const wide_node *node;
+    const bvh_node *node;
     const uint32_t *list;
     uint32_t count;           /* of the list */
     uint32_t first, rays;     /* the piece */
@@ -25,9 +25,9 @@ typedef struct stream_level {
     uint32_t children;        /* those that rays pass */
     uint8_t child[CGT_LANES]; /* in the order in which the octant's rays meet them */
     uint8_t row[CGT_LANES];   /* of the masks */
-    uint32_t changed;         /* the stream's, when the masks were made */
+    uint32_t updates;         /* the stream's, when the masks were made */
     uint16_t *mask;           /* [row][chunk]: rays that pass the child */
-    uint32_t *room;           /* behind the masks */
+    uint32_t *scratch;        /* behind the masks */
 } stream_level;
 
 /* Planes of a node's children as the octant's rays meet them, moved outwards. */
@@ -38,25 +38,25 @@ typedef struct stream_planes {
 
 /* Returns the children that the stream's rays may reach, as bits. Near their origins rays pass nodes of which half the
  * children lie behind them. */
-CGT_SPU_INLINE unsigned stream_planes_make(const stream *s, const wide_node *n, stream_planes *p)
+CGT_SPU_INLINE unsigned stream_planes_init(const stream *s, const bvh_node *n, stream_planes *p)
 {
     const vfloat scale = spux_vfloat(s->call.scale);
     vfloat low[3], high[3];
     for (int a = 0; a < 3; a++) {
-        const vfloat slack = spux_vfloat(s->slack[a]);
+        const vfloat slab_error = spux_vfloat(s->slab_error[a]);
         const bool from_above = s->octant >> a & 1;
-        low[a] = spu_msub(spux_load(n->low[a]), scale, slack);
-        high[a] = spu_madd(spux_load(n->high[a]), scale, slack);
+        low[a] = spu_msub(spux_load(n->low[a]), scale, slab_error);
+        high[a] = spu_madd(spux_load(n->high[a]), scale, slab_error);
         spux_store(p->near[a], from_above ? high[a] : low[a]);
         spux_store(p->far[a], from_above ? low[a] : high[a]);
     }
-    return stream_in_reach(s, low, high);
+    return stream_reachable(s, low, high);
 }
 
 /* Lists those children; without a branch: what is left out is written over. */
-CGT_SPU_INLINE void stream_find_children(const stream *s, unsigned reached, stream_level *v)
+CGT_SPU_INLINE void stream_list_children(const stream *s, unsigned reached, stream_level *v)
 {
-    const wide_node *n = v->node;
+    const bvh_node *n = v->node;
     const bool backwards = s->octant >= 4;
     const uint8_t *order = backwards ? n->order[7 - s->octant] + n->children - 1 : n->order[s->octant];
     v->children = 0;
@@ -73,13 +73,13 @@ CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_pl
     const uint32_t first = v->next, end = v->children, chunks = v->chunks;
     uint16_t *row = v->mask + (size_t)first * chunks;
     uint16_t passed[CGT_LANES] = {0};
-    v->changed = s->changed;
+    v->updates = s->updates;
     for (uint32_t i = 0; i < chunks; i++, row++) {
-        const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
+        const uint32_t *offset = v->list + v->first + (size_t)i * CGT_LANES;
         uint16_t *mask = row;
         vfloat d[8];
         const vfloat *q = d + RECORD_SHIFT;
-        spux_load_records8_at(stream_record(s, RECORD_RDIR), at, d);
+        spux_load_records8_at(stream_record(s, RECORD_RDIR), offset, d);
         for (uint32_t k = first; k < end; k++, mask += chunks) {
             const uint8_t child = v->child[k];
             const vfloat x0 = spu_madd(spux_vfloat(p->near[0][child]), d[0], q[0]);
@@ -103,70 +103,72 @@ CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_pl
 }
 
 /* Begins the next piece of a level's list. Returns false where there is none. */
-CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *room, uint32_t depth)
+CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *scratch, uint32_t depth)
 {
     v->first += v->rays;
     if (v->first >= v->count)
         return false;
-    const uint32_t below = (CGT_WIDE_MAX_DEPTH - 1 - depth) * STREAM_LEAST;
-    const uint32_t words = (uint32_t)(s->arena + STREAM_ARENA_USED - room) - below; /* at least STREAM_LEAST */
-    const uint32_t most = (words - STREAM_LIST(0) - CGT_LANES) / (CGT_LANES + CGT_LANES / 2); /* vectors */
-    const uint32_t left = v->count - v->first, wanted = (left + CGT_LANES - 1) / CGT_LANES;
-    v->chunks = wanted <= most ? wanted : most ? most : 1;
-    v->rays = wanted <= v->chunks ? left : v->chunks * CGT_LANES;
-    v->mask = (uint16_t *)(void *)room;
-    v->room = room + STREAM_MASKS(v->chunks);
+    const uint32_t reserved = (CGT_BVH_MAX_DEPTH - 1 - depth) * STREAM_MIN_WORDS;
+    const uint32_t free_words =
+        (uint32_t)(s->arena + STREAM_ARENA_USED - scratch) - reserved; /* at least STREAM_MIN_WORDS */
+    const uint32_t max_vectors =
+        (free_words - STREAM_LIST_WORDS(0) - CGT_LANES) / (CGT_LANES + CGT_LANES / 2); /* vectors */
+    const uint32_t remaining = v->count - v->first, vectors = (remaining + CGT_LANES - 1) / CGT_LANES;
+    v->chunks = vectors <= max_vectors ? vectors : max_vectors ? max_vectors : 1;
+    v->rays = vectors <= v->chunks ? remaining : v->chunks * CGT_LANES;
+    v->mask = (uint16_t *)(void *)scratch;
+    v->scratch = scratch + STREAM_MASK_WORDS(v->chunks);
     v->next = 0;
     stream_planes p;
-    stream_find_children(s, stream_planes_make(s, v->node, &p), v);
+    stream_list_children(s, stream_planes_init(s, v->node, &p), v);
     stream_test_node(s, v, &p);
     s->call.counts->nodes++;
     return true;
 }
 
 /* Takes any-hit rays that have found their hit out of the masks of children that are still to come. */
-CGT_SPU_INLINE void stream_drop_closed(stream *s, stream_level *v)
+CGT_SPU_INLINE void stream_mask_occluded(stream *s, stream_level *v)
 {
     const uint32_t chunks = v->chunks;
     uint16_t *column = v->mask;
-    v->changed = s->changed;
+    v->updates = s->updates;
     for (uint32_t i = 0; i < chunks; i++, column++) {
-        const uint32_t *at = v->list + v->first + (size_t)i * CGT_LANES;
-        const vfloat far = spux_gather(stream_record(s, RECORD_FAR), (vint)spux_load_uint(at));
-        const uint16_t open = (uint16_t)spux_mask_bits(spu_cmpgt(far, spux_vfloat(-INFINITY)));
+        const uint32_t *offset = v->list + v->first + (size_t)i * CGT_LANES;
+        const vfloat far = spux_gather(stream_record(s, RECORD_FAR), (vint)spux_load_uint(offset));
+        const uint16_t undecided = (uint16_t)spux_mask_bits(spu_cmpgt(far, spux_vfloat(-INFINITY)));
         for (uint32_t k = v->next; k < v->children; k++)
-            column[(size_t)v->row[k] * chunks] &= open;
+            column[(size_t)v->row[k] * chunks] &= undecided;
     }
 }
 
 /* Masks grow old: any-hit rays find their hit, nearest ones what hides the rest. Where that is so of many rays of a piece,
  * masks of children that are still to come are brought up to date; how many was measured. */
-CGT_SPU_INLINE void stream_renew_masks(stream *s, stream_level *v, bool any_hit)
+CGT_SPU_INLINE void stream_refresh_masks(stream *s, stream_level *v, bool any_hit)
 {
-    const uint32_t changed = s->changed - v->changed;
-    if (any_hit && changed * 8 >= v->rays)
-        stream_drop_closed(s, v);
-    else if (!any_hit && changed * 3 > v->rays && v->children - v->next > 2) {
+    const uint32_t updates = s->updates - v->updates;
+    if (any_hit && updates * 8 >= v->rays)
+        stream_mask_occluded(s, v);
+    else if (!any_hit && updates * 3 > v->rays && v->children - v->next > 2) {
         stream_planes p;
-        stream_planes_make(s, v->node, &p);
+        stream_planes_init(s, v->node, &p);
         stream_test_node(s, v, &p);
     }
 }
 
 /* Makes the list of a child's rays; returns how many they are. Chunks that all miss are not left out: the branch would
  * often be foretold wrong. */
-CGT_SPU_INLINE uint32_t stream_make_list(const stream_level *v, uint32_t position)
+CGT_SPU_INLINE uint32_t stream_compact_list(const stream_level *v, uint32_t position)
 {
     const uint16_t *mask = v->mask + (size_t)v->row[position] * v->chunks;
-    const uint32_t *at = v->list + v->first;
-    uint32_t *to = v->room;
-    for (uint32_t i = 0; i < v->chunks; i++, at += CGT_LANES) {
+    const uint32_t *offset = v->list + v->first;
+    uint32_t *to = v->scratch;
+    for (uint32_t i = 0; i < v->chunks; i++, offset += CGT_LANES) {
         const unsigned bits = mask[i];
-        spux_store_unaligned_uint(to, spux_compress(spux_load_uint(at), spux_mask_from_bits(bits)));
+        spux_store_unaligned_uint(to, spux_compress(spux_load_uint(offset), spux_mask_from_bits(bits)));
         to += spux_count_bits(bits);
     }
-    spux_store_unaligned_uint(to, spux_vuint(STREAM_NOBODY));
-    return (uint32_t)(to - v->room);
+    spux_store_unaligned_uint(to, spux_vuint(STREAM_DUMMY_RAY));
+    return (uint32_t)(to - v->scratch);
 }
 
 #endif

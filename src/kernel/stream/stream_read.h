@@ -3,13 +3,13 @@
  *
  * Records of a stream from the caller's arrays, a vector of rays at a time, and their order: by the octant of the
  * direction, after a counting sort. */
-#ifndef CGT_WIDE_STREAM_READ_H
-#define CGT_WIDE_STREAM_READ_H
+#ifndef CGT_STREAM_READ_H
+#define CGT_STREAM_READ_H
 
 #include "kernel/stream/stream.h"
 
 /* Elements i to i + count - 1 of an array of the caller's, i counted from its beginning; `absent` beyond. */
-CGT_SPU_INLINE vfloat stream_load(const ray_source *s, const float *array, uint64_t i, uint32_t count)
+CGT_SPU_INLINE vfloat stream_load_array(const ray_source *s, const float *array, uint64_t i, uint32_t count)
 {
     _Alignas(CGT_VECTOR_BYTES) float row[CGT_LANES];
     if (s->stride == sizeof(float))
@@ -24,15 +24,15 @@ typedef struct stream_lanes {
     vfloat org[3], dir[3], t_min, t_max;
 } stream_lanes;
 
-CGT_SPU_INLINE void stream_lanes_load(const wide_call *c, uint32_t i, uint32_t count, stream_lanes *q)
+CGT_SPU_INLINE void stream_lanes_load(const bvh_call *c, uint32_t i, uint32_t count, stream_lanes *q)
 {
     const cgt_rays *r = c->source->rays;
     for (int a = 0; a < 3; a++) {
-        q->org[a] = stream_load(c->source, r->org[a], c->first + i, count);
-        q->dir[a] = stream_load(c->source, r->dir[a], c->first + i, count);
+        q->org[a] = stream_load_array(c->source, r->org[a], c->first + i, count);
+        q->dir[a] = stream_load_array(c->source, r->dir[a], c->first + i, count);
     }
-    q->t_min = r->t_min ? stream_load(c->source, r->t_min, c->first + i, count) : spux_vfloat(0);
-    q->t_max = r->t_max ? stream_load(c->source, r->t_max, c->first + i, count) : spux_vfloat(INFINITY);
+    q->t_min = r->t_min ? stream_load_array(c->source, r->t_min, c->first + i, count) : spux_vfloat(0);
+    q->t_max = r->t_max ? stream_load_array(c->source, r->t_max, c->first + i, count) : spux_vfloat(INFINITY);
 }
 
 CGT_SPU_INLINE vfloat stream_largest(const vfloat v[3])
@@ -43,12 +43,12 @@ CGT_SPU_INLINE vfloat stream_largest(const vfloat v[3])
 /* Which lanes are not valid: see cgt_trace_statistics.invalid_rays. */
 CGT_SPU_INLINE vmask stream_invalid(const stream_lanes *q, vfloat longest)
 {
-    const vfloat nothing = spux_vfloat(0);
-    vfloat zero = nothing;
+    const vfloat zeros = spux_vfloat(0);
+    vfloat zero = zeros;
     for (int a = 0; a < 3; a++)
-        zero = spu_madd(q->org[a], nothing, spu_madd(q->dir[a], nothing, zero)); /* NaN where one is not finite */
+        zero = spu_madd(q->org[a], zeros, spu_madd(q->dir[a], zeros, zero)); /* NaN where one is not finite */
     const vmask ordered = spu_and(spu_cmpeq(q->t_min, q->t_min), spu_cmpeq(q->t_max, q->t_max));
-    return spux_not(spu_and(spu_and(spu_cmpeq(zero, nothing), ordered), spu_cmpgt(longest, nothing)));
+    return spux_not(spu_and(spu_and(spu_cmpeq(zero, zeros), ordered), spu_cmpgt(longest, zeros)));
 }
 
 CGT_SPU_INLINE vmask stream_empty(const stream_lanes *q)
@@ -60,18 +60,18 @@ CGT_SPU_INLINE vmask stream_empty(const stream_lanes *q)
 /* Numbers that bounds of single precision do not cover. */
 CGT_SPU_INLINE vmask stream_extreme(const stream_lanes *q, vfloat longest, vfloat farthest, vfloat speed)
 {
-    const vfloat most = spux_vfloat(PACKET_LARGEST), least = spux_vfloat(PACKET_SHORTEST);
-    const vmask given =
+    const vfloat most = spux_vfloat(PACKET_MAX_COORDINATE), least = spux_vfloat(PACKET_MIN_DIR);
+    const vmask bad_input =
         spu_or(spu_cmpgt(stream_largest(q->org), most), spu_or(spu_cmpgt(longest, most), spu_cmpgt(least, longest)));
     const vmask fast = spu_or(spu_cmpgt(speed, spux_vfloat(0x1p60f)), spu_cmpgt(spux_vfloat(0x1p-100f), speed));
-    return spu_or(given, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(WIDE_LARGEST_ORG))));
+    return spu_or(bad_input, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(BVH_MAX_ORG))));
 }
 
 /* 1 / d with components made large enough, see bvh_ray.h: estimates are good to 11 bits at least, a step of Newton's
  * makes them 2^-21. */
 CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
 {
-    const vfloat flat = spux_vfloat(WIDE_FLAT), sign = spu_and(d, spux_vfloat(-0.f));
+    const vfloat flat = spux_vfloat(BVH_MIN_DIR), sign = spu_and(d, spux_vfloat(-0.f));
     const vfloat e = spux_select(d, spu_or(sign, flat), spu_cmpgt(flat, spux_abs(d)));
     const vfloat r = spu_re(e);
     return spu_madd(spu_nmsub(e, r, spux_vfloat(1)), r, r);
@@ -99,10 +99,10 @@ CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], con
 }
 
 /* Makes the records of rays i to i + count - 1. bounds: grown by theirs. */
-CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
-                                        stream_bounds *bounds, uint32_t *invalid_rays)
+CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
+                                         stream_bounds *bounds, uint32_t *invalid_rays)
 {
-    const wide_call *c = &s->call;
+    const bvh_call *c = &s->call;
     const vfloat scale = spux_vfloat(c->scale), margin = spux_vfloat(0x1p-20f);
     stream_lanes q;
     stream_lanes_load(c, i, count, &q);
@@ -122,18 +122,18 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     const vfloat farthest = stream_largest(org);
     const vmask invalid = stream_invalid(&q, longest), none = spu_or(invalid, stream_empty(&q));
     const vmask extreme = stream_extreme(&q, longest, farthest, speed);
-    const vmask single = spu_cmpgt(farthest, spux_vfloat(STREAM_FAR));
+    const vmask single = spu_cmpgt(farthest, spux_vfloat(STREAM_MAX_ORG));
     vuint keys = spux_select(octant, spux_vuint(STREAM_SINGLE), single);
     keys = spux_select(keys, spux_vuint(STREAM_EXTREME), extreme);
-    keys = spux_select(keys, spux_vuint(STREAM_NONE), none);
+    keys = spux_select(keys, spux_vuint(STREAM_SKIPPED), none);
     const vmask streams = spu_cmpgt(spux_vuint(STREAM_SINGLE), keys);
     spux_store_uint(key + i, keys);
     *invalid_rays += spux_count_bits(spux_mask_bits(invalid) & CGT_ALL_LANES >> (CGT_LANES - count));
 
-    const vfloat outside = spux_vfloat(0x1p-86f), end = spux_vfloat(WIDE_LARGEST_T);
+    const vfloat outside = spux_vfloat(0x1p-86f), end = spux_vfloat(BVH_MAX_T);
     const vfloat near = spu_msub(spu_nmsub(spux_abs(q.t_min), margin, q.t_min), speed, outside);
     const vfloat far = spu_madd(spu_madd(spux_abs(q.t_max), margin, q.t_max), speed, outside);
-    const vfloat first = spux_max(near, spux_vfloat(-WIDE_LARGEST_T));
+    const vfloat first = spux_max(near, spux_vfloat(-BVH_MAX_T));
     /* rays that are not traced must not look as if they had hit */
     const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, extreme));
     stream_bounds_add(bounds, org, dir, first, last, streams);
@@ -147,67 +147,68 @@ CGT_SPU_INLINE void stream_make_records(stream *s, uint32_t i, uint32_t count, b
     if (any_hit)
         return;
     const vfloat inside = spu_sub(spu_nmsub(spux_abs(last), spux_vfloat(0x1p-18f), last), spux_vfloat(0x1p-84f));
-    const vfloat nobody = (vfloat)spux_vuint(CGT_INVALID_ID);
-    spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, nobody, nobody});
+    const vfloat dummy = (vfloat)spux_vuint(CGT_INVALID_ID);
+    spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, dummy, dummy});
 }
 
 /* E of all streams, where their rays begin and end, and how far apart their origins lie. */
-CGT_SPU_INLINE void stream_find_bounds(stream *s, const stream_bounds *b)
+CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b)
 {
-    const cgt_wide_tree *tree = s->call.tree;
+    const cgt_bvh *tree = s->call.tree;
     const bool forwards = spux_hmin(b->first) >= -0x1p-86f; /* t_min 0, widened */
-    float org[3], apart = 0, size = 0;
+    float org[3], origin_spread = 0, size = 0;
     for (int a = 0; a < 3; a++) {
         const float low = spux_hmin(b->org_low[a]), high = spux_hmax(b->org_high[a]);
-        const float extent = high - low, whole = (tree->high[a] - tree->low[a]) * s->call.scale;
+        const float extent = high - low, tree_extent = (tree->high[a] - tree->low[a]) * s->call.scale;
         org[a] = !(low <= high) ? 0 : -low > high ? -low : high;
-        apart = extent > apart ? extent : apart;
-        size = whole > size ? whole : size;
-        s->begin_low[a] = forwards ? low : -INFINITY;
-        s->begin_high[a] = forwards ? high : INFINITY;
+        origin_spread = extent > origin_spread ? extent : origin_spread;
+        size = tree_extent > size ? tree_extent : size;
+        s->org_low[a] = forwards ? low : -INFINITY;
+        s->org_high[a] = forwards ? high : INFINITY;
         s->end_low[a] = spux_hmin(b->end_low[a]);
         s->end_high[a] = spux_hmax(b->end_high[a]);
     }
-    wide_slack(&s->call, org, s->slack);
-    s->apart = apart > 0 ? apart / size : 0;
+    bvh_slab_error(&s->call, org, s->slab_error);
+    s->origin_spread = origin_spread > 0 ? origin_spread / size : 0;
 }
 
 /* A chunk is sorted in so many runs side by side, each with counters of its own: rays of one octant come one after the
  * other, and a counter would wait for its last change. */
-#define STREAM_RUNS 4u
+#define STREAM_SORT_RUNS 4u
 
 /* Sorts the rays to s->all by key, stable: number[k] with key k from start[k], which is aligned; each list is filled up. */
 CGT_SPU_INLINE void stream_sort(stream *s, uint32_t count, uint32_t start[STREAM_KEYS], uint32_t number[STREAM_KEYS])
 {
-    const uint32_t run = count / STREAM_RUNS, last = STREAM_RUNS - 1; /* what is left over is the last one's */
-    uint32_t to[STREAM_RUNS][STREAM_KEYS], next = 0;
+    const uint32_t run = count / STREAM_SORT_RUNS,
+                   last = STREAM_SORT_RUNS - 1; /* what is left over is the last one's */
+    uint32_t to[STREAM_SORT_RUNS][STREAM_KEYS], next = 0;
     memset(to, 0, sizeof to);
     for (uint32_t i = 0; i < run; i++)
-        for (uint32_t r = 0; r < STREAM_RUNS; r++)
+        for (uint32_t r = 0; r < STREAM_SORT_RUNS; r++)
             to[r][s->key[r * run + i]]++;
-    for (uint32_t i = run * STREAM_RUNS; i < count; i++)
+    for (uint32_t i = run * STREAM_SORT_RUNS; i < count; i++)
         to[last][s->key[i]]++;
     for (uint32_t k = 0; k < STREAM_KEYS; k++) {
         start[k] = next;
-        for (uint32_t r = 0; r < STREAM_RUNS; r++) {
+        for (uint32_t r = 0; r < STREAM_SORT_RUNS; r++) {
             const uint32_t rays = to[r][k];
             to[r][k] = next;
             next += rays;
         }
         number[k] = next - start[k];
         while (next % CGT_LANES)
-            s->all[next++] = STREAM_NOBODY;
+            s->ray_list[next++] = STREAM_DUMMY_RAY;
     }
     for (uint32_t i = 0; i < run; i++)
-        for (uint32_t r = 0; r < STREAM_RUNS; r++)
-            s->all[to[r][s->key[r * run + i]]++] = (r * run + i) * STREAM_RECORD;
-    for (uint32_t i = run * STREAM_RUNS; i < count; i++)
-        s->all[to[last][s->key[i]]++] = i * STREAM_RECORD;
+        for (uint32_t r = 0; r < STREAM_SORT_RUNS; r++)
+            s->ray_list[to[r][s->key[r * run + i]]++] = (r * run + i) * STREAM_RECORD;
+    for (uint32_t i = run * STREAM_SORT_RUNS; i < count; i++)
+        s->ray_list[to[last][s->key[i]]++] = i * STREAM_RECORD;
 }
 
 /* Makes the records of all `count` rays and sorts them. */
-CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_t start[STREAM_KEYS],
-                                uint32_t number[STREAM_KEYS])
+CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, uint32_t start[STREAM_KEYS],
+                                     uint32_t number[STREAM_KEYS])
 {
     uint32_t invalid = 0;
     const vfloat least = spux_vfloat(-INFINITY), most = spux_vfloat(INFINITY);
@@ -217,15 +218,15 @@ CGT_SPU_INLINE void stream_read(stream *s, uint32_t count, bool any_hit, uint32_
                             .end_high = {least, least, least},
                             .first = most};
     for (uint32_t i = 0; i < count; i += CGT_LANES)
-        stream_make_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid);
+        stream_store_records(s, i, count - i < CGT_LANES ? count - i : CGT_LANES, any_hit, s->key, &bounds, &invalid);
     s->call.counts->invalid_rays += invalid;
-    stream_find_bounds(s, &bounds);
+    stream_compute_bounds(s, &bounds);
     stream_sort(s, count, start, number);
-    float *nobody = stream_record(s, STREAM_NOBODY);
+    float *dummy = stream_record(s, STREAM_DUMMY_RAY);
     for (uint32_t k = 0; k < STREAM_RECORD; k++)
-        nobody[k] = 1;
-    stream_keep(s, STREAM_NOBODY, -INFINITY, -INFINITY, CGT_INVALID_ID);
-    s->changed = 0;
+        dummy[k] = 1;
+    stream_set_best(s, STREAM_DUMMY_RAY, -INFINITY, -INFINITY, CGT_INVALID_ID);
+    s->updates = 0;
 }
 
 #endif

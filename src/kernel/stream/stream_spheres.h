@@ -27,42 +27,43 @@
  * 2^-21 of s at an end, less than 36 u X^2, is in E. A line that is inside goes out again. So there is a root in the range
  * where that has no end; else where s is before the range's inner end and the ray is outside of the sphere there. Far from
  * the sphere that distance's error grows only with itself. The first test leaves few lanes open. */
-#ifndef CGT_WIDE_STREAM_SPHERES_H
-#define CGT_WIDE_STREAM_SPHERES_H
+#ifndef CGT_STREAM_SPHERES_H
+#define CGT_STREAM_SPHERES_H
 
 #include "kernel/stream/stream_leaf.h"
 
 /* What all spheres of a leaf share, for a vector of rays. */
 typedef struct leaf_sphere_bounds {
-    vfloat scale, rdd, eps, certain;
-    vfloat before, gap;                 /* of nearest hits */
+    vfloat scale, rdd, eps, certain_hit;
+    vfloat t_error, t_width;            /* of nearest hits */
     vfloat behind;                      /* far roots before this are out of the range */
     vfloat first_in, last_in, last_out; /* any: first roots in here are certain; beyond last_out they are out */
 } leaf_sphere_bounds;
 
-CGT_SPU_INLINE void leaf_sphere_bounds_make(const leaf_rays *r, float scale, float radius, vfloat rdd, bool any_hit,
+CGT_SPU_INLINE void leaf_sphere_bounds_init(const leaf_rays *r, float scale, float radius, vfloat rdd, bool any_hit,
                                             leaf_sphere_bounds *b)
 {
-    const vfloat most = spux_vfloat(radius), reach = spu_add(r->away, most);
-    const vfloat wide = spu_mul(r->away, spux_vfloat(26 * FILTER_U));
+    const vfloat most = spux_vfloat(radius), reach = spu_add(r->distance, most);
+    const vfloat eps_c = spu_mul(r->distance, spux_vfloat(26 * FILTER_ROUNDOFF));
     b->scale = spux_vfloat(scale);
     b->rdd = rdd;
-    b->eps = spu_madd(spu_mul(most, spux_vfloat(9 * FILTER_U)), reach, spu_madd(wide, wide, spux_vfloat(0x1p-120f)));
-    b->before = spu_madd(reach, spux_vfloat(18 * FILTER_U), spux_vfloat(0x1p-61f));
-    b->behind = spu_sub(r->near, b->before);
+    b->eps = spu_madd(spu_mul(most, spux_vfloat(9 * FILTER_ROUNDOFF)), reach,
+                      spu_madd(eps_c, eps_c, spux_vfloat(0x1p-120f)));
+    b->t_error = spu_madd(reach, spux_vfloat(18 * FILTER_ROUNDOFF), spux_vfloat(0x1p-61f));
+    b->behind = spu_sub(r->near, b->t_error);
     if (any_hit) {
-        b->certain = spu_add(b->eps, b->eps);
-        b->first_in = spu_add(r->near_in, b->before);
-        b->last_in = spu_sub(r->far_in, b->before);
-        b->last_out = spu_add(r->far, b->before);
+        b->certain_hit = spu_add(b->eps, b->eps);
+        b->first_in = spu_add(r->near_in, b->t_error);
+        b->last_in = spu_sub(r->far_in, b->t_error);
+        b->last_out = spu_add(r->far, b->t_error);
         return;
     }
-    b->certain = spu_mul(b->eps, spux_vfloat(17));
-    b->gap = spu_madd(b->before, spux_vfloat(2), spu_mul(spux_sqrt(b->eps), spux_vfloat(0.27f)));
+    b->certain_hit = spu_mul(b->eps, spux_vfloat(17));
+    b->t_width = spu_madd(b->t_error, spux_vfloat(2), spu_mul(spux_sqrt(b->eps), spux_vfloat(0.27f)));
 }
 
-CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bounds *b, const wide_spheres *leaf,
-                                     uint32_t k, float square, bool any_hit, leaf_found *f)
+CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bounds *b, const sphere_block *leaf,
+                                     uint32_t k, float square, bool any_hit, leaf_result *f)
 {
     vfloat c[3], l[3];
     for (int a = 0; a < 3; a++)
@@ -72,22 +73,22 @@ CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bound
         l[a] = spu_nmsub(mid, r->dir[a], c[a]);
     const vfloat h = spu_sub(spu_add(spux_vfloat(square), b->eps), lane_dot(l, l));
     const vfloat half = spux_sqrt(spu_mul(spux_max(h, zero), b->rdd));
-    const vmask meets = spu_and(spux_cmpge(h, zero), spux_cmpge(spu_add(mid, half), b->behind));
-    const vmask surely = spu_cmpgt(h, b->certain);
+    const vmask line_hits = spu_and(spux_cmpge(h, zero), spux_cmpge(spu_add(mid, half), b->behind));
+    const vmask above_certain = spu_cmpgt(h, b->certain_hit);
     if (any_hit) {
         const vfloat low = spu_sub(mid, half);
-        f->may = spu_and(meets, spux_cmpge(b->last_out, low));
-        f->certain = spu_and(surely, spu_and(spu_cmpgt(low, b->first_in), spu_cmpgt(b->last_in, mid)));
+        f->possible = spu_and(line_hits, spux_cmpge(b->last_out, low));
+        f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(low, b->first_in), spu_cmpgt(b->last_in, mid)));
         return;
     }
-    f->low = spu_sub(spu_sub(mid, half), b->before);
-    f->high = spu_add(f->low, b->gap);
-    f->may = spu_and(meets, spux_cmpge(r->far, f->low));
-    f->certain = spu_and(surely, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
+    f->low = spu_sub(spu_sub(mid, half), b->t_error);
+    f->high = spu_add(f->low, b->t_width);
+    f->possible = spu_and(line_hits, spux_cmpge(r->far, f->low));
+    f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
 }
 
 /* Coordinates are at most 2, and off by a few roundings. */
-CGT_SPU_INLINE unsigned leaf_spheres_in_reach(const stream *s, const wide_spheres *leaf)
+CGT_SPU_INLINE unsigned leaf_reachable_spheres(const stream *s, const sphere_block *leaf)
 {
     const vfloat scale = spux_vfloat(s->call.scale);
     const vfloat reach = spu_madd(spux_load(leaf->radius), scale, spux_vfloat(0x1p-20f));
@@ -97,23 +98,24 @@ CGT_SPU_INLINE unsigned leaf_spheres_in_reach(const stream *s, const wide_sphere
         low[a] = spu_sub(c, reach);
         high[a] = spu_add(c, reach);
     }
-    return stream_in_reach(s, low, high);
+    return stream_reachable(s, low, high);
 }
 
 /* Centres from the middle of the leaf's box, for the first test. */
-typedef struct leaf_balls {
+typedef struct leaf_sphere_terms {
     _Alignas(CGT_VECTOR_BYTES) float twice[3][CGT_LANES]; /* 2 p */
     float within[CGT_LANES];                              /* r^2 - p.p */
     float square[CGT_LANES];                              /* r^2 */
     float most;                                           /* the largest radius */
-} leaf_balls;
+} leaf_sphere_terms;
 
-CGT_SPU_INLINE void leaf_balls_make(const wide_spheres *leaf, const leaf_place *place, float scale, leaf_balls *q)
+CGT_SPU_INLINE void leaf_sphere_terms_init(const sphere_block *leaf, const leaf_box *box, float scale,
+                                           leaf_sphere_terms *q)
 {
     const vfloat radius = spu_mul(spux_load(leaf->radius), spux_vfloat(scale)), square = spu_mul(radius, radius);
     vfloat p[3];
     for (int a = 0; a < 3; a++) {
-        p[a] = spu_msub(spux_load(leaf->center[a]), spux_vfloat(scale), spux_vfloat(place->middle[a]));
+        p[a] = spu_msub(spux_load(leaf->center[a]), spux_vfloat(scale), spux_vfloat(box->middle[a]));
         spux_store(q->twice[a], spu_add(p[a], p[a]));
     }
     spux_store(q->within, spu_sub(square, lane_dot(p, p)));
@@ -122,7 +124,7 @@ CGT_SPU_INLINE void leaf_balls_make(const wide_spheres *leaf, const leaf_place *
 }
 
 /* Rays near a leaf: a point of each, near the middle of the leaf's box, and the part of the line that counts. */
-typedef struct leaf_near {
+typedef struct leaf_foot {
     vfloat back[3];     /* -x */
     vfloat behind;      /* -2 x.d */
     vfloat least, most; /* x.x - E, x.x + E' */
@@ -130,36 +132,37 @@ typedef struct leaf_near {
     vfloat foot;        /* t */
     vfloat first, last; /* ends of the range less t */
     vfloat last_in;     /* any hit: the inner end */
-} leaf_near;
+} leaf_foot;
 
-CGT_SPU_INLINE void leaf_near_make(const leaf_rays *r, const leaf_place *place, leaf_near *n)
+CGT_SPU_INLINE void leaf_foot_init(const leaf_rays *r, const leaf_box *box, leaf_foot *n)
 {
     const vfloat grow = spux_vfloat(0x1p-21f);
     vfloat v[3];
     n->dd = lane_dot(r->dir, r->dir);
     n->half = spu_mul(spu_re(n->dd), spux_vfloat(0.5f));
     for (int a = 0; a < 3; a++)
-        v[a] = spu_sub(spux_vfloat(place->middle[a]), r->org[a]);
+        v[a] = spu_sub(spux_vfloat(box->middle[a]), r->org[a]);
     const vfloat along = lane_dot(v, r->dir), t = spu_mul(spu_add(along, along), n->half);
     for (int a = 0; a < 3; a++)
         n->back[a] = spu_nmsub(t, r->dir[a], v[a]);
     const vfloat behind = lane_dot(n->back, r->dir), square = lane_dot(n->back, n->back);
-    const vfloat reach = spu_add(lane_sum(n->back), spux_vfloat(place->half));
-    const vfloat lost = spu_madd(reach, spux_vfloat(256 * FILTER_U), spu_mul(r->away, spux_vfloat(32 * FILTER_U)));
-    const vfloat second = spu_mul(r->away, spux_vfloat(32 * FILTER_U));
+    const vfloat reach = spu_add(lane_sum(n->back), spux_vfloat(box->half));
+    const vfloat lost =
+        spu_madd(reach, spux_vfloat(256 * FILTER_ROUNDOFF), spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF)));
+    const vfloat second = spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF));
     const vfloat error = spu_madd(reach, lost, spu_mul(second, second));
     const vfloat narrow = spu_madd(spux_abs(r->near), spux_vfloat(0x1p-18f), spux_vfloat(0x1p-84f));
-    const vfloat moved = spu_madd(narrow, spux_vfloat(16), spu_mul(reach, spux_vfloat(8)));
+    const vfloat widening = spu_madd(narrow, spux_vfloat(16), spu_mul(reach, spux_vfloat(8)));
     n->foot = t;
     n->behind = spu_add(behind, behind);
     n->least = spu_sub(square, error);
-    n->most = spu_madd(moved, narrow, spu_add(square, error));
+    n->most = spu_madd(widening, narrow, spu_add(square, error));
     const vfloat first = spu_sub(r->near, t), last = spu_sub(r->far, t);
     n->first = spu_nmsub(spux_abs(first), grow, first);
     n->last = spu_madd(spux_abs(last), grow, last);
 }
 
-CGT_SPU_INLINE void leaf_near_narrow(leaf_rays *r, leaf_near *n)
+CGT_SPU_INLINE void leaf_foot_narrow(leaf_rays *r, leaf_foot *n)
 {
     leaf_rays_narrow(r, true);
     const vfloat last = spu_sub(r->far_in, n->foot);
@@ -167,16 +170,17 @@ CGT_SPU_INLINE void leaf_near_narrow(leaf_rays *r, leaf_near *n)
 }
 
 /* Where a sphere is from the rays. */
-typedef struct leaf_ball {
+typedef struct leaf_sphere_offset {
     vfloat along; /* 2 (p - x).d */
     vfloat from;  /* r^2 - p.p + 2 p.x */
     vfloat t;     /* s */
     vfloat depth; /* x.x + r^2, less the square of the distance */
-} leaf_ball;
+} leaf_sphere_offset;
 
-CGT_SPU_INLINE leaf_ball leaf_ball_make(const leaf_rays *r, const leaf_near *n, const leaf_balls *q, uint32_t k)
+CGT_SPU_INLINE leaf_sphere_offset leaf_compute_offset(const leaf_rays *r, const leaf_foot *n,
+                                                      const leaf_sphere_terms *q, uint32_t k)
 {
-    leaf_ball b;
+    leaf_sphere_offset b;
     vfloat p[3];
     for (int a = 0; a < 3; a++)
         p[a] = spux_vfloat(q->twice[a][k]);
@@ -190,69 +194,69 @@ CGT_SPU_INLINE leaf_ball leaf_ball_make(const leaf_rays *r, const leaf_near *n, 
 }
 
 /* The spheres that any lane's part of the line may meet: without branches, since few of them could be foretold. */
-CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_near *n, const leaf_balls *q,
-                                             const leaf_members *m)
+CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_foot *n, const leaf_sphere_terms *q,
+                                             const leaf_candidates *m)
 {
     uint32_t reached = 0;
     for (uint32_t i = 0; i < m->count; i++) {
         const uint32_t k = m->lane[i];
-        const leaf_ball b = leaf_ball_make(r, n, q, k);
+        const leaf_sphere_offset b = leaf_compute_offset(r, n, q, k);
         reached |= (uint32_t)(spux_mask_bits(spux_cmpge(b.depth, n->least)) != 0) << k;
     }
     return reached;
 }
 
 /* Any hit: most lanes are decided here. Returns the spheres that others have left to decide. */
-CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_near *n, const leaf_balls *q, const leaf_members *m,
-                                         bool endless)
+CGT_SPU_INLINE uint32_t leaf_spheres_any(leaf_rays *r, const leaf_foot *n, const leaf_sphere_terms *q,
+                                         const leaf_candidates *m, bool unbounded)
 {
-    vuint open = spux_vuint(0);
+    vuint undecided = spux_vuint(0);
     for (uint32_t i = 0; i < m->count; i++) {
         const uint32_t k = m->lane[i];
-        const leaf_ball b = leaf_ball_make(r, n, q, k);
-        const vmask may = spux_cmpge(b.depth, n->least);
-        vmask sure = spu_cmpgt(b.depth, n->most);
-        if (!endless) {
+        const leaf_sphere_offset b = leaf_compute_offset(r, n, q, k);
+        const vmask possible = spux_cmpge(b.depth, n->least);
+        vmask decided = spu_cmpgt(b.depth, n->most);
+        if (!unbounded) {
             const vfloat end = spu_nmsub(n->last_in, spu_msub(n->last_in, n->dd, b.along), b.from);
-            sure = spu_and(sure, spu_and(spu_cmpgt(n->last_in, b.t), spu_cmpgt(n->least, end)));
+            decided = spu_and(decided, spu_and(spu_cmpgt(n->last_in, b.t), spu_cmpgt(n->least, end)));
         }
-        r->hit = spu_or(r->hit, sure);
-        open = leaf_open_add(open, k, spu_andc(may, sure));
+        r->hit = spu_or(r->hit, decided);
+        undecided = leaf_undecided_add(undecided, k, spu_andc(possible, decided));
     }
-    return leaf_open_left(spux_select(open, spux_vuint(0), r->hit));
+    return leaf_undecided_union(spux_select(undecided, spux_vuint(0), r->hit));
 }
 
-CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const wide_spheres *leaf, const leaf_members *m,
-                                        const leaf_place *place, const uint32_t *list, uint32_t rays, bool any_hit,
-                                        bool hides)
+CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, const leaf_candidates *m,
+                                        const leaf_box *box, const uint32_t *list, uint32_t rays, bool any_hit,
+                                        bool skips_prims)
 {
     const float scale = s->call.scale;
-    const bool endless = !s->call.source->rays->t_max;
-    leaf_balls q;
-    leaf_balls_make(leaf, place, scale, &q);
+    const bool unbounded = !s->call.source->rays->t_max;
+    leaf_sphere_terms q;
+    leaf_sphere_terms_init(leaf, box, scale, &q);
     for (uint32_t i = 0; i < rays; i += CGT_LANES) {
         leaf_rays r;
-        leaf_near n;
+        leaf_foot n;
         uint32_t reached;
-        leaf_rays_load(s, list + i, place, any_hit, &r);
-        leaf_near_make(&r, place, &n);
-        if (!any_hit || hides)
+        leaf_rays_load(s, list + i, box, any_hit, &r);
+        leaf_foot_init(&r, box, &n);
+        if (!any_hit || skips_prims)
             reached = leaf_spheres_reached(&r, &n, &q, m);
-        else if (endless)
+        else if (unbounded)
             reached = leaf_spheres_any(&r, &n, &q, m, true);
         else {
-            leaf_near_narrow(&r, &n);
+            leaf_foot_narrow(&r, &n);
             reached = leaf_spheres_any(&r, &n, &q, m, false);
         }
         if (reached) {
             leaf_sphere_bounds b;
             leaf_rays_narrow(&r, any_hit);
-            leaf_sphere_bounds_make(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
+            leaf_sphere_bounds_init(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
             for (; reached; reached &= reached - 1) {
                 const uint32_t k = (uint32_t)__builtin_ctz(reached);
-                leaf_found f;
+                leaf_result f;
                 leaf_sphere_test(&r, &b, leaf, k, q.square[k], any_hit, &f);
-                leaf_take(s, &r, &f, leaf->object[k], any_hit, hides);
+                leaf_update_hits(s, &r, &f, leaf->prim[k], any_hit, skips_prims);
             }
         }
         leaf_rays_store(s, &r, any_hit);

@@ -8,8 +8,8 @@
  *   c = g x d,  U = -e_2.c,  V = e_1.c,  D = d.N,  T = g.N,  W = D - U - V
  * are the terms of lane_tests.h, each a triple product: u for g, 2 u for an edge, 2 u for the cross product, 3 u for the
  * dot product, so that they are within 9 u of the sizes of their factors too. So all three sides share one bound,
- *   LANE_THIRD 2 (A (S_1 + S_2) + S_1 S_2) + 2^-112,   D has LANE_PLANE 2 S_1 S_2 + 2^-116,
- * and T has LANE_PLANE S_1 S_2 A + 2^-112, with more than enough for what underflows, since A is below 2^7.
+ *   LANE_EPS_W 2 (A (S_1 + S_2) + S_1 S_2) + 2^-112,   D has LANE_EPS_PLANE 2 S_1 S_2 + 2^-116,
+ * and T has LANE_EPS_PLANE S_1 S_2 A + 2^-112, with more than enough for what underflows, since A is below 2^7.
  * Any hit does not divide: with U, V, T and D made positive by the sign of D, t > t_min is T - t_min D > 0, within the
  * error of T and |t_min| times that of D; the roundings of the product and the difference vanish in what `near` and `far`
  * were widened by. If both ends hold by more than their errors, |D| is more than its own, so that its sign is right. One
@@ -17,17 +17,17 @@
  *   The sign of D is right too where the least of U, V and W is above their bound, since D is their sum. Where it is wrong,
  * D is within its error of 0, and of a line that passes inside U, V and W are no larger: so lines are out below the bound
  * of the sides and twice that of D. */
-#ifndef CGT_WIDE_STREAM_TRIANGLES_H
-#define CGT_WIDE_STREAM_TRIANGLES_H
+#ifndef CGT_STREAM_TRIANGLES_H
+#define CGT_STREAM_TRIANGLES_H
 
 #include "kernel/stream/stream_leaf.h"
 
 /* What a leaf's triangles have in common, and of each what the tests take beside the block's. */
-typedef struct leaf_planes {
+typedef struct leaf_normals {
     _Alignas(CGT_VECTOR_BYTES) float normal[3][CGT_LANES]; /* N */
     float back[3][CGT_LANES];                              /* -e_2 */
     float sum[2];                                          /* S_1, S_2 */
-} leaf_planes;
+} leaf_normals;
 
 typedef struct leaf_triangle_bounds {
     vfloat side, minus_side; /* of U, V, W */
@@ -38,7 +38,7 @@ typedef struct leaf_triangle_bounds {
     vfloat before, inside;   /* T - near D of rays that come before their range, of those that come inside */
 } leaf_triangle_bounds;
 
-CGT_SPU_INLINE void leaf_planes_make(const wide_triangles *leaf, leaf_planes *p)
+CGT_SPU_INLINE void leaf_normals_init(const triangle_block *leaf, leaf_normals *p)
 {
     vfloat e[2][3], n[3];
     for (int a = 0; a < 3; a++) {
@@ -54,28 +54,28 @@ CGT_SPU_INLINE void leaf_planes_make(const wide_triangles *leaf, leaf_planes *p)
 }
 
 /* Coordinates are at most 2, and off by a few roundings. */
-CGT_SPU_INLINE unsigned leaf_triangles_in_reach(const stream *s, const wide_triangles *leaf)
+CGT_SPU_INLINE unsigned leaf_reachable_triangles(const stream *s, const triangle_block *leaf)
 {
-    const vfloat nothing = spux_vfloat(0), margin = spux_vfloat(0x1p-20f);
+    const vfloat zeros = spux_vfloat(0), margin = spux_vfloat(0x1p-20f);
     vfloat low[3], high[3];
     for (int a = 0; a < 3; a++) {
         const vfloat v = spux_load(leaf->vertex[a]), e = spux_load(leaf->edge[0][a]), f = spux_load(leaf->edge[1][a]);
-        low[a] = spu_add(spu_sub(v, margin), spux_min(nothing, spux_min(e, f)));
-        high[a] = spu_add(spu_add(v, margin), spux_max(nothing, spux_max(e, f)));
+        low[a] = spu_add(spu_sub(v, margin), spux_min(zeros, spux_min(e, f)));
+        high[a] = spu_add(spu_add(v, margin), spux_max(zeros, spux_max(e, f)));
     }
-    return stream_in_reach(s, low, high);
+    return stream_reachable(s, low, high);
 }
 
-CGT_SPU_INLINE void leaf_triangle_bounds_make(const leaf_rays *r, const leaf_planes *p, bool any_hit,
+CGT_SPU_INLINE void leaf_triangle_bounds_init(const leaf_rays *r, const leaf_normals *p, bool any_hit,
                                               leaf_triangle_bounds *b)
 {
     const float product = p->sum[0] * p->sum[1];
     const vfloat enlarge = spux_vfloat(1 + 0x1p-10f);
-    b->side = spu_madd(r->away, spux_vfloat(2 * LANE_THIRD * (p->sum[0] + p->sum[1])),
-                       spux_vfloat(2 * LANE_THIRD * product + 0x1p-112f));
+    b->side = spu_madd(r->distance, spux_vfloat(2 * LANE_EPS_W * (p->sum[0] + p->sum[1])),
+                       spux_vfloat(2 * LANE_EPS_W * product + 0x1p-112f));
     b->minus_side = spu_xor(b->side, spux_vfloat(-0.f));
-    b->den = spux_vfloat(2 * LANE_PLANE * product + 0x1p-116f);
-    b->num = spu_madd(r->away, spux_vfloat(LANE_PLANE * product), spux_vfloat(0x1p-112f));
+    b->den = spux_vfloat(2 * LANE_EPS_PLANE * product + 0x1p-116f);
+    b->num = spu_madd(r->distance, spux_vfloat(LANE_EPS_PLANE * product), spux_vfloat(0x1p-112f));
     if (!any_hit)
         return;
     b->first = spu_mul(spu_madd(spux_abs(r->near), b->den, b->num), enlarge);
@@ -86,12 +86,12 @@ CGT_SPU_INLINE void leaf_triangle_bounds_make(const leaf_rays *r, const leaf_pla
 }
 
 /* The terms of a triangle. */
-typedef struct leaf_terms {
+typedef struct leaf_determinants {
     vfloat u, v, den, num; /* U, V, D, T */
-} leaf_terms;
+} leaf_determinants;
 
-CGT_SPU_INLINE leaf_terms leaf_terms_make(const leaf_rays *r, const wide_triangles *leaf, const leaf_planes *p,
-                                          uint32_t k)
+CGT_SPU_INLINE leaf_determinants leaf_compute_determinants(const leaf_rays *r, const triangle_block *leaf,
+                                                           const leaf_normals *p, uint32_t k)
 {
     vfloat g[3], c[3], e[3], back[3], n[3];
     for (int a = 0; a < 3; a++) {
@@ -101,15 +101,15 @@ CGT_SPU_INLINE leaf_terms leaf_terms_make(const leaf_rays *r, const wide_triangl
         n[a] = spux_vfloat(p->normal[a][k]);
     }
     lane_cross(g, r->dir, c);
-    return (leaf_terms){lane_dot(back, c), lane_dot(e, c), lane_dot(n, r->dir), lane_dot(n, g)};
+    return (leaf_determinants){lane_dot(back, c), lane_dot(e, c), lane_dot(n, r->dir), lane_dot(n, g)};
 }
 
 /* Which side of its edges the lines pass. */
 typedef struct leaf_sides {
-    vmask inside, may;
+    vmask inside, possible;
 } leaf_sides;
 
-CGT_SPU_INLINE leaf_sides leaf_sides_make(const leaf_terms *q, const leaf_triangle_bounds *b)
+CGT_SPU_INLINE leaf_sides leaf_compute_sides(const leaf_determinants *q, const leaf_triangle_bounds *b)
 {
     const vfloat w = spu_sub(spu_sub(q->den, q->u), q->v);
     const vfloat least = spux_min(q->u, spux_min(q->v, w)), most = spux_max(q->u, spux_max(q->v, w));
@@ -120,58 +120,59 @@ CGT_SPU_INLINE leaf_sides leaf_sides_make(const leaf_terms *q, const leaf_triang
 
 /* The triangles that any lane's line may pass inside of. */
 CGT_SPU_INLINE uint32_t leaf_triangles_reached(const leaf_rays *r, const leaf_triangle_bounds *b,
-                                               const wide_triangles *leaf, const leaf_planes *p, const leaf_members *m)
+                                               const triangle_block *leaf, const leaf_normals *p,
+                                               const leaf_candidates *m)
 {
     uint32_t reached = 0;
     for (uint32_t i = 0; i < m->count; i++) {
         const uint32_t k = m->lane[i];
-        const leaf_terms q = leaf_terms_make(r, leaf, p, k);
-        reached |= (uint32_t)spux_any(leaf_sides_make(&q, b).may) << k;
+        const leaf_determinants q = leaf_compute_determinants(r, leaf, p, k);
+        reached |= (uint32_t)spux_any(leaf_compute_sides(&q, b).possible) << k;
     }
     return reached;
 }
 
 /* Any hit: most lanes are decided here. Returns the triangles that others have left to decide. */
-CGT_SPU_INLINE uint32_t leaf_triangles_any(leaf_rays *r, const leaf_triangle_bounds *b, const wide_triangles *leaf,
-                                           const leaf_planes *p, const leaf_members *m, bool endless)
+CGT_SPU_INLINE uint32_t leaf_triangles_any(leaf_rays *r, const leaf_triangle_bounds *b, const triangle_block *leaf,
+                                           const leaf_normals *p, const leaf_candidates *m, bool unbounded)
 {
     const vfloat minus = spux_vfloat(-0.f);
-    vuint open = spux_vuint(0);
+    vuint undecided = spux_vuint(0);
     for (uint32_t i = 0; i < m->count; i++) {
         const uint32_t k = m->lane[i];
-        const leaf_terms q = leaf_terms_make(r, leaf, p, k);
+        const leaf_determinants q = leaf_compute_determinants(r, leaf, p, k);
         const vfloat sign = spu_and(q.den, minus), den = spux_abs(q.den), num = spu_xor(q.num, sign);
         const vfloat u = spu_xor(q.u, sign), v = spu_xor(q.v, sign);
         const vfloat least = spux_min(spux_min(u, v), spu_sub(spu_sub(den, u), v));
         const vfloat after = spu_nmsub(r->near, den, num);
         vmask out = spu_cmpgt(b->before, after);
-        vmask sure = spu_and(spu_cmpgt(least, b->side), spu_cmpgt(after, b->inside));
-        if (!endless) {
+        vmask decided = spu_and(spu_cmpgt(least, b->side), spu_cmpgt(after, b->inside));
+        if (!unbounded) {
             out = spu_or(out, spu_cmpgt(num, spu_madd(r->far, den, b->last)));
-            sure = spu_and(sure, spu_cmpgt(spu_msub(r->far_in, den, num), b->last));
+            decided = spu_and(decided, spu_cmpgt(spu_msub(r->far_in, den, num), b->last));
         }
         const vmask missed = spu_or(spu_cmpgt(b->outside, least), spu_and(out, spu_cmpgt(den, b->den)));
-        r->hit = spu_or(r->hit, sure);
-        open = leaf_open_add(open, k, spux_not(spu_or(missed, sure)));
+        r->hit = spu_or(r->hit, decided);
+        undecided = leaf_undecided_add(undecided, k, spux_not(spu_or(missed, decided)));
     }
-    return leaf_open_left(spux_select(open, spux_vuint(0), r->hit));
+    return leaf_undecided_union(spux_select(undecided, spux_vuint(0), r->hit));
 }
 
-CGT_SPU_INLINE void leaf_triangle_any(const leaf_rays *r, const leaf_triangle_bounds *b, const leaf_terms *q,
-                                      const leaf_sides *sides, leaf_found *f)
+CGT_SPU_INLINE void leaf_triangle_any(const leaf_rays *r, const leaf_triangle_bounds *b, const leaf_determinants *q,
+                                      const leaf_sides *sides, leaf_result *f)
 {
     const vfloat minus = spux_vfloat(-0.f), sign = spu_and(q->den, minus);
     const vfloat den = spu_xor(q->den, sign), num = spu_xor(q->num, sign);
     const vmask steep = spu_cmpgt(den, b->den);
     const vmask out =
         spu_or(spu_cmpgt(spu_msub(r->near, den, b->first), num), spu_cmpgt(num, spu_madd(r->far, den, b->last)));
-    f->may = spu_andc(sides->may, spu_and(out, steep));
-    f->certain = spu_and(sides->inside, spu_and(spu_cmpgt(spu_nmsub(r->near_in, den, num), b->first),
-                                                spu_cmpgt(spu_msub(r->far_in, den, num), b->last)));
+    f->possible = spu_andc(sides->possible, spu_and(out, steep));
+    f->certain_hit = spu_and(sides->inside, spu_and(spu_cmpgt(spu_nmsub(r->near_in, den, num), b->first),
+                                                    spu_cmpgt(spu_msub(r->far_in, den, num), b->last)));
 }
 
-CGT_SPU_INLINE void leaf_triangle_nearest(const leaf_rays *r, const leaf_triangle_bounds *b, const leaf_terms *q,
-                                          const leaf_sides *sides, leaf_found *f)
+CGT_SPU_INLINE void leaf_triangle_closest(const leaf_rays *r, const leaf_triangle_bounds *b, const leaf_determinants *q,
+                                          const leaf_sides *sides, leaf_result *f)
 {
     const vfloat rden = spux_div(spux_vfloat(1), q->den), t = spu_mul(q->num, rden), reach = spux_abs(t);
     const vfloat error = spu_mul(spu_madd(reach, b->den, b->num), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
@@ -179,41 +180,41 @@ CGT_SPU_INLINE void leaf_triangle_nearest(const leaf_rays *r, const leaf_triangl
     const vmask steep = spu_cmpgt(spux_abs(q->den), spu_mul(b->den, spux_vfloat(4)));
     f->low = spux_select(spux_vfloat(-INFINITY), spu_sub(t, width), steep);
     f->high = spux_select(spux_vfloat(INFINITY), spu_add(t, width), steep);
-    f->may = spu_and(sides->may, spu_and(spux_cmpge(f->high, r->near), spux_cmpge(r->far, f->low)));
-    f->certain =
+    f->possible = spu_and(sides->possible, spu_and(spux_cmpge(f->high, r->near), spux_cmpge(r->far, f->low)));
+    f->certain_hit =
         spu_and(spu_and(sides->inside, steep), spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
 }
 
-CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const wide_triangles *leaf, const leaf_members *m,
-                                          const leaf_place *place, const uint32_t *list, uint32_t rays, bool any_hit,
-                                          bool hides)
+CGT_SPU_INLINE void leaf_stream_triangles(stream *s, const triangle_block *leaf, const leaf_candidates *m,
+                                          const leaf_box *box, const uint32_t *list, uint32_t rays, bool any_hit,
+                                          bool skips_prims)
 {
-    const bool endless = !s->call.source->rays->t_max;
-    leaf_planes p;
-    leaf_planes_make(leaf, &p);
+    const bool unbounded = !s->call.source->rays->t_max;
+    leaf_normals p;
+    leaf_normals_init(leaf, &p);
     for (uint32_t i = 0; i < rays; i += CGT_LANES) {
         leaf_rays r;
         leaf_triangle_bounds b;
         uint32_t reached;
-        leaf_rays_load(s, list + i, place, any_hit, &r);
+        leaf_rays_load(s, list + i, box, any_hit, &r);
         leaf_rays_narrow(&r, any_hit);
-        leaf_triangle_bounds_make(&r, &p, any_hit, &b);
-        if (!any_hit || hides)
+        leaf_triangle_bounds_init(&r, &p, any_hit, &b);
+        if (!any_hit || skips_prims)
             reached = leaf_triangles_reached(&r, &b, leaf, &p, m);
-        else if (endless)
+        else if (unbounded)
             reached = leaf_triangles_any(&r, &b, leaf, &p, m, true);
         else
             reached = leaf_triangles_any(&r, &b, leaf, &p, m, false);
         for (; reached; reached &= reached - 1) {
             const uint32_t k = (uint32_t)__builtin_ctz(reached);
-            const leaf_terms q = leaf_terms_make(&r, leaf, &p, k);
-            const leaf_sides sides = leaf_sides_make(&q, &b);
-            leaf_found f;
+            const leaf_determinants q = leaf_compute_determinants(&r, leaf, &p, k);
+            const leaf_sides sides = leaf_compute_sides(&q, &b);
+            leaf_result f;
             if (any_hit)
                 leaf_triangle_any(&r, &b, &q, &sides, &f);
             else
-                leaf_triangle_nearest(&r, &b, &q, &sides, &f);
-            leaf_take(s, &r, &f, leaf->object[k], any_hit, hides);
+                leaf_triangle_closest(&r, &b, &q, &sides, &f);
+            leaf_update_hits(s, &r, &f, leaf->prim[k], any_hit, skips_prims);
         }
         leaf_rays_store(s, &r, any_hit);
     }

@@ -23,9 +23,9 @@
 
 /* A level, seen from the eye; w runs forwards in march direction, k from 0. */
 typedef struct tile_march_level {
-    uint32_t next, slices;         /* k of the next slice */
+    uint32_t next_slice, slices;   /* k of the next slice */
     double begin, step, thickness; /* where objects of slice 0 begin; from one slice to the next; of a slice */
-    double base[2], rcell[2], reach[2], slack[2]; /* of the other two axes: corner, cells per length; in cells */
+    double base[2], rcell[2], reach[2], cell_error[2]; /* of the other two axes: corner, cells per length; in cells */
 } tile_march_level;
 
 typedef struct tile_march {
@@ -36,7 +36,7 @@ typedef struct tile_march {
     double start_low, start_high;     /* w where rays start; else 0 */
     double rspeed;                    /* t per length along w, at most */
     bool forward;
-    bool everything;
+    bool brute_force;
     tile_march_level level[CGT_LOOSE_LEVELS];
 } tile_march;
 
@@ -51,41 +51,42 @@ CGT_SPU_INLINE double tile_min(double a, double b) { return a < b ? a : b; }
 CGT_SPU_INLINE double tile_max(double a, double b) { return a > b ? a : b; }
 
 /* Slopes and speeds of the rays, from the four at the corners. */
-CGT_SPU_INLINE void tile_march_rays(const tile *t, tile_march *m)
+CGT_SPU_INLINE void tile_march_init_perspective(const tile *t, tile_march *m)
 {
     const cgt_camera_rays *c = t->rays;
     const uint32_t axis[2] = {m->u, m->v};
-    double d[4][3], least = INFINITY, most = 0;
+    double d[4][3], lower = INFINITY, upper = 0;
     m->start_low = m->start_high = m->base_low[0] = m->base_low[1] = m->base_high[0] = m->base_high[1] = 0;
     for (uint32_t k = 0; k < 4; k++) {
         const double px = (double)t->column[k & 1 ? TILE_EDGE - 1 : 0], py = (double)t->row[k & 2 ? TILE_EDGE - 1 : 0];
         for (int a = 0; a < 3; a++)
             d[k][a] = ((double)c->fwd[a] + px * (double)c->right[a] + py * (double)c->up[a]) *
                       (m->forward || a != (int)m->w ? 1 : -1);
-        least = tile_min(least, d[k][m->w]);
-        most = tile_max(most, d[k][m->w]);
+        lower = tile_min(lower, d[k][m->w]);
+        upper = tile_max(upper, d[k][m->w]);
     }
-    const double longest = (double)t->longest, share = longest / least * 0x1p-21;
-    m->everything = !(least > 0x1p-6 * longest);
-    m->rspeed = 1 / (most + longest * 0x1p-21);
+    const double max_dir_length = (double)t->max_dir_length, share = max_dir_length / lower * 0x1p-21;
+    m->brute_force = !(lower > 0x1p-6 * max_dir_length);
+    m->rspeed = 1 / (upper + max_dir_length * 0x1p-21);
     for (int k = 0; k < 2; k++) {
         m->slope_low[k] = INFINITY;
         m->slope_high[k] = -INFINITY;
         for (int i = 0; i < 4; i++) {
-            const double slope = d[i][axis[k]] / d[i][m->w], wide = (1 + fabs(slope)) * share;
-            m->slope_low[k] = tile_min(m->slope_low[k], slope - wide);
-            m->slope_high[k] = tile_max(m->slope_high[k], slope + wide);
+            const double slope = d[i][axis[k]] / d[i][m->w], error = (1 + fabs(slope)) * share;
+            m->slope_low[k] = tile_min(m->slope_low[k], slope - error);
+            m->slope_high[k] = tile_max(m->slope_high[k], slope + error);
         }
     }
 }
 
 /* The same for parallel rays: from the origins at the corners. */
-CGT_SPU_INLINE void tile_march_parallel(const tile *t, tile_march *m)
+CGT_SPU_INLINE void tile_march_init_parallel(const tile *t, tile_march *m)
 {
     const cgt_camera_rays *c = t->rays;
     const uint32_t axis[2] = {m->u, m->v};
-    const double sign = m->forward ? 1 : -1, speed = fabs((double)c->fwd[m->w]), off = (double)t->spread * 0x1p-23;
-    m->everything = false;
+    const double sign = m->forward ? 1 : -1, speed = fabs((double)c->fwd[m->w]),
+                 off = (double)t->origin_error * 0x1p-23;
+    m->brute_force = false;
     m->rspeed = 1 / speed;
     m->start_low = INFINITY;
     m->start_high = -INFINITY;
@@ -100,42 +101,42 @@ CGT_SPU_INLINE void tile_march_parallel(const tile *t, tile_march *m)
         m->start_low = tile_min(m->start_low, start - off);
         m->start_high = tile_max(m->start_high, start + off);
         for (int k = 0; k < 2; k++) {
-            const double from = px * (double)c->right[axis[k]] + py * (double)c->up[axis[k]];
-            const double base = from - start * m->slope_low[k], wide = off * (1 + fabs(m->slope_low[k]));
-            m->base_low[k] = tile_min(m->base_low[k], base - wide);
-            m->base_high[k] = tile_max(m->base_high[k], base + wide);
+            const double position = px * (double)c->right[axis[k]] + py * (double)c->up[axis[k]];
+            const double base = position - start * m->slope_low[k], error = off * (1 + fabs(m->slope_low[k]));
+            m->base_low[k] = tile_min(m->base_low[k], base - error);
+            m->base_high[k] = tile_max(m->base_high[k], base + error);
         }
     }
 }
 
-CGT_SPU_INLINE void tile_march_level_make(const float eye[3], const tile_march *m, const cgt_loose_level *from,
+CGT_SPU_INLINE void tile_march_init_level(const float eye[3], const tile_march *m, const cgt_loose_level *grid_level,
                                           tile_march_level *l)
 {
     const uint32_t w = m->w, axis[2] = {m->u, m->v};
-    const double cell = (double)from->cell[w], reach = (double)from->reach[w];
-    const double low = (double)from->low[w] - (double)eye[w], length = cell * from->size[w];
+    const double cell = (double)grid_level->cell[w], reach = (double)grid_level->reach[w];
+    const double low = (double)grid_level->low[w] - (double)eye[w], length = cell * grid_level->size[w];
     const double rounding = (fabs(low) + length + reach) * 0x1p-48;
-    l->slices = from->objects ? from->size[w] : 0;
+    l->slices = grid_level->prims ? grid_level->size[w] : 0;
     l->begin = (m->forward ? low : -(low + length)) - reach - rounding;
     l->step = cell;
     l->thickness = cell + 2 * (reach + rounding);
     /* slices that end before the rays start */
-    const double behind = m->everything ? -1 : (m->start_low - (l->begin + l->thickness)) / cell;
-    l->next = behind > 0 ? behind < l->slices ? (uint32_t)behind : l->slices : 0;
+    const double behind = m->brute_force ? -1 : (m->start_low - (l->begin + l->thickness)) / cell;
+    l->next_slice = behind > 0 ? behind < l->slices ? (uint32_t)behind : l->slices : 0;
     const double end = tile_max(l->begin + l->slices * cell + l->thickness, -m->start_low);
     for (int k = 0; k < 2; k++) {
         const uint32_t a = axis[k];
         const double steepest = tile_max(fabs(m->slope_low[k]), fabs(m->slope_high[k]));
-        l->rcell[k] = 1 / (double)from->cell[a];
-        l->base[k] = (double)from->low[a] - (double)eye[a];
-        l->reach[k] = (double)from->reach[a] * l->rcell[k];
+        l->rcell[k] = 1 / (double)grid_level->cell[a];
+        l->base[k] = (double)grid_level->low[a] - (double)eye[a];
+        l->reach[k] = (double)grid_level->reach[a] * l->rcell[k];
         const double base = fabs(l->base[k]) + fabs(m->base_low[k]) + fabs(m->base_high[k]);
-        l->slack[k] =
-            0x1p-20 + (end * steepest + base) * l->rcell[k] * 0x1p-48 + (from->size[a] + l->reach[k]) * 0x1p-48;
+        l->cell_error[k] =
+            0x1p-20 + (end * steepest + base) * l->rcell[k] * 0x1p-48 + (grid_level->size[a] + l->reach[k]) * 0x1p-48;
     }
 }
 
-CGT_SPU_INLINE void tile_march_make(const tile *t, const cgt_loose_grid *grid, tile_march *m)
+CGT_SPU_INLINE void tile_march_init(const tile *t, const cgt_loose_grid *grid, tile_march *m)
 {
     const cgt_camera_rays *c = t->rays;
     const float px = 0.5f * (t->column[0] + t->column[TILE_EDGE - 1]), py = 0.5f * (t->row[0] + t->row[TILE_EDGE - 1]);
@@ -150,24 +151,24 @@ CGT_SPU_INLINE void tile_march_make(const tile *t, const cgt_loose_grid *grid, t
     m->v = m->w == 2 ? 1 : 2;
     m->forward = d[m->w] > 0;
     if (t->parallel)
-        tile_march_parallel(t, m);
+        tile_march_init_parallel(t, m);
     else
-        tile_march_rays(t, m);
+        tile_march_init_perspective(t, m);
     for (uint32_t i = 0; i < grid->levels; i++)
-        tile_march_level_make(c->eye, m, &grid->level[i], &m->level[i]);
+        tile_march_init_level(c->eye, m, &grid->level[i], &m->level[i]);
 }
 
 /* The cells of axis k of a slice that lies between near and far; false where there are none. */
-CGT_SPU_INLINE bool tile_march_cells(const tile_march *m, const tile_march_level *l, int k, double near, double far,
-                                     uint32_t size, tile_slice *s)
+CGT_SPU_INLINE bool tile_march_compute_cells(const tile_march *m, const tile_march_level *l, int k, double near_w,
+                                             double far_w, uint32_t size, tile_slice *s)
 {
     s->low[k] = 0;
     s->high[k] = size - 1;
-    if (m->everything)
+    if (m->brute_force)
         return true;
-    const double low = tile_min(near * m->slope_low[k], far * m->slope_low[k]) + m->base_low[k];
-    const double high = tile_max(near * m->slope_high[k], far * m->slope_high[k]) + m->base_high[k];
-    const double margin = l->reach[k] + l->slack[k];
+    const double low = tile_min(near_w * m->slope_low[k], far_w * m->slope_low[k]) + m->base_low[k];
+    const double high = tile_max(near_w * m->slope_high[k], far_w * m->slope_high[k]) + m->base_high[k];
+    const double margin = l->reach[k] + l->cell_error[k];
     const double first = (low - l->base[k]) * l->rcell[k] - margin - 1, end = size;
     const double last = (high - l->base[k]) * l->rcell[k] + margin;
     if (!(last >= 0) || !(first <= end))
@@ -181,60 +182,61 @@ CGT_SPU_INLINE bool tile_march_cells(const tile_march *m, const tile_march_level
 }
 
 /* The next slice that holds cells for the tile; false where there is none. */
-CGT_SPU_INLINE bool tile_march_next(tile_march *m, tile_slice *s)
+CGT_SPU_INLINE bool tile_march_next_slice(tile_march *m, tile_slice *s)
 {
     for (;;) {
-        double nearest = INFINITY;
+        double next_begin = INFINITY;
         s->level = CGT_LOOSE_LEVELS;
         for (uint32_t i = 0; i < m->grid->levels; i++) {
             const tile_march_level *l = &m->level[i];
-            const double begin = l->begin + l->next * l->step;
-            if (l->next < l->slices && (s->level == CGT_LOOSE_LEVELS || begin < nearest)) {
-                nearest = begin;
+            const double begin = l->begin + l->next_slice * l->step;
+            if (l->next_slice < l->slices && (s->level == CGT_LOOSE_LEVELS || begin < next_begin)) {
+                next_begin = begin;
                 s->level = i;
             }
         }
         if (s->level == CGT_LOOSE_LEVELS)
             return false;
         tile_march_level *l = &m->level[s->level];
-        const cgt_loose_level *from = &m->grid->level[s->level];
-        const double start = m->start_low, near = tile_max(nearest, start),
-                     far = tile_max(nearest + l->thickness, start);
-        s->cell = m->forward ? l->next : l->slices - 1 - l->next;
-        s->near_t = m->everything ? 0 : tile_max(near - m->start_high, 0) * m->rspeed * (1 - 0x1p-40);
-        l->next++;
-        if (tile_march_cells(m, l, 0, near, far, from->size[m->u], s) &&
-            tile_march_cells(m, l, 1, near, far, from->size[m->v], s))
+        const cgt_loose_level *grid_level = &m->grid->level[s->level];
+        const double start = m->start_low, near_w = tile_max(next_begin, start),
+                     far_w = tile_max(next_begin + l->thickness, start);
+        s->cell = m->forward ? l->next_slice : l->slices - 1 - l->next_slice;
+        s->near_t = m->brute_force ? 0 : tile_max(near_w - m->start_high, 0) * m->rspeed * (1 - 0x1p-40);
+        l->next_slice++;
+        if (tile_march_compute_cells(m, l, 0, near_w, far_w, grid_level->size[m->u], s) &&
+            tile_march_compute_cells(m, l, 1, near_w, far_w, grid_level->size[m->v], s))
             return true;
     }
 }
 
 /* Runs of objects of a slice: cells along x lie side by side. */
-CGT_SPU_INLINE uint32_t tile_slice_runs(const tile_march *m, const tile_slice *s)
+CGT_SPU_INLINE uint32_t tile_slice_run_count(const tile_march *m, const tile_slice *s)
 {
     const uint32_t rows = s->high[1] - s->low[1] + 1;
     return m->w == 0 ? rows * (s->high[0] - s->low[0] + 1) : rows;
 }
 
-CGT_SPU_INLINE const uint32_t *tile_slice_run(const tile_march *m, const tile_slice *s, uint32_t run, uint32_t *count)
+CGT_SPU_INLINE const uint32_t *tile_slice_get_run(const tile_march *m, const tile_slice *s, uint32_t run,
+                                                  uint32_t *count)
 {
     const cgt_loose_level *l = &m->grid->level[s->level];
-    uint32_t at[3], end;
+    uint32_t position[3], end;
     if (m->w == 0) {
-        const uint32_t across = s->high[0] - s->low[0] + 1;
-        at[0] = end = s->cell;
-        at[1] = s->low[0] + run % across;
-        at[2] = s->low[1] + run / across;
+        const uint32_t width = s->high[0] - s->low[0] + 1;
+        position[0] = end = s->cell;
+        position[1] = s->low[0] + run % width;
+        position[2] = s->low[1] + run / width;
     } else {
-        at[0] = s->low[0];
+        position[0] = s->low[0];
         end = s->high[0];
-        at[m->v] = s->low[1] + run;
-        at[m->w] = s->cell;
+        position[m->v] = s->low[1] + run;
+        position[m->w] = s->cell;
     }
-    const uint32_t row = l->first + (at[2] * l->size[1] + at[1]) * l->size[0];
-    const uint32_t first = m->grid->start[row + at[0]];
+    const uint32_t row = l->first + (position[2] * l->size[1] + position[1]) * l->size[0];
+    const uint32_t first = m->grid->start[row + position[0]];
     *count = m->grid->start[row + end + 1] - first;
-    return m->grid->object + first;
+    return m->grid->prim + first;
 }
 
 #endif

@@ -13,11 +13,11 @@
 #include "kernel/tile/tile.h"
 
 /* What is known of a vector of entries. */
-typedef struct tile_verdicts {
-    _Alignas(CGT_VECTOR_BYTES) uint32_t winner[CGT_LANES]; /* of the pixel, when this was found out */
-    double t[CGT_LANES];                                   /* of the object, where it beats the winner */
-    unsigned beats, loses;                                 /* lanes as bits */
-} tile_verdicts;
+typedef struct tile_decisions {
+    _Alignas(CGT_VECTOR_BYTES) uint32_t closest[CGT_LANES]; /* of the pixel, when this was found out */
+    double t[CGT_LANES];                                    /* of the object, where it beats the winner */
+    unsigned accepted, rejected;                            /* lanes as bits */
+} tile_decisions;
 
 /* What the short way knows of a vector of lines and spheres. */
 typedef struct tile_near_hits {
@@ -26,8 +26,8 @@ typedef struct tile_near_hits {
     vmask known, missed; /* t is the canonical one, and not before the range; the line surely passes by */
 } tile_near_hits;
 
-CGT_SPU_INLINE tile_near_hits tile_see_spheres(const tile *t, const cgt_object_array *array, vuint number,
-                                               const vfloat dir[3])
+CGT_SPU_INLINE tile_near_hits tile_intersect_spheres(const tile *t, const cgt_primitive_array *array, vuint number,
+                                                     const vfloat dir[3])
 {
     const float *eye = t->rays->eye;
     const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
@@ -35,10 +35,10 @@ CGT_SPU_INLINE tile_near_hits tile_see_spheres(const tile *t, const cgt_object_a
     resolve_half h[2];
     vfloat sphere[4];
     vdouble product[2], limit[2], disc[2];
-    fetch_spheres_at(array, number, sphere);
+    gather_spheres(array, number, sphere);
     resolve_directions(dir, h);
     const vmask outside = resolve_terms(org, sphere, h, product);
-    n.known = resolve_nears(product, outside, spux_vfloat(t->rays->t_min), h, &n.rounded);
+    n.known = resolve_near_roots(product, outside, spux_vfloat(t->rays->t_min), h, &n.rounded);
     for (int i = 0; i < 2; i++) {
         const vdouble r = i ? spux_double_high(sphere[3]) : spux_double_low(sphere[3]);
         limit[i] = (product[i] + r * r * 2) * h[i].square * -0x1p-48;
@@ -50,36 +50,36 @@ CGT_SPU_INLINE tile_near_hits tile_see_spheres(const tile *t, const cgt_object_a
 }
 
 /* Entries `first` and on, as many as there are up to a vector. */
-CGT_SPU_INLINE void tile_judge_spheres(const cgt_object_array *array, const tile *t, const tile_queue *q,
-                                       uint32_t first, tile_verdicts *v)
+CGT_SPU_INLINE void tile_decide_spheres(const cgt_primitive_array *array, const tile *t, const tile_queue *q,
+                                        uint32_t first, tile_decisions *v)
 {
     _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         const uint32_t entry = first + k < q->entries ? first + k : first;
-        number[k] = q->object[entry];
-        v->winner[k] = t->object[q->pixel[entry]];
+        number[k] = q->prim[entry];
+        v->closest[k] = t->prim[q->pixel[entry]];
     }
-    const vuint object = spux_load_uint(number), winner = spux_load_uint(v->winner);
-    const vmask alone = spu_cmpeq(winner, spux_vuint(CGT_INVALID_ID));
+    const vuint prim = spux_load_uint(number), closest = spux_load_uint(v->closest);
+    const vmask no_closest = spu_cmpeq(closest, spux_vuint(CGT_INVALID_ID));
     const vfloat t_max = spux_vfloat(t->rays->t_max), infinity = spux_vfloat(INFINITY);
     vdouble behind[2], ahead[2], margin[2];
     vfloat dir[3];
-    tile_directions_of(t, q->pixel + first, q->entries - first, dir);
-    const tile_near_hits a = tile_see_spheres(t, array, object, dir);
-    const tile_near_hits b = tile_see_spheres(t, array, spux_select(winner, object, alone), dir);
+    tile_gather_directions(t, q->pixel + first, q->entries - first, dir);
+    const tile_near_hits a = tile_intersect_spheres(t, array, prim, dir);
+    const tile_near_hits b = tile_intersect_spheres(t, array, spux_select(closest, prim, no_closest), dir);
     for (int i = 0; i < 2; i++) {
         behind[i] = a.t[i] - b.t[i];
         ahead[i] = b.t[i] - a.t[i];
-        margin[i] = (a.t[i] + b.t[i]) * CGT_ORDER_MARGIN;
+        margin[i] = (a.t[i] + b.t[i]) * CGT_ORDER_ERROR;
         memcpy(v->t + (size_t)i * CGT_DOUBLES, &a.t[i], sizeof a.t[i]);
     }
     const vmask within = spu_and(spux_cmpge(t_max, a.rounded), spu_cmpgt(infinity, a.rounded));
-    const vmask both = spu_andc(spu_and(a.known, b.known), alone);
-    const vmask first_is = spu_or(spu_and(a.known, alone), spu_and(both, spux_double_cmpgt(ahead, margin)));
-    const vmask beats = spu_and(first_is, within);
+    const vmask both = spu_andc(spu_and(a.known, b.known), no_closest);
+    const vmask nearer = spu_or(spu_and(a.known, no_closest), spu_and(both, spux_double_cmpgt(ahead, margin)));
+    const vmask accepted = spu_and(nearer, within);
     const vmask beyond = spu_or(spu_andc(a.known, within), spu_and(both, spux_double_cmpgt(behind, margin)));
-    v->beats = spux_mask_bits(beats);
-    v->loses = spux_mask_bits(spu_or(a.missed, beyond));
+    v->accepted = spux_mask_bits(accepted);
+    v->rejected = spux_mask_bits(spu_or(a.missed, beyond));
 }
 
 #endif

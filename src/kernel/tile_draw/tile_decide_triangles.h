@@ -22,78 +22,80 @@
 /* ---- two triangles, seen from the eye ---- */
 
 /* A triangle's plane; den_error is over the 1-norm of a direction, den of none. */
-typedef struct tile_seen_plane {
-    uint32_t object; /* CGT_INVALID_ID: none yet */
+typedef struct tile_plane_cache {
+    uint32_t prim; /* CGT_INVALID_ID: none yet */
     cgt_triangle triangle;
     cgt_triangle_plane plane;
-} tile_seen_plane;
+} tile_plane_cache;
 
 /* What the vertices of two triangles tell of their order. */
-typedef enum tile_planes {
+typedef enum tile_plane_order {
     TILE_PLANES_UNKNOWN,
     TILE_PLANES_CROSS, /* nothing */
     TILE_PLANES_SAME,
     TILE_PLANES_NEARER, /* the object is */
     TILE_PLANES_FARTHER
-} tile_planes;
+} tile_plane_order;
 
 /* What is kept from entry to entry. */
-typedef struct tile_pair_seen {
-    tile_seen_plane object, winner;
+typedef struct tile_pair_cache {
+    tile_plane_cache prim, closest;
     double side[3][3], side_error[3]; /* of the object: as products with d, errors over its 1-norm */
-    tile_planes planes;
-} tile_pair_seen;
+    tile_plane_order planes;
+} tile_pair_cache;
 
 /* False for spheres. */
-CGT_SPU_INLINE bool tile_see_plane(const cgt_objects *objects, const float eye[3], uint32_t object, tile_seen_plane *s)
+CGT_SPU_INLINE bool tile_cache_plane(const cgt_primitives *prims, const float eye[3], uint32_t prim,
+                                     tile_plane_cache *s)
 {
     static const float one[3] = {1, 0, 0}; /* of norm 1 */
-    const cgt_shape shape = cgt_objects_shape(objects, object);
-    s->object = CGT_INVALID_ID;
-    if (shape.kind == CGT_KIND_SPHERES)
+    const cgt_primitive primitive = cgt_primitives_get(prims, prim);
+    s->prim = CGT_INVALID_ID;
+    if (primitive.kind == CGT_KIND_SPHERES)
         return false;
-    s->object = object;
-    s->triangle = shape.triangle;
+    s->prim = prim;
+    s->triangle = primitive.triangle;
     s->plane = cgt_triangle_double_plane(eye, one, &s->triangle);
     return true;
 }
 
-CGT_SPU_INLINE bool tile_see_object(const cgt_objects *objects, const float eye[3], uint32_t object, tile_pair_seen *s)
+CGT_SPU_INLINE bool tile_cache_prim(const cgt_primitives *prims, const float eye[3], uint32_t prim, tile_pair_cache *s)
 {
-    if (s->object.object == object)
+    if (s->prim.prim == prim)
         return true;
     s->planes = TILE_PLANES_UNKNOWN;
-    if (!tile_see_plane(objects, eye, object, &s->object))
+    if (!tile_cache_plane(prims, eye, prim, &s->prim))
         return false;
     for (int k = 0; k < 3; k++)
-        s->side_error[k] = cgt_triangle_double_edge(eye, &s->object.triangle, (k + 1) % 3, (k + 2) % 3, s->side[k]);
+        s->side_error[k] = cgt_triangle_double_edge(eye, &s->prim.triangle, (k + 1) % 3, (k + 2) % 3, s->side[k]);
     return true;
 }
 
-CGT_SPU_INLINE bool tile_see_winner(const cgt_objects *objects, const float eye[3], uint32_t winner, tile_pair_seen *s)
+CGT_SPU_INLINE bool tile_cache_closest(const cgt_primitives *prims, const float eye[3], uint32_t closest,
+                                       tile_pair_cache *s)
 {
-    if (s->winner.object == winner)
+    if (s->closest.prim == closest)
         return true;
     s->planes = TILE_PLANES_UNKNOWN;
-    return tile_see_plane(objects, eye, winner, &s->winner);
+    return tile_cache_plane(prims, eye, closest, &s->closest);
 }
 
-CGT_SPU_INLINE double tile_product(const double v[3], const cgt_exact_ray *line)
+CGT_SPU_INLINE double tile_dot(const double v[3], const cgt_exact_ray *line)
 {
     return (double)line->dir[0] * v[0] + (double)line->dir[1] * v[1] + (double)line->dir[2] * v[2];
 }
 
-CGT_SPU_INLINE cgt_triangle_plane tile_plane_along(const tile_seen_plane *s, const cgt_exact_ray *line, double size)
+CGT_SPU_INLINE cgt_triangle_plane tile_plane_for_line(const tile_plane_cache *s, const cgt_exact_ray *line, double size)
 {
     cgt_triangle_plane p = s->plane;
-    p.den = tile_product(p.n, line);
+    p.den = tile_dot(p.n, line);
     p.den_error *= size;
     return p;
 }
 
 /* On which sides of the plane of a the vertices of b are: how many are on that of a number above 0, n.(v_0 - v), and of
  * one below. */
-CGT_SPU_INLINE void tile_plane_sides(const cgt_triangle *a, const cgt_triangle *b, int *above, int *below)
+CGT_SPU_INLINE void tile_count_plane_sides(const cgt_triangle *a, const cgt_triangle *b, int *above, int *below)
 {
     *above = *below = 0;
     for (int k = 0; k < 3; k++) {
@@ -106,104 +108,105 @@ CGT_SPU_INLINE void tile_plane_sides(const cgt_triangle *a, const cgt_triangle *
 }
 
 /* Which of two triangles is nearer on all rays that pass between the object's edges and meet the winner. */
-__attribute__((noinline, unused)) static tile_planes tile_order_planes(const tile_seen_plane *object,
-                                                                       const tile_seen_plane *winner)
+__attribute__((noinline, unused)) static tile_plane_order tile_compare_planes(const tile_plane_cache *prim,
+                                                                              const tile_plane_cache *closest)
 {
     int above, below;
-    tile_plane_sides(&winner->triangle, &object->triangle, &above, &below);
+    tile_count_plane_sides(&closest->triangle, &prim->triangle, &above, &below);
     if (!above && !below)
         return TILE_PLANES_SAME;
     if (!above || !below)
-        return (above != 0) == (winner->plane.num > 0) ? TILE_PLANES_NEARER : TILE_PLANES_FARTHER;
-    tile_plane_sides(&object->triangle, &winner->triangle, &above, &below); /* the winner's hit may be on an edge */
+        return (above != 0) == (closest->plane.num > 0) ? TILE_PLANES_NEARER : TILE_PLANES_FARTHER;
+    tile_count_plane_sides(&prim->triangle, &closest->triangle, &above,
+                           &below); /* the winner's hit may be on an edge */
     if (above == 3 || below == 3)
-        return (above != 0) == (object->plane.num > 0) ? TILE_PLANES_FARTHER : TILE_PLANES_NEARER;
+        return (above != 0) == (prim->plane.num > 0) ? TILE_PLANES_FARTHER : TILE_PLANES_NEARER;
     return TILE_PLANES_CROSS;
 }
 
 /* What a decision comes to. */
-typedef enum tile_answer { TILE_OPEN, TILE_LOSES, TILE_BEATS } tile_answer;
+typedef enum tile_decision { TILE_UNDECIDED, TILE_REJECTED, TILE_ACCEPTED } tile_decision;
 
-/* Whether the line passes within the object's edges: TILE_BEATS where it does. */
-CGT_SPU_INLINE tile_answer tile_decide_sides(const tile_pair_seen *s, const cgt_exact_ray *line, double size)
+/* Whether the line passes within the object's edges: TILE_ACCEPTED where it does. */
+CGT_SPU_INLINE tile_decision tile_decide_sides(const tile_pair_cache *s, const cgt_exact_ray *line, double size)
 {
-    int left = 0, right = 0;
+    int positive = 0, negative = 0;
     for (int k = 0; k < 3; k++) {
-        const double w = tile_product(s->side[k], line), error = s->side_error[k] * size;
-        left += w > error;
-        right += w < -error;
+        const double w = tile_dot(s->side[k], line), error = s->side_error[k] * size;
+        positive += w > error;
+        negative += w < -error;
     }
-    return left && right ? TILE_LOSES : left == 3 || right == 3 ? TILE_BEATS : TILE_OPEN;
+    return positive && negative ? TILE_REJECTED : positive == 3 || negative == 3 ? TILE_ACCEPTED : TILE_UNDECIDED;
 }
 
 /* Which of the two is nearer where both are hit, as far as their vertices tell. */
-CGT_SPU_INLINE tile_answer tile_decide_planes(tile_pair_seen *s, cgt_counts *counts)
+CGT_SPU_INLINE tile_decision tile_decide_planes(tile_pair_cache *s, cgt_counts *counts)
 {
     if (s->planes == TILE_PLANES_UNKNOWN) {
-        s->planes = tile_order_planes(&s->object, &s->winner);
+        s->planes = tile_compare_planes(&s->prim, &s->closest);
         counts->exact_tests++;
     }
     switch (s->planes) {
-    case TILE_PLANES_SAME: return s->object.object < s->winner.object ? TILE_BEATS : TILE_LOSES;
-    case TILE_PLANES_NEARER: return TILE_BEATS;
-    case TILE_PLANES_FARTHER: return TILE_LOSES;
-    default: return TILE_OPEN;
+    case TILE_PLANES_SAME: return s->prim.prim < s->closest.prim ? TILE_ACCEPTED : TILE_REJECTED;
+    case TILE_PLANES_NEARER: return TILE_ACCEPTED;
+    case TILE_PLANES_FARTHER: return TILE_REJECTED;
+    default: return TILE_UNDECIDED;
     }
 }
 
 /* Of two hits, whether the object's is the nearer one. */
-CGT_SPU_INLINE tile_answer tile_decide_order(tile_pair_seen *s, const cgt_triangle_plane *a,
-                                             const cgt_triangle_plane *b, cgt_counts *counts)
+CGT_SPU_INLINE tile_decision tile_decide_order(tile_pair_cache *s, const cgt_triangle_plane *a,
+                                               const cgt_triangle_plane *b, cgt_counts *counts)
 {
-    const double left = a->num * b->den, right = b->num * a->den, size = fabs(left) + fabs(right);
+    const double lhs = a->num * b->den, rhs = b->num * a->den, size = fabs(lhs) + fabs(rhs);
     const double error = fabs(a->num) * b->den_error + fabs(b->den) * a->num_error + fabs(b->num) * a->den_error +
                          fabs(a->den) * b->num_error;
     const bool same_sign = (a->den > 0) == (b->den > 0);
-    if (fabs(left - right) > error * (1 + 0x1p-20) + size * 0x1p-51)
-        return (left < right) == same_sign ? TILE_BEATS : TILE_LOSES;
+    if (fabs(lhs - rhs) > error * (1 + 0x1p-20) + size * 0x1p-51)
+        return (lhs < rhs) == same_sign ? TILE_ACCEPTED : TILE_REJECTED;
     return tile_decide_planes(s, counts);
 }
 
-/* As filter_beats, of two triangles, or one and none. */
-CGT_SPU_INLINE tile_answer tile_decide_pair(const cgt_objects *objects, const cgt_ray *ray, uint32_t winner,
-                                            uint32_t object, tile_pair_seen *s, double *hit_t, cgt_counts *counts)
+/* As filter_is_closer, of two triangles, or one and none. */
+CGT_SPU_INLINE tile_decision tile_decide_pair(const cgt_primitives *prims, const cgt_ray *ray, uint32_t closest,
+                                              uint32_t prim, tile_pair_cache *s, double *hit_t, cgt_counts *counts)
 {
     const cgt_exact_ray *line = &ray->line;
     const double size = fabs((double)line->dir[0]) + fabs((double)line->dir[1]) + fabs((double)line->dir[2]);
-    if (!tile_see_object(objects, line->org, object, s))
-        return TILE_OPEN;
-    const tile_answer inside = tile_decide_sides(s, line, size);
-    if (inside != TILE_BEATS)
+    if (!tile_cache_prim(prims, line->org, prim, s))
+        return TILE_UNDECIDED;
+    const tile_decision inside = tile_decide_sides(s, line, size);
+    if (inside != TILE_ACCEPTED)
         return inside;
-    const cgt_triangle_plane a = tile_plane_along(&s->object, line, size);
+    const cgt_triangle_plane a = tile_plane_for_line(&s->prim, line, size);
     if (!cgt_triangle_double_t_safe(&a))
-        return TILE_OPEN;
+        return TILE_UNDECIDED;
     *hit_t = a.num / a.den;
     const float rounded = (float)*hit_t;
     if (!(rounded >= ray->t_min && rounded <= ray->t_max && rounded < INFINITY))
-        return TILE_LOSES;
-    if (winner == CGT_INVALID_ID)
-        return TILE_BEATS;
-    if (!tile_see_winner(objects, line->org, winner, s))
-        return TILE_OPEN;
-    const cgt_triangle_plane b = tile_plane_along(&s->winner, line, size);
-    return cgt_triangle_double_t_safe(&b) ? tile_decide_order(s, &a, &b, counts) : TILE_OPEN;
+        return TILE_REJECTED;
+    if (closest == CGT_INVALID_ID)
+        return TILE_ACCEPTED;
+    if (!tile_cache_closest(prims, line->org, closest, s))
+        return TILE_UNDECIDED;
+    const cgt_triangle_plane b = tile_plane_for_line(&s->closest, line, size);
+    return cgt_triangle_double_t_safe(&b) ? tile_decide_order(s, &a, &b, counts) : TILE_UNDECIDED;
 }
 
 /* ---- runs of one pair ---- */
 
-#define TILE_RUN 4u /* entries of a pair that are worth a vector */
+#define TILE_MIN_RUN 4u /* entries of a pair that are worth a vector */
 
 /* The directions of a vector of entries, and their 1-norms. */
 typedef struct tile_run_lines {
     vdouble d[3][2], size[2];
 } tile_run_lines;
 
-CGT_SPU_INLINE tile_run_lines tile_run_lines_of(const tile *t, const uint16_t *pixel, uint32_t count)
+CGT_SPU_INLINE tile_run_lines tile_gather_run_lines(const tile *t, const uint16_t *pixel, uint32_t count)
 {
     tile_run_lines l;
     vfloat dir[3];
-    tile_directions_of(t, pixel, count, dir);
+    tile_gather_directions(t, pixel, count, dir);
     for (int a = 0; a < 3; a++) {
         l.d[a][0] = spux_double_low(dir[a]);
         l.d[a][1] = spux_double_high(dir[a]);
@@ -213,27 +216,30 @@ CGT_SPU_INLINE tile_run_lines tile_run_lines_of(const tile *t, const uint16_t *p
     return l;
 }
 
-CGT_SPU_INLINE vdouble tile_run_product(const double v[3], const tile_run_lines *l, int h)
+CGT_SPU_INLINE vdouble tile_run_dot(const double v[3], const tile_run_lines *l, int h)
 {
     return l->d[0][h] * v[0] + l->d[1][h] * v[1] + l->d[2][h] * v[2];
 }
 
 /* Lanes that surely pass beside the object, and that surely pass between its edges. */
-CGT_SPU_INLINE void tile_run_sides(const tile_pair_seen *s, const tile_run_lines *l, vmask *beside, vmask *between)
+CGT_SPU_INLINE void tile_test_run_sides(const tile_pair_cache *s, const tile_run_lines *l, vmask *outside,
+                                        vmask *inside)
 {
-    vmask left[3], right[3];
+    vmask positive[3], negative[3];
     for (int k = 0; k < 3; k++) {
         vdouble w[2], minus[2], error[2];
         for (int h = 0; h < 2; h++) {
-            w[h] = tile_run_product(s->side[k], l, h);
+            w[h] = tile_run_dot(s->side[k], l, h);
             minus[h] = -w[h];
             error[h] = l->size[h] * s->side_error[k];
         }
-        left[k] = spux_double_cmpgt(w, error);
-        right[k] = spux_double_cmpgt(minus, error);
+        positive[k] = spux_double_cmpgt(w, error);
+        negative[k] = spux_double_cmpgt(minus, error);
     }
-    *beside = spu_and(spu_or(left[0], spu_or(left[1], left[2])), spu_or(right[0], spu_or(right[1], right[2])));
-    *between = spu_or(spu_and(left[0], spu_and(left[1], left[2])), spu_and(right[0], spu_and(right[1], right[2])));
+    *outside = spu_and(spu_or(positive[0], spu_or(positive[1], positive[2])),
+                       spu_or(negative[0], spu_or(negative[1], negative[2])));
+    *inside = spu_or(spu_and(positive[0], spu_and(positive[1], positive[2])),
+                     spu_and(negative[0], spu_and(negative[1], negative[2])));
 }
 
 /* A plane along a vector of lines. */
@@ -242,57 +248,59 @@ typedef struct tile_run_plane {
     vmask safe;
 } tile_run_plane;
 
-CGT_SPU_INLINE tile_run_plane tile_run_plane_of(const cgt_triangle_plane *p, const tile_run_lines *l)
+CGT_SPU_INLINE tile_run_plane tile_compute_run_plane(const cgt_triangle_plane *p, const tile_run_lines *l)
 {
     const bool num_safe = p->num_error <= CGT_DOUBLE_SAFE * fabs(p->num);
     tile_run_plane r;
-    vdouble least[2];
+    vdouble min_den[2];
     for (int h = 0; h < 2; h++) {
-        r.den[h] = tile_run_product(p->n, l, h);
+        r.den[h] = tile_run_dot(p->n, l, h);
         r.den_error[h] = l->size[h] * p->den_error;
-        least[h] = spux_double_abs(r.den[h]) * CGT_DOUBLE_SAFE;
+        min_den[h] = spux_double_abs(r.den[h]) * CGT_DOUBLE_SAFE;
     }
-    r.safe = num_safe ? spux_double_cmpgt(least, r.den_error) : spux_mask_none();
+    r.safe = num_safe ? spux_double_cmpgt(min_den, r.den_error) : spux_mask_none();
     return r;
 }
 
 /* Lanes where the object's hit is surely nearer than the winner's, and surely not. */
-CGT_SPU_INLINE void tile_run_order(const cgt_triangle_plane *p, const cgt_triangle_plane *q, const tile_run_plane *a,
-                                   const tile_run_plane *b, vmask *nearer, vmask *farther)
+CGT_SPU_INLINE void tile_compare_run_depths(const cgt_triangle_plane *p, const cgt_triangle_plane *q,
+                                            const tile_run_plane *a, const tile_run_plane *b, vmask *nearer,
+                                            vmask *farther)
 {
-    vdouble apart[2], minus[2], margin[2];
+    vdouble difference[2], minus[2], margin[2];
     for (int h = 0; h < 2; h++) {
-        const vdouble left = b->den[h] * p->num, right = a->den[h] * q->num;
+        const vdouble lhs = b->den[h] * p->num, rhs = a->den[h] * q->num;
         const vdouble den_a = spux_double_abs(a->den[h]), den_b = spux_double_abs(b->den[h]);
         const vdouble error = b->den_error[h] * fabs(p->num) + den_b * p->num_error + a->den_error[h] * fabs(q->num) +
                               den_a * q->num_error;
-        const vdouble size = spux_double_abs(left) + spux_double_abs(right), less = right - left;
-        const vdouble turned = spux_double_select(-less, less, a->den[h]);
-        apart[h] = spux_double_select(-turned, turned, b->den[h]); /* above 0 where the object is nearer */
-        minus[h] = -apart[h];
+        const vdouble size = spux_double_abs(lhs) + spux_double_abs(rhs), rhs_minus_lhs = rhs - lhs;
+        const vdouble signed_difference = spux_double_select(-rhs_minus_lhs, rhs_minus_lhs, a->den[h]);
+        difference[h] = spux_double_select(-signed_difference, signed_difference,
+                                           b->den[h]); /* above 0 where the object is nearer */
+        minus[h] = -difference[h];
         margin[h] = error * (1 + 0x1p-20) + size * 0x1p-51;
     }
-    *nearer = spux_double_cmpgt(apart, margin);
+    *nearer = spux_double_cmpgt(difference, margin);
     *farther = spux_double_cmpgt(minus, margin);
 }
 
 /* What is known of a vector of entries of one pair. */
-typedef struct tile_run {
-    double t[CGT_LANES];   /* of the object, where it beats the winner */
-    unsigned beats, loses; /* lanes as bits */
-} tile_run;
+typedef struct tile_run_result {
+    double t[CGT_LANES];         /* of the object, where it beats the winner */
+    unsigned accepted, rejected; /* lanes as bits */
+} tile_run_result;
 
 /* So many entries, at most a vector, of what s has seen; winner: CGT_INVALID_ID where they have none. */
-CGT_SPU_INLINE void tile_judge_run(const tile *t, tile_pair_seen *s, uint32_t winner, const uint16_t *pixel,
-                                   uint32_t count, tile_run *r, cgt_counts *counts)
+CGT_SPU_INLINE void tile_decide_run(const tile *t, tile_pair_cache *s, uint32_t closest, const uint16_t *pixel,
+                                    uint32_t count, tile_run_result *r, cgt_counts *counts)
 {
-    const tile_run_lines l = tile_run_lines_of(t, pixel, count);
+    const tile_run_lines l = tile_gather_run_lines(t, pixel, count);
     const vfloat t_min = spux_vfloat(t->rays->t_min), t_max = spux_vfloat(t->rays->t_max);
-    const cgt_triangle_plane *p = &s->object.plane, *q = &s->winner.plane;
-    vmask beside, between, nearer = spux_mask_all(), farther = spux_mask_none();
+    const cgt_triangle_plane *p = &s->prim.plane, *q = &s->closest.plane;
+    vmask outside, inside, nearer = spux_mask_all(), farther = spux_mask_none();
     vdouble hit[2];
-    tile_run_sides(s, &l, &beside, &between);
-    const tile_run_plane a = tile_run_plane_of(p, &l);
+    tile_test_run_sides(s, &l, &outside, &inside);
+    const tile_run_plane a = tile_compute_run_plane(p, &l);
     for (int h = 0; h < 2; h++) {
         hit[h] = spux_vdouble(p->num) / a.den[h];
         memcpy(r->t + (size_t)h * CGT_DOUBLES, &hit[h], sizeof hit[h]);
@@ -300,19 +308,19 @@ CGT_SPU_INLINE void tile_judge_run(const tile *t, tile_pair_seen *s, uint32_t wi
     const vfloat rounded = spux_float_of(hit[0], hit[1]);
     const vmask within = spu_and(spu_and(spux_cmpge(rounded, t_min), spux_cmpge(t_max, rounded)),
                                  spu_cmpgt(spux_vfloat(INFINITY), rounded));
-    const vmask hits = spu_and(between, a.safe);
-    vmask ordered = spu_and(hits, within);
-    if (winner != CGT_INVALID_ID) {
-        const tile_run_plane b = tile_run_plane_of(q, &l);
-        tile_run_order(p, q, &a, &b, &nearer, &farther);
-        ordered = spu_and(ordered, b.safe);
-        const vmask near = spu_andc(ordered, spu_or(nearer, farther));
-        const tile_answer all = spux_any(near) ? tile_decide_planes(s, counts) : TILE_OPEN;
-        nearer = all == TILE_BEATS ? spu_or(nearer, near) : nearer;
-        farther = all == TILE_LOSES ? spu_or(farther, near) : farther;
+    const vmask hits = spu_and(inside, a.safe);
+    vmask comparable = spu_and(hits, within);
+    if (closest != CGT_INVALID_ID) {
+        const tile_run_plane b = tile_compute_run_plane(q, &l);
+        tile_compare_run_depths(p, q, &a, &b, &nearer, &farther);
+        comparable = spu_and(comparable, b.safe);
+        const vmask undecided = spu_andc(comparable, spu_or(nearer, farther));
+        const tile_decision shared_decision = spux_any(undecided) ? tile_decide_planes(s, counts) : TILE_UNDECIDED;
+        nearer = shared_decision == TILE_ACCEPTED ? spu_or(nearer, undecided) : nearer;
+        farther = shared_decision == TILE_REJECTED ? spu_or(farther, undecided) : farther;
     }
-    r->beats = spux_mask_bits(spu_and(ordered, nearer));
-    r->loses = spux_mask_bits(spu_or(beside, spu_or(spu_andc(hits, within), spu_and(ordered, farther))));
+    r->accepted = spux_mask_bits(spu_and(comparable, nearer));
+    r->rejected = spux_mask_bits(spu_or(outside, spu_or(spu_andc(hits, within), spu_and(comparable, farther))));
 }
 
 #endif

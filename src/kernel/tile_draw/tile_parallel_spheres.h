@@ -7,7 +7,7 @@
  *   D = r^2 - (rho dx)^2 - (upsilon dy)^2     q = t = z - sqrt(D)
  * which is what tile_sphere_draw.h computes, with 0 for what makes perspective.
  *
- * Bounds, with u = 2^-24, c the distance of eye and centre, S = 2 |eye| + 3 rho + 2 upsilon (tile_parallel_make); for
+ * Bounds, with u = 2^-24, c the distance of eye and centre, S = 2 |eye| + 3 rho + 2 upsilon (tile_init_parallel); for
  * fused and unfused arithmetic:
  *   origin      the canonical one is off by u S
  *   direction   it is the camera's own: exact
@@ -21,8 +21,8 @@
  *   eps         2 r s + s^2 + 26 u r^2 + 2^-116
  *   depth       centre 5 u c, origin u S, metric 4 u (|x'| + |y'|) + 2 u r <= 8 u r, sums 3 u (c + r), the estimate of
  *               1 / sqrt(D) as there
- *   e0          u S + 8 u c + (11 u + TILE_ESTIMATE) r + 2^-10 sqrt(eps) + 2^-100
- * tile_sphere_bounds (tile_spheres.h) has 34 u r c + 112 u r^2 + (20 u c)^2 and 44 u c + (18 u + TILE_ESTIMATE) r. With
+ *   e0          u S + 8 u c + (11 u + TILE_RSQRT_ERROR) r + 2^-10 sqrt(eps) + 2^-100
+ * tile_compute_sphere_errors (tile_spheres.h) has 34 u r c + 112 u r^2 + (20 u c)^2 and 44 u c + (18 u + TILE_RSQRT_ERROR) r. With
  * 0.6 c + S / 17 put there for c, that is 20.4 u r c + 2 u r S + 112 u r^2 + (12 u c + 1.17 u S)^2 and more than
  * 26 u c + 2.5 u S: more than the above. So the bounds are those, of that distance and N0 = 1.
  *
@@ -35,96 +35,100 @@
 
 #include "kernel/tile_draw/tile_spheres.h"
 
-/* The distance that tile_sphere_bounds takes of a centre c from the eye. */
+/* The distance that tile_compute_sphere_errors takes of a centre c from the eye. */
 CGT_SPU_INLINE vfloat tile_parallel_distance(const tile *t, vfloat c)
 {
-    return spu_madd(c, spux_vfloat(0.6f), spux_vfloat(t->spread * (1 / 17.f * (1 + 0x1p-20f))));
+    return spu_madd(c, spux_vfloat(0.6f), spux_vfloat(t->origin_error * (1 / 17.f * (1 + 0x1p-20f))));
 }
 
-CGT_SPU_INLINE void tile_parallel_gap_make(tile *t, float c, float r, float far_t)
+CGT_SPU_INLINE void tile_init_parallel_depth_error(tile *t, float c, float r, float far_t)
 {
-    tile_gap_make(t, tile_parallel_distance(t, spux_vfloat(c))[0], r, far_t);
+    tile_init_sphere_depth_error(t, tile_parallel_distance(t, spux_vfloat(c))[0], r, far_t);
 }
 
 /* As the perspective camera sees them, but for what is nearest; windows are right for all. */
-CGT_SPU_INLINE tile_seen tile_parallel_spheres_see(const tile *t, const vfloat q[4])
+CGT_SPU_INLINE tile_projected_spheres tile_project_parallel_spheres(const tile *t, const vfloat q[4])
 {
-    tile_seen v = tile_spheres_see(t, q);
-    v.nearest = spu_sub(v.z, v.wide);
-    v.front = spux_mask_all();
+    tile_projected_spheres v = tile_project_spheres(t, q);
+    v.min_distance = spu_sub(v.z, v.padded_radius);
+    v.in_front = spux_mask_all();
     return v;
 }
 
 /* Pixels of an axis that lengths about x cover, from low to high, as columns or rows from the tile's first. */
-CGT_SPU_INLINE void tile_parallel_span(const tile_span *of, vfloat x, vfloat wide, vfloat *low, vfloat *high)
+CGT_SPU_INLINE void tile_compute_parallel_span(const tile_span *span, vfloat x, vfloat half_width, vfloat *low,
+                                               vfloat *high)
 {
-    *low = spu_msub(spu_sub(x, wide), spux_vfloat(of->scale), spux_vfloat(of->first));
-    *high = spu_msub(spu_add(x, wide), spux_vfloat(of->scale), spux_vfloat(of->first));
+    *low = spu_msub(spu_sub(x, half_width), spux_vfloat(span->scale), spux_vfloat(span->first));
+    *high = spu_msub(spu_add(x, half_width), spux_vfloat(span->scale), spux_vfloat(span->first));
 }
 
 /* Windows of boxes with half extents wide and high. Returns the lanes without one. */
-CGT_SPU_INLINE vmask tile_parallel_windows(const tile *t, vfloat x, vfloat y, vfloat wide, vfloat high, uint32_t *x0,
-                                           uint32_t *x1, uint32_t *y0, uint32_t *y1)
+CGT_SPU_INLINE vmask tile_compute_parallel_windows(const tile *t, vfloat x, vfloat y, vfloat half_width,
+                                                   vfloat half_height, uint32_t *x0, uint32_t *x1, uint32_t *y0,
+                                                   uint32_t *y1)
 {
     vfloat low, top;
-    tile_parallel_span(&t->across, x, wide, &low, &top);
-    const vmask beside = tile_window(low, top, &t->across, x0, x1);
+    tile_compute_parallel_span(&t->column_span, x, half_width, &low, &top);
+    const vmask outside_x = tile_compute_window(low, top, &t->column_span, x0, x1);
     /* rows run down */
-    tile_parallel_span(&t->down, y, high, &top, &low);
-    return spu_or(beside, tile_window(low, top, &t->down, y0, y1));
+    tile_compute_parallel_span(&t->row_span, y, half_height, &top, &low);
+    return spu_or(outside_x, tile_compute_window(low, top, &t->row_span, y0, y1));
 }
 
-CGT_SPU_INLINE vmask tile_parallel_spheres_unwanted(const tile *t, const tile_seen *v)
+CGT_SPU_INLINE vmask tile_cull_parallel_by_depth(const tile *t, const tile_projected_spheres *v)
 {
     const float begin = t->rays->t_min * (1 - 0x1p-18f) - 0x1p-60f;
-    const vmask hidden = spu_cmpgt(v->nearest, spux_vfloat(t->farthest));
-    return spu_or(hidden, spu_cmpgt(spux_vfloat(begin), spu_add(v->z, v->wide)));
+    const vmask occluded = spu_cmpgt(v->min_distance, spux_vfloat(t->max_far_distance));
+    return spu_or(occluded, spu_cmpgt(spux_vfloat(begin), spu_add(v->z, v->padded_radius)));
 }
 
-CGT_SPU_INLINE unsigned tile_parallel_spheres_bound(const tile *t, const tile_seen *v, tile_spheres *s)
+CGT_SPU_INLINE unsigned tile_setup_parallel_spheres(const tile *t, const tile_projected_spheres *v, tile_spheres *s)
 {
     const vfloat zero = spux_vfloat(0), one = spux_vfloat(1), distance = tile_parallel_distance(t, v->distance);
-    const tile_bounds bounds = tile_sphere_bounds(t, distance, v->r, one);
-    const vmask fits = tile_spheres_certain(t, v, bounds, s);
-    const vmask late = spu_cmpgt(v->nearest, spux_vfloat(t->rays->t_min * (1 + 0x1p-18f)));
+    const tile_sphere_errors errors = tile_compute_sphere_errors(t, distance, v->r, one);
+    const vmask fits = tile_store_sphere_certain(t, v, errors, s);
+    const vmask past_t_min = spu_cmpgt(v->min_distance, spux_vfloat(t->rays->t_min * (1 + 0x1p-18f)));
     spux_store(s->X, spu_mul(v->x, spux_vfloat(t->camera.rright)));
     spux_store(s->Y, spu_mul(v->y, spux_vfloat(t->camera.rup)));
     spux_store(s->a, spux_vfloat(t->camera.right * t->camera.right));
     spux_store(s->c, spux_vfloat(t->camera.up * t->camera.up));
-    spux_store(s->d0, spu_add(v->r2, bounds.eps));
-    spux_store(s->q0, spu_sub(v->z, bounds.e0));
+    spux_store(s->d0, spu_add(v->r2, errors.eps));
+    spux_store(s->q0, spu_sub(v->z, errors.e0));
     spux_store(s->b, zero);
     spux_store(s->dx, zero);
     spux_store(s->dy, zero);
     spux_store(s->qx, zero);
     spux_store(s->qy, zero);
-    spux_store(s->nearest, v->nearest);
-    return spux_mask_bits(spu_and(fits, late));
+    spux_store(s->min_distance, v->min_distance);
+    return spux_mask_bits(spu_and(fits, past_t_min));
 }
 
-/* tile_spheres_find and make for parallel rays. */
-CGT_SPU_INLINE void tile_parallel_spheres_find(const tile *t, const vfloat sphere[4], vuint object, uint32_t count,
-                                               tile_found *f)
+/* tile_cull_spheres and make for parallel rays. */
+CGT_SPU_INLINE void tile_cull_parallel_spheres(const tile *t, const vfloat sphere[4], vuint prim, uint32_t count,
+                                               tile_visible_spheres *f)
 {
     vfloat q[4];
     tile_windows w;
-    tile_spheres_turn(t, sphere, q);
-    const tile_seen v = tile_parallel_spheres_see(t, q);
-    const vmask unwanted = tile_parallel_spheres_unwanted(t, &v);
-    const vmask beside = tile_parallel_windows(t, v.x, v.y, v.wide, v.wide, w.x0, w.x1, w.y0, w.y1);
-    const vmask out = spu_or(spu_or(unwanted, beside), tile_spheres_hidden(t, &v, &w));
-    tile_found_keep(f, q, object, &w, tile_first_lanes(count) & ~spux_mask_bits(out));
+    tile_transform_spheres(t, sphere, q);
+    const tile_projected_spheres v = tile_project_parallel_spheres(t, q);
+    const vmask out_of_range = tile_cull_parallel_by_depth(t, &v);
+    const vmask outside =
+        tile_compute_parallel_windows(t, v.x, v.y, v.padded_radius, v.padded_radius, w.x0, w.x1, w.y0, w.y1);
+    const vmask out = spu_or(spu_or(out_of_range, outside), tile_cull_occluded_spheres(t, &v, &w));
+    tile_append_visible(f, q, prim, &w, tile_first_lanes(count) & ~spux_mask_bits(out));
 }
 
-CGT_SPU_INLINE void tile_parallel_spheres_make(const tile *t, const tile_found *f, uint32_t first, tile_spheres *s)
+CGT_SPU_INLINE void tile_init_parallel_spheres(const tile *t, const tile_visible_spheres *f, uint32_t first,
+                                               tile_spheres *s)
 {
-    const unsigned left = tile_first_lanes(f->count - first);
+    const unsigned lanes = tile_first_lanes(f->count - first);
     vfloat q[4];
-    tile_found_get(f, first, q, s);
-    const tile_seen v = tile_parallel_spheres_see(t, q);
-    s->fast = left & tile_parallel_spheres_bound(t, &v, s);
-    s->slow = left & ~s->fast;
-    tile_spheres_small(s);
+    tile_load_visible(f, first, q, s);
+    const tile_projected_spheres v = tile_project_parallel_spheres(t, q);
+    s->single_lanes = lanes & tile_setup_parallel_spheres(t, &v, s);
+    s->double_lanes = lanes & ~s->single_lanes;
+    tile_classify_small_spheres(s);
 }
 
 #endif

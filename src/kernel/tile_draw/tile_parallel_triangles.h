@@ -26,7 +26,7 @@
  *              for the normal; n.v_0 3, scales 5, sums 8 roundings of kappa V; a common factor 8 u V; moved vertices and
  *              origin, by a slope of at most kappa, (1 + kappa) (delta + o)
  *   together   u kappa (64 V + 2 S); E = u kappa (72 V + 8 P + 2.2 S) is taken: the rest is for what
- *              tile_triangle_parts rounds
+ *              tile_visible_triangle_parts rounds
  * The depth taken is t - E. Where 2.2 E is more than the gap, no hit is certain: small windows are queued, and others go
  * to tile_double.h too. There go those with 40 u kappa above 1/8 or not a number: else |n_z| is above 320 u |e_1| |e_2|,
  * and its sign is right; those with an edge below 2^-45, seen along the rays, and those not surely after the range's
@@ -41,44 +41,45 @@
 #include "kernel/tile_draw/tile_parallel_spheres.h"
 #include "kernel/tile_draw/tile_triangles.h"
 
-#define TILE_PARALLEL_SIDES (20 * FILTER_U)
-#define TILE_PARALLEL_BESIDE (12 * FILTER_U)
-#define TILE_PARALLEL_ORIGIN (1.1f * FILTER_U)
-#define TILE_PARALLEL_DEPTH (72 * FILTER_U)
-#define TILE_PARALLEL_DEPTH_BESIDE (8 * FILTER_U)
-#define TILE_PARALLEL_DEPTH_ORIGIN (2.2f * FILTER_U)
+#define TILE_EPS_PARALLEL_SIDES (20 * FILTER_ROUNDOFF)
+#define TILE_EPS_PARALLEL_OFFSET (12 * FILTER_ROUNDOFF)
+#define TILE_EPS_PARALLEL_ORIGIN (1.1f * FILTER_ROUNDOFF)
+#define TILE_EPS_PARALLEL_DEPTH (72 * FILTER_ROUNDOFF)
+#define TILE_EPS_PARALLEL_DEPTH_OFFSET (8 * FILTER_ROUNDOFF)
+#define TILE_EPS_PARALLEL_DEPTH_ORIGIN (2.2f * FILTER_ROUNDOFF)
 
 /* Room in the gap for triangles as far as c. Without spheres it is as wide as what linear tiles keep at half that
  * distance. */
-CGT_SPU_INLINE void tile_parallel_gap_widen(tile *t, float c, bool spheres)
+CGT_SPU_INLINE void tile_widen_parallel_error(tile *t, float c, bool spheres)
 {
-    const float gap = spheres ? c * 0x1p-13f : c * 0x1p-10f;
-    t->gap = t->gap > gap ? t->gap : gap;
-    t->wide_gap = t->gap * (1 + 0x1p-20f);
+    const float depth_error = spheres ? c * 0x1p-13f : c * 0x1p-10f;
+    t->depth_error = t->depth_error > depth_error ? t->depth_error : depth_error;
+    t->padded_depth_error = t->depth_error * (1 + 0x1p-20f);
 }
 
 /* As the perspective camera sees them; windows are right for all. */
-CGT_SPU_INLINE tile_triangles_seen tile_parallel_triangles_see(const tile *t, vfloat vertex[3][3])
+CGT_SPU_INLINE tile_projected_triangles tile_project_parallel_triangles(const tile *t, vfloat vertex[3][3])
 {
-    tile_triangles_seen v = tile_triangles_see(t, vertex);
-    v.front = spux_mask_all();
-    v.early = spux_not(spu_cmpgt(v.nearest_z, spux_vfloat(t->rays->t_min * (1 + 0x1p-16f))));
+    tile_projected_triangles v = tile_project_triangles(t, vertex);
+    v.in_front = spux_mask_all();
+    v.crosses_t_min = spux_not(spu_cmpgt(v.min_z, spux_vfloat(t->rays->t_min * (1 + 0x1p-16f))));
     return v;
 }
 
 /* Returns the lanes without a window. */
-CGT_SPU_INLINE vmask tile_parallel_triangles_outside(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+CGT_SPU_INLINE vmask tile_cull_parallel_triangles(const tile *t, const tile_projected_triangles *v, tile_triangles *s)
 {
     const vfloat half = spux_vfloat(0.5f);
-    const vfloat slack = spu_madd(v->reach, spux_vfloat(0x1p-19f), spux_vfloat(t->slack));
-    vfloat middle[2], wide[2];
+    const vfloat length_error = spu_madd(v->max_length, spux_vfloat(0x1p-19f), spux_vfloat(t->length_error));
+    vfloat middle[2], half_width[2];
     for (int a = 0; a < 2; a++) {
-        const vfloat least = tile_least(v->v[0][a + 1], v->v[1][a + 1], v->v[2][a + 1]);
-        const vfloat most = tile_most(v->v[0][a + 1], v->v[1][a + 1], v->v[2][a + 1]);
-        middle[a] = spu_mul(spu_add(least, most), half);
-        wide[a] = spu_madd(spu_sub(most, least), half, slack);
+        const vfloat lower = tile_min3(v->v[0][a + 1], v->v[1][a + 1], v->v[2][a + 1]);
+        const vfloat upper = tile_max3(v->v[0][a + 1], v->v[1][a + 1], v->v[2][a + 1]);
+        middle[a] = spu_mul(spu_add(lower, upper), half);
+        half_width[a] = spu_madd(spu_sub(upper, lower), half, length_error);
     }
-    return tile_parallel_windows(t, middle[0], middle[1], wide[0], wide[1], s->x0, s->x1, s->y0, s->y1);
+    return tile_compute_parallel_windows(t, middle[0], middle[1], half_width[0], half_width[1], s->x0, s->x1, s->y0,
+                                         s->y1);
 }
 
 /* Edges, their lengths seen along the rays, and the normal over the lengths of two. */
@@ -86,79 +87,83 @@ typedef struct tile_parallel_edges {
     vfloat e[3][3], square[3], rlength[3], n[3];
 } tile_parallel_edges;
 
-CGT_SPU_INLINE vfloat tile_rlength(vfloat square) /* at most the exact one */
+CGT_SPU_INLINE vfloat tile_estimate_rlength(vfloat square) /* at most the exact one */
 {
     return spu_mul(spu_rsqrte(square), spux_vfloat(1 - 0x1p-9f));
 }
 
-CGT_SPU_INLINE tile_parallel_edges tile_parallel_edges_of(const tile_triangles_seen *v)
+CGT_SPU_INLINE tile_parallel_edges tile_compute_parallel_edges(const tile_projected_triangles *v)
 {
     tile_parallel_edges g;
     for (int k = 0; k < 3; k++) {
         for (int a = 0; a < 3; a++)
             g.e[k][a] = spu_sub(v->v[(k + 2) % 3][a], v->v[(k + 1) % 3][a]);
         g.square[k] = spu_madd(g.e[k][1], g.e[k][1], spu_mul(g.e[k][2], g.e[k][2]));
-        g.rlength[k] = tile_rlength(g.square[k]);
+        g.rlength[k] = tile_estimate_rlength(g.square[k]);
     }
     filter_cross(g.e[1], g.e[2], g.n);
     for (int k = 1; k < 3; k++) {
-        const vfloat r = tile_rlength(spu_madd(g.e[k][0], g.e[k][0], g.square[k]));
+        const vfloat r = tile_estimate_rlength(spu_madd(g.e[k][0], g.e[k][0], g.square[k]));
         for (int a = 0; a < 3; a++)
             g.n[a] = spu_mul(g.n[a], r);
     }
     return g;
 }
 
-CGT_SPU_INLINE void tile_parallel_triangles_sides(const tile *t, const tile_triangles_seen *v,
-                                                  const tile_parallel_edges *g, tile_triangles *s)
+CGT_SPU_INLINE void tile_store_parallel_sides(const tile *t, const tile_projected_triangles *v,
+                                              const tile_parallel_edges *g, tile_triangles *s)
 {
     const vfloat one = spux_vfloat(1), zero = spux_vfloat(0);
-    const float rest = t->beside * TILE_PARALLEL_BESIDE + t->spread * TILE_PARALLEL_ORIGIN;
-    const vfloat error = spu_madd(v->reach, spux_vfloat(TILE_PARALLEL_SIDES), spux_vfloat(rest));
+    const float rest = t->origin_offset * TILE_EPS_PARALLEL_OFFSET + t->origin_error * TILE_EPS_PARALLEL_ORIGIN;
+    const vfloat error = spu_madd(v->max_length, spux_vfloat(TILE_EPS_PARALLEL_SIDES), spux_vfloat(rest));
     const vfloat unit = spu_or(spux_div(one, error), spu_and(g->n[0], spux_vfloat(-0.f)));
     for (int k = 0; k < 3; k++) {
         const vfloat *w = v->v[(k + 1) % 3], *e = g->e[k];
         const vfloat c[3] = {spu_sub(spu_mul(w[1], e[2]), spu_mul(w[2], e[1])), spu_sub(zero, e[2]), e[1]};
-        tile_triangles_form(t, c, spu_mul(unit, g->rlength[k]), one, s->side[k]);
+        tile_store_form(t, c, spu_mul(unit, g->rlength[k]), one, s->side[k]);
     }
 }
 
 /* Forms and `certain`. Returns the lanes that the bounds hold for, as bits. */
-CGT_SPU_INLINE unsigned tile_parallel_triangles_bound(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+CGT_SPU_INLINE unsigned tile_setup_parallel_triangles(const tile *t, const tile_projected_triangles *v,
+                                                      tile_triangles *s)
 {
     const vfloat zero = spux_vfloat(0);
-    const tile_parallel_edges g = tile_parallel_edges_of(v);
+    const tile_parallel_edges g = tile_compute_parallel_edges(v);
     const vfloat rz = spux_div(spux_vfloat(1), g.n[0]), kappa = spux_abs(rz);
-    const float rest = t->beside * TILE_PARALLEL_DEPTH_BESIDE + t->spread * TILE_PARALLEL_DEPTH_ORIGIN;
-    const vfloat error = spu_mul(kappa, spu_madd(v->reach, spux_vfloat(TILE_PARALLEL_DEPTH), spux_vfloat(rest)));
+    const float rest =
+        t->origin_offset * TILE_EPS_PARALLEL_DEPTH_OFFSET + t->origin_error * TILE_EPS_PARALLEL_DEPTH_ORIGIN;
+    const vfloat error =
+        spu_mul(kappa, spu_madd(v->max_length, spux_vfloat(TILE_EPS_PARALLEL_DEPTH), spux_vfloat(rest)));
     const vfloat plane[3] = {filter_dot(g.n, v->v[0]), spu_sub(zero, g.n[1]), spu_sub(zero, g.n[2])};
-    tile_parallel_triangles_sides(t, v, &g, s);
-    tile_triangles_form(t, plane, rz, spu_sub(zero, error), s->plane);
-    const vmask keeps = spu_cmpgt(spux_vfloat(t->gap), spu_mul(error, spux_vfloat(2.2f)));
-    spux_store(s->certain, spux_select(spux_vfloat(INFINITY), spux_vfloat(2), keeps));
-    spux_store(s->nearest, v->nearest);
+    tile_store_parallel_sides(t, v, &g, s);
+    tile_store_form(t, plane, rz, spu_sub(zero, error), s->plane);
+    const vmask within_depth_error = spu_cmpgt(spux_vfloat(t->depth_error), spu_mul(error, spux_vfloat(2.2f)));
+    spux_store(s->certain, spux_select(spux_vfloat(INFINITY), spux_vfloat(2), within_depth_error));
+    spux_store(s->min_distance, v->min_distance);
     /* what underflows is small beside edges of 2^-45 */
-    const vmask normal = spu_cmpgt(tile_least(g.square[0], g.square[1], g.square[2]), spux_vfloat(0x1p-90f));
-    const vmask level = spu_cmpgt(spux_vfloat(0.125f), spu_mul(kappa, spux_vfloat(TILE_PLANE)));
-    const vmask good = spu_andc(spu_and(normal, level), v->early);
-    return spux_mask_bits(spu_and(good, spu_or(keeps, spux_not(tile_triangles_wide(s)))));
+    const vmask normal = spu_cmpgt(tile_min3(g.square[0], g.square[1], g.square[2]), spux_vfloat(0x1p-90f));
+    const vmask level = spu_cmpgt(spux_vfloat(0.125f), spu_mul(kappa, spux_vfloat(TILE_EPS_PLANE)));
+    const vmask valid = spu_andc(spu_and(normal, level), v->crosses_t_min);
+    return spux_mask_bits(spu_and(valid, spu_or(within_depth_error, spux_not(tile_large_windows(s)))));
 }
 
-/* tile_triangles_make for parallel rays. */
-CGT_SPU_INLINE void tile_parallel_triangles_make(const tile *t, vfloat vertex[3][3], unsigned lanes, tile_triangles *s)
+/* tile_init_triangles for parallel rays. */
+CGT_SPU_INLINE void tile_init_parallel_triangles(const tile *t, vfloat vertex[3][3], unsigned active, tile_triangles *s)
 {
-    const tile_triangles_seen v = tile_parallel_triangles_see(t, vertex);
-    vmask apart;
-    const vmask unwanted = spu_or(v.ended, spu_cmpgt(v.nearest, spux_vfloat(t->farthest)));
-    const vmask out = spu_or(unwanted, tile_parallel_triangles_outside(t, &v, s));
-    const unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s, &apart))) & CGT_ALL_LANES;
-    s->fast = s->slow = 0;
-    if (!left)
+    const tile_projected_triangles v = tile_project_parallel_triangles(t, vertex);
+    vmask large_windows;
+    const vmask out_of_range = spu_or(v.before_t_min, spu_cmpgt(v.min_distance, spux_vfloat(t->max_far_distance)));
+    const vmask out = spu_or(out_of_range, tile_cull_parallel_triangles(t, &v, s));
+    const unsigned remaining =
+        active & ~spux_mask_bits(spu_or(out, tile_cull_occluded_triangles(t, &v, s, &large_windows))) & CGT_ALL_LANES;
+    s->single_lanes = s->double_lanes = 0;
+    if (!remaining)
         return;
-    s->fast = left & tile_parallel_triangles_bound(t, &v, s);
-    s->slow = left & ~s->fast;
-    if (s->fast & spux_mask_bits(apart))
-        s->fast &= ~spux_mask_bits(tile_triangles_beyond(t, s));
+    s->single_lanes = remaining & tile_setup_parallel_triangles(t, &v, s);
+    s->double_lanes = remaining & ~s->single_lanes;
+    if (s->single_lanes & spux_mask_bits(large_windows))
+        s->single_lanes &= ~spux_mask_bits(tile_cull_triangles_by_forms(t, s));
 }
 
 #endif

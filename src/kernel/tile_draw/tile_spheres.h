@@ -31,8 +31,8 @@
  *   root        2 eps / (sqrt(certain) + sqrt(certain - 2 eps)); 0.74 sqrt(eps) for 3 eps; eps / sqrt(certain - 2 eps)
  * The depth besides, against the exact t times N:
  *   centre 8 u c |d|, direction 3.5 u c |d|, metric 24 u c |d| and 10 u r |d|, sums 5 u (c + r) |d|, and
- *   the estimate of 1 / sqrt(D), within TILE_ESTIMATE: that times r |d| + sqrt(2 eps)
- *   e0          |d| (44 u c + (18 u + TILE_ESTIMATE) r) + 2^-10 sqrt(eps) + 2^-100
+ *   the estimate of 1 / sqrt(D), within TILE_RSQRT_ERROR: that times r |d| + sqrt(2 eps)
+ *   e0          |d| (44 u c + (18 u + TILE_RSQRT_ERROR) r) + 2^-10 sqrt(eps) + 2^-100
  * q - e0 is at most the exact depth, and q - e0 + gap at least, for gap = 2 e0 + root. The tile has one gap; a sphere
  * whose `certain` that makes too large, like all that the above does not hold for, goes to tile_double.h.
  *
@@ -49,45 +49,47 @@
 #include "kernel/primitive/sphere_filter.h"
 #include "kernel/tile_draw/tile_decide.h"
 
-#define TILE_ANGLE (34 * FILTER_U)
-#define TILE_SUMS (112 * FILTER_U)
-#define TILE_SECOND (20 * FILTER_U)
-#define TILE_DEPTH (44 * FILTER_U)
-#ifndef TILE_ESTIMATE /* of spu_rsqrte */
+#define TILE_EPS_ANGLE (34 * FILTER_ROUNDOFF)
+#define TILE_EPS_SUMS (112 * FILTER_ROUNDOFF)
+#define TILE_EPS_SECOND (20 * FILTER_ROUNDOFF)
+#define TILE_EPS_DEPTH (44 * FILTER_ROUNDOFF)
+#ifndef TILE_RSQRT_ERROR /* of spu_rsqrte */
 #if CGT_LANES == 16
-#define TILE_ESTIMATE 0x1p-14f
+#define TILE_RSQRT_ERROR 0x1p-14f
 #else
-#define TILE_ESTIMATE 0x1.8p-12f
+#define TILE_RSQRT_ERROR 0x1.8p-12f
 #endif
 #endif
 
 /* ---- the bounds, of a vector and of one sphere ---- */
 
 /* What D and q may be off by. */
-typedef struct tile_bounds {
+typedef struct tile_sphere_errors {
     vfloat eps, e0;
-} tile_bounds;
+} tile_sphere_errors;
 
-CGT_SPU_INLINE tile_bounds tile_sphere_bounds(const tile *t, vfloat c, vfloat r, vfloat n0)
+CGT_SPU_INLINE tile_sphere_errors tile_compute_sphere_errors(const tile *t, vfloat c, vfloat r, vfloat n0)
 {
-    const vfloat second = spu_mul(c, spux_vfloat(TILE_SECOND));
-    const vfloat first = spu_madd(c, spux_vfloat(TILE_ANGLE), spu_mul(spu_mul(r, n0), spux_vfloat(TILE_SUMS)));
+    const vfloat second = spu_mul(c, spux_vfloat(TILE_EPS_SECOND));
+    const vfloat first = spu_madd(c, spux_vfloat(TILE_EPS_ANGLE), spu_mul(spu_mul(r, n0), spux_vfloat(TILE_EPS_SUMS)));
     const vfloat eps =
-        spu_madd(spu_madd(r, first, spu_mul(second, second)), spux_vfloat(t->most), spux_vfloat(0x1p-116f));
-    const vfloat depth = spu_madd(c, spux_vfloat(TILE_DEPTH), spu_mul(r, spux_vfloat(18 * FILTER_U + TILE_ESTIMATE)));
+        spu_madd(spu_madd(r, first, spu_mul(second, second)), spux_vfloat(t->max_norm), spux_vfloat(0x1p-116f));
+    const vfloat depth =
+        spu_madd(c, spux_vfloat(TILE_EPS_DEPTH), spu_mul(r, spux_vfloat(18 * FILTER_ROUNDOFF + TILE_RSQRT_ERROR)));
     const vfloat rest = spu_madd(spux_sqrt(eps), spux_vfloat(0x1p-10f), spux_vfloat(0x1p-100f));
-    return (tile_bounds){eps, spu_madd(depth, spux_vfloat(t->longest), rest)};
+    return (tile_sphere_errors){eps, spu_madd(depth, spux_vfloat(t->max_dir_length), rest)};
 }
 
 /* The tile's gap: right for spheres of radius r up to distance c, and so wide that every depth of the scene and the end
  * of the range have room in it, c being the distance of its farthest point. far_t: no t is beyond. */
-CGT_SPU_INLINE void tile_gap_make(tile *t, float c, float r, float far_t)
+CGT_SPU_INLINE void tile_init_sphere_depth_error(tile *t, float c, float r, float far_t)
 {
-    const tile_bounds b = tile_sphere_bounds(t, spux_vfloat(c), spux_vfloat(r), spux_vfloat(t->most));
+    const tile_sphere_errors b =
+        tile_compute_sphere_errors(t, spux_vfloat(c), spux_vfloat(r), spux_vfloat(t->max_norm));
     const float end = t->rays->t_max < far_t ? t->rays->t_max : 0;
-    const float of_end = end * t->most * 0x1p-18f, gap = 2 * b.e0[0] + 0.75f * sqrtf(b.eps[0]);
-    t->gap = (of_end > gap ? of_end : gap) + c * t->longest * 0x1p-19f;
-    t->wide_gap = t->gap * (1 + 0x1p-20f);
+    const float end_error = end * t->max_norm * 0x1p-18f, depth_error = 2 * b.e0[0] + 0.75f * sqrtf(b.eps[0]);
+    t->depth_error = (end_error > depth_error ? end_error : depth_error) + c * t->max_dir_length * 0x1p-19f;
+    t->padded_depth_error = t->depth_error * (1 + 0x1p-20f);
 }
 
 /* ---- a vector of spheres ---- */
@@ -103,73 +105,74 @@ typedef struct tile_spheres {
     _Alignas(64) float a[CGT_LANES], b[CGT_LANES], c[CGT_LANES];    /* A', -B, C' */
     _Alignas(64) float d0[CGT_LANES], dx[CGT_LANES], dy[CGT_LANES]; /* of D: r^2 N0 + eps; 2 r^2 rho^2 X, and for Y */
     _Alignas(64) float q0[CGT_LANES], qx[CGT_LANES], qy[CGT_LANES]; /* of q: z - e0, rho x, upsilon y */
-    _Alignas(64) float certain[CGT_LANES], nearest[CGT_LANES];      /* distance before which nothing is hit */
+    _Alignas(64) float certain[CGT_LANES], min_distance[CGT_LANES]; /* distance before which nothing is hit */
     tile_windows window;
-    _Alignas(64) uint32_t object[CGT_LANES];
-    unsigned fast, slow; /* lanes as bits: for tile_sphere_draw, for tile_double.h */
-    unsigned small[2];   /* lanes whose window is one vector wide, and at most 3 or 4 pairs of rows high */
+    _Alignas(64) uint32_t prim[CGT_LANES];
+    unsigned single_lanes, double_lanes; /* lanes as bits: for tile_rasterise_sphere, for tile_double.h */
+    unsigned small_lanes[2]; /* lanes whose window is one vector wide, and at most 3 or 4 pairs of rows high */
 } tile_spheres;
 
 /* Spheres that a tile may see, in camera space, side by side: culling goes on without a branch, and what comes after it
  * finds whole vectors of them. */
-#define TILE_FOUND 128u
-typedef struct tile_found {
-    _Alignas(64) float z[TILE_FOUND + CGT_LANES], x[TILE_FOUND + CGT_LANES];
-    _Alignas(64) float y[TILE_FOUND + CGT_LANES], r[TILE_FOUND + CGT_LANES];
-    _Alignas(64) uint32_t object[TILE_FOUND + CGT_LANES];
-    _Alignas(64) uint32_t window[TILE_FOUND + CGT_LANES]; /* x0, x1, y0, y1 from the lowest byte up */
+#define TILE_MAX_VISIBLE 128u
+typedef struct tile_visible_spheres {
+    _Alignas(64) float z[TILE_MAX_VISIBLE + CGT_LANES], x[TILE_MAX_VISIBLE + CGT_LANES];
+    _Alignas(64) float y[TILE_MAX_VISIBLE + CGT_LANES], r[TILE_MAX_VISIBLE + CGT_LANES];
+    _Alignas(64) uint32_t prim[TILE_MAX_VISIBLE + CGT_LANES];
+    _Alignas(64) uint32_t window[TILE_MAX_VISIBLE + CGT_LANES]; /* x0, x1, y0, y1 from the lowest byte up */
     uint32_t count;
-} tile_found;
+} tile_visible_spheres;
 
 /* Reads the spheres of at most a vector of references; lanes beyond count repeat the first. */
-CGT_SPU_INLINE void tile_spheres_fetch(const cgt_objects *objects, const uint32_t *reference, uint32_t count,
-                                       vfloat sphere[4], vuint *object)
+CGT_SPU_INLINE void tile_gather_spheres(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
+                                        vfloat sphere[4], vuint *prim)
 {
-    if (objects->arrays == 1) { /* its first object is 0 */
+    if (prims->arrays == 1) { /* its first object is 0 */
         if (count == CGT_LANES)
-            *object = spux_load_unaligned_uint(reference);
+            *prim = spux_load_unaligned_uint(reference);
         else {
-            _Alignas(64) uint32_t some[CGT_LANES];
+            _Alignas(64) uint32_t padded[CGT_LANES];
             for (uint32_t k = 0; k < CGT_LANES; k++)
-                some[k] = reference[k < count ? k : 0];
-            *object = spux_load_uint(some);
+                padded[k] = reference[k < count ? k : 0];
+            *prim = spux_load_uint(padded);
         }
-        fetch_spheres_at(objects->array, *object, sphere);
+        gather_spheres(prims->array, *prim, sphere);
         return;
     }
     filter_spheres s;
-    filter_spheres_fetch(objects, reference, count, CGT_LANES, &s);
+    filter_gather_spheres(prims, reference, count, CGT_LANES, &s);
     for (int a = 0; a < 3; a++)
         sphere[a] = spux_load(s.center[a]);
     sphere[3] = spux_load(s.radius);
-    *object = spux_load_uint(s.object);
+    *prim = spux_load_uint(s.prim);
 }
 
 /* The silhouette's tangents against an axis, as columns or rows from the tile's first; low <= high where the scale is
  * positive, else the reverse. r2: r^2; unit: the scale over z^2 - r^2. */
-CGT_SPU_INLINE void tile_tangents(const tile_span *of, vfloat x, vfloat z, vfloat r, vfloat r2, vfloat unit,
-                                  vfloat *low, vfloat *high)
+CGT_SPU_INLINE void tile_compute_tangents(const tile_span *span, vfloat x, vfloat z, vfloat r, vfloat r2, vfloat unit,
+                                          vfloat *low, vfloat *high)
 {
     const vfloat square = spu_sub(spu_madd(x, x, spu_mul(z, z)), r2), middle = spu_mul(x, z);
-    const vfloat root = spu_mul(r, spux_sqrt(square)), first = spux_vfloat(of->first);
+    const vfloat root = spu_mul(r, spux_sqrt(square)), first = spux_vfloat(span->first);
     *low = spu_msub(spu_sub(middle, root), unit, first);
     *high = spu_msub(spu_add(middle, root), unit, first);
 }
 
 /* The pixels from low to high, cut to the tile. Returns the lanes without any, whose first and last are open. */
-CGT_SPU_INLINE vmask tile_window(vfloat low, vfloat high, const tile_span *of, uint32_t *first, uint32_t *last)
+CGT_SPU_INLINE vmask tile_compute_window(vfloat low, vfloat high, const tile_span *span, uint32_t *first,
+                                         uint32_t *last)
 {
     /* up from 1/16 below, which is less than 1/32 below where that is a whole number */
-    const vfloat up = spux_max(spu_add(low, spux_vfloat(0.9375f)), spux_vfloat(0));
-    const vfloat to = spux_min(spu_add(high, spux_vfloat(0.0625f)), spux_vfloat(of->last));
-    const vint from = spux_truncate(spux_min(up, spux_vfloat(of->pixels)));
+    const vfloat low_column = spux_max(spu_add(low, spux_vfloat(0.9375f)), spux_vfloat(0));
+    const vfloat to = spux_min(spu_add(high, spux_vfloat(0.0625f)), spux_vfloat(span->last));
+    const vint from = spux_truncate(spux_min(low_column, spux_vfloat(span->pixels)));
     spux_store_uint(first, (vuint)from);
     spux_store_uint(last, (vuint)spux_truncate(to));
     return spu_cmpgt((vfloat)spu_convtf(from, 0), to);
 }
 
 /* Lanes that surely miss the cone of all rays. */
-CGT_SPU_INLINE vmask tile_cone_missed(const tile *t, vfloat z, vfloat x, vfloat y, vfloat c, vfloat r)
+CGT_SPU_INLINE vmask tile_cull_by_cone(const tile *t, vfloat z, vfloat x, vfloat y, vfloat c, vfloat r)
 {
     if (t->secant == 0)
         return spux_mask_none();
@@ -177,33 +180,33 @@ CGT_SPU_INLINE vmask tile_cone_missed(const tile *t, vfloat z, vfloat x, vfloat 
     const vfloat s = spu_madd(z, az, spu_madd(x, ax, spu_mul(y, ay)));
     const vfloat pz = spu_nmsub(s, az, z), px = spu_nmsub(s, ax, x), py = spu_nmsub(s, ay, y);
     const vfloat p2 = spu_madd(pz, pz, spu_madd(px, px, spu_mul(py, py)));
-    const vfloat more = spu_madd(spu_add(c, r), spux_vfloat(0x1p-18f), spux_vfloat(0x1p-60f));
-    const vfloat reach = spu_add(spu_madd(r, spux_vfloat(t->secant), spu_mul(s, spux_vfloat(t->tangent))), more);
+    const vfloat error = spu_madd(spu_add(c, r), spux_vfloat(0x1p-18f), spux_vfloat(0x1p-60f));
+    const vfloat reach = spu_add(spu_madd(r, spux_vfloat(t->secant), spu_mul(s, spux_vfloat(t->tangent))), error);
     return spu_or(spu_cmpgt(spux_vfloat(0), reach), spu_cmpgt(p2, spu_mul(reach, reach)));
 }
 
 /* Lanes that no ray of the tile wants: hidden, or before the range. nearest: the distance before which nothing is hit. */
-CGT_SPU_INLINE vmask tile_spheres_unwanted(const tile *t, vfloat c, vfloat r, vfloat nearest)
+CGT_SPU_INLINE vmask tile_cull_spheres_by_depth(const tile *t, vfloat c, vfloat r, vfloat min_distance)
 {
-    const vmask hidden = spu_cmpgt(nearest, spux_vfloat(t->farthest));
+    const vmask occluded = spu_cmpgt(min_distance, spux_vfloat(t->max_far_distance));
     if (t->rays->t_min == 0)
-        return hidden;
+        return occluded;
     const vfloat end = spu_mul(spu_add(c, r), spux_vfloat(1 + 0x1p-18f));
-    const float begin = t->rays->t_min * sqrtf(t->least) * (1 - 0x1p-18f) - 0x1p-60f;
-    return spu_or(hidden, spu_cmpgt(spux_vfloat(begin), end));
+    const float begin = t->rays->t_min * sqrtf(t->min_norm) * (1 - 0x1p-18f) - 0x1p-60f;
+    return spu_or(occluded, spu_cmpgt(spux_vfloat(begin), end));
 }
 
 /* A vector of spheres as the camera sees them. */
-typedef struct tile_seen {
+typedef struct tile_projected_spheres {
     vfloat z, x, y, r, z2, x2, y2, r2;
     vfloat distance;
-    vfloat nearest; /* distance before which nothing is hit */
-    vfloat wide;    /* the radius, and more than all that the window may be off by */
-    vmask front;    /* as far in front of the eye as the bounds ask, and not far beside what it sees */
-} tile_seen;
+    vfloat min_distance;  /* distance before which nothing is hit */
+    vfloat padded_radius; /* the radius, and more than all that the window may be off by */
+    vmask in_front;       /* as far in front of the eye as the bounds ask, and not far beside what it sees */
+} tile_projected_spheres;
 
 /* z, x, y and r of spheres. */
-CGT_SPU_INLINE void tile_spheres_turn(const tile *t, const vfloat sphere[4], vfloat q[4])
+CGT_SPU_INLINE void tile_transform_spheres(const tile *t, const vfloat sphere[4], vfloat q[4])
 {
     const float(*dual)[3] = t->camera.dual;
     vfloat p[3];
@@ -216,73 +219,76 @@ CGT_SPU_INLINE void tile_spheres_turn(const tile *t, const vfloat sphere[4], vfl
 }
 
 /* From what that gives. */
-CGT_SPU_INLINE tile_seen tile_spheres_see(const tile *t, const vfloat q[4])
+CGT_SPU_INLINE tile_projected_spheres tile_project_spheres(const tile *t, const vfloat q[4])
 {
-    tile_seen v = {.z = q[0], .x = q[1], .y = q[2], .r = q[3]};
+    tile_projected_spheres v = {.z = q[0], .x = q[1], .y = q[2], .r = q[3]};
     v.z2 = spu_mul(v.z, v.z);
     v.x2 = spu_mul(v.x, v.x);
     v.y2 = spu_mul(v.y, v.y);
     v.r2 = spu_mul(v.r, v.r);
-    const vfloat beside = spu_add(v.x2, v.y2);
-    v.distance = spux_sqrt(spu_add(v.z2, beside));
-    const vfloat slack = spu_madd(spu_add(v.distance, v.r), spux_vfloat(0x1p-18f), spux_vfloat(t->slack));
-    v.wide = spu_add(v.r, slack);
-    v.nearest = spu_sub(v.distance, v.wide);
-    v.front = spu_and(spu_cmpgt(v.z, spu_madd(v.wide, spux_vfloat(1.5f), spux_vfloat(0x1p-48f))),
-                      spu_cmpgt(spu_mul(v.z2, spux_vfloat(256)), beside));
+    const vfloat lateral2 = spu_add(v.x2, v.y2);
+    v.distance = spux_sqrt(spu_add(v.z2, lateral2));
+    const vfloat length_error = spu_madd(spu_add(v.distance, v.r), spux_vfloat(0x1p-18f), spux_vfloat(t->length_error));
+    v.padded_radius = spu_add(v.r, length_error);
+    v.min_distance = spu_sub(v.distance, v.padded_radius);
+    v.in_front = spu_and(spu_cmpgt(v.z, spu_madd(v.padded_radius, spux_vfloat(1.5f), spux_vfloat(0x1p-48f))),
+                         spu_cmpgt(spu_mul(v.z2, spux_vfloat(256)), lateral2));
     return v;
 }
 
 /* Windows of the spheres in front. Returns those of them that have none. */
-CGT_SPU_INLINE vmask tile_spheres_outside(const tile *t, const tile_seen *v, tile_windows *s)
+CGT_SPU_INLINE vmask tile_cull_spheres_by_window(const tile *t, const tile_projected_spheres *v, tile_windows *s)
 {
-    const vfloat r2 = spu_mul(v->wide, v->wide), across = spux_vfloat(t->across.scale);
-    const vfloat unit = spux_div(across, spu_sub(v->z2, r2));
+    const vfloat r2 = spu_mul(v->padded_radius, v->padded_radius), column_span = spux_vfloat(t->column_span.scale);
+    const vfloat unit = spux_div(column_span, spu_sub(v->z2, r2));
     vfloat low, high;
-    tile_tangents(&t->across, v->x, v->z, v->wide, r2, unit, &low, &high);
-    const vmask beside = tile_window(low, high, &t->across, s->x0, s->x1);
-    const vfloat down = spu_mul(unit, spux_vfloat(t->down_across));
-    tile_tangents(&t->down, v->y, v->z, v->wide, r2, down, &high, &low);
-    const vmask above = tile_window(low, high, &t->down, s->y0, s->y1);
-    return spu_and(v->front, spu_or(beside, above));
+    tile_compute_tangents(&t->column_span, v->x, v->z, v->padded_radius, r2, unit, &low, &high);
+    const vmask outside_x = tile_compute_window(low, high, &t->column_span, s->x0, s->x1);
+    const vfloat row_span = spu_mul(unit, spux_vfloat(t->span_ratio));
+    tile_compute_tangents(&t->row_span, v->y, v->z, v->padded_radius, r2, row_span, &high, &low);
+    const vmask outside_y = tile_compute_window(low, high, &t->row_span, s->y0, s->y1);
+    return spu_and(v->in_front, spu_or(outside_x, outside_y));
 }
 
 /* How far the parts of the tile with these numbers see; lanes without a window may have any number. */
-CGT_SPU_INLINE vfloat tile_parts_far(const tile *t, vuint part)
+CGT_SPU_INLINE vfloat tile_gather_far_distance(const tile *t, vuint part)
 {
 #if CGT_LANES == 16
-    return spux_permute(spux_load(t->far), part);
+    return spux_permute(spux_load(t->far_distance), part);
 #else
-    return spux_gather(t->far, (vint)spu_and(part, spux_vuint(TILE_PARTS * TILE_PARTS - 1)));
+    return spux_gather(t->far_distance, (vint)spu_and(part, spux_vuint(TILE_PARTS * TILE_PARTS - 1)));
 #endif
 }
 
 /* How far the parts under the corners of windows see; apart: windows that span more than two parts, of which the corners
  * do not tell. */
-CGT_SPU_INLINE vfloat tile_windows_far(const tile *t, const uint32_t *x0, const uint32_t *x1, const uint32_t *y0,
-                                       const uint32_t *y1, vmask *apart)
+CGT_SPU_INLINE vfloat tile_window_far_distance(const tile *t, const uint32_t *x0, const uint32_t *x1,
+                                               const uint32_t *y0, const uint32_t *y1, vmask *large_windows)
 {
     const vuint row = spux_vuint(3 * TILE_PARTS), one = spux_vuint(1);
-    const vuint left = spu_sr(spux_load_uint(x0), 4), right = spu_sr(spux_load_uint(x1), 4);
+    const vuint left_part = spu_sr(spux_load_uint(x0), 4), right_part = spu_sr(spux_load_uint(x1), 4);
     const vuint y[2] = {spux_load_uint(y0), spux_load_uint(y1)};
     const vuint top = spu_and(spu_sr(y[0], 2), row), bottom = spu_and(spu_sr(y[1], 2), row);
-    const vfloat above = spux_max(tile_parts_far(t, spu_or(top, left)), tile_parts_far(t, spu_or(top, right)));
-    const vfloat below = spux_max(tile_parts_far(t, spu_or(bottom, left)), tile_parts_far(t, spu_or(bottom, right)));
-    *apart = spu_or(spu_cmpgt(spu_sub(right, left), one), spu_cmpgt(spu_sub(bottom, top), spux_vuint(TILE_PARTS)));
+    const vfloat above = spux_max(tile_gather_far_distance(t, spu_or(top, left_part)),
+                                  tile_gather_far_distance(t, spu_or(top, right_part)));
+    const vfloat below = spux_max(tile_gather_far_distance(t, spu_or(bottom, left_part)),
+                                  tile_gather_far_distance(t, spu_or(bottom, right_part)));
+    *large_windows =
+        spu_or(spu_cmpgt(spu_sub(right_part, left_part), one), spu_cmpgt(spu_sub(bottom, top), spux_vuint(TILE_PARTS)));
     return spux_max(above, below);
 }
 
 /* Spheres that no part under their window sees: windows that span two parts at most, so that their corners tell. */
-CGT_SPU_INLINE vmask tile_spheres_hidden(const tile *t, const tile_seen *v, const tile_windows *s)
+CGT_SPU_INLINE vmask tile_cull_occluded_spheres(const tile *t, const tile_projected_spheres *v, const tile_windows *s)
 {
-    vmask apart;
-    const vfloat seen = tile_windows_far(t, s->x0, s->x1, s->y0, s->y1, &apart);
-    return spu_andc(spu_and(v->front, spu_cmpgt(v->nearest, seen)), apart);
+    vmask large_windows;
+    const vfloat far_distance = tile_window_far_distance(t, s->x0, s->x1, s->y0, s->y1, &large_windows);
+    return spu_andc(spu_and(v->in_front, spu_cmpgt(v->min_distance, far_distance)), large_windows);
 }
 
 /* What the loops over pixels take. */
-CGT_SPU_INLINE void tile_spheres_store(const tile *t, const tile_seen *v, vfloat gx, vfloat gy, vfloat n0,
-                                       tile_bounds bounds, tile_spheres *s)
+CGT_SPU_INLINE void tile_store_spheres(const tile *t, const tile_projected_spheres *v, vfloat gx, vfloat gy, vfloat n0,
+                                       tile_sphere_errors errors, tile_spheres *s)
 {
     const tile_camera *m = &t->camera;
     const vfloat two_r2 = spu_add(v->r2, v->r2), right = spux_vfloat(m->right), up = spux_vfloat(m->up);
@@ -291,44 +297,46 @@ CGT_SPU_INLINE void tile_spheres_store(const tile *t, const tile_seen *v, vfloat
     spux_store(s->a, spu_mul(spu_sub(spu_add(v->z2, v->y2), v->r2), spux_vfloat(m->a)));
     spux_store(s->b, spu_mul(spu_mul(v->x, v->y), spux_vfloat(2 * m->right * m->up)));
     spux_store(s->c, spu_mul(spu_sub(spu_add(v->z2, v->x2), v->r2), spux_vfloat(m->b)));
-    spux_store(s->d0, spu_madd(v->r2, n0, bounds.eps));
+    spux_store(s->d0, spu_madd(v->r2, n0, errors.eps));
     spux_store(s->dx, spu_mul(spu_mul(two_r2, gx), right));
     spux_store(s->dy, spu_mul(spu_mul(two_r2, gy), up));
-    spux_store(s->q0, spu_sub(v->z, bounds.e0));
+    spux_store(s->q0, spu_sub(v->z, errors.e0));
     spux_store(s->qx, spu_mul(v->x, right));
     spux_store(s->qy, spu_mul(v->y, up));
-    spux_store(s->nearest, v->nearest);
+    spux_store(s->min_distance, v->min_distance);
 }
 
 /* `certain`. Returns the lanes that have most of what they cover beyond it. */
-CGT_SPU_INLINE vmask tile_spheres_certain(const tile *t, const tile_seen *v, tile_bounds bounds, tile_spheres *s)
+CGT_SPU_INLINE vmask tile_store_sphere_certain(const tile *t, const tile_projected_spheres *v,
+                                               tile_sphere_errors errors, tile_spheres *s)
 {
     /* root fits into the room of the gap where D is that far beyond 2 eps */
-    const vfloat room = spu_nmsub(bounds.e0, spux_vfloat(2), spux_vfloat(t->gap));
-    const vfloat beyond = spux_div(spu_mul(bounds.eps, spux_vfloat(1 + 0x1p-18f)), room);
-    const vfloat beyond2 = spu_mul(beyond, beyond), most = spux_max(spu_mul(v->r2, spux_vfloat(0.25f)), bounds.eps);
-    spux_store(s->certain, spu_madd(bounds.eps, spux_vfloat(2), spux_max(beyond2, bounds.eps)));
-    return spu_and(spu_cmpgt(room, spu_mul(bounds.e0, spux_vfloat(0.25f))), spu_cmpgt(most, beyond2));
+    const vfloat room = spu_nmsub(errors.e0, spux_vfloat(2), spux_vfloat(t->depth_error));
+    const vfloat beyond = spux_div(spu_mul(errors.eps, spux_vfloat(1 + 0x1p-18f)), room);
+    const vfloat beyond2 = spu_mul(beyond, beyond), upper = spux_max(spu_mul(v->r2, spux_vfloat(0.25f)), errors.eps);
+    spux_store(s->certain, spu_madd(errors.eps, spux_vfloat(2), spux_max(beyond2, errors.eps)));
+    return spu_and(spu_cmpgt(room, spu_mul(errors.e0, spux_vfloat(0.25f))), spu_cmpgt(upper, beyond2));
 }
 
 /* Coefficients and `certain`. Returns the lanes that the bounds hold for, as bits: in front, after the range's begin,
  * and most of what they cover beyond `certain`. */
-CGT_SPU_INLINE unsigned tile_spheres_bound(const tile *t, const tile_seen *v, tile_spheres *s)
+CGT_SPU_INLINE unsigned tile_setup_spheres(const tile *t, const tile_projected_spheres *v, tile_spheres *s)
 {
     const vfloat rz = spux_div(spux_vfloat(1), v->z), gx = spu_mul(v->x, rz), gy = spu_mul(v->y, rz);
     const vfloat n0 = spu_madd(gx, gx, spu_madd(gy, gy, spux_vfloat(1)));
-    const tile_bounds bounds = tile_sphere_bounds(t, v->distance, v->r, n0);
-    const vmask fits = tile_spheres_certain(t, v, bounds, s);
-    const vmask late = spu_cmpgt(v->nearest, spux_vfloat(t->rays->t_min * t->longest * (1 + 0x1p-18f)));
-    tile_spheres_store(t, v, gx, gy, n0, bounds, s);
-    return spux_mask_bits(spu_and(v->front, spu_and(fits, late)));
+    const tile_sphere_errors errors = tile_compute_sphere_errors(t, v->distance, v->r, n0);
+    const vmask fits = tile_store_sphere_certain(t, v, errors, s);
+    const vmask past_t_min =
+        spu_cmpgt(v->min_distance, spux_vfloat(t->rays->t_min * t->max_dir_length * (1 + 0x1p-18f)));
+    tile_store_spheres(t, v, gx, gy, n0, errors, s);
+    return spux_mask_bits(spu_and(v->in_front, spu_and(fits, past_t_min)));
 }
 
 /* Spheres that go to tile_double.h: those that miss the cone are left out, and those without a window get the tile. */
-CGT_SPU_INLINE void tile_spheres_slow(const tile *t, const tile_seen *v, tile_spheres *s)
+CGT_SPU_INLINE void tile_setup_double_spheres(const tile *t, const tile_projected_spheres *v, tile_spheres *s)
 {
-    s->slow &= ~spux_mask_bits(tile_cone_missed(t, v->z, v->x, v->y, v->distance, v->r));
-    for (unsigned k = s->slow & ~spux_mask_bits(v->front); k; k &= k - 1) {
+    s->double_lanes &= ~spux_mask_bits(tile_cull_by_cone(t, v->z, v->x, v->y, v->distance, v->r));
+    for (unsigned k = s->double_lanes & ~spux_mask_bits(v->in_front); k; k &= k - 1) {
         const int i = __builtin_ctz(k);
         s->window.x0[i] = s->window.y0[i] = 0;
         s->window.x1[i] = t->columns - 1;
@@ -337,41 +345,41 @@ CGT_SPU_INLINE void tile_spheres_slow(const tile *t, const tile_seen *v, tile_sp
 }
 
 /* Which windows are one vector wide and few pairs of rows high. */
-CGT_SPU_INLINE void tile_spheres_small(tile_spheres *s)
+CGT_SPU_INLINE void tile_classify_small_spheres(tile_spheres *s)
 {
-    const tile_windows *of = &s->window;
-    const vuint wide = spu_sub(spux_load_uint(of->x1), spux_load_uint(of->x0));
-    const vuint high = spu_sub(spu_sr(spux_load_uint(of->y1), 1), spu_sr(spux_load_uint(of->y0), 1));
-    const vmask narrow = spu_cmpgt(spux_vuint(CGT_LANES / 2), wide);
-    s->small[0] = spux_mask_bits(spu_and(narrow, spu_cmpgt(spux_vuint(3), high)));
-    s->small[1] = spux_mask_bits(spu_and(narrow, spu_cmpgt(spux_vuint(4), high)));
+    const tile_windows *window = &s->window;
+    const vuint width = spu_sub(spux_load_uint(window->x1), spux_load_uint(window->x0));
+    const vuint height = spu_sub(spu_sr(spux_load_uint(window->y1), 1), spu_sr(spux_load_uint(window->y0), 1));
+    const vmask narrow = spu_cmpgt(spux_vuint(CGT_LANES / 2), width);
+    s->small_lanes[0] = spux_mask_bits(spu_and(narrow, spu_cmpgt(spux_vuint(3), height)));
+    s->small_lanes[1] = spux_mask_bits(spu_and(narrow, spu_cmpgt(spux_vuint(4), height)));
 }
 
 /* Keeps those of a vector of spheres that are left, as bits. */
-CGT_SPU_INLINE void tile_found_keep(tile_found *f, const vfloat q[4], vuint object, const tile_windows *s,
-                                    unsigned left)
+CGT_SPU_INLINE void tile_append_visible(tile_visible_spheres *f, const vfloat q[4], vuint prim, const tile_windows *s,
+                                        unsigned lanes)
 {
     const vuint columns = spu_or(spux_load_uint(s->x0), spu_sl(spux_load_uint(s->x1), 8));
     const vuint rows = spu_or(spu_sl(spux_load_uint(s->y0), 16), spu_sl(spux_load_uint(s->y1), 24));
-    const vmask kept = spux_mask_from_bits(left);
-    spux_store_unaligned(f->z + f->count, spux_compress(q[0], kept));
-    spux_store_unaligned(f->x + f->count, spux_compress(q[1], kept));
-    spux_store_unaligned(f->y + f->count, spux_compress(q[2], kept));
-    spux_store_unaligned(f->r + f->count, spux_compress(q[3], kept));
-    spux_store_unaligned_uint(f->object + f->count, spux_compress(object, kept));
-    spux_store_unaligned_uint(f->window + f->count, spux_compress(spu_or(columns, rows), kept));
-    f->count += spux_count_bits(left);
+    const vmask mask = spux_mask_from_bits(lanes);
+    spux_store_unaligned(f->z + f->count, spux_compress(q[0], mask));
+    spux_store_unaligned(f->x + f->count, spux_compress(q[1], mask));
+    spux_store_unaligned(f->y + f->count, spux_compress(q[2], mask));
+    spux_store_unaligned(f->r + f->count, spux_compress(q[3], mask));
+    spux_store_unaligned_uint(f->prim + f->count, spux_compress(prim, mask));
+    spux_store_unaligned_uint(f->window + f->count, spux_compress(spu_or(columns, rows), mask));
+    f->count += spux_count_bits(lanes);
 }
 
 /* A vector of those that were found, from number `first` on. */
-CGT_SPU_INLINE void tile_found_get(const tile_found *f, uint32_t first, vfloat q[4], tile_spheres *s)
+CGT_SPU_INLINE void tile_load_visible(const tile_visible_spheres *f, uint32_t first, vfloat q[4], tile_spheres *s)
 {
     const vuint window = spux_load_uint(f->window + first), byte = spux_vuint(255);
     q[0] = spux_load(f->z + first);
     q[1] = spux_load(f->x + first);
     q[2] = spux_load(f->y + first);
     q[3] = spux_load(f->r + first);
-    spux_store_uint(s->object, spux_load_uint(f->object + first));
+    spux_store_uint(s->prim, spux_load_uint(f->prim + first));
     spux_store_uint(s->window.x0, spu_and(window, byte));
     spux_store_uint(s->window.x1, spu_and(spu_sr(window, 8), byte));
     spux_store_uint(s->window.y0, spu_and(spu_sr(window, 16), byte));
@@ -385,32 +393,32 @@ CGT_SPU_INLINE unsigned tile_first_lanes(uint32_t count)
 }
 
 /* Of the first lanes of a vector of spheres, so many, keeps those that the tile may see. */
-CGT_SPU_INLINE void tile_spheres_find(const tile *t, const vfloat sphere[4], vuint object, uint32_t count,
-                                      tile_found *f)
+CGT_SPU_INLINE void tile_cull_spheres(const tile *t, const vfloat sphere[4], vuint prim, uint32_t count,
+                                      tile_visible_spheres *f)
 {
     vfloat q[4];
     tile_windows w;
-    tile_spheres_turn(t, sphere, q);
-    const tile_seen v = tile_spheres_see(t, q);
-    const vmask unwanted = tile_spheres_unwanted(t, v.distance, v.r, v.nearest);
-    const vmask out = spu_or(unwanted, tile_spheres_outside(t, &v, &w));
-    const unsigned gone = spux_mask_bits(spu_or(out, tile_spheres_hidden(t, &v, &w)));
-    tile_found_keep(f, q, object, &w, tile_first_lanes(count) & ~gone);
+    tile_transform_spheres(t, sphere, q);
+    const tile_projected_spheres v = tile_project_spheres(t, q);
+    const vmask out_of_range = tile_cull_spheres_by_depth(t, v.distance, v.r, v.min_distance);
+    const vmask out = spu_or(out_of_range, tile_cull_spheres_by_window(t, &v, &w));
+    const unsigned culled = spux_mask_bits(spu_or(out, tile_cull_occluded_spheres(t, &v, &w)));
+    tile_append_visible(f, q, prim, &w, tile_first_lanes(count) & ~culled);
 }
 
 /* Coefficients of a vector of those that were found. */
-CGT_SPU_INLINE void tile_spheres_make(const tile *t, const tile_found *f, uint32_t first, tile_spheres *s)
+CGT_SPU_INLINE void tile_init_spheres(const tile *t, const tile_visible_spheres *f, uint32_t first, tile_spheres *s)
 {
-    const unsigned left = tile_first_lanes(f->count - first);
+    const unsigned lanes = tile_first_lanes(f->count - first);
     vfloat q[4];
-    tile_found_get(f, first, q, s);
-    const tile_seen v = tile_spheres_see(t, q);
-    const unsigned fast = tile_spheres_bound(t, &v, s);
-    s->fast = left & fast;
-    s->slow = left & ~fast;
-    tile_spheres_small(s);
-    if (s->slow)
-        tile_spheres_slow(t, &v, s);
+    tile_load_visible(f, first, q, s);
+    const tile_projected_spheres v = tile_project_spheres(t, q);
+    const unsigned single_lanes = tile_setup_spheres(t, &v, s);
+    s->single_lanes = lanes & single_lanes;
+    s->double_lanes = lanes & ~single_lanes;
+    tile_classify_small_spheres(s);
+    if (s->double_lanes)
+        tile_setup_double_spheres(t, &v, s);
 }
 
 #endif

@@ -13,23 +13,23 @@
 /* What the loops take of one triangle. */
 typedef struct tile_triangle {
     vfloat side[3][3], plane[3], certain;
-    vfloat kept;                 /* linear: what is kept of a depth at least */
-    vfloat gap, minus_gap, a, b; /* not linear: the gap and N */
-    vuint object;
+    vfloat depth_factor;                         /* linear: what is kept of a depth at least */
+    vfloat depth_error, minus_depth_error, a, b; /* not linear: the gap and N */
+    vuint prim;
 } tile_triangle;
 
-CGT_SPU_INLINE tile_triangle tile_triangle_get(const tile *t, const tile_triangles *s, int k, tile_kind kind)
+CGT_SPU_INLINE tile_triangle tile_broadcast_triangle(const tile *t, const tile_triangles *s, int k, tile_kind kind)
 {
-    tile_triangle q = {.certain = spux_vfloat(s->certain[k]), .object = spux_vuint(s->object[k])};
+    tile_triangle q = {.certain = spux_vfloat(s->certain[k]), .prim = spux_vuint(s->prim[k])};
     for (int i = 0; i < 3; i++) {
         q.plane[i] = spux_vfloat(s->plane[i][k]);
         for (int a = 0; a < 3; a++)
             q.side[i][a] = spux_vfloat(s->side[i][a][k]);
     }
-    q.kept = spux_vfloat((float)TILE_KEPT);
+    q.depth_factor = spux_vfloat((float)TILE_LINEAR_FACTOR);
     if (kind != TILE_LINEAR) {
-        q.gap = spux_vfloat(t->wide_gap);
-        q.minus_gap = spux_vfloat(-t->wide_gap);
+        q.depth_error = spux_vfloat(t->padded_depth_error);
+        q.minus_depth_error = spux_vfloat(-t->padded_depth_error);
         q.a = spux_vfloat(t->camera.a);
         q.b = spux_vfloat(t->camera.b);
     }
@@ -37,15 +37,15 @@ CGT_SPU_INLINE tile_triangle tile_triangle_get(const tile *t, const tile_triangl
 }
 
 /* What a pair of rows has in common for one triangle. */
-typedef struct tile_triangle_pair {
+typedef struct tile_triangle_row_pair {
     vfloat side[3], plane, minus_norm;
-} tile_triangle_pair;
+} tile_triangle_row_pair;
 
-CGT_SPU_INLINE tile_triangle_pair tile_triangle_rows(const tile *t, const tile_triangle *q, uint32_t pair,
-                                                     tile_kind kind)
+CGT_SPU_INLINE tile_triangle_row_pair tile_prepare_triangle_rows(const tile *t, const tile_triangle *q, uint32_t pair,
+                                                                 tile_kind kind)
 {
     const vfloat py = spux_load(t->py[pair]);
-    tile_triangle_pair row = {.plane = spu_madd(py, q->plane[2], q->plane[0])};
+    tile_triangle_row_pair row = {.plane = spu_madd(py, q->plane[2], q->plane[0])};
     for (int k = 0; k < 3; k++)
         row.side[k] = spu_madd(py, q->side[k][2], q->side[k][0]);
     if (kind == TILE_PERSPECTIVE)
@@ -55,107 +55,109 @@ CGT_SPU_INLINE tile_triangle_pair tile_triangle_rows(const tile *t, const tile_t
 
 /* The test of a vector of pixels. What is not a number is neither certain nor possible: the px beyond the tile. Within
  * the cone no depth is. */
-CGT_SPU_INLINE tile_test tile_triangle_test(const tile_triangle *q, const tile_triangle_pair *row, const float *columns,
-                                            const float *best, tile_kind kind)
+CGT_SPU_INLINE tile_pixel_test tile_test_triangle(const tile_triangle *q, const tile_triangle_row_pair *row,
+                                                  const float *columns, const float *best, tile_kind kind)
 {
     const vfloat px = spux_load_unaligned(columns), z = spux_load_unaligned(best);
-    const vfloat least =
-        tile_least(spu_madd(px, q->side[0][1], row->side[0]), spu_madd(px, q->side[1][1], row->side[1]),
-                   spu_madd(px, q->side[2][1], row->side[2]));
+    const vfloat lower = tile_min3(spu_madd(px, q->side[0][1], row->side[0]), spu_madd(px, q->side[1][1], row->side[1]),
+                                   spu_madd(px, q->side[2][1], row->side[2]));
     const vfloat plane = spu_madd(px, q->plane[1], row->plane);
-    const vmask inside = spu_cmpgt(least, q->certain), near = spux_cmpge(least, spux_vfloat(0));
+    const vmask inside = spu_cmpgt(lower, q->certain), near = spux_cmpge(lower, spux_vfloat(0));
     if (kind == TILE_LINEAR)
-        return (tile_test){.depth = plane,
-                           .certain = spu_and(inside, spu_cmpgt(z, spu_mul(plane, q->kept))),
-                           .possible = spu_and(near, spux_cmpge(spu_mul(z, q->kept), plane))};
+        return (tile_pixel_test){.depth = plane,
+                                 .certain = spu_and(inside, spu_cmpgt(z, spu_mul(plane, q->depth_factor))),
+                                 .possible = spu_and(near, spux_cmpge(spu_mul(z, q->depth_factor), plane))};
     const vfloat depth =
         kind == TILE_PARALLEL ? plane : spux_div(spu_nmsub(spu_mul(px, px), q->a, row->minus_norm), plane);
-    const vfloat behind = spu_sub(depth, z);
-    return (tile_test){.depth = depth,
-                       .certain = spu_and(inside, spu_cmpgt(q->minus_gap, behind)),
-                       .possible = spu_and(near, spux_cmpge(q->gap, behind))};
+    const vfloat depth_difference = spu_sub(depth, z);
+    return (tile_pixel_test){.depth = depth,
+                             .certain = spu_and(inside, spu_cmpgt(q->minus_depth_error, depth_difference)),
+                             .possible = spu_and(near, spux_cmpge(q->depth_error, depth_difference))};
 }
 
 /* So many windows side by side in so many pairs of rows, from the box's first ones on. Returns whether any lane is left
  * open; the lanes go to `open`. */
-CGT_SPU_INLINE unsigned tile_triangle_windows(tile *t, const tile_triangle *q, uint32_t object, tile_box box,
-                                              uint32_t windows, uint32_t pairs, uint16_t *open, tile_kind kind)
+CGT_SPU_INLINE unsigned tile_rasterise_triangle_rows(tile *t, const tile_triangle *q, uint32_t prim, tile_rect rect,
+                                                     uint32_t windows, uint32_t pairs, uint16_t *undecided,
+                                                     tile_kind kind)
 {
-    const vuint slot = spux_vuint(t->lists);
+    const vuint slot = spux_vuint(t->triangle_count);
     unsigned any = 0;
-    vmask won = spux_mask_none();
+    vmask certain_lanes = spux_mask_none();
     for (uint32_t p = 0; p < pairs; p++) {
-        const uint32_t pair = box.y0 / 2 + p;
-        const tile_triangle_pair row = tile_triangle_rows(t, q, pair, kind);
-        const float *px = t->px + 2 * box.x0;
-        uint32_t i = pair * TILE_PAIR + 2 * box.x0;
+        const uint32_t pair = rect.y0 / 2 + p;
+        const tile_triangle_row_pair row = tile_prepare_triangle_rows(t, q, pair, kind);
+        const float *px = t->px + 2 * rect.x0;
+        uint32_t i = pair * TILE_ROW_PAIR + 2 * rect.x0;
         for (uint32_t w = 0; w < windows; w++, i += CGT_LANES, px += CGT_LANES) {
-            const tile_test f = tile_triangle_test(q, &row, px, t->z + i, kind);
-            const unsigned left = spux_mask_bits(spu_andc(f.possible, f.certain));
-            tile_keep(t, i, &f, q->object);
+            const tile_pixel_test f = tile_test_triangle(q, &row, px, t->z + i, kind);
+            const unsigned undecided_lanes = spux_mask_bits(spu_andc(f.possible, f.certain));
+            tile_store_certain(t, i, &f, q->prim);
             if (kind == TILE_LINEAR)
-                tile_keep_lanes(t->slot + i, slot, f.certain);
-            won = spu_or(won, f.certain);
-            any |= left;
-            *open++ = (uint16_t)left;
+                tile_store_lanes(t->slot + i, slot, f.certain);
+            certain_lanes = spu_or(certain_lanes, f.certain);
+            any |= undecided_lanes;
+            *undecided++ = (uint16_t)undecided_lanes;
         }
     }
     if (kind == TILE_LINEAR)
-        tile_list(t, object, spux_any(won));
+        tile_append_triangle(t, prim, spux_any(certain_lanes));
     return any;
 }
 
 /* Small triangles go without the branches of loops: pairs of rows more than they need cost less. */
-CGT_SPU_INLINE void tile_triangle_box(const cgt_objects *objects, tile *t, const tile_triangle *q, uint32_t object,
-                                      tile_box box, tile_kind kind, tile_queue *queue, cgt_counts *counts)
+CGT_SPU_INLINE void tile_rasterise_triangle_rect(const cgt_primitives *prims, tile *t, const tile_triangle *q,
+                                                 uint32_t prim, tile_rect rect, tile_kind kind, tile_queue *queue,
+                                                 cgt_counts *counts)
 {
-    const uint32_t windows = (box.x1 - box.x0) / (CGT_LANES / 2) + 1;
-    uint32_t pairs = box.y1 / 2 - box.y0 / 2 + 1;
-    uint16_t open[TILE_WINDOWS + 4];
+    const uint32_t windows = (rect.x1 - rect.x0) / (CGT_LANES / 2) + 1;
+    uint32_t pairs = rect.y1 / 2 - rect.y0 / 2 + 1;
+    uint16_t undecided[TILE_MAX_WINDOWS + 4];
     unsigned any;
     if (windows == 1 && pairs <= 2) {
         const uint32_t last = TILE_EDGE - 4;
-        box.y0 = box.y0 < last ? box.y0 : last;
-        box.y1 = box.y0 + 2;
+        rect.y0 = rect.y0 < last ? rect.y0 : last;
+        rect.y1 = rect.y0 + 2;
         pairs = 2;
-        any = tile_triangle_windows(t, q, object, box, 1, 2, open, kind);
+        any = tile_rasterise_triangle_rows(t, q, prim, rect, 1, 2, undecided, kind);
     } else if (windows == 1) {
-        any = tile_triangle_windows(t, q, object, box, 1, pairs, open, kind);
+        any = tile_rasterise_triangle_rows(t, q, prim, rect, 1, pairs, undecided, kind);
     } else if (windows == 2) {
-        any = tile_triangle_windows(t, q, object, box, 2, pairs, open, kind);
+        any = tile_rasterise_triangle_rows(t, q, prim, rect, 2, pairs, undecided, kind);
     } else {
-        any = tile_triangle_windows(t, q, object, box, windows, pairs, open, kind);
+        any = tile_rasterise_triangle_rows(t, q, prim, rect, windows, pairs, undecided, kind);
     }
     counts->ray_tests += (uint64_t)windows * pairs * CGT_LANES;
     if (any)
-        tile_sphere_queue(objects, t, object, box, windows, open, queue, counts);
+        tile_queue_undecided(prims, t, prim, rect, windows, undecided, queue, counts);
 }
 
 /* ---- large triangles ---- */
 
 /* The most that a linear form comes to in each of a vector of parts, from part i on. */
-CGT_SPU_INLINE vfloat tile_parts_most(const tile *t, uint32_t i, float at0, float atx, float aty)
+CGT_SPU_INLINE vfloat tile_part_upper_bounds(const tile *t, uint32_t i, float constant, float slope_x, float slope_y)
 {
-    const vfloat x = spux_vfloat(atx), y = spux_vfloat(aty);
+    const vfloat x = spux_vfloat(slope_x), y = spux_vfloat(slope_y);
     const vfloat middle =
-        spu_madd(spux_load(t->part_x + i), x, spu_madd(spux_load(t->part_y + i), y, spux_vfloat(at0)));
-    return spu_madd(spux_load(t->part_wide + i), spux_abs(x),
-                    spu_madd(spux_load(t->part_high + i), spux_abs(y), middle));
+        spu_madd(spux_load(t->part_x + i), x, spu_madd(spux_load(t->part_y + i), y, spux_vfloat(constant)));
+    return spu_madd(spux_load(t->part_half_width + i), spux_abs(x),
+                    spu_madd(spux_load(t->part_half_height + i), spux_abs(y), middle));
 }
 
 /* The parts, as bits, that a triangle may reach and that look as far as its plane is there. */
-CGT_SPU_INLINE unsigned tile_triangle_parts(const tile *t, const tile_triangles *s, int k)
+CGT_SPU_INLINE unsigned tile_visible_triangle_parts(const tile *t, const tile_triangles *s, int k)
 {
     unsigned reached = 0;
     for (uint32_t i = 0; i < TILE_PARTS * TILE_PARTS; i += CGT_LANES) {
-        const vfloat far = spux_load(t->far + i), speed = spux_vfloat(1 + 0x1p-16f);
-        const vfloat far_t = spu_mul(t->linear ? far : spu_mul(far, spux_load(t->rlength + i)), speed);
+        const vfloat far_distance = spux_load(t->far_distance + i), speed = spux_vfloat(1 + 0x1p-16f);
+        const vfloat far_t =
+            spu_mul(t->linear ? far_distance : spu_mul(far_distance, spux_load(t->rlength + i)), speed);
         /* 1/t at most, where that is above 0; -t of parallel rays */
-        const vfloat most = tile_parts_most(t, i, -s->plane[0][k], -s->plane[1][k], -s->plane[2][k]);
-        vmask missed = t->parallel ? spu_cmpgt(spu_sub(spux_vfloat(0), most), far)
-                                   : spu_cmpgt(spux_vfloat(1), spu_mul(most, far_t));
+        const vfloat upper = tile_part_upper_bounds(t, i, -s->plane[0][k], -s->plane[1][k], -s->plane[2][k]);
+        vmask missed = t->parallel ? spu_cmpgt(spu_sub(spux_vfloat(0), upper), far_distance)
+                                   : spu_cmpgt(spux_vfloat(1), spu_mul(upper, far_t));
         for (int e = 0; e < 3; e++) {
-            const vfloat side = tile_parts_most(t, i, s->side[e][0][k], s->side[e][1][k], s->side[e][2][k]);
+            const vfloat side = tile_part_upper_bounds(t, i, s->side[e][0][k], s->side[e][1][k], s->side[e][2][k]);
             missed = spu_or(missed, spu_cmpgt(spux_vfloat(-1), side));
         }
         reached |= (~spux_mask_bits(missed) & CGT_ALL_LANES) << i;
@@ -167,63 +169,65 @@ CGT_SPU_INLINE unsigned tile_triangle_parts(const tile *t, const tile_triangles 
 CGT_SPU_INLINE unsigned tile_window_parts(const tile_triangles *s, int k)
 {
     const uint32_t u0 = s->x0[k] / 16, u1 = s->x1[k] / 16, v0 = s->y0[k] / 16, v1 = s->y1[k] / 16;
-    const unsigned across = (2u << u1) - (1u << u0), down = (2u << 4 * v1) - (1u << 4 * v0);
-    return across * 0x1111u & (down | down << 1 | down << 2 | down << 3);
+    const unsigned column_mask = (2u << u1) - (1u << u0), row_mask = (2u << 4 * v1) - (1u << 4 * v0);
+    return column_mask * 0x1111u & (row_mask | row_mask << 1 | row_mask << 2 | row_mask << 3);
 }
 
 /* The part of a window in one row of parts, from the first to the last of the parts there. */
-CGT_SPU_INLINE tile_box tile_row_box(const tile_triangles *s, int k, uint32_t v, unsigned parts)
+CGT_SPU_INLINE tile_rect tile_part_row_rect(const tile_triangles *s, int k, uint32_t v, unsigned parts)
 {
-    const uint32_t left = 16 * (uint32_t)__builtin_ctz(parts), right = 16 * (31 - (uint32_t)__builtin_clz(parts)) + 15;
-    const uint32_t top = 16 * v, bottom = top + 15;
-    return (tile_box){.x0 = s->x0[k] > left ? s->x0[k] : left,
-                      .x1 = s->x1[k] < right ? s->x1[k] : right,
-                      .y0 = s->y0[k] > top ? s->y0[k] : top,
-                      .y1 = s->y1[k] < bottom ? s->y1[k] : bottom};
+    const uint32_t x_first = 16 * (uint32_t)__builtin_ctz(parts),
+                   x_last = 16 * (31 - (uint32_t)__builtin_clz(parts)) + 15;
+    const uint32_t y_first = 16 * v, y_last = y_first + 15;
+    return (tile_rect){.x0 = s->x0[k] > x_first ? s->x0[k] : x_first,
+                       .x1 = s->x1[k] < x_last ? s->x1[k] : x_last,
+                       .y0 = s->y0[k] > y_first ? s->y0[k] : y_first,
+                       .y1 = s->y1[k] < y_last ? s->y1[k] : y_last};
 }
 
 /* A window with a corner in every part that it meets: whether the tile is open there was asked of the whole vector. */
-CGT_SPU_INLINE bool tile_window_small(const tile_triangles *s, int k)
+CGT_SPU_INLINE bool tile_window_is_small(const tile_triangles *s, int k)
 {
     return s->x1[k] / 16 - s->x0[k] / 16 <= 1 && s->y1[k] / 16 - s->y0[k] / 16 <= 1;
 }
 
-CGT_SPU_INLINE bool tile_triangle_rows_of_parts(const cgt_objects *objects, tile *t, const tile_triangles *s, int k,
-                                                tile_kind kind, tile_queue *queue, cgt_counts *counts)
+CGT_SPU_INLINE bool tile_rasterise_part_rows(const cgt_primitives *prims, tile *t, const tile_triangles *s, int k,
+                                             tile_kind kind, tile_queue *queue, cgt_counts *counts)
 {
-    const tile_triangle q = tile_triangle_get(t, s, k, kind);
-    unsigned parts = tile_window_parts(s, k) & tile_parts_open(t, s->nearest[k]);
+    const tile_triangle q = tile_broadcast_triangle(t, s, k, kind);
+    unsigned parts = tile_window_parts(s, k) & tile_visible_parts(t, s->min_distance[k]);
     if (parts)
-        parts &= tile_triangle_parts(t, s, k);
+        parts &= tile_visible_triangle_parts(t, s, k);
     for (uint32_t v = 0; v < TILE_PARTS; v++) {
-        const unsigned here = parts >> 4 * v & 15;
-        if (here)
-            tile_triangle_box(objects, t, &q, s->object[k], tile_row_box(s, k, v, here), kind, queue, counts);
+        const unsigned row_parts = parts >> 4 * v & 15;
+        if (row_parts)
+            tile_rasterise_triangle_rect(prims, t, &q, s->prim[k], tile_part_row_rect(s, k, v, row_parts), kind, queue,
+                                         counts);
     }
     return parts != 0;
 }
 
-__attribute__((noinline, unused)) static bool tile_triangle_draw_large(const cgt_objects *objects, tile *t,
-                                                                       const tile_triangles *s, int k,
-                                                                       tile_queue *queue, cgt_counts *counts)
+__attribute__((noinline, unused)) static bool tile_rasterise_large_triangle(const cgt_primitives *prims, tile *t,
+                                                                            const tile_triangles *s, int k,
+                                                                            tile_queue *queue, cgt_counts *counts)
 {
-    switch (tile_kind_of(t)) {
-    case TILE_LINEAR: return tile_triangle_rows_of_parts(objects, t, s, k, TILE_LINEAR, queue, counts);
-    case TILE_PARALLEL: return tile_triangle_rows_of_parts(objects, t, s, k, TILE_PARALLEL, queue, counts);
-    default: return tile_triangle_rows_of_parts(objects, t, s, k, TILE_PERSPECTIVE, queue, counts);
+    switch (tile_get_kind(t)) {
+    case TILE_LINEAR: return tile_rasterise_part_rows(prims, t, s, k, TILE_LINEAR, queue, counts);
+    case TILE_PARALLEL: return tile_rasterise_part_rows(prims, t, s, k, TILE_PARALLEL, queue, counts);
+    default: return tile_rasterise_part_rows(prims, t, s, k, TILE_PERSPECTIVE, queue, counts);
     }
 }
 
 /* Draws a triangle where the tile is open for it; false where it is not. */
-CGT_SPU_INLINE bool tile_triangle_draw(const cgt_objects *objects, tile *t, const tile_triangles *s, int k,
-                                       tile_kind kind, tile_queue *queue, cgt_counts *counts)
+CGT_SPU_INLINE bool tile_rasterise_triangle(const cgt_primitives *prims, tile *t, const tile_triangles *s, int k,
+                                            tile_kind kind, tile_queue *queue, cgt_counts *counts)
 {
     counts->packet_tests++;
-    if (!tile_window_small(s, k))
-        return tile_triangle_draw_large(objects, t, s, k, queue, counts);
-    const tile_triangle q = tile_triangle_get(t, s, k, kind);
-    const tile_box box = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
-    tile_triangle_box(objects, t, &q, s->object[k], box, kind, queue, counts);
+    if (!tile_window_is_small(s, k))
+        return tile_rasterise_large_triangle(prims, t, s, k, queue, counts);
+    const tile_triangle q = tile_broadcast_triangle(t, s, k, kind);
+    const tile_rect rect = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
+    tile_rasterise_triangle_rect(prims, t, &q, s->prim[k], rect, kind, queue, counts);
     return true;
 }
 

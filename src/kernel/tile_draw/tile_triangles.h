@@ -52,84 +52,87 @@
 #include "kernel/tile_draw/tile_spheres.h"
 #include "kernel/primitive/triangle_filter.h"
 
-#define TILE_SIDES (18 * FILTER_U)
-#define TILE_SIDES_NEAR (9 * FILTER_U)
-#define TILE_PLANE (40 * FILTER_U)
-#define TILE_PLANE_LEAST (32 * FILTER_U)
-#define TILE_ASIDE (32 * FILTER_U)
-#define TILE_WIDE 16u /* columns and rows together */
+#define TILE_EPS_SIDES (18 * FILTER_ROUNDOFF)
+#define TILE_EPS_SIDES_NEAR (9 * FILTER_ROUNDOFF)
+#define TILE_EPS_PLANE (40 * FILTER_ROUNDOFF)
+#define TILE_EPS_PLANE_MIN (32 * FILTER_ROUNDOFF)
+#define TILE_EPS_OUTSIDE (32 * FILTER_ROUNDOFF)
+#define TILE_LARGE_WINDOW 16u /* columns and rows together */
 
 /* Of each lane, what its loop over pixels takes. Linear forms are a constant and what px and py are multiplied with. */
 typedef struct tile_triangles {
     _Alignas(64) float side[3][3][CGT_LANES];
-    _Alignas(64) float plane[3][CGT_LANES]; /* -1/t; t of parallel rays */
-    _Alignas(64) float certain[CGT_LANES];  /* 2; infinite where no hit is certain */
-    _Alignas(64) float nearest[CGT_LANES];  /* before which nothing is hit, as `far` tells it */
+    _Alignas(64) float plane[3][CGT_LANES];     /* -1/t; t of parallel rays */
+    _Alignas(64) float certain[CGT_LANES];      /* 2; infinite where no hit is certain */
+    _Alignas(64) float min_distance[CGT_LANES]; /* before which nothing is hit, as `far` tells it */
     _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES]; /* the window */
-    _Alignas(64) uint32_t object[CGT_LANES];
-    unsigned fast, slow; /* lanes as bits: for tile_triangle_draw, for tile_double.h */
+    _Alignas(64) uint32_t prim[CGT_LANES];
+    unsigned single_lanes, double_lanes; /* lanes as bits: for tile_rasterise_triangle, for tile_double.h */
 } tile_triangles;
 
 /* Room in the gap for triangles as far as c whose kappa is not above 25; for nearer ones it may be more. */
-CGT_SPU_INLINE void tile_gap_widen(tile *t, float c)
+CGT_SPU_INLINE void tile_widen_depth_error(tile *t, float c)
 {
-    const float gap = c * t->longest * 0x1p-13f;
-    t->gap = t->gap > gap ? t->gap : gap;
-    t->wide_gap = t->gap * (1 + 0x1p-20f);
+    const float depth_error = c * t->max_dir_length * 0x1p-13f;
+    t->depth_error = t->depth_error > depth_error ? t->depth_error : depth_error;
+    t->padded_depth_error = t->depth_error * (1 + 0x1p-20f);
 }
 
 /* ---- fetching ---- */
 
 /* Reads the vertices of a vector of objects; one by one where they are of several arrays. */
-CGT_SPU_INLINE void tile_triangles_fetch(const cgt_objects *objects, const uint32_t object[CGT_LANES],
-                                         vfloat vertex[3][3])
+CGT_SPU_INLINE void tile_gather_triangles(const cgt_primitives *prims, const uint32_t prim[CGT_LANES],
+                                          vfloat vertex[3][3])
 {
-    const cgt_object_array *a = objects->arrays == 1 ? objects->array : cgt_objects_array(objects, object[0]);
-    const vuint number = spu_sub(spux_load_uint(object), spux_vuint(a->first));
-    if (objects->arrays == 1 || spux_all(spu_cmpgt(spux_vuint(a->count), number))) {
-        fetch_triangles_at(a, number, vertex);
+    const cgt_primitive_array *a = prims->arrays == 1 ? prims->array : cgt_primitives_array(prims, prim[0]);
+    const vuint number = spu_sub(spux_load_uint(prim), spux_vuint(a->first));
+    if (prims->arrays == 1 || spux_all(spu_cmpgt(spux_vuint(a->count), number))) {
+        gather_triangles(a, number, vertex);
         return;
     }
     filter_triangles s;
-    filter_triangles_fetch(objects, object, CGT_LANES, CGT_LANES, &s);
+    filter_gather_triangles(prims, prim, CGT_LANES, CGT_LANES, &s);
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
             vertex[k][i] = spux_load(s.vertex[k][i]);
 }
 
 /* A vector of references; lanes beyond count repeat the first. */
-CGT_SPU_INLINE void tile_triangles_objects(const uint32_t *reference, uint32_t count, uint32_t object[CGT_LANES])
+CGT_SPU_INLINE void tile_load_references(const uint32_t *reference, uint32_t count, uint32_t prim[CGT_LANES])
 {
     if (count >= CGT_LANES) {
-        spux_store_uint(object, spux_load_unaligned_uint(reference));
+        spux_store_uint(prim, spux_load_unaligned_uint(reference));
         return;
     }
     for (uint32_t k = 0; k < CGT_LANES; k++)
-        object[k] = reference[k < count ? k : 0];
+        prim[k] = reference[k < count ? k : 0];
 }
 
 /* ---- camera space and culling ---- */
 
 /* A vector of triangles as the camera sees them: v[k] is z, x, y of vertex k. */
-typedef struct tile_triangles_seen {
+typedef struct tile_projected_triangles {
     vfloat v[3][3];
-    vfloat reach;       /* V */
-    vfloat nearest_z;   /* at most the least z */
-    vfloat nearest;     /* before which nothing is hit, as `far` tells it */
-    vmask front;        /* all vertices are, and not far beside */
-    vmask early, ended; /* surely not after the range's begin; surely all before it, or behind the eye */
-} tile_triangles_seen;
+    vfloat max_length;                 /* V */
+    vfloat min_z;                      /* at most the least z */
+    vfloat min_distance;               /* before which nothing is hit, as `far` tells it */
+    vmask in_front;                    /* all vertices are, and not far beside */
+    vmask crosses_t_min, before_t_min; /* surely not after the range's begin; surely all before it, or behind the eye */
+} tile_projected_triangles;
 
-CGT_SPU_INLINE vfloat tile_least(vfloat a, vfloat b, vfloat c) { return spux_min(a, spux_min(b, c)); }
-CGT_SPU_INLINE vfloat tile_most(vfloat a, vfloat b, vfloat c) { return spux_max(a, spux_max(b, c)); }
+CGT_SPU_INLINE vfloat tile_min3(vfloat a, vfloat b, vfloat c) { return spux_min(a, spux_min(b, c)); }
+CGT_SPU_INLINE vfloat tile_max3(vfloat a, vfloat b, vfloat c) { return spux_max(a, spux_max(b, c)); }
 
 /* What z is times this, `far` tells at least: t is z but for the canonical direction's rounding. */
-CGT_SPU_INLINE float tile_nearest_scale(const tile *t) { return (t->linear ? 1 : sqrtf(t->least)) * (1 - 0x1p-17f); }
+CGT_SPU_INLINE float tile_min_distance_scale(const tile *t)
+{
+    return (t->linear ? 1 : sqrtf(t->min_norm)) * (1 - 0x1p-17f);
+}
 
-CGT_SPU_INLINE tile_triangles_seen tile_triangles_see(const tile *t, vfloat vertex[3][3])
+CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vfloat vertex[3][3])
 {
     const float(*dual)[3] = t->camera.dual;
-    tile_triangles_seen s;
+    tile_projected_triangles s;
     vfloat square[3];
     for (int k = 0; k < 3; k++) {
         vfloat p[3];
@@ -140,88 +143,91 @@ CGT_SPU_INLINE tile_triangles_seen tile_triangles_see(const tile *t, vfloat vert
                                  spu_madd(p[1], spux_vfloat(dual[a][1]), spu_mul(p[2], spux_vfloat(dual[a][2]))));
         square[k] = filter_dot(s.v[k], s.v[k]);
     }
-    s.reach = spu_mul(spux_sqrt(tile_most(square[0], square[1], square[2])), spux_vfloat(1 + 0x1p-18f));
-    const vfloat least = tile_least(s.v[0][0], s.v[1][0], s.v[2][0]), most = tile_most(s.v[0][0], s.v[1][0], s.v[2][0]);
-    const vfloat slack = spu_madd(s.reach, spux_vfloat(0x1p-20f), spux_vfloat(t->slack));
-    const vfloat near = spux_max(spu_sub(least, slack), spux_vfloat(0)), end = spu_add(most, slack);
+    s.max_length = spu_mul(spux_sqrt(tile_max3(square[0], square[1], square[2])), spux_vfloat(1 + 0x1p-18f));
+    const vfloat lower_z = tile_min3(s.v[0][0], s.v[1][0], s.v[2][0]),
+                 upper_z = tile_max3(s.v[0][0], s.v[1][0], s.v[2][0]);
+    const vfloat length_error = spu_madd(s.max_length, spux_vfloat(0x1p-20f), spux_vfloat(t->length_error));
+    const vfloat near = spux_max(spu_sub(lower_z, length_error), spux_vfloat(0)), end = spu_add(upper_z, length_error);
     const float begin = t->rays->t_min;
-    s.nearest_z = near;
-    s.nearest = spu_mul(near, spux_vfloat(tile_nearest_scale(t)));
-    s.front = spu_cmpgt(spu_mul(least, spux_vfloat(64)), spu_add(s.reach, spux_vfloat(0x1p-48f)));
-    s.early = spux_mask_none();
+    s.min_z = near;
+    s.min_distance = spu_mul(near, spux_vfloat(tile_min_distance_scale(t)));
+    s.in_front = spu_cmpgt(spu_mul(lower_z, spux_vfloat(64)), spu_add(s.max_length, spux_vfloat(0x1p-48f)));
+    s.crosses_t_min = spux_mask_none();
     if (begin > 0)
-        s.early = spux_not(spu_cmpgt(near, spux_vfloat(begin * (1 + 0x1p-16f))));
-    s.ended = spu_cmpgt(spux_vfloat(begin * (1 - 0x1p-16f)), end);
+        s.crosses_t_min = spux_not(spu_cmpgt(near, spux_vfloat(begin * (1 + 0x1p-16f))));
+    s.before_t_min = spu_cmpgt(spux_vfloat(begin * (1 - 0x1p-16f)), end);
     return s;
 }
 
 /* Windows: of the triangles in front their own, of others the tile. Returns those in front that have none. */
-CGT_SPU_INLINE vmask tile_triangles_outside(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+CGT_SPU_INLINE vmask tile_cull_triangles_by_window(const tile *t, const tile_projected_triangles *v, tile_triangles *s)
 {
-    const float across = t->across.scale, down = t->down.scale;
-    const float share = 0x1p-19f * t->longest;
+    const float column_span = t->column_span.scale, row_span = t->row_span.scale;
+    const float share = 0x1p-19f * t->max_dir_length;
     vfloat x[3], y[3], most_r = spux_vfloat(0);
     for (int k = 0; k < 3; k++) {
         const vfloat r = spux_div(spux_vfloat(1), v->v[k][0]);
         most_r = spux_max(most_r, r);
-        x[k] = spu_mul(spu_mul(v->v[k][1], r), spux_vfloat(across));
-        y[k] = spu_mul(spu_mul(v->v[k][2], r), spux_vfloat(down));
+        x[k] = spu_mul(spu_mul(v->v[k][1], r), spux_vfloat(column_span));
+        y[k] = spu_mul(spu_mul(v->v[k][2], r), spux_vfloat(row_span));
     }
-    const vfloat far_beside = spu_mul(v->reach, most_r);
-    const vfloat wide = spu_mul(far_beside, spux_vfloat(share * across));
-    const vfloat high = spu_mul(far_beside, spux_vfloat(share * -down));
-    const vfloat x0 = spux_vfloat(t->across.first), y0 = spux_vfloat(t->down.first);
-    const vmask beside = tile_window(spu_sub(spu_sub(tile_least(x[0], x[1], x[2]), wide), x0),
-                                     spu_sub(spu_add(tile_most(x[0], x[1], x[2]), wide), x0), &t->across, s->x0, s->x1);
-    const vmask above = tile_window(spu_sub(spu_sub(tile_least(y[0], y[1], y[2]), high), y0),
-                                    spu_sub(spu_add(tile_most(y[0], y[1], y[2]), high), y0), &t->down, s->y0, s->y1);
-    return spu_and(v->front, spu_or(beside, above));
+    const vfloat slant = spu_mul(v->max_length, most_r);
+    const vfloat x_error = spu_mul(slant, spux_vfloat(share * column_span));
+    const vfloat y_error = spu_mul(slant, spux_vfloat(share * -row_span));
+    const vfloat x0 = spux_vfloat(t->column_span.first), y0 = spux_vfloat(t->row_span.first);
+    const vmask outside_x =
+        tile_compute_window(spu_sub(spu_sub(tile_min3(x[0], x[1], x[2]), x_error), x0),
+                            spu_sub(spu_add(tile_max3(x[0], x[1], x[2]), x_error), x0), &t->column_span, s->x0, s->x1);
+    const vmask outside_y =
+        tile_compute_window(spu_sub(spu_sub(tile_min3(y[0], y[1], y[2]), y_error), y0),
+                            spu_sub(spu_add(tile_max3(y[0], y[1], y[2]), y_error), y0), &t->row_span, s->y0, s->y1);
+    return spu_and(v->in_front, spu_or(outside_x, outside_y));
 }
 
 /* Those not in front get the whole tile. */
-CGT_SPU_INLINE void tile_triangles_widen(const tile *t, unsigned lanes, tile_triangles *s)
+CGT_SPU_INLINE void tile_set_full_windows(const tile *t, unsigned remaining, tile_triangles *s)
 {
-    for (; lanes; lanes &= lanes - 1) {
-        const int k = __builtin_ctz(lanes);
+    for (; remaining; remaining &= remaining - 1) {
+        const int k = __builtin_ctz(remaining);
         s->x0[k] = s->y0[k] = 0;
         s->x1[k] = t->columns - 1;
         s->y1[k] = t->rows - 1;
     }
 }
 
-/* Triangles that no part under their window sees; apart: as tile_windows_far says. */
-CGT_SPU_INLINE vmask tile_triangles_hidden(const tile *t, const tile_triangles_seen *v, const tile_triangles *s,
-                                           vmask *apart)
+/* Triangles that no part under their window sees; apart: as tile_window_far_distance says. */
+CGT_SPU_INLINE vmask tile_cull_occluded_triangles(const tile *t, const tile_projected_triangles *v,
+                                                  const tile_triangles *s, vmask *large_windows)
 {
-    const vfloat seen = tile_windows_far(t, s->x0, s->x1, s->y0, s->y1, apart);
-    return spu_andc(spu_and(v->front, spu_cmpgt(v->nearest, seen)), *apart);
+    const vfloat far_distance = tile_window_far_distance(t, s->x0, s->x1, s->y0, s->y1, large_windows);
+    return spu_andc(spu_and(v->in_front, spu_cmpgt(v->min_distance, far_distance)), *large_windows);
 }
 
 /* Triangles that lie beyond one side of the tile, wherever the eye's plane is: those of which each vertex does. */
-CGT_SPU_INLINE vmask tile_triangles_aside(const tile *t, const tile_triangles_seen *v)
+CGT_SPU_INLINE vmask tile_cull_triangles_by_sides(const tile *t, const tile_projected_triangles *v)
 {
     const uint32_t last = TILE_EDGE - 1;
     const vfloat left = spux_vfloat(t->column[0] * t->camera.right);
     const vfloat right = spux_vfloat(t->column[last] * t->camera.right);
     const vfloat top = spux_vfloat(t->row[0] * t->camera.up), bottom = spux_vfloat(t->row[last] * t->camera.up);
-    const vfloat slack = spu_madd(v->reach, spux_vfloat(t->longest * TILE_ASIDE), spux_vfloat(t->slack));
-    vfloat most[4];
+    const vfloat length_error =
+        spu_madd(v->max_length, spux_vfloat(t->max_dir_length * TILE_EPS_OUTSIDE), spux_vfloat(t->length_error));
+    vfloat upper[4];
     for (int k = 0; k < 3; k++) {
         const vfloat *p = v->v[k];
         const vfloat inside[4] = {spu_nmsub(left, p[0], p[1]), spu_msub(right, p[0], p[1]), spu_msub(top, p[0], p[2]),
                                   spu_nmsub(bottom, p[0], p[2])};
         for (int i = 0; i < 4; i++)
-            most[i] = k ? spux_max(most[i], inside[i]) : inside[i];
+            upper[i] = k ? spux_max(upper[i], inside[i]) : inside[i];
     }
-    const vfloat least = spux_min(spux_min(most[0], most[1]), spux_min(most[2], most[3]));
-    return spu_cmpgt(spu_sub(spux_vfloat(0), slack), least);
+    const vfloat lower = spux_min(spux_min(upper[0], upper[1]), spux_min(upper[2], upper[3]));
+    return spu_cmpgt(spu_sub(spux_vfloat(0), length_error), lower);
 }
 
 /* ---- edges and planes ---- */
 
 /* A vector as a linear form of px and py, times k, plus `more`. */
-CGT_SPU_INLINE void tile_triangles_form(const tile *t, const vfloat v[3], vfloat k, vfloat more,
-                                        float form[3][CGT_LANES])
+CGT_SPU_INLINE void tile_store_form(const tile *t, const vfloat v[3], vfloat k, vfloat more, float form[3][CGT_LANES])
 {
     spux_store(form[0], spu_madd(v[0], k, more));
     spux_store(form[1], spu_mul(v[1], spu_mul(k, spux_vfloat(t->camera.right))));
@@ -229,15 +235,15 @@ CGT_SPU_INLINE void tile_triangles_form(const tile *t, const vfloat v[3], vfloat
 }
 
 /* Windows that are cheaper to test in double than to queue. */
-CGT_SPU_INLINE vmask tile_triangles_wide(const tile_triangles *s)
+CGT_SPU_INLINE vmask tile_large_windows(const tile_triangles *s)
 {
-    const vuint across = spu_sub(spux_load_uint(s->x1), spux_load_uint(s->x0));
-    const vuint down = spu_sub(spux_load_uint(s->y1), spux_load_uint(s->y0));
-    return spu_cmpgt(spu_add(across, down), spux_vuint(TILE_WIDE));
+    const vuint width = spu_sub(spux_load_uint(s->x1), spux_load_uint(s->x0));
+    const vuint height = spu_sub(spux_load_uint(s->y1), spux_load_uint(s->y0));
+    return spu_cmpgt(spu_add(width, height), spux_vuint(TILE_LARGE_WINDOW));
 }
 
 /* The normal over the lengths of the two shorter edges. e_1 x e_2 = e_2 x e_0 = e_0 x e_1. */
-CGT_SPU_INLINE void tile_triangles_normal(vfloat e[3][3], const vfloat square[3], const vfloat rlength[3], vfloat n[3])
+CGT_SPU_INLINE void tile_compute_normals(vfloat e[3][3], const vfloat square[3], const vfloat rlength[3], vfloat n[3])
 {
     const vmask first = spu_andc(spu_cmpgt(square[1], square[0]), spu_cmpgt(square[2], square[1]));
     const vmask second = spu_andc(spu_cmpgt(square[2], square[0]), first);
@@ -256,9 +262,9 @@ CGT_SPU_INLINE void tile_triangles_normal(vfloat e[3][3], const vfloat square[3]
 }
 
 /* Forms and `certain`. Returns the lanes that the bounds hold for, as bits. */
-CGT_SPU_INLINE unsigned tile_triangles_bound(const tile *t, const tile_triangles_seen *v, tile_triangles *s)
+CGT_SPU_INLINE unsigned tile_setup_triangles(const tile *t, const tile_projected_triangles *v, tile_triangles *s)
 {
-    const vfloat one = spux_vfloat(1), reach = v->reach;
+    const vfloat one = spux_vfloat(1), max_length = v->max_length;
     vfloat e[3][3], c[3], n[3], square[3], rlength[3];
     for (int k = 0; k < 3; k++) {
         for (int a = 0; a < 3; a++)
@@ -266,78 +272,80 @@ CGT_SPU_INLINE unsigned tile_triangles_bound(const tile *t, const tile_triangles
         square[k] = filter_dot(e[k], e[k]);
         rlength[k] = spu_mul(spu_rsqrte(square[k]), spux_vfloat(1 - 0x1p-9f)); /* at most the exact one */
     }
-    tile_triangles_normal(e, square, rlength, n);
+    tile_compute_normals(e, square, rlength, n);
     const vfloat det = filter_dot(n, v->v[0]), size = spux_abs(det), rdet = spux_div(one, det);
-    const vfloat kappa = spu_mul(reach, spux_abs(rdet));
-    const vfloat share = spu_madd(kappa, spux_vfloat(TILE_PLANE), spux_vfloat(TILE_PLANE_LEAST));
-    const vfloat near = spux_max(v->nearest_z, spu_mul(size, spux_vfloat(0.875f)));
-    const vfloat error =
-        spu_mul(reach, spu_madd(spux_div(reach, near), spux_vfloat(TILE_SIDES_NEAR), spux_vfloat(TILE_SIDES)));
+    const vfloat kappa = spu_mul(max_length, spux_abs(rdet));
+    const vfloat share = spu_madd(kappa, spux_vfloat(TILE_EPS_PLANE), spux_vfloat(TILE_EPS_PLANE_MIN));
+    const vfloat near = spux_max(v->min_z, spu_mul(size, spux_vfloat(0.875f)));
+    const vfloat error = spu_mul(max_length, spu_madd(spux_div(max_length, near), spux_vfloat(TILE_EPS_SIDES_NEAR),
+                                                      spux_vfloat(TILE_EPS_SIDES)));
     const vfloat sign = spu_and(det, spux_vfloat(-0.f));
-    const vfloat unit = spu_or(spux_div(spux_vfloat(1 / t->longest), error), sign);
+    const vfloat unit = spu_or(spux_div(spux_vfloat(1 / t->max_dir_length), error), sign);
     for (int k = 0; k < 3; k++) {
         filter_cross(v->v[(k + 1) % 3], e[k], c);
-        tile_triangles_form(t, c, spu_mul(unit, rlength[k]), one, s->side[k]);
+        tile_store_form(t, c, spu_mul(unit, rlength[k]), one, s->side[k]);
     }
-    tile_triangles_form(t, n, spu_mul(rdet, spu_sub(spux_vfloat(-1), share)), spux_vfloat(0), s->plane);
-    const vfloat own = spu_mul(share, spux_vfloat(2.2f));
-    const vmask keeps = t->linear
-                            ? spu_cmpgt(spux_vfloat((float)TILE_SHARE - 0x1p-20f), own)
-                            : spu_cmpgt(spux_vfloat(t->gap), spu_mul(own, spu_mul(reach, spux_vfloat(t->longest))));
-    spux_store(s->certain, spux_select(spux_vfloat(INFINITY), spux_vfloat(2), keeps));
-    spux_store(s->nearest, v->nearest);
+    tile_store_form(t, n, spu_mul(rdet, spu_sub(spux_vfloat(-1), share)), spux_vfloat(0), s->plane);
+    const vfloat depth_share = spu_mul(share, spux_vfloat(2.2f));
+    const vmask within_depth_error =
+        t->linear ? spu_cmpgt(spux_vfloat((float)TILE_LINEAR_ERROR - 0x1p-20f), depth_share)
+                  : spu_cmpgt(spux_vfloat(t->depth_error),
+                              spu_mul(depth_share, spu_mul(max_length, spux_vfloat(t->max_dir_length))));
+    spux_store(s->certain, spux_select(spux_vfloat(INFINITY), spux_vfloat(2), within_depth_error));
+    spux_store(s->min_distance, v->min_distance);
     /* what underflows is small beside edges of 2^-45 */
-    const vmask normal = spu_cmpgt(tile_least(square[0], square[1], square[2]), spux_vfloat(0x1p-90f));
-    const vmask good = spu_andc(spu_and(normal, spu_cmpgt(spux_vfloat(0.125f), share)), v->early);
-    return spux_mask_bits(spu_and(good, spu_or(keeps, spux_not(tile_triangles_wide(s)))));
+    const vmask normal = spu_cmpgt(tile_min3(square[0], square[1], square[2]), spux_vfloat(0x1p-90f));
+    const vmask valid = spu_andc(spu_and(normal, spu_cmpgt(spux_vfloat(0.125f), share)), v->crosses_t_min);
+    return spux_mask_bits(spu_and(valid, spu_or(within_depth_error, spux_not(tile_large_windows(s)))));
 }
 
 /* Triangles of which an edge has all of the tile on its other side, or whose plane is farther than any part sees. 2^-21 of
  * the magnitudes is more than the six roundings here: |px| and |py| are at most 1. */
-CGT_SPU_INLINE vmask tile_triangles_beyond(const tile *t, const tile_triangles *s)
+CGT_SPU_INLINE vmask tile_cull_triangles_by_forms(const tile *t, const tile_triangles *s)
 {
     const float *column = t->column, *row = t->row;
     const uint32_t last = TILE_EDGE - 1;
     const vfloat x = spux_vfloat(0.5f * (column[0] + column[last])), y = spux_vfloat(0.5f * (row[0] + row[last]));
-    const vfloat wide = spux_vfloat(0.5f * fabsf(column[last] - column[0]) + 0x1p-22f);
-    const vfloat high = spux_vfloat(0.5f * fabsf(row[last] - row[0]) + 0x1p-22f);
-    vfloat most[4];
+    const vfloat half_width = spux_vfloat(0.5f * fabsf(column[last] - column[0]) + 0x1p-22f);
+    const vfloat half_height = spux_vfloat(0.5f * fabsf(row[last] - row[0]) + 0x1p-22f);
+    vfloat upper[4];
     for (int k = 0; k < 4; k++) {
         const float(*form)[CGT_LANES] = k < 3 ? s->side[k] : s->plane;
-        const vfloat at_0 = spux_load(form[0]), at_x = spux_load(form[1]), at_y = spux_load(form[2]);
-        const vfloat middle = spu_madd(x, at_x, spu_madd(y, at_y, at_0));
-        const vfloat size = spu_add(spux_abs(at_0), spu_add(spux_abs(at_x), spux_abs(at_y)));
-        const vfloat around =
-            spu_madd(wide, spux_abs(at_x), spu_madd(high, spux_abs(at_y), spu_mul(size, spux_vfloat(0x1p-21f))));
-        most[k] = k < 3 ? spu_add(middle, around) : spu_sub(around, middle);
+        const vfloat constant = spux_load(form[0]), slope_x = spux_load(form[1]), slope_y = spux_load(form[2]);
+        const vfloat middle = spu_madd(x, slope_x, spu_madd(y, slope_y, constant));
+        const vfloat size = spu_add(spux_abs(constant), spu_add(spux_abs(slope_x), spux_abs(slope_y)));
+        const vfloat extent = spu_madd(half_width, spux_abs(slope_x),
+                                       spu_madd(half_height, spux_abs(slope_y), spu_mul(size, spux_vfloat(0x1p-21f))));
+        upper[k] = k < 3 ? spu_add(middle, extent) : spu_sub(extent, middle);
     }
-    const vmask passed = spu_cmpgt(spux_vfloat(-1), tile_least(most[0], most[1], most[2]));
-    const vfloat far_t = spux_vfloat(t->farthest_t * (1 + 0x1p-16f));
-    const vmask hidden = t->parallel ? spu_cmpgt(spu_sub(spux_vfloat(0), most[3]), spux_vfloat(t->farthest_t))
-                                     : spu_cmpgt(spux_vfloat(1), spu_mul(most[3], far_t));
-    return spu_or(passed, hidden);
+    const vmask outside = spu_cmpgt(spux_vfloat(-1), tile_min3(upper[0], upper[1], upper[2]));
+    const vfloat far_t = spux_vfloat(t->max_far_t * (1 + 0x1p-16f));
+    const vmask occluded = t->parallel ? spu_cmpgt(spu_sub(spux_vfloat(0), upper[3]), spux_vfloat(t->max_far_t))
+                                       : spu_cmpgt(spux_vfloat(1), spu_mul(upper[3], far_t));
+    return spu_or(outside, occluded);
 }
 
 /* Camera space, culling and forms of a vector of triangles; lanes: those that count, as bits. */
-CGT_SPU_INLINE void tile_triangles_make(const tile *t, vfloat vertex[3][3], unsigned lanes, tile_triangles *s)
+CGT_SPU_INLINE void tile_init_triangles(const tile *t, vfloat vertex[3][3], unsigned active, tile_triangles *s)
 {
-    const tile_triangles_seen v = tile_triangles_see(t, vertex);
-    vmask apart;
-    const vmask unwanted = spu_or(v.ended, spu_cmpgt(v.nearest, spux_vfloat(t->farthest)));
-    const vmask out = spu_or(unwanted, tile_triangles_outside(t, &v, s));
-    const unsigned front = spux_mask_bits(v.front);
-    unsigned left = lanes & ~spux_mask_bits(spu_or(out, tile_triangles_hidden(t, &v, s, &apart))) & CGT_ALL_LANES;
-    s->fast = s->slow = 0;
-    if (left & ~front)
-        left &= ~spux_mask_bits(tile_triangles_aside(t, &v));
-    if (!left)
+    const tile_projected_triangles v = tile_project_triangles(t, vertex);
+    vmask large_windows;
+    const vmask out_of_range = spu_or(v.before_t_min, spu_cmpgt(v.min_distance, spux_vfloat(t->max_far_distance)));
+    const vmask out = spu_or(out_of_range, tile_cull_triangles_by_window(t, &v, s));
+    const unsigned in_front = spux_mask_bits(v.in_front);
+    unsigned remaining =
+        active & ~spux_mask_bits(spu_or(out, tile_cull_occluded_triangles(t, &v, s, &large_windows))) & CGT_ALL_LANES;
+    s->single_lanes = s->double_lanes = 0;
+    if (remaining & ~in_front)
+        remaining &= ~spux_mask_bits(tile_cull_triangles_by_sides(t, &v));
+    if (!remaining)
         return;
-    tile_triangles_widen(t, left & ~front, s);
-    const unsigned fast = left & tile_triangles_bound(t, &v, s);
-    s->slow = left & ~fast;
-    s->fast = fast;
-    if (fast & (spux_mask_bits(apart) | ~front))
-        s->fast &= ~spux_mask_bits(tile_triangles_beyond(t, s));
+    tile_set_full_windows(t, remaining & ~in_front, s);
+    const unsigned single_lanes = remaining & tile_setup_triangles(t, &v, s);
+    s->double_lanes = remaining & ~single_lanes;
+    s->single_lanes = single_lanes;
+    if (single_lanes & (spux_mask_bits(large_windows) | ~in_front))
+        s->single_lanes &= ~spux_mask_bits(tile_cull_triangles_by_forms(t, s));
 }
 
 #endif

@@ -61,21 +61,21 @@ static const uint32_t *references(kd_walk *w, uint32_t node)
 /* candidate: objects whose bounds touch the leaf, ascending. */
 static void check_leaf(kd_walk *w, uint32_t node, const uint32_t *candidate, size_t candidates)
 {
-    const uint32_t count = cgt_kd_count(w->tree->node[node]), *object = references(w, node);
+    const uint32_t count = cgt_kd_count(w->tree->node[node]), *prim = references(w, node);
     w->leaves++;
     w->empty_leaves += count == 0;
-    for (uint32_t i = 0; object && i < count; i++) {
-        if (object[i] >= w->world->objects.count || !w->valid[object[i]])
-            kd_fault(w, "leaf %u lists object %u, which does not take part", node, object[i]);
-        if (i && object[i] <= object[i - 1])
-            kd_fault(w, "leaf %u: object %u after %u", node, object[i], object[i - 1]);
+    for (uint32_t i = 0; prim && i < count; i++) {
+        if (prim[i] >= w->committed_scene->prims.count || !w->valid[prim[i]])
+            kd_fault(w, "leaf %u lists object %u, which does not take part", node, prim[i]);
+        if (i && prim[i] <= prim[i - 1])
+            kd_fault(w, "leaf %u: object %u after %u", node, prim[i], prim[i - 1]);
     }
-    for (size_t i = 0, at = 0; object && i < candidates && !w->faulty; i++) {
-        while (at < count && object[at] < candidate[i])
+    for (size_t i = 0, at = 0; prim && i < candidates && !w->faulty; i++) {
+        while (at < count && prim[at] < candidate[i])
             at++;
-        if (at < count && object[at] == candidate[i])
+        if (at < count && prim[at] == candidate[i])
             continue;
-        const cgt_shape shape = cgt_objects_shape(&w->world->objects, candidate[i]);
+        const cgt_primitive shape = cgt_primitives_get(&w->committed_scene->prims, candidate[i]);
         if (kd_touches(&shape, &w->box[node]))
             kd_fault(w, "leaf %u does not list object %u, which touches it", node, candidate[i]);
     }
@@ -83,10 +83,10 @@ static void check_leaf(kd_walk *w, uint32_t node, const uint32_t *candidate, siz
 
 /* ---- nodes ---- */
 
-static bool bounds_touch(const kd_walk *w, uint32_t object, const kd_box *box)
+static bool bounds_touch(const kd_walk *w, uint32_t prim, const kd_box *box)
 {
     for (int a = 0; a < 3; a++)
-        if (w->high[object][a] < box->low[a] || w->low[object][a] > box->high[a])
+        if (w->high[prim][a] < box->low[a] || w->low[prim][a] > box->high[a])
             return false;
     return true;
 }
@@ -140,12 +140,12 @@ static size_t list_objects(kd_walk *w)
 {
     const cgt_kd_tree *tree = w->tree;
     size_t listed = 0;
-    for (uint32_t i = 0; i < w->world->objects.count; i++) {
-        const cgt_shape s = cgt_objects_shape(&w->world->objects, i);
-        w->valid[i] = cgt_shape_check(&s) == CGT_OBJECT_VALID;
+    for (uint32_t i = 0; i < w->committed_scene->prims.count; i++) {
+        const cgt_primitive s = cgt_primitives_get(&w->committed_scene->prims, i);
+        w->valid[i] = cgt_primitive_check(&s) == CGT_PRIMITIVE_VALID;
         if (!w->valid[i])
             continue;
-        object_bounds(&w->world->objects, i, w->low[i], w->high[i]);
+        object_bounds(&w->committed_scene->prims, i, w->low[i], w->high[i]);
         w->list[listed++] = i;
         for (int a = 0; a < 3; a++) /* bounds of spheres are a step of double outside */
             if (nextafter(w->low[i][a], INFINITY) < tree->low[a] || nextafter(w->high[i][a], -INFINITY) > tree->high[a])
@@ -191,20 +191,20 @@ static void run(kd_walk *w)
         kd_check_leaves(w);
 }
 
-const char *kd_check(const cgt_kd_tree *tree, const cgt_world *world)
+const char *kd_check(const cgt_kd_tree *tree, const cgt_committed_scene *committed_scene)
 {
-    kd_walk w = {.tree = tree, .world = world};
-    const size_t objects = world->objects.count, nodes = tree->nodes;
+    kd_walk w = {.tree = tree, .committed_scene = committed_scene};
+    const size_t prims = committed_scene->prims.count, nodes = tree->nodes;
     if (nodes < 2 || (uintptr_t)tree->node % 16)
         return "there is no root, or pairs are not aligned";
     w.box = calloc(nodes, sizeof *w.box);
     w.parent = calloc(nodes, sizeof *w.parent);
     w.reached = calloc(nodes, sizeof *w.reached);
-    w.low = calloc(objects + 1, sizeof *w.low);
-    w.high = calloc(objects + 1, sizeof *w.high);
-    w.valid = calloc(objects + 1, sizeof *w.valid);
+    w.low = calloc(prims + 1, sizeof *w.low);
+    w.high = calloc(prims + 1, sizeof *w.high);
+    w.valid = calloc(prims + 1, sizeof *w.valid);
     w.used = calloc((size_t)tree->references + 1, sizeof *w.used);
-    w.list = calloc((objects + 1) * (CGT_KD_MAX_DEPTH + 2), sizeof *w.list);
+    w.list = calloc((prims + 1) * (CGT_KD_MAX_DEPTH + 2), sizeof *w.list);
     if (w.box && w.parent && w.reached && w.low && w.high && w.valid && w.used && w.list)
         run(&w);
     else

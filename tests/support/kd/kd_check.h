@@ -15,6 +15,6 @@
  *   counts      those of the tree
  *   ropes       numbers, boxes and references of leaves; wide ropes lead to the sibling of the lowest ancestor that is
  *               split across the face; the others to the smallest node below that whose closed box holds the face */
-const char *kd_check(const cgt_kd_tree *tree, const cgt_world *world);
+const char *kd_check(const cgt_kd_tree *tree, const cgt_committed_scene *committed_scene);
 
 #endif

@@ -38,8 +38,8 @@ static void check_rope(kd_walk *w, uint32_t node, const cgt_kd_leaf *leaf, uint3
     const uint32_t wide = across(w, node, axis, side & 1);
     kd_box face = w->box[node];
     *(side & 1 ? &face.low[axis] : &face.high[axis]) = side & 1 ? face.high[axis] : face.low[axis];
-    if (leaf->wide_rope[side] != wide) {
-        kd_fault(w, "leaf %u, face %u: the wide rope leads to node %u, not to %u", node, side, leaf->wide_rope[side],
+    if (leaf->packet_rope[side] != wide) {
+        kd_fault(w, "leaf %u, face %u: the wide rope leads to node %u, not to %u", node, side, leaf->packet_rope[side],
                  wide);
         return;
     }

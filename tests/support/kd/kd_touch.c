@@ -163,7 +163,7 @@ static bool triangle_touches(const cgt_triangle *q, const kd_box *box)
     return !apart(q, box, (const double(*)[3])edge, 3, 0);
 }
 
-bool kd_touches(const cgt_shape *shape, const kd_box *box)
+bool kd_touches(const cgt_primitive *shape, const kd_box *box)
 {
     if (shape->kind == CGT_KIND_TRIANGLES)
         return triangle_touches(&shape->triangle, box);

@@ -12,7 +12,7 @@ typedef struct kd_box {
 } kd_box;
 
 /* A sphere is its surface: a box within the ball does not touch it. The shape is finite, a triangle has an area, and
- * coordinates are within CGT_WORLD_LARGEST. */
-bool kd_touches(const cgt_shape *shape, const kd_box *box);
+ * coordinates are within CGT_MAX_COORDINATE. */
+bool kd_touches(const cgt_primitive *shape, const kd_box *box);
 
 #endif

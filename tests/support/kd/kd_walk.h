@@ -10,7 +10,7 @@
 
 typedef struct kd_walk {
     const cgt_kd_tree *tree;
-    const cgt_world *world;
+    const cgt_committed_scene *committed_scene;
     kd_box *box;      /* by node */
     uint32_t *parent; /* by node; CGT_INVALID_ID for the root and for nodes that are not reached */
     bool *reached;    /* by node */

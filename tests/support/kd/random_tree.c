@@ -23,7 +23,7 @@ typedef struct waiting {
 
 typedef struct growth {
     test_random *random;
-    const cgt_objects *objects;
+    const cgt_primitives *prims;
     double (*low)[3], (*high)[3]; /* bounds, by object */
     cgt_kd_node *node;
     uint32_t nodes, node_room;
@@ -45,9 +45,9 @@ static void *get(size_t count, size_t size)
     return memory;
 }
 
-void object_bounds(const cgt_objects *objects, uint32_t object, double low[3], double high[3])
+void object_bounds(const cgt_primitives *prims, uint32_t prim, double low[3], double high[3])
 {
-    const cgt_shape s = cgt_objects_shape(objects, object);
+    const cgt_primitive s = cgt_primitives_get(prims, prim);
     const float center[3] = {s.sphere.x, s.sphere.y, s.sphere.z};
     for (int a = 0; a < 3; a++) {
         if (s.kind == CGT_KIND_SPHERES) {
@@ -64,14 +64,14 @@ void object_bounds(const cgt_objects *objects, uint32_t object, double low[3], d
 
 static float object_coordinate(growth *g, const waiting *w, uint32_t axis)
 {
-    const uint32_t object = g->list[w->first + random_below(g->random, (uint32_t)w->count)];
-    const cgt_shape s = cgt_objects_shape(g->objects, object);
+    const uint32_t prim = g->list[w->first + random_below(g->random, (uint32_t)w->count)];
+    const cgt_primitive s = cgt_primitives_get(g->prims, prim);
     if (s.kind == CGT_KIND_TRIANGLES)
         return s.triangle.v[random_below(g->random, 3)][axis];
     switch (random_below(g->random, 3)) {
     case 0: return axis == 0 ? s.sphere.x : axis == 1 ? s.sphere.y : s.sphere.z;
-    case 1: return (float)g->low[object][axis];
-    default: return (float)g->high[object][axis];
+    case 1: return (float)g->low[prim][axis];
+    default: return (float)g->high[prim][axis];
     }
 }
 
@@ -126,9 +126,9 @@ static void open_child(growth *g, const waiting *parent, uint32_t node, uint32_t
     waiting child = {node, parent->depth + 1, g->listed, 0, parent->box};
     *(upper ? &child.box.low[axis] : &child.box.high[axis]) = split;
     for (size_t i = 0; i < parent->count; i++) {
-        const uint32_t object = g->list[parent->first + i];
-        if (upper ? g->high[object][axis] >= split : g->low[object][axis] <= split)
-            g->list[g->listed++] = object;
+        const uint32_t prim = g->list[parent->first + i];
+        if (upper ? g->high[prim][axis] >= split : g->low[prim][axis] <= split)
+            g->list[g->listed++] = prim;
     }
     child.count = g->listed - child.first;
     g->open[g->opened++] = child;
@@ -181,26 +181,26 @@ static cgt_kd_node *scatter(growth *g, uint32_t *nodes)
 
 static void bound_objects(growth *g)
 {
-    const cgt_objects *objects = g->objects;
-    g->low = get(objects->count, sizeof *g->low);
-    g->high = get(objects->count, sizeof *g->high);
-    for (uint32_t i = 0; i < objects->count; i++) {
-        const cgt_shape s = cgt_objects_shape(objects, i);
-        if (cgt_shape_check(&s) != CGT_OBJECT_VALID)
+    const cgt_primitives *prims = g->prims;
+    g->low = get(prims->count, sizeof *g->low);
+    g->high = get(prims->count, sizeof *g->high);
+    for (uint32_t i = 0; i < prims->count; i++) {
+        const cgt_primitive s = cgt_primitives_get(prims, i);
+        if (cgt_primitive_check(&s) != CGT_PRIMITIVE_VALID)
             continue;
-        object_bounds(objects, i, g->low[i], g->high[i]);
+        object_bounds(prims, i, g->low[i], g->high[i]);
         g->list[g->listed++] = i;
     }
 }
 
-static random_tree finish(growth *g, const cgt_world *world)
+static random_tree finish(growth *g, const cgt_committed_scene *committed_scene)
 {
     random_tree tree = {.reference = g->list};
     tree.node = scatter(g, &tree.raw.nodes);
     tree.raw.node = tree.node;
     tree.raw.reference = tree.reference;
-    memcpy(tree.raw.low, world->low, sizeof tree.raw.low);
-    memcpy(tree.raw.high, world->high, sizeof tree.raw.high);
+    memcpy(tree.raw.low, committed_scene->low, sizeof tree.raw.low);
+    memcpy(tree.raw.high, committed_scene->high, sizeof tree.raw.high);
     free(g->low);
     free(g->high);
     free(g->node);
@@ -208,29 +208,31 @@ static random_tree finish(growth *g, const cgt_world *world)
     return tree;
 }
 
-random_tree random_tree_make(test_random *r, const cgt_world *world, uint32_t max_depth, uint32_t leaf_size)
+random_tree random_tree_make(test_random *r, const cgt_committed_scene *committed_scene, uint32_t max_depth,
+                             uint32_t leaf_size)
 {
-    growth g = {.random = r, .objects = &world->objects, .max_depth = max_depth, .leaf_size = leaf_size, .nodes = 2};
+    growth g = {
+        .random = r, .prims = &committed_scene->prims, .max_depth = max_depth, .leaf_size = leaf_size, .nodes = 2};
     waiting root = {0};
     g.deep = random_below(r, 2);
-    g.node_room = 16 * (world->valid < (1u << 26) ? world->valid : 1u << 26) + 512;
-    g.list_room = 256 * (size_t)world->valid + 4096;
+    g.node_room = 16 * (committed_scene->valid < (1u << 26) ? committed_scene->valid : 1u << 26) + 512;
+    g.list_room = 256 * (size_t)committed_scene->valid + 4096;
     g.node = get(g.node_room, sizeof *g.node);
     g.open = get(g.node_room, sizeof *g.open);
     g.list = get(g.list_room, sizeof *g.list);
     bound_objects(&g);
     root.count = g.listed;
-    memcpy(root.box.low, world->low, sizeof root.box.low);
-    memcpy(root.box.high, world->high, sizeof root.box.high);
+    memcpy(root.box.low, committed_scene->low, sizeof root.box.low);
+    memcpy(root.box.high, committed_scene->high, sizeof root.box.high);
     g.open[g.opened++] = root;
     grow(&g);
-    return finish(&g, world);
+    return finish(&g, committed_scene);
 }
 
-random_tree random_tree_leaf(const cgt_world *world)
+random_tree random_tree_leaf(const cgt_committed_scene *committed_scene)
 {
     test_random r = random_make(0);
-    return random_tree_make(&r, world, 0, 0);
+    return random_tree_make(&r, committed_scene, 0, 0);
 }
 
 void random_tree_free(random_tree *tree)

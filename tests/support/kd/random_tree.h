@@ -7,7 +7,7 @@
 #ifndef RANDOM_TREE_H
 #define RANDOM_TREE_H
 
-#include "build/kd/kd_build.h"
+#include "builders/kd/kd_build.h"
 #include "support/random.h"
 
 typedef struct random_tree {
@@ -17,14 +17,15 @@ typedef struct random_tree {
 } random_tree;
 
 /* Bounds of a valid object, rounded outwards. */
-void object_bounds(const cgt_objects *objects, uint32_t object, double low[3], double high[3]);
+void object_bounds(const cgt_primitives *prims, uint32_t prim, double low[3], double high[3]);
 
 /* Over the valid objects of a world, of which there is at least one. max_depth: inner nodes above a leaf, below
  * CGT_KD_MAX_DEPTH. A node of more than leaf_size objects is mostly split, one of fewer seldom. */
-random_tree random_tree_make(test_random *r, const cgt_world *world, uint32_t max_depth, uint32_t leaf_size);
+random_tree random_tree_make(test_random *r, const cgt_committed_scene *committed_scene, uint32_t max_depth,
+                             uint32_t leaf_size);
 
 /* One leaf with all valid objects. */
-random_tree random_tree_leaf(const cgt_world *world);
+random_tree random_tree_leaf(const cgt_committed_scene *committed_scene);
 
 void random_tree_free(random_tree *tree);
 

@@ -130,13 +130,13 @@ static judgement judge_sphere(const truth_ray *ray, const float sphere[4])
     return j;
 }
 
-const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t object, float t, uint64_t *doubts)
+const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t prim, float t, uint64_t *doubts)
 {
     judgement mine = {.hit = NO, .t = INFINITY};
-    if (object != TRUTH_NONE) {
-        if (object >= scene->count)
+    if (prim != TRUTH_NONE) {
+        if (prim >= scene->count)
             return "the sphere does not exist";
-        mine = judge_sphere(ray, scene->sphere[object]);
+        mine = judge_sphere(ray, scene->sphere[prim]);
         if (mine.hit == NO)
             return "the sphere is not hit";
         const bool accepted = truth_accepts(&mine.roots, mine.t, t) ||
@@ -150,17 +150,17 @@ const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t
     } else if (t != INFINITY)
         return "no sphere, but a t";
     for (uint32_t i = 0; i < scene->count; i++) {
-        if (i == object)
+        if (i == prim)
             continue;
         const judgement other = judge_sphere(ray, scene->sphere[i]);
         if (other.hit == NO)
             continue;
-        if (object == TRUTH_NONE) {
+        if (prim == TRUTH_NONE) {
             if (other.hit == YES)
                 return "a hit is missed";
             ++*doubts;
-        } else if (memcmp(scene->sphere[i], scene->sphere[object], sizeof scene->sphere[i]) == 0) {
-            if (i < object)
+        } else if (memcmp(scene->sphere[i], scene->sphere[prim], sizeof scene->sphere[i]) == 0) {
+            if (i < prim)
                 return "an equal sphere of a lower id wins";
         } else {
             const truth_real nearer = mine.t - other.t;

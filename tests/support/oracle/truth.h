@@ -55,6 +55,6 @@ typedef struct truth_scene {
 
 /* Judges an answer: the number of the sphere (TRUTH_NONE: none) and its t. Returns NULL, or what is wrong. Where double
  * precision cannot tell, either answer is right; *doubts counts those. Equal spheres: the lower number is right. */
-const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t object, float t, uint64_t *doubts);
+const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t prim, float t, uint64_t *doubts);
 
 #endif

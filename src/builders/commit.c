@@ -1,0 +1,181 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The commit: from the caller's arrays to a structure, from scratch.
+ *   1 list the arrays   2 bounds and validity of every object (bound_primitives.c)   3 build the structure */
+#include <math.h>
+#include <stdio.h>
+
+#include "builders/choose_structure.h"
+#include "builders/commit.h"
+#include "core/float_environment.h"
+
+static cgt_primitive_array describe_array(const cgt_geometry *g)
+{
+    const cgt_spheres *s = &g->spheres;
+    const cgt_triangles *t = &g->triangles;
+    if (g->kind == CGT_KIND_SPHERES)
+        return (cgt_primitive_array){.kind = g->kind,
+                                     .count = s->count,
+                                     .mask = s->mask ? s->mask : UINT32_MAX,
+                                     .point = (const char *)s->centers,
+                                     .point_stride = s->center_stride,
+                                     .radius = (const char *)(s->radii ? s->radii : &s->radius),
+                                     .radius_stride = s->radii ? s->radius_stride : 0};
+    return (cgt_primitive_array){.kind = g->kind,
+                                 .count = t->count,
+                                 .mask = t->mask ? t->mask : UINT32_MAX,
+                                 .points = t->vertex_count,
+                                 .point = (const char *)t->vertices,
+                                 .point_stride = t->vertex_stride,
+                                 .index = (const char *)t->indices,
+                                 .index_stride = t->index_stride};
+}
+
+static cgt_result list_arrays(cgt_scene *scene)
+{
+    const cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
+    const cgt_result result = cgt_buffer_reserve(&scene->context->memory, &scene->buffer[CGT_BUFFER_ARRAYS],
+                                                 scene->geometries, sizeof(cgt_primitive_array));
+    if (result != CGT_OK)
+        return cgt_fail(scene->context, result, "commit: out of memory for %u geometries", scene->geometries);
+    cgt_primitive_array *array = scene->buffer[CGT_BUFFER_ARRAYS].data;
+    cgt_primitives prims = {.array = array};
+    scene->statistics.geometries = 0;
+    for (uint32_t id = 0; id < scene->geometries; id++) {
+        if (!geometry[id].used)
+            continue;
+        scene->statistics.geometries++;
+        cgt_primitive_array a = describe_array(&geometry[id]);
+        if (!a.count)
+            continue;
+        a.first = prims.count;
+        a.spheres_before = prims.spheres;
+        a.geometry = id;
+        array[prims.arrays++] = a;
+        scene->committed_scene.has_masks |= a.mask != UINT32_MAX;
+        prims.count += a.count;
+        *(a.kind == CGT_KIND_SPHERES ? &prims.spheres : &prims.triangles) += a.count;
+    }
+    scene->committed_scene.prims = prims;
+    scene->statistics.primitives = prims.count;
+    scene->statistics.spheres = prims.spheres;
+    scene->statistics.triangles = prims.triangles;
+    return CGT_OK;
+}
+
+static void store_statistics(cgt_scene *scene, const cgt_primitive_bounds *s)
+{
+    cgt_scene_statistics *st = &scene->statistics;
+    st->structure = scene->committed_scene.structure;
+    st->skipped_not_finite = s->skipped_not_finite;
+    st->skipped_radius = s->skipped_radius;
+    st->skipped_degenerate = s->skipped_degenerate;
+    for (int a = 0; a < 3; a++) {
+        st->bounds_min[a] = s->min[a];
+        st->bounds_max[a] = s->max[a];
+    }
+    st->bytes = cgt_scene_bytes(scene);
+}
+
+static void log_commit(const cgt_scene *scene)
+{
+    const cgt_scene_statistics *st = &scene->statistics;
+    const cgt_log_hook *log = &scene->context->log;
+    char text[CGT_MESSAGE_BYTES];
+    if (!log->write)
+        return;
+    if (st->skipped_not_finite || st->skipped_radius || st->skipped_degenerate) {
+        snprintf(text, sizeof text,
+                 "commit: of %u primitives %u skipped: not finite, %u skipped: negative radius, %u skipped: no area",
+                 st->primitives, st->skipped_not_finite, st->skipped_radius, st->skipped_degenerate);
+        log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
+    }
+    snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
+             st->triangles, st->resolution[0], st->resolution[1], st->resolution[2], st->commit_ms, st->reason);
+    log->write(log->user, CGT_LOG_LEVEL_INFO, text);
+}
+
+/* Beyond 2^100 the filter's products leave the range of float; what is smaller is decided in double. */
+static float choose_scale(float magnitude)
+{
+    int exponent = 0;
+    if (magnitude > 0 && magnitude <= CGT_MAX_COORDINATE)
+        frexpf(magnitude, &exponent);
+    return ldexpf(1, exponent < -100 ? 100 : -exponent);
+}
+
+static void set_scene_bounds(cgt_committed_scene *committed_scene, const cgt_primitive_bounds *s)
+{
+    committed_scene->valid = s->valid;
+    committed_scene->brute_force = !(s->magnitude <= CGT_MAX_COORDINATE);
+    committed_scene->scale = choose_scale(s->magnitude);
+    for (int a = 0; a < 3; a++) {
+        committed_scene->low[a] = s->min[a];
+        committed_scene->high[a] = s->max[a];
+    }
+}
+
+static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *s)
+{
+    cgt_committed_scene *committed_scene = &scene->committed_scene;
+    const char *structure_reason = NULL;
+    char *reason = scene->statistics.reason;
+    const size_t bytes = sizeof scene->statistics.reason;
+    committed_scene->structure = cgt_choose_structure(&scene->options, &structure_reason);
+    if (!s->valid || committed_scene->brute_force) {
+        snprintf(reason, bytes, "%s",
+                 s->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
+        return CGT_OK;
+    }
+    if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
+        return cgt_loose_grid_commit(scene);
+    if (committed_scene->structure == CGT_STRUCTURE_QUEUE_GRID)
+        return cgt_queue_grid_commit(scene, s);
+    snprintf(reason, bytes, "%s", structure_reason);
+    if (committed_scene->structure == CGT_STRUCTURE_BVH)
+        return cgt_bvh_commit(scene);
+    return cgt_kd_commit(scene, committed_scene->structure == CGT_STRUCTURE_KD_ROPES);
+}
+
+static cgt_result build_scene(cgt_scene *scene)
+{
+    cgt_primitive_bounds bounds = {0};
+    const double start = cgt_now_ms();
+    cgt_result result = list_arrays(scene);
+    if (result == CGT_OK)
+        result = cgt_compute_bounds(scene, &bounds);
+    if (result != CGT_OK)
+        return result;
+    const double bounded = cgt_now_ms();
+    set_scene_bounds(&scene->committed_scene, &bounds);
+    result = build_structure(scene, &bounds);
+    if (result != CGT_OK)
+        return result;
+    store_statistics(scene, &bounds);
+    const double end = cgt_now_ms();
+    scene->statistics.bounds_ms = bounded - start;
+    scene->statistics.build_ms = end - bounded;
+    scene->statistics.commit_ms = end - start;
+    return CGT_OK;
+}
+
+cgt_result cgt_scene_commit(cgt_scene *scene)
+{
+    cgt_float_environment callers;
+    if (!scene)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    scene->is_committed = false;
+    scene->statistics = (cgt_scene_statistics){0};
+    scene->committed_scene = (cgt_committed_scene){0};
+    atomic_store_explicit(&scene->bvh_is_built, false, memory_order_relaxed);
+    atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);
+    cgt_float_environment_enter(&callers);
+    const cgt_result result = build_scene(scene);
+    cgt_float_environment_leave(&callers);
+    if (result != CGT_OK)
+        return result;
+    scene->is_committed = true;
+    log_commit(scene);
+    return CGT_OK;
+}

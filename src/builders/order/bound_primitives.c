@@ -1,0 +1,184 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Bounds and validity of every object: by chunks of fixed size, put together in order, so that the sums do not depend
+ * on the threads. */
+#include "builders/commit.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "builders/choose_structure.h"
+#include "core/float_environment.h"
+#include "builders/grid/loose_grid_build.h"
+
+#define CHUNK 8192u
+#define MAX_VECTOR 16u /* clusters are written by whole vectors */
+
+_Static_assert(CHUNK % (MAX_VECTOR * CGT_CLUSTER) == 0, "chunks have whole vectors of clusters");
+
+typedef struct bounds_job {
+    const cgt_primitives *prims;
+    const cgt_kernel *kernel;
+    cgt_bounds_request request; /* classes: one for each chunk, or NULL */
+    cgt_primitive_bounds *chunk_bounds;
+} bounds_job;
+
+static void bounds_clear(cgt_primitive_bounds *s)
+{
+    *s = (cgt_primitive_bounds){
+        .min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}, .bad_index = CGT_INVALID_ID};
+}
+
+/* Clusters that the chunk's objects are in: chunks have whole ones, but for the last. */
+static void compute_cluster_bounds(const bounds_job *job, uint32_t first, uint32_t end, cgt_size_classes *classes)
+{
+    cgt_cluster *cluster = job->request.cluster + first / CGT_CLUSTER;
+    job->kernel->compute_cluster_bounds(cluster, cgt_clusters(end - first), classes);
+}
+
+static void compute_chunk_bounds(void *argument, uint32_t index)
+{
+    const bounds_job *job = argument;
+    const cgt_primitives *o = job->prims;
+    const uint32_t first = index * CHUNK, end = o->count - first < CHUNK ? o->count : first + CHUNK;
+    const cgt_primitive_array *a = cgt_primitives_array(o, first);
+    cgt_bounds_request request = job->request;
+    cgt_primitive_bounds s;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    bounds_clear(&s);
+    if (request.classes) {
+        request.classes += index;
+        memset(request.classes->used_classes, 0, sizeof request.classes->used_classes);
+    }
+    for (uint32_t prim = first; prim < end && s.bad_index == CGT_INVALID_ID; a++) {
+        const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
+        job->kernel->compute_bounds(a, prim, stop, &request, &s);
+        prim = stop;
+    }
+    if (request.cluster && s.bad_index == CGT_INVALID_ID)
+        compute_cluster_bounds(job, first, end, request.classes);
+    job->chunk_bounds[index] = s;
+    cgt_float_environment_leave(&callers);
+}
+
+static void bounds_merge(cgt_primitive_bounds *s, const cgt_primitive_bounds *chunk_bounds)
+{
+    s->valid += chunk_bounds->valid;
+    s->skipped_not_finite += chunk_bounds->skipped_not_finite;
+    s->skipped_radius += chunk_bounds->skipped_radius;
+    s->skipped_degenerate += chunk_bounds->skipped_degenerate;
+    s->bad_index = chunk_bounds->bad_index < s->bad_index ? chunk_bounds->bad_index : s->bad_index;
+    for (int a = 0; a < 3; a++) {
+        s->min[a] = fminf(s->min[a], chunk_bounds->min[a]);
+        s->max[a] = fmaxf(s->max[a], chunk_bounds->max[a]);
+    }
+    for (int k = 1; k < 4; k++)
+        s->diameter[k] += chunk_bounds->diameter[k];
+}
+
+static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
+{
+    const cgt_primitive_array *a = cgt_primitives_array(&scene->committed_scene.prims, prim);
+    uint32_t corner[3], k = 0;
+    cgt_array_corners(a, prim - a->first, corner);
+    while (k < 2 && corner[k] < a->points)
+        k++;
+    return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
+                    "commit: geometry %u: triangle %u has index %u, but there are %u vertices", a->geometry,
+                    prim - a->first, corner[k], a->points);
+}
+
+/* All classes to those of the first chunk. */
+static void merge_classes(cgt_size_classes *classes, uint32_t chunks)
+{
+    for (uint32_t i = 1; i < chunks; i++)
+        for (uint32_t word = 0; word < CGT_SIZE_CLASSES / 32; word++)
+            for (uint32_t remaining = classes[i].used_classes[word]; remaining; remaining &= remaining - 1) {
+                const uint32_t k = 32 * word + (uint32_t)__builtin_ctz(remaining);
+                cgt_size_classes_add(classes, k, &classes[i].of[k]);
+            }
+}
+
+static cgt_result reserve_clusters(cgt_scene *scene, bounds_job *job)
+{
+    cgt_buffer *buffer = &scene->buffer[CGT_BUFFER_CLUSTERS];
+    const size_t count = (size_t)cgt_clusters(job->prims->count) + MAX_VECTOR;
+    const cgt_result result = cgt_buffer_reserve(&scene->context->memory, buffer, count, sizeof(cgt_cluster));
+    job->request.cluster = buffer->data;
+    return result;
+}
+
+static cgt_result reserve(cgt_scene *scene, uint32_t chunks, bool clusters, bounds_job *job)
+{
+    const cgt_memory_hooks *hooks = &scene->context->memory;
+    const cgt_primitives *o = &scene->committed_scene.prims;
+    const char *reason;
+    const cgt_structure structure = cgt_choose_structure(&scene->options, &reason);
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID || structure == CGT_STRUCTURE_BVH;
+    cgt_buffer *buffer = scene->buffer;
+    cgt_result result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_BOUNDS], chunks, sizeof(cgt_primitive_bounds));
+    if (result == CGT_OK && loose)
+        result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_SIZE_CLASSES], chunks, sizeof(cgt_size_classes));
+    if (result == CGT_OK && loose)
+        result = cgt_cell_sort_reserve_work(hooks, &buffer[CGT_BUFFER_CELL_SORT_WORK], o, clusters);
+    if (result != CGT_OK)
+        return cgt_fail(scene->context, result, "commit: out of memory to bound %u primitives", o->count);
+    *job = (bounds_job){.prims = o,
+                        .kernel = scene->context->kernel,
+                        .request = {.diameters = structure == CGT_STRUCTURE_QUEUE_GRID, .triangles = o->triangles},
+                        .chunk_bounds = buffer[CGT_BUFFER_BOUNDS].data};
+    if (loose) {
+        job->request.classes = buffer[CGT_BUFFER_SIZE_CLASSES].data;
+        job->request.middle = buffer[CGT_BUFFER_CELL_SORT_WORK].data;
+    }
+    if (clusters && (result = reserve_clusters(scene, job)) != CGT_OK)
+        return cgt_fail(scene->context, result, "commit: out of memory for clusters of %u triangles", o->count);
+    return CGT_OK;
+}
+
+static cgt_result compute_bounds(cgt_scene *scene, bool clusters, cgt_primitive_bounds *s)
+{
+    const uint32_t chunks = (uint32_t)(((uint64_t)scene->committed_scene.prims.count + CHUNK - 1) / CHUNK);
+    bounds_job job;
+    const cgt_result result = reserve(scene, chunks, clusters, &job);
+    if (result != CGT_OK)
+        return result;
+    cgt_run_tasks(scene->context, compute_chunk_bounds, &job, chunks);
+    bounds_clear(s);
+    for (uint32_t i = 0; i < chunks; i++)
+        bounds_merge(s, &job.chunk_bounds[i]);
+    if (s->bad_index != CGT_INVALID_ID)
+        return bad_index(scene, s->bad_index);
+    if (job.request.classes)
+        merge_classes(job.request.classes, chunks);
+    s->diameter[0] = s->valid;
+    for (int a = 0; a < 3; a++) {
+        /* the sums were rounded to nearest: one step outwards covers it */
+        s->min[a] = s->valid ? nextafterf(s->min[a], -INFINITY) : 0;
+        s->max[a] = s->valid ? nextafterf(s->max[a], INFINITY) : 0;
+        s->magnitude = fmaxf(s->magnitude, fmaxf(fabsf(s->min[a]), fabsf(s->max[a])));
+    }
+    return CGT_OK;
+}
+
+cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
+{
+    const char *reason;
+    const cgt_structure structure = cgt_choose_structure(&scene->options, &reason);
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.resolution[0];
+    const bool tree = structure == CGT_STRUCTURE_BVH;
+    const cgt_cluster_use use = loose || tree ? cgt_choose_clusters(&scene->committed_scene.prims) : CGT_CLUSTERS_NONE;
+    const bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);
+    const cgt_result result = compute_bounds(scene, clusters, s);
+    scene->committed_scene.cluster = clusters ? scene->buffer[CGT_BUFFER_CLUSTERS].data : NULL;
+    scene->committed_scene.bvh_of_clusters = use == CGT_CLUSTERS_ALL;
+    return result;
+}
+
+cgt_result cgt_compute_size_classes(cgt_scene *scene)
+{
+    cgt_primitive_bounds s;
+    return compute_bounds(scene, false, &s);
+}

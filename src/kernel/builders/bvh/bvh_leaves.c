@@ -1,0 +1,175 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Leaf blocks of the wide tree, and the binary tree over them. Spheres are copied as they are; triangles become what
+ * src/model/leaf_triangle.c makes of them, bit by bit. */
+#include <math.h>
+
+#include "kernel/builders/bvh/bvh_binary.h"
+#include "kernel/builders/bvh/bvh_fetch.h"
+
+#define MAX_LISTED_PRIMS 512u /* of clusters, listed together */
+#define PREFETCH_CLUSTERS 32u /* that are on their way */
+
+/* Bounds of spheres. A sum is rounded by at most 2^-24 of itself, or not at all where it is below 2^-126. What 2^-22 of
+ * it comes to is rounded by 2^-150 at most, the difference once more by 2^-24: 2^-23 at least is left. */
+CGT_SPU_INLINE void bound_spheres(const vfloat d[4], bvh_leaf_record *leaf)
+{
+    const vfloat radius = spux_abs(d[3]), rel_error = spux_vfloat(0x1p-22f);
+    for (int a = 0; a < 3; a++) {
+        const vfloat low = spu_sub(d[a], radius), high = spu_add(d[a], radius);
+        leaf->low[a] = spux_hmin(spu_sub(low, spu_mul(spux_abs(low), rel_error)));
+        leaf->high[a] = spux_hmax(spu_add(high, spu_mul(spux_abs(high), rel_error)));
+    }
+}
+
+/* To a block. */
+CGT_SPU_INLINE void store_block(float *to, vfloat v, bool nontemporal)
+{
+    if (nontemporal)
+        spux_stream(to, v);
+    else
+        spux_store(to, v);
+}
+
+CGT_SPU_INLINE void store_block_uint(uint32_t *to, vuint v, bool nontemporal)
+{
+    if (nontemporal)
+        spux_stream_uint(to, v);
+    else
+        spux_store_uint(to, v);
+}
+
+/* Objects in the order of leaves: as they were sorted, or those of clusters, some of which were taken from there. */
+typedef struct leaf_prims {
+    const uint32_t *prim;
+    uint32_t next, end;         /* those that are asked for ahead may be another range's */
+    uint32_t cluster, clusters; /* that are still to come */
+    uint32_t cluster_prims[MAX_LISTED_PRIMS + CGT_CLUSTER];
+} leaf_prims;
+
+static void leaf_prims_init(const cgt_bvh_build *b, const cgt_bvh_range *range, leaf_prims *o)
+{
+    o->prim = b->cluster ? o->cluster_prims : b->prim;
+    o->next = b->cluster ? 0 : range->begin;
+    o->end = b->cluster ? 0 : b->sorted;
+    o->cluster = b->cluster ? range->begin : range->end;
+    o->clusters = range->end;
+    if (b->cluster) /* it is filled before it is read, which analysers do not see */
+        memset(o->cluster_prims, 0, sizeof o->cluster_prims);
+}
+
+/* Takes triangles of as many clusters as there is room for, where there are not enough for a leaf. */
+CGT_SPU_INLINE void leaf_prims_refill(const cgt_bvh_build *b, leaf_prims *o)
+{
+    if (o->cluster == o->clusters || o->end - o->next >= CGT_LANES)
+        return;
+    memmove(o->cluster_prims, o->cluster_prims + o->next, (o->end - o->next) * sizeof *o->cluster_prims);
+    o->end -= o->next;
+    o->next = 0;
+    for (; o->cluster < o->clusters && o->end <= MAX_LISTED_PRIMS - CGT_CLUSTER; o->cluster++) {
+        const uint32_t number = b->prim[o->cluster], valid = b->cluster[number].valid;
+        const uint32_t prefetched = o->cluster + PREFETCH_CLUSTERS;
+        __builtin_prefetch(&b->cluster[b->prim[prefetched < o->clusters ? prefetched : o->cluster]]);
+        if (valid == (1u << CGT_CLUSTER) - 1) { /* most are */
+            for (uint32_t k = 0; k < CGT_CLUSTER; k++)
+                o->cluster_prims[o->end + k] = number * CGT_CLUSTER + k;
+            o->end += CGT_CLUSTER;
+            continue;
+        }
+        for (uint32_t k = 0; k < CGT_CLUSTER; k++) {
+            o->cluster_prims[o->end] = number * CGT_CLUSTER + k; /* written over where it is not valid */
+            o->end += valid >> k & 1;
+        }
+    }
+}
+
+static void build_sphere_block(const cgt_bvh_build *b, const leaf_prims *o, uint32_t count, sphere_block *block,
+                               bvh_leaf_record *leaf)
+{
+    const prim_run run = prim_run_load(b->prims, o->prim + o->next, count);
+    prefetch_run(&run, o->prim, o->next, count, o->end);
+    vfloat d[4];
+    prim_run_gather_spheres(&run, d);
+    for (int a = 0; a < 3; a++)
+        store_block(block->center[a], d[a], b->nontemporal);
+    store_block(block->radius, d[3], b->nontemporal);
+    store_block_uint(block->prim, run.prim, b->nontemporal);
+    bound_spheres(d, leaf);
+}
+
+static void build_triangle_block(const cgt_bvh_build *b, const leaf_prims *o, uint32_t count, triangle_block *block,
+                                 bvh_leaf_record *leaf)
+{
+    const prim_run run = prim_run_load(b->prims, o->prim + o->next, count);
+    prefetch_run(&run, o->prim, o->next, count, o->end);
+    const vfloat scale = spux_vfloat(b->scale);
+    vfloat v[3][3], edge[2][3];
+    prim_run_gather_triangles(&run, v);
+    for (int a = 0; a < 3; a++) {
+        const vfloat vertex = spu_mul(v[0][a], scale);
+        leaf->low[a] = spux_hmin(spux_min(v[0][a], spux_min(v[1][a], v[2][a])));
+        leaf->high[a] = spux_hmax(spux_max(v[0][a], spux_max(v[1][a], v[2][a])));
+        store_block(block->vertex[a], vertex, b->nontemporal);
+        for (int k = 0; k < 2; k++) {
+            edge[k][a] = spu_sub(spu_mul(v[k + 1][a], scale), vertex);
+            store_block(block->edge[k][a], edge[k][a], b->nontemporal);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        const vfloat sum = spu_add(spux_abs(edge[k][0]), spux_abs(edge[k][1]));
+        store_block(block->sum[k], spu_add(sum, spux_abs(edge[k][2])), b->nontemporal);
+    }
+    store_block_uint(block->prim, run.prim, b->nontemporal);
+}
+
+/* Block `number` of its kind, of the next `count` objects. */
+static void build_leaf(const cgt_bvh_build *b, cgt_kind kind, leaf_prims *o, uint32_t count, uint32_t number,
+                       bvh_leaf_record *leaf)
+{
+    const uint32_t triangles = kind == CGT_KIND_TRIANGLES ? CGT_BVH_TRIANGLE_LEAF : 0;
+    if (triangles)
+        build_triangle_block(b, o, count, (triangle_block *)b->block[kind] + number, leaf);
+    else
+        build_sphere_block(b, o, count, (sphere_block *)b->block[kind] + number, leaf);
+    o->next += count;
+    leaf->code = CGT_BVH_LEAF | triangles | (count - 1) << CGT_BVH_COUNT_SHIFT | number;
+    leaf->unused = 0;
+}
+
+static void push_leaf(bvh_branch_stack *s, const bvh_leaf_record *leaf, uint32_t reference, uint32_t parting)
+{
+    bvh_branch *branch = &s->branch[s->count];
+    s->parting[s->count++] = parting;
+    spux_store(branch->cost, spux_vfloat(0));
+    for (int a = 0; a < 3; a++) {
+        branch->low[a] = leaf->low[a];
+        branch->high[a] = leaf->high[a];
+    }
+    branch->reference = reference;
+    branch->leaves = 1;
+}
+
+void CGT_KERNEL(cgt_bvh_build_leaves)(const cgt_bvh_build *b, uint32_t number)
+{
+    const cgt_bvh_range *range = &b->range[number];
+    const uint16_t *list = b->leaf + range->begin * b->leaves_each;
+    leaf_prims o;
+    bvh_branch_stack s;
+    leaf_prims_init(b, range, &o);
+    s.count = 0;
+    s.next = range->first_inner;
+    for (uint32_t i = 0; i < range->leaves; i++) {
+        const uint32_t count = (list[i] & 0xff) + 1u, parting = list[i] >> 8;
+        const uint32_t reference = CGT_BVH_LEAF_REF | (range->first_leaf + i);
+        bvh_leaf_record *leaf = bvh_leaf_at(b, reference);
+        leaf_prims_refill(b, &o);
+        build_leaf(b, range->kind, &o, count, range->first_block + i, leaf);
+        if (i)
+            bvh_branch_merge_deeper(b, &s, parting);
+        push_leaf(&s, leaf, reference, parting);
+    }
+    bvh_branch_merge_all(b, &s);
+    spux_stream_end();
+    ((bvh_branch *)b->branch)[number] = s.branch[0];
+}
