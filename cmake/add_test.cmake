@@ -2,18 +2,26 @@
 # SPDX-License-Identifier: MIT
 #
 # One line per test:
-#   cgt_add_test(<name> <sources>... [LIBRARIES <targets>...] [TIMEOUT <seconds>])
-#       A cmocka program. It sees the internal headers and links the static library.
-#   cgt_add_variant_test(<name> <sources>... [LIBRARIES ...] [TIMEOUT ...])
+#   cgt_add_test(<name> <sources>... [LABELS <labels>...] [LIBRARIES <targets>...] [TIMEOUT <seconds>])
+#       A cmocka program. It may include the internal headers. It links the static library and cgt_test_support.
+#   cgt_add_variant_test(<name> <sources>... [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
 #       The same, compiled and run once per row of the variant table, as <name>_<row>.
-#   cgt_add_cluster_test(<name> [VARIANTS] [LIBRARIES ...] [TIMEOUT ...])
-#       A test from above once more, as <name>_clusters[_<row>], with clusters wherever there are triangles alone, however
-#       few, and wherever they lie: clusters/always_clusters.c comes before the library's own choice, which stays in the archive.
-#       Not with threads watched, nor where the emulator computes in software: there test_cluster_hits has to do.
-#   cgt_add_script_test(<name> <script> <arguments>...)
-#       A shell script of tests/; it exits 0 for good, 77 for "not here", anything else for bad.
-# All get the emulator where the build is a cross build, a time limit, and the sanitizers' settings.
+#   cgt_add_cluster_test(<name> [VARIANTS] [LABELS ...] [LIBRARIES ...] [TIMEOUT ...])
+#       Runs a test from above again, as <name>_clusters[_<row>]. clusters/always_clusters.c replaces the library's
+#       choice, so that every geometry of triangles gets clusters, however small and wherever it lies.
+#       Left out with the thread sanitizer and where the emulator computes in software: test_cluster_hits covers those.
+#   cgt_add_script_test(<name> <script> <arguments>... [LABELS ...])
+#       A shell script. Exit code 0: passed, 77: not possible here, anything else: failed.
+# All get the emulator of a cross build, a time limit, and the sanitizers' settings.
 # CGT_DATA_DIR is examples/data, CGT_TESTS_DIR is tests.
+#
+# Labels say which builds a test is worth running in. CGT_TEST_LABELS selects by them.
+#   threads       the thread sanitizer can find something: several threads share data
+#   isa           another instruction set can break it: vector words, kernels, filters
+#   endian        the byte order can break it: readers, packed words, integers of several limbs
+#   programs      runs cgt-bench, an example, or the files that they share
+#   repository    checks the sources, the build and the installed package
+set(CGT_TEST_LABELS "" CACHE STRING "Build and define only tests with one of these labels; empty: all")
 
 set(cgt_time_scale 1)
 if(CMAKE_CROSSCOMPILING OR CGT_SANITIZE)
@@ -24,17 +32,36 @@ set(cgt_test_environment
     "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"
     "TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1")
 
-function(cgt_set_test_properties name seconds)
-    if(NOT seconds)
-        set(seconds 60)
+# cgt_test_selected(<variable> <labels>...): whether CGT_TEST_LABELS selects a test with these labels.
+function(cgt_test_selected variable)
+    set(selected OFF)
+    foreach(label IN LISTS ARGN)
+        if(NOT label MATCHES "^(threads|isa|endian|programs|repository)$")
+            message(FATAL_ERROR "cmake/add_test.cmake: no test label is named ${label}")
+        endif()
+        if(label IN_LIST CGT_TEST_LABELS)
+            set(selected ON)
+        endif()
+    endforeach()
+    if(NOT CGT_TEST_LABELS)
+        set(selected ON)
     endif()
+    set(${variable} ${selected} PARENT_SCOPE)
+endfunction()
+
+# cgt_set_test_properties(<name> <seconds> <labels>...)
+function(cgt_set_test_properties name seconds)
     math(EXPR seconds "${seconds} * ${cgt_time_scale}")
     set_tests_properties(${name} PROPERTIES TIMEOUT ${seconds} ENVIRONMENT "${cgt_test_environment}"
-                                            SKIP_RETURN_CODE 77)
+                                            SKIP_RETURN_CODE 77 LABELS "${ARGN}")
 endfunction()
 
 function(cgt_add_test name)
-    cmake_parse_arguments(test "" "TIMEOUT" "LIBRARIES" ${ARGN})
+    cmake_parse_arguments(test "" "TIMEOUT" "LABELS;LIBRARIES" ${ARGN})
+    cgt_test_selected(selected ${test_LABELS})
+    if(NOT selected)
+        return()
+    endif()
     add_executable(${name} ${test_UNPARSED_ARGUMENTS})
     cgt_use_c11(${name})
     cgt_list_variants(${name})
@@ -44,15 +71,20 @@ function(cgt_add_test name)
                                                "${PROJECT_SOURCE_DIR}/bench")
     target_compile_definitions(${name} PRIVATE "CGT_DATA_DIR=\"${PROJECT_SOURCE_DIR}/examples/data\""
                                                "CGT_TESTS_DIR=\"${PROJECT_SOURCE_DIR}/tests\"")
-    target_link_libraries(${name} PRIVATE cgt_static ${test_LIBRARIES} cgt_cmocka Threads::Threads m)
+    target_link_libraries(${name} PRIVATE ${test_LIBRARIES} cgt_test_support)
     add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
-    cgt_set_test_properties(${name} "${test_TIMEOUT}")
+    if(NOT test_TIMEOUT)
+        set(test_TIMEOUT 60)
+    endif()
+    cgt_set_test_properties(${name} ${test_TIMEOUT} ${test_LABELS})
 endfunction()
 
 function(cgt_add_variant_test name)
     foreach(row IN LISTS CGT_VARIANTS)
         cgt_add_test(${name}_${row} ${ARGN})
-        cgt_use_variant(${name}_${row} ${row})
+        if(TARGET ${name}_${row})
+            cgt_use_variant(${name}_${row} ${row})
+        endif()
     endforeach()
 endfunction()
 
@@ -66,14 +98,23 @@ function(cgt_add_cluster_test name)
         list(TRANSFORM CGT_VARIANTS PREPEND "${name}_" OUTPUT_VARIABLE programs)
     endif()
     foreach(program IN LISTS programs)
-        string(REPLACE "${name}" "${name}_clusters" again "${program}")
-        cgt_add_test(${again} "$<TARGET_OBJECTS:${program}>" clusters/always_clusters.c ${test_UNPARSED_ARGUMENTS})
-        add_dependencies(${again} ${program})
+        if(TARGET ${program})
+            string(REPLACE "${name}" "${name}_clusters" again "${program}")
+            cgt_add_test(${again} "$<TARGET_OBJECTS:${program}>" "$<TARGET_OBJECTS:cgt_always_clusters>"
+                         ${test_UNPARSED_ARGUMENTS})
+            if(TARGET ${again})
+                add_dependencies(${again} ${program})
+            endif()
+        endif()
     endforeach()
 endfunction()
 
 function(cgt_add_script_test name script)
-    add_test(NAME ${name} COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${ARGN}
-             WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
-    cgt_set_test_properties(${name} 240) # many short runs of a program
+    cmake_parse_arguments(test "" "" "LABELS" ${ARGN})
+    cgt_test_selected(selected ${test_LABELS})
+    if(selected)
+        add_test(NAME ${name} COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${test_UNPARSED_ARGUMENTS}
+                 WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
+        cgt_set_test_properties(${name} 240 ${test_LABELS}) # many short runs of a program
+    endif()
 endfunction()
