@@ -9,8 +9,9 @@ set encoding utf8
 set datafile separator "\t"
 
 # Okabe and Ito's colours for variants, gnuplot's filled symbols for ways
-array variants[5] = ['portable', 'sse', 'neon', 'avx2', 'avx512']
-array colors[5] = ['#000000', '#0072b2', '#e69f00', '#009e73', '#d55e00']
+array variants[6] = ['portable', 'sse', 'neon', 'avx2', 'avx512', 'spu']
+array titles[6] = ['portable', 'sse', 'neon', 'avx2', 'avx512', 'the SPU''s arithmetic']
+array colors[6] = ['#000000', '#0072b2', '#e69f00', '#009e73', '#d55e00', '#cc79a7']
 array shapes[5] = [13, 7, 9, 11, 5]
 if (frames) {
   array ways[5] = ['exact', 'robust', 'fast', 'fast moller-trumbore', 'fast accelerated']
@@ -22,10 +23,11 @@ if (frames) {
   array ways[5] = ['sphere', 'watertight', 'moller-trumbore', 'accelerated', '']
   array names[5] = ['sphere', 'watertight', 'Möller-Trumbore', 'accelerated', '']
   way_of(x) = strcol(2)
-  variant_of(x) = strcol(4) eq 'spu' ? '' : strcol(3)
+  variant_of(x) = strcol(4) eq 'spu' ? 'spu' : strcol(3)
   time = 5; wrong = 11; ulp = 14
 }
 ways_used = frames ? 5 : 4
+variants_used = frames ? 5 : 6
 is_of(v, w) = variant_of(0) eq variants[v] && way_of(0) eq ways[w]
 
 # A logarithm has no place for 0: it gets one below all other values.
@@ -54,13 +56,12 @@ do for [form = 1:2] {
   set logscale y
   set format y '10^{%T}'
   set yrange [wrong_floor / 2:*]
+  set ytics auto
   set ytics add ('none' wrong_floor)
   set ylabel frames ? 'wrong pixels per million' : 'wrong answers per million'
-  plot for [v = 1:5] for [w = 1:ways_used] table using (is_of(v, w) ? column(time) : NaN):(above(1e6 * column(wrong), wrong_floor)) \
+  plot for [v = 1:variants_used] for [w = 1:ways_used] table using (is_of(v, w) ? column(time) : NaN):(above(1e6 * column(wrong), wrong_floor)) \
          with points pointtype shapes[w] pointsize 1.2 linecolor rgb colors[v] notitle, \
-       for [w = 1:ways_used] keyentry with points pointtype shapes[w] linecolor rgb '#777777' title names[w], \
-       !frames ? table : '/dev/null' using (strcol(4) eq 'spu' ? column(time) : NaN):(above(1e6 * column(wrong), wrong_floor)) \
-         with points pointtype 1 pointsize 1.6 linecolor rgb '#cc79a7' title frames ? '' : 'any, in the SPU''s arithmetic'
+       for [w = 1:ways_used] keyentry with points pointtype shapes[w] linecolor rgb '#777777' title names[w]
 
   # the worst error of t; the key names the variants
   set key at screen 0.68,screen 0.97 - 0.96 / rows
@@ -69,9 +70,9 @@ do for [form = 1:2] {
   set yrange [ulp_floor / 2:*]
   set ytics add ('0' ulp_floor)
   set ylabel 'worst error of t, ulp'
-  plot for [v = 1:5] for [w = 1:ways_used] table using (is_of(v, w) ? column(time) : NaN):(above(column(ulp), ulp_floor)) \
+  plot for [v = 1:variants_used] for [w = 1:ways_used] table using (is_of(v, w) ? column(time) : NaN):(above(column(ulp), ulp_floor)) \
          with points pointtype shapes[w] pointsize 1.2 linecolor rgb colors[v] notitle, \
-       for [v = 1:5] keyentry with points pointtype 7 linecolor rgb colors[v] title variants[v]
+       for [v = 1:variants_used] keyentry with points pointtype 7 linecolor rgb colors[v] title titles[v]
 
   # what ROBUST and EXACT cost
   if (frames) {
