@@ -110,6 +110,15 @@ int bench_input_load(bench_input *input, const char *path, uint64_t frames, floa
     return failed;
 }
 
+int bench_input_load_file(bench_input *input, const bench_settings *settings, const char *path)
+{
+    char error[PROGRAM_ERROR_SIZE] = "";
+    if (!bench_input_load(input, path, settings->frames, settings->radius, settings->wrapped, error, sizeof error))
+        return PROGRAM_OK;
+    program_error("%s", error);
+    return PROGRAM_FAILED;
+}
+
 void bench_input_release(bench_input *input)
 {
     for (size_t i = 0; i < input->frames; i++)

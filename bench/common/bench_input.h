@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "common/bench.h"
 #include "trajectory/trajectory.h"
 
 typedef struct bench_input {
@@ -25,6 +26,9 @@ typedef struct bench_input {
  * Returns 0, or -1 with a text in error; a file without a frame is an error. */
 int bench_input_load(bench_input *input, const char *path, uint64_t frames, float radius, int wrapped, char *error,
                      size_t error_size);
+
+/* The same with the frames, radius and wrapping of the settings. Prints an error, and returns an exit code. */
+int bench_input_load_file(bench_input *input, const bench_settings *settings, const char *path);
 
 void bench_input_release(bench_input *input);
 

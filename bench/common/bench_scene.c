@@ -136,21 +136,12 @@ int bench_scene_failed(const cgt_context *context, const char *what, cgt_result 
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
-const char *bench_loop_name(cgt_loop loop)
-{
-    return loop == CGT_LOOP_NESTED ? "nested" : loop == CGT_LOOP_FLATTENED ? "flattened" : "auto";
-}
-
-const char *bench_cull_name(cgt_cull cull)
-{
-    return cull == CGT_CULL_NONE ? "off" : cull == CGT_CULL_FRUSTUM ? "frustum" : "blocks";
-}
-
-const char *bench_tile_name(cgt_tile_shape tile)
-{
-    return tile == CGT_TILE_SHAPE_SQUARE ? "square" : tile == CGT_TILE_SHAPE_STRIP ? "strip" : "auto";
-}
-
+static const char *const loops[] = {
+    [CGT_LOOP_AUTO] = "auto", [CGT_LOOP_NESTED] = "nested", [CGT_LOOP_FLATTENED] = "flattened"};
+static const char *const culls[] = {
+    [CGT_CULL_NONE] = "off", [CGT_CULL_FRUSTUM] = "frustum", [CGT_CULL_BLOCKS] = "blocks"};
+static const char *const tiles[] = {
+    [CGT_TILE_SHAPE_AUTO] = "auto", [CGT_TILE_SHAPE_SQUARE] = "square", [CGT_TILE_SHAPE_STRIP] = "strip"};
 static const char *const precisions[] = {
     [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact"};
 static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_WATERTIGHT] = "watertight",
@@ -172,13 +163,14 @@ static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
 static const char *const kd_builders[] = {
     [CGT_KD_BUILDER_AUTO] = "auto", [CGT_KD_BUILDER_BINNED] = "binned", [CGT_KD_BUILDER_SWEEP] = "sweep"};
 
-#define COUNT(names) (sizeof(names) / sizeof *(names))
-
 const char *bench_structure_name(cgt_structure structure)
 {
     return structure == CGT_STRUCTURE_AUTO ? "none" : structures[structure];
 }
 
+const char *bench_loop_name(cgt_loop loop) { return loops[loop]; }
+const char *bench_cull_name(cgt_cull cull) { return culls[cull]; }
+const char *bench_tile_name(cgt_tile_shape tile) { return tiles[tile]; }
 const char *bench_precision_name(cgt_precision precision) { return precisions[precision]; }
 const char *bench_triangle_test_name(cgt_triangle_test test) { return triangle_tests[test]; }
 const char *bench_kd_traversal_name(cgt_kd_traversal traversal) { return kd_traversals[traversal]; }
@@ -194,52 +186,31 @@ static int find(const char *name, const char *const *names, size_t count)
     return -1;
 }
 
-int bench_precision_find(const char *name, cgt_precision *precision)
+/* Sets *value, of an enum, to the index of a name in its list; returns 0, or -1 where there is none. */
+#define FIND(name, names, type, value)                                                                                 \
+    do {                                                                                                               \
+        const int index = find(name, names, sizeof(names) / sizeof *(names));                                          \
+        if (index >= 0)                                                                                                \
+            *(value) = (type)index;                                                                                    \
+        return index < 0 ? -1 : 0;                                                                                     \
+    } while (0)
+
+int bench_precision_find(const char *name, cgt_precision *value) { FIND(name, precisions, cgt_precision, value); }
+int bench_structure_find(const char *name, cgt_structure *value) { FIND(name, structures, cgt_structure, value); }
+int bench_cull_find(const char *name, cgt_cull *value) { FIND(name, culls, cgt_cull, value); }
+int bench_loop_find(const char *name, cgt_loop *value) { FIND(name, loops, cgt_loop, value); }
+int bench_tile_find(const char *name, cgt_tile_shape *value) { FIND(name, tiles, cgt_tile_shape, value); }
+int bench_kd_layout_find(const char *name, cgt_kd_layout *value) { FIND(name, kd_layouts, cgt_kd_layout, value); }
+int bench_kd_builder_find(const char *name, cgt_kd_builder *value) { FIND(name, kd_builders, cgt_kd_builder, value); }
+
+int bench_triangle_test_find(const char *name, cgt_triangle_test *value)
 {
-    const int index = find(name, precisions, COUNT(precisions));
-    if (index >= 0)
-        *precision = (cgt_precision)index;
-    return index < 0 ? -1 : 0;
+    FIND(name, triangle_tests, cgt_triangle_test, value);
 }
 
-int bench_triangle_test_find(const char *name, cgt_triangle_test *test)
+int bench_kd_traversal_find(const char *name, cgt_kd_traversal *value)
 {
-    const int index = find(name, triangle_tests, COUNT(triangle_tests));
-    if (index >= 0)
-        *test = (cgt_triangle_test)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_structure_find(const char *name, cgt_structure *structure)
-{
-    const int index = find(name, structures, COUNT(structures));
-    if (index >= 0)
-        *structure = (cgt_structure)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal)
-{
-    const int index = find(name, kd_traversals, COUNT(kd_traversals));
-    if (index >= 0)
-        *traversal = (cgt_kd_traversal)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_kd_layout_find(const char *name, cgt_kd_layout *layout)
-{
-    const int index = find(name, kd_layouts, COUNT(kd_layouts));
-    if (index >= 0)
-        *layout = (cgt_kd_layout)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_kd_builder_find(const char *name, cgt_kd_builder *builder)
-{
-    const int index = find(name, kd_builders, COUNT(kd_builders));
-    if (index >= 0)
-        *builder = (cgt_kd_builder)index;
-    return index < 0 ? -1 : 0;
+    FIND(name, kd_traversals, cgt_kd_traversal, value);
 }
 
 void bench_file_name(const char *path, char name[BENCH_NAME_SIZE])
@@ -296,6 +267,11 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "test", bench_triangle_test_name(choice->test));
     if (choice->grid)
         append(name, "grid", choice->grid);
+}
+
+bench_choice bench_choice_default(const char *variant)
+{
+    return (bench_choice){.variant = variant, .cull = CGT_CULL_BLOCKS, .mailbox = 1};
 }
 
 void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options)

@@ -51,7 +51,7 @@ typedef struct bench_kd_choice {
     cgt_kd_builder builder;
 } bench_kd_choice;
 
-/* What can be set of a trace; zero and NULL are the library's choices, cull and mailbox are given as they are. */
+/* What can be set of a trace. Begin with bench_choice_default: all of it the library's choice. */
 typedef struct bench_choice {
     const char *variant;
     uint32_t packet;
@@ -80,12 +80,17 @@ const char *bench_precision_name(cgt_precision precision);
 const char *bench_triangle_test_name(cgt_triangle_test test);
 
 /* The value of a name, as above: 0, or -1 where there is none. */
+int bench_loop_find(const char *name, cgt_loop *loop);
+int bench_cull_find(const char *name, cgt_cull *cull);
+int bench_tile_find(const char *name, cgt_tile_shape *tile);
 int bench_precision_find(const char *name, cgt_precision *precision);
 int bench_triangle_test_find(const char *name, cgt_triangle_test *test);
 int bench_structure_find(const char *name, cgt_structure *structure); /* AUTO is "auto" */
 int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal);
 int bench_kd_layout_find(const char *name, cgt_kd_layout *layout);
 int bench_kd_builder_find(const char *name, cgt_kd_builder *builder);
+
+bench_choice bench_choice_default(const char *variant);
 
 /* A file's name without its folder and its ending. */
 void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);

@@ -14,7 +14,7 @@
 #include "common/bench.h"
 #include "common/bench_input.h"
 #include "common/bench_planes.h"
-#include "frame/bench_frame_rays.h"
+#include "common/bench_rays.h"
 #include "common/bench_threads.h"
 
 /* Where the fields of N rays and their hits lie in Embree's structures: field * N + ray. */

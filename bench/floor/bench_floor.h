@@ -23,11 +23,9 @@
 #include <stdint.h>
 
 #include "common/bench.h"
-#include "accuracy/bench_accuracy_report.h"
+#include "common/bench_table.h"
 #include "common/bench_planes.h"
 #include "common/bench_threads.h"
-
-enum { FLOOR_MOST_FILES = 32 };
 
 /* What a frame asks for. */
 typedef enum floor_fields {
@@ -42,13 +40,9 @@ typedef enum floor_fields {
 typedef struct floor_settings {
     bench_settings shared;
     bench_structure_settings structure;
-    cgt_precision precision;
-    int precision_given;
-    const char *paths[FLOOR_MOST_FILES];
-    size_t files;       /* 0: scenes made in memory */
+    bench_precision_settings precision;
     uint32_t megabytes; /* of the memory that bandwidth is measured on */
     uint32_t spheres, triangles;
-    const char *json_path;
 } floor_settings;
 
 /* Nanoseconds in one thread; see bench_floor_tests.c. */
@@ -60,7 +54,7 @@ typedef struct floor_tests {
 
 typedef struct floor_job {
     const floor_settings *settings;
-    accuracy_report *report;
+    bench_table *table;
     cgt_context *context;
     bench_threads *threads;
     bench_choice choice;

@@ -5,15 +5,14 @@
  * a slow moment of the machine meets all of them alike. Every run's hits are compared bit by bit with the first one's.
  *
  * First every configuration counts its steps in runs that are not timed; then the timed runs, which count nothing. */
+#include "loops/bench_loops.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/bench.h"
 #include "common/bench_input.h"
-#include "loops/bench_plan.h"
 #include "common/bench_planes.h"
-#include "loops/bench_report.h"
 #include "common/bench_scene.h"
 #include "common/bench_timing.h"
 
@@ -160,12 +159,8 @@ static int run_all(loops_job *job)
 static int prepare(loops_job *job)
 {
     const bench_settings *settings = job->settings;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    if (bench_input_load(&job->input, settings->path, settings->frames, settings->radius, settings->wrapped, error,
-                         sizeof error)) {
-        program_error("%s", error);
+    if (bench_input_load_file(&job->input, settings, settings->paths[0]))
         return PROGRAM_FAILED;
-    }
     const size_t frames = job->input.frames;
     if (settings->repeat > SIZE_MAX / frames || bench_planes_create(&job->planes, settings->width, settings->height) ||
         !(job->hash = calloc(frames, sizeof *job->hash))) {
@@ -180,11 +175,16 @@ static int prepare(loops_job *job)
 
 static int report(const loops_job *job)
 {
+    bench_table *table = bench_table_open(job->settings->json_path);
     uint64_t hash = 0;
-    if (bench_report_table(&job->plan, job->input.frames) || bench_report_ratios(&job->plan)) {
-        program_error("out of memory");
+    if (!table)
         return PROGRAM_FAILED;
-    }
+    const int failed =
+        bench_report_table(&job->plan, job->input.frames, table) || bench_report_ratios(&job->plan, table);
+    if (failed)
+        program_error("out of memory");
+    if (bench_table_close(table) || failed)
+        return PROGRAM_FAILED;
     for (size_t i = 0; i < job->input.frames; i++)
         hash = (hash ^ job->hash[i]) * 0x9e3779b97f4a7c15u;
     printf("#\n# hits\t%zu frames\t%zu configurations\t%llu traces compared\t%llu different\thash %016llx\n",

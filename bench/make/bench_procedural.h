@@ -9,9 +9,6 @@
 
 #include <stdint.h>
 
-/* The camera that looks at clouds and balls, as on the command line. */
-#define BENCH_PROCEDURAL_CAMERA "0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46"
-
 typedef struct bench_procedural {
     uint32_t count;     /* spheres or vertices */
     uint32_t triangles; /* 0: spheres */

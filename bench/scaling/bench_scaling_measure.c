@@ -123,13 +123,7 @@ static void release(point_job *job)
 
 int scaling_measure(const scaling_settings *settings, scaling_point *point)
 {
-    const bench_choice choice = {.variant = settings->shared.variant,
-                                 .packet = settings->shared.packet,
-                                 .cull = CGT_CULL_BLOCKS,
-                                 .mailbox = 1,
-                                 .precision = settings->precision,
-                                 .precision_named = settings->precision_given,
-                                 .kd = settings->structure.kd};
+    const bench_choice choice = bench_choice_of(&settings->shared, &settings->structure, &settings->precision);
     point_job job = {.settings = settings, .point = point};
     int code = prepare(&job);
     if (code == PROGRAM_OK) {

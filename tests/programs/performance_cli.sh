@@ -109,7 +109,7 @@ is 'the machine alone' "$(column part)" 'memory empty tests'
 
 # ---- Errors ---------------------------------------------------------------------------------------------------------
 
-refuses 2 'no FILE' scaling file.frames
+refuses 2 'takes no FILE' scaling file.frames
 refuses 2 'no hash' scaling -w hash
 refuses 2 'no cubes' scaling -o cubes
 refuses 2 'comma' scaling --primitives 100
