@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # accuracy.sh [FOLDER]
-# Makes the tables and plots of docs/accuracy.md again, from a release build with its tests (scripts/test.sh release
+# Makes the tables and plots of docs/reports/accuracy.md again, from a release build with its tests (scripts/test.sh release
 # leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/accuracy. About ten minutes
 # on a quiet machine; figures of a busy one mean little.
 #   VARIANT  the instruction set whose hard cases are listed; default: the widest that this CPU runs

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # rays.sh [FOLDER]
-# Which structure for which rays: makes the scenes, the tables and the plots of that part of docs/structures.md again,
+# Which structure for which rays: makes the scenes, the tables and the plots of that part of docs/reports/ray_kinds.md again,
 # from a release build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and
 # results; default out/rays. Figures of a busy machine mean little.
 #   SIZE     pixels of the picture; default 640x360
@@ -12,7 +12,7 @@
 #   THREADS  default 1
 #   SCENES   default cloud20k cloud1m blobs2k blob100k
 #   STRUCTURES, KINDS, ORDERS, QUERIES, BATCHES  lists with commas; default: cgt-bench's
-#   IMAGES   folder that gets the plot of one scene, too, as rays.png and rays.svg; default: none (docs/images for the
+#   IMAGES   folder that gets the plot of one scene, too, as rays.png and rays.svg; default: none (docs/reports/images for the
 #            text)
 #   PLOT     that scene; default: the last one
 #   BIN      folder of the programs; default build/release/bin

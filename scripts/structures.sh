@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # structures.sh [FOLDER]
-# Grids and kd-trees beside each other: makes the scenes, the tables and the plots of docs/structures.md again, from a
+# Grids and kd-trees beside each other: makes the scenes, the tables and the plots of docs/reports/grids_and_trees.md again, from a
 # release build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results;
 # default out/structures. Figures of a busy machine mean little. Grids take minutes over the stadium: a small thing in
 # a huge space is what they are not for.

@@ -17,7 +17,7 @@
  * the quadword's shifts) count them as an SPU does, by the type of the operand; spu_types.h says what casts do.
  *
  * A macro picks the typed function, cgt_spu_WORD_TYPE, by the type of an operand. It evaluates each operand once; a
- * wrong type does not compile. The words, their overloads and what they cost are in docs/spu.md, their table in
+ * wrong type does not compile. The words, their overloads and what they cost are in docs/guide/spu.md, their table in
  * spu_words.h.
  *
  * Thread safety: no word keeps state, but for the host interface of spu_channels.h, which is per thread. */
