@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-convert: converts any trajectory or mesh that the readers know to .frames. The output goes to a temporary file that
- * is renamed when it is complete, so a failed run leaves the previous file alone. */
+ * cgt-convert: converts any trajectory or mesh that the readers know to .frames. The output goes to a temporary file
+ * that is renamed when it is complete, so a failed run leaves the previous file alone. */
 #define _GNU_SOURCE /* argp */
 #include "common/program.h"
 #include "trajectory/trajectory.h"

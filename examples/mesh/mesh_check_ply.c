@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Walks through a .ply file from its header to its end before assimp sees it: assimp reads a truncated file as a smaller
- * one, or never returns from it, and turns a list of triangle strips into one triangle. */
+ * Walks through a .ply file from its header to its end before assimp sees it: assimp reads a truncated file as a
+ * smaller one, or never returns from it, and turns a list of triangle strips into one triangle. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/mesh_model.h"

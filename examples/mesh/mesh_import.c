@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Reads a file of meshes by assimp, with checks before, during and after: assimp may drop what it does not understand with
- * no more than a line in its log, and aborts the program where a mesh contradicts itself. */
+ * Reads a file of meshes by assimp, with checks before, during and after: assimp may drop what it does not understand
+ * with no more than a line in its log, and aborts the program where a mesh contradicts itself. */
 #define _GNU_SOURCE /* strcasestr */
 #include "mesh/mesh_model.h"
 

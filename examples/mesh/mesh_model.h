@@ -81,8 +81,8 @@ uint32_t mesh_model_find(const mesh_model *model, const struct aiString *name);
 
 /* ---- The steps of reading, in files of their own; each returns 1, or -1 with an error noted ----------------- */
 
-/* mesh_import.c: imports the checked file and cuts polygons into triangles: scene and some facts. mesh_import_scene does
- * so without the checks that protect the program. */
+/* mesh_import.c: imports the checked file and cuts polygons into triangles: scene and some facts. mesh_import_scene
+ * does so without the checks that protect the program. */
 int mesh_import(trajectory *t, mesh_model *model);
 int mesh_import_scene(trajectory *t, mesh_model *model);
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Maps numbers to colours. Measured values (speed, id) use a perceptually uniform map that is readable without red-green
- * vision; kinds (types) use colours that everyone can tell apart. All colours are sRGB, 0 to 1. */
+ * Maps numbers to colours. Measured values (speed, id) use a perceptually uniform map that is readable without
+ * red-green vision; kinds (types) use colours that everyone can tell apart. All colours are sRGB, 0 to 1. */
 #ifndef COLORMAP_H
 #define COLORMAP_H
 

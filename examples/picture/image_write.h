@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Writes pictures to files through OpenImageIO: the C face of image_write.cpp, which is C++ only because OpenImageIO is.
+ * Writes pictures to files through OpenImageIO: the C interface of image_write.cpp (OpenImageIO needs C++).
  *
  * A picture is encoded in memory, written to PATH.part and renamed: PATH is either the whole picture or the
  * previous file, and a full disk is an error, not half a file. No function here is safe to call for the same path

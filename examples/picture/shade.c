@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Turns hits into pixels; see shade.h. A tile is processed in runs of up to RUN hits of one row: first the brightness of
- * each, in plain loops that a compiler vectorises, then colour and sRGB codes through tables. */
+ * Turns hits into pixels; see shade.h. A tile is processed in runs of up to RUN hits of one row: first the brightness
+ * of each, in plain loops that a compiler vectorises, then colour and sRGB codes through tables. */
 #include "picture/shade.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Turns hits into pixels, tile by tile while the hits are in cache: a visitor for cgt_trace_camera. Spheres and triangles
- * are matt (Lambert) under a directional light, with a headlight at the eye that brightens the shadowed side. Triangles
- * are lit on the side that the eye sees, with vertex normals where there are any. Sums are of linear light. */
+ * Turns hits into pixels, tile by tile while the hits are in cache: a visitor for cgt_trace_camera. Spheres and
+ * triangles are matt (Lambert) under a directional light, with a headlight at the eye that brightens the shadowed side.
+ * Triangles are lit on the side that the eye sees, with vertex normals where there are any. Light adds linearly. */
 #ifndef SHADE_H
 #define SHADE_H
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-render: renders the moving spheres or triangles of a trajectory. Each frame: read, colour, commit (the structure is
- * built from the arrays as they are), trace with a visitor that shades each tile while it is in cache, write. */
+ * cgt-render: renders the moving spheres or triangles of a trajectory. Each frame: read, colour, commit (the structure
+ * is built from the arrays as they are), trace with a visitor that shades each tile while it is in cache, write. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <signal.h>

@@ -53,8 +53,8 @@ typedef struct render_options {
 /* Parses the command line. Ends the program on --help, --version (PROGRAM_OK) and errors (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);
 
-/* Chooses up and view where the command line does not: up is z for spheres, as in simulators, and y for triangles, as in
- * modelling programs; another axis where that is the view. The view is from the side and slightly above. */
+/* Chooses up and view where the command line does not: up is z for spheres, as in simulators, and y for triangles, as
+ * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */
 void render_options_axes(render_options *options, trajectory_kind kind);
 
 #endif

@@ -41,7 +41,7 @@ typedef struct render_report {
 /* Starts a report; log_path: NULL for none. Returns 0, or -1 with a text. */
 int render_report_open(render_report *report, const char *log_path, char *error, size_t error_size);
 
-/* Adds a frame. scene: statistics of its commit; traced: NULL where nothing was counted. Returns 0, or -1 with a text. */
+/* Adds a frame. scene: statistics of its commit; traced: NULL if nothing was counted. Returns 0, or -1 with a text. */
 int render_report_add(render_report *report, const frame_record *frame, const cgt_scene_statistics *scene,
                       const cgt_trace_statistics *traced, char *error, size_t error_size);
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hits in a C program. Spheres fly around in an array of this program. In every frame they move, the scene is committed,
- * a camera draws them (as letters, one per sphere), and a single ray is traced. */
+ * Hits in a C program. Spheres fly around in an array of this program. In every frame they move, the scene is
+ * committed, a camera draws them (as letters, one per sphere), and a single ray is traced. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write:
  *   .lammpstrj  LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
  *               vx vy vz where present; columns and count may differ from frame to frame
- *   .xyz        count, comment, then element or type and x y z on each line; or the columns of the comment's Properties=
+ *   .xyz        count, comment, then element or type and x y z on each line; or the columns given by Properties=
  *               (extended: species, pos, radius, velo, id, type); radii by element unless given
  *   .frames     the project's own binary, see below
  *   meshes      .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved
@@ -56,16 +56,16 @@ typedef struct trajectory_frame {
 
 void trajectory_options_init(trajectory_options *options);
 
-/* Opens a file according to its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh. options: NULL for the
- * defaults. Returns NULL on an error; error gets a text that names the path (and line). */
+/* Opens a file according to its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh. options: NULL
+ * for the defaults. Returns NULL on an error; error gets a text that names the path (and line). */
 trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
 
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
 
-/* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may stay
- * unread, and so may their errors. */
+/* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may
+ * stay unread, and so may their errors. */
 int trajectory_skip(trajectory *t, char *error, size_t error_size);
 
 /* Counts the frames of the file by skipping, and goes back to the first: 0, or -1 with a text. */

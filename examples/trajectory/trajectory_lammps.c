@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * LAMMPS dump text: sections that begin with "ITEM:"; the last of a frame has the rows of atoms. Every section is parsed
- * anew: columns, count and box may change from frame to frame. */
+ * LAMMPS dump text: sections that begin with "ITEM:"; the last of a frame has the rows of atoms. Every section is
+ * parsed anew: columns, count and box may change from frame to frame. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_row.h"
 

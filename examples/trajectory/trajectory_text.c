@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Lines and numbers. A simulator's file holds millions of short decimal numbers, and strtof alone would take most of the
- * reading time: the common ones take a fast path that gives the same bits. */
+ * Lines and numbers. A simulator's file holds millions of short decimal numbers, and strtof alone would take most of
+ * the reading time: the common ones take a fast path that gives the same bits. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_text.h"
 

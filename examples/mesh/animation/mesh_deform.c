@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Vertices under a pose. Without bones a vertex follows its node; with bones it follows their transforms, blended by its
- * weights (linear blend skinning). */
+ * Vertices under a pose. Without bones a vertex follows its node; with bones it follows their transforms, blended by
+ * its weights (linear blend skinning). */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/animation/mesh_pose.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The nodes of a mesh file at a time. Between two keys, positions and scales are interpolated linearly and rotations along
- * an arc; before the first key and after the last they are constant. */
+ * The nodes of a mesh file at a time. Between two keys, positions and scales are interpolated linearly and rotations
+ * along an arc; before the first key and after the last they are constant. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/animation/mesh_pose.h"
 
