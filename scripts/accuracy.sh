@@ -3,13 +3,13 @@
 # SPDX-License-Identifier: MIT
 #
 # accuracy.sh [FOLDER]
-# Remakes the tables and plots of docs/accuracy.md from a release build with its tests (scripts/test.sh release leaves
+# Remakes the tables and plots of docs/reports/accuracy.md from a release build with its tests (scripts/test.sh release leaves
 # one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/accuracy. Takes about ten minutes
 # on a quiet machine; figures from a busy one mean little.
 #   VARIANT  the instruction set whose hard cases are listed; default: the widest that this CPU runs
 #   RAYS     of each case and scene; default 4000
 #   ROUNDS   default 5
-#   IMAGES   folder that also gets the plots; default: none (docs/images for the document)
+#   IMAGES   folder that also gets the plots; default: none (docs/reports/images for the document)
 #   BUILD    default build/release
 set -euo pipefail
 cd "$(dirname "$0")/.."

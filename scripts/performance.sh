@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # performance.sh [FOLDER]
-# Makes the scenes, tables and plots of docs/performance.md again, from a release build with its tests (scripts/test.sh
+# Makes the scenes, tables and plots of docs/reports/performance.md again, from a release build with its tests (scripts/test.sh
 # release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/performance.
 # Figures of a busy machine mean little. Embree's columns are made where the build has compare-embree.
 #   STRUCTURE   default auto, the library's default
@@ -19,7 +19,7 @@
 #   ROUNDS      of frames and of limits; default 9
 #   COMPARES    rounds of the comparison with Embree; default 3
 #   RAYS        shadow and ambient-occlusion rays that are compared; default -l 2,3,-2.5 -a 4
-#   IMAGES      folder that gets the plots, too; default: none (docs/images for the text)
+#   IMAGES      folder that gets the plots, too; default: none (docs/reports/images for the text)
 #   BIN         folder of the programs; default build/release/bin
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # rays.sh [FOLDER]
-# Which structure for which rays: remakes the scenes, tables and plots of that part of docs/structures.md from a release
+# Which structure for which rays: remakes the scenes, tables and plots of that part of docs/reports/ray_kinds.md from a release
 # build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default
 # out/rays. Figures from a busy machine mean little.
 #   SIZE     pixels of the picture; default 640x360
@@ -13,7 +13,7 @@
 #   SCENES   default cloud20k cloud1m blobs2k blob100k
 #   STRUCTURES, KINDS, ORDERS, BATCHES  lists with commas; default: all, AUTO and the frame excepted; powers of four
 #   QUERIES  a list with commas; default: those that are usual for a kind
-#   IMAGES   folder that also gets the plot of one scene, as rays.png and rays.svg; default: none (docs/images for the
+#   IMAGES   folder that also gets the plot of one scene, as rays.png and rays.svg; default: none (docs/reports/images for the
 #            document)
 #   PLOT     that scene; default: the last one
 #   BIN      folder of the programs; default build/release/bin

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # structures.sh [FOLDER]
-# Compares the structures: remakes the scenes, tables and plots of docs/structures.md from a release build
+# Compares the structures: remakes the scenes, tables and plots of docs/reports/grids_and_trees.md from a release build
 # (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default
 # out/structures. Figures from a busy machine mean little. Grids take minutes over the stadium: a small object in a huge
 # space is not what they are for.

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What cgt-render says about a run; see render_report.h. */
+ * The report of a run; see render_report.h. */
 #include "render/render_report.h"
 
 #include <errno.h>
@@ -29,29 +29,29 @@ int render_report_open(render_report *report, const char *log_path, char *error,
     return 0;
 }
 
-static void add_counts(cgt_trace_statistics *sum, const cgt_trace_statistics *one)
+static void add_counts(cgt_trace_statistics *sum, const cgt_trace_statistics *frame)
 {
-    sum->rays += one->rays;
-    sum->invalid_rays += one->invalid_rays;
-    sum->hits += one->hits;
-    sum->tiles += one->tiles;
-    sum->packets += one->packets;
-    sum->split_packets += one->split_packets;
-    sum->slices += one->slices;
-    sum->cells += one->cells;
-    sum->references += one->references;
-    sum->mailbox_skipped += one->mailbox_skipped;
-    sum->cull_tests += one->cull_tests;
-    sum->culled += one->culled;
-    sum->packet_tests += one->packet_tests;
-    sum->ray_tests += one->ray_tests;
-    sum->double_tests += one->double_tests;
-    sum->exact_tests += one->exact_tests;
-    sum->exact_values += one->exact_values;
-    sum->early_exits += one->early_exits;
-    sum->packet_size = one->packet_size;
-    sum->tile = one->tile;
-    sum->loop = one->loop;
+    sum->rays += frame->rays;
+    sum->invalid_rays += frame->invalid_rays;
+    sum->hits += frame->hits;
+    sum->tiles += frame->tiles;
+    sum->packets += frame->packets;
+    sum->split_packets += frame->split_packets;
+    sum->slices += frame->slices;
+    sum->cells += frame->cells;
+    sum->references += frame->references;
+    sum->mailbox_skipped += frame->mailbox_skipped;
+    sum->cull_tests += frame->cull_tests;
+    sum->culled += frame->culled;
+    sum->packet_tests += frame->packet_tests;
+    sum->ray_tests += frame->ray_tests;
+    sum->double_tests += frame->double_tests;
+    sum->exact_tests += frame->exact_tests;
+    sum->exact_values += frame->exact_values;
+    sum->early_exits += frame->early_exits;
+    sum->packet_size = frame->packet_size;
+    sum->tile = frame->tile;
+    sum->loop = frame->loop;
 }
 
 static void write_log(FILE *log, const frame_record *f)
@@ -93,7 +93,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The member at `offset` of all frames: its sum, and its median through scratch. */
+/* Sum and median of the member at `offset` over all frames. scratch: a double per frame. */
 static double column(const render_report *report, size_t offset, double *scratch, double *median)
 {
     double sum = 0.0;
@@ -107,10 +107,10 @@ static double column(const render_report *report, size_t offset, double *scratch
     return sum;
 }
 
-static void print_rate(FILE *to, const char *name, size_t frames, double ms, const char *what)
+static void print_rate(FILE *to, const char *name, size_t frames, double ms, const char *scope)
 {
     if (ms > 0.0)
-        fprintf(to, "%-18s%9.1f     %s\n", name, (double)frames * 1000.0 / ms, what);
+        fprintf(to, "%-18s%9.1f     %s\n", name, (double)frames * 1000.0 / ms, scope);
 }
 
 static void print_times(const render_report *report, uint64_t rays, uint64_t hits, uint32_t images, FILE *to)
@@ -159,7 +159,7 @@ static void print_stats(const render_report *report, FILE *to)
                 s->fits_local_store ? "fits into" : "does not fit into");
     fputc('\n', to);
     fprintf(to, "                  (the frame with the most %s; below: per frame)\n", unit_of(report));
-    fprintf(to, "tiles             %.0f went through the grid as a whole\n", (double)t->tiles / n);
+    fprintf(to, "tiles             %.0f traced as a whole\n", (double)t->tiles / n);
     fprintf(to, "packets           %.0f of %" PRIu32 "x%" PRIu32 " rays, %.0f split, %.0f left early\n",
             (double)t->packets / n, t->packet_size, t->packet_size, (double)t->split_packets / n,
             (double)t->early_exits / n);
@@ -175,23 +175,23 @@ static void print_stats(const render_report *report, FILE *to)
 
 void render_report_print(const render_report *report, uint64_t rays, uint32_t images, FILE *to)
 {
-    uint32_t least = UINT32_MAX, most = 0;
+    uint32_t count_min = UINT32_MAX, count_max = 0;
     uint64_t not_finite = 0, negative = 0, flat = 0, hits = 0;
     if (report->count == 0)
         return;
     for (size_t i = 0; i < report->count; i++) {
         const frame_record *f = &report->frames[i];
-        least = f->primitives < least ? f->primitives : least;
-        most = f->primitives > most ? f->primitives : most;
+        count_min = f->primitives < count_min ? f->primitives : count_min;
+        count_max = f->primitives > count_max ? f->primitives : count_max;
         not_finite += f->skipped_not_finite;
         negative += f->skipped_radius;
         flat += f->skipped_degenerate;
         hits += f->hits;
     }
     fprintf(to, "frames            %9zu\n", report->count);
-    fprintf(to, "%-18s%9" PRIu32 "%s", unit_of(report), least, most == least ? "\n" : "");
-    if (most != least)
-        fprintf(to, " to %" PRIu32 "\n", most);
+    fprintf(to, "%-18s%9" PRIu32 "%s", unit_of(report), count_min, count_max == count_min ? "\n" : "");
+    if (count_max != count_min)
+        fprintf(to, " to %" PRIu32 "\n", count_max);
     if (not_finite + negative + flat)
         fprintf(to, "skipped %-10s%9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64 " %s\n",
                 unit_of(report), not_finite + negative + flat, not_finite, negative + flat,
