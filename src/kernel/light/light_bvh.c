@@ -15,9 +15,6 @@
 
 /* Packets that tell whether a chunk goes on as packets, and the work, in visits and tests, that one may take. Measured. */
 #define LIGHT_TRIAL_PACKETS 4u
-#ifndef LIGHT_PACKET_WORK
-#define LIGHT_PACKET_WORK 160u
-#endif
 #define LIGHT_MAX_WORK (4 * LIGHT_PACKET_WORK) /* of one packet: it is left off */
 
 /* ---- nodes and leaves ---- */

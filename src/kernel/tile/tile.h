@@ -27,7 +27,6 @@
 #define TILE_PAD 16u                  /* a window may begin in the last column */
 #define TILE_PARTS 4u                 /* parts of 16x16 pixels along an edge */
 #define TILE_MAX_TRIANGLES 2048u      /* triangles that a tile lists */
-#define TILE_QUEUE_CAPACITY 1024u     /* entries of its queue */
 
 /* Of 1/t, in linear tiles: what the best hit's may be less than z says. Less, and planes that are seen at a slant are
  * too coarse; more, and more layers are too near to each other. */
@@ -87,13 +86,6 @@ typedef struct tile {
     tile_camera camera;
     float axis[3], tangent, secant; /* a cone about all rays, as z, x, y; secant 0: too wide for one */
 } tile;
-
-/* What single precision leaves open (tile_decide.h): pixels, and objects that may be their nearest. */
-typedef struct tile_queue {
-    uint32_t entries;
-    uint16_t pixel[TILE_QUEUE_CAPACITY];
-    uint32_t prim[TILE_QUEUE_CAPACITY];
-} tile_queue;
 
 CGT_SPU_INLINE uint32_t tile_column(uint32_t i) { return (i & (TILE_ROW_PAIR - 1)) >> 1; }
 CGT_SPU_INLINE uint32_t tile_row(uint32_t i) { return i / TILE_ROW_PAIR * 2 + (i & 1); }

@@ -3,14 +3,14 @@
  *
  * A camera's frame tile by tile: objects of a loose grid, front to back, to the pixels that they may reach. The hits are
  * those that every other way finds. */
-#include "query/tile_limits.h"
-#include "kernel/tile_frame/tile_cells.h"
-#include "kernel/tile_draw/tile_double.h"
-#include "kernel/tile_draw/tile_sphere_draw.h"
-#include "kernel/tile_frame/tile_make.h"
-#include "kernel/tile_frame/tile_resolve.h"
-#include "kernel/tile_draw/tile_triangle_draw.h"
+#include "kernel/packet/packet.h"
 #include "kernel/tile/prefetch_queue.h"
+#include "kernel/tile_draw/tile_parallel_triangles.h"
+#include "kernel/tile_draw/tile_sphere_draw.h"
+#include "kernel/tile_draw/tile_triangle_draw.h"
+#include "kernel/tile_frame/tile_cull.h"
+#include "kernel/tile_frame/tile_resolve.h"
+#include "query/tile_limits.h"
 
 #define REFRESH_INTERVAL 128u /* objects after which it pays to look how far the parts still see */
 
@@ -30,7 +30,7 @@ typedef struct tile_work {
 
 static void tile_refresh_depths(tile_work *w)
 {
-    tile_flush(&w->committed_scene->prims, w->t, &w->queue, w->counts);
+    CGT_KERNEL(cgt_tile_flush)(&w->committed_scene->prims, w->t, &w->queue, w->counts);
     tile_update_far_distances(w->t);
     w->rasterised = 0;
 }
@@ -63,13 +63,13 @@ CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres 
          remaining &= remaining - 1) {
         const int k = __builtin_ctz(remaining);
         tile_rect rect;
-        if (!tile_clip_window(w->t, s, k, &rect))
+        if (!tile_clip_window(w->t, &s->window, k, s->min_distance[k], &rect))
             continue;
         rasterised++;
         if (s->single_lanes >> k & 1)
             tile_rasterise_sphere(prims, w->t, s, k, rect, &w->queue, w->counts);
         else
-            tile_rasterise_double(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
+            CGT_KERNEL(cgt_tile_rasterise_double)(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
     }
     return rasterised;
 }
@@ -79,13 +79,13 @@ CGT_SPU_INLINE uint32_t tile_test_spheres_by_kind(tile_work *w, const uint32_t *
                                                   bool parallel)
 {
     vfloat sphere[4];
-    vuint prim;
     tile_visible_spheres visible;
     tile_spheres s;
     uint32_t rasterised = 0;
     visible.count = 0;
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        tile_gather_spheres(&w->committed_scene->prims, reference + k, tile_clamp_lanes(count - k), sphere, &prim);
+        const vuint prim = load_references(reference + k, count - k);
+        gather_scene_spheres(&w->committed_scene->prims, prim, sphere);
         if (parallel)
             tile_cull_parallel_spheres(w->t, sphere, prim, count - k, &visible);
         else
@@ -127,11 +127,11 @@ CGT_SPU_INLINE uint32_t tile_rasterise_triangles(tile_work *w, const tile_triang
         rasterised += tile_rasterise_triangle(prims, w->t, s, __builtin_ctz(remaining), kind, &w->queue, w->counts);
     for (unsigned remaining = s->double_lanes; remaining; remaining &= remaining - 1) {
         const int k = __builtin_ctz(remaining);
-        const tile_rect rect = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
-        if (!(tile_window_parts(s, k) & tile_visible_parts(w->t, s->min_distance[k])))
+        const tile_rect rect = tile_window_rect(&s->window, k);
+        if (!(tile_window_parts(&s->window, k) & tile_visible_parts(w->t, s->min_distance[k])))
             continue;
         rasterised++;
-        tile_rasterise_double(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
+        CGT_KERNEL(cgt_tile_rasterise_double)(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
     }
     return rasterised;
 }
@@ -141,9 +141,9 @@ __attribute__((noinline)) static void tile_test_parallel_triangles(tile_work *w,
 {
     vfloat vertex[3][3];
     tile_triangles s;
-    tile_load_references(reference, count, s.prim);
-    tile_gather_triangles(&w->committed_scene->prims, s.prim, vertex);
-    tile_init_parallel_triangles(w->t, vertex, tile_first_lanes(count), &s);
+    spux_store_uint(s.prim, load_references(reference, count));
+    gather_scene_triangles(&w->committed_scene->prims, s.prim, vertex);
+    tile_init_parallel_triangles(w->t, vertex, first_lanes(count), &s);
     tile_count_references(w, count,
                           s.single_lanes | s.double_lanes ? tile_rasterise_triangles(w, &s, TILE_PARALLEL) : 0);
 }
@@ -157,9 +157,9 @@ static void tile_test_triangles(tile_work *w, const uint32_t *reference, uint32_
         tile_test_parallel_triangles(w, reference, count);
         return;
     }
-    tile_load_references(reference, count, s.prim);
-    tile_gather_triangles(&w->committed_scene->prims, s.prim, vertex);
-    tile_init_triangles(w->t, vertex, tile_first_lanes(count), &s);
+    spux_store_uint(s.prim, load_references(reference, count));
+    gather_scene_triangles(&w->committed_scene->prims, s.prim, vertex);
+    tile_init_triangles(w->t, vertex, first_lanes(count), &s);
     if (s.single_lanes | s.double_lanes)
         rasterised = w->t->linear ? tile_rasterise_triangles(w, &s, TILE_LINEAR)
                                   : tile_rasterise_triangles(w, &s, TILE_PERSPECTIVE);
@@ -301,10 +301,70 @@ static void tile_march_grid(tile_work *w)
     tile_drain_clusters(w, w->pending.clusters.count);
     tile_drain_spheres(w, w->pending.spheres.count);
     tile_drain_triangles(w, w->pending.triangles.count);
-    tile_flush(&w->committed_scene->prims, w->t, &w->queue, w->counts);
+    CGT_KERNEL(cgt_tile_flush)(&w->committed_scene->prims, w->t, &w->queue, w->counts);
 }
 
 /* ---- the tile ---- */
+
+/* Distance from the eye to the farthest corner of the world's bounds, rounded up. */
+CGT_SPU_INLINE float tile_max_corner_distance(const cgt_committed_scene *committed_scene, const float eye[3])
+{
+    double square = 0;
+    for (int a = 0; a < 3; a++) {
+        const double low = fabs((double)committed_scene->low[a] - (double)eye[a]);
+        const double high = fabs((double)committed_scene->high[a] - (double)eye[a]), distance = low > high ? low : high;
+        square += distance * distance;
+    }
+    return (float)(sqrt(square) * (1 + 0x1p-20));
+}
+
+/* The radius that the tile's gap is for. Larger spheres are slow, and smaller ones are left open where something lies
+ * within the gap behind them, which is rarer: so the largest radius of which there is a good share of the objects, where
+ * that is small beside the scene, else that of most objects. Levels go from large to small. */
+CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_scene, float farthest)
+{
+    const cgt_loose_level *level = committed_scene->loose.level, *largest = level;
+    for (const cgt_loose_level *l = level; l < level + committed_scene->loose.levels; l++) {
+        const float reach = fminf(l->reach[0], fminf(l->reach[1], l->reach[2]));
+        if (l->prims >= committed_scene->valid / 64 && reach < farthest * 0.125f)
+            return reach;
+        largest = l->prims > largest->prims ? l : largest;
+    }
+    return fminf(largest->reach[0], fminf(largest->reach[1], largest->reach[2]));
+}
+
+/* c: as far from the eye as any object is; far_t: no t is beyond. */
+CGT_SPU_INLINE void tile_init_depth_errors(tile *t, const cgt_committed_scene *committed_scene, float c, float far_t)
+{
+    const float r = committed_scene->prims.spheres ? tile_typical_radius(committed_scene, c) : 0;
+    if (t->parallel) {
+        tile_init_parallel_depth_error(t, c, r, far_t);
+        if (committed_scene->prims.triangles)
+            tile_widen_parallel_error(t, c, committed_scene->prims.spheres);
+        return;
+    }
+    tile_init_sphere_depth_error(t, c, r, far_t);
+    if (committed_scene->prims.triangles)
+        tile_widen_depth_error(t, c);
+}
+
+CGT_SPU_INLINE void tile_init(tile *t, const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
+                              const cgt_region *r)
+{
+    const float c = tile_max_corner_distance(committed_scene, camera->eye);
+    t->rays = camera;
+    t->linear = !committed_scene->prims.spheres && !camera->orthographic;
+    t->columns = r->width;
+    t->rows = r->height;
+    tile_init_camera(camera, &t->camera);
+    tile_init_parallel(t);
+    tile_init_tables(t, r->x, r->y);
+    tile_init_norms(t);
+    tile_init_parts(t);
+    tile_init_cone(t);
+    tile_init_depth_errors(t, committed_scene, c, c * (1 + 0x1p-18f) + t->length_error);
+    tile_init_pixels(t, c * (1 + 0x1p-18f) + t->length_error);
+}
 
 static void tile_trace_region(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                               const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
