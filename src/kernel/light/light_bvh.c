@@ -43,12 +43,15 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
     l->work += 1 + tests;
     if (!remaining)
         return;
+    light_leaf leaf;
+    leaf.sphere = spheres;
+    leaf.triangle = triangles;
     if (!is_triangle_leaf)
-        light_test_spheres(c->committed_scene, l, spheres, remaining, c->counts);
+        light_test_primitives(c->committed_scene, l, &leaf, LIGHT_SPHERES, remaining, c->counts);
     else if (l->rays.to_light)
-        light_test_triangles(c->committed_scene, l, triangles, remaining, true, c->counts);
+        light_test_primitives(c->committed_scene, l, &leaf, LIGHT_TRIANGLES_TO_POINT, remaining, c->counts);
     else
-        light_test_triangles(c->committed_scene, l, triangles, remaining, false, c->counts);
+        light_test_primitives(c->committed_scene, l, &leaf, LIGHT_TRIANGLES_PARALLEL, remaining, c->counts);
     if (!l->undecided)
         l->last_leaf = code;
 }

@@ -39,33 +39,34 @@ CGT_SPU_INLINE void light_count_tests(light_tile *t, uint64_t overlaps)
     t->group_tests += groups;
 }
 
-/* Groups that an object's lines may meet come first, without a branch on each: most of those in its window do not. */
-static void light_test_visible_spheres(light_tile *t, const sphere_block *s, const light_windows *windows,
+/* The visible primitives of a leaf against the groups that overlap their windows. Groups that a primitive may hit are
+ * found first, without a branch on each: most in a window are not. */
+CGT_SPU_INLINE void light_test_visible(light_tile *t, light_leaf *leaf, light_kind kind, const light_windows *windows,
                                        unsigned visible)
 {
-    light_spheres q;
-    light_init_spheres(&t->packet[0], s, t->committed_scene->scale, &q);
+    light_init_leaf(&t->packet[0], t->committed_scene->scale, kind, leaf);
     for (; visible; visible &= visible - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(visible);
-        const uint64_t overlaps = light_overlapping_groups(t, windows->low, windows->high, windows->near_w, k);
+        const uint64_t overlaps = light_overlapping_groups(t, windows, k);
         uint64_t reached = 0;
         light_count_tests(t, overlaps);
         for (uint64_t remaining = overlaps; remaining; remaining &= remaining - 1) {
             const uint32_t group = (uint32_t)__builtin_ctzll(remaining), i = group % LIGHT_PACKET_GROUPS * CGT_LANES;
             const light_packet *l = &t->packet[group / LIGHT_PACKET_GROUPS];
-            reached |= (uint64_t)light_sphere_may_hit(l, &q, s, k, i) << group;
+            reached |= (uint64_t)light_may_hit(l, leaf, kind, k, i) << group;
         }
         for (; reached; reached &= reached - 1) {
             const uint32_t group = (uint32_t)__builtin_ctzll(reached), i = group % LIGHT_PACKET_GROUPS * CGT_LANES;
             light_packet *l = &t->packet[group / LIGHT_PACKET_GROUPS];
-            light_test_sphere(t->committed_scene, l, s, k, q.square[k], q.plain_rule >> k & 1, i, t->counts);
+            light_test_primitive(t->committed_scene, l, leaf, kind, k, i, t->counts);
             light_update_group(t, group);
         }
     }
 }
 
-static void light_tile_test_spheres(light_tile *t, const uint32_t *reference, uint32_t count)
+static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint32_t count)
 {
+    light_tile *t = owner;
     vfloat sphere[4];
     sphere_block s;
     light_windows windows;
@@ -77,32 +78,11 @@ static void light_tile_test_spheres(light_tile *t, const uint32_t *reference, ui
     spux_store(s.radius, sphere[3]);
     const unsigned visible = light_project_spheres(t, &s, &windows) & first_lanes(count);
     light_count_references(t, count, visible);
-    if (visible)
-        light_test_visible_spheres(t, &s, &windows, visible);
-}
-
-CGT_SPU_INLINE void light_test_visible_triangles(light_tile *t, const triangle_block *s, const light_windows *windows,
-                                                 unsigned visible, bool is_point)
-{
-    light_triangles q;
-    light_init_triangles(&t->packet[0], s, t->committed_scene->scale, is_point, &q);
-    for (; visible; visible &= visible - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(visible);
-        const uint64_t overlaps = light_overlapping_groups(t, windows->low, windows->high, windows->near_w, k);
-        uint64_t reached = 0;
-        light_count_tests(t, overlaps);
-        for (uint64_t remaining = overlaps; remaining; remaining &= remaining - 1) {
-            const uint32_t group = (uint32_t)__builtin_ctzll(remaining), i = group % LIGHT_PACKET_GROUPS * CGT_LANES;
-            const light_packet *l = &t->packet[group / LIGHT_PACKET_GROUPS];
-            reached |= (uint64_t)light_triangle_may_hit(l, &q, k, i, is_point) << group;
-        }
-        for (; reached; reached &= reached - 1) {
-            const uint32_t group = (uint32_t)__builtin_ctzll(reached), i = group % LIGHT_PACKET_GROUPS * CGT_LANES;
-            light_packet *l = &t->packet[group / LIGHT_PACKET_GROUPS];
-            light_test_triangle(&t->committed_scene->prims, l, &q, k, i, s->prim[k], is_point, t->counts);
-            light_update_group(t, group);
-        }
-    }
+    if (!visible)
+        return;
+    light_leaf leaf;
+    leaf.sphere = &s;
+    light_test_visible(t, &leaf, LIGHT_SPHERES, &windows, visible);
 }
 
 /* As leaf_triangle.c makes them. */
@@ -123,8 +103,9 @@ CGT_SPU_INLINE void light_store_leaf_triangles(vfloat vertex[3][3], float scale,
     }
 }
 
-static void light_tile_test_triangles(light_tile *t, const uint32_t *reference, uint32_t count)
+static void light_tile_test_triangles(void *owner, const uint32_t *reference, uint32_t count)
 {
+    light_tile *t = owner;
     vfloat vertex[3][3];
     triangle_block s;
     light_windows windows;
@@ -135,63 +116,36 @@ static void light_tile_test_triangles(light_tile *t, const uint32_t *reference, 
     if (!visible)
         return;
     light_store_leaf_triangles(vertex, t->committed_scene->scale, &s);
+    light_leaf leaf;
+    leaf.triangle = &s;
     if (t->is_point)
-        light_test_visible_triangles(t, &s, &windows, visible, true);
+        light_test_visible(t, &leaf, LIGHT_TRIANGLES_TO_POINT, &windows, visible);
     else
-        light_test_visible_triangles(t, &s, &windows, visible, false);
+        light_test_visible(t, &leaf, LIGHT_TRIANGLES_PARALLEL, &windows, visible);
 }
 
-/* ---- references ---- */
-
-/* Takes the first `count` waiting references, whole vectors but for the last one. */
-static void light_drain_spheres(void *owner, uint32_t count)
+/* Of at most a vector of clusters those whose boxes overlap the tile, as bits. */
+static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
 {
     light_tile *t = owner;
-    prefetch_queue *q = &t->pending.spheres;
-    for (uint32_t k = 0; k < count && t->undecided; k += CGT_LANES)
-        light_tile_test_spheres(t, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
-    prefetch_queue_remove(q, count);
+    light_windows windows;
+    vfloat d[8];
+    gather_cluster_list(t->committed_scene->cluster, reference, count, d);
+    const unsigned visible = light_project_boxes(t, d, d + 4, &windows) & first_lanes(count);
+    t->counts->references += count;
+    t->counts->cull_tests += count;
+    t->counts->culled += count - spux_count_bits(visible);
+    return visible;
 }
 
-/* The same, with the vertices of some vectors on their way. */
-static void light_drain_triangles(void *owner, uint32_t count)
+static bool light_tile_is_done(const void *owner)
 {
-    light_tile *t = owner;
-    prefetch_queue *q = &t->pending.triangles;
-    uint32_t prefetched = 0;
-    for (uint32_t k = 0; k < count && t->undecided; k += CGT_LANES) {
-        prefetched = prefetch_queue_vertices(q, &t->committed_scene->prims, k, count, prefetched);
-        light_tile_test_triangles(t, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
-    }
-    prefetch_queue_remove(q, count);
+    const light_tile *t = owner;
+    return !t->undecided;
 }
 
-/* Clusters: the triangles of those that the tile wants wait then. */
-static void light_drain_clusters(void *owner, uint32_t count)
-{
-    light_tile *t = owner;
-    const cgt_cluster *cluster = t->committed_scene->cluster;
-    prefetch_queue *q = &t->pending.clusters;
-    for (uint32_t k = 0; k < count && t->undecided; k += CGT_LANES) {
-        const uint32_t lane_count = count - k < CGT_LANES ? count - k : CGT_LANES;
-        light_windows windows;
-        vfloat d[8];
-        gather_cluster_list(cluster, q->reference + k, lane_count, d);
-        unsigned remaining = light_project_boxes(t, d, d + 4, &windows) & first_lanes(lane_count);
-        t->counts->references += lane_count;
-        t->counts->cull_tests += lane_count;
-        t->counts->culled += lane_count - spux_count_bits(remaining);
-        for (; remaining; remaining &= remaining - 1) {
-            const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(remaining)];
-            if (t->pending.triangles.count > PREFETCH_QUEUE_CAPACITY - CGT_CLUSTER)
-                light_drain_triangles(t, PREFETCH_QUEUE_CAPACITY / 2);
-            prefetch_append_members(&t->pending.triangles, &t->committed_scene->prims, number, cluster[number].valid);
-        }
-    }
-    prefetch_queue_remove(q, count);
-}
-
-static const prefetch_drain_fns light_drain_fns = {light_drain_spheres, light_drain_triangles, light_drain_clusters};
+static const prefetch_tests light_tests = {CGT_LANES, light_tile_test_spheres, light_tile_test_triangles,
+                                           light_tile_test_clusters, light_tile_is_done};
 
 /* ---- the march ---- */
 
@@ -285,12 +239,10 @@ static void light_march_grid(light_tile *t)
         for (uint32_t k = 0; k < runs && t->undecided; k++) {
             uint32_t count;
             const uint32_t *reference = tile_slice_get_run(&m, &s, k, &count);
-            prefetch_append_run(&t->pending, t->committed_scene, reference, count, light_drain_fns, t);
+            prefetch_append_run(&t->prefetch, &light_tests, reference, count);
         }
     }
-    light_drain_clusters(t, t->pending.clusters.count);
-    light_drain_spheres(t, t->pending.spheres.count);
-    light_drain_triangles(t, t->pending.triangles.count);
+    prefetch_drain_all(&t->prefetch, &light_tests);
 }
 
 static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
@@ -299,6 +251,7 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
     const bool default_ranges = light_points_are_dense(c) && !points->t_min && !points->t_max;
     uint32_t from[LIGHT_TILE_PACKETS] = {0}, rays[LIGHT_TILE_PACKETS] = {0};
     t->packets = 0;
+    t->prefetch = (prefetch_owner){t->committed_scene, &t->pending, t};
     prefetch_queues_clear(&t->pending);
     for (uint32_t done = 0; done < count && t->packets < LIGHT_TILE_PACKETS; done += PACKET_MAX_RAYS) {
         const uint32_t rays_left = count - done, ray_count = rays_left < PACKET_MAX_RAYS ? rays_left : PACKET_MAX_RAYS;

@@ -36,26 +36,10 @@ typedef struct light_tile {
     cgt_counts *counts;
     bool is_point;
     prefetch_queues pending;
+    prefetch_owner prefetch; /* of `pending` */
 } light_tile;
 
 /* ---- objects ---- */
-
-/* Groups whose slopes meet a window, as bits. */
-CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const float low[2][CGT_LANES],
-                                                 const float high[2][CGT_LANES], const float near_w[CGT_LANES],
-                                                 uint32_t k)
-{
-    uint64_t overlaps = 0;
-    for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES) {
-        vmask in = spux_cmpge(spux_load(t->end + g), spux_vfloat(near_w[k]));
-        for (int a = 0; a < 2; a++) {
-            in = spu_and(in, spux_cmpge(spux_vfloat(high[a][k]), spux_load(t->low[a] + g)));
-            in = spu_and(in, spux_cmpge(spux_load(t->high[a] + g), spux_vfloat(low[a][k])));
-        }
-        overlaps |= (uint64_t)spux_mask_bits(in) << g;
-    }
-    return overlaps & t->undecided;
-}
 
 /* Groups without rays. */
 CGT_SPU_INLINE void light_disable_group(light_tile *t, uint32_t group)
@@ -81,6 +65,21 @@ typedef struct light_windows {
     _Alignas(CGT_VECTOR_BYTES) float low[2][CGT_LANES], high[2][CGT_LANES];
     float near_w[CGT_LANES]; /* the end nearer to the light */
 } light_windows;
+
+/* Groups whose slopes meet a window, as bits. */
+CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const light_windows *w, uint32_t k)
+{
+    uint64_t overlaps = 0;
+    for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES) {
+        vmask in = spux_cmpge(spux_load(t->end + g), spux_vfloat(w->near_w[k]));
+        for (int a = 0; a < 2; a++) {
+            in = spu_and(in, spux_cmpge(spux_vfloat(w->high[a][k]), spux_load(t->low[a] + g)));
+            in = spu_and(in, spux_cmpge(spux_load(t->high[a] + g), spux_vfloat(w->low[a][k])));
+        }
+        overlaps |= (uint64_t)spux_mask_bits(in) << g;
+    }
+    return overlaps & t->undecided;
+}
 
 /* Objects of which the tile may want something, as bits. near, far: their ends along w. */
 CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat low[2], const vfloat high[2],

@@ -23,7 +23,8 @@ typedef struct tile_work {
     tile_queue queue;
     cgt_counts *counts;
     prefetch_queues pending;
-    uint32_t rasterised; /* since the last refresh */
+    prefetch_owner prefetch; /* of `pending` */
+    uint32_t rasterised;     /* since the last refresh */
 } tile_work;
 
 /* ---- objects ---- */
@@ -45,8 +46,6 @@ CGT_SPU_INLINE void tile_count_references(tile_work *w, uint32_t count, uint32_t
     if (w->rasterised >= REFRESH_INTERVAL)
         tile_refresh_depths(w);
 }
-
-CGT_SPU_INLINE uint32_t tile_clamp_lanes(uint32_t count) { return count < CGT_LANES ? count : CGT_LANES; }
 
 CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres *s)
 {
@@ -110,8 +109,9 @@ __attribute__((noinline)) static uint32_t tile_test_parallel_spheres(tile_work *
     return tile_test_spheres_by_kind(w, reference, count, true);
 }
 
-static void tile_test_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
+static void tile_test_spheres(void *owner, const uint32_t *reference, uint32_t count)
 {
+    tile_work *w = owner;
     const bool parallel = w->t->parallel;
     tile_count_references(w, count,
                           parallel ? tile_test_parallel_spheres(w, reference, count)
@@ -148,8 +148,9 @@ __attribute__((noinline)) static void tile_test_parallel_triangles(tile_work *w,
                           s.single_lanes | s.double_lanes ? tile_rasterise_triangles(w, &s, TILE_PARALLEL) : 0);
 }
 
-static void tile_test_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
+static void tile_test_triangles(void *owner, const uint32_t *reference, uint32_t count)
 {
+    tile_work *w = owner;
     vfloat vertex[3][3];
     tile_triangles s;
     uint32_t rasterised = 0;
@@ -166,59 +167,32 @@ static void tile_test_triangles(tile_work *w, const uint32_t *reference, uint32_
     tile_count_references(w, count, rasterised);
 }
 
-/* Takes the first of the references that wait; what is left over moves up. */
-static void tile_drain_spheres(void *owner, uint32_t count)
+/* Of at most a vector of clusters those whose boxes are visible, as bits. */
+static unsigned tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
 {
     tile_work *w = owner;
-    prefetch_queue *q = &w->pending.spheres;
-    for (uint32_t k = 0; k < count; k += TILE_MAX_VISIBLE)
-        tile_test_spheres(w, q->reference + k, count - k < TILE_MAX_VISIBLE ? count - k : TILE_MAX_VISIBLE);
-    prefetch_queue_remove(q, count);
+    const unsigned visible = tile_visible_clusters(w->t, w->committed_scene->cluster, reference, count);
+    w->counts->references += count;
+    w->counts->cull_tests += count;
+    w->counts->culled += count - spux_count_bits(visible);
+    return visible;
 }
 
-/* The same, with the vertices of some vectors on their way. */
-static void tile_drain_triangles(void *owner, uint32_t count)
+static bool tile_is_done(const void *owner)
 {
-    tile_work *w = owner;
-    prefetch_queue *q = &w->pending.triangles;
-    uint32_t prefetched = 0;
-    for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        prefetched = prefetch_queue_vertices(q, &w->committed_scene->prims, k, count, prefetched);
-        tile_test_triangles(w, q->reference + k, tile_clamp_lanes(count - k));
-    }
-    prefetch_queue_remove(q, count);
+    (void)owner;
+    return false;
 }
 
-/* Takes the first of the clusters that wait: the triangles of those that the tile wants wait then. */
-static void tile_drain_clusters(void *owner, uint32_t count)
-{
-    tile_work *w = owner;
-    const cgt_cluster *cluster = w->committed_scene->cluster;
-    prefetch_queue *q = &w->pending.clusters;
-    for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        const uint32_t lane_count = tile_clamp_lanes(count - k);
-        unsigned remaining = tile_visible_clusters(w->t, cluster, q->reference + k, lane_count);
-        w->counts->references += lane_count;
-        w->counts->cull_tests += lane_count;
-        w->counts->culled += lane_count - spux_count_bits(remaining);
-        for (; remaining; remaining &= remaining - 1) {
-            const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(remaining)];
-            if (w->pending.triangles.count > PREFETCH_QUEUE_CAPACITY - CGT_CLUSTER)
-                tile_drain_triangles(w, PREFETCH_QUEUE_CAPACITY / 2);
-            prefetch_append_members(&w->pending.triangles, &w->committed_scene->prims, number, cluster[number].valid);
-        }
-    }
-    prefetch_queue_remove(q, count);
-}
+static const prefetch_tests tile_tests = {TILE_MAX_VISIBLE, tile_test_spheres, tile_test_triangles, tile_test_clusters,
+                                          tile_is_done};
 
-static const prefetch_drain_fns tile_drain_fns = {tile_drain_spheres, tile_drain_triangles, tile_drain_clusters};
-
-/* Whole vectors: what is left over comes with the next slice. */
+/* Drains whole vectors: the remainder is tested with the next slice. */
 static void tile_drain_whole_vectors(tile_work *w)
 {
-    tile_drain_clusters(w, w->pending.clusters.count / CGT_LANES * CGT_LANES);
-    tile_drain_spheres(w, w->pending.spheres.count / CGT_LANES * CGT_LANES);
-    tile_drain_triangles(w, w->pending.triangles.count / CGT_LANES * CGT_LANES);
+    prefetch_drain_clusters(&w->prefetch, &tile_tests, w->pending.clusters.count / CGT_LANES * CGT_LANES);
+    prefetch_drain_spheres(&w->prefetch, &tile_tests, w->pending.spheres.count / CGT_LANES * CGT_LANES);
+    prefetch_drain_triangles(&w->prefetch, &tile_tests, w->pending.triangles.count / CGT_LANES * CGT_LANES);
 }
 
 /* Runs of references, some looked up ahead, so that they come to the cache, too. */
@@ -230,7 +204,7 @@ typedef struct runs {
 static void tile_flush_runs(tile_work *w, runs *r)
 {
     for (uint32_t k = 0; k < r->runs; k++)
-        prefetch_append_run(&w->pending, w->committed_scene, r->reference[k], r->count[k], tile_drain_fns, w);
+        prefetch_append_run(&w->prefetch, &tile_tests, r->reference[k], r->count[k]);
     r->runs = 0;
 }
 
@@ -298,9 +272,7 @@ static void tile_march_grid(tile_work *w)
         w->counts->slices++;
         tile_visit_slice(w, &m, &s);
     }
-    tile_drain_clusters(w, w->pending.clusters.count);
-    tile_drain_spheres(w, w->pending.spheres.count);
-    tile_drain_triangles(w, w->pending.triangles.count);
+    prefetch_drain_all(&w->prefetch, &tile_tests);
     CGT_KERNEL(cgt_tile_flush)(&w->committed_scene->prims, w->t, &w->queue, w->counts);
 }
 
@@ -376,6 +348,7 @@ static void tile_trace_region(const cgt_committed_scene *committed_scene, const 
     w.queue.entries = 0;
     w.counts = counts;
     w.rasterised = 0;
+    w.prefetch = (prefetch_owner){committed_scene, &w.pending, &w};
     prefetch_queues_clear(&w.pending);
     tile_init(&t, committed_scene, camera, region);
     tile_march_grid(&w);
