@@ -22,7 +22,7 @@
 #define TILE_RSQRT_ERROR 0x1.8p-12f
 #endif
 
-/* The margin of a light's frustum, as a share of the largest coordinates: derived in light/light_frustum.h. */
+/* The margin of a light's frustum, as a share of the largest coordinates: derived in light/light_packet.h. */
 #ifndef LIGHT_MARGIN
 #define LIGHT_MARGIN 0x1p-17f
 #endif

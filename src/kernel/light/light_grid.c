@@ -7,8 +7,7 @@
  * object has a window of slopes (of offsets, with parallel rays) then, that tells which groups may meet it. Those are
  * tested (light_leaf.h), and leave when all their rays have met something. */
 #include "kernel/light/light_groups.h"
-#include "kernel/light/light_order.h"
-#include "kernel/light/light_read.h"
+#include "kernel/light/light_points.h"
 #include "kernel/tile/tile_march.h"
 
 /* Points of larger scenes are sorted in any case. Measured: that gains 7 % with 20,000 spheres and loses 15 % with 2,000. */
@@ -16,7 +15,6 @@
 
 #define LIGHT_REFRESH_TESTS                                                                                            \
     256u /* tests of groups after which slopes are found again, of those that still want something */
-#define LIGHT_SAMPLE_STEP 16u /* of so many vectors of points one is looked at to tell how far they reach */
 
 _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups fill packets");
 
@@ -260,7 +258,8 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
         packet *p = &l->rays;
         p->any_hit = true;
         p->fast = false;
-        if (default_ranges && ray_count % CGT_LANES == 0 && light_tile_read(c, t, l, first + done, ray_count)) {
+        if (default_ranges && ray_count % CGT_LANES == 0 &&
+            CGT_KERNEL(cgt_light_tile_read)(c, t, l, first + done, ray_count)) {
             from[t->packets] = first + done;
             rays[t->packets++] = ray_count;
             continue;
@@ -306,59 +305,11 @@ void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     t.counts = counts;
     t.is_point = light->w == 1;
     counts->rays += count;
-    if (committed_scene->valid >= LIGHT_SORT_MIN_PRIMS || light_is_scattered(&c, count)) {
+    if (committed_scene->valid >= LIGHT_SORT_MIN_PRIMS || CGT_KERNEL(cgt_light_is_scattered)(&c, count)) {
         c.order.from = from;
-        light_sort_points(&c, count, from);
+        CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
     }
     for (uint32_t i = 0; i < count; i += LIGHT_TILE_RAYS)
         light_trace_tile(&c, &t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
     light_count_hits(&c, count);
-}
-
-uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                          const cgt_light *light, uint64_t first, uint64_t end)
-{
-    const light_call c = {.committed_scene = committed_scene,
-                          .source = ray_source_init(points, light),
-                          .light = *light,
-                          .order = {first, NULL}};
-    const uint32_t count = (uint32_t)(end - first);
-    if (!light_is_near(&c))
-        return UINT32_MAX;
-    const light_projection projection = light_init_projection(&c, count);
-    vfloat lower[2], upper[2], corner[3], coord[2];
-    double share = 1;
-    for (int a = 0; a < 2; a++) {
-        lower[a] = spux_vfloat(INFINITY);
-        upper[a] = spux_vfloat(-INFINITY);
-    }
-    for (uint32_t k = 0; k < count; k += LIGHT_SAMPLE_STEP * CGT_LANES) {
-        vfloat point[3];
-        light_load_points(&c, k, count, point);
-        light_apply_projection(&projection, point, coord);
-        for (int a = 0; a < 2; a++) {
-            lower[a] = spux_min(lower[a], coord[a]);
-            upper[a] = spux_max(upper[a], coord[a]);
-        }
-    }
-    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (uint32_t k = 0; k < 8; k++) {
-        for (int a = 0; a < 3; a++)
-            corner[a] = spux_vfloat(k >> a & 1 ? committed_scene->high[a] : committed_scene->low[a]);
-        light_apply_projection(&projection, corner, coord);
-        for (int a = 0; a < 2; a++) {
-            low[a] = coord[a][0] < low[a] ? coord[a][0] : low[a];
-            high[a] = light_max(high[a], coord[a][0]);
-        }
-    }
-    for (int a = 0; a < 2; a++) {
-        const double points_extent = (double)spux_hmax(upper[a]) - (double)spux_hmin(lower[a]);
-        /* a light among the objects sees some of them behind itself */
-        double scene_extent = (double)high[a] - (double)low[a];
-        scene_extent = projection.is_point && !(scene_extent < 2 * (double)LIGHT_MAX_SLOPE)
-                           ? 2 * (double)LIGHT_MAX_SLOPE
-                           : scene_extent;
-        share *= points_extent >= 0 && points_extent < scene_extent ? points_extent / scene_extent : 1;
-    }
-    return (uint64_t)(share * committed_scene->valid);
 }

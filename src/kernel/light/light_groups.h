@@ -11,6 +11,7 @@
 #define CGT_LIGHT_GROUPS_H
 
 #include "kernel/light/light_leaf.h"
+#include "kernel/light/light_points.h"
 #include "kernel/tile/prefetch_queue.h"
 
 #define LIGHT_GROUPS 64u
@@ -248,5 +249,32 @@ static void light_refresh_groups(light_tile *t)
     t->group_tests = 0;
     light_compute_bounds(t);
 }
+
+/* ---- reading ---- */
+
+/* The axes and the reference of a tile's packet, by any ray of it: the first packet's. False where there is no common
+ * way. */
+CGT_SPU_INLINE bool light_tile_init_axes(light_tile *t, light_packet *l, const float org[3], const float dir[3])
+{
+    const light_packet *first = &t->packet[0];
+    if (t->packets) {
+        for (int a = 0; a < 3; a++) {
+            l->axis[a] = first->axis[a];
+            l->origin[a] = first->origin[a];
+        }
+        l->sign = first->sign;
+        return true;
+    }
+    if (!light_init_axes(&l->rays, org, dir, l))
+        return false;
+    for (int a = 0; a < 2; a++)
+        t->slope[a] = t->is_point ? 0 : dir[l->axis[a + 1]] / (l->sign * dir[l->axis[0]]);
+    return true;
+}
+
+/* Reads the tile's next packet in one pass: points first to first + count - 1 of the order, whole vectors of
+ * light_points_are_dense without ranges of their own. Returns false where something about them is unusual. */
+bool CGT_KERNEL(cgt_light_tile_read)(const light_call *c, light_tile *t, light_packet *l, uint32_t first,
+                                     uint32_t count);
 
 #endif

@@ -31,8 +31,9 @@
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
 
+#include "kernel/light/light_packet.h"
 #include "kernel/primitive/lane_tests.h"
-#include "kernel/light/light_frustum.h"
+#include "kernel/primitive/primitive_block.h"
 
 #define LIGHT_EPS_NUM (12 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 #define LIGHT_EPS_ROUNDING (1.125f * FILTER_ROUNDOFF) /* q */
