@@ -7,6 +7,7 @@
 #include "tile/tile_compare.h"
 
 #include "kernel/tile/tile_march.h"
+#include "kernel/tile_frame/tile_init.c"
 
 static cgt_context *context;
 

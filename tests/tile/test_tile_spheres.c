@@ -17,6 +17,7 @@ static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/tile_draw/tile_sphere_draw.h"
 #include "kernel/tile_draw/tile_parallel_spheres.h"
+#include "kernel/tile_frame/tile_init.c"
 
 #include "query/tile_limits.h"
 

@@ -17,6 +17,7 @@ static float filter_u = 0x1p-24f;
 #include "kernel/tile_draw/tile_decide_triangles.c"
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_draw/tile_triangle_draw.h"
+#include "kernel/tile_frame/tile_init.c"
 
 #include "query/tile_limits.h"
 

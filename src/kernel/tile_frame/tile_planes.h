@@ -9,7 +9,11 @@
 
 #define TILE_CACHE_LINE 16u /* pixels of a cache line */
 
-/* The fields of a tile's closest hits, written to the region. */
+/* Makes a tile of a region, at most TILE_EDGE wide and high. */
+void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
+                               const cgt_region *r);
+
+/* Writes the fields of a tile's closest hits to the region. */
 void CGT_KERNEL(cgt_tile_resolve)(const cgt_committed_scene *committed_scene, const tile *t,
                                   const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
 
