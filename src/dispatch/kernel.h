@@ -8,6 +8,7 @@
 #define CGT_KERNEL_H
 
 #include "query/camera.h"
+#include "query/region.h"
 #include "model/committed_scene.h"
 #include "query/trace_settings.h"
 

@@ -32,19 +32,6 @@ typedef struct cgt_trace_settings {
     uint32_t fields; /* cgt_field values that anybody wants */
 } cgt_trace_settings;
 
-/* A region of a camera's frame and where its hits go: pixel (x + i, y + j) to element j * row_stride + i of each
- * plane; NULL planes are not written. */
-typedef struct cgt_region {
-    uint32_t x, y, width, height;
-    size_t row_stride;
-    float *t;
-    uint32_t *primitive;
-    uint32_t *geometry;
-    float *normal[3];
-    float *u, *v;
-    bool nontemporal; /* nobody reads the planes soon */
-} cgt_region;
-
 /* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as
  * an array. */
 typedef struct cgt_counts {

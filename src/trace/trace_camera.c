@@ -34,75 +34,54 @@ static uint32_t plane_fields(const cgt_frame *f)
            (f->u ? CGT_FIELD_UV : 0u);
 }
 
-/* A region's planes within larger ones that start at its first pixel's element. */
-static cgt_region region_in_planes(const frame_job *job, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
+/* The whole frame, in the caller's planes. */
+static cgt_region frame_region(const frame_job *job)
 {
     const cgt_frame *f = job->frame;
-    const size_t first = (size_t)y * job->row_stride + x;
-    cgt_region r = {
-        .x = x, .y = y, .width = width, .height = height, .row_stride = job->row_stride, .nontemporal = !f->visitor};
-    r.t = f->t ? f->t + first : NULL;
-    r.primitive = f->primitive ? f->primitive + first : NULL;
-    r.geometry = f->geometry ? f->geometry + first : NULL;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = f->normal[a] ? f->normal[a] + first : NULL;
-    r.u = f->u ? f->u + first : NULL;
-    r.v = f->v ? f->v + first : NULL;
+    void *const plane[CGT_PLANES] = {f->t,         f->primitive, f->geometry, f->normal[0],
+                                     f->normal[1], f->normal[2], f->u,        f->v};
+    cgt_region r = {.width = f->width, .height = f->height, .row_stride = job->row_stride, .nontemporal = !f->visitor};
+    for (int k = 0; k < CGT_PLANES; k++)
+        r.plane[k] = plane[k];
     return r;
 }
 
-static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes, uint32_t buffer[8][TILE_PIXELS])
+static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes,
+                                   uint32_t buffer[CGT_PLANES][TILE_PIXELS])
 {
-    const uint32_t fields = job->settings.fields;
     cgt_region r = *planes;
     r.row_stride = planes->width;
     r.nontemporal = false;
-    r.t = fields & CGT_FIELD_T ? (float *)buffer[0] : NULL;
-    r.primitive = fields & CGT_FIELD_PRIMITIVE ? buffer[1] : NULL;
-    r.geometry = fields & CGT_FIELD_GEOMETRY ? buffer[2] : NULL;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = fields & CGT_FIELD_NORMAL ? (float *)buffer[3 + a] : NULL;
-    r.u = fields & CGT_FIELD_UV ? (float *)buffer[6] : NULL;
-    r.v = fields & CGT_FIELD_UV ? (float *)buffer[7] : NULL;
+    for (int k = 0; k < CGT_PLANES; k++)
+        r.plane[k] = job->settings.fields & cgt_plane_field[k] ? buffer[k] : NULL;
     return r;
-}
-
-static void copy_rows(void *to, const void *from, const cgt_region *planes, const cgt_region *tile)
-{
-    if (!to)
-        return;
-    for (uint32_t y = 0; y < tile->height; y++)
-        memcpy((uint32_t *)to + y * planes->row_stride, (const uint32_t *)from + y * tile->row_stride,
-               tile->width * sizeof(uint32_t));
 }
 
 static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
 {
-    copy_rows(planes->t, tile->t, planes, tile);
-    copy_rows(planes->primitive, tile->primitive, planes, tile);
-    copy_rows(planes->geometry, tile->geometry, planes, tile);
-    for (int a = 0; a < 3; a++)
-        copy_rows(planes->normal[a], tile->normal[a], planes, tile);
-    copy_rows(planes->u, tile->u, planes, tile);
-    copy_rows(planes->v, tile->v, planes, tile);
+    for (int k = 0; k < CGT_PLANES; k++)
+        for (uint32_t y = 0; planes->plane[k] && y < tile->height; y++)
+            memcpy(planes->plane[k] + y * planes->row_stride, tile->plane[k] + y * tile->row_stride,
+                   tile->width * sizeof(uint32_t));
 }
 
 static int call_visitor(const cgt_frame *f, const cgt_region *r)
 {
-    const uint32_t fields = f->visitor_fields;
-    const bool normal = fields & CGT_FIELD_NORMAL, uv = fields & CGT_FIELD_UV;
+    void *plane[CGT_PLANES];
+    for (int k = 0; k < CGT_PLANES; k++)
+        plane[k] = f->visitor_fields & cgt_plane_field[k] ? r->plane[k] : NULL;
     const cgt_tile tile = {
         .x = r->x,
         .y = r->y,
         .width = r->width,
         .height = r->height,
         .row_stride = r->row_stride,
-        .t = fields & CGT_FIELD_T ? r->t : NULL,
-        .primitive = fields & CGT_FIELD_PRIMITIVE ? r->primitive : NULL,
-        .geometry = fields & CGT_FIELD_GEOMETRY ? r->geometry : NULL,
-        .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL},
-        .u = uv ? r->u : NULL,
-        .v = uv ? r->v : NULL};
+        .t = plane[CGT_PLANE_T],
+        .primitive = plane[CGT_PLANE_PRIMITIVE],
+        .geometry = plane[CGT_PLANE_GEOMETRY],
+        .normal = {plane[CGT_PLANE_NORMAL], plane[CGT_PLANE_NORMAL + 1], plane[CGT_PLANE_NORMAL + 2]},
+        .u = plane[CGT_PLANE_U],
+        .v = plane[CGT_PLANE_V]};
     return f->visitor(f->visitor_user, &tile);
 }
 
@@ -123,7 +102,7 @@ static void trace_region_into(const frame_job *job, const cgt_region *r)
 /* A function of its own: its stack is taken only where it is needed. */
 __attribute__((noinline)) static int trace_buffered(const frame_job *job, const cgt_region *planes)
 {
-    uint32_t buffer[8][TILE_PIXELS];
+    uint32_t buffer[CGT_PLANES][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
     trace_region_into(job, &tile);
     const int stop = job->frame->visitor ? call_visitor(job->frame, &tile) : 0;
@@ -136,12 +115,11 @@ static void trace_frame_tile(void *argument, uint32_t index)
     frame_job *job = argument;
     const cgt_frame *f = job->frame;
     const uint32_t x = index % job->tiles_across * job->tile_width, y = index / job->tiles_across * job->tile_height;
-    const uint32_t width = f->width - x < job->tile_width ? f->width - x : job->tile_width;
-    const uint32_t height = f->height - y < job->tile_height ? f->height - y : job->tile_height;
+    const cgt_region frame = frame_region(job);
     int stop = 0;
     if (atomic_load_explicit(&job->stopped, memory_order_relaxed))
         return;
-    const cgt_region planes = region_in_planes(job, x, y, width, height);
+    const cgt_region planes = cgt_region_part(&frame, x, y, job->tile_width, job->tile_height);
     if (job->buffered)
         stop = trace_buffered(job, &planes);
     else {

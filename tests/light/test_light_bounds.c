@@ -15,6 +15,7 @@ static float filter_u = 0x1p-24f, margin_used = 0x1p-17f;
 #define FILTER_ROUNDOFF filter_u
 #define LIGHT_MARGIN margin_used
 #include "kernel/light/light_grid.c"
+#include "kernel/light/light_read.c"
 
 #define OBJECTS 240u
 #define COPIES                                                                                                         \

@@ -7,6 +7,7 @@
 #include "tile/tile_compare.h"
 
 #include "kernel/tile/tile_march.h"
+#include "kernel/tile_frame/tile_init.c"
 
 static cgt_context *context;
 
@@ -106,13 +107,8 @@ static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_ca
     cgt_counts counts = {0};
     cgt_region r = {.width = width, .height = height, .row_stride = width, .nontemporal = nontemporal};
     memset(to, nontemporal ? 0x55 : 0x77, 8 * pixels * sizeof *to);
-    r.t = (float *)to;
-    r.primitive = to + pixels;
-    r.geometry = to + 2 * pixels;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = (float *)to + (3 + (size_t)a) * pixels;
-    r.u = (float *)to + 6 * pixels;
-    r.v = (float *)to + 7 * pixels;
+    for (size_t k = 0; k < CGT_PLANES; k++)
+        r.plane[k] = to + k * pixels;
     CGT_KERNEL(cgt_trace_tile)(committed_scene, rays, &settings, &r, &counts);
 }
 

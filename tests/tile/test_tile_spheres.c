@@ -17,6 +17,7 @@ static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/tile_draw/tile_sphere_draw.h"
 #include "kernel/tile_draw/tile_parallel_spheres.h"
+#include "kernel/tile_frame/tile_init.c"
 
 #include "query/tile_limits.h"
 
@@ -91,14 +92,14 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     const uint32_t reference = 0;
     const vfloat zero = spux_vfloat(0);
     vfloat v[4];
-    vuint prim;
     tile_visible_spheres found;
     tile_spheres s;
     cgt_counts counts = {0};
     found.count = 0;
     queue.entries = 0;
     memset(undecided, 0, sizeof undecided);
-    tile_gather_spheres(&prims, &reference, 1, v, &prim);
+    const vuint prim = load_references(&reference, 1);
+    gather_scene_spheres(&prims, prim, v);
     assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
     s.single_lanes = s.double_lanes = s.small_lanes[0] = s.small_lanes[1] = 0;
     if (t->parallel)
@@ -115,7 +116,7 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     tile_rect rect;
     if (s.single_lanes & s.small_lanes[1] & 1)
         tile_rasterise_small_sphere(&prims, t, &s, 0, s.small_lanes[0] & 1 ? 3 : 4, &queue, &counts);
-    else if (s.single_lanes & 1 && tile_clip_window(t, &s, 0, &rect))
+    else if (s.single_lanes & 1 && tile_clip_window(t, &s.window, 0, s.min_distance[0], &rect))
         tile_rasterise_sphere(&prims, t, &s, 0, rect, &queue, &counts);
     for (uint32_t k = 0; k < queue.entries; k++)
         undecided[queue.pixel[k]] = true;

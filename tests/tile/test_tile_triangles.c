@@ -14,8 +14,10 @@
 
 static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
+#include "kernel/tile_draw/tile_decide_triangles.c"
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_draw/tile_triangle_draw.h"
+#include "kernel/tile_frame/tile_init.c"
 
 #include "query/tile_limits.h"
 
@@ -103,8 +105,8 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
     cgt_counts counts = {0};
     queue.entries = 0;
     memset(undecided, 0, sizeof undecided);
-    tile_load_references(&reference, 1, s.prim);
-    tile_gather_triangles(&prims, s.prim, v);
+    spux_store_uint(s.prim, load_references(&reference, 1));
+    gather_scene_triangles(&prims, s.prim, v);
     if (t->parallel)
         tile_init_parallel_triangles(t, v, 1, &s);
     else
@@ -503,8 +505,8 @@ static void fetches_every_triangle(void **state)
         array.count = array.index ? 60 : 13;
         for (uint32_t k = 0; k < count; k++)
             reference[k] = 7 + random_below(&r, array.count - (round % 2 ? 0 : array.count / 6));
-        tile_load_references(reference, count, prim);
-        tile_gather_triangles(&prims, prim, v);
+        spux_store_uint(prim, load_references(reference, count));
+        gather_scene_triangles(&prims, prim, v);
         for (uint32_t k = 0; k < CGT_LANES; k++) {
             assert_int_equal(prim[k], reference[k < count ? k : 0]);
             const cgt_triangle q = cgt_primitives_triangle(&prims, prim[k]);

@@ -46,14 +46,11 @@ static inline void make_orthographic(test_random *r, float height, cgt_camera *c
 
 static inline cgt_region region_of(const planes *p, float *uv)
 {
+    void *const plane[CGT_PLANES] = {p->t,         p->primitive, p->geometry, p->normal[0],
+                                     p->normal[1], p->normal[2], uv,          uv + p->elements};
     cgt_region r = {.width = p->width, .height = p->height, .row_stride = p->width};
-    r.t = p->t;
-    r.primitive = p->primitive;
-    r.geometry = p->geometry;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = p->normal[a];
-    r.u = uv;
-    r.v = uv + p->elements;
+    for (int k = 0; k < CGT_PLANES; k++)
+        r.plane[k] = plane[k];
     return r;
 }
 
@@ -76,7 +73,7 @@ static inline void fail_at(const planes *got, const planes *wanted, const cgt_ca
 }
 
 /* What FAST tiles are off by from ROBUST ones, in pixels that hit a sphere: the same sphere, and t and the normal as near
- * as resolve_fast_vectors.h says, with room. Other pixels get the same bits. */
+ * as resolve_fast.h says, with room. Other pixels get the same bits. */
 static inline void compare_fast(const cgt_committed_scene *committed_scene, const cgt_camera_rays *c, const planes *got,
                                 const planes *wanted, const char *what)
 {
@@ -131,7 +128,8 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
     memset(uv, 0x66, 4 * wanted.elements * sizeof(float));
     cgt_region to_wanted = region_of(&wanted, uv), to_got = region_of(&got, uv + 2 * wanted.elements);
     if (tally->frames % 3 == 2) { /* what is not asked for goes other ways */
-        to_wanted.u = to_wanted.v = to_got.u = to_got.v = NULL;
+        to_wanted.plane[CGT_PLANE_U] = to_wanted.plane[CGT_PLANE_V] = NULL;
+        to_got.plane[CGT_PLANE_U] = to_got.plane[CGT_PLANE_V] = NULL;
         settings.fields &= ~CGT_FIELD_UV;
     }
     CGT_KERNEL(cgt_trace_region)(&scene->committed_scene, &rays, &settings, &to_wanted, &other);

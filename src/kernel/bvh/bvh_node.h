@@ -5,6 +5,7 @@
 #ifndef CGT_BVH_NODE_H
 #define CGT_BVH_NODE_H
 
+#include "kernel/primitive/primitive_block.h"
 #include "model/bvh.h"
 #include "dispatch/kernel.h"
 #include "vector.h"
@@ -22,20 +23,6 @@ typedef struct bvh_node {
     uint32_t children;        /* 2 to CGT_LANES; 1 in a root only */
     uint32_t unused[3];
 } bvh_node;
-
-/* A leaf's primitives; lanes beyond its count repeat the last one. */
-typedef struct sphere_block {
-    _Alignas(CGT_VECTOR_BYTES) float center[3][CGT_LANES];
-    float radius[CGT_LANES];
-    uint32_t prim[CGT_LANES];
-} sphere_block;
-
-typedef struct triangle_block { /* fields of leaf_triangle.h, by the same arithmetic: times the world's scale */
-    _Alignas(CGT_VECTOR_BYTES) float vertex[3][CGT_LANES];
-    float edge[2][3][CGT_LANES];
-    float sum[2][CGT_LANES];
-    uint32_t prim[CGT_LANES];
-} triangle_block;
 
 CGT_SPU_INLINE uint32_t bvh_leaf_count(uint32_t code) { return (code >> CGT_BVH_COUNT_SHIFT & 15) + 1; }
 

@@ -11,6 +11,7 @@
 #define CGT_LIGHT_GROUPS_H
 
 #include "kernel/light/light_leaf.h"
+#include "kernel/light/light_points.h"
 #include "kernel/tile/prefetch_queue.h"
 
 #define LIGHT_GROUPS 64u
@@ -36,26 +37,10 @@ typedef struct light_tile {
     cgt_counts *counts;
     bool is_point;
     prefetch_queues pending;
+    prefetch_owner prefetch; /* of `pending` */
 } light_tile;
 
 /* ---- objects ---- */
-
-/* Groups whose slopes meet a window, as bits. */
-CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const float low[2][CGT_LANES],
-                                                 const float high[2][CGT_LANES], const float near_w[CGT_LANES],
-                                                 uint32_t k)
-{
-    uint64_t overlaps = 0;
-    for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES) {
-        vmask in = spux_cmpge(spux_load(t->end + g), spux_vfloat(near_w[k]));
-        for (int a = 0; a < 2; a++) {
-            in = spu_and(in, spux_cmpge(spux_vfloat(high[a][k]), spux_load(t->low[a] + g)));
-            in = spu_and(in, spux_cmpge(spux_load(t->high[a] + g), spux_vfloat(low[a][k])));
-        }
-        overlaps |= (uint64_t)spux_mask_bits(in) << g;
-    }
-    return overlaps & t->undecided;
-}
 
 /* Groups without rays. */
 CGT_SPU_INLINE void light_disable_group(light_tile *t, uint32_t group)
@@ -81,6 +66,21 @@ typedef struct light_windows {
     _Alignas(CGT_VECTOR_BYTES) float low[2][CGT_LANES], high[2][CGT_LANES];
     float near_w[CGT_LANES]; /* the end nearer to the light */
 } light_windows;
+
+/* Groups whose slopes meet a window, as bits. */
+CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const light_windows *w, uint32_t k)
+{
+    uint64_t overlaps = 0;
+    for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES) {
+        vmask in = spux_cmpge(spux_load(t->end + g), spux_vfloat(w->near_w[k]));
+        for (int a = 0; a < 2; a++) {
+            in = spu_and(in, spux_cmpge(spux_vfloat(w->high[a][k]), spux_load(t->low[a] + g)));
+            in = spu_and(in, spux_cmpge(spux_load(t->high[a] + g), spux_vfloat(w->low[a][k])));
+        }
+        overlaps |= (uint64_t)spux_mask_bits(in) << g;
+    }
+    return overlaps & t->undecided;
+}
 
 /* Objects of which the tile may want something, as bits. near, far: their ends along w. */
 CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat low[2], const vfloat high[2],
@@ -249,5 +249,32 @@ static void light_refresh_groups(light_tile *t)
     t->group_tests = 0;
     light_compute_bounds(t);
 }
+
+/* ---- reading ---- */
+
+/* The axes and the reference of a tile's packet, by any ray of it: the first packet's. False where there is no common
+ * way. */
+CGT_SPU_INLINE bool light_tile_init_axes(light_tile *t, light_packet *l, const float org[3], const float dir[3])
+{
+    const light_packet *first = &t->packet[0];
+    if (t->packets) {
+        for (int a = 0; a < 3; a++) {
+            l->axis[a] = first->axis[a];
+            l->origin[a] = first->origin[a];
+        }
+        l->sign = first->sign;
+        return true;
+    }
+    if (!light_init_axes(&l->rays, org, dir, l))
+        return false;
+    for (int a = 0; a < 2; a++)
+        t->slope[a] = t->is_point ? 0 : dir[l->axis[a + 1]] / (l->sign * dir[l->axis[0]]);
+    return true;
+}
+
+/* Reads the tile's next packet in one pass: points first to first + count - 1 of the order, whole vectors of
+ * light_points_are_dense without ranges of their own. Returns false where something about them is unusual. */
+bool CGT_KERNEL(cgt_light_tile_read)(const light_call *c, light_tile *t, light_packet *l, uint32_t first,
+                                     uint32_t count);
 
 #endif

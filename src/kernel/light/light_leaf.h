@@ -31,8 +31,9 @@
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
 
+#include "kernel/light/light_packet.h"
 #include "kernel/primitive/lane_tests.h"
-#include "kernel/light/light_frustum.h"
+#include "kernel/primitive/primitive_block.h"
 
 #define LIGHT_EPS_NUM (12 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 #define LIGHT_EPS_ROUNDING (1.125f * FILTER_ROUNDOFF) /* q */
@@ -214,24 +215,6 @@ CGT_SPU_INLINE void light_test_triangle(const cgt_primitives *prims, light_packe
     light_store_hits(prims, l, i, prim, certain_hit, spu_andc(possible, certain_hit), counts);
 }
 
-/* A leaf's triangles, those of `left`, against the whole packet. */
-CGT_SPU_INLINE void light_test_triangles(const cgt_committed_scene *committed_scene, light_packet *l,
-                                         const triangle_block *leaf, unsigned remaining, bool is_point,
-                                         cgt_counts *counts)
-{
-    light_triangles q;
-    light_init_triangles(l, leaf, committed_scene->scale, is_point, &q);
-    for (; remaining; remaining &= remaining - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
-        uint64_t reached = 0;
-        for (uint32_t i = 0; i < l->rays.lanes; i += CGT_LANES)
-            reached |= (uint64_t)light_triangle_may_hit(l, &q, k, i, is_point) << i / CGT_LANES;
-        for (reached &= l->undecided; reached; reached &= reached - 1)
-            light_test_triangle(&committed_scene->prims, l, &q, k, (uint32_t)__builtin_ctzll(reached) * CGT_LANES,
-                                leaf->prim[k], is_point, counts);
-    }
-}
-
 /* ---- spheres ---- */
 
 /* Of a leaf's spheres those that the light is surely outside of, as bits. */
@@ -351,20 +334,62 @@ CGT_SPU_INLINE void light_test_sphere(const cgt_committed_scene *committed_scene
         light_test_undecided_sphere(committed_scene, l, leaf, k, i, &undecided, counts);
 }
 
-/* A leaf's spheres, those of `left`, against the whole packet. */
-CGT_SPU_INLINE void light_test_spheres(const cgt_committed_scene *committed_scene, light_packet *l,
-                                       const sphere_block *leaf, unsigned remaining, cgt_counts *counts)
+/* ---- leaves ---- */
+
+/* Which tests a leaf takes; a constant where functions are called. */
+typedef enum light_kind { LIGHT_SPHERES, LIGHT_TRIANGLES_TO_POINT, LIGHT_TRIANGLES_PARALLEL } light_kind;
+
+/* A leaf's primitives, of one kind, as the tests take them. */
+typedef struct light_leaf {
+    const sphere_block *sphere;
+    const triangle_block *triangle;
+    light_spheres spheres;
+    light_triangles triangles;
+} light_leaf;
+
+/* Fills in what does not depend on the ray; the leaf has its block. */
+CGT_SPU_INLINE void light_init_leaf(const light_packet *l, float scale, light_kind kind, light_leaf *leaf)
 {
-    light_spheres q;
-    light_init_spheres(l, leaf, committed_scene->scale, &q);
+    if (kind == LIGHT_SPHERES)
+        light_init_spheres(l, leaf->sphere, scale, &leaf->spheres);
+    else
+        light_init_triangles(l, leaf->triangle, scale, kind == LIGHT_TRIANGLES_TO_POINT, &leaf->triangles);
+}
+
+/* Whether any of the rays i to i + CGT_LANES - 1 may hit primitive k. */
+CGT_SPU_INLINE bool light_may_hit(const light_packet *l, const light_leaf *leaf, light_kind kind, uint32_t k,
+                                  uint32_t i)
+{
+    return kind == LIGHT_SPHERES ? light_sphere_may_hit(l, &leaf->spheres, leaf->sphere, k, i)
+                                 : light_triangle_may_hit(l, &leaf->triangles, k, i, kind == LIGHT_TRIANGLES_TO_POINT);
+}
+
+CGT_SPU_INLINE void light_test_primitive(const cgt_committed_scene *committed_scene, light_packet *l,
+                                         const light_leaf *leaf, light_kind kind, uint32_t k, uint32_t i,
+                                         cgt_counts *counts)
+{
+    if (kind == LIGHT_SPHERES)
+        light_test_sphere(committed_scene, l, leaf->sphere, k, leaf->spheres.square[k],
+                          leaf->spheres.plain_rule >> k & 1, i, counts);
+    else
+        light_test_triangle(&committed_scene->prims, l, &leaf->triangles, k, i, leaf->triangle->prim[k],
+                            kind == LIGHT_TRIANGLES_TO_POINT, counts);
+}
+
+/* A leaf's primitives, those of `remaining`, against the whole packet. */
+CGT_SPU_INLINE void light_test_primitives(const cgt_committed_scene *committed_scene, light_packet *l, light_leaf *leaf,
+                                          light_kind kind, unsigned remaining, cgt_counts *counts)
+{
+    light_init_leaf(l, committed_scene->scale, kind, leaf);
     for (; remaining; remaining &= remaining - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         uint64_t reached = 0;
+        /* vectors of rays that may hit it: no branch on each, since most do not */
         for (uint32_t i = 0; i < l->rays.lanes; i += CGT_LANES)
-            reached |= (uint64_t)light_sphere_may_hit(l, &q, leaf, k, i) << i / CGT_LANES;
+            reached |= (uint64_t)light_may_hit(l, leaf, kind, k, i) << i / CGT_LANES;
         for (reached &= l->undecided; reached; reached &= reached - 1)
-            light_test_sphere(committed_scene, l, leaf, k, q.square[k], q.plain_rule >> k & 1,
-                              (uint32_t)__builtin_ctzll(reached) * CGT_LANES, counts);
+            light_test_primitive(committed_scene, l, leaf, kind, k, (uint32_t)__builtin_ctzll(reached) * CGT_LANES,
+                                 counts);
     }
 }
 

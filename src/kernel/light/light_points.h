@@ -21,6 +21,13 @@ typedef struct light_call {
     cgt_counts *counts;
 } light_call;
 
+/* Sorts points that the light sees side by side into the same groups, along a Morton curve: from[i] is the number of the
+ * i-th (light_order.c). */
+void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK]);
+
+/* Whether neighbours in the arrays mostly lie far apart: on average a third of what the light sees of the chunk. */
+bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count);
+
 /* False where what rays to the light have in common there could not tell primitives apart. */
 CGT_SPU_INLINE bool light_is_near(const light_call *c)
 {

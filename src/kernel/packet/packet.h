@@ -94,13 +94,15 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
                                     uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
                                     uint8_t *occluded, cgt_counts *counts);
 
-/* The hits of a packet, ready to be handed out. */
-typedef struct packet_hits {
-    _Alignas(64) float t[PACKET_MAX_RAYS];
-    _Alignas(64) uint32_t primitive[PACKET_MAX_RAYS];
-    _Alignas(64) uint32_t geometry[PACKET_MAX_RAYS];
-    _Alignas(64) float normal[3][PACKET_MAX_RAYS];
-    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS];
+/* The hits of a packet, ready to be handed out, by their names or plane by plane. */
+typedef union packet_hits {
+    struct {
+        _Alignas(64) float t[PACKET_MAX_RAYS];
+        uint32_t primitive[PACKET_MAX_RAYS], geometry[PACKET_MAX_RAYS];
+        float normal[3][PACKET_MAX_RAYS];
+        float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS];
+    };
+    uint32_t plane[CGT_PLANES][PACKET_MAX_RAYS];
 } packet_hits;
 
 /* Computes the fields of the winners that the settings ask for, canonically. Counts the hits and returns how many. */

@@ -183,6 +183,65 @@ CGT_SPU_INLINE void prefetch_triangles(const cgt_primitive_array *a, const uint3
     }
 }
 
+/* ---- any primitives of a scene ---- */
+
+/* The first lanes, as bits. */
+CGT_SPU_INLINE unsigned first_lanes(uint32_t count) { return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES; }
+
+/* A vector of references; lanes beyond count repeat the first. */
+CGT_SPU_INLINE vuint load_references(const uint32_t *reference, uint32_t count)
+{
+    if (count >= CGT_LANES)
+        return spux_load_unaligned_uint(reference);
+    _Alignas(CGT_VECTOR_BYTES) uint32_t padded[CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        padded[k] = reference[k < count ? k : 0];
+    return spux_load_uint(padded);
+}
+
+/* Spheres of any arrays: x, y, z, radius. */
+CGT_SPU_INLINE void gather_scene_spheres(const cgt_primitives *prims, vuint prim, vfloat sphere[4])
+{
+    if (prims->arrays == 1) { /* its first primitive is 0 */
+        gather_spheres(prims->array, prim, sphere);
+        return;
+    }
+    _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES];
+    spux_store_uint(number, prim);
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const cgt_sphere q = cgt_primitives_sphere(prims, number[k]);
+        row[0][k] = q.x;
+        row[1][k] = q.y;
+        row[2][k] = q.z;
+        row[3][k] = q.r;
+    }
+    for (int a = 0; a < 4; a++)
+        sphere[a] = spux_load(row[a]);
+}
+
+/* Triangles of any arrays; one by one where they lie in several. */
+CGT_SPU_INLINE void gather_scene_triangles(const cgt_primitives *prims, const uint32_t prim[CGT_LANES],
+                                           vfloat vertex[3][3])
+{
+    const cgt_primitive_array *a = prims->arrays == 1 ? prims->array : cgt_primitives_array(prims, prim[0]);
+    const vuint number = spu_sub(spux_load_uint(prim), spux_vuint(a->first));
+    if (prims->arrays == 1 || spux_all(spu_cmpgt(spux_vuint(a->count), number))) {
+        gather_triangles(a, number, vertex);
+        return;
+    }
+    _Alignas(CGT_VECTOR_BYTES) float row[3][3][CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const cgt_triangle q = cgt_primitives_triangle(prims, prim[k]);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                row[i][j][k] = q.v[i][j];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            vertex[i][j] = spux_load(row[i][j]);
+}
+
 /* ---- clusters ---- */
 
 /* A vector of clusters as they lie in memory: middle, valid, half, size. */

@@ -81,16 +81,6 @@ CGT_SPU_INLINE void lane_rays_of_one(const packet *p, uint32_t i, float scale, l
     lane_rays_derive(r, scale);
 }
 
-CGT_SPU_INLINE vfloat lane_dot(const vfloat p[3], const vfloat q[3])
-{
-    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
-}
-
-CGT_SPU_INLINE vfloat lane_sum(const vfloat v[3])
-{
-    return spu_add(spux_abs(v[0]), spu_add(spux_abs(v[1]), spux_abs(v[2])));
-}
-
 /* False where all surely miss. */
 CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, lane_hits *q)
 {
@@ -120,14 +110,6 @@ CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3],
     q->certain_hit = spu_and(spu_cmpgt(h, spu_mul(eps, spux_vfloat(17))), spu_cmpgt(q->low, r->t_min));
     q->undecided = spux_not(spu_or(spu_or(missed, behind), q->certain_hit));
     return true;
-}
-
-CGT_SPU_INLINE void lane_cross(const vfloat p[3], const vfloat q[3], vfloat cross[3])
-{
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        cross[a] = spu_msub(p[b], q[c], spu_mul(p[c], q[b]));
-    }
 }
 
 /* Triangles as the test takes them (leaf_triangle.h). */

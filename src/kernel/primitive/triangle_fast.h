@@ -52,11 +52,11 @@ CGT_SPU_INLINE bool moller_trumbore_rays(const packet *p, const void *primitive,
         d[a] = spux_load(p->dir[a] + i);
         s[a] = spu_sub(spux_load(p->org[a] + i), q->v0[a]);
     }
-    filter_cross(d, q->e2, h);
-    const vfloat det = filter_dot(q->e1, h), r = spux_div(spux_vfloat(1), det);
-    const vfloat u = spu_mul(filter_dot(s, h), r);
-    filter_cross(s, q->e1, g);
-    const vfloat v = spu_mul(filter_dot(d, g), r), t = spu_mul(filter_dot(q->e2, g), r);
+    lane_cross(d, q->e2, h);
+    const vfloat det = lane_dot(q->e1, h), r = spux_div(spux_vfloat(1), det);
+    const vfloat u = spu_mul(lane_dot(s, h), r);
+    lane_cross(s, q->e1, g);
+    const vfloat v = spu_mul(lane_dot(d, g), r), t = spu_mul(lane_dot(q->e2, g), r);
     return triangle_test_end(p, i, q->prim, t, u, v, f);
 }
 

@@ -78,12 +78,7 @@ CGT_SPU_INLINE void filter_triangles_enclose(filter_triangles *s)
     spux_store(s->radius, spu_madd(spux_sqrt(square), spux_vfloat(1 + 0x1p-18f), rounding));
 }
 
-CGT_SPU_INLINE vfloat filter_dot(const vfloat p[3], const vfloat q[3])
-{
-    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
-}
-
-CGT_SPU_INLINE vfloat filter_length(const vfloat v[3]) { return spux_sqrt(filter_dot(v, v)); }
+CGT_SPU_INLINE vfloat filter_length(const vfloat v[3]) { return spux_sqrt(lane_dot(v, v)); }
 
 /* 1 over a length, 0 where it is out of range. */
 CGT_SPU_INLINE vfloat filter_reciprocal(vfloat length, vmask *wild)
@@ -91,14 +86,6 @@ CGT_SPU_INLINE vfloat filter_reciprocal(vfloat length, vmask *wild)
     const vmask good = spu_and(spu_cmpgt(length, spux_vfloat(0x1p-100f)), spu_cmpgt(spux_vfloat(0x1p100f), length));
     *wild = spu_or(*wild, spux_not(good));
     return spux_div(spux_vfloat(1), spux_select(spux_vfloat(1), length, good));
-}
-
-CGT_SPU_INLINE void filter_cross(const vfloat p[3], const vfloat q[3], vfloat cross[3])
-{
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        cross[a] = spu_msub(p[b], q[c], spu_mul(p[c], q[b]));
-    }
 }
 
 /* Stores v * k where the triangle is not wild, else 0: infinities go too. */
@@ -161,15 +148,15 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
     const vfloat num_error =
         filter_triangles_error(10, filter_permanent(far, e[0], e[1]), spu_mul(spu_mul(length[0], length[1]), reach));
     for (int k = 0; k < 3; k++) {
-        filter_cross(v[(k + 1) % 3], e[k], cross);
+        lane_cross(v[(k + 1) % 3], e[k], cross);
         filter_store_scaled(s->edge_cross[k], cross, reps[k], wild);
         filter_store_scaled(s->edge[k], e[k], reps[k], wild);
     }
-    filter_cross(e[0], e[1], cross);
+    lane_cross(e[0], e[1], cross);
     filter_store_scaled(s->normal, cross, rdelta, wild);
     const vfloat unscale = spux_vfloat(1 / f->scale);
     const vfloat n[3] = {spux_load(s->normal[0]), spux_load(s->normal[1]), spux_load(s->normal[2])};
-    const vfloat num = filter_dot(n, v[0]);
+    const vfloat num = lane_dot(n, v[0]);
     spux_store(s->num, spux_select(spu_mul(num, unscale), spux_vfloat(0), wild));
     spux_store(s->num_error, spu_madd(spu_mul(num_error, rdelta), unscale, spux_vfloat(0x1p-126f)));
 }
@@ -204,14 +191,14 @@ CGT_SPU_INLINE void filter_triangles_prepare_fast(const filter_packet *f, filter
             e[k][a] = spu_xor(edge[a], sign);
             spux_store(s->edge[k][a], e[k][a]);
         }
-        filter_cross(low, edge, cross);
+        lane_cross(low, edge, cross);
         for (int a = 0; a < 3; a++)
             spux_store(s->edge_cross[k][a], spu_xor(cross[a], sign));
     }
-    filter_cross(e[0], e[1], cross);
+    lane_cross(e[0], e[1], cross);
     for (int a = 0; a < 3; a++)
         spux_store(s->normal[a], cross[a]);
-    spux_store(s->num, spu_mul(filter_dot(cross, v[0]), spux_vfloat(1 / f->scale)));
+    spux_store(s->num, spu_mul(lane_dot(cross, v[0]), spux_vfloat(1 / f->scale)));
     spux_store(s->num_error, plus);
 }
 
@@ -248,12 +235,12 @@ CGT_SPU_INLINE void filter_triangle_sides(const packet *p, const filter_triangle
 {
     const vfloat d[3] = {spux_load(p->dir[0] + i), spux_load(p->dir[1] + i), spux_load(p->dir[2] + i)};
     for (int k = 0; k < 3; k++)
-        w[k] = filter_dot(d, q->edge_cross[k]);
+        w[k] = lane_dot(d, q->edge_cross[k]);
     if (common_origin)
         return;
     const vfloat m[3] = {spux_load(p->moment[0] + i), spux_load(p->moment[1] + i), spux_load(p->moment[2] + i)};
     for (int k = 0; k < 3; k++)
-        w[k] = spu_add(w[k], filter_dot(m, q->edge[k]));
+        w[k] = spu_add(w[k], lane_dot(m, q->edge[k]));
 }
 
 CGT_SPU_INLINE void filter_triangle_plane(const packet *p, const filter_triangle *q, uint32_t i, bool common_origin,
@@ -261,11 +248,11 @@ CGT_SPU_INLINE void filter_triangle_plane(const packet *p, const filter_triangle
 {
     const vfloat d[3] = {spux_load(p->dir[0] + i), spux_load(p->dir[1] + i), spux_load(p->dir[2] + i)};
     *num = q->num;
-    *den = filter_dot(d, q->normal);
+    *den = lane_dot(d, q->normal);
     if (common_origin)
         return;
     const vfloat from[3] = {spux_load(p->from[0] + i), spux_load(p->from[1] + i), spux_load(p->from[2] + i)};
-    *num = spu_sub(*num, filter_dot(from, q->normal));
+    *num = spu_sub(*num, lane_dot(from, q->normal));
 }
 
 /* Returns false where all rays of the vector surely miss. Comparisons are written so that what is not a number stays

@@ -55,27 +55,6 @@ CGT_SPU_INLINE tile_projected_spheres tile_project_parallel_spheres(const tile *
     return v;
 }
 
-/* Pixels of an axis that lengths about x cover, from low to high, as columns or rows from the tile's first. */
-CGT_SPU_INLINE void tile_compute_parallel_span(const tile_span *span, vfloat x, vfloat half_width, vfloat *low,
-                                               vfloat *high)
-{
-    *low = spu_msub(spu_sub(x, half_width), spux_vfloat(span->scale), spux_vfloat(span->first));
-    *high = spu_msub(spu_add(x, half_width), spux_vfloat(span->scale), spux_vfloat(span->first));
-}
-
-/* Windows of boxes with half extents wide and high. Returns the lanes without one. */
-CGT_SPU_INLINE vmask tile_compute_parallel_windows(const tile *t, vfloat x, vfloat y, vfloat half_width,
-                                                   vfloat half_height, uint32_t *x0, uint32_t *x1, uint32_t *y0,
-                                                   uint32_t *y1)
-{
-    vfloat low, top;
-    tile_compute_parallel_span(&t->column_span, x, half_width, &low, &top);
-    const vmask outside_x = tile_compute_window(low, top, &t->column_span, x0, x1);
-    /* rows run down */
-    tile_compute_parallel_span(&t->row_span, y, half_height, &top, &low);
-    return spu_or(outside_x, tile_compute_window(low, top, &t->row_span, y0, y1));
-}
-
 CGT_SPU_INLINE vmask tile_cull_parallel_by_depth(const tile *t, const tile_projected_spheres *v)
 {
     const float begin = t->rays->t_min * (1 - 0x1p-18f) - 0x1p-60f;
@@ -113,16 +92,15 @@ CGT_SPU_INLINE void tile_cull_parallel_spheres(const tile *t, const vfloat spher
     tile_transform_spheres(t, sphere, q);
     const tile_projected_spheres v = tile_project_parallel_spheres(t, q);
     const vmask out_of_range = tile_cull_parallel_by_depth(t, &v);
-    const vmask outside =
-        tile_compute_parallel_windows(t, v.x, v.y, v.padded_radius, v.padded_radius, w.x0, w.x1, w.y0, w.y1);
+    const vmask outside = tile_compute_parallel_windows(t, v.x, v.y, v.padded_radius, v.padded_radius, &w);
     const vmask out = spu_or(spu_or(out_of_range, outside), tile_cull_occluded_spheres(t, &v, &w));
-    tile_append_visible(f, q, prim, &w, tile_first_lanes(count) & ~spux_mask_bits(out));
+    tile_append_visible(f, q, prim, &w, first_lanes(count) & ~spux_mask_bits(out));
 }
 
 CGT_SPU_INLINE void tile_init_parallel_spheres(const tile *t, const tile_visible_spheres *f, uint32_t first,
                                                tile_spheres *s)
 {
-    const unsigned lanes = tile_first_lanes(f->count - first);
+    const unsigned lanes = first_lanes(f->count - first);
     vfloat q[4];
     tile_load_visible(f, first, q, s);
     const tile_projected_spheres v = tile_project_parallel_spheres(t, q);

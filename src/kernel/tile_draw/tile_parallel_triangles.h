@@ -67,7 +67,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_parallel_triangles(const ti
 }
 
 /* Returns the lanes without a window. */
-CGT_SPU_INLINE vmask tile_cull_parallel_triangles(const tile *t, const tile_projected_triangles *v, tile_triangles *s)
+CGT_SPU_INLINE vmask tile_cull_parallel_triangles(const tile *t, const tile_projected_triangles *v, tile_windows *w)
 {
     const vfloat half = spux_vfloat(0.5f);
     const vfloat length_error = spu_madd(v->max_length, spux_vfloat(0x1p-19f), spux_vfloat(t->length_error));
@@ -78,8 +78,7 @@ CGT_SPU_INLINE vmask tile_cull_parallel_triangles(const tile *t, const tile_proj
         middle[a] = spu_mul(spu_add(lower, upper), half);
         half_width[a] = spu_madd(spu_sub(upper, lower), half, length_error);
     }
-    return tile_compute_parallel_windows(t, middle[0], middle[1], half_width[0], half_width[1], s->x0, s->x1, s->y0,
-                                         s->y1);
+    return tile_compute_parallel_windows(t, middle[0], middle[1], half_width[0], half_width[1], w);
 }
 
 /* Edges, their lengths seen along the rays, and the normal over the lengths of two. */
@@ -101,7 +100,7 @@ CGT_SPU_INLINE tile_parallel_edges tile_compute_parallel_edges(const tile_projec
         g.square[k] = spu_madd(g.e[k][1], g.e[k][1], spu_mul(g.e[k][2], g.e[k][2]));
         g.rlength[k] = tile_estimate_rlength(g.square[k]);
     }
-    filter_cross(g.e[1], g.e[2], g.n);
+    lane_cross(g.e[1], g.e[2], g.n);
     for (int k = 1; k < 3; k++) {
         const vfloat r = tile_estimate_rlength(spu_madd(g.e[k][0], g.e[k][0], g.square[k]));
         for (int a = 0; a < 3; a++)
@@ -135,7 +134,7 @@ CGT_SPU_INLINE unsigned tile_setup_parallel_triangles(const tile *t, const tile_
         t->origin_offset * TILE_EPS_PARALLEL_DEPTH_OFFSET + t->origin_error * TILE_EPS_PARALLEL_DEPTH_ORIGIN;
     const vfloat error =
         spu_mul(kappa, spu_madd(v->max_length, spux_vfloat(TILE_EPS_PARALLEL_DEPTH), spux_vfloat(rest)));
-    const vfloat plane[3] = {filter_dot(g.n, v->v[0]), spu_sub(zero, g.n[1]), spu_sub(zero, g.n[2])};
+    const vfloat plane[3] = {lane_dot(g.n, v->v[0]), spu_sub(zero, g.n[1]), spu_sub(zero, g.n[2])};
     tile_store_parallel_sides(t, v, &g, s);
     tile_store_form(t, plane, rz, spu_sub(zero, error), s->plane);
     const vmask within_depth_error = spu_cmpgt(spux_vfloat(t->depth_error), spu_mul(error, spux_vfloat(2.2f)));
@@ -145,7 +144,7 @@ CGT_SPU_INLINE unsigned tile_setup_parallel_triangles(const tile *t, const tile_
     const vmask normal = spu_cmpgt(tile_min3(g.square[0], g.square[1], g.square[2]), spux_vfloat(0x1p-90f));
     const vmask level = spu_cmpgt(spux_vfloat(0.125f), spu_mul(kappa, spux_vfloat(TILE_EPS_PLANE)));
     const vmask valid = spu_andc(spu_and(normal, level), v->crosses_t_min);
-    return spux_mask_bits(spu_and(valid, spu_or(within_depth_error, spux_not(tile_large_windows(s)))));
+    return spux_mask_bits(spu_and(valid, spu_or(within_depth_error, spux_not(tile_large_windows(&s->window)))));
 }
 
 /* tile_init_triangles for parallel rays. */
@@ -154,9 +153,10 @@ CGT_SPU_INLINE void tile_init_parallel_triangles(const tile *t, vfloat vertex[3]
     const tile_projected_triangles v = tile_project_parallel_triangles(t, vertex);
     vmask large_windows;
     const vmask out_of_range = spu_or(v.before_t_min, spu_cmpgt(v.min_distance, spux_vfloat(t->max_far_distance)));
-    const vmask out = spu_or(out_of_range, tile_cull_parallel_triangles(t, &v, s));
+    const vmask out = spu_or(out_of_range, tile_cull_parallel_triangles(t, &v, &s->window));
     const unsigned remaining =
-        active & ~spux_mask_bits(spu_or(out, tile_cull_occluded_triangles(t, &v, s, &large_windows))) & CGT_ALL_LANES;
+        active & ~spux_mask_bits(spu_or(out, tile_cull_occluded_triangles(t, &v, &s->window, &large_windows))) &
+        CGT_ALL_LANES;
     s->single_lanes = s->double_lanes = 0;
     if (!remaining)
         return;

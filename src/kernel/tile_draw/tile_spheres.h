@@ -46,20 +46,12 @@
 #define CGT_TILE_SPHERES_H
 
 #include "kernel/primitive/gather_primitives.h"
-#include "kernel/primitive/sphere_filter.h"
-#include "kernel/tile_draw/tile_decide.h"
+#include "kernel/tile/tile_window.h"
 
 #define TILE_EPS_ANGLE (34 * FILTER_ROUNDOFF)
 #define TILE_EPS_SUMS (112 * FILTER_ROUNDOFF)
 #define TILE_EPS_SECOND (20 * FILTER_ROUNDOFF)
 #define TILE_EPS_DEPTH (44 * FILTER_ROUNDOFF)
-#ifndef TILE_RSQRT_ERROR /* of spu_rsqrte */
-#if CGT_LANES == 16
-#define TILE_RSQRT_ERROR 0x1p-14f
-#else
-#define TILE_RSQRT_ERROR 0x1.8p-12f
-#endif
-#endif
 
 /* ---- the bounds, of a vector and of one sphere ---- */
 
@@ -94,11 +86,6 @@ CGT_SPU_INLINE void tile_init_sphere_depth_error(tile *t, float c, float r, floa
 
 /* ---- a vector of spheres ---- */
 
-/* Windows of a vector of objects: columns x0 to x1 and rows y0 to y1. */
-typedef struct tile_windows {
-    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
-} tile_windows;
-
 /* Of each lane, what its loop over pixels takes. */
 typedef struct tile_spheres {
     _Alignas(64) float X[CGT_LANES], Y[CGT_LANES];
@@ -123,30 +110,6 @@ typedef struct tile_visible_spheres {
     uint32_t count;
 } tile_visible_spheres;
 
-/* Reads the spheres of at most a vector of references; lanes beyond count repeat the first. */
-CGT_SPU_INLINE void tile_gather_spheres(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
-                                        vfloat sphere[4], vuint *prim)
-{
-    if (prims->arrays == 1) { /* its first object is 0 */
-        if (count == CGT_LANES)
-            *prim = spux_load_unaligned_uint(reference);
-        else {
-            _Alignas(64) uint32_t padded[CGT_LANES];
-            for (uint32_t k = 0; k < CGT_LANES; k++)
-                padded[k] = reference[k < count ? k : 0];
-            *prim = spux_load_uint(padded);
-        }
-        gather_spheres(prims->array, *prim, sphere);
-        return;
-    }
-    filter_spheres s;
-    filter_gather_spheres(prims, reference, count, CGT_LANES, &s);
-    for (int a = 0; a < 3; a++)
-        sphere[a] = spux_load(s.center[a]);
-    sphere[3] = spux_load(s.radius);
-    *prim = spux_load_uint(s.prim);
-}
-
 /* The silhouette's tangents against an axis, as columns or rows from the tile's first; low <= high where the scale is
  * positive, else the reverse. r2: r^2; unit: the scale over z^2 - r^2. */
 CGT_SPU_INLINE void tile_compute_tangents(const tile_span *span, vfloat x, vfloat z, vfloat r, vfloat r2, vfloat unit,
@@ -156,19 +119,6 @@ CGT_SPU_INLINE void tile_compute_tangents(const tile_span *span, vfloat x, vfloa
     const vfloat root = spu_mul(r, spux_sqrt(square)), first = spux_vfloat(span->first);
     *low = spu_msub(spu_sub(middle, root), unit, first);
     *high = spu_msub(spu_add(middle, root), unit, first);
-}
-
-/* The pixels from low to high, cut to the tile. Returns the lanes without any, whose first and last are open. */
-CGT_SPU_INLINE vmask tile_compute_window(vfloat low, vfloat high, const tile_span *span, uint32_t *first,
-                                         uint32_t *last)
-{
-    /* up from 1/16 below, which is less than 1/32 below where that is a whole number */
-    const vfloat low_column = spux_max(spu_add(low, spux_vfloat(0.9375f)), spux_vfloat(0));
-    const vfloat to = spux_min(spu_add(high, spux_vfloat(0.0625f)), spux_vfloat(span->last));
-    const vint from = spux_truncate(spux_min(low_column, spux_vfloat(span->pixels)));
-    spux_store_uint(first, (vuint)from);
-    spux_store_uint(last, (vuint)spux_truncate(to));
-    return spu_cmpgt((vfloat)spu_convtf(from, 0), to);
 }
 
 /* Lanes that surely miss the cone of all rays. */
@@ -250,39 +200,11 @@ CGT_SPU_INLINE vmask tile_cull_spheres_by_window(const tile *t, const tile_proje
     return spu_and(v->in_front, spu_or(outside_x, outside_y));
 }
 
-/* How far the parts of the tile with these numbers see; lanes without a window may have any number. */
-CGT_SPU_INLINE vfloat tile_gather_far_distance(const tile *t, vuint part)
-{
-#if CGT_LANES == 16
-    return spux_permute(spux_load(t->far_distance), part);
-#else
-    return spux_gather(t->far_distance, (vint)spu_and(part, spux_vuint(TILE_PARTS * TILE_PARTS - 1)));
-#endif
-}
-
-/* How far the parts under the corners of windows see; apart: windows that span more than two parts, of which the corners
- * do not tell. */
-CGT_SPU_INLINE vfloat tile_window_far_distance(const tile *t, const uint32_t *x0, const uint32_t *x1,
-                                               const uint32_t *y0, const uint32_t *y1, vmask *large_windows)
-{
-    const vuint row = spux_vuint(3 * TILE_PARTS), one = spux_vuint(1);
-    const vuint left_part = spu_sr(spux_load_uint(x0), 4), right_part = spu_sr(spux_load_uint(x1), 4);
-    const vuint y[2] = {spux_load_uint(y0), spux_load_uint(y1)};
-    const vuint top = spu_and(spu_sr(y[0], 2), row), bottom = spu_and(spu_sr(y[1], 2), row);
-    const vfloat above = spux_max(tile_gather_far_distance(t, spu_or(top, left_part)),
-                                  tile_gather_far_distance(t, spu_or(top, right_part)));
-    const vfloat below = spux_max(tile_gather_far_distance(t, spu_or(bottom, left_part)),
-                                  tile_gather_far_distance(t, spu_or(bottom, right_part)));
-    *large_windows =
-        spu_or(spu_cmpgt(spu_sub(right_part, left_part), one), spu_cmpgt(spu_sub(bottom, top), spux_vuint(TILE_PARTS)));
-    return spux_max(above, below);
-}
-
 /* Spheres that no part under their window sees: windows that span two parts at most, so that their corners tell. */
 CGT_SPU_INLINE vmask tile_cull_occluded_spheres(const tile *t, const tile_projected_spheres *v, const tile_windows *s)
 {
     vmask large_windows;
-    const vfloat far_distance = tile_window_far_distance(t, s->x0, s->x1, s->y0, s->y1, &large_windows);
+    const vfloat far_distance = tile_window_far_distance(t, s, &large_windows);
     return spu_andc(spu_and(v->in_front, spu_cmpgt(v->min_distance, far_distance)), large_windows);
 }
 
@@ -336,12 +258,7 @@ CGT_SPU_INLINE unsigned tile_setup_spheres(const tile *t, const tile_projected_s
 CGT_SPU_INLINE void tile_setup_double_spheres(const tile *t, const tile_projected_spheres *v, tile_spheres *s)
 {
     s->double_lanes &= ~spux_mask_bits(tile_cull_by_cone(t, v->z, v->x, v->y, v->distance, v->r));
-    for (unsigned k = s->double_lanes & ~spux_mask_bits(v->in_front); k; k &= k - 1) {
-        const int i = __builtin_ctz(k);
-        s->window.x0[i] = s->window.y0[i] = 0;
-        s->window.x1[i] = t->columns - 1;
-        s->window.y1[i] = t->rows - 1;
-    }
+    tile_set_full_windows(t, s->double_lanes & ~spux_mask_bits(v->in_front), &s->window);
 }
 
 /* Which windows are one vector wide and few pairs of rows high. */
@@ -386,12 +303,6 @@ CGT_SPU_INLINE void tile_load_visible(const tile_visible_spheres *f, uint32_t fi
     spux_store_uint(s->window.y1, spu_sr(window, 24));
 }
 
-/* The first lanes, as bits. */
-CGT_SPU_INLINE unsigned tile_first_lanes(uint32_t count)
-{
-    return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES;
-}
-
 /* Of the first lanes of a vector of spheres, so many, keeps those that the tile may see. */
 CGT_SPU_INLINE void tile_cull_spheres(const tile *t, const vfloat sphere[4], vuint prim, uint32_t count,
                                       tile_visible_spheres *f)
@@ -403,13 +314,13 @@ CGT_SPU_INLINE void tile_cull_spheres(const tile *t, const vfloat sphere[4], vui
     const vmask out_of_range = tile_cull_spheres_by_depth(t, v.distance, v.r, v.min_distance);
     const vmask out = spu_or(out_of_range, tile_cull_spheres_by_window(t, &v, &w));
     const unsigned culled = spux_mask_bits(spu_or(out, tile_cull_occluded_spheres(t, &v, &w)));
-    tile_append_visible(f, q, prim, &w, tile_first_lanes(count) & ~culled);
+    tile_append_visible(f, q, prim, &w, first_lanes(count) & ~culled);
 }
 
 /* Coefficients of a vector of those that were found. */
 CGT_SPU_INLINE void tile_init_spheres(const tile *t, const tile_visible_spheres *f, uint32_t first, tile_spheres *s)
 {
-    const unsigned lanes = tile_first_lanes(f->count - first);
+    const unsigned lanes = first_lanes(f->count - first);
     vfloat q[4];
     tile_load_visible(f, first, q, s);
     const tile_projected_spheres v = tile_project_spheres(t, q);

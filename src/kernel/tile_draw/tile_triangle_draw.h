@@ -7,7 +7,7 @@
 #ifndef CGT_TILE_TRIANGLE_DRAW_H
 #define CGT_TILE_TRIANGLE_DRAW_H
 
-#include "kernel/tile_draw/tile_sphere_draw.h"
+#include "kernel/tile_draw/tile_queue.h"
 #include "kernel/tile_draw/tile_triangles.h"
 
 /* What the loops take of one triangle. */
@@ -112,7 +112,7 @@ CGT_SPU_INLINE void tile_rasterise_triangle_rect(const cgt_primitives *prims, ti
 {
     const uint32_t windows = (rect.x1 - rect.x0) / (CGT_LANES / 2) + 1;
     uint32_t pairs = rect.y1 / 2 - rect.y0 / 2 + 1;
-    uint16_t undecided[TILE_MAX_WINDOWS + 4];
+    uint16_t undecided[TILE_MAX_VECTORS + 4];
     unsigned any;
     if (windows == 1 && pairs <= 2) {
         const uint32_t last = TILE_EDGE - 4;
@@ -129,7 +129,7 @@ CGT_SPU_INLINE void tile_rasterise_triangle_rect(const cgt_primitives *prims, ti
     }
     counts->ray_tests += (uint64_t)windows * pairs * CGT_LANES;
     if (any)
-        tile_queue_undecided(prims, t, prim, rect, windows, undecided, queue, counts);
+        CGT_KERNEL(cgt_tile_queue_undecided)(prims, t, prim, rect, windows, undecided, queue, counts);
 }
 
 /* ---- large triangles ---- */
@@ -165,44 +165,20 @@ CGT_SPU_INLINE unsigned tile_visible_triangle_parts(const tile *t, const tile_tr
     return reached;
 }
 
-/* The parts under a window, as bits. */
-CGT_SPU_INLINE unsigned tile_window_parts(const tile_triangles *s, int k)
-{
-    const uint32_t u0 = s->x0[k] / 16, u1 = s->x1[k] / 16, v0 = s->y0[k] / 16, v1 = s->y1[k] / 16;
-    const unsigned column_mask = (2u << u1) - (1u << u0), row_mask = (2u << 4 * v1) - (1u << 4 * v0);
-    return column_mask * 0x1111u & (row_mask | row_mask << 1 | row_mask << 2 | row_mask << 3);
-}
-
-/* The part of a window in one row of parts, from the first to the last of the parts there. */
-CGT_SPU_INLINE tile_rect tile_part_row_rect(const tile_triangles *s, int k, uint32_t v, unsigned parts)
-{
-    const uint32_t x_first = 16 * (uint32_t)__builtin_ctz(parts),
-                   x_last = 16 * (31 - (uint32_t)__builtin_clz(parts)) + 15;
-    const uint32_t y_first = 16 * v, y_last = y_first + 15;
-    return (tile_rect){.x0 = s->x0[k] > x_first ? s->x0[k] : x_first,
-                       .x1 = s->x1[k] < x_last ? s->x1[k] : x_last,
-                       .y0 = s->y0[k] > y_first ? s->y0[k] : y_first,
-                       .y1 = s->y1[k] < y_last ? s->y1[k] : y_last};
-}
-
-/* A window with a corner in every part that it meets: whether the tile is open there was asked of the whole vector. */
-CGT_SPU_INLINE bool tile_window_is_small(const tile_triangles *s, int k)
-{
-    return s->x1[k] / 16 - s->x0[k] / 16 <= 1 && s->y1[k] / 16 - s->y0[k] / 16 <= 1;
-}
-
 CGT_SPU_INLINE bool tile_rasterise_part_rows(const cgt_primitives *prims, tile *t, const tile_triangles *s, int k,
                                              tile_kind kind, tile_queue *queue, cgt_counts *counts)
 {
     const tile_triangle q = tile_broadcast_triangle(t, s, k, kind);
-    unsigned parts = tile_window_parts(s, k) & tile_visible_parts(t, s->min_distance[k]);
+    unsigned parts = tile_window_parts(&s->window, k) & tile_visible_parts(t, s->min_distance[k]);
     if (parts)
         parts &= tile_visible_triangle_parts(t, s, k);
     for (uint32_t v = 0; v < TILE_PARTS; v++) {
         const unsigned row_parts = parts >> 4 * v & 15;
         if (row_parts)
-            tile_rasterise_triangle_rect(prims, t, &q, s->prim[k], tile_part_row_rect(s, k, v, row_parts), kind, queue,
-                                         counts);
+            tile_rasterise_triangle_rect(prims, t, &q, s->prim[k],
+                                         tile_cut_window(&s->window, k, (uint32_t)__builtin_ctz(row_parts),
+                                                         31 - (uint32_t)__builtin_clz(row_parts), v, v),
+                                         kind, queue, counts);
     }
     return parts != 0;
 }
@@ -223,10 +199,10 @@ CGT_SPU_INLINE bool tile_rasterise_triangle(const cgt_primitives *prims, tile *t
                                             tile_kind kind, tile_queue *queue, cgt_counts *counts)
 {
     counts->packet_tests++;
-    if (!tile_window_is_small(s, k))
+    if (!tile_window_is_small(&s->window, k))
         return tile_rasterise_large_triangle(prims, t, s, k, queue, counts);
     const tile_triangle q = tile_broadcast_triangle(t, s, k, kind);
-    const tile_rect rect = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
+    const tile_rect rect = tile_window_rect(&s->window, k);
     tile_rasterise_triangle_rect(prims, t, &q, s->prim[k], rect, kind, queue, counts);
     return true;
 }

@@ -49,8 +49,7 @@
 #define CGT_TILE_TRIANGLES_H
 
 #include "kernel/primitive/gather_primitives.h"
-#include "kernel/tile_draw/tile_spheres.h"
-#include "kernel/primitive/triangle_filter.h"
+#include "kernel/tile/tile_window.h"
 
 #define TILE_EPS_SIDES (18 * FILTER_ROUNDOFF)
 #define TILE_EPS_SIDES_NEAR (9 * FILTER_ROUNDOFF)
@@ -65,7 +64,7 @@ typedef struct tile_triangles {
     _Alignas(64) float plane[3][CGT_LANES];     /* -1/t; t of parallel rays */
     _Alignas(64) float certain[CGT_LANES];      /* 2; infinite where no hit is certain */
     _Alignas(64) float min_distance[CGT_LANES]; /* before which nothing is hit, as `far` tells it */
-    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES]; /* the window */
+    tile_windows window;
     _Alignas(64) uint32_t prim[CGT_LANES];
     unsigned single_lanes, double_lanes; /* lanes as bits: for tile_rasterise_triangle, for tile_double.h */
 } tile_triangles;
@@ -76,36 +75,6 @@ CGT_SPU_INLINE void tile_widen_depth_error(tile *t, float c)
     const float depth_error = c * t->max_dir_length * 0x1p-13f;
     t->depth_error = t->depth_error > depth_error ? t->depth_error : depth_error;
     t->padded_depth_error = t->depth_error * (1 + 0x1p-20f);
-}
-
-/* ---- fetching ---- */
-
-/* Reads the vertices of a vector of objects; one by one where they are of several arrays. */
-CGT_SPU_INLINE void tile_gather_triangles(const cgt_primitives *prims, const uint32_t prim[CGT_LANES],
-                                          vfloat vertex[3][3])
-{
-    const cgt_primitive_array *a = prims->arrays == 1 ? prims->array : cgt_primitives_array(prims, prim[0]);
-    const vuint number = spu_sub(spux_load_uint(prim), spux_vuint(a->first));
-    if (prims->arrays == 1 || spux_all(spu_cmpgt(spux_vuint(a->count), number))) {
-        gather_triangles(a, number, vertex);
-        return;
-    }
-    filter_triangles s;
-    filter_gather_triangles(prims, prim, CGT_LANES, CGT_LANES, &s);
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 3; i++)
-            vertex[k][i] = spux_load(s.vertex[k][i]);
-}
-
-/* A vector of references; lanes beyond count repeat the first. */
-CGT_SPU_INLINE void tile_load_references(const uint32_t *reference, uint32_t count, uint32_t prim[CGT_LANES])
-{
-    if (count >= CGT_LANES) {
-        spux_store_uint(prim, spux_load_unaligned_uint(reference));
-        return;
-    }
-    for (uint32_t k = 0; k < CGT_LANES; k++)
-        prim[k] = reference[k < count ? k : 0];
 }
 
 /* ---- camera space and culling ---- */
@@ -123,12 +92,6 @@ typedef struct tile_projected_triangles {
 CGT_SPU_INLINE vfloat tile_min3(vfloat a, vfloat b, vfloat c) { return spux_min(a, spux_min(b, c)); }
 CGT_SPU_INLINE vfloat tile_max3(vfloat a, vfloat b, vfloat c) { return spux_max(a, spux_max(b, c)); }
 
-/* What z is times this, `far` tells at least: t is z but for the canonical direction's rounding. */
-CGT_SPU_INLINE float tile_min_distance_scale(const tile *t)
-{
-    return (t->linear ? 1 : sqrtf(t->min_norm)) * (1 - 0x1p-17f);
-}
-
 CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vfloat vertex[3][3])
 {
     const float(*dual)[3] = t->camera.dual;
@@ -141,7 +104,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vf
         for (int a = 0; a < 3; a++)
             s.v[k][a] = spu_madd(p[0], spux_vfloat(dual[a][0]),
                                  spu_madd(p[1], spux_vfloat(dual[a][1]), spu_mul(p[2], spux_vfloat(dual[a][2]))));
-        square[k] = filter_dot(s.v[k], s.v[k]);
+        square[k] = lane_dot(s.v[k], s.v[k]);
     }
     s.max_length = spu_mul(spux_sqrt(tile_max3(square[0], square[1], square[2])), spux_vfloat(1 + 0x1p-18f));
     const vfloat lower_z = tile_min3(s.v[0][0], s.v[1][0], s.v[2][0]),
@@ -160,7 +123,7 @@ CGT_SPU_INLINE tile_projected_triangles tile_project_triangles(const tile *t, vf
 }
 
 /* Windows: of the triangles in front their own, of others the tile. Returns those in front that have none. */
-CGT_SPU_INLINE vmask tile_cull_triangles_by_window(const tile *t, const tile_projected_triangles *v, tile_triangles *s)
+CGT_SPU_INLINE vmask tile_cull_triangles_by_window(const tile *t, const tile_projected_triangles *v, tile_windows *w)
 {
     const float column_span = t->column_span.scale, row_span = t->row_span.scale;
     const float share = 0x1p-19f * t->max_dir_length;
@@ -177,29 +140,18 @@ CGT_SPU_INLINE vmask tile_cull_triangles_by_window(const tile *t, const tile_pro
     const vfloat x0 = spux_vfloat(t->column_span.first), y0 = spux_vfloat(t->row_span.first);
     const vmask outside_x =
         tile_compute_window(spu_sub(spu_sub(tile_min3(x[0], x[1], x[2]), x_error), x0),
-                            spu_sub(spu_add(tile_max3(x[0], x[1], x[2]), x_error), x0), &t->column_span, s->x0, s->x1);
+                            spu_sub(spu_add(tile_max3(x[0], x[1], x[2]), x_error), x0), &t->column_span, w->x0, w->x1);
     const vmask outside_y =
         tile_compute_window(spu_sub(spu_sub(tile_min3(y[0], y[1], y[2]), y_error), y0),
-                            spu_sub(spu_add(tile_max3(y[0], y[1], y[2]), y_error), y0), &t->row_span, s->y0, s->y1);
+                            spu_sub(spu_add(tile_max3(y[0], y[1], y[2]), y_error), y0), &t->row_span, w->y0, w->y1);
     return spu_and(v->in_front, spu_or(outside_x, outside_y));
-}
-
-/* Those not in front get the whole tile. */
-CGT_SPU_INLINE void tile_set_full_windows(const tile *t, unsigned remaining, tile_triangles *s)
-{
-    for (; remaining; remaining &= remaining - 1) {
-        const int k = __builtin_ctz(remaining);
-        s->x0[k] = s->y0[k] = 0;
-        s->x1[k] = t->columns - 1;
-        s->y1[k] = t->rows - 1;
-    }
 }
 
 /* Triangles that no part under their window sees; apart: as tile_window_far_distance says. */
 CGT_SPU_INLINE vmask tile_cull_occluded_triangles(const tile *t, const tile_projected_triangles *v,
-                                                  const tile_triangles *s, vmask *large_windows)
+                                                  const tile_windows *w, vmask *large_windows)
 {
-    const vfloat far_distance = tile_window_far_distance(t, s->x0, s->x1, s->y0, s->y1, large_windows);
+    const vfloat far_distance = tile_window_far_distance(t, w, large_windows);
     return spu_andc(spu_and(v->in_front, spu_cmpgt(v->min_distance, far_distance)), *large_windows);
 }
 
@@ -235,10 +187,10 @@ CGT_SPU_INLINE void tile_store_form(const tile *t, const vfloat v[3], vfloat k, 
 }
 
 /* Windows that are cheaper to test in double than to queue. */
-CGT_SPU_INLINE vmask tile_large_windows(const tile_triangles *s)
+CGT_SPU_INLINE vmask tile_large_windows(const tile_windows *w)
 {
-    const vuint width = spu_sub(spux_load_uint(s->x1), spux_load_uint(s->x0));
-    const vuint height = spu_sub(spux_load_uint(s->y1), spux_load_uint(s->y0));
+    const vuint width = spu_sub(spux_load_uint(w->x1), spux_load_uint(w->x0));
+    const vuint height = spu_sub(spux_load_uint(w->y1), spux_load_uint(w->y0));
     return spu_cmpgt(spu_add(width, height), spux_vuint(TILE_LARGE_WINDOW));
 }
 
@@ -256,7 +208,7 @@ CGT_SPU_INLINE void tile_compute_normals(vfloat e[3][3], const vfloat square[3],
         a[k] = spux_select(e[1][k], e[0][k], first);
         b[k] = spux_select(e[2][k], e[0][k], second);
     }
-    filter_cross(a, b, n);
+    lane_cross(a, b, n);
     for (int k = 0; k < 3; k++)
         n[k] = spu_mul(n[k], normalise);
 }
@@ -269,11 +221,11 @@ CGT_SPU_INLINE unsigned tile_setup_triangles(const tile *t, const tile_projected
     for (int k = 0; k < 3; k++) {
         for (int a = 0; a < 3; a++)
             e[k][a] = spu_sub(v->v[(k + 2) % 3][a], v->v[(k + 1) % 3][a]);
-        square[k] = filter_dot(e[k], e[k]);
+        square[k] = lane_dot(e[k], e[k]);
         rlength[k] = spu_mul(spu_rsqrte(square[k]), spux_vfloat(1 - 0x1p-9f)); /* at most the exact one */
     }
     tile_compute_normals(e, square, rlength, n);
-    const vfloat det = filter_dot(n, v->v[0]), size = spux_abs(det), rdet = spux_div(one, det);
+    const vfloat det = lane_dot(n, v->v[0]), size = spux_abs(det), rdet = spux_div(one, det);
     const vfloat kappa = spu_mul(max_length, spux_abs(rdet));
     const vfloat share = spu_madd(kappa, spux_vfloat(TILE_EPS_PLANE), spux_vfloat(TILE_EPS_PLANE_MIN));
     const vfloat near = spux_max(v->min_z, spu_mul(size, spux_vfloat(0.875f)));
@@ -282,7 +234,7 @@ CGT_SPU_INLINE unsigned tile_setup_triangles(const tile *t, const tile_projected
     const vfloat sign = spu_and(det, spux_vfloat(-0.f));
     const vfloat unit = spu_or(spux_div(spux_vfloat(1 / t->max_dir_length), error), sign);
     for (int k = 0; k < 3; k++) {
-        filter_cross(v->v[(k + 1) % 3], e[k], c);
+        lane_cross(v->v[(k + 1) % 3], e[k], c);
         tile_store_form(t, c, spu_mul(unit, rlength[k]), one, s->side[k]);
     }
     tile_store_form(t, n, spu_mul(rdet, spu_sub(spux_vfloat(-1), share)), spux_vfloat(0), s->plane);
@@ -296,7 +248,7 @@ CGT_SPU_INLINE unsigned tile_setup_triangles(const tile *t, const tile_projected
     /* what underflows is small beside edges of 2^-45 */
     const vmask normal = spu_cmpgt(tile_min3(square[0], square[1], square[2]), spux_vfloat(0x1p-90f));
     const vmask valid = spu_andc(spu_and(normal, spu_cmpgt(spux_vfloat(0.125f), share)), v->crosses_t_min);
-    return spux_mask_bits(spu_and(valid, spu_or(within_depth_error, spux_not(tile_large_windows(s)))));
+    return spux_mask_bits(spu_and(valid, spu_or(within_depth_error, spux_not(tile_large_windows(&s->window)))));
 }
 
 /* Triangles of which an edge has all of the tile on its other side, or whose plane is farther than any part sees. 2^-21 of
@@ -331,16 +283,17 @@ CGT_SPU_INLINE void tile_init_triangles(const tile *t, vfloat vertex[3][3], unsi
     const tile_projected_triangles v = tile_project_triangles(t, vertex);
     vmask large_windows;
     const vmask out_of_range = spu_or(v.before_t_min, spu_cmpgt(v.min_distance, spux_vfloat(t->max_far_distance)));
-    const vmask out = spu_or(out_of_range, tile_cull_triangles_by_window(t, &v, s));
+    const vmask out = spu_or(out_of_range, tile_cull_triangles_by_window(t, &v, &s->window));
     const unsigned in_front = spux_mask_bits(v.in_front);
-    unsigned remaining =
-        active & ~spux_mask_bits(spu_or(out, tile_cull_occluded_triangles(t, &v, s, &large_windows))) & CGT_ALL_LANES;
+    unsigned remaining = active &
+                         ~spux_mask_bits(spu_or(out, tile_cull_occluded_triangles(t, &v, &s->window, &large_windows))) &
+                         CGT_ALL_LANES;
     s->single_lanes = s->double_lanes = 0;
     if (remaining & ~in_front)
         remaining &= ~spux_mask_bits(tile_cull_triangles_by_sides(t, &v));
     if (!remaining)
         return;
-    tile_set_full_windows(t, remaining & ~in_front, s);
+    tile_set_full_windows(t, remaining & ~in_front, &s->window);
     const unsigned single_lanes = remaining & tile_setup_triangles(t, &v, s);
     s->double_lanes = remaining & ~single_lanes;
     s->single_lanes = single_lanes;

@@ -4,30 +4,7 @@
  * Points whose rays have the usual ranges, from arrays of their own to a packet of a tile in one pass: the rays, what tests
  * take of them, and the slopes of their groups. It finds what light_load_packet, light_compute_margin, light_compute_terms and light_compute_groups
  * do one after the other. */
-#ifndef CGT_LIGHT_READ_H
-#define CGT_LIGHT_READ_H
-
 #include "kernel/light/light_groups.h"
-
-/* The axes and the reference of a tile's packet, by any ray of it: the first packet's. False where there is no common
- * way. */
-static bool light_tile_init_axes(light_tile *t, light_packet *l, const float org[3], const float dir[3])
-{
-    const light_packet *first = &t->packet[0];
-    if (t->packets) {
-        for (int a = 0; a < 3; a++) {
-            l->axis[a] = first->axis[a];
-            l->origin[a] = first->origin[a];
-        }
-        l->sign = first->sign;
-        return true;
-    }
-    if (!light_init_axes(&l->rays, org, dir, l))
-        return false;
-    for (int a = 0; a < 2; a++)
-        t->slope[a] = t->is_point ? 0 : dir[l->axis[a + 1]] / (l->sign * dir[l->axis[0]]);
-    return true;
-}
 
 /* Lane k gets the least of all lanes of vector k; and the greatest. */
 CGT_SPU_INLINE vfloat light_reduce_min(vfloat v[CGT_LANES])
@@ -140,9 +117,8 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
     return true;
 }
 
-/* The tile's next packet: points first to first + count - 1 of the order, whole vectors of light_points_are_dense without
- * ranges of their own. False where something about them is unusual. */
-static bool light_tile_read(const light_call *c, light_tile *t, light_packet *l, uint32_t first, uint32_t count)
+bool CGT_KERNEL(cgt_light_tile_read)(const light_call *c, light_tile *t, light_packet *l, uint32_t first,
+                                     uint32_t count)
 {
     const ray_source *source = &c->source;
     const uint64_t last = ray_index(&c->order, first + count - 1);
@@ -158,5 +134,3 @@ static bool light_tile_read(const light_call *c, light_tile *t, light_packet *l,
     return t->is_point ? light_tile_read_rays(c, t, l, first, count, true)
                        : light_tile_read_rays(c, t, l, first, count, false);
 }
-
-#endif

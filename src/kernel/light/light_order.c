@@ -2,13 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * What a light sees of a chunk of points, and the order in which they go to groups. How well that goes changes no answer. */
-#ifndef CGT_LIGHT_ORDER_H
-#define CGT_LIGHT_ORDER_H
-
+#include "kernel/light/light_packet.h"
 #include "kernel/light/light_points.h"
 
-#define SORT_CELLS 32u /* along an edge of what the light sees of a chunk */
-#define SORT_RUNS 4u   /* of a chunk, in turn: neighbours share cells, whose counters would wait for themselves */
+#define LIGHT_SAMPLE_STEP 16u /* of so many vectors of points one is looked at to tell how far they reach */
+#define SORT_CELLS 32u        /* along an edge of what the light sees of a chunk */
+#define SORT_RUNS 4u /* of a chunk, in turn: neighbours share cells, whose counters would wait for themselves */
 
 _Static_assert(CGT_RAYS_CHUNK <= UINT16_MAX, "a chunk is counted in 16 bits");
 
@@ -70,7 +69,7 @@ CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t 
 }
 
 /* Points that the light sees side by side to the same groups, along a Morton curve. */
-static void light_sort_points(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
+void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
 {
     _Alignas(64) float position[2][CGT_RAYS_CHUNK];
     _Alignas(64) uint32_t key[CGT_RAYS_CHUNK];
@@ -126,7 +125,7 @@ static void light_sort_points(const light_call *c, uint32_t count, uint32_t from
 
 /* Whether neighbours in the arrays are mostly far from each other, as far as some of them tell: a third of what the
  * light sees of their chunk. */
-static bool light_is_scattered(const light_call *c, uint32_t count)
+bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count)
 {
     const light_projection projection = light_init_projection(c, count);
     float lower[2] = {INFINITY, INFINITY}, upper[2] = {-INFINITY, -INFINITY}, sum = 0, total = 0;
@@ -147,4 +146,50 @@ static bool light_is_scattered(const light_call *c, uint32_t count)
     return !(sum * 3 <= total * (float)groups);
 }
 
-#endif
+uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+                                          const cgt_light *light, uint64_t first, uint64_t end)
+{
+    const light_call c = {.committed_scene = committed_scene,
+                          .source = ray_source_init(points, light),
+                          .light = *light,
+                          .order = {first, NULL}};
+    const uint32_t count = (uint32_t)(end - first);
+    if (!light_is_near(&c))
+        return UINT32_MAX;
+    const light_projection projection = light_init_projection(&c, count);
+    vfloat lower[2], upper[2], corner[3], coord[2];
+    double share = 1;
+    for (int a = 0; a < 2; a++) {
+        lower[a] = spux_vfloat(INFINITY);
+        upper[a] = spux_vfloat(-INFINITY);
+    }
+    for (uint32_t k = 0; k < count; k += LIGHT_SAMPLE_STEP * CGT_LANES) {
+        vfloat point[3];
+        light_load_points(&c, k, count, point);
+        light_apply_projection(&projection, point, coord);
+        for (int a = 0; a < 2; a++) {
+            lower[a] = spux_min(lower[a], coord[a]);
+            upper[a] = spux_max(upper[a], coord[a]);
+        }
+    }
+    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (uint32_t k = 0; k < 8; k++) {
+        for (int a = 0; a < 3; a++)
+            corner[a] = spux_vfloat(k >> a & 1 ? committed_scene->high[a] : committed_scene->low[a]);
+        light_apply_projection(&projection, corner, coord);
+        for (int a = 0; a < 2; a++) {
+            low[a] = coord[a][0] < low[a] ? coord[a][0] : low[a];
+            high[a] = light_max(high[a], coord[a][0]);
+        }
+    }
+    for (int a = 0; a < 2; a++) {
+        const double points_extent = (double)spux_hmax(upper[a]) - (double)spux_hmin(lower[a]);
+        /* a light among the objects sees some of them behind itself */
+        double scene_extent = (double)high[a] - (double)low[a];
+        scene_extent = projection.is_point && !(scene_extent < 2 * (double)LIGHT_MAX_SLOPE)
+                           ? 2 * (double)LIGHT_MAX_SLOPE
+                           : scene_extent;
+        share *= points_extent >= 0 && points_extent < scene_extent ? points_extent / scene_extent : 1;
+    }
+    return (uint64_t)(share * committed_scene->valid);
+}

@@ -11,13 +11,10 @@
  * open, it is asked exactly on which side of one triangle's plane the other one's vertices are. Of a ray that passes
  * between a triangle's edges the hit is a sum of all three vertices with factors above 0: in the plane where they all are,
  * and else beyond it or before it where none of them is on the other side. Num is the eye's side. */
-#ifndef CGT_TILE_DECIDE_TRIANGLES_H
-#define CGT_TILE_DECIDE_TRIANGLES_H
-
 #include "exact/integer/exact_terms.h"
 #include "exact/triangle_double.h"
 #include "spux_double.h"
-#include "kernel/tile/tile.h"
+#include "kernel/tile_draw/tile_queue.h"
 
 /* ---- two triangles, seen from the eye ---- */
 
@@ -323,4 +320,78 @@ CGT_SPU_INLINE void tile_decide_run(const tile *t, tile_pair_cache *s, uint32_t 
     r->rejected = spux_mask_bits(spu_or(outside, spu_or(spu_andc(hits, within), spu_and(comparable, farther))));
 }
 
-#endif
+/* ---- the queue ---- */
+
+/* One entry, by what is kept of triangles. */
+CGT_SPU_INLINE void tile_flush_entry(const cgt_primitives *prims, tile *t, const tile_queue *q, uint32_t k,
+                                     tile_pair_cache *s, cgt_counts *counts)
+{
+    const uint32_t i = q->pixel[k], prim = q->prim[k], closest = t->prim[i];
+    double hit_t = 0;
+    if (closest == prim || t->z[i] == -INFINITY)
+        return;
+    const cgt_ray ray = tile_pixel_ray(t, i);
+    const tile_decision decision = tile_decide_pair(prims, &ray, closest, prim, s, &hit_t, counts);
+    if (decision == TILE_UNDECIDED) {
+        CGT_KERNEL(cgt_tile_decide)(prims, t, i, prim, counts);
+        return;
+    }
+    counts->double_tests++;
+    if (decision == TILE_ACCEPTED) {
+        tile_set_closest(t, i, prim);
+        t->z[i] = tile_compute_depth(t, i, hit_t);
+    }
+}
+
+/* How many entries from k on, at most a vector, are of one object and one winner. */
+CGT_SPU_INLINE uint32_t tile_run_length(const tile *t, const tile_queue *q, uint32_t k)
+{
+    const uint32_t prim = q->prim[k], closest = t->prim[q->pixel[k]];
+    const uint32_t limit = q->entries - k < CGT_LANES ? q->entries - k : CGT_LANES;
+    uint32_t length = 1;
+    while (length < limit && q->prim[k + length] == prim && t->prim[q->pixel[k + length]] == closest)
+        length++;
+    return length;
+}
+
+/* Such a run. */
+CGT_SPU_INLINE void tile_flush_run(const cgt_primitives *prims, tile *t, const tile_queue *q, uint32_t first,
+                                   uint32_t count, tile_pair_cache *s, cgt_counts *counts)
+{
+    const uint32_t prim = q->prim[first], closest = t->prim[q->pixel[first]];
+    const float *eye = t->rays->eye;
+    tile_run_result r = {.accepted = 0};
+    if (closest == prim)
+        return;
+    if (tile_cache_prim(prims, eye, prim, s) &&
+        (closest == CGT_INVALID_ID || tile_cache_closest(prims, eye, closest, s)))
+        tile_decide_run(t, s, closest, q->pixel + first, count, &r, counts);
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = q->pixel[first + k];
+        if (!((r.accepted | r.rejected) >> k & 1) || t->z[i] == -INFINITY) {
+            tile_flush_entry(prims, t, q, first + k, s, counts);
+            continue;
+        }
+        counts->double_tests++;
+        if (r.accepted >> k & 1) {
+            tile_set_closest(t, i, prim);
+            t->z[i] = tile_compute_depth(t, i, r.t[k]);
+        }
+    }
+}
+
+/* Where rays have one origin, and there are triangles. */
+void CGT_KERNEL(cgt_tile_flush_triangles)(const cgt_primitives *prims, tile *t, const tile_queue *q, cgt_counts *counts)
+{
+    tile_pair_cache s; /* large: not all of it is set */
+    s.prim.prim = s.closest.prim = CGT_INVALID_ID;
+    s.planes = TILE_PLANES_UNKNOWN;
+    for (uint32_t k = 0, run; k < q->entries; k += run) {
+        run = tile_run_length(t, q, k);
+        if (run >= TILE_MIN_RUN)
+            tile_flush_run(prims, t, q, k, run, &s, counts);
+        else
+            for (uint32_t i = k; i < k + run; i++)
+                tile_flush_entry(prims, t, q, i, &s, counts);
+    }
+}

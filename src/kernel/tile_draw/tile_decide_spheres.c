@@ -5,12 +5,9 @@
  * short way of sphere_double.h. Its t is the canonical one, so that what is far enough apart for decide.c to tell is told
  * here, too. A line passes by where the discriminant is below 0 by more than it may be off, 18 e (c.c + r^2) d.d, for
  * which 2^-48 is taken. What is left open, the last few silhouettes and what is as near as another, decide.c decides. */
-#ifndef CGT_TILE_DECIDE_SPHERES_H
-#define CGT_TILE_DECIDE_SPHERES_H
-
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/resolve/resolve_spheres.h"
-#include "kernel/tile/tile.h"
+#include "kernel/tile_draw/tile_queue.h"
 
 /* What is known of a vector of entries. */
 typedef struct tile_decisions {
@@ -82,4 +79,24 @@ CGT_SPU_INLINE void tile_decide_spheres(const cgt_primitive_array *array, const 
     v->rejected = spux_mask_bits(spu_or(a.missed, beyond));
 }
 
-#endif
+/* Where rays have one origin, and there are spheres of one array. */
+void CGT_KERNEL(cgt_tile_flush_spheres)(const cgt_primitives *prims, tile *t, const tile_queue *q, cgt_counts *counts)
+{
+    tile_decisions v;
+    for (uint32_t first = 0; first < q->entries; first += CGT_LANES) {
+        tile_decide_spheres(prims->array, t, q, first, &v);
+        for (uint32_t k = 0; k < CGT_LANES && first + k < q->entries; k++) {
+            const uint32_t i = q->pixel[first + k], prim = q->prim[first + k];
+            if (!((v.accepted | v.rejected) >> k & 1) || t->prim[i] != v.closest[k] || t->z[i] == -INFINITY) {
+                CGT_KERNEL(cgt_tile_decide)
+                (prims, t, i, prim, counts); /* another entry of the vector may have won the pixel */
+                continue;
+            }
+            counts->double_tests++;
+            if (v.accepted >> k & 1) {
+                tile_set_closest(t, i, prim);
+                t->z[i] = tile_compute_depth(t, i, v.t[k]);
+            }
+        }
+    }
+}

@@ -5,11 +5,9 @@
  * tile_spheres.h and tile_triangles.h do not hold for. They lie about the eye or behind it, are cut by the range's begin,
  * or are so large that single precision is coarse beside what the tile keeps. The arithmetic is that of sphere_double.h
  * and triangle_double.h, so what it is certain of is what decide.h would say; the rest goes to the queue. */
-#ifndef CGT_TILE_DOUBLE_H
-#define CGT_TILE_DOUBLE_H
-
+#include "exact/sphere_double.h"
 #include "exact/triangle_double.h"
-#include "kernel/tile_draw/tile_sphere_draw.h"
+#include "kernel/tile_draw/tile_queue.h"
 
 /* A hit's t as the depth of the tile, infinite where it is not in the range. */
 CGT_SPU_INLINE double tile_double_depth(const tile *t, float px, float py, double hit, bool linear)
@@ -194,9 +192,8 @@ CGT_SPU_INLINE void tile_rasterise_double_run(const cgt_primitives *prims, tile 
 }
 
 /* Tests the pixels of a window. */
-__attribute__((noinline, unused)) static void tile_rasterise_double(const cgt_primitives *prims, tile *t, uint32_t prim,
-                                                                    tile_rect rect, tile_queue *queue,
-                                                                    cgt_counts *counts)
+void CGT_KERNEL(cgt_tile_rasterise_double)(const cgt_primitives *prims, tile *t, uint32_t prim, tile_rect rect,
+                                           tile_queue *queue, cgt_counts *counts)
 {
     const cgt_primitive q = cgt_primitives_get(prims, prim);
     const uint32_t first = 2 * rect.x0, end = 2 * rect.x1 + 2, side = 2 * TILE_EDGE / TILE_PARTS;
@@ -212,5 +209,3 @@ __attribute__((noinline, unused)) static void tile_rasterise_double(const cgt_pr
             }
     }
 }
-
-#endif
