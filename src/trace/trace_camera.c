@@ -25,6 +25,7 @@ typedef struct frame_job {
     bool buffered; /* tiles go through a buffer */
     atomic_bool stopped;
     cgt_trace_counter *counter;
+    cgt_float_environment callers; /* the visitor's, too */
 } frame_job;
 
 static uint32_t plane_fields(const cgt_frame *f)
@@ -87,8 +88,11 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
     copy_rows(planes->v, tile->v, planes, tile);
 }
 
-static int call_visitor(const cgt_frame *f, const cgt_region *r)
+/* Tasks run in the library's floating-point environment, the visitor in that of the call. */
+static int call_visitor(const frame_job *job, const cgt_region *r)
 {
+    const cgt_frame *f = job->frame;
+    cgt_float_environment visitors;
     const uint32_t fields = f->visitor_fields;
     const bool normal = fields & CGT_FIELD_NORMAL, uv = fields & CGT_FIELD_UV;
     const cgt_tile tile = {
@@ -103,20 +107,20 @@ static int call_visitor(const cgt_frame *f, const cgt_region *r)
         .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL},
         .u = uv ? r->u : NULL,
         .v = uv ? r->v : NULL};
-    return f->visitor(f->visitor_user, &tile);
+    cgt_float_environment_leave(&job->callers);
+    const int stop = f->visitor(f->visitor_user, &tile);
+    cgt_float_environment_enter(&visitors);
+    return stop;
 }
 
 static void trace_region_into(const frame_job *job, const cgt_region *r)
 {
     const cgt_scene *s = job->scene;
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     if (s->committed_scene.structure == CGT_STRUCTURE_LOOSE_GRID && job->settings.tiled)
         s->context->kernel->trace_tile(&s->committed_scene, &job->camera, &job->settings, r, &counts);
     else
         s->context->kernel->trace_region(&s->committed_scene, &job->camera, &job->settings, r, &counts);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
@@ -126,7 +130,7 @@ __attribute__((noinline)) static int trace_buffered(const frame_job *job, const 
     uint32_t buffer[8][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
     trace_region_into(job, &tile);
-    const int stop = job->frame->visitor ? call_visitor(job->frame, &tile) : 0;
+    const int stop = job->frame->visitor ? call_visitor(job, &tile) : 0;
     copy_to_planes(planes, &tile);
     return stop;
 }
@@ -147,7 +151,7 @@ static void trace_frame_tile(void *argument, uint32_t index)
     else {
         trace_region_into(job, &planes);
         if (f->visitor)
-            stop = call_visitor(f, &planes);
+            stop = call_visitor(job, &planes);
     }
     if (stop)
         atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
@@ -205,10 +209,9 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
         result = cgt_check_frame(c, frame);
     if (result != CGT_OK)
         return result;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
+    cgt_float_environment_enter(&job.callers);
     result = cgt_camera_prepare(camera, frame->width, frame->height, &job.camera, message);
-    cgt_float_environment_leave(&callers);
+    cgt_float_environment_leave(&job.callers);
     if (result != CGT_OK)
         return cgt_fail(c, result, "%s", message);
     if (!cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask))
