@@ -9,6 +9,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "core/float_environment.h"
+
 #define MAX_THREADS 1024u
 
 const char *cgt_get_version(void) { return CGT_VERSION_STRING; }
@@ -128,12 +130,31 @@ const char *cgt_context_get_variant(const cgt_context *context) { return context
 
 uint32_t cgt_context_get_threads(const cgt_context *context) { return context->threads; }
 
+/* A batch as a runner gets it. */
+typedef struct task_batch {
+    cgt_task *task;
+    void *argument;
+} task_batch;
+
+static void run_task(void *argument, uint32_t index)
+{
+    const task_batch *batch = argument;
+    cgt_float_environment runners;
+    cgt_float_environment_enter(&runners);
+    batch->task(batch->argument, index);
+    cgt_float_environment_leave(&runners);
+}
+
 void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count)
 {
+    task_batch batch = {task, argument};
+    cgt_float_environment callers;
     if (count > 1 && context->tasks.run) {
-        context->tasks.run(context->tasks.user, task, argument, count);
+        context->tasks.run(context->tasks.user, run_task, &batch, count);
         return;
     }
+    cgt_float_environment_enter(&callers);
     for (uint32_t i = 0; i < count; i++)
         task(argument, i);
+    cgt_float_environment_leave(&callers);
 }

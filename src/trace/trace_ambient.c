@@ -110,8 +110,6 @@ static void trace_ambient_tile(void *argument, uint32_t index)
     const cgt_frame *f = job->frame;
     const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
     ray_batch b;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     b.counts = (cgt_counts){0};
     b.rays = b.pixels = 0;
     cgt_ambient_points_init(job->ambient.samples, &b.points);
@@ -129,7 +127,6 @@ static void trace_ambient_tile(void *argument, uint32_t index)
         append_pixel(job, x, y, element, &b);
     }
     trace_batch(job, &b);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &b.counts);
 }
 

@@ -25,6 +25,7 @@ typedef struct frame_job {
     bool buffered; /* tiles go through a buffer */
     atomic_bool stopped;
     cgt_trace_counter *counter;
+    cgt_float_environment callers; /* the visitor's, too */
 } frame_job;
 
 static uint32_t plane_fields(const cgt_frame *f)
@@ -65,8 +66,11 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
                    tile->width * sizeof(uint32_t));
 }
 
-static int call_visitor(const cgt_frame *f, const cgt_region *r)
+/* Tasks run in the library's floating-point environment, the visitor in that of the call. */
+static int call_visitor(const frame_job *job, const cgt_region *r)
 {
+    const cgt_frame *f = job->frame;
+    cgt_float_environment visitors;
     void *plane[CGT_PLANES];
     for (int k = 0; k < CGT_PLANES; k++)
         plane[k] = f->visitor_fields & cgt_plane_field[k] ? r->plane[k] : NULL;
@@ -82,20 +86,20 @@ static int call_visitor(const cgt_frame *f, const cgt_region *r)
         .normal = {plane[CGT_PLANE_NORMAL], plane[CGT_PLANE_NORMAL + 1], plane[CGT_PLANE_NORMAL + 2]},
         .u = plane[CGT_PLANE_U],
         .v = plane[CGT_PLANE_V]};
-    return f->visitor(f->visitor_user, &tile);
+    cgt_float_environment_leave(&job->callers);
+    const int stop = f->visitor(f->visitor_user, &tile);
+    cgt_float_environment_enter(&visitors);
+    return stop;
 }
 
 static void trace_region_into(const frame_job *job, const cgt_region *r)
 {
     const cgt_scene *s = job->scene;
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     if (s->committed_scene.structure == CGT_STRUCTURE_LOOSE_GRID && job->settings.tiled)
         s->context->kernel->trace_tile(&s->committed_scene, &job->camera, &job->settings, r, &counts);
     else
         s->context->kernel->trace_region(&s->committed_scene, &job->camera, &job->settings, r, &counts);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
@@ -105,7 +109,7 @@ __attribute__((noinline)) static int trace_buffered(const frame_job *job, const 
     uint32_t buffer[CGT_PLANES][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
     trace_region_into(job, &tile);
-    const int stop = job->frame->visitor ? call_visitor(job->frame, &tile) : 0;
+    const int stop = job->frame->visitor ? call_visitor(job, &tile) : 0;
     copy_to_planes(planes, &tile);
     return stop;
 }
@@ -125,7 +129,7 @@ static void trace_frame_tile(void *argument, uint32_t index)
     else {
         trace_region_into(job, &planes);
         if (f->visitor)
-            stop = call_visitor(f, &planes);
+            stop = call_visitor(job, &planes);
     }
     if (stop)
         atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
@@ -183,10 +187,9 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
         result = cgt_check_frame(c, frame);
     if (result != CGT_OK)
         return result;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
+    cgt_float_environment_enter(&job.callers);
     result = cgt_camera_prepare(camera, frame->width, frame->height, &job.camera, message);
-    cgt_float_environment_leave(&callers);
+    cgt_float_environment_leave(&job.callers);
     if (result != CGT_OK)
         return cgt_fail(c, result, "%s", message);
     if (!cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask))

@@ -37,11 +37,8 @@ static void trace_chunk(void *argument, uint32_t index)
     const cgt_scene *s = job->scene;
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
                                     job->occluded, &counts);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 

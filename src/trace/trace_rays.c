@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays, nearest hit and any hit: cut into chunks, each a task. */
-#include "core/float_environment.h"
 #include "scene/scene.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
@@ -24,11 +23,8 @@ static void trace_chunk(void *argument, uint32_t index)
     const uint64_t first = (uint64_t)index * job->chunk, remaining = job->rays->count - first,
                    end = first + (remaining < job->chunk ? remaining : job->chunk);
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     s->context->kernel->trace_rays(&s->committed_scene, job->rays, first, end, &job->settings, job->hits, job->occluded,
                                    &counts);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 

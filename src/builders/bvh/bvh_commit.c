@@ -47,32 +47,23 @@ static void compute_chunk_keys(void *argument, uint32_t chunk)
     const cgt_cluster *cluster = job->build.cluster;
     const uint32_t first = chunk * CGT_CELL_SORT_CHUNK, remaining = job->sort.prims - first;
     const uint32_t count = remaining < CGT_CELL_SORT_CHUNK ? remaining : CGT_CELL_SORT_CHUNK;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     if (cluster)
         job->kernel->bvh_builder->cluster_keys(&job->keys, cluster + first, count, job->sort.key + first);
     else
         compute_prim_keys(job, first, first + count);
-    cgt_float_environment_leave(&callers);
     cgt_cell_sort_chunk(&job->sort, chunk);
 }
 
 static void split_range(void *argument, uint32_t range)
 {
     const bvh_job *job = argument;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     job->kernel->bvh_builder->split(&job->build, &job->build.range[range]);
-    cgt_float_environment_leave(&callers);
 }
 
 static void build_leaves(void *argument, uint32_t range)
 {
     const bvh_job *job = argument;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     job->kernel->bvh_builder->leaves(&job->build, range);
-    cgt_float_environment_leave(&callers);
 }
 
 static void choose_nodes(void *argument, uint32_t range)
@@ -86,10 +77,7 @@ static void build_nodes(void *argument, uint32_t range)
 {
     const bvh_job *job = argument;
     const cgt_bvh_build *b = &job->build;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     job->kernel->bvh_builder->nodes(b, range < b->ranges ? &b->range[range] : &b->top);
-    cgt_float_environment_leave(&callers);
 }
 
 /* ---- memory ---- */

@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "builders/commit.h"
-#include "core/float_environment.h"
 #include "builders/grid/loose_grid_build.h"
 
 typedef struct keys_job {
@@ -35,13 +34,10 @@ static void compute_chunk_keys(void *argument, uint32_t chunk)
     const cgt_cluster *cluster = job->cluster;
     const uint32_t first = chunk * CGT_CELL_SORT_CHUNK, remaining = job->sort.prims - first;
     const uint32_t count = remaining < CGT_CELL_SORT_CHUNK ? remaining : CGT_CELL_SORT_CHUNK;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     if (cluster)
         job->kernel->loose_grid_cluster_keys(&job->keys, cluster + first, count, job->sort.key + first);
     else
         compute_prim_keys(job, first, first + count);
-    cgt_float_environment_leave(&callers);
     cgt_cell_sort_chunk(&job->sort, chunk);
 }
 

@@ -5,7 +5,6 @@
  * before anything is built: about 230 bytes an object, 500 for the sweep. */
 #include "builders/kd/kd_build.h"
 
-#include "core/float_environment.h"
 #include "builders/kd/split/kd_builder.h"
 
 const cgt_kd_costs cgt_kd_default_costs = {.inner = 3, .test = {1, 0.5}, .empty_cut_off = 0.1};
@@ -74,22 +73,16 @@ static void count_prims_chunk(void *argument, uint32_t index)
 {
     const job *j = argument;
     const uint32_t first = index * PRIMS_PER_CHUNK, remaining = j->prims - first;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     j->workspace.valid[index] =
         cgt_kd_count_valid(j->rules->prims, first, remaining < PRIMS_PER_CHUNK ? j->prims : first + PRIMS_PER_CHUNK);
-    cgt_float_environment_leave(&callers);
 }
 
 static void collect_prims_chunk(void *argument, uint32_t index)
 {
     const job *j = argument;
     const uint32_t first = index * PRIMS_PER_CHUNK, remaining = j->prims - first;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     cgt_kd_collect_items(j->rules, first, remaining < PRIMS_PER_CHUNK ? j->prims : first + PRIMS_PER_CHUNK, j->all,
                          j->workspace.item[0] + (j->all ? first : j->workspace.valid[index]));
-    cgt_float_environment_leave(&callers);
 }
 
 static void collect(cgt_context *context, job *j, uint32_t chunks)
@@ -109,10 +102,7 @@ static void collect(cgt_context *context, job *j, uint32_t chunks)
 static void build_subtree(void *argument, uint32_t index)
 {
     const job *j = argument;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     (j->sweep ? cgt_kd_build_sweep : cgt_kd_build_binned)(j->rules, &j->workspace.task[index]);
-    cgt_float_environment_leave(&callers);
 }
 
 /* The longest ones first, so that threads end at about the same time. */

@@ -7,7 +7,6 @@
  *
  * What a rope leads to holds the whole face in its closed box. Where a split lies in the plane of the face, and so cuts
  * off a box without thickness, the rope passes that by. */
-#include "core/float_environment.h"
 #include "builders/kd/kd_build.h"
 
 #define PARTS_DEPTH 6u
@@ -94,10 +93,7 @@ static void link_below(linking *l, const linked_node *from, uint32_t levels)
 static void link_part(void *argument, uint32_t index)
 {
     linking *l = argument;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers); /* comparisons, too, may take denormals for zero */
     link_below(l, &l->part[index], CGT_KD_MAX_DEPTH);
-    cgt_float_environment_leave(&callers);
 }
 
 void cgt_kd_link_leaves(cgt_context *context, const cgt_kd_tree *tree, cgt_kd_leaf *leaf)

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "builders/choose_structure.h"
-#include "core/float_environment.h"
 #include "builders/grid/loose_grid_build.h"
 
 #define CHUNK 8192u
@@ -45,8 +44,6 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
     const cgt_primitive_array *a = cgt_primitives_array(o, first);
     cgt_bounds_request request = job->request;
     cgt_primitive_bounds s;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     bounds_clear(&s);
     if (request.classes) {
         request.classes += index;
@@ -60,7 +57,6 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
     if (request.cluster && s.bad_index == CGT_INVALID_ID)
         compute_cluster_bounds(job, first, end, request.classes);
     job->chunk_bounds[index] = s;
-    cgt_float_environment_leave(&callers);
 }
 
 static void bounds_merge(cgt_primitive_bounds *s, const cgt_primitive_bounds *chunk_bounds)

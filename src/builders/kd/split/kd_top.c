@@ -3,7 +3,6 @@
  *
  * The top of the tree, level by level: nodes with many items are worked on by all threads, chunk by chunk. Chunks,
  * levels and what becomes a task depend on counts alone, and what chunks find is put together in their order. */
-#include "core/float_environment.h"
 #include "builders/kd/split/kd_binned.h"
 #include "builders/kd/split/kd_sweep.h"
 
@@ -52,22 +51,16 @@ static void bound_chunk(void *argument, uint32_t index)
 {
     const top *t = argument;
     cgt_kd_chunk *c = &t->room->chunk[index];
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     c->low = cgt_all4(INFINITY);
     c->high = cgt_all4(-INFINITY);
     c->weight = cgt_kd_bound_items(items_of(t, &t->node[c->node]) + c->first, c->count, &c->low, &c->high);
-    cgt_float_environment_leave(&callers);
 }
 
 static void bin_chunk(void *argument, uint32_t index)
 {
     const top *t = argument;
     cgt_kd_chunk *c = &t->room->chunk[index];
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     cgt_kd_fill_bins(&c->bins, items_of(t, &t->node[c->node]) + c->first, c->count);
-    cgt_float_environment_leave(&callers);
 }
 
 static void count_chunk(void *argument, uint32_t index)
@@ -91,12 +84,9 @@ static void divide_chunk(void *argument, uint32_t index)
     const cgt_kd_top_node *n = &t->node[c->node];
     cgt_kd_item *to[2];
     uint32_t counts[2];
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     for (int s = 0; s < 2; s++)
         to[s] = t->room->item[!n->item_buffer] + n->side_base[s] + c->to[s];
     cgt_kd_partition(t->rules, &n->box, &n->plane, items_of(t, n) + c->first, c->count, true, to, counts);
-    cgt_float_environment_leave(&callers);
 }
 
 static void plan_chunks(top *t)
@@ -177,11 +167,8 @@ static void sweep_axis(void *argument, uint32_t index)
     const top *t = argument;
     const cgt_kd_top_node *n = &t->node[index / 3];
     char *memory = t->room->sweep + (size_t)n->base * CGT_KD_SWEEP_BYTES;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     t->axis_plane[index] = cgt_kd_sweep_once(t->rules, &n->box, index % 3, items_of(t, n), n->count,
                                              memory + index % 3 * (size_t)n->room * CGT_KD_SWEEP_AXIS_BYTES);
-    cgt_float_environment_leave(&callers);
 }
 
 static void choose_swept(top *t)
