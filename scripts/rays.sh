@@ -13,7 +13,7 @@
 #   SCENES   default cloud20k cloud1m blobs2k blob100k
 #   STRUCTURES, KINDS, ORDERS, BATCHES  lists with commas; default: all, AUTO and the frame excepted; powers of four
 #   QUERIES  a list with commas; default: those that are usual for a kind
-#   IMAGES   folder that also gets the plot of one scene, as rays.png and rays.svg; default: none (docs/reports/images for the
+#   IMAGES   folder that also gets the plot of one scene, as rays.png; default: none (docs/reports/images for the
 #            document)
 #   PLOT     that scene; default: the last one
 #   BIN      folder of the programs; default build/release/bin
@@ -40,7 +40,7 @@ for name in "${scenes[@]}"; do
 done
 gnuplot -e "folder = '$out'; scenes = '${scenes[*]}'" scripts/rays.gnuplot
 if [ -n "${IMAGES:-}" ]; then
-    for ending in png svg; do
+    for ending in png; do
         cp "$out/${PLOT:-${scenes[-1]}}.$ending" "$IMAGES/rays.$ending"
     done
 fi

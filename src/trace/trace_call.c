@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Measured by `cgt-bench loops` (docs/coherent_grid_traversal.md): the largest packets share the most work, whether a
+/* Measured by `cgt-bench loops` (docs/reports/coherent_grid_traversal.md): the largest packets share the most work, whether a
  * sphere is 3 pixels across or 40; the loops are within a few per cent of each other on x86-64. */
 #define DEFAULT_PACKET 16
 #define DEFAULT_FLATTENED false

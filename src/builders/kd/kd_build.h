@@ -10,7 +10,7 @@
 #include "core/context.h"
 #include "model/committed_scene.h"
 
-/* What the surface-area heuristic weighs, in units of one sphere test; measured (docs/structures.md). */
+/* What the surface-area heuristic weighs, in units of one sphere test; measured (docs/reports/grids_and_trees.md). */
 typedef struct cgt_kd_costs {
     double inner;         /* a step through an inner node */
     double test[2];       /* a test, by cgt_kind */
