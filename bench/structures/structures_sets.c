@@ -105,7 +105,7 @@ void structures_release_set(structures_set *set)
 
 /* ---- Orders -------------------------------------------------------------------------------------------------- */
 
-/* Fisher and Yates. */
+/* Fisher-Yates shuffle. */
 static void shuffle(uint32_t *turn, uint64_t count, uint64_t *state)
 {
     for (uint64_t i = count; i > 1; i--) {
