@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The same picture in every mode of execution: variants, packet sizes, tile shapes, threads, a camera's packets, arrays of
- * rays, single rays. How far directions and hits of the modes differ from each other and from the truth.
+ * The same picture in every mode of execution: variants, packet sizes, tile shapes, threads, a camera's packets, arrays
+ * of rays, single rays. How far directions and hits of the modes differ from each other and from the truth.
  *
  * Directions are measured by a probe: two planes across an axis, one unit before and behind the eye, give
- * t = 1 / |component|, rounded once. The true direction is the formula of cgt.h in long double; where a component is the
- * small difference of large numbers, a few ulp of those are many of its own. The table follows Fig. 7.6 of the thesis,
- * which compares the directions of two modes by their differences. */
+ * t = 1 / |component|, rounded once. The true direction is the formula of cgt.h in long double; where a component is
+ * the small difference of large numbers, a few ulp of those are many of its own. The table follows Fig. 7.6 of the
+ * thesis, which compares the directions of two modes by their differences. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

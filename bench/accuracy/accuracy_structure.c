@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Tells errors of the structure from errors of the kernel: the same rays through a grid, and through a grid of one cell,
- * where the same kernel tests every ray against every primitive. In ROBUST, what only the grid gets wrong is the
+ * Tells errors of the structure from errors of the kernel: the same rays through a grid, and through a grid of one
+ * cell, where the same kernel tests every ray against every primitive. In ROBUST, what only the grid gets wrong is the
  * structure's fault. In FAST the order of the tests decides between hits of equal t, so either may be wrong alone. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The intersection tests of FAST alone, without a structure, in every variant, and once more in the SPU's own arithmetic,
- * for which there is no whole frame: nanoseconds per test, and errors relative to exact arithmetic on the same float
- * input. */
+ * The intersection tests of FAST alone, without a structure, in every variant, and once more in the SPU's own
+ * arithmetic, for which there is no whole frame: nanoseconds per test, and errors relative to exact arithmetic on the
+ * same float input. */
 #include "accuracy/bench_accuracy.h"
 
 #include <math.h>

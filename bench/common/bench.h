@@ -38,7 +38,7 @@ typedef struct bench_settings {
     cgt_camera camera;
     uint32_t width, height;
     uint32_t threads;
-    uint64_t frames; /* the first so many of a file; 0: all */
+    uint64_t frames; /* that are read of a file; 0: all */
     uint32_t repeat;
     const char *variant;    /* NULL: the widest that the CPU runs, or all where variants are compared */
     uint32_t packet;        /* 0: the library's choice, or all where packets are compared */

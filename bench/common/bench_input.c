@@ -14,7 +14,7 @@ static size_t element_bytes(const bench_input *input)
     return (input->kind == TRAJECTORY_TRIANGLES ? 3 : 4) * sizeof(float);
 }
 
-/* Takes what is the same in all frames from the first one. 0, or -1 where memory is refused. */
+/* Copies from the first frame what is the same in all frames. Returns 0, or -1 where memory is refused. */
 static int take_kind(bench_input *input, const trajectory_frame *frame)
 {
     input->kind = frame->kind;
@@ -30,7 +30,7 @@ static int take_kind(bench_input *input, const trajectory_frame *frame)
     return 0;
 }
 
-/* Adds a copy of a frame; room is what the two arrays hold. 0, or -1 where memory is refused. */
+/* Appends a copy of a frame. room: elements of the two arrays. Returns 0, or -1 where memory is refused. */
 static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *room)
 {
     if (input->frames == *room) {

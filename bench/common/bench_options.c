@@ -80,7 +80,7 @@ static int parse_packet(const char *text, uint32_t *packet, char *error, size_t 
     return 0;
 }
 
-/* "nx,ny,nz"; whether the product is in bounds is for the library to say. */
+/* "nx,ny,nz". The library checks the product. */
 static int parse_grid(const char *text, uint32_t resolution[3], char *error, size_t error_size)
 {
     char copy[64];
@@ -108,7 +108,7 @@ static int parse_grid(const char *text, uint32_t resolution[3], char *error, siz
     return 0;
 }
 
-/* The name of a variant in this build; that the CPU runs it is for the context to say. */
+/* The name of a variant of this build. Whether the CPU runs it shows when the context is created. */
 static int parse_variant(const char *text, const char **variant, char *error, size_t error_size)
 {
     const char *const *names = cgt_get_variant_names();

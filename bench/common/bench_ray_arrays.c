@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Keeps rays: bench_rays.c makes them batch by batch, and hands each batch to a taker, which here appends it. */
+ * Keeps rays: bench_rays.c makes them batch by batch, and hands each batch to a sink, which here appends it. */
 #include "common/bench_ray_arrays.h"
 
 #include <stdlib.h>
@@ -53,7 +53,7 @@ cgt_result bench_ray_array_shadow(bench_ray_array *rays, bench_rays *maker, cons
 {
     uint64_t hidden = 0;
     rays->count = 0;
-    bench_rays_give(maker, keep_batch, rays);
+    bench_rays_set_sink(maker, keep_batch, rays);
     return bench_rays_shadow(maker, NULL, NULL, light, &hidden);
 }
 
@@ -61,14 +61,14 @@ cgt_result bench_ray_array_ao(bench_ray_array *rays, bench_rays *maker, uint32_t
 {
     uint64_t open = 0;
     rays->count = 0;
-    bench_rays_give(maker, keep_batch, rays);
+    bench_rays_set_sink(maker, keep_batch, rays);
     return bench_rays_ao(maker, NULL, NULL, samples, &open);
 }
 
 cgt_result bench_ray_array_bounce(bench_ray_array *rays, bench_rays *maker)
 {
     rays->count = 0;
-    bench_rays_give(maker, keep_batch, rays);
+    bench_rays_set_sink(maker, keep_batch, rays);
     return bench_rays_bounce(maker);
 }
 

@@ -18,8 +18,8 @@ typedef struct bench_ray_array {
     uint8_t bounded; /* 1: t_max holds; 0: the rays do not end */
 } bench_ray_array;
 
-/* The rays that bench_rays_shadow, bench_rays_ao and bench_rays_bounce make. Later batches of the maker go to the array,
- * too. */
+/* The rays that bench_rays_shadow, bench_rays_ao and bench_rays_bounce make. Later batches of the maker go to the
+ * array, too. */
 cgt_result bench_ray_array_shadow(bench_ray_array *rays, bench_rays *maker, const float light[3]);
 cgt_result bench_ray_array_ao(bench_ray_array *rays, bench_rays *maker, uint32_t samples);
 cgt_result bench_ray_array_bounce(bench_ray_array *rays, bench_rays *maker);
@@ -27,7 +27,7 @@ cgt_result bench_ray_array_bounce(bench_ray_array *rays, bench_rays *maker);
 /* `count` rays from a random point of a box towards another, in no order; the same in each call. */
 cgt_result bench_ray_array_random(bench_ray_array *rays, uint32_t count, const float low[3], const float high[3]);
 
-/* Adds room for `more` rays behind the last one. */
+/* Makes room for `more` rays behind the last one. */
 cgt_result bench_ray_array_reserve(bench_ray_array *rays, uint64_t more);
 
 /* The array in the form that the library takes. */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shadow and ambient-occlusion rays; bench_frame_rays.h has their definitions. */
+ * Makes secondary rays in batches or tile by tile, and has them traced. bench_rays.h has the definitions. */
 #include "common/bench_rays.h"
 
 #include "common/bench_clones.h"
@@ -15,15 +15,12 @@
 enum {
     BLOCK = 4,             /* pixels along a block's edge */
     GROUP = BLOCK * BLOCK, /* hit pixels whose rays lie together */
-    SQUARE = 2 * BLOCK,    /* pixels along the edge of four blocks that follow each other */
-    SQUARE_BLOCKS = 4,
-    TILE = BENCH_TILE_EDGE,
     GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
     GROUPS_AHEAD = 8,      /* whose hits are on their way */
     SHADOW_RUN = 256,      /* shadow rays made at once */
-    /* Hits are listed a round of tiles at a time, rays made and traced a batch at a time: as many as stay in a cache.
-     * Of threads each gets twice as many, since waking them takes as long as tracing some thousand rays: beyond that
-     * nothing is gained, and from some number of threads on memory is spared. */
+    /* Hits are listed a round of tiles at a time, rays are made and traced a batch at a time: as many as stay in a
+     * cache. With several threads each gets twice as many, since waking them takes as long as tracing some thousand
+     * rays; more gain nothing. MOST_SHARES limits the memory of many threads. */
     TILES_PER_ROUND = 8,
     RAYS_PER_BATCH = 32 * 1024,
     MOST_SHARES = 64
@@ -56,56 +53,9 @@ struct bench_rays {
     uint32_t samples;
     int diffuse; /* 1: bounces, in place of ambient-occlusion rays */
     float light[3];
-    bench_rays_taker *taker, *tile_taker;
-    void *taker_user;
+    bench_rays_sink *sink, *tile_sink;
+    void *sink_user;
 };
-
-/* ---- The camera's rays --------------------------------------------------------------------------------------- */
-
-static float length3(const float v[3]) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
-static void cross3(const float a[3], const float b[3], float c[3])
-{
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        c[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
-void bench_camera_axes_init(bench_camera_axes *axes, const cgt_camera *camera, uint32_t width, uint32_t height)
-{
-    const float half = tanf(camera->fov * 0.5f * 3.14159265f / 180.0f);
-    float fwd[3], right[3], up[3];
-
-    for (int i = 0; i < 3; i++)
-        fwd[i] = camera->target[i] - camera->eye[i];
-    const float distance = length3(fwd);
-    for (int i = 0; i < 3; i++)
-        fwd[i] /= distance;
-    cross3(fwd, camera->up, right);
-    const float across = length3(right);
-    for (int i = 0; i < 3; i++)
-        right[i] /= across;
-    cross3(right, fwd, up);
-    for (int i = 0; i < 3; i++) {
-        axes->eye[i] = camera->eye[i];
-        axes->fwd[i] = fwd[i];
-        axes->right[i] = right[i] * half * (float)width / (float)height;
-        axes->up[i] = up[i] * half;
-    }
-    axes->width = width;
-    axes->height = height;
-    axes->step[0] = 2.0f / (float)width;
-    axes->step[1] = 2.0f / (float)height;
-}
-
-void bench_camera_direction(const bench_camera_axes *axes, uint32_t x, uint32_t y, float dir[3])
-{
-    const float px = ((float)x + 0.5f) * axes->step[0] - 1.0f;
-    const float py = 1.0f - ((float)y + 0.5f) * axes->step[1];
-    for (int i = 0; i < 3; i++)
-        dir[i] = axes->fwd[i] + px * axes->right[i] + py * axes->up[i];
-}
 
 /* ---- Memory -------------------------------------------------------------------------------------------------- */
 
@@ -172,177 +122,35 @@ void bench_rays_release(bench_rays *rays)
     free(rays);
 }
 
-void bench_rays_give(bench_rays *rays, bench_rays_taker *taker, void *user)
+void bench_rays_set_sink(bench_rays *rays, bench_rays_sink *sink, void *user)
 {
-    rays->taker = taker;
-    rays->tile_taker = NULL;
-    rays->taker_user = user;
+    rays->sink = sink;
+    rays->tile_sink = NULL;
+    rays->sink_user = user;
 }
 
-void bench_rays_give_tiles(bench_rays *rays, bench_rays_taker *taker) { rays->tile_taker = taker; }
+void bench_rays_set_tile_sink(bench_rays *rays, bench_rays_sink *sink) { rays->tile_sink = sink; }
 
 void bench_rays_nearest(bench_rays *rays, int nearest) { rays->nearest = nearest; }
 
-/* ---- The hit pixels, tile by tile ---------------------------------------------------------------------------- */
+/* ---- The hit pixels, round by round --------------------------------------------------------------------------- */
 
-uint32_t bench_tiles(const bench_camera_axes *axes)
-{
-    return ((axes->width + TILE - 1) / TILE) * ((axes->height + TILE - 1) / TILE);
-}
-
-/* Every second bit of a block's place along the curve. */
-static uint32_t even_bits(uint32_t i) { return (i & 1) | (i >> 1 & 2) | (i >> 2 & 4) | (i >> 3 & 8); }
-
-uint32_t bench_tile_pixels(const bench_camera_axes *axes, uint32_t tile, uint32_t pixel[BENCH_TILE_PIXELS])
-{
-    const uint32_t columns = (axes->width + TILE - 1) / TILE;
-    const uint32_t left = tile % columns * TILE, top = tile / columns * TILE;
-    const int whole = axes->width - left >= TILE && axes->height - top >= TILE;
-    uint32_t count = 0;
-    for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
-        const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
-        for (uint32_t i = 0; i < GROUP; i++)
-            pixel[block * GROUP + i] = (x0 + i % BLOCK) | (y0 + i / BLOCK) << 16;
-    }
-    for (uint32_t i = 0; i < BENCH_TILE_PIXELS && !whole; i++) {
-        const uint32_t p = pixel[i];
-        pixel[count] = p;
-        count += (p & 0xffff) < axes->width && p >> 16 < axes->height;
-    }
-    return whole ? BENCH_TILE_PIXELS : count;
-}
-
-/* Vectors of a row of a block, and of a square of four: a compiler finds none in loops with two subscripts. */
-typedef float block_floats __attribute__((vector_size(sizeof(float[BLOCK]))));
-typedef int32_t block_words __attribute__((vector_size(sizeof(int32_t[BLOCK]))));
-typedef float square_floats __attribute__((vector_size(sizeof(float[SQUARE]))));
-typedef int32_t square_words __attribute__((vector_size(sizeof(int32_t[SQUARE]))));
-
-/* Appends all pixels of a block, and their t. */
-static inline void list_whole_block(const float *t, uint32_t width, uint32_t x0, uint32_t y0, uint32_t *to, float *to_t)
-{
-    const int32_t corner = (int32_t)(x0 | y0 << 16);
-    const block_words columns = {corner, corner + 1, corner + 2, corner + 3};
-    for (int32_t row = 0; row < BLOCK; row++) {
-        const block_words pixels = columns + (row << 16);
-        memcpy(to + row * BLOCK, &pixels, sizeof pixels);
-        memcpy(to_t + row * BLOCK, t + (size_t)row * width, sizeof(float[BLOCK]));
-    }
-}
-
-/* Appends the pixels of a block that have a hit, and its t: of most blocks all or none. Few branches: where a surface ends
- * they are guessed wrong. */
-static inline uint32_t list_block(const float *t, uint32_t width, uint32_t x0, uint32_t y0, uint32_t *to, float *to_t)
-{
-    block_floats at[BLOCK];
-    block_words is[BLOCK], found = {0};
-    uint32_t hits = 0, listed = 0;
-    for (uint32_t row = 0; row < BLOCK; row++) {
-        memcpy(&at[row], t + (size_t)row * width, sizeof at[row]);
-        is[row] = at[row] < INFINITY;
-        found -= is[row];
-    }
-    for (uint32_t i = 0; i < BLOCK; i++)
-        hits += (uint32_t)found[i];
-    if (!hits)
-        return 0;
-    if (hits == GROUP) {
-        list_whole_block(t, width, x0, y0, to, to_t);
-        return GROUP;
-    }
-    for (uint32_t row = 0; row < BLOCK; row++)
-        for (uint32_t i = 0; i < BLOCK; i++) {
-            to[listed] = (x0 + i) | (y0 + row) << 16;
-            to_t[listed] = at[row][i];
-            listed -= (uint32_t)is[row][i];
-        }
-    return listed;
-}
-
-/* How many of the pixels of four blocks, of the square that begins at t, have a hit. */
-static inline uint32_t square_hits(const float *t, uint32_t width)
-{
-    square_words found = {0};
-    uint32_t hits = 0;
-    for (uint32_t row = 0; row < SQUARE; row++) {
-        square_floats at;
-        memcpy(&at, t + (size_t)row * width, sizeof at);
-        found -= at < INFINITY;
-    }
-    for (uint32_t i = 0; i < SQUARE; i++)
-        hits += (uint32_t)found[i];
-    return hits;
-}
-
-/* And for a block that the picture ends in. */
-static uint32_t list_part_block(const float *t, const bench_camera_axes *axes, uint32_t x0, uint32_t y0, uint32_t *to,
-                                float *to_t)
-{
-    uint32_t listed = 0;
-    for (uint32_t y = y0; y < y0 + BLOCK && y < axes->height; y++)
-        for (uint32_t x = x0; x < x0 + BLOCK && x < axes->width; x++) {
-            to[listed] = x | y << 16;
-            to_t[listed] = t[(size_t)y * axes->width + x];
-            listed += to_t[listed] < INFINITY;
-        }
-    return listed;
-}
-
-/* Of the next tile, which lies in as many pieces as it has rows, one line of the cache for each block: no processor asks
- * for those by itself, or for many at a time. */
-static inline void ask_for_line(const bench_rays *rays, uint32_t left, uint32_t top, uint32_t block)
-{
-    const uint32_t x = left + block % (TILE / GROUP) * GROUP, y = top + block / (TILE / GROUP);
-    if (x < rays->axes->width && y < rays->axes->height)
-        __builtin_prefetch(rays->planes->t + (size_t)y * rays->axes->width + x);
-}
-
-/* The hits of a tile. Returns how many; there is room for one more. */
-BENCH_CLONES
-static uint32_t list_tile(const bench_rays *rays, uint32_t tile, uint32_t *to, float *to_t)
-{
-    const uint32_t width = rays->axes->width, height = rays->axes->height, columns = (width + TILE - 1) / TILE;
-    const uint32_t left = tile % columns * TILE, top = tile / columns * TILE;
-    const float *t = rays->planes->t;
-    uint32_t hits = 0;
-    for (uint32_t block = 0; block < BENCH_TILE_PIXELS / GROUP; block++) {
-        const uint32_t x0 = left + even_bits(block) * BLOCK, y0 = top + even_bits(block >> 1) * BLOCK;
-        ask_for_line(rays, left + TILE, top, block);
-        if (block % SQUARE_BLOCKS == 0 && x0 + SQUARE <= width && y0 + SQUARE <= height) {
-            const uint32_t found = square_hits(t + (size_t)y0 * width + x0, width);
-            if (found == 0 || found == SQUARE * SQUARE) {
-                for (uint32_t k = 0; k < SQUARE_BLOCKS && found; k++, hits += GROUP) {
-                    const uint32_t x = x0 + k % 2 * BLOCK, y = y0 + k / 2 * BLOCK;
-                    list_whole_block(t + (size_t)y * width + x, width, x, y, to + hits, to_t + hits);
-                }
-                for (uint32_t k = 1; k < SQUARE_BLOCKS; k++)
-                    ask_for_line(rays, left + TILE, top, ++block);
-                continue;
-            }
-        }
-        if (x0 + BLOCK <= width && y0 + BLOCK <= height)
-            hits += list_block(t + (size_t)y0 * width + x0, width, x0, y0, to + hits, to_t + hits);
-        else
-            hits += list_part_block(t, rays->axes, x0, y0, to + hits, to_t + hits);
-    }
-    return hits;
-}
-
-/* A tile of a round, into its own part of the list. */
+/* Lists the hits of one tile of a round in the tile's own part of the list. */
 static void list_one(void *argument, uint32_t index)
 {
     bench_rays *rays = argument;
-    rays->tile_hits[index] =
-        list_tile(rays, rays->round_first + index, rays->of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1),
-                  rays->t_of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1));
+    rays->tile_hits[index] = bench_tile_hits(rays->axes, rays->planes->t, rays->round_first + index,
+                                             rays->of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1),
+                                             rays->t_of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1));
 }
 
-/* The hits of so many tiles more, behind those that there are. */
+/* Appends the hits of the next `tiles` tiles. */
 static void list_round(bench_rays *rays, uint32_t tiles)
 {
     if (bench_threads_count(rays->threads) == 1) {
         for (uint32_t i = 0; i < tiles; i++)
-            rays->hits += list_tile(rays, rays->round_first + i, rays->hit + rays->hits, rays->hit_t + rays->hits);
+            rays->hits += bench_tile_hits(rays->axes, rays->planes->t, rays->round_first + i, rays->hit + rays->hits,
+                                          rays->hit_t + rays->hits);
         rays->round_first += tiles;
         return;
     }
@@ -358,7 +166,9 @@ static void list_round(bench_rays *rays, uint32_t tiles)
 
 /* ---- Making rays --------------------------------------------------------------------------------------------- */
 
-/* The hits of the batch that a piece of work is for. */
+static float length3(const float v[3]) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/* The end of the hits of a batch that a piece of work covers. */
 static uint64_t piece_begin(uint32_t piece) { return (uint64_t)piece * GROUPS_PER_PIECE * GROUP; }
 static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
 {
@@ -366,7 +176,8 @@ static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
     return end < rays->batch_hits ? end : rays->batch_hits;
 }
 
-/* Shadow rays from some hits. Plain loops, which the compiler makes vectors of. dir: NULL where they are not asked for. */
+/* Makes shadow rays from some hits. Plain loops, which the compiler vectorises. dir: NULL where only origins are
+ * needed. */
 BENCH_CLONES
 static void make_shadow_run(const bench_camera_axes *axes, const float light[3], const uint32_t *hit, const float *t,
                             uint32_t count, float *const org[3], float *const dir[3])
@@ -404,7 +215,7 @@ static void make_shadow_rays(const bench_rays *rays, const uint32_t *hit, const 
     }
 }
 
-/* Of a piece of a batch, for a taker. */
+/* Of a piece of a batch, for a sink. */
 static void make_shadow_piece(void *argument, uint32_t piece)
 {
     const bench_rays *rays = argument;
@@ -427,14 +238,14 @@ static uint32_t mix(uint32_t v)
     return v ^ v >> 16;
 }
 
-/* What the rays of a group of neighbouring pixels start from. Lanes beyond its pixels repeat the last one. */
+/* Where the rays of a group of neighbouring pixels start. Lanes beyond its pixels repeat the last one. */
 typedef struct ao_group {
     float point[3][GROUP], normal[3][GROUP], side[GROUP];
     uint32_t order[GROUP];
 } ao_group;
 
 /* Points of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. No
- * branches: half of them would be guessed wrong. Plain loops, which the compiler makes vectors of. */
+ * branches: half of them would be mispredicted. Plain loops, which the compiler vectorises. */
 BENCH_INLINE void octahedron_points(const ao_group *g, uint32_t sample, float v[3][GROUP])
 {
     for (int k = 0; k < GROUP; k++) {
@@ -448,7 +259,7 @@ BENCH_INLINE void octahedron_points(const ao_group *g, uint32_t sample, float v[
     }
 }
 
-/* The hashed points to the sphere about the tip of the normal: more rays near the normal, by the cosine. */
+/* Moves the hashed points to the unit sphere around the tip of the normal: directions are distributed by the cosine. */
 static void lean_to_normals(const ao_group *g, float v[3][GROUP])
 {
     for (int k = 0; k < GROUP; k++) {
@@ -458,7 +269,7 @@ static void lean_to_normals(const ao_group *g, float v[3][GROUP])
     }
 }
 
-/* To the side of the surface that the eye sees. */
+/* Turns directions to the side of the surface that the eye sees. */
 BENCH_INLINE void turn_to_eye(const ao_group *g, float v[3][GROUP])
 {
     for (int k = 0; k < GROUP; k++) {
@@ -503,7 +314,7 @@ BENCH_INLINE void read_group(const bench_rays *rays, uint64_t first, uint32_t pi
     }
 }
 
-/* Most groups are whole, and copied by a few instructions. */
+/* Most groups are complete, and a copy of constant size takes a few instructions. */
 BENCH_INLINE void put_group(float *to, const float from[GROUP], uint32_t pixels)
 {
     if (pixels == GROUP)
@@ -512,7 +323,7 @@ BENCH_INLINE void put_group(float *to, const float from[GROUP], uint32_t pixels)
         memcpy(to, from, pixels * sizeof *to);
 }
 
-/* All samples of the pixels of one group, sample by sample: neighbours in the arrays are neighbours in space. */
+/* Makes all samples of one group's pixels, sample by sample: neighbours in the arrays are neighbours in space. */
 BENCH_CLONES
 static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
 {
@@ -532,8 +343,9 @@ static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
     }
 }
 
-/* The planes were written past the caches, and a group's rows are far apart: asks for those of a group to come. */
-static void ask_for_group(const bench_rays *rays, uint64_t first)
+/* Prefetches the normals of a group to come. The planes were written past the caches, and a group's rows are far apart.
+ * */
+static void prefetch_group(const bench_rays *rays, uint64_t first)
 {
     const bench_planes *planes = rays->planes;
     const uint32_t *hit = rays->hit + rays->batch_first + first, width = rays->axes->width;
@@ -553,7 +365,7 @@ static void make_ao_rays(void *argument, uint32_t piece)
         if (first >= rays->batch_hits)
             return;
         if (ahead + GROUP <= rays->batch_hits)
-            ask_for_group(rays, ahead);
+            prefetch_group(rays, ahead);
         const uint64_t left = rays->batch_hits - first;
         make_ao_group(rays, first, left < GROUP ? (uint32_t)left : GROUP);
     }
@@ -574,7 +386,7 @@ static cgt_result trace_nearest(const bench_rays *rays, const cgt_scene *scene, 
     return result;
 }
 
-/* Rays as structure of arrays; of shadow rays t ends at 1. */
+/* Rays as a structure of arrays. Shadow rays end at t = 1. */
 static cgt_rays array_of(const bench_rays *rays, float *const org[3], float *const dir[3], uint64_t count, int light)
 {
     cgt_rays array;
@@ -588,13 +400,13 @@ static cgt_rays array_of(const bench_rays *rays, float *const org[3], float *con
     return array;
 }
 
-/* The batch in work; of shadow rays for a taker. */
+/* Traces the current batch; shadow rays only for a sink. */
 static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                               uint64_t count, int light)
 {
     const cgt_rays array = array_of(rays, rays->org, rays->dir, count, light);
-    if (rays->taker)
-        return rays->taker(rays->taker_user, &array, rays->occluded);
+    if (rays->sink)
+        return rays->sink(rays->sink_user, &array, rays->occluded);
     return rays->nearest ? trace_nearest(rays, scene, options, &array)
                          : cgt_occluded_rays(scene, &array, rays->occluded, options);
 }
@@ -657,15 +469,15 @@ typedef struct shadow_tile {
     uint8_t occluded[BENCH_TILE_PIXELS];
 } shadow_tile;
 
-/* To the library they are points and a light. A tile's are one task to it, which the calling thread does. */
+/* The library gets points and a light. A tile is one task, which the calling thread runs. */
 static cgt_result trace_shadow_tile(const shadow_pass *pass, shadow_tile *s, uint32_t count)
 {
     const bench_rays *rays = pass->rays;
     float *const org[3] = {s->org[0], s->org[1], s->org[2]}, *const dir[3] = {s->dir[0], s->dir[1], s->dir[2]};
-    make_shadow_rays(rays, s->pixel, s->t, count, org, rays->tile_taker ? dir : NULL);
-    if (rays->tile_taker) {
+    make_shadow_rays(rays, s->pixel, s->t, count, org, rays->tile_sink ? dir : NULL);
+    if (rays->tile_sink) {
         const cgt_rays array = array_of(rays, org, dir, count, 1);
-        return rays->tile_taker(rays->taker_user, &array, s->occluded);
+        return rays->tile_sink(rays->sink_user, &array, s->occluded);
     }
     const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .w = 1};
     const cgt_points points = {.count = count, .position = {org[0], org[1], org[2]}};
@@ -676,7 +488,7 @@ static void shadow_one(void *argument, uint32_t tile)
 {
     shadow_pass *pass = argument;
     shadow_tile s;
-    const uint32_t count = list_tile(pass->rays, tile, s.pixel, s.t);
+    const uint32_t count = bench_tile_hits(pass->rays->axes, pass->rays->planes->t, tile, s.pixel, s.t);
     const cgt_result result = count ? trace_shadow_tile(pass, &s, count) : CGT_OK;
     if (result != CGT_OK)
         atomic_store(&pass->failed, (int)result);
@@ -690,7 +502,7 @@ cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt
 {
     shadow_pass pass = {.rays = rays, .scene = scene, .options = options};
     memcpy(rays->light, light, sizeof rays->light);
-    if (rays->taker && !rays->tile_taker)
+    if (rays->sink && !rays->tile_sink)
         return trace_pass(rays, scene, options, 1, 1, hidden);
     atomic_init(&pass.hits, 0);
     atomic_init(&pass.hidden, 0);
@@ -715,7 +527,7 @@ cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_tra
 cgt_result bench_rays_bounce(bench_rays *rays)
 {
     uint64_t occluded = 0;
-    assert(rays->taker);
+    assert(rays->sink);
     rays->diffuse = 1;
     const cgt_result result = trace_pass(rays, NULL, NULL, 1, 0, &occluded);
     rays->diffuse = 0;

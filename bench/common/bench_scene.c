@@ -111,7 +111,7 @@ cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t co
     if (result == CGT_OK)
         result = cgt_scene_get_statistics(scene->scene, &build->built);
     const cgt_structure built = build->built.structure;
-    /* a scene without a valid primitive has no structure, and that is right for all */
+    /* a scene without a valid primitive has no structure, and that is right for all of them */
     const int other = result == CGT_OK && build->structure != CGT_STRUCTURE_AUTO && built != build->structure &&
                       built != CGT_STRUCTURE_AUTO;
     if (result == CGT_ERROR_UNSUPPORTED || other) {

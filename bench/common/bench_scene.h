@@ -29,15 +29,16 @@ cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_conte
 cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
                                      cgt_context **context);
 
-/* A scene over `moving`, of spheres. resolution: 0, 0, 0 for the library's choice. */
+/* A scene over the spheres in `moving`. resolution: 0, 0, 0 for the library's choice. */
 cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *moving,
                               const uint32_t resolution[3]);
 void bench_scene_release(bench_scene *scene);
 
-/* Before the first commit: `moving` holds vertices of these triangles. index NULL: it holds spheres, as without. */
+/* Call before the first commit: `moving` holds vertices of these triangles. index NULL: it holds spheres, the default.
+ * */
 void bench_scene_set_triangles(bench_scene *scene, const uint32_t *index, uint32_t triangles);
 
-/* Tells the library that there are `count` spheres or vertices, where that changed, and commits. */
+/* Commits `count` spheres or vertices, after an update of the geometry where the number changed. */
 cgt_result bench_scene_commit(bench_scene *scene, uint32_t count);
 
 /* Prints what failed and the library's message. Returns PROGRAM_FAILED. */
@@ -60,7 +61,7 @@ typedef struct bench_choice {
     cgt_cull cull;
     int mailbox;
     cgt_precision precision;
-    int precision_named; /* 1: the name says the default precision, too */
+    int precision_named; /* 1: the name contains the default precision, too */
     cgt_triangle_test test;
     const char *grid;   /* resolution in words: "16x16x16", "auto*2" */
     bench_kd_choice kd; /* said of kd-trees only */
@@ -98,10 +99,10 @@ void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);
 
-/* The trace options of a choice; statistics NULL where nothing is to be counted. */
+/* The trace options of a choice. statistics: NULL where nothing is counted. */
 void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options);
 
-/* Changes the scene's structure; rays: what AUTO chooses for; resolution: as in bench_scene_create. */
+/* Changes the scene's structure. rays: what AUTO chooses for. resolution: as in bench_scene_create. */
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
                                  const bench_kd_choice *kd, const uint32_t resolution[3]);
 
@@ -114,8 +115,8 @@ typedef struct bench_build {
     cgt_scene_statistics built; /* of the last commit */
 } bench_build;
 
-/* Builds it over `count` spheres or vertices, timed; leaves it out, with a message that names the file, where the
- * library has no such structure. */
+/* Builds it over `count` spheres or vertices, and measures the time. Where the library has no such structure, prints a
+ * message that names the file, and sets left_out. */
 cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t count, const uint32_t resolution[3],
                              const char *path, double *ms);
 

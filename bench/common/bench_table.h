@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Tables of cgt-bench: tab-separated values on standard output and, on request, the same rows as JSON, an object with
- * an array of objects for each section. A column's name stands beside its value: the first row of a section gives the
+ * an array of objects for each section. A cell is given with its column's name: the first row of a section makes the
  * head. Lines of the second section and of later ones begin with "# ", so that a reader who skips comments sees one
  * table. */
 #ifndef BENCH_TABLE_H

@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * compare-embree: times Embree 3 as cgt-bench frame times the library: for each frame of a trajectory the spheres or
- * vertices move, the scene is committed and all primary rays are traced, and on request shadow and ambient-occlusion
- * rays, the latter one by one and in packets: the faster way counts. One row of medians per configuration, in the
- * columns of cgt-bench frame; the first frame warms up. Spheres run as Embree's own type and as user geometry, which is
- * faster: the honest opponent is the best row. scripts/compare_embree.sh sets both programs side by side. */
+ * compare-embree: times Embree 3 as cgt-bench frame times the library. For each frame of a trajectory the spheres or
+ * vertices move, the scene is committed and all primary rays are traced; on request shadow and ambient-occlusion rays,
+ * too, the latter one by one and in packets, of which the faster way counts. One row of medians per configuration, in
+ * the columns of cgt-bench frame. The first frame warms up. Spheres run as Embree's own type and as user geometry, which
+ * is faster: compare with the best row. scripts/compare_embree.sh runs both programs. */
 #include "embree/compare_embree.h"
 
 #include <errno.h>
@@ -41,12 +41,12 @@ typedef struct embree_job {
     bench_rays *rays;
     embree_callbacks callbacks;
     double *ms[BENCH_FRAME_TIMES];
-    uint64_t open; /* ambient-occlusion rays of the last frame that met nothing */
+    uint64_t open; /* ambient-occlusion rays of the last frame that hit nothing */
 } embree_job;
 
 static const char *const qualities[EMBREE_QUALITIES] = {"low", "medium", "refit"};
 
-/* The vectors of spheres as user geometry, for what Embree is limited to. */
+/* The callbacks of spheres as user geometry, by the instruction set that Embree is limited to. */
 static const struct {
     const char *isa;
     embree_callbacks callbacks;
@@ -142,7 +142,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 
 /* ---- One row ------------------------------------------------------------------------------------------------- */
 
-/* Shadow rays in packets; ambient-occlusion rays in the faster form. */
+/* Shadow rays go in packets, ambient-occlusion rays in the faster of two forms. */
 static void measure_arrays(embree_job *job, RTCScene scene, double ms[BENCH_FRAME_TIMES])
 {
     const embree_settings *s = job->settings;
@@ -152,8 +152,8 @@ static void measure_arrays(embree_job *job, RTCScene scene, double ms[BENCH_FRAM
     if (!s->secondary.lit && !s->secondary.ao)
         return;
     embree_view_planes(&job->view, &job->planes);
-    bench_rays_give(job->rays, embree_arrays_take, &arrays);
-    bench_rays_give_tiles(job->rays, embree_arrays_take_tile);
+    bench_rays_set_sink(job->rays, embree_arrays_trace, &arrays);
+    bench_rays_set_tile_sink(job->rays, embree_arrays_trace_tile);
     if (s->secondary.lit) {
         const double begin = bench_now_ms();
         bench_rays_shadow(job->rays, NULL, NULL, s->secondary.light, &hidden);
@@ -275,7 +275,7 @@ static embree_callbacks find_callbacks(const embree_settings *settings, uint32_t
     for (size_t i = 0; i < ISAS; i++)
         if (!strcmp(wanted, isas[i].isa))
             return isas[i].callbacks;
-    for (size_t i = 0; i < ISAS; i++) /* four lanes: what any CPU of the kind runs */
+    for (size_t i = 0; i < ISAS; i++) /* four lanes, which any CPU of the kind runs */
         if (strncmp(isas[i].isa, "avx", 3) != 0)
             return isas[i].callbacks;
     return isas[ISAS - 1].callbacks;

@@ -131,7 +131,7 @@ int bench_floor(int argc, char **argv)
             "Measures what a frame cannot do without on this machine: bandwidth of memory, the empty frame by what it "
             "is asked for, tests whose data lie in the first cache; and for each FILE, or for scenes made in memory, "
             "how far its frame is from the sum of these, term by term. -r is the number of rounds (default 9); the "
-            "shortest times are printed, medians beside them."};
+            "shortest times are printed, and medians."};
     floor_settings settings = {.megabytes = 256, .spheres = 20000, .triangles = 20000};
     bench_settings_init(&settings.shared);
     bench_settings_use_procedural_camera(&settings.shared);

@@ -180,7 +180,7 @@ static cgt_result measure_frames(frame_job *job, bench_scene *scene, const row_o
     return CGT_OK;
 }
 
-/* On standard error: what the library chose in the last frame, from a run of its own. */
+/* Reports on standard error what the library chose in the last frame, from a separate run. */
 static cgt_result describe(frame_job *job, const bench_scene *scene, const bench_choice *choice)
 {
     cgt_scene_statistics built;

@@ -30,7 +30,7 @@ typedef struct loops_job {
 
 /* ---- Runs ---------------------------------------------------------------------------------------------------- */
 
-/* Adds a run's counts; what is not a count is of the last run. */
+/* Adds a run's counts. Fields that are no counts are those of the last run. */
 static void add_statistics(cgt_trace_statistics *total, const cgt_trace_statistics *run)
 {
     const cgt_trace_statistics before = *total;
@@ -66,7 +66,7 @@ static cgt_result trace_row(loops_job *job, bench_row *row, cgt_trace_statistics
     cgt_frame frame;
     bench_choice_options(&row->choice, statistics, &options);
     bench_planes_frame(&job->planes, &frame);
-    /* The planes of the run before must not pass for this one's: no primitive has this number. */
+    /* The hits of the run before must not pass for this one's: no primitive has this number. */
     memset(job->planes.primitive, 0xfe, (size_t)job->planes.width * job->planes.height * sizeof *job->planes.primitive);
     const double start = bench_now_ms();
     const cgt_result result =
@@ -102,7 +102,7 @@ static cgt_result count_frame(loops_job *job, size_t frame, size_t *row_failed)
     return CGT_OK;
 }
 
-/* Times all rows in one frame; backwards every other time, so that no row always follows the same one. */
+/* Times all rows in one frame; backwards in every other frame, so that no row always follows the same one. */
 static cgt_result time_frame(loops_job *job, size_t frame, int backwards, int keep, size_t *row_failed)
 {
     bench_plan *plan = &job->plan;

@@ -50,12 +50,12 @@ int bench_plan_create(bench_plan *plan, const bench_settings *settings, const fl
 
 void bench_plan_release(bench_plan *plan);
 
-/* Commits a group's scene to the spheres as they are now; ms gets the milliseconds of the commit. */
+/* Commits a group's scene; ms gets the milliseconds of the commit. */
 cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms);
 
-/* The table, a row per configuration. frames: how many the statistics were summed over. table: for it and for the ratios:
- * nested over flattened loop, how many ray tests culling saves, mailbox on over off. Ratios of times are taken within a
- * frame, then median and quartiles over the frames. Both return 0, or -1 where memory is refused. */
+/* The table, a row per configuration. frames: how many the statistics were summed over. table: for it and for the
+ * ratios: nested over flattened loop, how many ray tests culling saves, mailbox on over off. Ratios of times are taken
+ * within a frame, then median and quartiles over the frames. Both return 0, or -1 where memory is refused. */
 int bench_report_table(const bench_plan *plan, size_t frames, bench_table *table);
 int bench_report_ratios(const bench_plan *plan, bench_table *table);
 

@@ -42,8 +42,8 @@ static void label_group(bench_group *group)
         snprintf(group->label, sizeof group->label, "auto");
 }
 
-/* A row for each pair of loops: all packets and switches at the first grid, at the others only the library's own
- * packet, culling and mailbox. */
+/* A pair of rows, one per loop, for each setting: all packets and switches in the first grid; in the others only the
+ * library's own packet, culling and mailbox. */
 static void add_rows(bench_plan *plan, const bench_settings *settings, int every_switch)
 {
     const size_t group = plan->group_count - 1;

@@ -24,7 +24,7 @@ static const char *resolution_text(const bench_group *group, char text[80])
 
 static double per(uint64_t total, uint64_t count) { return (double)total / (double)(count ? count : 1); }
 
-/* Of what a row is, the columns that the table and the ratios share. */
+/* The columns that the table and the ratios share: what the row is. */
 static void write_choice(bench_table *table, const bench_group *group, const bench_row *row, const char *resolution)
 {
     bench_table_text(table, "variant", group->variant);
@@ -114,7 +114,7 @@ static void begin_pair(bench_table *table, const bench_plan *plan, const char *w
     write_choice(table, group, row, group->label);
 }
 
-/* The pairs of a section in one line. */
+/* A section's pairs in one line. */
 static void print_spread(const char *what, double *ratios, size_t pairs)
 {
     const bench_spread all = bench_spread_of(ratios, pairs);

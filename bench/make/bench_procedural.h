@@ -35,7 +35,7 @@ int bench_procedural_cloud(bench_procedural *scene, uint32_t spheres, int cluste
 
 int bench_procedural_balls(bench_procedural *scene, const bench_balls *balls);
 
-/* Sixteen balls of about that many triangles in all, or fewer balls where there are few triangles; at least 8. */
+/* Sixteen balls of about `triangles` triangles in total, or fewer balls where there are few triangles; at least 8. */
 int bench_procedural_mesh(bench_procedural *scene, uint32_t triangles);
 
 void bench_procedural_move(bench_procedural *scene, uint32_t frame);

@@ -91,7 +91,7 @@ static uint32_t cpus(void)
     return threads ? threads : 1;
 }
 
-/* So many pixels in the shape that the settings ask for. */
+/* Sets width and height: `pixels` pixels in the shape of the settings' picture. */
 static void set_pixels(const scaling_settings *settings, uint64_t pixels, scaling_point *point)
 {
     const double shape = (double)settings->shared.width / settings->shared.height;
@@ -110,7 +110,7 @@ static uint64_t next_size(const scaling_settings *settings, scaling_sweep sweep,
     uint64_t next = sweep == SCALING_THREADS ? size + 1 : (uint64_t)llround(grown);
     if (next <= size)
         next = size + 1;
-    /* what is nearly the last one is the last one */
+    /* a size close to the last one becomes the last one */
     return (double)next > 0.999 * (double)last ? last : next;
 }
 

@@ -29,7 +29,7 @@ typedef struct scaling_settings {
     uint32_t steps;                                 /* points for each factor of ten; threads: each number */
 } scaling_settings;
 
-/* One point; what is to be measured comes first, the rest is measured. */
+/* One point: first what to measure, then the results. */
 typedef struct scaling_point {
     scaling_sweep sweep;
     scaling_kind kind;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One point of cgt-bench scaling: a scene in memory moves, is committed and traced, some frames that warm up and then
- * those that count. What the library allocates in the latter is counted through its memory hooks. */
+ * One point of cgt-bench scaling: a scene in memory moves, is committed and traced, first in frames that warm up, then
+ * in frames that count. Memory hooks count what the library allocates in the latter. */
 #include <stdlib.h>
 #include <string.h>
 

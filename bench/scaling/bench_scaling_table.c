@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The rows of cgt-bench scaling, and how fast times grow. Exponents are of the shortest times: what disturbs a shared
- * machine only adds. */
+ * The rows of cgt-bench scaling, and how fast times grow. Exponents are those of the shortest times: disturbances on a
+ * shared machine only add time. */
 #include <math.h>
 
 #include "scaling/bench_scaling.h"

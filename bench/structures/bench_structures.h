@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt-bench structures: which structure for which rays. One frame of a file in all structures; sets of rays of a kind,
- * in an order, for a query, traced in calls of so many rays each.
+ * in an order, for a query, traced in calls of a given size.
  *   plan      what is built, and the ways to trace it          structures_plan.c
  *   sets      rays of a kind, in an order                      structures_sets.c
  *   measure   structures built and traced in turns             structures_measure.c

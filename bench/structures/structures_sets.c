@@ -84,6 +84,8 @@ cgt_result structures_make_set(structures_job *job, structures_kind kind)
         return result;
     set->count = set->made.count < limit ? set->made.count : limit;
     set->first = (set->made.count - set->count) / 2;
+    if (set->count >= SIZE_MAX / sizeof *set->tile)
+        return CGT_ERROR_TOO_LARGE;
     free(set->tile);
     free(set->turn);
     set->tile = malloc(((size_t)set->count + 1) * sizeof *set->tile);
@@ -105,7 +107,7 @@ void structures_release_set(structures_set *set)
 
 /* ---- Orders -------------------------------------------------------------------------------------------------- */
 
-/* Fisher and Yates. */
+/* Fisher-Yates shuffle. */
 static void shuffle(uint32_t *turn, uint64_t count, uint64_t *state)
 {
     for (uint64_t i = count; i > 1; i--) {

@@ -29,7 +29,7 @@
 #endif
 
 /* A call's rays go in flight where streams would be short: where an octant has less than so many, more of them if they
- * begin far apart, up to a limit. Measured, with the rays of `cgt-bench rays`. Nearest hits: half the growth, half the
+ * begin far apart, up to a limit. Measured, with the rays of `cgt-bench structures`. Nearest hits: half the growth, half the
  * limit. */
 #ifndef INTERLEAVE_MIN_RAYS
 #define INTERLEAVE_MIN_RAYS 8.f
