@@ -72,13 +72,16 @@ static void check_scene(const loose_scene *s, const char *what)
         cgt_scene_release(scene[k]);
 }
 
+/* With clusters, only what has some. */
+static bool is_tested(int what) { return what == LOOSE_TRIANGLES || !clusters_always(); }
+
 static void test_scenes(void **state)
 {
     test_random r = random_make(1);
     (void)state;
     for (int kind = 0; kind < LOOSE_KINDS; kind++)
         for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++)
-            for (uint32_t k = 0; k < 4; k++) {
+            for (uint32_t k = 0; k < 4 && is_tested(what); k++) {
                 const uint32_t most[4] = {1, 40, 1000, test_scaled(20000)};
                 loose_scene s = loose_make(&r, (loose_kind)kind, (loose_what)what, 1 + random_below(&r, most[k]));
                 check_scene(&s, loose_name((loose_kind)kind));
@@ -92,6 +95,8 @@ static void test_many(void **state)
     test_random r = random_make(2);
     (void)state;
     for (int what = LOOSE_SPHERES; what <= LOOSE_BOTH; what++) {
+        if (!is_tested(what))
+            continue;
         loose_scene s = loose_make(&r, what == LOOSE_BOTH ? LOOSE_STADIUM : LOOSE_CLUSTERED, (loose_what)what,
                                    test_between(20000, 150000));
         check_scene(&s, "many");
@@ -176,6 +181,8 @@ static void test_places(void **state)
                   {two_heaps, "two heaps"},    {smallest_numbers, "denormal"}};
     const uint32_t counts[] = {1, CGT_LANES, CGT_LANES + 1, 5 * CGT_LANES, 999, test_between(5000, 70000)};
     (void)state;
+    if (clusters_always()) /* all are spheres */
+        skip();
     for (size_t p = 0; p < TEST_COUNT(places); p++)
         for (size_t n = 0; n < TEST_COUNT(counts); n++) {
             float(*sphere)[4] = malloc(counts[n] * sizeof *sphere);
@@ -326,7 +333,8 @@ static void test_every_allocation_fails(void **state)
     (void)state;
     for (int k = 0; k < 4; k++) {
         /* many with threads: the grid's pairs take the middles' place */
-        loose_scene s = loose_make(&r, LOOSE_UNIFORM, LOOSE_BOTH, k < 2 ? 1000 : test_between(2000, 70000));
+        loose_scene s = loose_make(&r, LOOSE_UNIFORM, clusters_always() ? LOOSE_TRIANGLES : LOOSE_BOTH,
+                                   k < 2 ? 1000 : test_between(2000, 70000));
         size_t fail = 1;
         while (build_failing(&s, &o[k % 2], fail, 1 + (uint32_t)k / 2))
             fail++;

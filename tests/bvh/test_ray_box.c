@@ -189,7 +189,7 @@ static void directions_of_axes_and_diagonals(void **state)
     static const float lengths[] = {1, 1e-6f, 1e6f, 0x1p-50f, 0x1p50f};
     test_random r = random_make(1);
     queue q = {.used = 0};
-    for (uint32_t round = 1 + test_scaled(40); round; round--) {
+    for (uint32_t round = 1 + test_scaled(15); round; round--) {
         const box b = random_box(&r);
         q.b = &b;
         for (int towards = 0; towards < 27; towards++) {
@@ -218,7 +218,7 @@ static void aimed_at_the_border(void **state)
     (void)state;
     test_random r = random_make(2);
     queue q = {.used = 0};
-    for (uint32_t round = 20 + test_scaled(6000); round; round--) {
+    for (uint32_t round = 20 + test_scaled(2500); round; round--) {
         const box b = random_box(&r);
         const float reach = random_log(&r, 1e-1f, 1e4f), length = random_log(&r, 1e-12f, 1e12f);
         q.b = &b;
@@ -247,7 +247,7 @@ static void extremes(void **state)
     (void)state;
     test_random r = random_make(3);
     queue q = {.used = 0};
-    for (uint32_t round = 20 + test_scaled(6000); round; round--) {
+    for (uint32_t round = 20 + test_scaled(2500); round; round--) {
         const bool tiny = random_below(&r, 4) == 0; /* every t is a denormal */
         const int size = tiny ? -(int)random_below(&r, 10) - 130 : (int)random_below(&r, 190) - 140;
         const int aim = tiny ? (int)random_below(&r, 4) : (int)random_below(&r, 100) - 50;
@@ -283,7 +283,7 @@ static void near_misses_are_told(void **state)
     (void)state;
     test_random r = random_make(4);
     tally sum = {0};
-    for (uint32_t round = 50 + test_scaled(20000); round; round--) {
+    for (uint32_t round = 50 + test_scaled(8000); round; round--) {
         truth_ray ray[CGT_LANES];
         const box b = random_box(&r);
         box grown = b;

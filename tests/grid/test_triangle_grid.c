@@ -208,7 +208,7 @@ static void random_soups_lose_nothing(void **state)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
-        for (uint32_t round = 0; round < (1 + test_scaled(5)) * SOUPS; round++) {
+        for (uint32_t round = 0; round < (1 + test_scaled(variant_is_outer(variant) ? 4 : 1)) * SOUPS; round++) {
             test_random r = random_make(round);
             const uint32_t count = 1 + random_below(&r, MOST), n = edge[random_below(&r, TEST_COUNT(edge))];
             const uint32_t across = 1 + random_below(&r, 32), resolution[3] = {n, n ? across : 0, n ? n : 0};
@@ -233,7 +233,7 @@ static void large_triangles_take_few_useless_cells(void **state)
     {
         cgt_context *context = context_make(1, variant);
         uint64_t references = 0, touched = 0, boxes = 0;
-        for (uint32_t round = 0; round < 1 + test_scaled(8); round++) {
+        for (uint32_t round = 0; round < 1 + test_scaled(4); round++) {
             test_random r = random_make(100 + round);
             const uint32_t resolution[3] = {24, 40, 32};
             uint64_t near;

@@ -14,7 +14,7 @@
 #include "hard_cases/hard_run.h"
 #include "support/scenes.h"
 
-#define ALL_RAYS 10000000u
+#define ALL_RAYS 4000000u
 #define CHUNK 1024u      /* rays that are traced at once, */
 #define LEAST_CHUNK 128u /* and where it is slow */
 #define JUDGED 100u      /* one ray of so many goes to the oracle */

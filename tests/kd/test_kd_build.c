@@ -153,7 +153,7 @@ static void test_same_tree(void **state)
 {
     (void)state;
     for (int kind = 0; kind < SOUP_KINDS; kind++) {
-        hard_scene s = soup_make((soup_kind)kind, 300 + (uint64_t)kind, 2500 + test_scaled(20000));
+        hard_scene s = soup_make((soup_kind)kind, 300 + (uint64_t)kind, 2500 + test_scaled(10000));
         cgt_scene *scene = commit_soup(one_thread, &s);
         static const uint32_t threads[] = {2, 3, 7};
         for (size_t i = 0; i < TEST_COUNT(threads); i++) {

@@ -207,7 +207,7 @@ static void bounds_hold(void **state)
         tally sum[2] = {{0}};
         if (f == CASE_FLAT && kind == ORACLE_SPHERE)
             continue;
-        for (uint32_t k = 100 + test_scaled(f == CASE_ANY ? 1000 : 350); k; k--) {
+        for (uint32_t k = 100 + test_scaled(f == CASE_ANY ? 500 : 100); k; k--) {
             lane_case c;
             case_truth truth;
             case_make(&r, kind, (case_family)f, &c);
@@ -273,7 +273,7 @@ static void bounds_break_where_they_are_tightened(void **state)
     tally sum[STEPS] = {{0}};
     for (size_t f = 0; f < TEST_COUNT(hard); f++) {
         test_random r = random_make(50 + 100 * (uint64_t)kind + f);
-        for (uint32_t k = 150 + test_scaled(250); k; k--) {
+        for (uint32_t k = 100 + test_scaled(100); k; k--) {
             lane_case c;
             case_truth truth;
             float scale = 0x1p-24f;

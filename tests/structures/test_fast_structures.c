@@ -193,7 +193,7 @@ static void fast_is_close_to_robust(void **state)
     {
         cgt_context *context = context_make(1, variant);
         tally sum = {0};
-        for (uint32_t round = 0; round < 1 + test_scaled(11); round++) {
+        for (uint32_t round = 0; round < 1 + test_scaled(variant_is_outer(variant) ? 9 : 3); round++) {
             test_random r = random_make(600 + round);
             hard_truth truth;
             hard_scene s = make_scene(&r);

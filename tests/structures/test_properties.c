@@ -68,14 +68,13 @@ static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, b
     }
 }
 
-/* Where it is slow, the variants share the rounds, up to three: each has every step-th one. 3 and 2 are prime to the
- * kinds of clouds. */
+/* The variants share the rounds: each has every step-th one. 3 and 2 are prime to the kinds of clouds. */
 static uint32_t round_step(void)
 {
     uint32_t variants = 0;
     FOR_EACH_VARIANT(variant)
     variants++;
-    return test_scaled(10) >= 2 || variants < 2 ? 1 : variants == 2 ? 2 : 3;
+    return variants < 3 ? variants : 3;
 }
 
 static void nearest_hit_is_that_of_brute_force(void **state)

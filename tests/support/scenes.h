@@ -16,6 +16,14 @@ const char *variant_next(size_t *index);
     for (size_t name##_index_ = 0, name##_once_ = 1; name##_once_; name##_once_ = 0)                                   \
         for (const char *name = variant_next(&name##_index_); name; name = variant_next(&name##_index_))
 
+/* Whether a variant is the first or the last that this CPU runs, the narrowest or the widest. The others are compiled
+ * from the same text: tests of many cases may give them fewer. */
+bool variant_is_outer(const char *name);
+
+/* Whether this program always makes clusters of triangles: clusters/always_clusters.c is linked. The same tests run
+ * without it, too, so whatever has no clusters can be left out: scenes with spheres, the queue grid, kd-trees. */
+bool clusters_always(void);
+
 cgt_context *context_make(uint32_t threads, const char *variant);
 
 /* Of two threads, with memory that counts how often it is asked for. */
