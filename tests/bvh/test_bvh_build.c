@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The wide tree after a commit, of the variant that this is compiled for, against its contract (bvh_check.h): over
- * scenes that are hard on sizes and cells, and objects that no cells part; the same bits for any number of threads, and
- * whether a commit or rays built it. Memory fails at each allocation in turn, and in a steady state there is none. */
+ * Builds BVHs with one variant and checks their invariants (bvh_check.h). The scenes have extreme sizes and
+ * positions, and primitives that no cell separates. The tree has the same bits for any number of threads, and
+ * whether a commit or rays build it. Each allocation fails in turn, and a steady state allocates nothing. */
 #define _POSIX_C_SOURCE 200809L
 #include "grid/loose_scenes.h"
 
@@ -20,7 +20,7 @@ static cgt_context *contexts[2]; /* of one thread, and of two */
 
 static void check_tree(const cgt_scene *scene, const char *what)
 {
-    const char *wrong = wide_check(&scene->committed_scene);
+    const char *wrong = bvh_check(&scene->committed_scene);
     cgt_scene_statistics st;
     if (wrong)
         fail_msg("%s: %s", what, wrong);
@@ -40,7 +40,7 @@ static cgt_scene_options options_of(cgt_structure structure)
     return o;
 }
 
-/* Traces so many rays, all of them invalid: they cost nothing, and count. */
+/* Traces this many rays, all of them invalid: they cost nothing, but count. */
 static cgt_result want(const cgt_scene *scene, uint64_t rays)
 {
     float *zero = calloc(rays, sizeof *zero);
@@ -65,7 +65,7 @@ static void check_scene(const loose_scene *s, const char *what)
         if (k >= 2)
             assert_int_equal(want(scene[k], scene[k]->committed_scene.valid / 8 + 1), CGT_OK);
         check_tree(scene[k], what);
-        if (!wide_equal(&scene[0]->committed_scene.bvh, &scene[k]->committed_scene.bvh))
+        if (!bvh_equal(&scene[0]->committed_scene.bvh, &scene[k]->committed_scene.bvh))
             fail_msg("%s: tree %d differs", what, k);
     }
     for (int k = 0; k < 4; k++)
@@ -104,7 +104,7 @@ static void test_many(void **state)
     }
 }
 
-/* ---- objects that cells do not part ---- */
+/* ---- primitives that cells do not separate ---- */
 
 typedef void place(uint32_t i, uint32_t count, float sphere[4]);
 
@@ -117,7 +117,7 @@ static void at_one_place(uint32_t i, uint32_t count, float q[4])
     q[3] = i % 3 ? 0.5f : 0.75f;
 }
 
-/* Each half as far away as the one before, again and again. */
+/* Each half as far away as the one before. */
 static void by_powers(uint32_t i, uint32_t count, float q[4])
 {
     (void)count;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Embree as an independent opinion: the shipped trajectory, closed meshes, real meshes and random scenes, pixel by
- * pixel. Where the two disagree, exact arithmetic says who is wrong. That must never be libcgt; how often it is Embree
+ * Embree as an independent reference: the shipped trajectory, closed meshes, real meshes and random scenes, pixel by
+ * pixel. Where the two disagree, exact arithmetic decides. libcgt must be right each time; how often Embree is wrong
  * is printed. */
 #include "support/test.h"
 
@@ -27,7 +27,7 @@ typedef struct tally {
     uint64_t rays, hits, same, missed, invented, other, t_off;
 } tally;
 
-/* What both ray casters look at, and what the oracle decides by. */
+/* A scene for both ray casters and for the oracle. */
 typedef struct subject {
     const hard_scene *scene;
     hard_truth truth; /* only the scene: the oracle is asked where there is something to decide */

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles in the queue grid after a commit: every cell that a triangle touches refers to it once, by clipping the
- * triangle to the cell's closed box, and not many others do; references of 32 bits, overflow and statistics are what a
- * recount finds. */
+ * Triangles in the queue grid after a commit: every cell that a triangle touches refers to it once, as clipping the
+ * triangle to the cell's closed box decides, and few other cells do. A recount confirms 32-bit references, overflow
+ * and statistics. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static unsigned times_held(const cgt_queue_grid *g, uint32_t cell, uint32_t prim
     return found;
 }
 
-/* Queues fill from the front, newest first, and overflow with what is older; returns all references. */
+/* Queues fill from the front, newest first; older references overflow. Returns all references. */
 static uint64_t count_references(const cgt_queue_grid *g, uint32_t *overflow_cells)
 {
     uint64_t references = g->overflows;
@@ -64,7 +64,7 @@ typedef struct polygon {
     double p[12][3];
 } polygon;
 
-/* What is left of a polygon where sign * p[axis] >= sign * plane (Sutherland and Hodgman). */
+/* Clips a polygon to sign * p[axis] >= sign * plane (Sutherland and Hodgman). */
 static void clip(polygon *q, int axis, double sign, double plane)
 {
     polygon kept = {0};
@@ -223,7 +223,7 @@ static void random_soups_lose_nothing(void **state)
     }
 }
 
-/* A bounding box's cells would be tens of times as many. */
+/* The cells of its bounding box would be tens of times as many. */
 static void large_triangles_take_few_useless_cells(void **state)
 {
     (void)state;

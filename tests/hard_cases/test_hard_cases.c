@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every hard case by name: the default precision before the oracle, none missed, none invented, none wrong; its values
- * within the bounds of cgt.h; the same bits from every variant, in any order, alone or many, from any threads; and that
- * the case is as hard as it says. */
+ * Every hard case by name. The oracle judges the default precision: no hit is missed, invented or wrong, and values
+ * are within the bounds of cgt.h. Every variant gives the same bits, in any order, for single rays and arrays, with
+ * any number of threads. Each case shows the difficulty that it claims. */
 #include "support/test.h"
 
 #include <math.h>
@@ -132,7 +132,7 @@ static void check_same_bits(const subject *s, uint32_t i, const full_hit *got, c
         fail_ray(s, i, got, what);
 }
 
-/* The same rays in another order, alone, and whether they are occluded. */
+/* The same rays in another order, one at a time, and as any-hit queries. */
 static void check_orders(subject *s, const cgt_scene *scene)
 {
     const uint32_t rays = s->scene.rays;
@@ -242,7 +242,7 @@ static void check_values(const subject *s)
     }
 }
 
-/* ---- that it is hard ---- */
+/* ---- traits: the case is as hard as it claims ---- */
 
 /* trait: 0 for what every case has. */
 static void expect(subject *s, hard_trait trait, bool there, const char *what)
@@ -516,7 +516,7 @@ static void test_cases_are_deterministic(void **state)
     }
 }
 
-/* ---- ends of the range, ray by ray: what the oracle leaves open is decided by the t that is handed out ---- */
+/* ---- ends of the range, ray by ray: the returned t decides what the oracle leaves open ---- */
 
 static void test_range_ends_at_found_t(void **state)
 {

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random scenes of triangles and spheres against the exact oracle, structure and kernel apart: in a grid of one cell
- * every primitive meets every ray, so that what is wrong there is the kernel's fault; what differs from it in another
- * grid, in a tree, packet, tile, loop or cull is the structure's or the traversal's. */
+ * Random scenes of triangles and spheres against the exact oracle. In a grid of one cell every ray tests every
+ * primitive, so that an error there is the kernel's; a difference from it in another grid, tree, packet, tile, loop
+ * or cull is the structure's or the traversal's. */
 #include "support/test.h"
 
 #include <math.h>
@@ -96,8 +96,8 @@ static void check_same(const subject *s, const full_hit *expected, const full_hi
                      (int)expected[i].geometry, (int)expected[i].primitive, (double)expected[i].t);
 }
 
-/* All ways to trace a frame: 4, 8, 16 in squares and 4 in strips; loops; culls. Where it is slow, evenly spread ones. In
- * one cell the shapes of packets matter, and nothing else does. */
+/* All ways to trace a frame: 4, 8, 16 in squares and 4 in strips; loops; culls. Where it is slow, evenly spread
+ * ones. In one cell the shapes of packets matter, and nothing else does. */
 #define WAYS (4u * 2 * 3)
 
 static cgt_trace_options way(uint32_t number)
@@ -118,7 +118,7 @@ static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *ca
                   const full_hit *expected, picture *q)
 {
     const bool any_way = test_scaled(WAYS) >= WAYS && s->is_outer && so != &one_cell;
-    const uint32_t step = any_way ? 1 : test_samples() ? 11 : 5; /* prime to the ways */
+    const uint32_t step = any_way ? 1 : test_samples() ? 11 : 5; /* coprime to WAYS */
     const uint32_t start = test_sample_start(5 * (uint32_t)s->kind + so->resolution[0] + (uint32_t)so->structure, step);
     for (uint32_t number = start; number < WAYS; number += step) {
         const cgt_trace_options o = way(number);

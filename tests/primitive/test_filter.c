@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The single-precision filter of the variant that this is compiled for, against the truth in wide arithmetic: a certain
- * miss is a miss, a certain hit is a hit, and the interval holds its t. Then the bounds are made tighter, by giving
- * FILTER_ROUNDOFF less than the unit roundoff, until they break: a bound that never broke would be too wide to be of use. */
+ * The single-precision filter of spheres with one variant, against wide arithmetic: a certain miss is a miss, a
+ * certain hit is a hit, and the interval contains its t. Then FILTER_ROUNDOFF is lowered below the unit roundoff
+ * until the bounds break: a bound that never breaks is too wide to be useful. */
 #include "support/oracle/truth.h"
 #include "support/test.h"
 
@@ -111,7 +111,7 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
     }
 }
 
-/* ---- judging ---- */
+/* ---- verdicts ---- */
 
 typedef struct tally {
     uint64_t lanes, hits, undecided;  /* open: left to double precision */
@@ -229,7 +229,8 @@ static void bounds_break_where_they_are_tightened(void **state)
     assert_true(outside_at > 0x1p-6f && outside_at < 1);
 }
 
-/* A second sphere is judged by the interval of the best hit so far: nearer for certain, farther for certain, or open. */
+/* A second sphere is judged by the interval of the best hit so far: nearer for certain, farther for certain, or
+ * open. */
 static void order_of_two_spheres(void **state)
 {
     (void)state;

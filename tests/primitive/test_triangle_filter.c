@@ -1,10 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The single-precision filter of triangles, of the variant that this is compiled for, against the exact oracle: a
- * certain miss is a miss, a certain hit is a hit, and the interval holds its t. Then the bounds are made tighter, by
- * giving FILTER_ROUNDOFF less than the unit roundoff, until they break: a bound that never broke would be too wide to be of
- * use. */
+ * The single-precision filter of triangles with one variant, against the exact oracle: a certain miss is a miss, a
+ * certain hit is a hit, and the interval contains its t. Then FILTER_ROUNDOFF is lowered below the unit roundoff
+ * until the bounds break: a bound that never breaks is too wide to be useful. */
 #include "support/oracle/oracle.h"
 #include "support/test.h"
 #include "support/tightened.h"

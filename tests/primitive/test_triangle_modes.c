@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * How triangles are decided: what is counted, how far FAST is off, and that neither the scale of a scene nor the
- * caller's floating-point environment changes a hit. */
+ * How triangles are decided: counters, the error of FAST, and that neither the scale of a scene nor the caller's
+ * floating-point environment changes a hit. */
 #include <fenv.h>
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Parts of cgt-bench structures: the memories that count transfers, beside memories written down plainly; the walk
- * through a tree that can be followed by hand; and the comparison, which must find every bit that differs. */
+ * Parts of cgt-bench structures: the simulated memories that count transfers, against plain ones; the walk through a
+ * small tree, against one by hand; and the comparison, which must find every differing bit. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * FAST precision through trees and the loose grid, by every triangle test: its answers are those of ROBUST but where single precision
- * cannot tell, and close to them in t, u, v and the normal; any hit is found where a nearest one is; nothing is NaN; and
- * closed meshes do not leak at shared edges. */
+ * FAST precision through trees and grids, with every triangle test. Its answers are those of ROBUST unless single
+ * precision cannot decide, and close to them in t, u, v and the normal; any hit exists where a nearest one does;
+ * nothing is NaN; and closed meshes do not leak at shared edges. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -187,7 +187,7 @@ static void fast_is_close_to_robust(void **state)
     (void)state;
     static truth_ray ray[RAYS];
     static full_hit is[RAYS];
-    /* of the ways: in a sample two rounds share them. The rays stay many, for the share of other hits is judged. */
+    /* In a sample two rounds share the ways. There are as many rays, since the share of other hits is judged. */
     const uint32_t step = test_samples() ? 2 : 1;
     FOR_EACH_VARIANT(variant)
     {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Properties over random scenes: every pixel and every ray has the hit that brute force finds, for all kinds of
- * clouds, structures, cameras and options. A failure names the round; the seed that was printed makes it again. */
+ * Random scenes, structures, cameras and options: every pixel and every ray has the hit that brute force finds. A
+ * failure names the round; the printed seed reproduces it. */
 #include "support/scenes.h"
 
 #include <stdio.h>

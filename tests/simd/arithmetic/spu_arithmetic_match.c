@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The words of the SPU's arithmetic against the model: all edges with each other, every gap of exponents, random
- * operands. */
+ * The words of the SPU's arithmetic against the model: all pairs of edge values, every difference of exponents,
+ * random operands. */
 #include "simd/arithmetic/spu_arithmetic.h"
 
 /* ---- batches ---- */
