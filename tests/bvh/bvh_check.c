@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A wide tree from the root down. */
+ * Checks a BVH from the root down. */
 #include "bvh/bvh_check.h"
 
 #include <math.h>
@@ -47,7 +47,7 @@ static bool sphere_within(const cgt_sphere *q, const float low[3], const float h
 {
     const float center[3] = {q->x, q->y, q->z};
     for (int a = 0; a < 3; a++) {
-        /* what is rounded to a number beyond a float lies beyond it */
+        /* a number that rounds beyond a float lies beyond it */
         if ((double)center[a] - q->r > low[a] && (double)center[a] + q->r < high[a])
             continue;
         const dyadic c = dyadic_of_float(center[a]), r = dyadic_of_float(q->r);
@@ -212,7 +212,7 @@ static const char *check_counts(const walk *w)
     return NULL;
 }
 
-const char *wide_check(const cgt_committed_scene *committed_scene)
+const char *bvh_check(const cgt_committed_scene *committed_scene)
 {
     const cgt_bvh *t = &committed_scene->bvh;
     walk w = {.committed_scene = committed_scene, .tree = t, .node = t->node};
@@ -241,7 +241,7 @@ const char *wide_check(const cgt_committed_scene *committed_scene)
     return wrong ? wrong : check_counts(&w);
 }
 
-bool wide_equal(const cgt_bvh *a, const cgt_bvh *b)
+bool bvh_equal(const cgt_bvh *a, const cgt_bvh *b)
 {
     const bvh_node *n = a->node, *m = b->node;
     bool same = a->nodes == b->nodes && a->sphere_blocks == b->sphere_blocks &&

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Takes the place of the library's choose_clusters.c: structures of triangles are made of clusters however few there
- * are, and wherever they lie. */
+ * Replaces the library's choose_clusters.c: every structure of triangles alone gets clusters, however few there are
+ * and wherever they lie. */
 #include "model/triangle_cluster.h"
 
 cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims)

@@ -14,7 +14,7 @@ const uint32_t uneven[PARTS] = {1, 7, 9, 4099, 6003};
 
 const cgt_scene_options automatic = {.structure = CGT_STRUCTURE_AUTO};
 const cgt_scene_options loose_grid = {.structure = CGT_STRUCTURE_LOOSE_GRID};
-const cgt_scene_options wide_tree = {.structure = CGT_STRUCTURE_BVH};
+const cgt_scene_options bvh = {.structure = CGT_STRUCTURE_BVH};
 const cgt_scene_options kd_tree = {.structure = CGT_STRUCTURE_KD};
 
 /* ---- meshes ---- */

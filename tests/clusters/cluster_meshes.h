@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Meshes and scenes for tests of clusters (triangle_cluster.h): a rolled-up sheet of triangles, in the order of
- * neighbours or not, some of them skipped, in several geometries. */
+ * Meshes and scenes for tests of clusters (triangle_cluster.h): a rolled-up sheet of triangles in several
+ * geometries, with neighbours in order or shuffled, some of them skipped. */
 #ifndef CGT_TESTS_CLUSTER_MESHES_H
 #define CGT_TESTS_CLUSTER_MESHES_H
 
@@ -17,7 +17,7 @@
 
 extern const uint32_t uneven[PARTS]; /* counts of triangles */
 
-extern const cgt_scene_options automatic, loose_grid, wide_tree, kd_tree;
+extern const cgt_scene_options automatic, loose_grid, bvh, kd_tree;
 
 /* A geometry, in memory of its own that ends where its arrays do. */
 typedef struct part {
@@ -53,7 +53,7 @@ void mesh_spoil(const mesh *m);
 /* To zeros of either sign, of which neither is the lesser. */
 void mesh_flatten(const mesh *m);
 
-/* So that clusters are eight times as long as they need be, and of use to grids alone. */
+/* Makes clusters eight times as long as necessary, and of use only to grids. */
 void mesh_loosen(const mesh *m);
 
 void mesh_shuffle(const mesh *m, test_random *r);

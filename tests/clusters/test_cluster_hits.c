@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Whatever goes through clusters (triangle_cluster.h) hits what a kd-tree over the single triangles does, bit for bit, at
- * rest and in motion, on each variant. */
+ * Rays through clusters (triangle_cluster.h) have the hits of a kd-tree over single triangles, bit for bit, at rest
+ * and in motion, with each variant. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +19,7 @@
 #define PIXELS (WIDTH * HEIGHT)
 #define RAYS 2400u
 #define FEWER_RAYS 320u /* where it is slow; frames stay, since tiles want neighbouring points to be near each other */
-#define FEW 128u        /* rays that are too few for a wide tree of their own, twice */
+#define FEW 128u        /* rays that are too few for a BVH of their own, twice */
 #define BUNDLE 16u
 #define LIGHTS 3u
 
@@ -38,7 +38,7 @@ static const cgt_light lights[LIGHTS] = {
 /* Where it is slow, views and lights that are asked for lie so far apart: a view of some goes with that of all. */
 #define APART 3u
 
-/* From beside, parallel, and from within the bounds; of some from beside and parallel; of all along the roll. */
+/* From outside, parallel, and from within the bounds; some from outside and parallel; all along the roll. */
 static view view_at(uint32_t number)
 {
     static const float eye[VIEWS][3] = {{2.4f, 1.1f, 1.3f}, {-1.5f, -2.2f, 0.7f}, {0.1f, -0.15f, 0.3f},
@@ -56,7 +56,7 @@ static view view_at(uint32_t number)
     return v;
 }
 
-/* What is asked: bundles of rays to points of triangles from one place each, points on what the first view shows. */
+/* The queries: bundles of rays from one origin each to points of triangles, and points visible in the first view. */
 typedef struct questions {
     uint32_t rays, sample;
     truth_ray ray[RAYS];
@@ -169,7 +169,7 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
     }
 }
 
-/* In calls of `each` rays. Returns how many went through a wide tree. */
+/* In calls of `each` rays. Returns how many went through a BVH. */
 static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t first, uint32_t count, uint32_t each,
                            answers *a)
 {
@@ -214,7 +214,7 @@ static void compare_answers(const answers *got, const answers *want, const quest
                      (double)got->hit[i].t, got->occluded[i], (int)want->hit[i].primitive, (double)want->hit[i].t);
 }
 
-/* What the kd-tree, made of triangles, answers. */
+/* The answers of the kd-tree, which is made of triangles. */
 static answers *ask_kd(cgt_context *context, questions *q, const mesh *m, test_random *r, uint32_t number)
 {
     cgt_scene *scene = committed(context, &kd_tree, m);
@@ -250,7 +250,7 @@ static void check_grid(cgt_context *context, const questions *q, const mesh *m, 
     cgt_scene_release(scene);
 }
 
-/* Few rays after the commit go through the grid; then there are enough of them for a wide tree. */
+/* Few rays after the commit go through the grid; then there are enough of them for a BVH. */
 static void check_automatic(const cgt_scene *scene, const questions *q, const answers *want)
 {
     answers *got = answers_make();
@@ -367,7 +367,7 @@ static void trees_move_in_their_memory(void **state)
     questions *q = malloc(sizeof *q);
     cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
     mesh m = mesh_make(uneven, PARTS, 0, 0);
-    cgt_scene *scene = scene_with(context, &wide_tree, &m);
+    cgt_scene *scene = scene_with(context, &bvh, &m);
     assert_non_null(q);
     q->rays = test_samples() ? FEWER_RAYS : RAYS;
     for (uint32_t step = 0; step < 3; step++) {

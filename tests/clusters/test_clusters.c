@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Clusters of a mesh's triangles (triangle_cluster.h): which scenes get them, what their boxes hold and how tightly,
- * which cells they lie in; and that all of it is the same on each variant and any number of threads. */
+ * Clusters of a mesh's triangles (triangle_cluster.h): which scenes get them, that their boxes hold the triangles
+ * and how tightly, and in which cells they lie. All of it is the same for each variant and any number of threads. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,7 +74,7 @@ static void neighbours_do(void **state)
         assert_non_null(strstr(st.reason, "runs of 8 neighbouring triangles"));
         cgt_scene_release(scene);
         assert_true(gets_clusters(context, &loose_grid, &m));
-        assert_true(gets_clusters(context, &wide_tree, &m));
+        assert_true(gets_clusters(context, &bvh, &m));
         assert_true(gets_clusters(context, &incoherent, &m));
     }
     mesh_free(&m);
@@ -91,7 +91,7 @@ static void others_do_not(void **state)
     mesh_store(&m);
     mesh_store(&few);
     assert_false(gets_clusters(context, &automatic, &few));
-    assert_false(gets_clusters(context, &wide_tree, &few));
+    assert_false(gets_clusters(context, &bvh, &few));
     assert_false(gets_clusters(context, &cells, &m));
     assert_false(gets_clusters(context, &voxels, &m));
     assert_false(gets_clusters(context, &kd_tree, &m));
@@ -100,7 +100,7 @@ static void others_do_not(void **state)
     cgt_context_release(context);
 }
 
-/* Loose clusters serve grids alone. */
+/* Loose clusters serve only grids. */
 static void loose_ones_go_to_grids(void **state)
 {
     (void)state;
@@ -111,7 +111,7 @@ static void loose_ones_go_to_grids(void **state)
     mesh_loosen(&m);
     mesh_store(&m);
     assert_int_equal(use_of(context, &automatic, &m), CGT_CLUSTERS_GRID);
-    assert_int_equal(use_of(context, &wide_tree, &m), CGT_CLUSTERS_NONE);
+    assert_int_equal(use_of(context, &bvh, &m), CGT_CLUSTERS_NONE);
     mesh_free(&m);
     cgt_context_release(context);
 }

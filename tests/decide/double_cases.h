@@ -21,7 +21,7 @@ typedef enum double_family {
 
 const char *double_family_name(double_family f);
 
-/* A sphere, or a triangle; and a ray at it: at a point of it, of its border, beside that. */
+/* A sphere or a triangle, and a ray aimed at a point of it, at its border, or just past the border. */
 void double_case_shape(test_random *r, double_family f, bool sphere, oracle_primitive *q);
 truth_ray double_case_ray(test_random *r, double_family f, const oracle_primitive *q);
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Decisions in double, then exactly, are those of exact arithmetic; the canonical t is within 0.51 ulp, and the resolve
- * of whole packets hands out its bits. */
+ * Decisions in double and then exact ones agree with exact arithmetic. The canonical t is within 0.51 ulp, and
+ * resolving whole packets returns its bits. */
 #include "support/scenes.h"
 
 #include <math.h>

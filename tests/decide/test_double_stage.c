@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The stage of double precision: what triangle_double.h and sphere_double.h compute errs by no more than the bounds
- * that they derive, which are not orders of magnitude too wide; and what is called safe is. */
+ * The stage in double precision (triangle_double.h, sphere_double.h): errors stay within the derived bounds, the
+ * bounds are not orders of magnitude too wide, and values called safe are safe. */
 #include "support/test.h"
 
 #include <math.h>
@@ -152,7 +152,7 @@ static void spheres_err_within_bounds(void **state)
     expect_near("discriminant, any line", &rest[2], 0x1p-6);
 }
 
-/* ---- what is called safe ---- */
+/* ---- values called safe ---- */
 
 /* Errors of the values that are used as they are, over 2^-30 of themselves; how many are not used. */
 static void safe_values_are(void **state)
@@ -205,7 +205,8 @@ static void start_above(test_random *r, const oracle_primitive *q, truth_ray *ra
     }
 }
 
-/* The short way's root over 2^-32 of itself, and the point that is hit over 2^-25 of the radius; how many go that way. */
+/* The short way's root over 2^-32 of itself, and the point that is hit over 2^-25 of the radius; how many go that
+ * way. */
 static void short_ways_are_safe(void **state)
 {
     (void)state;

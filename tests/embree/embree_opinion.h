@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Answers of a ray caster to all rays of a scene, judged by the exact oracle: decisions counted, errors of t, u and v,
- * and the table in which ray casters stand beside each other. */
+ * A ray caster's answers to all rays of a scene, judged by the exact oracle: decisions counted, errors of t, u and
+ * v, and the table that compares ray casters. */
 #ifndef EMBREE_OPINION_H
 #define EMBREE_OPINION_H
 
@@ -20,7 +20,7 @@ typedef struct opinion {
     double *uv_error; /* the larger one of u and v, in 2^-24; NaN likewise, and on spheres */
 } opinion;
 
-/* Room for the answers to so many rays; false where memory is refused. */
+/* Allocates answers for this many rays; false if memory is refused. */
 bool opinion_make(opinion *o, const char *config, uint32_t rays);
 void opinion_free(opinion *o);
 

@@ -11,7 +11,7 @@
 
 #include "hard_cases/hard_scene.h"
 
-/* Whether this build reads such a file, and it is there; says so where not. */
+/* Whether the file exists and this build can read it; prints the reason if not. */
 bool mesh_is_here(const char *path);
 
 /* Reads the file into a scene without rays, for `rays` of them; false with a message. */

@@ -17,7 +17,7 @@
 #include "embree/mesh_rays.h"
 #include "support/scenes.h"
 
-#define RAYS 2000u
+#define RAYS 1000u
 #define LEAST_RAYS 400u
 #define MOST_TESTS 256
 

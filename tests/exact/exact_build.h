@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One build of exact_builds.h, of the name EXACT_BUILD: the library's own source with other settings and other names.
- * Included once by a file that makes the settings. */
+ * Compiles the library's exact stage again under the name EXACT_BUILD (exact_builds.h). A file defines the settings
+ * and includes this once. */
 #include <stdbool.h>
 #include <stdint.h>
 

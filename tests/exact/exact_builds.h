@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The library's exact stage, compiled again in ways that ordinary input would not take. */
+ * The library's exact stage, compiled again so that ordinary input takes paths it hardly ever takes. */
 #ifndef EXACT_BUILDS_H
 #define EXACT_BUILDS_H
 

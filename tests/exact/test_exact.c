@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact stage where the answer is known in closed form: edges and vertices, needles, tangents, points, equal t. */
+ * The exact stage where the answer is known in closed form: edges, vertices, needles, tangents, points, equal t. */
 #include "support/test.h"
 
 #include <math.h>

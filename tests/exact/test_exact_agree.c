@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact stage on random rays and primitives of ten families: its tiers against each other to the bit, all against
- * the oracle, which shares nothing with it, and the order of hits against itself. */
+ * The exact stage on random rays and primitives of ten families. Its tiers agree bit for bit; all agree with the
+ * oracle, which shares no code with it; and the order of hits is consistent. */
 #include "support/oracle/oracle_line.h"
 #include "support/test.h"
 

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The order of two planes along a ray, and that by whole numbers alone, against dyadic arithmetic, which shares nothing
- * with either: any floats, times that are equal or differ in the last place of a number, denormals, the ends of the
- * range. */
+ * The order of two planes along a ray, and its whole-number stage alone, against dyadic arithmetic, which shares no
+ * code with either. Times are equal or differ in the last place; floats include denormals and the ends of the range. */
 #include "support/oracle/dyadic.h"
 #include "support/test.h"
 

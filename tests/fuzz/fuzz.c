@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the fuzz targets share. */
+ * Code that the fuzz targets share. */
 #include "fuzz/fuzz.h"
 
 #include <float.h>

@@ -10,10 +10,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One input; every target defines it. Returns 0. What is wrong ends the program by abort. */
+/* Runs one input; every target defines it. Returns 0. A failed check ends the program by abort. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Prints what is wrong and aborts. */
+/* Prints a message and aborts. */
 _Noreturn void fuzz_fail(const char *file, int line, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #define FUZZ_CHECK(condition, ...)                                                                                     \

@@ -94,7 +94,7 @@ typedef struct visit {
     bool stop;
 } visit;
 
-/* What the tile says is what the planes get. */
+/* A visitor's tile holds the values of the planes. */
 static int visitor(void *user, const cgt_tile *tile)
 {
     const visit *const v = user;

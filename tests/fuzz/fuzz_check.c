@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What must hold of every answer. */
+ * Invariants of every answer. */
 #include "fuzz/fuzz_check.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     cgt_trace_options_init(&o);
     *legal = true;
     o.precision = (cgt_precision)odd_below(m, 3, legal);
-    /* the other tests are for FAST alone: else few calls were legal */
+    /* the other tests need FAST: otherwise few calls would be legal */
     if (o.precision == CGT_PRECISION_FAST || fuzz_below(&m->bytes, 8) == 0)
         o.triangle_test = (cgt_triangle_test)odd_below(m, 3, legal);
     o.tile = (cgt_tile_shape)odd_below(m, 3, legal);
@@ -94,7 +94,7 @@ static bool can_be_hit(const fuzz_geometry *g, uint32_t i)
     return finite3(sphere) && isfinite(sphere[3]) && sphere[3] >= 0;
 }
 
-/* A ray and what it is said to hit, for a message. */
+/* A ray and its reported hit, for a message. */
 static void describe(const fuzz_model *m, const truth_ray *ray, const full_hit *h)
 {
     float number[9];

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What must hold of every answer, whatever the scene and the rays; and the options with which they are asked for. */
+ * Invariants of every answer, whatever the scene and the rays, and the options of the calls. */
 #ifndef FUZZ_CHECK_H
 #define FUZZ_CHECK_H
 
@@ -10,7 +10,7 @@
 #include "support/random.h"
 #include "support/ray_arrays.h"
 
-/* Options for a trace, some of them beyond what is documented: *legal says whether the call may go well. */
+/* Options for a trace, some outside the documented range: *legal tells whether the call may succeed. */
 cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
 
 /* A camera's frame and an array of rays are checked in the same way. */
@@ -29,7 +29,7 @@ void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit 
 /* The counts of a call fit each other and the hits. */
 void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s);
 
-/* ROBUST and EXACT name the same hits; `other` is in its precision what the defaults give. */
+/* ROBUST and EXACT return the same hits; `other` holds the hits of the defaults in its precision. */
 void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision precision_of_other);
 
 /* Judges ROBUST and EXACT by exact arithmetic. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bytes as a file for the trajectory readers. The readers open paths by their endings, so the bytes go to a scratch file
- * in TMPDIR, one per ending and process, which goes when the process ends well. */
+ * Bytes as a file for the trajectory readers. The readers open paths by their endings, so the bytes go to a scratch
+ * file in TMPDIR, one per ending and process, which goes when the process ends well. */
 #define _DEFAULT_SOURCE /* mkdtemp */
 #include "fuzz/fuzz_file.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A memory hook that fails when told to. Each block has its size in front, 64 bytes before what is handed out, so that
- * the sanitizer's red zones begin right where the library's bytes end. */
+ * A memory hook that fails on demand. Each block stores its size in the 64 bytes before it, so that the sanitizer's
+ * red zone begins right after the library's last byte. */
 #define _POSIX_C_SOURCE 200809L
 #include "fuzz/fuzz_memory.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A memory hook that fails when told to, and that checks what it is given back. */
+ * A memory hook that fails on demand and checks every release. */
 #ifndef FUZZ_MEMORY_H
 #define FUZZ_MEMORY_H
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a script of fuzz_scene knows of the library's objects: one context, one scene, the geometries that the scene must
- * hold by the contract of cgt.h, and their arrays, each in a block that ends with its last element. */
+ * What a script of fuzz_scene knows of the library's objects: one context, one scene, the geometries that the scene
+ * must hold by the contract of cgt.h, and their arrays, each in a block that ends with its last element. */
 #ifndef FUZZ_MODEL_H
 #define FUZZ_MODEL_H
 
@@ -53,7 +53,7 @@ bool fuzz_indices_are_good(const fuzz_geometry *g);
 /* The name of one of the build's variants. */
 const char *fuzz_variant(uint8_t number);
 
-/* Checks a call that failed: it has a message, and it had a reason where it says that memory was short. */
+/* Checks a call that failed: it has a message, and out of memory has a refused allocation as its cause. */
 void fuzz_check_error(fuzz_model *m, cgt_result result);
 
 /* Commits; true where the scene may be traced. */

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays: nearest hit and any hit, with any options and strides, by another variant in a grid, and the truth. */
+ * Arrays of rays: nearest hit and any hit, with any options and strides, by another variant in a grid, and the
+ * truth. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -203,7 +204,7 @@ static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *
 
 /* ---- masks and ignored primitives ---- */
 
-/* What is asked of a ray, from its own bits: no bytes are taken. */
+/* The kind of query for a ray, chosen by its own bits: no input bytes are consumed. */
 typedef struct filters {
     uint32_t mask[MOST_RAYS], primitive[MOST_RAYS], geometry[MOST_RAYS];
 } filters;
@@ -390,7 +391,8 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *va
     cgt_context_release(context);
 }
 
-/* A tree or a loose grid is always held against a queue grid, of a few cells where the bytes do not say which; a grid when they ask for it. */
+/* A tree or a loose grid is always held against a queue grid, of a few cells where the bytes do not say which; a
+ * grid when they ask for it. */
 static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
 {
     uint32_t resolution[3] = {3, 2, 4};

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Fuzz target: bytes as a script of calls of the public interface. A context with any variant, up to three threads and a
- * memory hook that fails when told to; a scene with a few geometries of tens of primitives, good and bad; commits;
- * rays and frames. After each call everything that cgt.h promises of it is checked: results, messages, ids, hits,
- * statistics, and that all memory comes back. */
+ * Fuzz target: bytes as a script of calls of the public interface. A context has any variant, up to three threads
+ * and a memory hook that fails on demand; a scene has a few geometries of tens of primitives, good and bad; then
+ * come commits, rays and frames. Each call is checked against cgt.h: results, messages, ids, hits, statistics, and
+ * that all memory is released. */
 #include "fuzz/fuzz_check.h"
 
 #include <math.h>

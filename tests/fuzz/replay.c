@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * replay [FILE]...: a fuzz target without libFuzzer, for every compiler and machine.
- * Without a FILE: every file of the target's corpus as it is, and mutations of them by CGT_TEST_SEED, their number
- * scaled by CGT_TEST_SCALE. The mutation that is being tried lies in <target>.input of the working directory, so that it
- * is there after a crash; replay <target>.input does it again. With FILEs: those alone. */
+ * replay [FILE]...: a fuzz target without libFuzzer, for every compiler and machine. Without a FILE: every file of
+ * the target's corpus as it is, and mutations of them by CGT_TEST_SEED, their number scaled by CGT_TEST_SCALE. The
+ * mutation that is being tried lies in <target>.input of the working directory, so that it is there after a crash;
+ * replay <target>.input does it again. With FILEs: those alone. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <stdio.h>

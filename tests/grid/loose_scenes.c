@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes that are hard on bounds, sizes and cells. */
+ * Scenes that stress bounds, sizes and cells. */
 #include "grid/loose_scenes.h"
 
 #include <math.h>

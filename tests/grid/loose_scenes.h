@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes that are hard on bounds, sizes and cells: spheres and triangles in several geometries, at several strides,
- * each array in memory of its own that ends where the array does. */
+ * Scenes that stress bounds, sizes and cells: spheres and triangles in several geometries with several strides. Each
+ * array has memory of its own that ends with its last element. */
 #ifndef LOOSE_SCENES_H
 #define LOOSE_SCENES_H
 

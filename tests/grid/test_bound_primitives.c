@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The pass over all objects, against a plain one that takes them one after another: every number is the same, to the
- * bit, on each variant and any number of threads; and the first index out of range is found wherever it is. */
+ * The pass that bounds all primitives against a plain loop: every number has the same bits, for each variant and any
+ * number of threads; and the first index out of range is found wherever it is. */
 #include "grid/loose_scenes.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 #include "builders/commit.h"
 
-#define CHUNK 8192u /* the sums of the diameters are taken by so many objects */
+#define CHUNK 8192u /* primitives whose diameters are summed together */
 
 /* ---- the plain pass ---- */
 

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The loose grid after a commit, against its contract (loose_grid.h): every valid object lies in one cell, ascending
- * there, and within reach of the cell's box, which exact arithmetic decides; levels hold like sizes; cells are as many
- * as they should be; and all of it is the same on each variant and any number of threads. */
+ * The loose grid after a commit against its contract (loose_grid.h). Every valid primitive lies in one cell, in
+ * ascending order, and within reach of the cell's box, as exact arithmetic decides. Levels hold similar sizes, and
+ * the number of cells is as specified. All of it is the same for each variant and any number of threads. */
 #include "grid/loose_scenes.h"
 
 #include <math.h>
@@ -68,7 +68,7 @@ static bool within_reach(const cgt_loose_level *level, const uint32_t cell[3], c
     return within;
 }
 
-/* What the rounding of a middle adds to a half extent at most. */
+/* The most that rounding the center adds to a half extent. */
 static double doubt_of(const cgt_committed_scene *w)
 {
     double magnitude = 0;
@@ -77,7 +77,7 @@ static double doubt_of(const cgt_committed_scene *w)
     return magnitude * 0x1p-24;
 }
 
-/* The objects of a level: what they are, and how many of the smaller ones are there as guests. */
+/* The primitives of a level, and how many of them are smaller than its class. */
 typedef struct level_found {
     uint32_t prims;
     double largest, smallest, half[3];
@@ -284,7 +284,7 @@ static void many_are_sorted(void **state)
     }
 }
 
-/* Points on the planes between cells and beside them, by some steps of float: rounding gives some of them to the wrong
+/* Points on the planes between cells and some steps of float off them: rounding puts some of them into the wrong
  * cell, and the reach, which is nothing but rounding here, must cover it. */
 static void points_between_cells_are_in_reach(void **state)
 {

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays that meet objects of a loose grid where these reach farthest out of their cells: at the rims of spheres and the
- * corners of triangles, all of one size, so that the reach of a level is that of each. Rays come one by one, each the
- * tightest frustum there is, and in small bundles that start in one place, run side by side, or run to a light. What they
- * are held against is a grid of one cell. */
+ * Rays that hit primitives of a loose grid where these extend farthest beyond their cells: at the rims of spheres
+ * and the corners of triangles, all of one size, so that each has its level's full reach. Single rays give the
+ * tightest frusta; small bundles share an origin, are parallel, or lead to a light. A grid of one cell is the
+ * reference. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static hard_scene make_scene(test_random *r, bool triangles, float (*middle)[3])
         float sphere[4] = {0, 0, 0, SIZE}, v[3][3];
         for (int a = 0; a < 3; a++) {
             middle[i][a] = sphere[a] = random_float(r, -1, 1);
-            /* two corners of its box, and a third one beside the line between them */
+            /* two corners of its box, and a third point off the line between them */
             const float side = random_below(r, 2) ? SIZE : -SIZE;
             v[0][a] = sphere[a] + side;
             v[1][a] = sphere[a] - side;
@@ -39,7 +39,7 @@ static hard_scene make_scene(test_random *r, bool triangles, float (*middle)[3])
     return s;
 }
 
-/* A unit vector across another one; or, for a triangle, whatever: its corners are along the diagonals. */
+/* A unit vector orthogonal to another one. For a triangle any will do: its corners are along the diagonals. */
 static void rim_of(test_random *r, const float dir[3], bool triangle, float rim[3])
 {
     float length = 0, along = 0;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The push to voxel queues, for the variant that this is compiled for: against a plain queue of 16, and its SIMD words
- * counted. Chapman: "pushing an element onto a queue requires only 6 SIMD logical instructions". */
+ * Pushes 16-bit and 32-bit references to voxel queues with one variant, compares with a plain queue of 16, and
+ * counts the SIMD words. Chapman: "pushing an element onto a queue requires only 6 SIMD logical instructions". */
 #include "support/test.h"
 
 #include <string.h>
@@ -23,94 +23,123 @@ static struct words {
 #define CGT_QUEUE_SHUFFLE(a, b, pattern) (words.shuffles++, spu_shuffle(a, b, pattern))
 #include "kernel/builders/queue_push.h"
 
-#define CELLS 12
+#define CELLS 12u
 
-/* A grid of queues and what a plain program makes of the same pushes. */
+/* ---- a grid of queues, and what a plain program makes of the same pushes ---- */
+
 typedef struct queues {
-    _Alignas(64) cgt_voxel voxel[CELLS];
-    uint16_t model[CELLS][CGT_QUEUE_LENGTH];
+    bool is_wide; /* references of 32 bits */
+    _Alignas(64) cgt_voxel narrow[CELLS];
+    _Alignas(64) cgt_voxel32 wide[CELLS];
+    uint32_t model[CELLS][CGT_QUEUE_LENGTH];
 } queues;
 
-static void clear(queues *q)
+static queues queues_make(bool is_wide)
 {
-    memset(q->voxel, 0xff, sizeof q->voxel);
-    memset(q->model, 0xff, sizeof q->model);
+    queues q;
+    memset(&q, 0xff, sizeof q);
+    q.is_wide = is_wide;
+    for (uint32_t c = 0; c < CELLS; c++)
+        for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
+            q.model[c][i] = is_wide ? UINT32_MAX : CGT_QUEUE_NONE;
+    return q;
 }
 
-static void model_push(queues *q, uint32_t cell, uint16_t reference)
+static void model_push(queues *q, uint32_t cell, uint32_t reference)
 {
-    memmove(&q->model[cell][1], &q->model[cell][0], (CGT_QUEUE_LENGTH - 1) * sizeof(uint16_t));
+    memmove(&q->model[cell][1], &q->model[cell][0], (CGT_QUEUE_LENGTH - 1) * sizeof(uint32_t));
     q->model[cell][0] = reference;
+}
+
+static void push1(queues *q, uint32_t cell, uint32_t reference)
+{
+    if (q->is_wide)
+        queue_push1_32(&q->wide[cell], spu_splats(reference));
+    else
+        queue_push1(&q->narrow[cell], spu_splats((uint16_t)reference));
+    model_push(q, cell, reference);
+}
+
+static void push8(queues *q, const uint32_t cell[8], uint32_t reference)
+{
+    if (q->is_wide)
+        queue_push8_32(q->wide, cell, reference);
+    else
+        queue_push8(q->narrow, cell, spu_splats((uint16_t)reference));
+    for (uint32_t c = 0; c < CELLS; c++) {
+        bool touched = false;
+        for (int k = 0; k < 8; k++)
+            touched |= cell[k] == c;
+        if (touched)
+            model_push(q, c, reference);
+    }
 }
 
 static void check(const queues *q)
 {
-    for (int c = 0; c < CELLS; c++)
-        for (int i = 0; i < CGT_QUEUE_LENGTH; i++)
-            assert_int_equal(q->voxel[c].reference[i], q->model[c][i]);
+    for (uint32_t c = 0; c < CELLS; c++)
+        for (int i = 0; i < CGT_QUEUE_LENGTH; i++) {
+            const uint32_t got = q->is_wide ? q->wide[c].reference[i] : q->narrow[c].reference[i];
+            if (got != q->model[c][i])
+                fail_msg("%d bits, cell %u, place %d: reference %#x, expected %#x", q->is_wide ? 32 : 16, c, i, got,
+                         q->model[c][i]);
+        }
+}
+
+/* ---- tests ---- */
+
+static void expect_words(unsigned loads, unsigned shuffles, unsigned stores)
+{
+    assert_int_equal(words.loads, loads);
+    assert_int_equal(words.shuffles, shuffles);
+    assert_int_equal(words.stores, stores);
+    words = (struct words){0};
 }
 
 static void six_words_per_push(void **state)
 {
     (void)state;
-    queues q;
-    const uint32_t cell[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    clear(&q);
+    queues q = queues_make(false);
     words = (struct words){0};
-    queue_push1(&q.voxel[3], spu_splats((uint16_t)7));
-    assert_int_equal(words.loads, 2);
-    assert_int_equal(words.shuffles, 2);
-    assert_int_equal(words.stores, 2);
-    words = (struct words){0};
-    queue_push8(q.voxel, cell, spu_splats((uint16_t)8));
-    assert_int_equal(words.loads + words.shuffles + words.stores, 48);
-    assert_int_equal(words.loads, 16);
-    assert_int_equal(words.shuffles, 16);
-    assert_int_equal(words.stores, 16);
-    words = (struct words){0};
-    queue_push8(q.voxel, (const uint32_t[8]){5, 5, 5, 5, 5, 5, 5, 5}, spu_splats((uint16_t)9));
-    assert_int_equal(words.loads + words.shuffles + words.stores, 48); /* the same without a branch on duplicates */
+    push1(&q, 3, 7);
+    expect_words(2, 2, 2);
+    push8(&q, (const uint32_t[8]){0, 1, 2, 3, 4, 5, 6, 7}, 8);
+    expect_words(16, 16, 16);
+    push8(&q, (const uint32_t[8]){5, 5, 5, 5, 5, 5, 5, 5}, 9); /* no branch on duplicates: as many */
+    expect_words(16, 16, 16);
+    check(&q);
 }
 
+/* From the 17th on the oldest is lost. */
 static void newest_comes_first(void **state)
 {
     (void)state;
-    queues q;
-    clear(&q);
-    for (uint16_t i = 0; i < CGT_QUEUE_LENGTH; i++) {
-        queue_push1(&q.voxel[1], spu_splats((uint16_t)(1000 + i)));
-        for (uint16_t k = 0; k < CGT_QUEUE_LENGTH; k++)
-            assert_int_equal(q.voxel[1].reference[k], k <= i ? 1000 + i - k : (int)CGT_QUEUE_NONE);
+    static const struct {
+        bool is_wide;
+        uint32_t first;
+    } row[] = {{false, 0},      {false, 1000},      {false, 0xff00},   {true, 0},
+               {true, 0x10000}, {true, 0xfffe0000}, {true, 0xffffff00}}; /* neither half may be lost or swapped */
+    for (size_t k = 0; k < TEST_COUNT(row); k++) {
+        queues q = queues_make(row[k].is_wide);
+        for (uint32_t i = 0; i < 40; i++) {
+            push1(&q, 5, row[k].first + i);
+            check(&q);
+        }
     }
-    queue_push1(&q.voxel[1], spu_splats((uint16_t)2000)); /* the 17th */
-    assert_int_equal(q.voxel[1].reference[0], 2000);
-    assert_int_equal(q.voxel[1].reference[15], 1001); /* 1000, the oldest, is out */
-    for (int c = 0; c < CELLS; c++)
-        for (int k = 0; k < CGT_QUEUE_LENGTH && c != 1; k++)
-            assert_int_equal(q.voxel[c].reference[k], CGT_QUEUE_NONE);
 }
 
 static void equal_corners_hold_the_reference_once(void **state)
 {
     (void)state;
     test_random r = random_make(1);
-    for (uint32_t round = test_scaled(400); round; round--) {
-        queues q;
-        clear(&q);
-        for (uint16_t prim = 0; prim < 60; prim++) {
+    for (uint32_t round = 2 + test_scaled(800); round; round--) {
+        queues q = queues_make(round % 2);
+        for (uint32_t prim = 0; prim < 60; prim++) {
             uint32_t cell[8];
-            const uint32_t kinds = 1 + random_below(&r, CELLS);
-            const uint16_t reference = random_below(&r, 2) ? prim : (uint16_t)(65534 - prim);
+            const uint32_t kinds = 1 + random_below(&r, CELLS), high = q.is_wide ? 0xabcd0000 : 65534;
             for (int k = 0; k < 8; k++)
                 cell[k] = random_below(&r, kinds);
-            queue_push8(q.voxel, cell, spu_splats(reference));
-            for (uint32_t c = 0; c < CELLS; c++) {
-                bool touched = false;
-                for (int k = 0; k < 8; k++)
-                    touched |= cell[k] == c;
-                if (touched)
-                    model_push(&q, c, reference);
-            }
+            push8(&q, cell, random_below(&r, 2) ? prim : high - prim);
             check(&q);
         }
     }

@@ -45,10 +45,10 @@ typedef struct hard_case {
 size_t hard_case_count(void);
 const hard_case *hard_case_at(size_t i);
 
-/* Makes a case with so many rays; the same for the same seed and case. False where memory is refused. */
+/* Makes a case with this many rays; the same for the same seed and case. False if memory is refused. */
 bool hard_case_make(const hard_case *c, uint32_t rays, hard_scene *s);
 
-/* Rewrites the rays of a case with `follow` by what the first trace found. */
+/* Rewrites the rays of a case with `follow`, given the hits of the first trace. */
 void hard_case_follow(const hard_case *c, hard_scene *s, const hard_found *found);
 
 /* Tables of the topics. */

@@ -157,7 +157,7 @@ static void packets(hard_scene *s)
 
 /* ---- estimates ---- */
 
-/* Components from 2^-60 to 2^60 beside each other, their fractions at the ends and at the joints of the tables that
+/* Components from 2^-60 to 2^60 in one ray, their fractions at the ends and at the joints of the tables that
  * reciprocal estimates use. */
 static void lengths(hard_scene *s)
 {

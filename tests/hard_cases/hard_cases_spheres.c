@@ -70,7 +70,7 @@ static void from_afar(hard_scene *s, bool tangent)
 static void far_spheres(hard_scene *s) { from_afar(s, false); }
 static void tangent_far(hard_scene *s) { from_afar(s, true); }
 
-/* Spheres of radius 1e4 that fill half of what is seen, the origin a tenth above, on or below the surface. */
+/* Spheres of radius 1e4 that fill half of the view, the origin a tenth above, on or below the surface. */
 static void huge_spheres(hard_scene *s)
 {
     const double r = 1e4;

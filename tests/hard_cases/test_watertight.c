@@ -1,10 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Closed meshes do not leak: rays at the points of their edges and at their vertices, from inside and from outside
- * towards the inside, near 0, far from it, tiny and huge. A ray from inside a closed surface meets it, and so does one
- * that leads from outside to a point inside: an answer without a hit is a leak, whoever computes it. Every hundredth
- * answer is judged by the oracle besides. Structures take turns. */
+ * Closed meshes do not leak: rays at points of their edges and at their vertices, from inside and from outside
+ * towards an inner point; near 0, far from it, tiny and huge. Every such ray meets the surface, so that a miss is a
+ * leak; no reference is needed. The oracle judges every hundredth answer as well. Structures take turns. */
 #include "support/test.h"
 
 #include <math.h>
@@ -14,10 +13,10 @@
 #include "hard_cases/hard_run.h"
 #include "support/scenes.h"
 
-#define ALL_RAYS 10000000u
+#define ALL_RAYS 4000000u
 #define CHUNK 1024u      /* rays that are traced at once, */
 #define LEAST_CHUNK 128u /* and where it is slow */
-#define JUDGED 100u      /* one ray of so many goes to the oracle */
+#define JUDGED 100u      /* the oracle judges one ray of this many */
 #define BUNDLE 32u       /* rays of a common origin */
 #define MOST_VARIANTS 8
 
@@ -47,7 +46,7 @@ typedef struct subject {
     const char *variant[MOST_VARIANTS];
     cgt_context *context[MOST_VARIANTS];
     cgt_scene *scene[MOST_VARIANTS];
-    cgt_scene *fast[MOST_VARIANTS]; /* in a grid: a wide tree has no FAST of its own */
+    cgt_scene *fast[MOST_VARIANTS]; /* in a grid: a BVH has no FAST of its own */
 } subject;
 
 static void commit_in_all(subject *w)
@@ -183,7 +182,7 @@ static void trace(const subject *w, const cgt_scene *scene, uint32_t *primitive,
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, options), CGT_OK);
 }
 
-/* So many rays at one mesh in one place, chunk by chunk in each variant. */
+/* Traces this many rays at one mesh in one place, chunk by chunk, with the variants in turn. */
 static void check_mesh(closed_kind kind, const location *at, uint32_t rays, leaks *sum)
 {
     subject w;
@@ -255,7 +254,7 @@ static void test_column(void **state)
     check_kind(CLOSED_COLUMN);
 }
 
-/* What the tests above rest on. */
+/* The premise of the tests above. */
 static void test_meshes_are_closed(void **state)
 {
     (void)state;

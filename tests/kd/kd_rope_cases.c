@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Worlds of a few objects, trees that no heuristic would make, rays at their planes. */
+ * Scenes of a few primitives, trees that no heuristic would build, and rays in their split planes. */
 #include "kd/kd_rope_cases.h"
 
 #include <math.h>
@@ -49,7 +49,7 @@ static void flatten_case(test_random *r, rope_case *c, uint32_t count)
     }
 }
 
-/* ---- the world ---- */
+/* ---- the scene ---- */
 
 static float rounded(double value, bool up)
 {

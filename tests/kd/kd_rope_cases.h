@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Small worlds with random kd-trees, and rays that are hard on ropes: in split planes, through edges and corners of
- * leaves, from them, without some components. What fails here fails the test. */
+ * Small scenes with random kd-trees, and rays that are hard for ropes: in split planes, through edges and corners of
+ * leaves, starting on them, with components of 0. What fails here fails the test. */
 #ifndef KD_ROPE_CASES_H
 #define KD_ROPE_CASES_H
 
@@ -33,7 +33,7 @@ typedef struct rope_case {
 rope_case *rope_case_make(test_random *r, cgt_context *context, rope_place place);
 void rope_case_free(rope_case *c);
 
-/* A ray that starts in the world or around it, with any range; coordinates and directions are not extreme. */
+/* A ray that starts in the scene or around it, with any range; coordinates and directions are not extreme. */
 truth_ray rope_case_ray(test_random *r, const rope_case *c);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Worlds and flattened kd-trees for tests. */
+ * Scenes and flattened kd-trees for tests. */
 #include "kd/kd_trees.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "primitive/triangle_scenes.h"
 
-static cloud spheres; /* of the scene that is there */
+static cloud spheres; /* of the current scene */
 static triangle *triangles;
 
 cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, uint32_t prims)
@@ -37,11 +37,11 @@ cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, u
     if (half)
         scene_add_triangles(scene, (const triangle *)triangles, half);
     scene_commit(context, scene);
-    assert_true(world_of(scene)->valid > 0);
+    assert_true(committed_of(scene)->valid > 0);
     return scene;
 }
 
-const cgt_committed_scene *world_of(const cgt_scene *scene) { return &scene->committed_scene; }
+const cgt_committed_scene *committed_of(const cgt_scene *scene) { return &scene->committed_scene; }
 
 void mixed_scene_free(cgt_scene *scene)
 {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Worlds and flattened kd-trees for the tests of kd-trees. What fails here fails the test. */
+ * Scenes and flattened kd-trees for the tests of kd-trees. What fails here fails the test. */
 #ifndef KD_TREES_H
 #define KD_TREES_H
 
@@ -10,9 +10,9 @@
 #include "support/scenes.h"
 
 /* A scene of a cloud of spheres and of triangles of like number among them, some of both not valid. Committed; its
- * world is world_of(scene). */
+ * committed scene is committed_of(scene). */
 cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, uint32_t prims);
-const cgt_committed_scene *world_of(const cgt_scene *scene);
+const cgt_committed_scene *committed_of(const cgt_scene *scene);
 void mixed_scene_free(cgt_scene *scene);
 
 /* A flattened tree and its memory. */

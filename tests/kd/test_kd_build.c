@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The builders of kd-trees, before flattening: every object is in every leaf that it touches, decided exactly; the tree
- * is the same for any number of threads and any order of tasks; limits, degenerate scenes, memory that is refused. */
+ * The builders of kd-trees, before flattening: every primitive is in every leaf that it touches, decided exactly;
+ * the tree is the same for any number of threads and any order of tasks; limits, degenerate scenes, refused memory. */
 #define _POSIX_C_SOURCE 200809L
 #include "kd/kd_build_cases.h"
 
@@ -153,7 +153,7 @@ static void test_same_tree(void **state)
 {
     (void)state;
     for (int kind = 0; kind < SOUP_KINDS; kind++) {
-        hard_scene s = soup_make((soup_kind)kind, 300 + (uint64_t)kind, 2500 + test_scaled(20000));
+        hard_scene s = soup_make((soup_kind)kind, 300 + (uint64_t)kind, 2500 + test_scaled(10000));
         cgt_scene *scene = commit_soup(one_thread, &s);
         static const uint32_t threads[] = {2, 3, 7};
         for (size_t i = 0; i < TEST_COUNT(threads); i++) {
@@ -229,7 +229,7 @@ static void count_release(void *user, void *memory, size_t bytes)
     free(memory);
 }
 
-/* Each allocation of a build fails in turn; then the build works, and once more it needs none. */
+/* Each allocation of a build fails in turn; then the build succeeds, and repeated it allocates nothing. */
 static void check_memory(cgt_context *context, counted *c, const cgt_scene *scene, cgt_kd_builder builder)
 {
     char text[256] = "";

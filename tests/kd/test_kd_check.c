@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The checker of kd-trees can fail: each kind of fault, planted in a good tree, is found. And what it believes of
- * shapes and boxes: cases by hand at the very limit, points of triangles, and the library's own conservative test. */
+ * The checker of kd-trees finds each kind of fault planted in a good tree. Its geometry is checked, too: borderline
+ * cases by hand, points of triangles, and the library's own conservative test. */
 #include "kd/kd_trees.h"
 
 #include <math.h>
@@ -167,7 +167,7 @@ static void spoilt_free(spoilt *s)
     free(s->leaf);
 }
 
-/* A random leaf of at least so many objects, or an inner node. */
+/* A random leaf of at least this many primitives, or an inner node. */
 static uint32_t any_node(spoilt *s, bool leaf, uint32_t prims)
 {
     for (;;) {
@@ -352,7 +352,7 @@ static void rope_not_pushed_down(spoilt *s)
     fail_msg("no rope is pushed down");
 }
 
-/* Pushed on to a child that holds part of the face alone. */
+/* Pushed on to a child that holds only part of the face. */
 static void rope_too_far(spoilt *s)
 {
     for (uint32_t i = 0; i < s->tree.leaves; i++)
@@ -431,17 +431,17 @@ static void planted_faults_are_found(void **state)
         const bool ropes = round % 2;
         random_tree tree;
         do { /* until all kinds of faults have room */
-            tree = random_tree_make(&r, world_of(scene), 20, 4);
+            tree = random_tree_make(&r, committed_of(scene), 20, 4);
             assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, ropes), CGT_OK);
             random_tree_free(&tree);
         } while (flat.tree.nodes < 200 || flat.tree.references < 300);
-        assert_null(kd_check(&flat.tree, world_of(scene)));
+        assert_null(kd_check(&flat.tree, committed_of(scene)));
         for (size_t i = 0; i < TEST_COUNT(faults); i++) {
             if (faults[i].ropes && !ropes)
                 continue;
-            spoilt s = spoilt_make(&flat.tree, world_of(scene), round);
+            spoilt s = spoilt_make(&flat.tree, committed_of(scene), round);
             faults[i].plant(&s);
-            const char *found = kd_check(&s.tree, world_of(scene));
+            const char *found = kd_check(&s.tree, committed_of(scene));
             if (!found || (faults[i].found && !strstr(found, faults[i].found)))
                 fail_msg("round %u, fault %zu: found %s, not %s", round, i, found ? found : "nothing",
                          faults[i].found ? faults[i].found : "any");

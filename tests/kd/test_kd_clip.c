@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bounds of clipped triangles: nothing of the exact part is outside of them, decided exactly, and they are not much
- * wider than it. */
+ * Bounds of clipped triangles contain the exact part, as exact arithmetic decides, and are not much larger. */
 #include <math.h>
 #include <string.h>
 
@@ -175,7 +174,7 @@ static void test_sides(void **state)
     assert_true(tight > 5.9 * cut);
 }
 
-/* Planes are numbered without gaps, in ascending order, and below and above mean what they say. */
+/* Planes are numbered without gaps in ascending order; below and above are strict. */
 static void test_planes(void **state)
 {
     test_random r = random_make(7);

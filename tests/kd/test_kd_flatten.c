@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Flattening: every layout of a random tree holds the same splits and leaves, in the order that its name promises,
- * whatever the number of threads; memory that is refused, and trees that are too large. */
+ * for any number of threads; refused memory, and trees that are too large. */
 #define _POSIX_C_SOURCE 200809L
 #include "kd/kd_trees.h"
 
@@ -136,8 +136,8 @@ static void layouts_keep_splits_and_leaves(void **state)
         test_random r = random_make(round);
         cgt_scene *scene = mixed_scene(context, round % CLOUD_KINDS, round, 1 + random_below(&r, 120));
         random_tree tree =
-            random_tree_make(&r, world_of(scene), random_below(&r, CGT_KD_MAX_DEPTH), 1 + random_below(&r, 8));
-        check_layouts(context, world_of(scene), &tree.raw, &flat);
+            random_tree_make(&r, committed_of(scene), random_below(&r, CGT_KD_MAX_DEPTH), 1 + random_below(&r, 8));
+        check_layouts(context, committed_of(scene), &tree.raw, &flat);
         deepest = flat.tree.depth > deepest ? flat.tree.depth : deepest;
         largest = flat.tree.nodes > largest ? flat.tree.nodes : largest;
         empty += flat.tree.empty_leaves;
@@ -157,8 +157,8 @@ static void one_leaf(void **state)
     (void)state;
     for (uint32_t prims = 1; prims < 12; prims += 5) {
         cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, prims, prims);
-        random_tree tree = random_tree_leaf(world_of(scene));
-        check_layouts(context, world_of(scene), &tree.raw, &flat);
+        random_tree tree = random_tree_leaf(committed_of(scene));
+        check_layouts(context, committed_of(scene), &tree.raw, &flat);
         assert_int_equal(flat.tree.nodes, 2);
         assert_int_equal(flat.tree.depth, 0);
         random_tree_free(&tree);
@@ -180,12 +180,12 @@ static void threads_make_the_same_bytes(void **state)
     flat_tree want = {0}, got = {0};
     (void)state;
     do { /* until there are enough nodes for tasks, and not all of them in one subtree */
-        tree = random_tree_make(&r, world_of(scene), 40, 4);
+        tree = random_tree_make(&r, committed_of(scene), 40, 4);
         assert_int_equal(flatten(&want, alone, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_OK);
         if (want.tree.nodes < 16384)
             random_tree_free(&tree);
     } while (want.tree.nodes < 16384);
-    check_layouts(alone, world_of(scene), &tree.raw, &want);
+    check_layouts(alone, committed_of(scene), &tree.raw, &want);
     print_message("%u nodes, %llu references\n", want.tree.nodes, (unsigned long long)want.tree.references);
     for (size_t t = 0; t < TEST_COUNT(threads); t++) {
         cgt_context *context = context_make(threads[t], NULL);
@@ -248,14 +248,14 @@ static void refused_memory(void **state)
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, 1, 50);
     test_random r = random_make(2);
-    random_tree tree = random_tree_make(&r, world_of(scene), 10, 2);
+    random_tree tree = random_tree_make(&r, committed_of(scene), 10, 2);
     for (uint32_t call = 1; call <= 3; call++) {
         flat_tree flat = {0};
         refuse = (refusal){0, call};
         assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, true), CGT_ERROR_OUT_OF_MEMORY);
         assert_non_null(strstr(context_message(context), "kd-tree: out of memory"));
         assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, true), CGT_OK);
-        assert_null(kd_check(&flat.tree, world_of(scene)));
+        assert_null(kd_check(&flat.tree, committed_of(scene)));
         assert_int_equal(refuse.calls, 4); /* three buffers, one of them asked for twice; nothing else */
         assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_BREADTH_FIRST, 0, true), CGT_OK);
         assert_int_equal(refuse.calls, 4); /* the same size again: nothing is allocated */
@@ -289,14 +289,14 @@ static void too_large(void **state)
 {
     cgt_context *context = context_make(1, NULL);
     cgt_scene *scene = mixed_scene(context, CLOUD_UNIFORM, 3, 20);
-    random_tree deep = chain(world_of(scene), CGT_KD_MAX_DEPTH);
+    random_tree deep = chain(committed_of(scene), CGT_KD_MAX_DEPTH);
     flat_tree flat = {0};
     (void)state;
-    check_layouts(context, world_of(scene), &deep.raw, &flat);
+    check_layouts(context, committed_of(scene), &deep.raw, &flat);
     assert_int_equal(flat.tree.depth, CGT_KD_MAX_DEPTH);
     random_tree_free(&deep);
 
-    deep = chain(world_of(scene), CGT_KD_MAX_DEPTH + 1);
+    deep = chain(committed_of(scene), CGT_KD_MAX_DEPTH + 1);
     for (size_t i = 0; i < TEST_COUNT(layouts); i++)
         assert_int_equal(flatten(&flat, context, &deep.raw, layouts[i].layout, layouts[i].break_level, false),
                          CGT_ERROR_TOO_LARGE);
@@ -304,7 +304,7 @@ static void too_large(void **state)
     assert_int_equal(flatten(&flat, context, &deep.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_ERROR_TOO_LARGE);
     random_tree_free(&deep);
 
-    deep = chain(world_of(scene), 4); /* five leaves of 2^30 - 1 references */
+    deep = chain(committed_of(scene), 4); /* five leaves of 2^30 - 1 references */
     for (uint32_t i = 1; i < deep.raw.nodes; i++)
         if (cgt_kd_is_leaf(deep.node[i]))
             deep.node[i] = cgt_kd_leaf_node((1u << 30) - 1, 0);

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays along ropes, one by one and in packets, of the variant that this is compiled for: the hits are those of brute
- * force; the leaves that a ray comes to cover it without a gap, by arithmetic that shares nothing with the library; and
- * none comes twice. */
+ * Rays along ropes, single and in packets, with one variant: the hits are those of brute force, and the leaves on a
+ * ray cover it without a gap and without repetition, by arithmetic that shares no code with the library. */
 #include "support/oracle/dyadic.h"
 #include "support/kd/kd_check.h"
 #include "kd/kd_rope_cases.h"
@@ -39,7 +38,7 @@ static int teardown(void **state)
 
 /* ---- packets ---- */
 
-/* Rays that share nothing but the world; or their origin, too. */
+/* Rays that share nothing but the scene; or their origin, too. */
 static void make_rays(test_random *r, const rope_case *c, bool common_origin, truth_ray ray[RAYS])
 {
     for (uint32_t k = 0; k < RAYS; k++) {
@@ -224,7 +223,7 @@ typedef struct cover {
     uint64_t rays, misses, leaves, touched; /* touched: passed at one point only */
 } cover;
 
-/* NULL, or what is wrong with the leaves that ray k came to; `high` is where it could stop. */
+/* NULL, or the fault in the leaves that ray k visited; it may stop at `high`. */
 static const char *judge_leaves(const cgt_kd_tree *tree, const truth_ray *ray, uint32_t k, float high, cover *sum)
 {
     fraction near, far, reached, in, out;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Builders, layouts and ropes together: over scenes of all kinds, degenerate ones too, each builder's tree in each
- * layout, with ropes and without, holds what a kd-tree must (support/kd_check.h), and is the same for any number of
+ * Builders, layouts and ropes together, over scenes of all kinds, degenerate ones included: each builder's tree in
+ * each layout, with and without ropes, passes the checker (support/kd_check.h) and is the same for any number of
  * threads. */
 #include "kd/kd_trees.h"
 
@@ -13,7 +13,7 @@
 #include "support/closed_meshes.h"
 #include "primitive/triangle_scenes.h"
 
-/* What a scene is made of; NAN as a coordinate makes what is skipped. */
+/* The primitives of a scene; a NAN as a coordinate makes a skipped one. */
 typedef struct things {
     uint32_t spheres, triangles;
     float (*sphere)[4];
@@ -214,7 +214,7 @@ static const struct {
     {CGT_KD_LAYOUT_MIXED, 3},
 };
 
-/* The same tree as memory, whoever made it. */
+/* The same bytes, whoever built the tree. */
 static void check_same(const cgt_kd_tree *a, const cgt_kd_tree *b)
 {
     assert_int_equal(a->nodes, b->nodes);
@@ -310,9 +310,9 @@ static void scenes_of_all_kinds(void **state)
             if (t.triangles)
                 scene_add_triangles(scene, (const triangle *)t.triangle, t.triangles);
             scene_commit(w.context[0], scene);
-            assert_true(world_of(scene)->valid > 0 && !world_of(scene)->brute_force);
+            assert_true(committed_of(scene)->valid > 0 && !committed_of(scene)->brute_force);
             for (size_t b = 0; b < TEST_COUNT(builders); b++)
-                check_builder(&w, world_of(scene), b, kinds[kind].name);
+                check_builder(&w, committed_of(scene), b, kinds[kind].name);
             cgt_scene_release(scene);
             things_free(&t);
         }
@@ -329,7 +329,7 @@ static void clouds_of_both(void **state)
         for (uint32_t round = 0; round < test_scaled(2); round++) {
             cgt_scene *scene = mixed_scene(w.context[0], (cloud_kind)kind, round, 60 + test_scaled(600));
             for (size_t b = 0; b < TEST_COUNT(builders); b++)
-                check_builder(&w, world_of(scene), b, cloud_name((cloud_kind)kind));
+                check_builder(&w, committed_of(scene), b, cloud_name((cloud_kind)kind));
             mixed_scene_free(scene);
         }
     print_workshop("clouds", &w);
@@ -337,7 +337,7 @@ static void clouds_of_both(void **state)
     workshop_free(&w);
 }
 
-/* So many objects that builders and flattening use their tasks. */
+/* Enough primitives for builders and flattening to use tasks. */
 static void many(void **state)
 {
     workshop w = workshop_make();
@@ -345,7 +345,7 @@ static void many(void **state)
     for (uint32_t kind = 0; kind < 2; kind++) {
         cgt_scene *scene = mixed_scene(w.context[0], kind ? CLOUD_CLUSTERED : CLOUD_UNIFORM, kind, 12000);
         for (size_t b = 0; b < TEST_COUNT(builders); b++)
-            check_builder(&w, world_of(scene), b, kind ? "many clustered" : "many");
+            check_builder(&w, committed_of(scene), b, kind ? "many clustered" : "many");
         mixed_scene_free(scene);
     }
     print_workshop("many", &w);

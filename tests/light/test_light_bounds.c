@@ -235,7 +235,7 @@ static void ask(test_random *r, content what, bool shrink, tally sum[2][SHRUNK +
 static void bounds_hold(void **state)
 {
     (void)state;
-    const uint32_t turns = 2 + test_scaled(250);
+    const uint32_t turns = 2 + test_scaled(100);
     for (int what = 0; what < CONTENTS; what++) {
         test_random r = random_make(800 + (uint64_t)what);
         tally sum[2][SHRUNK + 2] = {{{0}}};
@@ -266,7 +266,7 @@ static void bounds_break_where_they_are_tightened(void **state)
         test_random r = random_make(850 + (uint64_t)what);
         tally sum[2][SHRUNK + 2] = {{{0}}};
         uint64_t hidden = 0;
-        for (uint32_t turn = 2 + test_scaled(6); turn; turn--)
+        for (uint32_t turn = 2 + test_scaled(4); turn; turn--)
             ask(&r, (content)what, true, sum, &hidden);
         const uint32_t lost = first_wrong(sum[0], false), invented = first_wrong(sum[0], true);
         const uint32_t missed = first_wrong(sum[1], false);

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The shipped trajectory against brute force: every pixel of frames of a real simulation has the hit that exists among
- * all spheres, and its t. The brute force (support/truth.c) looks at every sphere, in double with a margin to leave out
- * what is surely missed, in wide arithmetic for the rest; it shares no line with the library. */
+ * The shipped trajectory against brute force: every pixel of frames of a real simulation has the nearest hit among
+ * all spheres, and its t. The brute force (support/truth.c) rejects clear misses in double with a margin and decides
+ * the rest in wide arithmetic; it shares no code with the library. */
 #include "support/scenes.h"
 
 #include <math.h>

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Primitives and rays for the tests of the exact oracle: made by hand, or random and aimed at what is hard to decide. */
+ * Primitives and rays for the tests of the exact oracle: made by hand, or random and aimed at what is hard to
+ * decide. */
 #ifndef ORACLE_INPUT_H
 #define ORACLE_INPUT_H
 

@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact oracle where the answer is known beforehand: tangents, edges, vertices, ties, the ends of the range and
- * of float. */
+ * The exact oracle where the answer is known: tangents, edges, vertices, ties, the ends of the range and of float. */
 #include "support/test.h"
 
 #include <float.h>
@@ -150,7 +149,7 @@ static void triangle_in_closed_form(void **state)
     assert_true(misses(triangle_of(0, v), ray_of(-1, 1, 0x1p-149f, 1, 0, -0x1p-148f))); /* before the edge */
 }
 
-/* Edges and vertices belong to it; what is beside by the smallest float does not. */
+/* Edges and vertices belong to it; a point off by the smallest float does not. */
 static void edges_and_vertices(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact oracle on random input: laws of its arithmetic, textbook formulas in binary128, and what must not change a
- * verdict. */
+ * The exact oracle on random input: laws of its arithmetic, textbook formulas in binary128, and changes that must
+ * not affect a verdict. */
 #include "support/test.h"
 
 #include <math.h>

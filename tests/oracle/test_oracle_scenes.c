@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact oracle in whole scenes: closed meshes have no holes, its first look in double changes nothing, and it
- * agrees with the oracle that knows doubts. */
+ * The exact oracle in whole scenes: closed meshes have no holes, its filter in double changes no result, and it
+ * agrees with the oracle that reports doubt. */
 #include "support/test.h"
 
 #include <float.h>
@@ -127,7 +127,7 @@ static truth_ray random_ray(test_random *r, box b, const oracle_scene *scene)
     return ray;
 }
 
-/* The nearest hit by exact arithmetic alone. */
+/* The nearest hit by exact arithmetic, without the filter. */
 static uint32_t nearest_unfiltered(const oracle_scene *scene, const truth_ray *ray)
 {
     oracle_line line;

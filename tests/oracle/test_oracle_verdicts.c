@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Verdicts of the exact oracle: every kind of wrong answer is told, doubt ends where it should, errors are measured. */
+ * Verdicts of the exact oracle: every kind of wrong answer is detected, doubt ends where it should, errors are
+ * measured. */
 #include "support/test.h"
 
 #include <float.h>

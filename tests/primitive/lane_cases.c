@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays and objects for the tests of leaves. */
+ * Rays and primitives for the tests of leaves. */
 #include "primitive/lane_cases.h"
 
 #include <math.h>

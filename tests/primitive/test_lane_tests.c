@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The single-precision tests of leaves, of the variant that this is compiled for, against the exact oracle: a certain
- * hit is a hit, in the range, and the interval holds its t; what is neither certain nor open is no hit; and no hit is
- * nearer than the interval of an open lane begins. All of it for a vector of rays with one object, and for one ray with
- * a vector of objects. Then the bounds are made tighter, by giving FILTER_ROUNDOFF less than the unit roundoff, until they
- * break: a bound that never broke would be too wide to be of use. */
+ * The single-precision tests of leaves with one variant, against the exact oracle: a certain hit is a hit within the
+ * range and the interval contains its t; a lane neither certain nor undecided is a miss; and no hit is nearer than
+ * the interval of an undecided lane. Both forms are tested: a vector of rays with one primitive, and one ray with a
+ * vector of primitives. Then FILTER_ROUNDOFF is lowered below the unit roundoff until the bounds break: a bound that
+ * never breaks is too wide to be useful. */
 #include "primitive/lane_cases.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
@@ -119,8 +119,8 @@ static void print_lane(const subject *s, int form, int i, const char *what, cons
 {
     const truth_ray *ray = &s->of.ray[form ? 0 : i];
     const oracle_primitive *q = &s->of.prim[form ? i : 0];
-    print_message("%s: t %a, interval %a %a, world's scale %a\n  org {%a, %a, %a} dir {%a, %a, %a} t_min %a\n ", what,
-                  (double)*t, (double)low, (double)high, (double)s->committed_scene.scale, (double)ray->org[0],
+    print_message("%s: t %a, interval %a %a, scale of the scene %a\n  org {%a, %a, %a} dir {%a, %a, %a} t_min %a\n ",
+                  what, (double)*t, (double)low, (double)high, (double)s->committed_scene.scale, (double)ray->org[0],
                   (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1],
                   (double)ray->dir[2], (double)ray->t_min);
     for (int k = 0; k < (q->kind == ORACLE_SPHERE ? 4 : 9); k++)
@@ -207,7 +207,7 @@ static void bounds_hold(void **state)
         tally sum[2] = {{0}};
         if (f == CASE_FLAT && kind == ORACLE_SPHERE)
             continue;
-        for (uint32_t k = 100 + test_scaled(f == CASE_ANY ? 1000 : 350); k; k--) {
+        for (uint32_t k = 100 + test_scaled(f == CASE_ANY ? 500 : 100); k; k--) {
             lane_case c;
             case_truth truth;
             case_make(&r, kind, (case_family)f, &c);
@@ -220,7 +220,7 @@ static void bounds_hold(void **state)
     }
 }
 
-/* Where bounds of earlier days did not hold. */
+/* Cases in which earlier bounds did not hold. */
 static const struct {
     float triangle[9], magnitude;
     truth_ray ray;
@@ -273,7 +273,7 @@ static void bounds_break_where_they_are_tightened(void **state)
     tally sum[STEPS] = {{0}};
     for (size_t f = 0; f < TEST_COUNT(hard); f++) {
         test_random r = random_make(50 + 100 * (uint64_t)kind + f);
-        for (uint32_t k = 150 + test_scaled(250); k; k--) {
+        for (uint32_t k = 100 + test_scaled(100); k; k--) {
             lane_case c;
             case_truth truth;
             float scale = 0x1p-24f;

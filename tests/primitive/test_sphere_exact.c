@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One sphere, hard rays, through the public calls of every variant: hit or miss and t against the truth in wide
- * arithmetic, the ends of the range, and ties. */
+ * One sphere and hard rays through the public calls of every variant: hit or miss and t against wide arithmetic, the
+ * ends of the range, and ties. */
 #include "support/scenes.h"
 
 #include <math.h>

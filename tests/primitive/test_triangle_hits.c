@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a hit on a triangle carries: t, u, v, the normal and ids, as far as asked for; ties; any hit. */
+ * What a hit on a triangle returns: t, u, v, the normal and ids, each only where requested; ties; any hit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

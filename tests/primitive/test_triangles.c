@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles in the public interface: layouts of arrays, several geometries of both kinds, updates, what is refused and
- * what is skipped. What a hit carries is another program's. */
+ * Triangles in the public interface: layouts of arrays, several geometries of both kinds, updates, refused and
+ * skipped input. test_triangle_hits.c tests what a hit returns. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

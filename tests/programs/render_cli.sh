@@ -3,8 +3,14 @@
 # SPDX-License-Identifier: MIT
 #
 # The command line of cgt-render: pictures, their contents where tools to read them are there, errors, exit codes.
-#   render_cli.sh CGT_RENDER DATA_DIR [EMULATOR...]
+#   render_cli.sh CGT_RENDER WITHOUT_IMAGES DATA_DIR [EMULATOR...]
+# WITHOUT_IMAGES is the same program without the image library, whose start takes 0.3 s: errors are tested with it.
+render=$1
+without_images=$(cd "$(dirname "$2")" && pwd)/$(basename "$2")
+shift 2
+set -- "$render" "$@"
 . "$(dirname "$0")/cli.sh"
+[ -x "$without_images" ] || without_images=$program
 
 # refuses CODE PATTERN ARGUMENTS...: an error with a text, nothing on standard output, no picture.
 refuses() {
@@ -12,7 +18,10 @@ refuses() {
     refused_text=$2
     shift 2
     rm -rf "$tmp/no"
+    render=$program
+    program=$without_images
     run "$refused_code" -o no/%d.png "$@"
+    program=$render
     says err "$refused_text"
     says err 'cgt-render: '
     [ ! -s "$tmp/stdout" ] || fail "output beside an error: cgt-render $*"

@@ -112,7 +112,7 @@ static void speeds_take_velocities(void **state)
     speed_release(s.tracker);
 }
 
-/* Vertices keep their places; whatever ids the triangles may have. */
+/* Vertices keep their positions, whatever the ids of the triangles. */
 static void speeds_of_vertices(void **state)
 {
     const float a[6] = {0, 0, 0, 1, 1, 1}, b[6] = {3, 4, 0, 1, 1, 1};

@@ -99,7 +99,7 @@ static void maps_are_continuous_and_clamp(void **state)
     }
 }
 
-/* Brighter is more: the lightness of viridis rises all the way, which is what makes it readable in grey. */
+/* Larger values are brighter: the lightness of viridis rises monotonically, so that it reads well in grey. */
 static void viridis_rises_in_lightness(void **state)
 {
     float last = -1.0f;
@@ -309,7 +309,8 @@ static void sheets_scale_in_linear_light(void **state)
 
 /* ---- Progress ----------------------------------------------------------------------------------------------- */
 
-/* Where standard error is no terminal, progress is whole lines without control characters, and errors stand alone. */
+/* If standard error is no terminal, progress consists of whole lines without control characters, and errors of lines
+ * of their own. */
 static void progress_is_plain_lines_in_a_file(void **state)
 {
     char text[2000];

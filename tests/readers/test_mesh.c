@@ -19,8 +19,9 @@
 
 #ifdef CGT_HAVE_MESHES
 
-/* assimp 5.2 loses the half-read mesh of an .obj or .stl that it refuses. What comes from C++'s operator new is assimp's:
- * the code under test is C, and its own leaks are still seen. Asked for by the leak sanitizer; else never called. */
+/* assimp 5.2 loses the half-read mesh of an .obj or .stl that it refuses. What comes from C++'s operator new is
+ * assimp's: the code under test is C, and its own leaks are still seen. Asked for by the leak sanitizer; else never
+ * called. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) { return "leak:libassimp.so\nleak:libstdc++.so\n"; }
 
@@ -58,7 +59,7 @@ static double six_volumes(const trajectory_frame *f)
     return sum;
 }
 
-/* ---- What is read ------------------------------------------------------------------------------------------- */
+/* ---- Good files ------------------------------------------------------------------------------------------- */
 
 static void quads_become_triangles(void **state)
 {

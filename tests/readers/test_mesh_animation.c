@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Meshes that move: a glTF file written here, whose vertices are worked out by hand, and characters that others made. */
+ * Meshes that move: a glTF file written here, whose vertices are worked out by hand, and characters that others
+ * made. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
@@ -150,7 +151,7 @@ static const char *write_gltf_ending_with(uint16_t vertex)
 
 static const char *write_gltf(void) { return write_gltf_ending_with(strip_index[8]); }
 
-/* ---- What is expected --------------------------------------------------------------------------------------- */
+/* ---- Expected vertices --------------------------------------------------------------------------------------- */
 
 static trajectory *open_clip(const char *path, const char *clip, double fps)
 {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .frames of spheres: the bytes, reading what was written, damage. The bytes are spelt out, so that a machine of the other byte
- * order has to agree. */
+ * .frames of spheres: the bytes, reading back what was written, damaged files. The bytes are spelt out, so that a
+ * machine of the other byte order must agree. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Numbers of text files: the short way gives the bits of strtof and strtod, for every kind of number. */
+ * Numbers in text files: the fast path gives the bits of strtof and strtod for every kind of number. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .frames of triangles: the bytes, reading what was written, damage. */
+ * .frames of triangles: the bytes, reading back what was written, damaged files. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>

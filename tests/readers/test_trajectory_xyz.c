@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .xyz: plain and extended, elements and types, damage. */
+ * .xyz: plain and extended, elements and types, damaged files. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>

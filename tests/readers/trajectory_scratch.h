@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the tests of the trajectory readers share: scratch files, and expectations about whole files. Include cmocka
- * first. Files lie in TMPDIR and are removed by scratch_teardown, also after a test that failed. */
+ * Scratch files for the tests of the trajectory readers, and expectations about whole files. Include cmocka first.
+ * Files lie in TMPDIR; scratch_teardown removes them, after a failed test as well. */
 #ifndef TRAJECTORY_SCRATCH_H
 #define TRAJECTORY_SCRATCH_H
 
@@ -145,7 +145,7 @@ static inline void scratch_put_u32(unsigned char *bytes, size_t at, uint32_t val
     }
 }
 
-/* A number that a file may not hold where it is, and what is said of it after so many frames. */
+/* A number that makes a file bad at this place, and the error after this many frames. */
 typedef struct scratch_change {
     size_t at;
     uint32_t value;

@@ -11,7 +11,8 @@ shift 2
 program=$(mktemp)
 trap 'rm -f "$program"' EXIT
 
-"$cc" -std=c11 -O2 -ffp-contract=off -DCGT_HAVE_PORTABLE -DCGT_VARIANT=portable -DCGT_VARIANT_PORTABLE -DCGT_LANES=4 \
+# not optimised: that it compiles and links is what is tested
+"$cc" -std=c11 -O0 -ffp-contract=off -DCGT_HAVE_PORTABLE -DCGT_VARIANT=portable -DCGT_VARIANT_PORTABLE -DCGT_LANES=4 \
     -DCGT_SPU_PORTABLE -Iinclude -Isimd -Isrc $(find src backends -name "*.c" | LC_ALL=C sort) tests/repository/consumer/consumer.c \
     -o "$program" -lpthread -lm
 "$@" "$program"

@@ -172,7 +172,7 @@ static void every_overload_on_constants(void **state)
     assert_int_equal(failed, 0);
 }
 
-/* ---- constants that a mapping may ask for, beside variables ---- */
+/* ---- constants that a mapping may require, with variables ---- */
 
 static const vec_uchar16 bytes = {0xf0, 0x81, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 0x8f};
 static const vec_uint4 words = {0x80010203, 0x04050607, 0x88090a0b, 0x0c0d0e0f};

@@ -91,7 +91,7 @@ static overload overload_of(size_t i)
 
 /* ---- one comparison ---- */
 
-/* After its first failure an overload is left alone: the test goes on with the others of the word. */
+/* After its first failure an overload is skipped; the test continues with the others of the word. */
 static void check(overload *o, const spu_quad in[3])
 {
     if (o->has_failed)

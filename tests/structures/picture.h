@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A camera's frame with all fields, pixel by pixel as the answers to rays. What fails here fails the test. */
+ * A camera's frame with all fields, pixel by pixel as an array of hits. What fails here fails the test. */
 #ifndef PICTURE_H
 #define PICTURE_H
 

@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random scenes of triangles, and of triangles and spheres, about 1 in size and about the origin, and cameras to look
- * at them. */
+ * Random scenes of triangles, and of triangles and spheres, of size 1 about the origin, and cameras for them. */
 #ifndef RANDOM_SOUP_H
 #define RANDOM_SOUP_H
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes for which every structure must find the same hits: of all sizes and places, empty and spoilt ones too; and
- * rays at them, many along the planes at which structures cut. What fails here fails the test. */
+ * Scenes for which every structure must find the same hits: of all sizes and positions, empty and spoilt ones
+ * included; and rays for them, many along the planes at which structures split. What fails here fails the test. */
 #ifndef STRUCTURE_SCENES_H
 #define STRUCTURE_SCENES_H
 

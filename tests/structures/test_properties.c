@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Properties over random scenes: every pixel and every ray has the hit that brute force finds, for all kinds of
- * clouds, structures, cameras and options. A failure names the round; the seed that was printed makes it again. */
+ * Random scenes, structures, cameras and options: every pixel and every ray has the hit that brute force finds. A
+ * failure names the round; the printed seed reproduces it. */
 #include "support/scenes.h"
 
 #include <stdio.h>
@@ -68,14 +68,13 @@ static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, b
     }
 }
 
-/* Where it is slow, the variants share the rounds, up to three: each has every step-th one. 3 and 2 are prime to the
- * kinds of clouds. */
+/* The variants share the rounds: each has every step-th one. 3 and 2 are prime to the kinds of clouds. */
 static uint32_t round_step(void)
 {
     uint32_t variants = 0;
     FOR_EACH_VARIANT(variant)
     variants++;
-    return test_scaled(10) >= 2 || variants < 2 ? 1 : variants == 2 ? 2 : 3;
+    return variants < 3 ? variants : 3;
 }
 
 static void nearest_hit_is_that_of_brute_force(void **state)

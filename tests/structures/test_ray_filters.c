@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Masks and ignored primitives: through every structure, nearest and any hit, the answer is that of brute force over
- * what is left; copies of what is ignored are found; ids of nothing ignore nothing; arrays of any layout; points
- * against a light; frames of a camera with a mask. */
+ * Masks and skipped primitives. Through every structure, nearest and any hit are those of brute force over the
+ * remaining primitives; a copy of a skipped primitive is found; ids of nothing skip nothing; arrays of any layout,
+ * points against a light, and frames of a camera with a mask. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -113,7 +113,7 @@ static cgt_rays rays_of(const filtered_ray *ray, uint32_t count, uint32_t what)
     return r;
 }
 
-/* Most ignore what they hit; the others something else, or what there is not. */
+/* Most rays skip what they hit; the others skip another primitive, or one that does not exist. */
 static void make_filters(subject *t, const cgt_scene *scene, filtered_ray *ray)
 {
     static full_hit hit[RAYS];
@@ -149,7 +149,7 @@ static bool invalid(const truth_ray *ray)
            (ray->dir[0] == 0 && ray->dir[1] == 0 && ray->dir[2] == 0);
 }
 
-/* ---- brute force over what is left ---- */
+/* ---- brute force over the remaining primitives ---- */
 
 typedef struct answer {
     float t;

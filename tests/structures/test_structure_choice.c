@@ -32,7 +32,7 @@ static cgt_scene_statistics statistics_of(const cgt_scene *scene)
     return st;
 }
 
-/* ---- what is refused ---- */
+/* ---- refused options ---- */
 
 static void refuse(cgt_context *context, cgt_scene *committed, const cgt_scene_options *o, const char *word)
 {

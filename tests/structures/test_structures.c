@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every structure finds the same hits, bit for bit: grids, kd-tree and kd-tree with ropes, by each builder, in each
- * layout, traversed ray by ray and in packets, with one thread, three, and a task runner that runs backwards. What they
- * are held against is a grid of one cell, in which every primitive meets every ray. */
+ * Every structure finds the same hits, bit for bit: grids, BVH, kd-tree and kd-tree with ropes, by each builder, in
+ * each layout, traversed by single rays and by packets, with one thread, with three, and with a task runner that
+ * runs backwards. A grid of one cell, in which every ray tests every primitive, is the reference. */
 #include "structures/structure_scenes.h"
 
 #include <math.h>
@@ -102,7 +102,7 @@ static cgt_trace_options trace_way(uint32_t number, cgt_trace_statistics *statis
     return o;
 }
 
-/* ---- what is asked, and the answers of one cell ---- */
+/* ---- scene, cameras, rays, and the reference answers of one cell ---- */
 
 #define MOST_RAYS 640u
 #define RAYS test_between(320, MOST_RAYS)
@@ -353,7 +353,7 @@ static void test_kind(void **state)
 {
     const structure_kind kind = *(const structure_kind *)*state;
     const uint32_t scaled = test_scaled(4), rounds = kind == STRUCTURE_LARGE || kind == STRUCTURE_BEYOND ? 1 : scaled;
-    /* of the ways, where it is slow; prime to them */
+    /* where it is slow, a sample of the ways: coprime to their number */
     const uint32_t step = test_samples() ? 11 : test_scaled(10) < 2 ? 3 : 1;
     for (uint32_t round = 0; round < rounds; round++) {
         question q = ask(kind, 100 * (uint64_t)kind + round);

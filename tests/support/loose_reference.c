@@ -51,7 +51,7 @@ static void visit_all(const cgt_primitives *prims, visit *each, void *user)
     }
 }
 
-/* What is known of a level before it is laid out. */
+/* A level before its layout. */
 typedef struct plan {
     loose_reference *r;
     double largest;

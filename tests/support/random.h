@@ -8,12 +8,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Random numbers: one stream per use, so that a test's numbers do not depend on the others'. */
+/* Random numbers: one stream per use, so that the numbers of a test do not depend on other tests. */
 typedef struct test_random {
     uint64_t state;
 } test_random;
 
-/* The seed of all streams that are made from now on; RANDOM_DEFAULT_SEED without a call. */
+/* Sets the seed of all streams made later; RANDOM_DEFAULT_SEED without a call. */
 #define RANDOM_DEFAULT_SEED UINT64_C(20260117)
 void random_seed(uint64_t of_all);
 

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/triangle_cluster.h"
+
 /* ---- contexts ---- */
 
 const char *variant_next(size_t *index)
@@ -18,6 +20,23 @@ const char *variant_next(size_t *index)
             return name;
     }
     return NULL;
+}
+
+bool variant_is_outer(const char *name)
+{
+    const char *first = NULL, *last = NULL;
+    FOR_EACH_VARIANT(variant)
+    {
+        first = first ? first : variant;
+        last = variant;
+    }
+    return !strcmp(name, first) || !strcmp(name, last);
+}
+
+bool clusters_always(void)
+{
+    const cgt_primitives nothing = {0};
+    return cgt_choose_clusters(&nothing) == CGT_CLUSTERS_ALL;
 }
 
 cgt_context *context_make(uint32_t threads, const char *variant)

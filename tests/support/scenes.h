@@ -16,6 +16,14 @@ const char *variant_next(size_t *index);
     for (size_t name##_index_ = 0, name##_once_ = 1; name##_once_; name##_once_ = 0)                                   \
         for (const char *name = variant_next(&name##_index_); name; name = variant_next(&name##_index_))
 
+/* Whether a variant is the first or the last that this CPU runs, the narrowest or the widest. The others are compiled
+ * from the same text: tests of many cases may give them fewer. */
+bool variant_is_outer(const char *name);
+
+/* Whether this program always makes clusters of triangles: clusters/always_clusters.c is linked. The same tests run
+ * without it, too, so whatever has no clusters can be left out: scenes with spheres, the queue grid, kd-trees. */
+bool clusters_always(void);
+
 cgt_context *context_make(uint32_t threads, const char *variant);
 
 /* Of two threads, with memory that counts how often it is asked for. */
@@ -55,7 +63,7 @@ cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count);
 /* Any structure, AUTO included, of any builder, layout and break level. */
 cgt_scene_options structure_random(test_random *r);
 
-/* The defaults with one structure after the other, AUTO left out: what tests go round. */
+/* The defaults with one structure after the other, without AUTO. */
 cgt_scene_options structure_in_turn(uint32_t turn);
 
 /* A scene of one geometry, committed. options may be NULL. */
@@ -63,7 +71,7 @@ cgt_scene *scene_of(cgt_context *context, const cgt_scene_options *options, cons
 
 /* ---- frames ---- */
 
-/* A camera that sees all of a cloud, from outside along an axis. */
+/* A camera outside a cloud that sees all of it, along an axis. */
 cgt_camera camera_before(const cloud *c);
 
 /* A camera somewhere around or inside a cloud, of any projection and opening. */
@@ -95,7 +103,7 @@ uint64_t frame_judge(const planes *p, const truth_ray *rays, const float (*spher
 
 /* ---- rays ---- */
 
-/* A ray towards a cloud from anywhere, or through it without a target; a few have ranges. */
+/* A ray from anywhere towards a point of a cloud, or through the cloud at random; a few have ranges. */
 truth_ray ray_random(test_random *r, const cloud *c);
 
 typedef struct ray_hit {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What every test of the core includes: cmocka, the public header, the seed, random numbers.
+ * Included by every test of the core: cmocka, the public header, the seed, random numbers.
  *
  *   CGT_TEST_SEED   seed of all random numbers; each program prints the one it used
  *   CGT_TEST_SCALE  factor for the length of heavy loops, default 1; emulators and sanitizers take less */
@@ -21,12 +21,12 @@
 #include "support/random.h"
 
 #define TEST_COUNT(a) (sizeof(a) / sizeof((a)[0]))
-#define TEST_SKIPPED 77 /* exit code: what is tested does not exist here */
+#define TEST_SKIPPED 77 /* exit code: not possible on this machine */
 
 /* Prints the program's name, seed and scale. Call it first in main. */
 void test_begin(const char *name);
 
-/* Whether this CPU runs a variant; says so where it does not. CGT_VARIANT_NAME is that of the file's own row. */
+/* Whether this CPU runs a variant; prints a message if not. CGT_VARIANT_NAME is the variant of the file's own row. */
 bool test_variant_runs(const char *name);
 #define TEST_TEXT_(x) #x
 #define TEST_TEXT(x) TEST_TEXT_(x)
@@ -35,10 +35,10 @@ bool test_variant_runs(const char *name);
 /* n times the scale, at least 1. */
 uint32_t test_scaled(uint32_t n);
 
-/* The same between bounds: where it is slow no less than least, where it is fast no more than n. */
+/* The same, clamped to [least, n]. */
 uint32_t test_between(uint32_t least, uint32_t n);
 
-/* Whether a test is to take a sample of its cases instead of all: below a scale of 0.1. */
+/* Whether to run a sample of the cases instead of all: below a scale of 0.1. */
 bool test_samples(void);
 
 /* Where a sample of every step-th case begins, below step. number: which of many such samples it is; they begin

@@ -21,7 +21,7 @@
 #define SMALLEST 0x00800000u
 #define LARGEST 0x7fffffffu
 
-/* ---- spu_arithmetic_words.c: each word and what the model has for it ---- */
+/* ---- spu_arithmetic_words.c: each word and its model ---- */
 
 typedef struct word1 {
     const char *name;

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The SPU's mode and the compiler: a word is neither folded where its operands are constants, nor taken out of the two
- * calls that switch the mode, nor into them. Compiled at every level of optimisation, these are tests of
- * CGT_SPU_HOLD. */
+ * The SPU's mode and the compiler: a word with constant operands is not folded, and no word is moved into or out of
+ * the two calls that switch the mode. Compiled at every optimisation level, these test CGT_SPU_HOLD. */
 #include "simd/arithmetic/spu_arithmetic.h"
 
 #include <fenv.h>

@@ -72,7 +72,7 @@ static uint64_t significand_of(uint32_t a) { return (a >> 23 & 255) ? (a & 0x7ff
 /* ab + c, ab with the sign of its highest bit and its lowest bit at place_ab */
 static uint32_t sum_of(uint64_t ab, uint32_t sign_ab, int place_ab, uint32_t c)
 {
-    fixed side[2]; /* sum of what is positive, and of what is negative */
+    fixed side[2]; /* sums of the positive and of the negative terms */
     memset(side, 0, sizeof side);
     if (ab)
         add_bits(&side[sign_ab >> 31], ab, place_ab);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the second source file of test_spu_channels offers the first. */
+ * The interface of the second source file of test_spu_channels. */
 #ifndef SPU_CHANNELS_UNIT_H
 #define SPU_CHANNELS_UNIT_H
 

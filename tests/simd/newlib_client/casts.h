@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What casts.awk makes of a vector cast: one that does on any host what it does on an SPU. */
+ * casts.awk turns vector casts into these, which do on any host what a cast does on an SPU. */
 #ifndef CASTS_H
 #define CASTS_H
 

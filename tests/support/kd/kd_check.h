@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What must hold of every kd-tree, whoever built it. */
+ * The invariants of every kd-tree, whoever built it. */
 #ifndef KD_CHECK_H
 #define KD_CHECK_H
 

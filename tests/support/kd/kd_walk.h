@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the parts of the checker of kd-trees share. */
+ * Shared by the parts of the checker of kd-trees. */
 #ifndef KD_WALK_H
 #define KD_WALK_H
 
@@ -18,7 +18,7 @@ typedef struct kd_walk {
     double (*high)[3];
     bool *valid;    /* by object */
     uint8_t *used;  /* by reference */
-    uint32_t *list; /* objects that may touch the nodes on the way from the root, one list after the other */
+    uint32_t *list; /* primitives that may touch the nodes on the path from the root, one list after the other */
     uint32_t depth, leaves, empty_leaves;
     bool faulty;
 } kd_walk;

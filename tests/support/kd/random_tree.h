@@ -19,7 +19,7 @@ typedef struct random_tree {
 /* Bounds of a valid object, rounded outwards. */
 void object_bounds(const cgt_primitives *prims, uint32_t prim, double low[3], double high[3]);
 
-/* Over the valid objects of a world, of which there is at least one. max_depth: inner nodes above a leaf, below
+/* Over the valid primitives of a scene, of which there is at least one. max_depth: inner nodes above a leaf, below
  * CGT_KD_MAX_DEPTH. A node of more than leaf_size objects is mostly split, one of fewer seldom. */
 random_tree random_tree_make(test_random *r, const cgt_committed_scene *committed_scene, uint32_t max_depth,
                              uint32_t leaf_size);

@@ -32,7 +32,7 @@ typedef struct oracle_scene {
 
 /* ---- Scenes of their own memory: start with {0}, add geometries, end with oracle_scene_free ---- */
 
-/* What is wrong with the input, or lack of memory, ends the program with a message: a test cannot go on without. */
+/* Invalid input or lack of memory ends the program with a message: a test cannot continue. */
 void oracle_scene_add_spheres(oracle_scene *scene, uint32_t geometry, const float (*sphere)[4], uint32_t count);
 
 /* index: NULL for 3i, 3i + 1, 3i + 2 */
@@ -51,14 +51,15 @@ typedef struct oracle_hit {
     truth_real normal[3]; /* of unit length; of a point, which has none, against the ray */
 } oracle_hit;
 
-/* The nearest hit by the contract of cgt.h, by brute force over the scene. Primitives that are not finite, spheres of
- * negative radius and triangles without area take no part. A ray that is not finite or has no direction hits nothing. */
+/* The nearest hit by the contract of cgt.h, by brute force over the scene. Primitives that are not finite, spheres
+ * of negative radius and triangles without area take no part. A ray that is not finite or has no direction hits
+ * nothing. */
 oracle_hit oracle_trace(const oracle_scene *scene, const truth_ray *ray);
 
 /* The same for one primitive; false where it is not hit in the ray's range. The hit's index is 0. */
 bool oracle_hits(const oracle_primitive *primitive, const truth_ray *ray, oracle_hit *hit);
 
-/* What is wrong with an answer: 0, or ... */
+/* The verdict on an answer. */
 typedef enum oracle_verdict {
     ORACLE_RIGHT = 0,
     ORACLE_MISSED,   /* there is a hit, and none was given */

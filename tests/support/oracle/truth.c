@@ -84,7 +84,7 @@ typedef struct judgement {
     truth_roots roots;
 } judgement;
 
-/* A first look in double that leaves out what is surely missed: by a margin of 2^-30 of all that enters. */
+/* A filter in double that rejects clear misses, with a margin of 2^-30 of all operands. */
 static bool surely_missed(const truth_ray *ray, const float sphere[4])
 {
     const double c[3] = {(double)sphere[0] - ray->org[0], (double)sphere[1] - ray->org[1],

@@ -16,7 +16,7 @@ typedef __float128 truth_real; /* binary128 by the compiler's run-time library *
 typedef long double truth_real; /* binary128 on AArch64, a pair of doubles on POWER */
 #endif
 
-/* To some units in the last place; 0 for what is not above 0. */
+/* Accurate to a few units in the last place; 0 for operands that are not positive. */
 truth_real truth_square_root(truth_real a);
 
 typedef struct truth_roots {
