@@ -214,7 +214,7 @@ CGT_SPU_INLINE vmask light_compute_group(light_tile *t, uint32_t group)
 }
 
 /* The groups of a packet. False where rays leave too many directions to the light. */
-static bool light_compute_groups(light_tile *t, uint32_t number)
+static inline bool light_compute_groups(light_tile *t, uint32_t number)
 {
     vmask diverging = spux_mask_none();
     for (uint32_t i = 0; i < t->packet[number].rays.lanes; i += CGT_LANES)
@@ -223,7 +223,7 @@ static bool light_compute_groups(light_tile *t, uint32_t number)
 }
 
 /* What all groups have in common. */
-static void light_compute_bounds(light_tile *t)
+static inline void light_compute_bounds(light_tile *t)
 {
     vfloat far_w = spux_vfloat(-INFINITY);
     for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES)
@@ -241,7 +241,7 @@ static void light_compute_bounds(light_tile *t)
 }
 
 /* Slopes of those rays alone that still want something. */
-static void light_refresh_groups(light_tile *t)
+static inline void light_refresh_groups(light_tile *t)
 {
     for (uint64_t remaining = t->changed & t->undecided; remaining; remaining &= remaining - 1)
         light_compute_group(t, (uint32_t)__builtin_ctzll(remaining));

@@ -46,10 +46,10 @@ typedef struct light_packet {
     uint64_t work;
 } light_packet;
 
-static float light_max(float a, float b) { return a > b ? a : b; }
+static inline float light_max(float a, float b) { return a > b ? a : b; }
 
 /* The main axis and the reference, by any ray that takes part. False where there is no common way. */
-static bool light_init_axes(const packet *p, const float org[3], const float dir[3], light_packet *l)
+static inline bool light_init_axes(const packet *p, const float org[3], const float dir[3], light_packet *l)
 {
     const bool is_point = p->to_light;
     float upper = 0;
@@ -79,7 +79,7 @@ CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene,
     l->margin = magnitude * LIGHT_MARGIN;
 }
 
-static void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
+static inline void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
 {
     vfloat max_org[3];
     for (int a = 0; a < 3; a++) {
@@ -91,7 +91,7 @@ static void light_compute_margin(const cgt_committed_scene *committed_scene, con
 }
 
 /* Whether all rays stay between their points and the light. */
-static bool light_check_ranges(const packet *p, light_packet *l)
+static inline bool light_check_ranges(const packet *p, light_packet *l)
 {
     const vfloat end = spux_vfloat(p->to_light ? 1 : INFINITY);
     vmask beyond = spux_mask_none(), other = spux_mask_none();
@@ -105,7 +105,7 @@ static bool light_check_ranges(const packet *p, light_packet *l)
 }
 
 /* What the tests of leaves take. */
-static void light_compute_terms(const packet *p, float scale, light_packet *l)
+static inline void light_compute_terms(const packet *p, float scale, light_packet *l)
 {
     vfloat max_component = spux_vfloat(0), max_sum = spux_vfloat(0);
     l->undecided = 0;
