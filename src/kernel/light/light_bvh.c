@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points against one light through the wide tree. Neighbours in the arrays become packets: all that runs between them
- * and the light lies in a frustum (light_frustum.h), against which a node's children are tested at once, and a leaf's
- * primitives. What is left is tested against all rays (light_leaf.h).
+ * Points against one light through the BVH. Neighbours in the arrays become packets, whose rays lie in a frustum
+ * (light_packet.h). A node's children are tested against the frustum at once, and so are a leaf's primitives; those that
+ * remain are tested against all rays (light_leaf.h).
  *
- * That shares most where primitives are large beside the packet. Where they are not, each ray is better off by itself:
- * a chunk of points whose first packets take more work than that goes through the tree as any other rays do. */
+ * Packets pay if primitives are large compared to them. Otherwise single rays are faster: a chunk whose first packets take
+ * too much work is traced like any other rays. */
 #include "kernel/bvh/bvh_node.h"
 #include "kernel/light/light_leaf.h"
 #include "kernel/light/light_points.h"
@@ -14,13 +14,13 @@
 #define LIGHT_BVH_PACKET_RAYS 64u
 #define LIGHT_STACK_SIZE (CGT_BVH_MAX_DEPTH * (CGT_LANES - 1) + 1)
 
-/* Packets that tell whether a chunk goes on as packets, and the work, in visits and tests, that one may take. Measured. */
+/* The first packets of a chunk, whose work decides whether it goes on as packets (LIGHT_PACKET_WORK). */
 #define LIGHT_TRIAL_PACKETS 4u
-#define LIGHT_MAX_WORK (4 * LIGHT_PACKET_WORK) /* of one packet: it is left off */
+#define LIGHT_MAX_WORK (4 * LIGHT_PACKET_WORK) /* of one packet: it is aborted beyond */
 
 /* ---- the frustum ---- */
 
-/* Adds margins. */
+/* Widens the frustum by its margins. */
 static void light_frustum_add_margins(const light_packet *l, light_frustum *f)
 {
     for (int a = 0; a < 2; a++)
@@ -33,7 +33,7 @@ static void light_frustum_add_margins(const light_packet *l, light_frustum *f)
     f->w[1] += l->margin;
 }
 
-/* Rays to a light at a place. False where they leave too many directions to it. */
+/* Rays to a point light. Returns false if their directions differ too much for one frustum. */
 static bool light_frustum_init_point(const packet *p, const light_packet *l, light_frustum *f)
 {
     const vfloat zero = spux_vfloat(0);
@@ -72,7 +72,7 @@ static bool light_frustum_init_point(const packet *p, const light_packet *l, lig
     return true;
 }
 
-/* The same with parallel rays. */
+/* Parallel rays. */
 static void light_frustum_init_parallel(const packet *p, const light_packet *l, light_frustum *f)
 {
     const int main = l->axis[0];
@@ -99,7 +99,7 @@ static void light_frustum_init_parallel(const packet *p, const light_packet *l, 
     light_frustum_add_margins(l, f);
 }
 
-/* The same by the last lane: a ray that takes part, or a copy of one. */
+/* light_init_axes by the last lane: a ray of the packet, or a copy of one. */
 static bool light_init_axes_from_last(light_packet *l)
 {
     const packet *p = &l->rays;
@@ -123,7 +123,7 @@ static bool light_packet_init(const cgt_committed_scene *committed_scene, light_
     return true;
 }
 
-/* Children that the frustum may meet, as bits. */
+/* The children that overlap the frustum, as bits. */
 CGT_SPU_INLINE unsigned light_visible_children(const light_packet *l, const bvh_node *node)
 {
     const light_frustum *f = &l->frustum;
@@ -151,9 +151,9 @@ CGT_SPU_INLINE unsigned light_visible_children(const light_packet *l, const bvh_
 
 /* A leaf's primitives in the frustum's coordinates. */
 typedef struct light_primitives {
-    vfloat w[3], v[2][3]; /* of each vertex; of a sphere's centre, thrice */
+    vfloat w[3], v[2][3]; /* of each vertex; of a sphere's centre, three times */
     vfloat radius;
-    float scale; /* that they are multiplied with */
+    float scale; /* factor of their coordinates */
 } light_primitives;
 
 CGT_SPU_INLINE void light_transform_points(const light_packet *l, const float point[3][CGT_LANES], float scale,
@@ -193,7 +193,7 @@ CGT_SPU_INLINE void light_transform_triangles(const light_packet *l, const trian
     q->scale = scale;
 }
 
-/* Primitives of a leaf that a frustum may meet. */
+/* The primitives of a leaf that overlap the frustum. */
 CGT_SPU_INLINE vmask light_frustum_overlaps(const light_frustum *f, const light_primitives *q, int vertices)
 {
     const vfloat scale = spux_vfloat(q->scale);
@@ -258,8 +258,8 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
         l->last_leaf = code;
 }
 
-/* False where it took too much work: what was found by then is right, the rest is not known. The leaf that closed the
- * packet before comes first: shadows are larger than packets. */
+/* Returns false if it takes too much work: hits found by then are right, the other rays are unknown. The leaf that
+ * occluded the previous packet is tested first: shadows are larger than packets. */
 static bool light_traverse(const light_call *c, light_packet *l)
 {
     const bvh_node *nodes = c->committed_scene->bvh.node;
@@ -273,6 +273,7 @@ static bool light_traverse(const light_call *c, light_packet *l)
     while (l->undecided) {
         if (l->work > LIGHT_MAX_WORK)
             return false;
+        /* test a leaf, or push the children of a node */
         if (code & CGT_BVH_LEAF) {
             light_test_leaf(c, l, code);
         } else {
@@ -282,6 +283,7 @@ static bool light_traverse(const light_call *c, light_packet *l)
             for (unsigned remaining = light_visible_children(l, node); remaining; remaining &= remaining - 1)
                 stack[top++] = node->child[__builtin_ctz(remaining)];
         }
+        /* pop the next node */
         if (!top)
             return true;
         code = stack[--top];
@@ -291,7 +293,7 @@ static bool light_traverse(const light_call *c, light_packet *l)
 
 /* ---- points ---- */
 
-/* Rays as structure of arrays. */
+/* Rays as a structure of arrays. */
 typedef struct light_rays {
     float org[3][CGT_RAYS_CHUNK], dir[3][CGT_RAYS_CHUNK], t_min[CGT_RAYS_CHUNK], t_max[CGT_RAYS_CHUNK];
     uint32_t mask[CGT_RAYS_CHUNK], primitive[CGT_RAYS_CHUNK], geometry[CGT_RAYS_CHUNK];
@@ -307,7 +309,7 @@ static const uint32_t *light_copy_ids(const light_call *c, const uint32_t *from,
     return to;
 }
 
-/* Points first to end - 1 as rays like any others. */
+/* Traces points first to end - 1 as single rays. */
 __attribute__((noinline)) static void light_trace_single_rays(const light_call *c, uint64_t first, uint64_t end)
 {
     light_rays copy;
@@ -336,8 +338,8 @@ __attribute__((noinline)) static void light_trace_single_rays(const light_call *
     c->counts->rays -= count; /* the call has counted them */
 }
 
-/* Points first to first + count - 1 of the order, and the work that they took. False where it was too much: then they
- * are as they were before. */
+/* Traces points first to first + count - 1 of the order as a packet and adds the work that it took. Returns false if it
+ * was too much: then nothing has changed. */
 static bool light_trace_points(const light_call *c, light_packet *l, uint32_t first, uint32_t count, uint64_t *work)
 {
     const uint64_t invalid = c->counts->invalid_rays;

@@ -1,26 +1,25 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points against one light through a loose grid, as cameras see it tile by tile (tile_trace.c): neighbours in the arrays
- * become a tile of 64 groups, a vector of rays each. All that runs between them and the light lies in a frustum
- * (light_frustum.h), along which objects come slice by slice. A vector of objects at a time is seen from the light; each
- * object has a window of slopes (of offsets, with parallel rays) then, that tells which groups may meet it. Those are
- * tested (light_leaf.h), and leave when all their rays have met something. */
+ * Points against one light through a loose grid, tile by tile as cameras go through it (tile_trace.c). Neighbours in the
+ * arrays become a tile of 64 groups, a vector of rays each. Primitives come slice by slice along the frustum of the tile's
+ * rays (light_packet.h). A vector of primitives at a time is projected as seen from the light: each gets a window of slopes
+ * (of offsets for parallel rays), which tells the groups that it may occlude. Those are tested (light_leaf.h). A group is
+ * done when all its rays have hit something. */
 #include "kernel/light/light_groups.h"
 #include "kernel/light/light_points.h"
 #include "kernel/tile/tile_march.h"
 
-/* Points of larger scenes are sorted in any case. Measured: that gains 7 % with 20,000 spheres and loses 15 % with 2,000. */
+/* Points of scenes from this size on are always sorted. Measured: gains 7 % with 20,000 spheres, loses 15 % with 2,000. */
 #define LIGHT_SORT_MIN_PRIMS 8192u
 
-#define LIGHT_REFRESH_TESTS                                                                                            \
-    256u /* tests of groups after which slopes are found again, of those that still want something */
+#define LIGHT_REFRESH_TESTS 256u /* tests of groups after which their ranges are computed again */
 
 _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups fill packets");
 
-/* ---- objects ---- */
+/* ---- primitives ---- */
 
-/* Counts a vector of references of which some are wanted. */
+/* Counts a vector of references, of which some are visible. */
 CGT_SPU_INLINE void light_count_references(const light_tile *t, uint32_t count, unsigned visible)
 {
     const uint32_t visible_count = spux_count_bits(visible);
@@ -83,7 +82,7 @@ static void light_tile_test_spheres(void *owner, const uint32_t *reference, uint
     light_test_visible(t, &leaf, LIGHT_SPHERES, &windows, visible);
 }
 
-/* As leaf_triangle.c makes them. */
+/* By the arithmetic of leaf_triangle.c. */
 CGT_SPU_INLINE void light_store_leaf_triangles(vfloat vertex[3][3], float scale, triangle_block *s)
 {
     vfloat first[3];
@@ -122,7 +121,7 @@ static void light_tile_test_triangles(void *owner, const uint32_t *reference, ui
         light_test_visible(t, &leaf, LIGHT_TRIANGLES_PARALLEL, &windows, visible);
 }
 
-/* Of at most a vector of clusters those whose boxes overlap the tile, as bits. */
+/* The visible ones of at most a vector of clusters, as bits. */
 static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
 {
     light_tile *t = owner;
@@ -147,7 +146,7 @@ static const prefetch_tests light_tests = {CGT_LANES, light_tile_test_spheres, l
 
 /* ---- the march ---- */
 
-/* The tile's slopes and offsets, its margin as an offset. */
+/* The march's slopes and offsets, with the tile's margin as an offset. */
 static void light_march_set_slopes(const light_tile *t, tile_march *m)
 {
     const double margin = (double)t->margin;
@@ -171,7 +170,8 @@ static void light_march_init(const light_tile *t, tile_march *m)
     m->forward = l->sign > 0;
     m->brute_force = false;
     m->rspeed = 1;
-    m->start_low = (t->is_point ? 0 : -(double)t->far_w) - (double)t->margin; /* rays end a little behind the light */
+    m->start_low =
+        (t->is_point ? 0 : -(double)t->far_w) - (double)t->margin; /* rays may end slightly behind the light */
     m->start_high = 0;
     light_march_set_slopes(t, m);
     for (uint32_t i = 0; i < m->grid->levels; i++)
@@ -180,7 +180,7 @@ static void light_march_init(const light_tile *t, tile_march *m)
 
 /* ---- the tile ---- */
 
-/* What the packets and groups have in common. */
+/* The bounds over all packets and groups. */
 static void light_tile_finish(light_tile *t)
 {
     light_packet *first = &t->packet[0];
@@ -202,7 +202,7 @@ static void light_tile_finish(light_tile *t)
     light_compute_bounds(t);
 }
 
-/* Adds the rays of the packet that has just been read. False where they are not for this tile. */
+/* Adds the packet that has just been read. Returns false if the tile cannot take it. */
 static bool light_tile_append(light_tile *t, light_packet *l)
 {
     const packet *p = &l->rays;
@@ -224,15 +224,18 @@ static void light_march_grid(light_tile *t)
     light_march_init(t, &m);
     t->group_tests = 0;
     while (t->undecided && tile_march_next_slice(&m, &s)) {
+        /* beyond all points? */
         if (t->is_point && s.near_t > (double)(t->far_w + t->margin)) {
             t->counts->early_exits++;
             break;
         }
         t->counts->slices++;
+        /* narrow the march to the rays that remain */
         if (t->group_tests >= LIGHT_REFRESH_TESTS) {
             light_refresh_groups(t);
             light_march_set_slopes(t, &m);
         }
+        /* queue the slice's references */
         const uint32_t runs = tile_slice_run_count(&m, &s);
         for (uint32_t k = 0; k < runs && t->undecided; k++) {
             uint32_t count;
@@ -243,6 +246,7 @@ static void light_march_grid(light_tile *t)
     prefetch_drain_all(&t->prefetch, &light_tests);
 }
 
+/* Traces points first to first + count - 1 of the order. */
 static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
 {
     const cgt_rays *points = c->source.rays;
@@ -258,6 +262,7 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
         packet *p = &l->rays;
         p->any_hit = true;
         p->fast = false;
+        /* in one pass if all is usual, else step by step, else apart from the tile */
         if (default_ranges && ray_count % CGT_LANES == 0 &&
             CGT_KERNEL(cgt_light_tile_read)(c, t, l, first + done, ray_count)) {
             from[t->packets] = first + done;
@@ -291,7 +296,7 @@ void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
                                       const cgt_light *light, uint64_t first, uint64_t end,
                                       const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
-    light_tile t; /* large: not all of it is set */
+    light_tile t; /* large: set field by field */
     _Alignas(64) uint32_t from[CGT_RAYS_CHUNK];
     light_call c = {.committed_scene = committed_scene,
                     .source = ray_source_init(points, light),

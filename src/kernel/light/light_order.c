@@ -1,17 +1,19 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a light sees of a chunk of points, and the order in which they go to groups. How well that goes changes no answer. */
+ * The points of a chunk as seen from a light: the order in which they are put into groups, and an estimate of how many
+ * primitives lie between. Neither changes any result. */
 #include "kernel/light/light_packet.h"
 #include "kernel/light/light_points.h"
 
-#define LIGHT_SAMPLE_STEP 16u /* of so many vectors of points one is looked at to tell how far they reach */
-#define SORT_CELLS 32u        /* along an edge of what the light sees of a chunk */
-#define SORT_RUNS 4u /* of a chunk, in turn: neighbours share cells, whose counters would wait for themselves */
+#define LIGHT_SAMPLE_STEP 16u /* one of so many vectors of points is sampled for the extent of a chunk */
+#define SORT_CELLS 32u        /* along each axis */
+#define SORT_RUNS                                                                                                      \
+    4u /* of a chunk, counted in turn: neighbours share cells, and incrementing one counter repeatedly would stall */
 
 _Static_assert(CGT_RAYS_CHUNK <= UINT16_MAX, "a chunk is counted in 16 bits");
 
-/* Bits 0 to 7 to every second place. */
+/* Moves bits 0 to 7 to the even bits. */
 CGT_SPU_INLINE vuint light_spread_bits(vuint i)
 {
     i = spu_and(spu_or(i, spu_sl(i, 4)), spux_vuint(0x0f0f));
@@ -19,14 +21,14 @@ CGT_SPU_INLINE vuint light_spread_bits(vuint i)
     return spu_and(spu_or(i, spu_sl(i, 1)), spux_vuint(0x5555));
 }
 
-/* Where the light sees points, along two axes, in any unit: for orders and estimates, which change no answer. */
+/* Projects points as the light sees them, along two axes and in any unit. */
 typedef struct light_projection {
     bool is_point;
     uint32_t main;
     float origin[3], slope[2];
 } light_projection;
 
-/* With the way of a chunk's middle point as the main one. */
+/* The main axis is that of the ray of the chunk's middle point. */
 static light_projection light_init_projection(const light_call *c, uint32_t count)
 {
     light_projection v = {.is_point = c->light.w == 1};
@@ -52,7 +54,7 @@ CGT_SPU_INLINE void light_apply_projection(const light_projection *v, const vflo
         coord[a] = spu_mul(spu_nmsub(spux_vfloat(v->slope[a]), w, from[(v->main + 1 + a) % 3]), rw);
 }
 
-/* Points k to k + CGT_LANES - 1 of a chunk; the last one again beyond its end. */
+/* Points k to k + CGT_LANES - 1 of a chunk; lanes beyond its end repeat the last one. */
 CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t count, vfloat point[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -68,7 +70,6 @@ CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t 
     }
 }
 
-/* Points that the light sees side by side to the same groups, along a Morton curve. */
 void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
 {
     _Alignas(64) float position[2][CGT_RAYS_CHUNK];
@@ -81,6 +82,7 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
         lower[a] = spux_vfloat(INFINITY);
         upper[a] = spux_vfloat(-INFINITY);
     }
+    /* project all points, and find their extent */
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vfloat point[3], coord[2];
         light_load_points(c, k, count, point);
@@ -96,6 +98,7 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
         lower[a] = spux_vfloat(first);
         scale[a] = spux_vfloat(length > 0 ? SORT_CELLS / length : 0);
     }
+    /* the keys: cells along the curve */
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vuint cell[2];
         for (int a = 0; a < 2; a++) {
@@ -105,6 +108,7 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
         spux_store_uint(key + k, spu_and(spu_or(light_spread_bits(cell[0]), spu_sl(light_spread_bits(cell[1]), 1)),
                                          spux_vuint(SORT_CELLS * SORT_CELLS - 1)));
     }
+    /* a counting sort: count, sum up, place */
     for (uint32_t i = 0; i < run; i++)
         for (uint32_t r = 0; r < SORT_RUNS; r++)
             start[key[r * run + i]][r]++;
@@ -116,15 +120,13 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
             start[k][r] = sum;
             sum = (uint16_t)(sum + cell_count);
         }
-    for (uint32_t i = 0; i < run; i++) /* points of a cell keep their order: neighbours in the arrays lie together */
+    for (uint32_t i = 0; i < run; i++) /* stable within a run */
         for (uint32_t r = 0; r < SORT_RUNS; r++)
             from[start[key[r * run + i]][r]++] = r * run + i;
     for (uint32_t k = run * SORT_RUNS; k < count; k++)
         from[start[key[k]][SORT_RUNS - 1]++] = k;
 }
 
-/* Whether neighbours in the arrays are mostly far from each other, as far as some of them tell: a third of what the
- * light sees of their chunk. */
 bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count)
 {
     const light_projection projection = light_init_projection(c, count);
@@ -163,6 +165,7 @@ uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_s
         lower[a] = spux_vfloat(INFINITY);
         upper[a] = spux_vfloat(-INFINITY);
     }
+    /* the extent of the points */
     for (uint32_t k = 0; k < count; k += LIGHT_SAMPLE_STEP * CGT_LANES) {
         vfloat point[3];
         light_load_points(&c, k, count, point);
@@ -172,6 +175,7 @@ uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_s
             upper[a] = spux_max(upper[a], coord[a]);
         }
     }
+    /* the extent of the scene */
     float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (uint32_t k = 0; k < 8; k++) {
         for (int a = 0; a < 3; a++)
@@ -184,7 +188,7 @@ uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_s
     }
     for (int a = 0; a < 2; a++) {
         const double points_extent = (double)spux_hmax(upper[a]) - (double)spux_hmin(lower[a]);
-        /* a light among the objects sees some of them behind itself */
+        /* a light among the primitives has some of them behind it: their slopes tell nothing */
         double scene_extent = (double)high[a] - (double)low[a];
         scene_extent = projection.is_point && !(scene_extent < 2 * (double)LIGHT_MAX_SLOPE)
                            ? 2 * (double)LIGHT_MAX_SLOPE

@@ -1,19 +1,19 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A packet of rays to one light, and the frustum that all of them lie in, with its tip at the light or, of parallel
- * rays, with parallel sides: four planes and two ends, against which a node's children are tested at once, and a leaf's
- * primitives.
+ * A packet of rays to one light. All of them lie in a frustum with its apex at the light or, for parallel rays, with
+ * parallel sides: four planes and two ends.
  *
- * The rays run mostly along one axis, the main one: w is the coordinate along it, seen from the reference (the light, or
- * the first point of parallel rays) and mirrored where they run against it, v that along another axis. Each ray's line
- * is v = slope w + offset, the offset 0 with a light at a place, the slope common without. So a plane is
- *     v - a w <= h,  a the largest slope and h the largest offset, and the like with the smallest
- * Margin. Let M be the sum of the largest coordinates, along any axis, of light, points and objects, and u = 2^-24.
- * Differences are within 2 u M. A slope is within 2 u of itself and of what v and w bring, so that the line is at most
- * 8 u M off between a point and the light, and 16 u M beyond a parallel ray's point as far as objects are, slopes being
- * at most 2. A canonical ray points past the light by u of its way, and t is rounded before it is compared with the
- * range. Of v - a w three operations round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than all of that. */
+ * The rays run mostly along one axis, the main one. w is the coordinate along it, seen from the origin of the packet (the
+ * light, or the first point of parallel rays), and mirrored if the rays run against it; v is the coordinate along another
+ * axis. Each ray's line is v = slope w + offset. With a point light the offset is 0, with parallel rays the slope is
+ * common. So a plane of the frustum is
+ *     v - a w <= h,  a the largest slope and h the largest offset, and likewise with the smallest
+ * Margin. Let M be the sum of the largest coordinates, along any axis, of light, points and primitives, and u = 2^-24.
+ * Differences are within 2 u M. A slope is within a relative 2 u plus the errors of v and w, so a line is off by at most
+ * 8 u M between a point and the light, and by 16 u M beyond a parallel ray's point as far as the primitives, for slopes of
+ * at most 2. A canonical ray misses the light by u of its length, and t is rounded before it is compared with the range.
+ * The three operations of v - a w round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than the sum of these. */
 #ifndef CGT_LIGHT_PACKET_H
 #define CGT_LIGHT_PACKET_H
 
@@ -23,7 +23,7 @@
 #define LIGHT_MAX_SLOPE 2.f
 
 /* Rays lie between the planes v - slope[a][0] w >= offset[a][0] and v - slope[a][1] w <= offset[a][1], for both axes a,
- * and between two w. Margins are in it. */
+ * and between two w. Margins are included. */
 typedef struct light_frustum {
     float slope[2][2], offset[2][2];
     float length[2][2]; /* of each plane's normal, rounded up */
@@ -33,23 +33,23 @@ typedef struct light_frustum {
 typedef struct light_packet {
     packet rays;
     light_frustum frustum;
-    _Alignas(CGT_VECTOR_BYTES) float ray_terms[3][PACKET_MAX_RAYS]; /* x, see light_leaf.h */
+    _Alignas(CGT_VECTOR_BYTES) float ray_terms[3][PACKET_MAX_RAYS]; /* x of light_leaf.h */
     float square[PACKET_MAX_RAYS];                                  /* d.d */
-    float max_component, max_sum; /* of all x: the largest component, and the largest sum of their sizes */
-    bool default_ranges;          /* every range is from 0, to 1 at a light that has a place, to infinity else */
-    uint64_t undecided;           /* vectors with rays that have met nothing, as bits */
+    float max_component, max_sum; /* over all x: the largest component, and the largest 1-norm */
+    bool default_ranges;          /* every range is [0, 1], or [0, infinity] for parallel rays */
+    uint64_t undecided;           /* vectors with rays that have hit nothing, as bits */
     int axis[3];                  /* the main one first */
-    float sign;                   /* of the way from the reference along it */
+    float sign;                   /* of the rays' origins along it, seen from `origin` */
     float origin[3];
-    float margin;       /* without 1 + |a| */
-    uint32_t last_leaf; /* the leaf that closed the last rays of the packet before; 0: none */
+    float margin;       /* without the factor 1 + |a| */
+    uint32_t last_leaf; /* the leaf that occluded the last rays of the previous packet; 0: none */
     uint64_t work;
 } light_packet;
 
-static float light_max(float a, float b) { return a > b ? a : b; }
+static inline float light_max(float a, float b) { return a > b ? a : b; }
 
-/* The main axis and the reference, by any ray that takes part. False where there is no common way. */
-static bool light_init_axes(const packet *p, const float org[3], const float dir[3], light_packet *l)
+/* Chooses the main axis and the origin by any ray of the packet. Returns false if the ray has no direction. */
+static inline bool light_init_axes(const packet *p, const float org[3], const float dir[3], light_packet *l)
 {
     const bool is_point = p->to_light;
     float upper = 0;
@@ -68,7 +68,7 @@ static bool light_init_axes(const packet *p, const float org[3], const float dir
     return upper > 0;
 }
 
-/* farthest: lanes with the largest sizes of points along each axis. */
+/* max_org: in its lanes, the largest size of points' coordinates along each axis. */
 CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene, const vfloat max_org[3],
                                      light_packet *l)
 {
@@ -79,7 +79,7 @@ CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene,
     l->margin = magnitude * LIGHT_MARGIN;
 }
 
-static void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
+static inline void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
 {
     vfloat max_org[3];
     for (int a = 0; a < 3; a++) {
@@ -90,8 +90,8 @@ static void light_compute_margin(const cgt_committed_scene *committed_scene, con
     light_set_margin(committed_scene, max_org, l);
 }
 
-/* Whether all rays stay between their points and the light. */
-static bool light_check_ranges(const packet *p, light_packet *l)
+/* Whether all rays end at the light or before. */
+static inline bool light_check_ranges(const packet *p, light_packet *l)
 {
     const vfloat end = spux_vfloat(p->to_light ? 1 : INFINITY);
     vmask beyond = spux_mask_none(), other = spux_mask_none();
@@ -104,8 +104,8 @@ static bool light_check_ranges(const packet *p, light_packet *l)
     return spux_none(beyond);
 }
 
-/* What the tests of leaves take. */
-static void light_compute_terms(const packet *p, float scale, light_packet *l)
+/* The terms of the rays that the tests of leaves need. */
+static inline void light_compute_terms(const packet *p, float scale, light_packet *l)
 {
     vfloat max_component = spux_vfloat(0), max_sum = spux_vfloat(0);
     l->undecided = 0;

@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points whose rays have the usual ranges, from arrays of their own to a packet of a tile in one pass: the rays, what tests
- * take of them, and the slopes of their groups. It finds what light_load_packet, light_compute_margin, light_compute_terms and light_compute_groups
- * do one after the other. */
+ * Reads points with default ranges from dense arrays into a packet of a tile, in one pass: the rays, their terms and the
+ * ranges of their groups. The result is that of light_load_packet, light_compute_margin, light_compute_terms and
+ * light_compute_groups, one after the other. */
 #include "kernel/light/light_groups.h"
 
-/* Lane k gets the least of all lanes of vector k; and the greatest. */
+/* Lane k gets the minimum of all lanes of vector k; and the maximum. */
 CGT_SPU_INLINE vfloat light_reduce_min(vfloat v[CGT_LANES])
 {
     for (uint32_t n = CGT_LANES / 2; n; n /= 2)
@@ -28,7 +28,7 @@ CGT_SPU_INLINE vfloat light_reduce_max(vfloat v[CGT_LANES])
     return v[0];
 }
 
-/* What the light sees of a packet's rays: slopes or offsets, and w. */
+/* A packet's rays seen from the light: slopes or offsets, and w. */
 typedef struct light_projected_rays {
     _Alignas(CGT_VECTOR_BYTES) float coord[2][PACKET_MAX_RAYS], w[PACKET_MAX_RAYS];
 } light_projected_rays;
@@ -39,8 +39,8 @@ CGT_SPU_INLINE void light_load_vectors(const float *values, uint32_t lanes, vflo
         v[k] = spux_load(values + (k * CGT_LANES < lanes ? k * CGT_LANES : 0));
 }
 
-/* The groups of packet `number`, with as many lanes, all of them open: a vector of groups at a time. Those beyond the
- * packet's end get any numbers. */
+/* Stores the ranges of the groups of packet `number`, all of whose lanes are undecided, a vector of groups at a time.
+ * Groups beyond the packet's end get any numbers. */
 CGT_SPU_INLINE void light_store_groups(light_tile *t, uint32_t number, const light_projected_rays *projected,
                                        uint32_t lanes, bool is_point)
 {
@@ -58,7 +58,7 @@ CGT_SPU_INLINE void light_store_groups(light_tile *t, uint32_t number, const lig
     }
 }
 
-/* Bounds of squares where what PACKET_MAX_COORDINATE and PACKET_MIN_DIR bound is surely within. */
+/* Bounds of squares, within those that PACKET_MAX_COORDINATE and PACKET_MIN_DIR imply. */
 #define LIGHT_MAX_SQUARE 0x1p109f
 #define LIGHT_MIN_SQUARE 0x1p-107f
 
@@ -73,6 +73,7 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
     vmask valid = spux_mask_all();
     light_projected_rays projected;
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
+        /* origin, direction and terms */
         vfloat org[3], coord[2], w, square = spux_vfloat(0), sum = square, size = square;
         for (int a = 0; a < 3; a++) {
             const vfloat light = spux_vfloat(c->light.position[a]);
@@ -90,11 +91,12 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
                 spux_store(l->ray_terms[a] + i, spu_mul(x, scale));
         }
         max_sum = spux_max(max_sum, sum);
-        /* false where a number is none */
+        /* valid: false for NaN */
         valid = spu_and(valid, spux_cmpge(spux_vfloat(PACKET_MAX_COORDINATE), size));
         valid = spu_and(valid, spux_cmpge(spux_vfloat(LIGHT_MAX_SQUARE), square));
         valid = spu_and(valid, spux_cmpge(square, spux_vfloat(LIGHT_MIN_SQUARE)));
         valid = spu_andc(valid, light_project_rays(t, l, org, &w, coord));
+        /* the ray, without a hit */
         spux_store(l->square + i, square);
         spux_store(p->t_min + i, spux_vfloat(0));
         spux_store(p->t_max + i, end);

@@ -144,7 +144,7 @@ CGT_SPU_INLINE void prefetch_queues_clear(prefetch_queues *q)
  * compilers make copies of these functions with direct calls. */
 typedef void prefetch_drain_fn(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count);
 
-static void prefetch_drain_spheres(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
+__attribute__((unused)) static void prefetch_drain_spheres(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
 {
     prefetch_queue *q = &o->pending->spheres;
     const uint32_t batch = tests->sphere_batch;
@@ -153,7 +153,7 @@ static void prefetch_drain_spheres(const prefetch_owner *o, const prefetch_tests
     prefetch_queue_remove(q, count);
 }
 
-static void prefetch_drain_triangles(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
+__attribute__((unused)) static void prefetch_drain_triangles(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
 {
     prefetch_queue *q = &o->pending->triangles;
     uint32_t prefetched = 0;
@@ -165,7 +165,7 @@ static void prefetch_drain_triangles(const prefetch_owner *o, const prefetch_tes
 }
 
 /* Queues the triangles of visible clusters. */
-static void prefetch_drain_clusters(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
+__attribute__((unused)) static void prefetch_drain_clusters(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
 {
     const cgt_cluster *cluster = o->committed_scene->cluster;
     prefetch_queue *q = &o->pending->clusters, *triangles = &o->pending->triangles;

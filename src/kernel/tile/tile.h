@@ -1,21 +1,24 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A tile: up to 64x64 pixels of a camera, traced together, with all that is kept of them small enough for the first
- * cache.
+ * A tile: up to 64x64 pixels of a camera that are traced together. Its state fits into the first-level cache.
  *
- * Per pixel an object and a depth q are kept. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near d.d that is the
- * same for all objects, a hit's depth is q = t N. The exact q of a pixel's best hit lies in [z, z + gap], where gap is
- * one number for the whole tile. A pixel without a hit has the end of the camera's range there; a pixel beyond the
- * region has -infinity, and takes no part.
+ * Each pixel has its closest primitive so far and a depth q. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near d.d
+ * that depends on the pixel alone, a hit's depth is q = t N. The exact q of a pixel's closest hit lies in
+ * [z, z + depth_error], where depth_error is one number for the whole tile. A pixel without a hit has z at the end of the
+ * camera's range. A pixel outside the region has z = -infinity and never gets a hit.
  *
- * Where a scene has triangles alone, the depth is -1/t: it is linear on the screen, and cheaper. Its exact value lies in
- * [z, z (1 - TILE_LINEAR_ERROR)] then, which is as wide near the eye as far away. Such tiles are called linear.
+ *   kind          when                     depth   exact depth lies in
+ *   perspective   spheres, or both kinds   t N     [z, z + depth_error]
+ *   linear        triangles only           -1/t    [z, z (1 - TILE_LINEAR_ERROR)]: relative, the same near and far
+ *   parallel      orthographic camera      t       [z, z + depth_error]; N is 1
+ * A linear depth is linear on the screen, and so cheaper to compute.
  *
- * Rays of an orthographic camera are parallel; N is 1 for them, and depths are t. Such tiles are called parallel.
+ * Pixels are stored as pairs of rows, interleaved: (x, y) at y / 2 * 128 + 2 x + y % 2. A vector that starts at any
+ * column holds CGT_LANES / 2 columns of two rows, whatever its width:
  *
- * Pixels are stored as pairs of rows, interleaved: (x, y) at y / 2 * 128 + 2 x + y % 2. So a vector that starts at any
- * column holds CGT_LANES / 2 columns of two rows, at every width. */
+ *   row y      0 2 4 6 8 ...  126
+ *   row y + 1  1 3 5 7 9 ...  127       of rows y + 2 and y + 3: 128 and on */
 #ifndef CGT_TILE_H
 #define CGT_TILE_H
 
@@ -24,21 +27,21 @@
 #define TILE_EDGE 64u
 #define TILE_PIXELS (TILE_EDGE * TILE_EDGE)
 #define TILE_ROW_PAIR (2 * TILE_EDGE) /* pixels of a pair of rows */
-#define TILE_PAD 16u                  /* a window may begin in the last column */
+#define TILE_PAD 16u                  /* a vector may start in the last column */
 #define TILE_PARTS 4u                 /* parts of 16x16 pixels along an edge */
 #define TILE_MAX_TRIANGLES 2048u      /* triangles that a tile lists */
 
-/* Of 1/t, in linear tiles: what the best hit's may be less than z says. Less, and planes that are seen at a slant are
- * too coarse; more, and more layers are too near to each other. */
+/* The relative depth error of linear tiles. With a smaller one, single precision cannot decide planes that are seen at a
+ * slant; with a larger one, more layers are too close to each other. */
 #define TILE_LINEAR_ERROR 0x1p-9
 #define TILE_LINEAR_FACTOR (1 - TILE_LINEAR_ERROR)
 
-/* How a tile's depths come about; a constant where functions are called. */
+/* Which depths a tile has; a constant where functions are called. */
 typedef enum tile_kind { TILE_PERSPECTIVE, TILE_LINEAR, TILE_PARALLEL } tile_kind;
 
-/* What a tile's arithmetic knows of the camera. The axes are orthogonal but for rounding, which tile_limits.h checks,
- * and a point c' seen from the eye is c' = z forward + x right / |right| + y up / |up| with z, x, y the products of c'
- * and `dual`, the rows of the inverse of exactly these axes. So what the axes lack is an error of the metric alone. */
+/* The camera. Its axes are orthogonal except for rounding, which tile_limits.h checks. A point c' seen from the eye is
+ * c' = z forward + x right / |right| + y up / |up|, where z, x, y are the products of c' and `dual`, the rows of the
+ * inverse of exactly these axes. So a defect of the axes is an error of the metric only. */
 typedef struct tile_camera {
     float dual[3][3];
     float right, up;   /* lengths */
@@ -46,45 +49,46 @@ typedef struct tile_camera {
     float rright, rup; /* reciprocals */
 } tile_camera;
 
-/* Columns or rows: x / z of camera space times `scale`, less `first`, counts from the middle of the tile's first one. */
+/* An axis of the screen: x / z of camera space times `scale`, minus `first`, is a column (or row), counted from the
+ * middle of the tile's first one. */
 typedef struct tile_span {
     float scale, first;
-    float pixels, last; /* how many, and that less one */
+    float pixels, last; /* their number, and that minus one */
 } tile_span;
 
 typedef struct tile {
     _Alignas(64) float z[TILE_PIXELS + TILE_PAD];
     _Alignas(64) uint32_t prim[TILE_PIXELS + TILE_PAD]; /* CGT_INVALID_ID: none yet */
-    _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD]; /* linear: where in `listed` a pixel's object is */
-    _Alignas(64) float px[TILE_ROW_PAIR + TILE_PAD];    /* of a pair of rows; NaN where a window leaves the tile */
-    _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];    /* the two rows of a pair by turns */
-    _Alignas(
-        64) float far_distance[TILE_PARTS * TILE_PARTS]; /* beyond this distance a part of 16x16 pixels wants nothing */
+    _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD]; /* linear tiles: the index of a pixel's primitive in `triangles` */
+    _Alignas(64) float px[TILE_ROW_PAIR + TILE_PAD];    /* of a pair of rows; NaN beyond the tile */
+    _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];    /* the two rows of a pair, alternating */
+    /* of each part of 16x16 pixels: the farthest distance at which it can still be hit; anything beyond is occluded */
+    _Alignas(64) float far_distance[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float rlength[TILE_PARTS * TILE_PARTS]; /* at least 1 / sqrt(N) of any pixel of a part */
-    float max_far_distance, max_far_t;                   /* of all parts, as distance and as t */
-    bool initialised; /* pixels have been opened: until then nothing is in z and object */
-    bool linear;      /* depths are -1/t; `far` and `farthest` are t then */
-    bool parallel;    /* depths are t, and the rays have one direction */
-    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS]; /* middles of the parts, as px and py */
+    float max_far_distance, max_far_t;                   /* the largest of all parts, as distance and as t */
+    bool initialised; /* false: z and prim are not set yet */
+    bool linear;      /* depths are -1/t; far_distance is a t */
+    bool parallel;    /* depths are t; all rays have one direction */
+    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS]; /* the parts' middles, in px and py */
     _Alignas(64) float part_y[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float part_half_width[TILE_PARTS * TILE_PARTS]; /* half their sizes, rounded up */
     _Alignas(64) float part_half_height[TILE_PARTS * TILE_PARTS];
-    _Alignas(
-        64) uint32_t triangles[TILE_MAX_TRIANGLES + CGT_LANES]; /* what has won pixels; it may have lost them since */
-    uint32_t triangle_count;                                    /* how many; TILE_MAX_TRIANGLES: there were too many */
-    float column[TILE_EDGE], row[TILE_EDGE];                    /* px and py; beyond the region the last ones again */
+    /* linear tiles: triangles that have been the closest one of a pixel; some have lost all of theirs since */
+    _Alignas(64) uint32_t triangles[TILE_MAX_TRIANGLES + CGT_LANES];
+    uint32_t triangle_count; /* TILE_MAX_TRIANGLES: too many to list */
+    float column[TILE_EDGE], row[TILE_EDGE];                    /* px and py; beyond the region the last one is repeated */
     uint32_t columns, rows;                                     /* in the region */
     tile_span column_span, row_span;
     float span_ratio;                      /* ratio of their scales */
-    float depth_error, padded_depth_error; /* wide: what rounding of differences adds is in it */
-    float max_norm, min_norm;              /* N of any pixel is between these */
-    float max_dir_length;                  /* at least sqrt(most) */
-    float length_error;                    /* of lengths: what underflows, and what origins are off by twice */
-    float origin_error,
-        origin_offset; /* of parallel rays: origins are off by u times this; the farthest one beside the eye */
+    float depth_error, padded_depth_error; /* padded: with the rounding of differences */
+    float max_norm, min_norm;              /* bounds of N over all pixels */
+    float max_dir_length;                  /* at least sqrt(max_norm) */
+    float length_error;                    /* absolute error of lengths: underflow, and twice the error of origins */
+    float origin_error;  /* parallel rays: u times this bounds the error of an origin */
+    float origin_offset; /* parallel rays: the largest distance of an origin from the eye */
     const cgt_camera_rays *rays;
     tile_camera camera;
-    float axis[3], tangent, secant; /* a cone about all rays, as z, x, y; secant 0: too wide for one */
+    float axis[3], tangent, secant; /* a cone around all rays, as z, x, y; secant 0: they are too wide for one */
 } tile;
 
 CGT_SPU_INLINE uint32_t tile_column(uint32_t i) { return (i & (TILE_ROW_PAIR - 1)) >> 1; }
@@ -104,8 +108,8 @@ CGT_SPU_INLINE tile_kind tile_get_kind(const tile *t)
 
 /* ---- the pixels ---- */
 
-/* Of a hit at t of pixel i, the depth that is kept: the exact one is in the middle of what it tells. A linear one stays
- * finite, since -infinity would close the pixel. */
+/* The z for a hit of pixel i at hit_t: the exact depth is in the middle of the interval that z stands for. A linear depth
+ * stays finite, because -infinity would disable the pixel. */
 CGT_SPU_INLINE float tile_compute_depth(const tile *t, uint32_t i, double hit_t)
 {
     if (!t->linear)
@@ -114,13 +118,13 @@ CGT_SPU_INLINE float tile_compute_depth(const tile *t, uint32_t i, double hit_t)
     return hit_t > 0x1p-120 ? (float)depth : -0x1p120f;
 }
 
-/* The exact depth of a best hit is not beyond this. */
+/* An upper bound of the exact depth of a pixel with this z. */
 CGT_SPU_INLINE double tile_depth_bound(const tile *t, double z)
 {
     return t->linear ? z * TILE_LINEAR_FACTOR : z + (double)t->depth_error;
 }
 
-/* Refreshes how far each part still looks. */
+/* Recomputes far_distance of each part from its pixels' z. */
 CGT_SPU_INLINE void tile_update_far_distances(tile *t)
 {
     float max_far_distance = -INFINITY, max_far_t = -INFINITY;
@@ -144,7 +148,7 @@ CGT_SPU_INLINE void tile_update_far_distances(tile *t)
     t->max_far_t = max_far_t * (1 + 0x1p-20f);
 }
 
-/* Closes the pixels of a vector that are beyond the region. */
+/* Disables the pixels of a vector that lie outside the region. */
 CGT_SPU_INLINE void tile_disable_outside_pixels(tile *t, uint32_t first)
 {
     if (tile_row(first) >= t->rows || tile_column(first) >= t->columns)
@@ -155,7 +159,7 @@ CGT_SPU_INLINE void tile_disable_outside_pixels(tile *t, uint32_t first)
                 t->z[i] = -INFINITY;
 }
 
-/* Pixels without a hit, and without an end of the range. */
+/* Sets all pixels to no hit, with an infinite range. */
 CGT_SPU_INLINE void tile_clear_pixels(tile *t)
 {
     t->initialised = true;
@@ -165,9 +169,9 @@ CGT_SPU_INLINE void tile_clear_pixels(tile *t)
     }
 }
 
-/* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
- * there is none. Where every pixel would be as the others, that waits for the first object that the tile may see: many
- * a tile of the sky never has one. */
+/* Pixels start with the end of the range; those outside the region are disabled. far_t: no primitive is hit beyond this
+ * t, so a larger end of the range is none. If all pixels would be set alike, that is deferred to the first visible
+ * primitive (tile_ensure_pixels): many sky tiles never need it. */
 CGT_SPU_INLINE void tile_init_pixels(tile *t, float far_t)
 {
     const bool has_end = t->rays->t_max < far_t, full = t->columns == TILE_EDGE && t->rows == TILE_EDGE;
@@ -188,21 +192,21 @@ CGT_SPU_INLINE void tile_init_pixels(tile *t, float far_t)
     tile_update_far_distances(t);
 }
 
-/* Before an object comes to the pixels. */
+/* To be called before the first primitive is rasterised. */
 CGT_SPU_INLINE void tile_ensure_pixels(tile *t)
 {
     if (!t->initialised)
         tile_clear_pixels(t);
 }
 
-/* Lists an object, if it has won any pixel: with slot `lists`, as it was. */
+/* Lists a triangle if it has become the closest one of a pixel; those pixels have the old triangle_count as their slot. */
 CGT_SPU_INLINE void tile_append_triangle(tile *t, uint32_t prim, bool won)
 {
     t->triangles[t->triangle_count] = prim;
     t->triangle_count += won && t->triangle_count < TILE_MAX_TRIANGLES;
 }
 
-/* Gives a pixel to an object. */
+/* Makes a primitive the closest one of pixel i. */
 CGT_SPU_INLINE void tile_set_closest(tile *t, uint32_t i, uint32_t prim)
 {
     t->prim[i] = prim;
@@ -213,7 +217,7 @@ CGT_SPU_INLINE void tile_set_closest(tile *t, uint32_t i, uint32_t prim)
     t->slot[i] = t->triangle_count - 1;
 }
 
-/* The canonical directions of px and py, or the origins of parallel rays, in the order of camera.h. */
+/* The canonical directions for px and py, or origins of parallel rays, computed in the order of camera.h. */
 CGT_SPU_INLINE void tile_compute_directions(const tile *t, bool parallel, vfloat px, vfloat py, vfloat dir[3])
 {
     const cgt_camera_rays *c = t->rays;
@@ -224,7 +228,7 @@ CGT_SPU_INLINE void tile_compute_directions(const tile *t, bool parallel, vfloat
     }
 }
 
-/* The canonical directions of so many pixels, at most a vector; the first one again beyond them. */
+/* The canonical directions of `count` pixels, at most a vector; lanes beyond repeat the first. */
 CGT_SPU_INLINE void tile_gather_directions(const tile *t, const uint16_t *pixel, uint32_t count, vfloat dir[3])
 {
     _Alignas(CGT_VECTOR_BYTES) float px[CGT_LANES], py[CGT_LANES];
@@ -236,7 +240,7 @@ CGT_SPU_INLINE void tile_gather_directions(const tile *t, const uint16_t *pixel,
     tile_compute_directions(t, false, spux_load(px), spux_load(py), dir);
 }
 
-/* The canonical line of a pixel, in the order of camera.h. */
+/* The canonical line of a pixel, computed in the order of camera.h. */
 CGT_SPU_INLINE cgt_exact_ray tile_pixel_line(const cgt_camera_rays *c, bool parallel, float px, float py)
 {
     const float *from = parallel ? c->eye : c->fwd;

@@ -12,16 +12,17 @@
 
 /* ---- a vector of windows ---- */
 
-/* Windows of a vector of objects: columns x0 to x1 and rows y0 to y1. */
+/* Columns x0 to x1 and rows y0 to y1, both ends included. */
 typedef struct tile_windows {
     _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
 } tile_windows;
 
-/* The pixels from low to high, cut to the tile. Returns the lanes without any, whose first and last are open. */
+/* The columns (or rows) from low to high, cut to the tile. Returns the lanes without any; their first and last are not
+ * defined. */
 CGT_SPU_INLINE vmask tile_compute_window(vfloat low, vfloat high, const tile_span *span, uint32_t *first,
                                          uint32_t *last)
 {
-    /* up from 1/16 below, which is less than 1/32 below where that is a whole number */
+    /* the first column above low - 1/16: the bounds ask for those from low - 1/32 on */
     const vfloat low_column = spux_max(spu_add(low, spux_vfloat(0.9375f)), spux_vfloat(0));
     const vfloat to = spux_min(spu_add(high, spux_vfloat(0.0625f)), spux_vfloat(span->last));
     const vint from = spux_truncate(spux_min(low_column, spux_vfloat(span->pixels)));
@@ -30,7 +31,7 @@ CGT_SPU_INLINE vmask tile_compute_window(vfloat low, vfloat high, const tile_spa
     return spu_cmpgt((vfloat)spu_convtf(from, 0), to);
 }
 
-/* Pixels of an axis that lengths about x cover, from low to high, as columns or rows from the tile's first. */
+/* The columns (or rows) from low to high that parallel rays see of what lies within half_width of x. */
 CGT_SPU_INLINE void tile_compute_parallel_span(const tile_span *span, vfloat x, vfloat half_width, vfloat *low,
                                                vfloat *high)
 {
@@ -38,7 +39,7 @@ CGT_SPU_INLINE void tile_compute_parallel_span(const tile_span *span, vfloat x, 
     *high = spu_msub(spu_add(x, half_width), spux_vfloat(span->scale), spux_vfloat(span->first));
 }
 
-/* Windows of boxes with half extents wide and high. Returns the lanes without one. */
+/* Windows of boxes in a tile of parallel rays. Returns the lanes without one. */
 CGT_SPU_INLINE vmask tile_compute_parallel_windows(const tile *t, vfloat x, vfloat y, vfloat half_width,
                                                    vfloat half_height, tile_windows *w)
 {
@@ -50,7 +51,7 @@ CGT_SPU_INLINE vmask tile_compute_parallel_windows(const tile *t, vfloat x, vflo
     return spu_or(outside_x, tile_compute_window(low, top, &t->row_span, w->y0, w->y1));
 }
 
-/* Windows of these lanes, as bits: all of the tile. */
+/* Sets the windows of these lanes, as bits, to the whole tile. */
 CGT_SPU_INLINE void tile_set_full_windows(const tile *t, unsigned lanes, tile_windows *w)
 {
     for (; lanes; lanes &= lanes - 1) {
@@ -61,13 +62,14 @@ CGT_SPU_INLINE void tile_set_full_windows(const tile *t, unsigned lanes, tile_wi
     }
 }
 
-/* What z is times this, `far` tells at least: t is z but for the canonical direction's rounding. */
+/* z times this is at most the distance as far_distance counts it: t is z except for the rounding of the canonical
+ * direction. */
 CGT_SPU_INLINE float tile_min_distance_scale(const tile *t)
 {
     return (t->linear ? 1 : sqrtf(t->min_norm)) * (1 - 0x1p-17f);
 }
 
-/* How far the parts of the tile with these numbers see; lanes without a window may have any number. */
+/* far_distance of the parts with these numbers; lanes without a window may have any number. */
 CGT_SPU_INLINE vfloat tile_gather_far_distance(const tile *t, vuint part)
 {
 #if CGT_LANES == 16
@@ -77,8 +79,8 @@ CGT_SPU_INLINE vfloat tile_gather_far_distance(const tile *t, vuint part)
 #endif
 }
 
-/* How far the parts under the corners of windows see; apart: windows that span more than two parts, of which the corners
- * do not tell. */
+/* The largest far_distance of the parts under the corners of windows. large_windows: those that span more than two parts
+ * along an axis, so that the corners do not tell. */
 CGT_SPU_INLINE vfloat tile_window_far_distance(const tile *t, const tile_windows *w, vmask *large_windows)
 {
     const vuint row = spux_vuint(3 * TILE_PARTS), one = spux_vuint(1);
@@ -96,7 +98,7 @@ CGT_SPU_INLINE vfloat tile_window_far_distance(const tile *t, const tile_windows
 
 /* ---- one window ---- */
 
-/* A window as columns x0 to x1 and rows y0 to y1. */
+
 typedef struct tile_rect {
     uint32_t x0, x1, y0, y1;
 } tile_rect;
@@ -106,7 +108,7 @@ CGT_SPU_INLINE tile_rect tile_window_rect(const tile_windows *w, int k)
     return (tile_rect){.x0 = w->x0[k], .x1 = w->x1[k], .y0 = w->y0[k], .y1 = w->y1[k]};
 }
 
-/* The parts of 16x16 pixels, as bits, that still want something as near as this sphere. */
+/* The parts, as bits, in which something at this distance can still be visible. */
 CGT_SPU_INLINE unsigned tile_visible_parts(const tile *t, float min_distance)
 {
     unsigned visible = 0;
@@ -148,7 +150,7 @@ CGT_SPU_INLINE bool tile_clip_window(const tile *t, const tile_windows *w, int k
     return true;
 }
 
-/* A window with a corner in every part that it meets: whether the tile is open there was asked of the whole vector. */
+/* Whether a window has a corner in every part that it overlaps: then tile_window_far_distance has tested all of it. */
 CGT_SPU_INLINE bool tile_window_is_small(const tile_windows *w, int k)
 {
     return w->x1[k] / 16 - w->x0[k] / 16 <= 1 && w->y1[k] / 16 - w->y0[k] / 16 <= 1;

@@ -5,7 +5,7 @@
  * (tile_decide_spheres.c), and triangles by runs of one pair of them (tile_decide_triangles.c). */
 #include "kernel/tile_draw/tile_queue.h"
 
-/* The bits of a shape that is as good as the winner make it a hit; the lower object wins. */
+/* Whether two primitives have the same bits: then both are hit at the same t, and the lower number wins. */
 CGT_SPU_INLINE bool tile_same_primitive(const cgt_primitives *prims, uint32_t a, uint32_t b)
 {
     const cgt_primitive p = cgt_primitives_get(prims, a), q = cgt_primitives_get(prims, b);
@@ -15,7 +15,6 @@ CGT_SPU_INLINE bool tile_same_primitive(const cgt_primitives *prims, uint32_t a,
                                       : !memcmp(&p.triangle, &q.triangle, sizeof p.triangle);
 }
 
-/* Of any two objects. */
 void CGT_KERNEL(cgt_tile_decide)(const cgt_primitives *prims, tile *t, uint32_t i, uint32_t prim, cgt_counts *counts)
 {
     const uint32_t closest = t->prim[i];
@@ -45,7 +44,7 @@ void CGT_KERNEL(cgt_tile_flush)(const cgt_primitives *prims, tile *t, tile_queue
     q->entries = 0;
 }
 
-/* Queues what a drawn sphere left open. */
+/* Most lanes are decided: four vectors are looked at at once. */
 void CGT_KERNEL(cgt_tile_queue_undecided)(const cgt_primitives *prims, tile *t, uint32_t prim, tile_rect rect,
                                           uint32_t windows, const uint16_t *undecided, tile_queue *queue,
                                           cgt_counts *counts)
@@ -62,7 +61,6 @@ void CGT_KERNEL(cgt_tile_queue_undecided)(const cgt_primitives *prims, tile *t, 
     }
 }
 
-/* Queues lanes that a small sphere left open: sixteen bits of each pair of rows. */
 void CGT_KERNEL(cgt_tile_queue_small)(const cgt_primitives *prims, tile *t, uint32_t prim, uint32_t first,
                                       uint64_t undecided, tile_queue *queue, cgt_counts *counts)
 {

@@ -1,26 +1,26 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Entries of a tile's queue that are about spheres of one array, seen from one eye: a vector of them at a time, by the
- * short way of sphere_double.h. Its t is the canonical one, so that what is far enough apart for decide.c to tell is told
- * here, too. A line passes by where the discriminant is below 0 by more than it may be off, 18 e (c.c + r^2) d.d, for
- * which 2^-48 is taken. What is left open, the last few silhouettes and what is as near as another, decide.c decides. */
+ * Decides the entries of a tile's queue about spheres of one array, seen from one eye, a vector at a time, by the short
+ * formula of sphere_double.h. Its t is the canonical one, so two t that decide.c can tell apart in double are told apart
+ * here. A line misses if the discriminant is below 0 by more than its error, 18 e (c.c + r^2) d.d, for which 2^-48 is
+ * taken. The rest, a few silhouettes and hits as near as another, is left to decide.c. */
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/resolve/resolve_spheres.h"
 #include "kernel/tile_draw/tile_queue.h"
 
-/* What is known of a vector of entries. */
+/* The decisions about a vector of entries. */
 typedef struct tile_decisions {
-    _Alignas(CGT_VECTOR_BYTES) uint32_t closest[CGT_LANES]; /* of the pixel, when this was found out */
-    double t[CGT_LANES];                                    /* of the object, where it beats the winner */
+    _Alignas(CGT_VECTOR_BYTES) uint32_t closest[CGT_LANES]; /* the pixel's closest primitive when this was decided */
+    double t[CGT_LANES];                                    /* of the primitive, where it is accepted */
     unsigned accepted, rejected;                            /* lanes as bits */
 } tile_decisions;
 
-/* What the short way knows of a vector of lines and spheres. */
+/* The short formula for a vector of lines and spheres. */
 typedef struct tile_near_hits {
     vdouble t[2];
     vfloat rounded;
-    vmask known, missed; /* t is the canonical one, and not before the range; the line surely passes by */
+    vmask known, missed; /* t is the canonical one, and not before the range; certain misses */
 } tile_near_hits;
 
 CGT_SPU_INLINE tile_near_hits tile_intersect_spheres(const tile *t, const cgt_primitive_array *array, vuint number,
@@ -46,7 +46,7 @@ CGT_SPU_INLINE tile_near_hits tile_intersect_spheres(const tile *t, const cgt_pr
     return n;
 }
 
-/* Entries `first` and on, as many as there are up to a vector. */
+/* Entries `first` and on, at most a vector. */
 CGT_SPU_INLINE void tile_decide_spheres(const cgt_primitive_array *array, const tile *t, const tile_queue *q,
                                         uint32_t first, tile_decisions *v)
 {
@@ -61,6 +61,7 @@ CGT_SPU_INLINE void tile_decide_spheres(const cgt_primitive_array *array, const 
     const vfloat t_max = spux_vfloat(t->rays->t_max), infinity = spux_vfloat(INFINITY);
     vdouble behind[2], ahead[2], margin[2];
     vfloat dir[3];
+    /* both spheres of each entry */
     tile_gather_directions(t, q->pixel + first, q->entries - first, dir);
     const tile_near_hits a = tile_intersect_spheres(t, array, prim, dir);
     const tile_near_hits b = tile_intersect_spheres(t, array, spux_select(closest, prim, no_closest), dir);
@@ -70,6 +71,7 @@ CGT_SPU_INLINE void tile_decide_spheres(const cgt_primitive_array *array, const 
         margin[i] = (a.t[i] + b.t[i]) * CGT_ORDER_ERROR;
         memcpy(v->t + (size_t)i * CGT_DOUBLES, &a.t[i], sizeof a.t[i]);
     }
+    /* accept what is certainly nearer, reject what is certainly farther or misses */
     const vmask within = spu_and(spux_cmpge(t_max, a.rounded), spu_cmpgt(infinity, a.rounded));
     const vmask both = spu_andc(spu_and(a.known, b.known), no_closest);
     const vmask nearer = spu_or(spu_and(a.known, no_closest), spu_and(both, spux_double_cmpgt(ahead, margin)));
@@ -79,7 +81,6 @@ CGT_SPU_INLINE void tile_decide_spheres(const cgt_primitive_array *array, const 
     v->rejected = spux_mask_bits(spu_or(a.missed, beyond));
 }
 
-/* Where rays have one origin, and there are spheres of one array. */
 void CGT_KERNEL(cgt_tile_flush_spheres)(const cgt_primitives *prims, tile *t, const tile_queue *q, cgt_counts *counts)
 {
     tile_decisions v;

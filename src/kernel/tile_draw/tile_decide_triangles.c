@@ -1,16 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Entries of a tile's queue that are about triangles, seen from one eye. Entries of one triangle follow each other, often
- * against one winner: layers near to each other, or faces in one plane. So what double takes of the two triangles is kept
- * from entry to entry, and runs of one pair go a vector at a time. It is the arithmetic of triangle_double.h in its order,
- * so what it is certain of is what decide.h would say.
+ * Decides the entries of a tile's queue about triangles, seen from one eye. Entries of one triangle follow each other,
+ * often against the same closest one: layers close to each other, or faces in one plane. So the terms of both triangles
+ * in double are cached from entry to entry, and runs of one pair are decided a vector at a time. The arithmetic is that
+ * of triangle_double.h in its order, so a certain result here is what decide.h would find.
  *
- * Which of two hits is nearer: t_a < t_b where num_a den_b - num_b den_a has the sign opposite to that of den_a den_b.
- * The products are off by what their factors are, and what is rounded by 2^-51 of their magnitudes. Where that leaves it
- * open, it is asked exactly on which side of one triangle's plane the other one's vertices are. Of a ray that passes
- * between a triangle's edges the hit is a sum of all three vertices with factors above 0: in the plane where they all are,
- * and else beyond it or before it where none of them is on the other side. Num is the eye's side. */
+ * Which of two hits is nearer: t_a < t_b if num_a den_b - num_b den_a has the sign opposite to that of den_a den_b. The
+ * products are off by the errors of their factors, and by 2^-51 of their magnitudes for rounding. If that does not decide,
+ * exact arithmetic finds on which side of one triangle's plane the other one's vertices are. The hit of a ray that passes
+ * inside a triangle's edges is a sum of its three vertices with positive factors. So it lies in the plane if all vertices
+ * do; otherwise it lies on the side of those that do not, if no vertex is on the other side. The sign of num tells the
+ * eye's side. */
 #include "exact/integer/exact_terms.h"
 #include "exact/triangle_double.h"
 #include "spux_double.h"
@@ -18,30 +19,30 @@
 
 /* ---- two triangles, seen from the eye ---- */
 
-/* A triangle's plane; den_error is over the 1-norm of a direction, den of none. */
+/* A triangle's plane. den is not set; den_error is divided by the 1-norm of a direction. */
 typedef struct tile_plane_cache {
     uint32_t prim; /* CGT_INVALID_ID: none yet */
     cgt_triangle triangle;
     cgt_triangle_plane plane;
 } tile_plane_cache;
 
-/* What the vertices of two triangles tell of their order. */
+/* The order of two triangles, as far as their vertices tell. */
 typedef enum tile_plane_order {
     TILE_PLANES_UNKNOWN,
-    TILE_PLANES_CROSS, /* nothing */
+    TILE_PLANES_CROSS, /* they do not tell */
     TILE_PLANES_SAME,
-    TILE_PLANES_NEARER, /* the object is */
+    TILE_PLANES_NEARER, /* the entry's primitive is nearer than the closest one */
     TILE_PLANES_FARTHER
 } tile_plane_order;
 
-/* What is kept from entry to entry. */
+/* The terms of the last pair. */
 typedef struct tile_pair_cache {
     tile_plane_cache prim, closest;
-    double side[3][3], side_error[3]; /* of the object: as products with d, errors over its 1-norm */
+    double side[3][3], side_error[3]; /* edges of the entry's primitive: factors of d; errors over its 1-norm */
     tile_plane_order planes;
 } tile_pair_cache;
 
-/* False for spheres. */
+/* Returns false for spheres. */
 CGT_SPU_INLINE bool tile_cache_plane(const cgt_primitives *prims, const float eye[3], uint32_t prim,
                                      tile_plane_cache *s)
 {
@@ -90,8 +91,7 @@ CGT_SPU_INLINE cgt_triangle_plane tile_plane_for_line(const tile_plane_cache *s,
     return p;
 }
 
-/* On which sides of the plane of a the vertices of b are: how many are on that of a number above 0, n.(v_0 - v), and of
- * one below. */
+/* Counts the vertices v of b on each side of the plane of a: those with n.(v_0 - v) above 0 and those below. Exact. */
 CGT_SPU_INLINE void tile_count_plane_sides(const cgt_triangle *a, const cgt_triangle *b, int *above, int *below)
 {
     *above = *below = 0;
@@ -104,7 +104,7 @@ CGT_SPU_INLINE void tile_count_plane_sides(const cgt_triangle *a, const cgt_tria
     }
 }
 
-/* Which of two triangles is nearer on all rays that pass between the object's edges and meet the winner. */
+/* Which triangle is nearer on all rays that pass inside the edges of `prim` and hit `closest`. */
 __attribute__((noinline, unused)) static tile_plane_order tile_compare_planes(const tile_plane_cache *prim,
                                                                               const tile_plane_cache *closest)
 {
@@ -115,16 +115,16 @@ __attribute__((noinline, unused)) static tile_plane_order tile_compare_planes(co
     if (!above || !below)
         return (above != 0) == (closest->plane.num > 0) ? TILE_PLANES_NEARER : TILE_PLANES_FARTHER;
     tile_count_plane_sides(&prim->triangle, &closest->triangle, &above,
-                           &below); /* the winner's hit may be on an edge */
+                           &below); /* the hit of `closest` may be on an edge */
     if (above == 3 || below == 3)
         return (above != 0) == (prim->plane.num > 0) ? TILE_PLANES_FARTHER : TILE_PLANES_NEARER;
     return TILE_PLANES_CROSS;
 }
 
-/* What a decision comes to. */
+/* What is decided about an entry. */
 typedef enum tile_decision { TILE_UNDECIDED, TILE_REJECTED, TILE_ACCEPTED } tile_decision;
 
-/* Whether the line passes within the object's edges: TILE_ACCEPTED where it does. */
+/* Whether the line passes inside the primitive's edges: TILE_ACCEPTED if it does. */
 CGT_SPU_INLINE tile_decision tile_decide_sides(const tile_pair_cache *s, const cgt_exact_ray *line, double size)
 {
     int positive = 0, negative = 0;
@@ -136,7 +136,7 @@ CGT_SPU_INLINE tile_decision tile_decide_sides(const tile_pair_cache *s, const c
     return positive && negative ? TILE_REJECTED : positive == 3 || negative == 3 ? TILE_ACCEPTED : TILE_UNDECIDED;
 }
 
-/* Which of the two is nearer where both are hit, as far as their vertices tell. */
+/* Which one is nearer if both are hit, by their vertices. */
 CGT_SPU_INLINE tile_decision tile_decide_planes(tile_pair_cache *s, cgt_counts *counts)
 {
     if (s->planes == TILE_PLANES_UNKNOWN) {
@@ -151,7 +151,7 @@ CGT_SPU_INLINE tile_decision tile_decide_planes(tile_pair_cache *s, cgt_counts *
     }
 }
 
-/* Of two hits, whether the object's is the nearer one. */
+/* Whether the hit of a, the entry's primitive, is nearer than that of b, the closest one. */
 CGT_SPU_INLINE tile_decision tile_decide_order(tile_pair_cache *s, const cgt_triangle_plane *a,
                                                const cgt_triangle_plane *b, cgt_counts *counts)
 {
@@ -164,7 +164,7 @@ CGT_SPU_INLINE tile_decision tile_decide_order(tile_pair_cache *s, const cgt_tri
     return tile_decide_planes(s, counts);
 }
 
-/* As filter_is_closer, of two triangles, or one and none. */
+/* As filter_is_closer, for two triangles, or one if there is no closest one. */
 CGT_SPU_INLINE tile_decision tile_decide_pair(const cgt_primitives *prims, const cgt_ray *ray, uint32_t closest,
                                               uint32_t prim, tile_pair_cache *s, double *hit_t, cgt_counts *counts)
 {
@@ -192,7 +192,7 @@ CGT_SPU_INLINE tile_decision tile_decide_pair(const cgt_primitives *prims, const
 
 /* ---- runs of one pair ---- */
 
-#define TILE_MIN_RUN 4u /* entries of a pair that are worth a vector */
+#define TILE_MIN_RUN 4u /* shorter runs are decided entry by entry */
 
 /* The directions of a vector of entries, and their 1-norms. */
 typedef struct tile_run_lines {
@@ -218,7 +218,7 @@ CGT_SPU_INLINE vdouble tile_run_dot(const double v[3], const tile_run_lines *l, 
     return l->d[0][h] * v[0] + l->d[1][h] * v[1] + l->d[2][h] * v[2];
 }
 
-/* Lanes that surely pass beside the object, and that surely pass between its edges. */
+/* Lanes that certainly pass outside the primitive's edges, and that certainly pass inside. */
 CGT_SPU_INLINE void tile_test_run_sides(const tile_pair_cache *s, const tile_run_lines *l, vmask *outside,
                                         vmask *inside)
 {
@@ -259,7 +259,7 @@ CGT_SPU_INLINE tile_run_plane tile_compute_run_plane(const cgt_triangle_plane *p
     return r;
 }
 
-/* Lanes where the object's hit is surely nearer than the winner's, and surely not. */
+/* Lanes where the hit of a is certainly nearer than that of b, and where it is certainly farther. */
 CGT_SPU_INLINE void tile_compare_run_depths(const cgt_triangle_plane *p, const cgt_triangle_plane *q,
                                             const tile_run_plane *a, const tile_run_plane *b, vmask *nearer,
                                             vmask *farther)
@@ -272,8 +272,8 @@ CGT_SPU_INLINE void tile_compare_run_depths(const cgt_triangle_plane *p, const c
                               den_a * q->num_error;
         const vdouble size = spux_double_abs(lhs) + spux_double_abs(rhs), rhs_minus_lhs = rhs - lhs;
         const vdouble signed_difference = spux_double_select(-rhs_minus_lhs, rhs_minus_lhs, a->den[h]);
-        difference[h] = spux_double_select(-signed_difference, signed_difference,
-                                           b->den[h]); /* above 0 where the object is nearer */
+        difference[h] =
+            spux_double_select(-signed_difference, signed_difference, b->den[h]); /* above 0 where a is nearer */
         minus[h] = -difference[h];
         margin[h] = error * (1 + 0x1p-20) + size * 0x1p-51;
     }
@@ -281,13 +281,13 @@ CGT_SPU_INLINE void tile_compare_run_depths(const cgt_triangle_plane *p, const c
     *farther = spux_double_cmpgt(minus, margin);
 }
 
-/* What is known of a vector of entries of one pair. */
+/* The decisions about a vector of entries of one pair. */
 typedef struct tile_run_result {
-    double t[CGT_LANES];         /* of the object, where it beats the winner */
+    double t[CGT_LANES];         /* of the primitive, where it is accepted */
     unsigned accepted, rejected; /* lanes as bits */
 } tile_run_result;
 
-/* So many entries, at most a vector, of what s has seen; winner: CGT_INVALID_ID where they have none. */
+/* Decides `count` entries, at most a vector, of the pair in s. closest: CGT_INVALID_ID if the pixels have none. */
 CGT_SPU_INLINE void tile_decide_run(const tile *t, tile_pair_cache *s, uint32_t closest, const uint16_t *pixel,
                                     uint32_t count, tile_run_result *r, cgt_counts *counts)
 {
@@ -296,6 +296,7 @@ CGT_SPU_INLINE void tile_decide_run(const tile *t, tile_pair_cache *s, uint32_t 
     const cgt_triangle_plane *p = &s->prim.plane, *q = &s->closest.plane;
     vmask outside, inside, nearer = spux_mask_all(), farther = spux_mask_none();
     vdouble hit[2];
+    /* is the primitive hit, and within the range? */
     tile_test_run_sides(s, &l, &outside, &inside);
     const tile_run_plane a = tile_compute_run_plane(p, &l);
     for (int h = 0; h < 2; h++) {
@@ -307,6 +308,7 @@ CGT_SPU_INLINE void tile_decide_run(const tile *t, tile_pair_cache *s, uint32_t 
                                  spu_cmpgt(spux_vfloat(INFINITY), rounded));
     const vmask hits = spu_and(inside, a.safe);
     vmask comparable = spu_and(hits, within);
+    /* is it nearer? */
     if (closest != CGT_INVALID_ID) {
         const tile_run_plane b = tile_compute_run_plane(q, &l);
         tile_compare_run_depths(p, q, &a, &b, &nearer, &farther);
@@ -322,7 +324,7 @@ CGT_SPU_INLINE void tile_decide_run(const tile *t, tile_pair_cache *s, uint32_t 
 
 /* ---- the queue ---- */
 
-/* One entry, by what is kept of triangles. */
+/* Decides one entry with the cached terms. */
 CGT_SPU_INLINE void tile_flush_entry(const cgt_primitives *prims, tile *t, const tile_queue *q, uint32_t k,
                                      tile_pair_cache *s, cgt_counts *counts)
 {
@@ -343,7 +345,7 @@ CGT_SPU_INLINE void tile_flush_entry(const cgt_primitives *prims, tile *t, const
     }
 }
 
-/* How many entries from k on, at most a vector, are of one object and one winner. */
+/* The number of entries from k on, at most a vector, with the same primitive and the same closest one. */
 CGT_SPU_INLINE uint32_t tile_run_length(const tile *t, const tile_queue *q, uint32_t k)
 {
     const uint32_t prim = q->prim[k], closest = t->prim[q->pixel[k]];
@@ -354,7 +356,7 @@ CGT_SPU_INLINE uint32_t tile_run_length(const tile *t, const tile_queue *q, uint
     return length;
 }
 
-/* Such a run. */
+/* Decides such a run. */
 CGT_SPU_INLINE void tile_flush_run(const cgt_primitives *prims, tile *t, const tile_queue *q, uint32_t first,
                                    uint32_t count, tile_pair_cache *s, cgt_counts *counts)
 {
@@ -380,7 +382,6 @@ CGT_SPU_INLINE void tile_flush_run(const cgt_primitives *prims, tile *t, const t
     }
 }
 
-/* Where rays have one origin, and there are triangles. */
 void CGT_KERNEL(cgt_tile_flush_triangles)(const cgt_primitives *prims, tile *t, const tile_queue *q, cgt_counts *counts)
 {
     tile_pair_cache s; /* large: not all of it is set */

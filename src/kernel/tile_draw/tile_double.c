@@ -1,15 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A sphere or a triangle against the pixels of a tile in double, pixel by pixel: for those that the bounds of
- * tile_spheres.h and tile_triangles.h do not hold for. They lie about the eye or behind it, are cut by the range's begin,
- * or are so large that single precision is coarse beside what the tile keeps. The arithmetic is that of sphere_double.h
- * and triangle_double.h, so what it is certain of is what decide.h would say; the rest goes to the queue. */
+ * A sphere or a triangle against the pixels of a tile in double precision, pixel by pixel, where the bounds of
+ * tile_spheres.h and tile_triangles.h do not hold: primitives around the eye or behind it, primitives that the range's
+ * begin may cut, and those so large that single precision is coarser than the tile's depth error. The arithmetic is that
+ * of sphere_double.h and triangle_double.h, so a certain result is what decide.h would find; the rest is queued. */
 #include "exact/sphere_double.h"
 #include "exact/triangle_double.h"
 #include "kernel/tile_draw/tile_queue.h"
 
-/* A hit's t as the depth of the tile, infinite where it is not in the range. */
+/* The tile's depth of a hit, infinite if its t is not in the range. */
 CGT_SPU_INLINE double tile_double_depth(const tile *t, float px, float py, double hit, bool linear)
 {
     const double rounded = (double)(float)hit, t_min = (double)t->rays->t_min, t_max = (double)t->rays->t_max;
@@ -20,7 +20,8 @@ CGT_SPU_INLINE double tile_double_depth(const tile *t, float px, float py, doubl
     return inside ? depth : (double)INFINITY;
 }
 
-/* What is known of pixels first to end - 1 of a pair of rows: the depth of a certain hit, infinite for a certain miss, NaN where double is open. */
+/* Pixels first to end - 1 of a pair of rows: the depth of a certain hit, infinity for a certain miss, NaN if double
+ * precision does not decide. */
 CGT_SPU_INLINE void tile_test_double_sphere(const tile *t, cgt_sphere q, uint32_t pair, bool parallel, uint32_t first,
                                             uint32_t end, double depth[TILE_ROW_PAIR])
 {
@@ -77,15 +78,15 @@ CGT_SPU_INLINE void tile_test_double_rows(const tile *t, const cgt_primitive *q,
         tile_test_double_triangle(t, &q->triangle, pair, TILE_PERSPECTIVE, first, end, depth);
 }
 
-/* ---- parts that a triangle does not reach ---- */
+/* ---- culling by parts ---- */
 
-/* A canonical direction is within 3.5 2^-24 |d| of the one that a linear function of the pixel has, those at corners too,
- * and a triangle's sides and its d.n are linear in d: between corners they stray from what those say by at most
- * 7 2^-24 |d| times the lengths that they are products of. The bounds of their errors are 10 2^-53 of at least those, and
- * this is so much more than 2^29 that it has these errors in it, too. */
+/* A canonical direction, also one of a corner, is within 3.5 2^-24 |d| of a linear function of the pixel. A triangle's
+ * sides and its d.n are linear in d, so between corners they deviate from the corners' convex combination by at most
+ * 7 2^-24 |d| times the lengths of their factors. Their error bounds are 10 2^-53 times at least these lengths, so the
+ * deviation is below 2^29 error bounds. 2^30 covers the errors themselves, too. */
 #define TILE_DOUBLE_ERROR_SCALE 0x1p30
 
-/* A triangle's sides and its d.n as products with d, and what each may be off by over |d|, straying included. */
+/* A triangle's sides and its d.n as factors of d, and their errors over |d| including the deviation between corners. */
 typedef struct tile_double_forms {
     double form[4][3], error[4];
     double num, num_error;
@@ -93,7 +94,7 @@ typedef struct tile_double_forms {
 
 CGT_SPU_INLINE void tile_init_double_forms(const tile *t, const cgt_triangle *q, tile_double_forms *f)
 {
-    static const float one[3] = {1, 0, 0}; /* of norm 1: errors are those over |d| */
+    static const float one[3] = {1, 0, 0}; /* of norm 1: gives errors over |d| */
     const float *eye = t->rays->eye;
     const cgt_triangle_plane plane = cgt_triangle_double_plane(eye, one, q);
     for (int k = 0; k < 3; k++)
@@ -105,13 +106,14 @@ CGT_SPU_INLINE void tile_init_double_forms(const tile *t, const cgt_triangle *q,
     f->num_error = plane.num_error;
 }
 
-/* Whether no ray of the pixels between two columns and two rows hits a triangle where it wants anything, before far_t:
- * all pass it by, or meet its plane behind the eye, or beyond. */
+/* Whether no ray between two columns and two rows hits a triangle before far_t: all pass outside, or meet its plane
+ * behind the eye or beyond far_t. */
 CGT_SPU_INLINE bool tile_cull_double(const tile *t, const tile_double_forms *f, const float px[2], const float py[2],
                                      double far_t)
 {
     double low[4] = {INFINITY, INFINITY, INFINITY, INFINITY}, high[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
     bool below = false, above = false;
+    /* the range of each form over the corners */
     for (int corner = 0; corner < 4; corner++) {
         const cgt_exact_ray line = tile_pixel_line(t->rays, false, px[corner & 1], py[corner >> 1]);
         const double x = (double)line.dir[0], y = (double)line.dir[1], z = (double)line.dir[2];
@@ -122,18 +124,18 @@ CGT_SPU_INLINE bool tile_cull_double(const tile *t, const tile_double_forms *f, 
             high[k] = w + error > high[k] ? w + error : high[k];
         }
     }
+    /* outside of one edge on each side, or the plane out of sight */
     for (int k = 0; k < 3; k++) {
         below = below || high[k] < 0;
         above = above || low[k] > 0;
     }
     const double min_num = fabs(f->num) - f->num_error, max_den = fmax(fabs(low[3]), fabs(high[3]));
     const bool certain = min_num > 0 && (low[3] > 0 || high[3] < 0), ahead = certain && (f->num > 0) == (low[3] > 0);
-    const bool behind =
-        certain && !ahead && min_num > max_den * 0x1p-100; /* a t that is handed out as -0 is in the range */
+    const bool behind = certain && !ahead && min_num > max_den * 0x1p-100; /* a t that rounds to -0 is in the range */
     return (below && above) || behind || (ahead && min_num * (1 - 0x1p-20) > max_den * far_t);
 }
 
-/* The parts of a window, as bits, that a shape may reach. */
+/* The parts of a window, as bits, that a primitive may reach. */
 static unsigned tile_visible_double_parts(const tile *t, const cgt_primitive *q, tile_rect rect)
 {
     const uint32_t side = TILE_EDGE / TILE_PARTS, x0 = rect.x0 / side, x1 = rect.x1 / side, y0 = rect.y0 / side,
@@ -161,7 +163,7 @@ static unsigned tile_visible_double_parts(const tile *t, const cgt_primitive *q,
 
 /* ---- pixels ---- */
 
-/* Pixels first to end - 1 of a pair of rows. */
+/* Rasterises pixels first to end - 1 of a pair of rows. */
 CGT_SPU_INLINE void tile_rasterise_double_run(const cgt_primitives *prims, tile *t, const cgt_primitive *q,
                                               uint32_t prim, uint32_t pair, uint32_t first, uint32_t end,
                                               tile_queue *queue, cgt_counts *counts)
@@ -186,12 +188,11 @@ CGT_SPU_INLINE void tile_rasterise_double_run(const cgt_primitives *prims, tile 
             tile_set_closest(t, i, prim);
             continue;
         }
-        counts->double_tests--; /* it is counted when it is decided */
+        counts->double_tests--; /* the decision counts it */
         tile_queue_push(prims, t, queue, i, prim, counts);
     }
 }
 
-/* Tests the pixels of a window. */
 void CGT_KERNEL(cgt_tile_rasterise_double)(const cgt_primitives *prims, tile *t, uint32_t prim, tile_rect rect,
                                            tile_queue *queue, cgt_counts *counts)
 {

@@ -54,8 +54,8 @@ CGT_SPU_INLINE void tile_queue_push(const cgt_primitives *prims, tile *t, tile_q
 
 /* ---- pixels ---- */
 
-/* The test of a vector of pixels. A depth that is not a number is none of both: that of the px beyond the tile, and where d
- * is below 0. Denormal d may be possible, which costs a look in double precision. */
+/* The test of a vector of pixels. A NaN depth is neither certain nor possible: px is NaN beyond the tile, and d
+ * may be below 0. A denormal d may be possible, which costs a test in double precision. */
 typedef struct tile_pixel_test {
     vfloat depth;
     vmask certain, possible;

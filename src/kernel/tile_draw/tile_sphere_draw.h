@@ -1,15 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A sphere over the pixels of its window in a tile, without branches: what it certainly wins is kept, what it may win is
- * queued. tile_spheres.h says what is computed, and with which bounds. */
+ * Rasterises a sphere over the pixels of its window, without branches: pixels that it certainly wins are stored, those
+ * that it may win are queued. tile_spheres.h has the formulas and their bounds. */
 #ifndef CGT_TILE_SPHERE_DRAW_H
 #define CGT_TILE_SPHERE_DRAW_H
 
 #include "kernel/tile_draw/tile_queue.h"
 #include "kernel/tile_draw/tile_spheres.h"
 
-/* What the loops take of one sphere. */
+/* One sphere as the vectors of the loops. */
 typedef struct tile_sphere {
     vfloat X, Y, a, b, c, d0, dx, dy, q0, qx, qy, certain, depth_error, minus_depth_error;
     vuint prim;
@@ -34,7 +34,7 @@ CGT_SPU_INLINE tile_sphere tile_broadcast_sphere(const tile *t, const tile_spher
                          .prim = spux_vuint(s->prim[k])};
 }
 
-/* What a vector of columns has in common for one sphere. */
+/* The terms of a vector of columns for one sphere. */
 typedef struct tile_columns {
     vfloat dx, slope, q0;
 } tile_columns;
@@ -45,7 +45,7 @@ CGT_SPU_INLINE tile_columns tile_prepare_columns(const tile_sphere *q, const flo
     return (tile_columns){.dx = dx, .slope = spu_nmsub(q->a, dx, q->dx), .q0 = spu_madd(px, q->qx, q->q0)};
 }
 
-/* What a pair of rows has in common for one sphere. */
+/* The terms of a pair of rows for one sphere. */
 typedef struct tile_row_pair {
     vfloat py, dy, d0;
 } tile_row_pair;
@@ -68,16 +68,16 @@ CGT_SPU_INLINE tile_pixel_test tile_test_sphere(const tile_sphere *q, const tile
                              .possible = spux_cmpge(q->depth_error, depth_difference)};
 }
 
-/* One or two vectors of columns from x on, over all pairs of rows. Returns whether any lane is left open; the lanes go to
- * `open`, which goes on by `windows` from one pair to the next. */
+/* Rasterises one or two vectors of columns from x on over all pairs of rows. Stores the undecided lanes of each vector,
+ * `vectors` of which make a pair of rows. Returns the union of them. */
 CGT_SPU_INLINE unsigned tile_rasterise_strip(tile *t, const tile_sphere *q, tile_rect rect, uint32_t x, uint32_t count,
-                                             uint32_t windows, uint16_t *undecided)
+                                             uint32_t vectors, uint16_t *undecided)
 {
     unsigned any = 0;
     tile_columns c[2];
     for (uint32_t w = 0; w < count; w++)
         c[w] = tile_prepare_columns(q, t->px + 2 * x + w * CGT_LANES);
-    for (uint32_t pair = rect.y0 / 2; pair <= rect.y1 / 2; pair++, undecided += windows) {
+    for (uint32_t pair = rect.y0 / 2; pair <= rect.y1 / 2; pair++, undecided += vectors) {
         const tile_row_pair row = tile_prepare_rows(t, q, pair);
         for (uint32_t w = 0; w < count; w++) {
             const uint32_t i = pair * TILE_ROW_PAIR + 2 * x + w * CGT_LANES;
@@ -91,16 +91,16 @@ CGT_SPU_INLINE unsigned tile_rasterise_strip(tile *t, const tile_sphere *q, tile
     return any;
 }
 
-/* The windows of all pairs of rows, so many side by side. */
-CGT_SPU_INLINE unsigned tile_rasterise_windows(tile *t, const tile_sphere *q, tile_rect rect, uint32_t windows,
+/* The whole window: `vectors` vectors side by side in each pair of rows. */
+CGT_SPU_INLINE unsigned tile_rasterise_windows(tile *t, const tile_sphere *q, tile_rect rect, uint32_t vectors,
                                                uint16_t *undecided)
 {
     unsigned any = 0;
     uint32_t w = 0;
-    for (; w + 2 <= windows; w += 2)
-        any |= tile_rasterise_strip(t, q, rect, rect.x0 + w * (CGT_LANES / 2), 2, windows, undecided + w);
-    if (w < windows)
-        any |= tile_rasterise_strip(t, q, rect, rect.x0 + w * (CGT_LANES / 2), 1, windows, undecided + w);
+    for (; w + 2 <= vectors; w += 2)
+        any |= tile_rasterise_strip(t, q, rect, rect.x0 + w * (CGT_LANES / 2), 2, vectors, undecided + w);
+    if (w < vectors)
+        any |= tile_rasterise_strip(t, q, rect, rect.x0 + w * (CGT_LANES / 2), 1, vectors, undecided + w);
     return any;
 }
 
@@ -108,23 +108,23 @@ CGT_SPU_INLINE void tile_rasterise_sphere(const cgt_primitives *prims, tile *t, 
                                           tile_rect rect, tile_queue *queue, cgt_counts *counts)
 {
     const tile_sphere q = tile_broadcast_sphere(t, s, k);
-    const uint32_t windows = (rect.x1 - rect.x0) / (CGT_LANES / 2) + 1, pairs = rect.y1 / 2 - rect.y0 / 2 + 1;
+    const uint32_t vectors = (rect.x1 - rect.x0) / (CGT_LANES / 2) + 1, pairs = rect.y1 / 2 - rect.y0 / 2 + 1;
     uint16_t undecided[TILE_MAX_VECTORS + 4];
     unsigned any;
-    switch (windows) { /* small spheres without the branches of a loop */
+    switch (vectors) { /* small spheres: without the branches of a loop */
     case 1: any = tile_rasterise_windows(t, &q, rect, 1, undecided); break;
     case 2: any = tile_rasterise_windows(t, &q, rect, 2, undecided); break;
-    default: any = tile_rasterise_windows(t, &q, rect, windows, undecided); break;
+    default: any = tile_rasterise_windows(t, &q, rect, vectors, undecided); break;
     }
     counts->packet_tests++;
-    counts->ray_tests += (uint64_t)windows * pairs * CGT_LANES;
+    counts->ray_tests += (uint64_t)vectors * pairs * CGT_LANES;
     if (any)
-        CGT_KERNEL(cgt_tile_queue_undecided)(prims, t, s->prim[k], rect, windows, undecided, queue, counts);
+        CGT_KERNEL(cgt_tile_queue_undecided)(prims, t, s->prim[k], rect, vectors, undecided, queue, counts);
 }
 
-/* A small sphere (tile_spheres.h), of no more than so many pairs of rows: those beyond its window are tested as well, which
- * costs less than a branch that nobody can predict. Its window is not cut to the open parts: it spans two of them at
- * most, so that culling has looked at all. */
+/* A small sphere (tile_spheres.h) of at most `pairs` pairs of rows. Always tests as many, which costs less than a branch
+ * that cannot be predicted. The window is not cut to visible parts: it spans at most two along each axis, so culling has
+ * tested them all. */
 CGT_SPU_INLINE void tile_rasterise_small_sphere(const cgt_primitives *prims, tile *t, const tile_spheres *s, int k,
                                                 uint32_t pairs, tile_queue *queue, cgt_counts *counts)
 {

@@ -1,15 +1,18 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Boxes against a tile, a vector of them at a time: against its window, and what its parts still see.
+ * Culls cells and clusters, as boxes, against a tile: a vector of boxes at a time, by their windows and by the distance at
+ * which each part of the tile can still be hit. Primitives of culled cells are never read. Apart from tile_trace.c, which
+ * inlines it, because of its bounds.
  *
- * In camera space (tile.h) a box is z, x, y of its middle and half its extents along those. All of it is in front of the
- * eye where z is above its extent; the columns under it are then between the least and the most of x / z of its ends.
- * Of parallel rays, any box's are those under x, and its extents have what origins are off by in them.
+ * In camera space (tile.h) a box is z, x, y of its middle and its half extents. It is in front of the eye if z exceeds its
+ * half extent; its columns are then between the least and the largest x / z of its corners. With parallel rays a box's
+ * columns are given by x alone, and the half extents include the error of origins.
  *
- * Rounding, with u = 2^-24 and c the sum over the axes of all that a middle and its extents are made of: the middle, from
- * the eye, is off by 2 u c, its product with `dual` by 4 u c more, and a canonical direction by 3.5 u |d|, which is
- * 3.5 u c where a box is. 2^-19 c is added to the extents, and 1/16 of a column to the windows (tile_spheres.h). */
+ * Rounding: u = 2^-24, c is the sum over the axes of all terms of a middle and its half extents. The middle, seen from the
+ * eye, is off by 2 u c, its product with `dual` by another 4 u c, and a canonical direction by 3.5 u |d|, which is 3.5 u c
+ * at the box. 2^-19 c is added to the half extents, and 1/16 of a column to the windows (tile_spheres.h). Cells may be far
+ * from the eye: their c is that of the whole grid. */
 #ifndef CGT_TILE_CULL_H
 #define CGT_TILE_CULL_H
 
@@ -17,7 +20,7 @@
 #include "kernel/tile/tile_march.h"
 #include "kernel/tile/tile_window.h"
 
-/* The columns or rows, from the tile's first, that boxes in front cover; r: the reciprocals of their least and most z. */
+/* The columns (or rows) of boxes in front. r: the reciprocals of their least and largest z. */
 CGT_SPU_INLINE vmask tile_compute_box_windows(const tile_span *span, vfloat middle, vfloat half, const vfloat r[2],
                                               uint32_t *from, uint32_t *to)
 {
@@ -60,7 +63,7 @@ CGT_SPU_INLINE vmask tile_cull_perspective_boxes(const tile *t, const vfloat v[3
     return spu_or(behind, spu_and(in_front, spu_or(spu_or(outside_x, outside_y), occluded)));
 }
 
-/* Boxes that the tile does not want. middle: from the eye, along the world's axes; half: along z, x, y of the camera. */
+/* Boxes outside the tile or occluded. middle: from the eye, along the world's axes; half: along z, x, y of the camera. */
 CGT_SPU_INLINE vmask tile_cull_boxes(const tile *t, const vfloat middle[3], const vfloat half[3])
 {
     const float(*dual)[3] = t->camera.dual;
@@ -73,7 +76,7 @@ CGT_SPU_INLINE vmask tile_cull_boxes(const tile *t, const vfloat middle[3], cons
 
 /* ---- clusters and cells ---- */
 
-/* Of a vector of clusters those that the tile wants, as bits. */
+/* The visible ones of a vector of clusters, as bits. */
 CGT_SPU_INLINE unsigned tile_visible_clusters(const tile *t, const cgt_cluster *cluster, const uint32_t *reference,
                                               uint32_t count)
 {
@@ -93,13 +96,13 @@ CGT_SPU_INLINE unsigned tile_visible_clusters(const tile *t, const cgt_cluster *
     return ~spux_mask_bits(tile_cull_boxes(t, middle, half)) & first_lanes(count);
 }
 
-/* The cells of a slice, as the camera sees them. */
+/* The cells of a slice, as boxes with the level's reach around them. */
 typedef struct tile_cells {
     const tile_march *march;
     const tile_slice *slice;
-    float middle[3]; /* of the first one, from the eye */
-    float step[3];   /* 0 along the march */
-    float half[3];   /* extents along z, x, y */
+    float middle[3]; /* of the first cell, from the eye */
+    float step[3];   /* from cell to cell; 0 along the march */
+    float half[3];   /* half extents along z, x, y */
     uint32_t row_length, count;
 } tile_cells;
 
@@ -129,12 +132,12 @@ CGT_SPU_INLINE tile_cells tile_init_cells(const tile *t, const tile_march *m, co
     return c;
 }
 
-/* Of a vector of cells from cell `first` on, row by row, those that the tile wants, as bits. */
+/* The visible ones of a vector of cells from number `first` on, row by row, as bits. */
 CGT_SPU_INLINE unsigned tile_visible_cells(const tile *t, const tile_cells *c, uint32_t first)
 {
     const uint32_t remaining = c->count - first;
     const vfloat number = spu_add(spu_convtf(spux_lane_index(), 0), spux_vfloat((float)first));
-    /* counts are below 2^21: 1/2 keeps what rounding does from whole numbers */
+    /* counts are below 2^21: adding 1/2 keeps rounding away from whole numbers */
     const vfloat share = spu_mul(spu_add(number, spux_vfloat(0.5f)), spux_vfloat(1 / (float)c->row_length));
     const vfloat row = spu_convtf(spu_convts(share, 0), 0);
     const vfloat column = spu_nmsub(row, spux_vfloat((float)c->row_length), number);
@@ -147,7 +150,7 @@ CGT_SPU_INLINE unsigned tile_visible_cells(const tile *t, const tile_cells *c, u
     return ~spux_mask_bits(tile_cull_boxes(t, middle, half)) & first_lanes(remaining);
 }
 
-/* Where cell i of the slice lies in the grid's `start`. */
+/* The index of cell i of the slice in the grid's `start`. */
 CGT_SPU_INLINE uint32_t tile_cell_index(const tile_cells *c, uint32_t i)
 {
     const cgt_loose_level *l = &c->march->grid->level[c->slice->level];

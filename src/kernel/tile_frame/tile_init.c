@@ -77,9 +77,9 @@ CGT_SPU_INLINE float tile_max_square(float a, float b)
     return high * high;
 }
 
-/* Each coordinate of a canonical origin is made with four roundings, of px right, eye + px right, py up and the sum:
- * with |px| and |py| at most 1 it is off by u (2 |eye| + 3 |right| + 2 |up|) of that axis, and as a vector by u times the
- * sum of those lengths. The inverse of the axes takes it to camera space as it is, but for a share of 4 u. */
+/* Each coordinate of a canonical origin has four roundings: px right, eye + px right, py up and the sum. With |px| and
+ * |py| at most 1 it is off by u (2 |eye| + 3 |right| + 2 |up|) of that axis, and as a vector by u times the sum of those
+ * lengths. The inverse of the axes takes this error to camera space unchanged, except for a relative 4 u. */
 CGT_SPU_INLINE void tile_init_parallel(tile *t)
 {
     const cgt_camera_rays *c = t->rays;
@@ -92,7 +92,7 @@ CGT_SPU_INLINE void tile_init_parallel(tile *t)
     t->length_error = 0x1p-60f + t->origin_error * 0x1p-23f;
 }
 
-/* The range of N, of the tile and of its parts, rounded outwards. */
+/* The range of N over the tile, and 1 / sqrt(N) of its parts, rounded outwards. */
 CGT_SPU_INLINE void tile_init_norms(tile *t)
 {
     const float *x = t->column, *y = t->row, a = t->camera.a, b = t->camera.b;
@@ -118,8 +118,8 @@ CGT_SPU_INLINE void tile_init_parts(tile *t)
     }
 }
 
-/* Rays lie in the cone about the axis through the middle that holds those at the corners. The tile's slack in culling
- * (2^-18) is more than what rounding of the axis comes to. */
+/* The cone around the axis through the tile's middle that contains the corner rays contains all rays. The margin of the
+ * culling (2^-18) covers the rounding of the axis. */
 CGT_SPU_INLINE void tile_init_cone(tile *t)
 {
     const uint32_t last = TILE_EDGE - 1;
@@ -146,7 +146,7 @@ CGT_SPU_INLINE void tile_init_cone(tile *t)
 
 /* ---- the tile ---- */
 
-/* Distance from the eye to the farthest corner of the world's bounds, rounded up. */
+/* The distance from the eye to the farthest corner of the scene's bounds, rounded up. */
 CGT_SPU_INLINE float tile_max_corner_distance(const cgt_committed_scene *committed_scene, const float eye[3])
 {
     double square = 0;
@@ -158,9 +158,10 @@ CGT_SPU_INLINE float tile_max_corner_distance(const cgt_committed_scene *committ
     return (float)(sqrt(square) * (1 + 0x1p-20));
 }
 
-/* The radius that the tile's gap is for. Larger spheres are slow, and smaller ones are left open where something lies
- * within the gap behind them, which is rarer: so the largest radius of which there is a good share of the objects, where
- * that is small beside the scene, else that of most objects. Levels go from large to small. */
+/* The radius that the tile's depth error is made for. Larger spheres are slow (tile_double.c); smaller ones are undecided
+ * where something lies within the depth error behind them, which is rarer. So it is the largest radius that a good share
+ * of the primitives has, if that is small compared to the scene, otherwise the radius of most primitives. Levels are
+ * sorted from large to small. */
 CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_scene, float farthest)
 {
     const cgt_loose_level *level = committed_scene->loose.level, *largest = level;
@@ -173,7 +174,7 @@ CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_sc
     return fminf(largest->reach[0], fminf(largest->reach[1], largest->reach[2]));
 }
 
-/* c: as far from the eye as any object is; far_t: no t is beyond. */
+/* c: the largest distance of a primitive from the eye. far_t: no hit has a larger t. */
 CGT_SPU_INLINE void tile_init_depth_errors(tile *t, const cgt_committed_scene *committed_scene, float c, float far_t)
 {
     const float r = committed_scene->prims.spheres ? tile_typical_radius(committed_scene, c) : 0;

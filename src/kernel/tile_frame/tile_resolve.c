@@ -5,7 +5,7 @@
  * else by strips (tile_resolve_strips.c). */
 #include "kernel/tile_frame/tile_resolve_vector.h"
 
-/* The lanes that are left: the long way of spheres by vectors, then ray by ray. */
+/* Resolves the remaining lanes: spheres by the long formula, a vector at a time, then all ray by ray. */
 CGT_SPU_INLINE void tile_resolve_remaining(const cgt_committed_scene *committed_scene, const tile *t,
                                            tile_resolve_mode mode, const tile_ray_table *ray_table, uint32_t x,
                                            uint32_t row, tile_hits *h, cgt_counts *counts)

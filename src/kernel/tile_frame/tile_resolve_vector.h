@@ -12,8 +12,8 @@
 #include "kernel/resolve/resolve_triangles.h"
 #include "kernel/tile_frame/tile_planes.h"
 
-/* What the canonical directions of a tile's pixels are the sums of, or the origins of parallel rays: the forward axis and
- * a column's share of the right one, and a row's share of the upward one, in the order of tile_compute_directions. */
+/* The two terms whose sum is a pixel's canonical direction, or a parallel ray's origin: one of the column (the forward
+ * axis plus px right) and one of the row (py up), in the order of tile_compute_directions. */
 typedef struct tile_ray_table {
     _Alignas(CGT_VECTOR_BYTES) float column_sum[3][TILE_EDGE];
     float up[TILE_EDGE][4];
@@ -32,7 +32,7 @@ CGT_SPU_INLINE void tile_init_ray_table(const tile *t, tile_ray_table *s)
             s->up[y][a] = t->row[y] * c->up[a];
 }
 
-/* Of columns x and on. */
+/* The directions (or origins) of columns x and on of a row. */
 CGT_SPU_INLINE void tile_load_directions(const tile_ray_table *s, uint32_t x, uint32_t row, vfloat dir[3])
 {
     for (int a = 0; a < 3; a++)
@@ -47,12 +47,14 @@ CGT_SPU_INLINE void tile_load_double_directions(const tile_ray_table *s, uint32_
 
 /* ---- pixels ---- */
 
+/* Which primitive each vector of pixels has hit, precomputed for the whole tile: the branches of the resolve loop then
+ * depend on loads only, and mispredictions are found early. */
 typedef struct tile_pixel_runs {
-    uint32_t first_prim[TILE_PIXELS / CGT_LANES]; /* an object, CGT_INVALID_ID where there is none */
-    bool uniform[TILE_PIXELS / CGT_LANES];        /* and no other */
+    uint32_t first_prim[TILE_PIXELS / CGT_LANES]; /* a primitive that one of the pixels has hit, or CGT_INVALID_ID */
+    bool uniform[TILE_PIXELS / CGT_LANES];        /* none of them has hit another one */
 } tile_pixel_runs;
 
-/* What the tile has of columns x and on, of rows y and y + 1. */
+/* Loads columns x and on of rows y and y + 1 of one of the tile's arrays. */
 CGT_SPU_INLINE void tile_load_rows(const uint32_t *of, uint32_t x, uint32_t y, vuint row[2])
 {
     row[0] = spux_load_uint(of + tile_index(x, y));
@@ -60,10 +62,10 @@ CGT_SPU_INLINE void tile_load_rows(const uint32_t *of, uint32_t x, uint32_t y, v
     spux_unzip(row);
 }
 
-/* Where that is in a tile_pixel_runs. */
+/* The index of columns x and on of a row in tile_pixel_runs. */
 CGT_SPU_INLINE uint32_t tile_pixel_run_index(uint32_t x, uint32_t row) { return (row * TILE_EDGE + x) / CGT_LANES; }
 
-/* Those of a region; counts its hits. Returns whether there is any. */
+/* Fills in the runs of a region and counts its hits. Returns whether there is any hit. */
 CGT_SPU_INLINE bool tile_compute_pixel_runs(const tile *t, const cgt_region *r, tile_pixel_runs *m, cgt_counts *counts)
 {
     uint64_t hits = 0;
@@ -89,13 +91,18 @@ CGT_SPU_INLINE bool tile_compute_pixel_runs(const tile *t, const cgt_region *r, 
 
 /* ---- prepared triangles ---- */
 
-_Static_assert(2 * PREPARED_RECORD == 1 << 4, "places in `record` are shifted");
+/* The triangles that a tile has listed (tile.h), each gathered and prepared once (resolve_triangles.h), a vector of them at
+ * a time. This pays as soon as a triangle has a few pixels: gathering nine numbers for each lane of a vector of pixels
+ * takes longer than all that is computed from them. Pixels know their triangle's slot since it became their closest one;
+ * looking it up by the triangle's number took as long as the rest. Some listed triangles have lost all their pixels
+ * since, a twelfth of them in ordinary scenes. */
+_Static_assert(2 * PREPARED_RECORD == 1 << 4, "offsets into `record` are shifted");
 
 typedef struct tile_prepared_triangles {
-    _Alignas(64) double record[TILE_MAX_TRIANGLES + CGT_LANES][2 * PREPARED_RECORD]; /* by slots */
+    _Alignas(64) double record[TILE_MAX_TRIANGLES + CGT_LANES][2 * PREPARED_RECORD]; /* by slot */
 } tile_prepared_triangles;
 
-/* Prepares what the tile has listed. */
+/* Prepares the tile's triangles. */
 CGT_SPU_INLINE void tile_prepare_triangles(const cgt_committed_scene *committed_scene, const tile *t, uint32_t fields,
                                            bool exact, tile_prepared_triangles *m)
 {
@@ -108,8 +115,8 @@ CGT_SPU_INLINE void tile_prepare_triangles(const cgt_committed_scene *committed_
     }
 }
 
-/* A vector of pixels and their slots, of which one that has hit something has `some`, and all such, if `alone`. Returns the
- * lanes that are right. */
+/* Resolves a vector of pixels by their slots. first_slot: that of one pixel with a hit, and of all of them if `uniform`.
+ * Returns the lanes whose result is right. */
 CGT_SPU_INLINE vmask tile_resolve_prepared(const tile_prepared_triangles *m, vuint slot, uint32_t first_slot,
                                            bool uniform, vmask missed, const vfloat dir[3], uint32_t fields, bool exact,
                                            resolved_triangles *to)
@@ -128,25 +135,25 @@ typedef struct tile_pixel_vector {
     uint32_t x, row; /* of the first one */
     vuint prim;
     vmask missed;
-    uint32_t first_prim; /* an object that one of them has met, CGT_INVALID_ID where there is none */
-    bool uniform;        /* and no other */
+    uint32_t first_prim; /* a primitive that one of them has hit, or CGT_INVALID_ID */
+    bool uniform;        /* none of them has hit another one */
 } tile_pixel_vector;
 
-/* What the last vector of pixels has met: the next one has mostly met the same. */
+/* The sphere of the last vector of pixels: the next one has mostly hit the same. */
 typedef struct tile_prepared_sphere {
     uint32_t number;
     prepared_sphere sphere;
 } tile_prepared_sphere;
 
-/* What is constant over a frame; inlined with constants where that makes loops shorter. */
+/* Constant over a frame. Some members are compile-time constants where loops are instantiated (tile_resolve.c). */
 typedef struct tile_resolve_mode {
     bool triangles, nontemporal, exact, fast;
     bool prepared;   /* triangles are prepared */
-    bool parallel;   /* rays: tile_load_directions tells their origins */
-    uint32_t fields; /* t, u v and normals */
+    bool parallel;   /* rays are parallel: tile_load_directions loads their origins */
+    uint32_t fields; /* of t, normals, u and v */
 } tile_resolve_mode;
 
-/* What is kept from vector to vector. */
+/* Shared by the vectors of a tile. */
 typedef struct tile_resolve_cache {
     const tile_pixel_runs *pixel_runs;
     const tile_ray_table *ray_table;
@@ -154,7 +161,7 @@ typedef struct tile_resolve_cache {
     const tile_prepared_triangles *prepared;
 } tile_resolve_cache;
 
-/* Objects of lanes, those without a hit having one that another lane has met. */
+/* The lanes' primitives; lanes without a hit get that of another lane. */
 CGT_SPU_INLINE vuint tile_pixel_prims(const tile_pixel_vector *p)
 {
     return spux_select(p->prim, spux_vuint(p->first_prim), p->missed);
@@ -166,7 +173,7 @@ CGT_SPU_INLINE void tile_store_normals(const vfloat normal[3], vmask missed, til
         h->normal[a] = spux_select(normal[a], spux_vfloat(0), missed);
 }
 
-/* These three return the lanes that are right. */
+/* The next three functions return the lanes whose result is right. */
 CGT_SPU_INLINE vmask tile_resolve_spheres(const cgt_committed_scene *committed_scene, const tile *t,
                                           tile_resolve_mode mode, const tile_pixel_vector *p, tile_resolve_cache cache,
                                           tile_hits *h)
@@ -235,7 +242,7 @@ CGT_SPU_INLINE vmask tile_resolve_triangles(const cgt_committed_scene *committed
     return resolved;
 }
 
-/* Parallel rays, from these origins. */
+/* Parallel rays from these origins. */
 CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_committed_scene *committed_scene, const tile *t,
                                            tile_resolve_mode mode, const tile_pixel_vector *p, const vfloat org[3],
                                            tile_hits *h)
@@ -266,7 +273,7 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_committed_scene *committed_
     return resolved;
 }
 
-/* Columns x and on of a row, which have met `object`. */
+/* Columns x and on of a row, which have hit `prim`. */
 CGT_SPU_INLINE tile_hits tile_resolve_vector(const cgt_committed_scene *committed_scene, const tile *t,
                                              tile_resolve_mode mode, uint32_t x, uint32_t row, vuint prim,
                                              tile_resolve_cache cache)

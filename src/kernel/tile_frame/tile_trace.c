@@ -1,8 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A camera's frame tile by tile: objects of a loose grid, front to back, to the pixels that they may reach. The hits are
- * those that every other way finds. */
+ * Traces a camera's frame tile by tile: primitives of a loose grid, front to back, are rasterised over the pixels that
+ * they may reach. The hits are the same as those of all other structures.
+ *
+ *   slice of cells    tile_march.h                     which cells the rays may need
+ *   visible cells     tile_cull.h                      boxes against windows and occlusion
+ *   references        prefetch_queue.h                 wait for the caches
+ *   visible prims     tile_spheres.h, tile_triangles.h windows and occlusion, a vector at a time
+ *   pixels            tile_sphere_draw.h, ...          certain hits are stored, undecided ones queued
+ *   the queue         tile_decide.c                    decided exactly
+ *   planes            tile_resolve.c                   t, u, v and normals */
 #include "kernel/packet/packet.h"
 #include "kernel/tile/prefetch_queue.h"
 #include "kernel/tile_draw/tile_parallel_triangles.h"
@@ -12,10 +20,10 @@
 #include "kernel/tile_frame/tile_planes.h"
 #include "query/tile_limits.h"
 
-#define REFRESH_INTERVAL 128u /* objects after which it pays to look how far the parts still see */
+#define REFRESH_INTERVAL 128u /* rasterised primitives between updates of the parts' far distances */
 
-#define MIN_CELL_REFERENCES 96u /* references of a slice: to look at cells costs more */
-#define MAX_RUNS 16u            /* of references, looked up together */
+#define MIN_CELL_REFERENCES 96u /* slices with fewer references: culling cells costs more than it saves */
+#define MAX_RUNS 16u            /* of references, prefetched together */
 
 typedef struct tile_work {
     const cgt_committed_scene *committed_scene;
@@ -27,7 +35,7 @@ typedef struct tile_work {
     uint32_t rasterised;     /* since the last refresh */
 } tile_work;
 
-/* ---- objects ---- */
+/* ---- primitives ---- */
 
 static void tile_refresh_depths(tile_work *w)
 {
@@ -36,7 +44,7 @@ static void tile_refresh_depths(tile_work *w)
     w->rasterised = 0;
 }
 
-/* Counts a vector of references of which some are drawn; refreshes what the tile knows after enough of them. */
+/* Counts references, of which some were rasterised; updates the far distances after enough of them. */
 CGT_SPU_INLINE void tile_count_references(tile_work *w, uint32_t count, uint32_t rasterised)
 {
     w->counts->references += count;
@@ -50,6 +58,7 @@ CGT_SPU_INLINE void tile_count_references(tile_work *w, uint32_t count, uint32_t
 CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres *s)
 {
     const cgt_primitives *prims = &w->committed_scene->prims;
+    /* small windows: without clipping */
     const unsigned small_lanes = s->small_lanes[1] & s->single_lanes;
     uint32_t rasterised = (uint32_t)__builtin_popcount(small_lanes);
     if (small_lanes & ~s->small_lanes[0])
@@ -58,6 +67,7 @@ CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres 
     else
         for (unsigned remaining = small_lanes; remaining; remaining &= remaining - 1)
             tile_rasterise_small_sphere(prims, w->t, s, __builtin_ctz(remaining), 3, &w->queue, w->counts);
+    /* all others, in single or double precision */
     for (unsigned remaining = (s->single_lanes | s->double_lanes) & ~small_lanes; remaining;
          remaining &= remaining - 1) {
         const int k = __builtin_ctz(remaining);
@@ -73,7 +83,7 @@ CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres 
     return rasterised;
 }
 
-/* At most TILE_MAX_VISIBLE references; parallel is a constant. Returns how many were drawn. */
+/* At most TILE_MAX_VISIBLE references; `parallel` is a constant. Returns how many were rasterised. */
 CGT_SPU_INLINE uint32_t tile_test_spheres_by_kind(tile_work *w, const uint32_t *reference, uint32_t count,
                                                   bool parallel)
 {
@@ -82,6 +92,7 @@ CGT_SPU_INLINE uint32_t tile_test_spheres_by_kind(tile_work *w, const uint32_t *
     tile_spheres s;
     uint32_t rasterised = 0;
     visible.count = 0;
+    /* cull all vectors first: the visible ones fill vectors of their own */
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         const vuint prim = load_references(reference + k, count - k);
         gather_scene_spheres(&w->committed_scene->prims, prim, sphere);
@@ -102,7 +113,7 @@ CGT_SPU_INLINE uint32_t tile_test_spheres_by_kind(tile_work *w, const uint32_t *
     return rasterised;
 }
 
-/* A function of its own: what perspective takes stays as short as it is. */
+/* Not inlined: keeps the code for perspective short. */
 __attribute__((noinline)) static uint32_t tile_test_parallel_spheres(tile_work *w, const uint32_t *reference,
                                                                      uint32_t count)
 {
@@ -167,7 +178,7 @@ static void tile_test_triangles(void *owner, const uint32_t *reference, uint32_t
     tile_count_references(w, count, rasterised);
 }
 
-/* Of at most a vector of clusters those whose boxes are visible, as bits. */
+/* The visible ones of at most a vector of clusters, as bits. */
 static unsigned tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
 {
     tile_work *w = owner;
@@ -195,7 +206,7 @@ static void tile_drain_whole_vectors(tile_work *w)
     prefetch_drain_triangles(&w->prefetch, &tile_tests, w->pending.triangles.count / CGT_LANES * CGT_LANES);
 }
 
-/* Runs of references, some looked up ahead, so that they come to the cache, too. */
+/* Runs of references whose cache lines are prefetched before the first one is read. */
 typedef struct runs {
     const uint32_t *reference[MAX_RUNS];
     uint32_t count[MAX_RUNS], runs;
@@ -213,7 +224,7 @@ CGT_SPU_INLINE void tile_append_run(tile_work *w, runs *r, const uint32_t *refer
     const uint32_t last = r->runs - 1;
     for (uint32_t i = 0; i < count; i += 16)
         __builtin_prefetch(reference + i);
-    if (r->runs && r->reference[last] + r->count[last] == reference) { /* cells side by side */
+    if (r->runs && r->reference[last] + r->count[last] == reference) { /* cells side by side: one run */
         r->count[last] += count;
         return;
     }
@@ -223,7 +234,7 @@ CGT_SPU_INLINE void tile_append_run(tile_work *w, runs *r, const uint32_t *refer
     r->count[r->runs++] = count;
 }
 
-/* The references of the cells that the tile wants. */
+/* Collects the references of the slice's visible cells. */
 static void tile_visit_cells(tile_work *w, const tile_march *m, const tile_slice *s, runs *r)
 {
     const tile_cells c = tile_init_cells(w->t, m, s);
@@ -235,13 +246,14 @@ static void tile_visit_cells(tile_work *w, const tile_march *m, const tile_slice
         }
 }
 
-/* Runs of whole rows where there are few references, else the cells that are wanted. */
+/* Collects whole rows of cells if there are few references, otherwise the visible cells. */
 static void tile_visit_slice(tile_work *w, const tile_march *m, const tile_slice *s)
 {
     const uint32_t rows = tile_slice_run_count(m, s);
     uint32_t count, references = 0;
     runs r;
     r.runs = 0;
+    /* are there few references? */
     for (uint32_t k = 0; k < rows && references < MIN_CELL_REFERENCES; k++) {
         tile_slice_get_run(m, s, k, &count);
         references += count;
@@ -282,7 +294,7 @@ static void tile_trace_region(const cgt_committed_scene *committed_scene, const 
                               const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
     tile t;
-    tile_work w; /* large: not all of it is set */
+    tile_work w; /* large: set field by field */
     w.committed_scene = committed_scene;
     w.t = &t;
     w.queue.entries = 0;
