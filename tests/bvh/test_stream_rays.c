@@ -5,6 +5,7 @@
  * arithmetic: the same hits and the same bits, whatever the rays, their number, order, layout and ranges, as streams and
  * in flight, with room for lists and stacks and with hardly any, with objects that rays ignore; and with margins of the
  * slabs made smaller until hits are lost. The streams are compiled into the test, where the library finds them. */
+#include "exact/valid_primitive.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
 

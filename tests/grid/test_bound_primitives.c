@@ -3,6 +3,7 @@
  *
  * The pass over all objects, against a plain one that takes them one after another: every number is the same, to the
  * bit, on each variant and any number of threads; and the first index out of range is found wherever it is. */
+#include "exact/valid_primitive.h"
 #include "grid/loose_scenes.h"
 
 #include <math.h>

@@ -4,13 +4,14 @@
  * The loose grid after a commit, against its contract (loose_grid.h): every valid object lies in one cell, ascending
  * there, and within reach of the cell's box, which exact arithmetic decides; levels hold like sizes; cells are as many
  * as they should be; and all of it is the same on each variant and any number of threads. */
+#include "exact/valid_primitive.h"
 #include "grid/loose_scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "builders/grid/loose_grid_build.h"
+#include "builders/order/cell_sort.h"
 #include "scene/scene.h"
 #include "support/oracle/dyadic.h"
 

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Worlds of a few objects, trees that no heuristic would make, rays at their planes. */
+#include "exact/valid_primitive.h"
 #include "kd/kd_rope_cases.h"
 
 #include <math.h>

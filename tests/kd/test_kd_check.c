@@ -3,6 +3,7 @@
  *
  * The checker of kd-trees can fail: each kind of fault, planted in a good tree, is found. And what it believes of
  * shapes and boxes: cases by hand at the very limit, points of triangles, and the library's own conservative test. */
+#include "exact/valid_primitive.h"
 #include "kd/kd_trees.h"
 
 #include <math.h>

@@ -4,6 +4,7 @@
  * Rays along ropes, one by one and in packets, of the variant that this is compiled for: the hits are those of brute
  * force; the leaves that a ray comes to cover it without a gap, by arithmetic that shares nothing with the library; and
  * none comes twice. */
+#include "exact/valid_primitive.h"
 #include "support/oracle/dyadic.h"
 #include "support/kd/kd_check.h"
 #include "kd/kd_rope_cases.h"

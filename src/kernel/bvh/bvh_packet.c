@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays of a packet through the wide tree, one at a time. In FAST precision too the hits are decided exactly. */
+#include "exact/valid_primitive.h"
 #include "kernel/bvh/bvh_single.h"
 
 /* Ray i, normalised. Returns false where the bounds do not cover it. */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The hits of a packet, through the structure that the commit built. */
+#include "exact/valid_primitive.h"
 #include "kernel/primitive/filter.h"
 
 /* Numbers too large or too small for the bounds of single precision: every ray against every object in double. */

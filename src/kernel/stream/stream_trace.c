@@ -13,6 +13,7 @@
  * its list in pieces, each through all that hangs on the node before the next. There is always room for a piece of one
  * vector: a level takes at most STREAM_MIN_WORDS words for that, levels are at most CGT_BVH_MAX_DEPTH, the arena is at least
  * so many times as large, and a node leaves that much for each level below it. */
+#include "exact/valid_primitive.h"
 #include "kernel/packet/ray_hits.h"
 #include "kernel/stream/stream_interleaved.h"
 #include "kernel/stream/stream_node.h"
