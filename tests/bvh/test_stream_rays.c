@@ -25,6 +25,8 @@ static float slack_scale = 1, filter_u = 0x1p-24f;
 #define INTERLEAVE_SPREAD_RAYS fly_apart
 #define INTERLEAVE_MAX_RAYS fly_most
 #define BVH_ERROR_SCALE slack_scale
+#include "kernel/stream/stream_hits.c"
+#include "kernel/stream/stream_single.c"
 #include "kernel/stream/stream_trace.c"
 
 /* With an emulator or sanitizers. */

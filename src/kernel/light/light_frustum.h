@@ -19,11 +19,9 @@
 
 #include "kernel/packet/ray_packet.h"
 #include "kernel/bvh/bvh_node.h"
+#include "kernel/tunables.h"
 
 #define LIGHT_MAX_SLOPE 2.f
-#ifndef LIGHT_MARGIN /* a test gives it other values, to find where it breaks */
-#define LIGHT_MARGIN 0x1p-17f
-#endif
 
 /* Rays lie between the planes v - slope[a][0] w >= offset[a][0] and v - slope[a][1] w <= offset[a][1], for both axes a,
  * and between two w. Margins are in it. */

@@ -11,10 +11,7 @@
 #include "exact/decide.h"
 #include "kernel/packet/block_cones.h"
 #include "kernel/packet/ray_mask.h"
-
-#ifndef FILTER_ROUNDOFF /* a test gives it other values, to find where the bounds break */
-#define FILTER_ROUNDOFF 0x1p-24f
-#endif
+#include "kernel/tunables.h"
 
 /* What the bounds need to know of the rays. */
 typedef struct filter_packet {
