@@ -10,16 +10,15 @@
 
 #include "core/memory.h"
 #include "core/tasks.h"
-#include "dispatch/variant.h"
 
 #define CGT_MESSAGE_BYTES 256
 
 struct cgt_context {
     cgt_memory_hooks memory;
     cgt_log_hook log;
-    cgt_task_runner tasks; /* run: the caller's, the backend's, or NULL where one thread does it all */
-    void *pool;            /* the backend's state; NULL where it is not used */
-    const cgt_kernel *kernel;
+    cgt_task_runner tasks;           /* run: the caller's, the backend's, or NULL where one thread does it all */
+    void *pool;                      /* the backend's state; NULL where it is not used */
+    const struct cgt_kernel *kernel; /* dispatch/kernel.h */
     uint32_t threads;
     atomic_uint references; /* the caller's and one per scene */
     pthread_mutex_t message_lock;

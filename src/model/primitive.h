@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef struct cgt_sphere {
     float x, y, z, r;
@@ -25,5 +26,14 @@ typedef struct cgt_primitive {
         cgt_triangle triangle;
     };
 } cgt_primitive;
+
+/* Whether two primitives have the same kind and bits. */
+static inline bool cgt_same_primitive(const cgt_primitive *a, const cgt_primitive *b)
+{
+    if (a->kind != b->kind)
+        return false;
+    return a->kind == CGT_KIND_SPHERES ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
+                                       : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
+}
 
 #endif

@@ -33,14 +33,6 @@ typedef struct cgt_primitives {
     uint32_t spheres, triangles;
 } cgt_primitives;
 
-/* Whether a primitive takes part, or why it is skipped. */
-typedef enum cgt_primitive_state {
-    CGT_PRIMITIVE_VALID = 0,
-    CGT_PRIMITIVE_NOT_FINITE,
-    CGT_PRIMITIVE_NEGATIVE_RADIUS,
-    CGT_PRIMITIVE_DEGENERATE
-} cgt_primitive_state;
-
 /* The array that holds an object: the last one that starts at it or before. */
 static inline const cgt_primitive_array *cgt_primitives_array(const cgt_primitives *prims, uint32_t prim)
 {
@@ -145,32 +137,6 @@ static inline cgt_primitive cgt_primitives_get(const cgt_primitives *prims, uint
 {
     const cgt_primitive_array *a = cgt_primitives_array(prims, prim);
     return cgt_array_primitive(a, prim - a->first);
-}
-
-static inline cgt_primitive_state cgt_sphere_check(cgt_sphere q)
-{
-    /* finite times zero is zero; infinity and NaN give NaN, and NaN stays */
-    const float zero = q.x * 0 + q.y * 0 + q.z * 0 + q.r * 0;
-    return zero != 0 ? CGT_PRIMITIVE_NOT_FINITE : q.r < 0 ? CGT_PRIMITIVE_NEGATIVE_RADIUS : CGT_PRIMITIVE_VALID;
-}
-
-/* Whether a triangle has an area, decided exactly. */
-bool cgt_triangle_has_area(const cgt_triangle *q);
-
-static inline cgt_primitive_state cgt_triangle_check(const cgt_triangle *q)
-{
-    float zero = 0;
-    for (int k = 0; k < 3; k++)
-        zero += q->v[k][0] * 0 + q->v[k][1] * 0 + q->v[k][2] * 0;
-    return zero != 0                  ? CGT_PRIMITIVE_NOT_FINITE
-           : cgt_triangle_has_area(q) ? CGT_PRIMITIVE_VALID
-                                      : CGT_PRIMITIVE_DEGENERATE;
-}
-
-static inline cgt_primitive_state cgt_primitive_check(const cgt_primitive *primitive)
-{
-    return primitive->kind == CGT_KIND_SPHERES ? cgt_sphere_check(primitive->sphere)
-                                               : cgt_triangle_check(&primitive->triangle);
 }
 
 #endif

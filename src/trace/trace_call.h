@@ -5,6 +5,7 @@
 #ifndef CGT_TRACE_CALL_H
 #define CGT_TRACE_CALL_H
 
+#include "dispatch/kernel.h"
 #include "scene/scene.h"
 
 typedef struct cgt_trace_counter {

@@ -5,6 +5,7 @@
  * force: for any rays, batch sizes, orders, layouts and ranges, as streams and interleaved, with large and with
  * minimal buffers, and with skipped primitives. Then the bounds of slabs are tightened until hits are lost. The test
  * compiles the streams itself and links them in place of the library's. */
+#include "exact/valid_primitive.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
 
@@ -24,6 +25,8 @@ static float slack_scale = 1, filter_u = 0x1p-24f;
 #define INTERLEAVE_SPREAD_RAYS interleave_spread
 #define INTERLEAVE_MAX_RAYS interleave_max
 #define BVH_ERROR_SCALE slack_scale
+#include "kernel/stream/stream_hits.c"
+#include "kernel/stream/stream_single.c"
 #include "kernel/stream/stream_trace.c"
 
 /* With an emulator or sanitizers. */

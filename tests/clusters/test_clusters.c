@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/valid_primitive.h"
 #include "clusters/cluster_meshes.h"
 
 static cgt_scene_statistics statistics_of(const cgt_scene *scene)

@@ -4,13 +4,14 @@
  * The loose grid after a commit against its contract (loose_grid.h). Every valid primitive lies in one cell, in
  * ascending order, and within reach of the cell's box, as exact arithmetic decides. Levels hold similar sizes, and
  * the number of cells is as specified. All of it is the same for each variant and any number of threads. */
+#include "exact/valid_primitive.h"
 #include "grid/loose_scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "builders/grid/loose_grid_build.h"
+#include "builders/order/cell_sort.h"
 #include "scene/scene.h"
 #include "support/oracle/dyadic.h"
 

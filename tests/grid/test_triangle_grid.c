@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/valid_primitive.h"
 #include "primitive/triangle_scenes.h"
 #include "scene/scene.h"
 

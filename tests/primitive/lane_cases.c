@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays and primitives for the tests of leaves. */
+#include "exact/valid_primitive.h"
 #include "primitive/lane_cases.h"
 
 #include <math.h>

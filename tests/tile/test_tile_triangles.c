@@ -5,6 +5,7 @@
  * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_ROUNDOFF less than the unit
  * roundoff, until they break. */
 #include "support/test.h"
+#include "exact/valid_primitive.h"
 #include "support/tightened.h"
 
 #include <math.h>

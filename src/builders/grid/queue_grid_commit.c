@@ -5,10 +5,11 @@
 #include <string.h>
 
 #include "builders/commit.h"
+#include "dispatch/kernel.h"
 
 /* ---- filling ---- */
 
-/* Room in the overflow list to begin with: a push asks for as much as it might spill, though it rarely spills. */
+/* Room in the overflow list to begin with: a push needs as much as it might spill, though it rarely spills. */
 #define MIN_OVERFLOW 1024
 
 static cgt_result fill(cgt_scene *scene)
@@ -96,9 +97,8 @@ static void report(cgt_scene *scene)
     st->cells = g->cells;
     st->structure_bytes =
         (size_t)g->cells * cgt_queue_grid_voxel_bytes(g) + (size_t)g->overflows * sizeof(cgt_overflow);
-    st->local_store_bytes = st->structure_bytes + (size_t)g->prims->spheres * sizeof(cgt_sphere) +
-                            (size_t)g->prims->triangles * sizeof(cgt_triangle);
-    st->fits_local_store = small && st->local_store_bytes + (64u << 10) <= 256u << 10;
+    cgt_report_local_store(scene, sizeof(cgt_sphere), sizeof(cgt_triangle));
+    st->fits_local_store &= small;
 }
 
 cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_primitive_bounds *bounds)

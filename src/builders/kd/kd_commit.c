@@ -37,9 +37,7 @@ static void report(cgt_scene *scene, const cgt_kd_raw *raw)
     st->reference_bits = 32;
     st->structure_bytes = tree->nodes * sizeof(cgt_kd_node) + (size_t)tree->references * sizeof(uint32_t) +
                           (tree->leaf ? tree->leaves * sizeof(cgt_kd_leaf) : 0);
-    st->local_store_bytes = st->structure_bytes + committed_scene->prims.spheres * sizeof(cgt_sphere) +
-                            committed_scene->prims.triangles * sizeof(cgt_leaf_triangle);
-    st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
+    cgt_report_local_store(scene, sizeof(cgt_sphere), sizeof(cgt_leaf_triangle));
 }
 
 cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes)

@@ -3,7 +3,7 @@
  *
  * Which levels a loose grid has, where each lies and how fine it is. All from the size classes: the objects are not
  * read again. */
-#include "builders/grid/loose_grid_build.h"
+#include "builders/order/size_levels.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,6 +4,7 @@
  * The pass over all objects of a commit, a vector at a time: what is skipped, bounds, sizes. Every number is the one
  * that the objects one after another give, on any width: sums are taken in their order, in double; extremes have
  * none. */
+#include "exact/valid_primitive.h"
 #include "dispatch/kernel.h"
 
 #include <math.h>

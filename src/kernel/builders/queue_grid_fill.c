@@ -4,6 +4,7 @@
  * Fills the queue grid (Chapman, section 3.4): the corners of each object's bounds are found for a vector of objects at
  * once, and pushed as eight references. He assumes objects smaller than a cell; where the corners are more than one
  * cell apart on any axis, the object goes to every cell of its bounds that it touches. */
+#include "exact/valid_primitive.h"
 #include "dispatch/kernel.h"
 
 #include "kernel/builders/triangle_box.h"

@@ -32,10 +32,7 @@
 #include "kernel/primitive/lane_tests.h"
 #include "kernel/packet/ray_packet.h"
 #include "kernel/bvh/bvh_node.h"
-
-#ifndef BVH_ERROR_SCALE /* a test gives it less, to find where hits are lost */
-#define BVH_ERROR_SCALE 1.f
-#endif
+#include "kernel/tunables.h"
 
 #define BVH_MAX_ORG 0x1p60f
 #define BVH_MAX_T 0x1p100f

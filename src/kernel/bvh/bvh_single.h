@@ -154,18 +154,31 @@ CGT_SPU_INLINE vuint bvh_push_order(const bvh_node *n, uint32_t octant)
     return spux_permute(order, spu_sub(spux_vuint(n->children - 1), spux_lane_index()));
 }
 
+/* Clips the ray's range to the children's boxes. near and far: the planes that the ray meets first and last along each
+ * axis. */
+CGT_SPU_INLINE void bvh_clip_to_boxes(const bvh_ray *r, const float *const near[3], const float *const far[3],
+                                      vfloat *enter, vfloat *leave)
+{
+    *enter = spux_vfloat(r->near);
+    *leave = spux_vfloat(r->far);
+    for (int a = 0; a < 3; a++) {
+        const vfloat rdir = spux_vfloat(r->rdir[a]);
+        *enter = spux_max(spu_madd(spux_load(near[a]), rdir, spux_vfloat(r->first[a])), *enter);
+        *leave = spux_min(spu_madd(spux_load(far[a]), rdir, spux_vfloat(r->last[a])), *leave);
+    }
+}
+
 /* Pushes the children that the ray passes. */
 CGT_SPU_INLINE void bvh_single_node(const bvh_call *c, const bvh_ray *r, const bvh_node *n, bvh_stack *s, bool any_hit)
 {
-    vfloat enter = spux_vfloat(r->near), leave = spux_vfloat(r->far);
+    const float *near[3], *far[3];
+    vfloat enter, leave;
     for (int a = 0; a < 3; a++) {
         const bool from_above = r->octant >> a & 1;
-        const vfloat rdir = spux_vfloat(r->rdir[a]);
-        enter =
-            spux_max(spu_madd(spux_load(from_above ? n->high[a] : n->low[a]), rdir, spux_vfloat(r->first[a])), enter);
-        leave =
-            spux_min(spu_madd(spux_load(from_above ? n->low[a] : n->high[a]), rdir, spux_vfloat(r->last[a])), leave);
+        near[a] = from_above ? n->high[a] : n->low[a];
+        far[a] = from_above ? n->low[a] : n->high[a];
     }
+    bvh_clip_to_boxes(r, near, far, &enter, &leave);
     vuint code = spux_load_uint(n->child);
     vmask passed = spu_and(spux_cmpge(leave, enter), spux_mask_first(n->children));
     c->counts->nodes++;

@@ -3,7 +3,7 @@
  *
  * Arrays of rays. Through a grid, neighbours become packets as they come, and the traversal splits those whose rays run
  * apart. Through a tree, packets are made of neighbours among the rays of like direction. */
-#include "kernel/packet/ray_hits.h"
+#include "kernel/packet/ray_packet.h"
 
 #define RAY_PACKET 64
 

@@ -33,11 +33,7 @@
 
 #include "exact/integer/plane_order.h"
 #include "kernel/packet/packet.h"
-
-/* A test sees which leaves rays come to: lanes are those of a vector, the first of them ray `first` of the packet. */
-#ifndef ROPE_VISIT
-#define ROPE_VISIT(first, lanes, leaf) ((void)0)
-#endif
+#include "kernel/tunables.h"
 
 /* In place of an axis: T is the start of the ray's range. */
 #define ROPE_START 3u

@@ -18,6 +18,8 @@
  * origin, on both where the origin lies in the plane; below 2^-70, where reciprocals leave the range, a ray counts as on
  * both. */
 #include "kernel/kd/kd_leaf.h"
+#include "kernel/kd/kd_rope_packet.h"
+#include "kernel/kd/kd_rope_single.h"
 #include "kernel/packet/ray_box.h"
 
 #define PLANE_REL_ERROR 0x1p-20f
@@ -288,4 +290,20 @@ void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet
         else
             traverse_vector(&committed_scene->kd, &l, i);
     }
+}
+
+/* ---- ropes ---- */
+
+void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                                    const cgt_trace_settings *settings, cgt_counts *counts)
+{
+    leaf_tests l;
+    leaf_tests_init(committed_scene, p, settings, counts, &l);
+    if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE) {
+        for (uint32_t i = 0; i < p->lanes; i++)
+            rope_trace_ray(&committed_scene->kd, &l, i);
+        return;
+    }
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+        rope_trace_vector(&committed_scene->kd, &l, i);
 }

@@ -58,41 +58,22 @@ typedef struct packet {
 #define PACKET_MAX_COORDINATE 0x1p55f
 #define PACKET_MIN_DIR 0x1p-55f
 
-/* A region of a camera's frame: packet by packet through any structure; and tile by tile through a loose grid,
- * or packet by packet where tiles do not serve (tile_limits.h). */
-void CGT_KERNEL(cgt_trace_region)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
-void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                                const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+/* The entries of cgt_kernel that kernels call, too. */
+cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 
-/* Finds the hits of all rays of the packet, through whatever structure there is; and through each. */
-void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                  const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                      const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_loose_grid_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                      const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
-                              cgt_counts *counts);
-void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                    const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_bvh_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                               const cgt_trace_settings *settings, cgt_counts *counts);
+/* Finds the hits of all rays of the packet: through the structure that there is, or through one. */
+typedef void cgt_trace_packet_fn(const cgt_committed_scene *committed_scene, packet *p,
+                                 const cgt_trace_settings *settings, cgt_counts *counts);
+cgt_trace_packet_fn CGT_KERNEL(cgt_packet_trace);
+cgt_trace_packet_fn CGT_KERNEL(cgt_queue_grid_trace), CGT_KERNEL(cgt_loose_grid_trace), CGT_KERNEL(cgt_kd_trace),
+    CGT_KERNEL(cgt_kd_ropes_trace), CGT_KERNEL(cgt_bvh_trace);
 
-/* Points against a light through a loose grid; and see light_prims of cgt_kernel. */
-void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                      const cgt_light *light, uint64_t first, uint64_t end,
-                                      const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
-uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                          const cgt_light *light, uint64_t first, uint64_t end);
+/* Points against a light, through a loose grid and through the BVH; the light_prims of cgt_kernel. */
+cgt_trace_light_fn CGT_KERNEL(cgt_tile_trace_light), CGT_KERNEL(cgt_bvh_trace_light);
+cgt_light_prims_fn CGT_KERNEL(cgt_tile_light_prims);
 
-/* Arrays of rays, and points against a light, through the wide tree: see trace_rays and trace_light of cgt_kernel. */
-void CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                     const cgt_light *light, uint64_t first, uint64_t end,
-                                     const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
-void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
-                                    uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
-                                    uint8_t *occluded, cgt_counts *counts);
+/* Arrays of rays through the BVH. */
+cgt_trace_rays_fn CGT_KERNEL(cgt_bvh_trace_rays);
 
 /* The hits of a packet, ready to be handed out, by their names or plane by plane. */
 typedef union packet_hits {

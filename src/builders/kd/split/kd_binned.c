@@ -219,19 +219,11 @@ static void build(task *t, node n)
             cgt_kd_fill_bins(&t->bins, n.item, n.count);
         }
         const cgt_kd_plane plane = cgt_kd_choose_binned(t->rules, &t->bins, &n.box, weight);
-        if (plane.axis == 3)
+        const cgt_kd_step step =
+            cgt_kd_next_step(t->rules, t->out, &plane, n.count, t->room, &n.number, &n.depth, &n.box);
+        if (step == CGT_KD_STOP || (step == CGT_KD_DIVIDE && !descend(t, &n, &plane)))
             break;
-        if (n.depth == t->rules->max_leaf_depth || !cgt_kd_has_room(t->out, n.count, t->room)) {
-            t->out->limited_leaves++;
-            break;
-        }
-        binned = plane.lower_empty || plane.upper_empty;
-        if (binned) {
-            n.number = cgt_kd_cut_off(t->rules, t->out, n.number, &n.box, &plane);
-            n.depth++;
-        } else if (!descend(t, &n, &plane)) {
-            break;
-        }
+        binned = step == CGT_KD_CUT; /* the items are the same */
     }
     cgt_kd_add_leaf(t->rules, t->out, n.number, &n.box, n.item, n.count);
 }

@@ -168,6 +168,14 @@ static inline bool cgt_kd_may_split(const cgt_kd_rules *rules, float weight)
 uint32_t cgt_kd_cut_off(const cgt_kd_rules *rules, cgt_kd_output *out, uint32_t node, cgt_kd_box *box,
                         const cgt_kd_plane *plane);
 
+/* What becomes of a node, whose plane was chosen. */
+typedef enum cgt_kd_step { CGT_KD_STOP = 0, CGT_KD_CUT, CGT_KD_DIVIDE } cgt_kd_step;
+
+/* STOP where there is no plane, or no depth or room (counted as a limited leaf); CUT where the plane leaves one side
+ * empty, and the node became the other child; else DIVIDE. room: items that the stack takes. */
+cgt_kd_step cgt_kd_next_step(const cgt_kd_rules *rules, cgt_kd_output *out, const cgt_kd_plane *plane, uint32_t count,
+                             size_t room, uint32_t *node, uint32_t *depth, cgt_kd_box *box);
+
 /* ---- items: kd_items.c ---- */
 
 /* Makes items of the valid objects first to end - 1 in their order; all: every one is. Returns how many. */
@@ -200,6 +208,10 @@ typedef struct cgt_kd_subtree {
 
 void cgt_kd_build_binned(const cgt_kd_rules *rules, cgt_kd_subtree *subtree);
 void cgt_kd_build_sweep(const cgt_kd_rules *rules, cgt_kd_subtree *subtree);
+
+/* The cheapest plane across the axis. memory: CGT_KD_SWEEP_AXIS_BYTES an item. */
+cgt_kd_plane cgt_kd_sweep_once(const cgt_kd_rules *rules, const cgt_kd_box *box, uint32_t axis, const cgt_kd_item *item,
+                               uint32_t count, void *memory);
 
 /* ---- the top of the tree: kd_top.c ---- */
 

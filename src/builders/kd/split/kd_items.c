@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Items: the objects with their bounds, and what becomes of them where a plane divides them. */
+#include "exact/valid_primitive.h"
 #include "builders/kd/split/kd_clip.h"
 
 static inline float min_of(float a, float b) { return a < b ? a : b; }

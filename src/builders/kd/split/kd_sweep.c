@@ -5,7 +5,6 @@
  * split leaves those of items on one side in their order; items on both sides are clipped, and their new events are
  * sorted and merged in. As in the binned builder the larger child takes the place of its parent, the smaller goes on a
  * stack. */
-#include "builders/kd/split/kd_sweep.h"
 
 #include "builders/kd/split/kd_events.h"
 
@@ -158,18 +157,10 @@ static void build(task *t, node n)
 {
     while (n.count) {
         const cgt_kd_plane plane = choose_plane(t, &n);
-        if (plane.axis == 3)
+        const cgt_kd_step step =
+            cgt_kd_next_step(t->rules, t->out, &plane, n.count, t->room, &n.number, &n.depth, &n.box);
+        if (step == CGT_KD_STOP || (step == CGT_KD_DIVIDE && !descend(t, &n, &plane)))
             break;
-        if (n.depth == t->rules->max_leaf_depth || !cgt_kd_has_room(t->out, n.count, t->room)) {
-            t->out->limited_leaves++;
-            break;
-        }
-        if (plane.lower_empty || plane.upper_empty) {
-            n.number = cgt_kd_cut_off(t->rules, t->out, n.number, &n.box, &plane);
-            n.depth++;
-        } else if (!descend(t, &n, &plane)) {
-            break;
-        }
     }
     cgt_kd_add_leaf(t->rules, t->out, n.number, &n.box, n.item, n.count);
 }

@@ -4,7 +4,6 @@
  * The top of the tree, level by level: nodes with many items are worked on by all threads, chunk by chunk. Chunks,
  * levels and what becomes a task depend on counts alone, and what chunks find is put together in their order. */
 #include "builders/kd/split/kd_binned.h"
-#include "builders/kd/split/kd_sweep.h"
 
 struct cgt_kd_top_node {
     uint32_t number, depth, count;

@@ -15,7 +15,7 @@
 #define CGT_BVH_BINARY_H
 
 #include "core/memory.h"
-#include "builders/bvh/bvh_build.h"
+#include "dispatch/bvh_builder.h"
 #include "kernel/bvh/bvh_node.h"
 
 /* Both begin as a leaf does: whoever makes a node reads their boxes. */

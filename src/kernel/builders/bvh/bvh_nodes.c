@@ -251,12 +251,12 @@ void CGT_KERNEL(cgt_bvh_build_nodes)(const cgt_bvh_build *b, const cgt_bvh_range
     }
 }
 
-void CGT_KERNEL(cgt_bvh_compute_keys)(const cgt_bvh_keys_job *job, const cgt_primitive_array *array, uint32_t first,
-                                      uint32_t end, uint32_t *key);
-void CGT_KERNEL(cgt_bvh_compute_cluster_keys)(const cgt_bvh_keys_job *job, const cgt_cluster *cluster, uint32_t count,
-                                              uint32_t *key);
-void CGT_KERNEL(cgt_bvh_split_range)(const cgt_bvh_build *build, cgt_bvh_range *range);
-void CGT_KERNEL(cgt_bvh_build_leaves)(const cgt_bvh_build *build, uint32_t range);
+/* ---- the table ---- */
+
+cgt_prim_keys_fn CGT_KERNEL(cgt_bvh_keys);
+cgt_cluster_keys_fn CGT_KERNEL(cgt_bvh_cluster_keys);
+cgt_bvh_split_fn CGT_KERNEL(cgt_bvh_split_range);
+cgt_bvh_leaves_fn CGT_KERNEL(cgt_bvh_build_leaves);
 
 const cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder) = {
     .node_bytes = sizeof(bvh_node),
@@ -265,8 +265,8 @@ const cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder) = {
     .inner_bytes = sizeof(bvh_inner_record),
     .branch_bytes = sizeof(bvh_branch),
     .lanes = CGT_LANES,
-    .keys = CGT_KERNEL(cgt_bvh_compute_keys),
-    .cluster_keys = CGT_KERNEL(cgt_bvh_compute_cluster_keys),
+    .keys = CGT_KERNEL(cgt_bvh_keys),
+    .cluster_keys = CGT_KERNEL(cgt_bvh_cluster_keys),
     .split = CGT_KERNEL(cgt_bvh_split_range),
     .leaves = CGT_KERNEL(cgt_bvh_build_leaves),
     .join = CGT_KERNEL(cgt_bvh_join_ranges),

@@ -14,11 +14,11 @@
  *
  * Time. A round looks at each object of a crowded cell some times and has no more cells than objects; there are at most
  * MAX_ROUNDS, and each cell that a key can name is looked at once. */
-#include "kernel/builders/bvh/bvh_cells.h"
-
 #include <math.h>
 
+#include "dispatch/bvh_builder.h"
 #include "kernel/builders/bvh/bvh_fetch.h"
+#include "kernel/builders/bvh/morton_cells.h"
 
 #define MAX_ROUNDS 8
 #define ROUND_BITS 10u

@@ -1,20 +1,89 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays in flight: single rays (bvh_single.h), some tens of which take turns, a step each: first those that are at a
- * node, then those at a leaf. The steps of one ray wait for each other, and its branches are foretold wrong; steps of
- * different rays overlap, and to which list a ray goes next is no branch. A call's rays, too few for a stream to fill its
- * lanes, go this way. Each ray has a small stack; one that needs more goes on alone. */
-#ifndef CGT_STREAM_INTERLEAVED_H
-#define CGT_STREAM_INTERLEAVED_H
-
+ * Rays of a stream as single rays (bvh_single.h): few of a list, those from far away, those that single precision does
+ * not cover, and whole calls of too few rays for streams.
+ *
+ * Interleaving. About 32 independent rays take turns, one traversal step each: first those at a node, then those at a
+ * leaf. The steps of one ray wait for each other, and its branches are mispredicted; steps of different rays overlap,
+ * and the list that a ray joins next is chosen without a branch. Each ray has a small stack; a ray that needs more is
+ * traced to its end alone. */
+#include "exact/valid_primitive.h"
 #include "kernel/stream/stream.h"
+
+/* ---- one after the other ---- */
+
+/* Traces one ray of the stream through the subtree of a code. */
+CGT_SPU_INLINE void stream_trace_ray(stream *s, uint32_t offset, uint32_t code, const float slab_error[3], bool any_hit)
+{
+    bvh_ray r;
+    stream_ray_load(s, offset, any_hit, &r);
+    if (r.far == -INFINITY)
+        return;
+    if (code & CGT_BVH_LEAF) {
+        bvh_leaf_ray l;
+        bvh_leaf_ray_init(&s->call, &r, &l);
+        bvh_single_leaf(&s->call, &r, &l, code, any_hit);
+    } else {
+        bvh_ray_set_slabs(&s->call, stream_record(s, offset) + RECORD_RDIR, slab_error, &r);
+        bvh_single_trace(&s->call, &r, code, any_hit);
+    }
+    stream_ray_store(s, offset, &r, any_hit);
+}
+
+void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (s->call.any_hit)
+            stream_trace_ray(s, list[i], code, s->slab_error, true);
+        else
+            stream_trace_ray(s, list[i], code, s->slab_error, false);
+    }
+}
+
+void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const float *d = stream_record(s, list[i]) + RECORD_ORG;
+        const float org[3] = {fabsf(d[0]), fabsf(d[1]), fabsf(d[2])};
+        float slab_error[3];
+        bvh_slab_error(&s->call, org, slab_error);
+        stream_trace_ray(s, list[i], 0, slab_error, s->call.any_hit);
+    }
+}
+
+__attribute__((cold)) void CGT_KERNEL(cgt_stream_trace_extreme)(stream *s, const uint32_t *list, uint32_t count)
+{
+    const cgt_primitives *prims = &s->call.committed_scene->prims;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t best = CGT_INVALID_ID;
+        const uint32_t number = list[i] / STREAM_RECORD;
+        const cgt_ray ray = bvh_input_ray(&s->call, number);
+        for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
+            double t;
+            if (bvh_ray_skips(&s->call, number, prim))
+                continue;
+            s->call.counts->packet_tests++;
+            s->call.counts->ray_tests++;
+            if (!filter_is_closer(prims, &ray, best, prim, &t, s->call.counts))
+                continue;
+            best = prim;
+            if (s->call.any_hit)
+                break;
+        }
+        if (best == CGT_INVALID_ID)
+            continue;
+        if (s->call.any_hit)
+            stream_set_occluded(s, list[i]);
+        else
+            stream_set_best(s, list[i], -INFINITY, -INFINITY, best);
+    }
+}
+
+/* ---- interleaved ---- */
 
 #define INTERLEAVED_RAYS 32u
 #define INTERLEAVED_STACK 64u
-#ifndef INTERLEAVED_STACK_USED /* a test makes it as small as it may be */
-#define INTERLEAVED_STACK_USED INTERLEAVED_STACK
-#endif
 
 typedef struct interleaved_ray {
     bvh_ray ray;
@@ -35,7 +104,7 @@ CGT_SPU_INLINE void interleaved_pop(interleaved_ray *f, bool any_hit)
     f->code = f->stack[f->top];
 }
 
-/* To the end, where the stack may not hold another node's children. */
+/* Traces a ray to its end, where its stack may not hold another node's children. */
 __attribute__((noinline, cold)) static void interleaved_finish(const bvh_call *c, interleaved_ray *f)
 {
     while (f->code != CGT_BVH_NO_CHILD) {
@@ -49,19 +118,18 @@ __attribute__((noinline, cold)) static void interleaved_finish(const bvh_call *c
     }
 }
 
-/* A step at a node: the children that the ray passes go onto the stack. */
+/* A step at a node: pushes the children that the ray passes. */
 CGT_SPU_INLINE void interleaved_step_node(const bvh_call *c, interleaved_ray *f, bool any_hit)
 {
     const bvh_node *n = (const bvh_node *)c->tree->node + f->code;
     const char *plane = (const char *)n;
-    vfloat enter = spux_vfloat(f->ray.near), leave = spux_vfloat(f->ray.far);
+    const float *near[3], *far[3];
+    vfloat enter, leave;
     for (int a = 0; a < 3; a++) {
-        const vfloat rdir = spux_vfloat(f->ray.rdir[a]);
-        const vfloat low = spux_load((const float *)(const void *)(plane + f->enter[a]));
-        const vfloat high = spux_load((const float *)(const void *)(plane + f->leave[a]));
-        enter = spux_max(spu_madd(low, rdir, spux_vfloat(f->ray.first[a])), enter);
-        leave = spux_min(spu_madd(high, rdir, spux_vfloat(f->ray.last[a])), leave);
+        near[a] = (const float *)(const void *)(plane + f->enter[a]);
+        far[a] = (const float *)(const void *)(plane + f->leave[a]);
     }
+    bvh_clip_to_boxes(&f->ray, near, far, &enter, &leave);
     vuint code = spux_load_uint(n->child);
     c->counts->nodes++;
     if (!any_hit) {
@@ -91,7 +159,7 @@ CGT_SPU_INLINE void interleaved_step_leaf(const bvh_call *c, interleaved_ray *f,
     interleaved_pop(f, any_hit);
 }
 
-/* A ray of a stream, at the root. */
+/* Puts a ray of the stream at the root. */
 CGT_SPU_INLINE void interleaved_start(stream *s, uint32_t offset, bool any_hit, interleaved_ray *f)
 {
     stream_ray_load(s, offset, any_hit, &f->ray);
@@ -110,13 +178,13 @@ CGT_SPU_INLINE void interleaved_start(stream *s, uint32_t offset, bool any_hit, 
     f->top = 1;
 }
 
-/* Those in flight, by where they are. */
+/* The interleaved rays, by where they are. */
 typedef struct interleaved_lists {
     uint32_t nodes, leaves;
     uint32_t node[INTERLEAVED_RAYS + 1], leaf[INTERLEAVED_RAYS + 1];
 } interleaved_lists;
 
-/* No branch: a ray's number is written to both lists, and stays in one. */
+/* Branchless: a ray's number is written to both lists, and counts in one. */
 CGT_SPU_INLINE void interleaved_enqueue(interleaved_lists *l, uint32_t number, uint32_t code)
 {
     const uint32_t leaf = code >> 31;
@@ -125,7 +193,7 @@ CGT_SPU_INLINE void interleaved_enqueue(interleaved_lists *l, uint32_t number, u
     l->leaves += leaf;
 }
 
-/* Rays of all octants, none of which has a hit. */
+/* Traces rays of all octants, none of which has a hit. */
 CGT_SPU_INLINE void interleaved_trace(stream *s, const uint32_t *list, uint32_t count, bool any_hit)
 {
     interleaved_ray f[INTERLEAVED_RAYS];
@@ -136,6 +204,7 @@ CGT_SPU_INLINE void interleaved_trace(stream *s, const uint32_t *list, uint32_t 
         interleaved_enqueue(&l, started, 0);
     }
     while (l.nodes | l.leaves) {
+        /* a step of each ray at a node */
         const uint32_t nodes = l.nodes;
         l.nodes = 0;
         for (uint32_t i = 0; i < nodes; i++) {
@@ -143,6 +212,7 @@ CGT_SPU_INLINE void interleaved_trace(stream *s, const uint32_t *list, uint32_t 
             interleaved_step_node(&s->call, &f[number], any_hit);
             interleaved_enqueue(&l, number, f[number].code);
         }
+        /* a step of each ray at a leaf; rays at their end make room for the next */
         const uint32_t leaves = l.leaves;
         l.leaves = 0;
         for (uint32_t i = 0; i < leaves; i++) {
@@ -161,4 +231,22 @@ CGT_SPU_INLINE void interleaved_trace(stream *s, const uint32_t *list, uint32_t 
     }
 }
 
-#endif
+__attribute__((noinline)) static void interleave_any(stream *s, const uint32_t *list, uint32_t count)
+{
+    interleaved_trace(s, list, count, true);
+}
+
+__attribute__((noinline)) static void interleave_closest(stream *s, const uint32_t *list, uint32_t count)
+{
+    interleaved_trace(s, list, count, false);
+}
+
+void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t count)
+{
+    if (count <= 1)
+        CGT_KERNEL(cgt_stream_trace_few)(s, list, count, 0);
+    else if (s->call.any_hit)
+        interleave_any(s, list, count);
+    else
+        interleave_closest(s, list, count);
+}

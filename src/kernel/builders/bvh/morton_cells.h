@@ -1,14 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Cells along a Morton curve, a vector of middles at a time. */
-#ifndef CGT_BVH_CELLS_H
-#define CGT_BVH_CELLS_H
+ * Cells along a Morton curve (model/morton_curve.h), a vector of middles at a time. */
+#ifndef MORTON_CELLS_H
+#define MORTON_CELLS_H
 
-#include "builders/bvh/bvh_build.h"
-#include "kernel/primitive/gather_primitives.h"
+#include "dispatch/kernel.h"
+#include "model/morton_curve.h"
+#include "vector.h"
 
-/* Not a number, where nothing is divided by nothing, gives cell 0. */
+/* NaN, as 0 / 0 gives it, is in cell 0. */
 CGT_SPU_INLINE vuint morton_cells(const cgt_morton_curve *c, const vfloat middle[3])
 {
     vuint i[3], cell = spux_vuint(0);

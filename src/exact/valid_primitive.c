@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Whether a triangle has an area. */
-#include "model/primitives.h"
+ * Which primitives are valid: whether a triangle has an area, decided exactly. */
+#include "exact/valid_primitive.h"
 
 #include "exact/integer/exact.h"
 #include "exact/triangle_double.h"
