@@ -174,13 +174,13 @@ static cgt_result trace_camera(const modes_job *job, const cgt_scene *scene, con
 static cgt_result trace_mode(const modes_job *job, const mode *m, const cgt_scene *scene, cgt_precision precision,
                              full_hit *hits)
 {
+    const cgt_research_trace_options research = {.packet = m->packet, .tile = m->tile};
     cgt_trace_options options;
     const truth_ray *rays = job->subject.scene.ray;
     cgt_result result = CGT_OK;
     cgt_trace_options_init(&options);
     options.precision = precision;
-    options.packet = m->packet;
-    options.tile = m->tile;
+    options.research = &research;
     switch (m->kind) {
     case MODE_CAMERA: return trace_camera(job, scene, &options, hits);
     case MODE_ARRAY: return trace_array(scene, rays, job->pixels, hits, &options);

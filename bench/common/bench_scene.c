@@ -31,12 +31,14 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
                               const uint32_t resolution[3])
 {
     cgt_scene_options options;
+    cgt_research_scene_options research = {0};
     memset(scene, 0, sizeof *scene);
     scene->context = context;
     scene->moving = moving;
     cgt_scene_options_init(&options);
     options.structure = CGT_STRUCTURE_QUEUE_GRID;
-    memcpy(options.resolution, resolution, sizeof options.resolution);
+    options.research = &research;
+    memcpy(research.resolution, resolution, sizeof research.resolution);
     const cgt_result result = cgt_scene_create(context, &options, &scene->scene);
     if (result != CGT_OK)
         scene->scene = NULL;
@@ -46,14 +48,11 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
                                  const bench_kd_choice *kd, const uint32_t resolution[3])
 {
-    cgt_scene_options options;
-    cgt_scene_options_init(&options);
-    options.structure = structure;
-    options.rays = rays;
-    options.kd_builder = kd->builder;
-    options.kd_layout = kd->layout;
-    options.kd_break_level = kd->break_level;
-    memcpy(options.resolution, resolution, sizeof options.resolution);
+    const cgt_research_scene_options research = {.resolution = {resolution[0], resolution[1], resolution[2]},
+                                                 .kd_builder = kd->builder,
+                                                 .kd_layout = kd->layout,
+                                                 .kd_break_level = kd->break_level};
+    const cgt_scene_options options = {.structure = structure, .rays = rays, .research = &research};
     return cgt_scene_set_options(scene->scene, &options);
 }
 
@@ -110,6 +109,8 @@ cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t co
     *ms = bench_now_ms() - begin;
     if (result == CGT_OK)
         result = cgt_scene_get_statistics(scene->scene, &build->built);
+    if (result == CGT_OK)
+        result = cgt_research_get_scene_statistics(scene->scene, &build->research);
     const cgt_structure built = build->built.structure;
     /* a scene without a valid primitive has no structure, and that is right for all */
     const int other = result == CGT_OK && build->structure != CGT_STRUCTURE_AUTO && built != build->structure &&
@@ -286,9 +287,9 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "tile", bench_tile_name(choice->tile));
     if (choice->loop != CGT_LOOP_AUTO)
         append(name, "loop", bench_loop_name(choice->loop));
-    if (choice->cull != CGT_CULL_BLOCKS)
+    if (choice->cull == CGT_CULL_NONE || choice->cull == CGT_CULL_FRUSTUM)
         append(name, "cull", bench_cull_name(choice->cull));
-    if (!choice->mailbox)
+    if (choice->mailbox == CGT_MAILBOX_OFF)
         append(name, "mailbox", "off");
     if (choice->precision_named || choice->precision != CGT_PRECISION_ROBUST)
         append(name, "precision", bench_precision_name(choice->precision));
@@ -298,16 +299,17 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "grid", choice->grid);
 }
 
-void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options)
+void bench_choice_options(const bench_choice *choice, bench_counts *counts, cgt_trace_options *options,
+                          cgt_research_trace_options *research)
 {
-    cgt_trace_options_init(options);
-    options->packet = choice->packet;
-    options->tile = choice->tile;
-    options->loop = choice->loop;
-    options->cull = choice->cull;
-    options->mailbox = choice->mailbox;
-    options->precision = choice->precision;
-    options->triangle_test = choice->test;
-    options->kd_traversal = choice->kd.traversal;
-    options->statistics = statistics;
+    *research = (cgt_research_trace_options){.packet = choice->packet,
+                                             .tile = choice->tile,
+                                             .loop = choice->loop,
+                                             .cull = choice->cull,
+                                             .mailbox = choice->mailbox,
+                                             .kd_traversal = choice->kd.traversal,
+                                             .triangle_test = choice->test,
+                                             .statistics = counts ? &counts->research : NULL};
+    *options = (cgt_trace_options){
+        .precision = choice->precision, .statistics = counts ? &counts->trace : NULL, .research = research};
 }

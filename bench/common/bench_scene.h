@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 typedef struct bench_scene {
     cgt_context *context; /* not owned */
@@ -51,14 +51,14 @@ typedef struct bench_kd_choice {
     cgt_kd_builder builder;
 } bench_kd_choice;
 
-/* What can be set of a trace; zero and NULL are the library's choices, cull and mailbox are given as they are. */
+/* What can be set of a trace; zero and NULL are the library's choices. */
 typedef struct bench_choice {
     const char *variant;
     uint32_t packet;
     cgt_tile_shape tile;
     cgt_loop loop;
     cgt_cull cull;
-    int mailbox;
+    cgt_mailbox mailbox;
     cgt_precision precision;
     int precision_named; /* 1: the name says the default precision, too */
     cgt_triangle_test test;
@@ -93,8 +93,15 @@ void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);
 
-/* The trace options of a choice; statistics NULL where nothing is to be counted. */
-void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options);
+/* What a trace counts. */
+typedef struct bench_counts {
+    cgt_trace_statistics trace;
+    cgt_research_trace_statistics research;
+} bench_counts;
+
+/* The trace options of a choice, which point to `research`; counts NULL where nothing is to be counted. */
+void bench_choice_options(const bench_choice *choice, bench_counts *counts, cgt_trace_options *options,
+                          cgt_research_trace_options *research);
 
 /* Changes the scene's structure; rays: what AUTO chooses for; resolution: as in bench_scene_create. */
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
@@ -107,6 +114,7 @@ typedef struct bench_build {
     bench_kd_choice kd;
     int left_out;               /* the library does not build it */
     cgt_scene_statistics built; /* of the last commit */
+    cgt_research_scene_statistics research;
 } bench_build;
 
 /* Builds it over `count` spheres or vertices, timed; leaves it out, with a message that names the file, where the

@@ -101,8 +101,6 @@ static int prepare(floor_job *job)
     const bench_settings *shared = &settings->shared;
     job->choice = (bench_choice){.variant = shared->variant,
                                  .packet = shared->packet,
-                                 .cull = CGT_CULL_BLOCKS,
-                                 .mailbox = 1,
                                  .precision = settings->precision,
                                  .precision_named = settings->precision_given,
                                  .kd = settings->structure.kd};

@@ -32,7 +32,7 @@ typedef struct frame_settings {
     cgt_loop loop;
     cgt_tile_shape tile;
     cgt_cull cull;
-    int mailbox;
+    cgt_mailbox mailbox;
     cgt_precision precision;
     int precision_given;
     cgt_triangle_test test;
@@ -120,7 +120,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
                                                                                        : CGT_TILE_SHAPE_STRIP;
         return 0;
     case OPTION_CULL: settings->cull = cull_by_name(state, argument); return 0;
-    case OPTION_NO_MAILBOX: settings->mailbox = 0; return 0;
+    case OPTION_NO_MAILBOX: settings->mailbox = CGT_MAILBOX_OFF; return 0;
     case 'p':
         if (bench_precision_find(argument, &settings->precision))
             argp_error(state, "-p: robust, fast or exact, not %s", argument);
@@ -159,12 +159,13 @@ static cgt_result measure_frame(frame_job *job, bench_scene *scene, uint32_t cou
 {
     const frame_settings *settings = job->settings;
     cgt_frame frame;
+    const cgt_research_trace_options research = {.kd_traversal = trace->research->kd_traversal,
+                                                 .triangle_test = trace->research->triangle_test};
     cgt_trace_options secondary;
     uint64_t hidden = 0;
     cgt_trace_options_init(&secondary); /* arrays of rays have no packets to choose; the rest is the library's choice */
     secondary.precision = trace->precision;
-    secondary.triangle_test = trace->triangle_test;
-    secondary.kd_traversal = trace->kd_traversal;
+    secondary.research = &research;
     bench_planes_frame(&job->planes, &frame);
     ms[SHADOW] = ms[AO] = 0.0;
 
@@ -218,13 +219,17 @@ static cgt_result measure_frames(frame_job *job, bench_scene *scene, const cgt_t
 static cgt_result describe(frame_job *job, const bench_scene *scene, const bench_choice *choice)
 {
     cgt_scene_statistics built;
-    cgt_trace_statistics traced;
+    cgt_research_scene_statistics research;
+    bench_counts traced;
     cgt_trace_options trace;
+    cgt_research_trace_options research_trace;
     cgt_frame frame;
     memset(&traced, 0, sizeof traced);
     bench_planes_frame(&job->planes, &frame);
-    bench_choice_options(choice, &traced, &trace);
+    bench_choice_options(choice, &traced, &trace, &research_trace);
     cgt_result result = cgt_scene_get_statistics(scene->scene, &built);
+    if (result == CGT_OK)
+        result = cgt_research_get_scene_statistics(scene->scene, &research);
     if (result == CGT_OK)
         result = cgt_trace_camera(scene->scene, &job->settings->shared.camera, &frame, &trace);
     if (result != CGT_OK)
@@ -233,11 +238,11 @@ static cgt_result describe(frame_job *job, const bench_scene *scene, const bench
             "variant %s, structure %s (%s), grid %ux%ux%u, kd-tree of %u nodes in %u levels, packet %u, tile %s, "
             "loop %s, %u primitives, %u skipped, %zu bytes, %.2f ray tests per ray\n",
             cgt_context_get_variant(job->context), bench_structure_name(built.structure), built.reason,
-            (unsigned)built.resolution[0], (unsigned)built.resolution[1], (unsigned)built.resolution[2],
-            (unsigned)built.kd_nodes, (unsigned)built.kd_depth, (unsigned)traced.packet_size,
-            bench_tile_name(traced.tile), bench_loop_name(traced.loop), (unsigned)built.primitives,
+            (unsigned)research.resolution[0], (unsigned)research.resolution[1], (unsigned)research.resolution[2],
+            (unsigned)research.kd_nodes, (unsigned)research.kd_depth, (unsigned)traced.research.packet_size,
+            bench_tile_name(traced.research.tile), bench_loop_name(traced.research.loop), (unsigned)built.primitives,
             (unsigned)(built.skipped_not_finite + built.skipped_radius + built.skipped_degenerate), built.bytes,
-            (double)traced.ray_tests / (double)(traced.rays ? traced.rays : 1));
+            (double)traced.trace.ray_tests / (double)(traced.trace.rays ? traced.trace.rays : 1));
     return CGT_OK;
 }
 
@@ -259,6 +264,7 @@ static int run_row(frame_job *job, const bench_choice *choice)
     bench_scene scene;
     cgt_scene_statistics built;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     size_t measured = 0;
     uint64_t open = 0;
 
@@ -268,7 +274,7 @@ static int run_row(frame_job *job, const bench_choice *choice)
                                        shared->resolution);
     if (result == CGT_OK) {
         bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
-        bench_choice_options(choice, NULL, &trace);
+        bench_choice_options(choice, NULL, &trace, &research);
         result = measure_frames(job, &scene, &trace, &measured, &open);
     }
     if (result == CGT_OK)
@@ -386,8 +392,6 @@ int bench_frame(int argc, char **argv)
     memset(&settings, 0, sizeof settings);
     bench_settings_init(&settings.shared);
     settings.structure.most = 1;
-    settings.cull = CGT_CULL_BLOCKS;
-    settings.mailbox = 1;
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
         return PROGRAM_USAGE;
 

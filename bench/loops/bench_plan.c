@@ -11,7 +11,7 @@
 
 #include "common/bench_timing.h"
 
-enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_scene_options.resolution */
+enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_research_scene_options.resolution */
 
 /* What a plan tries without -g. */
 static const struct grid {
@@ -25,9 +25,10 @@ enum { MOST_ROWS_PER_GROUP = PACKETS * SWITCHES * LOOPS };
 static const uint32_t packets[PACKETS] = {4, 8, 16};
 static const struct {
     cgt_cull cull;
-    int mailbox;
-} switches[SWITCHES] = {{CGT_CULL_BLOCKS, 1},  {CGT_CULL_BLOCKS, 0}, {CGT_CULL_FRUSTUM, 1},
-                        {CGT_CULL_FRUSTUM, 0}, {CGT_CULL_NONE, 1},   {CGT_CULL_NONE, 0}};
+    cgt_mailbox mailbox;
+} switches[SWITCHES] = {{CGT_CULL_BLOCKS, CGT_MAILBOX_ON},  {CGT_CULL_BLOCKS, CGT_MAILBOX_OFF},
+                        {CGT_CULL_FRUSTUM, CGT_MAILBOX_ON}, {CGT_CULL_FRUSTUM, CGT_MAILBOX_OFF},
+                        {CGT_CULL_NONE, CGT_MAILBOX_ON},    {CGT_CULL_NONE, CGT_MAILBOX_OFF}};
 static const cgt_loop loops[LOOPS] = {CGT_LOOP_NESTED, CGT_LOOP_FLATTENED};
 
 static void label_group(bench_group *group)
@@ -154,23 +155,23 @@ void bench_plan_release(bench_plan *plan)
 /* The library's own choice for this frame times the group's scale, within the library's limits. */
 static cgt_result scale_resolution(bench_group *group, uint32_t count)
 {
-    cgt_scene_options options;
-    cgt_scene_statistics chosen;
-    cgt_scene_options_init(&options);
+    cgt_research_scene_options research = {0};
+    const cgt_scene_options options = {.research = &research};
+    cgt_research_scene_statistics chosen;
     cgt_result result = cgt_scene_set_options(group->scene.scene, &options);
     if (result == CGT_OK)
         result = bench_scene_commit(&group->scene, count);
     if (result == CGT_OK)
-        result = cgt_scene_get_statistics(group->scene.scene, &chosen);
+        result = cgt_research_get_scene_statistics(group->scene.scene, &chosen);
     if (result != CGT_OK)
         return result;
     for (int axis = 0; axis < 3; axis++) {
         const double cells = floor(group->scale * chosen.resolution[axis] + 0.5);
-        options.resolution[axis] = cells < 1.0 ? 1 : cells > AXIS_LIMIT ? AXIS_LIMIT : (uint32_t)cells;
+        research.resolution[axis] = cells < 1.0 ? 1 : cells > AXIS_LIMIT ? AXIS_LIMIT : (uint32_t)cells;
     }
-    while ((uint64_t)options.resolution[0] * options.resolution[1] * options.resolution[2] > CELL_LIMIT)
+    while ((uint64_t)research.resolution[0] * research.resolution[1] * research.resolution[2] > CELL_LIMIT)
         for (int axis = 0; axis < 3; axis++)
-            options.resolution[axis] = (options.resolution[axis] + 1) / 2;
+            research.resolution[axis] = (research.resolution[axis] + 1) / 2;
     return cgt_scene_set_options(group->scene.scene, &options);
 }
 
@@ -185,9 +186,9 @@ cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms)
     const double start = bench_now_ms();
     result = bench_scene_commit(&group->scene, count);
     *ms = bench_now_ms() - start;
-    cgt_scene_statistics built;
+    cgt_research_scene_statistics built;
     if (result == CGT_OK)
-        result = cgt_scene_get_statistics(group->scene.scene, &built);
+        result = cgt_research_get_scene_statistics(group->scene.scene, &built);
     if (result == CGT_OK)
         memcpy(group->resolution, built.resolution, sizeof group->resolution);
     return result;

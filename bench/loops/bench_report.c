@@ -27,7 +27,7 @@ static double per(uint64_t total, uint64_t count) { return (double)total / (doub
 static void print_row(const bench_plan *plan, const bench_row *row, size_t frames, double *scratch)
 {
     const bench_group *group = &plan->groups[row->group];
-    const cgt_trace_statistics *total = &row->total;
+    const bench_counts *total = &row->total;
     const size_t values = plan->measured;
     char name[BENCH_NAME_SIZE], grid[80];
     cgt_scene_statistics built;
@@ -43,12 +43,12 @@ static void print_row(const bench_plan *plan, const bench_row *row, size_t frame
         scratch[i] = group->build_ms[i] + row->trace_ms[i];
     const double both = bench_median(scratch, values);
 
-    printf("%s\t%s\t%s\t%s\t%s\t%u\t%s\t%.3f\t%.3f", name, group->variant, bench_loop_name(total->loop),
-           bench_cull_name(row->choice.cull), row->choice.mailbox ? "on" : "off", (unsigned)total->packet_size,
-           resolution_text(group, grid), build, trace);
-    printf("\t%.3f\t%.0f\t%.0f\t%.0f\t%.0f\t%.3f\n", per(total->ray_tests, total->rays),
-           per(total->packet_tests, frames), per(total->slices, frames), per(total->cells, frames),
-           per(total->references, frames), both);
+    printf("%s\t%s\t%s\t%s\t%s\t%u\t%s\t%.3f\t%.3f", name, group->variant, bench_loop_name(total->research.loop),
+           bench_cull_name(row->choice.cull), row->choice.mailbox == CGT_MAILBOX_OFF ? "off" : "on",
+           (unsigned)total->research.packet_size, resolution_text(group, grid), build, trace);
+    printf("\t%.3f\t%.0f\t%.0f\t%.0f\t%.0f\t%.3f\n", per(total->trace.ray_tests, total->trace.rays),
+           per(total->trace.packet_tests, frames), per(total->research.slices, frames),
+           per(total->research.cells, frames), per(total->research.references, frames), both);
 }
 
 int bench_report_table(const bench_plan *plan, size_t frames)
@@ -67,7 +67,8 @@ int bench_report_table(const bench_plan *plan, size_t frames)
 /* ---- Ratios -------------------------------------------------------------------------------------------------- */
 
 /* The row that differs from this one in loop, culling or mailbox only; NULL where the plan has none. */
-static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, cgt_cull cull, int mailbox)
+static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, cgt_cull cull,
+                                cgt_mailbox mailbox)
 {
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *other = &plan->rows[i];
@@ -100,8 +101,8 @@ static void print_pair(const bench_plan *plan, const char *what, const bench_row
 {
     const bench_group *group = &plan->groups[row->group];
     printf("# %s\t%s\t%s\t%s\t%s\t%u\t%s\t%.3f", what, group->variant, bench_loop_name(row->choice.loop),
-           bench_cull_name(row->choice.cull), row->choice.mailbox ? "on" : "off", (unsigned)row->total.packet_size,
-           group->label, ratio);
+           bench_cull_name(row->choice.cull), row->choice.mailbox == CGT_MAILBOX_OFF ? "off" : "on",
+           (unsigned)row->total.research.packet_size, group->label, ratio);
 }
 
 /* The pairs of a section in one line. */
@@ -151,11 +152,11 @@ static void report_culling(const bench_plan *plan, cgt_cull with, cgt_cull witho
         const bench_row *off = partner(plan, on, on->choice.loop, without, on->choice.mailbox);
         if (!off)
             continue;
-        const uint64_t tests_on = on->total.ray_tests, tests_off = off->total.ray_tests;
+        const uint64_t tests_on = on->total.trace.ray_tests, tests_off = off->total.trace.ray_tests;
         const double cut = tests_on ? (double)tests_off / (double)tests_on : 0.0;
         ratios[pairs++] = cut;
         print_pair(plan, what, on, cut);
-        printf("\t%.3f\t%.3f\t%.3f\n", per(tests_off, off->total.rays), per(tests_on, on->total.rays),
+        printf("\t%.3f\t%.3f\t%.3f\n", per(tests_off, off->total.trace.rays), per(tests_on, on->total.trace.rays),
                time_ratio(plan, off, on, scratch).median);
     }
     print_spread(what, ratios, pairs);
@@ -169,15 +170,15 @@ static void report_mailbox(const bench_plan *plan, double *scratch, double *rati
     printf("# what\tvariant\tloop\tcull\tmailbox\tpacket\tresolution\ttime_on/time_off\tskipped/references_off\n");
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *on = &plan->rows[i];
-        if (!on->choice.mailbox)
+        if (on->choice.mailbox != CGT_MAILBOX_ON)
             continue;
-        const bench_row *off = partner(plan, on, on->choice.loop, on->choice.cull, 0);
+        const bench_row *off = partner(plan, on, on->choice.loop, on->choice.cull, CGT_MAILBOX_OFF);
         if (!off)
             continue;
         const double time = time_ratio(plan, on, off, scratch).median;
         ratios[pairs++] = time;
         print_pair(plan, "mailbox", on, time);
-        printf("\t%.3f\n", per(on->total.mailbox_skipped, off->total.references));
+        printf("\t%.3f\n", per(on->total.research.mailbox_skipped, off->total.research.references));
     }
     print_spread("mailbox", ratios, pairs);
 }

@@ -77,8 +77,6 @@ static void write_row(const pareto_row *row, const pareto_settings *settings, FI
     const pareto_error *e = &row->error;
     const bench_choice choice = {.variant = row->variant,
                                  .packet = settings->shared.packet,
-                                 .cull = CGT_CULL_BLOCKS,
-                                 .mailbox = 1,
                                  .precision = row->precision,
                                  .precision_named = 1,
                                  .test = row->test};

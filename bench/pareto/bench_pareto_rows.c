@@ -56,13 +56,13 @@ typedef struct scene_job {
 
 static cgt_result trace_way(scene_job *job, const lane *at, size_t w, const bench_planes *planes, double *ms)
 {
+    const cgt_research_trace_options research = {.packet = job->settings->packet, .triangle_test = ways[w].test};
     cgt_trace_options options;
     cgt_frame frame;
     bench_planes_frame(planes, &frame);
     cgt_trace_options_init(&options);
-    options.packet = job->settings->packet;
     options.precision = ways[w].precision;
-    options.triangle_test = ways[w].test;
+    options.research = &research;
     /* The planes of the run before must not pass for this one's: no primitive has this number. */
     memset(planes->primitive, 0xfe, (size_t)planes->width * planes->height * sizeof *planes->primitive);
     const double start = bench_now_ms();

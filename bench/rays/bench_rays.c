@@ -208,10 +208,7 @@ static void name_subject(sweep_subject *subject, const bench_choice *choice)
 static cgt_result create_subject(sweep_job *job, sweep_subject *subject, cgt_structure structure)
 {
     const bench_settings *shared = &job->settings->shared;
-    const bench_choice choice = {.variant = cgt_context_get_variant(job->context),
-                                 .cull = CGT_CULL_BLOCKS,
-                                 .mailbox = 1,
-                                 .kd = job->settings->structure.kd};
+    const bench_choice choice = {.variant = cgt_context_get_variant(job->context), .kd = job->settings->structure.kd};
     int complete = (subject->build_ms = calloc(shared->repeat, sizeof(double))) != NULL;
     for (size_t b = 0; b < SWEEP_MOST_BATCHES; b++)
         complete &= (subject->trace_ms[b] = calloc(shared->repeat, sizeof(double))) != NULL;

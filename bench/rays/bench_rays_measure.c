@@ -68,11 +68,12 @@ static cgt_result trace_call(const sweep_job *job, const cgt_scene *scene, sweep
 /* All rays of the set, call by call. */
 static cgt_result trace_set(sweep_job *job, const sweep_subject *subject, sweep_query query, uint64_t batch, double *ms)
 {
-    const bench_choice choice = {.cull = CGT_CULL_BLOCKS, .mailbox = 1, .kd = subject->build.kd};
+    const bench_choice choice = {.kd = subject->build.kd};
     const uint64_t count = job->rays.count;
     cgt_trace_options options;
+    cgt_research_trace_options research;
     cgt_result result = CGT_OK;
-    bench_choice_options(&choice, NULL, &options);
+    bench_choice_options(&choice, NULL, &options, &research);
     if (query == SWEEP_ANY ? structures_occluded_reset(&job->found.occluded, count)
                            : structures_hits_reset(&job->found.hits, count))
         return CGT_ERROR_OUT_OF_MEMORY;

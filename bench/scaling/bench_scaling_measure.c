@@ -23,6 +23,7 @@ typedef struct point_job {
     bench_scene scene;
     bench_planes planes;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     double *ms[SCALING_COLUMNS];
     size_t frames;
 } point_job;
@@ -57,7 +58,7 @@ static cgt_result open_scene(point_job *job, const bench_choice *choice)
                                        &choice->kd, shared->resolution);
     if (result == CGT_OK)
         bench_scene_set_triangles(&job->scene, job->moving.index, job->moving.triangles);
-    bench_choice_options(choice, NULL, &job->trace);
+    bench_choice_options(choice, NULL, &job->trace, &job->research);
     return result;
 }
 
@@ -125,8 +126,6 @@ int scaling_measure(const scaling_settings *settings, scaling_point *point)
 {
     const bench_choice choice = {.variant = settings->shared.variant,
                                  .packet = settings->shared.packet,
-                                 .cull = CGT_CULL_BLOCKS,
-                                 .mailbox = 1,
                                  .precision = settings->precision,
                                  .precision_named = settings->precision_given,
                                  .kd = settings->structure.kd};

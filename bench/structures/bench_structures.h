@@ -55,10 +55,10 @@ typedef bench_build structures_group;
 typedef struct structures_row {
     size_t group;
     cgt_kd_traversal traversal;
-    cgt_loop loop;                                  /* of a queue grid */
-    uint32_t packet;                                /* of a camera; 0: the library's choice, in a loose grid tiles */
-    double *ms[STRUCTURES_COLUMNS];                 /* one value per measured frame */
-    cgt_trace_statistics count[STRUCTURES_COLUMNS]; /* of all frames, by kind of ray */
+    cgt_loop loop;                          /* of a queue grid */
+    uint32_t packet;                        /* of a camera; 0: the library's choice, in a loose grid tiles */
+    double *ms[STRUCTURES_COLUMNS];         /* one value per measured frame */
+    bench_counts count[STRUCTURES_COLUMNS]; /* of all frames, by kind of ray */
 } structures_row;
 
 enum { STRUCTURES_MOST_GROUPS = 16, STRUCTURES_MOST_ROWS = 32 };
@@ -101,12 +101,12 @@ void structures_row_name(const structures_job *job, const structures_row *row, c
  * structure. */
 cgt_result structures_commit(structures_job *job, structures_group *group, uint32_t count, double *ms);
 
-/* Traces a row into results; statistics: one per column, or NULL where nothing is to be counted. ms gets the columns
+/* Traces a row into results; counts: one per column, or NULL where nothing is to be counted. ms gets the columns
  * of the rays. primary fills the planes; the others take the rays as they are in the job. */
 cgt_result structures_trace_primary(structures_job *job, const structures_row *row, structures_results *results,
-                                    cgt_trace_statistics *statistics, double ms[STRUCTURES_COLUMNS]);
+                                    bench_counts *counts, double ms[STRUCTURES_COLUMNS]);
 cgt_result structures_trace_others(structures_job *job, const structures_row *row, structures_results *results,
-                                   cgt_trace_statistics *statistics, double ms[STRUCTURES_COLUMNS]);
+                                   bench_counts *counts, double ms[STRUCTURES_COLUMNS]);
 
 /* Makes the rays that follow from the planes of `expected` and from the scene's bounds. */
 cgt_result structures_make_rays(structures_job *job, const structures_group *group);

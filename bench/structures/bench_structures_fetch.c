@@ -124,7 +124,7 @@ static void report_counts(const structures_job *job, const char *config, const w
         accuracy_report_text(report, config);
         accuracy_report_text(report, job->scene_name);
         accuracy_report_count(report, built->primitives);
-        accuracy_report_count(report, built->kd_nodes);
+        accuracy_report_count(report, job->groups[0].research.kd_nodes);
         accuracy_report_text(report, w->name);
         accuracy_report_count(report, w->rays->count);
         accuracy_report_text(report, cache_kind_name(count->kind));

@@ -44,7 +44,7 @@ static void keep_times(structures_job *job, structures_row *row, const double ms
 static cgt_result measure_row(structures_job *job, structures_row *row, turn *now)
 {
     structures_group *group = &job->groups[row->group];
-    cgt_trace_statistics *counts = now->timed ? NULL : row->count;
+    bench_counts *counts = now->timed ? NULL : row->count;
     double ms[STRUCTURES_COLUMNS] = {0.0};
     cgt_result result = CGT_OK;
     if (group->left_out)

@@ -53,13 +53,14 @@ static void add_group(structures_job *job, cgt_structure structure, cgt_ray_kind
     group->structure = structure;
     group->rays = rays;
     group->kd = *kd;
-    switch (structure) {
-    case CGT_STRUCTURE_QUEUE_GRID: add_queue_grid(job); break;
-    case CGT_STRUCTURE_LOOSE_GRID: add_loose_grid(job); break;
-    case CGT_STRUCTURE_KD:
-    case CGT_STRUCTURE_KD_ROPES: add_tree(job); break;
-    default: add_row(job); break;
-    }
+    if (structure == CGT_STRUCTURE_QUEUE_GRID)
+        add_queue_grid(job);
+    else if (structure == CGT_STRUCTURE_LOOSE_GRID)
+        add_loose_grid(job);
+    else if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
+        add_tree(job);
+    else
+        add_row(job);
 }
 
 /* A kd-tree in all layouts by both builders. */
@@ -121,12 +122,7 @@ void structures_plan_release(structures_job *job)
 static bench_choice choice_of(const structures_job *job, const structures_row *row)
 {
     const structures_group *group = &job->groups[row->group];
-    bench_choice choice = {.variant = job->variant,
-                           .packet = row->packet,
-                           .loop = row->loop,
-                           .cull = CGT_CULL_BLOCKS,
-                           .mailbox = 1,
-                           .kd = group->kd};
+    bench_choice choice = {.variant = job->variant, .packet = row->packet, .loop = row->loop, .kd = group->kd};
     choice.kd.traversal = row->traversal;
     return choice;
 }
@@ -136,7 +132,7 @@ void structures_row_name(const structures_job *job, const structures_row *row, c
     const structures_group *group = &job->groups[row->group];
     bench_choice choice = choice_of(job, row);
     if (choice.kd.layout == CGT_KD_LAYOUT_AUTO)
-        choice.kd.layout = group->built.kd_layout; /* what the library took */
+        choice.kd.layout = group->research.kd_layout; /* what the library took */
     if (group->structure != CGT_STRUCTURE_AUTO) {
         bench_choice_name(&choice, group->structure, name);
         return;
@@ -157,57 +153,59 @@ cgt_result structures_commit(structures_job *job, structures_group *group, uint3
 /* ---- Tracing ------------------------------------------------------------------------------------------------- */
 
 /* Adds a run's counts; what is not a count is of the last run. */
-static void add_counts(cgt_trace_statistics *total, const cgt_trace_statistics *run)
+static void add_counts(bench_counts *total, const bench_counts *run)
 {
-    const cgt_trace_statistics before = *total;
+    const bench_counts before = *total;
     *total = *run;
-    total->rays += before.rays;
-    total->nodes += before.nodes;
-    total->leaves += before.leaves;
-    total->ray_tests += before.ray_tests;
-    total->rope_steps += before.rope_steps;
-    total->exact_steps += before.exact_steps;
-    total->rope_loops += before.rope_loops;
+    total->trace.rays += before.trace.rays;
+    total->research.nodes += before.research.nodes;
+    total->research.leaves += before.research.leaves;
+    total->trace.ray_tests += before.trace.ray_tests;
+    total->research.rope_steps += before.research.rope_steps;
+    total->research.exact_steps += before.research.exact_steps;
+    total->research.rope_loops += before.research.rope_loops;
 }
 
 /* The options of a trace; run: where its counts go, NULL where nothing is counted. Arrays of rays have no packets of
  * pixels to choose. */
-static void make_options(const structures_job *job, const structures_row *row, int pixels, cgt_trace_statistics *run,
-                         cgt_trace_options *trace)
+static void make_options(const structures_job *job, const structures_row *row, int pixels, bench_counts *run,
+                         cgt_trace_options *trace, cgt_research_trace_options *research)
 {
     bench_choice choice = choice_of(job, row);
     if (!pixels)
         choice.packet = 0;
     if (run)
         memset(run, 0, sizeof *run);
-    bench_choice_options(&choice, run, trace);
+    bench_choice_options(&choice, run, trace, research);
 }
 
 cgt_result structures_trace_primary(structures_job *job, const structures_row *row, structures_results *results,
-                                    cgt_trace_statistics *statistics, double ms[STRUCTURES_COLUMNS])
+                                    bench_counts *counts, double ms[STRUCTURES_COLUMNS])
 {
     cgt_trace_options trace;
-    cgt_trace_statistics run;
+    cgt_research_trace_options research;
+    bench_counts run;
     cgt_frame frame;
-    make_options(job, row, 1, statistics ? &run : NULL, &trace);
+    make_options(job, row, 1, counts ? &run : NULL, &trace, &research);
     structures_planes_reset(results);
     bench_planes_frame(&results->planes, &frame);
     frame.geometry = results->geometry;
     const double begin = bench_now_ms();
     const cgt_result result = cgt_trace_camera(job->scene.scene, &job->settings->shared.camera, &frame, &trace);
     ms[STRUCTURES_PRIMARY] = bench_now_ms() - begin;
-    if (result == CGT_OK && statistics)
-        add_counts(&statistics[STRUCTURES_PRIMARY], &run);
+    if (result == CGT_OK && counts)
+        add_counts(&counts[STRUCTURES_PRIMARY], &run);
     return result;
 }
 
 static cgt_result trace_occluded(structures_job *job, const structures_row *row, const structures_rays *rays,
-                                 structures_occluded *occluded, cgt_trace_statistics *total, double *ms)
+                                 structures_occluded *occluded, bench_counts *total, double *ms)
 {
     cgt_trace_options trace;
-    cgt_trace_statistics run;
+    cgt_research_trace_options research;
+    bench_counts run;
     const cgt_rays array = structures_rays_array(rays);
-    make_options(job, row, 0, total ? &run : NULL, &trace);
+    make_options(job, row, 0, total ? &run : NULL, &trace, &research);
     if (structures_occluded_reset(occluded, array.count))
         return CGT_ERROR_OUT_OF_MEMORY;
     if (!array.count)
@@ -221,12 +219,13 @@ static cgt_result trace_occluded(structures_job *job, const structures_row *row,
 }
 
 static cgt_result trace_random(structures_job *job, const structures_row *row, structures_hits *hits,
-                               cgt_trace_statistics *total, double *ms)
+                               bench_counts *total, double *ms)
 {
     cgt_trace_options trace;
-    cgt_trace_statistics run;
+    cgt_research_trace_options research;
+    bench_counts run;
     const cgt_rays array = structures_rays_array(&job->random);
-    make_options(job, row, 0, total ? &run : NULL, &trace);
+    make_options(job, row, 0, total ? &run : NULL, &trace, &research);
     if (structures_hits_reset(hits, array.count))
         return CGT_ERROR_OUT_OF_MEMORY;
     if (!array.count)
@@ -241,17 +240,16 @@ static cgt_result trace_random(structures_job *job, const structures_row *row, s
 }
 
 cgt_result structures_trace_others(structures_job *job, const structures_row *row, structures_results *results,
-                                   cgt_trace_statistics *statistics, double ms[STRUCTURES_COLUMNS])
+                                   bench_counts *counts, double ms[STRUCTURES_COLUMNS])
 {
-    cgt_trace_statistics *const count = statistics;
     cgt_result result = trace_occluded(job, row, &job->shadow, &results->shadow,
-                                       count ? &count[STRUCTURES_SHADOW] : NULL, &ms[STRUCTURES_SHADOW]);
+                                       counts ? &counts[STRUCTURES_SHADOW] : NULL, &ms[STRUCTURES_SHADOW]);
     if (result == CGT_OK)
-        result =
-            trace_occluded(job, row, &job->ao, &results->ao, count ? &count[STRUCTURES_AO] : NULL, &ms[STRUCTURES_AO]);
+        result = trace_occluded(job, row, &job->ao, &results->ao, counts ? &counts[STRUCTURES_AO] : NULL,
+                                &ms[STRUCTURES_AO]);
     if (result == CGT_OK)
-        result =
-            trace_random(job, row, &results->random, count ? &count[STRUCTURES_RANDOM] : NULL, &ms[STRUCTURES_RANDOM]);
+        result = trace_random(job, row, &results->random, counts ? &counts[STRUCTURES_RANDOM] : NULL,
+                              &ms[STRUCTURES_RANDOM]);
     return result;
 }
 

@@ -53,12 +53,12 @@ void structures_table_begin(accuracy_report *report)
 }
 
 /* Nodes, leaves and tests of a ray; grids have no nodes. */
-static void report_visits(accuracy_report *report, const cgt_trace_statistics *s, int tree)
+static void report_visits(accuracy_report *report, const bench_counts *s, int tree)
 {
-    const double rays = (double)s->rays;
-    accuracy_report_real(report, tree && s->rays ? (double)s->nodes / rays : NAN);
-    accuracy_report_real(report, tree && s->rays ? (double)s->leaves / rays : NAN);
-    accuracy_report_real(report, s->rays ? (double)s->ray_tests / rays : NAN);
+    const double rays = (double)s->trace.rays;
+    accuracy_report_real(report, tree && s->trace.rays ? (double)s->research.nodes / rays : NAN);
+    accuracy_report_real(report, tree && s->trace.rays ? (double)s->research.leaves / rays : NAN);
+    accuracy_report_real(report, s->trace.rays ? (double)s->trace.ray_tests / rays : NAN);
 }
 
 static void report_row(const structures_job *job, const structures_row *row, accuracy_report *report, double *scratch)
@@ -66,6 +66,7 @@ static void report_row(const structures_job *job, const structures_row *row, acc
     static const int kinds[] = {STRUCTURES_PRIMARY, STRUCTURES_SHADOW, STRUCTURES_AO, STRUCTURES_RANDOM};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
     const cgt_scene_statistics *built = &job->groups[row->group].built;
+    const cgt_research_scene_statistics *research = &job->groups[row->group].research;
     const int tree = built->structure == CGT_STRUCTURE_KD || built->structure == CGT_STRUCTURE_KD_ROPES;
     uint64_t rope_steps = 0, exact_steps = 0, rope_loops = 0;
     char name[BENCH_NAME_SIZE];
@@ -79,19 +80,19 @@ static void report_row(const structures_job *job, const structures_row *row, acc
         accuracy_report_real(report, bench_median(scratch, job->measured));
     }
     for (int k = 0; k < KINDS; k++)
-        accuracy_report_real(report, (double)row->count[kinds[k]].rays / (double)job->input.frames);
+        accuracy_report_real(report, (double)row->count[kinds[k]].trace.rays / (double)job->input.frames);
     for (int k = 0; k < KINDS; k++) {
-        const cgt_trace_statistics *s = &row->count[kinds[k]];
+        const bench_counts *s = &row->count[kinds[k]];
         report_visits(report, s, tree);
-        rope_steps += s->rope_steps;
-        exact_steps += s->exact_steps;
-        rope_loops += s->rope_loops;
+        rope_steps += s->research.rope_steps;
+        exact_steps += s->research.exact_steps;
+        rope_loops += s->research.rope_loops;
     }
     accuracy_report_count(report, built->structure_bytes);
-    accuracy_report_count(report, built->kd_nodes);
-    accuracy_report_count(report, built->kd_leaves);
-    accuracy_report_count(report, built->kd_depth);
-    accuracy_report_real(report, tree ? built->kd_cost : NAN);
+    accuracy_report_count(report, research->kd_nodes);
+    accuracy_report_count(report, research->kd_leaves);
+    accuracy_report_count(report, research->kd_depth);
+    accuracy_report_real(report, tree ? research->kd_cost : NAN);
     accuracy_report_count(report, rope_steps);
     accuracy_report_count(report, exact_steps);
     accuracy_report_count(report, rope_loops);

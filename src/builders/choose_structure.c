@@ -12,7 +12,7 @@ cgt_structure cgt_choose_structure(const cgt_scene_options *options, const char 
     *reason = options->structure == CGT_STRUCTURE_BVH ? "wide tree: asked for" : "kd-tree: asked for";
     if (options->structure != CGT_STRUCTURE_AUTO)
         return options->structure;
-    if (options->resolution[0]) /* who asks for cells asks for voxels */
+    if (options->research->resolution[0]) /* who asks for cells asks for voxels */
         return CGT_STRUCTURE_QUEUE_GRID;
     *reason = "wide tree: incoherent rays share no cells of a grid";
     return options->rays == CGT_RAY_KIND_INCOHERENT ? CGT_STRUCTURE_BVH : CGT_STRUCTURE_LOOSE_GRID;

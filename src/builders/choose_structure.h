@@ -5,7 +5,7 @@
 #ifndef CGT_CHOOSE_STRUCTURE_H
 #define CGT_CHOOSE_STRUCTURE_H
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 /* The structure that is asked for, or AUTO's; the same for all scenes, since the pass over the primitives wants to know.
  * why: gets AUTO's reason in words, where it is no grid, whose plan has one of its own. */

@@ -81,6 +81,7 @@ static void store_statistics(cgt_scene *scene, const cgt_primitive_bounds *s)
 static void log_commit(const cgt_scene *scene)
 {
     const cgt_scene_statistics *st = &scene->statistics;
+    const uint32_t *resolution = scene->research_statistics.resolution;
     const cgt_log_hook *log = &scene->context->log;
     char text[CGT_MESSAGE_BYTES];
     if (!log->write)
@@ -92,7 +93,7 @@ static void log_commit(const cgt_scene *scene)
         log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
     }
     snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
-             st->triangles, st->resolution[0], st->resolution[1], st->resolution[2], st->commit_ms, st->reason);
+             st->triangles, resolution[0], resolution[1], resolution[2], st->commit_ms, st->reason);
     log->write(log->user, CGT_LOG_LEVEL_INFO, text);
 }
 
@@ -167,6 +168,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     scene->is_committed = false;
     scene->statistics = (cgt_scene_statistics){0};
+    scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};
     atomic_store_explicit(&scene->bvh_is_built, false, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);

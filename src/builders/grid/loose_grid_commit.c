@@ -6,6 +6,7 @@
 
 #include "builders/commit.h"
 #include "core/float_environment.h"
+#include "dispatch/kernel.h"
 #include "builders/grid/loose_grid_build.h"
 
 typedef struct keys_job {
@@ -72,20 +73,22 @@ static cgt_result reserve(cgt_scene *scene, const cgt_cell_sort *sort)
 static void report(cgt_scene *scene, uint32_t valid_prims)
 {
     cgt_scene_statistics *st = &scene->statistics;
+    cgt_research_scene_statistics *research = &scene->research_statistics;
     const cgt_loose_grid *g = &scene->committed_scene.loose;
     const cgt_loose_level *finest = &g->level[g->levels - 1];
     const size_t clusters = scene->committed_scene.cluster ? cgt_clusters(scene->committed_scene.prims.count) : 0;
     for (int a = 0; a < 3; a++)
-        st->resolution[a] = finest->size[a];
-    st->cells = g->cells;
-    st->levels = g->levels;
-    st->references = valid_prims;
-    st->reference_bits = 32;
+        research->resolution[a] = finest->size[a];
+    research->cells = g->cells;
+    research->levels = g->levels;
+    research->references = valid_prims;
+    research->reference_bits = 32;
     st->structure_bytes = ((size_t)g->cells + 1 + valid_prims) * sizeof(uint32_t) + clusters * sizeof(cgt_cluster);
-    st->local_store_bytes = st->structure_bytes + (size_t)scene->committed_scene.prims.spheres * sizeof(cgt_sphere) +
-                            (size_t)scene->committed_scene.prims.triangles * sizeof(cgt_triangle);
-    st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
-    if (scene->options.resolution[0])
+    research->local_store_bytes = st->structure_bytes +
+                                  (size_t)scene->committed_scene.prims.spheres * sizeof(cgt_sphere) +
+                                  (size_t)scene->committed_scene.prims.triangles * sizeof(cgt_triangle);
+    research->fits_local_store = research->local_store_bytes + (64u << 10) <= 256u << 10;
+    if (scene->options.research->resolution[0])
         snprintf(st->reason, sizeof st->reason, "loose grid: resolution asked for");
     else
         snprintf(st->reason, sizeof st->reason, "loose grid: %u levels, %.3g %s a cell, reach %.3g to %.3g", g->levels,
@@ -101,7 +104,7 @@ cgt_result cgt_loose_grid_commit(cgt_scene *scene)
     keys_job job = {.prims = o, .cluster = committed_scene->cluster, .kernel = scene->context->kernel};
     cgt_cell_sort *sort = &job.sort;
     const cgt_size_classes *classes = scene->buffer[CGT_BUFFER_SIZE_CLASSES].data;
-    cgt_loose_grid_plan(g, classes, scene->options.resolution);
+    cgt_loose_grid_plan(g, classes, scene->options.research->resolution);
     const uint32_t count = committed_scene->cluster ? cgt_clusters(o->count) : o->count;
     const uint32_t skipped = cgt_cell_sort_plan(sort, scene->context, count, cgt_size_classes_count(classes), g->cells);
     const cgt_result result = reserve(scene, sort);

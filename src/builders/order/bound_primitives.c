@@ -10,6 +10,7 @@
 
 #include "builders/choose_structure.h"
 #include "core/float_environment.h"
+#include "dispatch/kernel.h"
 #include "builders/grid/loose_grid_build.h"
 
 #define CHUNK 8192u
@@ -167,7 +168,7 @@ cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
 {
     const char *reason;
     const cgt_structure structure = cgt_choose_structure(&scene->options, &reason);
-    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.resolution[0];
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.research->resolution[0];
     const bool tree = structure == CGT_STRUCTURE_BVH;
     const cgt_cluster_use use = loose || tree ? cgt_choose_clusters(&scene->committed_scene.prims) : CGT_CLUSTERS_NONE;
     const bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);

@@ -3,7 +3,6 @@
  *
  * A camera's frame tile by tile: objects of a loose grid, front to back, to the pixels that they may reach. The hits are
  * those that every other way finds. */
-#include "query/tile_limits.h"
 #include "kernel/tile_frame/tile_cells.h"
 #include "kernel/tile_draw/tile_double.h"
 #include "kernel/tile_draw/tile_sphere_draw.h"
@@ -324,35 +323,12 @@ static void tile_trace_region(const cgt_committed_scene *committed_scene, const 
     tile_resolve(committed_scene, &t, settings, region, counts);
 }
 
-/* The part of a region that begins at (x, y) in it. */
-static cgt_region tile_clip_region(const cgt_region *r, uint32_t x, uint32_t y)
-{
-    const size_t first = (size_t)y * r->row_stride + x;
-    cgt_region q = *r;
-    q.x += x;
-    q.y += y;
-    q.width = r->width - x < TILE_EDGE ? r->width - x : TILE_EDGE;
-    q.height = r->height - y < TILE_EDGE ? r->height - y : TILE_EDGE;
-    q.t = r->t ? r->t + first : NULL;
-    q.primitive = r->primitive ? r->primitive + first : NULL;
-    q.geometry = r->geometry ? r->geometry + first : NULL;
-    for (int a = 0; a < 3; a++)
-        q.normal[a] = r->normal[a] ? r->normal[a] + first : NULL;
-    q.u = r->u ? r->u + first : NULL;
-    q.v = r->v ? r->v + first : NULL;
-    return q;
-}
-
 void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                 const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
-    if (!cgt_tile_supports(committed_scene, camera)) {
-        CGT_KERNEL(cgt_trace_region)(committed_scene, camera, settings, region, counts);
-        return;
-    }
     for (uint32_t y = 0; y < region->height; y += TILE_EDGE)
         for (uint32_t x = 0; x < region->width; x += TILE_EDGE) {
-            const cgt_region part = tile_clip_region(region, x, y);
+            const cgt_region part = cgt_region_part(region, x, y, TILE_EDGE, TILE_EDGE);
             tile_trace_region(committed_scene, camera, settings, &part, counts);
         }
 }
