@@ -23,7 +23,7 @@ bin=${BIN:-build/release/bin}
 out=${1:-out/rays}
 read -r -a scenes <<<"${SCENES:-cloud20k cloud1m blobs2k blob100k}"
 options=(-s "${SIZE:-640x360}" --rays "${RAYS:-131072}" -r "${ROUNDS:-3}" -t "${THREADS:-1}"
-    -S "${STRUCTURES:-grid-queue,loose-grid,kd,kd-ropes,wide-tree}" -K "${KINDS:-camera,shadow,ao,bounce,random}"
+    -S "${STRUCTURES:-queue-grid,loose-grid,kd,kd-ropes,bvh}" -K "${KINDS:-camera,shadow,ao,bounce,random}"
     -O "${ORDERS:-camera,tile,shuffled}" -B "${BATCHES:-1,16,64,256,1024,4096,16384,65536,all}")
 [ -z "${QUERIES:-}" ] || options+=(-Q "$QUERIES")
 mkdir -p "$out"

@@ -4,7 +4,7 @@
 # The results of scripts/structures.sh as figures for scripts/structures.gnuplot, after columns.awk and
 # structures_rows.awk. part: times, layouts or fetches.
 
-# structure and traversal of a configuration: "kd single", "grid-queue", "loose-grid 16"
+# structure and traversal of a configuration: "kd single", "queue-grid", "loose-grid 16"
 function key_of(config,   name) {
     name = structure_of(config)
     if (config ~ /,(traversal|loop|packet)=/) {

@@ -16,10 +16,8 @@ int accuracy_scene_make(accuracy_scene *scene, const accuracy_subject *subject, 
     cgt_scene_statistics built;
     const uint32_t *cells = choice->resolution;
     char grid[64];
-    bench_choice name = bench_choice_default(choice->variant);
-    name.precision = choice->precision;
-    name.precision_named = 1;
-    name.test = choice->test;
+    bench_choice name = {
+        .variant = choice->variant, .precision = choice->precision, .precision_named = 1, .test = choice->test};
     *scene = (accuracy_scene){.context = NULL};
     cgt_result result = bench_context_create(1, choice->variant, &scene->context);
     if (result == CGT_OK)
@@ -36,7 +34,7 @@ int accuracy_scene_make(accuracy_scene *scene, const accuracy_subject *subject, 
         name.grid = grid;
     }
     bench_choice_name(&name, built.structure, scene->config);
-    bench_choice_options(&name, NULL, &scene->options);
+    bench_choice_options(&name, NULL, &scene->options, &scene->research);
     return PROGRAM_OK;
 }
 

@@ -54,21 +54,21 @@ typedef struct frames_job {
 
 static bench_choice choice_of(const frames_job *job, const runner *r, size_t way)
 {
-    bench_choice choice = bench_choice_default(r->variant);
-    choice.packet = job->settings->packet;
-    choice.precision = ways[way].precision;
-    choice.precision_named = 1;
-    choice.test = ways[way].test;
-    return choice;
+    return (bench_choice){.variant = r->variant,
+                          .packet = job->settings->packet,
+                          .precision = ways[way].precision,
+                          .precision_named = 1,
+                          .test = ways[way].test};
 }
 
 static cgt_result trace_way(frames_job *job, const runner *r, size_t way, const bench_planes *planes, double *ms)
 {
     const bench_choice choice = choice_of(job, r, way);
     cgt_trace_options options;
+    cgt_research_trace_options research;
     cgt_frame frame;
     bench_planes_frame(planes, &frame);
-    bench_choice_options(&choice, NULL, &options);
+    bench_choice_options(&choice, NULL, &options, &research);
     /* The hits of the run before must not pass for this one's: no primitive has this number. */
     memset(planes->primitive, 0xfe, (size_t)planes->width * planes->height * sizeof *planes->primitive);
     const double start = bench_now_ms();

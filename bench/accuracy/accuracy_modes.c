@@ -174,14 +174,12 @@ static cgt_result trace_camera(const modes_job *job, const cgt_scene *scene, con
 static cgt_result trace_mode(const modes_job *job, const mode *m, const cgt_scene *scene, cgt_precision precision,
                              full_hit *hits)
 {
-    bench_choice choice = bench_choice_default(NULL);
+    const bench_choice choice = {.precision = precision, .packet = m->packet, .tile = m->tile};
     cgt_trace_options options;
+    cgt_research_trace_options research;
     const truth_ray *rays = job->subject.scene.ray;
     cgt_result result = CGT_OK;
-    choice.precision = precision;
-    choice.packet = m->packet;
-    choice.tile = m->tile;
-    bench_choice_options(&choice, NULL, &options);
+    bench_choice_options(&choice, NULL, &options, &research);
     switch (m->kind) {
     case MODE_CAMERA: return trace_camera(job, scene, &options, hits);
     case MODE_ARRAY: return trace_array(scene, rays, job->pixels, hits, &options);

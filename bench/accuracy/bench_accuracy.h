@@ -60,6 +60,7 @@ typedef struct accuracy_scene {
     cgt_scene *scene;
     char config[BENCH_NAME_SIZE];
     cgt_trace_options options;
+    cgt_research_trace_options research;
 } accuracy_scene;
 
 int accuracy_scene_make(accuracy_scene *scene, const accuracy_subject *subject, const accuracy_choice *choice);

@@ -246,7 +246,7 @@ size_t bench_variants(const bench_settings *settings, const char *variants[BENCH
 
 /* ---- Structure ----------------------------------------------------------------------------------------------- */
 
-#define STRUCTURES "auto, grid-queue, loose-grid, kd, kd-ropes or wide-tree"
+#define STRUCTURES "auto, queue-grid, loose-grid, kd, kd-ropes or bvh"
 
 static const struct argp_option structure_options[] = {
     {NULL, 0, NULL, 0, "Structure:", 6},
@@ -370,8 +370,7 @@ const struct argp bench_secondary_argp = {.options = secondary_options, .parser 
 bench_choice bench_choice_of(const bench_settings *settings, const bench_structure_settings *structure,
                              const bench_precision_settings *precision)
 {
-    bench_choice choice = bench_choice_default(settings->variant);
-    choice.packet = settings->packet;
+    bench_choice choice = {.variant = settings->variant, .packet = settings->packet};
     if (structure)
         choice.kd = structure->kd;
     if (precision) {

@@ -479,7 +479,7 @@ static cgt_result trace_shadow_tile(const shadow_pass *pass, shadow_tile *s, uin
         const cgt_rays array = array_of(rays, org, dir, count, 1);
         return rays->tile_sink(rays->sink_user, &array, s->occluded);
     }
-    const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .w = 1};
+    const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .kind = CGT_LIGHT_POINT};
     const cgt_points points = {.count = count, .position = {org[0], org[1], org[2]}};
     return cgt_occluded_points(pass->scene, &lamp, &points, s->occluded, pass->options);
 }

@@ -31,12 +31,14 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
                               const uint32_t resolution[3])
 {
     cgt_scene_options options;
+    cgt_research_scene_options research = {0};
     memset(scene, 0, sizeof *scene);
     scene->context = context;
     scene->moving = moving;
     cgt_scene_options_init(&options);
     options.structure = CGT_STRUCTURE_QUEUE_GRID;
-    memcpy(options.resolution, resolution, sizeof options.resolution);
+    options.research = &research;
+    memcpy(research.resolution, resolution, sizeof research.resolution);
     const cgt_result result = cgt_scene_create(context, &options, &scene->scene);
     if (result != CGT_OK)
         scene->scene = NULL;
@@ -46,14 +48,11 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
                                  const bench_kd_choice *kd, const uint32_t resolution[3])
 {
-    cgt_scene_options options;
-    cgt_scene_options_init(&options);
-    options.structure = structure;
-    options.rays = rays;
-    options.kd_builder = kd->builder;
-    options.kd_layout = kd->layout;
-    options.kd_break_level = kd->break_level;
-    memcpy(options.resolution, resolution, sizeof options.resolution);
+    const cgt_research_scene_options research = {.resolution = {resolution[0], resolution[1], resolution[2]},
+                                                 .kd_builder = kd->builder,
+                                                 .kd_layout = kd->layout,
+                                                 .kd_break_level = kd->break_level};
+    const cgt_scene_options options = {.structure = structure, .rays = rays, .research = &research};
     return cgt_scene_set_options(scene->scene, &options);
 }
 
@@ -110,6 +109,8 @@ cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t co
     *ms = bench_now_ms() - begin;
     if (result == CGT_OK)
         result = cgt_scene_get_statistics(scene->scene, &build->built);
+    if (result == CGT_OK)
+        result = cgt_research_get_scene_statistics(scene->scene, &build->research);
     const cgt_structure built = build->built.structure;
     /* a scene without a valid primitive has no structure, and that is right for all of them */
     const int other = result == CGT_OK && build->structure != CGT_STRUCTURE_AUTO && built != build->structure &&
@@ -139,7 +140,7 @@ int bench_scene_failed(const cgt_context *context, const char *what, cgt_result 
 static const char *const loops[] = {
     [CGT_LOOP_AUTO] = "auto", [CGT_LOOP_NESTED] = "nested", [CGT_LOOP_FLATTENED] = "flattened"};
 static const char *const culls[] = {
-    [CGT_CULL_NONE] = "off", [CGT_CULL_FRUSTUM] = "frustum", [CGT_CULL_BLOCKS] = "blocks"};
+    [CGT_CULL_AUTO] = "auto", [CGT_CULL_NONE] = "off", [CGT_CULL_FRUSTUM] = "frustum", [CGT_CULL_BLOCKS] = "blocks"};
 static const char *const tiles[] = {
     [CGT_TILE_SHAPE_AUTO] = "auto", [CGT_TILE_SHAPE_SQUARE] = "square", [CGT_TILE_SHAPE_STRIP] = "strip"};
 static const char *const precisions[] = {
@@ -148,12 +149,9 @@ static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_WATERTIGHT] = "w
                                              [CGT_TRIANGLE_TEST_MOLLER_TRUMBORE] = "moller-trumbore",
                                              [CGT_TRIANGLE_TEST_ACCELERATED] = "accelerated"};
 
-static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
-                                         [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
-                                         [CGT_STRUCTURE_KD] = "kd",
-                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
-                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
-                                         [CGT_STRUCTURE_BVH] = "wide-tree"};
+static const char *const structures[] = {
+    [CGT_STRUCTURE_AUTO] = "auto",         [CGT_STRUCTURE_QUEUE_GRID] = "queue-grid", [CGT_STRUCTURE_KD] = "kd",
+    [CGT_STRUCTURE_KD_ROPES] = "kd-ropes", [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid", [CGT_STRUCTURE_BVH] = "bvh"};
 static const char *const kd_traversals[] = {
     [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
@@ -257,9 +255,9 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "tile", bench_tile_name(choice->tile));
     if (choice->loop != CGT_LOOP_AUTO)
         append(name, "loop", bench_loop_name(choice->loop));
-    if (choice->cull != CGT_CULL_BLOCKS)
+    if (choice->cull == CGT_CULL_NONE || choice->cull == CGT_CULL_FRUSTUM)
         append(name, "cull", bench_cull_name(choice->cull));
-    if (!choice->mailbox)
+    if (choice->mailbox == CGT_MAILBOX_OFF)
         append(name, "mailbox", "off");
     if (choice->precision_named || choice->precision != CGT_PRECISION_ROBUST)
         append(name, "precision", bench_precision_name(choice->precision));
@@ -269,21 +267,17 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "grid", choice->grid);
 }
 
-bench_choice bench_choice_default(const char *variant)
+void bench_choice_options(const bench_choice *choice, bench_counts *counts, cgt_trace_options *options,
+                          cgt_research_trace_options *research)
 {
-    return (bench_choice){.variant = variant, .cull = CGT_CULL_BLOCKS, .mailbox = 1};
-}
-
-void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options)
-{
-    cgt_trace_options_init(options);
-    options->packet = choice->packet;
-    options->tile = choice->tile;
-    options->loop = choice->loop;
-    options->cull = choice->cull;
-    options->mailbox = choice->mailbox;
-    options->precision = choice->precision;
-    options->triangle_test = choice->test;
-    options->kd_traversal = choice->kd.traversal;
-    options->statistics = statistics;
+    *research = (cgt_research_trace_options){.packet = choice->packet,
+                                             .tile = choice->tile,
+                                             .loop = choice->loop,
+                                             .cull = choice->cull,
+                                             .mailbox = choice->mailbox,
+                                             .kd_traversal = choice->kd.traversal,
+                                             .triangle_test = choice->test,
+                                             .statistics = counts ? &counts->research : NULL};
+    *options = (cgt_trace_options){
+        .precision = choice->precision, .statistics = counts ? &counts->trace : NULL, .research = research};
 }

@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 typedef struct bench_scene {
     cgt_context *context; /* not owned */
@@ -52,14 +52,14 @@ typedef struct bench_kd_choice {
     cgt_kd_builder builder;
 } bench_kd_choice;
 
-/* What can be set of a trace. Begin with bench_choice_default: all of it the library's choice. */
+/* What can be set of a trace. Zero and NULL are the library's choices. */
 typedef struct bench_choice {
     const char *variant;
     uint32_t packet;
     cgt_tile_shape tile;
     cgt_loop loop;
     cgt_cull cull;
-    int mailbox;
+    cgt_mailbox mailbox;
     cgt_precision precision;
     int precision_named; /* 1: the name contains the default precision, too */
     cgt_triangle_test test;
@@ -91,16 +91,21 @@ int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal);
 int bench_kd_layout_find(const char *name, cgt_kd_layout *layout);
 int bench_kd_builder_find(const char *name, cgt_kd_builder *builder);
 
-bench_choice bench_choice_default(const char *variant);
-
 /* A file's name without its folder and its ending. */
 void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);
 
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);
 
-/* The trace options of a choice. statistics: NULL where nothing is counted. */
-void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options);
+/* What a trace counts. */
+typedef struct bench_counts {
+    cgt_trace_statistics trace;
+    cgt_research_trace_statistics research;
+} bench_counts;
+
+/* The trace options of a choice, which point to `research`. counts: NULL where nothing is counted. */
+void bench_choice_options(const bench_choice *choice, bench_counts *counts, cgt_trace_options *options,
+                          cgt_research_trace_options *research);
 
 /* Changes the scene's structure. rays: what AUTO chooses for. resolution: as in bench_scene_create. */
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
@@ -113,6 +118,7 @@ typedef struct bench_build {
     bench_kd_choice kd;
     int left_out;               /* the library does not build it */
     cgt_scene_statistics built; /* of the last commit */
+    cgt_research_scene_statistics research;
 } bench_build;
 
 /* Builds it over `count` spheres or vertices, and measures the time. Where the library has no such structure, prints a

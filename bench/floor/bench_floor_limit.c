@@ -39,8 +39,9 @@ static cgt_result time_frames(floor_job *job, bench_scene *scene, const limit_sc
 {
     const bench_settings *shared = &job->settings->shared;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     cgt_frame frame;
-    bench_choice_options(&job->choice, NULL, &trace);
+    bench_choice_options(&job->choice, NULL, &trace, &research);
     bench_planes_frame(&job->planes, &frame);
     for (uint32_t round = 0; round < shared->repeat + 1; round++) /* the first one warms up */
         for (uint32_t i = 0; i < s->frames; i++) {
@@ -110,12 +111,13 @@ static cgt_result trace_seen(floor_job *job, const limit_scene *s, const seen_pa
                              limit_counts *counts, double *low)
 {
     const bench_settings *shared = &job->settings->shared;
-    cgt_trace_statistics counted;
+    bench_counts counted;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     bench_scene scene;
     cgt_frame frame;
     memset(&counted, 0, sizeof counted);
-    bench_choice_options(&job->choice, &counted, &trace);
+    bench_choice_options(&job->choice, &counted, &trace, &research);
     bench_planes_frame(&job->planes, &frame);
     cgt_result result = floor_open_scene(job, &scene, job->context, part->moving ? part->moving : s->moving,
                                          part->index, part->index ? part->count : 0);
@@ -123,10 +125,11 @@ static cgt_result trace_seen(floor_job *job, const limit_scene *s, const seen_pa
         result = bench_scene_commit(&scene, s->index ? elements : part->count);
     if (result == CGT_OK)
         result = cgt_trace_camera(scene.scene, &shared->camera, &frame, &trace);
-    counts->lanes = counted.ray_tests;
-    counts->drawn = counted.packet_tests;
-    counts->hits = counted.hits;
+    counts->lanes = counted.trace.ray_tests;
+    counts->drawn = counted.trace.packet_tests;
+    counts->hits = counted.trace.hits;
     trace.statistics = NULL;
+    research.statistics = NULL;
     for (uint32_t round = 0; round < shared->repeat && result == CGT_OK; round++) {
         const double begin = bench_now_ms();
         result = cgt_trace_camera(scene.scene, &shared->camera, &frame, &trace);

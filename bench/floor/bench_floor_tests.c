@@ -108,13 +108,14 @@ static void make_objects(const tests_bench *bench, tests_frame *f, int which)
 
 /* ---- Times --------------------------------------------------------------------------------------------------- */
 
-static cgt_result trace(tests_bench *bench, tests_frame *f, cgt_trace_statistics *statistics)
+static cgt_result trace(tests_bench *bench, tests_frame *f, bench_counts *counts)
 {
     cgt_trace_options options;
+    cgt_research_trace_options research;
     cgt_frame frame;
     cgt_result result = CGT_OK;
     bench_planes_frame(&bench->planes, &frame);
-    bench_choice_options(&bench->job->choice, statistics, &options);
+    bench_choice_options(&bench->job->choice, counts, &options, &research);
     for (uint32_t pass = 0; result == CGT_OK && pass < f->passes; pass++)
         result = cgt_trace_camera(f->scene.scene, &bench->camera, &frame, &options);
     return result;
@@ -128,7 +129,7 @@ static cgt_result open_frame(tests_bench *bench, int which)
     /* with a resolution AUTO would take the queue grid */
     const cgt_structure structure = asked == CGT_STRUCTURE_AUTO ? CGT_STRUCTURE_LOOSE_GRID : asked;
     tests_frame *f = &bench->frame[which];
-    cgt_trace_statistics counted;
+    bench_counts counted;
     double ms = 0.0;
     memset(&counted, 0, sizeof counted);
     make_objects(bench, f, which);
@@ -141,9 +142,9 @@ static cgt_result open_frame(tests_bench *bench, int which)
     f->passes = 1;
     if (result == CGT_OK)
         result = trace(bench, f, &counted);
-    f->drawn = (double)counted.packet_tests;
-    f->lanes = (double)counted.ray_tests;
-    f->hits = (double)counted.hits;
+    f->drawn = (double)counted.trace.packet_tests;
+    f->lanes = (double)counted.trace.ray_tests;
+    f->hits = (double)counted.trace.hits;
     f->ns = INFINITY;
     while (result == CGT_OK) {
         const double begin = bench_now_ms();

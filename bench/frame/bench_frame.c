@@ -84,7 +84,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         if (bench_cull_find(argument, &settings->choice.cull))
             argp_error(state, "--cull: off, frustum or blocks, not %s", argument);
         return 0;
-    case OPTION_NO_MAILBOX: settings->choice.mailbox = 0; return 0;
+    case OPTION_NO_MAILBOX: settings->choice.mailbox = CGT_MAILBOX_OFF; return 0;
     case ARGP_KEY_END:
         if (settings->orthographic && (settings->secondary.lit || settings->secondary.ao))
             argp_error(state, "-O: only primary rays can be parallel: leave out -l and -a");
@@ -110,18 +110,14 @@ static void make_orthographic(cgt_camera *c)
  * theirs are the library's choice. */
 typedef struct row_options {
     cgt_trace_options primary, secondary;
+    cgt_research_trace_options research[2]; /* of these */
 } row_options;
 
-static row_options options_of(const bench_choice *choice)
+static void make_options(const bench_choice *choice, row_options *made)
 {
-    row_options o;
-    bench_choice array = bench_choice_default(choice->variant);
-    array.precision = choice->precision;
-    array.test = choice->test;
-    array.kd = choice->kd;
-    bench_choice_options(choice, NULL, &o.primary);
-    bench_choice_options(&array, NULL, &o.secondary);
-    return o;
+    const bench_choice array = {.precision = choice->precision, .test = choice->test, .kd = choice->kd};
+    bench_choice_options(choice, NULL, &made->primary, &made->research[0]);
+    bench_choice_options(&array, NULL, &made->secondary, &made->research[1]);
 }
 
 /* One frame: ms gets the row's times. */
@@ -184,13 +180,17 @@ static cgt_result measure_frames(frame_job *job, bench_scene *scene, const row_o
 static cgt_result describe(frame_job *job, const bench_scene *scene, const bench_choice *choice)
 {
     cgt_scene_statistics built;
-    cgt_trace_statistics traced;
+    cgt_research_scene_statistics research;
+    bench_counts traced;
     cgt_trace_options trace;
+    cgt_research_trace_options research_trace;
     cgt_frame frame;
     memset(&traced, 0, sizeof traced);
     bench_planes_frame(&job->planes, &frame);
-    bench_choice_options(choice, &traced, &trace);
+    bench_choice_options(choice, &traced, &trace, &research_trace);
     cgt_result result = cgt_scene_get_statistics(scene->scene, &built);
+    if (result == CGT_OK)
+        result = cgt_research_get_scene_statistics(scene->scene, &research);
     if (result == CGT_OK)
         result = cgt_trace_camera(scene->scene, &job->settings->shared.camera, &frame, &trace);
     if (result != CGT_OK)
@@ -199,11 +199,11 @@ static cgt_result describe(frame_job *job, const bench_scene *scene, const bench
             "variant %s, structure %s (%s), grid %ux%ux%u, kd-tree of %u nodes in %u levels, packet %u, tile %s, "
             "loop %s, %u primitives, %u skipped, %zu bytes, %.2f ray tests per ray\n",
             cgt_context_get_variant(job->context), bench_structure_name(built.structure), built.reason,
-            (unsigned)built.resolution[0], (unsigned)built.resolution[1], (unsigned)built.resolution[2],
-            (unsigned)built.kd_nodes, (unsigned)built.kd_depth, (unsigned)traced.packet_size,
-            bench_tile_name(traced.tile), bench_loop_name(traced.loop), (unsigned)built.primitives,
+            (unsigned)research.resolution[0], (unsigned)research.resolution[1], (unsigned)research.resolution[2],
+            (unsigned)research.kd_nodes, (unsigned)research.kd_depth, (unsigned)traced.research.packet_size,
+            bench_tile_name(traced.research.tile), bench_loop_name(traced.research.loop), (unsigned)built.primitives,
             (unsigned)(built.skipped_not_finite + built.skipped_radius + built.skipped_degenerate), built.bytes,
-            (double)traced.ray_tests / (double)(traced.rays ? traced.rays : 1));
+            (double)traced.trace.ray_tests / (double)(traced.trace.rays ? traced.trace.rays : 1));
     return CGT_OK;
 }
 
@@ -212,7 +212,7 @@ static int run_row(frame_job *job, const bench_choice *choice)
     const bench_settings *shared = &job->settings->shared;
     bench_scene scene;
     cgt_scene_statistics built;
-    const row_options trace = options_of(choice);
+    row_options trace;
     char name[BENCH_NAME_SIZE];
     size_t measured = 0;
     uint64_t open = 0;
@@ -223,6 +223,7 @@ static int run_row(frame_job *job, const bench_choice *choice)
                                        shared->resolution);
     if (result == CGT_OK) {
         bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
+        make_options(choice, &trace);
         result = measure_frames(job, &scene, &trace, &measured, &open);
     }
     if (result == CGT_OK)
@@ -334,7 +335,6 @@ int bench_frame(int argc, char **argv)
     memset(&settings, 0, sizeof settings);
     bench_settings_init(&settings.shared);
     settings.structure.most = 1;
-    settings.choice = bench_choice_default(NULL);
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
         return PROGRAM_USAGE;
 

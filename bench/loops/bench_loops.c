@@ -31,17 +31,17 @@ typedef struct loops_job {
 /* ---- Runs ---------------------------------------------------------------------------------------------------- */
 
 /* Adds a run's counts. Fields that are no counts are those of the last run. */
-static void add_statistics(cgt_trace_statistics *total, const cgt_trace_statistics *run)
+static void add_counts(bench_counts *total, const bench_counts *run)
 {
-    const cgt_trace_statistics before = *total;
+    const bench_counts before = *total;
     *total = *run;
-    total->rays += before.rays;
-    total->packet_tests += before.packet_tests;
-    total->ray_tests += before.ray_tests;
-    total->slices += before.slices;
-    total->cells += before.cells;
-    total->references += before.references;
-    total->mailbox_skipped += before.mailbox_skipped;
+    total->trace.rays += before.trace.rays;
+    total->trace.packet_tests += before.trace.packet_tests;
+    total->trace.ray_tests += before.trace.ray_tests;
+    total->research.slices += before.research.slices;
+    total->research.cells += before.research.cells;
+    total->research.references += before.research.references;
+    total->research.mailbox_skipped += before.research.mailbox_skipped;
 }
 
 /* Compares the hits of the run just made with those of the frame's first run. */
@@ -59,12 +59,13 @@ static void compare_hits(loops_job *job, const bench_row *row, size_t frame)
                   (unsigned long long)hash, (unsigned long long)job->hash[frame]);
 }
 
-/* Traces a row. statistics: NULL in timed runs. */
-static cgt_result trace_row(loops_job *job, bench_row *row, cgt_trace_statistics *statistics, double *ms)
+/* Traces a row. counts: NULL in timed runs. */
+static cgt_result trace_row(loops_job *job, bench_row *row, bench_counts *counts, double *ms)
 {
     cgt_trace_options options;
+    cgt_research_trace_options research;
     cgt_frame frame;
-    bench_choice_options(&row->choice, statistics, &options);
+    bench_choice_options(&row->choice, counts, &options, &research);
     bench_planes_frame(&job->planes, &frame);
     /* The hits of the run before must not pass for this one's: no primitive has this number. */
     memset(job->planes.primitive, 0xfe, (size_t)job->planes.width * job->planes.height * sizeof *job->planes.primitive);
@@ -83,17 +84,17 @@ static cgt_result count_frame(loops_job *job, size_t frame, size_t *row_failed)
     double ms;
     for (size_t i = 0; i < plan->row_count; i++) {
         bench_row *row = &plan->rows[i];
-        cgt_trace_statistics statistics;
+        bench_counts counts;
         cgt_result result = CGT_OK;
-        memset(&statistics, 0, sizeof statistics);
+        memset(&counts, 0, sizeof counts);
         *row_failed = i;
         if (i == 0 || row->group != plan->rows[i - 1].group)
             result = bench_group_commit(&plan->groups[row->group], count, &ms);
         if (result == CGT_OK)
-            result = trace_row(job, row, &statistics, &ms);
+            result = trace_row(job, row, &counts, &ms);
         if (result != CGT_OK)
             return result;
-        add_statistics(&row->total, &statistics);
+        add_counts(&row->total, &counts);
         if (i == 0)
             job->hash[frame] = bench_planes_hash(&job->planes);
         else

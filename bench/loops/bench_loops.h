@@ -30,8 +30,8 @@ typedef struct bench_group {
 typedef struct bench_row {
     size_t group;
     bench_choice choice;
-    double *trace_ms;           /* one value per measured frame */
-    cgt_trace_statistics total; /* summed over the frames of the file, from runs that are not timed */
+    double *trace_ms;   /* one value per measured frame */
+    bench_counts total; /* summed over the frames of the file, from runs that are not timed */
 } bench_row;
 
 typedef struct bench_plan {

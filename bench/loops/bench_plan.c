@@ -11,7 +11,7 @@
 
 #include "common/bench_timing.h"
 
-enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_scene_options.resolution */
+enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_research_scene_options.resolution */
 
 /* What a plan tries without -g. */
 static const struct grid {
@@ -25,9 +25,10 @@ enum { MOST_ROWS_PER_GROUP = PACKETS * SWITCHES * LOOPS };
 static const uint32_t packets[PACKETS] = {4, 8, 16};
 static const struct {
     cgt_cull cull;
-    int mailbox;
-} switches[SWITCHES] = {{CGT_CULL_BLOCKS, 1},  {CGT_CULL_BLOCKS, 0}, {CGT_CULL_FRUSTUM, 1},
-                        {CGT_CULL_FRUSTUM, 0}, {CGT_CULL_NONE, 1},   {CGT_CULL_NONE, 0}};
+    cgt_mailbox mailbox;
+} switches[SWITCHES] = {{CGT_CULL_BLOCKS, CGT_MAILBOX_ON},  {CGT_CULL_BLOCKS, CGT_MAILBOX_OFF},
+                        {CGT_CULL_FRUSTUM, CGT_MAILBOX_ON}, {CGT_CULL_FRUSTUM, CGT_MAILBOX_OFF},
+                        {CGT_CULL_NONE, CGT_MAILBOX_ON},    {CGT_CULL_NONE, CGT_MAILBOX_OFF}};
 static const cgt_loop loops[LOOPS] = {CGT_LOOP_NESTED, CGT_LOOP_FLATTENED};
 
 static void label_group(bench_group *group)
@@ -54,11 +55,11 @@ static void add_rows(bench_plan *plan, const bench_settings *settings, int every
             for (int l = 0; l < LOOPS; l++) {
                 bench_row *row = &plan->rows[plan->row_count++];
                 row->group = group;
-                row->choice = bench_choice_default(plan->groups[group].variant);
-                row->choice.packet = every_switch ? packets[p] : settings->packet;
-                row->choice.loop = loops[l];
-                row->choice.cull = switches[s].cull;
-                row->choice.mailbox = switches[s].mailbox;
+                row->choice = (bench_choice){.variant = plan->groups[group].variant,
+                                             .packet = every_switch ? packets[p] : settings->packet,
+                                             .loop = loops[l],
+                                             .cull = switches[s].cull,
+                                             .mailbox = switches[s].mailbox};
             }
     }
 }
@@ -149,13 +150,13 @@ static cgt_result scale_resolution(bench_group *group, uint32_t count)
     static const uint32_t automatic[3] = {0, 0, 0};
     static const bench_kd_choice kd = {.break_level = 0};
     const bench_scene *scene = &group->scene;
-    cgt_scene_statistics chosen;
+    cgt_research_scene_statistics chosen;
     uint32_t resolution[3];
     cgt_result result = bench_scene_structure(scene, CGT_STRUCTURE_QUEUE_GRID, CGT_RAY_KIND_COHERENT, &kd, automatic);
     if (result == CGT_OK)
         result = bench_scene_commit(&group->scene, count);
     if (result == CGT_OK)
-        result = cgt_scene_get_statistics(scene->scene, &chosen);
+        result = cgt_research_get_scene_statistics(scene->scene, &chosen);
     if (result != CGT_OK)
         return result;
     for (int axis = 0; axis < 3; axis++) {
@@ -179,9 +180,9 @@ cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms)
     const double start = bench_now_ms();
     result = bench_scene_commit(&group->scene, count);
     *ms = bench_now_ms() - start;
-    cgt_scene_statistics built;
+    cgt_research_scene_statistics built;
     if (result == CGT_OK)
-        result = cgt_scene_get_statistics(group->scene.scene, &built);
+        result = cgt_research_get_scene_statistics(group->scene.scene, &built);
     if (result == CGT_OK)
         memcpy(group->resolution, built.resolution, sizeof group->resolution);
     return result;

@@ -30,8 +30,8 @@ static void write_choice(bench_table *table, const bench_group *group, const ben
     bench_table_text(table, "variant", group->variant);
     bench_table_text(table, "loop", bench_loop_name(row->choice.loop));
     bench_table_text(table, "cull", bench_cull_name(row->choice.cull));
-    bench_table_text(table, "mailbox", row->choice.mailbox ? "on" : "off");
-    bench_table_count(table, "packet", row->total.packet_size);
+    bench_table_text(table, "mailbox", row->choice.mailbox == CGT_MAILBOX_OFF ? "off" : "on");
+    bench_table_count(table, "packet", row->total.research.packet_size);
     bench_table_text(table, "resolution", resolution);
 }
 
@@ -44,7 +44,7 @@ static double median_of(const double *values, size_t count, double *scratch)
 static void write_row(bench_table *table, const bench_plan *plan, const bench_row *row, size_t frames, double *scratch)
 {
     const bench_group *group = &plan->groups[row->group];
-    const cgt_trace_statistics *total = &row->total;
+    const bench_counts *total = &row->total;
     const size_t values = plan->measured;
     char name[BENCH_NAME_SIZE], grid[80];
     bench_choice_name(&row->choice, CGT_STRUCTURE_QUEUE_GRID, name);
@@ -55,11 +55,11 @@ static void write_row(bench_table *table, const bench_plan *plan, const bench_ro
     for (size_t i = 0; i < values; i++)
         scratch[i] = group->build_ms[i] + row->trace_ms[i];
     bench_table_real(table, "ms", bench_median(scratch, values));
-    bench_table_real(table, "tests_per_ray", per(total->ray_tests, total->rays));
-    bench_table_real(table, "packet_tests", per(total->packet_tests, frames));
-    bench_table_real(table, "slices", per(total->slices, frames));
-    bench_table_real(table, "cells", per(total->cells, frames));
-    bench_table_real(table, "references", per(total->references, frames));
+    bench_table_real(table, "tests_per_ray", per(total->trace.ray_tests, total->trace.rays));
+    bench_table_real(table, "packet_tests", per(total->trace.packet_tests, frames));
+    bench_table_real(table, "slices", per(total->research.slices, frames));
+    bench_table_real(table, "cells", per(total->research.cells, frames));
+    bench_table_real(table, "references", per(total->research.references, frames));
     bench_table_end_row(table);
 }
 
@@ -78,7 +78,8 @@ int bench_report_table(const bench_plan *plan, size_t frames, bench_table *table
 /* ---- Ratios -------------------------------------------------------------------------------------------------- */
 
 /* The row that differs from this one in loop, culling or mailbox only; NULL where the plan has none. */
-static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, cgt_cull cull, int mailbox)
+static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, cgt_cull cull,
+                                cgt_mailbox mailbox)
 {
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *other = &plan->rows[i];
@@ -160,12 +161,12 @@ static void report_culling(const bench_plan *plan, bench_table *table, cgt_cull 
         const bench_row *off = partner(plan, on, on->choice.loop, without, on->choice.mailbox);
         if (!off)
             continue;
-        const uint64_t tests_on = on->total.ray_tests, tests_off = off->total.ray_tests;
+        const uint64_t tests_on = on->total.trace.ray_tests, tests_off = off->total.trace.ray_tests;
         ratios[pairs] = tests_on ? (double)tests_off / (double)tests_on : 0.0;
         begin_pair(table, plan, what, on);
         bench_table_real(table, "tests_off/tests_on", ratios[pairs++]);
-        bench_table_real(table, "tests_per_ray_off", per(tests_off, off->total.rays));
-        bench_table_real(table, "tests_per_ray_on", per(tests_on, on->total.rays));
+        bench_table_real(table, "tests_per_ray_off", per(tests_off, off->total.trace.rays));
+        bench_table_real(table, "tests_per_ray_on", per(tests_on, on->total.trace.rays));
         bench_table_real(table, "time_off/time_on", time_ratio(plan, off, on, scratch).median);
         bench_table_end_row(table);
     }
@@ -178,15 +179,16 @@ static void report_mailbox(const bench_plan *plan, bench_table *table, double *s
     size_t pairs = 0;
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *on = &plan->rows[i];
-        if (!on->choice.mailbox)
+        if (on->choice.mailbox != CGT_MAILBOX_ON)
             continue;
-        const bench_row *off = partner(plan, on, on->choice.loop, on->choice.cull, 0);
+        const bench_row *off = partner(plan, on, on->choice.loop, on->choice.cull, CGT_MAILBOX_OFF);
         if (!off)
             continue;
         ratios[pairs] = time_ratio(plan, on, off, scratch).median;
         begin_pair(table, plan, "mailbox", on);
         bench_table_real(table, "time_on/time_off", ratios[pairs++]);
-        bench_table_real(table, "skipped/references_off", per(on->total.mailbox_skipped, off->total.references));
+        bench_table_real(table, "skipped/references_off",
+                         per(on->total.research.mailbox_skipped, off->total.research.references));
         bench_table_end_row(table);
     }
     print_spread("mailbox", ratios, pairs);

@@ -23,6 +23,7 @@ typedef struct point_job {
     bench_scene scene;
     bench_planes planes;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     double *ms[SCALING_COLUMNS];
     size_t frames;
 } point_job;
@@ -57,7 +58,7 @@ static cgt_result open_scene(point_job *job, const bench_choice *choice)
                                        &choice->kd, shared->resolution);
     if (result == CGT_OK)
         bench_scene_set_triangles(&job->scene, job->moving.index, job->moving.triangles);
-    bench_choice_options(choice, NULL, &job->trace);
+    bench_choice_options(choice, NULL, &job->trace, &job->research);
     return result;
 }
 

@@ -124,26 +124,28 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 /* Inner nodes and leaves are those of trees. */
 static void write_visits(const structures_row *row, bench_table *table)
 {
-    const cgt_trace_statistics *s = &row->count;
+    const cgt_trace_statistics *traced = &row->count.trace;
+    const cgt_research_trace_statistics *visited = &row->count.research;
     const cgt_structure structure = row->group->build.built.structure;
     const int tree = structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES;
-    const double rays = s->rays ? (double)s->rays : NAN;
-    bench_table_real(table, "nodes_per_ray", tree ? (double)s->nodes / rays : NAN);
-    bench_table_real(table, "leaves_per_ray", tree ? (double)s->leaves / rays : NAN);
-    bench_table_real(table, "tests_per_ray", (double)s->ray_tests / rays);
-    bench_table_count(table, "rope_steps", s->rope_steps);
-    bench_table_count(table, "exact_steps", s->exact_steps);
-    bench_table_count(table, "rope_loops", s->rope_loops);
+    const double rays = traced->rays ? (double)traced->rays : NAN;
+    bench_table_real(table, "nodes_per_ray", tree ? (double)visited->nodes / rays : NAN);
+    bench_table_real(table, "leaves_per_ray", tree ? (double)visited->leaves / rays : NAN);
+    bench_table_real(table, "tests_per_ray", (double)traced->ray_tests / rays);
+    bench_table_count(table, "rope_steps", visited->rope_steps);
+    bench_table_count(table, "exact_steps", visited->exact_steps);
+    bench_table_count(table, "rope_loops", visited->rope_loops);
 }
 
 static void write_structure(const structures_row *row, bench_table *table)
 {
     const cgt_scene_statistics *built = &row->group->build.built;
+    const cgt_research_scene_statistics *research = &row->group->build.research;
     bench_table_count(table, "bytes", built->structure_bytes);
-    bench_table_count(table, "kd_nodes", built->kd_nodes);
-    bench_table_count(table, "kd_leaves", built->kd_leaves);
-    bench_table_count(table, "kd_depth", built->kd_depth);
-    bench_table_real(table, "kd_cost", built->kd_nodes ? built->kd_cost : NAN);
+    bench_table_count(table, "kd_nodes", research->kd_nodes);
+    bench_table_count(table, "kd_leaves", research->kd_leaves);
+    bench_table_count(table, "kd_depth", research->kd_depth);
+    bench_table_real(table, "kd_cost", research->kd_nodes ? research->kd_cost : NAN);
     bench_table_text(table, "chosen", bench_structure_name(built->structure));
     bench_table_text(table, "reason", built->reason);
 }

@@ -68,7 +68,7 @@ typedef struct structures_row {
     bench_choice choice;
     char config[BENCH_NAME_SIZE];
     double *trace_ms[STRUCTURES_MOST_BATCHES]; /* of each round, all calls of the current set */
-    cgt_trace_statistics count;                /* of the current set */
+    bench_counts count;                        /* of the current set */
     uint64_t different; /* rays of the current set that found something else than the first row */
 } structures_row;
 

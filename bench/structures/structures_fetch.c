@@ -74,14 +74,14 @@ static void walk_all(const cgt_kd_tree *tree, const walkers *w, cache_set *set)
 static void write_counts(const structures_job *job, const char *config, const walkers *w, const cache_set *set,
                          bench_table *table)
 {
-    const cgt_scene_statistics *built = &job->groups[0].build.built;
+    const bench_build *build = &job->groups[0].build;
     const double rays = (double)w->rays.count;
     const cache_count *count;
     for (uint32_t i = 0; (count = cache_set_count(set, i)) != NULL; i++) {
         bench_table_text(table, "config", config);
         bench_table_text(table, "scene", job->scene_name);
-        bench_table_count(table, "primitives", built->primitives);
-        bench_table_count(table, "kd_nodes", built->kd_nodes);
+        bench_table_count(table, "primitives", build->built.primitives);
+        bench_table_count(table, "kd_nodes", build->research.kd_nodes);
         bench_table_text(table, "kind", w->name);
         bench_table_count(table, "rays", w->rays.count);
         bench_table_text(table, "memory", cache_kind_name(count->kind));

@@ -72,30 +72,31 @@ static cgt_result trace_call(const structures_job *job, const cgt_scene *scene, 
     return cgt_trace_rays(scene, &call, &hits, options);
 }
 
-static void add_counts(cgt_trace_statistics *total, const cgt_trace_statistics *call)
+static void add_counts(bench_counts *total, const bench_counts *call)
 {
-    total->rays += call->rays;
-    total->nodes += call->nodes;
-    total->leaves += call->leaves;
-    total->ray_tests += call->ray_tests;
-    total->rope_steps += call->rope_steps;
-    total->exact_steps += call->exact_steps;
-    total->rope_loops += call->rope_loops;
+    total->trace.rays += call->trace.rays;
+    total->trace.ray_tests += call->trace.ray_tests;
+    total->research.nodes += call->research.nodes;
+    total->research.leaves += call->research.leaves;
+    total->research.rope_steps += call->research.rope_steps;
+    total->research.exact_steps += call->research.exact_steps;
+    total->research.rope_loops += call->research.rope_loops;
 }
 
 /* All rays of the set, call by call. total: gets the counts; NULL: nothing is counted. */
-static cgt_result trace_all(structures_job *job, const structures_row *row, uint64_t batch, cgt_trace_statistics *total,
+static cgt_result trace_all(structures_job *job, const structures_row *row, uint64_t batch, bench_counts *total,
                             double *ms)
 {
     const structures_set *set = &job->set;
     const cgt_scene *scene = row->group->scene.scene;
-    cgt_trace_statistics counts;
+    bench_counts counts;
     cgt_trace_options options;
+    cgt_research_trace_options research;
     bench_choice choice = row->choice;
     cgt_result result = CGT_OK;
     if (set->kind != STRUCTURES_FRAME)
         choice.packet = 0; /* of pixels */
-    bench_choice_options(&choice, total ? &counts : NULL, &options);
+    bench_choice_options(&choice, total ? &counts : NULL, &options, &research);
     if (structures_found_reset(&job->found, form_of(set), set->count))
         return CGT_ERROR_OUT_OF_MEMORY;
     const double begin = bench_now_ms();

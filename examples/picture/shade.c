@@ -249,19 +249,19 @@ static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i
     return hits;
 }
 
-int shade_tile(void *user, const cgt_tile *tile)
+cgt_visit shade_tile(void *user, const cgt_tile *tile)
 {
     shade_job *job = user;
     const uint32_t n = job->samples;
     uint64_t hits = 0;
     /* Tiles of 64 pixels or 4 scanlines hold whole blocks; others cannot be shaded. */
     if (tile->x % n || tile->y % n || tile->width % n || tile->height % n || (job->stop && *job->stop))
-        return 1;
+        return CGT_VISIT_STOP;
     for (uint32_t j = 0; j < tile->height; j += n)
         for (uint32_t i = 0; i < tile->width; i += RUN) {
             const uint32_t remaining = tile->width - i;
             hits += shade_run(job, tile, i, j, remaining < RUN ? remaining : RUN);
         }
     atomic_fetch_add_explicit(&job->hits, hits, memory_order_relaxed);
-    return 0;
+    return CGT_VISIT_CONTINUE;
 }

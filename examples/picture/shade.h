@@ -46,6 +46,6 @@ void shade_begin(shade_job *job);
 uint32_t shade_fields(const shade_job *job);
 
 /* The visitor: user is a shade_job. */
-int shade_tile(void *user, const cgt_tile *tile);
+cgt_visit shade_tile(void *user, const cgt_tile *tile);
 
 #endif

@@ -77,7 +77,8 @@ static cgt_result set_triangles(renderer *r, const trajectory_frame *frame)
                            : cgt_scene_add_triangles(r->scene, &triangles, &r->geometry);
 }
 
-static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *stats)
+static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *stats,
+                       cgt_research_scene_statistics *research)
 {
     const trajectory_frame *frame = &r->source.frame;
     const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
@@ -91,6 +92,8 @@ static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *
     record->build_ms = (program_seconds() - begin) * 1e3;
     if (!result)
         result = cgt_scene_get_statistics(r->scene, stats);
+    if (!result)
+        result = cgt_research_get_scene_statistics(r->scene, research);
     if (result)
         return render_fail_library(r, "build", result);
     record->primitives = frame_primitives(frame);
@@ -101,10 +104,11 @@ static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *
 }
 
 /* Returns 0, -1 on an error, 1 where a signal stopped the frame: the picture is incomplete. */
-static int trace_frame(renderer *r, frame_record *record, cgt_trace_statistics *stats)
+static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
 {
     shade_job *job = &r->job;
     cgt_frame frame;
+    const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
     const double total = (double)r->survey.frames;
     camera_path_at(&r->path, r->has_survey ? (double)r->rendered / total : 0.0, &job->camera);
@@ -118,8 +122,10 @@ static int trace_frame(renderer *r, frame_record *record, cgt_trace_statistics *
     frame.visitor_user = job;
     frame.visitor_fields = shade_fields(job);
     cgt_trace_options_init(&options);
-    if (r->options.stats)
-        options.statistics = stats;
+    if (r->options.stats) {
+        options.statistics = &stats->trace;
+        options.research = &research;
+    }
     const double begin = program_seconds();
     const cgt_result result = cgt_trace_camera(r->scene, &job->camera, &frame, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
@@ -156,7 +162,7 @@ static int write_frame(renderer *r, frame_record *record)
 static int render_frame(renderer *r, frame_record *record)
 {
     cgt_scene_statistics scene;
-    cgt_trace_statistics traced;
+    render_counts traced;
     memset(&traced, 0, sizeof traced);
     if (!r->has_geometry && check_kind(r))
         return -1;
@@ -168,7 +174,7 @@ static int render_frame(renderer *r, frame_record *record)
     record->color_ms = (program_seconds() - begin) * 1e3;
     record->number = r->source.frame.number;
     record->step = r->source.frame.step;
-    if (build_frame(r, record, &scene))
+    if (build_frame(r, record, &scene, &traced.scene))
         return -1;
     const int result = trace_frame(r, record, &traced);
     if (result)

@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 #include "trajectory/trajectory.h"
 
@@ -27,6 +27,13 @@ typedef struct frame_record {
     double write_ms; /* encoding and writing pictures, scaling for the contact sheet */
 } frame_record;
 
+/* What the library counted in a frame. */
+typedef struct render_counts {
+    cgt_trace_statistics trace;
+    cgt_research_trace_statistics research;
+    cgt_research_scene_statistics scene;
+} render_counts;
+
 typedef struct render_report {
     trajectory_kind kind; /* of the primitives; set before the first frame is added */
     const char *log_path; /* NULL: no log */
@@ -34,8 +41,8 @@ typedef struct render_report {
     frame_record *frames;
     size_t count, capacity;
     int has_stats;
-    cgt_trace_statistics traced; /* sums over the frames, where has_stats */
-    cgt_scene_statistics scene;  /* of the frame with the most primitives, where has_stats */
+    render_counts traced;       /* where has_stats: sums over the frames; scene as the next */
+    cgt_scene_statistics scene; /* of the frame with the most primitives, where has_stats */
 } render_report;
 
 /* Starts a report; log_path: NULL for none. Returns 0, or -1 with a text. */
@@ -43,7 +50,7 @@ int render_report_open(render_report *report, const char *log_path, char *error,
 
 /* Adds a frame. scene: statistics of its commit; traced: NULL if nothing was counted. Returns 0, or -1 with a text. */
 int render_report_add(render_report *report, const frame_record *frame, const cgt_scene_statistics *scene,
-                      const cgt_trace_statistics *traced, char *error, size_t error_size);
+                      const render_counts *traced, char *error, size_t error_size);
 
 /* Prints the summary: sums, medians, frames per second. rays: of one frame. images: pictures per frame. */
 void render_report_print(const render_report *report, uint64_t rays, uint32_t images, FILE *to);

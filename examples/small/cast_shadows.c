@@ -85,7 +85,7 @@ static void find_positions(const cgt_camera *camera, picture *p)
 
 static cgt_result trace_shadows(const cgt_scene *scene, picture *p)
 {
-    const cgt_light light = {.position = {lamp[0], lamp[1], lamp[2]}, .w = 1};
+    const cgt_light light = {.position = {lamp[0], lamp[1], lamp[2]}, .kind = CGT_LIGHT_POINT};
     const cgt_points points = {.count = PIXELS,
                                .position = {p->position[0], p->position[1], p->position[2]},
                                .t_min = p->t_min,

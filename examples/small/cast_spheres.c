@@ -18,7 +18,7 @@ typedef struct ball { /* any layout will do: the library is told the stride */
 } ball;
 
 /* Called for each finished tile, by several threads at once. Tiles do not overlap. */
-static int draw_tile(void *user, const cgt_tile *tile)
+static cgt_visit draw_tile(void *user, const cgt_tile *tile)
 {
     char(*picture)[WIDTH + 1] = user;
     for (uint32_t j = 0; j < tile->height; j++)
@@ -29,7 +29,7 @@ static int draw_tile(void *user, const cgt_tile *tile)
             picture[tile->y + j][tile->x + i] =
                 (char)(primitive == CGT_INVALID_ID ? '.' : (lit ? 'A' : 'a') + (int)primitive);
         }
-    return 0; /* anything else stops the frame */
+    return CGT_VISIT_CONTINUE;
 }
 
 static void move(ball *balls, float time)

@@ -21,7 +21,7 @@ static cgt_structure choose_structure(const cgt_scene_options *options, const ch
     *reason = options->structure == CGT_STRUCTURE_BVH ? "BVH: requested" : "kd-tree: requested";
     if (options->structure != CGT_STRUCTURE_AUTO)
         return options->structure;
-    if (options->resolution[0]) /* a resolution only makes sense for the queue grid */
+    if (options->research->resolution[0]) /* a resolution only makes sense for the queue grid */
         return CGT_STRUCTURE_QUEUE_GRID;
     *reason = "BVH: incoherent rays share no cells of a grid";
     return options->rays == CGT_RAY_KIND_INCOHERENT ? CGT_STRUCTURE_BVH : CGT_STRUCTURE_LOOSE_GRID;
@@ -98,14 +98,16 @@ static void store_statistics(cgt_scene *scene, const cgt_primitive_bounds *s)
 void cgt_report_local_store(cgt_scene *scene, size_t sphere_bytes, size_t triangle_bytes)
 {
     const cgt_primitives *prims = &scene->committed_scene.prims;
-    cgt_scene_statistics *st = &scene->statistics;
-    st->local_store_bytes = st->structure_bytes + prims->spheres * sphere_bytes + prims->triangles * triangle_bytes;
+    cgt_research_scene_statistics *st = &scene->research_statistics;
+    st->local_store_bytes =
+        scene->statistics.structure_bytes + prims->spheres * sphere_bytes + prims->triangles * triangle_bytes;
     st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
 }
 
 static void log_commit(const cgt_scene *scene)
 {
     const cgt_scene_statistics *st = &scene->statistics;
+    const uint32_t *resolution = scene->research_statistics.resolution;
     const cgt_log_hook *log = &scene->context->log;
     char text[CGT_MESSAGE_BYTES];
     if (!log->write)
@@ -117,7 +119,7 @@ static void log_commit(const cgt_scene *scene)
         log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
     }
     snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
-             st->triangles, st->resolution[0], st->resolution[1], st->resolution[2], st->commit_ms, st->reason);
+             st->triangles, resolution[0], resolution[1], resolution[2], st->commit_ms, st->reason);
     log->write(log->user, CGT_LOG_LEVEL_INFO, text);
 }
 
@@ -193,6 +195,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     scene->is_committed = false;
     scene->statistics = (cgt_scene_statistics){0};
+    scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};
     atomic_store_explicit(&scene->bvh_is_built, false, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Contexts: reference count, running of tasks. */
+ * Contexts: reference count, queries, running of tasks. dispatch/context_create.c creates them. */
 #define _POSIX_C_SOURCE 200809L
 #include "core/context.h"
 
@@ -24,8 +24,8 @@ void cgt_context_release(cgt_context *context)
 {
     if (!context || atomic_fetch_sub(&context->references, 1) != 1)
         return;
-    if (context->pool)
-        cgt_backend_host.destroy(&context->memory, context->pool);
+    if (context->backend)
+        context->backend->destroy(&context->memory, context->backend_state);
     pthread_mutex_destroy(&context->message_lock);
     const cgt_memory_hooks memory = context->memory;
     cgt_free(&memory, context, sizeof *context);

@@ -7,9 +7,9 @@
 #ifndef CGT_KERNEL_H
 #define CGT_KERNEL_H
 
-#include "query/region.h"
 #include "model/committed_scene.h"
 #include "query/camera.h"
+#include "query/region.h"
 #include "query/trace_settings.h"
 
 struct cgt_cluster;
@@ -93,7 +93,7 @@ typedef struct cgt_kernel {
     cgt_prim_keys_fn *loose_grid_keys;
     cgt_cluster_keys_fn *loose_grid_cluster_keys;
     cgt_trace_region_fn *trace_region; /* packet by packet */
-    cgt_trace_region_fn *trace_tile;   /* tile by tile where tiles serve (tile_limits.h), else as trace_region does */
+    cgt_trace_region_fn *trace_tile;   /* tile by tile, for frames that cgt_tile_supports (query/tile_limits.h) */
     cgt_trace_rays_fn *trace_rays;
     cgt_trace_light_fn *trace_light;
     cgt_light_prims_fn *light_prims;

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A region of a camera's frame and where its hits go. */
+ * The planes of hits, by name or by number, and regions of them. */
 #ifndef CGT_REGION_H
 #define CGT_REGION_H
 
@@ -25,12 +25,37 @@ static const uint32_t cgt_plane_field[CGT_PLANES] = {CGT_FIELD_T,      CGT_FIELD
                                                      CGT_FIELD_NORMAL, CGT_FIELD_NORMAL,    CGT_FIELD_NORMAL,
                                                      CGT_FIELD_UV,     CGT_FIELD_UV};
 
-/* Pixel (x + i, y + j) goes to element j * row_stride + i of each plane; NULL planes are not written. */
+/* Initialises an array of CGT_PLANES pointers from any struct that names its planes as cgt_frame does. */
+#define CGT_PLANES_OF(s)                                                                                               \
+    {                                                                                                                  \
+        (s)->t, (s)->primitive, (s)->geometry, (s)->normal[0], (s)->normal[1], (s)->normal[2], (s)->u, (s)->v          \
+    }
+
+/* The fields that have planes. */
+static inline uint32_t cgt_planes_fields(void *const plane[CGT_PLANES])
+{
+    uint32_t fields = 0;
+    for (int k = 0; k < CGT_PLANES; k++)
+        fields |= plane[k] ? cgt_plane_field[k] : 0;
+    return fields;
+}
+
+/* A region of a camera's frame and where its hits go: pixel (x + i, y + j) to element j * row_stride + i of each
+ * plane; NULL planes are not written. */
 typedef struct cgt_region {
     uint32_t x, y, width, height;
     size_t row_stride;
-    uint32_t *plane[CGT_PLANES]; /* bits of float or uint32_t */
-    bool nontemporal;            /* nobody reads the planes soon */
+    union {
+        struct {
+            float *t;
+            uint32_t *primitive;
+            uint32_t *geometry;
+            float *normal[3];
+            float *u, *v;
+        };
+        uint32_t *plane[CGT_PLANES]; /* the same pointers, to bits of float or uint32_t */
+    };
+    bool nontemporal; /* nobody reads the planes soon */
 } cgt_region;
 
 /* The part of a region that begins `x` columns and `y` rows after it, at most `width` x `height` pixels. */

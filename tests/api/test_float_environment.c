@@ -133,10 +133,10 @@ typedef struct results {
 } results;
 
 /* The visitor is the caller's: it finds the environment of the call. */
-static int visit(void *user, const cgt_tile *tile)
+static cgt_visit visit(void *user, const cgt_tile *tile)
 {
     (void)tile;
-    return control_bits() != *(const uint64_t *)user;
+    return control_bits() == *(const uint64_t *)user ? CGT_VISIT_CONTINUE : CGT_VISIT_STOP;
 }
 
 static void trace_frame(const cgt_scene *scene, results *to)
@@ -172,7 +172,7 @@ static void trace_arrays(const cgt_scene *scene, results *to)
     static float org[3][PIXELS], dir[3][PIXELS];
     const cgt_rays rays = {.count = PIXELS, .org = {org[0], org[1], org[2]}, .dir = {dir[0], dir[1], dir[2]}};
     const cgt_points points = {.count = PIXELS, .position = {org[0], org[1], org[2]}};
-    const cgt_light light = {{0x1p-140f, 1.5f, 0.25f}, 1};
+    const cgt_light light = {.position = {0x1p-140f, 1.5f, 0.25f}};
     cgt_hits hits = {.t = to->ray[0],
                      .primitive = to->primitive[1],
                      .geometry = to->geometry[1],
@@ -196,15 +196,16 @@ static void store_counts(const cgt_scene *scene, results *to)
 {
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-    const uint64_t counts[8] = {st.references,         st.kd_nodes,       st.kd_leaves,          st.kd_depth,
+    const cgt_research_scene_statistics research = research_of(scene);
+    const uint64_t counts[8] = {research.references,   research.kd_nodes, research.kd_leaves,    research.kd_depth,
                                 st.skipped_not_finite, st.skipped_radius, st.skipped_degenerate, st.structure_bytes};
     memcpy(to->counts, counts, sizeof counts);
-    to->cost = st.kd_cost;
+    to->cost = research.kd_cost;
     memcpy(to->bounds, st.bounds_min, sizeof st.bounds_min);
     memcpy(to->bounds + 3, st.bounds_max, sizeof st.bounds_max);
 }
 
-static void trace_all(cgt_context *context, const cgt_scene_options *options, bool triangles, results *to)
+static void trace_all(cgt_context *context, const test_scene_options *options, bool triangles, results *to)
 {
     const cgt_spheres spheres = {.count = SPHERES,
                                  .centers = sphere[0],
@@ -216,7 +217,7 @@ static void trace_all(cgt_context *context, const cgt_scene_options *options, bo
     cgt_scene *scene;
     uint32_t id;
     memset(to, 0, sizeof *to);
-    assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(options), &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
     if (triangles)
         assert_int_equal(cgt_scene_add_triangles(scene, &soup, &id), CGT_OK);
@@ -252,11 +253,10 @@ static void check_environment(const way *w, const environment *e, bool runner, c
 {
     environment runners = *e;
     cgt_context_options options;
-    cgt_scene_options scene_options;
+    test_scene_options scene_options = {0};
     cgt_context *context;
     fenv_t before;
     cgt_context_options_init(&options);
-    cgt_scene_options_init(&scene_options);
     scene_options.structure = w->structure;
     scene_options.kd_builder = w->kd_builder;
     options.threads = 3;
@@ -280,12 +280,11 @@ static void every_task_gives_the_same_bits(void **state)
     assert_true(expected && got);
     for (size_t i = 0; i < TEST_COUNT(ways); i++) {
         cgt_context_options options;
-        cgt_scene_options scene_options;
+        test_scene_options scene_options = {0};
         cgt_context *context;
         cgt_context_options_init(&options);
         options.threads = 1;
-        cgt_scene_options_init(&scene_options);
-        scene_options.structure = ways[i].structure;
+            scene_options.structure = ways[i].structure;
         scene_options.kd_builder = ways[i].kd_builder;
         assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
         trace_all(context, &scene_options, ways[i].triangles, expected);

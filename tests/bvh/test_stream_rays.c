@@ -493,9 +493,9 @@ static void counts_add_up(void **state)
         const cgt_rays rays = array_of(given, RAYS, false);
         const cgt_hits none = {0};
         cgt_trace_statistics n;
-        cgt_trace_options options;
-        cgt_trace_options_init(&options);
-        options.statistics = &n;
+        cgt_research_trace_statistics visits;
+        const cgt_research_trace_options research = {.statistics = &visits};
+        const cgt_trace_options options = {.statistics = &n, .research = &research};
         set_interleaved(turn / 2);
         if (any)
             assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
@@ -505,7 +505,7 @@ static void counts_add_up(void **state)
         assert_int_equal(n.bvh_rays, RAYS);
         assert_int_equal(n.invalid_rays, invalid);
         assert_int_equal(n.hits, hits);
-        assert_true(n.nodes && n.leaves && n.packet_tests && n.ray_tests >= n.packet_tests);
+        assert_true(visits.nodes && visits.leaves && n.packet_tests && n.ray_tests >= n.packet_tests);
         assert_true(n.double_tests && n.exact_tests <= n.double_tests && n.double_tests < n.ray_tests);
     }
     subject_free(&s);

@@ -94,10 +94,11 @@ static void place_light(test_random *r, subject *s)
 {
     const float far = s->spheres.reach * (float[]){2.5f, 4, 10}[random_below(r, 3)];
     const uint32_t axis = random_below(r, 3);
-    s->light.w = (float)random_below(r, 2);
+    s->light.kind = random_below(r, 2) ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL;
     for (uint32_t a = 0; a < 3; a++) {
         const float share = a == axis ? (random_below(r, 2) ? 1.f : -1.f) : random_float(r, -0.4f, 0.4f);
-        s->light.position[a] = s->light.w == 1 ? s->spheres.middle[a] + share * far : rintf(share * 64) / 64;
+        s->light.position[a] =
+            s->light.kind == CGT_LIGHT_POINT ? s->spheres.middle[a] + share * far : rintf(share * 64) / 64;
     }
 }
 
@@ -105,7 +106,7 @@ static void place_light(test_random *r, subject *s)
 static void to_light(const subject *s, const float at[3], float d[3])
 {
     for (int a = 0; a < 3; a++)
-        d[a] = s->light.w == 1 ? s->light.position[a] - at[a] : s->light.position[a];
+        d[a] = s->light.kind == CGT_LIGHT_POINT ? s->light.position[a] - at[a] : s->light.position[a];
 }
 
 /* A corner, a point of an edge, or one of a silhouette as the light sees it. */
@@ -133,8 +134,8 @@ static void hard_point(test_random *r, const subject *s, float e[3])
         length += across[a] * across[a];
     }
     /* rays to a place touch the sphere a little before its middle */
-    const float ahead = s->light.w == 1 ? sphere[3] * sphere[3] / dd : 0;
-    const float beside = sphere[3] * sqrtf(1 - (s->light.w == 1 ? ahead : 0)) / sqrtf(length);
+    const float ahead = s->light.kind == CGT_LIGHT_POINT ? sphere[3] * sphere[3] / dd : 0;
+    const float beside = sphere[3] * sqrtf(1 - (s->light.kind == CGT_LIGHT_POINT ? ahead : 0)) / sqrtf(length);
     for (int a = 0; a < 3; a++)
         e[a] = sphere[a] + ahead * d[a] + beside * across[a];
 }
@@ -146,7 +147,7 @@ static void place_points(test_random *r, subject *s)
         hard_point(r, s, e);
         to_light(s, e, d);
         float away = (float[]){0, 0.25f, 0.5f, 1}[random_below(r, 4)];
-        if (s->light.w == 0)
+        if (s->light.kind == CGT_LIGHT_DIRECTIONAL)
             away *= s->spheres.reach;
         for (uint32_t k = 0; k < COPIES; k++)
             for (int a = 0; a < 3; a++) {
@@ -168,7 +169,7 @@ static void find_truth(subject *s)
         to_light(s, (const float[]){s->at[0][i], s->at[1][i], s->at[2][i]}, d);
         for (int a = 0; a < 3; a++)
             dir[a][i] = d[a];
-        t_max[i] = s->light.w == 1 ? 1 : INFINITY;
+        t_max[i] = s->light.kind == CGT_LIGHT_POINT ? 1 : INFINITY;
     }
     const cgt_rays rays = {
         .count = POINTS, .org = {s->at[0], s->at[1], s->at[2]}, .dir = {dir[0], dir[1], dir[2]}, .t_max = t_max};
@@ -202,9 +203,9 @@ static void add_wrong(const subject *s, tally *sum)
         sum->lost += s->is[i] > got[i];
         sum->invented += s->is[i] < got[i];
         if (told && s->is[i] != got[i] && sum->lost + sum->invented < 4)
-            print_message("content %d, light %a %a %a, %g: point %a %a %a is %s\n", (int)s->what,
+            print_message("content %d, light %a %a %a, kind %d: point %a %a %a is %s\n", (int)s->what,
                           (double)s->light.position[0], (double)s->light.position[1], (double)s->light.position[2],
-                          (double)s->light.w, (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
+                          (int)s->light.kind, (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
                           got[i] ? "in the light" : "in shadow");
     }
 }

@@ -143,7 +143,7 @@ static void place_light(question *q, test_random *r, const crowd *c, uint32_t ki
     const uint32_t axis = random_below(r, 3);
     float aside[3];
     random_direction(r, aside);
-    q->light.w = kind < LIGHT_OCTANT;
+    q->light.kind = kind < LIGHT_OCTANT ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL;
     for (uint32_t a = 0; a < 3; a++) {
         const float inside = random_float(r, -1, 1), eye = q->camera.eye[a];
         float *const to = &q->light.position[a];
@@ -178,7 +178,7 @@ static void shuffle(question *q, test_random *r)
 static void ask(question *q, test_random *r, uint32_t number)
 {
     static const uint32_t counts[] = {SIDE * SIDE, POINTS, 1025, SIDE * SIDE, 999, 15, SIDE * SIDE, 2055, 1};
-    const bool ends = q->light.w == 1;
+    const bool ends = q->light.kind == CGT_LIGHT_POINT;
     q->count = counts[number % TEST_COUNT(counts)];
     q->shuffled = number % 5 == 4;
     q->ranges = number % 4 == 3;
@@ -213,16 +213,16 @@ static void answer(question *q, const cgt_scene *scene)
     for (uint32_t i = 0; i < q->count; i++) {
         ends[8 * i] = 1;
         for (int a = 0; a < 3; a++)
-            dir[a][8 * i] = q->light.w == 1 ? q->light.position[a] - p[i].at[a] : q->light.position[a];
+            dir[a][8 * i] = q->light.kind == CGT_LIGHT_POINT ? q->light.position[a] - p[i].at[a] : q->light.position[a];
     }
     const cgt_rays rays = {.count = q->count,
                            .stride = sizeof *p,
                            .org = {&p->at[0], &p->at[1], &p->at[2]},
                            .dir = {dir[0], dir[1], dir[2]},
                            .t_min = q->ranges ? &p->t_min : NULL,
-                           .t_max = q->ranges         ? &p->t_max
-                                    : q->light.w == 1 ? ends
-                                                      : NULL,
+                           .t_max = q->ranges                          ? &p->t_max
+                                    : q->light.kind == CGT_LIGHT_POINT ? ends
+                                                                       : NULL,
                            .mask = q->masks ? &p->mask : NULL,
                            .skip_primitive = q->ignores ? &p->primitive : NULL,
                            .skip_geometry = q->ignores ? &p->geometry : NULL};
@@ -278,13 +278,14 @@ static uint64_t check(const question *q, const cgt_scene *scene, const crowd *c,
     assert_int_equal(cgt_occluded_points(scene, &q->light, &points, got, &options), CGT_OK);
     for (uint32_t i = 0; i < q->count; i++)
         if (got[i] != q->is[i])
-            fail_msg("%s, %u %s objects of content %d, light %u at %a %a %a, %g; point %u of %u, at %a %a %a, range %a "
-                     "%a, mask %x, without %u of %u (shuffled %d, ranges %d, masks %d, ignores %d, packed %d) %s",
-                     variant, c->balls.count, c->name, (int)c->what, kind, (double)q->light.position[0],
-                     (double)q->light.position[1], (double)q->light.position[2], (double)q->light.w, i, q->count,
-                     (double)q->p[i].at[0], (double)q->p[i].at[1], (double)q->p[i].at[2], (double)q->p[i].t_min,
-                     (double)q->p[i].t_max, q->p[i].mask, q->p[i].primitive, q->p[i].geometry, q->shuffled, q->ranges,
-                     q->masks, q->ignores, q->packed, q->is[i] ? "is in the light" : "is in shadow");
+            fail_msg(
+                "%s, %u %s objects of content %d, light %u at %a %a %a, kind %d; point %u of %u, at %a %a %a, range %a "
+                "%a, mask %x, without %u of %u (shuffled %d, ranges %d, masks %d, ignores %d, packed %d) %s",
+                variant, c->balls.count, c->name, (int)c->what, kind, (double)q->light.position[0],
+                (double)q->light.position[1], (double)q->light.position[2], (int)q->light.kind, i, q->count,
+                (double)q->p[i].at[0], (double)q->p[i].at[1], (double)q->p[i].at[2], (double)q->p[i].t_min,
+                (double)q->p[i].t_max, q->p[i].mask, q->p[i].primitive, q->p[i].geometry, q->shuffled, q->ranges,
+                q->masks, q->ignores, q->packed, q->is[i] ? "is in the light" : "is in shadow");
     assert_int_equal(got[q->count], 0x77);
     assert_int_equal(by_points.rays, q->count);
     assert_int_equal(by_points.hits, q->by_rays.hits);

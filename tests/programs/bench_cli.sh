@@ -134,7 +134,7 @@ for options in '-t 2' '-k 4' '-k 8' '-k 16' '--tile strip' '--loop nested' '--lo
 done
 is config "$(cell config)" loose-grid
 run 0 frame "$tmp/unit.frames" $front -k 8 -g 3,4,5 --loop nested --cull off --no-mailbox
-is config "$(cell config)" 'grid-queue,packet=8,loop=nested,cull=off,mailbox=off,grid=3x4x5'
+is config "$(cell config)" 'queue-grid,packet=8,loop=nested,cull=off,mailbox=off,grid=3x4x5'
 
 # --all: the library's choice, then packets and tiles; the same pixels hit in every row.
 run 0 frame "$tmp/unit.frames" $front -a 2 --all
@@ -194,7 +194,7 @@ says out '^# hits	2 frames	12 configurations	46 traces compared	0 different'
 run 0 loops "$tmp/unit.frames" -c 0,0,-5,0,0,0,0,1,0,45 -s 32x24 -k 8 -g 4,4,4 --variant portable
 is 'the head of the table' "$(head -n 1 "$tmp/stdout")" "config	variant	loop	cull	mailbox	packet	resolution	build_ms	\
 trace_ms	ms	tests_per_ray	packet_tests	slices	cells	references"
-is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/stdout")" 12
+is 'the number of rows' "$(grep -c '^queue-grid' "$tmp/stdout")" 12
 is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/stdout")" 6
 is 'pairs of culling by the frustum' "$(grep -c '^# frustum	' "$tmp/stdout")" 4
 is 'pairs of culling by blocks' "$(grep -c '^# blocks	' "$tmp/stdout")" 4
@@ -208,8 +208,8 @@ if [ -n "$trajectory" ]; then
     [ -z "$slow" ] || length='-s 48x36 -n 4'
     run 0 loops "$trajectory" -c 10,-30,14,10,6,9,0,0,1,45 $length -t 2
     says out '	0 different	'
-    variants=$(grep '^grid-queue' "$tmp/stdout" | cut -f 2 | sort -u | wc -l)
-    is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/stdout")" $((50 * variants))
+    variants=$(grep '^queue-grid' "$tmp/stdout" | cut -f 2 | sort -u | wc -l)
+    is 'the number of rows' "$(grep -c '^queue-grid' "$tmp/stdout")" $((50 * variants))
     grep '^# frustum	' "$tmp/stdout" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
         fail "culling saves nothing: $(grep '^# frustum' "$tmp/stdout" | head -n 2)"
 else

@@ -8,12 +8,12 @@
 . "$(dirname "$0")/table_cli.sh"
 
 camera='-c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46'
-size=70x21 pixels=1470 structures=grid-queue,loose-grid,kd,kd-ropes,wide-tree
+size=70x21 pixels=1470 structures=queue-grid,loose-grid,kd,kd-ropes,bvh
 of_cloud=$structures of_blobs=$structures batches=1,16,100,all repeats=2 random=500
 # Where it is slow, the scenes share the structures; each still has several to compare.
 if [ -n "$slow" ]; then
     size=12x8 pixels=96 batches=1,all repeats=1 random=100
-    of_cloud=grid-queue,loose-grid,wide-tree of_blobs=loose-grid,kd,kd-ropes
+    of_cloud=queue-grid,loose-grid,bvh of_blobs=loose-grid,kd,kd-ropes
 fi
 run 0 make cloud2k "$tmp/cloud.frames" -n 2
 run 0 make blobs2k "$tmp/blobs.frames" -n 2
@@ -99,16 +99,16 @@ holds 'no hits' 'c["hits"] == 0 && c["different"] == 0'
 small="-s 40x22 -K frame,random -Q nearest --random $random -r 1"
 run 0 structures "$tmp/cloud.frames" "$tmp/blobs.frames" $small --traversals
 is 'structures and traversals' "$(column config | sed 's/,variant=[a-z0-9]*//g')" \
-    "grid-queue grid-queue,loop=flattened loose-grid loose-grid,packet=16 kd,traversal=single kd,traversal=packet \
-kd-ropes,traversal=single kd-ropes,traversal=packet wide-tree auto auto,rays=incoherent"
+    "queue-grid queue-grid,loop=flattened loose-grid loose-grid,packet=16 kd,traversal=single kd,traversal=packet \
+kd-ropes,traversal=single kd-ropes,traversal=packet bvh auto auto,rays=incoherent"
 holds 'the tree of a scene' 'c["config"] !~ /^kd/ ? 1 :
     (c["scene"] in nodes) ? nodes[c["scene"]] == c["kd_nodes"] : (nodes[c["scene"]] = c["kd_nodes"]) > 0'
 
 # Structures by name, in the order of the command line; settings in the name.
-run 0 structures "$tmp/cloud.frames" $small -S kd -S grid-queue -S kd --kd-traversal packet --kd-layout mixed \
+run 0 structures "$tmp/cloud.frames" $small -S kd -S queue-grid -S kd --kd-traversal packet --kd-layout mixed \
     --kd-break 5 --variant portable --traversals
 is 'rows by name' "$(column config)" "kd,traversal=packet,layout=mixed,break=5,variant=portable \
-grid-queue,variant=portable grid-queue,variant=portable,loop=flattened"
+queue-grid,variant=portable queue-grid,variant=portable,loop=flattened"
 # A loose grid by packets alone, where their size is given.
 run 0 structures "$tmp/cloud.frames" $small -S loose-grid -k 8 --variant portable --traversals
 is 'packets of a size' "$(column config)" 'loose-grid,variant=portable,packet=8'
@@ -151,7 +151,7 @@ holds 'a memory of one block' 'c["memory_bytes"] != c["block_bytes"] || c["memor
 
 # ---- frame ----------------------------------------------------------------------------------------------------------
 
-for structure in kd kd-ropes grid-queue loose-grid; do
+for structure in kd kd-ropes queue-grid loose-grid; do
     run 0 frame "$tmp/cloud.frames" $camera -s 40x22 -a 1 -S $structure -o "$tmp/$structure.hits"
     says out "^$structure	"
     cmp -s "$tmp/$structure.hits" "$tmp/kd.hits" || fail "$structure: other hits than kd"

@@ -261,9 +261,10 @@ static void report(cgt_scene *scene, const cgt_bvh *tree, double ms)
 {
     const cgt_bvh_builder *w = scene->context->kernel->bvh_builder;
     cgt_scene_statistics *st = &scene->statistics;
-    st->bvh_nodes = tree->nodes;
-    st->bvh_leaves = tree->sphere_blocks + tree->triangle_blocks;
-    st->bvh_depth = tree->depth;
+    cgt_research_scene_statistics *research = &scene->research_statistics;
+    research->bvh_nodes = tree->nodes;
+    research->bvh_leaves = tree->sphere_blocks + tree->triangle_blocks;
+    research->bvh_depth = tree->depth;
     st->bvh_bytes = (size_t)tree->nodes * w->node_bytes + (size_t)tree->sphere_blocks * w->block_bytes[0] +
                     (size_t)tree->triangle_blocks * w->block_bytes[1];
     st->bvh_build_ms = ms;
@@ -286,10 +287,11 @@ cgt_result cgt_bvh_commit(cgt_scene *scene)
 {
     const cgt_result result = cgt_bvh_build_tree(scene);
     cgt_scene_statistics *st = &scene->statistics;
+    cgt_research_scene_statistics *research = &scene->research_statistics;
     if (result != CGT_OK)
         return result;
-    st->references = scene->committed_scene.valid;
-    st->reference_bits = 32;
+    research->references = scene->committed_scene.valid;
+    research->reference_bits = 32;
     st->structure_bytes = st->bvh_bytes;
     cgt_report_local_store(scene, 0, 0); /* leaves hold copies */
     return CGT_OK;

@@ -11,18 +11,19 @@
 static void report(cgt_scene *scene, uint32_t valid_prims)
 {
     cgt_scene_statistics *st = &scene->statistics;
+    cgt_research_scene_statistics *research = &scene->research_statistics;
     const cgt_loose_grid *g = &scene->committed_scene.loose;
     const cgt_loose_level *finest = &g->level[g->levels - 1];
     const size_t clusters = scene->committed_scene.cluster ? cgt_clusters(scene->committed_scene.prims.count) : 0;
     for (int a = 0; a < 3; a++)
-        st->resolution[a] = finest->size[a];
-    st->cells = g->cells;
-    st->levels = g->levels;
-    st->references = valid_prims;
-    st->reference_bits = 32;
+        research->resolution[a] = finest->size[a];
+    research->cells = g->cells;
+    research->levels = g->levels;
+    research->references = valid_prims;
+    research->reference_bits = 32;
     st->structure_bytes = ((size_t)g->cells + 1 + valid_prims) * sizeof(uint32_t) + clusters * sizeof(cgt_cluster);
     cgt_report_local_store(scene, sizeof(cgt_sphere), sizeof(cgt_triangle));
-    if (scene->options.resolution[0])
+    if (scene->options.research->resolution[0])
         snprintf(st->reason, sizeof st->reason, "loose grid: resolution asked for");
     else
         snprintf(st->reason, sizeof st->reason, "loose grid: %u levels, %.3g %s a cell, reach %.3g to %.3g", g->levels,
@@ -36,7 +37,7 @@ cgt_result cgt_loose_grid_commit(cgt_scene *scene)
     cgt_loose_grid *g = &committed_scene->loose;
     const cgt_kernel *kernel = scene->context->kernel;
     cgt_cell_sort sort = {.prim_keys = kernel->loose_grid_keys, .cluster_keys = kernel->loose_grid_cluster_keys};
-    cgt_loose_grid_plan(g, scene->buffer[CGT_BUFFER_SIZE_CLASSES].data, scene->options.resolution);
+    cgt_loose_grid_plan(g, scene->buffer[CGT_BUFFER_SIZE_CLASSES].data, scene->options.research->resolution);
     cgt_cell_sort_plan(&sort, scene, committed_scene->cluster, g, g->cells);
 
     /* room for any arrangement of as many primitives or clusters, or for more cells where they are requested */

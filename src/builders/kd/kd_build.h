@@ -7,6 +7,8 @@
 #ifndef CGT_KD_BUILD_H
 #define CGT_KD_BUILD_H
 
+#include <cgt/research.h>
+
 #include "core/context.h"
 #include "model/committed_scene.h"
 

@@ -160,7 +160,7 @@ static cgt_result compute_bounds(cgt_scene *scene, bool clusters, cgt_primitive_
 cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
 {
     const cgt_structure structure = scene->committed_scene.structure;
-    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.resolution[0];
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.research->resolution[0];
     const bool tree = structure == CGT_STRUCTURE_BVH;
     const cgt_cluster_use use = loose || tree ? cgt_choose_clusters(&scene->committed_scene.prims) : CGT_CLUSTERS_NONE;
     const bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);

@@ -308,7 +308,7 @@ void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     const uint32_t count = (uint32_t)(end - first);
     t.committed_scene = committed_scene;
     t.counts = counts;
-    t.is_point = light->w == 1;
+    t.is_point = light->kind == CGT_LIGHT_POINT;
     counts->rays += count;
     if (committed_scene->valid >= LIGHT_SORT_MIN_PRIMS || CGT_KERNEL(cgt_light_is_scattered)(&c, count)) {
         c.order.from = from;

@@ -31,7 +31,7 @@ typedef struct light_projection {
 /* The main axis is that of the ray of the chunk's middle point. */
 static light_projection light_init_projection(const light_call *c, uint32_t count)
 {
-    light_projection v = {.is_point = c->light.w == 1};
+    light_projection v = {.is_point = c->light.kind == CGT_LIGHT_POINT};
     float main_dir[3];
     for (uint32_t a = 0; a < 3; a++) {
         const float o = ray_element(&c->source, c->source.rays->org[a], c->order.first + count / 2);

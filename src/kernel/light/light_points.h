@@ -33,7 +33,7 @@ CGT_SPU_INLINE bool light_is_near(const light_call *c)
 {
     float farthest = 0;
     for (int a = 0; a < 3; a++)
-        farthest += c->light.w == 1 ? fabsf(c->light.position[a]) * c->committed_scene->scale : 0;
+        farthest += c->light.kind == CGT_LIGHT_POINT ? fabsf(c->light.position[a]) * c->committed_scene->scale : 0;
     return farthest <= LIGHT_MAX_DISTANCE;
 }
 
@@ -50,7 +50,7 @@ CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint3
 {
     const cgt_rays *points = c->source.rays;
     const ray_order *order = &c->order;
-    const bool is_point = c->light.w == 1;
+    const bool is_point = c->light.kind == CGT_LIGHT_POINT;
     vmask valid = spux_mask_all();
     p->lanes = p->rays = count;
     p->common_origin = p->from_origin = p->extreme = p->skips_prims = p->has_masks = false;

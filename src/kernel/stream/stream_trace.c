@@ -114,8 +114,8 @@ __attribute__((noinline, cold)) static void stream_load_masks(stream *s, uint32_
     bool has_masks = false;
     for (uint32_t i = 0; i < count; i++) {
         s->skip_prim[i] = ray_ignored(&committed_scene->prims, source, s->call.first + i);
-        s->mask[i] = source->rays->mask ? ray_number(source, source->rays->mask, s->call.first + i) : UINT32_MAX;
-        has_masks |= !s->mask[i] || (committed_scene->has_masks && s->mask[i] != UINT32_MAX);
+        s->mask[i] = ray_read_mask(source, s->call.first + i);
+        has_masks |= committed_scene->has_masks && s->mask[i] != UINT32_MAX;
     }
     s->call.skip_prim = s->skip_prim;
     s->call.mask = has_masks ? s->mask : NULL;

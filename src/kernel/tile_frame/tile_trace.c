@@ -312,10 +312,6 @@ static void tile_trace_region(const cgt_committed_scene *committed_scene, const 
 void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                 const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
-    if (!cgt_tile_supports(committed_scene, camera)) {
-        CGT_KERNEL(cgt_trace_region)(committed_scene, camera, settings, region, counts);
-        return;
-    }
     for (uint32_t y = 0; y < region->height; y += TILE_EDGE)
         for (uint32_t x = 0; x < region->width; x += TILE_EDGE) {
             const cgt_region part = cgt_region_part(region, x, y, TILE_EDGE, TILE_EDGE);
