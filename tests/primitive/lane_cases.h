@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays and objects for the tests of leaves, and what is exactly true of them. The rays of a case are aimed at its first
- * object; its other objects are that one again, moved a little, or elsewhere beside it. */
+ * Rays and primitives for the tests of leaves, with their exact results. The rays of a case are aimed at its first
+ * primitive; the other primitives are copies of it, moved a little, or placed next to it. */
 #ifndef LANE_CASES_H
 #define LANE_CASES_H
 
@@ -18,7 +18,7 @@ typedef enum case_family {
     CASE_LATTICE,  /* small whole numbers: hits exactly at vertices and edges, and along the plane */
     CASE_COPLANAR, /* nearly, and exactly; of spheres: silhouettes from afar */
     CASE_NEEDLES,  /* of spheres: of radius 0 and hardly more */
-    CASE_TINY,     /* in a large world */
+    CASE_TINY,     /* in a large scene */
     CASE_FAR,
     CASE_INSIDE,
     CASE_RANGES, /* that begin before the origin, near the hit or beyond it */
@@ -34,12 +34,12 @@ typedef struct lane_case {
     case_family family;
     oracle_primitive prim[CASE_LANES];
     truth_ray ray[CASE_LANES]; /* of ranges without end */
-    float magnitude;           /* the world's largest coordinate */
+    float magnitude;           /* the scene's largest coordinate */
 } lane_case;
 
 void case_make(test_random *r, oracle_kind kind, case_family f, lane_case *c);
 
-/* Of each ray with the first object, and of the first ray with each object. */
+/* For each ray and the first primitive, and for the first ray and each primitive. */
 typedef struct case_truth {
     bool hit[2][CASE_LANES];
     truth_real t[2][CASE_LANES];

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a hit on a triangle carries: t, u, v, the normal and ids, as far as asked for; ties; any hit. */
+ * The fields of a hit on a triangle: t, u, v, the normal and ids, those that are asked for; ties; any hit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -308,7 +308,7 @@ static void rays_in_a_triangles_plane_miss(void **state)
     static const truth_ray in_plane[] = {
         {{-1, 1, 0}, {1, 0, 0}, 0, INFINITY},        {{-1, 0, 0}, {1, 0, 0}, 0, INFINITY}, /* along an edge */
         {{1, 1, 0}, {-1, -1, 0}, 0, INFINITY},       {{-1, 1, 0}, {1, 0, -0.f}, -INFINITY, INFINITY},
-        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* beside it */
+        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* next to it */
         {{-1, 1, 0x1p-149f}, {1, 0, 0}, 0, INFINITY}};
     static const truth_ray through[] = {{{1, 1, 1}, {0, 0, -1}, 0, INFINITY},
                                         {{0, 0, 1}, {0, 0, -1}, 0, INFINITY}, /* a vertex */

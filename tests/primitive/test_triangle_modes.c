@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * How triangles are decided: what is counted, how far FAST is off, and that neither the scale of a scene nor the
- * caller's floating-point environment changes a hit. */
+ * How triangles are decided: the counters, the error of FAST, and that neither the scale of a scene nor the caller's
+ * floating-point environment changes a hit. */
 #include <fenv.h>
 #include <math.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static cgt_scene *make_scene(cgt_context *context, uint64_t stream)
 
 /* ---- counts ---- */
 
-/* Rays at edges are what double precision cannot decide, and rays far from them are not. */
+/* Double precision leaves rays at edges undecided, and not those far from edges. */
 static void decisions_are_counted(void **state)
 {
     (void)state;

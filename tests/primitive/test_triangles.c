@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles in the public interface: layouts of arrays, several geometries of both kinds, updates, what is refused and
- * what is skipped. What a hit carries is another program's. */
+ * Triangles in the public interface: layouts of arrays, several geometries of both kinds, updates, invalid input, and
+ * triangles that are skipped. test_triangle_hits.c tests the fields of hits. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -380,7 +380,7 @@ static void skipped_triangles_are_counted(void **state)
     }
 }
 
-/* A vertex that no triangle names may hold anything; nothing but skipped triangles is an empty scene. */
+/* A vertex that no triangle uses may have any value; a scene of skipped triangles only is empty. */
 static void what_is_not_used_does_no_harm(void **state)
 {
     (void)state;
