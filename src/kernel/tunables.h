@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Numbers that tests change: bounds are made tighter until a test sees them break, limits smaller until their other side
- * is reached. A test defines a name before it includes a kernel's file. The library always has the values below. */
+ * Numbers that tests change: bounds are made tighter until a test sees them break, limits smaller until their other
+ * side is reached. A test defines a name before it includes a kernel's file. The library always has the values
+ * below. */
 #ifndef CGT_TUNABLES_H
 #define CGT_TUNABLES_H
 

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The points that a camera sees against one light, in scenes large enough for tiles through the loose grid. The answer is
- * that of cgt_occluded_rays through another structure, for any light, order and number of points, ranges, masks, skipped
- * primitives and strides, every variant and number of threads. Tiles are used exactly where they serve. */
+ * The points that a camera sees against one light, in scenes large enough for tiles through the loose grid. The answer
+ * is that of cgt_occluded_rays through another structure, for any light, order and number of points, ranges, masks,
+ * skipped primitives and strides, every variant and number of threads. Tiles are used exactly where they serve. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The filter of spheres against wide arithmetic: a certain miss is a miss, a certain hit is a hit, and the interval
- * contains its t. Then the bounds are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break: a bound
- * that never broke would be too wide. For the variant that this is compiled for. */
+ * contains its t. Then the bounds are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break: a
+ * bound that never broke would be too wide. For the variant that this is compiled for. */
 #include "support/oracle/truth.h"
 #include "support/test.h"
 
@@ -229,7 +229,8 @@ static void bounds_break_where_they_are_tightened(void **state)
     assert_true(outside_at > 0x1p-6f && outside_at < 1);
 }
 
-/* A second sphere is judged by the interval of the best hit so far: nearer for certain, farther for certain, or open. */
+/* A second sphere is judged by the interval of the best hit so far: nearer for certain, farther for certain, or
+ * open. */
 static void order_of_two_spheres(void **state)
 {
     (void)state;

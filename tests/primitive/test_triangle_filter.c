@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The filter of triangles against the exact oracle: a certain miss is a miss, a certain hit is a hit, and the interval
- * contains its t. Then the bounds are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break: a bound
- * that never broke would be too wide. For the variant that this is compiled for. */
+ * contains its t. Then the bounds are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break: a
+ * bound that never broke would be too wide. For the variant that this is compiled for. */
 #include "support/oracle/oracle.h"
 #include "support/test.h"
 #include "support/tightened.h"

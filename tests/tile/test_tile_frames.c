@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames by tiles are the same, bit for bit, as by packets through the queue grid; and the march over the grid leaves out
- * no primitive that a ray hits. For the variant that this is compiled for. */
+ * Frames by tiles are the same, bit for bit, as by packets through the queue grid; and the march over the grid leaves
+ * out no primitive that a ray hits. For the variant that this is compiled for. */
 #include "hard_cases/hard_run.h"
 #include "tile/tile_compare.h"
 
@@ -283,8 +283,8 @@ static void frames_of_hard_cases(void **state)
     assert_true(cases >= 3 && tally.served >= 3 && tally.parallel >= 3);
 }
 
-/* A wall that all rays hit at the same t, and another right behind it. If the range ends or begins there, double precision
- * must decide every pixel. */
+/* A wall that all rays hit at the same t, and another right behind it. If the range ends or begins there, double
+ * precision must decide every pixel. */
 static void frames_of_walls_where_ranges_end(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames of triangles, and of triangles and spheres, by tiles are the same, bit for bit, as by packets through the queue
- * grid. For the variant that this is compiled for. */
+ * Frames of triangles, and of triangles and spheres, by tiles are the same, bit for bit, as by packets through the
+ * queue grid. For the variant that this is compiled for. */
 #include "hard_cases/hard_run.h"
 #include "tile/tile_compare.h"
 
@@ -200,8 +200,8 @@ static void frames_of_both_kinds(void **state)
 
 /* ---- fine meshes ---- */
 
-/* A wavy sheet of n x n squares that fills a tile, each triangle with some pixels: fewer triangles than a tile can list, and
- * more. */
+/* A wavy sheet of n x n squares that fills a tile, each triangle with some pixels: fewer triangles than a tile can
+ * list, and more. */
 static void add_sheet(hard_scene *s, uint32_t n)
 {
     for (uint32_t i = 0; i < 2 * n * n; i++) {
@@ -275,8 +275,8 @@ static void frames_of_large_layers(void **state)
 
 /* ---- edges through pixels ---- */
 
-/* Height fields, one behind the other and one of them twice, whose vertices lie on the rays of every fourth pixel, exactly
- * or except for rounding. */
+/* Height fields, one behind the other and one of them twice, whose vertices lie on the rays of every fourth pixel,
+ * exactly or except for rounding. */
 static void frames_of_edges_on_rays(void **state)
 {
     (void)state;

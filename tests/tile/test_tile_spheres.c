@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres over the pixels of a tile: the bounds of single precision hold against wide arithmetic. Then they are tightened,
- * with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant that this is compiled for. */
+ * Spheres over the pixels of a tile: the bounds of single precision hold against wide arithmetic. Then they are
+ * tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant that this is compiled
+ * for. */
 #include "support/test.h"
 #include "support/oracle/truth.h"
 #include "support/tightened.h"

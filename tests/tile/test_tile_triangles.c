@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles over the pixels of a tile: the bounds of single precision hold against exact decisions and canonical depths.
- * Then they are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant that this is
- * compiled for. */
+ * Triangles over the pixels of a tile: the bounds of single precision hold against exact decisions and canonical
+ * depths. Then they are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant
+ * that this is compiled for. */
 #include "support/test.h"
 #include "support/tightened.h"
 
@@ -140,8 +140,8 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
     }
 }
 
-/* A camera, and a triangle of which an edge or a vertex touches a ray of a tile of 8x8 pixels as closely as float allows.
- * Its size is from far below a pixel to far above its distance; then it may cross the eye's plane. */
+/* A camera, and a triangle of which an edge or a vertex touches a ray of a tile of 8x8 pixels as closely as float
+ * allows. Its size is from far below a pixel to far above its distance; then it may cross the eye's plane. */
 static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
 {
     cgt_camera camera;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shared by the filters of spheres and triangles: bounds of a packet's rays, the result of a test of a vector of rays, the
- * decision of the rays that a filter leaves undecided, and the loop over the packet's blocks. */
+ * Shared by the filters of spheres and triangles: bounds of a packet's rays, the result of a test of a vector of rays,
+ * the decision of the rays that a filter leaves undecided, and the loop over the packet's blocks. */
 #ifndef CGT_FILTER_H
 #define CGT_FILTER_H
 
@@ -63,8 +63,8 @@ CGT_SPU_INLINE void filter_packet_init(const packet *p, float scale, filter_pack
     }
 }
 
-/* For each sphere of a vector, a t before which no ray hits it. The distance from the filter's origin to the surface is at
- * least `near`, if that is above 0: the sums are rounded 8 times each, and lose 2^-74 where squares underflow. */
+/* For each sphere of a vector, a t before which no ray hits it. The distance from the filter's origin to the surface is
+ * at least `near`, if that is above 0: the sums are rounded 8 times each, and lose 2^-74 where squares underflow. */
 CGT_SPU_INLINE void filter_min_t(const filter_packet *f, const float center[3][CGT_LANES],
                                  const float radius[CGT_LANES], float min_t[CGT_LANES])
 {
@@ -82,8 +82,8 @@ CGT_SPU_INLINE void filter_min_t(const filter_packet *f, const float center[3][C
     spux_store(min_t, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
 }
 
-/* For triangles and rays without a common origin: the rays' Pluecker coordinates, seen from the filter's origin, and each
- * ray's own length in place of the longest one, since lengths may differ widely. */
+/* For triangles and rays without a common origin: the rays' Pluecker coordinates, seen from the filter's origin, and
+ * each ray's own length in place of the longest one, since lengths may differ widely. */
 CGT_SPU_INLINE void filter_moments_init(packet *p, filter_packet *f)
 {
     vfloat share[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};

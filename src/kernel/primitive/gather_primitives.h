@@ -103,7 +103,8 @@ CGT_SPU_INLINE void load_corners(const cgt_primitive_array *a, uint32_t i, uint3
         corner[j] = spux_load_uint(row[j]);
 }
 
-/* The vertex numbers of triangles of one array; lane by lane if offsets exceed 32 bits, or if one is the last record. */
+/* The vertex numbers of triangles of one array; lane by lane if offsets exceed 32 bits, or if one is the last
+ * record. */
 CGT_SPU_INLINE void gather_corners(const cgt_primitive_array *a, vuint number, vuint corner[3])
 {
     const bool fit = (uint64_t)a->count * (a->index_stride / sizeof(uint32_t)) <= UINT32_MAX;

@@ -2,21 +2,21 @@
  * SPDX-License-Identifier: MIT
  *
  * Tests one ray against one primitive in each lane, in single precision with derived bounds. Leaves of trees hold few
- * primitives and are reached by few rays, so nothing is prepared per packet, only per commit (leaf_triangle.h). The rays,
- * or the primitives, of all lanes may be the same. The formula for spheres is that of sphere_filter.h.
+ * primitives and are reached by few rays, so nothing is prepared per packet, only per commit (leaf_triangle.h). The
+ * rays, or the primitives, of all lanes may be the same. The formula for spheres is that of sphere_filter.h.
  *
- * Triangles (Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997): let s be the ray's origin seen
- * from the first vertex, e_1 and e_2 the edges from there, all times the scene's scale, u = 2^-24, |x| the largest
+ * Triangles (Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997): let s be the ray's origin
+ * seen from the first vertex, e_1 and e_2 the edges from there, all times the scene's scale, u = 2^-24, |x| the largest
  * component and [x] the 1-norm. P(p, q, r) of triangle_filter.h is at most |p| [q] [r] in any order. So
  *   U = s.(d x e_2)   within 9 u |d| [s] [e_2]        V = d.(s x e_1)   within 9 u |d| [s] [e_1]
  *   D = e_1.(d x e_2) within 9 u |d| [e_1] [e_2]      T = e_2.(s x e_1) within 9 u [s] [e_1] [e_2]
  *   W = D - U - V     within the errors of all three, and 2 u of their sizes
- * each enlarged by 2^-7 for second order terms. The signs of U, V and W tell on which side of each edge the line passes:
- * they are the sides of triangle_double.h, times scale^2. t = T / D, divided by the scale.
+ * each enlarged by 2^-7 for second order terms. The signs of U, V and W tell on which side of each edge the line
+ * passes: they are the sides of triangle_double.h, times scale^2. t = T / D, divided by the scale.
  *
  * Underflow in a vertex, a product or a sum is below 2^-124, and may be multiplied by |d|, by [s] or by both:
- * 2^-118 (|d| + 1) ([s] + 1) is added to the bounds of U, V and W, 2^-118 ([s] + 1) to that of T, and 2^-118 (|d| + 1) to
- * that of D. If [s] exceeds 2^124, products may overflow: then this addend is infinite and no sign is certain.
+ * 2^-118 (|d| + 1) ([s] + 1) is added to the bounds of U, V and W, 2^-118 ([s] + 1) to that of T, and 2^-118 (|d| + 1)
+ * to that of D. If [s] exceeds 2^124, products may overflow: then this addend is infinite and no sign is certain.
  * Comparisons with infinities and NaN are false, so such lanes are undecided. If |D| is not above four times its error,
  * the interval of t is unbounded. */
 #ifndef CGT_LANE_TESTS_H

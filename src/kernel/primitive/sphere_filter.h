@@ -5,8 +5,8 @@
  * double. The formula is the perpendicular one of sphere_double.h:
  *   s = d.c / d.d,  l = c - s d,  h = r^2 - l.l,  t = s - sqrt(h / d.d)
  *
- * Error bounds, u = 2^-24, |c| the distance from origin to centre, of first order unless stated. They hold for fused and
- * unfused arithmetic, and for reciprocals and roots within 2^-21:
+ * Error bounds, u = 2^-24, |c| the distance from origin to centre, of first order unless stated. They hold for fused
+ * and unfused arithmetic, and for reciprocals and roots within 2^-21:
  *   c        u |c| per component, as a vector
  *   d.c      4 u |d||c|;  1/d.d  8 u relative;  so s within 13 u |c|/|d|
  *   l        along d: 13 u |c|, which changes l.l in second order only, since l is perpendicular to d;
@@ -14,8 +14,8 @@
  *   l.l      within 2 |l| 3 u |c| + 3 u |l|^2 + (16^2 + 96 + 9) u^2 |c|^2
  *   h        at the silhouette |l| = r: 6 u r |c| + 6 u r^2 + 361 u^2 |c|^2
  *   eps      9 u r (|c| + r) + 640 u^2 |c|^2 + 2^-120; the last term covers underflow
- * If the exact h is at least 0, so is the computed r^2 + eps - l.l: a negative one is a certain miss. Above 17 eps the hit
- * is certain, its exact h is at least the computed one minus 2 eps, and the two roots differ by at most
+ * If the exact h is at least 0, so is the computed r^2 + eps - l.l: a negative one is a certain miss. Above 17 eps the
+ * hit is certain, its exact h is at least the computed one minus 2 eps, and the two roots differ by at most
  * 2 eps / (sqrt(17 eps) + sqrt(15 eps)) < 0.26 sqrt(eps), over |d|. The rest of the interval is
  *   e0       13 u |c| (s) + 13 u sqrt(h) (root) + u |t|: 18 u (|c| + r), over |d|
  * and, for underflow (also of flushed denormals), 2^-62 for h / d.d and 2^-122 / d.d for d.c.

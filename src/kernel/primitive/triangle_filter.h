@@ -6,27 +6,27 @@
  *   w_k = d.(b x e) + m.e,  b the vertex before edge k, e the edge, m = from x d for a ray whose origin is `from`
  *   t = (n.a - n.from) / d.n,  n = e0 x e1 for two edges
  * Vertices and `from` are seen from the filter's origin: the rays' common one, in which case from and m are 0 and left
- * out, or the middle of the origins. An edge is the difference of its two vertices as given, not of vertices seen from the
- * origin. So the error of w_k is proportional to the edge, and the undecided band along an edge is as wide as the rounding
- * of a vertex.
+ * out, or the middle of the origins. An edge is the difference of its two vertices as given, not of vertices seen from
+ * the origin. So the error of w_k is proportional to the edge, and the undecided band along an edge is as wide as the
+ * rounding of a vertex.
  *
- * Error bounds, u = 2^-24, of first order. They hold for fused and unfused arithmetic. A determinant is a sum of products
- * of three components. Its error is a number of u times the sum of their sizes, P(p, q, r) = the sum over the axes of
- * |p_x| (|q_y| |r_z| + |q_z| |r_y|). `far` is the largest |b| plus the largest |from|, component by component, and d the
- * packet's largest direction: this is tighter than lengths in scenes that are long in one direction.
+ * Error bounds, u = 2^-24, of first order. They hold for fused and unfused arithmetic. A determinant is a sum of
+ * products of three components. Its error is a number of u times the sum of their sizes, P(p, q, r) = the sum over the
+ * axes of |p_x| (|q_y| |r_z| + |q_z| |r_y|). `far` is the largest |b| plus the largest |from|, component by component,
+ * and d the packet's largest direction: this is tighter than lengths in scenes that are long in one direction.
  *   b, e, from   u each;  e and a factor of 1/eps 2 u
  *   d.(b x e)    u (b) + 2 u (e) + u + u (cross) + 3 u (dot) = 8 u;  9 u with the last sum
  *   m.e          u (from) + 2 u (m) + 2 u (e) + 3 u = 8 u, likewise
  *   eps_k        9 u P(d, far, e_k)
  *   n            2 u + 2 u, and u for a factor;  d.n  8 u: delta = 8 u P(d, e0, e1)
  *   n.a, n.from  u + 5 u + 3 u + 1 u: 10 u P(far, e0, e1)
- * Each is enlarged by 2^-7 for second order terms, and is at least 2^-20 of the same bound by lengths, so that it does not
- * vanish for axis-parallel edges. d is taken relative to its length (that of the longest one, with a common origin).
- * Edge vectors are divided by eps_k and n by delta, so the bound of all is that length.
+ * Each is enlarged by 2^-7 for second order terms, and is at least 2^-20 of the same bound by lengths, so that it does
+ * not vanish for axis-parallel edges. d is taken relative to its length (that of the longest one, with a common
+ * origin). Edge vectors are divided by eps_k and n by delta, so the bound of all is that length.
  * With D = that length and |d.n| > 4 D: t = num / den errs by at most (num's error + |t| D) / (|den| - D), which
  * is 4/3 of the same over |den|, plus 2^-20 of t for division and rounding, and 2^-126 for underflow.
- * Coordinates are scaled by a power of two that brings the scene near 1. If a length, also of the scaled directions, still
- * leaves [2^-100, 2^100], the triangle is "wild": its numbers are set to zero, and every ray is undecided.
+ * Coordinates are scaled by a power of two that brings the scene near 1. If a length, also of the scaled directions,
+ * still leaves [2^-100, 2^100], the triangle is "wild": its numbers are set to zero, and every ray is undecided.
  * A test checks the bounds against exact arithmetic, and tightens them until it sees them break. */
 #ifndef CGT_TRIANGLE_FILTER_H
 #define CGT_TRIANGLE_FILTER_H
@@ -164,9 +164,10 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
 
 /* Whether p comes after q in lexicographic order.
  *
- * FAST precision has no bounds and no scales, but two triangles that share an edge must find the same side of it for every
- * ray. So an edge is computed from its lower end to its higher one, in this order, whichever way the triangle runs along
- * it, and its sign is applied at the end. Then both compute the same numbers, with or without fused operations. */
+ * FAST precision has no bounds and no scales, but two triangles that share an edge must find the same side of it for
+ * every ray. So an edge is computed from its lower end to its higher one, in this order, whichever way the triangle
+ * runs along it, and its sign is applied at the end. Then both compute the same numbers, with or without fused
+ * operations. */
 CGT_SPU_INLINE vmask filter_above(const vfloat p[3], const vfloat q[3])
 {
     const vmask x = spu_cmpgt(p[0], q[0]), y = spu_cmpgt(p[1], q[1]), z = spu_cmpgt(p[2], q[2]);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * FAST precision. The fields of a packet's hits: t, u and v as the tests left them, normals in single precision. And t and
- * normals of spheres for tiles. */
+ * FAST precision. The fields of a packet's hits: t, u and v as the tests left them, normals in single precision. And t
+ * and normals of spheres for tiles. */
 #ifndef CGT_RESOLVE_FAST_H
 #define CGT_RESOLVE_FAST_H
 
@@ -92,8 +92,8 @@ CGT_SPU_INLINE void fast_cross(const vfloat p[3], const vfloat q[3], vfloat cros
     }
 }
 
-/* Returns the lanes whose sphere is hit from outside, not before t_min. The spheres are hit: a discriminant that rounding
- * made negative counts as 0. */
+/* Returns the lanes whose sphere is hit from outside, not before t_min. The spheres are hit: a discriminant that
+ * rounding made negative counts as 0. */
 CGT_SPU_INLINE vmask resolve_fast_spheres(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
                                           vfloat t_min, bool normal, vfloat *t, vfloat n[3])
 {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The fields of each ray's hit, from its closest primitive: once per ray, in double, in the order of sphere_double.h and
- * triangle_double.h. So the bits do not depend on the structure or the tests that found the hit, and unfused double
+ * The fields of each ray's hit, from its closest primitive: once per ray, in double, in the order of sphere_double.h
+ * and triangle_double.h. So the bits do not depend on the structure or the tests that found the hit, and unfused double
  * arithmetic has the same result at any width. Rays whose values suffer from cancellation are computed again in exact
  * arithmetic. FAST precision returns what the tests found. */
 #include "kernel/primitive/gather_primitives.h"

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * t and normals of the rays that hit spheres, a vector at a time. The short formula of sphere_double.h serves most rays,
- * the long one those near a silhouette, and exact arithmetic the rest, ray by ray. single_kind: the scene has no other
- * kind. */
+ * t and normals of the rays that hit spheres, a vector at a time. The short formula of sphere_double.h serves most
+ * rays, the long one those near a silhouette, and exact arithmetic the rest, ray by ray. single_kind: the scene has no
+ * other kind. */
 #ifndef CGT_RESOLVE_SPHERES_H
 #define CGT_RESOLVE_SPHERES_H
 
@@ -68,8 +68,8 @@ CGT_SPU_INLINE vmask resolve_near_roots(const vdouble product[2], vmask outside,
 #define SPHERE_SAFE_RATIO 0x1p-16 /* more than twice what cgt_sphere_double_unsafe requires */
 
 /* Overwrites t and n in some of these lanes, and returns them: t is the near root, and safe, so that
- * cgt_sphere_double_unsafe is 0. The product, d.d times that of the roots, is so far above 0 that the middle has the sign
- * of t. */
+ * cgt_sphere_double_unsafe is 0. The product, d.d times that of the roots, is so far above 0 that the middle has the
+ * sign of t. */
 __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat org[3], const vfloat dir[3],
                                                                     const vfloat sphere[4], vfloat t_min, bool normal,
                                                                     vmask lanes, vfloat *t, vfloat n[3])
@@ -134,8 +134,8 @@ __attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(cons
 
 /* ---- vectors of rays ---- */
 
-/* The long formula for the lanes of `hit` that the short one left. Returns the lanes that are safe by either; the others
- * are left to resolve_sphere_ray. */
+/* The long formula for the lanes of `hit` that the short one left. Returns the lanes that are safe by either; the
+ * others are left to resolve_sphere_ray. */
 CGT_SPU_INLINE vmask resolve_spheres_fallback(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
                                               vfloat t_min, bool normal, vmask hit, vmask safe_lanes, vfloat *t,
                                               vfloat n[3])
@@ -174,9 +174,9 @@ CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat sphere[4], 
     return spux_not(spux_double_cmpgt(least, product));
 }
 
-/* t of rays whose directions are in h, and normals of the lanes in `hit`, 0 in the others. The outward unit normal is the
- * vector from the centre, divided by the radius. Origin and centre may both be far away, so their difference is taken
- * first. Returns the lanes whose result is right. */
+/* t of rays whose directions are in h, and normals of the lanes in `hit`, 0 in the others. The outward unit normal is
+ * the vector from the centre, divided by the radius. Origin and centre may both be far away, so their difference is
+ * taken first. Returns the lanes whose result is right. */
 CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat sphere[4], vfloat t_min, bool normal,
                                             vmask hit, resolve_half h[2], vfloat *t, vfloat n[3])
 {

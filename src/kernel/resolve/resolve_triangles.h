@@ -20,8 +20,8 @@ CGT_SPU_INLINE float share_of(double u)
     return low < 1 ? low : 1;
 }
 
-/* The shares of the second and third vertex. ROBUST precision ignores their cancellation. Returns whether they had to be
- * computed exactly. */
+/* The shares of the second and third vertex. ROBUST precision ignores their cancellation. Returns whether they had to
+ * be computed exactly. */
 static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_triangle_plane *plane, bool exact,
                            double share[2])
 {
@@ -47,8 +47,8 @@ CGT_SPU_INLINE double triangle_edges(const cgt_triangle *q)
     return CGT_TRIANGLE_DOUBLE_ERROR * (size[0] * size[1]);
 }
 
-/* Whether the normal is safe: as a vector, or in EXACT precision each of its components. A component of 0 is safe only if
- * its error bound is 0, too. */
+/* Whether the normal is safe: as a vector, or in EXACT precision each of its components. A component of 0 is safe only
+ * if its error bound is 0, too. */
 static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
 {
     const double error = triangle_edges(q);
@@ -236,7 +236,8 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
 
 /* ---- triangles seen from one origin ---- */
 
-/* The terms that all rays from one origin to a triangle share, as one record of 8 doubles, or two if u and v are asked for:
+/* The terms that all rays from one origin to a triangle share, as one record of 8 doubles, or two if u and v are asked
+ * for:
  *
  *   0    1    2    3    4                5    6    7
  *   n_x  n_y  n_z  num  error of den     unit normal          error over |d|; +infinity if t or the normal is not safe

@@ -92,9 +92,9 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
 
 /* ---- loops for constant modes ---- */
 
-/* Seven copies of the loop, for modes whose constants gain 1 % of a frame or more. Measured: `nontemporal` 2 to 3 % with
- * spheres, 1 % with triangles; triangles without u and v 8 %. Nothing is gained by constants for spheres without normals
- * or in FAST precision, or for any mode of parallel rays. */
+/* Seven copies of the loop, for modes whose constants gain 1 % of a frame or more. Measured: `nontemporal` 2 to 3 %
+ * with spheres, 1 % with triangles; triangles without u and v 8 %. Nothing is gained by constants for spheres without
+ * normals or in FAST precision, or for any mode of parallel rays. */
 
 /* Two copies, with and without `nontemporal`. */
 CGT_SPU_INLINE void tile_resolve_streamed(const cgt_committed_scene *committed_scene, const tile *t,
