@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles as leaves of trees test them (kernel/leaf_lanes.h): one line of the cache instead of an index and three
+ * Triangles as leaves of trees test them (kernel/primitive/lane_tests.h): one line of the cache instead of an index and three
  * vertices in four, and what does not depend on the ray worked out once a commit. */
 #ifndef CGT_LEAF_TRIANGLE_H
 #define CGT_LEAF_TRIANGLE_H

@@ -309,7 +309,7 @@ static void rays_in_a_triangles_plane_miss(void **state)
     static const truth_ray in_plane[] = {
         {{-1, 1, 0}, {1, 0, 0}, 0, INFINITY},        {{-1, 0, 0}, {1, 0, 0}, 0, INFINITY}, /* along an edge */
         {{1, 1, 0}, {-1, -1, 0}, 0, INFINITY},       {{-1, 1, 0}, {1, 0, -0.f}, -INFINITY, INFINITY},
-        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* beside it */
+        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* next to it */
         {{-1, 1, 0x1p-149f}, {1, 0, 0}, 0, INFINITY}};
     static const truth_ray through[] = {{{1, 1, 1}, {0, 0, -1}, 0, INFINITY},
                                         {{0, 0, 1}, {0, 0, -1}, 0, INFINITY}, /* a vertex */

@@ -26,7 +26,7 @@ static cgt_scene *make_scene(cgt_context *context, uint64_t stream)
 
 /* ---- counts ---- */
 
-/* Rays at edges are what double precision cannot decide, and rays far from them are not. */
+/* Double precision leaves rays at edges undecided, and not those far from edges. */
 static void decisions_are_counted(void **state)
 {
     (void)state;

@@ -380,7 +380,7 @@ static void skipped_triangles_are_counted(void **state)
     }
 }
 
-/* A vertex that no triangle names may hold anything; nothing but skipped triangles is an empty scene. */
+/* A vertex that no triangle uses may have any value; a scene of skipped triangles only is empty. */
 static void what_is_not_used_does_no_harm(void **state)
 {
     (void)state;

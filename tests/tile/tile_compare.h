@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One frame by tiles and by packets, of the variant that this is compiled for, compared bit for bit. What fails here
- * fails the test. */
+ * Compares a frame by tiles with the same frame by packets, bit for bit, for the variant that this is compiled for. A
+ * difference fails the test. */
 #ifndef TILE_COMPARE_H
 #define TILE_COMPARE_H
 
@@ -26,7 +26,7 @@ static inline cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, 
     return rays;
 }
 
-/* Makes a camera orthographic, its picture so high; often one that looks along an axis, either way. */
+/* Makes a camera orthographic, with a picture of this height; often looking along an axis. */
 static inline void make_orthographic(test_random *r, float height, cgt_camera *camera)
 {
     camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
@@ -72,8 +72,8 @@ static inline void fail_at(const planes *got, const planes *wanted, const cgt_ca
              (double)c->eye[1], (double)c->eye[2]);
 }
 
-/* What FAST tiles are off by from ROBUST ones, in pixels that hit a sphere: the same sphere, and t and the normal as near
- * as resolve_fast.h says, with room. Other pixels get the same bits. */
+/* FAST tiles against ROBUST ones: pixels that hit a sphere hit the same one, with t and the normal within the error of
+ * resolve_fast.h and some margin. Other pixels have the same bits. */
 static inline void compare_fast(const cgt_committed_scene *committed_scene, const cgt_camera_rays *c, const planes *got,
                                 const planes *wanted, const char *what)
 {
@@ -107,7 +107,7 @@ static inline void compare_fast(const cgt_committed_scene *committed_scene, cons
     }
 }
 
-/* Both ways over one frame. */
+/* Traces one frame both ways. */
 static inline void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera,
                                  uint32_t width, uint32_t height, const char *what, frames_tally *tally)
 {
@@ -127,7 +127,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
     assert_non_null(uv);
     memset(uv, 0x66, 4 * wanted.elements * sizeof(float));
     cgt_region to_wanted = region_of(&wanted, uv), to_got = region_of(&got, uv + 2 * wanted.elements);
-    if (tally->frames % 3 == 2) { /* what is not asked for goes other ways */
+    if (tally->frames % 3 == 2) { /* other loops serve frames without u and v */
         to_wanted.plane[CGT_PLANE_U] = to_wanted.plane[CGT_PLANE_V] = NULL;
         to_got.plane[CGT_PLANE_U] = to_got.plane[CGT_PLANE_V] = NULL;
         settings.fields &= ~CGT_FIELD_UV;

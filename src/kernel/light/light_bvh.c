@@ -2,11 +2,11 @@
  * SPDX-License-Identifier: MIT
  *
  * Points against one light through the BVH. Neighbours in the arrays become packets, whose rays lie in a frustum
- * (light_packet.h). A node's children are tested against the frustum at once, and so are a leaf's primitives; those that
- * remain are tested against all rays (light_leaf.h).
+ * (light_packet.h). A node's children are tested against the frustum at once, and so are a leaf's primitives; those
+ * that remain are tested against all rays (light_leaf.h).
  *
- * Packets pay if primitives are large compared to them. Otherwise single rays are faster: a chunk whose first packets take
- * too much work is traced like any other rays. */
+ * Packets pay if primitives are large compared to them. Otherwise single rays are faster: a chunk whose first packets
+ * take too much work is traced like any other rays. */
 #include "kernel/bvh/bvh_node.h"
 #include "kernel/light/light_leaf.h"
 #include "kernel/light/light_points.h"

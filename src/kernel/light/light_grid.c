@@ -1,16 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points against one light through a loose grid, tile by tile as cameras go through it (tile_trace.c). Neighbours in the
- * arrays become a tile of 64 groups, a vector of rays each. Primitives come slice by slice along the frustum of the tile's
- * rays (light_packet.h). A vector of primitives at a time is projected as seen from the light: each gets a window of slopes
- * (of offsets for parallel rays), which tells the groups that it may occlude. Those are tested (light_leaf.h). A group is
- * done when all its rays have hit something. */
+ * Points against one light through a loose grid, tile by tile as cameras go through it (tile_trace.c). Neighbours in
+ * the arrays become a tile of 64 groups, a vector of rays each. Primitives come slice by slice along the frustum of the
+ * tile's rays (light_packet.h). A vector of primitives at a time is projected as seen from the light: each gets a
+ * window of slopes (of offsets for parallel rays), which tells the groups that it may occlude. Those are tested
+ * (light_leaf.h). A group is done when all its rays have hit something. */
 #include "kernel/light/light_groups.h"
 #include "kernel/light/light_points.h"
 #include "kernel/tile/tile_march.h"
 
-/* Points of scenes from this size on are always sorted. Measured: gains 7 % with 20,000 spheres, loses 15 % with 2,000. */
+/* Points of scenes from this size on are always sorted. Measured: gains 7 % with 20,000 spheres, loses 15 % with
+ * 2,000. */
 #define LIGHT_SORT_MIN_PRIMS 8192u
 
 #define LIGHT_REFRESH_TESTS 256u /* tests of groups after which their ranges are computed again */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A tile of points against one light: 64 groups, a vector of rays each, with the range of slopes of each group's rays as
- * seen from the light; and the windows of primitives, which tell the groups that they may occlude.
+ * A tile of points against one light: 64 groups, a vector of rays each, with the range of slopes of each group's rays
+ * as seen from the light; and the windows of primitives, which tell the groups that they may occlude.
  *
  * Windows are conservative: all numbers are widened by the packet's margin, 2^-17 of the largest number, and divisions
  * here are within 2^-20. A primitive that reaches behind the light has no bounded slopes: its window is unbounded.
@@ -19,9 +19,9 @@
 #define LIGHT_TILE_PACKETS (LIGHT_TILE_RAYS / PACKET_MAX_RAYS)
 #define LIGHT_PACKET_GROUPS (PACKET_MAX_RAYS / CGT_LANES)
 
-/* A tile. Of each group: the range of slopes along both axes, or of offsets of parallel rays; and `end`, the largest w of
- * its rays, or minus the least one of parallel rays. So either way a primitive is compared by its end nearer to the light.
- * A group whose rays are all occluded has an empty range. */
+/* A tile. Of each group: the range of slopes along both axes, or of offsets of parallel rays; and `end`, the largest w
+ * of its rays, or minus the least one of parallel rays. So either way a primitive is compared by its end nearer to the
+ * light. A group whose rays are all occluded has an empty range. */
 typedef struct light_tile {
     _Alignas(64) float low[2][LIGHT_GROUPS];
     float high[2][LIGHT_GROUPS], end[LIGHT_GROUPS];
@@ -252,8 +252,8 @@ static inline void light_refresh_groups(light_tile *t)
 
 /* ---- reading ---- */
 
-/* Sets the axes and the origin of a packet: those of the tile's first packet, which are chosen by any ray of it. Returns
- * false if that ray has no direction. */
+/* Sets the axes and the origin of a packet: those of the tile's first packet, which are chosen by any ray of it.
+ * Returns false if that ray has no direction. */
 CGT_SPU_INLINE bool light_tile_init_axes(light_tile *t, light_packet *l, const float org[3], const float dir[3])
 {
     const light_packet *first = &t->packet[0];

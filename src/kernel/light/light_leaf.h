@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Primitives of a leaf against a packet of rays to one light (light_packet.h). Lanes are rays; what does not depend on the
- * ray is computed once for all primitives of the leaf. Single precision with derived bounds: u = 2^-24, |x| is the
+ * Primitives of a leaf against a packet of rays to one light (light_packet.h). Lanes are rays; what does not depend on
+ * the ray is computed once for all primitives of the leaf. Single precision with derived bounds: u = 2^-24, |x| is the
  * largest component and [x] the 1-norm; P(p, q, r) of triangle_filter.h is at most |p| [q] [r] in any order.
  *
- * Triangles. As in lane_tests.h, s is a ray's origin seen from the first vertex, e_1 and e_2 the edges from there, d its
- * direction, all times the scene's scale, and
+ * Triangles. As in lane_tests.h, s is a ray's origin seen from the first vertex, e_1 and e_2 the edges from there, d
+ * its direction, all times the scene's scale, and
  *   U = s.(d x e_2)   V = d.(s x e_1)   D = e_1.(d x e_2)   T = e_2.(s x e_1)   W = D - U - V   t = T / D
  * Point light at L: s = G - d - q, where G leads from the first vertex to L, and q is the rounding error of d, at most
  * u |d| along each axis. Products with d twice are 0, so with x = d
@@ -156,8 +156,8 @@ CGT_SPU_INLINE void light_compute_sides(const light_packet *l, const light_trian
     f->den_certain = spu_cmpgt(f->den, spux_vfloat(q->den_error[k]));
 }
 
-/* Whether any ray of a vector may pass inside all edges of a triangle that is not certainly behind it. The surface that a
- * ray leaves towards the light mostly is. */
+/* Whether any ray of a vector may pass inside all edges of a triangle that is not certainly behind it. The surface that
+ * a ray leaves towards the light mostly is. */
 CGT_SPU_INLINE bool light_triangle_may_hit(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
                                            bool is_point)
 {

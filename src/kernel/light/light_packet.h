@@ -4,16 +4,17 @@
  * A packet of rays to one light. All of them lie in a frustum with its apex at the light or, for parallel rays, with
  * parallel sides: four planes and two ends.
  *
- * The rays run mostly along one axis, the main one. w is the coordinate along it, seen from the origin of the packet (the
- * light, or the first point of parallel rays), and mirrored if the rays run against it; v is the coordinate along another
- * axis. Each ray's line is v = slope w + offset. With a point light the offset is 0, with parallel rays the slope is
- * common. So a plane of the frustum is
+ * The rays run mostly along one axis, the main one. w is the coordinate along it, seen from the origin of the packet
+ * (the light, or the first point of parallel rays), and mirrored if the rays run against it; v is the coordinate along
+ * another axis. Each ray's line is v = slope w + offset. With a point light the offset is 0, with parallel rays the
+ * slope is common. So a plane of the frustum is
  *     v - a w <= h,  a the largest slope and h the largest offset, and likewise with the smallest
  * Margin. Let M be the sum of the largest coordinates, along any axis, of light, points and primitives, and u = 2^-24.
- * Differences are within 2 u M. A slope is within a relative 2 u plus the errors of v and w, so a line is off by at most
- * 8 u M between a point and the light, and by 16 u M beyond a parallel ray's point as far as the primitives, for slopes of
- * at most 2. A canonical ray misses the light by u of its length, and t is rounded before it is compared with the range.
- * The three operations of v - a w round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than the sum of these. */
+ * Differences are within 2 u M. A slope is within a relative 2 u plus the errors of v and w, so a line is off by at
+ * most 8 u M between a point and the light, and by 16 u M beyond a parallel ray's point as far as the primitives, for
+ * slopes of at most 2. A canonical ray misses the light by u of its length, and t is rounded before it is compared with
+ * the range. The three operations of v - a w round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than the
+ * sum of these. */
 #ifndef CGT_LIGHT_PACKET_H
 #define CGT_LIGHT_PACKET_H
 

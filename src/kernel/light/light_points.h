@@ -7,8 +7,8 @@
 
 #include "kernel/packet/ray_packet.h"
 
-/* The largest distance of a light, in sizes of the scene: beyond it, single precision could not tell primitives of usual
- * size apart by the terms that all rays share at the light. */
+/* The largest distance of a light, in sizes of the scene: beyond it, single precision could not tell primitives of
+ * usual size apart by the terms that all rays share at the light. */
 #define LIGHT_MAX_DISTANCE 64.f
 
 typedef struct light_call {
@@ -21,8 +21,8 @@ typedef struct light_call {
     cgt_counts *counts;
 } light_call;
 
-/* Sorts points that the light sees side by side into the same groups, along a Morton curve: from[i] is the number of the
- * i-th (light_order.c). */
+/* Sorts points that the light sees side by side into the same groups, along a Morton curve: from[i] is the number of
+ * the i-th (light_order.c). */
 void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK]);
 
 /* Whether neighbours in the arrays mostly lie far apart: on average a third of what the light sees of the chunk. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Reads points with default ranges from dense arrays into a packet of a tile, in one pass: the rays, their terms and the
- * ranges of their groups. The result is that of light_load_packet, light_compute_margin, light_compute_terms and
+ * Reads points with default ranges from dense arrays into a packet of a tile, in one pass: the rays, their terms and
+ * the ranges of their groups. The result is that of light_load_packet, light_compute_margin, light_compute_terms and
  * light_compute_groups, one after the other. */
 #include "kernel/light/light_groups.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A vector of primitives as structure of arrays: the leaves of a BVH, and what tiles of points test against a light. Lanes
- * beyond the last primitive repeat it. */
+ * A vector of primitives as structure of arrays: the leaves of a BVH, and what tiles of points test against a light.
+ * Lanes beyond the last primitive repeat it. */
 #ifndef CGT_PRIMITIVE_BLOCK_H
 #define CGT_PRIMITIVE_BLOCK_H
 

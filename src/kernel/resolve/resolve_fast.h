@@ -1,14 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The fields of a packet's hits in FAST precision: t, u and v as the tests left them, normals in single precision. */
+ * FAST precision. The fields of a packet's hits: t, u and v as the tests left them, normals in single precision. And t
+ * and normals of spheres for tiles. */
 #ifndef CGT_RESOLVE_FAST_H
 #define CGT_RESOLVE_FAST_H
 
 #include "kernel/primitive/lane_vectors.h"
 #include "kernel/resolve/hit_primitives.h"
 
-/* A sphere of radius 0 has no normal of its own: it gets the direction back to the ray's origin. */
+/* A sphere of radius 0 has no normal of its own: it gets the direction towards the ray's origin. */
 CGT_SPU_INLINE void fast_normal_of_point(const packet *p, uint32_t i, packet_hits *hits)
 {
     const double x = (double)p->dir[0][i], y = (double)p->dir[1][i], z = (double)p->dir[2][i];
@@ -29,7 +30,7 @@ CGT_SPU_INLINE void fast_normal_of_sphere(const packet *p, uint32_t i, const hit
         hits->normal[a][i] = (float)((double)((p->org[a][i] - w->sphere[a][i]) + p->high[i] * p->dir[a][i]) * k);
 }
 
-/* Edges are scaled, so that their products stay in range. */
+/* Edges are scaled to keep their products in range. */
 CGT_SPU_INLINE void fast_normal_of_triangle(float scale, uint32_t i, const hit_primitives *w, packet_hits *hits)
 {
     float e1[3], e2[3], n[3], square = 0;
@@ -91,7 +92,8 @@ CGT_SPU_INLINE void fast_cross(const vfloat p[3], const vfloat q[3], vfloat cros
     }
 }
 
-/* Returns the lanes whose sphere is hit from outside, where t_min lets them. A discriminant that rounding made negative is 0: the sphere is hit. */
+/* Returns the lanes whose sphere is hit from outside, not before t_min. The spheres are hit: a discriminant that
+ * rounding made negative counts as 0. */
 CGT_SPU_INLINE vmask resolve_fast_spheres(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
                                           vfloat t_min, bool normal, vfloat *t, vfloat n[3])
 {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * References of a loose grid's cells, queued until the memory behind them has come to the cache: each is prefetched when
- * it is appended, and tested some hundred references later.
+ * References of a loose grid's cells, queued until the memory behind them has come to the cache: each is prefetched
+ * when it is appended, and tested some hundred references later.
  *
  *   cells -> clusters -> triangles -> test       a scene with clusters: their boxes are tested first
  *         -> spheres, triangles    -> test       others, each kind in a queue of its own */
@@ -144,7 +144,8 @@ CGT_SPU_INLINE void prefetch_queues_clear(prefetch_queues *q)
  * compilers make copies of these functions with direct calls. */
 typedef void prefetch_drain_fn(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count);
 
-__attribute__((unused)) static void prefetch_drain_spheres(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
+__attribute__((unused)) static void prefetch_drain_spheres(const prefetch_owner *o, const prefetch_tests *tests,
+                                                           uint32_t count)
 {
     prefetch_queue *q = &o->pending->spheres;
     const uint32_t batch = tests->sphere_batch;
@@ -153,7 +154,8 @@ __attribute__((unused)) static void prefetch_drain_spheres(const prefetch_owner 
     prefetch_queue_remove(q, count);
 }
 
-__attribute__((unused)) static void prefetch_drain_triangles(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
+__attribute__((unused)) static void prefetch_drain_triangles(const prefetch_owner *o, const prefetch_tests *tests,
+                                                             uint32_t count)
 {
     prefetch_queue *q = &o->pending->triangles;
     uint32_t prefetched = 0;
@@ -165,7 +167,8 @@ __attribute__((unused)) static void prefetch_drain_triangles(const prefetch_owne
 }
 
 /* Queues the triangles of visible clusters. */
-__attribute__((unused)) static void prefetch_drain_clusters(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count)
+__attribute__((unused)) static void prefetch_drain_clusters(const prefetch_owner *o, const prefetch_tests *tests,
+                                                            uint32_t count)
 {
     const cgt_cluster *cluster = o->committed_scene->cluster;
     prefetch_queue *q = &o->pending->clusters, *triangles = &o->pending->triangles;

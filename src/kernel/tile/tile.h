@@ -3,10 +3,10 @@
  *
  * A tile: up to 64x64 pixels of a camera that are traced together. Its state fits into the first-level cache.
  *
- * Each pixel has its closest primitive so far and a depth q. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near d.d
- * that depends on the pixel alone, a hit's depth is q = t N. The exact q of a pixel's closest hit lies in
- * [z, z + depth_error], where depth_error is one number for the whole tile. A pixel without a hit has z at the end of the
- * camera's range. A pixel outside the region has z = -infinity and never gets a hit.
+ * Each pixel has its closest primitive so far and a depth q. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near
+ * d.d that depends on the pixel alone, a hit's depth is q = t N. The exact q of a pixel's closest hit lies in
+ * [z, z + depth_error], where depth_error is one number for the whole tile. A pixel without a hit has z at the end of
+ * the camera's range. A pixel outside the region has z = -infinity and never gets a hit.
  *
  *   kind          when                     depth   exact depth lies in
  *   perspective   spheres, or both kinds   t N     [z, z + depth_error]
@@ -31,8 +31,8 @@
 #define TILE_PARTS 4u                 /* parts of 16x16 pixels along an edge */
 #define TILE_MAX_TRIANGLES 2048u      /* triangles that a tile lists */
 
-/* The relative depth error of linear tiles. With a smaller one, single precision cannot decide planes that are seen at a
- * slant; with a larger one, more layers are too close to each other. */
+/* The relative depth error of linear tiles. With a smaller one, single precision cannot decide planes that are seen at
+ * a slant; with a larger one, more layers are too close to each other. */
 #define TILE_LINEAR_ERROR 0x1p-9
 #define TILE_LINEAR_FACTOR (1 - TILE_LINEAR_ERROR)
 
@@ -59,33 +59,33 @@ typedef struct tile_span {
 typedef struct tile {
     _Alignas(64) float z[TILE_PIXELS + TILE_PAD];
     _Alignas(64) uint32_t prim[TILE_PIXELS + TILE_PAD]; /* CGT_INVALID_ID: none yet */
-    _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD]; /* linear tiles: the index of a pixel's primitive in `triangles` */
+    _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD]; /* linear: index of a pixel's primitive in `triangles` */
     _Alignas(64) float px[TILE_ROW_PAIR + TILE_PAD];    /* of a pair of rows; NaN beyond the tile */
     _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];    /* the two rows of a pair, alternating */
     /* of each part of 16x16 pixels: the farthest distance at which it can still be hit; anything beyond is occluded */
     _Alignas(64) float far_distance[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float rlength[TILE_PARTS * TILE_PARTS]; /* at least 1 / sqrt(N) of any pixel of a part */
     float max_far_distance, max_far_t;                   /* the largest of all parts, as distance and as t */
-    bool initialised; /* false: z and prim are not set yet */
-    bool linear;      /* depths are -1/t; far_distance is a t */
-    bool parallel;    /* depths are t; all rays have one direction */
-    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS]; /* the parts' middles, in px and py */
+    bool initialised;                                    /* false: z and prim are not set yet */
+    bool linear;                                         /* depths are -1/t; far_distance is a t */
+    bool parallel;                                       /* depths are t; all rays have one direction */
+    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS];  /* the parts' middles, in px and py */
     _Alignas(64) float part_y[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float part_half_width[TILE_PARTS * TILE_PARTS]; /* half their sizes, rounded up */
     _Alignas(64) float part_half_height[TILE_PARTS * TILE_PARTS];
     /* linear tiles: triangles that have been the closest one of a pixel; some have lost all of theirs since */
     _Alignas(64) uint32_t triangles[TILE_MAX_TRIANGLES + CGT_LANES];
-    uint32_t triangle_count; /* TILE_MAX_TRIANGLES: too many to list */
-    float column[TILE_EDGE], row[TILE_EDGE];                    /* px and py; beyond the region the last one is repeated */
-    uint32_t columns, rows;                                     /* in the region */
+    uint32_t triangle_count;                 /* TILE_MAX_TRIANGLES: too many to list */
+    float column[TILE_EDGE], row[TILE_EDGE]; /* px and py; the last one is repeated beyond the region */
+    uint32_t columns, rows;                  /* in the region */
     tile_span column_span, row_span;
     float span_ratio;                      /* ratio of their scales */
     float depth_error, padded_depth_error; /* padded: with the rounding of differences */
     float max_norm, min_norm;              /* bounds of N over all pixels */
     float max_dir_length;                  /* at least sqrt(max_norm) */
     float length_error;                    /* absolute error of lengths: underflow, and twice the error of origins */
-    float origin_error;  /* parallel rays: u times this bounds the error of an origin */
-    float origin_offset; /* parallel rays: the largest distance of an origin from the eye */
+    float origin_error;                    /* parallel rays: u times this bounds the error of an origin */
+    float origin_offset;                   /* parallel rays: the largest distance of an origin from the eye */
     const cgt_camera_rays *rays;
     tile_camera camera;
     float axis[3], tangent, secant; /* a cone around all rays, as z, x, y; secant 0: they are too wide for one */
@@ -108,8 +108,8 @@ CGT_SPU_INLINE tile_kind tile_get_kind(const tile *t)
 
 /* ---- the pixels ---- */
 
-/* The z for a hit of pixel i at hit_t: the exact depth is in the middle of the interval that z stands for. A linear depth
- * stays finite, because -infinity would disable the pixel. */
+/* The z for a hit of pixel i at hit_t: the exact depth is in the middle of the interval that z stands for. A linear
+ * depth stays finite, because -infinity would disable the pixel. */
 CGT_SPU_INLINE float tile_compute_depth(const tile *t, uint32_t i, double hit_t)
 {
     if (!t->linear)
@@ -199,7 +199,8 @@ CGT_SPU_INLINE void tile_ensure_pixels(tile *t)
         tile_clear_pixels(t);
 }
 
-/* Lists a triangle if it has become the closest one of a pixel; those pixels have the old triangle_count as their slot. */
+/* Lists a triangle if it has become the closest one of a pixel; those pixels have the old triangle_count as their
+ * slot. */
 CGT_SPU_INLINE void tile_append_triangle(tile *t, uint32_t prim, bool won)
 {
     t->triangles[t->triangle_count] = prim;

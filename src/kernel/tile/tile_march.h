@@ -2,20 +2,21 @@
  * SPDX-License-Identifier: MIT
  *
  * The cells of a loose grid that the rays of a tile may need, front to back. The march goes along w, the axis that the
- * rays mostly run along. All levels are marched together: the next slice of cells is always the one that begins nearest.
+ * rays mostly run along. All levels are marched together: the next slice of cells is always the one that begins
+ * nearest.
  *
  * The primitives of a slice lie between two planes w = low and w = high: its cells, enlarged by the level's reach. Rays
- * start at the eye and none runs against the march. They are convex combinations of the corner rays, except for rounding.
- * So between the planes their other two coordinates lie between those of the corner rays. With the corner rays' slopes
- * m = d_u / d_w that is a rectangle of cells, again enlarged by the reach.
+ * start at the eye and none runs against the march. They are convex combinations of the corner rays, except for
+ * rounding. So between the planes their other two coordinates lie between those of the corner rays. With the corner
+ * rays' slopes m = d_u / d_w that is a rectangle of cells, again enlarged by the reach.
  *
  * Parallel rays have one slope and different origins. They start at a w between the least and the largest one of the
  * corner rays' origins, and their lines pass w = 0 between the corner rays' lines.
  *
  * Rounding: a canonical direction lies within 3.5 u |d| of the exact one, u = 2^-24, and its slope within
  * 3.5 u (1 + |m|) |d| / d_w of the combination's; 2^-21 is taken for 3.5 u. A parallel ray's direction is exact, its
- * origin is off by at most u origin_error (tile.h). All other arithmetic is double, with 2^-48 of the largest number for
- * its rounding. If the corner rays are too wide for these bounds, all cells are visited. */
+ * origin is off by at most u origin_error (tile.h). All other arithmetic is double, with 2^-48 of the largest number
+ * for its rounding. If the corner rays are too wide for these bounds, all cells are visited. */
 #ifndef CGT_TILE_MARCH_H
 #define CGT_TILE_MARCH_H
 
@@ -25,7 +26,8 @@
 typedef struct tile_march_level {
     uint32_t next_slice, slices;   /* the number of the next one; how many */
     double begin, step, thickness; /* w where slice 0 begins; from slice to slice; of one, with the reach */
-    double base[2], rcell[2], reach[2], cell_error[2]; /* of the other two axes: the grid's corner; cells per length; the reach and the rounding, in cells */
+    /* of the other two axes: the grid's corner; cells per length; the reach and the rounding, in cells */
+    double base[2], rcell[2], reach[2], cell_error[2];
 } tile_march_level;
 
 typedef struct tile_march {

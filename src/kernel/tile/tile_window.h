@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Windows: the columns and rows of a tile's pixels that a primitive or a box may reach, found for a vector of them at a
- * time, and the parts of 16x16 pixels under a window. Each part knows the farthest distance at which it can still be hit
- * (tile.h). A window that spans at most two parts along each axis has a corner in each part that it meets, so four lookups
- * tell whether all of it is occluded. */
+ * time, and the parts of 16x16 pixels under a window. Each part knows the farthest distance at which it can still be
+ * hit (tile.h). A window that spans at most two parts along each axis has a corner in each part that it meets, so four
+ * lookups tell whether all of it is occluded. */
 #ifndef CGT_TILE_WINDOW_H
 #define CGT_TILE_WINDOW_H
 
@@ -79,8 +79,8 @@ CGT_SPU_INLINE vfloat tile_gather_far_distance(const tile *t, vuint part)
 #endif
 }
 
-/* The largest far_distance of the parts under the corners of windows. large_windows: those that span more than two parts
- * along an axis, so that the corners do not tell. */
+/* The largest far_distance of the parts under the corners of windows. large_windows: those that span more than two
+ * parts along an axis, so that the corners do not tell. */
 CGT_SPU_INLINE vfloat tile_window_far_distance(const tile *t, const tile_windows *w, vmask *large_windows)
 {
     const vuint row = spux_vuint(3 * TILE_PARTS), one = spux_vuint(1);
@@ -97,7 +97,6 @@ CGT_SPU_INLINE vfloat tile_window_far_distance(const tile *t, const tile_windows
 }
 
 /* ---- one window ---- */
-
 
 typedef struct tile_rect {
     uint32_t x0, x1, y0, y1;

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Decides the entries of a tile's queue about spheres of one array, seen from one eye, a vector at a time, by the short
- * formula of sphere_double.h. Its t is the canonical one, so two t that decide.c can tell apart in double are told apart
- * here. A line misses if the discriminant is below 0 by more than its error, 18 e (c.c + r^2) d.d, for which 2^-48 is
- * taken. The rest, a few silhouettes and hits as near as another, is left to decide.c. */
+ * formula of sphere_double.h. Its t is the canonical one, so two t that decide.c can tell apart in double are told
+ * apart here. A line misses if the discriminant is below 0 by more than its error, 18 e (c.c + r^2) d.d, for which
+ * 2^-48 is taken. The rest, a few silhouettes and hits as near as another, is left to decide.c. */
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/resolve/resolve_spheres.h"
 #include "kernel/tile_draw/tile_queue.h"

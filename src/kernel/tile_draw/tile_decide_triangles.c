@@ -7,11 +7,11 @@
  * of triangle_double.h in its order, so a certain result here is what decide.h would find.
  *
  * Which of two hits is nearer: t_a < t_b if num_a den_b - num_b den_a has the sign opposite to that of den_a den_b. The
- * products are off by the errors of their factors, and by 2^-51 of their magnitudes for rounding. If that does not decide,
- * exact arithmetic finds on which side of one triangle's plane the other one's vertices are. The hit of a ray that passes
- * inside a triangle's edges is a sum of its three vertices with positive factors. So it lies in the plane if all vertices
- * do; otherwise it lies on the side of those that do not, if no vertex is on the other side. The sign of num tells the
- * eye's side. */
+ * products are off by the errors of their factors, and by 2^-51 of their magnitudes for rounding. If that does not
+ * decide, exact arithmetic finds on which side of one triangle's plane the other one's vertices are. The hit of a ray
+ * that passes inside a triangle's edges is a sum of its three vertices with positive factors. So it lies in the plane
+ * if all vertices do; otherwise it lies on the side of those that do not, if no vertex is on the other side. The sign
+ * of num tells the eye's side. */
 #include "exact/integer/exact_terms.h"
 #include "exact/triangle_double.h"
 #include "spux_double.h"

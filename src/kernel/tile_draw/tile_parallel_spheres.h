@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres against a tile of parallel rays. Let z, x, y be a centre in camera space (tile.h), rho and upsilon the lengths
- * of right and up, X = x / rho, Y = y / upsilon, dx = px - X and dy = py - Y. The discriminant of pixel (px, py) and its
- * depth are
+ * Spheres against a tile of parallel rays. Let z, x, y be a centre in camera space (tile.h), rho and upsilon the
+ * lengths of right and up, X = x / rho, Y = y / upsilon, dx = px - X and dy = py - Y. The discriminant of pixel (px,
+ * py) and its depth are
  *   D = r^2 - (rho dx)^2 - (upsilon dy)^2     q = t = z - sqrt(D)
  * which is what tile_sphere_draw.h computes with the perspective terms set to 0.
  *

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles against a tile of parallel rays. Let v_0, v_1, v_2 be the vertices in camera space (tile.h), as z, x, y, w_k
- * their x and y, e_k the edge opposite vertex k, starting at v_k+1, and p = (rho px, upsilon py) a pixel's point. The side
- * of an edge and the depth are
+ * Triangles against a tile of parallel rays. Let v_0, v_1, v_2 be the vertices in camera space (tile.h), as z, x, y,
+ * w_k their x and y, e_k the edge opposite vertex k, starting at v_k+1, and p = (rho px, upsilon py) a pixel's point.
+ * The side of an edge and the depth are
  *   c_k(p) = (w_k+1 - p) x e_k   of x and y alone: twice an area
  *   t = (n.v_0 - n_x p_x - n_y p_y) / n_z   n = e_1 x e_2
- * all linear in px and py. Camera space is a linear map of the world's that takes the rays' direction exactly to z. So a
- * lack of orthogonality of its axes does not matter, and t is z.
+ * all linear in px and py. Camera space is a linear map of the world's that takes the rays' direction exactly to z. So
+ * a lack of orthogonality of its axes does not matter, and t is z.
  *
  * Error bounds. u = 2^-24, V is the largest |v_k|, P the frame's largest |p|, S as in tile_parallel_spheres.h:
  *   vertex     off by delta = 8 u V: u V from subtracting the eye, 4 u V in each coordinate
@@ -28,10 +28,10 @@
  *              origin, by a slope of at most kappa, (1 + kappa) (delta + o)
  *   together   u kappa (64 V + 2 S); E = u kappa (72 V + 8 P + 2.2 S) is taken: the rest covers the
  *              rounding of tile_visible_triangle_parts
- * The depth that is stored is t - E. If 2.2 E exceeds the tile's depth error, no hit is certain: small windows are queued,
- * larger ones go to tile_double.c. Triangles with 40 u kappa above 1/8 or NaN go there, too: otherwise |n_z| is above
- * 320 u |e_1| |e_2| and its sign is right. So do those with an edge below 2^-45, seen along the rays, and those that may
- * reach before the range's begin.
+ * The depth that is stored is t - E. If 2.2 E exceeds the tile's depth error, no hit is certain: small windows are
+ * queued, larger ones go to tile_double.c. Triangles with 40 u kappa above 1/8 or NaN go there, too: otherwise |n_z| is
+ * above 320 u |e_1| |e_2| and its sign is right. So do those with an edge below 2^-45, seen along the rays, and those
+ * that may reach before the range's begin.
  *
  * The window: vertices are off by delta + o, and rounded 4 times. 2^-19 V + 2 o is taken, and 1/16 of a column.
  *

@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The queue of what single precision leaves undecided in a tile: pairs of a pixel and a primitive that may be its nearest.
- * They are decided later, together (tile_decide.c). That is right because a pixel's closest hit is only ever replaced by
- * one that is certainly nearer: at the end the nearest primitive is the pixel's closest one, or still in the queue. */
+ * The queue of what single precision leaves undecided in a tile: pairs of a pixel and a primitive that may be its
+ * nearest. They are decided later, together (tile_decide.c). That is right because a pixel's closest hit is only ever
+ * replaced by one that is certainly nearer: at the end the nearest primitive is the pixel's closest one, or still in
+ * the queue. */
 #ifndef CGT_TILE_QUEUE_H
 #define CGT_TILE_QUEUE_H
 

@@ -122,9 +122,9 @@ CGT_SPU_INLINE void tile_rasterise_sphere(const cgt_primitives *prims, tile *t, 
         CGT_KERNEL(cgt_tile_queue_undecided)(prims, t, s->prim[k], rect, vectors, undecided, queue, counts);
 }
 
-/* A small sphere (tile_spheres.h) of at most `pairs` pairs of rows. Always tests as many, which costs less than a branch
- * that cannot be predicted. The window is not cut to visible parts: it spans at most two along each axis, so culling has
- * tested them all. */
+/* A small sphere (tile_spheres.h) of at most `pairs` pairs of rows. Always tests as many, which costs less than a
+ * branch that cannot be predicted. The window is not cut to visible parts: it spans at most two along each axis, so
+ * culling has tested them all. */
 CGT_SPU_INLINE void tile_rasterise_small_sphere(const cgt_primitives *prims, tile *t, const tile_spheres *s, int k,
                                                 uint32_t pairs, tile_queue *queue, cgt_counts *counts)
 {

@@ -26,20 +26,21 @@
  *   evaluation  at the silhouette |(rho dx, upsilon dy)| <= r |d| / z, so the terms, r^2 N0 included, are at most
  *               r^2 N N0 times 1, 1/2, 1, 4/3, 1/2: 4.4 in total, each rounded at most 11 times: 49 u r^2 N N0
  *   eps         |d|^2 (34 u r c + 112 u r^2 N0 + (20 u c)^2) + 2^-116; the last term covers underflow
- * eps is added to D. A result below 0 is a certain miss. A result above 3 eps is a certain hit, whose exact D is at least
- * the result minus 2 eps. Above a threshold `certain` >= 3 eps, the computed and the exact root differ by at most
+ * eps is added to D. A result below 0 is a certain miss. A result above 3 eps is a certain hit, whose exact D is at
+ * least the result minus 2 eps. Above a threshold `certain` >= 3 eps, the computed and the exact root differ by at most
  *   root        2 eps / (sqrt(certain) + sqrt(certain - 2 eps)); 0.74 sqrt(eps) for 3 eps; eps / sqrt(certain - 2 eps)
  * The other errors of the depth, against the exact t times N:
  *   centre 8 u c |d|, direction 3.5 u c |d|, metric 24 u c |d| and 10 u r |d|, sums 5 u (c + r) |d|, and the estimate
  *   of 1 / sqrt(D): TILE_RSQRT_ERROR times (r |d| + sqrt(2 eps))
  *   e0          |d| (44 u c + (18 u + TILE_RSQRT_ERROR) r) + 2^-10 sqrt(eps) + 2^-100
- * So the exact depth lies in [q - e0, q - e0 + depth_error] if depth_error >= 2 e0 + root. The tile has one depth_error.
- * A sphere for which it makes `certain` too large goes to tile_double.c, like all for which these bounds do not hold.
+ * So the exact depth lies in [q - e0, q - e0 + depth_error] if depth_error >= 2 e0 + root. The tile has one
+ * depth_error. A sphere for which it makes `certain` too large goes to tile_double.c, like all for which these bounds
+ * do not hold.
  *
  * The window: a tangent to the silhouette in the plane of forward and right has
  *   px rho = (x z -+ r sqrt(x^2 + z^2 - r^2)) / (z^2 - r^2)
- * A radius enlarged by 2^-18 (c + r) covers the rounding of this and the error of b. Columns are widened by another 1/32:
- * their px is rounded to 2^-23, at most 2^-8 of a column.
+ * A radius enlarged by 2^-18 (c + r) covers the rounding of this and the error of b. Columns are widened by another
+ * 1/32: their px is rounded to 2^-23, at most 2^-8 of a column.
  *
  * A test checks the bounds against wide arithmetic, and tightens them until it sees them break. */
 #ifndef CGT_TILE_SPHERES_H
@@ -72,8 +73,8 @@ CGT_SPU_INLINE tile_sphere_errors tile_compute_sphere_errors(const tile *t, vflo
     return (tile_sphere_errors){eps, spu_madd(depth, spux_vfloat(t->max_dir_length), rest)};
 }
 
-/* Sets the tile's depth error: large enough for spheres of radius r up to distance c, the scene's farthest point, and for
- * the rounding of any depth in the scene and of the range's end. far_t: no hit has a larger t. */
+/* Sets the tile's depth error: large enough for spheres of radius r up to distance c, the scene's farthest point, and
+ * for the rounding of any depth in the scene and of the range's end. far_t: no hit has a larger t. */
 CGT_SPU_INLINE void tile_init_sphere_depth_error(tile *t, float c, float r, float far_t)
 {
     const tile_sphere_errors b =
@@ -99,8 +100,8 @@ typedef struct tile_spheres {
     unsigned small_lanes[2];             /* windows one vector wide, and at most 3 or 4 pairs of rows high */
 } tile_spheres;
 
-/* The visible spheres of several vectors, in camera space and compacted: culling appends without a branch, and the steps
- * after it have full vectors. */
+/* The visible spheres of several vectors, in camera space and compacted: culling appends without a branch, and the
+ * steps after it have full vectors. */
 #define TILE_MAX_VISIBLE 128u
 typedef struct tile_visible_spheres {
     _Alignas(64) float z[TILE_MAX_VISIBLE + CGT_LANES], x[TILE_MAX_VISIBLE + CGT_LANES];
@@ -110,8 +111,8 @@ typedef struct tile_visible_spheres {
     uint32_t count;
 } tile_visible_spheres;
 
-/* The columns (or rows) of the silhouette's two tangents. low <= high if the span's scale is positive, else the reverse.
- * r2: r^2. unit: the scale over z^2 - r^2. */
+/* The columns (or rows) of the silhouette's two tangents. low <= high if the span's scale is positive, else the
+ * reverse. r2: r^2. unit: the scale over z^2 - r^2. */
 CGT_SPU_INLINE void tile_compute_tangents(const tile_span *span, vfloat x, vfloat z, vfloat r, vfloat r2, vfloat unit,
                                           vfloat *low, vfloat *high)
 {

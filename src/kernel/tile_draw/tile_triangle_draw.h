@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rasterises a triangle over the pixels of its window, without branches: pixels that it certainly wins are stored, those
- * that it may win are queued. tile_triangles.h has the formulas and their bounds. `kind` is a constant in every call. */
+ * Rasterises a triangle over the pixels of its window, without branches: pixels that it certainly wins are stored,
+ * those that it may win are queued. tile_triangles.h has the formulas and their bounds. `kind` is a constant in every
+ * call. */
 #ifndef CGT_TILE_TRIANGLE_DRAW_H
 #define CGT_TILE_TRIANGLE_DRAW_H
 
@@ -52,8 +53,8 @@ CGT_SPU_INLINE tile_triangle_row_pair tile_prepare_triangle_rows(const tile *t, 
     return row;
 }
 
-/* Tests a vector of pixels. NaN is neither certain nor possible: px is NaN beyond the tile. Inside the triangle's cone no
- * depth is NaN. */
+/* Tests a vector of pixels. NaN is neither certain nor possible: px is NaN beyond the tile. Inside the triangle's cone
+ * no depth is NaN. */
 CGT_SPU_INLINE tile_pixel_test tile_test_triangle(const tile_triangle *q, const tile_triangle_row_pair *row,
                                                   const float *columns, const float *best, tile_kind kind)
 {
@@ -74,8 +75,8 @@ CGT_SPU_INLINE tile_pixel_test tile_test_triangle(const tile_triangle *q, const 
                              .possible = spu_and(near, spux_cmpge(q->depth_error, depth_difference))};
 }
 
-/* Rasterises `vectors` vectors in each of `pairs` pairs of rows, from the first pixels of `rect` on. Stores the undecided
- * lanes of each vector. Returns the union of them. */
+/* Rasterises `vectors` vectors in each of `pairs` pairs of rows, from the first pixels of `rect` on. Stores the
+ * undecided lanes of each vector. Returns the union of them. */
 CGT_SPU_INLINE unsigned tile_rasterise_triangle_rows(tile *t, const tile_triangle *q, uint32_t prim, tile_rect rect,
                                                      uint32_t vectors, uint32_t pairs, uint16_t *undecided,
                                                      tile_kind kind)

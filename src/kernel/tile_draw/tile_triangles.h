@@ -1,15 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles against a tile. A vector of triangles at a time is projected to camera space and culled; edges and planes of
- * the visible ones become linear forms of px and py (tile_triangle_draw.h).
+ * Triangles against a tile. A vector of triangles at a time is projected to camera space and culled; edges and planes
+ * of the visible ones become linear forms of px and py (tile_triangle_draw.h).
  *
  * Let v_0, v_1, v_2 be the vertices in camera space (tile.h), e_k the edge opposite vertex k, starting at v_k+1, and
  * d = (1, rho px, upsilon py) the direction of a pixel in the same coordinates. The side of an edge and the plane are
  *   c_k.d   c_k = v_k+1 x e_k        1/t = n.d / det   n = e_1 x e_2, det = v_0.n
  * all linear in px and py; n may be made from any two edges. The ray hits the triangle in front of the eye where no
- * c_k.d has the sign opposite to that of det. This does not require any vertex to be in front of the eye. Camera space is
- * a linear map of the world's, so a lack of orthogonality of its axes does not matter.
+ * c_k.d has the sign opposite to that of det. This does not require any vertex to be in front of the eye. Camera space
+ * is a linear map of the world's, so a lack of orthogonality of its axes does not matter.
  *
  * Error bounds. u = 2^-24, V is the largest |v_k|, T the least distance of the triangle from the eye, |d| the tile's
  * largest. A sum of products of three vectors' components is at most 1.16 times the product of their lengths:
@@ -34,9 +34,9 @@
  *              8 u |n| V / det = 8 u kappa for the moved vertices; plus divisions within 2^-21 and second order terms
  *   share      u (40 kappa + 32): the relative error of 1/t
  * kappa is at least 1. A triangle goes to tile_double.c if its share is above 1/8 or NaN, if an edge is shorter than
- * 2^-45, or if it may reach before the range's begin. Otherwise |det| is above 320 u V, and h >= |det| above 40 delta. The
- * depth that is stored is that of 1/t (1 + share), as -1/t or N / (1/t) (tile.h). If 2.2 shares exceed the tile's depth
- * error, no hit is certain: small windows are queued, larger ones go to tile_double.c.
+ * 2^-45, or if it may reach before the range's begin. Otherwise |det| is above 320 u V, and h >= |det| above 40 delta.
+ * The depth that is stored is that of 1/t (1 + share), as -1/t or N / (1/t) (tile.h). If 2.2 shares exceed the tile's
+ * depth error, no hit is certain: small windows are queued, larger ones go to tile_double.c.
  *
  * The window: for vertices not far to the side, V <= 64 z, X = x / z is off by 12 u |d| V / z, including 5 u |d|^2 for
  * the direction. 2^-19 |d| V / z is taken, and 1/16 of a column (tile_spheres.h).
@@ -72,7 +72,8 @@ typedef struct tile_triangles {
     unsigned single_lanes, double_lanes; /* as bits: for tile_rasterise_triangle, for tile_double.c */
 } tile_triangles;
 
-/* Makes the depth error large enough for triangles up to distance c with kappa <= 25; for nearer ones it may be more. */
+/* Makes the depth error large enough for triangles up to distance c with kappa <= 25; for nearer ones it may be
+ * more. */
 CGT_SPU_INLINE void tile_widen_depth_error(tile *t, float c)
 {
     const float depth_error = c * t->max_dir_length * 0x1p-13f;

@@ -1,18 +1,18 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Culls cells and clusters, as boxes, against a tile: a vector of boxes at a time, by their windows and by the distance at
- * which each part of the tile can still be hit. Primitives of culled cells are never read. Apart from tile_trace.c, which
- * inlines it, because of its bounds.
+ * Culls cells and clusters, as boxes, against a tile: a vector of boxes at a time, by their windows and by the distance
+ * at which each part of the tile can still be hit. Primitives of culled cells are never read. Apart from tile_trace.c,
+ * which inlines it, because of its bounds.
  *
- * In camera space (tile.h) a box is z, x, y of its middle and its half extents. It is in front of the eye if z exceeds its
- * half extent; its columns are then between the least and the largest x / z of its corners. With parallel rays a box's
- * columns are given by x alone, and the half extents include the error of origins.
+ * In camera space (tile.h) a box is z, x, y of its middle and its half extents. It is in front of the eye if z exceeds
+ * its half extent; its columns are then between the least and the largest x / z of its corners. With parallel rays a
+ * box's columns are given by x alone, and the half extents include the error of origins.
  *
- * Rounding: u = 2^-24, c is the sum over the axes of all terms of a middle and its half extents. The middle, seen from the
- * eye, is off by 2 u c, its product with `dual` by another 4 u c, and a canonical direction by 3.5 u |d|, which is 3.5 u c
- * at the box. 2^-19 c is added to the half extents, and 1/16 of a column to the windows (tile_spheres.h). Cells may be far
- * from the eye: their c is that of the whole grid. */
+ * Rounding: u = 2^-24, c is the sum over the axes of all terms of a middle and its half extents. The middle, seen from
+ * the eye, is off by 2 u c, its product with `dual` by another 4 u c, and a canonical direction by 3.5 u |d|, which is
+ * 3.5 u c at the box. 2^-19 c is added to the half extents, and 1/16 of a column to the windows (tile_spheres.h). Cells
+ * may be far from the eye: their c is that of the whole grid. */
 #ifndef CGT_TILE_CULL_H
 #define CGT_TILE_CULL_H
 
@@ -63,7 +63,8 @@ CGT_SPU_INLINE vmask tile_cull_perspective_boxes(const tile *t, const vfloat v[3
     return spu_or(behind, spu_and(in_front, spu_or(spu_or(outside_x, outside_y), occluded)));
 }
 
-/* Boxes outside the tile or occluded. middle: from the eye, along the world's axes; half: along z, x, y of the camera. */
+/* Boxes outside the tile or occluded. middle: from the eye, along the world's axes; half: along z, x, y of the
+ * camera. */
 CGT_SPU_INLINE vmask tile_cull_boxes(const tile *t, const vfloat middle[3], const vfloat half[3])
 {
     const float(*dual)[3] = t->camera.dual;

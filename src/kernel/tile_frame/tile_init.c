@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A tile of a camera's frame, ready for its first primitive: tables of its pixels' coordinates, bounds of its rays, and the
- * depth error that it allows for. */
+ * A tile of a camera's frame, ready for its first primitive: tables of its pixels' coordinates, bounds of its rays, and
+ * the depth error that it allows for. */
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_frame/tile_planes.h"
 
@@ -78,8 +78,8 @@ CGT_SPU_INLINE float tile_max_square(float a, float b)
 }
 
 /* Each coordinate of a canonical origin has four roundings: px right, eye + px right, py up and the sum. With |px| and
- * |py| at most 1 it is off by u (2 |eye| + 3 |right| + 2 |up|) of that axis, and as a vector by u times the sum of those
- * lengths. The inverse of the axes takes this error to camera space unchanged, except for a relative 4 u. */
+ * |py| at most 1 it is off by u (2 |eye| + 3 |right| + 2 |up|) of that axis, and as a vector by u times the sum of
+ * those lengths. The inverse of the axes takes this error to camera space unchanged, except for a relative 4 u. */
 CGT_SPU_INLINE void tile_init_parallel(tile *t)
 {
     const cgt_camera_rays *c = t->rays;
@@ -158,10 +158,10 @@ CGT_SPU_INLINE float tile_max_corner_distance(const cgt_committed_scene *committ
     return (float)(sqrt(square) * (1 + 0x1p-20));
 }
 
-/* The radius that the tile's depth error is made for. Larger spheres are slow (tile_double.c); smaller ones are undecided
- * where something lies within the depth error behind them, which is rarer. So it is the largest radius that a good share
- * of the primitives has, if that is small compared to the scene, otherwise the radius of most primitives. Levels are
- * sorted from large to small. */
+/* The radius that the tile's depth error is made for. Larger spheres are slow (tile_double.c); smaller ones are
+ * undecided where something lies within the depth error behind them, which is rarer. So it is the largest radius that a
+ * good share of the primitives has, if that is small compared to the scene, otherwise the radius of most primitives.
+ * Levels are sorted from large to small. */
 CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_scene, float farthest)
 {
     const cgt_loose_level *level = committed_scene->loose.level, *largest = level;

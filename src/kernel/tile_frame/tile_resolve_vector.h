@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The fields of a vector of a tile's hits, where all primitives are of one array. Apart from tile_resolve.c, whose loops
- * inline it, for its length. */
+ * The fields of a vector of a tile's hits, where all primitives are of one array. Apart from tile_resolve.c, whose
+ * loops inline it, for its length. */
 #ifndef CGT_TILE_RESOLVE_VECTOR_H
 #define CGT_TILE_RESOLVE_VECTOR_H
 
@@ -91,11 +91,11 @@ CGT_SPU_INLINE bool tile_compute_pixel_runs(const tile *t, const cgt_region *r, 
 
 /* ---- prepared triangles ---- */
 
-/* The triangles that a tile has listed (tile.h), each gathered and prepared once (resolve_triangles.h), a vector of them at
- * a time. This pays as soon as a triangle has a few pixels: gathering nine numbers for each lane of a vector of pixels
- * takes longer than all that is computed from them. Pixels know their triangle's slot since it became their closest one;
- * looking it up by the triangle's number took as long as the rest. Some listed triangles have lost all their pixels
- * since, a twelfth of them in ordinary scenes. */
+/* The triangles that a tile has listed (tile.h), each gathered and prepared once (resolve_triangles.h), a vector of
+ * them at a time. This pays as soon as a triangle has a few pixels: gathering nine numbers for each lane of a vector of
+ * pixels takes longer than all that is computed from them. Pixels know their triangle's slot since it became their
+ * closest one; looking it up by the triangle's number took as long as the rest. Some listed triangles have lost all
+ * their pixels since, a twelfth of them in ordinary scenes. */
 _Static_assert(2 * PREPARED_RECORD == 1 << 4, "offsets into `record` are shifted");
 
 typedef struct tile_prepared_triangles {
@@ -115,8 +115,8 @@ CGT_SPU_INLINE void tile_prepare_triangles(const cgt_committed_scene *committed_
     }
 }
 
-/* Resolves a vector of pixels by their slots. first_slot: that of one pixel with a hit, and of all of them if `uniform`.
- * Returns the lanes whose result is right. */
+/* Resolves a vector of pixels by their slots. first_slot: that of one pixel with a hit, and of all of them if
+ * `uniform`. Returns the lanes whose result is right. */
 CGT_SPU_INLINE vmask tile_resolve_prepared(const tile_prepared_triangles *m, vuint slot, uint32_t first_slot,
                                            bool uniform, vmask missed, const vfloat dir[3], uint32_t fields, bool exact,
                                            resolved_triangles *to)
