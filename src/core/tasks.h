@@ -7,7 +7,7 @@
 
 #include <cgt/cgt.h>
 
-/* A backend: workers that are made once per context and run batches of tasks. Any number of threads may call run at
+/* A backend: workers that are created once per context and run batches of tasks. Any number of threads may call run at
  * once; each call returns when its own tasks have returned. */
 typedef struct cgt_backend {
     const char *name;

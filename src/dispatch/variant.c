@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The variant table as the library sees it: one row per row of cmake/variants.cmake, narrowest first, those included
- * that this build leaves out: CGT_DISABLE_CPU knows their names on every machine. */
+ * The variant table as the library sees it: one row per row of cmake/variants.cmake, narrowest first, including those
+ * that this build omits: CGT_DISABLE_CPU accepts their names on every machine. */
 #include "dispatch/variant.h"
 
 #include <stdbool.h>
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the CPU has, and the system saves, what the flags of a row ask for. */
+/* Whether the CPU has, and the system saves, what the flags of a row require. */
 static bool any_cpu(void) { return true; }
 #ifdef CGT_HAVE_SSE
 static bool cpu_has_sse(void) { return __builtin_cpu_supports("sse4.1"); }
@@ -97,7 +97,7 @@ static void disable_unknown(const char *name, size_t length)
     abort();
 }
 
-/* Reads CGT_DISABLE_CPU each time: a context is made rarely, and nothing global is kept. Row i is bit i. */
+/* Reads CGT_DISABLE_CPU each time: contexts are created rarely, and there is no global state. Row i is bit i. */
 static unsigned disabled_rows(void)
 {
     const char *list = getenv("CGT_DISABLE_CPU");

@@ -14,8 +14,8 @@ typedef enum cgt_variant_state {
     CGT_VARIANT_DISABLED     /* by CGT_DISABLE_CPU */
 } cgt_variant_state;
 
-/* The named variant, or the widest that runs where name is NULL. Where there is none the result is NULL, and *state
- * tells why. A name in CGT_DISABLE_CPU that no variant has ends the process. */
+/* The named variant, or the widest that runs where name is NULL. Returns NULL where there is none, with the reason in
+ * *state. A name in CGT_DISABLE_CPU that no variant has ends the process. */
 const cgt_kernel *cgt_variant_find(const char *name, cgt_variant_state *state);
 
 #endif

@@ -42,7 +42,8 @@ static void trace_chunk(void *argument, uint32_t index)
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-/* Whether neighbours among the points are near enough to each other, as the light sees them, for tiles: of most chunks. */
+/* Whether neighbours among the points are near enough to each other, as the light sees them, for tiles: of most chunks.
+ * */
 static bool choose_tiles(const light_job *job)
 {
     const cgt_scene *s = job->scene;

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays through the wide tree, of the variant that this is compiled for, against every object in exact
- * arithmetic: the same hits and the same bits, whatever the rays, their number, order, layout and ranges, as streams and
- * in flight, with room for lists and stacks and with hardly any, with objects that rays ignore; and with margins of the
- * slabs made smaller until hits are lost. The streams are compiled into the test, where the library finds them. */
+ * arithmetic: the same hits and the same bits, whatever the rays, their number, order, layout and ranges, as streams
+ * and in flight, with room for lists and stacks and with hardly any, with objects that rays ignore; and with margins of
+ * the slabs made smaller until hits are lost. The streams are compiled into the test, where the library finds them. */
 #include "exact/valid_primitive.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
@@ -355,8 +355,8 @@ static void hits_are_exact(void **state)
         }
 }
 
-/* A stream's rays that begin near each other, at a surface or a corner, where boxes and primitives end to the last bit; of
- * any octants. */
+/* A stream's rays that begin near each other, at a surface or a corner, where boxes and primitives end to the last bit;
+ * of any octants. */
 static void make_neighbours(test_random *r, subject *s, uint32_t count)
 {
     static const float spreads[] = {0, 0x1p-24f, 1e-5f, 1e-3f, 0.1f};

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Triangles over the pixels of a tile, of the variant that this is compiled for: the bounds of single precision hold
- * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_ROUNDOFF less than the unit
- * roundoff, until they break. */
+ * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_ROUNDOFF less than the
+ * unit roundoff, until they break. */
 #include "support/test.h"
 #include "exact/valid_primitive.h"
 #include "support/tightened.h"
@@ -447,7 +447,8 @@ static void pairs_are_decided_as_ever(void **state)
 
 /* ---- long thin triangles ---- */
 
-/* A triangle whose vertices are far apart and whose first is at its smallest angle is as certain as one turned round. */
+/* A triangle whose vertices are far apart and whose first is at its smallest angle is as certain as one turned round.
+ * */
 static void thin_triangles_are_certain(void **state)
 {
     (void)state;

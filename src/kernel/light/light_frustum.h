@@ -5,15 +5,16 @@
  * rays, with parallel sides: four planes and two ends, against which a node's children are tested at once, and a leaf's
  * primitives.
  *
- * The rays run mostly along one axis, the main one: w is the coordinate along it, seen from the reference (the light, or
- * the first point of parallel rays) and mirrored where they run against it, v that along another axis. Each ray's line
- * is v = slope w + offset, the offset 0 with a light at a place, the slope common without. So a plane is
+ * The rays run mostly along one axis, the main one: w is the coordinate along it, seen from the reference (the light,
+ * or the first point of parallel rays) and mirrored where they run against it, v that along another axis. Each ray's
+ * line is v = slope w + offset, the offset 0 with a light at a place, the slope common without. So a plane is
  *     v - a w <= h,  a the largest slope and h the largest offset, and the like with the smallest
  * Margin. Let M be the sum of the largest coordinates, along any axis, of light, points and objects, and u = 2^-24.
  * Differences are within 2 u M. A slope is within 2 u of itself and of what v and w bring, so that the line is at most
  * 8 u M off between a point and the light, and 16 u M beyond a parallel ray's point as far as objects are, slopes being
  * at most 2. A canonical ray points past the light by u of its way, and t is rounded before it is compared with the
- * range. Of v - a w three operations round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than all of that. */
+ * range. Of v - a w three operations round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than all of that.
+ * */
 #ifndef CGT_LIGHT_FRUSTUM_H
 #define CGT_LIGHT_FRUSTUM_H
 
