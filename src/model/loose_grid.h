@@ -32,7 +32,7 @@ typedef struct cgt_loose_level {
     uint32_t first;   /* cell (0, 0, 0) in `start`; x runs fastest, then y, then z */
     uint32_t prims;
     float least; /* sizes from here on belong to this level or one before it */
-    /* Along each axis, the bounds of a primitive in cell i lie within low + i cell - reach and low + (i + 1) cell + reach,
+    /* Along each axis, a primitive's bounds in cell i lie within low + i cell - reach and low + (i + 1) cell + reach,
      * in exact arithmetic of these numbers: the rounding of keys is included. */
     float reach[3];
 } cgt_loose_level;

@@ -16,7 +16,8 @@
 #define CGT_CLUSTER_SHIFT 3
 #define CGT_CLUSTER (1u << CGT_CLUSTER_SHIFT) /* triangles, fewer in the last; 4 and 16 build and trace more slowly */
 
-/* Eight floats, as kernels load them. While clusters are gathered, middle and half hold the least and largest corner. */
+/* Eight floats, as kernels load them. While clusters are gathered, middle and half hold the least and the largest
+ * corner. */
 typedef struct cgt_cluster {
     float middle[3]; /* of the bounds of all its valid triangles */
     uint32_t valid;  /* those that are not skipped, as bits; of a cluster without any only `size` is defined */
