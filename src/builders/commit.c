@@ -4,10 +4,10 @@
  * The commit: from the caller's arrays to a structure, from scratch.
  *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure
  *
- * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times as
- * fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell. Incoherent
- * rays share no cells: a BVH suits them, and it is built in a few times the grid's time. Where a scene is said to be
- * traced by a camera, arrays of rays get a BVH when they come (bvh_on_demand.h). */
+ * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times
+ * as fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell.
+ * Incoherent rays share no cells: a BVH suits them, and it is built in a few times the grid's time. Where a scene is
+ * said to be traced by a camera, arrays of rays get a BVH when they come (bvh_on_demand.h). */
 #include <math.h>
 #include <stdio.h>
 

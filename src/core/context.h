@@ -27,8 +27,8 @@ struct cgt_context {
 
 void cgt_context_retain(cgt_context *context);
 
-/* Runs task(argument, index) once for each index below count, in the default floating-point environment whatever that of
- * the threads; on the calling thread alone where there is one task or one thread. */
+/* Runs task(argument, index) once for each index below count, in the default floating-point environment whatever that
+ * of the threads; on the calling thread alone where there is one task or one thread. */
 void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count);
 
 /* Milliseconds of a clock that never goes back. */

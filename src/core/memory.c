@@ -53,7 +53,7 @@ static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size
     return CGT_OK;
 }
 
-/* Half more than the buffer has, or `bytes` where that is more. */
+/* Returns half more than the buffer has, or the size requested if that is more. */
 static size_t grown_capacity(const cgt_buffer *buffer, size_t bytes)
 {
     const size_t increment = buffer->bytes / 2;

@@ -8,7 +8,8 @@
 
 #include <cgt/cgt.h>
 
-/* A backend: workers that are started once per context and run batches of tasks. */
+/* A backend: workers that are created once per context and run batches of tasks. Any number of threads may call run at
+ * once; each call returns when its own tasks have returned. */
 typedef struct cgt_backend {
     const char *name;
     /* Starts threads - 1 workers, threads at least 2: the caller of run works, too. OUT_OF_MEMORY, THREADS. */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which primitives take part. Others are skipped by the bounds of a commit, and by whoever visits all primitives. */
+ * Which primitives take part. The bounds of a commit, and loops over all primitives, skip the others. */
 #ifndef CGT_VALID_PRIMITIVE_H
 #define CGT_VALID_PRIMITIVE_H
 

@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles made ready for the leaves of trees. */
+ * Triangles prepared for the leaves of trees. */
 #include "model/leaf_triangle.h"
 
 #include <math.h>
 
-#define CHUNK 4096u /* objects of one task */
+#define CHUNK 4096u /* primitives of one task */
 
 typedef struct triangles_job {
     const cgt_primitives *prims;

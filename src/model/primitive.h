@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One primitive by value, as the decisions and the resolve take it. */
+ * One primitive by value, for decisions and for the resolve. */
 #ifndef CGT_PRIMITIVE_H
 #define CGT_PRIMITIVE_H
 

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * The steps that build a BVH:
- *   1 sizes and middles of all primitives (bound_primitives.c)   2 parts of like primitives, and their cells (bvh_plan.c)
- *   3 the cell of each primitive, its key (kernel/builders/bvh/bvh_keys.c)   4 primitives sorted by key (cell_sort.c)
- *   5 ranges of cells, each a task's work (bvh_ranges.c)   6 runs of primitives that a leaf holds, and where the binary
+ *   1 sizes and middles of all primitives (bound_primitives.c) 2 parts of like primitives, and their cells (bvh_plan.c)
+ *   3 the cell of each primitive, its key (kernel/builders/bvh/bvh_keys.c) 4 primitives sorted by key (cell_sort.c) 5
+ *   ranges of cells, each a task's work (bvh_ranges.c) 6 runs of primitives that a leaf holds, and where the binary
  *     tree over them parts (kernel/builders/bvh/bvh_split.c)
  *   7 leaf blocks, and binary nodes with boxes and costs from the leaves to the root (bvh_leaves.c)
  *   8 which of these become nodes of the BVH, then those nodes (bvh_nodes.c)
@@ -33,8 +33,8 @@ static inline uint64_t cgt_bvh_max_cells(const cgt_primitives *o, uint32_t count
 #define CGT_BVH_RANGE_PRIMS 4096u /* the share, at least */
 #define CGT_BVH_RANGES 256u       /* about, of evenly spread primitives */
 
-/* Lists the ranges in order. Returns how many. range: NULL to count alone. start: of the sort. prims_each: primitives in
- * each of what was sorted. */
+/* Lists the ranges in order. Returns how many. range: NULL to count alone. start: of the sort. prims_each: primitives
+ * in each of what was sorted. */
 uint32_t cgt_bvh_list_ranges(const cgt_bvh_plan *plan, const uint32_t *start, uint32_t prims, uint32_t prims_each,
                              cgt_bvh_range *range);
 

@@ -194,7 +194,8 @@ static cgt_result join_leaves(cgt_scene *scene, bvh_job *job, uint32_t blocks[2]
     return CGT_OK;
 }
 
-/* Places the nodes of the ranges after those of the top. The root has number 0: it is in the top, or there is one range. */
+/* Places the nodes of the ranges after those of the top. The root has number 0: it is in the top, or there is one
+ * range. */
 static void place_nodes(cgt_bvh_build *b, cgt_bvh *tree)
 {
     cgt_bvh_range *top = &b->top;

@@ -7,8 +7,8 @@
 #include "builders/bvh/bvh_build.h"
 #include "core/float_environment.h"
 
-/* Rays that came without a tree before one is built. Building takes as long as about 1/60 as many rays as primitives take
- * through the grid if they share nothing, by estimate; whether they do share nothing is not known. */
+/* Rays that came without a tree before one is built. Building takes as long as about 1/60 as many rays as primitives
+ * take through the grid if they share nothing, by estimate; whether they do share nothing is not known. */
 static uint64_t min_rays_for_build(uint32_t valid) { return valid / 32; }
 
 /* Several threads may need the tree: one builds it, and the others trace without it. */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The kd-tree of a commit: built, flattened, linked where ropes are asked for. */
+ * The kd-tree of a commit: built, flattened, and linked where ropes are requested. */
 #include <stdio.h>
 
 #include "builders/commit.h"
@@ -10,7 +10,7 @@
 
 #define DEFAULT_BREAK_LEVEL 8u
 
-/* References in all leaves, also of those that hold their only object in the node; and in the largest. */
+/* Counts the references in all leaves, including those that hold their only primitive in the node; and in the largest. */
 static void count_references(const cgt_kd_tree *tree, cgt_research_scene_statistics *research)
 {
     for (uint32_t i = 0; i < tree->nodes; i++) {

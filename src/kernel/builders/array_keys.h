@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The keys of an array's primitives, or of clusters, a vector at a time; how a structure finds its cells is a parameter. */
+ * The keys of an array's primitives, or of clusters, a vector at a time; how a structure finds its cells is a
+ * parameter. */
 #ifndef ARRAY_KEYS_H
 #define ARRAY_KEYS_H
 

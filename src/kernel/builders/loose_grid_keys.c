@@ -5,7 +5,7 @@
  *
  * Along an axis of n cells, with m a primitive's middle, G = (m - low) / cell in exact arithmetic and u = 2^-24: the
  * difference, the reciprocal of the cell and the product are rounded once each, so the computed g is within 3.1 u G of
- * G, and 2^-149 where the product underflows. The planner makes 0 <= G <= n hold for every middle (size_levels.c),
+ * G, and 2^-149 where the product underflows. The plan (size_levels.c) guarantees 0 <= G <= n for every middle,
  * so g is within 4 u n of it, and not below 0. The cell is i = the integer part of g, or n - 1. So
  *     i - 4 u n <= G <= i + 1 + 4 u n,
  * and a primitive, which lies within its half extent of its middle, lies within that plus 4 u n cells of cell i: that

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Nodes and leaf blocks of the wide tree, as wide as the variant. */
+ * Nodes and leaf blocks of the BVH, as wide as the variant. */
 #ifndef CGT_BVH_NODE_H
 #define CGT_BVH_NODE_H
 
@@ -10,17 +10,16 @@
 #include "dispatch/kernel.h"
 #include "vector.h"
 
-/* Children are packed: those that there are come first. */
+/* Children are packed: present ones first. */
 typedef struct bvh_node {
     _Alignas(CGT_VECTOR_BYTES) float low[3][CGT_LANES]; /* of children, rounded outwards; +infinity without a child */
     float high[3][CGT_LANES];                           /* -infinity without a child */
     uint32_t child[CGT_LANES];                          /* see bvh.h */
-    uint8_t order[4]
-                 [CGT_LANES]; /* all lanes, in the order in which rays of octant k meet children, k = 0..3: bit a of k
-                                    is set where the direction's component a is negative; octant 7 - k has the reverse.
-                                    Lanes without a child come last in the row; whoever reads it backwards starts at the
-                                    number of children */
-    uint32_t children;        /* 2 to CGT_LANES; 1 in a root only */
+    /* All lanes, in the order in which rays of octant k = 0..3 meet children: bit a of k is set where the direction's
+     * component a is negative; octant 7 - k has the reverse. Lanes without a child come last: to read a row backwards,
+     * start at the number of children. */
+    uint8_t order[4][CGT_LANES];
+    uint32_t children; /* 2 to CGT_LANES; 1 in a root only */
     uint32_t unused[3];
 } bvh_node;
 

@@ -25,8 +25,8 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
     return spux_permute(spux_load_unaligned(py + lane_row(i, edge)), spu_sr(spux_lane_index(), 2));
 }
 
-/* What is the same for all packets of a perspective camera, and the range of t of any. masked: the camera's mask leaves
- * something out. */
+/* Sets what all packets of a perspective camera share, and the range of t of any camera. masked: the camera's mask
+ * hides something. */
 CGT_SPU_INLINE void camera_packet_init(const cgt_camera_rays *c, const cgt_trace_settings *settings, uint32_t edge,
                                        bool has_masks, packet *p)
 {
@@ -112,7 +112,8 @@ CGT_SPU_INLINE void store_row(uint32_t *to, const uint32_t *from, uint32_t row, 
         memcpy(to + k, start + k / 4 * 16 + k % 4, 4);
 }
 
-/* The fours of a vector are rows of one block; BLOCK_ROWS vectors of blocks side by side are rows of a vector's length. */
+/* The fours of a vector are rows of one block; BLOCK_ROWS vectors of blocks side by side are rows of a vector's length.
+ * */
 #define BLOCK_ROWS (CGT_LANES / 4)
 
 CGT_SPU_INLINE void store_whole_plane(uint32_t *to, size_t row_stride, const uint32_t *from, uint32_t edge)

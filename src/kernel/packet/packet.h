@@ -3,14 +3,15 @@
  *
  * A packet: up to 256 rays as structure of arrays, with the best hit of each so far.
  *
- * Filter, then decide. Single precision finds for a ray and a primitive an interval that surely holds the exact t, or
- * that there surely is no hit. So a ray's best hit is an interval too, [low, high] with the object that it belongs to:
+ * Filter, then decide. Single precision finds for a ray and a primitive an interval that certainly holds the exact t,
+ * or that there certainly is no hit. So a ray's best hit is an interval too, [low, high] with the primitive that it
+ * belongs to:
  *   a hit whose interval ends before `low`    is certainly nearer: it replaces the best at once
  *   a hit whose interval starts after `high`  is certainly not
- *   anything else                             is decided (decide.h) by the exact t, then by the lower object
- * The winner's t is computed once, at the end. In FAST precision nothing is decided: low and high are the t that single
- * precision gives, and u and v are kept beside it. An open ray starts with [t_max, t_max] and no object; a ray that takes
- * no part has [-inf, -inf]. */
+ *   anything else                             is decided (decide.h) by the exact t, then by the lower primitive
+ * The closest hit's t is computed once, at the end. In FAST precision nothing is decided: low and high are the t that
+ * single precision gives, and u and v are stored with it. An active ray starts with [t_max, t_max] and no primitive;
+ * one that takes no part has [-inf, -inf]. */
 #ifndef CGT_PACKET_H
 #define CGT_PACKET_H
 
@@ -33,7 +34,7 @@ typedef struct packet {
     _Alignas(64) uint32_t prim[PACKET_MAX_RAYS];               /* CGT_INVALID_ID: none yet */
     _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
     _Alignas(64)
-        uint32_t skip_prim[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_INVALID_ID:
+        uint32_t skip_prim[PACKET_MAX_RAYS]; /* where selective: a primitive that the ray does not find, CGT_INVALID_ID:
                                                        none; and its mask */
     _Alignas(64) uint32_t mask[PACKET_MAX_RAYS];
     /* only for triangles of packets without a common origin: */
@@ -46,7 +47,7 @@ typedef struct packet {
     bool from_origin;   /* and all start there: t_min is 0 */
     bool to_light;      /* all run from their origins to `light`, where t is 1, but for rounding */
     float light[3];
-    bool skips_prims;                /* some ray ignores an object, or has a mask that leaves one out */
+    bool skips_prims;                /* some ray ignores a primitive, or has a mask that leaves one out */
     bool has_masks;                  /* selective, by masks too */
     bool any_hit;                    /* the first hit found closes a ray */
     bool fast;                       /* FAST precision */
@@ -61,7 +62,7 @@ typedef struct packet {
 /* The entries of cgt_kernel that kernels call, too. */
 cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 
-/* Finds the hits of all rays of the packet: through the structure that there is, or through one. */
+/* Finds the hits of all rays of the packet: through the committed structure, or through a given one. */
 typedef void cgt_trace_packet_fn(const cgt_committed_scene *committed_scene, packet *p,
                                  const cgt_trace_settings *settings, cgt_counts *counts);
 cgt_trace_packet_fn CGT_KERNEL(cgt_packet_trace);
@@ -86,7 +87,7 @@ typedef union packet_hits {
     uint32_t plane[CGT_PLANES][PACKET_MAX_RAYS];
 } packet_hits;
 
-/* Computes the fields of the winners that the settings ask for, canonically. Counts the hits and returns how many. */
+/* Computes the requested fields of the closest hits, canonically. Counts the hits and returns how many. */
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_committed_scene *committed_scene, const packet *p,
                                         const cgt_trace_settings *settings, packet_hits *hits, cgt_counts *counts);
 

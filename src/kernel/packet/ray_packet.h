@@ -10,7 +10,7 @@
 #include "dispatch/kernel.h"
 #include "kernel/packet/ray_box.h"
 
-/* Where rays come from. With a light the arrays' directions are not read: rays run from their origins to it. */
+/* The source of rays. With a light, the arrays' directions are not read: rays run from their origins to it. */
 typedef struct ray_source {
     const cgt_rays *rays;
     size_t stride;
@@ -35,7 +35,7 @@ typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RA
 /* Rays in the order in which packets take them: `from` of the array's, counted from its `first`. */
 typedef struct ray_order {
     uint64_t first;
-    const uint32_t *from; /* NULL: as they come */
+    const uint32_t *from; /* NULL: in the order of the arrays */
 } ray_order;
 
 CGT_SPU_INLINE uint64_t ray_index(const ray_order *o, uint32_t i) { return o->first + (o->from ? o->from[i] : i); }
@@ -88,7 +88,7 @@ CGT_SPU_INLINE uint32_t ray_read_mask(const ray_source *s, uint64_t i)
     return mask ? mask : UINT32_MAX;
 }
 
-/* The object that a ray ignores. */
+/* The primitive that a ray ignores. */
 CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_source *s, uint64_t i)
 {
     const cgt_rays *r = s->rays;
@@ -98,7 +98,7 @@ CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_sourc
     return cgt_primitives_number(prims, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
 }
 
-/* What counts for the rays of a packet, where they say so. */
+/* Sets masks and skipped primitives of a packet's rays, where the arrays have them. */
 static void ray_packet_select(const cgt_committed_scene *committed_scene, const ray_source *s, const ray_order *order,
                               uint32_t first, uint32_t count, packet *p)
 {
@@ -132,7 +132,7 @@ static void ray_packet_disable_lane(packet *p, uint32_t k, uint32_t valid_lane)
     p->mask[k] = 0;
 }
 
-/* Rays that miss the bounds of all objects take no part. */
+/* Rays that miss the bounds of all primitives take no part. */
 static void ray_packet_cull_outside(const cgt_committed_scene *committed_scene, const packet *p, uint32_t count,
                                     ray_state *state)
 {
@@ -144,7 +144,7 @@ static void ray_packet_cull_outside(const cgt_committed_scene *committed_scene, 
     }
 }
 
-/* The rays that take part, and the others made to repeat one of them. */
+/* Finds the rays that take part, and makes the others repeat one of them. */
 static void ray_packet_init_lanes(packet *p, uint32_t count, const ray_state *state)
 {
     uint32_t valid_lane = 0;

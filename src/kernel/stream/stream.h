@@ -8,7 +8,7 @@
  * all rays, 32 KB for keys and later for skipped primitives, 32 KB for masks, and 64 KB for the arena: 805 KB with the
  * call's frame. Besides there are, one at a time, the levels of a list with the stack of a single ray, 20 KB, or
  * interleaved rays, 40 KB, or a packet, its hits and the frame of the resolve, 49 KB: a call stays below 860 KB. Points
- * against a light come with 177 KB more, ambient occlusion with 181 KB. */
+ * against a light add 177 KB, ambient occlusion 181 KB. */
 #ifndef CGT_STREAM_H
 #define CGT_STREAM_H
 
@@ -19,10 +19,10 @@
 
 #define STREAM_RECORD 16u                                   /* floats: one line of the cache */
 #define STREAM_DUMMY_RAY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
-#define STREAM_MAX_ORG 16.f                                 /* origins beyond, normalised, go one by one */
-#define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of so many rays, filled up */
+#define STREAM_MAX_ORG 16.f                                 /* normalised origins beyond: traced one by one */
+#define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of `count` rays, padded */
 
-/* The keys that rays are sorted by: octants, then the rays that do not go in streams. */
+/* The keys that rays are sorted by: octants, then the rays that streams do not take. */
 enum { STREAM_SINGLE = 8, STREAM_EXTREME, STREAM_SKIPPED, STREAM_KEYS };
 
 /* Indices of a record's floats. The range of t is in both halves: for nodes and for leaves. */
@@ -39,20 +39,20 @@ enum {
 
 typedef struct stream {
     _Alignas(64) float record[CGT_STREAM_CHUNK + 1][STREAM_RECORD];
-    _Alignas(64) best_hit best[CGT_STREAM_CHUNK + 1]; /* of nearest hits */
+    _Alignas(64) best_hit best[CGT_STREAM_CHUNK + 1]; /* of closest hits */
     _Alignas(64) uint32_t arena[CGT_STREAM_ARENA];
     _Alignas(64) uint32_t ray_list[CGT_STREAM_CHUNK + STREAM_KEYS * CGT_LANES]; /* records, by key */
     union {
         _Alignas(64) uint32_t key[CGT_STREAM_CHUNK]; /* until they are sorted */
-        uint32_t skip_prim[CGT_STREAM_CHUNK];        /* objects; where rays ignore any, and so is the next */
+        uint32_t skip_prim[CGT_STREAM_CHUNK];        /* primitives; where rays ignore any, and so is the next */
     };
     uint32_t mask[CGT_STREAM_CHUNK];
     bvh_call call;
     float slab_error[3];                                    /* E of all rays of streams */
     float org_low[3], org_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
     float origin_spread; /* how far their origins lie apart, along an axis, as a share of the tree's size */
-    uint32_t octant;     /* in work */
-    float reach_low[3], reach_high[3]; /* no ray of the octant comes to what lies outside */
+    uint32_t octant;     /* being traced */
+    float reach_low[3], reach_high[3]; /* no ray of the octant reaches what lies outside */
     uint32_t updates;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */
 } stream;
@@ -129,8 +129,9 @@ CGT_SPU_INLINE void stream_ray_store(stream *s, uint32_t offset, const bvh_ray *
         stream_set_best(s, offset, r->best.low, r->best.high, r->best.prim);
 }
 
-/* Rays of a stream as single rays: the listed ones through the subtree of a code; those from far away, each with an E of
- * its own; those that single precision does not cover, against every primitive; and rays of all octants, interleaved. */
+/* Rays of a stream as single rays: the listed ones through the subtree of a code; those from far away, each with an E
+ * of its own; those that single precision does not cover, against every primitive; and rays of all octants,
+ * interleaved. */
 void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
 void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_trace_extreme)(stream *s, const uint32_t *list, uint32_t count);

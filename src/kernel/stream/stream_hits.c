@@ -38,8 +38,8 @@ static void make_hit_packet(const stream *s, uint32_t first, uint32_t count, pac
     }
 }
 
-/* Prefetches what the closest hits of `rays` rays from `first` on are read from: the indices of triangles, or the points
- * of primitives whose indices have arrived. The hits of incoherent rays lie anywhere in memory. */
+/* Prefetches what the closest hits of `rays` rays from `first` on are read from: the indices of triangles, or the
+ * points of primitives whose indices have arrived. The hits of incoherent rays lie anywhere in memory. */
 static void prefetch_hits(const stream *s, uint32_t first, uint32_t rays, uint32_t count, bool points)
 {
     const cgt_primitives *prims = &s->call.committed_scene->prims;

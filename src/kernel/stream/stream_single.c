@@ -93,7 +93,7 @@ typedef struct interleaved_ray {
     uint32_t leave[3];
     uint32_t top;
     uint32_t stack[INTERLEAVED_STACK + CGT_LANES]; /* CGT_BVH_NO_CHILD at the bottom; stores are of whole vectors */
-    float near[INTERLEAVED_STACK + CGT_LANES];     /* of nearest hits: where the ray enters */
+    float near[INTERLEAVED_STACK + CGT_LANES];     /* of closest hits: where the ray enters */
 } interleaved_ray;
 
 CGT_SPU_INLINE void interleaved_pop(interleaved_ray *f, bool any_hit)

@@ -3,11 +3,11 @@
  *
  * Arrays of rays through the BVH, as streams (Wald, Gribble, Boulos, Kensler, "SIMD Ray Stream Tracing", 2007;
  * Barringer, Akenine-Moeller, "Dynamic Ray Stream Traversal", 2014): the rays of one octant descend depth first from
- * node to node as a list. Lanes are rays; a node tests a vector of rays against one child after the other, which gives a
- * mask for each. Before that, children and primitives are culled that lie behind the origins or beyond the ends of all
- * the octant's rays. A child's list is made from the masks when its turn comes, so that there is one list for each node
- * on the way down. Where few rays are left, lanes are children or primitives instead (bvh_single.h), and so they are
- * from the root on in a call of few incoherent rays (stream_single.c).
+ * node to node as a list. Lanes are rays; a node tests a vector of rays against one child after the other, which gives
+ * a mask for each. Before that, children and primitives are culled that lie behind the origins or beyond the ends of
+ * all the octant's rays. A child's list is made from the masks when its turn comes, so that there is one list for each
+ * node on the way down. Where few rays are left, lanes are children or primitives instead (bvh_single.h), and so they
+ * are from the root on in a call of few incoherent rays (stream_single.c).
  *
  * Lists lie in an arena, which the rays of a deep tree could fill. A node whose masks and largest list do not fit takes
  * its list in pieces, each through the node's whole subtree before the next. There is always room for a piece of one

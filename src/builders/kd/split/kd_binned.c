@@ -4,7 +4,7 @@
  * The binned builder, from a node down. The candidates are the edges of equal bins along each axis of the items'
  * bounds, and the planes just outside of those bounds, which cut empty space off.
  *
- * A subtree needs little memory beside its own items: of two children the larger takes the place of its parent's items,
+ * A subtree needs little memory besides its items: of two children the larger takes the place of its parent's items,
  * the smaller goes on a stack and is built first. */
 #include "builders/kd/split/kd_binned.h"
 
@@ -127,7 +127,7 @@ cgt_kd_plane cgt_kd_choose_binned(const cgt_kd_rules *rules, const cgt_kd_bins *
 
 /* ---- subtrees ---- */
 
-/* What is the same for all nodes of a task. */
+/* The state of a task. */
 typedef struct task {
     const cgt_kd_rules *rules;
     cgt_kd_output *out;
@@ -170,7 +170,8 @@ static void build_smaller(task *t, const node *child, uint32_t larger)
     out->end_reference = end_reference;
 }
 
-/* Splits where items are on both sides; *n becomes the larger child. False where both children have all of them. */
+/* Splits where items are on both sides; *n becomes the larger child. Returns false where both children have all of
+ * them. */
 static bool descend(task *t, node *n, const cgt_kd_plane *plane)
 {
     const uint32_t larger = plane->upper_larger, smaller = !larger;

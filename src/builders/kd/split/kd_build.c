@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The build of a kd-tree: memory, the items of the root, the top, the tasks below it. Memory is taken here alone,
- * before anything is built: about 230 bytes an object, 500 for the sweep. */
+ * The build of a kd-tree: memory, the items of the root, the top, the tasks below it. All memory is reserved here,
+ * before anything is built: about 230 bytes a primitive, 500 for the sweep. */
 #include "builders/kd/kd_build.h"
 
 #include "builders/kd/split/kd_builder.h"
@@ -16,13 +16,13 @@ typedef struct job {
     const cgt_kd_rules *rules;
     cgt_kd_workspace workspace;
     uint32_t prims;
-    bool all; /* objects are valid */
+    bool all; /* primitives are valid */
     bool sweep;
 } job;
 
 /* ---- memory ---- */
 
-/* Takes bytes off a block; adds them up where there is none. */
+/* Takes bytes off a block; without a block, only adds them up. */
 static void *carve(char *block, size_t *used_bytes, size_t bytes)
 {
     void *part = block ? block + *used_bytes : NULL;

@@ -30,7 +30,7 @@ cgt_kd_plane cgt_kd_sweep_once(const cgt_kd_rules *rules, const cgt_kd_box *box,
 #define NOT_IN_CHILD UINT32_MAX
 #define SPLIT_FLAG 0x80000000u /* the item has new bounds there */
 
-/* What is the same for all nodes of a task. */
+/* The state of a task. */
 typedef struct task {
     const cgt_kd_rules *rules;
     cgt_kd_output *out;
@@ -126,7 +126,8 @@ static void build_smaller(task *t, const node *child, uint32_t larger)
     out->end_reference = end_reference;
 }
 
-/* Splits where items are on both sides; *n becomes the larger child. False where both children have all of them. */
+/* Splits where items are on both sides; *n becomes the larger child. Returns false where both children have all of
+ * them. */
 static bool descend(task *t, node *n, const cgt_kd_plane *plane)
 {
     const uint32_t larger = plane->upper_larger, smaller = !larger;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The top of the tree, level by level: nodes with many items are worked on by all threads, chunk by chunk. Chunks,
- * levels and what becomes a task depend on counts alone, and what chunks find is put together in their order. */
+ * levels and tasks depend on counts alone, and the results of chunks are merged in order. */
 #include "builders/kd/split/kd_binned.h"
 
 struct cgt_kd_top_node {
@@ -106,7 +106,7 @@ static void plan_chunks(top *t)
 
 /* ---- the choice ---- */
 
-/* Puts together what the chunks of each node have, in the first chunk. */
+/* Merges the bounds of each node's chunks into the first chunk. */
 static void merge_bounds(top *t)
 {
     for (uint32_t i = 0; i < t->nodes; i++) {
@@ -207,8 +207,8 @@ static void add_task(top *t, const cgt_kd_top_node *n)
     };
 }
 
-/* Adds up what is on each side, and gives each its share of the slots. False where there is no room, or where both
- * sides would have all items. Some side has some. */
+/* Adds up the items on each side, and gives each side its share of the slots. Returns false where there is no room,
+ * where both sides would have all items, or none has any. */
 static bool plan_sides(const top *t, cgt_kd_top_node *n)
 {
     cgt_kd_chunk *c = &t->room->chunk[n->first_chunk];
@@ -230,7 +230,7 @@ static bool plan_sides(const top *t, cgt_kd_top_node *n)
     return true;
 }
 
-/* Keeps the nodes that are divided; the others are tasks, or, cut, in `next` already. */
+/* Keeps the nodes that are divided; the others become tasks, or, if cut, move to `next`. */
 static uint32_t compact_split_nodes(top *t, cgt_kd_top_node *next)
 {
     uint32_t split_nodes = 0, cut = 0;
@@ -269,7 +269,7 @@ static void add_child(top *t, const cgt_kd_top_node *n, uint32_t lower, uint32_t
         add_task(t, &child);
 }
 
-/* Makes the nodes of the next level, from those of this one. */
+/* Creates the nodes of the next level from those of this one. */
 static uint32_t descend(top *t, cgt_kd_top_node *next)
 {
     uint32_t next_count = compact_split_nodes(t, next), divided = 0;
