@@ -121,7 +121,7 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     const uint32_t visitor_fields = f->visitor ? f->visitor_fields : 0;
     if (!cgt_primitives_masked_out(&committed_scene->prims, job->camera.mask))
         job->camera.mask = UINT32_MAX;
-    job->by_tiles = !cgt_wants_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
+    job->by_tiles = !cgt_requires_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
     job->planes = (cgt_region){.width = f->width,
                                .height = f->height,
                                .row_stride = f->row_stride ? f->row_stride : f->width,
