@@ -170,11 +170,11 @@ typedef struct cgt_triangles {
     uint32_t mask;           /* as of cgt_spheres */
 } cgt_triangles;
 
-/* Acceleration structures. Hits are the same bits through each. */
+/* Acceleration structures. Hits are the same bits through each. Where AUTO has chosen the grid, a BVH is built beside it
+ * once a commit, when enough rays come to pay for it: by cgt_trace_rays, cgt_occluded_rays, cgt_occluded_points or
+ * cgt_ambient_occlusion. */
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0, /* chosen by cgt_scene_options.rays: LOOSE_GRID for coherent rays, BVH for incoherent ones.
-                                 Beside that grid a BVH is built once a commit, when enough rays come to pay for it: by
-                                 cgt_trace_rays, cgt_occluded_rays, cgt_occluded_points or cgt_ambient_occlusion */
+    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID for coherent rays, BVH for incoherent ones: cgt_scene_options.rays */
     CGT_STRUCTURE_LOOSE_GRID, /* hierarchical loose grid: a uniform grid per class of sizes, each primitive in the one
                                  cell of its centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame
                                  goes through it by tiles of 64x64 pixels */
@@ -217,7 +217,7 @@ CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_optio
 CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry);
 
 /* Replaces a geometry's description: another count, other arrays. Where only the numbers in the arrays change,
- * cgt_scene_commit is all that is needed. */
+ * cgt_scene_commit is all that is needed. Errors: as for adding; INVALID_ARGUMENT where there is no such geometry. */
 CGT_API cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const cgt_spheres *spheres);
 
 /* The same for triangles. A geometry keeps its kind: updating it as the other one is INVALID_ARGUMENT. */
@@ -287,8 +287,8 @@ typedef struct cgt_trace_statistics {
                               they hit nothing */
     uint64_t hits;         /* rays with a hit; of any-hit calls, occluded ones */
     uint64_t bvh_rays;     /* that went through a BVH */
-    uint64_t tiles;   /* tiles of a frame, or of points against a light, that went through a loose grid as a whole */
-    uint64_t packets; /* packets of rays that were traversed otherwise: all share main axis and sign */
+    uint64_t tiles;        /* of a frame, or of points against a light, that went through a loose grid as a whole */
+    uint64_t packets;      /* of rays, traversed otherwise; those of a packet share main axis and sign */
     uint64_t packet_tests; /* primitives tested against the rays of a packet, or drawn in a tile */
     uint64_t ray_tests;    /* tests of a ray against a primitive, by whole blocks of 16; in tiles by whole vectors */
     uint64_t double_tests; /* of those, the ones that single precision could not decide */

@@ -32,8 +32,16 @@ static cgt_result check_resolution(cgt_context *c, const uint32_t r[3])
     return CGT_OK;
 }
 
-static cgt_result check_options(cgt_context *c, const cgt_scene_options *o, const cgt_research_scene_options *r)
+/* The research options of options, or the defaults. */
+static const cgt_research_scene_options *research_options(const cgt_scene_options *o)
 {
+    static const cgt_research_scene_options defaults = {0};
+    return o->research ? o->research : &defaults;
+}
+
+static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
+{
+    const cgt_research_scene_options *r = research_options(o);
     const struct {
         const char *name;
         unsigned value, last;
@@ -51,37 +59,29 @@ static cgt_result check_options(cgt_context *c, const cgt_scene_options *o, cons
     return check_resolution(c, r->resolution);
 }
 
-/* Checks and copies options, which may be NULL. */
-static cgt_result set_options(cgt_scene *scene, cgt_context *context, const cgt_scene_options *options)
+static void set_options(cgt_scene *scene, const cgt_scene_options *o)
 {
-    static const cgt_scene_options defaults = {0};
-    static const cgt_research_scene_options research_defaults = {0};
-    const cgt_scene_options *o = options ? options : &defaults;
-    const cgt_research_scene_options *research = o->research ? o->research : &research_defaults;
-    const cgt_result result = check_options(context, o, research);
-    if (result != CGT_OK)
-        return result;
+    scene->research_options = *research_options(o);
     scene->options = *o;
-    scene->research_options = *research;
     scene->options.research = &scene->research_options;
-    return CGT_OK;
 }
 
 cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *options, cgt_scene **scene)
 {
+    static const cgt_scene_options defaults = {0};
     if (!context || !scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     *scene = NULL;
+    const cgt_scene_options *o = options ? options : &defaults;
+    const cgt_result result = check_options(context, o);
+    if (result != CGT_OK)
+        return result;
     cgt_scene *s = cgt_allocate(&context->memory, sizeof *s);
     if (!s)
         return cgt_fail(context, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a scene");
     memset(s, 0, sizeof *s);
-    const cgt_result result = set_options(s, context, options);
-    if (result != CGT_OK) {
-        cgt_free(&context->memory, s, sizeof *s);
-        return result;
-    }
     s->context = context;
+    set_options(s, o);
     s->mutable_scene = s;
     atomic_init(&s->bvh_is_built, false);
     atomic_init(&s->bvh_rays, 0);
@@ -110,10 +110,12 @@ cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *opti
 {
     if (!scene || !options)
         return CGT_ERROR_INVALID_ARGUMENT;
-    const cgt_result result = set_options(scene, scene->context, options);
-    if (result == CGT_OK)
-        scene->is_committed = false;
-    return result;
+    const cgt_result result = check_options(scene->context, options);
+    if (result != CGT_OK)
+        return result;
+    set_options(scene, options);
+    scene->is_committed = false;
+    return CGT_OK;
 }
 
 /* Whether the elements of an array fit into the address space. */

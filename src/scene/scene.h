@@ -41,7 +41,7 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_BVH_START,
     CGT_BUFFER_BVH_PRIM,   /* all primitives by cell and leaf */
     CGT_BUFFER_BVH_LEAVES, /* where leaves begin among them, see cgt_bvh_build */
-    CGT_BUFFER_BVH_WORK,   /* keys and objects of cells that are sorted on, then records of the binary tree */
+    CGT_BUFFER_BVH_WORK,   /* keys and primitives of cells that are sorted further, then records of the binary tree */
     CGT_BUFFER_BVH_RANGES, /* cgt_bvh_range, then a branch for each */
     CGT_BUFFER_BVH_NODES,
     CGT_BUFFER_BVH_SPHERES,

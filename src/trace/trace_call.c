@@ -74,7 +74,7 @@ static cgt_result choose_settings(cgt_context *c, const cgt_trace_options *o, bo
     return CGT_OK;
 }
 
-bool cgt_wants_packets(const cgt_trace_options *options)
+bool cgt_requires_packets(const cgt_trace_options *options)
 {
     const cgt_research_trace_options *r = options ? research_options(options) : &default_research;
     return r->packet || r->tile != CGT_TILE_SHAPE_AUTO || r->loop != CGT_LOOP_AUTO || r->cull != CGT_CULL_AUTO ||

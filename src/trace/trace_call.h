@@ -19,8 +19,8 @@ typedef struct cgt_trace_counter {
 cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
                              cgt_trace_settings *settings, cgt_trace_counter *counter);
 
-/* Whether the options ask anything about packets, so that a frame must not go by whole tiles. */
-bool cgt_wants_packets(const cgt_trace_options *options);
+/* Whether the options set anything about packets, so that a frame must not go by whole tiles. */
+bool cgt_requires_packets(const cgt_trace_options *options);
 
 /* Checks that all elements of a caller's array, called `what`, have addresses, and that task numbers reach them. */
 cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count);

@@ -126,7 +126,7 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
     if (!cgt_primitives_masked_out(&committed_scene->prims, job->camera.mask))
         job->camera.mask = UINT32_MAX;
-    job->by_tiles = !cgt_wants_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
+    job->by_tiles = !cgt_requires_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
     job->planes = (cgt_region){.width = f->width,
                                .height = f->height,
                                .row_stride = f->row_stride ? f->row_stride : f->width,

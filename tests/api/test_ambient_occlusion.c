@@ -61,13 +61,12 @@ static cgt_ambient_options ambient_of(uint32_t samples, float radius, uint32_t s
 
 /* Traces the frame and how open it is; what lies beside the picture must stay. Returns the number of pixels hit. */
 static uint32_t look(const cgt_scene *scene, view *v, const cgt_ambient_options *ambient,
-                     const test_trace_options *options)
+                     const cgt_trace_options *options)
 {
     uint32_t hits = 0;
     memset(v->visibility, 0x55, sizeof v->visibility);
     assert_int_equal(cgt_trace_camera(scene, &v->camera, &v->frame, NULL), CGT_OK);
-    assert_int_equal(
-        cgt_ambient_occlusion(scene, &v->camera, &v->frame, ambient, v->visibility, TRACE_OPTIONS(options)), CGT_OK);
+    assert_int_equal(cgt_ambient_occlusion(scene, &v->camera, &v->frame, ambient, v->visibility, options), CGT_OK);
     for (uint32_t i = 0; i < PIXELS; i++) {
         if (i % STRIDE >= WIDTH || i >= ROWS) {
             assert_memory_equal(&v->visibility[i], "\x55\x55\x55\x55", 4);
@@ -267,14 +266,14 @@ static void it_is_the_share_of_these_rays(void **state)
                 if (samples[s] <= 50 && (k + threads) % STEP != test_sample_start((uint32_t)s, STEP))
                     continue;
                 cgt_trace_statistics statistics;
-                test_trace_options options;
+                cgt_trace_options options;
                 cgt_context *context = context_make(threads, variant);
                 cgt_scene *scene = scene_make(context, k, true, ball, 4);
                 view *const to = first ? &v : &other;
                 light_init_projection(to, (float[]){2, 3, 8}, (float[]){0, 1, 0});
                 to->camera.projection = s == 2 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
                 to->camera.height = 6;
-                options = (test_trace_options){0};
+                options = (cgt_trace_options){0};
                 options.precision = k % 2 ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
                 options.statistics = &statistics;
                 const uint32_t hits = look(scene, to, &ambient, &options);

@@ -106,7 +106,7 @@ static void trace(const subject *s, const cgt_scene *scene, const truth_ray *ray
                   const test_trace_options *options)
 {
     memset(hits, 0x77, count * sizeof *hits);
-    const cgt_result result = trace_array(scene, rays, count, hits, TRACE_OPTIONS(options));
+    const cgt_result result = trace_array(scene, rays, count, hits, options ? TRACE_OPTIONS(options) : NULL);
     if (result != CGT_OK)
         fail_msg("%s: %s", s->variant, cgt_get_result_string(result));
 }

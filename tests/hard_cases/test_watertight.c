@@ -179,7 +179,7 @@ static void trace(const subject *w, const cgt_scene *scene, uint32_t *primitive,
     const cgt_rays rays = ray_array(w->s.ray, w->s.rays);
     const cgt_hits hits = {.primitive = primitive};
     memset(primitive, 0x77, CHUNK * sizeof *primitive);
-    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, TRACE_OPTIONS(options)), CGT_OK);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, options ? TRACE_OPTIONS(options) : NULL), CGT_OK);
 }
 
 /* Traces this many rays at one mesh in one place, chunk by chunk, with the variants in turn. */

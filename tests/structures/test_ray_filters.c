@@ -356,7 +356,7 @@ static void copies_are_found(void **state)
         assert_int_equal(hit_of(scene, 0, 1, 1), 0); /* no such geometry */
         assert_int_equal(hit_of(scene, 0, CGT_INVALID_ID, 1), 0);
         assert_int_equal(hit_of(scene, CGT_INVALID_ID, CGT_INVALID_ID, 1), 0);
-        assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0), CGT_INVALID_ID);
+        assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0), 0); /* all bits */
         assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0x80000000u), 0);
         cgt_scene_release(scene);
     }

@@ -133,13 +133,15 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
         settings.fields &= ~CGT_FIELD_UV;
     }
     CGT_KERNEL(cgt_trace_region)(&scene->committed_scene, &rays, &settings, &to_wanted, &other);
-    CGT_KERNEL(cgt_trace_tile)(&committed_scene, &rays, &settings, &to_got, &counts);
+    const bool served = cgt_tile_supports(&committed_scene, &rays); /* as the call decides */
+    (served ? CGT_KERNEL(cgt_trace_tile) : CGT_KERNEL(cgt_trace_region))(&committed_scene, &rays, &settings, &to_got,
+                                                                         &counts);
     if (!planes_equal(&wanted, &got) || memcmp(uv, uv + 2 * wanted.elements, 2 * wanted.elements * sizeof(float)) != 0)
         fail_at(&got, &wanted, &rays, what);
     assert_int_equal(counts.rays, other.rays);
     assert_int_equal(counts.hits, other.hits);
     tally->frames++;
-    if (cgt_tile_supports(&committed_scene, &rays)) {
+    if (served) {
         cgt_trace_settings fast = settings;
         cgt_counts fast_counts = {0};
         fast.precision = CGT_PRECISION_FAST;
@@ -147,7 +149,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
         compare_fast(&committed_scene, &rays, &got, &wanted, what);
         assert_int_equal(fast_counts.hits, counts.hits);
     }
-    if (cgt_tile_supports(&committed_scene, &rays)) {
+    if (served) {
         const uint64_t *from = (const uint64_t *)&counts;
         uint64_t *to = (uint64_t *)&tally->counts;
         tally->served++;
