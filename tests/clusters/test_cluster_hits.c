@@ -173,7 +173,7 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
 static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t first, uint32_t count, uint32_t each,
                            answers *a)
 {
-    uint64_t bvh = 0;
+    uint64_t bvh_rays = 0;
     memset(a->hit + first, 0x77, count * sizeof a->hit[0]);
     memset(a->occluded + first, 0x77, count);
     for (uint32_t i = first; i < first + count; i += each) {
@@ -185,11 +185,11 @@ static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t 
         o.statistics = &st;
         o.cull = (cgt_cull)(i / each % 3);
         assert_int_equal(trace_array(scene, q->ray + i, some, a->hit + i, &o), CGT_OK);
-        bvh += st.bvh_rays;
+        bvh_rays += st.bvh_rays;
         assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded + i, &o), CGT_OK);
-        bvh += st.bvh_rays;
+        bvh_rays += st.bvh_rays;
     }
-    return bvh;
+    return bvh_rays;
 }
 
 static void compare_answers(const answers *got, const answers *want, const questions *q, const char *what)
