@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The host backend: a pool of POSIX threads. The tasks of a call are numbers that whoever is free takes next, so tiles
- * of uneven cost even out by themselves (the thesis' dynamic assignment of envelopes to SPEs). The calling thread works
- * too. Idle threads sleep on a condition variable: a spin would burn a core that a simulation needs. Before that they look
- * out for some microseconds, as long as it may take to be woken: a commit comes as several calls, one after the other. */
+ * The host backend: a pool of POSIX threads. Tasks are numbers that the next free thread takes, so that tiles of uneven
+ * cost balance by themselves (the thesis' dynamic assignment of envelopes to SPEs). The calling thread works, too. Idle
+ * threads sleep on a condition variable: a spin would burn a core that a simulation needs. Before that they spin for some
+ * microseconds, about the time that it takes to wake a thread: a commit comes as several calls, one after the other. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include <pthread.h>
 #include <sched.h>
@@ -24,7 +24,7 @@ typedef struct job {
     cgt_task *task;
     void *argument;
     uint32_t count;
-    atomic_uint next;           /* the first index that nobody took; may run past count by one per worker */
+    atomic_uint next;           /* the first index not taken; may run past count by one per worker */
     atomic_uint active_workers; /* workers inside; changed under the pool's lock */
     struct job *link;           /* the next job; under the pool's lock */
 } job;
@@ -45,7 +45,7 @@ static size_t pool_bytes(uint32_t capacity) { return sizeof(pool) + capacity * s
 
 static void run_tasks(job *j)
 {
-    /* checked before it is taken: a job that many look at cannot count past the end of the type */
+    /* check before taking: many visits to a finished job must not overflow the counter */
     while (atomic_load_explicit(&j->next, memory_order_relaxed) < j->count) {
         const uint32_t index = atomic_fetch_add_explicit(&j->next, 1, memory_order_relaxed);
         if (index >= j->count)
@@ -78,7 +78,7 @@ static void spin_pause(void)
 #endif
 }
 
-/* Waits until it is so that a number is this one, or is not, but not for long. Returns whether that came. */
+/* Spins for up to 50 us until (*number == value) == equal. Returns false on timeout. */
 static bool spin_until(atomic_uint *number, unsigned value, bool equal)
 {
     const int64_t end = now_ns() + SPIN_NS;
@@ -116,7 +116,7 @@ static void *worker(void *state)
         run_tasks(j);
         pthread_mutex_lock(&p->lock);
         idle = false;
-        /* the last one: the caller may see it at once, and the job is gone */
+        /* after the last decrement the caller may return at once: the job is gone */
         if (atomic_fetch_sub_explicit(&j->active_workers, 1, memory_order_release) == 1)
             pthread_cond_broadcast(&p->worker_left);
     }
@@ -147,7 +147,7 @@ static void host_run(void *state, cgt_task *task, void *argument, uint32_t count
 
     run_tasks(&j);
 
-    /* nobody can enter once it is out of the list; wait for those inside */
+    /* no worker can enter once the job is out of the list; wait for those inside */
     pthread_mutex_lock(&p->lock);
     remove_job(p, &j);
     pthread_mutex_unlock(&p->lock);
@@ -191,14 +191,14 @@ static bool init_locks(pool *p)
     return false;
 }
 
-/* Starts workers up to the room for them; false where one could not be started. */
+/* Starts workers up to the capacity; false where one could not be started. */
 static bool start_workers(pool *p)
 {
     pthread_attr_t attributes;
     bool started = true;
     if (pthread_attr_init(&attributes))
         return false;
-    /* some C libraries give threads less than a task takes; where this is refused the default has to do */
+    /* some C libraries give threads less than a task takes; where this fails the default has to do */
     (void)pthread_attr_setstacksize(&attributes, WORKER_STACK);
     while (started && p->workers < p->capacity) {
         started = !pthread_create(&p->thread[p->workers], &attributes, worker, p);

@@ -2,21 +2,19 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt-bench: measures the library on moving spheres and triangles.
- *   cgt-bench accuracy  speed against error, judged by exact arithmetic
- *   cgt-bench floor     what the machine allows, and how far from it scenes are
+ *   cgt-bench accuracy  time against error, of rays, whole frames and intersection tests
+ *   cgt-bench floor     what the machine allows, and how close frames come to it
  *   cgt-bench frame     one frame at a time, as a renderer would: build, primary, shadow, ambient-occlusion rays
  *   cgt-bench loops     the ways to traverse, against each other
  *   cgt-bench make      procedural scenes to measure on
- *   cgt-bench pareto    time against error of whole frames, drawn
- *   cgt-bench rays      structures by kind of rays, their order and their number in a call
  *   cgt-bench scaling   time and memory against primitives, pixels and threads
- *   cgt-bench simd      the words of the vocabulary beside native instructions
- *   cgt-bench structures  grids and kd-trees beside each other */
+ *   cgt-bench simd      the vector words against native instructions
+ *   cgt-bench structures  structures by kind of rays, their order and their number in a call */
 #include <string.h>
 
 #include "common/bench.h"
 
-#define SUB_COMMANDS "accuracy, floor, frame, loops, make, pareto, rays, scaling, simd or structures"
+#define SUB_COMMANDS "accuracy, floor, frame, loops, make, scaling, simd or structures"
 
 typedef struct command {
     const char *name;
@@ -27,15 +25,12 @@ typedef struct command {
 static char accuracy_name[] = "cgt-bench accuracy";
 static char floor_name[] = "cgt-bench floor", scaling_name[] = "cgt-bench scaling";
 static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops", make_name[] = "cgt-bench make";
-static char pareto_name[] = "cgt-bench pareto", simd_name[] = "cgt-bench simd";
-static char rays_name[] = "cgt-bench rays", structures_name[] = "cgt-bench structures";
+static char simd_name[] = "cgt-bench simd", structures_name[] = "cgt-bench structures";
 static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy},
                                    {"floor", floor_name, bench_floor},
                                    {"frame", frame_name, bench_frame},
                                    {"loops", loops_name, bench_loops},
                                    {"make", make_name, bench_make},
-                                   {"pareto", pareto_name, bench_pareto},
-                                   {"rays", rays_name, bench_ray_sweep},
                                    {"scaling", scaling_name, bench_scaling},
                                    {"simd", simd_name, bench_simd},
                                    {"structures", structures_name, bench_structures}};
@@ -67,24 +62,21 @@ int main(int argc, char **argv)
 {
     static const struct argp parser = {
         .parser = parse,
-        .args_doc =
-            "accuracy [FILE...] [OPTION...]\nfloor [FILE...] [OPTION...]\nframe FILE [OPTION...]\nloops FILE "
-            "[OPTION...]\n"
-            "make SCENE FILE [OPTION...]\n"
-            "pareto FILE... -o PREFIX [OPTION...]\nrays FILE [OPTION...]\nscaling [OPTION...]\nsimd [OPTION...]\n"
-            "structures FILE... [OPTION...]",
+        .args_doc = "accuracy [FILE...] [OPTION...]\nfloor [FILE...] [OPTION...]\nframe FILE [OPTION...]\nloops FILE "
+                    "[OPTION...]\n"
+                    "make SCENE FILE [OPTION...]\n"
+                    "scaling [OPTION...]\nsimd [OPTION...]\n"
+                    "structures FILE... [OPTION...]",
         .doc = "Measures libcgt on moving spheres and triangles, rebuilding the structure every frame; prints "
                "tab-separated values."
-               "\v  accuracy  sets time against error on hard cases, judged by exact arithmetic\n"
-               "  floor     measures what the machine allows, and how far from it scenes are\n"
+               "\v  accuracy  sets time against error: of rays, whole frames and intersection tests\n"
+               "  floor     measures what the machine allows, and how close frames come to it\n"
                "  frame     times building and tracing, as a renderer spends it\n"
                "  loops     compares the ways to traverse the structure\n"
                "  make      writes a procedural scene\n"
-               "  pareto    sets time against error, and draws it\n"
-               "  rays      compares the structures by kind of rays, their order and their number in a call\n"
                "  scaling   sets time and memory against primitives, pixels and threads\n"
-               "  simd      times the words of the vocabulary beside native instructions\n"
-               "  structures  compares grids and kd-trees\n\n"
+               "  simd      times the vector words against native instructions\n"
+               "  structures  compares structures by kind of rays, their order and their number in a call\n\n"
                "cgt-bench frame --help and its like list the options of each."};
     choice chosen = {NULL, 0};
 

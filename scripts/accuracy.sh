@@ -3,14 +3,19 @@
 # SPDX-License-Identifier: MIT
 #
 # accuracy.sh [FOLDER]
-# Makes the tables and plots of docs/accuracy.md again, from a release build with its tests (scripts/test.sh release
-# leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/accuracy. About ten minutes
-# on a quiet machine; figures of a busy one mean little.
+# Remakes the tables and plots of docs/reports/accuracy.md from a release build with its tests (scripts/test.sh release leaves
+# one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/accuracy. Takes about ten minutes
+# on a quiet machine; figures from a busy one mean little.
 #   VARIANT  the instruction set whose hard cases are listed; default: the widest that this CPU runs
+#   RAYS     of each case and scene; default 4000
+#   ROUNDS   default 5
+#   IMAGES   folder that also gets the plots; default: none (docs/reports/images for the document)
+#   BUILD    default build/release
 set -euo pipefail
 cd "$(dirname "$0")/.."
-bin=build/release/bin
-tests=build/release/tests
+bin=${BUILD:-build/release}/bin
+tests=${BUILD:-build/release}/tests
+options=(--rays "${RAYS:-4000}" -r "${ROUNDS:-5}")
 out=${1:-out/accuracy}
 mkdir -p "$out"
 
@@ -18,6 +23,7 @@ models=/usr/share/assimp/models
 bunny=/usr/share/glmark2/models/bunny.obj
 [ -x "$bin/cgt-bench" ] || { echo "accuracy.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
 [ -r "$bunny" ] || { echo "accuracy.sh: no $bunny: apt-get install glmark2-data assimp-testmodels" >&2; exit 1; }
+command -v gnuplot >/dev/null || { echo "accuracy.sh: no gnuplot: apt-get install gnuplot-nox" >&2; exit 1; }
 
 scene() { # NAME COMMAND...
     local file=$out/$1.frames
@@ -34,21 +40,30 @@ bunny_camera=0.9,0.9,4.4,-0.02,-0.06,0,0,1,0,30
 house_camera=8.6,1.65,-0.9,5,1.35,-5,0,1,0,72
 
 echo "accuracy.sh: hard cases" >&2
-"$bin/cgt-bench" accuracy -j "$out/hard.json" >"$out/hard.tsv"
+"$bin/cgt-bench" accuracy -w cases,structure,modes "${options[@]}" -j "$out/hard.json" >"$out/hard.tsv"
 variant=${VARIANT:-$(sed -n 's/.*variant=\([a-z0-9]*\),precision=robust.*/\1/p' "$out/hard.tsv" | tail -n 1)}
 
 echo "accuracy.sh: real scenes" >&2
 {
-    "$bin/cgt-bench" accuracy --case=cloud2k -c "$cloud_camera" "$out/cloud2k.frames"
-    "$bin/cgt-bench" accuracy --case=bunny -c "$bunny_camera" "$out/bunny.frames"
-    "$bin/cgt-bench" accuracy --case=house -c "$house_camera" "$out/house.frames"
+    "$bin/cgt-bench" accuracy -w cases --case=cloud2k "${options[@]}" -c "$cloud_camera" "$out/cloud2k.frames"
+    "$bin/cgt-bench" accuracy -w cases --case=bunny "${options[@]}" -c "$bunny_camera" "$out/bunny.frames"
+    "$bin/cgt-bench" accuracy -w cases --case=house "${options[@]}" -c "$house_camera" "$out/house.frames"
 } | awk -F'\t' '/^#/ { next } $1 == "case" && seen++ { next } { print }' >"$out/real.tsv"
 
 echo "accuracy.sh: time against error" >&2
-"$bin/cgt-bench" pareto -n 8 -r 5 -c "$cloud_camera" -o "$out/pareto_spheres" "$out/cloud2k.frames" >/dev/null
-"$bin/cgt-bench" pareto -n 8 -r 5 -o "$out/pareto_triangles" "$out/blobs2k.frames" >/dev/null
+frames() { # NAME SCENE CAMERA
+    "$bin/cgt-bench" accuracy -w frames -n 8 -r "${ROUNDS:-5}" -c "$3" "$out/$2.frames" >"$out/pareto_$1.tsv"
+    gnuplot -e "table = '$out/pareto_$1.tsv'; plot = '$out/pareto_$1'; frames = 1" scripts/accuracy.gnuplot
+}
+frames spheres cloud2k "$cloud_camera"
+frames triangles blobs2k 0,0,-5,0,0,0,0,1,0,45
+"$bin/cgt-bench" accuracy -w tests >"$out/pareto_tests.tsv"
+gnuplot -e "table = '$out/pareto_tests.tsv'; plot = '$out/pareto_tests'; frames = 0" scripts/accuracy.gnuplot
+if [ -n "${IMAGES:-}" ]; then
+    for plot in spheres triangles tests; do cp "$out/pareto_$plot.png" "$IMAGES/"; done
+fi
 
-echo "accuracy.sh: beside Embree" >&2
+echo "accuracy.sh: against Embree" >&2
 : >"$out/embree.tsv"
 if [ -x "$tests/oracle_hard_embree" ]; then
     CGT_TABLE=$out/embree.tsv "$tests/oracle_hard_embree" >/dev/null 2>&1
@@ -56,5 +71,5 @@ fi
 
 exec awk -F'\t' -v variant="$variant" -f scripts/accuracy_tables.awk \
     part=hard "$out/hard.tsv" part=real "$out/real.tsv" part=spheres "$out/pareto_spheres.tsv" \
-    part=triangles "$out/pareto_triangles.tsv" part=tests "$out/pareto_triangles_tests.tsv" \
+    part=triangles "$out/pareto_triangles.tsv" part=tests "$out/pareto_tests.tsv" \
     part=embree "$out/embree.tsv"

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tab-separated results of scripts/accuracy.sh as Markdown. `part` names what the next file is.
+# The results of scripts/accuracy.sh as Markdown. The part of the next file is in `part`.
 
 function column(name) { return name in at ? $(at[name]) : "" }
 function larger(a, b) { return a + 0 > b + 0 ? a : b }
@@ -86,7 +86,7 @@ part == "real" && section == "" {
 }
 
 (part == "spheres" || part == "triangles") && section == "" {
-    price[++price_count] = sprintf("| %s | %s | %s | %s | %s | %s | %.2f | %s | %s |", column("scene"), column("variant"),
+    price[++price_count] = sprintf("| %s | %s | %s | %s | %.3f | %.1f | %.2f | %s | %s |", column("scene"), column("variant"),
         column("precision"), column("test"), column("ms"), column("cost_percent"), column("wrong_share") * 1e6,
         column("t_ulp_p99"), column("t_ulp_worst"))
     next
@@ -104,8 +104,8 @@ part == "embree" && section == "" {
 }
 
 part == "tests" && section == "" {
-    tests[++test_count] = sprintf("| %s | %s | %s | %s | %s | %.2f | %s / %s / %s |", column("test"), column("variant"),
-        column("arithmetic"), column("ns_per_test"), column("tests"), column("wrong_share") * 1e6,
+    tests[++test_count] = sprintf("| %s | %s | %s | %.3f | %s | %.2f | %s / %s / %s |", column("test"), column("variant"),
+        column("arithmetic"), column("ns_per_test"), column("rays"), column("wrong_share") * 1e6,
         column("t_ulp_median"), column("t_ulp_p99"), column("t_ulp_worst"))
     next
 }
@@ -147,7 +147,7 @@ END {
             piece[2]
     }
     if (embree_count) {
-        print "\n## Beside Embree\n"
+        print "\n## Against Embree\n"
         print "| row | Embree: rays | errors | t worst, ulp | Embree robust: errors | t worst, ulp | libcgt: rays |" \
               " ROBUST: errors | t worst, ulp | EXACT: errors |\n|---|---|---|---|---|---|---|---|---|---|"
     }

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # compare_embree.sh FILE [OPTION...]
-# The library beside Embree 3 on one file: cgt-bench frame and compare-embree in turn, from a release build with its
+# The library against Embree 3 on one file: cgt-bench frame and compare-embree in turn, from a release build with its
 # tests (scripts/test.sh release leaves one). OPTIONs go to both: -c camera, -s size, -t threads, -n frames, -r repeat,
 # -l light, -a ambient-occlusion rays, --nearest.
 # Prints tab-separated medians over the rounds, a row for each configuration, the best frame of each side first:

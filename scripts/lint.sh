@@ -2,13 +2,23 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# lint.sh [--fix]
-# Looks at every file that git knows or would take: heading, layout (clang-format), spelling (codespell), and the likely
-# mistakes of .clang-tidy on what build/release compiles. --fix lets clang-format write.
+# lint.sh [--fix] [--all]
+# Checks every file that git knows or would take: heading, layout (clang-format), spelling (codespell), the patterns of
+# tests/mutations.tsv, and clang-tidy on what build/release compiles. --fix lets clang-format write.
+# clang-tidy does not look again at a file that it passed before, as long as the file, its headers, its command line and
+# .clang-tidy are the same; --all looks at everything. What passed is kept in ${XDG_CACHE_HOME:-~/.cache}/libcgt/lint.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/dependencies.sh build render tests lint
 jobs=$(nproc)
+fix=no again=no
+for option in "$@"; do
+    case $option in
+    --fix) fix=yes ;;
+    --all) again=yes ;;
+    *) echo "usage: lint.sh [--fix] [--all]" >&2; exit 2 ;;
+    esac
+done
 status=0
 fail() {
     echo "lint.sh: $1"
@@ -40,7 +50,7 @@ for file in "${texts[@]}"; do
 done
 
 echo "== layout"
-if [ "${1:-}" = --fix ]; then
+if [ $fix = yes ]; then
     clang-format-14 -i "${code[@]}"
 fi
 clang-format-14 --dry-run -Werror "${code[@]}" || fail "clang-format would write these otherwise; scripts/lint.sh --fix"
@@ -51,19 +61,25 @@ fi
 echo "== spelling"
 codespell --ignore-words=scripts/codespell_ignore.txt "${texts[@]}" || fail "codespell"
 
+if [ -e tests/mutations.tsv ]; then
+    echo "== mutations"
+    scripts/mutations.sh --check || fail "tests/mutations.tsv does not fit the sources"
+fi
+
 echo "== likely mistakes"
 mkdir -p build
 # the whole tree, so that every file is in the compile database
-cmake --preset release -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_MESHES=ON -DCGT_BUILD_RENDER=ON >build/lint.log 2>&1 || {
+cmake --preset release -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=ON -DCGT_BUILD_MESHES=ON -DCGT_BUILD_RENDER=ON \
+    -DCGT_TEST_LABELS= >build/lint.log 2>&1 || {
     tail -n 30 build/lint.log
     exit 1
 }
-# Each file is looked at in one form: kernels in the widest one, what is compiled per row of the variant table or for
-# several programs in its first. Kernels come once more, two of them for every row, so that every mapping is seen; but
-# their paths are the same ones, and following them is what takes the time.
-# clang-tidy does not know a flag that is for GCC alone.
+# Each file is analysed in one form: a kernel in the widest variant, anything else that is compiled several times in its
+# first form. Kernels are checked again, without the analyzer, as the portable variant compiles them; two kernels in all
+# variants, so that every mapping of the vector words is seen.
+# clang-tidy does not know a flag that only GCC has, and the compiler cache is no part of a command.
 mkdir -p build/lint build/lint_rows
-sed 's/ -fno-ipa-modref//g' build/release/compile_commands.json | awk '
+sed -E 's/ -fno-ipa-modref//g; s/("command": ")[^ ]*ccache /\1/' build/release/compile_commands.json | awk '
     function put(to) { printf "%s%s}", n[to]++ ? ",\n" : "[\n", substr(entry, 1, index(entry, "\n}")) >to }
     /^\{/ { entry = "" }
     { entry = entry $0 "\n" }
@@ -71,29 +87,64 @@ sed 's/ -fno-ipa-modref//g' build/release/compile_commands.json | awk '
     /^\}/ && file !~ /\/src\/kernel\// { if (!seen[file]++) put("build/lint/compile_commands.json") }
     /^\}/ && file ~ /\/src\/kernel\// {
         if (entry ~ /-DCGT_VARIANT=(neon|avx512) /) put("build/lint/compile_commands.json")
-        else if (entry ~ /-DCGT_VARIANT=portable / || file ~ /\/(light_tile|loose_grid_traverse)\.c/)
+        else if (entry ~ /-DCGT_VARIANT=portable / || file ~ /\/(light_grid|loose_grid_traverse)\.c/)
             put("build/lint_rows/compile_commands.json")
     }
     END { for (to in n) print "\n]" >to }'
 files_of() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' "build/$1/compile_commands.json" | sort -u; }
 [ -n "$(files_of lint)" ] || { echo "lint.sh: empty compile database"; exit 1; }
 [ -n "$(files_of lint_rows)" ] || { echo "lint.sh: no kernel found"; exit 1; }
-# tidy DATABASE OPTIONS...: the files on standard input, one process per file. The longest come first. What is a list of
-# every op has no paths to follow either, and half a minute of them.
-kernels=/src/kernel/ ops='/test_spu_(words|constants|literals)|/simd_words' no_paths='--checks=-clang-analyzer-*'
+
+passed=${XDG_CACHE_HOME:-$HOME/.cache}/libcgt/lint
+mkdir -p "$passed"
+tidy_version=$(clang-tidy-14 --version | sha256sum)
+export passed again tidy_version
+
+# tidy_file DATABASE FILE OPTION...: runs clang-tidy unless the same text has passed. The key of a file are all commands
+# that the database has for it, and the content of the file and of the headers of this repository that it includes.
+tidy_file() {
+    local database=build/$1 file=$2 key directory command
+    shift 2
+    key=$(
+        echo "$tidy_version $* ${file#"$PWD"}"
+        grep -B1 -F "\"file\": \"$file\"" "$database/compile_commands.json" | grep '"command"' |
+            sed "s#$PWD##g"
+        {
+            grep -B2 -F "\"file\": \"$file\"" "$database/compile_commands.json" |
+                sed -nE 's/^ *"directory": "(.*)",$/\1/p; s/^ *"command": "(.*)",$/\1/p' |
+                while read -r directory && read -r command; do
+                    # shellcheck disable=SC2001
+                    command=$(sed -E 's/ -o [^ ]+( -c)?/ -MM/; s/\\"/"/g' <<<"$command")
+                    (cd "$directory" && eval "$command" 2>/dev/null) | tr ' \\' '\n\n' | grep "^$PWD/" || true
+                done
+            find . -name .clang-tidy -not -path './build/*'
+        } | sort -u | xargs sha256sum | sed "s#$PWD##g"
+    )
+    key=$(sha256sum <<<"$key" | cut -d' ' -f1)
+    if [ "$again" = no ] && [ -e "$passed/$key" ]; then
+        return 0
+    fi
+    clang-tidy-14 --quiet -p "$database" "$@" "$file" 2>>build/lint_tidy.log || return 1
+    : >"$passed/$key"
+}
+export -f tidy_file
+
+# tidy DATABASE OPTION...: the files on standard input, one process per file, the longest first. Files that list every
+# vector word have no paths to analyse, and the analyzer spends half a minute on each.
+kernels=/src/kernel/ words='/test_spu_(words|constants|literals)|/simd_words' no_paths='--checks=-clang-analyzer-*'
 tidy() {
-    local database=$1
-    shift
-    tr '\n' '\0' | xargs -0 -r -n 1 -P "$jobs" clang-tidy-14 --quiet -p "build/$database" "$@" 2>>build/lint_tidy.log
+    # shellcheck disable=SC2016 # the inner shell expands
+    tr '\n' '\0' | xargs -0 -r -n 1 -P "$jobs" bash -c 'tidy_file "$1" "${@: -1}" "${@:2:$#-2}"' tidy "$@"
 }
 : >build/lint_tidy.log
 files_of lint | grep -E "$kernels" | tidy lint || fail "clang-tidy: kernels"
-files_of lint_rows | tidy lint_rows "$no_paths" || fail "clang-tidy: kernels of other rows"
-files_of lint | grep -E "$ops" | tidy lint "$no_paths" || fail "clang-tidy: lists of ops"
-files_of lint | grep -vE "$kernels|$ops" | tidy lint || fail "clang-tidy"
+files_of lint_rows | tidy lint_rows "$no_paths" || fail "clang-tidy: kernels of other variants"
+files_of lint | grep -E "$words" | tidy lint "$no_paths" || fail "clang-tidy: lists of words"
+files_of lint | grep -vE "$kernels|$words" | tidy lint || fail "clang-tidy"
 if grep -E 'error: ' build/lint_tidy.log; then
     fail "clang-tidy could not read a file"
 fi
+find "$passed" -type f -mtime +60 -delete
 
-[ $status = 0 ] && echo "lint.sh: ${#files[@]} files, nothing to say"
+[ $status = 0 ] && echo "lint.sh: ${#files[@]} files, nothing to report"
 exit $status

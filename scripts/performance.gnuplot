@@ -95,7 +95,7 @@ do for [form = 1:2] {
        '' using 7 linecolor rgb colors[7] title 't, id, normal'
   set output
 
-  # beside Embree
+  # against Embree
   stats embree using 0 nooutput
   if (STATS_records > 0) {
     set output folder . '/embree' . ending

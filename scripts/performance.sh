@@ -3,23 +3,24 @@
 # SPDX-License-Identifier: MIT
 #
 # performance.sh [FOLDER]
-# Makes the scenes, tables and plots of docs/performance.md again, from a release build with its tests (scripts/test.sh
+# Remakes the scenes, tables and plots of docs/reports/performance.md from a release build with its tests (scripts/test.sh
 # release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default out/performance.
-# Figures of a busy machine mean little. Embree's columns are made where the build has compare-embree.
+# Figures from a busy machine mean little. Embree's columns are made where the build has compare-embree.
 #   STRUCTURE   default auto, the library's default
 #   SIZE        pixels of the pictures; default 1280x720
 #   FRAMES      of each scene; default 6
 #   THREADS     numbers of threads; default: 1 and all CPUs
 #   SCENES      default: all
-#   ISAS        to compare with Embree at, besides the widest; default: avx2 sse4.2 where the CPU has them
-#   PRIMITIVES  range of the growth; default 1000,10000000
-#   PIXELS      range of the growth; default 100000,33000000
-#   AT          primitives where they do not grow; default 200000
+#   ISAS        instruction sets to compare with Embree, in addition to the widest; default: avx2 sse4.2 where the CPU
+#               has them
+#   PRIMITIVES  range of the sweep; default 1000,10000000
+#   PIXELS      range of the sweep; default 100000,33000000
+#   AT          primitives in the other sweeps; default 200000
 #   STEPS       points for each factor of ten; default 2
 #   ROUNDS      of frames and of limits; default 9
 #   COMPARES    rounds of the comparison with Embree; default 3
 #   RAYS        shadow and ambient-occlusion rays that are compared; default -l 2,3,-2.5 -a 4
-#   IMAGES      folder that gets the plots, too; default: none (docs/images for the text)
+#   IMAGES      folder that also gets the plots; default: none (docs/images for the document)
 #   BIN         folder of the programs; default build/release/bin
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -37,7 +38,7 @@ mkdir -p "$out"
 [ -x "$bin/cgt-bench" ] || { echo "performance.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
 command -v gnuplot >/dev/null || { echo "performance.sh: no gnuplot: apt-get install gnuplot-nox" >&2; exit 1; }
 
-# table RESULT COMMAND...: a table, whole or not there at all
+# table RESULT COMMAND...: a table, complete or not there
 table() {
     local result=$out/$1
     shift
@@ -74,7 +75,7 @@ for count in $distinct; do
     parts+=(part=floor "$out/floor-$count.tsv")
 done
 
-# ---- Beside Embree --------------------------------------------------------------------------------------------------
+# ---- Against Embree -------------------------------------------------------------------------------------------------
 
 compare() { # PART RESULT THREADS CGT_OPTIONS EMBREE_OPTIONS OPTION...
     local part=$1 result=$2 count=$3 file head=1

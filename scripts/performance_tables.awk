@@ -153,7 +153,7 @@ END {
     print_fields("empty")
     print_fields("fields")
     if (!compare_count && !rays_files) exit
-    print "\n## Beside Embree"
+    print "\n## Against Embree"
     for (i = 1; i <= compare_count; i++) {
         printf "\n`%s`\n\n", name_of(compare_files[i])
         print "| scene | configuration | threads | build, ms | primary, ms | frame, ms | Embree's over the library's |" \

@@ -7,7 +7,7 @@ set encoding utf8
 set datafile separator "\t"
 
 # as in structures.gnuplot: squares and diamonds are grids, circles stacks, triangles ropes
-array keys[5] = ['grid-queue', 'loose-grid', 'kd', 'kd-ropes', 'wide-tree']
+array keys[5] = ['queue-grid', 'loose-grid', 'kd', 'kd-ropes', 'bvh']
 array colors[5] = ['#000000', '#009e73', '#0072b2', '#d55e00', '#cc79a7']
 array shapes[5] = [5, 13, 7, 9, 3]
 array kinds[6] = ['camera', 'shadow', 'ao', 'bounce', 'random', 'random']

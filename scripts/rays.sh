@@ -3,17 +3,18 @@
 # SPDX-License-Identifier: MIT
 #
 # rays.sh [FOLDER]
-# Which structure for which rays: makes the scenes, the tables and the plots of that part of docs/structures.md again,
-# from a release build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and
-# results; default out/rays. Figures of a busy machine mean little.
+# Which structure for which rays: remakes the scenes, tables and plots of that part of docs/reports/ray_kinds.md from a release
+# build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default
+# out/rays. Figures from a busy machine mean little.
 #   SIZE     pixels of the picture; default 640x360
 #   RAYS     of a set, at most; default 131072
 #   ROUNDS   default 3
 #   THREADS  default 1
 #   SCENES   default cloud20k cloud1m blobs2k blob100k
-#   STRUCTURES, KINDS, ORDERS, QUERIES, BATCHES  lists with commas; default: cgt-bench's
-#   IMAGES   folder that gets the plot of one scene, too, as rays.png and rays.svg; default: none (docs/images for the
-#            text)
+#   STRUCTURES, KINDS, ORDERS, BATCHES  lists with commas; default: all, AUTO and the frame excepted; powers of four
+#   QUERIES  a list with commas; default: those that are usual for a kind
+#   IMAGES   folder that also gets the plot of one scene, as rays.png; default: none (docs/reports/images for the
+#            document)
 #   PLOT     that scene; default: the last one
 #   BIN      folder of the programs; default build/release/bin
 set -euo pipefail
@@ -21,13 +22,10 @@ cd "$(dirname "$0")/.."
 bin=${BIN:-build/release/bin}
 out=${1:-out/rays}
 read -r -a scenes <<<"${SCENES:-cloud20k cloud1m blobs2k blob100k}"
-options=(-s "${SIZE:-640x360}" -n "${RAYS:-131072}" -r "${ROUNDS:-3}" -t "${THREADS:-1}")
-list() { [ -z "$2" ] || options+=("$1" "$2"); }
-list -S "${STRUCTURES:-}"
-list -K "${KINDS:-}"
-list -O "${ORDERS:-}"
-list -Q "${QUERIES:-}"
-list -B "${BATCHES:-}"
+options=(-s "${SIZE:-640x360}" --rays "${RAYS:-131072}" -r "${ROUNDS:-3}" -t "${THREADS:-1}"
+    -S "${STRUCTURES:-queue-grid,loose-grid,kd,kd-ropes,bvh}" -K "${KINDS:-camera,shadow,ao,bounce,random}"
+    -O "${ORDERS:-camera,tile,shuffled}" -B "${BATCHES:-1,16,64,256,1024,4096,16384,65536,all}")
+[ -z "${QUERIES:-}" ] || options+=(-Q "$QUERIES")
 mkdir -p "$out"
 [ -x "$bin/cgt-bench" ] || { echo "rays.sh: no $bin/cgt-bench: run scripts/test.sh release first" >&2; exit 1; }
 command -v gnuplot >/dev/null || { echo "rays.sh: no gnuplot: apt-get install gnuplot-nox" >&2; exit 1; }
@@ -36,13 +34,13 @@ tables=()
 for name in "${scenes[@]}"; do
     [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n 1 >&2
     echo "rays.sh: $name" >&2
-    "$bin/cgt-bench" rays "$out/$name.frames" "${options[@]}" >"$out/$name.tsv.part" # whole or not there at all
+    "$bin/cgt-bench" structures "$out/$name.frames" "${options[@]}" >"$out/$name.tsv.part" # whole or not there at all
     mv "$out/$name.tsv.part" "$out/$name.tsv"
     tables+=("$out/$name.tsv")
 done
 gnuplot -e "folder = '$out'; scenes = '${scenes[*]}'" scripts/rays.gnuplot
 if [ -n "${IMAGES:-}" ]; then
-    for ending in png svg; do
+    for ending in png; do
         cp "$out/${PLOT:-${scenes[-1]}}.$ending" "$IMAGES/rays.$ending"
     done
 fi

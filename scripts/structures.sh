@@ -3,23 +3,24 @@
 # SPDX-License-Identifier: MIT
 #
 # structures.sh [FOLDER]
-# Grids and kd-trees beside each other: makes the scenes, the tables and the plots of docs/structures.md again, from a
-# release build (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results;
-# default out/structures. Figures of a busy machine mean little. Grids take minutes over the stadium: a small thing in
-# a huge space is what they are not for.
+# Compares the structures: remakes the scenes, tables and plots of docs/reports/grids_and_trees.md from a release build
+# (scripts/test.sh release leaves one), and prints the tables as Markdown. FOLDER: for scenes and results; default
+# out/structures. Figures from a busy machine mean little. Grids take minutes over the stadium: a small object in a huge
+# space is not what they are for.
 #   SIZE     pixels of the pictures; default 640x360
-#   FRAMES   of each scene; default 3
+#   FRAME    of each scene, from 1; default 3
+#   ROUNDS   default 3
 #   THREADS  default 1
 #   RAYS     random rays; default 50000
 #   SCENES   default: all
-#   STRUCTURES  to set beside each other; default: all
+#   STRUCTURES  to compare; default: all
 #   BIN      folder of the programs; default build/release/bin
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bin=${BIN:-build/release/bin}
 out=${1:-out/structures}
 size=${SIZE:-640x360}
-frames=${FRAMES:-3}
+frame=${FRAME:-3}
 threads=${THREADS:-1}
 rays=${RAYS:-50000}
 read -r -a scenes <<<"${SCENES:-cloud2k cloud20k cloud200k cloud1m clusters1m blobs2k stadium blob100k blobs1m}"
@@ -37,25 +38,26 @@ camera_of() { # NAME
     esac
 }
 
-# measure NAME RESULT OPTION...: a table of one scene, whole or not there at all
+# measure NAME RESULT OPTION...: a table of one scene, complete or not there
 measure() {
     local name=$1 result=$out/$2
     shift 2
     echo "structures.sh: $(basename "$result" .tsv)" >&2
-    "$bin/cgt-bench" structures "$out/$name.frames" -c "$(camera_of "$name")" -s "$size" -t "$threads" -n "$frames" \
-        -l 3,4,-5 -a 4 --random "$rays" "$@" >"$result.part"
+    "$bin/cgt-bench" structures "$out/$name.frames" -c "$(camera_of "$name")" -s "$size" -t "$threads" -n "$frame" \
+        -r "${ROUNDS:-3}" -l 3,4,-5 -a 4 --rays 100000000 --random "$rays" "$@" >"$result.part"
     mv "$result.part" "$result"
 }
 
+kinds=(--traversals -K "frame,shadow,ao,random")
 tables=() layouts=() fetches=()
 for name in "${scenes[@]}"; do
-    [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n "$frames" >&2
-    measure "$name" "$name.tsv" ${of_structures[@]+"${of_structures[@]}"}
+    [ -s "$out/$name.frames" ] || "$bin/cgt-bench" make "$name" "$out/$name.frames" -n "$frame" >&2
+    measure "$name" "$name.tsv" "${kinds[@]}" ${of_structures[@]+"${of_structures[@]}"}
     tables+=("$out/$name.tsv")
     case $layout_scenes in
     *" $name "*)
-        measure "$name" "$name.layouts.tsv" --all -S kd -S kd-ropes
-        measure "$name" "$name.fetch.tsv" --all --fetch
+        measure "$name" "$name.layouts.tsv" "${kinds[@]}" --layouts -S kd,kd-ropes
+        measure "$name" "$name.fetch.tsv" --layouts --fetch
         layouts+=("$out/$name.layouts.tsv")
         fetches+=("$out/$name.fetch.tsv")
         ;;
@@ -66,9 +68,10 @@ tab=$(printf '\t')
 figures() { # PART FILE...: what gnuplot draws
     local part=$1
     shift
-    awk -F'\t' -v part="$part" -f scripts/columns.awk -f scripts/structures_figures.awk "$@"
+    awk -F'\t' -v part="$part" -f scripts/columns.awk -f scripts/structures_rows.awk -f scripts/structures_figures.awk \
+        "$@"
 }
-# what is joined by a line lies together, and bars are in order
+# points joined by a line are neighbours, and bars are in order
 figures times "${tables[@]}" | LC_ALL=C sort -t "$tab" -k1,1 -k2,2 -k3,3g >"$out/times.dat"
 : >"$out/layouts.dat"
 if [ ${#layouts[@]} -gt 0 ]; then
@@ -81,4 +84,4 @@ parts=()
 for file in "${tables[@]}"; do parts+=(part=times "$file"); done
 for file in "${layouts[@]}"; do parts+=(part=layouts "$file"); done
 for file in "${fetches[@]}"; do parts+=(part=fetches "$file"); done
-exec awk -F'\t' -f scripts/columns.awk -f scripts/structures_tables.awk "${parts[@]}"
+exec awk -F'\t' -f scripts/columns.awk -f scripts/structures_rows.awk -f scripts/structures_tables.awk "${parts[@]}"

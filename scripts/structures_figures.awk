@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tab-separated results of scripts/structures.sh as figures for scripts/structures.gnuplot, after columns.awk. part:
-# times, layouts or fetches.
+# The results of scripts/structures.sh as figures for scripts/structures.gnuplot, after columns.awk and
+# structures_rows.awk. part: times, layouts or fetches.
 
-# "kd single", "grid-queue", "loose-grid 16": structure and traversal of a configuration
+# structure and traversal of a configuration: "kd single", "queue-grid", "loose-grid 16"
 function key_of(config,   name) {
     name = structure_of(config)
     if (config ~ /,(traversal|loop|packet)=/) {
@@ -34,45 +34,42 @@ function family_of(scene) {
     return scene
 }
 
-function ns(kind,   rays) {
-    rays = column(kind "_rays") + 0
-    return rays > 0 ? sprintf("%.6g", 1e6 * column(kind "_ms") / rays) : "NaN"
-}
-
-# family, key, primitives, build ms, ns a ray: primary, ao, random
-part == "times" {
-    if (column("config") ~ /rays=/) next # what AUTO took when told of other rays
-    printf "%s\t%s\t%s\t%s\t%s\t%s\t%s\n", family_of(column("scene")), key_of(column("config")), column("primitives"),
-        column("build_ms"), ns("primary"), ns("ao"), ns("random")
-}
+function number(key, name) { return (key, name) in ns ? sprintf("%.6g", ns[key, name]) : "NaN" }
 
 # small trees fit in any memory
-part != "times" && column("primitives") < 22000 { next }
+function is_small(primitives) { return primitives + 0 < 22000 }
 
-# scene, rank, layout, ns an ambient-occlusion ray: of the binned builder, single and packet
-part == "layouts" && column("config") ~ /^kd,.*builder=binned/ {
+# per ambient-occlusion ray
+part == "fetches" && column("kind") == "ao" && !is_small(column("primitives")) {
     layout = layout_of(column("config"))
-    key = column("scene") "\t" rank_of(layout) "\t" layout
-    value[key, key_of(column("config"))] = ns("ao")
-    keys[key] = 1
-}
-
-# scene, rank, layout, per ambient-occlusion ray: lines of 64 bytes read; transfers of 128 bytes into 16 KB; of
-# 16 KB, one run of nodes
-part == "fetches" && column("rays") == "ao" {
-    layout = layout_of(column("config"))
-    key = column("scene") "\t" rank_of(layout) "\t" layout
-    what = column("memory") " " column("block_bytes") " " column("memory_bytes")
-    value[key, what] = column("misses_per_ray")
-    keys[key] = 1
+    line = column("scene") "\t" rank_of(layout) "\t" layout
+    misses[line, column("memory") " " column("block_bytes") " " column("memory_bytes")] = column("misses_per_ray")
+    lines[line] = 1
 }
 
 END {
-    for (key in keys) {
+    for (i = 1; i <= key_count; i++) {
+        key = keys[i]
+        split(key, piece, SUBSEP) # part, scene, config
+        # family, structure, primitives, build ms, ns a ray: frame, ao, random; not what AUTO took for other rays
+        if (part == "times" && piece[3] !~ /rays=/)
+            printf "%s\t%s\t%s\t%s\t%s\t%s\t%s\n", family_of(piece[2]), key_of(piece[3]), value[key, "primitives"],
+                value[key, "build_ms"], number(key, "frame"), number(key, "ao"), number(key, "random")
+        # of the binned builder
+        if (part == "layouts" && piece[3] ~ /^kd,.*builder=binned/ && !is_small(value[key, "primitives"])) {
+            layout = layout_of(piece[3])
+            line = piece[2] "\t" rank_of(layout) "\t" layout
+            of_ao[line, key_of(piece[3])] = number(key, "ao")
+            lines[line] = 1
+        }
+    }
+    for (line in lines) {
+        # scene, rank, layout, ns an ambient-occlusion ray: single, packet
         if (part == "layouts")
-            printf "%s\t%s\t%s\n", key, value[key, "kd single"], value[key, "kd packet"]
+            printf "%s\t%s\t%s\n", line, of_ao[line, "kd single"], of_ao[line, "kd packet"]
+        # scene, rank, layout, transfers: lines of 64 bytes read; of 128 bytes into 16 KB; of 16 KB, one run of nodes
         else
-            printf "%s\t%s\t%s\t%s\n", key, value[key, "ray 64 0"], value[key, "lru 128 16384"],
-                value[key, "window 16384 16384"]
+            printf "%s\t%s\t%s\t%s\n", line, misses[line, "ray 64 0"], misses[line, "lru 128 16384"],
+                misses[line, "window 16384 16384"]
     }
 }

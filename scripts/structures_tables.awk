@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The tab-separated results of scripts/structures.sh as Markdown, after columns.awk. `part` names what the next file is.
+# The results of scripts/structures.sh as Markdown, after columns.awk and structures_rows.awk.
 
 function row_name(config,   traversal, rays, loop, packet) {
     traversal = value_of(config, "traversal")
@@ -17,73 +17,60 @@ function layout_of(config,   level) {
     return value_of(config, "layout") (level == "" ? "" : ", " level)
 }
 
-function ns(kind,   rays) {
-    rays = column(kind "_rays") + 0
-    return rays > 0 ? sprintf("%.0f", 1e6 * column(kind "_ms") / rays) : "-"
-}
-
+function number(key, name) { return (key, name) in ns ? sprintf("%.0f", ns[key, name]) : "-" }
+function seen(key, name) { return (key, name) in visits ? visits[key, name] : "- / - / -" }
 function milliseconds(value) { return sprintf(value < 10 ? "%.2f" : "%.0f", value) }
-function rounded(name) { return column(name) == "-" ? "-" : sprintf("%.3g", column(name)) }
-function visits(kind) {
-    return rounded(kind "nodes_per_ray") " / " rounded(kind "leaves_per_ray") " / " rounded(kind "tests_per_ray")
-}
 function kilobytes(bytes) { return sprintf("%.0f", bytes / 1024) }
 
-part == "times" {
-    if (!times) variant = value_of(column("config"), "variant")
-    if (structure_of(column("config")) != "auto")
-        times_line[++times] = sprintf("| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |", column("scene"),
-            row_name(column("config")), milliseconds(column("build_ms")), ns("primary"), ns("shadow"), ns("ao"), ns("random"),
-            visits(""), visits("ao_"), kilobytes(column("bytes")))
-    exact_steps += column("exact_steps")
-    loops += column("rope_loops")
-    if (structure_of(column("config")) == "auto")
-        chosen_line[++chosen] = sprintf("| %s | %s | %s | %s |", column("scene"), row_name(column("config")),
-            column("chosen"), column("reason"))
+function add_times(key, scene, config,   told) {
+    if (!variant) variant = value_of(config, "variant")
+    if (!(scene in has_scene)) { has_scene[scene] = 1; scenes[++scene_count] = scene }
+    if (structure_of(config) == "auto")
+        chosen_line[++chosen] = sprintf("| %s | %s | %s | %s |", scene, row_name(config), value[key, "chosen"],
+            value[key, "reason"])
+    else
+        times_line[++times] = sprintf("| %s | %s | %s | %s | %s | %s | %s | %s | %s | %s |", scene, row_name(config),
+            milliseconds(value[key, "build_ms"]), number(key, "frame"), number(key, "shadow"), number(key, "ao"),
+            number(key, "random"), seen(key, "frame"), seen(key, "ao"), kilobytes(value[key, "bytes"]))
     # the best for each kind of rays, its build included, and what AUTO took for them
-    scene = column("scene")
-    if (!(scene in seen)) { seen[scene] = 1; scenes[++scene_count] = scene }
-    told = value_of(column("config"), "rays")
-    whole("camera", column("primary_ms"), told == "")
-    whole("camera, shadow", column("primary_ms") + column("shadow_ms"), told == "")
-    whole("ambient occlusion, random", column("ao_ms") + column("random_ms"), told == "incoherent")
-    next
+    told = value_of(config, "rays")
+    add_total(key, scene, config, "camera", ms(key, "frame"), told == "")
+    add_total(key, scene, config, "camera, shadow", ms(key, "frame") + ms(key, "shadow"), told == "")
+    add_total(key, scene, config, "ambient occlusion, random", ms(key, "ao") + ms(key, "random"), told == "incoherent")
 }
 
-# one line for each layout of the binned builder's trees, and for each builder: trees without ropes
-part == "layouts" {
-    if (structure_of(column("config")) != "kd") next
-    builder = value_of(column("config"), "builder")
-    key = column("scene") SUBSEP (builder == "binned" ? layout_of(column("config")) : builder)
-    what = value_of(column("config"), "traversal")
-    if (builder == "binned" && !((key, "nodes") in layout_ns)) layout_keys[++layouts] = key
-    layout_ns[key, "nodes"] = 1
-    layout_ns[key, what] = ns("primary") " / " ns("ao") " / " ns("random")
-    if (layout_of(column("config")) != "depth-first" || what != "packet") next
-    builder_line[++builders] = sprintf("| %s | %s | %s | %.1f | %s / %s / %s | %s |", column("scene"), builder,
-        milliseconds(column("build_ms")), column("kd_cost"), ns("primary"), ns("ao"), ns("random"), kilobytes(column("bytes")))
-    next
+# The milliseconds of some rays with the build; told: AUTO knew that they were such.
+function add_total(key, scene, config, what, of_rays, told,   total) {
+    total = of_rays + value[key, "build_ms"]
+    if (structure_of(config) == "auto") {
+        if (told) auto_ms[scene, what] = total
+    } else if (!((scene, what) in best_ms) || total < best_ms[scene, what]) {
+        best_ms[scene, what] = total
+        best[scene, what] = row_name(config)
+    }
+}
+
+# One line for each layout of the binned builder's trees, and for each builder: trees without ropes.
+function add_layout(key, scene, config,   builder, layout, way) {
+    if (structure_of(config) != "kd") return
+    builder = value_of(config, "builder")
+    layout = scene SUBSEP (builder == "binned" ? layout_of(config) : builder)
+    way = value_of(config, "traversal")
+    if (builder == "binned" && !((layout, "known") in layout_ns)) layout_keys[++layouts] = layout
+    layout_ns[layout, "known"] = 1
+    layout_ns[layout, way] = number(key, "frame") " / " number(key, "ao") " / " number(key, "random")
+    if (layout_of(config) != "depth-first" || way != "packet") return
+    builder_line[++builders] = sprintf("| %s | %s | %s | %.1f | %s | %s |", scene, builder,
+        milliseconds(value[key, "build_ms"]), value[key, "kd_cost"], layout_ns[layout, way],
+        kilobytes(value[key, "bytes"]))
 }
 
 # one line for each layout and kind of ray, a column for each of some memories
 part == "fetches" {
-    key = column("scene") SUBSEP column("rays") SUBSEP layout_of(column("config"))
-    if (!(key in fetch_seen)) { fetch_seen[key] = 1; fetch_keys[++fetches] = key }
-    what = column("memory") " " column("block_bytes") " " column("memory_bytes")
-    fetch[key, what] = column("misses_per_ray")
+    key = column("scene") SUBSEP column("kind") SUBSEP layout_of(column("config"))
+    if (!(key in has_fetch)) { has_fetch[key] = 1; fetch_keys[++fetches] = key }
+    fetch[key, column("memory") " " column("block_bytes") " " column("memory_bytes")] = column("misses_per_ray")
     fetch_nodes[key] = column("nodes_per_ray")
-    next
-}
-
-# One row's milliseconds of some rays with its build; told: AUTO knew that they were such.
-function whole(rays, ms, told,   total) {
-    total = ms + column("build_ms")
-    if (structure_of(column("config")) == "auto") {
-        if (told) auto_ms[scene, rays] = total
-    } else if (!((scene, rays) in best_ms) || total < best_ms[scene, rays]) {
-        best_ms[scene, rays] = total
-        best[scene, rays] = row_name(column("config"))
-    }
 }
 
 function print_lines(line, lines,   j) { for (j = 1; j <= lines; j++) print line[j] }
@@ -91,6 +78,11 @@ function print_lines(line, lines,   j) { for (j = 1; j <= lines; j++) print line
 function fetched(key, what) { return (key, what) in fetch ? sprintf("%.3g", fetch[key, what]) : "-" }
 
 END {
+    for (i = 1; i <= key_count; i++) {
+        split(keys[i], piece, SUBSEP) # part, scene, config
+        if (piece[1] == "times") add_times(keys[i], piece[2], piece[3])
+        else add_layout(keys[i], piece[2], piece[3])
+    }
     print "## Structures, " variant "\n"
     print "| scene | structure | build, ms | camera, ns | shadow, ns | ambient, ns | random, ns |" \
           " camera: nodes / leaves / tests | ambient: nodes / leaves / tests | KB |"

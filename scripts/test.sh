@@ -2,44 +2,70 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# test.sh [SUITE]...      SUITE: release, clang, asan-ubsan, tsan, aarch64, ppc64, native; without any: all but native,
-#                         whose flags the suite of clang has, too
-# Installs what the tests need, builds each suite's preset of CMakePresets.json and runs ctest on it. The last line
-# counts the tests of all suites; the exit code is 0 where none failed.
+# test.sh [SUITE]...
+# Installs what the tests need, builds, and runs ctest. Without arguments: the suite `release`, all tests on this
+# machine. The last line counts the tests; the exit code is 0 if none failed.
+#   release   every test, gcc, all variants that the CPU runs
+#   sanitize  clang's address and undefined-behaviour sanitizers, the widest variant and the portable one
+#   tsan      the thread sanitizer, the tests that use threads
+#   aarch64   cross-built for Arm, run by qemu: what another instruction set can break
+#   ppc64     cross-built for big-endian POWER, run by qemu: what byte order can break
+#   clang     every test, built by clang -march=native
+#   native    every test, built by gcc -march=native
+#   all       the first five: what .ci/run runs
+#   everything  the whole matrix, before a release; the cross builds then run all that can run there
+# Compiler results come from ccache where it is installed. Test durations are kept between runs in
+# ${XDG_CACHE_HOME:-~/.cache}/libcgt, so that ctest starts the longest tests first.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-suites=("$@")
-[ ${#suites[@]} -gt 0 ] || suites=(release clang asan-ubsan tsan aarch64 ppc64)
+
+suites=() whole_matrix=no
+for name in "${@:-release}"; do
+    case $name in
+    all) suites+=(release sanitize tsan aarch64 ppc64) ;;
+    everything) suites+=(release clang native sanitize tsan aarch64 ppc64) whole_matrix=yes ;;
+    release|clang|native|sanitize|tsan|aarch64|ppc64) suites+=("$name") ;;
+    *) echo "test.sh: unknown suite '$name': $(sed -nE 's/^#   ([a-z0-9]+) .*/\1/p' "$0" | paste -sd' ')" >&2; exit 2 ;;
+    esac
+done
 
 purposes=(build render tests)
 for suite in "${suites[@]}"; do
     case $suite in
-    release|native|asan-ubsan|tsan) ;;
-    clang) purposes+=(clang) ;;
+    clang|sanitize) purposes+=(clang) ;;
     aarch64|ppc64) purposes+=(cross) ;;
-    *) echo "test.sh: unknown suite '$suite': release, clang, asan-ubsan, tsan, aarch64, ppc64, native" >&2; exit 2 ;;
     esac
 done
 scripts/dependencies.sh "${purposes[@]}"
+
 jobs=$(nproc)
-mkdir -p build
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/libcgt
+mkdir -p build "$cache"
+if command -v ccache >/dev/null; then
+    export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-time_macros}
+fi
 passed=0 failed=0 skipped=0 broken=()
 
-# What a suite cannot do without is ON, so that nothing is left out in silence.
+# The CMake settings of a suite. What it cannot do without is ON, so that nothing is left out in silence.
 settings_of() {
-    local oracle=ON meshes=ON render=OFF
+    local oracle=ON meshes=ON render=OFF labels=""
     case $1 in
-    release|asan-ubsan) render=ON ;;
-    native|clang) ;; # another compiler, other flags: of the library, not of the programs' C++
-    tsan) oracle=OFF meshes=OFF ;; # Embree, assimp and OpenImageIO bring threads that the sanitizer cannot see into
-    aarch64|ppc64) oracle=OFF meshes=OFF ;; # Debian has none of them for a cross build
+    release) render=ON ;;
+    sanitize) oracle=OFF render=ON ;; # Embree's own code is not instrumented, and the release suite asks it
+    clang|native) ;;
+    tsan) oracle=OFF meshes=OFF labels=threads ;; # assimp and Embree bring threads that the sanitizer cannot see into
+    aarch64) oracle=OFF meshes=OFF labels=isa ;; # Debian has neither for a cross build
+    ppc64) oracle=OFF meshes=OFF labels=endian ;;
     esac
+    [ $whole_matrix = no ] || [ "$1" = tsan ] || labels=""
     echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=$oracle -DCGT_BUILD_MESHES=$meshes \
-        -DCGT_BUILD_RENDER=$render
+        -DCGT_BUILD_RENDER=$render -DCGT_TEST_LABELS=$labels
+    [ -z "$labels" ] || echo -DCGT_BUILD_BENCH=OFF
 }
 
-# The thread sanitizer of gcc 12 dies at start where the kernel spreads addresses wider than it knows; without that
-# spreading it works.
+# The thread sanitizer of gcc 12 dies at start where the kernel randomises addresses more than it knows; without
+# randomisation it works.
 tsan_runner() {
     local probe=build/tsan_probe
     echo 'int main(void) { return 0; }' >$probe.c
@@ -57,14 +83,13 @@ tsan_runner() {
 build_suite() {
     case $1 in aarch64|ppc64) scripts/cross_cmocka.sh "$1" ;; esac
     local settings
-    read -ra settings <<<"$(settings_of "$1")"
+    read -ra settings <<<"$(settings_of "$1" | paste -sd' ')"
     cmake --preset "$1" "${settings[@]}"
     cmake --build --preset "$1" -j "$jobs"
 }
 
 run_suite() {
-    local suite=$1 log=build/test_$1.log runner=""
-    echo "==== $suite: build, $(date +%T)"
+    local suite=$1 log=build/test_$1.log runner="" start=$SECONDS
     if ! (build_suite "$suite") >"$log" 2>&1; then
         grep -E '(error|warning|Error)[ :]' "$log" | head -n 40 || true
         tail -n 30 "$log"
@@ -72,17 +97,26 @@ run_suite() {
         broken+=("$suite")
         return
     fi
+    echo "==== $suite: built in $((SECONDS - start)) s"
     grep -E '^-- (Variants|Left out)' "$log" || true
     if [ "$suite" = tsan ] && ! runner=$(tsan_runner); then
         broken+=("$suite")
         return
     fi
-    echo "==== $suite: test, $(date +%T)"
+
     log=build/ctest_$suite.log
-    local ok=yes
+    start=$SECONDS
+    local ok=yes durations=build/$suite/Testing/Temporary/CTestCostData.txt
+    if [ ! -e "$durations" ] && [ -e "$cache/durations_$suite.txt" ]; then
+        mkdir -p "${durations%/*}"
+        cp "$cache/durations_$suite.txt" "$durations"
+    fi
     # shellcheck disable=SC2086 # the runner is several words or none
     $runner ctest --preset "$suite" -j "$jobs" --no-tests=error </dev/null 2>&1 | tee "$log" || ok=no
-    # ctest counts what exited with 77 as passed and lists it apart
+    [ ! -e "$durations" ] || cp "$durations" "$cache/durations_$suite.txt"
+    echo "==== $suite: tested in $((SECONDS - start)) s"
+
+    # ctest counts a test that exits with 77 as passed and lists it apart.
     local lost skips total
     lost=$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests failed out of ([0-9]+).*/\1/p' "$log")
     total=$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests failed out of ([0-9]+).*/\2/p' "$log")

@@ -7,22 +7,22 @@
  *   ... spu_madd(a, b, c) ...
  *   cgt_spu_leave_arithmetic(saved);
  *
- * Truncation, no denormals, no traps. The mode is the thread's own; the pair may be nested; leaving restores all of the
- * earlier state, exception flags included. It costs some twenty nanoseconds: put it around a kernel, not a word.
+ * Truncation, no denormals, no traps. The mode is per thread; pairs may be nested; leaving restores the whole earlier
+ * state, exception flags included. It costs about twenty nanoseconds: put it around a kernel, not a word.
  *
- * With CGT_SPU_EXACT each single-precision word stays between the two calls: spu_exact.h says how. Other arithmetic of
- * floats and doubles does not: plain C's may be moved by the compiler from one side to the other, and where it stays
- * it is truncated, double precision included. So keep plain arithmetic out of the function that enters and leaves.
+ * With CGT_SPU_EXACT each single-precision word stays between the two calls (spu_exact.h says how). Other arithmetic
+ * on floats and doubles does not: the compiler may move plain C arithmetic across them, and what stays is truncated,
+ * double precision included. So keep plain arithmetic out of the function that enters and leaves.
  *
  * The calls do nothing where the words need no mode: without CGT_SPU_EXACT, in the portable form, and on an SPU. All
- * files of a program that enter, leave or compute in the mode are to be compiled with the same choice. */
+ * files of a program that enter, leave or compute in the mode must be compiled with the same choice. */
 #ifndef CGT_SPU_ARITHMETIC_MODE_H
 #define CGT_SPU_ARITHMETIC_MODE_H
 
 #include <stdint.h>
 
-/* Which form the exact words have; the choice of spu_exact.h too. A fast form is none where the compiler was told that
- * there are no infinities and NaN (-ffast-math): it would remove the tests for them. */
+/* Selects the form of the exact words, for spu_exact.h too. There is no fast form under -ffast-math: the compiler would
+ * remove the tests for infinities and NaN. */
 #if defined(CGT_SPU_EXACT) && !defined(CGT_SPU_PORTABLE) && !(defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #if defined(__SSE4_1__)
 #define CGT_SPU_EXACT_X86
@@ -40,7 +40,7 @@ typedef struct cgt_spu_arithmetic {
 #if defined(CGT_SPU_EXACT_X86)
 
 /* MXCSR: flush to zero (bit 15), truncate (14, 13), all exceptions masked (12 to 7), denormals are zero (6). Without
- * the first a denormal result would still end as zero, by the addition of zero, but slowly. */
+ * the first, denormal results would still become zero, by the addition of zero, but slowly. */
 CGT_SPU_MODE cgt_spu_arithmetic cgt_spu_enter_arithmetic(void)
 {
     const uint32_t mode = 0xffc0;

@@ -39,7 +39,7 @@ CGT_SPU_INLINE vfloat cgt_spu_nmsub_f32w(vfloat a, vfloat b, vfloat c)
     return (vfloat)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
 }
 
-/* estimates: relative error at most 1.5 * 2^-12, of other bits on CPUs of other makers */
+/* estimates: relative error at most 1.5 * 2^-12; the bits differ between CPU vendors */
 CGT_SPU_INLINE vfloat cgt_spu_re_f32w(vfloat a) { return (vfloat)_mm256_rcp_ps((__m256)a); }
 CGT_SPU_INLINE vfloat cgt_spu_rsqrte_f32w(vfloat a)
 {
@@ -95,19 +95,19 @@ CGT_SPU_INLINE vfloat cgt_spu_convtf_s32w(vint a, int n)
 }
 CGT_SPU_INLINE vfloat cgt_spu_convtf_u32w(vuint a, int n)
 {
-    /* the halves as lowest bits of 2^23 and 2^39; what is too much is taken off exactly, and the sum is rounded once */
+    /* both halves become lowest bits of 2^23 and 2^39; the excess is subtracted exactly, and the sum is rounded once */
     const __m256i low = _mm256_blend_epi16((__m256i)a, _mm256_set1_epi32(0x4b000000), 0xaa);
     const __m256i high = _mm256_blend_epi16(_mm256_srli_epi32((__m256i)a, 16), _mm256_set1_epi32(0x53000000), 0xaa);
     return (((vfloat)high - 0x1.0001p39f) + (vfloat)low) * cgt_spu_power_w(-n);
 }
 
-/* convts: times 2^n, towards zero, saturated; NaN gives 0. cvttps gives 0x80000000 for whatever does not fit: flip that
- * to the largest int where the operand was large, and to 0 where it was NaN. */
+/* convts: times 2^n, towards zero, saturated; NaN gives 0. cvttps gives 0x80000000 for values out of range: flip it to
+ * the largest int where the operand was large, and to 0 where it was NaN. */
 CGT_SPU_INLINE vint cgt_spu_convts_f32w(vfloat a, int n)
 {
     __m256 x = (__m256)(a * cgt_spu_power_w(n));
 #if !defined(__clang__)
-    __asm__("" : "+x"(x)); /* GCC folds a constant that does not fit another way than the instruction does */
+    __asm__("" : "+x"(x)); /* GCC folds out-of-range constants to another result than the instruction's */
 #endif
     const __m256i d = _mm256_cvttps_epi32(x);
     const __m256i large = _mm256_castps_si256(_mm256_cmp_ps(x, _mm256_set1_ps(2147483648.f), _CMP_GE_OQ));

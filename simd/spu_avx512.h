@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The words on sixteen lanes: AVX-512 F, BW, DQ and VL. Lane by lane they do what the words do on four lanes of the
- * same machine; madd, msub and nmsub are fused. A mask has a type of its own, which lives in a k register: it is no
- * vector and no number. */
+ * same machine; madd, msub and nmsub are fused. A mask has a type of its own, held in a k register: it is neither
+ * vector nor number. */
 #ifndef CGT_SPU_AVX512_H
 #define CGT_SPU_AVX512_H
 
@@ -88,7 +88,7 @@ CGT_SPU_INLINE vmask cgt_spu_xor_maskw(vmask a, vmask b) { return (vmask){_kxor_
 CGT_SPU_INLINE vmask cgt_spu_andc_maskw(vmask a, vmask b) { return (vmask){_kandn_mask16(b.bits, a.bits)}; }
 CGT_SPU_INLINE vmask cgt_spu_nor_maskw(vmask a, vmask b) { return (vmask){_knot_mask16(_kor_mask16(a.bits, b.bits))}; }
 
-/* sel: bits of b where m is one, else of a. The number is the table of that choice. */
+/* sel: bits of b where m is one, else of a. The immediate is the truth table. */
 CGT_SPU_INLINE vuint cgt_spu_sel_u32w(vuint a, vuint b, vuint m)
 {
     return (vuint)_mm512_ternarylogic_epi32((__m512i)a, (__m512i)b, (__m512i)m, 0xd8);
@@ -128,13 +128,13 @@ CGT_SPU_INLINE vfloat cgt_spu_convtf_u32w(vuint a, int n)
     return (vfloat)_mm512_cvtepu32_ps((__m512i)a) * cgt_spu_power_w(-n);
 }
 
-/* convts: times 2^n, towards zero, saturated; NaN gives 0. cvttps gives 0x80000000 for whatever does not fit: right for
- * the small ones, and replaced for the large ones. */
+/* convts: times 2^n, towards zero, saturated; NaN gives 0. cvttps gives 0x80000000 for values out of range: right for
+ * small ones, replaced for large ones. */
 CGT_SPU_INLINE vint cgt_spu_convts_f32w(vfloat a, int n)
 {
     __m512 x = (__m512)(a * cgt_spu_power_w(n));
 #if !defined(__clang__)
-    __asm__("" : "+v"(x)); /* GCC folds a constant that does not fit another way than the instruction does */
+    __asm__("" : "+v"(x)); /* GCC folds out-of-range constants to another result than the instruction's */
 #endif
     const __mmask16 number = _mm512_cmp_ps_mask(x, x, _CMP_ORD_Q);
     const __mmask16 large = _mm512_cmp_ps_mask(x, _mm512_set1_ps(2147483648.f), _CMP_GE_OQ);

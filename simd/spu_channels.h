@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The channel and control words where there is no SPU: the SPU compiler's names and signatures, done by the host of
- * the thread (spu_host.h). Without one they abort with a message, but for
+ * The channel and control words where there is no SPU: the SPU compiler's names and signatures, carried out by the host
+ * of the thread (spu_host.h). Without a host they abort with a message, except
  *
  *   spu_sync, spu_sync_c, spu_dsync   a memory barrier
  *   spu_mffpscr, spu_mtfpscr          a register of the thread: what was written to the bits that exist is read back.
- *                                     It starts as zero. The words that compute neither obey nor change it.
+ *                                     It starts as zero. Arithmetic words neither obey nor change it.
  *   spu_hcmpeq, spu_hcmpgt            where the comparison holds: a message and abort; else nothing
  *   __align_hint                      nothing
  *
@@ -143,7 +143,7 @@ CGT_SPU_CONTROL void spu_mfcdma32(volatile void *ls, unsigned int ea, unsigned i
 }
 
 /* A list command given by this word itself has the lower half of the list's address in ealow, as the caller's cast
- * left it; mfc_putl and its like hand the address on whole. */
+ * left it; mfc_putl and the like pass the whole address. */
 CGT_SPU_CONTROL void spu_mfcdma64(volatile void *ls, unsigned int eahi, unsigned int ealow, unsigned int size,
                                   unsigned int tagid, unsigned int cmd)
 {
@@ -171,8 +171,8 @@ CGT_SPU_CONTROL void cgt_spu_set_interrupts(const char *word, bool enabled)
 #define spu_idisable() cgt_spu_set_interrupts("spu_idisable", false)
 #define spu_ienable() cgt_spu_set_interrupts("spu_ienable", true)
 
-/* Branch and set link if external data: the function is called if an event waits, which is when SPU_RdEventStat has a
- * count; _d and _e disable and enable interrupts where it is called. */
+/* Branch and set link if external data: the function is called if an event is pending, that is, if
+ * SPU_RdEventStat has a count; _d and _e also disable and enable interrupts. */
 CGT_SPU_CONTROL bool cgt_spu_event_waits(const char *word)
 {
     const cgt_spu_host *const host = cgt_spu_get_host();
@@ -252,7 +252,7 @@ CGT_SPU_CONTROL void cgt_spu_mtfpscr(vec_uint4 value)
 CGT_SPU_CONTROL void cgt_spu_synchronize(cgt_spu_barrier kind)
 {
     const cgt_spu_host *const host = cgt_spu_get_host();
-    __sync_synchronize(); /* the full barrier; gcc refuses the fence of C11 under -fsanitize=thread */
+    __sync_synchronize(); /* the full barrier; gcc rejects C11's fence under -fsanitize=thread */
     if (host && host->synchronize)
         host->synchronize(host->self, kind);
 }
@@ -289,11 +289,11 @@ CGT_SPU_CONTROL void cgt_spu_hcmpeq_u32(unsigned int a, unsigned int b) { cgt_sp
 CGT_SPU_CONTROL void cgt_spu_hcmpgt_s32(int a, int b) { cgt_spu_halt_if(a > b, "spu_hcmpgt"); }
 CGT_SPU_CONTROL void cgt_spu_hcmpgt_u32(unsigned int a, unsigned int b) { cgt_spu_halt_if(a > b, "spu_hcmpgt"); }
 
-/* the first operand decides */
+/* the first operand selects */
 #define spu_hcmpeq(a, b) _Generic((a), int : cgt_spu_hcmpeq_s32, unsigned int : cgt_spu_hcmpeq_u32)(a, b)
 #define spu_hcmpgt(a, b) _Generic((a), int : cgt_spu_hcmpgt_s32, unsigned int : cgt_spu_hcmpgt_u32)(a, b)
 
-/* that ptr is offset bytes after a multiple of base helps the SPU's compiler alone */
+/* an alignment hint, useful to the SPU's compiler only */
 #define __align_hint(ptr, base, offset) ((void)(ptr), (void)(base), (void)(offset))
 
 #endif

@@ -1,28 +1,27 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The SPU's single precision, bit by bit: the words of type f32 that compute, for a host that has other floats. They
- * take the place of a mapping's own where CGT_SPU_EXACT is defined. What the SPU computes is said, and computed in
- * integers, in spu_float_model.h. Three forms give the same bits:
+ * The SPU's single precision, bit by bit, on a host with different floats: all arithmetic words of type f32. They
+ * replace those of the mapping where CGT_SPU_EXACT is defined. spu_float_model.h defines the SPU's results, in
+ * integers. Three forms give the same bits:
  *
  *   portable   element by element through the model, no mode needed: spu_exact_portable.h; for CGT_SPU_PORTABLE, other
  *              hosts, and -ffast-math
- *   x86        SSE4.1, with FMA3 where the compiler may use it: spu_exact_x86.h
+ *   x86        SSE4.1, with FMA3 where the flags allow it: spu_exact_x86.h
  *   AArch64    NEON: spu_exact_aarch64.h
  *
- * The fast forms hold between cgt_spu_enter_arithmetic and cgt_spu_leave_arithmetic (spu_arithmetic_mode.h), which let
- * the host truncate and take denormals for zero. Then an operation gives the SPU's result but for two cases:
+ * The fast forms hold between cgt_spu_enter_arithmetic and cgt_spu_leave_arithmetic (spu_arithmetic_mode.h), which make
+ * the host truncate and treat denormals as zero. Then an operation gives the SPU's result except in two cases:
  *
- *   zero           can come out as -0: x + 0 makes it +0, and changes nothing else when truncating
- *   exponent 255   of an operand is an infinity or NaN to the host, and then its result is one too; a result that needs
- *                  it ends at the host's largest number. A result at or beyond that number is taken from the model.
+ *   zero           may be -0: x + 0 makes it +0, and changes nothing else when truncating
+ *   exponent 255   of an operand is an infinity or NaN to the host, and so is the result; a result that needs it
+ *                  stops at the host's largest number. Results at or beyond that number are taken from the model.
  *
- * The compiler knows neither of the mode nor that it switches. CGT_SPU_HOLD makes a value opaque to it: it is an empty
- * volatile asm that claims to change it. Held operands cannot be folded as constants, in another rounding; a held
- * result cannot be merged with what follows, by reassociation or contraction. And as the compiler keeps volatile asms
- * in their order, that of the mode switch among them, an operation between two of them stays on its side of the
- * switch. What that costs: a word with a result that nobody uses is computed all the same, and so is one whose operands
- * a loop does not change, each time. */
+ * The compiler does not know the mode or its switches. CGT_SPU_HOLD makes a value opaque: an empty volatile asm claims
+ * to change it. Held operands cannot be constant-folded in another rounding mode; a held result cannot be reassociated
+ * or contracted with later operations. The compiler keeps volatile asms in order, the mode switch included, so an
+ * operation between two of them stays on its side of the switch. The price: unused results and loop invariants are
+ * computed anyway, every time. */
 #ifndef CGT_SPU_EXACT_H
 #define CGT_SPU_EXACT_H
 
@@ -37,13 +36,13 @@
 #include "spu_float_model.h"
 #include "spu_types.h"
 
-/* the mapping leaves out its own: all single-precision arithmetic, comparison, estimates and conversion */
+/* the mapping omits its own single-precision arithmetic, comparison, estimates and conversion */
 #define CGT_SPU_OWN_FLOAT
 #define CGT_SPU_FUSED 1
 
 /* ---- through the model, element by element ---- */
 
-#define CGT_SPU_EXACT_ASIDE static __attribute__((noinline, unused)) /* not a part of every caller's code */
+#define CGT_SPU_EXACT_ASIDE static __attribute__((noinline, unused)) /* not inlined into every caller */
 
 CGT_SPU_EXACT_ASIDE vec_uint4 cgt_spu_exact_each1(uint32_t (*word)(uint32_t), vec_uint4 a)
 {
@@ -75,7 +74,7 @@ CGT_SPU_EXACT_ASIDE vec_uint4 cgt_spu_exact_each_scaled(uint32_t (*word)(uint32_
 #include "spu_exact_portable.h"
 #endif
 
-/* ---- an estimate is a line and its value ---- */
+/* ---- an estimate: a line, then its value ---- */
 
 CGT_SPU_INLINE vec_float4 cgt_spu_re_f32(vec_float4 a) { return cgt_spu_fi_f32(a, cgt_spu_frest_f32(a)); }
 CGT_SPU_INLINE vec_float4 cgt_spu_rsqrte_f32(vec_float4 a) { return cgt_spu_fi_f32(a, cgt_spu_frsqest_f32(a)); }

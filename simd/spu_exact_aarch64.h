@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What spu_exact_fast.h asks of a host, with AArch64 NEON. A part of spu_exact.h. */
+ * The host functions that spu_exact_fast.h needs, with AArch64 NEON. A part of spu_exact.h. */
 #ifndef CGT_SPU_EXACT_AARCH64_H
 #define CGT_SPU_EXACT_AARCH64_H
 
@@ -36,7 +36,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_exact_fused_nmsub(vec_float4 a, vec_float4 b, 
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_to_float_s32(vec_int4 a) { return (vec_float4)vcvtq_f32_s32((int32x4_t)a); }
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_to_float_u32(vec_uint4 a) { return (vec_float4)vcvtq_f32_u32((uint32x4_t)a); }
 
-/* fcvtzs and fcvtzu saturate, but take NaN to 0: an infinity of its sign saturates as it should. */
+/* fcvtzs and fcvtzu saturate, but turn NaN into 0: an infinity of its sign saturates correctly. */
 CGT_SPU_INLINE float32x4_t cgt_spu_exact_no_nan(vec_float4 p, vec_int4 sign)
 {
     const uint32x4_t infinity = vdupq_n_u32(0x7f800000), is_number = vceqq_f32((float32x4_t)p, (float32x4_t)p);

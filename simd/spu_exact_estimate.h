@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The SPU's estimates, four elements at once in integers: they need no mode. A part of spu_exact.h; the lines and what
- * they mean are in spu_float_model.h. */
+ * The SPU's estimates, four elements at once in integers: they need no mode. A part of spu_exact.h; spu_float_model.h
+ * explains the lines. */
 #ifndef CGT_SPU_EXACT_ESTIMATE_H
 #define CGT_SPU_EXACT_ESTIMATE_H
 
@@ -13,7 +13,7 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_exact_lines(const uint32_t *lines, vec_uint4 in
     return (vec_uint4){lines[index[0]], lines[index[1]], lines[index[2]], lines[index[3]]};
 }
 
-/* Exponents stay at their place in the word. The exponent of a line is 255 where that of a is 0: all bits set. */
+/* Exponents stay in place in the word. The exponent of a line is 255, all bits set, where that of a is 0. */
 CGT_SPU_INLINE vec_float4 cgt_spu_frest_f32(vec_float4 a)
 {
     const vec_uint4 x = (vec_uint4)a, lines = cgt_spu_exact_lines(cgt_spu_model_frest_lines, x >> 18 & 31);
@@ -32,8 +32,8 @@ CGT_SPU_INLINE vec_float4 cgt_spu_frsqest_f32(vec_float4 a)
     return (vec_float4)(lines | (0x5f000000 - half) | of_zero); /* 190 - half */
 }
 
-/* The model's 33 bits less the lowest 8, which truncation takes in any case: step * y is rounded up for that. The value
- * has 24 or 25 bits; its number at exponent 126 or 127 is moved to the exponent of the line. */
+/* The model's 33 bits without the lowest 8, which truncation drops in any case: step * y is rounded up to compensate.
+ * The value has 24 or 25 bits; the number with exponent 126 or 127 is scaled to the exponent of the line. */
 CGT_SPU_INLINE vec_float4 cgt_spu_fi_f32(vec_float4 a, vec_float4 b)
 {
     const vec_uint4 x = (vec_uint4)a, line = (vec_uint4)b;

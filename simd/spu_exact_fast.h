@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * The exact words on a host whose floating-point unit truncates and flushes in the mode of spu_arithmetic_mode.h. A
- * part of spu_exact.h, which says what is corrected and why values are held. A host gives, in that mode:
+ * part of spu_exact.h, which explains the corrections and why values are held. A host provides, in that mode:
  *
  *   CGT_SPU_HOLD(v)                   an empty volatile asm that claims to change v
  *   cgt_spu_exact_is_outside(r)       an element is at or beyond the host's largest number, or NaN
  *   cgt_spu_exact_is_unordered(a, b)  an element of a or b is NaN
  *   cgt_spu_exact_fused_madd, _msub, _nmsub(a, b, c)
  *   cgt_spu_exact_to_float_s32, _u32(a)     truncated
- *   cgt_spu_exact_to_int(p, sign), _to_uint the integer part of p, saturated; sign, all ones or zero, tells which way
+ *   cgt_spu_exact_to_int(p, sign), _to_uint the integer part of p, saturated; sign, all ones or zero, is its sign
  *                                           where p is NaN */
 #ifndef CGT_SPU_EXACT_FAST_H
 #define CGT_SPU_EXACT_FAST_H
@@ -18,7 +18,7 @@
 
 /* ---- arithmetic ---- */
 
-/* -0 to +0, the rest as it is. The zero is held so that the sum is not left out. */
+/* Turns -0 into +0 and keeps all else. The zero is held so that the addition is not optimised away. */
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_positive_zero(vec_float4 r)
 {
     vec_float4 zero = {0, 0, 0, 0};
@@ -28,7 +28,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_exact_positive_zero(vec_float4 r)
     return r;
 }
 
-/* Ends an operation of two or three held operands that gave r. */
+/* Completes an operation of two or three held operands with the result r. */
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_end2(vec_float4 r, uint32_t (*word)(uint32_t, uint32_t), vec_float4 a,
                                              vec_float4 b)
 {
@@ -88,8 +88,8 @@ CGT_SPU_INLINE vec_float4 cgt_spu_nmsub_f32(vec_float4 a, vec_float4 b, vec_floa
 
 /* ---- comparison ----
  *
- * In the mode a denormal compares as zero, and an infinity is where exponent 255 with fraction 0 belongs. Only what the
- * host calls NaN goes to the model. */
+ * In the mode a denormal compares as zero, and an infinity compares as exponent 255 with fraction 0 should. Only the
+ * host's NaN goes to the model. */
 
 CGT_SPU_INLINE vec_uint4 cgt_spu_cmpgt_f32(vec_float4 a, vec_float4 b)
 {
@@ -124,7 +124,7 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_cmpabseq_f32(vec_float4 a, vec_float4 b)
 
 /* ---- conversion ---- */
 
-/* r / 2^n for r that is 0 or at least 1 in magnitude, by its exponent: 2^-127 is no number. */
+/* r / 2^n for r = 0 or |r| >= 1, by its exponent: 2^-127 is not a normal number. */
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_scale_down(vec_float4 r, int n)
 {
     CGT_SPU_HOLD(r);
@@ -143,7 +143,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_convtf_u32(vec_uint4 a, int n)
     return cgt_spu_exact_scale_down(cgt_spu_exact_to_float_u32(a), n);
 }
 
-/* a * 2^n; exact unless it ends at the host's largest number, which is as good: it is beyond all integers. */
+/* a * 2^n; exact unless it stops at the host's largest number, which does not matter: it is beyond all integers. */
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_scale_up(vec_float4 a, int n)
 {
     const int32_t power = (n + 127) * 0x00800000;

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What spu_exact_fast.h asks of a host, with SSE4.1. A part of spu_exact.h. */
+ * The host functions that spu_exact_fast.h needs, with SSE4.1. A part of spu_exact.h. */
 #ifndef CGT_SPU_EXACT_X86_H
 #define CGT_SPU_EXACT_X86_H
 
@@ -38,11 +38,10 @@ CGT_SPU_INLINE vec_float4 cgt_spu_exact_fused_nmsub(vec_float4 a, vec_float4 b, 
 
 #else
 
-/* In doubles, truncated twice. The product of two floats has 48 bits and an exponent from -252 to 255: it is a double.
- * The sum is truncated to 53 bits, then to the 24 of a float. The second truncation gives what truncation of the exact
- * sum would: a float is a double, so no float lies between the exact sum and the double that it is truncated to. A sum
- * that is not 0 is at least 2^-298, which no double needs a denormal for; the conversion flushes what is below the
- * smallest float and stops at the largest. */
+/* In doubles, truncated twice. The product of two floats has 48 bits and an exponent from -252 to 255, so it is exact
+ * in double. The sum is truncated to 53 bits, then to the 24 of a float. That equals truncating the exact sum once:
+ * every float is a double, so no float lies between the exact sum and its truncation to double. A sum other than 0 is
+ * at least 2^-298, a normal double; the conversion flushes values below the smallest float and stops at the largest. */
 CGT_SPU_INLINE __m128 cgt_spu_exact_half_madd(__m128 a, __m128 b, __m128 c)
 {
     const __m128d product = _mm_mul_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(b));
@@ -71,7 +70,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_exact_fused_nmsub(vec_float4 a, vec_float4 b, 
 
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_to_float_s32(vec_int4 a) { return (vec_float4)_mm_cvtepi32_ps((__m128i)a); }
 
-/* An integer of 32 bits loses its lowest 8 in any case: it is converted without them, then put back up. */
+/* A 32-bit integer loses its lowest 8 bits in any case: it is converted without them, then scaled back. */
 CGT_SPU_INLINE vec_float4 cgt_spu_exact_to_float_u32(vec_uint4 a)
 {
     const vec_uint4 is_large = (vec_uint4)((vec_int4)a >> 31);
@@ -80,7 +79,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_exact_to_float_u32(vec_uint4 a)
     return (vec_float4)((vec_uint4)r + (is_large & 0x04000000)); /* 8 in the exponent */
 }
 
-/* cvttps gives 0x80000000 for all that does not fit. */
+/* cvttps gives 0x80000000 for all values out of range. */
 CGT_SPU_INLINE vec_int4 cgt_spu_exact_to_int(vec_float4 p, vec_int4 sign)
 {
     vec_int4 r = (vec_int4)_mm_cvttps_epi32((__m128)p);
@@ -88,7 +87,7 @@ CGT_SPU_INLINE vec_int4 cgt_spu_exact_to_int(vec_float4 p, vec_int4 sign)
     return r ^ ((vec_int4)(r == INT32_MIN) & ~sign);
 }
 
-/* From 2^31 on, 2^31 is taken off, which is exact, and put back as a bit. What then does not fit is too large. */
+/* From 2^31 on, 2^31 is subtracted, which is exact, and restored as a bit. Values still out of range are too large. */
 CGT_SPU_INLINE vec_uint4 cgt_spu_exact_to_uint(vec_float4 p, vec_int4 sign)
 {
     const __m128 limit = _mm_castsi128_ps(_mm_set1_epi32(0x4f000000)); /* 2^31 */

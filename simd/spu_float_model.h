@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The SPU's single precision in integers: the reference for spu_exact.h, and its way where the host's floats cannot
- * follow. Bits in, bits out; no floating-point operation, so that no rounding mode, compiler or host changes a result.
+ * The SPU's single precision in integers: the reference for spu_exact.h, and its fallback where the host's floats do
+ * not suffice. Bits in, bits out; no floating-point operation, so that no rounding mode, compiler or host changes a
+ * result.
  *
  *   cgt_spu_model_add(a, b), sub, mul          a + b, a - b, a * b
  *   cgt_spu_model_madd(a, b, c), msub, nmsub   a * b + c, a * b - c, c - a * b
@@ -15,9 +16,9 @@
  *
  * The numbers: a sign, 8 bits of exponent, 23 of fraction, as in IEEE 754, but exponent 255 is a binade like any other
  * and exponent 0 is zero whatever the fraction. So there are no infinities, NaN or denormals: the numbers go from
- * 2^-126 (0x00800000) to (2 - 2^-23) * 2^128 (0x7fffffff). A result is the exact one truncated; beyond the largest
- * number it is that, below the smallest it is zero, and a zero result is always +0. The multiply-adds are fused, and
- * their product has no limits of range.
+ * 2^-126 (0x00800000) to (2 - 2^-23) * 2^128 (0x7fffffff). A result is the exact one, truncated; beyond the largest
+ * number it is the largest, below the smallest it is zero, and a zero result is always +0. Multiply-adds are fused, and
+ * their products have no range limits.
  *
  * Source: Synergistic Processor Unit Instruction Set Architecture, version 1.2 (2007), section 9, pages 195 to 234. */
 #ifndef CGT_SPU_FLOAT_MODEL_H
@@ -42,7 +43,7 @@ CGT_SPU_MODEL cgt_spu_model_number cgt_spu_model_unpack(uint32_t a)
     return (cgt_spu_model_number){exponent ? 0x800000u | fraction : 0, (int)exponent - 150, a >> 31};
 }
 
-/* The place of the highest bit; not for 0. */
+/* The position of the highest bit; not for 0. */
 CGT_SPU_MODEL int cgt_spu_model_top(uint64_t magnitude) { return 63 - __builtin_clzll(magnitude); }
 
 CGT_SPU_MODEL uint32_t cgt_spu_model_pack(cgt_spu_model_number a)
@@ -60,7 +61,8 @@ CGT_SPU_MODEL uint32_t cgt_spu_model_pack(cgt_spu_model_number a)
 
 /* ---- arithmetic ---- */
 
-/* Moves the highest bit to place 61, where a sum has room. A magnitude of up to 48 bits keeps 14 zeros below it. */
+/* Moves the highest bit to position 61, which leaves room for a sum. A magnitude of up to 48 bits keeps 14 zeros below
+ * it. */
 CGT_SPU_MODEL cgt_spu_model_number cgt_spu_model_raise(cgt_spu_model_number a)
 {
     const int up = 61 - cgt_spu_model_top(a.magnitude);
@@ -69,9 +71,9 @@ CGT_SPU_MODEL cgt_spu_model_number cgt_spu_model_raise(cgt_spu_model_number a)
 
 /* a + b, truncated; one magnitude of at most 48 bits, one of at most 24.
  *
- * The smaller one is shifted to the scale of the larger one. What it loses by that is less than a unit of the sum's
- * lowest place, and lowers the floor of the sum by one where it is subtracted. The floor is enough: bits are lost only
- * where the two are at least 2^14 apart, so that the sum keeps 60 of its 62 bits, and 24 of them remain. */
+ * The smaller one is shifted to the scale of the larger one. The lost bits are less than a unit of the sum's lowest
+ * position, and lower the floor of the sum by one where they are subtracted. The floor suffices: bits are lost only
+ * where the two are at least 2^14 apart, so the sum keeps 60 of its 62 bits, of which 24 remain. */
 CGT_SPU_MODEL uint32_t cgt_spu_model_sum(cgt_spu_model_number a, cgt_spu_model_number b)
 {
     if (a.magnitude == 0 || b.magnitude == 0)
@@ -120,7 +122,7 @@ CGT_SPU_MODEL uint32_t cgt_spu_model_nmsub(uint32_t a, uint32_t b, uint32_t c)
 
 /* ---- comparison ---- */
 
-/* In the order of the numbers; all zeros are one. */
+/* Maps to integers in the order of the numbers; all zeros are equal. */
 CGT_SPU_MODEL int32_t cgt_spu_model_key(uint32_t a)
 {
     const int32_t magnitude = (int32_t)(a & CGT_SPU_MODEL_LARGEST);
@@ -156,7 +158,7 @@ CGT_SPU_MODEL uint32_t cgt_spu_model_convtf_s32(uint32_t i, int n)
     return cgt_spu_model_pack((cgt_spu_model_number){i >> 31 ? 0u - i : i, -n, i >> 31});
 }
 
-/* |a| * 2^n without its fraction; 2^32 stands for all that is larger. */
+/* |a| * 2^n without its fraction; 2^32 stands for all larger values. */
 CGT_SPU_MODEL uint64_t cgt_spu_model_whole(uint32_t a, int n)
 {
     const cgt_spu_model_number number = cgt_spu_model_unpack(a);
@@ -184,16 +186,16 @@ CGT_SPU_MODEL uint32_t cgt_spu_model_convts(uint32_t a, int n)
 
 /* ---- estimates ----
  *
- * frest and frsqest give a line in the form of a number: sign, exponent, 13 bits of base, 10 of step. fi takes the line
- * down from its base by the step times the bits of the operand that did not choose the line, and one that did:
+ * frest and frsqest return a line encoded as a number: sign, exponent, 13 bits of base, 10 of step. fi evaluates it:
+ * the base less the step times the bits of the operand that did not select the line, and one that did:
  *
  *   (-1)^S * (1.base - 0.000step * Y) * 2^(E - 127)    Y = 0.(fraction bits 18..0)
  *
  * Bases and steps, by the upper 5 bits of the fraction, and by the lowest bit of the exponent and the upper 5 bits of
  * the fraction. They are facts of the hardware: no formula gives them, and the architecture leaves them to the
- * implementation. The values are those that RPCS3 has (rpcs3/Emu/Cell/SPUThread.cpp: spu_frest_fraction_lut and
+ * implementation. The values are those of RPCS3 (rpcs3/Emu/Cell/SPUThread.cpp: spu_frest_fraction_lut and
  * spu_frsqest_fraction_lut, which its authors compared with a console's results); ps3recomp (runtime/spu/spu_helpers.h)
- * has the same. They meet the architecture's statements about one step of Newton-Raphson for every fraction. */
+ * has the same. They satisfy the architecture's statements about one step of Newton-Raphson for every fraction. */
 static const uint32_t cgt_spu_model_frest_lines[32] = {
     0x7ffbe0, 0x7f87a6, 0x70ef72, 0x708b40, 0x638b12, 0x633aea, 0x5792c4, 0x574aa0, 0x4cca7e, 0x4c9262, 0x430a44,
     0x42d62a, 0x3a2e12, 0x39fdfa, 0x3215e4, 0x31f1d2, 0x2aa9be, 0x2a85ac, 0x23d59a, 0x23bd8e, 0x1d8576, 0x1d8576,
@@ -209,8 +211,8 @@ static const uint32_t cgt_spu_model_frsqest_lines[64] = {
     0x5f7149, 0x5a4d33, 0x5a4d33, 0x55811f, 0x55811f, 0x51050f, 0x51050f, 0x4cc8fe, 0x4cc8fe, 0x48d0f0, 0x48d0f0,
     0x4510e4, 0x4510e4, 0x4180d7, 0x4180d7, 0x3e24cc, 0x3e24cc, 0x3af4c3, 0x3af4c3, 0x37e8ba, 0x37e8ba};
 
-/* The exponent of zero is the largest: its estimate ends at the largest number. Where 1 / a is too small for a number,
- * the exponent is 0. */
+/* Zero gets the largest exponent: its estimate is the largest number. Where 1 / a is too small to be represented, the
+ * exponent is 0. */
 CGT_SPU_MODEL uint32_t cgt_spu_model_frest(uint32_t a)
 {
     const uint32_t exponent = a >> 23 & 255;

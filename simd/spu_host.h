@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What stands in for the machine around an SPU where there is none: channels, DMA, interrupts, stop. SPU code compiled
- * for another processor reaches it through the words of spu_channels.h and spu_mfcio.h. An emulated Cell fills a
+ * Stands in for the machine around an SPU: channels, DMA, interrupts, stop. SPU code compiled for another processor
+ * reaches it through the words of spu_channels.h and spu_mfcio.h. An emulated Cell fills a
  * cgt_spu_host and installs it in each thread that runs SPU code:
  *
  *   static const cgt_spu_host host = {.self = &machine, .read_channel = read, .write_channel = write, ...};
@@ -10,11 +10,11 @@
  *   run_the_program();
  *   cgt_spu_set_host(before);
  *
- * A word whose member is missing says so on stderr and aborts, unless the member's comment gives a default.
+ * A word whose member is missing prints a message to stderr and aborts, unless the member's comment gives a default.
  *
  * No library is needed. The state of a thread is one variable that all source files of a program share; only object
- * files that use one of these words hold a symbol of it, a weak one. Where the system is none of ELF's with native
- * thread-local storage, each source file has a state of its own: install the host in every file that uses the words. */
+ * files that use one of these words contain its symbol, a weak one. On systems other than ELF with native thread-local
+ * storage, each source file has a state of its own: install the host in every file that uses the words. */
 #ifndef CGT_SPU_HOST_H
 #define CGT_SPU_HOST_H
 
@@ -27,8 +27,8 @@
 extern "C" {
 #endif
 
-/* One MFC command, as spu_mfcdma32, spu_mfcdma64 and the mfc_* words give it. On an SPU all of it goes through the
- * 32-bit channels MFC_LSA to MFC_Cmd. Here local storage is memory of the process, so its addresses come whole. */
+/* One MFC command, from spu_mfcdma32, spu_mfcdma64 and the mfc_* words. On an SPU it goes through the 32-bit channels
+ * MFC_LSA to MFC_Cmd. Here local storage is memory of the process, so addresses are whole pointers. */
 typedef struct cgt_spu_dma {
     volatile void *ls;   /* address in local storage */
     volatile void *list; /* of the first element, from mfc_putl to mfc_getlb; NULL from any other word */
@@ -43,7 +43,7 @@ typedef enum cgt_spu_barrier { CGT_SPU_DSYNC, CGT_SPU_SYNC, CGT_SPU_SYNC_C } cgt
 
 /* Quadwords are four words, element 0 first. */
 typedef struct cgt_spu_host {
-    void *self; /* handed to each function */
+    void *self; /* passed to each function */
     uint32_t (*read_channel)(void *self, unsigned channel);
     void (*write_channel)(void *self, unsigned channel, uint32_t value);
     uint32_t (*channel_count)(void *self, unsigned channel);
@@ -59,7 +59,7 @@ typedef struct cgt_spu_host {
     /* NULL: a register of the thread that reads back what was written to the bits that exist */
     void (*read_fpscr)(void *self, uint32_t value[4]);
     void (*write_fpscr)(void *self, const uint32_t value[4]);
-    void (*synchronize)(void *self, cgt_spu_barrier kind); /* after a memory barrier; NULL: that alone */
+    void (*synchronize)(void *self, cgt_spu_barrier kind); /* after a memory barrier; NULL: the barrier alone */
     void (*stop)(void *self, unsigned type);               /* 14 bits; the program goes on when it returns */
     void (*halt)(void *self);                              /* of spu_hcmpeq, spu_hcmpgt; NULL: a message and abort */
 } cgt_spu_host;
@@ -75,9 +75,9 @@ typedef struct cgt_spu_thread {
 #if defined(__ELF__) && (defined(__linux__) || defined(__FreeBSD__)) && !defined(__ANDROID__)
 extern __attribute__((visibility("default"))) __thread cgt_spu_thread cgt_spu_thread_state;
 
-/* C has no definition that all source files share and that is emitted only where it is used. So the function that is
- * emitted where it is used carries the definition: 32 zero bytes in a section of which the linker keeps one, as of an
- * inline variable of C++. Where the function is inlined more than once, the assembler takes the first. */
+/* C has no definition that all source files share and that is emitted only where it is used. So the inline function
+ * carries the definition: 32 zero bytes in a COMDAT section of which the linker keeps one, like a C++ inline variable.
+ * Where the function is inlined more than once, .ifndef keeps the first definition. */
 #define CGT_SPU_THREAD_BYTES 32
 __attribute__((unused)) static inline cgt_spu_thread *cgt_spu_this_thread(void)
 {
@@ -93,15 +93,15 @@ __attribute__((unused)) static inline cgt_spu_thread *cgt_spu_this_thread(void)
             ".endif");
     return &cgt_spu_thread_state;
 }
-/* an array of negative size where the state has outgrown the bytes above */
+/* a compile error if the state outgrows the bytes above */
 typedef char cgt_spu_thread_fits[sizeof(cgt_spu_thread) <= CGT_SPU_THREAD_BYTES ? 1 : -1];
 #else
 static __thread __attribute__((unused)) cgt_spu_thread cgt_spu_thread_state;
 __attribute__((unused)) static inline cgt_spu_thread *cgt_spu_this_thread(void) { return &cgt_spu_thread_state; }
 #endif
 
-/* Gives the calling thread a host, or takes it away with NULL; returns the one it had. The host must stay valid until
- * it is replaced or the thread ends. New threads have none. */
+/* Sets the host of the calling thread, or removes it with NULL; returns the previous one. The host must stay valid
+ * until it is replaced or the thread ends. New threads have none. */
 __attribute__((unused)) static inline const cgt_spu_host *cgt_spu_set_host(const cgt_spu_host *host)
 {
     cgt_spu_thread *const thread = cgt_spu_this_thread();
@@ -130,7 +130,7 @@ __attribute__((unused)) static inline const char *cgt_spu_channel_name(unsigned 
 
 #define CGT_SPU_NO_CHANNEL 0xffffffffu
 
-/* Says which word cannot do its work and why, and aborts. */
+/* Prints which word cannot work and why, and aborts. */
 __attribute__((noreturn, cold, unused)) static inline void cgt_spu_fail(const char *word, unsigned channel,
                                                                         const char *member)
 {

@@ -1,28 +1,28 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The door to the spu_* vocabulary: the generic intrinsics of the SPU's C language extension. On an SPU it is the
- * compiler's own header; elsewhere a mapping gives the same names, types, lane order and results, so that SPU source
- * compiles on today's machines. Source that asks `#ifdef __SPU__`: compile it with -D__SPU__ -DCGT_SPU_HOST.
+ * Entry point of the spu_* vocabulary: the generic intrinsics of the SPU's C language extension. On an SPU it includes
+ * the compiler's own header; elsewhere a mapping provides the same names, types, lane order and results, so that SPU
+ * source compiles on today's machines. Compile source that tests `#ifdef __SPU__` with -D__SPU__ -DCGT_SPU_HOST.
  *
- * The mapping: CGT_SPU_PORTABLE forces plain C; else SSE4.1 or AArch64 NEON where the compiler is told that it may use
- * them; else plain C.
+ * The mapping: CGT_SPU_PORTABLE forces plain C; otherwise SSE4.1 or AArch64 NEON where the compiler flags allow them;
+ * otherwise plain C.
  *
- * Floating point: IEEE arithmetic of the host, faster than an SPU's and not the same; CGT_SPU_FUSED and
- * CGT_SPU_FUSED_DOUBLE say whether madd, msub, nmsub and nmadd round once (1), as on an SPU, or twice (0). With
+ * Floating point: the host's IEEE arithmetic, faster than the SPU's but different. CGT_SPU_FUSED and
+ * CGT_SPU_FUSED_DOUBLE tell whether madd, msub, nmsub and nmadd round once (1), as on an SPU, or twice (0). With
  * CGT_SPU_EXACT defined, single precision is the SPU's, bit by bit: see spu_exact.h, and spu_arithmetic_mode.h for the
- * two calls that go around it.
+ * two calls that enclose it.
  *
- * Elements are in the order of the SPU on every host, each in the host's byte order. Words that look at bytes (shuffle,
- * the quadword's shifts) count them as an SPU does, by the type of the operand; spu_types.h says what casts do.
+ * Elements are in the order of the SPU on every host, each in the host's byte order. Words that work on bytes (shuffle,
+ * the quadword's shifts) count them as an SPU does, by the type of the operand; spu_types.h explains casts.
  *
  * A macro picks the typed function, cgt_spu_WORD_TYPE, by the type of an operand. It evaluates each operand once; a
- * wrong type does not compile. The words, their overloads and what they cost are in docs/spu.md, their table in
+ * wrong type is a compile error. The words, their overloads and what they cost are in docs/guide/spu.md, their table in
  * spu_words.h.
  *
- * Thread safety: no word keeps state, but for the host interface of spu_channels.h, which is per thread. */
+ * Thread safety: no word keeps state, except the host interface of spu_channels.h, which is per thread. */
 #if defined(__SPU__) && !defined(CGT_SPU_HOST)
-#include_next <spu_intrinsics.h> /* before any guard: where a file beside this one asks for it, it is next to itself */
+#include_next <spu_intrinsics.h> /* before any guard: a file in this folder that includes it finds this header again */
 #elif !defined(CGT_SPU_INTRINSICS_H)
 #define CGT_SPU_INTRINSICS_H
 
@@ -44,7 +44,7 @@
 #include "spu_operand_check.h"
 #include "spu_wide.h" /* in kernels at eight or sixteen lanes the words know the wide types too */
 
-/* ---- picking: by the type of x, among the types for which a word exists; `wide` adds the wide ones ---- */
+/* ---- selection by the type of x, among the types for which a word exists; `wide` adds the wide ones ---- */
 
 /* clang-format off */
 #define CGT_SPU_OF_HALFWORDS(word) vec_ushort8: cgt_spu_##word##_u16, vec_short8: cgt_spu_##word##_s16
@@ -72,8 +72,8 @@
              int: cgt_spu_##word##_s32, unsigned: cgt_spu_##word##_u32, CGT_SPU_OF_LONG(word),                         \
              long long: cgt_spu_##word##_s64, unsigned long long: cgt_spu_##word##_u64)
 
-/* Words whose second operand is a vector or a scalar. Where b is a scalar, a picks; a pair that is neither ends at a
- * function that takes no operands, whose name says what is wrong. */
+/* Words whose second operand is a vector or a scalar. Where b is a scalar, a selects. Any other pair ends at
+ * a function that takes no operands and whose name states the mistake. */
 struct cgt_spu_no_operand;
 void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define CGT_SPU_HALFWORDS_X(word)                                                                                      \
@@ -92,7 +92,7 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
     _Generic((b), wide CGT_SPU_LIST_SUM(word), default:                                                                \
              _Generic((a), CGT_SPU_HALFWORDS_X(word), CGT_SPU_WORDS_X(word), CGT_SPU_ELSE_NONE))
 #define CGT_SPU_LIST_COMPARE(word) CGT_SPU_OF_INTS(word), CGT_SPU_OF_FLOATS(word)
-/* a shift: a picks, then whether the count is a vector of the type that goes with a, or a scalar */
+/* a shift: a selects, then the count, a scalar or a vector of the type that goes with a */
 #define CGT_SPU_COUNTED(word, type, vec, n)                                                                            \
     _Generic((n), vec: cgt_spu_##word##_##type, default: cgt_spu_##word##_##type##_x)
 #define CGT_SPU_PICK_SHIFT(word, wide, count16, count32, a, n)                                                         \
@@ -120,7 +120,7 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 /* ---- arithmetic ---- */
 
 #define spu_add(a, b) CGT_SPU_PICK_SUM(add, CGT_SPU_WIDE_FSU(add), a, b)(CGT_SPU_OPERAND_LIKE(b, a), b)
-/* a scalar stands first: the vector from which it is not taken is b */
+/* a scalar minuend stands first; then b is the vector */
 #define spu_sub(a, b)                                                                                                  \
     _Generic((a), CGT_SPU_WIDE_FSU(sub) CGT_SPU_LIST_SUM(sub), default:                                                \
              _Generic((b), CGT_SPU_HALFWORDS_X(sub), CGT_SPU_WORDS_X(sub), CGT_SPU_ELSE_NONE))                         \
@@ -151,7 +151,7 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
     (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_ADDEND(a, c))
 #define spu_re(a) _Generic((a), CGT_SPU_WIDE_F(re) vec_float4: cgt_spu_re_f32)(a)
 #define spu_rsqrte(a) _Generic((a), CGT_SPU_WIDE_F(rsqrte) vec_float4: cgt_spu_rsqrte_f32)(a)
-/* the estimates in the SPU's two instructions, on quadwords: SPU source uses these three even where it is generic */
+/* the estimates as the SPU's two instructions, on quadwords: even generic SPU source uses these three */
 #define si_frest(a) ((qword)cgt_spu_frest_f32((vec_float4)(a)))
 #define si_frsqest(a) ((qword)cgt_spu_frsqest_f32((vec_float4)(a)))
 #define si_fi(a, b) ((qword)cgt_spu_fi_f32((vec_float4)(a), (vec_float4)(b)))
@@ -182,8 +182,8 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_shuffle(a, b, pattern) CGT_SPU_PICK_ALL(shuffle, , a)                                                      \
     (a, CGT_SPU_OPERAND_SAME(a, b), CGT_SPU_OPERAND_IS(vec_uchar16, pattern))
 
-/* No word of an SPU, where a cast does it: the cast of a to a vector type with the SPU's result on hosts of either byte
- * order. It matters where the element sizes differ. */
+/* Casts a to a vector type with the SPU's result on hosts of either byte order. It matters where the element sizes
+ * differ. Not a word of the SPU, where a plain cast does the same. */
 #define spux_cast(type, a)                                                                                             \
     ((type)cgt_spu_cast_bytes((vec_uchar16)(a), (unsigned)sizeof((a)[0]), (unsigned)sizeof(((type){0})[0])))
 
@@ -201,7 +201,7 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_eqv(a, b) CGT_SPU_PICK_ALL(eqv, , a)(a, CGT_SPU_OPERAND_SAME(a, b))
 #define spu_orx(a) CGT_SPU_PICK_WORDS32(orx, , a)(a)
 
-/* ---- shifts and rotations of elements; from the element's width on nothing or the sign is left ---- */
+/* ---- shifts and rotations of elements; counts from the element's width on leave zeros or sign bits ---- */
 
 #define spu_sl(a, count) CGT_SPU_PICK_SHIFT(sl, CGT_SPU_WIDE_SU(sl), vec_ushort8, vec_uint4, a, count)(a, count)
 #define spu_sr(a, count) CGT_SPU_PICK_SHIFT(sr, CGT_SPU_WIDE_SU(sr), vec_ushort8, vec_uint4, a, count)(a, count)
@@ -226,7 +226,7 @@ void cgt_spu_operands_have_no_such_overload(struct cgt_spu_no_operand);
 #define spu_rlmaskqwbytebc(a, count) CGT_SPU_PICK_ALL(rlmaskqwbytebc, , a)(a, count)
 /* clang-format on */
 
-#ifndef CGT_LANES /* a kernel has no channels, and its object no symbols of theirs */
+#ifndef CGT_LANES /* kernels have no channels, and their objects none of these symbols */
 #include "spu_channels.h"
 #endif
 

@@ -5,8 +5,8 @@
  * compiler's own header; elsewhere the words go to the host of the thread (spu_host.h). They differ from the SPU's in
  * three ways:
  *
- *   - Addresses in local storage (ls, and the lists of mfc_putl and its like) are pointers of the process and reach
- *     the host whole; on an SPU they have 32 bits.
+ *   - Addresses in local storage (ls, and the lists of mfc_putl and the like) are pointers of the process and reach the
+ *     host unchanged; on an SPU they have 32 bits.
  *   - Each operand is evaluated once.
  *   - The tag manager keeps its tags per thread, as an SPU has its own. */
 #ifndef CGT_SPU_MFCIO_H
@@ -23,8 +23,8 @@
 /* ---- list elements ---- */
 
 /* In memory: two words of the host's byte order, the first with notify in its highest bit and size in its lowest 15,
- * the second eal. The SPU's compiler fills a word from its highest bit on, that of a little-endian host from its
- * lowest, so the order of the members is turned there: name the members where you initialise one. */
+ * the second eal. The SPU's compiler fills a word from its highest bit, that of a little-endian host from its lowest,
+ * so the order of the members is reversed there: use designated initialisers. */
 __extension__ typedef struct mfc_list_element {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
     uint64_t notify : 1; /* stall after this element until mfc_write_list_stall_ack */
@@ -315,7 +315,7 @@ CGT_SPU_CONTROL uint32_t cgt_mfc_tag_bits(unsigned first, unsigned count)
 CGT_SPU_CONTROL unsigned int cgt_mfc_reserve_tags(unsigned int count)
 {
     cgt_spu_thread *const thread = cgt_spu_this_thread();
-    const unsigned room = count > 0 ? count : 1; /* a run of none begins at a free tag, too */
+    const unsigned room = count > 0 ? count : 1; /* an empty run begins at a free tag, too */
     if (room > 32)
         return MFC_TAG_INVALID;
     for (unsigned first = 0; first + room <= 32; first++) {
@@ -327,7 +327,7 @@ CGT_SPU_CONTROL unsigned int cgt_mfc_reserve_tags(unsigned int count)
     return MFC_TAG_INVALID;
 }
 
-/* Gives tags back. MFC_TAG_INVALID, and nothing is done, where they were not all reserved. */
+/* Releases tags. Returns MFC_TAG_INVALID and does nothing where they were not all reserved. */
 CGT_SPU_CONTROL unsigned int cgt_mfc_release_tags(unsigned int first, unsigned int count)
 {
     cgt_spu_thread *const thread = cgt_spu_this_thread();

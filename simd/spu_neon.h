@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The mapping to AArch64 NEON: the words for which an instruction exists that the compiler would not find by itself
- * from its own vectors. Little-endian, as every AArch64 host that we know runs. */
+ * The mapping to AArch64 NEON: the words for which an instruction exists that the compiler does not find from its own
+ * vectors. Little-endian, as are all known AArch64 hosts. */
 #ifndef CGT_SPU_NEON_H
 #define CGT_SPU_NEON_H
 
@@ -63,7 +63,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_rsqrte_f32(vec_float4 a)
 }
 #endif
 
-/* fcvtzs and fcvtzu saturate and take NaN to 0, as the contract asks */
+/* fcvtzs and fcvtzu saturate and turn NaN into 0, as the contract requires */
 #define CGT_SPU_OWN_CONVTS
 CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a) { return (vec_int4)vcvtq_s32_f32((float32x4_t)a); }
 CGT_SPU_INLINE vec_uint4 cgt_spu_to_uint_f32(vec_float4 a) { return (vec_uint4)vcvtq_u32_f32((float32x4_t)a); }
@@ -163,8 +163,8 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, v
     return (vec_uchar16)vqtbl2q_u8(table, (uint8x16_t)index) | constant;
 }
 
-/* ---- shifts: one instruction goes both ways, by the lowest byte of each count as a signed number; from the width on
- * it leaves zeros or sign bits ---- */
+/* ---- shifts: one instruction shifts both ways, by the lowest byte of each count, signed; from the width on it
+ * leaves zeros or sign bits ---- */
 
 #define CGT_SPU_OWN_SHIFT
 #define CGT_SPU_X(type, stype, vec, uvec, svec)                                                                        \
@@ -193,8 +193,8 @@ CGT_SPU_X(u32, vec_uint4, unsigned)
 
 /* ---- the quadword ---- */
 
-/* Byte p of the SPU's quadword lies at p ^ flip: positions are turned on the way in and on the way out. An index
- * beyond 15 gives zero. */
+/* Byte p of the SPU's quadword lies at p ^ flip: positions are converted before and after. An index beyond
+ * 15 gives zero. */
 #define CGT_SPU_OWN_QUAD
 CGT_SPU_INLINE vec_ullong2 cgt_neon_bytes(vec_ullong2 a, vec_uchar16 index)
 {

@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Operands of a word beside the one that picks its function: each macro is the operand itself where its type fits, and
- * else an object that no function takes and whose name says what is wrong.
+ * Checks the operands of a word other than the one that selects its function: each macro is the operand itself where
+ * its type fits, and otherwise an object that no function accepts and whose name states the mistake.
  *
- * clang converts any vector type to any other of the same size without a word. GCC does not, and needs no check; nor do
- * the library's kernels at more than four lanes. */
+ * clang silently converts any vector type to any other of the same size. GCC does not and needs no check; nor do the
+ * library's kernels at more than four lanes. */
 #ifndef CGT_SPU_OPERAND_CHECK_H
 #define CGT_SPU_OPERAND_CHECK_H
 
@@ -16,11 +16,11 @@ extern struct cgt_spu_operand_types_do_not_match {
 } cgt_spu_operand_types_do_not_match;
 
 #define CGT_SPU_OF_TYPE(type, b) _Generic((b), type : (b), default : cgt_spu_operand_types_do_not_match)
-/* the type of a value; + takes qualifiers away */
+/* the type of a value; + drops qualifiers */
 #define CGT_SPU_TYPE_OF(a) __typeof__(+(a))
 
-/* b of a's type; of a type; of a's type unless a is a scalar; a mask for vectors of a's type; what is added to a product
- * of a's type */
+/* b of a's type; of a type; of a's type unless a is a scalar; a mask for vectors of a's type; what is added to a
+ * product of a's type */
 #define CGT_SPU_OPERAND_SAME(a, b) CGT_SPU_OF_TYPE(CGT_SPU_TYPE_OF(a), b)
 #define CGT_SPU_OPERAND_IS(type, b) CGT_SPU_OF_TYPE(type, b)
 #define CGT_SPU_OPERAND_LIKE(a, b)                                                                                     \

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The portable mapping: every word in plain C on the compiler's vectors, right on hosts of either byte order.
+ * The portable mapping: every word in plain C on the compiler's vectors, correct on hosts of either byte order.
  *
  *   cgt_spu_WORD_TYPE     the word for operands of TYPE (u8 s8 ... f64, see spu_words.h)
  *   cgt_spu_WORD_TYPE_x   the same with a scalar operand
  *
- * The other mappings include this file and replace groups of words: a mapping that has its own defines
- * CGT_SPU_OWN_<GROUP> before. */
+ * The other mappings include this file and replace groups of words: a mapping with words of its own defines
+ * CGT_SPU_OWN_<GROUP> first. */
 #ifndef CGT_SPU_PORTABLE_H
 #define CGT_SPU_PORTABLE_H
 

@@ -12,7 +12,7 @@
 #define CGT_SPU_FUSED 0
 #endif
 #define CGT_SPU_FUSED_DOUBLE 0
-/* A product that the compiler may not fuse with what follows, as it otherwise does by default where the machine can. */
+/* A product that the compiler must not fuse with later operations, as it does by default on machines that can. */
 #if !defined(__FP_FAST_FMAF)
 #define CGT_SPU_ROUNDED(product)
 #elif defined(__x86_64__)
@@ -36,7 +36,7 @@ CGT_SPU_X(nmsub, f32, vec_float4, c - ab)
 #endif
 CGT_SPU_X(madd, f64, vec_double2, ab + c)
 CGT_SPU_X(msub, f64, vec_double2, ab - c)
-/* the SPU's doubles are rounded, then negated: another zero than c - a * b has */
+/* the SPU's doubles are rounded, then negated: so a zero has another sign than that of c - a * b */
 CGT_SPU_X(nmsub, f64, vec_double2, -(ab - c))
 CGT_SPU_X(nmadd, f64, vec_double2, -(ab + c))
 #undef CGT_SPU_X
@@ -104,13 +104,13 @@ CGT_SPU_INLINE vec_float4 cgt_spu_convtf_u32(vec_uint4 a, int n)
 #ifndef CGT_SPU_OWN_CONVTS
 CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a)
 {
-    /* only what fits is converted: C leaves the rest open */
+    /* only values in range are converted: C leaves others undefined */
     const vec_int4 large = (vec_int4)(a >= 2147483648.f), small = (vec_int4)(a < -2147483648.f);
     const vec_int4 fits = (vec_int4)(a >= -2147483648.f) & ~large; /* no NaN */
     const vec_int4 d = __builtin_convertvector((vec_float4)((vec_int4)a & fits), vec_int4);
     return d | (large & INT32_MAX) | (small & INT32_MIN);
 }
-/* from 2^31 on without it; it comes back as the top bit */
+/* from 2^31 on, 2^31 is subtracted and restored as the top bit */
 CGT_SPU_INLINE vec_uint4 cgt_spu_to_uint_f32(vec_float4 a)
 {
     const vec_int4 positive = (vec_int4)(a > 0.f), upper = (vec_int4)(a >= 2147483648.f);

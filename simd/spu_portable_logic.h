@@ -56,7 +56,7 @@ CGT_SPU_EACH_INT(CGT_SPU_X)
 #undef CGT_SPU_X
 #undef CGT_SPU_BITWISE
 
-/* orx: the four words together, in element 0 */
+/* orx: the four words or-ed, in element 0 */
 #ifndef CGT_SPU_OWN_ORX
 CGT_SPU_INLINE vec_uint4 cgt_spu_orx_u32(vec_uint4 a) { return (vec_uint4){a[0] | a[1] | a[2] | a[3], 0, 0, 0}; }
 #endif

@@ -104,7 +104,7 @@ typedef struct cgt_spu_quadword {
     unsigned long long high, low;
 } cgt_spu_quadword;
 
-/* Each element of `size` bytes is in the host's byte order; turn the order of the elements within 8 bytes instead. */
+/* Each element of `size` bytes is in the host's byte order; reverse the elements within 8 bytes instead. */
 CGT_SPU_INLINE unsigned long long cgt_spu_reorder(unsigned long long a, unsigned size)
 {
 #if !defined(__BYTE_ORDER__) || __BYTE_ORDER__ != __ORDER_BIG_ENDIAN__

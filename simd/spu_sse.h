@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The mapping to SSE4.1, and to what later machines add where the compiler is told that it may use it (FMA, AVX2,
- * AVX-512). The compiler's vectors already become SSE instructions; here are the words for which instructions exist that
- * it would not find. Little-endian only, as x86 is.
+ * The mapping to SSE4.1, and to FMA, AVX2 and AVX-512 where the flags allow them. The compiler's vectors already become
+ * SSE instructions; here are the words for which instructions exist that the compiler does not find. Little-endian
+ * only, as x86 is.
  *
  * Where operands may be constants the code is in the compiler's vectors and shuffles, not in intrinsics, so that it
  * folds: a shuffle with a constant pattern costs three instructions, a quadword shift by a constant count one. */
@@ -43,7 +43,7 @@ CGT_SPU_INLINE vec_uchar16 cgt_sse_permute(vec_uchar16 a, vec_uchar16 index)
 CGT_SPU_X(madd, _mm_fmadd_pd)
 CGT_SPU_X(msub, _mm_fmsub_pd)
 #undef CGT_SPU_X
-/* rounded, then negated, as the SPU's doubles are: not vfnmadd and vfnmsub, whose zeros have the other sign */
+/* rounded, then negated, like the SPU's doubles: not vfnmadd and vfnmsub, whose zeros have the other sign */
 CGT_SPU_INLINE vec_double2 cgt_spu_nmsub_f64(vec_double2 a, vec_double2 b, vec_double2 c)
 {
     return -cgt_spu_msub_f64(a, b, c);
@@ -75,7 +75,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_rsqrte_f32(vec_float4 a) /* of the magnitude, 
 }
 #endif
 
-/* cvttps gives 0x80000000 for whatever does not fit. GCC folds constants another way, so they are hidden from it. */
+/* cvttps gives 0x80000000 for values out of range. GCC folds such constants differently, so they are hidden from it. */
 CGT_SPU_INLINE vec_int4 cgt_sse_truncate(vec_float4 a)
 {
 #if !defined(__clang__)
@@ -84,14 +84,14 @@ CGT_SPU_INLINE vec_int4 cgt_sse_truncate(vec_float4 a)
     return (vec_int4)_mm_cvttps_epi32((__m128)a);
 }
 
-/* What does not fit: flip that to the largest int where the operand was large, and to 0 where it was NaN. */
+/* Out of range: flip 0x80000000 to the largest int where the operand was large, and to 0 where it was NaN. */
 #define CGT_SPU_OWN_CONVTS
 CGT_SPU_INLINE vec_int4 cgt_spu_to_int_f32(vec_float4 a)
 {
     const vec_int4 d = cgt_sse_truncate(a);
     return (d ^ (vec_int4)(a >= 2147483648.f)) & (vec_int4)_mm_cmpord_ps((__m128)a, (__m128)a);
 }
-/* numbers from 2^31 on are converted without it, and get it back as the top bit */
+/* from 2^31 on, 2^31 is subtracted and restored as the top bit */
 CGT_SPU_INLINE vec_uint4 cgt_spu_to_uint_f32(vec_float4 a)
 {
 #if defined(__AVX512VL__)
@@ -111,7 +111,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_to_float_u32(vec_uint4 a)
 #if defined(__AVX512VL__)
     return (vec_float4)_mm_cvtepu32_ps((__m128i)a);
 #else
-    /* the halves as lowest bits of 2^23 and 2^39; what is too much is taken off exactly, and the sum is rounded once */
+    /* both halves become lowest bits of 2^23 and 2^39; the excess is subtracted exactly, and the sum is rounded once */
     const __m128i low = _mm_blend_epi16((__m128i)a, _mm_set1_epi32(0x4b000000), 0xaa);
     const __m128i high = _mm_blend_epi16((__m128i)(a >> 16), _mm_set1_epi32(0x53000000), 0xaa);
     return ((vec_float4)high - 0x1.0001p39f) + (vec_float4)low;
@@ -126,7 +126,7 @@ CGT_SPU_INLINE vec_float4 cgt_spu_roundtf_f64(vec_double2 a)
 
 /* ---- integers ---- */
 
-/* Products of halfwords: pmaddwd multiplies pairs and adds; with one of each pair zero it is a product alone. Unsigned
+/* Products of halfwords: pmaddwd multiplies pairs and adds; with one of each pair zero it is a single product. Unsigned
  * ones are products of words. */
 #define CGT_SPU_OWN_MULTIPLY
 CGT_SPU_INLINE vec_int4 cgt_spu_mulo_s16(vec_short8 a, vec_short8 b)
@@ -145,7 +145,7 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_mule_u16(vec_ushort8 a, vec_ushort8 b)
 {
     return ((vec_uint4)a & 0xffff) * ((vec_uint4)b & 0xffff);
 }
-/* only the low half of the product stays, in the odd place: that is where the even halfword of a goes */
+/* only the low half of the product remains, in the odd halfword, where the even halfword of a goes */
 CGT_SPU_INLINE vec_int4 cgt_spu_mulh_s16(vec_short8 a, vec_short8 b)
 {
     return (vec_int4)_mm_mullo_epi16(_mm_slli_epi32((__m128i)a, 16), (__m128i)b);
@@ -158,7 +158,7 @@ CGT_SPU_INLINE vec_int4 cgt_spu_mulsr_s16(vec_short8 a, vec_short8 b)
 #define CGT_SPU_OWN_CARRY
 CGT_SPU_INLINE vec_uint4 cgt_spu_genc_u32(vec_uint4 a, vec_uint4 b)
 {
-    const __m128i sum = (__m128i)(a + b); /* below a where it has overflowed */
+    const __m128i sum = (__m128i)(a + b); /* the sum is below a where it overflowed */
     return (vec_uint4)_mm_andnot_si128(_mm_cmpeq_epi32(_mm_max_epu32(sum, (__m128i)a), sum), _mm_set1_epi32(1));
 }
 CGT_SPU_INLINE vec_uint4 cgt_spu_genb_u32(vec_uint4 a, vec_uint4 b)
@@ -212,7 +212,7 @@ CGT_SPU_INLINE vec_ushort8 cgt_spu_sumb_u8(vec_uchar16 a, vec_uchar16 b)
     const __m128i sum_b = _mm_madd_epi16(_mm_maddubs_epi16((__m128i)b, one), pair);
     return (vec_ushort8)_mm_or_si128(sum_b, _mm_slli_epi32(sum_a, 16));
 }
-/* ones of each half of a byte, from a table of sixteen */
+/* bits set in each half of a byte, from a table of sixteen */
 CGT_SPU_INLINE vec_uchar16 cgt_spu_cntb_u8(vec_uchar16 a)
 {
     const vec_uchar16 ones = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
@@ -224,8 +224,8 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_cntb_u8(vec_uchar16 a)
 CGT_SPU_INLINE vec_uint4 cgt_spu_cntlz_u32(vec_uint4 a) { return (vec_uint4)_mm_lzcnt_epi32((__m128i)a); }
 #else
 #define CGT_SPU_OWN_CNTLZ
-/* The exponent of a number as float tells its highest bit. Bits that could round it up to the next power of two are
- * cleared first: those whose upper neighbour is set. Zero has the exponent field 0, and ends at 158: limit it. With the
+/* The exponent of the number as a float gives its highest bit. Bits that could round it up to the next power of two are
+ * cleared first: those whose upper neighbour is set. Zero has exponent field 0, which gives 158: limit it. With the
  * sign bit set the field is above 158: saturate at 0. */
 CGT_SPU_INLINE vec_uint4 cgt_spu_cntlz_u32(vec_uint4 a)
 {
@@ -252,7 +252,7 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_orx_u32(vec_uint4 a)
     return (vec_uint4)_mm_blend_epi16(_mm_setzero_si128(), _mm_or_si128(b, _mm_shuffle_epi32(b, 0xb1)), 0x03);
 }
 
-/* movemask puts element 0 lowest: turn the elements round first */
+/* movemask puts element 0 lowest: reverse the elements first */
 #define CGT_SPU_OWN_GATHER
 CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u32(vec_uint4 a)
 {
@@ -273,21 +273,22 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_gather_u8(vec_uchar16 a)
     return (vec_uint4)_mm_cvtsi32_si128(_mm_movemask_epi8(_mm_slli_epi16((__m128i)reversed, 7)));
 }
 
-/* Two byte shuffles and an or: a byte with its top bit set gives zero, so each half of the table takes its own bytes. */
+/* Two byte shuffles and an or: an index with its top bit set gives zero, so each half of the table supplies its own
+ * bytes. */
 #define CGT_SPU_OWN_SHUFFLE
 CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, vec_uchar16 pattern, unsigned flip)
 {
     const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     const vec_uchar16 c = flip ? cgt_sse_permute(pattern, iota ^ (unsigned char)flip) : pattern;
 #if !defined(__clang__)
-    /* a constant pattern without constant bytes: the compiler knows the best instructions */
+    /* a constant pattern without constant bytes: the compiler finds the best instructions */
     const unsigned long long special_bytes = (((vec_ullong2)c)[0] | ((vec_ullong2)c)[1]) & 0x8080808080808080u;
     if (__builtin_constant_p(special_bytes) && !special_bytes)
         return __builtin_shuffle(a, b, (c & 31) ^ (unsigned char)flip);
 #endif
     const vec_uchar16 constants = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0x80, 0x80};
     const vec_uchar16 constant = cgt_sse_permute(constants, (vec_uchar16)((vec_ushort8)c >> 4) & 15);
-    /* pshufb looks at the lowest four bits and, for zero, at the top one: so bit 4, which says b, goes up there */
+    /* pshufb reads the lowest four bits and, for zero, the top one: so bit 4, which selects b, moves to the top */
     const vec_uchar16 index = c ^ (unsigned char)flip, which = (vec_uchar16)((vec_ushort8)c << 3);
     return constant | cgt_sse_bytes(a, index | (which & 0x80)) | cgt_sse_bytes(b, index | (~which & 0x80));
 }
@@ -312,7 +313,7 @@ CGT_SPU_INLINE vec_uchar16 cgt_spu_shuffle_bytes(vec_uchar16 a, vec_uchar16 b, v
 CGT_SPU_X(u16, vec_ushort8, 16)
 CGT_SPU_X(u32, vec_uint4, 32)
 #undef CGT_SPU_X
-/* By a count of each element's own */
+/* By one count per element */
 #if defined(__AVX2__)
 CGT_SPU_INLINE vec_uint4 cgt_spu_left_u32(vec_uint4 a, vec_uint4 n)
 {
@@ -327,14 +328,14 @@ CGT_SPU_INLINE vec_uint4 cgt_spu_right_signed_u32(vec_uint4 a, vec_uint4 n)
     return (vec_uint4)_mm_srav_epi32((__m128i)a, (__m128i)n);
 }
 #else
-/* left: a product by a power of two, made as a float's exponent; 2^31 comes out as the conversion's 0x80000000, and
- * counts from 32 on have an operand that does not fit either: clear them */
+/* left: a product by a power of two, built as a float's exponent; 2^31 becomes the conversion's 0x80000000, and so do
+ * counts from 32 on: clear them */
 CGT_SPU_INLINE vec_uint4 cgt_spu_left_u32(vec_uint4 a, vec_uint4 n)
 {
     const vec_uint4 power = (vec_uint4)cgt_sse_truncate((vec_float4)((n << 23) + 0x3f800000));
     return a * power & (vec_uint4)((vec_int4)n < 32);
 }
-/* right: each element apart, by the instruction that reads its count from 64 bits */
+/* right: element by element, by the instruction that reads its count from 64 bits */
 #define CGT_SPU_X(name, instruction)                                                                                   \
     CGT_SPU_INLINE vec_uint4 cgt_spu_##name##_u32(vec_uint4 a, vec_uint4 n)                                            \
     {                                                                                                                  \
@@ -363,7 +364,7 @@ CGT_SPU_INLINE vec_ushort8 cgt_spu_right_signed_u16(vec_ushort8 a, vec_ushort8 n
     return (vec_ushort8)_mm_srav_epi16((__m128i)a, (__m128i)n);
 }
 #elif defined(__AVX2__)
-/* the two halfwords of a word apart */
+/* the two halfwords of a word separately */
 CGT_SPU_INLINE vec_ushort8 cgt_sse_halfwords(vec_uint4 even, vec_uint4 odd)
 {
     return (vec_ushort8)_mm_blend_epi16((__m128i)even, (__m128i)odd, 0xaa);
@@ -436,8 +437,8 @@ CGT_SPU_INLINE vec_ushort8 cgt_spu_rotate_u16(vec_ushort8 a, vec_ushort8 n)
 
 /* ---- the quadword ---- */
 
-/* Byte p of the SPU's quadword lies at p ^ flip: positions are turned on the way in and on the way out. What comes from
- * outside gets an index with the top bit set. */
+/* Byte p of the SPU's quadword lies at p ^ flip: positions are converted before and after. Bytes from outside
+ * get an index with the top bit set. */
 #define CGT_SPU_OWN_QUAD
 CGT_SPU_INLINE vec_uchar16 cgt_sse_positions(unsigned size)
 {
@@ -449,7 +450,7 @@ CGT_SPU_INLINE vec_ullong2 cgt_sse_fetch(vec_ullong2 a, vec_uchar16 from, unsign
     const vec_uchar16 outside = (vec_uchar16)(from > 15);
     return (vec_ullong2)cgt_sse_bytes((vec_uchar16)a, (from ^ (unsigned char)(size - 1)) | outside);
 }
-/* By a count that is not known: positions of bytes p + n, from sixteen neighbours in memory. */
+/* By a variable count: positions of bytes p + n, from sixteen neighbours in memory. */
 CGT_SPU_INLINE vec_ullong2 cgt_sse_fetch_window(vec_ullong2 a, const unsigned char *window, unsigned size)
 {
     vec_uchar16 from;
@@ -484,8 +485,8 @@ CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bytes(vec_ullong2 a, unsigned n, 
     return cgt_sse_fetch_window(a, window + n, size);
 }
 
-/* By bits: each element by itself, and with what comes over from its neighbour. Bytes, for which there is no shift, turn
- * into words of 64 bits, highest first, and back. */
+/* By bits: shift each element and add the bits that its neighbour shifts out. Bytes, for which there is no shift,
+ * become words of 64 bits, highest first, and are converted back. */
 CGT_SPU_INLINE __m128i cgt_sse_reorder(__m128i a, unsigned size)
 {
     const vec_uchar16 iota = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -536,7 +537,7 @@ CGT_SPU_INLINE vec_ullong2 cgt_spu_quad_rotate_bits(vec_ullong2 a, unsigned n, u
         _mm_or_si128(cgt_sse_elements_left(x, n, size), cgt_sse_advance_around(over, size)), size);
 }
 
-/* GCC makes a complement an instruction that waits for the register's last value */
+/* GCC compiles a complement to an instruction that depends on the register's old value */
 #if defined(__AVX512VL__) && !defined(__clang__)
 #define CGT_SPU_OWN_COMPLEMENTS
 #define CGT_SSE_TABLE(mask, a, b, table) ((mask)_mm_ternarylogic_epi32((__m128i)(a), (__m128i)(a), (__m128i)(b), table))

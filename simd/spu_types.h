@@ -4,16 +4,16 @@
  * The vector types of the SPU language extension on the compiler's own vectors (gcc and clang).
  *
  *   vec_TYPEn   n elements of TYPE, 16 bytes, element 0 first in memory on every host
- *   qword       a quadword without a type: vec_char16, as the SPU's compiler has it
+ *   qword       a quadword without a type: vec_char16, as in the SPU's compiler
  *   vector      the keyword: `vector float` is vec_float4, `vector unsigned int` is vec_uint4. A macro here:
- *               CGT_SPU_NO_VECTOR_KEYWORD leaves the name alone; __vector is always there.
+ *               CGT_SPU_NO_VECTOR_KEYWORD leaves the name free; __vector always exists.
  *
  * A comparison gives an unsigned vector of the same element size: all ones where true, else zero.
  *
- * A cast between two of these types keeps the 16 bytes of memory. On a host of big-endian byte order that is what an SPU
- * does; on a little-endian one it is the same only between types of one element size: (vec_uint4)(vec_float4) is, while
- * element 0 of (vec_uint4)(vec_double2) is the low half of the first double here and the high half on an SPU. spux_cast of
- * spu_intrinsics.h does it the SPU's way. */
+ * A cast between two of these types keeps the 16 bytes of memory. On a big-endian host the result is the SPU's; on
+ * a little-endian one only between types of one element size: (vec_uint4)(vec_float4) is the same, while element 0 of
+ * (vec_uint4)(vec_double2) is the low half of the first double here and the high half on an SPU. spux_cast of
+ * spu_intrinsics.h gives the SPU's result. */
 #ifndef CGT_SPU_TYPES_H
 #define CGT_SPU_TYPES_H
 

@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The width of this build's variant, for the door: rows of the words' selections by type that belong to vectors wider
- * than four lanes. CGT_LANES is given where a kernel is compiled, and nowhere else; without it, and with 4, there are
- * none.
+ * The width of this build's variant, for spu_intrinsics.h: selection rows for vectors wider than four lanes. CGT_LANES
+ * is defined only where a kernel is compiled; without it, and with 4, there are no such rows.
  *
  *   CGT_SPU_WIDE_F(word)      floats
  *   CGT_SPU_WIDE_SU(word)     signed and unsigned ints

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Words on eight or sixteen lanes that are expressions of the compiler's vectors at either width. A part of spu_avx2.h
- * and spu_avx512.h, which give the types. */
+ * and spu_avx512.h, which define the types. */
 #ifndef CGT_SPU_WIDE_VECTORS_H
 #define CGT_SPU_WIDE_VECTORS_H
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The table of the vocabulary: every typed overload of every word that computes. It drives the tests, the micro-bench
- * and the check of the reference; a program that includes spu_intrinsics.h does not need it.
+ * and the check of docs/guide/spu.md; programs that include spu_intrinsics.h do not need it.
  *
  * CGT_SPU_WORDS(W1, W2, W3) expands to one macro call per overload, by the number of operands:
  *   W1(word, result, a)   W2(word, result, a, b)   W3(word, result, a, b, c)
@@ -19,7 +19,7 @@
 #ifndef CGT_SPU_WORDS_H
 #define CGT_SPU_WORDS_H
 
-/* ---- rows of one shape, for all ten types ---- */
+/* ---- rows of one form, for all ten types ---- */
 
 #define CGT_SPU_SAME2(W, word)                                                                                         \
     W(word, u8, u8, u8)                                                                                                \
@@ -55,7 +55,7 @@
     W(word, f32, f32, f32, m32)                                                                                        \
     W(word, f64, f64, f64, m64)
 
-/* ---- rows of one shape, for fewer types ---- */
+/* ---- rows of one form, for fewer types ---- */
 
 #define CGT_SPU_SCALAR_INTS(W, word)                                                                                   \
     W(word, u8, u8, x_u8)                                                                                              \

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The words of vector.h that the SPU lacks, on eight lanes of AVX2. Words that move data are written for vuint;
- * vector.h gives the other types their shells. */
+ * vector.h wraps them for the other types. */
 #ifndef CGT_SPUX_AVX2_H
 #define CGT_SPUX_AVX2_H
 
@@ -90,8 +90,8 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     return (vuint)_mm256_permutevar8x32_epi32((__m256i)a, (__m256i)index);
 }
 
-/* The table holds the numbers of the true ones of four lanes, four bits each: two look-ups, one behind the other, where
- * a table for all eight lanes would have 256 entries. */
+/* The table holds the numbers of the true lanes of four, four bits each: two look-ups in sequence, where a table for
+ * all eight lanes would have 256 entries. */
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {
     static const uint16_t packed[16] = {0x0000, 0x0000, 0x0001, 0x0010, 0x0002, 0x0020, 0x0021, 0x0210,
@@ -176,7 +176,7 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[8])
     }
 }
 
-/* Lane k's record at AT(k), an expression: not an array of pointers, which compilers make vectors of. */
+/* Lane k's record at AT(k), an expression: compilers would put an array of pointers into vectors. */
 #define CGT_SPUX_LOAD_RECORDS4(AT, d)                                                                                  \
     do {                                                                                                               \
         vfloat r_[4];                                                                                                  \

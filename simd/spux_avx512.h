@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The words of vector.h that the SPU lacks, on sixteen lanes of AVX-512. Words that move data are written for vuint;
- * vector.h gives the other types their shells. */
+ * vector.h wraps them for the other types. */
 #ifndef CGT_SPUX_AVX512_H
 #define CGT_SPUX_AVX512_H
 
@@ -15,7 +15,7 @@ CGT_SPU_INLINE vuint spux_vuint(uint32_t x) { return (vuint)_mm512_set1_epi32((i
 CGT_SPU_INLINE vuint spux_lane_index(void) { return (vuint){0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}; }
 
 /* ---- masks ---- */
-/* GCC 12 may keep the bits in a mask register, spill 16 of them and reload 32: the empty statement keeps them out. */
+/* GCC 12 may keep the bits in a mask register, spill 16 of them and reload 32: the empty asm prevents that. */
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m)
 {
     unsigned bits = _cvtmask16_u32(m.bits);
@@ -92,7 +92,7 @@ CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
     return (uint32_t)__builtin_ctz(_mm256_cmpeq_epi16_mask(v, _mm256_set1_epi16((short)x)) | 1u << 16);
 }
 
-/* Upper and lower half; _mm512_extractf32x8_ps and the reductions of gcc 12 warn of a value that they leave open. */
+/* Upper and lower half; _mm512_extractf32x8_ps and the reductions warn of an uninitialised value in gcc 12. */
 CGT_SPU_INLINE __m256 cgt_spux_half_w(vfloat a, int upper)
 {
     const __m512d d = _mm512_castps_pd((__m512)a);
@@ -165,7 +165,7 @@ CGT_SPU_INLINE void spux_unzip(vuint v[2])
     v[1] = (vuint)_mm512_permutex2var_epi32(a, odd, b);
 }
 
-/* Quarters of 4x4, then the quarters among each other. */
+/* Transposes quarters of 4x4, then the quarters themselves. */
 CGT_SPU_INLINE void spux_transpose(vfloat row[16])
 {
     vfloat t[16];
@@ -179,7 +179,7 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[16])
     }
 }
 
-/* Lane k's record at AT(k), an expression: not an array of pointers, which compilers make vectors of. */
+/* Lane k's record at AT(k), an expression: compilers would put an array of pointers into vectors. */
 #define CGT_SPUX_LOAD_RECORDS4(AT, d)                                                                                  \
     do {                                                                                                               \
         vfloat r_[4];                                                                                                  \
@@ -192,7 +192,7 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[16])
         cgt_spux_transpose4_w(r_, d);                                                                                  \
     } while (0)
 
-/* Two whole records in each vector: half as many insertions as quarters take. */
+/* Two whole records in each vector: half as many insertions as with quarters. */
 #define CGT_SPUX_OWN_RECORDS8
 CGT_SPU_INLINE void spux_load_records8_at(const float *base, const uint32_t at[16], vfloat d[8])
 {

@@ -1,17 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Vectors of doubles, half as many as a vfloat has lanes, for what is computed once per hit. Arithmetic is that of C's
+ * Vectors of doubles, half as many as a vfloat has lanes, for values computed once per hit. Arithmetic uses C's
  * operators, which no variant fuses: the same bits at every width.
  *
  *   spux_double_low, high(a)       the first and the other half of a vfloat's lanes, exactly
  *   spux_double_sum(a, b)          the sums of CGT_DOUBLES floats at a, aligned to them, and of b, rounded to float
  *   spux_float_of(low, high)       the reverse of low and high, rounded to nearest
- *   spux_float_where(low, high, m) the same, and 0 beside the mask m
+ *   spux_float_where(low, high, m) the same, and 0 outside the mask m
  *   spux_vdouble(x)                x in every lane
  *   spux_double_sqrt(a)            correctly rounded
  *   spux_double_abs(a)
- *   spux_double_add_square(s, a)   s + a a for what was a float: its square is exact, so that fusing changes no bit
+ *   spux_double_add_square(s, a)   s + a a, a converted from float: the square is exact, so fusing changes no bit
  *   spux_double_select(a, b, x)    b where x is above 0, else a
  *   spux_double_above0(low, high)  the vmask of what is above 0; where it is so small that a float of it is 0,
  *                                  either way
@@ -108,7 +108,7 @@ CGT_SPU_INLINE vdouble spux_double_add_square(vdouble s, vdouble a)
 }
 
 #if CGT_LANES == 16
-/* 8 vectors of 8. With masks: of what the others leave undefined gcc 12 warns. */
+/* 8 vectors of 8. Masked forms, since gcc 12 warns of undefined values in the others. */
 CGT_SPU_INLINE void cgt_spux_double_transpose(__m512d r[8])
 {
     __m512d p[8], q[8];

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The words of vector.h that the SPU lacks, on four lanes: from the SPU's own words, or in plain C where those would be
- * no better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1 and NEON replace single words
- * for which they have an instruction. Words that move data are written for vuint; vector.h gives the other types their
- * shells. */
+ * The words of vector.h that the SPU lacks, on four lanes: from the SPU's own words, or in plain C where those are no
+ * better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1 and NEON replace single words
+ * for which they have an instruction. Words that move data are written for vuint; vector.h wraps them for the other
+ * types. */
 #ifndef CGT_SPUX_FOUR_H
 #define CGT_SPUX_FOUR_H
 
@@ -59,8 +59,8 @@ CGT_SPU_INLINE vuint cgt_spux_min_u32w(vuint a, vuint b) { return spu_sel(b, a, 
 CGT_SPU_INLINE vuint cgt_spux_max_u32w(vuint a, vuint b) { return spu_sel(b, a, spu_cmpgt(a, b)); }
 #endif
 #if defined(__SPU__) || defined(CGT_SPU_EXACT)
-/* on an SPU, and in its arithmetic elsewhere: one step of Newton's after the estimates, which are good to 12 bits; the
- * root of 0 is 0 */
+/* on an SPU, and in its arithmetic elsewhere: one Newton step after the estimates, which are good to 12 bits; the root
+ * of 0 is 0 */
 CGT_SPU_INLINE vfloat spux_div(vfloat a, vfloat b)
 {
     const vfloat r = spu_re(b), y = spu_madd(spu_nmsub(b, r, spux_vfloat(1)), r, r), q = spu_mul(a, y);
@@ -149,7 +149,7 @@ CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
     uint32_t lane[5] = {0, 0, 0, 0, 0};
     unsigned n = 0;
     for (int i = 0; i < 4; i++) {
-        lane[n] = a[i] & m[i]; /* what a false lane leaves is zero, and the next true one takes its place */
+        lane[n] = a[i] & m[i]; /* a false lane becomes zero, and the next true one takes its position */
         n += m[i] & 1;
     }
     return (vuint){lane[0], lane[1], lane[2], lane[3]};

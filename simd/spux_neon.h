@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Words of vector.h on four lanes for which AArch64 NEON has an instruction. fmin and fmax are not among them: they do
- * not give b where a and b do not compare. */
+ * Words of vector.h on four lanes for which AArch64 NEON has an instruction. fmin and fmax are not used: they do not
+ * return b where a and b are unordered. */
 #ifndef CGT_SPUX_NEON_H
 #define CGT_SPUX_NEON_H
 

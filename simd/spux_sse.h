@@ -59,8 +59,8 @@ CGT_SPU_INLINE vfloat spux_rsqrte(vfloat a) { return (vfloat)_mm_rsqrt_ps((__m12
 #define CGT_SPUX_OWN_TRUNCATE
 CGT_SPU_INLINE vint spux_truncate(vfloat a) { return (vint)_mm_cvttps_epi32((__m128)a); }
 
-/* With AVX-512VL selection is bit by bit, one vpternlog, as spu_sel is: gcc 12 up to 12.3 and 13 up to 13.2 take a blend by
- * ~m for one by m there (gcc's bug 112443). */
+/* With AVX-512VL selection is bitwise, one vpternlog, like spu_sel: gcc 12 up to 12.3 and 13 up to 13.2 mistake a blend
+ * by ~m for one by m there (gcc bug 112443). */
 #if !defined(__AVX512VL__)
 #define CGT_SPUX_OWN_SELECT
 CGT_SPU_INLINE vfloat cgt_spux_select_f32w(vfloat a, vfloat b, vmask m)
@@ -82,7 +82,7 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
     return (vuint)_mm_shuffle_epi8((__m128i)a, _mm_add_epi8(first, _mm_set1_epi32(0x03020100)));
 }
 
-/* The bytes of the true lanes side by side, then a byte number that gives zero. */
+/* The byte numbers of the true lanes side by side, then numbers that give zero. */
 #define CGT_SPUX_OWN_COMPRESS
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {

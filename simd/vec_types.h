@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The header of this name of the SPU's compiler: the vector types, and names for those of VMX code that an SPU does
- * not tell apart. */
+ * The SPU compiler's header of this name: the vector types, and names for VMX types that an SPU cannot distinguish. */
 #ifndef CGT_VEC_TYPES_H
 #define CGT_VEC_TYPES_H
 

@@ -1,16 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The vocabulary at the width of a variant: what a kernel includes.
+ * The vocabulary at the width of a variant. Kernels include this file.
  *
  *   vfloat, vint, vuint   CGT_LANES elements
- *   vmask                 the result of a comparison. Of some widths it is a vector, of others a k register: only words
- *                         look inside, operators of C do not
+ *   vmask                 the result of a comparison: a vector or a k register, depending on the width. Use words
+ *                         on it, never C operators
  *   spu_*                 the SPU's words on these types (spu_intrinsics.h): add, sub, mul, madd, msub, nmsub, re,
  *                         rsqrte, cmpgt, cmpeq, cmpabsgt, and, or, xor, andc, nor, sel, convtf, convts, and sl, sr, sra
  *                         by a scalar; and, or, xor, andc, nor take masks too. Words of 16 bytes (spu_splats,
  *                         spu_shuffle ...) stay on four lanes
- *   spux_*                words that the SPU lacks or does in several, on every variant with the same result, lane by
+ *   spux_*                words that the SPU lacks or needs several for, with the same result on every variant, lane by
  *                         lane. T is any of vfloat, vint, vuint; W float or uint (the word ends in _uint then)
  *
  *   spux_vfloat(x) vint vuint     x in every lane
@@ -18,11 +18,11 @@
  *
  *   spux_load(p), store(p, v)     W, aligned to the vector
  *   spux_load_unaligned(p), store_unaligned(p, v)   W, aligned to the element
- *   spux_stream(p, v)             W, aligned to the vector: a store past the caches where a vector fills a line of them;
- *                                 parts of lines come out several times slower on some processors
- *   spux_stream_line(to, from)    64 bytes, aligned to as many: stores past the caches where SPUX_STREAMS is 1, else a copy
- *   spux_stream_end()             before what was streamed is handed to another thread
- *   spux_load_mask(p, m)          W, aligned to the element; 0 where m is false, and memory there is not touched
+ *   spux_stream(p, v)             W, aligned to the vector: a store past the caches where a vector fills a cache line;
+ *                                 storing parts of lines so is several times slower on some processors
+ *   spux_stream_line(to, from)    64 bytes, aligned to 64: streaming stores where SPUX_STREAMS is 1, otherwise a copy
+ *   spux_stream_end()             call it before another thread reads streamed data
+ *   spux_load_mask(p, m)          W, aligned to the element; 0 where m is false; memory there is not accessed
  *   spux_store_mask(p, v, m)      likewise; memory where m is false keeps its content, and need not exist
  *   spux_gather(base, i)          W; base[i] by a vint of indices. Not spu_gather, which gathers bits
  *   spux_load_records4(base, stride, d)   CGT_LANES records of 4 floats, record k at base + k * stride floats, to the
@@ -33,13 +33,13 @@
  *   spux_store_records4(base, stride, d)  the reverse of the first
  *   spux_load_bytes(p)            vuint; CGT_LANES bytes at p
  *
- *   spux_min, max(a, b)           T; b where a and b do not compare; which of two zeros is open
+ *   spux_min, max(a, b)           T; b where a and b are unordered; which of two zeros is undefined
  *   spux_abs(a)                   float, sign bit cleared
  *   spux_div(a, b), sqrt(a)       float, relative error at most 2^-21
  *   spux_cmpge(a, b)              float, a >= b, false for NaN
- *   spux_rsqrte(a)                float; as spu_rsqrte where a > 0, NaN where a < 0 (open on an SPU), open for 0 and
- *                                 denormals
- *   spux_truncate(a)              vint; a towards zero, open where that is beyond int32
+ *   spux_rsqrte(a)                float; as spu_rsqrte where a > 0, NaN where a < 0 (undefined on an SPU), undefined
+ *                                 for 0 and denormals
+ *   spux_truncate(a)              vint; a towards zero, undefined beyond int32
  *   spux_select(a, b, m)          T; b in the lanes where m is true, else a
  *
  *   spux_not(m)                   the other lanes
@@ -48,18 +48,18 @@
  *   spux_mask_first(n)            lanes 0 to n - 1
  *   spux_mask_bits(m)             bit i = lane i
  *   spux_mask_from_bits(b)        the reverse; bits beyond the lanes are ignored
- *   spux_count_bits(b)            how many lanes of such bits
+ *   spux_count_bits(b)            number of lanes in such bits
  *
  *   spux_permute(a, i)            T; lane k is a's lane i[k] modulo CGT_LANES, i a vuint
  *   spux_compress(a, m)           T; the lanes where m is true side by side from lane 0, then zeros
- *   spux_compress_store(p, a, m)  W; stores those alone to p and returns how many they are
- *   spux_hmin, hmax(a)            float and vuint: least and greatest lane; open where a lane is NaN
- *   spux_find16(p, x)             which of the 16 halfwords at p, aligned to the element, is the first x; 16 for none
- *   spux_unzip(v)                 vuint v[2]: the even lanes of both, one after the other, to v[0], the odd ones to v[1]
+ *   spux_compress_store(p, a, m)  W; stores only those to p and returns their number
+ *   spux_hmin, hmax(a)            float and vuint: least and greatest lane; undefined where a lane is NaN
+ *   spux_find16(p, x)             index of the first x among the 16 halfwords at p, aligned to the element; 16 for none
+ *   spux_unzip(v)                 vuint v[2]: the even lanes of both, in order, to v[0], the odd ones to v[1]
  *   spux_transpose(row)           vfloat row[CGT_LANES] as a square matrix, in place
  *   spux_transpose_fours(v)       vuint v[CGT_LANES / 4] as a square matrix of groups of four lanes, in place
- *   spux_transpose4, 8, 16(from, from_stride, to, to_stride)   a square matrix of floats in memory to another place,
- *                                 rows so many floats apart, aligned to the element
+ *   spux_transpose4, 8, 16(from, from_stride, to, to_stride)   transposes a square matrix of floats in memory; rows
+ *                                 from_stride and to_stride floats apart, aligned to the element
  *
  * CGT_LANES and, for the portable row, CGT_SPU_PORTABLE come from the variant's row in the build. A new width adds its
  * types and typed functions in mapping files of its own (spu_avx2.h, spux_avx2.h) and a line here and in spu_wide.h. */
@@ -73,7 +73,7 @@
 
 #include "spu_intrinsics.h"
 
-#ifndef CGT_SPU_INLINE /* an SPU's own header is not ours */
+#ifndef CGT_SPU_INLINE /* the SPU's own header does not define it */
 #define CGT_SPU_INLINE static inline __attribute__((always_inline, unused))
 #endif
 
@@ -145,7 +145,7 @@ CGT_SPU_INLINE void spux_store_mask_uint(uint32_t *p, vuint v, vmask m) { cgt_sp
 CGT_SPU_INLINE vfloat spux_gather(const float *base, vint i) { return (vfloat)cgt_spux_gather_w(base, i); }
 CGT_SPU_INLINE vuint spux_gather_uint(const uint32_t *base, vint i) { return cgt_spux_gather_w(base, i); }
 
-/* packed in a register first: stores that compress are slow on some CPUs */
+/* compressed in a register first: compressing stores are slow on some CPUs */
 CGT_SPU_INLINE uint32_t spux_compress_store_uint(uint32_t *p, vuint a, vmask m)
 {
     const uint32_t count = spux_count_bits(spux_mask_bits(m));
@@ -217,7 +217,7 @@ CGT_SPU_INLINE void cgt_spux_transpose_blocks(const float *from, size_t from_str
                 spux_store_unaligned(to + (x + k) * to_stride + y, row[k]);
         }
 }
-/* Less than a vector has lanes: rows with zeros behind them. */
+/* Fewer floats than lanes: rows padded with zeros. */
 CGT_SPU_INLINE void cgt_spux_transpose_corner(const float *from, size_t from_stride, float *to, size_t to_stride,
                                               size_t edge)
 {

@@ -1,25 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench: what its sub-commands share.
+ * What the sub-commands of cgt-bench share: settings, and the parsers of their command-line options. Each sub-command
+ * has a folder of its own; common/ has
  *
- *   input     the trajectory in memory               bench_input.h
- *   scene     the library's scene over it            bench_scene.h
- *   planes    what primary rays found                bench_planes.h
- *   rays      shadow and ambient-occlusion rays      bench_frame_rays.h
- *   threads   who makes those rays                   bench_threads.h
- *   timing    clock and medians                      bench_timing.h
- *   plan      the configurations that loops compares bench_plan.h
- *   report    their table and their ratios           bench_report.h
- *   procedural  scenes made in memory              bench_procedural.h
- *   memory    what the library allocates           bench_memory.h
- *   accuracy  time and error of every configuration  bench_accuracy.h
- *   pareto    time against error, and its pictures   bench_pareto.h
- *   simd      words of the vocabulary, per variant   simd/simd_rows.h
- *   structures  grids and kd-trees beside each other  bench_structures.h
- *   scaling   time and memory against size         bench_scaling.h
- *   sweep     structures by kind of rays, their order and their number in a call  bench_rays.h
- *   floor     the machine's limits, and how far off scenes are  bench_floor.h */
+ *   input      the frames of a file, in memory             bench_input.h
+ *   scene      a scene of the library over a frame         bench_scene.h
+ *   planes     what camera rays found                      bench_planes.h
+ *   rays       shadow, ambient-occlusion and bounce rays   bench_rays.h
+ *   threads    which make those rays                       bench_threads.h
+ *   timing     clock, medians, quartiles                   bench_timing.h
+ *   table      rows as text and JSON                       bench_table.h */
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -33,41 +24,57 @@
 
 #define BENCH_MOST_PIXELS ((uint64_t)1 << 28)
 
-/* The options that frame and loops share. */
+#define BENCH_MOST_FILES 32
+#define BENCH_MOST_VARIANTS 16
+
+/* Of the scenes of cgt-bench make, in cgt-bench's form of a camera. */
+#define BENCH_PROCEDURAL_CAMERA "0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46"
+
+/* Options of all sub-commands that measure frames. */
 typedef struct bench_settings {
-    const char *path;
+    const char *paths[BENCH_MOST_FILES];
+    size_t files;
+    size_t least_files, most_files; /* how many a sub-command takes; set before parsing (default: 1, 1) */
     cgt_camera camera;
     uint32_t width, height;
     uint32_t threads;
-    uint64_t frames; /* 0: all of the file */
+    uint64_t frames; /* that are read of a file; 0: all */
     uint32_t repeat;
-    const char *variant;    /* NULL: the widest that the CPU runs, or in loops: all */
-    uint32_t packet;        /* 0: the library's choice, or in loops: all */
-    uint32_t resolution[3]; /* 0, 0, 0: the library's choice, or in loops: several */
+    const char *variant;    /* NULL: the widest that the CPU runs, or all where variants are compared */
+    uint32_t packet;        /* 0: the library's choice, or all where packets are compared */
+    uint32_t resolution[3]; /* of a queue grid; 0, 0, 0: the library's choice, or several where they are compared */
     float radius;           /* for files without one; 0: the reader's default */
     int wrapped;
     int verbose;
-    int file_optional; /* 1: the sub-command does without a FILE, too; set before parsing */
+    const char *json_path; /* NULL: none */
 } bench_settings;
 
 void bench_settings_init(bench_settings *settings);
+void bench_settings_use_procedural_camera(bench_settings *settings);
 
-/* Parses the shared options and the one FILE; a child of each sub-command's parser, with settings as its input. */
+/* Parses these options and the FILEs: a child of a sub-command's parser, with the settings as its input. */
 extern const struct argp bench_settings_argp;
 
-/* The next name of a list with commas between, copied and cut where it is too long; *list moves behind it, and is NULL
- * at the end. 0 where there is none left. */
+/* The variants that the CPU runs, narrowest first, or the one that the settings name. Returns how many. */
+size_t bench_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS]);
+
+/* A whole number from least to most; other text is an error of the command line. */
+void bench_parse_u32(struct argp_state *state, const char *option, const char *text, uint32_t least, uint32_t most,
+                     uint32_t *value);
+
+/* Copies the next name of a list with commas, cut where it is too long, and advances *list, which is NULL at the end.
+ * Returns 0 where no name is left. */
 #define BENCH_LISTED_SIZE 32
 int bench_next_name(const char **list, char name[BENCH_LISTED_SIZE]);
 
-/* Sets chosen[i] for each of a list of names; an error of the command line where there is no such name. */
+/* Sets chosen[i] for each name of a list with commas. An unknown name is an error of the command line. */
 void bench_choose(struct argp_state *state, const char *option, const char *list, const char *const *names, int count,
                   int *chosen);
 
-/* Whether it was chosen; where nothing was, everything is. */
+/* Whether chosen[which] is set. Where none is set, all count as chosen. */
 int bench_is_chosen(const int *chosen, int count, int which);
 
-/* Options of the structure, that frame, rays, scaling and structures share. */
+/* Options of the structure. */
 typedef struct bench_structure_settings {
     size_t most; /* structures that may be named; set before parsing */
     cgt_structure asked[6];
@@ -75,8 +82,26 @@ typedef struct bench_structure_settings {
     bench_kd_choice kd;
 } bench_structure_settings;
 
-/* A child of the parser, with those settings as its input. */
-extern const struct argp bench_structure_argp;
+/* Options of the precision. */
+typedef struct bench_precision_settings {
+    cgt_precision precision;
+    int named; /* 1: -p was given */
+    cgt_triangle_test test;
+} bench_precision_settings;
+
+/* Options of secondary rays. */
+typedef struct bench_secondary_settings {
+    int lit; /* 1: the light was given */
+    float light[3];
+    uint32_t ao; /* ambient-occlusion rays from every hit */
+} bench_secondary_settings;
+
+/* What these options say of a trace. structure and precision may be NULL. */
+bench_choice bench_choice_of(const bench_settings *settings, const bench_structure_settings *structure,
+                             const bench_precision_settings *precision);
+
+/* Children of a sub-command's parser, each with its settings as its input. */
+extern const struct argp bench_structure_argp, bench_precision_argp, bench_secondary_argp;
 
 /* The sub-commands: argv[0] is "cgt-bench NAME"; they return an exit code. */
 int bench_accuracy(int argc, char **argv);
@@ -84,8 +109,6 @@ int bench_floor(int argc, char **argv);
 int bench_frame(int argc, char **argv);
 int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
-int bench_pareto(int argc, char **argv);
-int bench_ray_sweep(int argc, char **argv); /* rays */
 int bench_scaling(int argc, char **argv);
 int bench_simd(int argc, char **argv);
 int bench_structures(int argc, char **argv);

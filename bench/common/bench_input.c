@@ -14,7 +14,7 @@ static size_t element_bytes(const bench_input *input)
     return (input->kind == TRAJECTORY_TRIANGLES ? 3 : 4) * sizeof(float);
 }
 
-/* Takes what is the same in all frames from the first one. 0, or -1 where memory is refused. */
+/* Copies from the first frame what is the same in all frames. Returns 0, or -1 where memory is refused. */
 static int take_kind(bench_input *input, const trajectory_frame *frame)
 {
     input->kind = frame->kind;
@@ -30,7 +30,7 @@ static int take_kind(bench_input *input, const trajectory_frame *frame)
     return 0;
 }
 
-/* Adds a copy of a frame; room is what the two arrays hold. 0, or -1 where memory is refused. */
+/* Appends a copy of a frame. room: elements of the two arrays. Returns 0, or -1 where memory is refused. */
 static int add_frame(bench_input *input, const trajectory_frame *frame, size_t *room)
 {
     if (input->frames == *room) {
@@ -108,6 +108,15 @@ int bench_input_load(bench_input *input, const char *path, uint64_t frames, floa
     if (failed)
         bench_input_release(input);
     return failed;
+}
+
+int bench_input_load_file(bench_input *input, const bench_settings *settings, const char *path)
+{
+    char error[PROGRAM_ERROR_SIZE] = "";
+    if (!bench_input_load(input, path, settings->frames, settings->radius, settings->wrapped, error, sizeof error))
+        return PROGRAM_OK;
+    program_error("%s", error);
+    return PROGRAM_FAILED;
 }
 
 void bench_input_release(bench_input *input)

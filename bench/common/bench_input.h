@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "common/bench.h"
 #include "trajectory/trajectory.h"
 
 typedef struct bench_input {
@@ -18,13 +19,16 @@ typedef struct bench_input {
     uint32_t triangles; /* of all frames; 0 in files of spheres */
     uint32_t *index;    /* three vertices of each triangle; NULL in files of spheres */
     uint32_t most;      /* spheres or vertices of the fullest frame */
-    float *moving;      /* room for the fullest frame: the array that the scene is over */
+    float *moving;      /* room for the fullest frame: the array that the scene refers to */
 } bench_input;
 
-/* Reads the first `frames` frames of the file; 0: all. radius: for files without one, 0 for the reader's default.
- * Returns 0, or -1 with a text in error; a file without a frame is an error. */
+/* Reads the first `frames` frames of the file; 0: all. radius: for files without one; 0: the reader's default. Returns
+ * 0, or -1 with a text in error. A file without a frame is an error. */
 int bench_input_load(bench_input *input, const char *path, uint64_t frames, float radius, int wrapped, char *error,
                      size_t error_size);
+
+/* The same with the frames, radius and wrapping of the settings. Prints an error, and returns an exit code. */
+int bench_input_load_file(bench_input *input, const bench_settings *settings, const char *path);
 
 void bench_input_release(bench_input *input);
 

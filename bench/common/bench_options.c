@@ -1,11 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The command-line options that the sub-commands share. */
+ * Command-line options that sub-commands share. */
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "common/bench.h"
+#include "common/bench_rays.h"
 
 enum { OPTION_VARIANT = 0x100, OPTION_RADIUS, OPTION_WRAPPED };
 enum { OPTION_BUILDER = 0x180, OPTION_LAYOUT, OPTION_BREAK, OPTION_TRAVERSAL };
@@ -24,8 +26,9 @@ static const struct argp_option options[] = {
     {"packet", 'k', "EDGE", 0, "pixels along a packet's edge: 4, 8 or 16", 2},
     {"grid", 'g', "NX,NY,NZ", 0, "cells of the grid along x, y and z", 2},
     {NULL, 0, NULL, 0, "Measurement:", 3},
-    {"repeat", 'r', "COUNT", 0, "go through the frames COUNT times (default 1)", 3},
-    {"verbose", 'v', NULL, 0, "tell on standard error what the library chose", 3},
+    {"repeat", 'r', "COUNT", 0, "measure COUNT times", 3},
+    {"verbose", 'v', NULL, 0, "report on standard error what the library chose", 3},
+    {"json", 'j', "FILE", 0, "write the rows as JSON, too", 3},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 void bench_settings_init(bench_settings *settings)
@@ -37,7 +40,18 @@ void bench_settings_init(bench_settings *settings)
     settings->height = 720;
     settings->threads = 1;
     settings->repeat = 1;
+    settings->least_files = settings->most_files = 1;
 }
+
+void bench_settings_use_procedural_camera(bench_settings *settings)
+{
+    char error[PROGRAM_ERROR_SIZE] = "";
+    const int failed = program_parse_camera(BENCH_PROCEDURAL_CAMERA, &settings->camera, error, sizeof error);
+    assert(!failed);
+    (void)failed;
+}
+
+/* ---- Values -------------------------------------------------------------------------------------------------- */
 
 static int parse_size(const char *text, bench_settings *settings, char *error, size_t error_size)
 {
@@ -66,7 +80,7 @@ static int parse_packet(const char *text, uint32_t *packet, char *error, size_t 
     return 0;
 }
 
-/* "nx,ny,nz"; whether the product is in bounds is for the library to say. */
+/* "nx,ny,nz". The library checks the product. */
 static int parse_grid(const char *text, uint32_t resolution[3], char *error, size_t error_size)
 {
     char copy[64];
@@ -81,7 +95,7 @@ static int parse_grid(const char *text, uint32_t resolution[3], char *error, siz
     for (int axis = 0; axis < 3; axis++) {
         char *comma = strchr(part, ',');
         if ((axis < 2) != (comma != NULL)) {
-            snprintf(error, error_size, "%s: three whole numbers with commas between are wanted", text);
+            snprintf(error, error_size, "%s: needs three whole numbers, separated by commas", text);
             return -1;
         }
         if (comma)
@@ -94,7 +108,7 @@ static int parse_grid(const char *text, uint32_t resolution[3], char *error, siz
     return 0;
 }
 
-/* The name of a variant in this build; that the CPU runs it is for the context to say. */
+/* The name of a variant of this build. Whether the CPU runs it shows when the context is created. */
 static int parse_variant(const char *text, const char **variant, char *error, size_t error_size)
 {
     const char *const *names = cgt_get_variant_names();
@@ -108,6 +122,26 @@ static int parse_variant(const char *text, const char **variant, char *error, si
             length += (size_t)snprintf(error + length, error_size - length, " %s", *names);
     }
     return -1;
+}
+
+void bench_parse_u32(struct argp_state *state, const char *option, const char *text, uint32_t least, uint32_t most,
+                     uint32_t *value)
+{
+    char error[PROGRAM_ERROR_SIZE] = "";
+    if (program_parse_u32(text, least, most, value, error, sizeof error))
+        argp_error(state, "%s: %s", option, error);
+}
+
+static void add_file(bench_settings *settings, struct argp_state *state, const char *path)
+{
+    if (settings->most_files == 0)
+        argp_error(state, "this sub-command takes no FILE: %s", path);
+    else if (settings->files == settings->most_files && settings->most_files == 1)
+        argp_error(state, "one FILE only: %s", path);
+    else if (settings->files == settings->most_files)
+        argp_error(state, "more than %u files: %s", (unsigned)settings->most_files, path);
+    else
+        settings->paths[settings->files++] = path;
 }
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -130,13 +164,10 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         failed = program_parse_float(argument, 0.0f, 1e30f, &settings->radius, error, sizeof error);
         break;
     case OPTION_WRAPPED: settings->wrapped = 1; break;
-    case ARGP_KEY_ARG:
-        if (settings->path)
-            argp_error(state, "one FILE only: %s", argument);
-        settings->path = argument;
-        break;
-    case ARGP_KEY_NO_ARGS:
-        if (!settings->file_optional)
+    case 'j': settings->json_path = argument; break;
+    case ARGP_KEY_ARG: add_file(settings, state, argument); break;
+    case ARGP_KEY_END:
+        if (settings->files < settings->least_files)
             argp_error(state, "FILE is missing");
         break;
     default: return ARGP_ERR_UNKNOWN;
@@ -187,16 +218,42 @@ int bench_is_chosen(const int *chosen, int count, int which)
     return !any || chosen[which];
 }
 
+/* ---- Variants ------------------------------------------------------------------------------------------------ */
+
+static int is_runnable(const char *variant)
+{
+    cgt_context *context = NULL;
+    const cgt_result result = bench_context_create(1, variant, &context);
+    cgt_context_release(context);
+    return result == CGT_OK;
+}
+
+size_t bench_variants(const bench_settings *settings, const char *variants[BENCH_MOST_VARIANTS])
+{
+    size_t count = 0;
+    if (settings->variant) {
+        variants[0] = settings->variant;
+        return 1;
+    }
+    for (const char *const *name = cgt_get_variant_names(); *name && count < BENCH_MOST_VARIANTS; name++) {
+        if (is_runnable(*name))
+            variants[count++] = *name;
+        else
+            fprintf(stderr, "variant %s left out: this CPU lacks it\n", *name);
+    }
+    return count;
+}
+
 /* ---- Structure ----------------------------------------------------------------------------------------------- */
 
-#define STRUCTURES "auto, grid-queue, loose-grid, kd, kd-ropes or wide-tree"
+#define STRUCTURES "auto, queue-grid, loose-grid, kd, kd-ropes or bvh"
 
 static const struct argp_option structure_options[] = {
     {NULL, 0, NULL, 0, "Structure:", 6},
-    {"structure", 'S', "NAME", 0, STRUCTURES "; where several are compared, a list with commas", 6},
+    {"structure", 'S', "NAME", 0, STRUCTURES "; a list with commas where several are compared", 6},
     {"kd-builder", OPTION_BUILDER, "NAME", 0, "of kd-trees: binned or sweep", 6},
     {"kd-layout", OPTION_LAYOUT, "NAME", 0, "of their nodes: depth-first, breadth-first or mixed", 6},
-    {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels that are stored breadth first, 1 to 50", 6},
+    {"kd-break", OPTION_BREAK, "LEVELS", 0, "of mixed: levels stored breadth first, 1 to 50", 6},
     {"kd-traversal", OPTION_TRAVERSAL, "NAME", 0, "single or packet", 6},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -209,7 +266,7 @@ static void add_structure(bench_structure_settings *settings, struct argp_state 
         if (settings->asked[i] == structure)
             return;
     if (settings->count == settings->most)
-        argp_error(state, "--structure: %s is one more than can be had", name);
+        argp_error(state, "--structure: %s: at most %zu can be named", name, settings->most);
     else
         settings->asked[settings->count++] = structure;
 }
@@ -225,7 +282,6 @@ static error_t parse_structure(int key, char *argument, struct argp_state *state
 {
     bench_structure_settings *settings = state->input;
     bench_kd_choice *kd = &settings->kd;
-    char error[PROGRAM_ERROR_SIZE] = "";
     switch (key) {
     case 'S': add_structures(settings, state, argument); return 0;
     case OPTION_BUILDER:
@@ -236,10 +292,7 @@ static error_t parse_structure(int key, char *argument, struct argp_state *state
         if (bench_kd_layout_find(argument, &kd->layout))
             argp_error(state, "--kd-layout: auto, depth-first, breadth-first or mixed, not %s", argument);
         return 0;
-    case OPTION_BREAK:
-        if (program_parse_u32(argument, 1, 50, &kd->break_level, error, sizeof error))
-            argp_error(state, "--kd-break: %s", error);
-        return 0;
+    case OPTION_BREAK: bench_parse_u32(state, "--kd-break", argument, 1, 50, &kd->break_level); return 0;
     case OPTION_TRAVERSAL:
         if (bench_kd_traversal_find(argument, &kd->traversal))
             argp_error(state, "--kd-traversal: auto, single or packet, not %s", argument);
@@ -253,3 +306,77 @@ static error_t parse_structure(int key, char *argument, struct argp_state *state
 }
 
 const struct argp bench_structure_argp = {.options = structure_options, .parser = parse_structure};
+
+/* ---- Precision ----------------------------------------------------------------------------------------------- */
+
+enum { OPTION_TEST = 0x1c0 };
+
+static const struct argp_option precision_options[] = {
+    {NULL, 0, NULL, 0, "Precision:", 7},
+    {"precision", 'p', "NAME", 0, "robust (default), fast or exact", 7},
+    {"test", OPTION_TEST, "NAME", 0, "of triangles with -p fast: watertight, moller-trumbore or accelerated", 7},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+static error_t parse_precision(int key, char *argument, struct argp_state *state)
+{
+    bench_precision_settings *settings = state->input;
+    switch (key) {
+    case 'p':
+        if (bench_precision_find(argument, &settings->precision))
+            argp_error(state, "-p: robust, fast or exact, not %s", argument);
+        settings->named = 1;
+        return 0;
+    case OPTION_TEST:
+        if (bench_triangle_test_find(argument, &settings->test))
+            argp_error(state, "--test: watertight, moller-trumbore or accelerated, not %s", argument);
+        return 0;
+    case ARGP_KEY_END:
+        if (settings->test != CGT_TRIANGLE_TEST_WATERTIGHT && settings->precision != CGT_PRECISION_FAST)
+            argp_error(state, "--test %s: only with -p fast", bench_triangle_test_name(settings->test));
+        return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+const struct argp bench_precision_argp = {.options = precision_options, .parser = parse_precision};
+
+/* ---- Secondary rays ------------------------------------------------------------------------------------------ */
+
+static const struct argp_option secondary_options[] = {
+    {NULL, 0, NULL, 0, "Secondary rays:", 5},
+    {"light", 'l', "X,Y,Z", 0, "trace a shadow ray from every hit to this point", 5},
+    {"ao", 'a', "RAYS", 0, "trace RAYS ambient-occlusion rays from every hit, at most 1024", 5},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+static error_t parse_secondary(int key, char *argument, struct argp_state *state)
+{
+    bench_secondary_settings *settings = state->input;
+    char error[PROGRAM_ERROR_SIZE] = "";
+    switch (key) {
+    case 'l':
+        if (program_parse_floats(argument, 3, settings->light, error, sizeof error))
+            argp_error(state, "-l: %s", error);
+        settings->lit = 1;
+        return 0;
+    case 'a': bench_parse_u32(state, "-a", argument, 0, BENCH_MOST_AO_RAYS, &settings->ao); return 0;
+    default: return ARGP_ERR_UNKNOWN;
+    }
+}
+
+const struct argp bench_secondary_argp = {.options = secondary_options, .parser = parse_secondary};
+
+/* ---- Choice -------------------------------------------------------------------------------------------------- */
+
+bench_choice bench_choice_of(const bench_settings *settings, const bench_structure_settings *structure,
+                             const bench_precision_settings *precision)
+{
+    bench_choice choice = {.variant = settings->variant, .packet = settings->packet};
+    if (structure)
+        choice.kd = structure->kd;
+    if (precision) {
+        choice.precision = precision->precision;
+        choice.precision_named = precision->named;
+        choice.test = precision->test;
+    }
+    return choice;
+}

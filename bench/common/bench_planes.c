@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Memory, comparison and file form of the planes. */
+ * Memory, comparison and file format of the planes. */
 #include "common/bench_planes.h"
 
 #include <errno.h>
@@ -81,7 +81,7 @@ uint64_t bench_planes_hits(const bench_planes *planes)
     return hits;
 }
 
-/* Multiply and shift of four interleaved streams, so that the multiplications of neighbours overlap. */
+/* Multiplies and shifts in four interleaved streams, so that successive multiplications overlap. */
 static uint64_t hash_plane(const void *plane, size_t words, uint64_t seed)
 {
     const unsigned char *bytes = plane;

@@ -9,7 +9,7 @@
 
 static const uint64_t bench_random_start = 88172645463325252u;
 
-/* Marsaglia's xorshift of 64 bits, its 24 upper bits as a number from 0 up to 1. */
+/* Marsaglia's 64-bit xorshift; the upper 24 bits as a number in [0, 1). */
 static inline float bench_random(uint64_t *state)
 {
     *state ^= *state << 13;

@@ -31,12 +31,14 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
                               const uint32_t resolution[3])
 {
     cgt_scene_options options;
+    cgt_research_scene_options research = {0};
     memset(scene, 0, sizeof *scene);
     scene->context = context;
     scene->moving = moving;
     cgt_scene_options_init(&options);
     options.structure = CGT_STRUCTURE_QUEUE_GRID;
-    memcpy(options.resolution, resolution, sizeof options.resolution);
+    options.research = &research;
+    memcpy(research.resolution, resolution, sizeof research.resolution);
     const cgt_result result = cgt_scene_create(context, &options, &scene->scene);
     if (result != CGT_OK)
         scene->scene = NULL;
@@ -46,14 +48,11 @@ cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const fl
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
                                  const bench_kd_choice *kd, const uint32_t resolution[3])
 {
-    cgt_scene_options options;
-    cgt_scene_options_init(&options);
-    options.structure = structure;
-    options.rays = rays;
-    options.kd_builder = kd->builder;
-    options.kd_layout = kd->layout;
-    options.kd_break_level = kd->break_level;
-    memcpy(options.resolution, resolution, sizeof options.resolution);
+    const cgt_research_scene_options research = {.resolution = {resolution[0], resolution[1], resolution[2]},
+                                                 .kd_builder = kd->builder,
+                                                 .kd_layout = kd->layout,
+                                                 .kd_break_level = kd->break_level};
+    const cgt_scene_options options = {.structure = structure, .rays = rays, .research = &research};
     return cgt_scene_set_options(scene->scene, &options);
 }
 
@@ -110,8 +109,10 @@ cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t co
     *ms = bench_now_ms() - begin;
     if (result == CGT_OK)
         result = cgt_scene_get_statistics(scene->scene, &build->built);
+    if (result == CGT_OK)
+        result = cgt_research_get_scene_statistics(scene->scene, &build->research);
     const cgt_structure built = build->built.structure;
-    /* a scene without a valid primitive has no structure, and that is right for all */
+    /* a scene without a valid primitive has no structure, and that is right for all of them */
     const int other = result == CGT_OK && build->structure != CGT_STRUCTURE_AUTO && built != build->structure &&
                       built != CGT_STRUCTURE_AUTO;
     if (result == CGT_ERROR_UNSUPPORTED || other) {
@@ -136,33 +137,21 @@ int bench_scene_failed(const cgt_context *context, const char *what, cgt_result 
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
-const char *bench_loop_name(cgt_loop loop)
-{
-    return loop == CGT_LOOP_NESTED ? "nested" : loop == CGT_LOOP_FLATTENED ? "flattened" : "auto";
-}
-
-const char *bench_cull_name(cgt_cull cull)
-{
-    return cull == CGT_CULL_NONE ? "off" : cull == CGT_CULL_FRUSTUM ? "frustum" : "blocks";
-}
-
-const char *bench_tile_name(cgt_tile_shape tile)
-{
-    return tile == CGT_TILE_SHAPE_SQUARE ? "square" : tile == CGT_TILE_SHAPE_STRIP ? "strip" : "auto";
-}
-
+static const char *const loops[] = {
+    [CGT_LOOP_AUTO] = "auto", [CGT_LOOP_NESTED] = "nested", [CGT_LOOP_FLATTENED] = "flattened"};
+static const char *const culls[] = {
+    [CGT_CULL_AUTO] = "auto", [CGT_CULL_NONE] = "off", [CGT_CULL_FRUSTUM] = "frustum", [CGT_CULL_BLOCKS] = "blocks"};
+static const char *const tiles[] = {
+    [CGT_TILE_SHAPE_AUTO] = "auto", [CGT_TILE_SHAPE_SQUARE] = "square", [CGT_TILE_SHAPE_STRIP] = "strip"};
 static const char *const precisions[] = {
     [CGT_PRECISION_ROBUST] = "robust", [CGT_PRECISION_FAST] = "fast", [CGT_PRECISION_EXACT] = "exact"};
 static const char *const triangle_tests[] = {[CGT_TRIANGLE_TEST_WATERTIGHT] = "watertight",
                                              [CGT_TRIANGLE_TEST_MOLLER_TRUMBORE] = "moller-trumbore",
                                              [CGT_TRIANGLE_TEST_ACCELERATED] = "accelerated"};
 
-static const char *const structures[] = {[CGT_STRUCTURE_AUTO] = "auto",
-                                         [CGT_STRUCTURE_QUEUE_GRID] = "grid-queue",
-                                         [CGT_STRUCTURE_KD] = "kd",
-                                         [CGT_STRUCTURE_KD_ROPES] = "kd-ropes",
-                                         [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid",
-                                         [CGT_STRUCTURE_BVH] = "wide-tree"};
+static const char *const structures[] = {
+    [CGT_STRUCTURE_AUTO] = "auto",         [CGT_STRUCTURE_QUEUE_GRID] = "queue-grid", [CGT_STRUCTURE_KD] = "kd",
+    [CGT_STRUCTURE_KD_ROPES] = "kd-ropes", [CGT_STRUCTURE_LOOSE_GRID] = "loose-grid", [CGT_STRUCTURE_BVH] = "bvh"};
 static const char *const kd_traversals[] = {
     [CGT_KD_TRAVERSAL_AUTO] = "auto", [CGT_KD_TRAVERSAL_SINGLE] = "single", [CGT_KD_TRAVERSAL_PACKET] = "packet"};
 static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
@@ -172,13 +161,14 @@ static const char *const kd_layouts[] = {[CGT_KD_LAYOUT_AUTO] = "auto",
 static const char *const kd_builders[] = {
     [CGT_KD_BUILDER_AUTO] = "auto", [CGT_KD_BUILDER_BINNED] = "binned", [CGT_KD_BUILDER_SWEEP] = "sweep"};
 
-#define COUNT(names) (sizeof(names) / sizeof *(names))
-
 const char *bench_structure_name(cgt_structure structure)
 {
     return structure == CGT_STRUCTURE_AUTO ? "none" : structures[structure];
 }
 
+const char *bench_loop_name(cgt_loop loop) { return loops[loop]; }
+const char *bench_cull_name(cgt_cull cull) { return culls[cull]; }
+const char *bench_tile_name(cgt_tile_shape tile) { return tiles[tile]; }
 const char *bench_precision_name(cgt_precision precision) { return precisions[precision]; }
 const char *bench_triangle_test_name(cgt_triangle_test test) { return triangle_tests[test]; }
 const char *bench_kd_traversal_name(cgt_kd_traversal traversal) { return kd_traversals[traversal]; }
@@ -194,52 +184,31 @@ static int find(const char *name, const char *const *names, size_t count)
     return -1;
 }
 
-int bench_precision_find(const char *name, cgt_precision *precision)
+/* Sets *value, of an enum, to the index of a name in its list; returns 0, or -1 where there is none. */
+#define FIND(name, names, type, value)                                                                                 \
+    do {                                                                                                               \
+        const int index = find(name, names, sizeof(names) / sizeof *(names));                                          \
+        if (index >= 0)                                                                                                \
+            *(value) = (type)index;                                                                                    \
+        return index < 0 ? -1 : 0;                                                                                     \
+    } while (0)
+
+int bench_precision_find(const char *name, cgt_precision *value) { FIND(name, precisions, cgt_precision, value); }
+int bench_structure_find(const char *name, cgt_structure *value) { FIND(name, structures, cgt_structure, value); }
+int bench_cull_find(const char *name, cgt_cull *value) { FIND(name, culls, cgt_cull, value); }
+int bench_loop_find(const char *name, cgt_loop *value) { FIND(name, loops, cgt_loop, value); }
+int bench_tile_find(const char *name, cgt_tile_shape *value) { FIND(name, tiles, cgt_tile_shape, value); }
+int bench_kd_layout_find(const char *name, cgt_kd_layout *value) { FIND(name, kd_layouts, cgt_kd_layout, value); }
+int bench_kd_builder_find(const char *name, cgt_kd_builder *value) { FIND(name, kd_builders, cgt_kd_builder, value); }
+
+int bench_triangle_test_find(const char *name, cgt_triangle_test *value)
 {
-    const int index = find(name, precisions, COUNT(precisions));
-    if (index >= 0)
-        *precision = (cgt_precision)index;
-    return index < 0 ? -1 : 0;
+    FIND(name, triangle_tests, cgt_triangle_test, value);
 }
 
-int bench_triangle_test_find(const char *name, cgt_triangle_test *test)
+int bench_kd_traversal_find(const char *name, cgt_kd_traversal *value)
 {
-    const int index = find(name, triangle_tests, COUNT(triangle_tests));
-    if (index >= 0)
-        *test = (cgt_triangle_test)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_structure_find(const char *name, cgt_structure *structure)
-{
-    const int index = find(name, structures, COUNT(structures));
-    if (index >= 0)
-        *structure = (cgt_structure)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_kd_traversal_find(const char *name, cgt_kd_traversal *traversal)
-{
-    const int index = find(name, kd_traversals, COUNT(kd_traversals));
-    if (index >= 0)
-        *traversal = (cgt_kd_traversal)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_kd_layout_find(const char *name, cgt_kd_layout *layout)
-{
-    const int index = find(name, kd_layouts, COUNT(kd_layouts));
-    if (index >= 0)
-        *layout = (cgt_kd_layout)index;
-    return index < 0 ? -1 : 0;
-}
-
-int bench_kd_builder_find(const char *name, cgt_kd_builder *builder)
-{
-    const int index = find(name, kd_builders, COUNT(kd_builders));
-    if (index >= 0)
-        *builder = (cgt_kd_builder)index;
-    return index < 0 ? -1 : 0;
+    FIND(name, kd_traversals, cgt_kd_traversal, value);
 }
 
 void bench_file_name(const char *path, char name[BENCH_NAME_SIZE])
@@ -286,9 +255,9 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "tile", bench_tile_name(choice->tile));
     if (choice->loop != CGT_LOOP_AUTO)
         append(name, "loop", bench_loop_name(choice->loop));
-    if (choice->cull != CGT_CULL_BLOCKS)
+    if (choice->cull == CGT_CULL_NONE || choice->cull == CGT_CULL_FRUSTUM)
         append(name, "cull", bench_cull_name(choice->cull));
-    if (!choice->mailbox)
+    if (choice->mailbox == CGT_MAILBOX_OFF)
         append(name, "mailbox", "off");
     if (choice->precision_named || choice->precision != CGT_PRECISION_ROBUST)
         append(name, "precision", bench_precision_name(choice->precision));
@@ -298,16 +267,17 @@ void bench_choice_name(const bench_choice *choice, cgt_structure structure, char
         append(name, "grid", choice->grid);
 }
 
-void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options)
+void bench_choice_options(const bench_choice *choice, bench_counts *counts, cgt_trace_options *options,
+                          cgt_research_trace_options *research)
 {
-    cgt_trace_options_init(options);
-    options->packet = choice->packet;
-    options->tile = choice->tile;
-    options->loop = choice->loop;
-    options->cull = choice->cull;
-    options->mailbox = choice->mailbox;
-    options->precision = choice->precision;
-    options->triangle_test = choice->test;
-    options->kd_traversal = choice->kd.traversal;
-    options->statistics = statistics;
+    *research = (cgt_research_trace_options){.packet = choice->packet,
+                                             .tile = choice->tile,
+                                             .loop = choice->loop,
+                                             .cull = choice->cull,
+                                             .mailbox = choice->mailbox,
+                                             .kd_traversal = choice->kd.traversal,
+                                             .triangle_test = choice->test,
+                                             .statistics = counts ? &counts->research : NULL};
+    *options = (cgt_trace_options){
+        .precision = choice->precision, .statistics = counts ? &counts->trace : NULL, .research = research};
 }

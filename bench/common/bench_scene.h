@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 typedef struct bench_scene {
     cgt_context *context; /* not owned */
@@ -29,15 +29,16 @@ cgt_result bench_context_create(uint32_t threads, const char *variant, cgt_conte
 cgt_result bench_context_create_with(uint32_t threads, const char *variant, const cgt_memory_hooks *hooks,
                                      cgt_context **context);
 
-/* A scene over `moving`, of spheres. resolution: 0, 0, 0 for the library's choice. */
+/* A scene over the spheres in `moving`. resolution: 0, 0, 0 for the library's choice. */
 cgt_result bench_scene_create(bench_scene *scene, cgt_context *context, const float *moving,
                               const uint32_t resolution[3]);
 void bench_scene_release(bench_scene *scene);
 
-/* Before the first commit: `moving` holds vertices of these triangles. index NULL: it holds spheres, as without. */
+/* Call before the first commit: `moving` holds vertices of these triangles. index NULL: it holds spheres, the default.
+ * */
 void bench_scene_set_triangles(bench_scene *scene, const uint32_t *index, uint32_t triangles);
 
-/* Tells the library that there are `count` spheres or vertices, where that changed, and commits. */
+/* Commits `count` spheres or vertices, after an update of the geometry where the number changed. */
 cgt_result bench_scene_commit(bench_scene *scene, uint32_t count);
 
 /* Prints what failed and the library's message. Returns PROGRAM_FAILED. */
@@ -51,16 +52,16 @@ typedef struct bench_kd_choice {
     cgt_kd_builder builder;
 } bench_kd_choice;
 
-/* What can be set of a trace; zero and NULL are the library's choices, cull and mailbox are given as they are. */
+/* What can be set of a trace. Zero and NULL are the library's choices. */
 typedef struct bench_choice {
     const char *variant;
     uint32_t packet;
     cgt_tile_shape tile;
     cgt_loop loop;
     cgt_cull cull;
-    int mailbox;
+    cgt_mailbox mailbox;
     cgt_precision precision;
-    int precision_named; /* 1: the name says the default precision, too */
+    int precision_named; /* 1: the name contains the default precision, too */
     cgt_triangle_test test;
     const char *grid;   /* resolution in words: "16x16x16", "auto*2" */
     bench_kd_choice kd; /* said of kd-trees only */
@@ -80,6 +81,9 @@ const char *bench_precision_name(cgt_precision precision);
 const char *bench_triangle_test_name(cgt_triangle_test test);
 
 /* The value of a name, as above: 0, or -1 where there is none. */
+int bench_loop_find(const char *name, cgt_loop *loop);
+int bench_cull_find(const char *name, cgt_cull *cull);
+int bench_tile_find(const char *name, cgt_tile_shape *tile);
 int bench_precision_find(const char *name, cgt_precision *precision);
 int bench_triangle_test_find(const char *name, cgt_triangle_test *test);
 int bench_structure_find(const char *name, cgt_structure *structure); /* AUTO is "auto" */
@@ -93,10 +97,17 @@ void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);
 
-/* The trace options of a choice; statistics NULL where nothing is to be counted. */
-void bench_choice_options(const bench_choice *choice, cgt_trace_statistics *statistics, cgt_trace_options *options);
+/* What a trace counts. */
+typedef struct bench_counts {
+    cgt_trace_statistics trace;
+    cgt_research_trace_statistics research;
+} bench_counts;
 
-/* Changes the scene's structure; rays: what AUTO chooses for; resolution: as in bench_scene_create. */
+/* The trace options of a choice, which point to `research`. counts: NULL where nothing is counted. */
+void bench_choice_options(const bench_choice *choice, bench_counts *counts, cgt_trace_options *options,
+                          cgt_research_trace_options *research);
+
+/* Changes the scene's structure. rays: what AUTO chooses for. resolution: as in bench_scene_create. */
 cgt_result bench_scene_structure(const bench_scene *scene, cgt_structure structure, cgt_ray_kind rays,
                                  const bench_kd_choice *kd, const uint32_t resolution[3]);
 
@@ -107,10 +118,11 @@ typedef struct bench_build {
     bench_kd_choice kd;
     int left_out;               /* the library does not build it */
     cgt_scene_statistics built; /* of the last commit */
+    cgt_research_scene_statistics research;
 } bench_build;
 
-/* Builds it over `count` spheres or vertices, timed; leaves it out, with a message that names the file, where the
- * library has no such structure. */
+/* Builds it over `count` spheres or vertices, and measures the time. Where the library has no such structure, prints a
+ * message that names the file, and sets left_out. */
 cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t count, const uint32_t resolution[3],
                              const char *path, double *ms);
 

@@ -13,7 +13,7 @@
 struct bench_threads {
     pthread_mutex_t lock;
     pthread_cond_t start, done;
-    uint64_t job;     /* number of the job that the threads are to run; guarded by lock, as are the next two */
+    uint64_t job;     /* number of the current job; guarded by lock, as are the next two */
     uint32_t working; /* threads that have not finished the job */
     int quit;
     bench_task *task;

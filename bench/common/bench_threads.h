@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A few threads of cgt-bench's own, for the work beside the library's that is timed with it: making secondary rays.
+ * Threads of cgt-bench's own for work that is timed together with the library's: making secondary rays.
  * They sleep while the library's threads trace. */
 #ifndef BENCH_THREADS_H
 #define BENCH_THREADS_H

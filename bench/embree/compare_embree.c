@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * compare-embree: times Embree 3 as cgt-bench frame times the library: for each frame of a trajectory the spheres or
- * vertices move, the scene is committed and all primary rays are traced, and on request shadow and ambient-occlusion
- * rays, the latter one by one and in packets: the faster way counts. One row of medians per configuration, in the
- * columns of cgt-bench frame; the first frame warms up. Spheres run as Embree's own type and as user geometry, which is
- * faster: the honest opponent is the best row. scripts/compare_embree.sh sets both programs side by side. */
+ * compare-embree: times Embree 3 as cgt-bench frame times the library. For each frame of a trajectory the spheres or
+ * vertices move, the scene is committed and all primary rays are traced; on request shadow and ambient-occlusion rays,
+ * too, the latter one by one and in packets, of which the faster way counts. One row of medians per configuration, in
+ * the columns of cgt-bench frame. The first frame warms up. Spheres run as Embree's own type and as user geometry, which
+ * is faster: compare with the best row. scripts/compare_embree.sh runs both programs. */
 #include "embree/compare_embree.h"
 
 #include <errno.h>
@@ -13,9 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/bench_frame_row.h"
 #include "common/bench_timing.h"
 
-enum { BUILD, PRIMARY, SHADOW, AO, FRAME, COLUMNS };
 enum { OPTION_PACKETS = 0x700, OPTION_NEAREST };
 
 typedef struct embree_settings {
@@ -23,9 +23,7 @@ typedef struct embree_settings {
     int quality[EMBREE_QUALITIES]; /* 1: asked for; none: all */
     int builtin, user;             /* kinds of spheres; none: both */
     int robust;
-    int lit;
-    float light[3];
-    uint32_t ao;
+    bench_secondary_settings secondary;
     int nearest;
     uint32_t packet; /* rays; 0: the widest packets that Embree has vectors for */
     const char *isa;
@@ -34,6 +32,7 @@ typedef struct embree_settings {
 
 typedef struct embree_job {
     const embree_settings *settings;
+    bench_table *table;
     RTCDevice device;
     bench_input input;
     bench_threads *threads;
@@ -41,13 +40,13 @@ typedef struct embree_job {
     bench_planes planes;
     bench_rays *rays;
     embree_callbacks callbacks;
-    double *ms[COLUMNS];
-    uint64_t open; /* ambient-occlusion rays of the last frame that met nothing */
+    double *ms[BENCH_FRAME_TIMES];
+    uint64_t open; /* ambient-occlusion rays of the last frame that hit nothing */
 } embree_job;
 
 static const char *const qualities[EMBREE_QUALITIES] = {"low", "medium", "refit"};
 
-/* The vectors of spheres as user geometry, for what Embree is limited to. */
+/* The callbacks of spheres as user geometry, by the instruction set that Embree is limited to. */
 static const struct {
     const char *isa;
     embree_callbacks callbacks;
@@ -79,9 +78,7 @@ static const struct argp_option options[] = {
     {"spheres", 'G', "NAME", 0, "builtin or user; may be given twice (default: both)", 4},
     {"packets", OPTION_PACKETS, "RAYS", 0, "1, 4, 8 or 16 (default: as many as Embree has vectors for)", 4},
     {"isa", 'i', "NAME", 0, "limit Embree: sse4.2, avx, avx2 or avx512", 4},
-    {"light", 'l', "X,Y,Z", 0, "trace a shadow ray from every hit to this point", 4},
-    {"ao", 'a', "RAYS", 0, "trace RAYS ambient-occlusion rays from every hit, at most 1024", 4},
-    {"nearest", OPTION_NEAREST, NULL, 0, "ambient-occlusion rays ask for their nearest hits, not for any", 4},
+    {"nearest", OPTION_NEAREST, NULL, 0, "ambient-occlusion rays search for the nearest hit instead of any hit", 4},
     {"robust", 'R', NULL, 0, "set RTC_SCENE_FLAG_ROBUST", 4},
     {"output", 'o', "HITS", 0, "write the hits of the last row's last frame: per pixel float32 t and uint32 primitive",
      4},
@@ -99,10 +96,8 @@ static void choose_quality(embree_settings *settings, struct argp_state *state, 
 
 static void choose_packet(embree_settings *settings, struct argp_state *state, const char *text)
 {
-    char error[PROGRAM_ERROR_SIZE] = "";
     uint32_t rays = 0;
-    if (program_parse_u32(text, 1, 16, &rays, error, sizeof error))
-        argp_error(state, "--packets: %s", error);
+    bench_parse_u32(state, "--packets", text, 1, 16, &rays);
     if (rays != 1 && rays != 4 && rays != 8 && rays != 16)
         argp_error(state, "--packets: %s: 1, 4, 8 or 16 rays", text);
     settings->packet = rays;
@@ -121,9 +116,11 @@ static void choose_isa(embree_settings *settings, struct argp_state *state, cons
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
     embree_settings *settings = state->input;
-    char error[PROGRAM_ERROR_SIZE] = "";
     switch (key) {
-    case ARGP_KEY_INIT: state->child_inputs[0] = &settings->shared; return 0;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &settings->shared;
+        state->child_inputs[1] = &settings->secondary;
+        return 0;
     case 'm': choose_quality(settings, state, argument); return 0;
     case 'G':
         if (strcmp(argument, "builtin") != 0 && strcmp(argument, "user") != 0)
@@ -132,15 +129,6 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case OPTION_PACKETS: choose_packet(settings, state, argument); return 0;
     case 'i': choose_isa(settings, state, argument); return 0;
-    case 'l':
-        if (program_parse_floats(argument, 3, settings->light, error, sizeof error))
-            argp_error(state, "-l: %s", error);
-        settings->lit = 1;
-        return 0;
-    case 'a':
-        if (program_parse_u32(argument, 0, BENCH_MOST_AO_RAYS, &settings->ao, error, sizeof error))
-            argp_error(state, "-a: %s", error);
-        return 0;
     case OPTION_NEAREST: settings->nearest = 1; return 0;
     case 'R': settings->robust = 1; return 0;
     case 'o': settings->output = argument; return 0;
@@ -154,36 +142,36 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 
 /* ---- One row ------------------------------------------------------------------------------------------------- */
 
-/* Shadow rays in packets; ambient-occlusion rays in the faster form. */
-static void measure_arrays(embree_job *job, RTCScene scene, double ms[COLUMNS])
+/* Shadow rays go in packets, ambient-occlusion rays in the faster of two forms. */
+static void measure_arrays(embree_job *job, RTCScene scene, double ms[BENCH_FRAME_TIMES])
 {
     const embree_settings *s = job->settings;
     embree_arrays arrays = {.scene = scene, .threads = job->threads, .packet = job->view.packet, .coherent = 1};
     uint64_t hidden;
-    ms[SHADOW] = ms[AO] = 0.0;
-    if (!s->lit && !s->ao)
+    ms[BENCH_SHADOW] = ms[BENCH_AO] = 0.0;
+    if (!s->secondary.lit && !s->secondary.ao)
         return;
     embree_view_planes(&job->view, &job->planes);
-    bench_rays_give(job->rays, embree_arrays_take, &arrays);
-    bench_rays_give_tiles(job->rays, embree_arrays_take_tile);
-    if (s->lit) {
+    bench_rays_set_sink(job->rays, embree_arrays_trace, &arrays);
+    bench_rays_set_tile_sink(job->rays, embree_arrays_trace_tile);
+    if (s->secondary.lit) {
         const double begin = bench_now_ms();
-        bench_rays_shadow(job->rays, NULL, NULL, s->light, &hidden);
-        ms[SHADOW] = bench_now_ms() - begin;
+        bench_rays_shadow(job->rays, NULL, NULL, s->secondary.light, &hidden);
+        ms[BENCH_SHADOW] = bench_now_ms() - begin;
     }
     arrays.coherent = 0;
     arrays.nearest = s->nearest;
-    for (int single = 0; single < 2 && s->ao; single++) {
+    for (int single = 0; single < 2 && s->secondary.ao; single++) {
         if (single)
             arrays.packet = 1;
         const double begin = bench_now_ms();
-        bench_rays_ao(job->rays, NULL, NULL, s->ao, &job->open);
+        bench_rays_ao(job->rays, NULL, NULL, s->secondary.ao, &job->open);
         const double taken = bench_now_ms() - begin;
-        ms[AO] = single && ms[AO] < taken ? ms[AO] : taken;
+        ms[BENCH_AO] = single && ms[BENCH_AO] < taken ? ms[BENCH_AO] : taken;
     }
 }
 
-static void measure_frame(embree_job *job, embree_moving *moving, size_t frame, double ms[COLUMNS])
+static void measure_frame(embree_job *job, embree_moving *moving, size_t frame, double ms[BENCH_FRAME_TIMES])
 {
     embree_moving_move(moving, frame);
     const double begin = bench_now_ms();
@@ -191,10 +179,10 @@ static void measure_frame(embree_job *job, embree_moving *moving, size_t frame, 
     const double built = bench_now_ms();
     embree_view_trace(&job->view, moving->scene, job->threads);
     const double end = bench_now_ms();
-    ms[BUILD] = built - begin;
-    ms[PRIMARY] = end - built;
+    ms[BENCH_BUILD] = built - begin;
+    ms[BENCH_PRIMARY] = end - built;
     measure_arrays(job, moving->scene, ms);
-    ms[FRAME] = end - begin + ms[SHADOW] + ms[AO];
+    ms[BENCH_FRAME] = end - begin + ms[BENCH_SHADOW] + ms[BENCH_AO];
 }
 
 /* Returns how many frames were measured. */
@@ -203,11 +191,11 @@ static size_t measure_frames(embree_job *job, embree_moving *moving)
     const size_t total = job->input.frames * job->settings->shared.repeat;
     size_t measured = 0;
     for (size_t i = 0; i < total; i++) {
-        double ms[COLUMNS];
+        double ms[BENCH_FRAME_TIMES];
         measure_frame(job, moving, i % job->input.frames, ms);
         if (i == 0 && total > 1)
             continue;
-        for (int c = 0; c < COLUMNS; c++)
+        for (int c = 0; c < BENCH_FRAME_TIMES; c++)
             job->ms[c][measured] = ms[c];
         measured++;
     }
@@ -217,6 +205,7 @@ static size_t measure_frames(embree_job *job, embree_moving *moving)
 static int run_row(embree_job *job, embree_quality quality, int user)
 {
     embree_moving moving;
+    char config[64];
     const char *kind = job->input.index ? "" : user ? "-user" : "-builtin";
     if (embree_moving_create(&moving, job->device, &job->input, quality, user, job->settings->robust,
                              &job->callbacks)) {
@@ -231,12 +220,8 @@ static int run_row(embree_job *job, embree_quality quality, int user)
         program_error("Embree: error %d", (int)error);
         return PROGRAM_FAILED;
     }
-    printf("embree-%s%s%s\t%u", qualities[quality], kind, job->settings->robust ? ",robust" : "",
-           (unsigned)job->settings->shared.threads);
-    for (int c = 0; c < COLUMNS; c++)
-        printf("\t%.3f", bench_median(job->ms[c], measured));
-    printf("\t%llu\t%llu\n", (unsigned long long)bench_planes_hits(&job->planes), (unsigned long long)job->open);
-    fflush(stdout);
+    snprintf(config, sizeof config, "embree-%s%s%s", qualities[quality], kind, job->settings->robust ? ",robust" : "");
+    bench_frame_row(job->table, config, job->settings->shared.threads, job->ms, measured, &job->planes, job->open);
     return PROGRAM_OK;
 }
 
@@ -245,7 +230,7 @@ static int run_rows(embree_job *job)
     const embree_settings *s = job->settings;
     const int any = s->quality[EMBREE_LOW] || s->quality[EMBREE_MEDIUM] || s->quality[EMBREE_REFIT];
     int code = PROGRAM_OK;
-    printf("config\tthreads\tbuild_ms\tprimary_ms\tshadow_ms\tao_ms\tframe_ms\thit_pixels\tao_open\n");
+    bench_table_section(job->table, "frame");
     for (int user = 0; user < 2; user++)
         for (int q = 0; q < EMBREE_QUALITIES && code == PROGRAM_OK; q++) {
             if (any && !s->quality[q])
@@ -290,7 +275,7 @@ static embree_callbacks find_callbacks(const embree_settings *settings, uint32_t
     for (size_t i = 0; i < ISAS; i++)
         if (!strcmp(wanted, isas[i].isa))
             return isas[i].callbacks;
-    for (size_t i = 0; i < ISAS; i++) /* four lanes: what any CPU of the kind runs */
+    for (size_t i = 0; i < ISAS; i++) /* four lanes, which any CPU of the kind runs */
         if (strncmp(isas[i].isa, "avx", 3) != 0)
             return isas[i].callbacks;
     return isas[ISAS - 1].callbacks;
@@ -314,12 +299,8 @@ static int prepare(embree_job *job)
 {
     const embree_settings *settings = job->settings;
     const bench_settings *shared = &settings->shared;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    if (bench_input_load(&job->input, shared->path, shared->frames, shared->radius, shared->wrapped, error,
-                         sizeof error)) {
-        program_error("%s", error);
+    if (bench_input_load_file(&job->input, shared, shared->paths[0]))
         return PROGRAM_FAILED;
-    }
     if (open_device(job) != PROGRAM_OK)
         return PROGRAM_FAILED;
     const uint32_t native = native_packet(job->device);
@@ -327,10 +308,11 @@ static int prepare(embree_job *job)
     int complete = !embree_view_create(&job->view, shared, settings->packet ? settings->packet : native);
     complete = complete && !bench_planes_create(&job->planes, shared->width, shared->height);
     complete = complete && (job->threads = bench_threads_create(shared->threads)) != NULL;
-    complete = complete && (job->rays = bench_rays_create(job->threads, &job->view.axes, &job->planes, settings->ao));
+    complete = complete &&
+               (job->rays = bench_rays_create(job->threads, &job->view.axes, &job->planes, settings->secondary.ao));
     if (shared->repeat > SIZE_MAX / sizeof(double) / job->input.frames)
         complete = 0;
-    for (int c = 0; complete && c < COLUMNS; c++)
+    for (int c = 0; complete && c < BENCH_FRAME_TIMES; c++)
         complete = (job->ms[c] = calloc(job->input.frames * shared->repeat, sizeof(double))) != NULL;
     if (complete)
         return PROGRAM_OK;
@@ -340,7 +322,8 @@ static int prepare(embree_job *job)
 
 int main(int argc, char **argv)
 {
-    static const struct argp_child children[] = {{&bench_settings_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {
+        {&bench_settings_argp, 0, NULL, 0}, {&bench_secondary_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         .options = options,
         .parser = parse,
@@ -348,7 +331,7 @@ int main(int argc, char **argv)
         .children = children,
         .doc = "Times Embree on a trajectory of spheres or triangles as cgt-bench frame times the library: build and "
                "primary rays, shadow and ambient-occlusion rays. --variant, --packet and --grid are the library's, and "
-               "of no effect here."};
+               "have no effect here."};
     embree_settings settings;
     embree_job job;
 
@@ -359,13 +342,16 @@ int main(int argc, char **argv)
         return program_exit(PROGRAM_USAGE);
     memset(&job, 0, sizeof job);
     job.settings = &settings;
-    int code = prepare(&job);
+    job.table = bench_table_open(settings.shared.json_path);
+    int code = job.table ? prepare(&job) : PROGRAM_FAILED;
     if (code == PROGRAM_OK)
         code = run_rows(&job);
     if (code == PROGRAM_OK && settings.output)
         code = write_output(&job);
 
-    for (int c = 0; c < COLUMNS; c++)
+    if (bench_table_close(job.table))
+        code = PROGRAM_FAILED;
+    for (int c = 0; c < BENCH_FRAME_TIMES; c++)
         free(job.ms[c]);
     bench_rays_release(job.rays);
     bench_threads_release(job.threads);

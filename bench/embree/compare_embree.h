@@ -14,7 +14,7 @@
 #include "common/bench.h"
 #include "common/bench_input.h"
 #include "common/bench_planes.h"
-#include "frame/bench_frame_rays.h"
+#include "common/bench_rays.h"
 #include "common/bench_threads.h"
 
 /* Where the fields of N rays and their hits lie in Embree's structures: field * N + ray. */
@@ -33,13 +33,14 @@ enum {
 
 typedef enum embree_quality { EMBREE_LOW, EMBREE_MEDIUM, EMBREE_REFIT, EMBREE_QUALITIES } embree_quality;
 
-/* The hits of a frame: those of a packet lie together, packets row by row, so that Embree's own form is stored. */
+/* The hits of a frame. Those of a packet are neighbours, packets go row by row: Embree's own layout is stored as it is.
+ * */
 typedef struct embree_hits {
     float *t;
     uint32_t *primitive;
     float *normal[3];
     void *memory; /* of all of them */
-    size_t count; /* with what packets at the right and lower edge have beyond the picture */
+    size_t count; /* including the part of packets at the right and lower edge that is outside the picture */
 } embree_hits;
 
 typedef struct embree_view {
@@ -60,7 +61,7 @@ void embree_view_trace(embree_view *view, RTCScene scene, bench_threads *threads
 /* The hits in row order. */
 void embree_view_planes(const embree_view *view, bench_planes *planes);
 
-/* Arrays of shadow and ambient-occlusion rays in place of the library, see bench_rays_give. */
+/* Traces arrays of shadow and ambient-occlusion rays instead of the library, see bench_rays_set_sink. */
 typedef struct embree_arrays {
     RTCScene scene;
     bench_threads *threads;
@@ -71,10 +72,10 @@ typedef struct embree_arrays {
     uint8_t *occluded;
 } embree_arrays;
 
-cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occluded);
+cgt_result embree_arrays_trace(void *arrays, const cgt_rays *batch, uint8_t *occluded);
 
-/* The same on the calling thread alone, see bench_rays_give_tiles. */
-cgt_result embree_arrays_take_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded);
+/* The same on the calling thread alone, see bench_rays_set_tile_sink. */
+cgt_result embree_arrays_trace_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded);
 
 /* The callbacks of spheres as user geometry, for one width of vectors. */
 typedef struct embree_callbacks {
@@ -87,7 +88,7 @@ typedef struct embree_moving {
     RTCScene scene;
     RTCGeometry geometry;
     const bench_input *input;
-    float *moving; /* with room behind, as Embree reads whole vectors */
+    float *moving; /* padded, since Embree reads whole vectors */
     int user;
     uint32_t held; /* elements that the geometry has */
 } embree_moving;

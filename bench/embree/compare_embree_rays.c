@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Embree on the arrays of rays that the library is measured with: one ray at a time, or neighbours as packets. */
+ * Embree on the same arrays of rays as the library: one ray at a time, or neighbours as packets. */
 #include "embree/compare_embree.h"
 
 #include <math.h>
@@ -17,8 +17,8 @@ typedef struct array_packet {
     _Alignas(64) int valid[16];
 } array_packet;
 
-/* Rays first to first + count - 1, all of structure-of-arrays form. n, and of whole packets count too, are constants where
- * this is called: what Embree loads as a vector has been stored as one, else it would wait for the stores. */
+/* Rays first to first + count - 1, as a structure of arrays. Callers pass n as a constant, and count, too, for whole
+ * packets: then what Embree loads as a vector has been stored as one, and no load waits for narrower stores. */
 BENCH_INLINE void fill_packet(const embree_arrays *a, uint64_t first, uint32_t count, uint32_t n, array_packet *p)
 {
     const cgt_rays *rays = a->batch;
@@ -79,7 +79,8 @@ BENCH_INLINE void trace_packets(const embree_arrays *a, uint64_t first, uint64_t
             intersect_packet(a, &context, &p);
         else
             occlude_packet(a, &context, &p);
-        for (uint32_t k = 0; k < count; k++) /* nearer than its far end; of an occluded ray that is -infinity */
+        for (uint32_t k = 0; k < count;
+             k++) /* nearer than its far end, which Embree sets to -infinity for an occluded ray */
             a->occluded[i + k] = p.word[EMBREE_FAR * n + k] < (rays->t_max ? rays->t_max[i + k] : INFINITY);
     }
 }
@@ -104,7 +105,7 @@ static void trace_task(void *argument, uint32_t index)
     native_flush_end(callers);
 }
 
-cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occluded)
+cgt_result embree_arrays_trace(void *arrays, const cgt_rays *batch, uint8_t *occluded)
 {
     embree_arrays *a = arrays;
     a->batch = batch;
@@ -113,7 +114,7 @@ cgt_result embree_arrays_take(void *arrays, const cgt_rays *batch, uint8_t *occl
     return CGT_OK;
 }
 
-cgt_result embree_arrays_take_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded)
+cgt_result embree_arrays_trace_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded)
 {
     embree_arrays own = *(const embree_arrays *)arrays; /* others are at work */
     const unsigned int callers = native_flush_begin();

@@ -12,7 +12,7 @@
 #define NAME(name, variant) NAME_(name, variant)
 #define NAME_(name, variant) name##_##variant
 
-/* What Embree hands to both callbacks: words of N rays, and of their hits where nearest ones are wanted. */
+/* What Embree passes to both callbacks: words of N rays, and of their hits in nearest-hit queries. */
 typedef struct call {
     float *words;
     const int *valid;
@@ -60,7 +60,7 @@ CGT_SPU_INLINE void meet_rays(const call *c, const vfloat sphere[4], size_t i)
         spux_store_mask(ray + (EMBREE_NORMAL + k) * n, spu_nmsub(spux_vfloat(1.0f), off[k], spu_mul(t, dir[k])), hit);
 }
 
-/* One ray, where there are fewer than a vector holds. */
+/* One ray, for packets smaller than a vector. */
 static void meet_ray(const call *c, size_t i)
 {
     const size_t n = c->rays;

@@ -11,7 +11,7 @@
 #include "common/bench_clones.h"
 #include "native/native_flush.h"
 
-enum { TASK_PACKETS = 8 }; /* a task is a square of so many packets along each edge */
+enum { TASK_PACKETS = 8 }; /* packets along the edge of a task's square */
 
 /* ---- View ---------------------------------------------------------------------------------------------------- */
 
@@ -87,8 +87,8 @@ BENCH_INLINE void packet_init(packet *p, const embree_view *view)
     memset(p->word + EMBREE_INSTANCE * n, 0xff, n * sizeof(float));
 }
 
-/* The rays of a packet of n, `columns` side by side, whose first pixel is (x, y). Both are constants where this is called:
- * what Embree loads as a vector has been stored as one, else it would wait for the stores. */
+/* The rays of a packet of n, `columns` side by side, whose first pixel is (x, y). Callers pass both as constants: then
+ * what Embree loads as a vector has been stored as one, and no load waits for narrower stores. */
 BENCH_INLINE void packet_rays(packet *p, const bench_camera_axes *axes, uint32_t x, uint32_t y, uint32_t n,
                               uint32_t columns)
 {
@@ -204,7 +204,7 @@ static void sphere_bounds(const struct RTCBoundsFunctionArguments *a)
     a->bounds_o->upper_z = q[2] + q[3];
 }
 
-/* As Embree wants it: readable beyond the end. */
+/* Memory as Embree requires it: readable beyond the end. */
 static void *block(size_t bytes)
 {
     const size_t whole = (bytes + 127) / 64 * 64;

@@ -1,20 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench floor: what the machine allows, and how far from it scenes are.
+ * cgt-bench floor: what the machine allows, and how close frames come to it.
  *   machine  bandwidth of memory                                       bench_floor_machine.c
  *   scatter  sorting a scene's objects into cells                      bench_floor_scatter.c
- *   planes   the empty frame, and a scene's, by what is asked for      bench_floor_planes.c
- *   tests    nanoseconds a test, an object, a resolved pixel, in L1    bench_floor_tests.c
+ *   planes   the empty frame, and a scene's, by requested fields       bench_floor_planes.c
+ *   tests    nanoseconds per test, object, resolved pixel, in L1      bench_floor_tests.c
  *   limit    the terms of a scene's limit                              bench_floor_limit.c
  *
  * The model: no frame of a scene takes less than
- *     empty     the frame of a scene that no ray meets: tiles set up, resolved and stored
+ *     empty     the frame of a scene that no ray hits: tiles set up, resolved and stored
  *   + read      the input's bytes once from memory
- *   + scatter   each object's number once into the cell that it lies in
- *   + tests     the ray tests that are left where the scene holds only the objects that are seen
- *   + objects   setting those objects up, once for each tile that they are drawn in
- * all of them measured here, by the library's own code where there is code for it. Beside it stands
+ *   + scatter   each object's number once into its cell
+ *   + tests     the ray tests that remain where the scene holds only the visible objects
+ *   + objects   setting those objects up, once for each tile in which they are drawn
+ * all of them measured here, with the library's own code where it has some. Not part of the limit, but reported:
  *     resolve   exact t and the normal of each pixel that is hit, as the library computes them. */
 #ifndef BENCH_FLOOR_H
 #define BENCH_FLOOR_H
@@ -23,17 +23,15 @@
 #include <stdint.h>
 
 #include "common/bench.h"
-#include "accuracy/bench_accuracy_report.h"
+#include "common/bench_table.h"
 #include "common/bench_planes.h"
 #include "common/bench_threads.h"
-
-enum { FLOOR_MOST_FILES = 32 };
 
 /* What a frame asks for. */
 typedef enum floor_fields {
     FLOOR_T,
     FLOOR_T_ID,
-    FLOOR_T_ID_NORMAL, /* what cgt-bench frame asks for */
+    FLOOR_T_ID_NORMAL, /* the fields of cgt-bench frame */
     FLOOR_T_ID_UV,
     FLOOR_EVERYTHING, /* t, id, normal, u, v */
     FLOOR_FIELDS
@@ -42,13 +40,9 @@ typedef enum floor_fields {
 typedef struct floor_settings {
     bench_settings shared;
     bench_structure_settings structure;
-    cgt_precision precision;
-    int precision_given;
-    const char *paths[FLOOR_MOST_FILES];
-    size_t files;       /* 0: scenes made in memory */
+    bench_precision_settings precision;
     uint32_t megabytes; /* of the memory that bandwidth is measured on */
     uint32_t spheres, triangles;
-    const char *json_path;
 } floor_settings;
 
 /* Nanoseconds in one thread; see bench_floor_tests.c. */
@@ -60,12 +54,12 @@ typedef struct floor_tests {
 
 typedef struct floor_job {
     const floor_settings *settings;
-    accuracy_report *report;
+    bench_table *table;
     cgt_context *context;
     bench_threads *threads;
     bench_choice choice;
     bench_planes planes;
-    double read, write, stream;    /* bytes a nanosecond; stream: 0 where the compiler has none */
+    double read, write, stream;    /* bytes per nanosecond; stream: 0 where the compiler has no streaming stores */
     double empty_ms[FLOOR_FIELDS]; /* into planes */
     floor_tests tests[2];          /* of spheres, of triangles */
     char config[BENCH_NAME_SIZE];  /* of the last scene that was committed */
@@ -79,17 +73,17 @@ typedef struct floor_time {
 /* Where frames of a committed scene go. */
 typedef enum floor_target { FLOOR_PLANES, FLOOR_VISITOR, FLOOR_TARGETS } floor_target;
 
-/* All that follow return an exit code, unless they say otherwise, and print what failed. */
+/* The functions below return an exit code unless they say otherwise, and print what failed. */
 
 /* Memory bandwidth with all threads of the job. */
 int floor_measure_memory(floor_job *job);
 
-/* ns an object of sorting into cells of about eight: positions are x, y, z at `width` floats. A negative number where
- * memory is refused. */
+/* Nanoseconds per object of sorting objects into cells of about eight. Positions are x, y, z, `width` floats apart.
+ * Negative where memory is refused. */
 double floor_measure_scatter(const floor_job *job, const float *position, uint32_t width, uint32_t count);
 
-/* Times frames of a committed scene by what they ask for, in turns; prints rows of `part`. low: gets the shortest times
- * into planes; NULL: not wanted. */
+/* Times frames of a committed scene by the fields that they request, in turns; prints rows of `part`. low: NULL, or
+ * gets the shortest times into planes. */
 int floor_measure_fields(floor_job *job, const bench_scene *scene, const char *part, const char *name,
                          double low[FLOOR_FIELDS]);
 int floor_measure_empty(floor_job *job);
@@ -102,7 +96,7 @@ int floor_measure_file(floor_job *job, const char *path);
 int floor_measure_cloud(floor_job *job);
 int floor_measure_mesh(floor_job *job);
 
-/* A scene as the command line wants it, before its first commit. */
+/* A scene with the structure of the command line, before its first commit. */
 cgt_result floor_open_scene(floor_job *job, bench_scene *scene, cgt_context *context, const float *moving,
                             const uint32_t *index, uint32_t triangles);
 

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The limit of a scene's last frame, term by term, and how far the measured frame is from it; see bench_floor.h. How
- * many tests and objects cannot be done without is counted: the objects that are seen make a scene of their own, and
- * the library's statistics tell what its frame takes. That frame is timed, too: it is what is left to a frame that knew
- * beforehand what is seen. */
+ * The limit of a scene's last frame, term by term, and how far the measured frame is from it; see bench_floor.h. The
+ * tests and objects that cannot be avoided are counted: the visible objects make a scene of their own, and the
+ * library's statistics say what its frame takes. That frame is timed, too: it is the time of a frame that knew
+ * beforehand what is visible. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,8 +39,9 @@ static cgt_result time_frames(floor_job *job, bench_scene *scene, const limit_sc
 {
     const bench_settings *shared = &job->settings->shared;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     cgt_frame frame;
-    bench_choice_options(&job->choice, NULL, &trace);
+    bench_choice_options(&job->choice, NULL, &trace, &research);
     bench_planes_frame(&job->planes, &frame);
     for (uint32_t round = 0; round < shared->repeat + 1; round++) /* the first one warms up */
         for (uint32_t i = 0; i < s->frames; i++) {
@@ -68,7 +69,7 @@ typedef struct seen_part {
     uint32_t count;
 } seen_part;
 
-/* Marks the objects that the frame shows; returns how many. */
+/* Marks the objects that are visible in the frame; returns how many. */
 static uint32_t mark_seen(const bench_planes *planes, uint8_t *seen, uint32_t objects)
 {
     const size_t pixels = (size_t)planes->width * planes->height;
@@ -81,7 +82,7 @@ static uint32_t mark_seen(const bench_planes *planes, uint8_t *seen, uint32_t ob
     return count;
 }
 
-/* Copies of the objects that are seen. 0, or -1 where memory is refused. */
+/* Copies the visible objects. Returns 0, or -1 where memory is refused. */
 static int take_seen(const limit_scene *s, const bench_planes *planes, uint32_t objects, seen_part *part)
 {
     uint8_t *seen = calloc((size_t)objects + 1, 1);
@@ -105,17 +106,18 @@ static int take_seen(const limit_scene *s, const bench_planes *planes, uint32_t 
     return part->index || part->moving ? 0 : -1;
 }
 
-/* Traces the scene of what is seen: counts, and the shortest time. */
+/* Traces the scene of the visible objects: counts, and the shortest time. */
 static cgt_result trace_seen(floor_job *job, const limit_scene *s, const seen_part *part, uint32_t elements,
                              limit_counts *counts, double *low)
 {
     const bench_settings *shared = &job->settings->shared;
-    cgt_trace_statistics counted;
+    bench_counts counted;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     bench_scene scene;
     cgt_frame frame;
     memset(&counted, 0, sizeof counted);
-    bench_choice_options(&job->choice, &counted, &trace);
+    bench_choice_options(&job->choice, &counted, &trace, &research);
     bench_planes_frame(&job->planes, &frame);
     cgt_result result = floor_open_scene(job, &scene, job->context, part->moving ? part->moving : s->moving,
                                          part->index, part->index ? part->count : 0);
@@ -123,10 +125,11 @@ static cgt_result trace_seen(floor_job *job, const limit_scene *s, const seen_pa
         result = bench_scene_commit(&scene, s->index ? elements : part->count);
     if (result == CGT_OK)
         result = cgt_trace_camera(scene.scene, &shared->camera, &frame, &trace);
-    counts->lanes = counted.ray_tests;
-    counts->drawn = counted.packet_tests;
-    counts->hits = counted.hits;
+    counts->lanes = counted.trace.ray_tests;
+    counts->drawn = counted.trace.packet_tests;
+    counts->hits = counted.trace.hits;
     trace.statistics = NULL;
+    research.statistics = NULL;
     for (uint32_t round = 0; round < shared->repeat && result == CGT_OK; round++) {
         const double begin = bench_now_ms();
         result = cgt_trace_camera(scene.scene, &shared->camera, &frame, &trace);
@@ -139,7 +142,7 @@ static cgt_result trace_seen(floor_job *job, const limit_scene *s, const seen_pa
 
 /* ---- Terms --------------------------------------------------------------------------------------------------- */
 
-/* A measured cost may come out below 0 where it is lost in noise. */
+/* A measured cost may be negative where noise exceeds it. */
 static double positive(double value) { return value > 0.0 ? value : 0.0; }
 
 static void print_terms(floor_job *job, const limit_scene *s, const limit_counts *counts, double scatter_ns,
@@ -181,7 +184,7 @@ static void print_terms(floor_job *job, const limit_scene *s, const limit_counts
     floor_row(job, "limit", s->name, "measured over limit and resolve", threads, low[2] / (sum + resolve), "ratio");
 }
 
-/* The last frame stands in the planes. */
+/* The planes hold the last frame. */
 static int measure_limit(floor_job *job, const limit_scene *s, uint32_t elements, const double low[3])
 {
     limit_counts counts = {.objects = s->index ? s->triangles : elements};

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Memory bandwidth: all threads read or write an array that no cache holds, each its own part. Streaming stores go past
- * the caches; they are measured where the compiler has them. */
+ * Memory bandwidth: all threads read or write an array that is larger than any cache, each its own part. Streaming
+ * stores bypass the caches; they are measured where the compiler has them. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ typedef struct memory_job {
     size_t count; /* a multiple of 8 */
     uint32_t parts;
     uint64_t seed;
-    uint64_t *sums; /* of each part; what is read is used */
+    uint64_t *sums; /* of each part; keeps the compiler from removing the reads */
 } memory_job;
 
 /* Words of a part, from *first up to the end that is returned. */
@@ -60,7 +60,7 @@ static void stream_part(void *argument, uint32_t index)
 }
 #endif
 
-/* Bytes a nanosecond, the best of some rounds. */
+/* Bytes per nanosecond, the best of several rounds. */
 static double measure(floor_job *job, memory_job *memory, bench_task *task)
 {
     double best = 0.0;

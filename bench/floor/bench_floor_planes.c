@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames of one committed scene by what they ask for, into planes or to a visitor, which reads a number of each line of
- * a cache that it is given. All ways take turns, so that a slow moment meets them alike. */
+ * Frames of one committed scene by the fields that they request, into planes or to a visitor, which reads one number of
+ * each cache line that it gets. All ways take turns, so that a slow moment affects all alike. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -34,14 +34,14 @@ static uint32_t touch(const void *plane, const cgt_tile *tile)
     return sum;
 }
 
-/* Tiles come from several threads at once. What is read goes somewhere, or compilers would leave the reading out. */
-static int visit(void *user, const cgt_tile *tile)
+/* Tiles come from several threads at the same time. The sum is stored, or compilers would remove the reads. */
+static cgt_visit visit(void *user, const cgt_tile *tile)
 {
     uint32_t sum = touch(tile->t, tile) + touch(tile->primitive, tile) + touch(tile->u, tile) + touch(tile->v, tile);
     for (int a = 0; a < 3; a++)
         sum += touch(tile->normal[a], tile);
     atomic_fetch_add_explicit((atomic_uint *)user, sum, memory_order_relaxed);
-    return 0;
+    return CGT_VISIT_CONTINUE;
 }
 
 static void make_frame(const floor_job *job, floor_fields set, floor_target target, atomic_uint *seen, cgt_frame *frame)
@@ -69,8 +69,9 @@ static cgt_result run_rounds(floor_job *job, const bench_scene *scene, double *m
     const uint32_t rounds = job->settings->shared.repeat;
     atomic_uint seen;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     atomic_init(&seen, 0);
-    bench_choice_options(&job->choice, NULL, &trace);
+    bench_choice_options(&job->choice, NULL, &trace, &research);
     for (uint32_t round = 0; round < rounds + 1; round++) /* the first one warms up */
         for (int way = 0; way < FLOOR_FIELDS * FLOOR_TARGETS; way++) {
             cgt_frame frame;
@@ -112,7 +113,7 @@ int floor_measure_fields(floor_job *job, const bench_scene *scene, const char *p
     return result == CGT_OK ? PROGRAM_OK : bench_scene_failed(job->context, name, result);
 }
 
-/* The only sphere lies behind the eye. */
+/* The only sphere is behind the eye. */
 int floor_measure_empty(floor_job *job)
 {
     const cgt_camera *camera = &job->settings->shared.camera;

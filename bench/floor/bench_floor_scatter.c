@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The last step of any sort of objects into cells, alone: keys are known, and where the objects of a cell go; each
- * number is stored. Straight into the cells, or first into slabs of cells, whose own objects and places the caches
- * hold: the shorter one counts. The order of keys is the scene's own, for a mesh's neighbours lie together and a
- * cloud's do not; of a mesh the vertices stand for the triangles. */
+ * The last step of any sort of objects into cells, by itself: keys and the cells' offsets are known, each object's
+ * number is stored. Either directly into the cells, or first into slabs of cells that fit in a cache; the faster one
+ * counts. The order of keys is the scene's own: neighbours of a mesh are close in memory, those of a cloud are not. For
+ * meshes, vertices stand for triangles. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,7 @@ enum { ROUNDS = 5, OBJECTS_A_CELL = 8, SLABS = 256 };
 
 typedef struct scatter_job {
     uint32_t count, cells, parts;
-    uint32_t slab_cells; /* of a slab, but for the last */
+    uint32_t slab_cells; /* of a slab; the last one may have fewer */
     uint32_t *key;       /* cell of each object */
     uint32_t *start;     /* of each part, of each cell: where its next object goes */
     uint32_t *first;     /* of each cell, and one behind the last: its first object */
@@ -48,7 +48,7 @@ static void pair_part(void *argument, uint32_t part)
         job->pair[slab[job->key[i] / job->slab_cells]++] = (uint64_t)job->key[i] << 32 | i;
 }
 
-/* The places of the first part are those of all: it is alone with the cells of the slab. */
+/* Uses the offsets of the first part for all: one thread has the cells of a slab for itself. */
 static void scatter_slab(void *argument, uint32_t slab)
 {
     const scatter_job *job = argument;
@@ -58,7 +58,7 @@ static void scatter_slab(void *argument, uint32_t slab)
         job->object[job->start[job->pair[i] >> 32]++] = (uint32_t)job->pair[i];
 }
 
-/* Counts, then sums: cells in order, in each of them the parts in order; of slabs likewise. */
+/* Counts, then prefix sums: cells in order, within each the parts in order; the same for slabs. */
 static void find_starts(const scatter_job *job)
 {
     uint32_t at = 0;
@@ -94,7 +94,7 @@ static void find_slabs(const scatter_job *job)
         }
 }
 
-/* Cubes over the bounds, as many as there are cells, or fewer. What is not finite lies in the first or the last. */
+/* At most as many cubes over the bounds as there are cells. Values that are not finite go to the first or the last. */
 static void find_keys(scatter_job *job, const float *position, uint32_t width)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -127,7 +127,7 @@ static void find_keys(scatter_job *job, const float *position, uint32_t width)
     }
 }
 
-/* The shortest ms of both ways. */
+/* The shortest time of both ways, in ms. */
 static double time_rounds(const floor_job *job, scatter_job *scatter)
 {
     double best = INFINITY;

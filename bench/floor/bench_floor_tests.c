@@ -19,14 +19,14 @@
 enum { EDGE = 64, STACK = 64, BACK_EDGE = 8, BACK = BACK_EDGE * BACK_EDGE, MOST = BACK + STACK };
 enum { ROUNDS = 25 };
 
-#define ROUND_MS 0.5 /* a round of one frame, which is repeated as often as that takes */
-#define FOV 4.5f     /* degrees: pixels as small as those of a picture of 1280x720 */
+#define ROUND_MS 0.5 /* length of a round, in which a frame is repeated */
+#define FOV 4.5f     /* degrees: pixels of the same size as in a picture of 1280x720 */
 #define SMALL 2.0f   /* pixels: radius */
 #define LARGE 12.0f
 
 enum { EMPTY, BACKDROP, SMALL_STACK, LARGE_STACK, FRAMES };
 
-/* One frame that is measured over and over. */
+/* One frame that is measured repeatedly. */
 typedef struct tests_frame {
     bench_scene scene;
     float moving[MOST * 9];
@@ -51,7 +51,7 @@ typedef struct tests_bench {
 /* Half the width of a pixel at distance 1. */
 static float half_pixel(void) { return tanf(0.5f * FOV * 3.14159265f / 180.0f) / EDGE; }
 
-/* Adds an object of some radius in pixels around the ray of a place in the picture, from -1 to 1 each way. */
+/* Adds an object with a radius in pixels around the ray of a point of the picture, -1 to 1 in both directions. */
 static void put(const tests_bench *bench, tests_frame *f, float x, float y, float depth, float pixels)
 {
     static const float corner[3][2] = {{0.0f, 1.0f}, {-0.866f, -0.5f}, {0.866f, -0.5f}};
@@ -72,7 +72,7 @@ static void put(const tests_bench *bench, tests_frame *f, float x, float y, floa
     }
 }
 
-/* Each object stands at its own depth, and reaches round a square of the picture. */
+/* Every object has its own depth, and covers a square of the picture. */
 static void put_backdrop(const tests_bench *bench, tests_frame *f)
 {
     const float pixels = (bench->triangles ? 1.5f : 0.82f) * EDGE / BACK_EDGE;
@@ -83,8 +83,8 @@ static void put_backdrop(const tests_bench *bench, tests_frame *f)
     }
 }
 
-/* Each object a twentieth nearer than the one before, so that they are nowhere as deep as each other, at random places
- * that leave them in the picture. */
+/* Each object is a twentieth nearer than the one before, so that no two have the same depth anywhere. Places are
+ * random, within the picture. */
 static void put_stack(const tests_bench *bench, tests_frame *f, float pixels)
 {
     uint64_t state = bench_random_start;
@@ -108,27 +108,28 @@ static void make_objects(const tests_bench *bench, tests_frame *f, int which)
 
 /* ---- Times --------------------------------------------------------------------------------------------------- */
 
-static cgt_result trace(tests_bench *bench, tests_frame *f, cgt_trace_statistics *statistics)
+static cgt_result trace(tests_bench *bench, tests_frame *f, bench_counts *counts)
 {
     cgt_trace_options options;
+    cgt_research_trace_options research;
     cgt_frame frame;
     cgt_result result = CGT_OK;
     bench_planes_frame(&bench->planes, &frame);
-    bench_choice_options(&bench->job->choice, statistics, &options);
+    bench_choice_options(&bench->job->choice, counts, &options, &research);
     for (uint32_t pass = 0; result == CGT_OK && pass < f->passes; pass++)
         result = cgt_trace_camera(f->scene.scene, &bench->camera, &frame, &options);
     return result;
 }
 
-/* Builds a frame's scene, counts what it takes, and finds how many passes make a round. */
+/* Builds a frame's scene, counts its work, and finds how many passes make a round. */
 static cgt_result open_frame(tests_bench *bench, int which)
 {
     static const uint32_t one_cell[3] = {1, 1, 1};
     const cgt_structure asked = bench->job->settings->structure.asked[0];
-    /* AUTO would be the queue grid where cells are asked for */
+    /* with a resolution AUTO would take the queue grid */
     const cgt_structure structure = asked == CGT_STRUCTURE_AUTO ? CGT_STRUCTURE_LOOSE_GRID : asked;
     tests_frame *f = &bench->frame[which];
-    cgt_trace_statistics counted;
+    bench_counts counted;
     double ms = 0.0;
     memset(&counted, 0, sizeof counted);
     make_objects(bench, f, which);
@@ -141,9 +142,9 @@ static cgt_result open_frame(tests_bench *bench, int which)
     f->passes = 1;
     if (result == CGT_OK)
         result = trace(bench, f, &counted);
-    f->drawn = (double)counted.packet_tests;
-    f->lanes = (double)counted.ray_tests;
-    f->hits = (double)counted.hits;
+    f->drawn = (double)counted.trace.packet_tests;
+    f->lanes = (double)counted.trace.ray_tests;
+    f->hits = (double)counted.trace.hits;
     f->ns = INFINITY;
     while (result == CGT_OK) {
         const double begin = bench_now_ms();
@@ -156,7 +157,7 @@ static cgt_result open_frame(tests_bench *bench, int which)
     return result;
 }
 
-/* The frames take turns, so that a slow moment meets them alike. */
+/* The frames take turns, so that a slow moment affects all alike. */
 static cgt_result time_frames(tests_bench *bench)
 {
     cgt_result result = CGT_OK;
@@ -169,8 +170,8 @@ static cgt_result time_frames(tests_bench *bench)
     return result;
 }
 
-/* The two unknowns of two differences, and what is left; NaN where counts do not tell them apart. A cost that is
- * smaller than the noise may come out negative. */
+/* Solves the two differences for the two unknowns, and finds the rest. NaN where the counts are not independent. A cost
+ * below the noise may be negative. */
 static void solve(const tests_frame *f, floor_tests *tests)
 {
     const tests_frame *back = &f[BACKDROP], *small = &f[SMALL_STACK], *large = &f[LARGE_STACK];

@@ -5,15 +5,14 @@
  * a slow moment of the machine meets all of them alike. Every run's hits are compared bit by bit with the first one's.
  *
  * First every configuration counts its steps in runs that are not timed; then the timed runs, which count nothing. */
+#include "loops/bench_loops.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/bench.h"
 #include "common/bench_input.h"
-#include "loops/bench_plan.h"
 #include "common/bench_planes.h"
-#include "loops/bench_report.h"
 #include "common/bench_scene.h"
 #include "common/bench_timing.h"
 
@@ -31,18 +30,18 @@ typedef struct loops_job {
 
 /* ---- Runs ---------------------------------------------------------------------------------------------------- */
 
-/* Adds a run's counts; what is not a count is of the last run. */
-static void add_statistics(cgt_trace_statistics *total, const cgt_trace_statistics *run)
+/* Adds a run's counts. Fields that are no counts are those of the last run. */
+static void add_counts(bench_counts *total, const bench_counts *run)
 {
-    const cgt_trace_statistics before = *total;
+    const bench_counts before = *total;
     *total = *run;
-    total->rays += before.rays;
-    total->packet_tests += before.packet_tests;
-    total->ray_tests += before.ray_tests;
-    total->slices += before.slices;
-    total->cells += before.cells;
-    total->references += before.references;
-    total->mailbox_skipped += before.mailbox_skipped;
+    total->trace.rays += before.trace.rays;
+    total->trace.packet_tests += before.trace.packet_tests;
+    total->trace.ray_tests += before.trace.ray_tests;
+    total->research.slices += before.research.slices;
+    total->research.cells += before.research.cells;
+    total->research.references += before.research.references;
+    total->research.mailbox_skipped += before.research.mailbox_skipped;
 }
 
 /* Compares the hits of the run just made with those of the frame's first run. */
@@ -60,14 +59,15 @@ static void compare_hits(loops_job *job, const bench_row *row, size_t frame)
                   (unsigned long long)hash, (unsigned long long)job->hash[frame]);
 }
 
-/* Traces a row. statistics: NULL in timed runs. */
-static cgt_result trace_row(loops_job *job, bench_row *row, cgt_trace_statistics *statistics, double *ms)
+/* Traces a row. counts: NULL in timed runs. */
+static cgt_result trace_row(loops_job *job, bench_row *row, bench_counts *counts, double *ms)
 {
     cgt_trace_options options;
+    cgt_research_trace_options research;
     cgt_frame frame;
-    bench_choice_options(&row->choice, statistics, &options);
+    bench_choice_options(&row->choice, counts, &options, &research);
     bench_planes_frame(&job->planes, &frame);
-    /* The planes of the run before must not pass for this one's: no primitive has this number. */
+    /* The hits of the run before must not pass for this one's: no primitive has this number. */
     memset(job->planes.primitive, 0xfe, (size_t)job->planes.width * job->planes.height * sizeof *job->planes.primitive);
     const double start = bench_now_ms();
     const cgt_result result =
@@ -84,17 +84,17 @@ static cgt_result count_frame(loops_job *job, size_t frame, size_t *row_failed)
     double ms;
     for (size_t i = 0; i < plan->row_count; i++) {
         bench_row *row = &plan->rows[i];
-        cgt_trace_statistics statistics;
+        bench_counts counts;
         cgt_result result = CGT_OK;
-        memset(&statistics, 0, sizeof statistics);
+        memset(&counts, 0, sizeof counts);
         *row_failed = i;
         if (i == 0 || row->group != plan->rows[i - 1].group)
             result = bench_group_commit(&plan->groups[row->group], count, &ms);
         if (result == CGT_OK)
-            result = trace_row(job, row, &statistics, &ms);
+            result = trace_row(job, row, &counts, &ms);
         if (result != CGT_OK)
             return result;
-        add_statistics(&row->total, &statistics);
+        add_counts(&row->total, &counts);
         if (i == 0)
             job->hash[frame] = bench_planes_hash(&job->planes);
         else
@@ -103,7 +103,7 @@ static cgt_result count_frame(loops_job *job, size_t frame, size_t *row_failed)
     return CGT_OK;
 }
 
-/* Times all rows in one frame; backwards every other time, so that no row always follows the same one. */
+/* Times all rows in one frame; backwards in every other frame, so that no row always follows the same one. */
 static cgt_result time_frame(loops_job *job, size_t frame, int backwards, int keep, size_t *row_failed)
 {
     bench_plan *plan = &job->plan;
@@ -160,12 +160,8 @@ static int run_all(loops_job *job)
 static int prepare(loops_job *job)
 {
     const bench_settings *settings = job->settings;
-    char error[PROGRAM_ERROR_SIZE] = "";
-    if (bench_input_load(&job->input, settings->path, settings->frames, settings->radius, settings->wrapped, error,
-                         sizeof error)) {
-        program_error("%s", error);
+    if (bench_input_load_file(&job->input, settings, settings->paths[0]))
         return PROGRAM_FAILED;
-    }
     const size_t frames = job->input.frames;
     if (settings->repeat > SIZE_MAX / frames || bench_planes_create(&job->planes, settings->width, settings->height) ||
         !(job->hash = calloc(frames, sizeof *job->hash))) {
@@ -180,11 +176,16 @@ static int prepare(loops_job *job)
 
 static int report(const loops_job *job)
 {
+    bench_table *table = bench_table_open(job->settings->json_path);
     uint64_t hash = 0;
-    if (bench_report_table(&job->plan, job->input.frames) || bench_report_ratios(&job->plan)) {
-        program_error("out of memory");
+    if (!table)
         return PROGRAM_FAILED;
-    }
+    const int failed =
+        bench_report_table(&job->plan, job->input.frames, table) || bench_report_ratios(&job->plan, table);
+    if (failed)
+        program_error("out of memory");
+    if (bench_table_close(table) || failed)
+        return PROGRAM_FAILED;
     for (size_t i = 0; i < job->input.frames; i++)
         hash = (hash ^ job->hash[i]) * 0x9e3779b97f4a7c15u;
     printf("#\n# hits\t%zu frames\t%zu configurations\t%llu traces compared\t%llu different\thash %016llx\n",

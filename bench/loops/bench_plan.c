@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The list of configurations, and their scenes. */
-#include "loops/bench_plan.h"
+#include "loops/bench_loops.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 #include "common/bench_timing.h"
 
-enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_scene_options.resolution */
+enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_research_scene_options.resolution */
 
 /* What a plan tries without -g. */
 static const struct grid {
@@ -25,9 +25,10 @@ enum { MOST_ROWS_PER_GROUP = PACKETS * SWITCHES * LOOPS };
 static const uint32_t packets[PACKETS] = {4, 8, 16};
 static const struct {
     cgt_cull cull;
-    int mailbox;
-} switches[SWITCHES] = {{CGT_CULL_BLOCKS, 1},  {CGT_CULL_BLOCKS, 0}, {CGT_CULL_FRUSTUM, 1},
-                        {CGT_CULL_FRUSTUM, 0}, {CGT_CULL_NONE, 1},   {CGT_CULL_NONE, 0}};
+    cgt_mailbox mailbox;
+} switches[SWITCHES] = {{CGT_CULL_BLOCKS, CGT_MAILBOX_ON},  {CGT_CULL_BLOCKS, CGT_MAILBOX_OFF},
+                        {CGT_CULL_FRUSTUM, CGT_MAILBOX_ON}, {CGT_CULL_FRUSTUM, CGT_MAILBOX_OFF},
+                        {CGT_CULL_NONE, CGT_MAILBOX_ON},    {CGT_CULL_NONE, CGT_MAILBOX_OFF}};
 static const cgt_loop loops[LOOPS] = {CGT_LOOP_NESTED, CGT_LOOP_FLATTENED};
 
 static void label_group(bench_group *group)
@@ -42,8 +43,8 @@ static void label_group(bench_group *group)
         snprintf(group->label, sizeof group->label, "auto");
 }
 
-/* A row for each pair of loops: all packets and switches at the first grid, at the others only the library's own
- * packet, culling and mailbox. */
+/* A pair of rows, one per loop, for each setting: all packets and switches in the first grid; in the others only the
+ * library's own packet, culling and mailbox. */
 static void add_rows(bench_plan *plan, const bench_settings *settings, int every_switch)
 {
     const size_t group = plan->group_count - 1;
@@ -54,11 +55,11 @@ static void add_rows(bench_plan *plan, const bench_settings *settings, int every
             for (int l = 0; l < LOOPS; l++) {
                 bench_row *row = &plan->rows[plan->row_count++];
                 row->group = group;
-                row->choice.variant = plan->groups[group].variant;
-                row->choice.packet = every_switch ? packets[p] : settings->packet;
-                row->choice.loop = loops[l];
-                row->choice.cull = switches[s].cull;
-                row->choice.mailbox = switches[s].mailbox;
+                row->choice = (bench_choice){.variant = plan->groups[group].variant,
+                                             .packet = every_switch ? packets[p] : settings->packet,
+                                             .loop = loops[l],
+                                             .cull = switches[s].cull,
+                                             .mailbox = switches[s].mailbox};
             }
     }
 }
@@ -78,26 +79,18 @@ static void add_groups(bench_plan *plan, const bench_settings *settings, const c
     }
 }
 
-/* Contexts of all variants that are asked for and that the CPU runs, with their groups and rows. */
+/* Contexts of the variants, with their groups and rows. */
 static int add_variants(bench_plan *plan, const bench_settings *settings)
 {
-    for (const char *const *name = cgt_get_variant_names(); *name; name++) {
-        cgt_context *context = NULL;
-        if (settings->variant && strcmp(settings->variant, *name) != 0)
-            continue;
-        if (plan->context_count == BENCH_MOST_VARIANTS) {
-            program_error("more than %d variants", (int)BENCH_MOST_VARIANTS);
-            return PROGRAM_FAILED;
-        }
-        const cgt_result result = bench_context_create(settings->threads, *name, &context);
-        if (result == CGT_ERROR_UNSUPPORTED && !settings->variant) {
-            printf("# variant %s left out: this CPU lacks it\n", *name);
-            continue;
-        }
+    const char *variants[BENCH_MOST_VARIANTS];
+    const size_t count = bench_variants(settings, variants);
+    for (size_t v = 0; v < count; v++) {
+        cgt_context **context = &plan->contexts[plan->context_count];
+        const cgt_result result = bench_context_create(settings->threads, variants[v], context);
         if (result != CGT_OK)
-            return bench_scene_failed(NULL, *name, result);
-        plan->contexts[plan->context_count++] = context;
-        add_groups(plan, settings, *name, context);
+            return bench_scene_failed(NULL, variants[v], result);
+        plan->context_count++;
+        add_groups(plan, settings, variants[v], *context);
     }
     return PROGRAM_OK;
 }
@@ -154,24 +147,26 @@ void bench_plan_release(bench_plan *plan)
 /* The library's own choice for this frame times the group's scale, within the library's limits. */
 static cgt_result scale_resolution(bench_group *group, uint32_t count)
 {
-    cgt_scene_options options;
-    cgt_scene_statistics chosen;
-    cgt_scene_options_init(&options);
-    cgt_result result = cgt_scene_set_options(group->scene.scene, &options);
+    static const uint32_t automatic[3] = {0, 0, 0};
+    static const bench_kd_choice kd = {.break_level = 0};
+    const bench_scene *scene = &group->scene;
+    cgt_research_scene_statistics chosen;
+    uint32_t resolution[3];
+    cgt_result result = bench_scene_structure(scene, CGT_STRUCTURE_QUEUE_GRID, CGT_RAY_KIND_COHERENT, &kd, automatic);
     if (result == CGT_OK)
         result = bench_scene_commit(&group->scene, count);
     if (result == CGT_OK)
-        result = cgt_scene_get_statistics(group->scene.scene, &chosen);
+        result = cgt_research_get_scene_statistics(scene->scene, &chosen);
     if (result != CGT_OK)
         return result;
     for (int axis = 0; axis < 3; axis++) {
         const double cells = floor(group->scale * chosen.resolution[axis] + 0.5);
-        options.resolution[axis] = cells < 1.0 ? 1 : cells > AXIS_LIMIT ? AXIS_LIMIT : (uint32_t)cells;
+        resolution[axis] = cells < 1.0 ? 1 : cells > AXIS_LIMIT ? AXIS_LIMIT : (uint32_t)cells;
     }
-    while ((uint64_t)options.resolution[0] * options.resolution[1] * options.resolution[2] > CELL_LIMIT)
+    while ((uint64_t)resolution[0] * resolution[1] * resolution[2] > CELL_LIMIT)
         for (int axis = 0; axis < 3; axis++)
-            options.resolution[axis] = (options.resolution[axis] + 1) / 2;
-    return cgt_scene_set_options(group->scene.scene, &options);
+            resolution[axis] = (resolution[axis] + 1) / 2;
+    return bench_scene_structure(scene, CGT_STRUCTURE_QUEUE_GRID, CGT_RAY_KIND_COHERENT, &kd, resolution);
 }
 
 cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms)
@@ -185,9 +180,9 @@ cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms)
     const double start = bench_now_ms();
     result = bench_scene_commit(&group->scene, count);
     *ms = bench_now_ms() - start;
-    cgt_scene_statistics built;
+    cgt_research_scene_statistics built;
     if (result == CGT_OK)
-        result = cgt_scene_get_statistics(group->scene.scene, &built);
+        result = cgt_research_get_scene_statistics(group->scene.scene, &built);
     if (result == CGT_OK)
         memcpy(group->resolution, built.resolution, sizeof group->resolution);
     return result;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Table and ratios of cgt-bench loops. */
-#include "loops/bench_report.h"
+#include "loops/bench_loops.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,42 +24,53 @@ static const char *resolution_text(const bench_group *group, char text[80])
 
 static double per(uint64_t total, uint64_t count) { return (double)total / (double)(count ? count : 1); }
 
-static void print_row(const bench_plan *plan, const bench_row *row, size_t frames, double *scratch)
+/* The columns that the table and the ratios share: what the row is. */
+static void write_choice(bench_table *table, const bench_group *group, const bench_row *row, const char *resolution)
 {
-    const bench_group *group = &plan->groups[row->group];
-    const cgt_trace_statistics *total = &row->total;
-    const size_t values = plan->measured;
-    char name[BENCH_NAME_SIZE], grid[80];
-    cgt_scene_statistics built;
-    built.structure = CGT_STRUCTURE_AUTO;
-    cgt_scene_get_statistics(group->scene.scene, &built);
-    bench_choice_name(&row->choice, built.structure, name);
-
-    memcpy(scratch, group->build_ms, values * sizeof *scratch);
-    const double build = bench_median(scratch, values);
-    memcpy(scratch, row->trace_ms, values * sizeof *scratch);
-    const double trace = bench_median(scratch, values);
-    for (size_t i = 0; i < values; i++)
-        scratch[i] = group->build_ms[i] + row->trace_ms[i];
-    const double both = bench_median(scratch, values);
-
-    printf("%s\t%s\t%s\t%s\t%s\t%u\t%s\t%.3f\t%.3f", name, group->variant, bench_loop_name(total->loop),
-           bench_cull_name(row->choice.cull), row->choice.mailbox ? "on" : "off", (unsigned)total->packet_size,
-           resolution_text(group, grid), build, trace);
-    printf("\t%.3f\t%.0f\t%.0f\t%.0f\t%.0f\t%.3f\n", per(total->ray_tests, total->rays),
-           per(total->packet_tests, frames), per(total->slices, frames), per(total->cells, frames),
-           per(total->references, frames), both);
+    bench_table_text(table, "variant", group->variant);
+    bench_table_text(table, "loop", bench_loop_name(row->choice.loop));
+    bench_table_text(table, "cull", bench_cull_name(row->choice.cull));
+    bench_table_text(table, "mailbox", row->choice.mailbox == CGT_MAILBOX_OFF ? "off" : "on");
+    bench_table_count(table, "packet", row->total.research.packet_size);
+    bench_table_text(table, "resolution", resolution);
 }
 
-int bench_report_table(const bench_plan *plan, size_t frames)
+static double median_of(const double *values, size_t count, double *scratch)
+{
+    memcpy(scratch, values, count * sizeof *scratch);
+    return bench_median(scratch, count);
+}
+
+static void write_row(bench_table *table, const bench_plan *plan, const bench_row *row, size_t frames, double *scratch)
+{
+    const bench_group *group = &plan->groups[row->group];
+    const bench_counts *total = &row->total;
+    const size_t values = plan->measured;
+    char name[BENCH_NAME_SIZE], grid[80];
+    bench_choice_name(&row->choice, CGT_STRUCTURE_QUEUE_GRID, name);
+    bench_table_text(table, "config", name);
+    write_choice(table, group, row, resolution_text(group, grid));
+    bench_table_real(table, "build_ms", median_of(group->build_ms, values, scratch));
+    bench_table_real(table, "trace_ms", median_of(row->trace_ms, values, scratch));
+    for (size_t i = 0; i < values; i++)
+        scratch[i] = group->build_ms[i] + row->trace_ms[i];
+    bench_table_real(table, "ms", bench_median(scratch, values));
+    bench_table_real(table, "tests_per_ray", per(total->trace.ray_tests, total->trace.rays));
+    bench_table_real(table, "packet_tests", per(total->trace.packet_tests, frames));
+    bench_table_real(table, "slices", per(total->research.slices, frames));
+    bench_table_real(table, "cells", per(total->research.cells, frames));
+    bench_table_real(table, "references", per(total->research.references, frames));
+    bench_table_end_row(table);
+}
+
+int bench_report_table(const bench_plan *plan, size_t frames, bench_table *table)
 {
     double *scratch = calloc(plan->measured + 1, sizeof *scratch);
     if (!scratch)
         return -1;
-    printf("config\tvariant\tloop\tcull\tmailbox\tpacket\tresolution\tbuild_ms\ttrace_ms\ttests_per_ray\tpacket_tests"
-           "\tslices\tcells\treferences\tms\n");
+    bench_table_section(table, "loops");
     for (size_t i = 0; i < plan->row_count; i++)
-        print_row(plan, &plan->rows[i], frames, scratch);
+        write_row(table, plan, &plan->rows[i], frames, scratch);
     free(scratch);
     return 0;
 }
@@ -67,7 +78,8 @@ int bench_report_table(const bench_plan *plan, size_t frames)
 /* ---- Ratios -------------------------------------------------------------------------------------------------- */
 
 /* The row that differs from this one in loop, culling or mailbox only; NULL where the plan has none. */
-static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, cgt_cull cull, int mailbox)
+static const bench_row *partner(const bench_plan *plan, const bench_row *row, cgt_loop loop, cgt_cull cull,
+                                cgt_mailbox mailbox)
 {
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *other = &plan->rows[i];
@@ -89,22 +101,21 @@ static bench_spread time_ratio(const bench_plan *plan, const bench_row *a, const
 
 static double ratio_of_medians(const bench_plan *plan, const bench_row *a, const bench_row *b, double *scratch)
 {
-    memcpy(scratch, a->trace_ms, plan->measured * sizeof *scratch);
-    const double of_a = bench_median(scratch, plan->measured);
-    memcpy(scratch, b->trace_ms, plan->measured * sizeof *scratch);
-    const double of_b = bench_median(scratch, plan->measured);
+    const double of_a = median_of(a->trace_ms, plan->measured, scratch);
+    const double of_b = median_of(b->trace_ms, plan->measured, scratch);
     return of_b > 0.0 ? of_a / of_b : 0.0;
 }
 
-static void print_pair(const bench_plan *plan, const char *what, const bench_row *row, double ratio)
+/* The first cells of a pair's row. */
+static void begin_pair(bench_table *table, const bench_plan *plan, const char *what, const bench_row *row)
 {
     const bench_group *group = &plan->groups[row->group];
-    printf("# %s\t%s\t%s\t%s\t%s\t%u\t%s\t%.3f", what, group->variant, bench_loop_name(row->choice.loop),
-           bench_cull_name(row->choice.cull), row->choice.mailbox ? "on" : "off", (unsigned)row->total.packet_size,
-           group->label, ratio);
+    bench_table_section(table, what);
+    bench_table_text(table, "what", what);
+    write_choice(table, group, row, group->label);
 }
 
-/* The pairs of a section in one line. */
+/* A section's pairs in one line. */
 static void print_spread(const char *what, double *ratios, size_t pairs)
 {
     const bench_spread all = bench_spread_of(ratios, pairs);
@@ -113,13 +124,10 @@ static void print_spread(const char *what, double *ratios, size_t pairs)
                all.median, all.low, all.high, ratios[0], ratios[pairs - 1]);
 }
 
-/* One line per pair that differs in the loop, then the spread of the pairs. */
-static void report_loops(const bench_plan *plan, double *scratch, double *ratios)
+/* One row per pair that differs in the loop, then the spread of the pairs. */
+static void report_loops(const bench_plan *plan, bench_table *table, double *scratch, double *ratios)
 {
     size_t pairs = 0;
-    printf("#\n# Time of the nested loop over time of the flattened loop, trace_ms; above 1: flattened is faster\n");
-    printf("# what\tvariant\tloop\tcull\tmailbox\tpacket\tresolution\tratio_of_medians\tlow_quartile\tmedian\t"
-           "high_quartile\n");
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *nested = &plan->rows[i];
         if (nested->choice.loop != CGT_LOOP_NESTED)
@@ -128,22 +136,24 @@ static void report_loops(const bench_plan *plan, double *scratch, double *ratios
             partner(plan, nested, CGT_LOOP_FLATTENED, nested->choice.cull, nested->choice.mailbox);
         if (!flattened)
             continue;
-        const double ratio = ratio_of_medians(plan, nested, flattened, scratch);
         const bench_spread spread = time_ratio(plan, nested, flattened, scratch);
-        print_pair(plan, "nested/flattened", nested, ratio);
-        printf("\t%.3f\t%.3f\t%.3f\n", spread.low, spread.median, spread.high);
-        ratios[pairs++] = ratio;
+        ratios[pairs] = ratio_of_medians(plan, nested, flattened, scratch);
+        begin_pair(table, plan, "nested/flattened", nested);
+        bench_table_real(table, "ratio_of_medians", ratios[pairs++]);
+        bench_table_real(table, "low_quartile", spread.low);
+        bench_table_real(table, "median", spread.median);
+        bench_table_real(table, "high_quartile", spread.high);
+        bench_table_end_row(table);
     }
     print_spread("nested/flattened", ratios, pairs);
 }
 
-/* How many times fewer rays are tested against spheres with one way of culling than with another. */
-static void report_culling(const bench_plan *plan, cgt_cull with, cgt_cull without, double *scratch, double *ratios)
+/* How many times fewer rays are tested against primitives with one way of culling than with another. */
+static void report_culling(const bench_plan *plan, bench_table *table, cgt_cull with, cgt_cull without, double *scratch,
+                           double *ratios)
 {
-    size_t pairs = 0;
     const char *what = with == CGT_CULL_FRUSTUM ? "frustum" : "blocks";
-    printf("#\n# what\tvariant\tloop\tcull\tmailbox\tpacket\tresolution\ttests_off/tests_on\ttests_per_ray_off\t"
-           "tests_per_ray_on\ttime_off/time_on\n");
+    size_t pairs = 0;
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *on = &plan->rows[i];
         if (on->choice.cull != with)
@@ -151,52 +161,51 @@ static void report_culling(const bench_plan *plan, cgt_cull with, cgt_cull witho
         const bench_row *off = partner(plan, on, on->choice.loop, without, on->choice.mailbox);
         if (!off)
             continue;
-        const uint64_t tests_on = on->total.ray_tests, tests_off = off->total.ray_tests;
-        const double cut = tests_on ? (double)tests_off / (double)tests_on : 0.0;
-        ratios[pairs++] = cut;
-        print_pair(plan, what, on, cut);
-        printf("\t%.3f\t%.3f\t%.3f\n", per(tests_off, off->total.rays), per(tests_on, on->total.rays),
-               time_ratio(plan, off, on, scratch).median);
+        const uint64_t tests_on = on->total.trace.ray_tests, tests_off = off->total.trace.ray_tests;
+        ratios[pairs] = tests_on ? (double)tests_off / (double)tests_on : 0.0;
+        begin_pair(table, plan, what, on);
+        bench_table_real(table, "tests_off/tests_on", ratios[pairs++]);
+        bench_table_real(table, "tests_per_ray_off", per(tests_off, off->total.trace.rays));
+        bench_table_real(table, "tests_per_ray_on", per(tests_on, on->total.trace.rays));
+        bench_table_real(table, "time_off/time_on", time_ratio(plan, off, on, scratch).median);
+        bench_table_end_row(table);
     }
     print_spread(what, ratios, pairs);
 }
 
-/* What remembering spheres costs, and how many tests it saves. */
-static void report_mailbox(const bench_plan *plan, double *scratch, double *ratios)
+/* What the mailbox costs, and how many tests it saves. */
+static void report_mailbox(const bench_plan *plan, bench_table *table, double *scratch, double *ratios)
 {
     size_t pairs = 0;
-    printf("#\n# Time with the mailbox over time without; above 1: the mailbox costs more than it saves\n");
-    printf("# what\tvariant\tloop\tcull\tmailbox\tpacket\tresolution\ttime_on/time_off\tskipped/references_off\n");
     for (size_t i = 0; i < plan->row_count; i++) {
         const bench_row *on = &plan->rows[i];
-        if (!on->choice.mailbox)
+        if (on->choice.mailbox != CGT_MAILBOX_ON)
             continue;
-        const bench_row *off = partner(plan, on, on->choice.loop, on->choice.cull, 0);
+        const bench_row *off = partner(plan, on, on->choice.loop, on->choice.cull, CGT_MAILBOX_OFF);
         if (!off)
             continue;
-        const double time = time_ratio(plan, on, off, scratch).median;
-        ratios[pairs++] = time;
-        print_pair(plan, "mailbox", on, time);
-        printf("\t%.3f\n", per(on->total.mailbox_skipped, off->total.references));
+        ratios[pairs] = time_ratio(plan, on, off, scratch).median;
+        begin_pair(table, plan, "mailbox", on);
+        bench_table_real(table, "time_on/time_off", ratios[pairs++]);
+        bench_table_real(table, "skipped/references_off",
+                         per(on->total.research.mailbox_skipped, off->total.research.references));
+        bench_table_end_row(table);
     }
     print_spread("mailbox", ratios, pairs);
 }
 
-int bench_report_ratios(const bench_plan *plan)
+int bench_report_ratios(const bench_plan *plan, bench_table *table)
 {
     double *scratch = calloc(plan->measured + 1, sizeof *scratch);
     double *ratios = calloc(plan->row_count + 1, sizeof *ratios);
-    if (scratch && ratios) {
-        report_loops(plan, scratch, ratios);
-        printf("#\n# Ray-sphere tests without the packet's frustum over those with it; Chapman quotes 4 to 8 from Wald "
-               "et al.\n");
-        report_culling(plan, CGT_CULL_FRUSTUM, CGT_CULL_NONE, scratch, ratios);
-        printf("#\n# Ray-sphere tests with the frustum alone over those with the cones of 16 rays too\n");
-        report_culling(plan, CGT_CULL_BLOCKS, CGT_CULL_FRUSTUM, scratch, ratios);
-        report_mailbox(plan, scratch, ratios);
+    const int complete = scratch && ratios;
+    if (complete) {
+        report_loops(plan, table, scratch, ratios);
+        report_culling(plan, table, CGT_CULL_FRUSTUM, CGT_CULL_NONE, scratch, ratios);
+        report_culling(plan, table, CGT_CULL_BLOCKS, CGT_CULL_FRUSTUM, scratch, ratios);
+        report_mailbox(plan, table, scratch, ratios);
     }
-    const int failed = !scratch || !ratios;
     free(ratios);
     free(scratch);
-    return failed ? -1 : 0;
+    return complete ? 0 : -1;
 }

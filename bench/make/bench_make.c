@@ -73,7 +73,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     }
 }
 
-/* Closes a file; where anything failed, error has the text, and no half file stays. writer may be NULL. */
+/* Closes a file. Where anything failed, error has the text, and the incomplete file is removed. writer may be NULL. */
 static int finish(frames_writer *writer, const char *path, int failed, char error[PROGRAM_ERROR_SIZE])
 {
     char ignored[PROGRAM_ERROR_SIZE];

@@ -13,7 +13,7 @@
 
 enum { CLUSTERS = 64, BOWL_MERIDIANS = 40, BOWL_PARALLELS = 25 };
 
-/* Memory for the elements and, of meshes, for the triangles; count and triangles say how many there will be. */
+/* Allocates `count` elements and, for meshes, `triangles` triangles. */
 static int reserve(bench_procedural *scene, uint64_t count, uint64_t triangles, uint32_t width)
 {
     memset(scene, 0, sizeof *scene);
@@ -66,7 +66,7 @@ static float bell(uint64_t *state)
     return sum;
 }
 
-/* Places the spheres and their phases. The start of the random sequence is for the clusters. */
+/* Places the spheres and their phases. The first numbers of the random sequence are for the clusters. */
 static void place_spheres(bench_procedural *scene, uint32_t spheres, int clustered, float spacing)
 {
     static const float half[3] = {1.78f, 1, 1}, half_of_middles[3] = {1.5f, 0.8f, 0.9f};
@@ -119,7 +119,7 @@ static void add_points(bench_procedural *scene, const bench_balls *balls, const 
         }
 }
 
-/* Its triangles, over the points from `first` on: two for each mesh of meridians and parallels. */
+/* The triangles of one ball over the points from `first` on: two for each mesh of meridians and parallels. */
 static void add_triangles(bench_procedural *scene, uint32_t meridians, uint32_t parallels, uint32_t first)
 {
     for (uint32_t j = 0; j < parallels; j++)

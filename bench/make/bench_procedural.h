@@ -9,9 +9,6 @@
 
 #include <stdint.h>
 
-/* The camera that looks at clouds and balls, as on the command line. */
-#define BENCH_PROCEDURAL_CAMERA "0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46"
-
 typedef struct bench_procedural {
     uint32_t count;     /* spheres or vertices */
     uint32_t triangles; /* 0: spheres */
@@ -38,7 +35,7 @@ int bench_procedural_cloud(bench_procedural *scene, uint32_t spheres, int cluste
 
 int bench_procedural_balls(bench_procedural *scene, const bench_balls *balls);
 
-/* Sixteen balls of about that many triangles in all, or fewer balls where there are few triangles; at least 8. */
+/* Sixteen balls of about `triangles` triangles in total, or fewer balls where there are few triangles; at least 8. */
 int bench_procedural_mesh(bench_procedural *scene, uint32_t triangles);
 
 void bench_procedural_move(bench_procedural *scene, uint32_t frame);

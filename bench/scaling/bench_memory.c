@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Counts on the way to the C library. The hooks are called from the thread that calls the library: no lock. */
+ * Counts calls on their way to the C library. The hooks are called by the thread that calls the library, so there is no
+ * lock. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "scaling/bench_memory.h"

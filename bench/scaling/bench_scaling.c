@@ -26,8 +26,6 @@ static const struct argp_option options[] = {
     {"most-threads", OPTION_MOST_THREADS, "COUNT", 0, "from 1 to COUNT; 0 (default): to one per CPU", 4},
     {"steps", OPTION_STEPS, "COUNT", 0, "points for each factor of ten, 1 to 100 (default 2)", 4},
     {"at", OPTION_AT, "PRIMITIVES", 0, "where they do not grow (default 200000)", 4},
-    {"precision", 'p', "NAME", 0, "robust (the library's default), fast or exact", 4},
-    {"json", 'j', "FILE", 0, "write the rows as JSON, too", 4},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 /* ---- Command line -------------------------------------------------------------------------------------------- */
@@ -41,7 +39,7 @@ static void parse_range(struct argp_state *state, const char *option, const char
     const size_t length = comma ? (size_t)(comma - text) : 0;
     uint64_t from = 0, to = 0;
     if (!comma || length >= sizeof copy) {
-        argp_error(state, "%s: %s: two whole numbers with a comma between are wanted", option, text);
+        argp_error(state, "%s: %s: needs two whole numbers, separated by a comma", option, text);
         return;
     }
     memcpy(copy, text, length);
@@ -55,14 +53,6 @@ static void parse_range(struct argp_state *state, const char *option, const char
     range[1] = to;
 }
 
-static void parse_count(struct argp_state *state, const char *option, const char *text, uint32_t least, uint32_t most,
-                        uint32_t *count)
-{
-    char error[PROGRAM_ERROR_SIZE] = "";
-    if (program_parse_u32(text, least, most, count, error, sizeof error))
-        argp_error(state, "%s: %s", option, error);
-}
-
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
     scaling_settings *settings = state->input;
@@ -71,6 +61,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &settings->shared;
         state->child_inputs[1] = &settings->structure;
+        state->child_inputs[2] = &settings->precision;
         return 0;
     case 'w': bench_choose(state, "-w", argument, sweeps, SCALING_SWEEPS, settings->sweep); return 0;
     case 'o': bench_choose(state, "-o", argument, kinds, SCALING_KINDS, settings->kind); return 0;
@@ -81,18 +72,11 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         parse_range(state, "--pixels", argument, BENCH_MOST_PIXELS, settings->range[SCALING_PIXELS]);
         return 0;
     case OPTION_MOST_THREADS:
-        parse_count(state, "--most-threads", argument, 0, 1024, &threads);
+        bench_parse_u32(state, "--most-threads", argument, 0, 1024, &threads);
         settings->range[SCALING_THREADS][1] = threads;
         return 0;
-    case OPTION_STEPS: parse_count(state, "--steps", argument, 1, 100, &settings->steps); return 0;
-    case OPTION_AT: parse_count(state, "--at", argument, 1, MOST_PRIMITIVES, &settings->at); return 0;
-    case 'p':
-        if (bench_precision_find(argument, &settings->precision))
-            argp_error(state, "-p: robust, fast or exact, not %s", argument);
-        settings->precision_given = 1;
-        return 0;
-    case 'j': settings->json_path = argument; return 0;
-    case ARGP_KEY_ARG: argp_error(state, "no FILE is wanted: %s", argument); return 0;
+    case OPTION_STEPS: bench_parse_u32(state, "--steps", argument, 1, 100, &settings->steps); return 0;
+    case OPTION_AT: bench_parse_u32(state, "--at", argument, 1, MOST_PRIMITIVES, &settings->at); return 0;
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -107,7 +91,7 @@ static uint32_t cpus(void)
     return threads ? threads : 1;
 }
 
-/* So many pixels in the shape that the settings ask for. */
+/* Sets width and height: `pixels` pixels in the shape of the settings' picture. */
 static void set_pixels(const scaling_settings *settings, uint64_t pixels, scaling_point *point)
 {
     const double shape = (double)settings->shared.width / settings->shared.height;
@@ -126,7 +110,7 @@ static uint64_t next_size(const scaling_settings *settings, scaling_sweep sweep,
     uint64_t next = sweep == SCALING_THREADS ? size + 1 : (uint64_t)llround(grown);
     if (next <= size)
         next = size + 1;
-    /* what is nearly the last one is the last one */
+    /* a size close to the last one becomes the last one */
     return (double)next > 0.999 * (double)last ? last : next;
 }
 
@@ -149,7 +133,7 @@ static void make_point(const scaling_settings *settings, scaling_sweep sweep, sc
 }
 
 /* The points of one sweep; *count grows. */
-static int run_sweep(const scaling_settings *settings, scaling_sweep sweep, scaling_kind kind, accuracy_report *report,
+static int run_sweep(const scaling_settings *settings, scaling_sweep sweep, scaling_kind kind, bench_table *table,
                      scaling_point *points, size_t *count)
 {
     const uint64_t first = settings->range[sweep][0];
@@ -162,7 +146,7 @@ static int run_sweep(const scaling_settings *settings, scaling_sweep sweep, scal
         make_point(settings, sweep, kind, size, point);
         code = scaling_measure(settings, point);
         if (code == PROGRAM_OK) {
-            scaling_table_row(report, point, *count > before ? point - 1 : NULL);
+            scaling_table_row(table, point, *count > before ? point - 1 : NULL);
             ++*count;
         }
         size = next_size(settings, sweep, first, size, last, ++step);
@@ -173,21 +157,19 @@ static int run_sweep(const scaling_settings *settings, scaling_sweep sweep, scal
 static int run(const scaling_settings *settings)
 {
     scaling_point *points = calloc(MOST_POINTS, sizeof *points);
-    accuracy_report *report = points ? accuracy_report_open(settings->json_path) : NULL;
-    int code = report ? PROGRAM_OK : PROGRAM_FAILED;
+    bench_table *table = points ? bench_table_open(settings->shared.json_path) : NULL;
+    int code = table ? PROGRAM_OK : PROGRAM_FAILED;
     size_t count = 0;
     if (!points)
         program_error("out of memory");
-    if (report)
-        scaling_table_begin(report);
     for (int sweep = 0; sweep < SCALING_SWEEPS; sweep++)
         for (int kind = 0; kind < SCALING_KINDS && code == PROGRAM_OK; kind++)
             if (bench_is_chosen(settings->sweep, SCALING_SWEEPS, sweep) &&
                 bench_is_chosen(settings->kind, SCALING_KINDS, kind))
-                code = run_sweep(settings, (scaling_sweep)sweep, (scaling_kind)kind, report, points, &count);
-    if (report && code == PROGRAM_OK)
-        scaling_table_exponents(report, points, count);
-    if (report && accuracy_report_close(report))
+                code = run_sweep(settings, (scaling_sweep)sweep, (scaling_kind)kind, table, points, &count);
+    if (code == PROGRAM_OK)
+        scaling_table_exponents(table, points, count);
+    if (bench_table_close(table))
         code = PROGRAM_FAILED;
     free(points);
     return code;
@@ -195,8 +177,10 @@ static int run(const scaling_settings *settings)
 
 int bench_scaling(int argc, char **argv)
 {
-    static const struct argp_child children[] = {
-        {&bench_settings_argp, 0, NULL, 0}, {&bench_structure_argp, 0, NULL, 0}, {NULL, 0, NULL, 0}};
+    static const struct argp_child children[] = {{&bench_settings_argp, 0, NULL, 0},
+                                                 {&bench_structure_argp, 0, NULL, 0},
+                                                 {&bench_precision_argp, 0, NULL, 0},
+                                                 {NULL, 0, NULL, 0}};
     static const struct argp parser = {
         .options = options,
         .parser = parse,
@@ -207,16 +191,12 @@ int bench_scaling(int argc, char **argv)
             "shortest times over the frames (-n, default 5), exponents of growth from row to row, memory, and how "
             "often the library allocated in the frames that count; and as comments the exponents over a whole "
             "sweep."};
-    char error[PROGRAM_ERROR_SIZE] = "";
     scaling_settings settings = {.range = {{1000, 10000000}, {100000, 33000000}, {1, 0}}, .at = 200000, .steps = 2};
     bench_settings_init(&settings.shared);
-    settings.shared.file_optional = 1;
+    bench_settings_use_procedural_camera(&settings.shared);
+    settings.shared.least_files = settings.shared.most_files = 0;
     settings.shared.frames = DEFAULT_FRAMES;
     settings.structure.most = 1;
-    if (program_parse_camera(BENCH_PROCEDURAL_CAMERA, &settings.shared.camera, error, sizeof error)) {
-        program_error("%s", error);
-        return PROGRAM_FAILED;
-    }
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
         return PROGRAM_USAGE;
     if (settings.shared.frames > SIZE_MAX / sizeof(double) / settings.shared.repeat) {

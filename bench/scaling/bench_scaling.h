@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "common/bench.h"
-#include "accuracy/bench_accuracy_report.h"
+#include "common/bench_table.h"
 
 /* What grows. */
 typedef enum scaling_sweep { SCALING_PRIMITIVES, SCALING_PIXELS, SCALING_THREADS, SCALING_SWEEPS } scaling_sweep;
@@ -22,16 +22,14 @@ enum { SCALING_BOUNDS, SCALING_BUILD, SCALING_PRIMARY, SCALING_FRAME, SCALING_CO
 typedef struct scaling_settings {
     bench_settings shared;
     bench_structure_settings structure;
-    cgt_precision precision;
-    int precision_given;
+    bench_precision_settings precision;
     int sweep[SCALING_SWEEPS], kind[SCALING_KINDS]; /* 1: asked for; none of them: all */
     uint64_t range[SCALING_SWEEPS][2];              /* smallest and largest; 0 threads: one per CPU */
     uint32_t at;                                    /* primitives where they do not grow */
     uint32_t steps;                                 /* points for each factor of ten; threads: each number */
-    const char *json_path;
 } scaling_settings;
 
-/* One point; what is to be measured comes first, the rest is measured. */
+/* One point: first what to measure, then the results. */
 typedef struct scaling_point {
     scaling_sweep sweep;
     scaling_kind kind;
@@ -50,13 +48,11 @@ int scaling_measure(const scaling_settings *settings, scaling_point *point);
 /* What grows in the point's sweep. */
 double scaling_size(const scaling_point *point);
 
-void scaling_table_begin(accuracy_report *report);
-
 /* before: the smaller point of the same sweep and kind; NULL: this is the first. */
-void scaling_table_row(accuracy_report *report, const scaling_point *point, const scaling_point *before);
+void scaling_table_row(bench_table *table, const scaling_point *point, const scaling_point *before);
 
 /* A second table: time ~ size^exponent over all points of a sweep and kind, by least squares of logarithms. The points
  * of a sweep and kind lie together. */
-void scaling_table_exponents(accuracy_report *report, const scaling_point *points, size_t count);
+void scaling_table_exponents(bench_table *table, const scaling_point *points, size_t count);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One point of cgt-bench scaling: a scene in memory moves, is committed and traced, some frames that warm up and then
- * those that count. What the library allocates in the latter is counted through its memory hooks. */
+ * One point of cgt-bench scaling: a scene in memory moves, is committed and traced, first in frames that warm up, then
+ * in frames that count. Memory hooks count what the library allocates in the latter. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,6 +23,7 @@ typedef struct point_job {
     bench_scene scene;
     bench_planes planes;
     cgt_trace_options trace;
+    cgt_research_trace_options research;
     double *ms[SCALING_COLUMNS];
     size_t frames;
 } point_job;
@@ -57,7 +58,7 @@ static cgt_result open_scene(point_job *job, const bench_choice *choice)
                                        &choice->kd, shared->resolution);
     if (result == CGT_OK)
         bench_scene_set_triangles(&job->scene, job->moving.index, job->moving.triangles);
-    bench_choice_options(choice, NULL, &job->trace);
+    bench_choice_options(choice, NULL, &job->trace, &job->research);
     return result;
 }
 
@@ -123,13 +124,7 @@ static void release(point_job *job)
 
 int scaling_measure(const scaling_settings *settings, scaling_point *point)
 {
-    const bench_choice choice = {.variant = settings->shared.variant,
-                                 .packet = settings->shared.packet,
-                                 .cull = CGT_CULL_BLOCKS,
-                                 .mailbox = 1,
-                                 .precision = settings->precision,
-                                 .precision_named = settings->precision_given,
-                                 .kd = settings->structure.kd};
+    const bench_choice choice = bench_choice_of(&settings->shared, &settings->structure, &settings->precision);
     point_job job = {.settings = settings, .point = point};
     int code = prepare(&job);
     if (code == PROGRAM_OK) {

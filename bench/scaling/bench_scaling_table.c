@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The rows of cgt-bench scaling, and how fast times grow. Exponents are of the shortest times: what disturbs a shared
- * machine only adds. */
+ * The rows of cgt-bench scaling, and how fast times grow. Exponents are those of the shortest times: disturbances on a
+ * shared machine only add time. */
 #include <math.h>
 
 #include "scaling/bench_scaling.h"
@@ -13,39 +13,6 @@ static const char *sweep_name(scaling_sweep sweep)
 }
 
 static const char *kind_name(scaling_kind kind) { return kind == SCALING_SPHERES ? "spheres" : "triangles"; }
-
-void scaling_table_begin(accuracy_report *report)
-{
-    static const char *const columns[] = {"config",
-                                          "sweep",
-                                          "kind",
-                                          "primitives",
-                                          "width",
-                                          "height",
-                                          "pixels",
-                                          "threads",
-                                          "bounds_ms", /* medians, and below the shortest */
-                                          "build_ms",
-                                          "primary_ms",
-                                          "frame_ms",
-                                          "bounds_min_ms",
-                                          "build_min_ms",
-                                          "primary_min_ms",
-                                          "frame_min_ms",
-                                          "bounds_exponent", /* from the point before to this one */
-                                          "build_exponent",
-                                          "primary_exponent",
-                                          "frame_exponent",
-                                          "hit_pixels",
-                                          "bytes", /* that the scene holds, and its structure alone */
-                                          "bytes_per_primitive",
-                                          "structure_bytes",
-                                          "structure_bytes_per_primitive",
-                                          "allocations",
-                                          "steady_allocations",
-                                          NULL};
-    accuracy_report_table(report, "scaling", columns);
-}
 
 double scaling_size(const scaling_point *point)
 {
@@ -60,32 +27,37 @@ static double exponent_of(double x0, double y0, double x1, double y1)
     return x0 > 0.0 && x1 > 0.0 && x0 != x1 && y0 > 0.0 && y1 > 0.0 ? log(y1 / y0) / log(x1 / x0) : NAN;
 }
 
-void scaling_table_row(accuracy_report *report, const scaling_point *point, const scaling_point *before)
+void scaling_table_row(bench_table *table, const scaling_point *point, const scaling_point *before)
 {
+    static const char *const medians[] = {"bounds_ms", "build_ms", "primary_ms", "frame_ms"};
+    static const char *const shortest[] = {"bounds_min_ms", "build_min_ms", "primary_min_ms", "frame_min_ms"};
+    static const char *const exponents[] = {"bounds_exponent", "build_exponent", "primary_exponent", "frame_exponent"};
     const double primitives = point->built.primitives ? (double)point->built.primitives : NAN;
-    accuracy_report_text(report, point->config);
-    accuracy_report_text(report, sweep_name(point->sweep));
-    accuracy_report_text(report, kind_name(point->kind));
-    accuracy_report_count(report, point->built.primitives);
-    accuracy_report_count(report, point->width);
-    accuracy_report_count(report, point->height);
-    accuracy_report_count(report, (uint64_t)point->width * point->height);
-    accuracy_report_count(report, point->threads);
+    const double size = scaling_size(point);
+    bench_table_section(table, "scaling");
+    bench_table_text(table, "config", point->config);
+    bench_table_text(table, "sweep", sweep_name(point->sweep));
+    bench_table_text(table, "kind", kind_name(point->kind));
+    bench_table_count(table, "primitives", point->built.primitives);
+    bench_table_count(table, "width", point->width);
+    bench_table_count(table, "height", point->height);
+    bench_table_count(table, "pixels", (uint64_t)point->width * point->height);
+    bench_table_count(table, "threads", point->threads);
     for (int c = 0; c < SCALING_COLUMNS; c++)
-        accuracy_report_real(report, point->median[c]);
+        bench_table_real(table, medians[c], point->median[c]);
     for (int c = 0; c < SCALING_COLUMNS; c++)
-        accuracy_report_real(report, point->low[c]);
+        bench_table_real(table, shortest[c], point->low[c]);
     for (int c = 0; c < SCALING_COLUMNS; c++)
-        accuracy_report_real(
-            report,
-            before ? exponent_of(scaling_size(before), before->low[c], scaling_size(point), point->low[c]) : NAN);
-    accuracy_report_count(report, point->hits);
-    accuracy_report_count(report, point->built.bytes);
-    accuracy_report_real(report, (double)point->built.bytes / primitives);
-    accuracy_report_count(report, point->built.structure_bytes);
-    accuracy_report_real(report, (double)point->built.structure_bytes / primitives);
-    accuracy_report_count(report, point->allocations);
-    accuracy_report_count(report, point->steady_allocations);
+        bench_table_real(table, exponents[c],
+                         before ? exponent_of(scaling_size(before), before->low[c], size, point->low[c]) : NAN);
+    bench_table_count(table, "hit_pixels", point->hits);
+    bench_table_count(table, "bytes", point->built.bytes); /* of the scene; of its structure alone */
+    bench_table_real(table, "bytes_per_primitive", (double)point->built.bytes / primitives);
+    bench_table_count(table, "structure_bytes", point->built.structure_bytes);
+    bench_table_real(table, "structure_bytes_per_primitive", (double)point->built.structure_bytes / primitives);
+    bench_table_count(table, "allocations", point->allocations);
+    bench_table_count(table, "steady_allocations", point->steady_allocations);
+    bench_table_end_row(table);
 }
 
 /* The slope of log(time) over log(size); NaN where there is none. */
@@ -106,21 +78,21 @@ static double fit(const scaling_point *points, size_t count, int column)
     return n >= 2.0 && below > 0.0 ? (n * xy - x_sum * y_sum) / below : NAN;
 }
 
-void scaling_table_exponents(accuracy_report *report, const scaling_point *points, size_t count)
+void scaling_table_exponents(bench_table *table, const scaling_point *points, size_t count)
 {
-    static const char *const columns[] = {"config", "sweep", "kind",    "from",  "to",
-                                          "bounds", "build", "primary", "frame", NULL};
-    accuracy_report_table(report, "exponents", columns);
+    static const char *const columns[] = {"bounds", "build", "primary", "frame"};
+    bench_table_section(table, "exponents");
     for (size_t first = 0, end; first < count; first = end) {
         const scaling_point *p = &points[first];
         for (end = first + 1; end < count && points[end].sweep == p->sweep && points[end].kind == p->kind; end++)
             continue;
-        accuracy_report_text(report, p->config);
-        accuracy_report_text(report, sweep_name(p->sweep));
-        accuracy_report_text(report, kind_name(p->kind));
-        accuracy_report_real(report, scaling_size(p));
-        accuracy_report_real(report, scaling_size(&points[end - 1]));
+        bench_table_text(table, "config", p->config);
+        bench_table_text(table, "sweep", sweep_name(p->sweep));
+        bench_table_text(table, "kind", kind_name(p->kind));
+        bench_table_real(table, "from", scaling_size(p));
+        bench_table_real(table, "to", scaling_size(&points[end - 1]));
         for (int c = 0; c < SCALING_COLUMNS; c++)
-            accuracy_report_real(report, fit(p, end - first, c));
+            bench_table_real(table, columns[c], fit(p, end - first, c));
+        bench_table_end_row(table);
     }
 }

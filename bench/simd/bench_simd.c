@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: every word of the vocabulary on every variant that the CPU
- * runs, beside its native form by hand. What is compiled once per variant lies
- * in bench/simd. */
+ * cgt-bench simd: every word of the vocabulary in every variant that the CPU runs, against a native form written by
+ * hand. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,7 +66,7 @@ static const part_tables *const all_tables[] = {
 
 /* What the summary says of a variant. */
 typedef struct tally {
-    size_t rows, beside, within, with_reason, without_reason, different;
+    size_t rows, compared, within, with_reason, without_reason, different;
 } tally;
 
 typedef struct simd_job {
@@ -95,7 +94,7 @@ static bool is_asked_for(simd_job *job, const char *word)
     return found;
 }
 
-/* Of the rows compiled for the SPU's arithmetic, those that it changes. */
+/* Of the rows compiled for the SPU's arithmetic, those whose code differs. */
 static bool is_single_precision(const simd_row *row)
 {
     bool single = row->result == SIMD_f32;
@@ -130,7 +129,7 @@ static void print_times(simd_job *job, const char *variant, const simd_pair *pai
         return;
     }
     const double ratio = times.mapped_ns / times.native_ns;
-    job->tally.beside++;
+    job->tally.compared++;
     if (ratio <= SIMD_TOLERANCE) {
         job->tally.within++;
     } else {
@@ -187,7 +186,7 @@ static size_t count_orphans(const part_tables *t)
 
 /* ---- variants ---- */
 
-/* Whether the CPU runs it; the library knows. */
+/* Whether the CPU runs a variant, according to the library. */
 static bool runs(const char *variant, cgt_result *result)
 {
     cgt_context *context = NULL;
@@ -200,10 +199,10 @@ static bool runs(const char *variant, cgt_result *result)
 static void print_tally(const simd_job *job, const char *variant)
 {
     const tally *t = &job->tally;
-    printf("# %s\t%zu rows\t%zu beside a native form\t%zu within %.0f %%\t%zu "
+    printf("# %s\t%zu rows\t%zu with a native form\t%zu within %.0f %%\t%zu "
            "above, with a reason\t"
            "%zu above, without a reason\t%zu with another result\n",
-           variant, t->rows, t->beside, t->within, (SIMD_TOLERANCE - 1) * 100, t->with_reason, t->without_reason,
+           variant, t->rows, t->compared, t->within, (SIMD_TOLERANCE - 1) * 100, t->with_reason, t->without_reason,
            t->different);
 }
 
@@ -258,7 +257,7 @@ static const struct argp_option options[] = {
     {"list", 'l', NULL, 0, "say which rows there are and measure nothing", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
-/* That the CPU runs it is for the context to say. */
+/* Whether the CPU runs it shows when the context is created. */
 static int parse_variant(const char *text, const char **variant, char *error, size_t error_size)
 {
     size_t length = (size_t)snprintf(error, error_size, "%s: no such variant; this build has", text);
@@ -298,8 +297,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     }
 }
 
-/* Words that are in no table are mistakes of the command line; known before
- * anything is printed. */
+/* Words that no table has are errors of the command line, found before anything is printed. */
 static bool knows_words(simd_job *job)
 {
     for (size_t v = 0; v < VARIANTS; v++)
@@ -339,7 +337,7 @@ int bench_simd(int argc, char **argv)
                                        .parser = parse,
                                        .doc = "Times every word of the vocabulary (simd/spu_words.h, "
                                               "simd/vector.h) in every variant that the CPU "
-                                              "runs, beside its native form written by hand. Rows more than 10 "
+                                              "runs, against a native form written by hand. Rows more than 10 "
                                               "% above native have a reason. Fails "
                                               "where a native form gives another result."};
     simd_job job;

@@ -1,10 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The two forms take turns, sample by sample, so that a slow moment of the
- * machine meets both. A sample is some ten microseconds over arrays in the
- * first cache. Of a form's samples the first quartile counts: what disturbs a
- * shared machine only ever adds time. */
+ * The two forms take turns, sample by sample, so that a slow moment of the machine affects both. A sample takes about
+ * ten microseconds over arrays in the first cache. The first quartile of a form's samples counts: disturbances on a
+ * shared machine only add time. */
 #include "simd/simd_measure.h"
 
 #include <string.h>

@@ -10,7 +10,7 @@
 
 #include "simd/simd_rows.h"
 
-/* Above this, mapped over native, a reason is wanted. */
+/* Above this ratio of mapped to native, a reason must be given. */
 #define SIMD_TOLERANCE 1.10
 
 typedef struct simd_pair {
@@ -27,7 +27,7 @@ typedef struct simd_times {
 /* The row with the same word, operands and count; NULL where there is none. */
 const simd_row *simd_find(const simd_table *table, const simd_row *row);
 
-/* Whether both forms give the same bits, where the native one is to. */
+/* Whether both forms give the same bits, where the native one is meant to. */
 bool simd_agrees(simd_memory *memory, const simd_pair *pair);
 
 /* Runs a row for as long as a processor may take to reach its speed. */

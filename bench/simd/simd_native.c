@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: what the words stand beside, written by hand in the
- * intrinsics of the variant's instruction set, the best form that its flags
- * allow. The portable variant has none of its own: it stands beside that of the
- * machine.
+ * cgt-bench simd: native forms of the words, written by hand in the intrinsics
+ * of the variant's instruction set: the best form that its flags allow. The
+ * portable variant has none; it is compared with those of the machine's
+ * narrowest variant.
  *
  * The forms are in simd/native, as all that names an instruction set is in
  * simd: native_sse.h, native_neon.h and native_wide.h, each included twice:

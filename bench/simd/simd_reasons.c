@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: where a mapped word takes more time than its native form, and
- * why. */
+ * cgt-bench simd: which mapped words take more time than their native forms, and why. */
 #include "simd/simd_rows.h"
 
 #include <string.h>

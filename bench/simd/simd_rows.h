@@ -6,7 +6,7 @@
  *
  *   row      one word on operands of certain types, and the function that
  * executes it again and again table    the rows of one file mapped   the word
- * of the vocabulary; native: what it stands beside, written by hand for one
+ * of the vocabulary; native: the same, written by hand for one
  * instruction set
  *
  * A mapped row and its native one are found together by word, operands and
@@ -57,12 +57,10 @@ typedef enum simd_count { SIMD_PLAIN, SIMD_VARIABLE, SIMD_CONSTANT } simd_count;
 enum {
     SIMD_BYTES = 1024, /* of an operand's array: 64 vectors of 16 bytes, 32 of 32,
                         16 of 64 */
-    SIMD_APPLIED = 4   /* times that the word is applied to what one load of the
-                        operands brought */
+    SIMD_APPLIED = 4   /* times that the word is applied per load of the operands */
 };
 
-/* Four arrays in a page, so that no store has the lower address bits of a load
- * that follows it. */
+/* Four arrays in a page, so that no store shares the lower address bits with a following load. */
 typedef struct simd_memory {
     alignas(4096) unsigned char a[SIMD_BYTES];
     unsigned char b[SIMD_BYTES], c[SIMD_BYTES], result[SIMD_BYTES];
@@ -72,8 +70,7 @@ typedef struct simd_memory {
 typedef struct simd_row {
     const char *word; /* "spu_add" */
     simd_count count;
-    bool is_same; /* of a native row: it gives the same bits for the operands that
-                   it is measured on */
+    bool is_same; /* of a native row: it gives the same bits for the measured operands */
     simd_kind result, operand[3];
     void (*run)(simd_memory *memory, size_t passes); /* over the arrays */
 } simd_row;
@@ -99,8 +96,7 @@ void simd_fill(simd_memory *memory, const simd_row *row, int lanes);
 
 /* ---- simd_reasons.c ---- */
 
-/* Why a mapped word takes more time than its native form; NULL where nobody has
- * said it. */
+/* Why a mapped word takes more time than its native form; NULL where no reason is known. */
 const char *simd_reason(const char *variant, const simd_row *row);
 
 #endif

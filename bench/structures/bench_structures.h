@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench structures: grids and kd-trees beside each other on the same scenes and rays.
- *   rows      what is compared, and how one of them is measured   bench_structures_rows.c
- *   rays      shadow, ambient-occlusion and random rays           bench_structures_rays.h
- *   results   what rays found, and whether it is the same bits    bench_structures_results.h
- *   measure   all rows over all frames, interleaved               bench_structures_measure.c
- *   table     the rows, printed                                   bench_structures_table.c
- *   fetch     transfers of nodes into a small memory, by layout   bench_structures_fetch.c */
+ * cgt-bench structures: which structure for which rays. One frame of a file in all structures; sets of rays of a kind,
+ * in an order, for a query, traced in calls of a given size.
+ *   plan      what is built, and the ways to trace it          structures_plan.c
+ *   sets      rays of a kind, in an order                      structures_sets.c
+ *   measure   structures built and traced in turns             structures_measure.c
+ *   found     what rays found, and whether it is the same      structures_found.h
+ *   fetch     transfers of nodes into a small memory           structures_fetch.c */
 #ifndef BENCH_STRUCTURES_H
 #define BENCH_STRUCTURES_H
 
@@ -15,110 +15,123 @@
 #include <stdint.h>
 
 #include "common/bench.h"
-#include "accuracy/bench_accuracy_report.h"
 #include "common/bench_input.h"
-#include "frame/bench_frame_rays.h"
+#include "common/bench_ray_arrays.h"
+#include "common/bench_rays.h"
 #include "common/bench_scene.h"
-#include "structures/bench_structures_rays.h"
-#include "structures/bench_structures_results.h"
+#include "common/bench_table.h"
+#include "structures/structures_found.h"
 
-#define STRUCTURES_MOST_FILES 32
-#define STRUCTURES_MOST_RAYS 100000000u
+typedef enum structures_kind {
+    STRUCTURES_FRAME, /* the camera's frame, in one call of cgt_trace_camera; all other kinds are arrays of rays */
+    STRUCTURES_CAMERA,
+    STRUCTURES_SHADOW,
+    STRUCTURES_AO,
+    STRUCTURES_BOUNCE,
+    STRUCTURES_RANDOM, /* has no order but shuffled */
+    STRUCTURES_KINDS
+} structures_kind;
+
+typedef enum structures_order {
+    STRUCTURES_BLOCKS,   /* tiles of 64x64 pixels, within them blocks of 4x4 along a Morton curve */
+    STRUCTURES_TILES,    /* tiles of 64x64 pixels, row by row, each shuffled */
+    STRUCTURES_SHUFFLED, /* as a whole */
+    STRUCTURES_ORDERS
+} structures_order;
+
+typedef enum structures_query { STRUCTURES_NEAREST, STRUCTURES_ANY, STRUCTURES_QUERIES } structures_query;
+
+enum { STRUCTURES_MOST_BATCHES = 32, STRUCTURES_MOST_GROUPS = 32, STRUCTURES_MOST_ROWS = 64 };
 
 typedef struct structures_settings {
     bench_settings shared;
     bench_structure_settings structure;
-    const char *paths[STRUCTURES_MOST_FILES];
-    size_t files;
-    int lit;
-    float light[3];
-    uint32_t ao;     /* ambient-occlusion rays from every hit */
+    bench_secondary_settings secondary;
+    int kind[STRUCTURES_KINDS], order[STRUCTURES_ORDERS], query[STRUCTURES_QUERIES]; /* 1: named; none: the default */
+    uint64_t batch[STRUCTURES_MOST_BATCHES]; /* rays in a call, ascending; UINT64_MAX: all of the set */
+    size_t batches;
+    uint32_t rays;   /* of a set, at most */
     uint32_t random; /* random rays */
-    const char *json_path;
-    int all;
-    int fetch;
+    int traversals, layouts, fetch;
 } structures_settings;
 
-enum {
-    STRUCTURES_BUILD,
-    STRUCTURES_PRIMARY,
-    STRUCTURES_SHADOW,
-    STRUCTURES_AO,
-    STRUCTURES_RANDOM,
-    STRUCTURES_FRAME, /* all but RANDOM together */
-    STRUCTURES_COLUMNS
-};
+/* A structure over a scene of its own, so that it is built before the first ray and stays. Its rows are neighbours. */
+typedef struct structures_group {
+    bench_scene scene;
+    bench_build build;
+    double *build_ms; /* of each round */
+} structures_group;
 
-/* What is built once per frame; rows of a group trace the same structure, and lie together. */
-typedef bench_build structures_group;
-
+/* A way to trace a group. */
 typedef struct structures_row {
-    size_t group;
-    cgt_kd_traversal traversal;
-    cgt_loop loop;                                  /* of a queue grid */
-    uint32_t packet;                                /* of a camera; 0: the library's choice, in a loose grid tiles */
-    double *ms[STRUCTURES_COLUMNS];                 /* one value per measured frame */
-    cgt_trace_statistics count[STRUCTURES_COLUMNS]; /* of all frames, by kind of ray */
+    structures_group *group;
+    bench_choice choice;
+    char config[BENCH_NAME_SIZE];
+    double *trace_ms[STRUCTURES_MOST_BATCHES]; /* of each round, all calls of the current set */
+    bench_counts count;                        /* of the current set */
+    uint64_t different; /* rays of the current set that found something else than the first row */
 } structures_row;
 
-enum { STRUCTURES_MOST_GROUPS = 16, STRUCTURES_MOST_ROWS = 32 };
+/* The current set of rays. */
+typedef struct structures_set {
+    structures_kind kind;
+    structures_order order;
+    structures_query query;
+    uint64_t count;          /* rays */
+    bench_ray_array made;    /* in the order of blocks */
+    uint64_t first;          /* the set is `count` rays of `made` from here on: those of the picture's middle */
+    uint32_t *tile;          /* of each ray of the set */
+    uint32_t *turn;          /* the ray that is traced at each place of the order */
+    bench_ray_array ordered; /* what is traced */
+} structures_set;
 
 typedef struct structures_job {
     const structures_settings *settings;
-    const char *path; /* of the file in work */
+    const char *path;
     char scene_name[BENCH_NAME_SIZE];
     bench_input input;
+    uint32_t count; /* spheres or vertices of the frame */
     cgt_context *context;
-    const char *variant;
     bench_threads *threads;
     bench_camera_axes axes;
-    bench_scene scene; /* one for all groups */
+    bench_planes planes; /* of the hits that secondary rays start from */
+    bench_rays *maker;   /* of those rays */
     structures_group groups[STRUCTURES_MOST_GROUPS];
     size_t group_count;
     structures_row rows[STRUCTURES_MOST_ROWS];
     size_t row_count;
-    size_t measured; /* frames */
-    structures_rays shadow, ao, random;
-    structures_results expected, found; /* of the frame's first row, and of the row in work */
-    bench_rays *maker;                  /* of the rays that start at expected's hits */
-    uint64_t compared, different;       /* traces beside others, and those with other bits */
+    structures_set set;
+    uint64_t batch[STRUCTURES_MOST_BATCHES]; /* rays in a call, for the current set */
+    size_t batches;
+    structures_found expected, found; /* by the first row; by the current one */
+    int messages;                     /* about other hits, so far */
+    int expecting;                    /* 1: `expected` is of the current set */
+    uint64_t hits;                    /* of the current set */
+    uint64_t compared, different;     /* rays, of all sets */
 } structures_job;
 
-/* All return an exit code and print what failed, but for those that return a cgt_result. */
-
-/* Opens and closes what one file needs. close: also after open failed. */
-int structures_open(structures_job *job, const structures_settings *settings, const char *path);
-void structures_close(structures_job *job);
-
-/* The list of groups and rows that the settings ask for, with room for the measurements of all frames. */
-int structures_plan(structures_job *job);
+/* The list of groups and rows that the settings ask for, with their scenes and room for their times. */
+cgt_result structures_plan(structures_job *job);
 void structures_plan_release(structures_job *job);
 
-/* The name of a row after the first commit of its group; AUTO's is "auto", with the kind of rays that it is told. */
-void structures_row_name(const structures_job *job, const structures_row *row, char name[BENCH_NAME_SIZE]);
+/* The row's structure was built: names the configuration. */
+void structures_name_row(structures_row *row);
 
-/* Builds a group over the frame as it is; leaves the group out with a message where the library has no such
- * structure. */
-cgt_result structures_commit(structures_job *job, structures_group *group, uint32_t count, double *ms);
+/* Builds all groups in turns, round by round. Groups that the library does not have are left out. */
+cgt_result structures_build(structures_job *job);
 
-/* Traces a row into results; statistics: one per column, or NULL where nothing is to be counted. ms gets the columns
- * of the rays. primary fills the planes; the others take the rays as they are in the job. */
-cgt_result structures_trace_primary(structures_job *job, const structures_row *row, structures_results *results,
-                                    cgt_trace_statistics *statistics, double ms[STRUCTURES_COLUMNS]);
-cgt_result structures_trace_others(structures_job *job, const structures_row *row, structures_results *results,
-                                   cgt_trace_statistics *statistics, double ms[STRUCTURES_COLUMNS]);
+/* The first group that is not left out; NULL where all are. */
+const structures_group *structures_first(const structures_job *job);
 
-/* Makes the rays that follow from the planes of `expected` and from the scene's bounds. */
-cgt_result structures_make_rays(structures_job *job, const structures_group *group);
+/* Makes the rays of a kind; then puts them into an order. The planes hold the frame's hits. */
+cgt_result structures_make_set(structures_job *job, structures_kind kind);
+cgt_result structures_order_set(structures_job *job, structures_order order);
+void structures_release_set(structures_set *set);
 
-/* Counts, times and compares all rows. */
-int structures_measure(structures_job *job);
+/* Traces the current set in calls of each of the job's batches, all rows in turns, and compares what they find. */
+cgt_result structures_trace_set(structures_job *job, structures_query query);
 
-void structures_table_begin(accuracy_report *report);
-int structures_table_rows(const structures_job *job, accuracy_report *report);
-
-/* The simulation of transfers, for one file. */
-void structures_fetch_begin(accuracy_report *report);
-int structures_fetch_rows(structures_job *job, accuracy_report *report);
+/* The rows of the table that counts transfers. Returns an exit code. */
+int structures_fetch(structures_job *job, bench_table *table);
 
 #endif

@@ -13,7 +13,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-/* Reads %d or %0Nd at text, which begins with a %. Returns the characters that it takes, 0 where it is neither. */
+/* Parses %d or %0Nd at text, which begins with a %. Returns its length, or 0 where it is neither. */
 static size_t parse_number(const char *text, int *digits)
 {
     size_t i = 1;
@@ -37,15 +37,15 @@ int out_path_parse(out_path *path, const char *pattern, char *error, size_t erro
             i++;
             continue;
         }
-        const size_t taken = parsed.numbered ? 0 : parse_number(pattern + i, &parsed.digits);
-        if (!taken) {
+        const size_t length = parsed.numbered ? 0 : parse_number(pattern + i, &parsed.digits);
+        if (!length) {
             snprintf(error, error_size, "\"%s\": one %%d or %%04d for the number, %%%% for a %% itself", pattern);
             return -1;
         }
         parsed.numbered = 1;
         parsed.number_at = i;
-        parsed.number_end = i + taken;
-        i += taken - 1;
+        parsed.number_end = i + length;
+        i += length - 1;
     }
     if (!*pattern || pattern[strlen(pattern) - 1] == '/') {
         snprintf(error, error_size, "\"%s\" names no file", pattern);
@@ -83,7 +83,7 @@ int out_path_name(const out_path *path, uint64_t number, char *text, size_t size
     return append(path, path->number_end, strlen(path->pattern), text, size, &used);
 }
 
-/* mkdir that is content with a folder that is there already. */
+/* mkdir that accepts a folder that exists already. */
 static int make_one(const char *folder, char *error, size_t error_size)
 {
     struct stat info;

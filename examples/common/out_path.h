@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Names of output files: a pattern with at most one number in it, and the folders on the way there. A pattern is read
- * here and never handed to printf: it comes from the command line. */
+ * Names of output files: a pattern with at most one number in it, and the folders of its path. A pattern comes from the
+ * command line, so it is parsed here and never handed to printf. */
 #ifndef OUT_PATH_H
 #define OUT_PATH_H
 
@@ -12,8 +12,8 @@
 typedef struct out_path {
     const char *pattern; /* "out/frame_%04d.png"; %% stands for a % */
     size_t number_at;    /* where its %d or %04d begins; the pattern's length where it has none */
-    size_t number_end;   /* the first character behind */
-    int digits;          /* at least so many, with leading zeros */
+    size_t number_end;   /* the first character after it */
+    int digits;          /* at least this many, with leading zeros */
     int numbered;
 } out_path;
 

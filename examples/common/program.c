@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the programs share. */
+ * What the programs share; see program.h. */
 #define _GNU_SOURCE /* argp */
 #include "common/program.h"
 
@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 static const char *program_name = "cgt";
-static int bar_is_shown; /* the terminal's line holds a progress bar */
+static int bar_is_shown; /* on the terminal's current line */
 
 /* ---- Start, errors, end ------------------------------------------------------------------------------------- */
 
@@ -80,7 +80,7 @@ static int refuse(char *error, size_t error_size, const char *format, ...)
     return -1;
 }
 
-/* Reads decimal digits at *text and moves it behind them. Returns 0, or -1: no digit, or beyond 64 bits. */
+/* Reads decimal digits at *text and moves it past them. Returns 0, or -1: no digit, or beyond 64 bits. */
 static int scan_u64(const char **text, uint64_t *value)
 {
     const char *p = *text;
@@ -121,7 +121,7 @@ int program_parse_u32(const char *text, uint32_t min, uint32_t max, uint32_t *va
     return 0;
 }
 
-/* Reads a finite number at *text and moves it behind it. */
+/* Reads a finite number at *text and moves it past it. */
 static int scan_float(const char **text, float *value)
 {
     const char first = **text;
@@ -187,7 +187,7 @@ int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char
 
 static double length3(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/* Whether up is zero, or so close to the view's direction that no picture would stand upright. */
+/* Whether up is zero, or so close to the view direction that it defines no upright picture. */
 static int up_is_parallel(const float view[3], const float up[3])
 {
     const double v[3] = {(double)view[0], (double)view[1], (double)view[2]};
@@ -234,9 +234,9 @@ double program_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void program_progress_start(program_progress *p, const char *what, const char *unit, double total, int quiet)
+void program_progress_start(program_progress *p, const char *activity, const char *unit, double total, int quiet)
 {
-    p->what = what;
+    p->activity = activity;
     p->unit = unit;
     p->total = total;
     p->start = p->last = program_seconds();
@@ -245,10 +245,10 @@ void program_progress_start(program_progress *p, const char *what, const char *u
 }
 
 /* Writes " 01:23 left", with hours where there are any. */
-static void write_time_left(char *text, size_t size, double seconds)
+static void write_remaining_time(char *text, size_t size, double seconds)
 {
-    const double most = 99 * 3600.0;
-    const unsigned s = (unsigned)(seconds < most ? seconds + 0.5 : most);
+    const double longest = 99 * 3600.0;
+    const unsigned s = (unsigned)(seconds < longest ? seconds + 0.5 : longest);
     if (s >= 3600) {
         snprintf(text, size, ", %u:%02u:%02u left", s / 3600, s / 60 % 60, s % 60);
     } else {
@@ -276,19 +276,19 @@ void program_progress_update(program_progress *p, double done, double share)
     const double seconds = now - p->start;
     share = share < 0.0 && p->total > 0.0 ? done / p->total : share;
     share = share > 1.0 ? 1.0 : share;
-    char left[40] = "";
+    char remaining[40] = "";
     if (share > 0.0) {
-        write_time_left(left, sizeof left, seconds * (1.0 - share) / share);
+        write_remaining_time(remaining, sizeof remaining, seconds * (1.0 - share) / share);
     }
     clear_bar();
-    fprintf(stderr, "%s ", p->what);
+    fprintf(stderr, "%s ", p->activity);
     if (p->terminal && share >= 0.0) {
         draw_bar(share);
     }
     if (share >= 0.0) {
         fprintf(stderr, "%3.0f %%, ", 100.0 * share);
     }
-    fprintf(stderr, "%.0f %s, %.1f/s%s", done, p->unit, seconds > 0.0 ? done / seconds : 0.0, left);
+    fprintf(stderr, "%.0f %s, %.1f/s%s", done, p->unit, seconds > 0.0 ? done / seconds : 0.0, remaining);
     if (p->terminal) {
         fflush(stderr);
         bar_is_shown = 1;

@@ -53,27 +53,27 @@ int program_parse_size(const char *text, uint32_t *width, uint32_t *height, char
 int program_parse_camera(const char *text, cgt_camera *camera, char *error, size_t error_size);
 
 /* Progress on standard error: one line that is rewritten on a terminal, a plain line about every five seconds
- * elsewhere. Start, then update as often as you like (it limits its own rate), then end. */
+ * elsewhere. Start, then update at any rate (output is limited), then end. */
 typedef struct program_progress {
-    const char *what; /* "rendering" */
-    const char *unit; /* "frames" */
-    double total;     /* what `done` will be at the end; 0: not known */
-    double start;     /* seconds */
-    double last;      /* seconds, of the last line written */
+    const char *activity; /* "rendering" */
+    const char *unit;     /* "frames" */
+    double total;         /* `done` at the end; 0: not known */
+    double start;         /* seconds */
+    double last;          /* seconds, of the last line written */
     int terminal;
     int quiet; /* writes nothing */
 } program_progress;
 
-void program_progress_start(program_progress *p, const char *what, const char *unit, double total, int quiet);
+void program_progress_start(program_progress *p, const char *activity, const char *unit, double total, int quiet);
 
-/* done: units finished, for the count and the rate. share: 0 to 1, the part of the work that is done, for the bar and
- * the time left; negative: done / total. */
+/* done: units finished, for the count and the rate. share: 0 to 1, the completed part of the work, for the bar and
+ * the remaining time; negative: done / total. */
 void program_progress_update(program_progress *p, double done, double share);
 
-/* Takes the bar off the terminal's line. */
+/* Clears the bar from the terminal. */
 void program_progress_end(program_progress *p);
 
-/* Seconds of a clock that only goes forwards. */
+/* Seconds of a monotonic clock. */
 double program_seconds(void);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-convert: any trajectory or mesh that the readers know, to .frames. The output is written beside its final name
- * and moved there when it is whole, so that a run that fails leaves what was there before. */
+ * cgt-convert: converts any trajectory or mesh that the readers know to .frames. The output goes to a temporary file
+ * that is renamed when it is complete, so a failed run leaves the previous file alone. */
 #define _GNU_SOURCE /* argp */
 #include "common/program.h"
 #include "trajectory/trajectory.h"
@@ -31,9 +31,9 @@ typedef struct convert_counts {
     trajectory_kind kind;
     uint32_t triangles;
     uint64_t frames;
-    uint64_t items;        /* spheres or vertices in all of them */
-    uint32_t fewest, most; /* of a frame */
-    int normals;           /* there are some, and .frames has no place for them */
+    uint64_t items;                /* spheres or vertices in all of them */
+    uint32_t count_min, count_max; /* of a frame */
+    int normals;                   /* present, but .frames cannot hold them */
 } convert_counts;
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
@@ -42,7 +42,7 @@ enum { OPTION_WRAPPED = 256, OPTION_FIRST, OPTION_LAST, OPTION_EVERY, OPTION_FPS
 
 static const struct argp_option option_table[] = {
     {"radius", 'r', "R", 0,
-     "Radius of spheres that the file gives none, in world units (default: 0.5; in .xyz the "
+     "Radius of spheres where the file has none, in world units (default: 0.5; in .xyz the "
      "element's van der Waals radius in Angstrom)",
      0},
     {"wrapped", OPTION_WRAPPED, NULL, 0,
@@ -135,10 +135,10 @@ static void check_options(const convert_options *o)
 /* ---- The output's two names --------------------------------------------------------------------------------- */
 
 typedef struct output_file {
-    char *target;    /* where it goes: links resolved, so that a link stays one */
+    char *target;    /* final name, links resolved so that a link stays one */
     char *temporary; /* in the same folder, so that it can be moved in one step */
     mode_t mode;
-    int created; /* the temporary file is there */
+    int created; /* the temporary file exists */
 } output_file;
 
 /* The temporary file that an interrupt has to remove; NULL while there is none. */
@@ -239,7 +239,7 @@ typedef struct conversion {
     const convert_options *options;
     trajectory *from;
     const char *name;      /* of the file that is written */
-    frames_writer *writer; /* NULL before the first frame, which says what kind it is */
+    frames_writer *writer; /* NULL before the first frame, which tells the kind */
     convert_counts counts;
     char error[PROGRAM_ERROR_SIZE];
 } conversion;
@@ -262,9 +262,9 @@ static int write_frame(conversion *c, const trajectory_frame *frame)
 static int copy_frame(conversion *c)
 {
     trajectory_frame frame;
-    const int got = trajectory_read(c->from, &frame, c->error, sizeof c->error);
-    if (got <= 0) {
-        return got;
+    const int result = trajectory_read(c->from, &frame, c->error, sizeof c->error);
+    if (result <= 0) {
+        return result;
     }
     if (write_frame(c, &frame)) {
         return -1;
@@ -273,27 +273,27 @@ static int copy_frame(conversion *c)
     n->kind = frame.kind;
     n->triangles = frame.triangles;
     n->normals |= frame.vertex_normal != NULL;
-    n->fewest = n->frames == 0 || frame.count < n->fewest ? frame.count : n->fewest;
-    n->most = frame.count > n->most ? frame.count : n->most;
+    n->count_min = n->frames == 0 || frame.count < n->count_min ? frame.count : n->count_min;
+    n->count_max = frame.count > n->count_max ? frame.count : n->count_max;
     n->frames++;
     n->items += frame.count;
     return 1;
 }
 
-/* Copies the frames that were asked for. Returns 0 or -1 with a text. */
+/* Copies the selected frames. Returns 0 or -1 with a text. */
 static int copy_frames(conversion *c)
 {
     const convert_options *const o = c->options;
     program_progress progress;
     program_progress_start(&progress, "converting", "frames", 0.0, o->quiet);
-    int got = 1;
-    for (uint64_t number = 0; number <= o->last && got > 0; number++) {
-        const int wanted = number >= o->first && (number - o->first) % o->every == 0;
-        got = wanted ? copy_frame(c) : trajectory_skip(c->from, c->error, sizeof c->error);
+    int result = 1;
+    for (uint64_t number = 0; number <= o->last && result > 0; number++) {
+        const int selected = number >= o->first && (number - o->first) % o->every == 0;
+        result = selected ? copy_frame(c) : trajectory_skip(c->from, c->error, sizeof c->error);
         program_progress_update(&progress, (double)c->counts.frames, trajectory_progress(c->from));
     }
     program_progress_end(&progress);
-    return got < 0 ? -1 : 0;
+    return result < 0 ? -1 : 0;
 }
 
 /* Writes the file. Returns the exit code. */
@@ -315,9 +315,9 @@ static int convert(conversion *c)
     return failed ? PROGRAM_FAILED : PROGRAM_OK;
 }
 
-/* ---- What it says ------------------------------------------------------------------------------------------- */
+/* ---- Report ------------------------------------------------------------------------------------------------ */
 
-/* What of a mesh is not in the output. */
+/* Prints what the output lacks of a mesh. */
 static void report_losses(const char *input, const trajectory_mesh *mesh, int normals)
 {
     const struct {
@@ -326,9 +326,9 @@ static void report_losses(const char *input, const trajectory_mesh *mesh, int no
     } losses[] = {
         {mesh->points, "points left out"},
         {mesh->lines, "lines left out"},
-        {mesh->lost_triangles, "triangles lost with polygons that cross themselves"},
-        {mesh->unshown, "meshes left out, which no node shows"},
-        {mesh->unused, "vertices left out, which no triangle has"},
+        {mesh->lost_triangles, "triangles lost with self-intersecting polygons"},
+        {mesh->unshown, "meshes left out: no node refers to them"},
+        {mesh->unused, "vertices left out: no triangle uses them"},
         {mesh->degenerate, "triangles without an area"},
         {mesh->still_channels, "animations of single vertices not played"},
     };
@@ -338,7 +338,7 @@ static void report_losses(const char *input, const trajectory_mesh *mesh, int no
         }
     }
     if (mesh->warnings > 0) {
-        printf("%s: %" PRIu32 " warnings of assimp's; the first: %s\n", input, mesh->warnings, mesh->warning);
+        printf("%s: %" PRIu32 " warnings from assimp; the first: %s\n", input, mesh->warnings, mesh->warning);
     }
     if (normals) {
         printf("%s: vertex normals left out\n", input);
@@ -361,8 +361,8 @@ static void report(const conversion *c, double seconds)
     if (!spheres) {
         printf("%" PRIu32 " triangles, ", n->triangles);
     }
-    printf("%" PRIu32 " to %" PRIu32 " %s, %.1f MB, %.2f s\n", n->fewest, n->most, spheres ? "spheres" : "vertices",
-           1e-6 * bytes, seconds);
+    printf("%" PRIu32 " to %" PRIu32 " %s, %.1f MB, %.2f s\n", n->count_min, n->count_max,
+           spheres ? "spheres" : "vertices", 1e-6 * bytes, seconds);
 }
 
 static int run(const convert_options *o)

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Meshes in a build without assimp: the usual endings are known, so that the error says what is missing. */
+ * Meshes in a build without assimp: the usual endings are recognised, so that the error tells what is missing. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What assimp does not notice, or does not survive: files that are cut off and load as a part of themselves, and counts
- * that ask for all the memory. Only what can be told for sure is refused. */
+ * Finds what assimp does not notice, or does not survive: truncated files that load as a part of themselves, and counts
+ * that would exhaust memory. Only certain damage is refused. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/mesh_model.h"
@@ -14,16 +14,16 @@
 
 /* ---- Object file format ------------------------------------------------------------------------------------- */
 
-/* The line of counts is the first that is no comment, maybe after "OFF" or the like. Each vertex and each face takes
- * more than a byte. Anything else is left to assimp. */
+/* The counts are on the first line that is no comment, perhaps after "OFF" or the like. Each vertex and each face takes
+ * more than a byte. All else is left to assimp. */
 static int check_off(trajectory *t, text_reader *r)
 {
     for (int lines = 0; lines < 1000; lines++) {
         text_span line, word;
-        const char *what = "";
-        const int got = text_reader_next(r, &line, &what);
-        if (got <= 0) {
-            return got < 0 ? trajectory_fail(t, r->line, "%s", what) : 1;
+        const char *reason = "";
+        const int result = text_reader_next(r, &line, &reason);
+        if (result <= 0) {
+            return result < 0 ? trajectory_fail(t, r->line, "%s", reason) : 1;
         }
         if (!text_word(&line, &word) || *word.begin == '#' || (word.end[-1] == 'F' && !text_word(&line, &word))) {
             continue;
@@ -48,13 +48,13 @@ static int check_off(trajectory *t, text_reader *r)
 
 /* ---- Industry foundation classes ---------------------------------------------------------------------------- */
 
-/* assimp reads as much as there is. The standard (ISO 10303-21) has a last line. */
+/* assimp accepts truncated files. The standard (ISO 10303-21) requires a last line. */
 static int check_ifc(trajectory *t, text_reader *r)
 {
     static const char last[] = "END-ISO-10303-21;";
     char tail[1024 + 1] = "";
-    const off_t at = t->file_size > 1024 ? (off_t)(t->file_size - 1024) : 0;
-    if (fseeko(r->file, at, SEEK_SET) != 0) {
+    const off_t offset = t->file_size > 1024 ? (off_t)(t->file_size - 1024) : 0;
+    if (fseeko(r->file, offset, SEEK_SET) != 0) {
         return trajectory_fail(t, 0, "%s", strerror(errno));
     }
     size_t size = fread(tail, 1, sizeof tail - 1, r->file);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A .ply file is walked through from its header to its end before assimp sees it: assimp takes a file that is cut off
- * for a smaller one, or never comes back from it, and makes one triangle of a list of triangle strips. */
+ * Walks through a .ply file from its header to its end before assimp sees it: assimp reads a truncated file as a
+ * smaller one, or never returns from it, and turns a list of triangle strips into one triangle. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/mesh_model.h"
@@ -57,12 +57,12 @@ static const ply_type *find_type(text_span word)
     return NULL;
 }
 
-static int read_format(trajectory *t, const text_reader *r, text_span rest, ply_header *h)
+static int read_format(trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
 {
     static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     text_span word;
     char quote[TEXT_QUOTE_SIZE];
-    text_word(&rest, &word);
+    text_word(&remaining, &word);
     for (int i = 0; i < 3; i++) {
         if (text_is(word, names[i])) {
             h->encoding = (ply_encoding)i;
@@ -72,7 +72,7 @@ static int read_format(trajectory *t, const text_reader *r, text_span rest, ply_
     return trajectory_fail(t, r->line, "'%s' is no format of a .ply file", text_quote(word, quote));
 }
 
-static int read_element(trajectory *t, const text_reader *r, text_span rest, ply_header *h)
+static int read_element(trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
 {
     text_span name, word;
     char quote[TEXT_QUOTE_SIZE];
@@ -80,8 +80,8 @@ static int read_element(trajectory *t, const text_reader *r, text_span rest, ply
         return trajectory_fail(t, r->line, "more than %d elements", MOST_ELEMENTS);
     }
     ply_element *const e = &h->element[h->element_count++];
-    text_word(&rest, &name);
-    text_word(&rest, &word);
+    text_word(&remaining, &name);
+    text_word(&remaining, &word);
     if (!text_u64(word, UINT64_MAX, &e->count)) {
         return trajectory_fail(t, r->line, "'%s' is not a number of elements", text_quote(word, quote));
     }
@@ -99,7 +99,7 @@ static int read_element(trajectory *t, const text_reader *r, text_span rest, ply
 }
 
 /* "list uchar int vertex_indices" or "float x" */
-static int read_property(trajectory *t, const text_reader *r, text_span rest, ply_header *h)
+static int read_property(trajectory *t, const text_reader *r, text_span remaining, ply_header *h)
 {
     text_span word;
     char quote[TEXT_QUOTE_SIZE];
@@ -110,27 +110,27 @@ static int read_property(trajectory *t, const text_reader *r, text_span rest, pl
     ply_property *const p = &h->property[h->property_count++];
     h->element[h->element_count - 1].property_count++;
     p->count = NULL;
-    text_word(&rest, &word);
+    text_word(&remaining, &word);
     if (text_is(word, "list")) {
-        text_word(&rest, &word);
+        text_word(&remaining, &word);
         p->count = find_type(word);
         if (p->count == NULL || p->count->is_float) {
             return trajectory_fail(t, r->line, "'%s' is no type of a list's length", text_quote(word, quote));
         }
-        text_word(&rest, &word);
+        text_word(&remaining, &word);
     }
     p->value = find_type(word);
     return p->value != NULL ? 1 : trajectory_fail(t, r->line, "'%s' is no type", text_quote(word, quote));
 }
 
-static int read_line(trajectory *t, text_reader *r, text_span *line, const char *where)
+static int read_line(trajectory *t, text_reader *r, text_span *line, const char *section)
 {
-    const char *what = "";
-    const int got = text_reader_next(r, line, &what);
-    if (got < 0) {
-        return trajectory_fail(t, r->line, "%s", what);
+    const char *reason = "";
+    const int status = text_reader_next(r, line, &reason);
+    if (status < 0) {
+        return trajectory_fail(t, r->line, "%s", reason);
     }
-    return got > 0 ? 1 : trajectory_fail(t, r->line, "the file ends in the %s: it is cut off", where);
+    return status > 0 ? 1 : trajectory_fail(t, r->line, "the file ends in the %s: it is cut off", section);
 }
 
 static int read_header(trajectory *t, text_reader *r, ply_header *h)
@@ -158,7 +158,7 @@ static int read_header(trajectory *t, text_reader *r, ply_header *h)
             result = read_element(t, r, line, h);
         } else if (text_is(word, "property")) {
             result = read_property(t, r, line, h);
-        } /* all else are comments, or taken for them as assimp does */
+        } /* all else is a comment, or treated as one, as in assimp */
         if (result < 0) {
             return -1;
         }
@@ -167,7 +167,7 @@ static int read_header(trajectory *t, text_reader *r, ply_header *h)
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-/* One element is one line; further numbers on it are ignored, as assimp does. */
+/* One element is one line; further numbers on it are ignored, as in assimp. */
 static int walk_text_element(trajectory *t, const text_reader *r, const ply_header *h, const ply_element *e,
                              text_span line)
 {
@@ -195,12 +195,12 @@ static int walk_text(trajectory *t, text_reader *r, const ply_header *h)
         for (uint64_t i = 0; e->property_count > 0 && i < e->count; i++) {
             text_span line;
             do {
-                const char *what = "";
-                const int got = text_reader_next(r, &line, &what);
-                if (got < 0) {
-                    return trajectory_fail(t, r->line, "%s", what);
+                const char *reason = "";
+                const int status = text_reader_next(r, &line, &reason);
+                if (status < 0) {
+                    return trajectory_fail(t, r->line, "%s", reason);
                 }
-                if (got == 0) {
+                if (status == 0) {
                     return trajectory_fail(t, r->line, "the file ends after %" PRIu64 " of %" PRIu64 " elements '%s'",
                                            i, e->count, e->name);
                 }
@@ -218,7 +218,7 @@ static int walk_text(trajectory *t, text_reader *r, const ply_header *h)
 typedef struct walk {
     trajectory *t;
     FILE *file;
-    uint64_t rest; /* bytes that the file still has */
+    uint64_t remaining; /* bytes left in the file */
 } walk;
 
 static int cut_off(const walk *w, const ply_element *e, uint64_t i)
@@ -227,13 +227,13 @@ static int cut_off(const walk *w, const ply_element *e, uint64_t i)
                            e->name);
 }
 
-/* Goes on by `bytes`, a byte at a time where they are few: a seek throws the buffer away. */
+/* Skips `bytes`, a byte at a time where they are few: a seek discards the buffer. */
 static int skip_bytes(walk *w, uint64_t bytes)
 {
-    if (bytes > w->rest) {
+    if (bytes > w->remaining) {
         return 0;
     }
-    w->rest -= bytes;
+    w->remaining -= bytes;
     if (bytes > 4096) {
         return fseeko(w->file, (off_t)bytes, SEEK_CUR) == 0;
     }
@@ -247,10 +247,10 @@ static int skip_bytes(walk *w, uint64_t bytes)
 static int read_length(walk *w, const ply_type *type, ply_encoding encoding, uint64_t *length)
 {
     *length = 0;
-    if (type->bytes > w->rest) {
+    if (type->bytes > w->remaining) {
         return 0;
     }
-    w->rest -= type->bytes;
+    w->remaining -= type->bytes;
     for (uint32_t i = 0; i < type->bytes; i++) {
         const int byte = getc_unlocked(w->file);
         if (byte == EOF) {
@@ -296,16 +296,16 @@ static int walk_lists(walk *w, const ply_header *h, const ply_element *e)
 
 static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
 {
-    const off_t at = ftello(r->file) - (off_t)(r->end - r->begin); /* the reader is ahead of the header's end */
-    if (at < 0 || (uint64_t)at > t->file_size || fseeko(r->file, at, SEEK_SET) != 0) {
+    const off_t offset = ftello(r->file) - (off_t)(r->end - r->begin); /* the reader has buffered more */
+    if (offset < 0 || (uint64_t)offset > t->file_size || fseeko(r->file, offset, SEEK_SET) != 0) {
         return trajectory_fail(t, 0, "%s", strerror(errno));
     }
-    walk w = {t, r->file, t->file_size - (uint64_t)at};
+    walk w = {t, r->file, t->file_size - (uint64_t)offset};
     for (uint32_t k = 0; k < h->element_count; k++) {
         const ply_element *const e = &h->element[k];
         const uint64_t size = fixed_size(h, e);
-        if (size > 0 && e->count > w.rest / size) {
-            return cut_off(&w, e, w.rest / size);
+        if (size > 0 && e->count > w.remaining / size) {
+            return cut_off(&w, e, w.remaining / size);
         }
         if (size > 0 && !skip_bytes(&w, e->count * size)) {
             return trajectory_fail(t, 0, "%s", strerror(errno));

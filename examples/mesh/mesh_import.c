@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Reading a file of meshes by assimp: checked before, while and after, for assimp may drop what it does not understand
- * with no more than a line in its log, and end the program where a mesh contradicts itself. */
+ * Reads a file of meshes by assimp, with checks before, during and after: assimp may drop what it does not understand
+ * with no more than a line in its log, and aborts the program where a mesh contradicts itself. */
 #define _GNU_SOURCE /* strcasestr */
 #include "mesh/mesh_model.h"
 
@@ -17,10 +17,10 @@
 
 typedef struct import_log {
     trajectory_mesh *facts;
-    char lost[256]; /* the first line that says that triangles were left out; "" for none */
+    char lost[256]; /* the first line that reports lost triangles; "" for none */
 } import_log;
 
-/* What lines that mean a loss have in them. The import succeeds after each of them. */
+/* Phrases in log lines that report a loss. The import succeeds after each of them. */
 static const char *const loss_phrases[] = {
     "out-of-range indices", /* glTF: faces were dropped */
     "vertices were dropped",
@@ -106,20 +106,20 @@ static int has_polygon(const struct aiMesh *mesh)
     return 0;
 }
 
-/* Cuts polygons into triangles. assimp ends the program where a mesh says that it has polygons and has none. */
+/* Cuts polygons into triangles. assimp aborts the program where a mesh claims to have polygons and has none. */
 static int cut_polygons(trajectory *t, mesh_model *model)
 {
-    int wanted = 0;
+    int has_polygons = 0;
     for (unsigned m = 0; m < model->scene->mNumMeshes; m++) {
         const struct aiMesh *const mesh = model->scene->mMeshes[m];
         const int found = has_polygon(mesh);
         if ((mesh->mPrimitiveTypes & aiPrimitiveType_POLYGON) != 0 && !found) {
-            return trajectory_fail(t, 0, "mesh %u has no polygons, but says that it has: the file is damaged", m);
+            return trajectory_fail(t, 0, "mesh %u claims to have polygons, but has none: the file is damaged", m);
         }
-        wanted |= found;
+        has_polygons |= found;
     }
-    if (wanted) {
-        /* on a failure the scene is given back */
+    if (has_polygons) {
+        /* frees the scene on a failure */
         model->scene = aiApplyPostProcessing(model->scene, aiProcess_Triangulate);
     }
     return model->scene != NULL ? 1 : trajectory_fail(t, 0, "assimp: %s", aiGetErrorString());
@@ -131,7 +131,7 @@ static const struct aiScene *import_file(const trajectory *t, import_log *log)
 {
     const struct aiLogStream stream = {on_log_line, (char *)(void *)log};
     aiAttachLogStream(&stream);
-    /* No vertices are joined by assimp: it takes near ones for equal, and a NaN for equal to anything. */
+    /* assimp must not join vertices: it treats near ones as equal, and a NaN as equal to anything. */
     const struct aiScene *const scene = aiImportFile(t->path, aiProcess_ValidateDataStructure);
     aiDetachLogStream(&stream);
     return scene;

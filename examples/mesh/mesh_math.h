@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Transforms of meshes, in double precision and rounded once at the end, so that a chain of nodes adds no error that
- * single precision could see.
- *   transform   three rows of four: affine; the fourth row of a file's matrix is taken for 0 0 0 1
+ * Transforms of meshes, in double precision and rounded once at the end, so that a chain of nodes adds no error visible
+ * in single precision.
+ *   transform   three rows of four: affine; the fourth row of a file's matrix is assumed to be 0 0 0 1
  *   rotation    a quaternion w x y z */
 #ifndef MESH_MATH_H
 #define MESH_MATH_H
@@ -23,7 +23,7 @@ static inline mesh_transform mesh_identity(void)
     return (mesh_transform){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 }
 
-/* a after b: what b gives is handed to a. */
+/* The product a b: applies b first, then a. */
 static inline mesh_transform mesh_multiply(const mesh_transform *a, const mesh_transform *b)
 {
     mesh_transform c;
@@ -95,15 +95,15 @@ static inline mesh_rotation mesh_slerp(mesh_rotation a, mesh_rotation b, double 
     double cosine = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
     const double sign = cosine < 0.0 ? -1.0 : 1.0; /* q and -q are the same rotation */
     cosine = cosine * sign > 1.0 ? 1.0 : cosine * sign;
-    double from = 1.0 - s, to = s;
-    if (cosine < 1.0 - 1e-9) { /* nearer than that the sine would lose its digits, and the chord is the arc */
+    double weight_a = 1.0 - s, weight_b = s;
+    if (cosine < 1.0 - 1e-9) { /* closer, the sine would lose its digits, and the chord equals the arc */
         const double angle = acos(cosine);
-        from = sin((1.0 - s) * angle) / sin(angle);
-        to = sin(s * angle) / sin(angle);
+        weight_a = sin((1.0 - s) * angle) / sin(angle);
+        weight_b = sin(s * angle) / sin(angle);
     }
-    to *= sign;
-    return mesh_rotation_unit(
-        (mesh_rotation){from * a.w + to * b.w, from * a.x + to * b.x, from * a.y + to * b.y, from * a.z + to * b.z});
+    weight_b *= sign;
+    return mesh_rotation_unit((mesh_rotation){weight_a * a.w + weight_b * b.w, weight_a * a.x + weight_b * b.x,
+                                              weight_a * a.y + weight_b * b.y, weight_a * a.z + weight_b * b.z});
 }
 
 /* First scaled, then rotated (a unit rotation), then moved. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * All meshes of the tree as one indexed set of triangles. Vertices of a mesh become one where their position, normal
- * and bones have the same bits: most files, or assimp, repeat a vertex for each face that has it. */
+ * All meshes of the tree as one indexed set of triangles. Vertices of a mesh are merged where their position, normal
+ * and bones have the same bits: most files, or assimp, repeat a vertex for each of its faces. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/mesh_model.h"
 
@@ -17,7 +17,7 @@ typedef struct join {
     const mesh_skin *skin;
     size_t mask;        /* slots - 1, a power of two */
     uint32_t *slot;     /* hash table of vertices of the part; MESH_NONE is free */
-    uint32_t *local_of; /* vertex of the part for each of the mesh; MESH_NONE: not met */
+    uint32_t *local_of; /* vertex of the part for each of the mesh; MESH_NONE: not added yet */
     uint32_t *source;   /* and the other way round */
     uint32_t count;     /* vertices of the part */
 } join;
@@ -58,22 +58,22 @@ static int same_vertex(const join *j, uint32_t a, uint32_t b)
            same_influences(j->skin, a, b);
 }
 
-/* The part's vertex for vertex v of the mesh; a new one where there is no equal one. */
+/* The part's vertex for vertex v of the mesh; a new one where none is equal. */
 static uint32_t join_vertex(join *j, uint32_t v)
 {
     if (j->local_of[v] != MESH_NONE) {
         return j->local_of[v];
     }
-    size_t at = (size_t)hash_vertex(j, v) & j->mask;
-    while (j->slot[at] != MESH_NONE && !same_vertex(j, j->source[j->slot[at]], v)) {
-        at = (at + 1) & j->mask;
+    size_t slot_index = (size_t)hash_vertex(j, v) & j->mask;
+    while (j->slot[slot_index] != MESH_NONE && !same_vertex(j, j->source[j->slot[slot_index]], v)) {
+        slot_index = (slot_index + 1) & j->mask;
     }
-    if (j->slot[at] == MESH_NONE) {
-        j->slot[at] = j->count;
+    if (j->slot[slot_index] == MESH_NONE) {
+        j->slot[slot_index] = j->count;
         j->source[j->count++] = v;
     }
-    j->local_of[v] = j->slot[at];
-    return j->slot[at];
+    j->local_of[v] = j->slot[slot_index];
+    return j->slot[slot_index];
 }
 
 static int join_begin(join *j, const mesh_part *part)
@@ -117,7 +117,8 @@ static int is_degenerate(const struct aiMesh *mesh, const unsigned *v)
     return same_position(mesh, v[0], v[1]) || same_position(mesh, v[1], v[2]) || same_position(mesh, v[2], v[0]);
 }
 
-/* Appends the triangles of a part. A transform that mirrors turns them around, so that their outside stays outside. */
+/* Appends the triangles of a part. Under a mirroring transform their orientation is reversed, so that the outside stays
+ * outside. */
 static void add_triangles(mesh_model *model, const mesh_part *part, join *j)
 {
     const int mirrored = part->skin->bone_count == 0 && mesh_determinant(&model->nodes[part->node].global) < 0.0;
@@ -169,7 +170,7 @@ static uint64_t triangles_of(const struct aiMesh *mesh)
     return triangles;
 }
 
-/* The numbers in the file must be those of meshes and vertices that exist. */
+/* All indices must be those of existing vertices. */
 static int check_mesh(trajectory *t, const struct aiMesh *mesh)
 {
     for (unsigned f = 0; f < mesh->mNumFaces; f++) {
@@ -205,7 +206,7 @@ static int count_tree(trajectory *t, const mesh_model *model, const uint64_t *me
     return *triangles > 0 ? 1 : trajectory_fail(t, 0, "no node of the file shows a triangle");
 }
 
-/* Goes through the tree again and adds what was counted. shown: one byte a mesh, zero at first. */
+/* Traverses the tree again and adds what was counted. shown: one byte a mesh, zero at first. */
 static int add_tree(trajectory *t, mesh_model *model, const uint64_t *mesh_triangles, unsigned char *shown)
 {
     for (uint32_t n = 0; n < model->node_count; n++) {

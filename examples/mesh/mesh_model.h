@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * A file of meshes, read by assimp and merged into one indexed set of triangles.
- *   node   a transform of the file's tree; parents stand before their children
- *   skin   which bones pull each vertex of a mesh, and how much
+ *   node   a transform of the file's tree; parents precede their children
+ *   skin   which bones move each vertex of a mesh, with weights
  *   part   a mesh under a node; a mesh under three nodes is three parts */
 #ifndef MESH_MODEL_H
 #define MESH_MODEL_H
@@ -21,8 +21,8 @@
 typedef struct mesh_node {
     const struct aiNode *node;
     uint32_t parent;       /* MESH_NONE for the root */
-    mesh_transform local;  /* as the file has it */
-    mesh_transform global; /* of the file's own pose; the pose has its own */
+    mesh_transform local;  /* as in the file */
+    mesh_transform global; /* in the file's own pose; a mesh_pose has its own */
 } mesh_node;
 
 typedef struct mesh_name {
@@ -32,16 +32,16 @@ typedef struct mesh_name {
 
 typedef struct mesh_bone {
     uint32_t node;
-    mesh_transform offset; /* from the mesh to the bone, in the pose in which the skin was put on */
+    mesh_transform offset; /* from the mesh to the bone, in the bind pose */
 } mesh_bone;
 
 typedef struct mesh_influence {
     uint32_t bone; /* of the skin */
-    float weight;  /* those of a vertex have the sum 1 */
+    float weight;  /* those of a vertex sum to 1 */
 } mesh_influence;
 
 typedef struct mesh_skin {
-    uint32_t bone_count; /* 0: the mesh has none, and the other members are NULL */
+    uint32_t bone_count; /* 0: no skin, the other members are NULL */
     mesh_bone *bones;
     size_t *first; /* vertex v has influences first[v] to first[v + 1]; none where it follows its node */
     mesh_influence *influences;
@@ -65,11 +65,11 @@ typedef struct mesh_model {
     mesh_part *parts;
     uint32_t vertices, triangles;
     uint32_t *index;
-    int has_normals; /* some mesh has */
+    int has_normals; /* of some mesh */
     trajectory_mesh facts;
 } mesh_model;
 
-/* Reads t's file. Returns 1, or -1 with an error noted; in either case the model has to be given back. */
+/* Reads t's file. Returns 1, or -1 with an error noted; free the model in either case. */
 int mesh_model_read(trajectory *t, mesh_model *model);
 void mesh_model_free(mesh_model *model);
 
@@ -81,12 +81,12 @@ uint32_t mesh_model_find(const mesh_model *model, const struct aiString *name);
 
 /* ---- The steps of reading, in files of their own; each returns 1, or -1 with an error noted ----------------- */
 
-/* mesh_import.c: the file itself, checked, with its polygons cut into triangles: scene and some facts. The second does
- * it alone, without what keeps the program alive. */
+/* mesh_import.c: imports the checked file and cuts polygons into triangles: scene and some facts. mesh_import_scene
+ * does so without the checks that protect the program. */
 int mesh_import(trajectory *t, mesh_model *model);
 int mesh_import_scene(trajectory *t, mesh_model *model);
 
-/* mesh_rehearse.c: whether assimp survives the file. */
+/* mesh_rehearse.c: tries the import in a child process. */
 int mesh_rehearse(trajectory *t);
 
 /* mesh_nodes.c: nodes, by_name. */
@@ -98,8 +98,8 @@ int mesh_read_skins(trajectory *t, mesh_model *model);
 /* mesh_merge.c: parts, index. */
 int mesh_merge(trajectory *t, mesh_model *model);
 
-/* mesh_check.c: what assimp does not notice, or does not survive, in t's file. The file is left where it was. */
+/* mesh_check.c: finds damage in t's file that assimp does not notice, or does not survive. */
 int mesh_check_file(trajectory *t);
-int mesh_check_ply(trajectory *t, text_reader *r); /* mesh_check_ply.c; r stands at the begin */
+int mesh_check_ply(trajectory *t, text_reader *r); /* mesh_check_ply.c; r is at the start */
 
 #endif

@@ -60,7 +60,7 @@ static int reserve(coloring *c, uint32_t count)
 {
     if (count <= c->capacity)
         return 0;
-    /* Cannot overflow: the frame itself holds at least twelve bytes for each of these two. */
+    /* Cannot overflow: the frame itself holds at least twelve bytes for each two bytes here. */
     uint16_t *index = realloc(c->index, (size_t)count * sizeof *index);
     if (!index)
         return -1;
@@ -69,7 +69,7 @@ static int reserve(coloring *c, uint32_t count)
     return 0;
 }
 
-/* The entry of a measured value; in double, so that the difference of two large ids or floats is right. */
+/* The entry of a measured value, in double, so that differences of large ids or floats are exact enough. */
 static uint16_t entry_of(const coloring *c, double value)
 {
     if (!(value - value == 0.0)) /* NaN and infinities */

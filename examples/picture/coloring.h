@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The colour of each sphere or triangle of a frame, or of each vertex where the value varies over triangles, as an index of 16 bits into a palette of linear colours: small enough to stay
- * in cache while tiles are shaded. */
+ * The colour of each sphere or triangle of a frame, or of each vertex where the value varies over triangles: an index
+ * of 16 bits into a palette of linear colours, small enough to stay in cache while tiles are shaded. */
 #ifndef COLORING_H
 #define COLORING_H
 
@@ -23,17 +23,17 @@ typedef enum coloring_by {
 
 enum {
     COLORING_STEPS = 1024,             /* colours of a measured value */
-    COLORING_UNKNOWN = COLORING_STEPS, /* the entry of what is not known */
+    COLORING_UNKNOWN = COLORING_STEPS, /* the entry of unknown values */
     COLORING_ENTRIES
 };
 
 typedef struct coloring {
     coloring_by by;                     /* not AUTO */
-    int axis;                           /* of HEIGHT: 0, 1 or 2; set it after coloring_init, which says 2 */
+    int axis;                           /* of HEIGHT: 0, 1 or 2; coloring_init sets 2 */
     float min, max;                     /* values that get the map's first and last colour */
     float palette[COLORING_ENTRIES][3]; /* linear */
     uint16_t *index;                    /* per sphere, triangle or vertex; never NULL after coloring_init */
-    int per_vertex;                     /* set by coloring_apply: index is one of vertices, to be mixed */
+    int per_vertex;                     /* set by coloring_apply: index is per vertex, to be interpolated */
     size_t capacity;
 } coloring;
 
@@ -45,8 +45,8 @@ int coloring_init(coloring *c, coloring_by by, const colormap *map, float min, f
 int coloring_init_plain(coloring *c, const float srgb[3]);
 void coloring_free(coloring *c);
 
-/* Sets index and per_vertex for a frame: speed and height of triangles are those of their vertices. speeds: as speed_next gives them; NULL unless by is COLORING_SPEED. Returns 0,
- * or -1 where there is no memory. */
+/* Sets index and per_vertex for a frame: speed and height of triangles are those of their vertices. speeds: those of
+ * speed_next; NULL unless by is COLORING_SPEED. Returns 0, or -1 where there is no memory. */
 int coloring_apply(coloring *c, const trajectory_frame *frame, const float *speeds);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Numbers to colours; see colormap.h.
+ * Maps numbers to colours; see colormap.h.
  *
  * viridis and plasma are by Nathaniel J. Smith, Stefan van der Walt and (viridis) Eric Firing, published with
  * matplotlib and dedicated to the public domain under CC0. The tables hold every fifth of their 256 entries, rounded
  * to 8 bits; lines between them stay within two and a half 8-bit steps of the full tables.
- * The colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey for
- * their black, which shading would swallow. */
+ * The colours of kinds are those of Masataka Okabe and Kei Ito, "Color Universal Design" (2008), with a grey in
+ * place of their black, on which shading would not show. */
 #include "picture/colormap.h"
 
 #include <stddef.h>
@@ -45,7 +45,7 @@ enum { MAPS = sizeof(maps) / sizeof(maps[0]) };
 
 static const char *const names[MAPS + 1] = {"viridis", "plasma", NULL};
 
-/* In an order that keeps orange, yellow and vermilion, which shading brings close, apart in files of few types. */
+/* Shading brings orange, yellow and vermilion close, so this order keeps them apart in files of few types. */
 static const uint8_t kinds[COLORMAP_TYPES][3] = {
     {230, 159, 0},   /* orange */
     {86, 180, 233},  /* sky blue */
@@ -69,9 +69,9 @@ const char *const *colormap_names(void) { return names; }
 
 void colormap_at(const colormap *map, float x, float srgb[3])
 {
-    const float at = x > 0.0f ? (x < 1.0f ? x : 1.0f) * (float)(KNOTS - 1) : 0.0f;
-    const int k = at < (float)(KNOTS - 1) ? (int)at : KNOTS - 2;
-    const float f = at - (float)k;
+    const float position = x > 0.0f ? (x < 1.0f ? x : 1.0f) * (float)(KNOTS - 1) : 0.0f;
+    const int k = position < (float)(KNOTS - 1) ? (int)position : KNOTS - 2;
+    const float f = position - (float)k;
     for (int c = 0; c < 3; c++)
         srgb[c] = ((1.0f - f) * (float)map->srgb[k][c] + f * (float)map->srgb[k + 1][c]) / 255.0f;
 }

@@ -16,8 +16,8 @@ enum { PAPER = 40 }; /* the sheet's own grey, sRGB */
 struct contact_sheet {
     uint32_t columns, cells;
     uint64_t frames;
-    uint32_t frame_width, frame_height; /* pixels that come in */
-    uint32_t thumb_width, thumb_height; /* pixels that stay */
+    uint32_t frame_width, frame_height; /* of the source frames, in pixels */
+    uint32_t thumb_width, thumb_height; /* of the scaled frames */
     uint32_t width, height;             /* pixels of the sheet */
     uint8_t *rgb;
     srgb_tables tables;
@@ -70,13 +70,13 @@ void contact_sheet_release(contact_sheet *sheet)
     free(sheet);
 }
 
-/* The frame in a cell: first and last cell have first and last frame, the others lie evenly between. */
+/* The frame in a cell: the first and last cell get the first and last frame, the others are evenly spaced. */
 static uint64_t frame_of_cell(const contact_sheet *sheet, uint32_t cell)
 {
     if (sheet->cells == 1)
         return 0;
-    const uint64_t gaps = sheet->cells - 1, whole = (sheet->frames - 1) / gaps, rest = (sheet->frames - 1) % gaps;
-    return cell * whole + cell * rest / gaps; /* cell * (frames - 1) / gaps without its overflow */
+    const uint64_t gaps = sheet->cells - 1, whole = (sheet->frames - 1) / gaps, remainder = (sheet->frames - 1) % gaps;
+    return cell * whole + cell * remainder / gaps; /* cell * (frames - 1) / gaps without overflow */
 }
 
 /* The cell of frame k, or cells where it has none. Frames of the cells rise strictly, because cells <= frames. */
@@ -116,7 +116,7 @@ static void fill(contact_sheet *sheet, uint32_t x0, uint32_t y0, uint32_t edge, 
             memset(sheet->rgb + ((size_t)y * sheet->width + x) * 3, grey, 3);
 }
 
-/* Writes number at (left, top), as far as it fits into the cell; dark around light, to be read on anything. */
+/* Writes number at (left, top) if it fits into the cell, light with a dark outline, readable on any background. */
 static void write_number(contact_sheet *sheet, uint32_t left, uint32_t top, uint64_t number)
 {
     enum { SCALE = 2, ADVANCE = 4 * SCALE, HEIGHT = 7 * SCALE };

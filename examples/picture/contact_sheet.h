@@ -27,7 +27,7 @@ void contact_sheet_release(contact_sheet *sheet);
 /* Returns 1 where frame k, counted from 0, is on the sheet. */
 int contact_sheet_wants(const contact_sheet *sheet, uint64_t k);
 
-/* Puts frame k on the sheet, if it wants it; number is written in its corner. rgb: 3 * width * height bytes, sRGB. */
+/* Puts frame k on the sheet, if it has a cell there, with number in its corner. rgb: 3 * width * height bytes, sRGB. */
 void contact_sheet_add(contact_sheet *sheet, uint64_t k, uint64_t number, const uint8_t *rgb);
 
 /* Returns the sheet's pixels, 3 * *width * *height bytes, valid until its release. */

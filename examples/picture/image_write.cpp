@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Pictures to files; see image_write.h. OpenImageIO encodes into memory, because its PNG writer does not notice a
- * disk that is full; the bytes then go to the file by calls whose every result is looked at. No exception leaves
+ * Writes pictures to files; see image_write.h. OpenImageIO encodes into memory, because its PNG writer does not notice
+ * a full disk; the bytes then go to the file by calls whose results are all checked. No exception leaves
  * this file. */
 #include "picture/image_write.h"
 
@@ -20,18 +20,18 @@
 namespace
 {
 
-void set_error(char *error, size_t size, const char *path, const char *what, const char *why)
+void set_error(char *error, size_t size, const char *path, const char *problem, const char *reason)
 {
     if (error && size)
-        std::snprintf(error, size, "%s: %s%s%s", path, what, *why ? ": " : "", why);
+        std::snprintf(error, size, "%s: %s%s%s", path, problem, *reason ? ": " : "", reason);
 }
 
-/* Writes all bytes to a new file; on a failure the file is gone and *why says what went wrong. */
-bool write_bytes(const std::string &path, const std::vector<unsigned char> &bytes, std::string *why)
+/* Writes all bytes to a new file; on a failure the file is removed and *reason tells the cause. */
+bool write_bytes(const std::string &path, const std::vector<unsigned char> &bytes, std::string *reason)
 {
     std::FILE *file = std::fopen(path.c_str(), "wb");
     if (!file) {
-        *why = std::strerror(errno);
+        *reason = std::strerror(errno);
         return false;
     }
     errno = 0;
@@ -40,7 +40,7 @@ bool write_bytes(const std::string &path, const std::vector<unsigned char> &byte
     const bool closed = std::fclose(file) == 0;
     if (written && closed)
         return true;
-    *why = std::strerror(written ? errno : write_errno);
+    *reason = std::strerror(written ? errno : write_errno);
     std::remove(path.c_str());
     return false;
 }
@@ -57,14 +57,14 @@ int encode_and_write(const char *path, const char *format, const OIIO::ImageSpec
     OIIO::Filesystem::IOVecOutput sink(bytes);
     output->set_ioproxy(&sink);
     if (!output->open(path, spec) || !output->write_image(type, pixels) || !output->close()) {
-        const std::string why = output->geterror();
-        set_error(error, error_size, path, "cannot encode the picture", why.c_str());
+        const std::string reason = output->geterror();
+        set_error(error, error_size, path, "cannot encode the picture", reason.c_str());
         return -1;
     }
     const std::string partial = std::string(path) + ".part";
-    std::string why;
-    if (!write_bytes(partial, bytes, &why)) {
-        set_error(error, error_size, path, "cannot write", why.c_str());
+    std::string reason;
+    if (!write_bytes(partial, bytes, &reason)) {
+        set_error(error, error_size, path, "cannot write", reason.c_str());
         return -1;
     }
     if (std::rename(partial.c_str(), path) != 0) {
@@ -75,7 +75,7 @@ int encode_and_write(const char *path, const char *format, const OIIO::ImageSpec
     return 0;
 }
 
-/* C callers cannot take an exception: memory may end anywhere inside. */
+/* C callers cannot catch exceptions, and memory may run out anywhere inside. */
 int encode_and_write_nothrow(const char *path, const char *format, const OIIO::ImageSpec &spec, const void *pixels,
                              OIIO::TypeDesc type, char *error, size_t error_size) noexcept
 {

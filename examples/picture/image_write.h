@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Pictures to files, through OpenImageIO: the C face of image_write.cpp, which is C++ only because OpenImageIO is.
+ * Writes pictures to files through OpenImageIO: the C interface of image_write.cpp (OpenImageIO needs C++).
  *
- * A picture is encoded in memory, written to PATH.part and renamed: PATH is either the whole picture or what was
- * there before, and a full disk is an error, not half a file. No function here is safe to call for the same path
+ * A picture is encoded in memory, written to PATH.part and renamed: PATH is either the whole picture or the
+ * previous file, and a full disk is an error, not half a file. No function here is safe to call for the same path
  * from two threads at once. */
 #ifndef IMAGE_WRITE_H
 #define IMAGE_WRITE_H
@@ -19,8 +19,8 @@ extern "C" {
 /* A pixel of an EXR: channels R, G, B (float, linear light), Z (float) and id (unsigned). */
 typedef struct image_pixel {
     float r, g, b;
-    float z;     /* depth along the camera's axis; +infinity where there is nothing */
-    uint32_t id; /* primitive; 4294967295 where there is nothing */
+    float z;     /* depth along the camera's axis; +infinity for the background */
+    uint32_t id; /* primitive; 4294967295 for the background */
 } image_pixel;
 
 /* Writes an 8-bit PNG from rgb, 3 * width * height bytes, sRGB, first row at the top. Returns 0, or -1 with a text

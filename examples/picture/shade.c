@@ -1,16 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hits to pixels; see shade.h. Works through a tile in runs of up to RUN hits of one row: first the brightness of
- * each, in plain loops over arrays that a compiler turns into vectors, then colour and sRGB codes through tables. */
+ * Turns hits into pixels; see shade.h. A tile is processed in runs of up to RUN hits of one row: first the brightness
+ * of each, in plain loops that a compiler vectorises, then colour and sRGB codes through tables. */
 #include "picture/shade.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { RUN = 16 }; /* hits; a multiple of SHADE_MAX_SAMPLES. Short, so that many runs are background alone */
+enum { RUN = 16 }; /* hits; a multiple of SHADE_MAX_SAMPLES. Short, so that many runs contain background only */
 
-/* Shares of the light. A sphere's side that faces light and eye reaches 1: no colour is clipped. */
+/* Shares of the light. The side of a sphere that faces light and eye reaches 1: no colour is clipped. */
 static const float share_light = 0.85f, share_head = 0.35f, share_ambient = 0.05f;
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -54,12 +54,12 @@ uint32_t shade_fields(const shade_job *job)
            (job->vertex_normal || job->mix ? (uint32_t)CGT_FIELD_UV : 0u);
 }
 
-/* Directions of the rays of a run: of the first one, and from each to the next. */
+/* Ray directions of a run: of the first ray, and the step from each to the next. */
 typedef struct run_rays {
     float first[3], step[3];
 } run_rays;
 
-/* Those of row y of the frame, from x on. */
+/* The rays of row y of the frame, from x on. */
 static run_rays rays_from(const shade_job *job, uint32_t x, uint32_t y)
 {
     run_rays rays;
@@ -73,18 +73,18 @@ static run_rays rays_from(const shade_job *job, uint32_t x, uint32_t y)
     return rays;
 }
 
-/* The mix of a triangle's vertex normals at (u, v), each taken as a unit vector. Returns 0 where that says nothing:
- * no length, or no number. */
+/* Interpolates a triangle's vertex normals, each as a unit vector, at (u, v). Returns 0 where the sum has no direction
+ * or is not finite. */
 static int mixed_normal(const shade_job *job, uint32_t primitive, float u, float v, float n[3])
 {
     const uint32_t *vertex = job->triangle + 3 * (size_t)primitive;
     const float share[3] = {1.0f - u - v, u, v};
     n[0] = n[1] = n[2] = 0.0f;
     for (int k = 0; k < 3; k++) {
-        const float *at = job->vertex_normal + 3 * (size_t)vertex[k];
-        const float square = dot(at, at), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
+        const float *normal = job->vertex_normal + 3 * (size_t)vertex[k];
+        const float square = dot(normal, normal), scale = square > 0.0f ? share[k] / sqrtf(square) : 0.0f;
         for (int c = 0; c < 3; c++)
-            n[c] += at[c] * scale;
+            n[c] += normal[c] * scale;
     }
     const float square = dot(n, n);
     if (!(square > 1e-6f) || isinf(square))
@@ -94,26 +94,26 @@ static int mixed_normal(const shade_job *job, uint32_t primitive, float u, float
     return 1;
 }
 
-/* The normals that the triangles of a run are lit with, from element `at` of the tile on: all on the eye's side. */
-static void triangle_normals(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count,
+/* Shading normals of a run of triangles, from element `offset` of the tile on, all turned to the eye's side. */
+static void triangle_normals(const shade_job *job, const cgt_tile *tile, size_t offset, uint32_t count,
                              const run_rays *rays, float out[3][RUN])
 {
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t primitive = tile->primitive[at + i];
-        float own[3], mixed[3], away = 0.0f;
+        const uint32_t primitive = tile->primitive[offset + i];
+        float geometric[3], mixed[3], along_ray = 0.0f;
         for (int c = 0; c < 3; c++) {
-            own[c] = primitive == CGT_INVALID_ID ? 0.0f : tile->normal[c][at + i];
-            away += own[c] * (rays->first[c] + (float)i * rays->step[c]);
+            geometric[c] = primitive == CGT_INVALID_ID ? 0.0f : tile->normal[c][offset + i];
+            along_ray += geometric[c] * (rays->first[c] + (float)i * rays->step[c]);
         }
-        const float *n = own;
-        int turn = away > 0.0f;
+        const float *n = geometric;
+        int flip = along_ray > 0.0f;
         if (job->vertex_normal && primitive != CGT_INVALID_ID &&
-            mixed_normal(job, primitive, tile->u[at + i], tile->v[at + i], mixed)) {
-            turn = (dot(own, mixed) < 0.0f) != turn;
+            mixed_normal(job, primitive, tile->u[offset + i], tile->v[offset + i], mixed)) {
+            flip = (dot(geometric, mixed) < 0.0f) != flip;
             n = mixed;
         }
         for (int c = 0; c < 3; c++)
-            out[c][i] = turn ? -n[c] : n[c];
+            out[c][i] = flip ? -n[c] : n[c];
     }
 }
 
@@ -129,19 +129,19 @@ static void brightness(const shade_job *job, const run_rays *rays, uint32_t coun
         const float k = (float)(int32_t)i;
         const float dx = base[0] + k * rx, dy = base[1] + k * ry, dz = base[2] + k * rz;
         const float lambert = nx[i] * lx + ny[i] * ly + nz[i] * lz;
-        /* From inside a sphere the normal points away from the eye; the light is the same on both sides. */
+        /* Inside a sphere the normal points away from the eye; the headlight is the same on both sides. */
         const float head = fabsf(nx[i] * dx + ny[i] * dy + nz[i] * dz) / sqrtf(dx * dx + dy * dy + dz * dz);
         out[i] = share_ambient + share_head * head + share_light * (lambert > 0.0f ? lambert : 0.0f);
     }
 }
 
-/* The entry of the palette for a hit, element `at` of the tile. */
-static uint32_t entry_of(const shade_job *job, const cgt_tile *tile, size_t at)
+/* The palette entry of a hit, element `offset` of the tile. */
+static uint32_t entry_of(const shade_job *job, const cgt_tile *tile, size_t offset)
 {
     if (!job->mix || !job->triangle)
-        return job->index[tile->primitive[at]];
-    const uint32_t *vertex = job->triangle + 3 * (size_t)tile->primitive[at];
-    const float u = tile->u[at], v = tile->v[at], share[3] = {1.0f - u - v, u, v};
+        return job->index[tile->primitive[offset]];
+    const uint32_t *vertex = job->triangle + 3 * (size_t)tile->primitive[offset];
+    const float u = tile->u[offset], v = tile->v[offset], share[3] = {1.0f - u - v, u, v};
     float sum = 0.5f;
     for (int k = 0; k < 3; k++) {
         const uint32_t entry = job->index[vertex[k]];
@@ -152,12 +152,12 @@ static uint32_t entry_of(const shade_job *job, const cgt_tile *tile, size_t at)
     return sum > 0.0f ? sum < (float)job->palette_steps ? (uint32_t)sum : job->palette_steps - 1 : 0;
 }
 
-/* Adds the light of `count` hits from element `at` on to the pixels that they belong to. Returns how many there are. */
-static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count, const float *bright,
+/* Adds the light of `count` hits from element `offset` on to their pixels. Returns the number of hits. */
+static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t offset, uint32_t count, const float *bright,
                        float sum[RUN][3])
 {
-    const uint32_t *primitive = tile->primitive + at;
-    const unsigned shift = job->samples == 4 ? 2 : job->samples - 1; /* a division for each hit would show */
+    const uint32_t *primitive = tile->primitive + offset;
+    const unsigned shift = job->samples == 4 ? 2 : job->samples - 1; /* a division per hit would be measurable */
     uint32_t hits = 0;
     for (uint32_t i = 0; i < count; i++) {
         float *pixel = sum[i >> shift];
@@ -166,7 +166,7 @@ static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t at, ui
                 pixel[c] += job->background[c];
             continue;
         }
-        const float *color = job->palette[entry_of(job, tile, at + i)];
+        const float *color = job->palette[entry_of(job, tile, offset + i)];
         for (int c = 0; c < 3; c++)
             pixel[c] += color[c] * bright[i];
         hits++;
@@ -174,14 +174,14 @@ static uint32_t gather(const shade_job *job, const cgt_tile *tile, size_t at, ui
     return hits;
 }
 
-/* Depth and primitive of a pixel: those of the nearest of its hits. at: element of the block's first hit. */
-static void nearest(const shade_job *job, const cgt_tile *tile, size_t at, image_pixel *pixel)
+/* Depth and primitive of a pixel: those of its closest hit. offset: element of the block's first hit. */
+static void set_closest(const shade_job *job, const cgt_tile *tile, size_t offset, image_pixel *pixel)
 {
     pixel->z = INFINITY;
     pixel->id = CGT_INVALID_ID;
     for (uint32_t j = 0; j < job->samples; j++)
         for (uint32_t i = 0; i < job->samples; i++) {
-            const size_t k = at + j * tile->row_stride + i;
+            const size_t k = offset + j * tile->row_stride + i;
             if (tile->primitive[k] == CGT_INVALID_ID || tile->t[k] >= pixel->z)
                 continue;
             pixel->z = tile->t[k];
@@ -189,14 +189,14 @@ static void nearest(const shade_job *job, const cgt_tile *tile, size_t at, image
         }
 }
 
-/* Whether `count` x `samples` hits from element `at` on are all misses: CGT_INVALID_ID is all ones. */
-static int is_background(const shade_job *job, const cgt_tile *tile, size_t at, uint32_t count)
+/* Whether `count` x `samples` elements from `offset` on are all misses: CGT_INVALID_ID is all ones. */
+static int is_background(const shade_job *job, const cgt_tile *tile, size_t offset, uint32_t count)
 {
-    uint32_t all = CGT_INVALID_ID;
+    uint32_t combined = CGT_INVALID_ID;
     for (uint32_t row = 0; row < job->samples; row++)
         for (uint32_t i = 0; i < count; i++)
-            all &= tile->primitive[at + row * tile->row_stride + i];
-    return all == CGT_INVALID_ID;
+            combined &= tile->primitive[offset + row * tile->row_stride + i];
+    return combined == CGT_INVALID_ID;
 }
 
 static void fill_background(const shade_job *job, size_t first, uint32_t pixels)
@@ -214,7 +214,7 @@ static void fill_background(const shade_job *job, size_t first, uint32_t pixels)
 /* One run of a row of pixels: `count` hits wide and `samples` hits high, from element (i, j) of the tile. */
 static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i, uint32_t j, uint32_t count)
 {
-    float bright[RUN], sum[RUN][3], turned[3][RUN];
+    float bright[RUN], sum[RUN][3], shading[3][RUN];
     uint32_t hits = 0;
     const uint32_t n = job->samples;
     const size_t first = (size_t)((tile->y + j) / n) * job->width + (tile->x + i) / n;
@@ -224,14 +224,14 @@ static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i
     }
     memset(sum, 0, sizeof sum[0] * (count / n));
     for (uint32_t row = 0; row < n; row++) {
-        const size_t at = (j + row) * tile->row_stride + i;
+        const size_t offset = (j + row) * tile->row_stride + i;
         const run_rays rays = rays_from(job, tile->x + i, tile->y + j + row);
-        const float *const sphere[3] = {tile->normal[0] + at, tile->normal[1] + at, tile->normal[2] + at};
-        const float *const triangle[3] = {turned[0], turned[1], turned[2]};
+        const float *const sphere[3] = {tile->normal[0] + offset, tile->normal[1] + offset, tile->normal[2] + offset};
+        const float *const triangle[3] = {shading[0], shading[1], shading[2]};
         if (job->triangle)
-            triangle_normals(job, tile, at, count, &rays, turned);
+            triangle_normals(job, tile, offset, count, &rays, shading);
         brightness(job, &rays, count, job->triangle ? triangle : sphere, bright);
-        hits += gather(job, tile, at, count, bright, sum);
+        hits += gather(job, tile, offset, count, bright, sum);
     }
     const float share = 1.0f / (float)(n * n);
     for (uint32_t k = 0; k < count / n; k++) {
@@ -244,24 +244,24 @@ static uint32_t shade_run(const shade_job *job, const cgt_tile *tile, uint32_t i
         pixel->r = sum[k][0] * share;
         pixel->g = sum[k][1] * share;
         pixel->b = sum[k][2] * share;
-        nearest(job, tile, j * tile->row_stride + i + k * n, pixel);
+        set_closest(job, tile, j * tile->row_stride + i + k * n, pixel);
     }
     return hits;
 }
 
-int shade_tile(void *user, const cgt_tile *tile)
+cgt_visit shade_tile(void *user, const cgt_tile *tile)
 {
     shade_job *job = user;
     const uint32_t n = job->samples;
     uint64_t hits = 0;
-    /* Tiles of 64 pixels or 4 scanlines hold whole blocks; anything else would be drawn wrong. */
+    /* Tiles of 64 pixels or 4 scanlines hold whole blocks; others cannot be shaded. */
     if (tile->x % n || tile->y % n || tile->width % n || tile->height % n || (job->stop && *job->stop))
-        return 1;
+        return CGT_VISIT_STOP;
     for (uint32_t j = 0; j < tile->height; j += n)
         for (uint32_t i = 0; i < tile->width; i += RUN) {
-            const uint32_t rest = tile->width - i;
-            hits += shade_run(job, tile, i, j, rest < RUN ? rest : RUN);
+            const uint32_t remaining = tile->width - i;
+            hits += shade_run(job, tile, i, j, remaining < RUN ? remaining : RUN);
         }
     atomic_fetch_add_explicit(&job->hits, hits, memory_order_relaxed);
-    return 0;
+    return CGT_VISIT_CONTINUE;
 }

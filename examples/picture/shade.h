@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hits to pixels, tile by tile while the hits are in cache: a visitor for cgt_trace_camera. Matt spheres and triangles
- * (Lambert) under a directional light, with a headlight at the eye that fills the shadows' side. Triangles are lit on
- * the side that the eye sees, with the normals of their vertices where there are some. Sums are of linear light. */
+ * Turns hits into pixels, tile by tile while the hits are in cache: a visitor for cgt_trace_camera. Spheres and
+ * triangles are matt (Lambert) under a directional light, with a headlight at the eye that brightens the shadowed side.
+ * Triangles are lit on the side that the eye sees, with vertex normals where there are any. Light adds linearly. */
 #ifndef SHADE_H
 #define SHADE_H
 
@@ -18,25 +18,25 @@
 
 enum { SHADE_MAX_SAMPLES = 4 };
 
-/* All that a tile needs. Threads read it; each writes the pixels of its own tiles. */
+/* The state of a frame. Threads share it; each writes the pixels of its own tiles. */
 typedef struct shade_job {
-    uint32_t width, height; /* pixels of the picture; the traced frame has `samples` times as many each way */
-    uint32_t samples;       /* 1, 2 or 4: edge of the block of hits that a pixel is the mean of; divides any tile */
-    uint8_t *rgb;           /* 3 * width * height: sRGB */
-    image_pixel *pixels;    /* width * height: linear, with depth and primitive of the nearest hit; NULL: not wanted */
-    const uint16_t *index;  /* per primitive: entry of palette; per vertex where mix is set */
-    int mix;                /* triangles: 1: the entry of a hit is mixed of those of its triangle's vertices */
-    const float (*palette)[3];         /* linear colours; those that are mixed lie in order, up to palette_steps */
-    uint32_t palette_steps;            /* entries from here on are not mixed: a hit takes the one of its vertices */
-    const uint32_t *triangle;          /* per primitive: its three vertices; NULL: primitives are spheres */
-    const float *vertex_normal;        /* per vertex: three floats, of any length; NULL: triangles are flat */
-    float background[3];               /* linear */
-    float light[3];                    /* unit vector towards the light */
-    cgt_camera camera;                 /* what the frame was traced with */
+    uint32_t width, height;     /* pixels of the picture; the traced frame has `samples` times as many each way */
+    uint32_t samples;           /* 1, 2 or 4: edge of the block of hits that a pixel is the mean of; divides any tile */
+    uint8_t *rgb;               /* 3 * width * height: sRGB */
+    image_pixel *pixels;        /* width * height: linear, with depth and primitive of the closest hit; NULL: none */
+    const uint16_t *index;      /* per primitive: entry of palette; per vertex where mix is set */
+    int mix;                    /* triangles: 1: interpolate the entry of a hit from those of its vertices */
+    const float (*palette)[3];  /* linear colours; interpolated ones lie in order, up to palette_steps */
+    uint32_t palette_steps;     /* entries from here on are not interpolated: a hit takes that of a vertex */
+    const uint32_t *triangle;   /* per primitive: its three vertices; NULL: primitives are spheres */
+    const float *vertex_normal; /* per vertex: three floats, of any length; NULL: triangles are flat */
+    float background[3];        /* linear */
+    float light[3];             /* unit vector towards the light */
+    cgt_camera camera;          /* the frame's */
     float right[3], up[3], forward[3]; /* set by shade_begin: right and up scaled to half a picture */
     const srgb_tables *tables;
-    const volatile sig_atomic_t *stop; /* not 0: give the frame up; NULL: never */
-    atomic_uint_fast64_t hits;         /* of the frame, counted in samples; set to 0 by shade_begin */
+    const volatile sig_atomic_t *stop; /* not 0: stop the frame; NULL: never */
+    atomic_uint_fast64_t hits;         /* of the frame, in samples; shade_begin sets 0 */
 } shade_job;
 
 /* Prepares for a frame; call it when camera, pointers and sizes are set. */
@@ -46,6 +46,6 @@ void shade_begin(shade_job *job);
 uint32_t shade_fields(const shade_job *job);
 
 /* The visitor: user is a shade_job. */
-int shade_tile(void *user, const cgt_tile *tile);
+cgt_visit shade_tile(void *user, const cgt_tile *tile);
 
 #endif

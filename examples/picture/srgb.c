@@ -8,7 +8,7 @@
 
 static float clamp_unit(float x)
 {
-    if (!(x > 0.0f)) /* NaN ends here too */
+    if (!(x > 0.0f)) /* or NaN */
         return 0.0f;
     return x < 1.0f ? x : 1.0f;
 }

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The sRGB transfer curve (IEC 61966-2-1), both ways. Light adds up linearly, screens and PNG files are encoded: all
- * shading and averaging is done on linear values, all palettes and 8-bit pixels are sRGB. */
+ * The sRGB transfer curve (IEC 61966-2-1), both ways. Light adds up linearly, while screens and PNG files are encoded:
+ * shading and averaging use linear values, palettes and 8-bit pixels are sRGB. */
 #ifndef SRGB_H
 #define SRGB_H
 
@@ -12,7 +12,7 @@
 float srgb_to_linear(float encoded);
 float srgb_from_linear(float linear);
 
-enum { SRGB_STEPS = 8192 }; /* steep near black: fewer would skip codes there */
+enum { SRGB_STEPS = 8192 }; /* the curve is steep near black: fewer would skip codes */
 
 /* Tables for pixels: made once, then read by any thread. */
 typedef struct srgb_tables {

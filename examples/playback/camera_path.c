@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Where the camera is during a run; see camera_path.h. In double: a camera far from the origin keeps its place. */
+ * The camera during a run; see camera_path.h. In double, so that a camera far from the origin does not drift. */
 #include "playback/camera_path.h"
 
 #include <float.h>
@@ -62,26 +62,26 @@ void camera_path_at(const camera_path *path, double share, cgt_camera *camera)
 }
 
 /* The distance from the box's centre, in the direction of the unit vector view, from which all its corners are in the
- * picture. A corner at c is right where |c.right| <= (distance - c.view) * tangent of half the angle. */
+ * picture. A corner c is inside where |c.right| <= (distance - c.view) * tangent of half the angle. */
 static double distance_for(const double half[3], const double view[3], const double up[3], double tan_x, double tan_y)
 {
-    double right[3], over[3], most = 0.0;
+    double right[3], picture_up[3], distance = 0.0;
     cross(up, view, right);
     normalize(right);
-    cross(view, right, over);
+    cross(view, right, picture_up);
     for (int corner = 0; corner < 8; corner++) {
         double c[3];
         for (int k = 0; k < 3; k++)
             c[k] = corner >> k & 1 ? half[k] : -half[k];
-        const double side = fabs(dot(c, right)) / tan_x, height = fabs(dot(c, over)) / tan_y;
+        const double side = fabs(dot(c, right)) / tan_x, height = fabs(dot(c, picture_up)) / tan_y;
         const double needed = dot(c, view) + margin * (side > height ? side : height);
-        if (needed > most)
-            most = needed;
+        if (needed > distance)
+            distance = needed;
     }
-    return most;
+    return distance;
 }
 
-/* Half the edges of the box; none so small that eye and target could not be told apart in floats. */
+/* Half edges of the box, at least so large that eye and target differ in float. */
 static int half_edges(const float min[3], const float max[3], double centre[3], double half[3])
 {
     double least = 1e-6;
@@ -100,7 +100,7 @@ static int half_edges(const float min[3], const float max[3], double centre[3], 
 int camera_path_frame(camera_path *path, const float min[3], const float max[3], const float view[3], const float up[3],
                       float fov, double aspect, double orbit_degrees)
 {
-    enum { STOPS = 72 }; /* places on the orbit at which the box is measured */
+    enum { STOPS = 72 }; /* positions on the orbit at which the box is measured */
     double centre[3], half[3], from[3], axis[3], distance = 0.0;
     if (half_edges(min, max, centre, half))
         return -1;
@@ -137,7 +137,7 @@ int camera_path_is_along(const float v[3], const float axis[3])
     float along = 0.0f, length = 0.0f, largest = 0.0f;
     for (int c = 0; c < 3; c++)
         largest = fmaxf(largest, fabsf(v[c]));
-    for (int c = 0; c < 3; c++) { /* by the largest first: squares of any finite floats stay finite */
+    for (int c = 0; c < 3; c++) { /* divide by the largest, so that squares of finite floats stay finite */
         const float x = v[c] / largest;
         length += x * x;
         along += x * x * axis[c];

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The frames of a run; see frame_source.h. Frames that are not chosen are skipped unread, unless the speeds of the
- * next one need their positions. */
+ * The frames of a run; see frame_source.h. Frames that are not selected are skipped unread, unless the speeds of
+ * the next one need their positions. */
 #include "playback/frame_source.h"
 
 #include <math.h>
@@ -12,14 +12,14 @@
 #include "common/program.h"
 
 int frame_source_open(frame_source *source, const char *path, const trajectory_options *options,
-                      const frame_range *range, int want_speed, char *error, size_t error_size)
+                      const frame_range *range, int with_speed, char *error, size_t error_size)
 {
     memset(source, 0, sizeof *source);
     source->range = *range;
     source->file = trajectory_open(path, options, error, error_size);
     if (!source->file)
         return -1;
-    if (want_speed) {
+    if (with_speed) {
         source->tracker = speed_create();
         if (!source->tracker) {
             snprintf(error, error_size, "out of memory");
@@ -45,12 +45,12 @@ int frame_source_rewind(frame_source *source, char *error, size_t error_size)
     return trajectory_rewind(source->file, error, error_size);
 }
 
-static int chosen(const frame_range *range, uint64_t number)
+static int is_selected(const frame_range *range, uint64_t number)
 {
     return number >= range->first && number <= range->last && (number - range->first) % range->every == 0;
 }
 
-/* Reads one frame and, if wanted, its speeds. */
+/* Reads one frame and, with a tracker, its speeds. */
 static int read_frame(frame_source *source, char *error, size_t error_size)
 {
     const int result = trajectory_read(source->file, &source->frame, error, error_size);
@@ -67,12 +67,12 @@ int frame_source_next(frame_source *source, char *error, size_t error_size)
 {
     while (source->next <= source->range.last) {
         const uint64_t number = source->next++;
-        const int wanted = chosen(&source->range, number);
-        const int before_wanted =
-            source->tracker && number + 1 >= source->range.first && chosen(&source->range, number + 1);
-        const int result = wanted || before_wanted ? read_frame(source, error, error_size)
-                                                   : trajectory_skip(source->file, error, error_size);
-        if (result != 1 || wanted)
+        const int selected = is_selected(&source->range, number);
+        const int precedes_selected =
+            source->tracker && number + 1 >= source->range.first && is_selected(&source->range, number + 1);
+        const int result = selected || precedes_selected ? read_frame(source, error, error_size)
+                                                         : trajectory_skip(source->file, error, error_size);
+        if (result != 1 || selected)
             return result;
     }
     return 0;
@@ -80,7 +80,7 @@ int frame_source_next(frame_source *source, char *error, size_t error_size)
 
 static int finite_point(const float p[3]) { return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); }
 
-/* Takes the box of half edge `reach` around a point into the bounds. */
+/* Extends the bounds by a box of half edge `reach` around a point. */
 static void bound_point(survey *s, const float p[3], float reach)
 {
     for (int c = 0; c < 3; c++) {
@@ -97,7 +97,7 @@ static void survey_sphere(survey *s, const float sphere[4])
     bound_point(s, sphere, sphere[3]);
 }
 
-/* Vertices that no triangle uses are not seen, and do not count. */
+/* Vertices that no triangle uses are invisible and do not count. */
 static void survey_triangle(survey *s, const float *position, const uint32_t index[3])
 {
     const float *vertex[3];

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The frames of a run: those that were chosen of a trajectory, with the speeds of their spheres or vertices. And a
- * survey of them, for what has to be known before the first picture: bounds, ranges, how many there are. */
+ * The frames of a run: those selected from a trajectory, with the speeds of their spheres or vertices. And a survey of
+ * them, for what must be known before the first picture: bounds, ranges, counts. */
 #ifndef FRAME_SOURCE_H
 #define FRAME_SOURCE_H
 
@@ -21,33 +21,33 @@ typedef struct frame_range {
 typedef struct frame_source {
     trajectory *file;
     frame_range range;
-    speed_tracker *tracker; /* NULL: speeds are not wanted */
+    speed_tracker *tracker; /* NULL: no speeds */
     uint64_t next;          /* number of the file's next frame */
     trajectory_frame frame; /* the one that was read last */
-    const float *speed;     /* per sphere or vertex, NaN where not known; NULL where speeds are not wanted */
+    const float *speed;     /* per sphere or vertex, NaN where unknown; NULL without speeds */
     speed_source speed_from;
 } frame_source;
 
-/* What a frame has to draw: spheres, or triangles. */
+/* The primitives of a frame: spheres or triangles. */
 static inline uint32_t frame_primitives(const trajectory_frame *frame)
 {
     return frame->kind == TRAJECTORY_TRIANGLES ? frame->triangles : frame->count;
 }
 
-/* Opens a file. want_speed: 0 or 1. Returns 0, or -1 with a text. */
+/* Opens a file. with_speed: 0 or 1. Returns 0, or -1 with a text. */
 int frame_source_open(frame_source *source, const char *path, const trajectory_options *options,
-                      const frame_range *range, int want_speed, char *error, size_t error_size);
+                      const frame_range *range, int with_speed, char *error, size_t error_size);
 
-/* Reads up to the next chosen frame: 1 frame, 0 no more, -1 error with a text. */
+/* Reads up to the next selected frame: 1 frame, 0 no more, -1 error with a text. */
 int frame_source_next(frame_source *source, char *error, size_t error_size);
 
-/* Back to the begin: 0, or -1 with a text. */
+/* Goes back to the start: 0, or -1 with a text. */
 int frame_source_rewind(frame_source *source, char *error, size_t error_size);
 
-/* Gives it all back; a source that was never opened is all zero and may be closed. */
+/* Frees everything. A source that was never opened is all zero and may be closed. */
 void frame_source_close(frame_source *source);
 
-/* Where a sphere or a vertex of a frame is. */
+/* The position of a sphere or a vertex. */
 static inline const float *frame_place(const trajectory_frame *frame, uint32_t i)
 {
     return frame->kind == TRAJECTORY_TRIANGLES ? frame->position + 3 * (size_t)i : frame->xyzr + 4 * (size_t)i;
@@ -56,24 +56,24 @@ static inline const float *frame_place(const trajectory_frame *frame, uint32_t i
 enum { SURVEY_BINS = 4096 }; /* of speeds: the leading 13 bits of a float above 0, sixteen bins an octave */
 
 typedef struct survey {
-    uint64_t frames;      /* chosen frames */
+    uint64_t frames;      /* selected frames */
     trajectory_kind kind; /* of the file, where frames is above 0 */
-    uint64_t drawable;    /* spheres or triangles in all of them that can be drawn: finite, no negative radius */
+    uint64_t drawable;    /* valid spheres or triangles in all of them: finite, no negative radius */
     float bounds_min[3];  /* of those; min above max where there are none */
     float bounds_max[3];
     uint32_t id_min, id_max; /* indices where the file has no ids */
     uint32_t type_min, type_max;
     int has_type;    /* some frame has types */
-    uint64_t speeds; /* that are known */
+    uint64_t speeds; /* known ones */
     uint64_t speed_bins[SURVEY_BINS];
 } survey;
 
-/* Looks at all chosen frames and goes back to the begin. quiet: no progress on the terminal. stop: not 0 ends it, with
- * an error. Returns 0, or -1 with a text. */
+/* Reads all selected frames and goes back to the start. quiet: no progress on the terminal. stop: not 0 ends the survey
+ * with an error. Returns 0, or -1 with a text. */
 int survey_run(frame_source *source, survey *result, int quiet, const volatile sig_atomic_t *stop, char *error,
                size_t error_size);
 
-/* A speed that `share` of the known ones do not exceed, at most a sixteenth too large; 0 where none is known. */
+/* The quantile `share` of the known speeds, at most a sixteenth too large; 0 where none is known. */
 float survey_speed_quantile(const survey *s, double share);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * How fast each sphere moves; see speed.h. Spheres find their last place through a table of ids with open addressing,
- * which is made only where the order has changed. */
+ * The speed of each sphere; see speed.h. Spheres find their last position through a hash table of ids with open
+ * addressing, which is built only where the order has changed. */
 #include "playback/speed.h"
 
 #include <math.h>
@@ -68,7 +68,7 @@ static int reserve(speed_tracker *t, uint32_t count)
     return 0;
 }
 
-/* What tells spheres apart; vertices keep their places. */
+/* Ids of spheres; vertices keep their indices. */
 static const uint32_t *ids(const trajectory_frame *frame)
 {
     return frame->kind == TRAJECTORY_TRIANGLES ? NULL : frame->id;
@@ -79,7 +79,7 @@ static size_t slot_of(const speed_tracker *t, uint32_t id)
     return (size_t)((id * UINT64_C(0x9E3779B97F4A7C15)) >> 32) & (t->slot_count - 1);
 }
 
-/* Enters the ids of the frame before; of equal ones the first stays. */
+/* Enters the ids of the frame before; of equal ids the first counts. */
 static int make_slots(speed_tracker *t)
 {
     size_t needed = 16;
@@ -104,7 +104,7 @@ static int make_slots(speed_tracker *t)
     return 0;
 }
 
-/* Where sphere i of frame was in the frame before; UINT32_MAX where it was not. */
+/* The index of sphere i of frame in the frame before; UINT32_MAX where it has none. */
 static uint32_t last_index(const speed_tracker *t, const trajectory_frame *frame, uint32_t i)
 {
     if (!ids(frame) || !t->last_has_id)
@@ -120,7 +120,7 @@ static uint32_t last_index(const speed_tracker *t, const trajectory_frame *frame
     return UINT32_MAX;
 }
 
-/* Distance from a to b, the short way round where the box repeats. */
+/* Distance from a to b, the short way where the box is periodic. */
 static double distance(const float *a, const float *b, const double edge[3])
 {
     double sum = 0.0;

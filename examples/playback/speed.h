@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * How fast each sphere moves: from the file's velocities where it has them, else from where the sphere of the same id
- * was one frame before. The same for the vertices of triangles. */
+ * The speed of each sphere: from the file's velocities where it has them, otherwise from the position of the sphere
+ * with the same id one frame before. The same for the vertices of triangles. */
 #ifndef SPEED_H
 #define SPEED_H
 
@@ -19,13 +19,14 @@ typedef enum speed_source {
 speed_tracker *speed_create(void);
 void speed_release(speed_tracker *tracker);
 
-/* Forgets the frame before: the next one is the first. */
+/* Forgets the frame before: the next frame is the first. */
 void speed_restart(speed_tracker *tracker);
 
-/* Takes the next frame; *speeds gets one value per sphere or vertex, valid until the next call. NaN where it is not known: the
- * sphere is new, its numbers are not finite, or the steps do not rise. A sphere that leaves the simulation box on one
- * side and comes back on the other has moved the short way. Where the file has no ids a sphere keeps its place, and
- * nothing is known after a frame that had more. Returns 0, or -1 where there is no memory. */
+/* Processes the next frame; *speeds gets one value per sphere or vertex, valid until the next call. It is NaN where the
+ * speed is unknown: the sphere is new, its numbers are not finite, or the steps do not increase. A sphere that leaves
+ * the simulation box on one side and comes back on the other has moved the short way. Where the file has no ids a
+ * sphere keeps its index, and after a frame with more spheres nothing is known. Returns 0, or -1 where there is no
+ * memory. */
 int speed_next(speed_tracker *tracker, const trajectory_frame *frame, const float **speeds, speed_source *source);
 
 #endif

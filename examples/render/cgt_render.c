@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-render: the moving spheres or triangles of a trajectory as pictures. Each frame: read, colour, commit (the structure is built
- * from the arrays as they are), trace with a visitor that shades each tile while it is in cache, write. */
+ * cgt-render: renders the moving spheres or triangles of a trajectory. Each frame: read, colour, commit (the structure
+ * is built from the arrays as they are), trace with a visitor that shades each tile while it is in cache, write. */
 #define _POSIX_C_SOURCE 200809L
 #include <inttypes.h>
 #include <signal.h>
@@ -23,7 +23,7 @@ static void on_signal(int number)
     stop = 1;
 }
 
-/* The first signal ends the run after the frame that it is in; a second one ends the program as usual. */
+/* The first signal ends the run after the current frame; a second one ends the program as usual. */
 static void install_signals(void)
 {
     struct sigaction action;
@@ -37,7 +37,7 @@ static void install_signals(void)
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
-/* Whether the command line asks for what a file of this kind cannot give. The kind is known with the first frame. */
+/* Refuses options that do not fit the kind of the file, which is known with the first frame. */
 static int check_kind(const renderer *r)
 {
     const render_options *o = &r->options;
@@ -55,8 +55,8 @@ static int check_kind(const renderer *r)
     return wrong ? -1 : 0;
 }
 
-/* The spheres are where the reader put them: x, y, z, radius of one after those of the other. */
-static cgt_result take_spheres(renderer *r, const trajectory_frame *frame)
+/* The scene uses the reader's array: x, y, z, radius of each sphere. */
+static cgt_result set_spheres(renderer *r, const trajectory_frame *frame)
 {
     const cgt_spheres spheres = {.count = frame->count,
                                  .centers = frame->xyzr,
@@ -67,7 +67,7 @@ static cgt_result take_spheres(renderer *r, const trajectory_frame *frame)
                            : cgt_scene_add_spheres(r->scene, &spheres, &r->geometry);
 }
 
-static cgt_result take_triangles(renderer *r, const trajectory_frame *frame)
+static cgt_result set_triangles(renderer *r, const trajectory_frame *frame)
 {
     const cgt_triangles triangles = {
         .count = frame->triangles, .indices = frame->index, .vertex_count = frame->count, .vertices = frame->position};
@@ -77,11 +77,12 @@ static cgt_result take_triangles(renderer *r, const trajectory_frame *frame)
                            : cgt_scene_add_triangles(r->scene, &triangles, &r->geometry);
 }
 
-static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *stats)
+static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *stats,
+                       cgt_research_scene_statistics *research)
 {
     const trajectory_frame *frame = &r->source.frame;
     const int triangles = frame->kind == TRAJECTORY_TRIANGLES;
-    cgt_result result = triangles ? take_triangles(r, frame) : take_spheres(r, frame);
+    cgt_result result = triangles ? set_triangles(r, frame) : set_spheres(r, frame);
     if (result)
         return render_fail_library(r, triangles ? "take the triangles" : "take the spheres", result);
     r->has_geometry = 1;
@@ -91,6 +92,8 @@ static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *
     record->build_ms = (program_seconds() - begin) * 1e3;
     if (!result)
         result = cgt_scene_get_statistics(r->scene, stats);
+    if (!result)
+        result = cgt_research_get_scene_statistics(r->scene, research);
     if (result)
         return render_fail_library(r, "build", result);
     record->primitives = frame_primitives(frame);
@@ -100,11 +103,12 @@ static int build_frame(renderer *r, frame_record *record, cgt_scene_statistics *
     return 0;
 }
 
-/* Returns 0, -1 on an error, 1 where a signal asked to stop: the picture is not whole. */
-static int trace_frame(renderer *r, frame_record *record, cgt_trace_statistics *stats)
+/* Returns 0, -1 on an error, 1 where a signal stopped the frame: the picture is incomplete. */
+static int trace_frame(renderer *r, frame_record *record, render_counts *stats)
 {
     shade_job *job = &r->job;
     cgt_frame frame;
+    const cgt_research_trace_options research = {.statistics = &stats->research};
     cgt_trace_options options;
     const double total = (double)r->survey.frames;
     camera_path_at(&r->path, r->has_survey ? (double)r->rendered / total : 0.0, &job->camera);
@@ -118,8 +122,10 @@ static int trace_frame(renderer *r, frame_record *record, cgt_trace_statistics *
     frame.visitor_user = job;
     frame.visitor_fields = shade_fields(job);
     cgt_trace_options_init(&options);
-    if (r->options.stats)
-        options.statistics = stats;
+    if (r->options.stats) {
+        options.statistics = &stats->trace;
+        options.research = &research;
+    }
     const double begin = program_seconds();
     const cgt_result result = cgt_trace_camera(r->scene, &job->camera, &frame, &options);
     record->trace_ms = (program_seconds() - begin) * 1e3;
@@ -152,11 +158,11 @@ static int write_frame(renderer *r, frame_record *record)
     return 0;
 }
 
-/* Returns 0, -1 on an error, 1 where a signal asked to stop. */
+/* Returns 0, -1 on an error, 1 where a signal stopped the frame. */
 static int render_frame(renderer *r, frame_record *record)
 {
     cgt_scene_statistics scene;
-    cgt_trace_statistics traced;
+    render_counts traced;
     memset(&traced, 0, sizeof traced);
     if (!r->has_geometry && check_kind(r))
         return -1;
@@ -168,7 +174,7 @@ static int render_frame(renderer *r, frame_record *record)
     record->color_ms = (program_seconds() - begin) * 1e3;
     record->number = r->source.frame.number;
     record->step = r->source.frame.step;
-    if (build_frame(r, record, &scene))
+    if (build_frame(r, record, &scene, &traced.scene))
         return -1;
     const int result = trace_frame(r, record, &traced);
     if (result)

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The command line of cgt-render; see render_options.h. Read by argp, which is part of glibc. */
+ * The command line of cgt-render; see render_options.h. Parsed by argp, which is part of glibc. */
 #define _GNU_SOURCE
 #include "render/render_options.h"
 
@@ -39,7 +39,8 @@ enum {
 static const struct argp_option table[] = {
     {NULL, 0, NULL, 0, "Pictures:", 1},
     {"output", 'o', "PATTERN", 0,
-     "Names of the pictures, .png or .exr; default out/frame_%04d.png. %04d becomes 0000, 0001, ...; folders are made. "
+     "Names of the pictures, .png or .exr; default out/frame_%04d.png. %04d becomes 0000, 0001, ...; folders are "
+     "created. "
      "May be given up to four times",
      0},
     {"no-images", 'n', NULL, 0, "Write no pictures: to measure, or for a contact sheet alone", 0},
@@ -49,8 +50,8 @@ static const struct argp_option table[] = {
     {"sheet-grid", OPTION_SHEET_GRID, "CxR", 0, "Columns and rows of the contact sheet; default 4x3", 0},
     {NULL, 0, NULL, 0, "Camera:", 2},
     {"camera", 'c', "EX,EY,EZ,TX,TY,TZ,UX,UY,UZ,FOV", 0,
-     "Eye, target, up, vertical angle in degrees; default: one that shows all of all frames", 0},
-    {"orbit", OPTION_ORBIT, "DEGREES", 0, "Turn around the target by so much during the run", 0},
+     "Eye, target, up, vertical angle in degrees; default: shows the whole scene in all frames", 0},
+    {"orbit", OPTION_ORBIT, "DEGREES", 0, "Turn around the target by this angle during the run", 0},
     {"view", OPTION_VIEW, "X,Y,Z", 0,
      "Without -c: direction from the scene to the eye; default 0.5,-1,0.45 for up z, 0.5,0.45,1 for up y", 0},
     {"up", OPTION_UP, "x|y|z", 0, "Without -c: the axis that points up; default z for spheres, y for triangles", 0},
@@ -62,23 +63,23 @@ static const struct argp_option table[] = {
      0},
     {"colormap", OPTION_COLORMAP, "NAME", 0, "For id, speed and height: viridis (default) or plasma", 0},
     {"range", OPTION_RANGE, "MIN,MAX", 0,
-     "Values of the map's ends; default: what the run has, for speeds 0 to the value that 99 % stay below", 0},
+     "Values at the ends of the map; default: the range of the run, for speeds 0 to the 99 % quantile", 0},
     {"light", OPTION_LIGHT, "X,Y,Z", 0, "Direction towards the light; default: over the first camera's left shoulder",
      0},
-    {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Colour behind it all; default 3a3f47", 0},
+    {"background", OPTION_BACKGROUND, "RRGGBB", 0, "Background colour; default 3a3f47", 0},
     {NULL, 0, NULL, 0, "Input:", 4},
     {"first", OPTION_FIRST, "N", 0, "First frame to render, counted from 0", 0},
     {"last", OPTION_LAST, "N", 0, "Last frame to render", 0},
     {"every", OPTION_EVERY, "N", 0, "Render every Nth frame", 0},
-    {"radius", 'r', "R", 0, "Radius of spheres whose file gives none; default 0.5, or by element in .xyz", 0},
+    {"radius", 'r', "R", 0, "Radius of spheres where the file has none; default 0.5, or by element in .xyz", 0},
     {"wrapped", OPTION_WRAPPED, NULL, 0, "Prefer coordinates wrapped into the box where a file has both kinds", 0},
     {"fps", OPTION_FPS, "N", 0, "Frames per second of a mesh's animation; default 30", 0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation of a mesh, by its name or its number from 0; default: the first", 0},
     {NULL, 0, NULL, 0, "Running:", 5},
     {"threads", 't', "N", 0, "Threads that build and trace; 0 (default): one per CPU", 0},
     {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
-    {"stats", OPTION_STATS, NULL, 0, "Print what the structure and the rays did; counting makes tracing slower", 0},
-    {"log-file", OPTION_LOG_FILE, "FILE", 0, "Write one line of times per frame, tab-separated", 0},
+    {"stats", OPTION_STATS, NULL, 0, "Print counts of structure and rays; counting makes tracing slower", 0},
+    {"log-file", OPTION_LOG_FILE, "FILE", 0, "Write a line of times for each frame, tab-separated", 0},
     {"quiet", 'q', NULL, 0, "No progress", 0},
     {"verbose", 'v', NULL, 0, "Show the library's log", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
@@ -231,7 +232,7 @@ typedef struct parse_state {
     int has_view, has_up, has_fov;
 } parse_state;
 
-/* Options that say how pictures look. Returns 1 where key is none of them, 0, or -1 with a sentence. */
+/* Options of pictures. Returns 0, 1 where key is none of them, or -1 with a sentence. */
 static int parse_picture(int key, const char *arg, parse_state *s, char *error, size_t size)
 {
     render_options *o = s->options;
@@ -265,7 +266,7 @@ static int parse_fps(const char *text, double *fps, char *error, size_t error_si
     return 0;
 }
 
-/* Options that say what is read and how the program runs. Results as parse_picture. */
+/* Options of input and execution. Results as parse_picture. */
 static int parse_run(int key, const char *arg, parse_state *s, char *error, size_t size)
 {
     render_options *o = s->options;
@@ -316,7 +317,7 @@ void render_options_axes(render_options *options, trajectory_kind kind)
     view[(axis + 2) % 3] = axis == 2 ? -1.0f : 0.5f;
 }
 
-/* What only the whole command line can tell. */
+/* Checks that need the whole command line. */
 static void finish(struct argp_state *state, parse_state *s)
 {
     render_options *o = s->options;
@@ -334,7 +335,7 @@ static void finish(struct argp_state *state, parse_state *s)
         argp_error(state, "%ux%u pixels of %ux%u rays: at most %d an edge and %llu in all", o->width, o->height,
                    o->samples, o->samples, RENDER_MAX_EDGE, (unsigned long long)RENDER_MAX_PIXELS);
     if (o->has_camera && (s->has_view || s->has_up || s->has_fov))
-        argp_error(state, "--view, --up and --fov are for the automatic camera: leave them or --camera out");
+        argp_error(state, "--view, --up and --fov are for the automatic camera and exclude --camera");
     if (s->has_view && s->has_up && camera_path_is_along(o->view, o->up))
         argp_error(state, "--view: the direction must not be along the axis that points up");
 }
@@ -369,7 +370,8 @@ void render_options_parse(render_options *options, int argc, char **argv)
         "TRAJECTORY",
         "Renders the moving spheres or triangles of a trajectory: LAMMPS dump text (.lammpstrj), .xyz or .frames; or a "
         "mesh with its animation: .obj, .ply, .gltf, .dae, .x, .ifc and others.\v"
-        "The structure is built anew for every frame. Exit codes: 0 all was rendered, 1 something failed, 2 the "
+        "The structure is built anew for every frame. Exit codes: 0 all frames were rendered, 1 something failed, 2 "
+        "the "
         "command line is wrong.\n\n"
         "Example: cgt-render -s 1920x1080 -a 2 --orbit 90 -o out/pour_%04d.png pour.lammpstrj",
         NULL,
@@ -378,7 +380,7 @@ void render_options_parse(render_options *options, int argc, char **argv)
     parse_state state = {options, 0, 0, 0, 0};
     memset(options, 0, sizeof *options);
     trajectory_options_init(&options->reading);
-    options->reading.fps = 0.0; /* the reader's default, and not given */
+    options->reading.fps = 0.0; /* not given: the reader's default */
     cgt_camera_init(&options->camera);
     options->range = (frame_range){0, UINT64_MAX - 1, 1};
     options->sheet_columns = 4;

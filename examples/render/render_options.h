@@ -15,7 +15,7 @@
 
 enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
 
-/* Pixels that a picture may have: with buffers of up to 23 bytes each, about 6 GB. */
+/* Limit of pixels in a picture: with buffers of up to 23 bytes each, about 6 GB. */
 #define RENDER_MAX_PIXELS ((uint64_t)1 << 28)
 
 typedef struct render_options {
@@ -33,7 +33,7 @@ typedef struct render_options {
     uint32_t samples; /* 1, 2, 4: edge of the block of rays per pixel */
     int has_camera;
     cgt_camera camera;         /* where has_camera */
-    float view[3], up[3], fov; /* of the automatic camera; all zero: to be chosen, see render_options_axes */
+    float view[3], up[3], fov; /* of the automatic camera; all zero: chosen by render_options_axes */
     float orbit;               /* degrees over the run */
     int has_light;
     float light[3];        /* towards the light, not normalised; where has_light */
@@ -50,11 +50,11 @@ typedef struct render_options {
     int stats, quiet, verbose;
 } render_options;
 
-/* Reads the command line. Ends the program on --help, --version (PROGRAM_OK) and mistakes (PROGRAM_USAGE). */
+/* Parses the command line. Ends the program on --help, --version (PROGRAM_OK) and errors (PROGRAM_USAGE). */
 void render_options_parse(render_options *options, int argc, char **argv);
 
-/* Chooses up and view where the command line left them open: z is up of spheres, as simulators have it, y of triangles,
- * as modellers have it; another axis where that is the view. The view is from the side and a little above. */
+/* Chooses up and view where the command line does not: up is z for spheres, as in simulators, and y for triangles, as
+ * in modelling programs; another axis where that is the view. The view is from the side and slightly above. */
 void render_options_axes(render_options *options, trajectory_kind kind);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What cgt-render says about a run; see render_report.h. */
+ * The report of a run; see render_report.h. */
 #include "render/render_report.h"
 
 #include <errno.h>
@@ -29,29 +29,29 @@ int render_report_open(render_report *report, const char *log_path, char *error,
     return 0;
 }
 
-static void add_counts(cgt_trace_statistics *sum, const cgt_trace_statistics *one)
+static void add_counts(render_counts *sum, const render_counts *frame)
 {
-    sum->rays += one->rays;
-    sum->invalid_rays += one->invalid_rays;
-    sum->hits += one->hits;
-    sum->tiles += one->tiles;
-    sum->packets += one->packets;
-    sum->split_packets += one->split_packets;
-    sum->slices += one->slices;
-    sum->cells += one->cells;
-    sum->references += one->references;
-    sum->mailbox_skipped += one->mailbox_skipped;
-    sum->cull_tests += one->cull_tests;
-    sum->culled += one->culled;
-    sum->packet_tests += one->packet_tests;
-    sum->ray_tests += one->ray_tests;
-    sum->double_tests += one->double_tests;
-    sum->exact_tests += one->exact_tests;
-    sum->exact_values += one->exact_values;
-    sum->early_exits += one->early_exits;
-    sum->packet_size = one->packet_size;
-    sum->tile = one->tile;
-    sum->loop = one->loop;
+    sum->trace.rays += frame->trace.rays;
+    sum->trace.invalid_rays += frame->trace.invalid_rays;
+    sum->trace.hits += frame->trace.hits;
+    sum->trace.tiles += frame->trace.tiles;
+    sum->trace.packets += frame->trace.packets;
+    sum->research.split_packets += frame->research.split_packets;
+    sum->research.slices += frame->research.slices;
+    sum->research.cells += frame->research.cells;
+    sum->research.references += frame->research.references;
+    sum->research.mailbox_skipped += frame->research.mailbox_skipped;
+    sum->research.cull_tests += frame->research.cull_tests;
+    sum->research.culled += frame->research.culled;
+    sum->trace.packet_tests += frame->trace.packet_tests;
+    sum->trace.ray_tests += frame->trace.ray_tests;
+    sum->trace.double_tests += frame->trace.double_tests;
+    sum->trace.exact_tests += frame->trace.exact_tests;
+    sum->trace.exact_values += frame->trace.exact_values;
+    sum->research.early_exits += frame->research.early_exits;
+    sum->research.packet_size = frame->research.packet_size;
+    sum->research.tile = frame->research.tile;
+    sum->research.loop = frame->research.loop;
 }
 
 static void write_log(FILE *log, const frame_record *f)
@@ -62,7 +62,7 @@ static void write_log(FILE *log, const frame_record *f)
 }
 
 int render_report_add(render_report *report, const frame_record *frame, const cgt_scene_statistics *scene,
-                      const cgt_trace_statistics *traced, char *error, size_t error_size)
+                      const render_counts *traced, char *error, size_t error_size)
 {
     if (report->count == report->capacity) {
         const size_t capacity = report->capacity ? report->capacity * 2 : 256;
@@ -78,8 +78,10 @@ int render_report_add(render_report *report, const frame_record *frame, const cg
     report->frames[report->count++] = *frame;
     if (traced) {
         add_counts(&report->traced, traced);
-        if (!report->has_stats || scene->primitives >= report->scene.primitives)
+        if (!report->has_stats || scene->primitives >= report->scene.primitives) {
             report->scene = *scene;
+            report->traced.scene = traced->scene;
+        }
         report->has_stats = 1;
     }
     if (report->log)
@@ -93,7 +95,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The member at `offset` of all frames: its sum, and its median through scratch. */
+/* Sum and median of the member at `offset` over all frames. scratch: a double per frame. */
 static double column(const render_report *report, size_t offset, double *scratch, double *median)
 {
     double sum = 0.0;
@@ -107,10 +109,10 @@ static double column(const render_report *report, size_t offset, double *scratch
     return sum;
 }
 
-static void print_rate(FILE *to, const char *name, size_t frames, double ms, const char *what)
+static void print_rate(FILE *to, const char *name, size_t frames, double ms, const char *scope)
 {
     if (ms > 0.0)
-        fprintf(to, "%-18s%9.1f     %s\n", name, (double)frames * 1000.0 / ms, what);
+        fprintf(to, "%-18s%9.1f     %s\n", name, (double)frames * 1000.0 / ms, scope);
 }
 
 static void print_times(const render_report *report, uint64_t rays, uint64_t hits, uint32_t images, FILE *to)
@@ -145,28 +147,30 @@ static void print_times(const render_report *report, uint64_t rays, uint64_t hit
 static void print_stats(const render_report *report, FILE *to)
 {
     const cgt_scene_statistics *s = &report->scene;
-    const cgt_trace_statistics *t = &report->traced;
+    const cgt_research_scene_statistics *r = &report->traced.scene;
+    const cgt_trace_statistics *t = &report->traced.trace;
+    const cgt_research_trace_statistics *u = &report->traced.research;
     const double n = (double)report->count, rays = t->rays ? (double)t->rays : 1.0;
-    fprintf(to, "structure         %" PRIu32 "x%" PRIu32 "x%" PRIu32 " cells; %s\n", s->resolution[0], s->resolution[1],
-            s->resolution[2], s->reason);
-    fprintf(to, "references        %" PRIu64, s->references);
+    fprintf(to, "structure         %" PRIu32 "x%" PRIu32 "x%" PRIu32 " cells; %s\n", r->resolution[0], r->resolution[1],
+            r->resolution[2], s->reason);
+    fprintf(to, "references        %" PRIu64, r->references);
     if (s->structure == CGT_STRUCTURE_QUEUE_GRID)
         fprintf(to, ", %" PRIu64 " of them overflow in %" PRIu32 " cells; %" PRIu32 " %s larger than a cell",
-                s->overflow_references, s->overflow_cells, s->large_primitives, unit_of(report));
+                r->overflow_references, r->overflow_cells, r->large_primitives, unit_of(report));
     fprintf(to, "\nmemory            %zu bytes", s->bytes);
     if (s->structure == CGT_STRUCTURE_QUEUE_GRID)
-        fprintf(to, "; on a Cell SPU %zu bytes: %s its 256 KB", s->local_store_bytes,
-                s->fits_local_store ? "fits into" : "does not fit into");
+        fprintf(to, "; on a Cell SPU %zu bytes: %s its 256 KB", r->local_store_bytes,
+                r->fits_local_store ? "fits into" : "does not fit into");
     fputc('\n', to);
     fprintf(to, "                  (the frame with the most %s; below: per frame)\n", unit_of(report));
-    fprintf(to, "tiles             %.0f went through the grid as a whole\n", (double)t->tiles / n);
+    fprintf(to, "tiles             %.0f traced as a whole\n", (double)t->tiles / n);
     fprintf(to, "packets           %.0f of %" PRIu32 "x%" PRIu32 " rays, %.0f split, %.0f left early\n",
-            (double)t->packets / n, t->packet_size, t->packet_size, (double)t->split_packets / n,
-            (double)t->early_exits / n);
-    fprintf(to, "slices, cells     %.0f slices, %.0f cells, %.0f references\n", (double)t->slices / n,
-            (double)t->cells / n, (double)t->references / n);
-    fprintf(to, "culling           %.0f %s tested, %.0f culled\n", (double)t->cull_tests / n, unit_of(report),
-            (double)t->culled / n);
+            (double)t->packets / n, u->packet_size, u->packet_size, (double)u->split_packets / n,
+            (double)u->early_exits / n);
+    fprintf(to, "slices, cells     %.0f slices, %.0f cells, %.0f references\n", (double)u->slices / n,
+            (double)u->cells / n, (double)u->references / n);
+    fprintf(to, "culling           %.0f %s tested, %.0f culled\n", (double)u->cull_tests / n, unit_of(report),
+            (double)u->culled / n);
     fprintf(to, "tests             %.0f %s against packets, %.0f against rays (%.2f a ray)\n",
             (double)t->packet_tests / n, unit_of(report), (double)t->ray_tests / n, (double)t->ray_tests / rays);
     fprintf(to, "decided           %.0f tests in double, %.0f exactly; %.0f values exactly\n",
@@ -175,23 +179,23 @@ static void print_stats(const render_report *report, FILE *to)
 
 void render_report_print(const render_report *report, uint64_t rays, uint32_t images, FILE *to)
 {
-    uint32_t least = UINT32_MAX, most = 0;
+    uint32_t count_min = UINT32_MAX, count_max = 0;
     uint64_t not_finite = 0, negative = 0, flat = 0, hits = 0;
     if (report->count == 0)
         return;
     for (size_t i = 0; i < report->count; i++) {
         const frame_record *f = &report->frames[i];
-        least = f->primitives < least ? f->primitives : least;
-        most = f->primitives > most ? f->primitives : most;
+        count_min = f->primitives < count_min ? f->primitives : count_min;
+        count_max = f->primitives > count_max ? f->primitives : count_max;
         not_finite += f->skipped_not_finite;
         negative += f->skipped_radius;
         flat += f->skipped_degenerate;
         hits += f->hits;
     }
     fprintf(to, "frames            %9zu\n", report->count);
-    fprintf(to, "%-18s%9" PRIu32 "%s", unit_of(report), least, most == least ? "\n" : "");
-    if (most != least)
-        fprintf(to, " to %" PRIu32 "\n", most);
+    fprintf(to, "%-18s%9" PRIu32 "%s", unit_of(report), count_min, count_max == count_min ? "\n" : "");
+    if (count_max != count_min)
+        fprintf(to, " to %" PRIu32 "\n", count_max);
     if (not_finite + negative + flat)
         fprintf(to, "skipped %-10s%9" PRIu64 "     in all frames: %" PRIu64 " not finite, %" PRIu64 " %s\n",
                 unit_of(report), not_finite + negative + flat, not_finite, negative + flat,

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What cgt-render says about a run: the summary on standard output and the log file. */
+ * The report of a run: the summary on standard output and the log file. */
 #ifndef RENDER_REPORT_H
 #define RENDER_REPORT_H
 
@@ -9,11 +9,11 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 #include "trajectory/trajectory.h"
 
-/* One frame. All times are of this program's own clock. */
+/* One frame. All times are measured by this program. */
 typedef struct frame_record {
     uint64_t number; /* in the file */
     int64_t step;
@@ -27,28 +27,35 @@ typedef struct frame_record {
     double write_ms; /* encoding and writing pictures, scaling for the contact sheet */
 } frame_record;
 
+/* What the library counted in a frame. */
+typedef struct render_counts {
+    cgt_trace_statistics trace;
+    cgt_research_trace_statistics research;
+    cgt_research_scene_statistics scene;
+} render_counts;
+
 typedef struct render_report {
-    trajectory_kind kind; /* what primitives are; set before the first frame is added */
+    trajectory_kind kind; /* of the primitives; set before the first frame is added */
     const char *log_path; /* NULL: no log */
     FILE *log;
     frame_record *frames;
     size_t count, capacity;
     int has_stats;
-    cgt_trace_statistics traced; /* sums over the frames, where has_stats */
-    cgt_scene_statistics scene;  /* of the frame with the most primitives, where has_stats */
+    render_counts traced;       /* where has_stats: sums over the frames; scene as the next */
+    cgt_scene_statistics scene; /* of the frame with the most primitives, where has_stats */
 } render_report;
 
 /* Starts a report; log_path: NULL for none. Returns 0, or -1 with a text. */
 int render_report_open(render_report *report, const char *log_path, char *error, size_t error_size);
 
-/* Adds a frame. scene: what its commit said; traced: NULL where nothing was counted. Returns 0, or -1 with a text. */
+/* Adds a frame. scene: statistics of its commit; traced: NULL if nothing was counted. Returns 0, or -1 with a text. */
 int render_report_add(render_report *report, const frame_record *frame, const cgt_scene_statistics *scene,
-                      const cgt_trace_statistics *traced, char *error, size_t error_size);
+                      const render_counts *traced, char *error, size_t error_size);
 
 /* Prints the summary: sums, medians, frames per second. rays: of one frame. images: pictures per frame. */
 void render_report_print(const render_report *report, uint64_t rays, uint32_t images, FILE *to);
 
-/* Closes the log and gives the memory back. Returns 0, or -1 with a text where the log could not be written. */
+/* Closes the log and frees the memory. Returns 0, or -1 with a text where the log could not be written. */
 int render_report_close(render_report *report, char *error, size_t error_size);
 
 #endif

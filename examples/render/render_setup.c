@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What cgt-render does before its first frame; see render_setup.h. */
+ * The set-up of cgt-render; see render_setup.h. */
 #include "render/render_setup.h"
 
 #include <inttypes.h>
@@ -16,13 +16,12 @@ int render_fail(renderer *r)
     return -1;
 }
 
-/* Says what the library said of a call that failed. */
-int render_fail_library(renderer *r, const char *what, cgt_result result)
+int render_fail_library(renderer *r, const char *action, cgt_result result)
 {
     char message[512] = "";
     if (r->context)
         cgt_context_get_error_message(r->context, message, sizeof message);
-    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->source.frame.number, what,
+    program_error("%s: frame %" PRIu64 ": cannot %s: %s", r->options.input, r->source.frame.number, action,
                   *message ? message : cgt_get_result_string(result));
     return -1;
 }
@@ -52,12 +51,12 @@ static int make_folders(renderer *r)
     return 0;
 }
 
-/* Whether anything has to be known of all frames before the first one is drawn. */
+/* Whether something about all frames must be known before the first is rendered. */
 static int needs_survey(const render_options *o)
 {
     int needs = !o->has_camera || o->orbit != 0.0f || o->contact_sheet || o->by == COLORING_AUTO;
     needs |= o->by != COLORING_TYPE && o->by != COLORING_PLAIN && !o->has_range;
-    needs |= o->by == COLORING_HEIGHT; /* the axis that is up depends on the kind of the file */
+    needs |= o->by == COLORING_HEIGHT; /* the up axis depends on the kind of the file */
     for (uint32_t i = 0; i < o->output_count; i++)
         needs |= !o->outputs[i].numbered;
     return needs;
@@ -83,8 +82,8 @@ static int check_survey(const renderer *r)
 static int open_input(renderer *r)
 {
     const render_options *o = &r->options;
-    const int want_speed = o->by == COLORING_AUTO || o->by == COLORING_SPEED;
-    if (frame_source_open(&r->source, o->input, &o->reading, &o->range, want_speed, r->error, sizeof r->error))
+    const int with_speed = o->by == COLORING_AUTO || o->by == COLORING_SPEED;
+    if (frame_source_open(&r->source, o->input, &o->reading, &o->range, with_speed, r->error, sizeof r->error))
         return render_fail(r);
     if (!needs_survey(o))
         return 0;
@@ -95,7 +94,7 @@ static int open_input(renderer *r)
     return check_survey(r);
 }
 
-/* What the colours say, and the values of their ends. */
+/* What the colours show. */
 static coloring_by choose_coloring(const renderer *r)
 {
     const survey *s = &r->survey;
@@ -108,7 +107,7 @@ static coloring_by choose_coloring(const renderer *r)
     return survey_speed_quantile(s, 1.0) > 0.0f ? COLORING_SPEED : COLORING_ID;
 }
 
-/* The values of the map's ends, from the survey. */
+/* The values at the ends of the map, from the survey. */
 static void choose_range(const renderer *r, coloring_by by, int axis, float *min, float *max)
 {
     const survey *s = &r->survey;
@@ -168,7 +167,7 @@ static int choose_camera(renderer *r)
     return -1;
 }
 
-/* The light: as given, or over the left shoulder of the first camera. It stays where it is on an orbit. */
+/* The light: as given, or over the left shoulder of the first camera. It does not follow an orbit. */
 static void choose_light(renderer *r)
 {
     shade_job *job = &r->job;
@@ -176,7 +175,7 @@ static void choose_light(renderer *r)
     for (int c = 0; c < 3; c++)
         light[c] = r->options.light[c];
     if (!r->options.has_light) {
-        shade_begin(job); /* for the camera's axes, which come scaled: x goes left and up goes up by any amount */
+        shade_begin(job); /* for the camera's axes, which are scaled */
         float right = 0.0f, up = 0.0f;
         for (int c = 0; c < 3; c++) {
             right += job->right[c] * job->right[c];
@@ -188,7 +187,7 @@ static void choose_light(renderer *r)
     for (int c = 0; c < 3; c++)
         length = fmaxf(length, fabsf(light[c]));
     float sum = 0.0f;
-    for (int c = 0; c < 3; c++) { /* by the largest first: squares of any finite floats stay finite */
+    for (int c = 0; c < 3; c++) { /* divide by the largest, so that squares of finite floats stay finite */
         job->light[c] = light[c] / length;
         sum += job->light[c] * job->light[c];
     }

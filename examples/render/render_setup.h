@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The state of a run of cgt-render, and what is done before its first frame. */
+ * The state of a run of cgt-render, and its set-up before the first frame. */
 #ifndef RENDER_SETUP_H
 #define RENDER_SETUP_H
 
@@ -22,7 +22,7 @@
 
 typedef struct renderer {
     render_options options;
-    const volatile sig_atomic_t *stop; /* not 0: a signal asked to stop */
+    const volatile sig_atomic_t *stop; /* not 0: a signal has come */
     frame_source source;
     int has_survey;
     survey survey; /* where has_survey */
@@ -33,22 +33,22 @@ typedef struct renderer {
     contact_sheet *sheet; /* NULL: none */
     cgt_context *context;
     cgt_scene *scene;
-    int has_geometry; /* made from the first frame, which says what there is */
+    int has_geometry; /* made from the first frame, which tells the kind */
     uint32_t geometry;
     render_report report;
     uint64_t rendered; /* frames */
     char error[PROGRAM_ERROR_SIZE];
 } renderer;
 
-/* Both print why something failed and return -1: the text in error, or what the library said of its call. */
+/* Both print an error and return -1: the text in r->error, or the library's message about a failed action. */
 int render_fail(renderer *r);
-int render_fail_library(renderer *r, const char *what, cgt_result result);
+int render_fail_library(renderer *r, const char *action, cgt_result result);
 
-/* Opens the input and looks at all of it if need be, chooses colours and camera, makes folders, buffers and an empty
- * scene. options, stop and error are set, the rest is zero. Returns 0, or -1 with its message printed. */
+/* Opens the input and surveys it if necessary, chooses colours and camera, makes folders, buffers and an empty scene.
+ * options and stop are set, the rest is zero. Returns 0, or -1 with the message printed. */
 int render_setup(renderer *r);
 
-/* Gives back what render_setup made, also after a failure. */
+/* Frees what render_setup made, also after a failure. */
 void render_close(renderer *r);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Ambient occlusion in a C program: a heap of balls on a floor under an overcast sky. A camera sees them; how much of
- * the sky each pixel sees is its brightness; the picture becomes a PPM file.
+ * Ambient occlusion in a C program: a heap of balls on a floor under an overcast sky. The brightness of a pixel is the
+ * share of the sky that it sees. The picture becomes a PPM file.
  *   ambient-occlusion PICTURE.ppm [SAMPLES] */
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 
 enum { LAYERS = 4, BALLS = 16 + 9 + 4 + 1, FLOOR = 1, WIDTH = 640, HEIGHT = 384, PIXELS = WIDTH * HEIGHT };
 
-/* Planes on lines of the cache, in rows of whole lines: the library stores such ones fastest. */
+/* Planes begin at cache lines and rows are whole lines: the library stores these fastest. */
 typedef struct picture {
     _Alignas(64) float t[PIXELS];
     _Alignas(64) float normal[3][PIXELS];
@@ -21,7 +21,7 @@ typedef struct picture {
     uint8_t rgb[PIXELS][3];
 } picture;
 
-/* A pyramid of balls of radius 1 that touch: four by four, and one layer in the hollows of the other. */
+/* A pyramid of touching balls of radius 1: four by four, each layer in the hollows of the one below. */
 static void pile_up(float center[BALLS][3])
 {
     int ball = 0;
@@ -34,7 +34,7 @@ static void pile_up(float center[BALLS][3])
         }
 }
 
-static cgt_result add_things(cgt_scene *scene, const float center[BALLS][3])
+static cgt_result add_geometries(cgt_scene *scene, const float center[BALLS][3])
 {
     static const float corner[4][3] = {{-20, 0, -20}, {20, 0, -20}, {20, 0, 20}, {-20, 0, 20}};
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
@@ -45,8 +45,8 @@ static cgt_result add_things(cgt_scene *scene, const float center[BALLS][3])
     return result ? result : cgt_scene_add_triangles(scene, &triangles, &id); /* geometry 1: FLOOR */
 }
 
-/* The nearest hits, and from them, plane by plane, how open they lie. */
-static cgt_result look(const cgt_scene *scene, const cgt_camera *camera, uint32_t samples, picture *p)
+/* Traces the closest hits, and from their planes the visibility of the sky. */
+static cgt_result trace(const cgt_scene *scene, const cgt_camera *camera, uint32_t samples, picture *p)
 {
     cgt_frame frame;
     cgt_ambient_options ambient;
@@ -65,10 +65,11 @@ static cgt_result look(const cgt_scene *scene, const cgt_camera *camera, uint32_
 static void draw(picture *p)
 {
     for (int i = 0; i < PIXELS; i++) {
-        const int plain = p->primitive[i] == CGT_INVALID_ID || p->geometry[i] == FLOOR;
+        const int uncoloured = p->primitive[i] == CGT_INVALID_ID || p->geometry[i] == FLOOR;
         for (int k = 0; k < 3; k++) {
-            const float colour = plain ? 0.9f : 0.6f + 0.4f * cosf(0.9f * (float)p->primitive[i] + 2.1f * (float)k);
-            p->rgb[i][k] = (uint8_t)(255 * sqrtf(p->visibility[i] * colour)); /* about what a screen expects */
+            const float colour =
+                uncoloured ? 0.9f : 0.6f + 0.4f * cosf(0.9f * (float)p->primitive[i] + 2.1f * (float)k);
+            p->rgb[i][k] = (uint8_t)(255 * sqrtf(p->visibility[i] * colour)); /* roughly the screen's gamma */
         }
     }
 }
@@ -76,13 +77,13 @@ static void draw(picture *p)
 static int store(const picture *p, const char *path)
 {
     FILE *file = fopen(path, "wb");
-    int good = file && fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
-    good = good && fwrite(p->rgb, sizeof p->rgb, 1, file) == 1;
+    int written = file && fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
+    written = written && fwrite(p->rgb, sizeof p->rgb, 1, file) == 1;
     if (file && fclose(file) != 0)
-        good = 0;
-    if (!good)
+        written = 0;
+    if (!written)
         perror(path);
-    return good;
+    return written;
 }
 
 static void report(const picture *p)
@@ -119,17 +120,17 @@ int main(int argc, char **argv)
     camera.target[1] = 2;
     camera.fov = 38;
     cgt_scene_options_init(&options);
-    options.rays = CGT_RAY_KIND_INCOHERENT; /* most rays are those that look for the sky */
+    options.rays = CGT_RAY_KIND_INCOHERENT; /* most rays are those towards the sky */
 
     cgt_result result = cgt_context_create(NULL, &context);
     if (!result)
         result = cgt_scene_create(context, &options, &scene);
     if (!result)
-        result = add_things(scene, (const float(*)[3])center);
+        result = add_geometries(scene, (const float(*)[3])center);
     if (!result)
         result = cgt_scene_commit(scene);
     if (!result)
-        result = look(scene, &camera, (uint32_t)samples, &p);
+        result = trace(scene, &camera, (uint32_t)samples, &p);
     if (result) {
         char message[256] = "";
         if (context)
@@ -139,12 +140,12 @@ int main(int argc, char **argv)
         draw(&p);
         report(&p);
     }
-    const int good = !result && store(&p, argv[1]);
+    const int written = !result && store(&p, argv[1]);
     cgt_scene_release(scene);
     cgt_context_release(context);
     if (fflush(stdout) != 0) {
         perror("ambient-occlusion: standard output");
         return EXIT_FAILURE;
     }
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    return written ? EXIT_SUCCESS : EXIT_FAILURE;
 }

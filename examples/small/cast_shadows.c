@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shadows in a C program: a spiral of balls on a floor under a lamp. A camera sees them; the points that it sees are
- * asked for the lamp, all at once; the picture becomes a PPM file.
+ * Shadows in a C program: a spiral of balls on a floor under a lamp. A camera frame gives the visible points; one call
+ * tells which of them the lamp does not reach. The picture becomes a PPM file.
  *   cast-shadows PICTURE.ppm */
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 
 enum { BALLS = 28, FLOOR = 1, WIDTH = 640, HEIGHT = 384, PIXELS = WIDTH * HEIGHT };
 
-/* Planes on lines of the cache, in rows of whole lines: the library stores such ones fastest. */
+/* Planes begin at cache lines and rows are whole lines: the library stores these fastest. */
 typedef struct picture {
     _Alignas(64) float t[PIXELS];
     _Alignas(64) float normal[3][PIXELS];
@@ -29,17 +29,17 @@ typedef struct ball {
 
 static const float lamp[3] = {3.0f, 6.0f, 2.5f}, eye[3] = {0.0f, 4.0f, 8.0f}; /* the eye looks at the origin */
 
-static cgt_result add_things(cgt_scene *scene, ball *balls)
+static cgt_result add_geometries(cgt_scene *scene, ball *balls)
 {
     static const float corner[4][3] = {{-7, 0, -7}, {7, 0, -7}, {7, 0, 7}, {-7, 0, 7}};
     static const uint32_t index[2][3] = {{0, 1, 2}, {0, 2, 3}};
     uint32_t id;
     for (int i = 0; i < BALLS; i++) {
-        const float angle = 0.55f * (float)i, away = 0.25f + 0.11f * (float)i;
+        const float angle = 0.55f * (float)i, distance = 0.25f + 0.11f * (float)i;
         balls[i].radius = 0.18f + 0.008f * (float)i;
-        balls[i].center[0] = away * cosf(angle);
+        balls[i].center[0] = distance * cosf(angle);
         balls[i].center[1] = balls[i].radius + 0.03f * (float)(BALLS - 1 - i);
-        balls[i].center[2] = away * sinf(angle);
+        balls[i].center[2] = distance * sinf(angle);
     }
     const cgt_spheres spheres = {.count = BALLS,
                                  .centers = balls[0].center,
@@ -51,7 +51,7 @@ static cgt_result add_things(cgt_scene *scene, ball *balls)
     return result ? result : cgt_scene_add_triangles(scene, &triangles, &id); /* geometry 1: FLOOR */
 }
 
-static cgt_result see(const cgt_scene *scene, const cgt_camera *camera, picture *p)
+static cgt_result trace_frame(const cgt_scene *scene, const cgt_camera *camera, picture *p)
 {
     cgt_frame frame;
     cgt_frame_init(&frame, WIDTH, HEIGHT);
@@ -63,7 +63,7 @@ static cgt_result see(const cgt_scene *scene, const cgt_camera *camera, picture 
     return cgt_trace_camera(scene, camera, &frame, NULL);
 }
 
-/* From t back to places, by the formula of cgt_camera. A pixel without a hit asks for an empty range, which costs
+/* Turns t back into positions, by the formula of cgt_camera. A pixel without a hit gets an empty range, which costs
  * nothing. */
 static void find_positions(const cgt_camera *camera, picture *p)
 {
@@ -78,14 +78,14 @@ static void find_positions(const cgt_camera *camera, picture *p)
         const int hit = p->primitive[i] != CGT_INVALID_ID;
         for (int k = 0; k < 3; k++)
             p->position[k][i] = hit ? eye[k] + p->t[i] * (fwd[k] + x * right[k] + y * up[k]) : 0;
-        p->t_min[i] = 0.001f; /* of the way to the lamp: away from the surface that the point lies on */
+        p->t_min[i] = 0.001f; /* share of the way to the lamp: beyond the surface that the point lies on */
         p->t_max[i] = hit ? 1 : 0;
     }
 }
 
-static cgt_result ask_for_the_lamp(const cgt_scene *scene, picture *p)
+static cgt_result trace_shadows(const cgt_scene *scene, picture *p)
 {
-    const cgt_light light = {.position = {lamp[0], lamp[1], lamp[2]}, .w = 1};
+    const cgt_light light = {.position = {lamp[0], lamp[1], lamp[2]}, .kind = CGT_LIGHT_POINT};
     const cgt_points points = {.count = PIXELS,
                                .position = {p->position[0], p->position[1], p->position[2]},
                                .t_min = p->t_min,
@@ -93,14 +93,14 @@ static cgt_result ask_for_the_lamp(const cgt_scene *scene, picture *p)
     return cgt_occluded_points(scene, &light, &points, p->occluded, NULL);
 }
 
-/* Lambert where the lamp is seen, a little light everywhere. */
+/* Lambert's law where the lamp is visible, a little light everywhere. */
 static float brightness(const picture *p, int i)
 {
-    float to[3], dot = 0, square = 0;
+    float to_lamp[3], dot = 0, square = 0;
     for (int k = 0; k < 3; k++) {
-        to[k] = lamp[k] - p->position[k][i];
-        dot += to[k] * p->normal[k][i];
-        square += to[k] * to[k];
+        to_lamp[k] = lamp[k] - p->position[k][i];
+        dot += to_lamp[k] * p->normal[k][i];
+        square += to_lamp[k] * to_lamp[k];
     }
     return 0.12f + (p->occluded[i] ? 0 : 0.85f * fabsf(dot) / sqrtf(square)); /* a floor has two sides */
 }
@@ -111,9 +111,9 @@ static void draw(picture *p)
         const int hit = p->primitive[i] != CGT_INVALID_ID;
         const float light = hit ? brightness(p, i) : 0.05f, hue = 0.4f * (float)p->primitive[i];
         for (int k = 0; k < 3; k++) {
-            const int plain = !hit || p->geometry[i] == FLOOR;
-            const float colour = plain ? 0.9f : 0.6f + 0.4f * cosf(hue + 2.1f * (float)k);
-            p->rgb[i][k] = (uint8_t)(255 * sqrtf(light * colour)); /* about what a screen expects */
+            const int uncoloured = !hit || p->geometry[i] == FLOOR;
+            const float colour = uncoloured ? 0.9f : 0.6f + 0.4f * cosf(hue + 2.1f * (float)k);
+            p->rgb[i][k] = (uint8_t)(255 * sqrtf(light * colour)); /* roughly the screen's gamma */
         }
     }
 }
@@ -121,23 +121,23 @@ static void draw(picture *p)
 static int store(const picture *p, const char *path)
 {
     FILE *file = fopen(path, "wb");
-    int good = file && fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
-    good = good && fwrite(p->rgb, sizeof p->rgb, 1, file) == 1;
+    int written = file && fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
+    written = written && fwrite(p->rgb, sizeof p->rgb, 1, file) == 1;
     if (file && fclose(file) != 0)
-        good = 0;
-    if (!good)
+        written = 0;
+    if (!written)
         perror(path);
-    return good;
+    return written;
 }
 
 static void report(const picture *p)
 {
-    int hits = 0, dark = 0;
+    int hits = 0, shadowed = 0;
     for (int i = 0; i < PIXELS; i++) {
         hits += p->primitive[i] != CGT_INVALID_ID;
-        dark += p->occluded[i];
+        shadowed += p->occluded[i];
     }
-    printf("%d of %d points do not see the lamp\n", dark, hits);
+    printf("%d of %d points do not see the lamp\n", shadowed, hits);
 }
 
 int main(int argc, char **argv)
@@ -160,14 +160,14 @@ int main(int argc, char **argv)
     if (!result)
         result = cgt_scene_create(context, NULL, &scene);
     if (!result)
-        result = add_things(scene, balls);
+        result = add_geometries(scene, balls);
     if (!result)
         result = cgt_scene_commit(scene);
     if (!result)
-        result = see(scene, &camera, &p);
+        result = trace_frame(scene, &camera, &p);
     if (!result) {
         find_positions(&camera, &p);
-        result = ask_for_the_lamp(scene, &p);
+        result = trace_shadows(scene, &p);
     }
     if (result) {
         char message[256] = "";
@@ -178,12 +178,12 @@ int main(int argc, char **argv)
         draw(&p);
         report(&p);
     }
-    const int good = !result && store(&p, argv[1]);
+    const int written = !result && store(&p, argv[1]);
     cgt_scene_release(scene);
     cgt_context_release(context);
     if (fflush(stdout) != 0) {
         perror("cast-shadows: standard output");
         return EXIT_FAILURE;
     }
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    return written ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hits in a C program. Spheres fly around in an array of this program's own; every frame they move, the scene is
- * committed, a camera sees them (as a picture of letters, one per sphere) and one ray of ours asks what is ahead. */
+ * Hits in a C program. Spheres fly around in an array of this program. In every frame they move, the scene is
+ * committed, a camera draws them (as letters, one per sphere), and a single ray is traced. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,14 +11,14 @@
 
 enum { SPHERES = 8, FRAMES = 3, WIDTH = 72, HEIGHT = 24 };
 
-typedef struct ball { /* any layout will do: the library is told the distance from one to the next */
+typedef struct ball { /* any layout will do: the library is told the stride */
     float center[3];
     float radius;
     float speed;
 } ball;
 
-/* Called for each finished tile, by several threads at once: each tile is another part of the picture. */
-static int draw_tile(void *user, const cgt_tile *tile)
+/* Called for each finished tile, by several threads at once. Tiles do not overlap. */
+static cgt_visit draw_tile(void *user, const cgt_tile *tile)
 {
     char(*picture)[WIDTH + 1] = user;
     for (uint32_t j = 0; j < tile->height; j++)
@@ -29,7 +29,7 @@ static int draw_tile(void *user, const cgt_tile *tile)
             picture[tile->y + j][tile->x + i] =
                 (char)(primitive == CGT_INVALID_ID ? '.' : (lit ? 'A' : 'a') + (int)primitive);
         }
-    return 0; /* anything else stops the frame */
+    return CGT_VISIT_CONTINUE;
 }
 
 static void move(ball *balls, float time)
@@ -42,8 +42,8 @@ static void move(ball *balls, float time)
     }
 }
 
-/* Sees the scene through a camera, and along one ray. */
-static cgt_result look(const cgt_scene *scene)
+/* Traces a camera's frame and one ray. */
+static cgt_result trace(const cgt_scene *scene)
 {
     char picture[HEIGHT][WIDTH + 1] = {{0}};
     cgt_camera camera;
@@ -97,10 +97,10 @@ int main(void)
     if (!result)
         result = cgt_scene_add_spheres(scene, &spheres, &geometry);
     for (int i = 0; i < FRAMES && !result; i++) {
-        move(balls, (float)i); /* the scene reads the array itself: nothing is handed over but word to look again */
+        move(balls, (float)i); /* the scene reads this array; the commit rebuilds from it */
         result = cgt_scene_commit(scene);
         if (!result)
-            result = look(scene);
+            result = trace(scene);
     }
     if (result) {
         char message[256] = "";

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trajectories: opening by ending, errors, and the arrays of a frame. The formats have files of their own. */
+ * Trajectories: opening by ending, errors, and the arrays of a frame. Each format has a file of its own. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
@@ -23,13 +23,13 @@ static const trajectory_format *const formats[] = {&trajectory_format_lammps, &t
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-/* A long path is cut at its front: its end, the line and the sentence say more. */
+/* A long path loses its front: its end, the line and the sentence tell more. */
 static int write_place(char *text, size_t size, const char *path, uint64_t line)
 {
-    const size_t most = 600;
+    const size_t limit = 600;
     const size_t length = strlen(path);
-    const char *dots = length > most ? "..." : "";
-    const char *tail = length > most ? path + (length - most) : path;
+    const char *dots = length > limit ? "..." : "";
+    const char *tail = length > limit ? path + (length - limit) : path;
     if (line > 0) {
         return snprintf(text, size, "%s%s:%" PRIu64 ": ", dots, tail, line);
     }
@@ -56,29 +56,29 @@ static void copy_message(const trajectory *t, char *error, size_t error_size)
     }
 }
 
-/* For errors before there is a trajectory. */
-static void path_error(const char *path, const char *what, char *error, size_t error_size)
+/* For errors before a trajectory exists. */
+static void path_error(const char *path, const char *reason, char *error, size_t error_size)
 {
     char place[1024];
     if (error != NULL && error_size > 0) {
         write_place(place, sizeof place, path, 0);
-        snprintf(error, error_size, "%s%s", place, what);
+        snprintf(error, error_size, "%s%s", place, reason);
     }
 }
 
-/* ---- What the formats use ----------------------------------------------------------------------------------- */
+/* ---- For the formats ---------------------------------------------------------------------------------------- */
 
 int trajectory_line(trajectory *t, text_span *line)
 {
-    const char *what = "";
-    const int got = text_reader_next(&t->text, line, &what);
-    return got < 0 ? trajectory_fail(t, t->text.line, "%s", what) : got;
+    const char *reason = "";
+    const int status = text_reader_next(&t->text, line, &reason);
+    return status < 0 ? trajectory_fail(t, t->text.line, "%s", reason) : status;
 }
 
-int trajectory_line_inside(trajectory *t, text_span *line, const char *where)
+int trajectory_line_inside(trajectory *t, text_span *line, const char *section)
 {
-    const int got = trajectory_line(t, line);
-    return got == 0 ? trajectory_fail(t, t->text.line, "the file ends %s: it is cut off", where) : got;
+    const int status = trajectory_line(t, line);
+    return status == 0 ? trajectory_fail(t, t->text.line, "the file ends %s: it is cut off", section) : status;
 }
 
 int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count)
@@ -167,7 +167,7 @@ void trajectory_options_init(trajectory_options *options)
     options->clip = NULL;
 }
 
-/* Returns the path's ending with its dot, or NULL: there is none, or nothing before it. */
+/* Returns the path's ending with its dot, or NULL: none, or nothing before it. */
 static const char *find_ending(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -181,8 +181,8 @@ static int has_ending(const trajectory_format *format, const char *ending)
     if (format->knows != NULL) {
         return format->knows(ending);
     }
-    for (const char *const *own = format->endings; *own != NULL; own++) {
-        if (strcasecmp(ending, *own) == 0) {
+    for (const char *const *known = format->endings; *known != NULL; known++) {
+        if (strcasecmp(ending, *known) == 0) {
             return 1;
         }
     }
@@ -200,7 +200,7 @@ static const trajectory_format *find_format(const char *path)
     return NULL;
 }
 
-/* Copies the options, with what 0 stands for in its place. Returns 0, or -1: no memory. */
+/* Copies the options and fills in the defaults. Returns 0, or -1: no memory. */
 static int copy_options(trajectory_options *copy, const trajectory_options *options)
 {
     trajectory_options_init(copy);
@@ -221,7 +221,7 @@ static int copy_options(trajectory_options *copy, const trajectory_options *opti
     return options->clip != NULL && copy->clip == NULL ? -1 : 0;
 }
 
-/* Returns a trajectory with all that does not need the file, or NULL: no memory. */
+/* Returns a trajectory without its file, or NULL: no memory. */
 static trajectory *new_trajectory(const char *path, const trajectory_format *format, const trajectory_options *options)
 {
     trajectory *t = calloc(1, sizeof *t);
@@ -316,28 +316,28 @@ const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
 
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size)
 {
-    const int got = t->failed ? -1 : t->format->read(t, frame);
-    if (got < 0) {
+    const int status = t->failed ? -1 : t->format->read(t, frame);
+    if (status < 0) {
         copy_message(t, error, error_size);
     }
-    t->next += got > 0;
-    return got;
+    t->next += status > 0;
+    return status;
 }
 
 int trajectory_skip(trajectory *t, char *error, size_t error_size)
 {
-    const int got = t->failed ? -1 : t->format->skip(t);
-    if (got < 0) {
+    const int status = t->failed ? -1 : t->format->skip(t);
+    if (status < 0) {
         copy_message(t, error, error_size);
     }
-    t->next += got > 0;
-    return got;
+    t->next += status > 0;
+    return status;
 }
 
 int trajectory_rewind(trajectory *t, char *error, size_t error_size)
 {
     int done = -1;
-    if (!t->regular) { /* reading on is still possible, if it was before */
+    if (!t->regular) { /* reading may continue if it could before */
         const int failed = t->failed;
         trajectory_fail(t, 0, "cannot go back to the first frame: not a regular file");
         t->failed = failed;
@@ -362,10 +362,10 @@ int trajectory_count_frames(trajectory *t, uint64_t *frames, char *error, size_t
     if (trajectory_rewind(t, error, error_size)) {
         return -1;
     }
-    int got;
-    while ((got = trajectory_skip(t, error, error_size)) > 0) {
+    int status;
+    while ((status = trajectory_skip(t, error, error_size)) > 0) {
     }
-    if (got < 0) {
+    if (status < 0) {
         return -1;
     }
     *frames = t->next;
@@ -380,11 +380,11 @@ double trajectory_progress(const trajectory *t)
     if (!t->regular || t->file_size == 0) {
         return -1.0;
     }
-    const off_t at = ftello(t->file);
-    if (at < 0) {
+    const off_t offset = ftello(t->file);
+    if (offset < 0) {
         return -1.0;
     }
-    /* Bytes that wait in the line buffer are not read yet. */
-    const double done = ((double)at - (double)(t->text.end - t->text.begin)) / (double)t->file_size;
+    /* Bytes in the line buffer are not read yet. */
+    const double done = ((double)offset - (double)(t->text.end - t->text.begin)) / (double)t->file_size;
     return done > 1.0 ? 1.0 : done;
 }

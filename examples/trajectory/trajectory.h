@@ -4,8 +4,8 @@
  * Trajectories of spheres or of triangles, read one frame at a time from the files that simulators and modellers write:
  *   .lammpstrj  LAMMPS dump text: columns x y z, xu yu zu, xs ys zs or xsu ysu zsu; id, type, radius or diameter,
  *               vx vy vz where present; columns and count may differ from frame to frame
- *   .xyz        count, comment, then element or type and x y z on each line; or what the comment's Properties= says
- *               (extended: species, pos, radius, velo, id, type); radii by element where nothing else gives them
+ *   .xyz        count, comment, then element or type and x y z on each line; or the columns given by Properties=
+ *               (extended: species, pos, radius, velo, id, type); radii by element unless given
  *   .frames     the project's own binary, see below
  *   meshes      .obj, .ply, .gltf, .dae, .x, .ifc and whatever else assimp reads: all meshes of the file as one, moved
  *               by its nodes, bones and animation clips (only where the build has assimp)
@@ -25,8 +25,8 @@ typedef enum trajectory_kind { TRAJECTORY_SPHERES = 1, TRAJECTORY_TRIANGLES = 2 
 typedef struct trajectory_options {
     float radius;       /* world units, for files and frames without a radius; 0: 0.5, or by element in .xyz */
     int wrapped;        /* 1: prefer x y z to xu yu zu where a file has both; default 0 */
-    uint64_t max_count; /* spheres, vertices or triangles that a frame may hold; default (and 0) 2^31; more is an
-                           error, so that a damaged count cannot ask for all the memory */
+    uint64_t max_count; /* limit of spheres, vertices or triangles in a frame; default (and 0) 2^31; more is an
+                           error, so that a damaged count cannot exhaust memory */
     double fps;         /* meshes with animation: frames per second of the clip; default (and 0) 30 */
     const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
                            copied */
@@ -39,14 +39,14 @@ typedef struct trajectory_frame {
     trajectory_kind kind; /* the same in all frames of a file */
     int64_t step;         /* the simulator's step; the frame's number where the file has none */
     uint32_t count;       /* spheres, or vertices; 0 is valid: simulations may start empty */
-    const float *xyzr;    /* 4 floats each: centre and radius; values are as in the file: NaN stays NaN; a pointer
-                              that is not NULL where count is 0, too; NULL in files of triangles */
+    const float *xyzr;    /* 4 floats each: centre and radius; values as in the file: NaN stays NaN; not NULL even
+                              where count is 0; NULL in files of triangles */
     /* Files of triangles; NULL and 0 in those of spheres. index and triangles are the same in all frames of a file. */
     uint32_t triangles;
     const uint32_t *index;      /* 3 each, all below count */
     const float *position;      /* 3 floats a vertex */
     const float *vertex_normal; /* 3 floats a vertex, of any length, for shading; NULL where the file has none, and
-                                   0, 0, 0 at a vertex that has none where others have */
+                                   0, 0, 0 at a vertex without one where others have one */
     const uint32_t *id;         /* NULL where the file has none */
     const uint32_t *type;       /* NULL where the file has none; element names count from 1 in order of appearance */
     const float *velocity;      /* 3 floats each; NULL where the file has none */
@@ -56,52 +56,51 @@ typedef struct trajectory_frame {
 
 void trajectory_options_init(trajectory_options *options);
 
-/* Opens a file by its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh. options: NULL for the
- * defaults. Returns NULL on an error; error gets a text with the path (and line) in it. */
+/* Opens a file according to its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh. options: NULL
+ * for the defaults. Returns NULL on an error; error gets a text that names the path (and line). */
 trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
 
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
 
-/* Goes past the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers of
- * the spheres may stay unread, and so may their errors. */
+/* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may
+ * stay unread, and so may their errors. */
 int trajectory_skip(trajectory *t, char *error, size_t error_size);
 
-/* Counts the frames of the whole file, by skipping, and goes back to the first: 0, or -1 with a text. */
+/* Counts the frames of the file by skipping, and goes back to the first: 0, or -1 with a text. */
 int trajectory_count_frames(trajectory *t, uint64_t *frames, char *error, size_t error_size);
 
-/* Returns how much of the file has been read, 0 to 1; negative where that cannot be known (a pipe). */
+/* Returns the share of the file that has been read, 0 to 1; negative where it is unknown (a pipe). */
 double trajectory_progress(const trajectory *t);
 
-/* Back to the first frame: 0, or -1 with a text (a pipe cannot). */
+/* Goes back to the first frame: 0, or -1 with a text (a pipe cannot). */
 int trajectory_rewind(trajectory *t, char *error, size_t error_size);
 
-/* What a mesh file holds, and what of it is not in the frames. */
+/* What a mesh file holds, and what of it the frames lack. */
 typedef struct trajectory_mesh {
     uint32_t meshes;         /* of the file */
-    uint32_t instances;      /* meshes with triangles, counted once per node that shows them */
-    uint32_t bones;          /* that some vertex follows, counted once per mesh */
+    uint32_t instances;      /* meshes with triangles, counted once per node that refers to them */
+    uint32_t bones;          /* that some vertex follows, once per mesh */
     uint32_t clips;          /* of animation */
-    uint32_t unshown;        /* meshes that no node shows: left out */
+    uint32_t unshown;        /* meshes that no node refers to: left out */
     uint64_t points, lines;  /* left out: they have no area */
-    uint64_t lost_triangles; /* left out: parts of polygons that cross themselves and cannot be cut into triangles */
-    uint64_t degenerate;     /* triangles with two equal corners: kept, for the library skips and counts them */
-    uint64_t unused;         /* vertices of the file that no triangle has: left out */
-    uint32_t still_channels; /* of the clip, that move single vertices (morph targets): not played */
-    uint32_t warnings;       /* of assimp while it read */
+    uint64_t lost_triangles; /* left out: self-intersecting polygons that cannot be cut into triangles */
+    uint64_t degenerate;     /* triangles with two equal corners: kept; the library skips and counts them */
+    uint64_t unused;         /* vertices that no triangle uses: left out */
+    uint32_t still_channels; /* channels that move single vertices (morph targets): not played */
+    uint32_t warnings;       /* from assimp */
     char warning[256];       /* the first of them; "" for none */
 } trajectory_mesh;
 
 /* Returns what the file of a mesh holds, valid as long as t; NULL for other files. */
 const trajectory_mesh *trajectory_get_mesh(const trajectory *t);
 
-/* Gives it all back; NULL is ignored. */
+/* Frees everything; NULL is ignored. */
 void trajectory_close(trajectory *t);
 
-/* Writing .frames. The number of frames is filled in by close; a file without a proper close has 0 frames there, and
- * the reader refuses it. add and close return 0, or -1 with a text; close gives the writer back in either case. Close
- * NULL is ignored. */
+/* Writing .frames. close fills in the number of frames; a file that was not closed has 0 frames there, and the reader
+ * refuses it. add and close return 0, or -1 with a text; close frees the writer in either case. close ignores NULL. */
 typedef struct frames_writer frames_writer;
 frames_writer *frames_writer_open(const char *path, char *error, size_t error_size);
 int frames_writer_add(frames_writer *w, const float *xyzr, uint32_t count, char *error, size_t error_size);

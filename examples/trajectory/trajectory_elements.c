@@ -36,7 +36,7 @@ float element_radius(text_span symbol)
     return ELEMENT_DEFAULT_RADIUS;
 }
 
-uint32_t name_table_find(name_table *names, text_span name, const char **what)
+uint32_t name_table_find(name_table *names, text_span name, const char **reason)
 {
     if (names->count > 0 && text_is(name, names->name[names->last])) {
         return names->last + 1;
@@ -49,15 +49,15 @@ uint32_t name_table_find(name_table *names, text_span name, const char **what)
     }
     const size_t length = text_length(name);
     if (length > NAME_LONGEST) {
-        *what = "the name is longer than 15 characters";
+        *reason = "the name is longer than 15 characters";
         return 0;
     }
     if (memchr(name.begin, '\0', length)) {
-        *what = "the name has a zero byte in it";
+        *reason = "the name has a zero byte in it";
         return 0;
     }
     if (names->count == NAMES_MOST) {
-        *what = "more than 1024 different names";
+        *reason = "more than 1024 different names";
         return 0;
     }
     names->last = names->count++;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Reading .frames. Bytes become numbers one by one, so that the machine's byte order does not matter; compilers see
- * through it where it is the file's own. Counts are checked against the file before any memory is asked for. */
+ * Reads .frames. Numbers are assembled byte by byte, so that the machine's byte order does not matter; compilers remove
+ * this on little-endian machines. Counts are checked against the file before memory is allocated. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
@@ -18,8 +18,8 @@
 
 typedef struct frames_state {
     trajectory_kind kind;
-    uint32_t frames; /* in the file */
-    uint64_t at;     /* bytes read */
+    uint32_t frames;     /* in the file */
+    uint64_t bytes_read; /* bytes read */
     /* Files of triangles. */
     uint32_t triangles;
     uint32_t needed; /* vertices that the index refers to: its largest number plus one */
@@ -28,7 +28,7 @@ typedef struct frames_state {
     float *position;
 } frames_state;
 
-/* What a frame is made of. */
+/* The items of a frame. */
 typedef struct frames_item {
     trajectory_kind kind;
     uint32_t floats; /* each */
@@ -43,7 +43,7 @@ static uint32_t u32_from_bytes(const unsigned char *b)
     return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
 }
 
-/* Turns little-endian bytes into the machine's 32-bit numbers, in place. */
+/* Converts little-endian bytes to the machine's 32-bit numbers, in place. */
 static void to_host(void *values, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -53,8 +53,8 @@ static void to_host(void *values, size_t count)
     }
 }
 
-/* Reads bytes that must be there; where: "count". */
-static int read_bytes(trajectory *t, void *bytes, size_t size, const char *where)
+/* Reads bytes that must exist; section: "count". */
+static int read_bytes(trajectory *t, void *bytes, size_t size, const char *section)
 {
     frames_state *const s = t->state;
     errno = 0;
@@ -62,9 +62,9 @@ static int read_bytes(trajectory *t, void *bytes, size_t size, const char *where
         if (ferror(t->file)) {
             return trajectory_fail(t, 0, "%s", strerror(errno != 0 ? errno : EIO));
         }
-        return trajectory_fail(t, 0, "frame %" PRIu64 ": the file ends in the %s: it is cut off", t->next, where);
+        return trajectory_fail(t, 0, "frame %" PRIu64 ": the file ends in the %s: it is cut off", t->next, section);
     }
-    s->at += size;
+    s->bytes_read += size;
     return 1;
 }
 
@@ -76,7 +76,7 @@ static const frames_item *item_of(const trajectory *t)
     return s->kind == TRAJECTORY_SPHERES ? &item_spheres : &item_vertices;
 }
 
-/* The triangles must fit what is left of the file, and be no more than allowed, before memory is asked for. */
+/* Before memory is allocated: the triangles must fit into the file and the limit. */
 static int check_triangles(trajectory *t, uint32_t triangles)
 {
     if (triangles > t->options.max_count) {
@@ -115,13 +115,13 @@ static int check_frames(trajectory *t)
     if (!t->regular) {
         return 1;
     }
-    const uint64_t rest = t->file_size - s->at;
-    if (s->frames == 0 && rest > 0) {
+    const uint64_t remaining = t->file_size - s->bytes_read;
+    if (s->frames == 0 && remaining > 0) {
         return trajectory_fail(t, 0, "the header says 0 frames, but data follow: the file was not finished");
     }
-    if ((uint64_t)s->frames * 4 > rest) {
+    if ((uint64_t)s->frames * 4 > remaining) {
         return trajectory_fail(t, 0, "%" PRIu32 " frames cannot lie in %" PRIu64 " bytes: the file is cut off",
-                               s->frames, rest);
+                               s->frames, remaining);
     }
     return 1;
 }
@@ -140,7 +140,7 @@ static int reserve_index(trajectory *t, size_t triangles)
     return 1;
 }
 
-/* Reads the index; each number has to be a vertex of every frame, which is checked against the largest. */
+/* Reads the index. Each number must be a vertex of every frame; `needed` keeps the largest for that check. */
 static int read_index(trajectory *t)
 {
     frames_state *const s = t->state;
@@ -173,19 +173,19 @@ static int frames_begin(trajectory *t)
 {
     unsigned char header[HEADER_BYTES];
     frames_state *const s = t->state;
-    s->at = 0;
+    s->bytes_read = 0;
     errno = 0;
-    const size_t got = fread(header, 1, sizeof header, t->file);
+    const size_t status = fread(header, 1, sizeof header, t->file);
     if (ferror(t->file)) {
         return trajectory_fail(t, 0, "%s", strerror(errno != 0 ? errno : EIO));
     }
-    if (got < 8 || memcmp(header, "CGTFRAM1", 8) != 0) {
+    if (status < 8 || memcmp(header, "CGTFRAM1", 8) != 0) {
         return trajectory_fail(t, 0, "not a .frames file: it does not begin with CGTFRAM1");
     }
-    if (got < sizeof header || (t->regular && t->file_size < HEADER_BYTES)) {
+    if (status < sizeof header || (t->regular && t->file_size < HEADER_BYTES)) {
         return trajectory_fail(t, 0, "the file ends in the header: it is cut off");
     }
-    s->at = HEADER_BYTES;
+    s->bytes_read = HEADER_BYTES;
     s->frames = u32_from_bytes(header + 12);
     if (check_kind(t, header) < 0 || (s->kind == TRAJECTORY_TRIANGLES && read_index(t) < 0)) {
         return -1;
@@ -219,7 +219,7 @@ static int read_count(trajectory *t, uint32_t *count)
         return trajectory_fail(t, 0, "frame %" PRIu64 ": %" PRIu32 " vertices, but a triangle has vertex %" PRIu32,
                                t->next, *count, s->needed - 1);
     }
-    if (t->regular && (s->at > t->file_size || *count > (t->file_size - s->at) / (4 * item->floats))) {
+    if (t->regular && (s->bytes_read > t->file_size || *count > (t->file_size - s->bytes_read) / (4 * item->floats))) {
         return trajectory_fail(t, 0,
                                "frame %" PRIu64 ": the file ends before the last of %" PRIu32 " %s: it is cut off",
                                t->next, *count, item->name);
@@ -227,7 +227,7 @@ static int read_count(trajectory *t, uint32_t *count)
     return 1;
 }
 
-/* Makes room as trajectory_reserve does, for what the file holds. */
+/* Makes room as trajectory_reserve does, for spheres or vertices. */
 static int reserve_items(trajectory *t, size_t count, size_t expected)
 {
     frames_state *const s = t->state;
@@ -251,9 +251,9 @@ static int frames_read(trajectory *t, trajectory_frame *frame)
     frames_state *const s = t->state;
     const frames_item *const item = item_of(t);
     uint32_t count = 0;
-    const int got = read_count(t, &count);
-    if (got <= 0) {
-        return got;
+    const int status = read_count(t, &count);
+    if (status <= 0) {
+        return status;
     }
     if (reserve_items(t, 0, count) < 0) {
         return -1;
@@ -289,15 +289,15 @@ static int frames_skip(trajectory *t)
         return frames_read(t, &frame);
     }
     uint32_t count = 0;
-    const int got = read_count(t, &count);
-    if (got <= 0) {
-        return got;
+    const int status = read_count(t, &count);
+    if (status <= 0) {
+        return status;
     }
     const uint64_t bytes = (uint64_t)count * item_of(t)->floats * 4;
     if (fseeko(t->file, (off_t)bytes, SEEK_CUR) != 0) {
         return trajectory_fail(t, 0, "%s", strerror(errno));
     }
-    s->at += bytes;
+    s->bytes_read += bytes;
     return 1;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Writing .frames. The number of frames is not known before the end, so it is 0 until close puts it there: a file that
- * was left half-written cannot be taken for a whole one. */
+ * Writes .frames. The number of frames is known only at the end, so it is 0 until close fills it in: an incomplete file
+ * cannot pass for a whole one. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define FRAMES_AT 12 /* offset of the number of frames */
-#define CHUNK 4096u  /* numbers encoded at a time */
+#define CHUNK 4096u  /* numbers encoded in one step */
 
 struct frames_writer {
     FILE *file;
@@ -25,10 +25,10 @@ struct frames_writer {
     char message[1024];
 };
 
-static int fail(frames_writer *w, const char *what)
+static int fail(frames_writer *w, const char *reason)
 {
     if (!w->failed) { /* the first error is the cause of the others */
-        snprintf(w->message, sizeof w->message, "%.700s: %s", w->path, what);
+        snprintf(w->message, sizeof w->message, "%.700s: %s", w->path, reason);
         w->failed = 1;
     }
     return -1;
@@ -63,7 +63,7 @@ static int write_u32(frames_writer *w, uint32_t value)
     return write_bytes(w, bytes, sizeof bytes);
 }
 
-/* Writes numbers of 32 bits each, floats or whole ones. */
+/* Writes 32-bit numbers, floats or integers. */
 static int write_numbers(frames_writer *w, const void *values, size_t count)
 {
     unsigned char bytes[4 * CHUNK];
@@ -108,7 +108,7 @@ static void release(frames_writer *w)
     free(w);
 }
 
-/* Sets how many vertices the index needs. */
+/* Sets the number of vertices that the index needs. */
 static int check_index(frames_writer *w, const uint32_t *index, uint32_t triangles)
 {
     for (size_t i = 0; i < 3 * (size_t)triangles; i++) {

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * What the readers share.
- *   trajectory   an open file: its format, its lines, the arrays of the frame that was read last
+ *   trajectory   an open file: its format, its lines, the arrays of the last frame
  *   format       a row of functions, one for each kind of file
- *   store        the arrays of a frame; they grow with what was really read, never with what a file claims */
+ *   store        the arrays of a frame; they grow with the data that was read, never with what a file claims */
 #ifndef TRAJECTORY_INTERNAL_H
 #define TRAJECTORY_INTERNAL_H
 
@@ -26,12 +26,12 @@ typedef struct trajectory_format {
     const char *const *endings;                          /* ended by NULL; NULL where knows is set */
     int (*knows)(const char *ending);                    /* whether the format has this ending, ".obj" */
     const trajectory_mesh *(*mesh)(const trajectory *t); /* NULL where the format is no mesh */
-    double (*progress)(const trajectory *t);             /* NULL: as far as the file has been read */
-    size_t state_size;                                   /* bytes that the format needs for itself */
+    double (*progress)(const trajectory *t);             /* NULL: by file position */
+    size_t state_size;                                   /* bytes of the format's own state */
     int (*begin)(trajectory *t);                         /* after opening and after rewinding: 1 or -1 */
     int (*read)(trajectory *t, trajectory_frame *frame);
     int (*skip)(trajectory *t);
-    void (*end)(trajectory *t); /* gives back what state points to */
+    void (*end)(trajectory *t); /* frees what state points to */
 } trajectory_format;
 
 struct trajectory {
@@ -44,7 +44,7 @@ struct trajectory {
     text_reader text;
     trajectory_store store;
     uint64_t next; /* number of the next frame */
-    int failed;    /* message holds the error that every call repeats */
+    int failed;    /* every call repeats the error in message */
     char message[1024];
     void *state; /* state_size bytes, zero at first */
 };
@@ -52,7 +52,7 @@ struct trajectory {
 extern const trajectory_format trajectory_format_lammps;
 extern const trajectory_format trajectory_format_xyz;
 extern const trajectory_format trajectory_format_frames;
-extern const trajectory_format trajectory_format_mesh; /* in builds without assimp: refuses them */
+extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
 
 /* Notes an error, "path:line: text" or "path: text" where line is 0. Returns -1. */
 int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -60,24 +60,24 @@ int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...) __att
 /* The next line: 1, 0 at the end, -1 error noted. */
 int trajectory_line(trajectory *t, text_span *line);
 
-/* The next line of a frame that has begun: 1, or -1 where the file ends. `where`: "in the box bounds". */
-int trajectory_line_inside(trajectory *t, text_span *line, const char *where);
+/* The next line of a frame that has begun: 1, or -1 where the file ends. section: "in the box bounds". */
+int trajectory_line_inside(trajectory *t, text_span *line, const char *section);
 
 /* A frame's count, checked against the options. Returns 1 or -1. */
 int trajectory_parse_count(trajectory *t, text_span word, uint32_t *count);
 
-/* Grows *array, a pointer to an array, to `capacity` elements of `bytes` bytes each. Returns 0, or -1: no memory; the
- * array is as it was. */
+/* Grows *array, a pointer to an array, to `capacity` elements of `bytes` bytes each. Returns 0, or -1: no memory, the
+ * array is unchanged. */
 int trajectory_grow(void *array, size_t capacity, size_t bytes);
 
-/* Makes room for `count` spheres, and for more where that saves growing again, but not beyond `expected`. All four
- * arrays are there afterwards, even for 0. Returns 1 or -1. */
+/* Makes room for `count` spheres, and for more to save growing again, but not beyond `expected`. All four arrays exist
+ * afterwards, even for 0. Returns 1 or -1. */
 int trajectory_reserve(trajectory *t, size_t count, size_t expected);
 
 /* Sets all fields for a frame of `count` spheres in the store with nothing optional in it. */
 void trajectory_frame_fill(trajectory *t, trajectory_frame *frame, uint32_t count);
 
-/* The same for triangles: no spheres, and index, position and the like left to the caller. */
+/* The same for triangles: no spheres; the caller sets index, position and the like. */
 void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uint32_t count, uint32_t triangles);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * LAMMPS dump text: sections that begin with "ITEM:", the last of a frame being the rows of atoms. What a section
- * holds is read from it each time: columns, count and box may change from frame to frame. */
+ * LAMMPS dump text: sections that begin with "ITEM:"; the last of a frame has the rows of atoms. Every section is
+ * parsed anew: columns, count and box may change from frame to frame. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_row.h"
 
@@ -11,11 +11,11 @@
 #include <math.h>
 #include <string.h>
 
-/* The box as LAMMPS has it: a corner and three edges. */
+/* The box in LAMMPS' form: a corner and three edges. */
 typedef struct lammps_box {
     double origin[3];
     double edge[3][3]; /* edge[i] is the box vector a, b or c */
-    double low[3];     /* bounds of the whole */
+    double low[3];     /* bounds of the parallelepiped */
     double high[3];
 } lammps_box;
 
@@ -24,7 +24,7 @@ enum { HAS_STEP = 1, HAS_COUNT = 2, HAS_BOX = 4, HAS_OTHER = 8 };
 
 typedef struct lammps_state {
     row_plan plan;
-    unsigned seen; /* HAS_ bits of the frame that is being read */
+    unsigned seen; /* HAS_ bits of the current frame */
     int64_t step;
     uint32_t count;
     lammps_box box;
@@ -54,7 +54,7 @@ static int read_numbers(trajectory *t, int count, double *values)
     return 1;
 }
 
-/* The bounds in the file are those of the whole parallelepiped; the corner and the lengths are within them. */
+/* The file has the bounds of the parallelepiped; its corner and lengths follow from them and the tilt. */
 static void box_from_bounds(lammps_box *box, double bounds[3][3])
 {
     const double xy = bounds[0][2], xz = bounds[1][2], yz = bounds[2][2];
@@ -132,7 +132,7 @@ static const lammps_column plain_columns[] = {
     {"vx", ROW_VX}, {"vy", ROW_VY},     {"vz", ROW_VZ},
 };
 
-/* Four ways of writing a position. */
+/* Four forms of a position. */
 typedef struct lammps_position {
     const char *name[3];
     int scaled;
@@ -145,10 +145,10 @@ static const lammps_position positions[POSITIONS] = {
     [SCALED] = {{"xs", "ys", "zs"}, 1},
     [SCALED_UNWRAPPED] = {{"xsu", "ysu", "zsu"}, 1},
 };
-static const int smooth_first[POSITIONS] = {UNWRAPPED, SCALED_UNWRAPPED, PLAIN, SCALED};
+static const int unwrapped_first[POSITIONS] = {UNWRAPPED, SCALED_UNWRAPPED, PLAIN, SCALED};
 static const int wrapped_first[POSITIONS] = {PLAIN, SCALED, UNWRAPPED, SCALED_UNWRAPPED};
 
-/* Finds the position that the columns have whole and that comes first in the order asked for, or NULL. */
+/* Returns the first position in the preferred order that has all three columns, or NULL. */
 static const lammps_position *choose_position(const trajectory *t, text_span columns)
 {
     unsigned found[POSITIONS] = {0};
@@ -160,7 +160,7 @@ static const lammps_position *choose_position(const trajectory *t, text_span col
             }
         }
     }
-    const int *const order = t->options.wrapped ? wrapped_first : smooth_first;
+    const int *const order = t->options.wrapped ? wrapped_first : unwrapped_first;
     for (int i = 0; i < POSITIONS; i++) {
         if (found[order[i]] == 7) {
             return &positions[order[i]];
@@ -247,7 +247,7 @@ static int read_count(trajectory *t)
     return 1;
 }
 
-/* Takes `heading` off the front of a line. */
+/* Removes `heading` from the front of a line. Returns 1, or 0 where the line does not begin with it. */
 static int take_heading(text_span *line, const char *heading)
 {
     const size_t length = strlen(heading);
@@ -258,8 +258,8 @@ static int take_heading(text_span *line, const char *heading)
     return 1;
 }
 
-/* Refuses a second section of a kind: the frame before it had no atoms, so something is lost. */
-static int only_once(trajectory *t, unsigned section)
+/* Refuses a second section of a kind: the frame before had no atoms, so something is lost. */
+static int check_first(trajectory *t, unsigned section)
 {
     const lammps_state *const s = t->state;
     if (s->seen & section) {
@@ -268,20 +268,20 @@ static int only_once(trajectory *t, unsigned section)
     return 1;
 }
 
-/* Reads a section. Returns 1, or 2 where it was the heading of the atoms, or -1. */
+/* Reads a section. Returns 1, 2 for the heading of the atoms, or -1. */
 static int read_section(trajectory *t, text_span line)
 {
     lammps_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
     text_span word;
     if (take_heading(&line, "ITEM: TIMESTEP")) {
-        return only_once(t, HAS_STEP) < 0 ? -1 : read_step(t);
+        return check_first(t, HAS_STEP) < 0 ? -1 : read_step(t);
     }
     if (take_heading(&line, "ITEM: NUMBER OF ATOMS")) {
-        return only_once(t, HAS_COUNT) < 0 ? -1 : read_count(t);
+        return check_first(t, HAS_COUNT) < 0 ? -1 : read_count(t);
     }
     if (take_heading(&line, "ITEM: BOX BOUNDS")) {
-        return only_once(t, HAS_BOX) < 0 ? -1 : read_box(t, line);
+        return check_first(t, HAS_BOX) < 0 ? -1 : read_box(t, line);
     }
     if (take_heading(&line, "ITEM: UNITS") || take_heading(&line, "ITEM: TIME")) {
         s->seen |= HAS_OTHER;
@@ -305,11 +305,11 @@ static int read_head(trajectory *t)
     s->seen = 0;
     while (1) {
         text_span line;
-        const int got = trajectory_line(t, &line);
-        if (got < 0) {
+        const int status = trajectory_line(t, &line);
+        if (status < 0) {
             return -1;
         }
-        if (got == 0) {
+        if (status == 0) {
             return s->seen == 0 ? 0 : trajectory_fail(t, t->text.line, "the file ends before ITEM: ATOMS");
         }
         if (s->seen == 0 && text_is_blank(line)) {
@@ -354,9 +354,9 @@ static int lammps_begin(trajectory *t)
 static int lammps_read(trajectory *t, trajectory_frame *frame)
 {
     const lammps_state *const s = t->state;
-    const int got = read_head(t);
-    if (got <= 0) {
-        return got;
+    const int status = read_head(t);
+    if (status <= 0) {
+        return status;
     }
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
@@ -370,8 +370,8 @@ static int lammps_read(trajectory *t, trajectory_frame *frame)
 static int lammps_skip(trajectory *t)
 {
     const lammps_state *const s = t->state;
-    const int got = read_head(t);
-    return got <= 0 ? got : rows_skip(t, s->count);
+    const int status = read_head(t);
+    return status <= 0 ? status : rows_skip(t, s->count);
 }
 
 static void lammps_end(trajectory *t) { (void)t; }

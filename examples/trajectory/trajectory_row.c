@@ -11,7 +11,7 @@
 void row_plan_clear(row_plan *plan)
 {
     plan->columns = 0;
-    plan->more = 0;
+    plan->open_ended = 0;
     plan->scaled = 0;
     plan->roles = 0;
 }
@@ -39,7 +39,7 @@ static int parse_u32(text_span word, uint32_t *value)
     return 1;
 }
 
-/* Reads a word into the place that its role gives it. Returns NULL, or what the word should have been. */
+/* Parses a word according to its role. Returns NULL, or what the word should have been. */
 static const char *parse_value(const row_plan *plan, row_role role, text_span word, row *r)
 {
     float number;
@@ -86,7 +86,7 @@ static int parse_row(trajectory *t, const row_plan *plan, text_span line, row *r
                                    text_quote(word, quote), expected);
         }
     }
-    if (!plan->more && text_word(&line, &word)) {
+    if (!plan->open_ended && text_word(&line, &word)) {
         return trajectory_fail(t, t->text.line, "more than the expected %" PRIu32 " columns: '%s'", plan->columns,
                                text_quote(word, quote));
     }
@@ -109,20 +109,20 @@ static void store_row(trajectory_store *s, size_t i, unsigned roles, const row *
 
 /* ---- All rows of a frame ------------------------------------------------------------------------------------ */
 
-/* The next row's line. A simulator that is killed and started again leaves half a frame and then a new one. */
+/* Reads the next row's line. A simulator killed and restarted leaves half a frame and then a new one. */
 static int next_row(trajectory *t, uint32_t done, uint32_t count, text_span *line)
 {
-    const int got = trajectory_line(t, line);
-    if (got == 0) {
+    const int status = trajectory_line(t, line);
+    if (status == 0) {
         return trajectory_fail(t, t->text.line, "the file ends after %" PRIu32 " of %" PRIu32 " spheres: it is cut off",
                                done, count);
     }
-    if (got > 0 && text_begins(*line, "ITEM:")) {
+    if (status > 0 && text_begins(*line, "ITEM:")) {
         return trajectory_fail(t, t->text.line,
                                "a new section after %" PRIu32 " of %" PRIu32 " spheres: the frame is cut off", done,
                                count);
     }
-    return got;
+    return status;
 }
 
 int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame)

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rows of text: one sphere a line, its values in columns. A plan says what each column means; LAMMPS dumps and
- * extended .xyz make it from their headers. */
+ * Rows of text: one sphere a line, its values in columns. A plan holds the meaning of each column; LAMMPS dumps and
+ * extended .xyz build it from their headers. */
 #ifndef TRAJECTORY_ROW_H
 #define TRAJECTORY_ROW_H
 
@@ -30,14 +30,14 @@ typedef enum row_role {
 #define ROW_MOST_COLUMNS 4096
 
 typedef struct row_plan {
-    uint32_t columns; /* that each row has */
-    int more;         /* further columns may follow, and are ignored */
+    uint32_t columns; /* of each row */
+    int open_ended;   /* further columns are allowed and ignored */
     int scaled;       /* x, y, z are fractions of the box: kept as doubles */
-    unsigned roles;   /* ROW_BIT of each role that there is */
+    unsigned roles;   /* ROW_BIT of each role present */
     uint8_t role[ROW_MOST_COLUMNS];
 } row_plan;
 
-/* The values of a row; those that the plan has no column for are not set. */
+/* The values of a row; those without a column are not set. */
 typedef struct row {
     float value[ROW_VZ + 1]; /* by role: x, y, z, radius, velocity */
     double fraction[3];      /* x, y, z where the plan is scaled */
@@ -48,7 +48,7 @@ typedef struct row {
 
 void row_plan_clear(row_plan *plan);
 
-/* Adds a column. A role that is there already makes it an unused one. Returns 1 or -1: too many columns. */
+/* Adds a column; a repeated role becomes an unused one. Returns 1 or -1: too many columns. */
 int row_plan_add(trajectory *t, row_plan *plan, row_role role);
 
 /* Completes a row before it is stored: box, type, radius. Returns 1 or -1. */
@@ -57,7 +57,7 @@ typedef int row_finish(trajectory *t, row *r);
 /* Reads `count` rows into the store and completes the frame. Returns 1 or -1. */
 int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *finish, trajectory_frame *frame);
 
-/* Goes past `count` rows. Returns 1 or -1. */
+/* Skips `count` rows. Returns 1 or -1. */
 int rows_skip(trajectory *t, uint32_t count);
 
 #endif

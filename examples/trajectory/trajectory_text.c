@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Lines and numbers. A simulator's file is millions of short decimal numbers, and strtof alone would take most of the
- * time of reading: the common ones take a short way that gives the same bits. */
+ * Lines and numbers. A simulator's file holds millions of short decimal numbers, and strtof alone would take most of
+ * the reading time: the common ones take a fast path that gives the same bits. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_text.h"
 
@@ -34,8 +34,8 @@ void text_reader_restart(text_reader *r)
     r->at_end = 0;
 }
 
-/* Makes room behind the bytes that are there: moves them to the front, or grows. */
-static int make_room(text_reader *r, const char **what)
+/* Makes room after the buffered bytes: moves them to the front, or grows the buffer. */
+static int make_room(text_reader *r, const char **reason)
 {
     if (r->begin > 0) {
         memmove(r->data, r->data + r->begin, r->end - r->begin);
@@ -47,13 +47,13 @@ static int make_room(text_reader *r, const char **what)
     }
     if (r->capacity >= TEXT_LONGEST_LINE) {
         r->line++;
-        *what = "the line is longer than 1 MiB: this is not a text file of this kind";
+        *reason = "the line is longer than 1 MiB: this is not a text file of this kind";
         return -1;
     }
     const size_t capacity = r->capacity == 0 ? FIRST_CAPACITY : 2 * r->capacity;
     char *data = realloc(r->data, capacity + 1);
     if (data == NULL) {
-        *what = "not enough memory";
+        *reason = "not enough memory";
         return -1;
     }
     r->data = data;
@@ -61,16 +61,16 @@ static int make_room(text_reader *r, const char **what)
     return 0;
 }
 
-static int read_more(text_reader *r, const char **what)
+static int read_more(text_reader *r, const char **reason)
 {
-    if (make_room(r, what)) {
+    if (make_room(r, reason)) {
         return -1;
     }
     errno = 0;
     const size_t got = fread(r->data + r->end, 1, r->capacity - r->end, r->file);
     if (got == 0) {
         if (ferror(r->file)) {
-            *what = strerror(errno != 0 ? errno : EIO);
+            *reason = strerror(errno != 0 ? errno : EIO);
             return -1;
         }
         r->at_end = 1;
@@ -79,21 +79,21 @@ static int read_more(text_reader *r, const char **what)
     return 0;
 }
 
-int text_reader_next(text_reader *r, text_span *line, const char **what)
+int text_reader_next(text_reader *r, text_span *line, const char **reason)
 {
-    /* Only bytes that are new are searched, so that a long line costs its length once. */
+    /* Only new bytes are searched, so that a long line costs its length once. */
     size_t searched = 0;
     char *feed = NULL;
     while (1) {
-        const size_t from = r->begin + searched;
-        if (from < r->end && (feed = memchr(r->data + from, '\n', r->end - from)) != NULL) {
+        const size_t start = r->begin + searched;
+        if (start < r->end && (feed = memchr(r->data + start, '\n', r->end - start)) != NULL) {
             break;
         }
         searched = r->end - r->begin;
         if (r->at_end) {
             break;
         }
-        if (read_more(r, what)) {
+        if (read_more(r, reason)) {
             return -1;
         }
     }
@@ -136,14 +136,14 @@ int text_is_blank(text_span span)
 
 const char *text_quote(text_span word, char buffer[TEXT_QUOTE_SIZE])
 {
-    const size_t most = TEXT_QUOTE_SIZE - 4;
+    const size_t limit = TEXT_QUOTE_SIZE - 4;
     const size_t length = text_length(word);
-    const size_t kept = length > most ? most : length;
-    for (size_t i = 0; i < kept; i++) {
+    const size_t shown = length > limit ? limit : length;
+    for (size_t i = 0; i < shown; i++) {
         const char c = word.begin[i];
         buffer[i] = (char)(c >= 0x20 && c < 0x7f ? c : '?');
     }
-    strcpy(buffer + kept, length > most ? "..." : "");
+    strcpy(buffer + shown, length > limit ? "..." : "");
     return buffer;
 }
 
@@ -155,7 +155,7 @@ static const double power_of_ten[23] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
 
 static int is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/* Reads the exponent after its e: the whole rest of the word, at most four digits. */
+/* Parses the exponent after its e: the remaining word, at most four digits. */
 static int scan_exponent(const char *p, const char *end, int *exponent)
 {
     int negative = 0;
@@ -176,9 +176,9 @@ static int scan_exponent(const char *p, const char *end, int *exponent)
     return 1;
 }
 
-/* The short way (Clinger 1990): mantissa and power of ten are both exact doubles, so that one multiplication or
- * division rounds once, and correctly. Returns 0 where the number is not of that kind, or is no number. */
-static int short_double(text_span word, double *value)
+/* The fast path (Clinger 1990): mantissa and power of ten are both exact doubles, so one multiplication or division
+ * rounds once, correctly. Returns 0 where the number is not of that kind, or is no number. */
+static int fast_double(text_span word, double *value)
 {
     const char *p = word.begin;
     int negative = 0;
@@ -223,7 +223,7 @@ static int may_be_decimal(text_span word)
 
 int text_double(text_span word, double *value)
 {
-    if (short_double(word, value)) {
+    if (fast_double(word, value)) {
         return 1;
     }
     if (!may_be_decimal(word)) {
@@ -241,9 +241,9 @@ int text_double(text_span word, double *value)
 int text_float(text_span word, float *value)
 {
     double number;
-    if (short_double(word, &number)) {
-        /* Rounding to double first changes the float only where the double lies half-way between two floats. The short
-         * way's numbers, 0 or from 1e-22 to 2^53 * 1e22, are all normal floats. */
+    if (fast_double(word, &number)) {
+        /* Rounding to double first changes the float only where the double lies half-way between two floats. Numbers
+         * of the fast path, 0 or from 1e-22 to 2^53 * 1e22, are all normal floats. */
         uint64_t bits;
         memcpy(&bits, &number, sizeof bits);
         const int halfway = (bits & 0x1fffffff) == 0x10000000;

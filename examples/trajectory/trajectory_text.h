@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Text for the readers: lines with their numbers, words, and numbers that are read exactly as strtof reads them.
+ * Text for the readers: numbered lines, words, and numbers parsed exactly as strtof does.
  *   span    a piece of a line: [begin, end)
  *   reader  a file, one line at a time, through a buffer that grows to the longest line
  * The byte at a line's end is zero, so that the C library's functions stop there. Numbers have a decimal point: the
@@ -24,45 +24,45 @@ typedef struct text_reader {
     size_t capacity;
     size_t begin;  /* the next line starts here */
     size_t end;    /* bytes in data */
-    uint64_t line; /* number of the line that was read last, from 1 */
+    uint64_t line; /* number of the last line, from 1 */
     int at_end;    /* the file has no more bytes than those in data */
 } text_reader;
 
-#define TEXT_LONGEST_LINE ((size_t)1 << 20) /* bytes; longer ones are not text, and must not fill the memory */
+#define TEXT_LONGEST_LINE ((size_t)1 << 20) /* bytes; longer lines are not text and must not exhaust memory */
 
 void text_reader_init(text_reader *r, FILE *file);
 void text_reader_free(text_reader *r);
 
-/* Forgets what was read, after the file went back to its start. */
+/* Forgets what was read; call it after seeking the file to its start. */
 void text_reader_restart(text_reader *r);
 
 /* Reads a line without its line feed (or carriage return and line feed): 1 line read, 0 end of the file, -1 error,
- * *what gets a sentence. The span is valid until the next call. */
-int text_reader_next(text_reader *r, text_span *line, const char **what);
+ * *reason gets a sentence. The span is valid until the next call. */
+int text_reader_next(text_reader *r, text_span *line, const char **reason);
 
-/* Takes the next word off the front of rest: 1, or 0 where there is none. */
-static inline int text_word(text_span *rest, text_span *word)
+/* Removes the next word from the front of text: 1, or 0 where there is none. */
+static inline int text_word(text_span *text, text_span *word)
 {
-    const char *p = rest->begin;
-    while (p < rest->end && (*p == ' ' || (*p >= '\t' && *p <= '\r'))) {
+    const char *p = text->begin;
+    while (p < text->end && (*p == ' ' || (*p >= '\t' && *p <= '\r'))) {
         p++;
     }
     word->begin = p;
-    while (p < rest->end && *p != ' ' && !(*p >= '\t' && *p <= '\r')) {
+    while (p < text->end && *p != ' ' && !(*p >= '\t' && *p <= '\r')) {
         p++;
     }
     word->end = p;
-    rest->begin = p;
+    text->begin = p;
     return word->begin < word->end;
 }
 
 static inline size_t text_length(text_span span) { return (size_t)(span.end - span.begin); }
 
-/* Whether the span is `text`, or begins with it. */
+/* Whether the span equals `text`, or begins with it. */
 int text_is(text_span span, const char *text);
 int text_begins(text_span span, const char *text);
 
-/* Whether the span holds nothing but blanks. */
+/* Whether the span holds only blanks. */
 int text_is_blank(text_span span);
 
 /* Numbers: the whole word, or 0. NaN and infinity are numbers; too large for a float is infinity, as in strtof. Words
@@ -72,7 +72,7 @@ int text_double(text_span word, double *value);
 int text_i64(text_span word, int64_t *value);
 int text_u64(text_span word, uint64_t max, uint64_t *value);
 
-/* The word for a message: cut, and without bytes that a terminal would act on. Returns buffer. */
+/* The word for a message: shortened, and without control characters. Returns buffer. */
 #define TEXT_QUOTE_SIZE 44
 const char *text_quote(text_span word, char buffer[TEXT_QUOTE_SIZE]);
 

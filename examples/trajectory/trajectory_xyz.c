@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .xyz: a count, a comment, then the rows. Plain rows are a name or a type and x y z; what follows in a row has no
- * agreed meaning and is ignored. Extended files say in the comment what the columns are (Properties=) and may give the
- * box (Lattice=, Origin=). A name that is a whole number is a type. */
+ * .xyz: a count, a comment, then the rows. Plain rows are a name or a type and x y z; further columns have no agreed
+ * meaning and are ignored. Extended files describe the columns in the comment (Properties=) and may give the box
+ * (Lattice=, Origin=). A name that is a whole number is a type. */
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_elements.h"
 #include "trajectory/trajectory_row.h"
@@ -14,7 +14,7 @@
 
 typedef struct xyz_state {
     row_plan plan;
-    name_table names; /* kept when going back, so that types stay the same */
+    name_table names; /* kept when rewinding, so that types stay the same */
     uint32_t count;
     int64_t step;
     int has_step;
@@ -51,7 +51,7 @@ static int find_value(text_span comment, const char *key, text_span *value)
     return 0;
 }
 
-/* Reads `count` finite numbers. The words are copied: a quote may follow where a number has to end. */
+/* Reads `count` finite numbers. Words are copied, since a quote may follow the number. */
 static int parse_vector(text_span text, int count, double *values)
 {
     for (int i = 0; i < count; i++) {
@@ -62,15 +62,15 @@ static int parse_vector(text_span text, int count, double *values)
         }
         memcpy(copy, word.begin, text_length(word));
         copy[text_length(word)] = '\0';
-        const text_span alone = {copy, copy + text_length(word)};
-        if (!text_double(alone, &values[i]) || !isfinite(values[i])) {
+        const text_span number = {copy, copy + text_length(word)};
+        if (!text_double(number, &values[i]) || !isfinite(values[i])) {
             return 0;
         }
     }
     return text_is_blank(text);
 }
 
-/* Takes the box from Lattice= and Origin=. The comment is free text: what cannot be read as a box is none. */
+/* Parses the box from Lattice= and Origin=. The comment is free text: anything unreadable is no box. */
 static void read_lattice(xyz_state *s, text_span comment)
 {
     text_span text;
@@ -89,7 +89,7 @@ static void read_lattice(xyz_state *s, text_span comment)
     }
 }
 
-/* Takes the step from "Timestep: 100", as LAMMPS writes it, or Timestep=100. */
+/* Parses the step from "Timestep: 100", as LAMMPS writes it, or Timestep=100. */
 static void read_step(xyz_state *s, text_span comment)
 {
     static const char key[] = "Timestep";
@@ -112,7 +112,7 @@ static void read_step(xyz_state *s, text_span comment)
 typedef struct xyz_property {
     const char *name;
     uint32_t columns;
-    row_role role; /* of the first column; the others follow */
+    row_role role; /* of the first column; the others have the next roles */
 } xyz_property;
 
 static const xyz_property properties[] = {
@@ -121,7 +121,7 @@ static const xyz_property properties[] = {
     {"velocities", 3, ROW_VX},     {"id", 1, ROW_ID},        {"type", 1, ROW_TYPE},
 };
 
-/* What a property means. kind: S text, R number, I whole number, L true or false. */
+/* The role of a property. kind: S text, R number, I whole number, L true or false. */
 static row_role property_role(text_span name, text_span kind, uint64_t columns)
 {
     for (size_t i = 0; i < sizeof properties / sizeof properties[0]; i++) {
@@ -132,24 +132,24 @@ static row_role property_role(text_span name, text_span kind, uint64_t columns)
         if (p->role == ROW_TYPE && text_is(kind, "S")) {
             return ROW_NAME;
         }
-        const char *right = p->role == ROW_NAME ? "S" : p->role == ROW_ID || p->role == ROW_TYPE ? "I" : "R";
-        if (text_is(kind, right) || (*right == 'R' && text_is(kind, "I"))) {
+        const char *expected = p->role == ROW_NAME ? "S" : p->role == ROW_ID || p->role == ROW_TYPE ? "I" : "R";
+        if (text_is(kind, expected) || (*expected == 'R' && text_is(kind, "I"))) {
             return p->role;
         }
     }
     return ROW_UNUSED;
 }
 
-/* Takes the part up to the next colon off the front. */
-static int take_part(text_span *rest, text_span *part)
+/* Removes the part up to the next colon from the front of list. */
+static int take_part(text_span *list, text_span *part)
 {
-    if (rest->begin >= rest->end) {
+    if (list->begin >= list->end) {
         return 0;
     }
-    const char *colon = memchr(rest->begin, ':', text_length(*rest));
-    part->begin = rest->begin;
-    part->end = colon != NULL ? colon : rest->end;
-    rest->begin = colon != NULL ? colon + 1 : rest->end;
+    const char *colon = memchr(list->begin, ':', text_length(*list));
+    part->begin = list->begin;
+    part->end = colon != NULL ? colon : list->end;
+    list->begin = colon != NULL ? colon + 1 : list->end;
     return part->begin < part->end;
 }
 
@@ -166,8 +166,8 @@ static int plan_properties(trajectory *t, text_span list)
         }
         const row_role role = property_role(name, kind, columns);
         for (uint64_t i = 0; i < columns; i++) {
-            const int follows = role != ROW_UNUSED ? (int)i : 0;
-            if (row_plan_add(t, &s->plan, (row_role)((int)role + follows)) < 0) {
+            const int offset = role != ROW_UNUSED ? (int)i : 0;
+            if (row_plan_add(t, &s->plan, (row_role)((int)role + offset)) < 0) {
                 return -1;
             }
         }
@@ -190,7 +190,7 @@ static int plan_plain(trajectory *t)
             return -1;
         }
     }
-    s->plan.more = 1;
+    s->plan.open_ended = 1;
     return 1;
 }
 
@@ -202,9 +202,9 @@ static int read_head(trajectory *t)
     xyz_state *const s = t->state;
     text_span line, word, list;
     do { /* blank lines between frames */
-        const int got = trajectory_line(t, &line);
-        if (got <= 0) {
-            return got;
+        const int status = trajectory_line(t, &line);
+        if (status <= 0) {
+            return status;
         }
     } while (!text_word(&line, &word));
     if (!text_is_blank(line)) {
@@ -234,10 +234,10 @@ static int read_name(trajectory *t, text_span name, uint32_t *type, float *radiu
         *type = (uint32_t)number;
         return 1;
     }
-    const char *what = "";
-    const uint32_t found = name_table_find(&s->names, name, &what);
+    const char *reason = "";
+    const uint32_t found = name_table_find(&s->names, name, &reason);
     if (found == 0) {
-        return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), what);
+        return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
     }
     *type = found;
     *radius = s->names.radius[found - 1];
@@ -273,9 +273,9 @@ static int xyz_begin(trajectory *t)
 static int xyz_read(trajectory *t, trajectory_frame *frame)
 {
     const xyz_state *const s = t->state;
-    const int got = read_head(t);
-    if (got <= 0) {
-        return got;
+    const int status = read_head(t);
+    if (status <= 0) {
+        return status;
     }
     trajectory_frame_fill(t, frame, s->count);
     if (s->has_step) {
@@ -288,7 +288,7 @@ static int xyz_read(trajectory *t, trajectory_frame *frame)
     return rows_read(t, &s->plan, s->count, finish_row, frame);
 }
 
-/* Names count in order of appearance, so a frame that is gone past has to be read all the same. */
+/* Types are numbered in order of appearance, so a skipped frame must be read, too. */
 static int xyz_skip(trajectory *t)
 {
     trajectory_frame frame;

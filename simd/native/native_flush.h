@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Denormals as zero, in what is computed and in what is read, for a thread of compare-embree: Embree's manual asks for
- * it. Nothing where there is no such mode. */
+ * Flushes denormals to zero, results and operands, for a thread of compare-embree, as Embree's manual requires. Does
+ * nothing where there is no such mode. */
 #ifndef NATIVE_FLUSH_H
 #define NATIVE_FLUSH_H
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
-/* Returns what native_flush_end takes back. */
+/* Returns the state for native_flush_end. */
 static inline unsigned int native_flush_begin(void)
 {
     const unsigned int callers = _mm_getcsr();

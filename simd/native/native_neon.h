@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: forms by hand for AArch64 NEON. bench/simd/simd_native.c says what the lines are; it includes this
+ * cgt-bench simd: hand-written forms for AArch64 NEON. bench/simd/simd_native.c explains the lines and includes this
  * file twice. */
 
 /* clang-format off */
 
 #define AS_U8(t, a) vreinterpretq_u8_##t(a)
 #define OF_U8(t, a) vreinterpretq_##t##_u8(a)
-/* for all types, with the type's name in the place of t */
+/* for all types; t stands for the type's name */
 #define INTS(EACH) EACH(u8) EACH(s8) EACH(u16) EACH(s16) EACH(u32) EACH(s32)
 #define FLOATS_TOO(EACH) EACH(u64) EACH(s64) EACH(f32) EACH(f64)
 
@@ -221,7 +221,7 @@ EACH(f32) EACH(f64)
     K2(SAME, spu_sl, t, t, x_u32, vshlq_n_##t(a, 5))
 SHIFTS(u16, u16, s16, short) SHIFTS(s16, u16, s16, short) SHIFTS(u32, u32, s32, int) SHIFTS(s32, u32, s32, int)
 #undef SHIFTS
-/* to the right: by the negative count, of the type whose sign is to be kept or not */
+/* right shifts: by the negative count; the type decides whether the sign is kept */
 #define SHIFTS(word, t, k, u, s, w, to, from)                                                                          \
     V2(SAME, word, t, t, u, from(vshlq_##k(to(a), vnegq_##s(vreinterpretq_##s##_##u(b)))))                             \
     V2(SAME, word, t, t, x_u32, from(vshlq_##k(to(a), vdupq_n_##s((w)(0 - b)))))                                       \

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: types, and what several of the forms of native_neon.h
- * need. */
+ * cgt-bench simd: types and helpers shared by the forms of
+ * native_neon.h. */
 #ifndef CGT_NATIVE_NEON_PARTS_H
 #define CGT_NATIVE_NEON_PARTS_H
 
@@ -19,7 +19,7 @@ typedef float64x2_t SIMD_TYPE_f64;
 
 /* Indices of a table look-up: sixteen bytes from simd_bytes + 16 + n on move
  * the elements n bytes towards element 0, from simd_bytes + 16 - n on the other
- * way; from simd_around + n on they go round. */
+ * way; from simd_around + n on they rotate. */
 #define OUT 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255
 #define IN 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15
 static const unsigned char simd_bytes[48] = {OUT, IN, OUT}, simd_around[32] = {IN, IN};
@@ -46,8 +46,8 @@ static inline uint32x4_t simd_genbx(uint32x4_t a, uint32x4_t b, uint32x4_t c)
 }
 static inline uint32x4_t simd_gencx(uint32x4_t a, uint32x4_t b, uint32x4_t c) { return simd_genbx(b, vmvnq_u32(a), c); }
 
-/* ---- the quadword by bits: each element takes what the next one, or the one
- * before, has no room for ---- */
+/* ---- the quadword by bits: each element takes the bits shifted out of the next
+ * or the previous one ---- */
 
 #define SIMD_QUAD_BITS(bits, lanes)                                                                                    \
     static inline uint##bits##x##lanes##_t simd_slqw##bits(uint##bits##x##lanes##_t a, int n)                          \

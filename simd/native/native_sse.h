@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: forms by hand for SSE4.1, and AVX2, FMA and AVX-512 where the variant has them.
- * bench/simd/simd_native.c says what the lines are; it includes this file twice. */
+ * cgt-bench simd: hand-written forms for SSE4.1, and AVX2, FMA and AVX-512 where the variant has them.
+ * bench/simd/simd_native.c explains the lines and includes this file twice. */
 
 /* clang-format off */
 
@@ -71,7 +71,7 @@ K3(SAME, spu_insert, s64, x_s64, s64, x_s32, _mm_insert_epi64(b, a, 1))
 K3(SAME, spu_insert, f32, x_f32, f32, x_s32, _mm_insert_ps(b, _mm_set_ss(a), 0x10))
 K3(SAME, spu_insert, f64, x_f64, f64, x_s32, _mm_unpacklo_pd(b, _mm_set_sd(a)))
 
-/* promote leaves the other elements open: at position 0 the scalar is moved, nothing else */
+/* promote leaves the other elements undefined: at position 0 it is one move of the scalar */
 V2(SAME, spu_promote, u8, x_u8, x_s32, _mm_set1_epi8((char)a))
 V2(SAME, spu_promote, s8, x_s8, x_s32, _mm_set1_epi8((char)a))
 V2(SAME, spu_promote, u16, x_u16, x_s32, _mm_set1_epi16((short)a))
@@ -165,7 +165,7 @@ N2(SAME, spu_mulsr, s32, s16, s16, _mm_srai_epi32(_mm_mulhi_epi16(a, b), 16))
 N3(SAME, spu_mhhadd, s32, s16, s16, s32, _mm_add_epi32(_mm_madd_epi16(a, _mm_and_si128(b, EVEN)), c))
 N3(SAME, spu_mhhadd, u32, u16, u16, u32, _mm_add_epi32(_mm_blend_epi16(_mm_mullo_epi16(a, b),
     _mm_slli_epi32(_mm_mulhi_epu16(a, b), 16), 0xaa), c))
-/* estimates: the bits are those of the machine */
+/* estimates: the bits depend on the machine */
 N1(OTHER, spu_re, f32, f32, _mm_rcp_ps(a))
 N1(OTHER, spu_rsqrte, f32, f32, _mm_rsqrt_ps(a))
 

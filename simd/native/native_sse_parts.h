@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: types, and what several of the forms of native_sse.h
- * need. */
+ * cgt-bench simd: types and helpers shared by the forms of
+ * native_sse.h. */
 #ifndef CGT_NATIVE_SSE_PARTS_H
 #define CGT_NATIVE_SSE_PARTS_H
 
@@ -25,7 +25,7 @@ typedef __m128d SIMD_TYPE_f64;
 
 /* Controls of pshufb: sixteen bytes from simd_bytes + 16 + n on move the
  * elements n bytes towards element 0, from simd_bytes + 16 - n on the other
- * way; from simd_around + n on they go round. */
+ * way; from simd_around + n on they rotate. */
 #define OUT 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128
 #define IN 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15
 static const unsigned char simd_bytes[48] = {OUT, IN, OUT}, simd_around[32] = {IN, IN};
@@ -105,7 +105,7 @@ static inline __m128i simd_genbx(__m128i a, __m128i b, __m128i c)
     return _mm_and_si128(_mm_andnot_si128(not_c, some), ONE);
 }
 
-/* ---- shifts by a count of each element's own ---- */
+/* ---- shifts by one count per element ---- */
 
 #if defined(__AVX2__)
 #define simd_sllv32 _mm_sllv_epi32
@@ -117,7 +117,7 @@ static inline __m128i simd_sllv32(__m128i a, __m128i n)
     const __m128i power = _mm_add_epi32(_mm_slli_epi32(n, 23), _mm_set1_epi32(0x3f800000));
     return _mm_mullo_epi32(a, _mm_cvttps_epi32(TO_F32(power)));
 }
-/* each element apart: the count is the lowest 64 bits */
+/* element by element: the count is the lowest 64 bits */
 #define SIMD_APART(name, shift)                                                                                        \
     static inline __m128i name(__m128i a, __m128i n)                                                                   \
     {                                                                                                                  \
@@ -135,7 +135,7 @@ SIMD_APART(simd_srav32, _mm_sra_epi32)
 #define simd_srlv16 _mm_srlv_epi16
 #define simd_srav16 _mm_srav_epi16
 #elif defined(__AVX2__)
-/* the two halfwords of a word apart */
+/* the two halfwords of a word separately */
 static inline __m128i simd_sllv16(__m128i a, __m128i n)
 {
     const __m128i low = _mm_sllv_epi32(a, _mm_and_si128(n, EVEN));
@@ -223,8 +223,8 @@ static inline __m128i simd_rol16(__m128i a, int n)
     return _mm_or_si128(_mm_sll_epi16(a, COUNT(n)), _mm_srl_epi16(a, COUNT(16 - n)));
 }
 
-/* ---- the quadword by bits: each element takes what the next one, or the one
- * before, has no room for ---- */
+/* ---- the quadword by bits: each element takes the bits shifted out of the next
+ * or the previous one ---- */
 
 #define SIMD_ROUND8(a) _mm_shuffle_epi8(a, _mm_setr_epi8(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0))
 #define SIMD_QUAD_BITS(bits, bytes)                                                                                    \
@@ -246,7 +246,7 @@ static inline __m128i simd_rol16(__m128i a, int n)
 SIMD_QUAD_BITS(16, 2)
 SIMD_QUAD_BITS(32, 4)
 SIMD_QUAD_BITS(64, 8)
-/* bytes: the register turned round is a number of the host */
+/* bytes: the reversed register is a number of the host */
 static inline __m128i simd_slqw8(__m128i a, int n)
 {
     const __m128i x = SIMD_ROUND8(a), over = _mm_slli_si128(_mm_srl_epi64(x, COUNT(64 - n)), 8);
@@ -278,13 +278,13 @@ static inline __m128i simd_cntb(__m128i a)
     return _mm_add_epi8(_mm_shuffle_epi8(ones, _mm_and_si128(a, low)),
                         _mm_shuffle_epi8(ones, _mm_and_si128(_mm_srli_epi16(a, 4), low)));
 }
-/* the exponent of the number as a float, below its highest bit thinned out so
+/* the exponent of the number as a float; bits below the highest are cleared so
  * that it is not rounded up */
 static inline __m128i simd_cntlz(__m128i a)
 {
     const __m128i top = _mm_andnot_si128(_mm_srli_epi32(a, 1), a);
     const __m128i exponent = _mm_srli_epi32(OF_F32(_mm_cvtepi32_ps(top)), 23);
-    const __m128i zeros = _mm_subs_epu16(_mm_set1_epi32(158), exponent); /* 0 with the sign's bit set */
+    const __m128i zeros = _mm_subs_epu16(_mm_set1_epi32(158), exponent); /* 0 where the sign bit is set */
     return _mm_min_epi16(zeros, _mm_set1_epi32(32));
 }
 static inline __m128i simd_maskb(unsigned a)
@@ -308,7 +308,7 @@ static inline __m128i simd_orx(__m128i a)
     const __m128i x = _mm_or_si128(a, _mm_shuffle_epi32(a, 0x4e)), y = _mm_or_si128(x, _mm_srli_epi64(x, 32));
     return _mm_blend_epi16(ZERO, y, 0x03);
 }
-/* for indices 0 to 31 and no others; bit 4 moves to the top to choose */
+/* for indices 0 to 31 only; bit 4 moves to the top to select */
 static inline __m128i simd_shuffle(__m128i a, __m128i b, __m128i c)
 {
     return _mm_blendv_epi8(_mm_shuffle_epi8(a, c), _mm_shuffle_epi8(b, c), _mm_slli_epi16(c, 3));
@@ -354,7 +354,7 @@ static inline __m128i simd_convtu(__m128 a)
 #define simd_nmadd_pd(a, b, c) _mm_xor_pd(_mm_add_pd(_mm_mul_pd(a, b), c), _mm_set1_pd(-0.))
 #endif
 
-/* ---- logic of two instructions, where there is none of one ---- */
+/* ---- logic in two instructions, where there is no single one ---- */
 
 #if defined(__AVX512VL__)
 #define simd_sel(a, b, c) _mm_ternarylogic_epi32(a, b, c, 0xd8)

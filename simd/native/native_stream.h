@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Stores that go past the caches, for cgt-bench floor: where the compiler has them, NATIVE_HAS_STREAM is 1. */
+ * Streaming stores past the caches, for cgt-bench floor. NATIVE_HAS_STREAM is 1 where the compiler has them. */
 #ifndef NATIVE_STREAM_H
 #define NATIVE_STREAM_H
 
@@ -15,7 +15,7 @@ static inline void native_stream_pair(uint64_t *pair, uint64_t word)
 {
     _mm_stream_si128((__m128i *)pair, _mm_set1_epi64x((long long)word));
 }
-/* The stores before are done when those after it are. */
+/* Stores before it complete before stores after it. */
 static inline void native_stream_end(void) { _mm_sfence(); }
 #elif defined(__has_builtin)
 #if __has_builtin(__builtin_nontemporal_store)

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: forms by hand for the vectors of a variant: SSE4.1, AVX2, AVX-512, NEON. bench/simd/simd_native.c
- * says what the lines are; it includes this file twice. Words that are sequences of intrinsics themselves (compress
- * on eight lanes, the transposes) have no form here. */
+ * cgt-bench simd: hand-written forms for the vectors of a variant: SSE4.1, AVX2, AVX-512, NEON.
+ * bench/simd/simd_native.c explains the lines and includes this file twice. Words that are sequences of intrinsics
+ * themselves (compress on eight lanes, the transposes) have no form here. */
 
 /* clang-format off */
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: types of the forms of native_wide.h, and instructions by
- * the width of the variant.
+ * cgt-bench simd: types of the forms of native_wide.h, and instructions
+ * by the width of the variant.
  *
  *   W(op)    _mm_op, _mm256_op, _mm512_op
  *   SI(op)   the same of whole registers, _mm_op_si128 ... */

@@ -1,19 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Whether a scene's triangles go by clusters, as a sample of them tells: by how much area the clusters' boxes have beside
- * those of their triangles. In meshes whose order is that of neighbours it is 0.6 to 1.0 times as much; a few runs that
- * jump from one end to the other make it several times as much, random order hundreds of times. Measured: a grid gains up
- * to 4.3, since large boxes have a level of their own. A tree of clusters takes as long to trace as one of triangles, or
- * less, at 0.66 to 0.76; an eighth to a third longer at 1.0, half as long again at 2.8. */
+ * Whether a scene's triangles are grouped into clusters: a sample tells how much area the clusters' boxes have compared
+ * with those of their triangles. In meshes whose order is that of neighbours the ratio is 0.6 to 1.0; a few runs that
+ * jump from one end to the other make it several times as much, random order hundreds of times. Measured: a grid is
+ * faster with clusters up to a ratio of 4.3, since large boxes have a level of their own. A tree of clusters is traced
+ * at least as fast as one of triangles at 0.66 to 0.76; it takes an eighth to a third longer at 1.0, half as long again
+ * at 2.8. A file of its own: tests replace it. */
 #include "model/triangle_cluster.h"
 
 #include <math.h>
 
 #define MIN_TRIANGLES 8192u  /* triangles: fewer are larger in the picture, and a cluster of them is too large */
-#define SAMPLED_CLUSTERS 64u /* clusters that are looked at */
-#define GOLDEN                                                                                                         \
-    0x9e3779b9u /* the golden section of 2^32: its multiples come nowhere close, and keep no time with rows */
+#define SAMPLED_CLUSTERS 64u /* clusters in the sample */
+/* Golden-ratio hashing: samples are evenly spread and do not alias with the rows of a regular mesh. */
+#define GOLDEN 0x9e3779b9u
 #define MAX_GRID_RATIO 5.0f /* times the area */
 #define MAX_TREE_RATIO 0.8f /* the same */
 
@@ -53,7 +54,7 @@ static bool bound_triangle(const cgt_primitives *prims, uint32_t prim, sample_bo
     return true;
 }
 
-/* Adds the areas of a cluster, which is full, and of its triangles. What is not finite, or is a point, is left out. */
+/* Adds the areas of a full cluster and of its triangles, without triangles that are points or not finite. */
 static void add_areas(const cgt_primitives *prims, uint32_t cluster, float *cluster_area, float *triangle_area)
 {
     sample_box cluster_box = empty_box;

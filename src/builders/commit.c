@@ -2,13 +2,30 @@
  * SPDX-License-Identifier: MIT
  *
  * The commit: from the caller's arrays to a structure, from scratch.
- *   1 list the arrays   2 bounds and validity of every object (bound_primitives.c)   3 build the structure */
+ *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure
+ *
+ * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times
+ * as fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell.
+ * Incoherent rays share no cells: a BVH suits them, and it is built in a few times the grid's time. Where a scene is
+ * said to be traced by a camera, arrays of rays get a BVH when they come (bvh_on_demand.h). */
 #include <math.h>
 #include <stdio.h>
 
-#include "builders/choose_structure.h"
 #include "builders/commit.h"
 #include "core/float_environment.h"
+
+/* Chooses the structure, for all scenes alike, since the pass over the primitives depends on it. reason: gets AUTO's
+ * reason, except for grids, whose plan has one of its own. */
+static cgt_structure choose_structure(const cgt_scene_options *options, const char **reason)
+{
+    *reason = options->structure == CGT_STRUCTURE_BVH ? "BVH: requested" : "kd-tree: requested";
+    if (options->structure != CGT_STRUCTURE_AUTO)
+        return options->structure;
+    if (options->research->resolution[0]) /* a resolution only makes sense for the queue grid */
+        return CGT_STRUCTURE_QUEUE_GRID;
+    *reason = "BVH: incoherent rays share no cells of a grid";
+    return options->rays == CGT_RAY_KIND_INCOHERENT ? CGT_STRUCTURE_BVH : CGT_STRUCTURE_LOOSE_GRID;
+}
 
 static cgt_primitive_array describe_array(const cgt_geometry *g)
 {
@@ -78,9 +95,19 @@ static void store_statistics(cgt_scene *scene, const cgt_primitive_bounds *s)
     st->bytes = cgt_scene_bytes(scene);
 }
 
+void cgt_report_local_store(cgt_scene *scene, size_t sphere_bytes, size_t triangle_bytes)
+{
+    const cgt_primitives *prims = &scene->committed_scene.prims;
+    cgt_research_scene_statistics *st = &scene->research_statistics;
+    st->local_store_bytes =
+        scene->statistics.structure_bytes + prims->spheres * sphere_bytes + prims->triangles * triangle_bytes;
+    st->fits_local_store = st->local_store_bytes + (64u << 10) <= 256u << 10;
+}
+
 static void log_commit(const cgt_scene *scene)
 {
     const cgt_scene_statistics *st = &scene->statistics;
+    const uint32_t *resolution = scene->research_statistics.resolution;
     const cgt_log_hook *log = &scene->context->log;
     char text[CGT_MESSAGE_BYTES];
     if (!log->write)
@@ -92,11 +119,12 @@ static void log_commit(const cgt_scene *scene)
         log->write(log->user, CGT_LOG_LEVEL_WARNING, text);
     }
     snprintf(text, sizeof text, "commit: %u spheres, %u triangles, %ux%ux%u cells, %.3f ms; %s", st->spheres,
-             st->triangles, st->resolution[0], st->resolution[1], st->resolution[2], st->commit_ms, st->reason);
+             st->triangles, resolution[0], resolution[1], resolution[2], st->commit_ms, st->reason);
     log->write(log->user, CGT_LOG_LEVEL_INFO, text);
 }
 
-/* Beyond 2^100 the filter's products leave the range of float; what is smaller is decided in double. */
+/* Returns a power of two. Beyond 2^100 the filter's products leave the range of float; smaller scenes are decided in
+ * double. */
 static float choose_scale(float magnitude)
 {
     int exponent = 0;
@@ -116,16 +144,14 @@ static void set_scene_bounds(cgt_committed_scene *committed_scene, const cgt_pri
     }
 }
 
-static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *s)
+static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *s, const char *structure_reason)
 {
-    cgt_committed_scene *committed_scene = &scene->committed_scene;
-    const char *structure_reason = NULL;
+    const cgt_committed_scene *committed_scene = &scene->committed_scene;
     char *reason = scene->statistics.reason;
     const size_t bytes = sizeof scene->statistics.reason;
-    committed_scene->structure = cgt_choose_structure(&scene->options, &structure_reason);
     if (!s->valid || committed_scene->brute_force) {
         snprintf(reason, bytes, "%s",
-                 s->valid ? "coordinates beyond 2^55: every ray tests every object" : "no objects");
+                 s->valid ? "coordinates beyond 2^55: every ray tests every primitive" : "no primitives");
         return CGT_OK;
     }
     if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
@@ -141,7 +167,9 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *
 static cgt_result build_scene(cgt_scene *scene)
 {
     cgt_primitive_bounds bounds = {0};
+    const char *reason;
     const double start = cgt_now_ms();
+    scene->committed_scene.structure = choose_structure(&scene->options, &reason);
     cgt_result result = list_arrays(scene);
     if (result == CGT_OK)
         result = cgt_compute_bounds(scene, &bounds);
@@ -149,7 +177,7 @@ static cgt_result build_scene(cgt_scene *scene)
         return result;
     const double bounded = cgt_now_ms();
     set_scene_bounds(&scene->committed_scene, &bounds);
-    result = build_structure(scene, &bounds);
+    result = build_structure(scene, &bounds, reason);
     if (result != CGT_OK)
         return result;
     store_statistics(scene, &bounds);
@@ -167,6 +195,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     scene->is_committed = false;
     scene->statistics = (cgt_scene_statistics){0};
+    scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};
     atomic_store_explicit(&scene->bvh_is_built, false, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);

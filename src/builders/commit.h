@@ -7,20 +7,24 @@
 
 #include "scene/scene.h"
 
-/* Reads, checks and bounds all objects. Fails where a triangle's index is out of range. Loose grid and wide tree get
- * size classes and middles of triangles (CGT_BUFFER_SIZE_CLASSES, CGT_BUFFER_CELL_SORT_WORK), or those of
- * clusters (world.cluster); the queue grid diameters. */
+/* Reads, checks and bounds all primitives, as the structure of scene->committed_scene needs. Fails where a triangle's
+ * index is out of range. Loose grid and BVH get size classes and middles of triangles (CGT_BUFFER_SIZE_CLASSES,
+ * CGT_BUFFER_CELL_SORT_WORK), or those of clusters (committed_scene->cluster); the queue grid gets diameters. */
 cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *bounds);
 
-/* The same once more, for a wide tree of triangles after a commit that has got clusters: size classes and middles. Rays
- * may be traced meanwhile. */
+/* Computes size classes and middles of triangles for a BVH after a commit that computed those of clusters. Rays may be
+ * traced meanwhile. */
 cgt_result cgt_compute_size_classes(cgt_scene *scene);
 
-/* Build a structure over the valid objects, of which there is at least one, and fill in the statistics that are the
- * structure's own. */
+/* Build a structure over the valid primitives, of which there is at least one, and set the statistics of that
+ * structure. */
 cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_primitive_bounds *bounds);
 cgt_result cgt_kd_commit(cgt_scene *scene, bool ropes);
 cgt_result cgt_loose_grid_commit(cgt_scene *scene);
 cgt_result cgt_bvh_commit(cgt_scene *scene);
+
+/* Sets the statistics of local stores: the structure's bytes and those of the primitives that it refers to, against
+ * 256 KB of which 64 KB are for code and stack. */
+void cgt_report_local_store(cgt_scene *scene, size_t sphere_bytes, size_t triangle_bytes);
 
 #endif

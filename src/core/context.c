@@ -1,15 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Contexts: creation, reference count, running of tasks. */
+ * Contexts: reference count, queries, running of tasks. dispatch/context_create.c creates them. */
 #define _POSIX_C_SOURCE 200809L
 #include "core/context.h"
 
-#include <stdio.h>
-#include <string.h>
 #include <time.h>
 
-#define MAX_THREADS 1024u
+#include "core/float_environment.h"
 
 const char *cgt_get_version(void) { return CGT_VERSION_STRING; }
 
@@ -20,120 +18,46 @@ double cgt_now_ms(void)
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
-void cgt_context_options_init(cgt_context_options *options) { memset(options, 0, sizeof *options); }
-
-static cgt_result fail_create(const cgt_context_options *o, cgt_result result, const char *message)
-{
-    if (o->log.write)
-        o->log.write(o->log.user, CGT_LOG_LEVEL_ERROR, message);
-    return result;
-}
-
-static cgt_result find_variant(const cgt_context_options *o, const cgt_kernel **kernel)
-{
-    cgt_variant_state state;
-    *kernel = cgt_variant_find(o->variant, &state);
-    switch (state) {
-    case CGT_VARIANT_RUNS: return CGT_OK;
-    case CGT_VARIANT_DISABLED:
-        return fail_create(o, CGT_ERROR_UNSUPPORTED,
-                           o->variant ? "variant: CGT_DISABLE_CPU disables it"
-                                      : "variant: CGT_DISABLE_CPU leaves none");
-    case CGT_VARIANT_UNSUPPORTED:
-        return fail_create(o, CGT_ERROR_UNSUPPORTED, "variant: this CPU lacks instructions that it needs");
-    default: return fail_create(o, CGT_ERROR_INVALID_ARGUMENT, "variant: not in this build");
-    }
-}
-
-static cgt_result check_options(const cgt_context_options *o, const cgt_kernel **kernel)
-{
-    if (!o->memory.allocate != !o->memory.release)
-        return fail_create(o, CGT_ERROR_INVALID_ARGUMENT, "memory hooks: both functions are needed, or neither");
-    if (o->threads > MAX_THREADS)
-        return fail_create(o, CGT_ERROR_INVALID_ARGUMENT, "threads: at most 1024");
-    return find_variant(o, kernel);
-}
-
-static cgt_result start_threads(cgt_context *c)
-{
-    if (c->tasks.run) {
-        c->threads = 0;
-        return CGT_OK;
-    }
-    if (!c->threads)
-        c->threads = cgt_host_cpus();
-    if (c->threads > MAX_THREADS)
-        c->threads = MAX_THREADS;
-    if (c->threads == 1)
-        return CGT_OK;
-    const cgt_result result = cgt_backend_host.create(&c->memory, c->threads, &c->pool);
-    if (result == CGT_OK)
-        c->tasks = (cgt_task_runner){c->pool, cgt_backend_host.run};
-    return result;
-}
-
-cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **context)
-{
-    cgt_context_options defaults;
-    const cgt_kernel *kernel = NULL;
-    if (!context)
-        return CGT_ERROR_INVALID_ARGUMENT;
-    *context = NULL;
-    if (!options) {
-        cgt_context_options_init(&defaults);
-        options = &defaults;
-    }
-    cgt_result result = check_options(options, &kernel);
-    if (result != CGT_OK)
-        return result;
-    const cgt_memory_hooks memory = options->memory.allocate ? options->memory : cgt_memory_default();
-    cgt_context *c = cgt_allocate(&memory, sizeof *c);
-    if (!c)
-        return fail_create(options, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a context");
-    memset(c, 0, sizeof *c);
-    c->memory = memory;
-    c->log = options->log;
-    c->tasks = options->tasks;
-    c->kernel = kernel;
-    c->threads = options->threads;
-    atomic_init(&c->references, 1);
-    if (pthread_mutex_init(&c->message_lock, NULL)) {
-        cgt_free(&memory, c, sizeof *c);
-        return fail_create(options, CGT_ERROR_THREADS, "the system refused a lock");
-    }
-    result = start_threads(c);
-    if (result != CGT_OK) {
-        pthread_mutex_destroy(&c->message_lock);
-        cgt_free(&memory, c, sizeof *c);
-        return fail_create(options, result, "the threads could not be started");
-    }
-    *context = c;
-    return CGT_OK;
-}
-
 void cgt_context_retain(cgt_context *context) { atomic_fetch_add(&context->references, 1); }
 
 void cgt_context_release(cgt_context *context)
 {
     if (!context || atomic_fetch_sub(&context->references, 1) != 1)
         return;
-    if (context->pool)
-        cgt_backend_host.destroy(&context->memory, context->pool);
+    if (context->backend)
+        context->backend->destroy(&context->memory, context->backend_state);
     pthread_mutex_destroy(&context->message_lock);
     const cgt_memory_hooks memory = context->memory;
     cgt_free(&memory, context, sizeof *context);
 }
 
-const char *cgt_context_get_variant(const cgt_context *context) { return context->kernel->name; }
-
 uint32_t cgt_context_get_threads(const cgt_context *context) { return context->threads; }
+
+/* A batch as a runner gets it. */
+typedef struct task_batch {
+    cgt_task *task;
+    void *argument;
+} task_batch;
+
+static void run_task(void *argument, uint32_t index)
+{
+    const task_batch *batch = argument;
+    cgt_float_environment runners;
+    cgt_float_environment_enter(&runners);
+    batch->task(batch->argument, index);
+    cgt_float_environment_leave(&runners);
+}
 
 void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count)
 {
+    task_batch batch = {task, argument};
+    cgt_float_environment callers;
     if (count > 1 && context->tasks.run) {
-        context->tasks.run(context->tasks.user, task, argument, count);
+        context->tasks.run(context->tasks.user, run_task, &batch, count);
         return;
     }
+    cgt_float_environment_enter(&callers);
     for (uint32_t i = 0; i < count; i++)
         task(argument, i);
+    cgt_float_environment_leave(&callers);
 }

@@ -8,18 +8,17 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "core/error.h"
 #include "core/memory.h"
 #include "core/tasks.h"
-#include "dispatch/variant.h"
-
-#define CGT_MESSAGE_BYTES 256
 
 struct cgt_context {
     cgt_memory_hooks memory;
     cgt_log_hook log;
-    cgt_task_runner tasks; /* run: the caller's, the backend's, or NULL where one thread does it all */
-    void *pool;            /* the backend's state; NULL where it is not used */
-    const cgt_kernel *kernel;
+    cgt_task_runner tasks;           /* run: the caller's, the backend's, or NULL where one thread does it all */
+    const cgt_backend *backend;      /* NULL where none is used */
+    void *backend_state;             /* of the backend */
+    const struct cgt_kernel *kernel; /* dispatch/kernel.h */
     uint32_t threads;
     atomic_uint references; /* the caller's and one per scene */
     pthread_mutex_t message_lock;
@@ -28,12 +27,9 @@ struct cgt_context {
 
 void cgt_context_retain(cgt_context *context);
 
-/* Runs the tasks; on the calling thread alone where there is one task or one thread. */
+/* Runs task(argument, index) once for each index below count, in the default floating-point environment whatever that
+ * of the threads; on the calling thread alone where there is one task or one thread. */
 void cgt_run_tasks(const cgt_context *context, cgt_task *task, void *argument, uint32_t count);
-
-/* Keeps the message, logs it, returns the result. */
-cgt_result cgt_fail(cgt_context *context, cgt_result result, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
 
 /* Milliseconds of a clock that never goes back. */
 double cgt_now_ms(void);

@@ -1,7 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Results in words, and the message of the last failure. */
+ * Results as sentences, and the message of the last failure. */
+#include "core/error.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -40,7 +42,7 @@ cgt_result cgt_fail(cgt_context *context, cgt_result result, const char *format,
 
 size_t cgt_context_get_error_message(const cgt_context *context, char *text, size_t size)
 {
-    cgt_context *c = (cgt_context *)context; /* the lock changes, nothing that the caller sees */
+    cgt_context *c = (cgt_context *)context; /* the lock alone changes */
     if (!c)
         return 0;
     pthread_mutex_lock(&c->message_lock);

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The arithmetic that decisions rest on: round to nearest, denormals kept. Programs that simulate often flush
- * denormals to zero; then even the conversion of a float to double loses them. So each piece of work sets the default
- * environment and gives the caller's back. */
+ * The arithmetic that decisions rest on: round to nearest, denormals kept. Simulations often flush denormals to zero,
+ * and then even a conversion from float to double loses them. So cgt_run_tasks enters the default environment around
+ * each task, and a call does around what it computes outside tasks; both restore the caller's. */
 #ifndef CGT_FLOAT_ENVIRONMENT_H
 #define CGT_FLOAT_ENVIRONMENT_H
 

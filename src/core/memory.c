@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Memory through the caller's hooks, and buffers that keep what they have. */
+ * Memory through the caller's hooks, and buffers that keep their capacity. */
 #define _DEFAULT_SOURCE /* madvise */
 #include "core/memory.h"
 
@@ -53,7 +53,7 @@ static cgt_result resize(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size
     return CGT_OK;
 }
 
-/* Half more than the buffer has, or what is wanted. */
+/* Returns half more than the buffer has, or the size requested if that is more. */
 static size_t grown_capacity(const cgt_buffer *buffer, size_t bytes)
 {
     const size_t increment = buffer->bytes / 2;
@@ -76,7 +76,7 @@ cgt_result cgt_buffer_reserve_scattered(const cgt_memory_hooks *hooks, cgt_buffe
     if (buffer->data != old_data) {
         char *data = buffer->data;
         const size_t skipped = (HUGE_PAGE - (uintptr_t)data % HUGE_PAGE) % HUGE_PAGE;
-        if (buffer->bytes >= skipped + HUGE_PAGE) /* where there are none, nothing is lost */
+        if (buffer->bytes >= skipped + HUGE_PAGE) /* advice: a refusal loses nothing */
             (void)madvise(data + skipped, (buffer->bytes - skipped) / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE);
     }
 #else

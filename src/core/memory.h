@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * All memory of the library comes through here, so that the caller's hook sees every byte. */
+ * All memory of the library is allocated here, so that the caller's hooks see every byte. */
 #ifndef CGT_MEMORY_H
 #define CGT_MEMORY_H
 
@@ -9,7 +9,7 @@
 
 #define CGT_ALIGNMENT 64 /* a cache line, and the widest vector */
 
-/* Memory that grows and is kept: capacity only rises, so that a steady state allocates nothing. */
+/* Memory that grows and is never shrunk, so that a steady state allocates nothing. */
 typedef struct cgt_buffer {
     void *data;   /* NULL where capacity is 0 */
     size_t bytes; /* capacity */
@@ -22,12 +22,10 @@ cgt_memory_hooks cgt_memory_default(void);
 void *cgt_allocate(const cgt_memory_hooks *hooks, size_t bytes);
 void cgt_free(const cgt_memory_hooks *hooks, void *memory, size_t bytes);
 
-/* Makes room for count elements of a size; what the buffer held is lost (reserve) or kept (grow). It grows by half at
- * least. CGT_OK, CGT_ERROR_TOO_LARGE where the product overflows, CGT_ERROR_OUT_OF_MEMORY: then the buffer is as it
- * was. */
+/* Makes room for count elements of a size, growing by half at least; what the buffer held is lost (reserve) or kept
+ * (grow). CGT_ERROR_TOO_LARGE where the product overflows, CGT_ERROR_OUT_OF_MEMORY: then the buffer is unchanged. */
 cgt_result cgt_buffer_reserve(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
-/* The same as reserve for what is read here and there: asks for huge pages, so that readers need not wait for page
- * tables. */
+/* As reserve, for data with scattered reads: requests huge pages, so that reads rarely wait for page tables. */
 cgt_result cgt_buffer_reserve_scattered(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
 cgt_result cgt_buffer_grow(const cgt_memory_hooks *hooks, cgt_buffer *buffer, size_t count, size_t size);
 void cgt_buffer_release(const cgt_memory_hooks *hooks, cgt_buffer *buffer);

@@ -1,16 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The variant table as the library sees it: one row per row of cmake/variants.cmake, narrowest first, those included
- * that this build leaves out: CGT_DISABLE_CPU knows their names on every machine. */
+ * The variant table at run time: one row per row of cmake/variants.cmake, narrowest first. Rows that this build leaves
+ * out are here, too: CGT_DISABLE_CPU knows their names on every machine. */
 #include "dispatch/variant.h"
 
 #include <stdbool.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the CPU has, and the system saves, what the flags of a row ask for. */
+/* Whether the CPU has, and the system saves, what a row's compiler flags require. */
 static bool any_cpu(void) { return true; }
 #ifdef CGT_HAVE_SSE
 static bool cpu_has_sse(void) { return __builtin_cpu_supports("sse4.1"); }
@@ -88,37 +87,37 @@ static const char *const names[ROWS + 1] = {
 
 const char *const *cgt_get_variant_names(void) { return names; }
 
-static void disable_unknown(const char *name, size_t length)
-{
-    fprintf(stderr, "libcgt: CGT_DISABLE_CPU: no variant \"%.*s\"; there are:", (int)length, name);
-    for (size_t i = 0; i < ROWS; i++)
-        fprintf(stderr, " %s", table[i].name);
-    fprintf(stderr, "\n");
-    abort();
-}
-
-/* Reads CGT_DISABLE_CPU each time: a context is made rarely, and nothing global is kept. Row i is bit i. */
-static unsigned disabled_rows(void)
+/* Reads CGT_DISABLE_CPU each time: contexts are created rarely, and nothing global is kept. Row i is bit i. False where a
+ * name is unknown: a test must not believe in a mask that is not there. */
+static bool read_disabled_rows(unsigned *disabled, char unknown[CGT_VARIANT_NAME_BYTES])
 {
     const char *list = getenv("CGT_DISABLE_CPU");
-    unsigned disabled = 0;
+    *disabled = 0;
     while (list && *list) {
         const size_t length = strcspn(list, ",");
         size_t i = 0;
         while (i < ROWS && (strlen(table[i].name) != length || strncmp(table[i].name, list, length) != 0))
             i++;
         if (i < ROWS)
-            disabled |= 1u << i;
-        else if (length)
-            disable_unknown(list, length);
+            *disabled |= 1u << i;
+        else if (length) {
+            const size_t kept = length < CGT_VARIANT_NAME_BYTES ? length : CGT_VARIANT_NAME_BYTES - 1;
+            memcpy(unknown, list, kept);
+            unknown[kept] = 0;
+            return false;
+        }
         list += length + (list[length] == ',');
     }
-    return disabled;
+    return true;
 }
 
-const cgt_kernel *cgt_variant_find(const char *name, cgt_variant_state *state)
+const cgt_kernel *cgt_variant_find(const char *name, cgt_variant_state *state, char unknown[CGT_VARIANT_NAME_BYTES])
 {
-    const unsigned disabled = disabled_rows();
+    unsigned disabled;
+    if (!read_disabled_rows(&disabled, unknown)) {
+        *state = CGT_VARIANT_BAD_LIST;
+        return NULL;
+    }
     *state = CGT_VARIANT_ABSENT;
     for (size_t i = ROWS; i-- > 0;) {
         if (!table[i].kernel || (name && strcmp(name, table[i].name) != 0))

@@ -98,19 +98,11 @@ bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact)
 
 /* ---- order ---- */
 
-static bool same_primitive(const cgt_primitive *a, const cgt_primitive *b)
-{
-    if (a->kind != b->kind)
-        return false;
-    return a->kind == CGT_KIND_SPHERES ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
-                                       : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
-}
-
 int cgt_decide_order(const cgt_ray *ray, const cgt_decided_hit *a, const cgt_decided_hit *b, uint64_t *exact)
 {
     if (fabs(a->t - b->t) > CGT_ORDER_ERROR * (fabs(a->t) + fabs(b->t)))
         return a->t < b->t ? -1 : 1;
-    if (a->far == b->far && same_primitive(&a->primitive, &b->primitive))
+    if (a->far == b->far && cgt_same_primitive(&a->primitive, &b->primitive))
         return 0;
     const cgt_exact_root root_a = {&a->primitive, a->far}, root_b = {&b->primitive, b->far};
     ++*exact;

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What decides where single precision cannot: double precision with error bounds, then exact arithmetic (exact.h).
- * Which ray hits which shape, and which of two hits is nearer, are the answers of exact arithmetic. A hit's t is the
- * canonical one: computed in double in one order where that is safe, else from exact arithmetic, at most 0.51 ulp of
- * float off; the resolve of whole packets gives the same bits. */
+ * Decisions that single precision leaves open: by double precision with error bounds, then by exact arithmetic
+ * (exact.h). Which ray hits which primitive, and which of two hits is nearer, is what exact arithmetic gives. A hit's t
+ * is canonical: computed in double in one order of operations where that is safe, else from exact arithmetic, at most
+ * 0.51 ulp of float off; the resolve of whole packets gives the same bits. */
 #ifndef CGT_DECIDE_H
 #define CGT_DECIDE_H
 
@@ -21,11 +21,11 @@ typedef struct cgt_decided_hit {
     bool far; /* a sphere's second root */
 } cgt_decided_hit;
 
-/* Whether the ray hits hit->shape within its closed range, t rounded to float, and where. A t that rounds to infinity
- * is no hit. *exact counts decisions that took exact arithmetic. */
+/* Whether the ray hits hit->primitive within its closed range, t rounded to float, and where. A t that rounds to
+ * infinity is no hit. *exact counts decisions that took exact arithmetic. */
 bool cgt_decide_hit(const cgt_ray *ray, cgt_decided_hit *hit, uint64_t *exact);
 
-/* The canonical t of a shape that the ray is known to hit. */
+/* Computes the canonical t of a primitive that the ray is known to hit. */
 void cgt_decide_t(const cgt_ray *ray, cgt_decided_hit *hit);
 
 /* Of the sum of two canonical values: where they differ by more, that is the order of the exact ones. More than the

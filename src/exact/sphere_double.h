@@ -12,20 +12,20 @@
  *   d.c      4 e |c| |d|: c 1 e, a product 1 e, two sums
  *   c x d    each of its products 2 e, their difference 1 e: as a vector 2 sqrt(2) e |c| |d| + e |c x d|
  *   D        of |c x d|^2 = r^2 d.d at the silhouette: (6 r |c| + 5 r^2 + 9 e |c|^2) e d.d; of r^2 d.d 3 e, of their
- *            difference 1 e: at most 9 e (r (|c| + r) + 16 e |c|^2) d.d, which decides hit or miss; beyond the silhouette
- *            the error grows with |c x d| and D falls faster. On any line 14 e (c.c + r^2) d.d
+ *            difference 1 e: at most 9 e (r (|c| + r) + 16 e |c|^2) d.d, which decides hit or miss; beyond the
+ *            silhouette the error grows with |c x d| and D falls faster. On any line 14 e (c.c + r^2) d.d
  *   c.c - r^2   6 e (c.c + r^2)
- * A root is safe where it errs by at most 2^-31 of itself. The root that is a sum, (d.c + h) / d.d with h^2 = D, takes D's
- * error over 2 h: that is at most 2^-32 of it where (c.c + r^2) d.d 14 e 2^32 <= (d.c + h) h, and then d.c is right to far
- * less, since d.c + h >= h. The other one takes the product's besides.
+ * A root is safe where it errs by at most 2^-31 of itself. The root that is a sum, (d.c + h) / d.d with h^2 = D, takes
+ * D's error over 2 h: that is at most 2^-32 of it where (c.c + r^2) d.d 14 e 2^32 <= (d.c + h) h, and then d.c is right
+ * to far less, since d.c + h >= h. The other one has the error of the product in addition.
  *
- * Most hits go the shorter way of cgt_sphere_double_near, with D as (d.c)^2 - d.d (c.c - r^2). That errs by at most
+ * Most hits take the short way of cgt_sphere_double_near, with D as (d.c)^2 - d.d (c.c - r^2). That errs by at most
  * 18 e (c.c + r^2) d.d. Where the origin is so far outside that c.c - r^2 >= c.c / 8, a line that meets the sphere
- * has (d.c)^2 >= d.d (c.c + r^2) / 16, and D errs by at most 2^-44 (d.c)^2. Where D is above 2^-24 (d.c)^2 besides, h errs
- * by at most 2^-33 d.c, and the root by at most 2^-32 of itself. The point that is hit moves by the error of h, 2^-25 r at
- * most: for a small sphere h is above 2^-12 |c| |d|, below r |d|, and errs by 9 e (|c| |d|)^2 / h; for one that is not
- * small by less. What is left, silhouettes, spheres around the origin or right before it, and far roots, goes the long way.
- * No term leaves the range of double: floats and their differences lie between 2^-149 and 2^129. */
+ * has (d.c)^2 >= d.d (c.c + r^2) / 16, and D errs by at most 2^-44 (d.c)^2. Where D is also above 2^-24 (d.c)^2, h errs
+ * by at most 2^-33 d.c, and the root by at most 2^-32 of itself. The point that is hit moves by the error of h, 2^-25 r
+ * at most: for a small sphere h is above 2^-12 |c| |d|, below r |d|, and errs by 9 e (|c| |d|)^2 / h; for one that is
+ * not small by less. Silhouettes, spheres around the origin or right before it, and far roots take the long way. No
+ * term leaves the range of double: floats and their differences lie between 2^-149 and 2^129. */
 #ifndef CGT_SPHERE_DOUBLE_H
 #define CGT_SPHERE_DOUBLE_H
 
@@ -35,12 +35,12 @@
 
 #define CGT_DOUBLE_U 0x1p-53
 
-/* Values whose relative error is at most this are rounded to float as they are: at most 0.51 ulp off. What cancels more
- * is computed in exact arithmetic. */
+/* Values whose relative error is at most this are rounded to float as they are: at most 0.51 ulp off. Values with more
+ * cancellation are computed in exact arithmetic. */
 #define CGT_DOUBLE_SAFE 0x1p-30
 
-/* The quadratic square t^2 - 2 middle t + product = 0 of a line and a sphere, with its discriminant, negative for a miss;
- * distance2 is c.c, size c.c + r^2. */
+/* The quadratic square t^2 - 2 middle t + product = 0 of a line and a sphere, with its discriminant, negative for a
+ * miss; distance2 is c.c, size c.c + r^2. */
 typedef struct cgt_sphere_terms {
     double square, middle, product, disc, distance2, size;
 } cgt_sphere_terms;
@@ -61,8 +61,7 @@ static inline cgt_sphere_terms cgt_sphere_double_terms(const float org[3], const
                               .size = cc + rr};
 }
 
-/* What a hit that goes the short way asks for: that c.c - r^2 is at least this much of c.c, and D above this much of
- * (d.c)^2. */
+/* Conditions of the short way: c.c - r^2 is at least this share of c.c, and D above this share of (d.c)^2. */
 #define CGT_SPHERE_OUTSIDE 0x1p-3
 #define CGT_SPHERE_INSIDE 0x1p-24
 

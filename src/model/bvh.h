@@ -1,23 +1,23 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The wide tree: nodes with as many children as the variant has lanes, their boxes as structure of arrays, and leaf
- * blocks of as many primitives of one kind, copied and transposed, so that a ray tests a node or a leaf at once, and
- * many rays one child or primitive after the other. Nodes and blocks depend on the variant: kernel/bvh_node.h.
+ * The BVH: nodes with as many children as the variant has lanes, their boxes as structure of arrays, and leaf blocks of
+ * as many primitives of one kind, copied and transposed. A single ray tests a whole node or leaf at once; a stream of
+ * rays tests one child or primitive after the other. Nodes and blocks depend on the variant: kernel/bvh/bvh_node.h.
  *
- * Memory as measured: 34 bytes a sphere and 80 a triangle at 16 lanes, 39 and 82 at 8, 48 and 85 at 4, nodes among
- * them. A commit works in 46 bytes a sphere and 61 a triangle more, which it keeps for the next; few objects take some
- * kilobytes besides. Of triangles that go by clusters (triangle_cluster.h) it is 61, 55 and 63 bytes, and 20 to 35 more.
+ * Memory as measured, nodes included: 34 bytes a sphere and 80 a triangle at 16 lanes, 39 and 82 at 8, 48 and 85 at 4.
+ * A commit works in another 46 bytes a sphere and 61 a triangle, which the scene keeps for the next; small scenes take
+ * some kilobytes more. For triangles in clusters (triangle_cluster.h) it is 61, 55 and 63 bytes, and another 20 to 35.
  *
  * Built from scratch in linear time: the levels of a loose grid, each numbered along a Morton curve, are sorted by
- * cell, and binary trees by highest differing bit are collapsed to wide nodes (Lauterbach et al. 2009, "Fast BVH
+ * cell, and binary trees by highest differing bit are collapsed to BVH nodes (Lauterbach et al. 2009, "Fast BVH
  * Construction on GPUs"; Wald et al. 2008, "Getting Rid of Packets"). */
 #ifndef CGT_BVH_H
 #define CGT_BVH_H
 
 #include <stdint.h>
 
-/* Children are numbered by codes: a node, or a block of a leaf with its count and kind. */
+/* A child has a code: the number of a node, or a leaf's block with its count and kind. */
 #define CGT_BVH_LEAF 0x80000000u
 #define CGT_BVH_TRIANGLE_LEAF 0x40000000u /* of a leaf; else spheres */
 #define CGT_BVH_COUNT_SHIFT 26u           /* four bits: primitives of a leaf less one */
@@ -27,12 +27,12 @@
 #define CGT_BVH_MAX_DEPTH 64u /* nodes from the root to a leaf, at most */
 
 typedef struct cgt_bvh {
-    const void *node;     /* bvh_node, the root first; there is one wherever an object is valid */
+    const void *node;     /* bvh_node, the root first; there is one wherever a primitive is valid */
     const void *sphere;   /* sphere_block */
     const void *triangle; /* triangle_block */
     uint32_t nodes, sphere_blocks, triangle_blocks;
     uint32_t depth;        /* nodes on the longest way from the root to a leaf, at most CGT_BVH_MAX_DEPTH */
-    float low[3], high[3]; /* bounds of all objects, rounded outwards */
+    float low[3], high[3]; /* bounds of all primitives, rounded outwards */
 } cgt_bvh;
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What rays are traced against: the objects of a commit, their bounds, and the structure that was built over them. */
+ * What rays are traced against: the primitives of a commit, their bounds, and the structure that was built over them.
+ * */
 #ifndef CGT_COMMITTED_SCENE_H
 #define CGT_COMMITTED_SCENE_H
 
@@ -17,18 +18,18 @@ typedef struct cgt_leaf_triangle cgt_leaf_triangle;
 
 typedef struct cgt_committed_scene {
     cgt_primitives prims;
-    uint32_t valid;          /* objects that were not skipped */
+    uint32_t valid;          /* primitives that were not skipped */
     float low[3], high[3];   /* bounds of those, rounded outwards */
     float scale;             /* a power of two: the largest coordinate times it is between 1/2 and 2 */
-    bool has_masks;          /* some object's geometry has a mask with a bit unset */
-    bool brute_force;        /* coordinates beyond CGT_MAX_COORDINATE: every ray tests every object in double */
-    cgt_structure structure; /* which of the next is built; none where `everything`, or no object is valid */
+    bool has_masks;          /* some primitive's geometry has a mask with a bit unset */
+    bool brute_force;        /* coordinates beyond CGT_MAX_COORDINATE: every ray tests every primitive in double */
+    cgt_structure structure; /* which of the next is built; none where brute_force is set, or no primitive is valid */
     cgt_queue_grid grid;
     cgt_kd_tree kd;
     cgt_loose_grid loose;
-    const struct cgt_cluster *cluster; /* what loose grids are of (triangle_cluster.h); NULL: objects */
-    bool bvh_of_clusters;              /* wide trees are, too */
-    cgt_bvh bvh; /* node is NULL until it is built: at the commit, or by the first rays that want it */
+    const struct cgt_cluster *cluster; /* what loose grids are of (triangle_cluster.h); NULL: primitives */
+    bool bvh_of_clusters;              /* BVHs are, too */
+    cgt_bvh bvh; /* node is NULL until it is built: at the commit, or for the first rays that need it */
     const cgt_leaf_triangle *triangle; /* with a tree: all triangles, by cgt_array_triangle_number */
 } cgt_committed_scene;
 

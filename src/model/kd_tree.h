@@ -1,25 +1,25 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The kd-tree (thesis, chapter 4): a box cut in two by a plane across an axis, each half again, down to leaves that
- * list the objects whose clipped bounds touch them. One array of nodes of 8 bytes, without pointers, fit for transfer by
- * DMA. The two children of a node lie side by side, so that one number leads to both.
+ * The kd-tree (thesis, chapter 4): a plane across an axis cuts a box in two, and each half again, down to leaves that
+ * list the primitives whose clipped bounds touch them. One array of nodes of 8 bytes, without pointers, suits DMA. The
+ * two children of a node lie side by side, so that one number addresses both.
  *
- *   inner   word 0  the split, a float whose two lowest bits hold the axis: 0, 1, 2. The split is rounded to what is
- *                   left of it before objects are sorted to sides: build and traversal see the same plane
+ *   inner   word 0  the split, a float whose two lowest bits hold the axis: 0, 1, 2. The split is rounded to the
+ *                   other bits before primitives are sorted to sides: build and traversal use the same plane
  *           word 1  node of the lower child; the upper one follows it
- *   leaf    word 0  objects << 2 | 3
- *           word 1  objects 0: nothing; 1: the object; more: where they begin in `reference`
+ *   leaf    word 0  primitives << 2 | 3
+ *           word 1  primitives 0: nothing; 1: the primitive; more: where they begin in `reference`
  *           with ropes: number of the leaf, in the order of the nodes; its references begin at leaf[number].first
  *
- * Boxes are closed: an object that touches a split plane is in the leaves on both sides of it. So the exact point of
- * every hit lies in some leaf that lists the object, whichever leaf of those at an edge it is looked for in.
+ * Boxes are closed: a primitive that touches a split plane is in the leaves on both sides of it. So the exact point of
+ * every hit lies in a leaf that lists the primitive, whichever of the leaves at an edge is searched.
  *
  * Ropes (Popov, Guenther, Seidel, Slusallek, "Stackless KD-Tree Traversal for High Performance GPU Ray Tracing", 2007):
  * each leaf has its box and, for each of its six faces, the node on the other side: rope[2 a] beyond the lower face of
- * axis a, rope[2 a + 1] beyond the upper one; CGT_INVALID_ID where the tree ends. Ropes of packets lead to the sibling of an
- * ancestor, whose face holds the leaf's; those of single rays are pushed down to the smallest node that still holds
- * the whole face. */
+ * axis a, rope[2 a + 1] beyond the upper one; CGT_INVALID_ID where the tree ends. Ropes of packets lead to the sibling
+ * of an ancestor, whose face holds the leaf's; those of single rays are pushed down to the smallest node that still
+ * holds the whole face. */
 #ifndef CGT_KD_TREE_H
 #define CGT_KD_TREE_H
 
@@ -37,7 +37,7 @@ typedef struct cgt_kd_node {
 
 typedef struct cgt_kd_leaf {
     float low[3], high[3]; /* closed box */
-    uint32_t first;        /* in `reference`, also of one object alone */
+    uint32_t first;        /* in `reference`, also of one primitive alone */
     uint32_t count;
     uint32_t rope[6];        /* of single rays */
     uint32_t packet_rope[6]; /* of packets */
@@ -46,7 +46,7 @@ typedef struct cgt_kd_leaf {
 typedef struct cgt_kd_tree {
     const cgt_kd_node *node;   /* the root is node 0; node 1 is not used, so that children are aligned to 16 bytes */
     uint32_t nodes;            /* the unused one included */
-    const uint32_t *reference; /* objects of the leaves, ascending in each */
+    const uint32_t *reference; /* primitives of the leaves, ascending in each */
     uint64_t references;
     float low[3], high[3]; /* closed box of the root */
     uint32_t depth;        /* inner nodes on the longest way from the root to a leaf */
@@ -90,7 +90,7 @@ static inline cgt_kd_node cgt_kd_leaf_node(uint32_t count, uint32_t index)
     return (cgt_kd_node){{count << 2 | 3, index}};
 }
 
-/* The objects of a leaf node. */
+/* The primitives of a leaf node. */
 static inline const uint32_t *cgt_kd_references(const cgt_kd_tree *tree, const cgt_kd_node *leaf)
 {
     if (tree->leaf)

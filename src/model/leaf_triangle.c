@@ -1,14 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles made ready for the leaves of trees. */
+ * Triangles prepared for the leaves of trees. */
 #include "model/leaf_triangle.h"
 
 #include <math.h>
 
-#include "core/float_environment.h"
-
-#define CHUNK 4096u /* objects of one task */
+#define CHUNK 4096u /* primitives of one task */
 
 typedef struct triangles_job {
     const cgt_primitives *prims;
@@ -33,8 +31,6 @@ static void prepare_chunk(void *argument, uint32_t index)
     const cgt_primitives *o = job->prims;
     const uint32_t first = index * CHUNK, end = o->count - first < CHUNK ? o->count : first + CHUNK;
     const cgt_primitive_array *a = cgt_primitives_array(o, first);
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     for (uint32_t prim = first; prim < end; prim++) {
         if (prim - a->first == a->count)
             a++;
@@ -43,7 +39,6 @@ static void prepare_chunk(void *argument, uint32_t index)
         const cgt_triangle q = cgt_array_triangle(a, prim - a->first);
         prepare_triangle(&q, job->scale, &job->triangle[cgt_array_triangle_number(a, prim)]);
     }
-    cgt_float_environment_leave(&callers);
 }
 
 cgt_result cgt_leaf_triangles_init(cgt_context *context, cgt_buffer *memory, cgt_committed_scene *committed_scene)

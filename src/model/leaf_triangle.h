@@ -1,15 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles as leaves of trees test them (kernel/leaf_lanes.h): one line of the cache instead of an index and three
- * vertices in four, and what does not depend on the ray worked out once a commit. */
+ * Triangles as leaves of trees test them (kernel/primitive/lane_tests.h): one cache line instead of an index and three
+ * vertices in four lines; what does not depend on the ray is computed once per commit. */
 #ifndef CGT_LEAF_TRIANGLE_H
 #define CGT_LEAF_TRIANGLE_H
 
 #include "core/context.h"
 #include "model/committed_scene.h"
 
-/* All times the world's scale. */
+/* All times the scene's scale. */
 struct cgt_leaf_triangle {
     float vertex[3];  /* the first */
     float edge[2][3]; /* from there to the second and to the third */
@@ -17,7 +17,7 @@ struct cgt_leaf_triangle {
     float unused;
 };
 
-/* Makes those of all triangles of the world, and hands them to it. Fails with OUT_OF_MEMORY, with a message. */
+/* Prepares all triangles of the scene and stores them there. Fails with OUT_OF_MEMORY, with a message. */
 cgt_result cgt_leaf_triangles_init(cgt_context *context, cgt_buffer *memory, cgt_committed_scene *committed_scene);
 
 #endif

@@ -1,21 +1,22 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The loose grid: every object lies in exactly one cell, the one that holds the middle of its bounds. Whoever wants all
- * that may touch a cell's box asks for the cells whose boxes, enlarged by `reach`, meet it. So there are no duplicates
- * and no mailbox, an object is written once, and a row of cells is one run of objects.
+ * The loose grid (a hierarchical one; Ulrich 2000): every primitive lies in exactly one cell, which holds the middle of
+ * its bounds. To find all primitives that may overlap a box, visit the cells whose boxes, enlarged by `reach`, overlap
+ * it. So there are no duplicates and no mailbox, a primitive is written once, and a row of cells is one run of
+ * primitives.
  *
- * Objects of like size share a level, a grid of its own: one large object enlarges the cells of its level alone. Levels
- * go from large to small; each takes sizes (the largest of the three half extents) within a factor of 4, and smaller
- * ones too where those are few, since a grid for them would cost more than it spares; the sixteenth takes all that are
- * smaller. A level without objects is left out.
+ * Primitives of similar size share a level, which is a grid: a large primitive enlarges the cells of its level alone.
+ * Levels go from large to small; each takes sizes (the largest of the three half extents) within a factor of 4, and
+ * also smaller ones where those are few, since a grid for them would cost more than it saves; the sixteenth takes all
+ * smaller ones. A level without primitives is omitted.
  *
- * Memory for an object: 4 bytes of `object` and at most 2 of `start`, 4 for each cell where cells are asked for. What a
- * commit needs is kept for the next: 4 bytes (20 for a triangle) of keys and middles, 1.8 of sizes and bins. Few
- * objects take 13 KB besides.
+ * Memory per primitive: 4 bytes of `prim` and at most 2 of `start`; 4 per cell where a resolution is requested. The
+ * scene keeps what a commit works in: 4 bytes (20 for a triangle) of keys and middles, 1.8 of sizes and bins. Small
+ * scenes take 13 KB more.
  *
- * Triangles in the order of neighbours go by clusters (triangle_cluster.h): these are the objects then, of which each
- * takes 32 bytes for its box besides, and no middles. */
+ * Triangles whose order is that of neighbours are grouped into clusters (triangle_cluster.h), which take the place of
+ * primitives; a cluster takes 32 bytes for its box, and no middles. */
 #ifndef CGT_LOOSE_GRID_H
 #define CGT_LOOSE_GRID_H
 
@@ -30,18 +31,20 @@ typedef struct cgt_loose_level {
     uint32_t size[3]; /* cells along x, y, z, 1 to 1024 each, 2^24 in all */
     uint32_t first;   /* cell (0, 0, 0) in `start`; x runs fastest, then y, then z */
     uint32_t prims;
-    float least;    /* sizes from here on belong to this level or one before it */
-    float reach[3]; /* The bounds of an object in cell i lie within low + i cell - reach and low + (i + 1) cell + reach
-                       along each axis, in exact arithmetic of these numbers: what rounding of keys adds is in it */
+    float least; /* sizes from here on belong to this level or one before it */
+    /* Along each axis, a primitive's bounds in cell i lie within low + i cell - reach and low + (i + 1) cell + reach,
+     * in exact arithmetic of these numbers: the rounding of keys is included. */
+    float reach[3];
 } cgt_loose_level;
 
 typedef struct cgt_loose_grid {
     cgt_loose_level level[CGT_LOOSE_LEVELS];
     uint32_t levels;
-    const uint32_t *start; /* cell c holds object[start[c]] to object[start[c + 1] - 1]; cells + 1 of them */
-    const uint32_t *prim;  /* all valid objects, or with world.cluster all clusters that have some, ascending in each
+    const uint32_t *start; /* cell c holds primitive[start[c]] to primitive[start[c + 1] - 1]; cells + 1 of them */
+    const uint32_t
+        *prim; /* all valid primitives, or with committed_scene.cluster all clusters that have some, ascending in each
                                cell */
-    uint32_t cells;        /* of all levels */
+    uint32_t cells; /* of all levels */
 } cgt_loose_grid;
 
 #endif

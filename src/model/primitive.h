@@ -1,12 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One primitive by value, as the decisions and the resolve take it. */
+ * One primitive by value, for decisions and for the resolve. */
 #ifndef CGT_PRIMITIVE_H
 #define CGT_PRIMITIVE_H
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef struct cgt_sphere {
     float x, y, z, r;
@@ -25,5 +26,14 @@ typedef struct cgt_primitive {
         cgt_triangle triangle;
     };
 } cgt_primitive;
+
+/* Whether two primitives have the same kind and bits. */
+static inline bool cgt_same_primitive(const cgt_primitive *a, const cgt_primitive *b)
+{
+    if (a->kind != b->kind)
+        return false;
+    return a->kind == CGT_KIND_SPHERES ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
+                                       : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
+}
 
 #endif

@@ -1,30 +1,30 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the pass over all objects of a commit finds: what is skipped, bounds, sizes. Structures are planned from it. */
+ * The results of the pass over all primitives of a commit: skipped ones, bounds, sizes. Structures are planned from
+ * these. */
 #ifndef CGT_PRIMITIVE_BOUNDS_H
 #define CGT_PRIMITIVE_BOUNDS_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What structures of several sizes need: the objects by size, the largest half extent of their bounds. Class k holds
+/* Primitives by size, the largest half extent of their bounds, for structures with levels by size. Class k holds
  * the sizes whose float has exponent bits k: within a factor of 2; class 0 those below 2^-126, points among them. */
 #define CGT_SIZE_CLASSES 256u
 
 typedef struct cgt_size_class {
     uint32_t count;
-    float low[3], high[3]; /* of the middles of the objects' bounds */
+    float low[3], high[3]; /* of the middles of the primitives' bounds */
     float half[3];         /* largest half extents of the bounds, seen from those middles, rounded upwards */
 } cgt_size_class;
 
 typedef struct cgt_size_classes {
-    uint32_t
-        used_classes[CGT_SIZE_CLASSES / 32]; /* bit k: class k has objects; without it what it holds is undefined */
+    uint32_t used_classes[CGT_SIZE_CLASSES / 32]; /* bit k: class k has primitives; else its entry is undefined */
     cgt_size_class of[CGT_SIZE_CLASSES];
 } cgt_size_classes;
 
-/* Adds a class to those that there are; sums and extremes do not depend on the order. */
+/* Adds a class; sums and extremes do not depend on the order. */
 static inline void cgt_size_classes_add(cgt_size_classes *to, uint32_t k, const cgt_size_class *c)
 {
     cgt_size_class *t = &to->of[k];
@@ -41,7 +41,7 @@ static inline void cgt_size_classes_add(cgt_size_classes *to, uint32_t k, const 
     }
 }
 
-/* All that were added. */
+/* Returns how many primitives were added. */
 static inline uint32_t cgt_size_classes_count(const cgt_size_classes *c)
 {
     uint32_t count = 0;
@@ -52,14 +52,14 @@ static inline uint32_t cgt_size_classes_count(const cgt_size_classes *c)
 
 struct cgt_cluster;
 
-/* What the pass is to find out besides. With classes it keeps, for each triangle by its number among them, the middle
- * of its bounds and its size, -1 where it is skipped: so that its vertices, which lie anywhere, are fetched once. Or it
- * keeps clusters, whose sizes the classes are of then. */
+/* Additional results. With classes, the pass stores for each triangle, by its number among them, the middle of its
+ * bounds and its size, -1 where it is skipped, so that its scattered vertices are fetched once. Or it stores clusters,
+ * and the classes hold their sizes. */
 typedef struct cgt_bounds_request {
-    bool diameters;            /* sums of the diameters' powers: in order, so that they take longer than all the rest */
-    cgt_size_classes *classes; /* gets the sizes; NULL: none */
-    float *middle;             /* of triangles: planes of x, y, z and size; NULL where there are no classes */
-    uint32_t triangles;        /* floats of a plane */
+    bool diameters;              /* sums of the diameters' powers, added in order: slower than all the rest */
+    cgt_size_classes *classes;   /* gets the sizes; NULL: none */
+    float *middle;               /* of triangles: planes of x, y, z and size; NULL where there are no classes */
+    uint32_t triangles;          /* floats of a plane */
     struct cgt_cluster *cluster; /* triangle_cluster.h; NULL: none */
 } cgt_bounds_request;
 
@@ -69,9 +69,9 @@ typedef struct cgt_primitive_bounds {
     uint32_t skipped_not_finite;
     uint32_t skipped_radius;
     uint32_t skipped_degenerate;
-    uint32_t bad_index;   /* the first object with an index out of range; CGT_INVALID_ID: none */
+    uint32_t bad_index;   /* the first primitive with an index out of range; CGT_INVALID_ID: none */
     float min[3], max[3]; /* outwards rounded */
-    double diameter[4];   /* sums of the powers 0 to 3 of the diameters; 0 where they were not wished for */
+    double diameter[4];   /* sums of the powers 0 to 3 of the diameters; 0 where not requested */
     float magnitude;      /* largest coordinate of any bound */
 } cgt_primitive_bounds;
 

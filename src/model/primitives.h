@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The objects of a committed scene: the primitives of all its geometries, numbered through in the order of geometry
- * and primitive id, so that the lower object is the one that wins a tie. Nothing is copied from the caller's arrays. */
+ * The primitives of a committed scene: the primitives of all its geometries, numbered consecutively by geometry and
+ * primitive id, so that the lower number wins a tie. Nothing is copied from the caller's arrays. */
 #ifndef CGT_PRIMITIVES_H
 #define CGT_PRIMITIVES_H
 
@@ -12,8 +12,8 @@
 
 typedef struct cgt_primitive_array {
     cgt_kind kind;
-    uint32_t first;          /* object of its primitive 0 */
-    uint32_t spheres_before; /* spheres among the objects before a triangle array */
+    uint32_t first;          /* primitive of its primitive 0 */
+    uint32_t spheres_before; /* spheres among the primitives before a triangle array */
     uint32_t geometry;       /* id */
     uint32_t mask;           /* the geometry's; not 0 */
     const char *point;       /* x, y, z of centre or vertex i at point + i * point_stride */
@@ -29,19 +29,11 @@ typedef struct cgt_primitive_array {
 typedef struct cgt_primitives {
     const cgt_primitive_array *array; /* ascending by geometry and first; empty geometries are left out */
     uint32_t arrays;
-    uint32_t count; /* objects in all */
+    uint32_t count; /* primitives in all */
     uint32_t spheres, triangles;
 } cgt_primitives;
 
-/* Whether a primitive takes part, or why it is skipped. */
-typedef enum cgt_primitive_state {
-    CGT_PRIMITIVE_VALID = 0,
-    CGT_PRIMITIVE_NOT_FINITE,
-    CGT_PRIMITIVE_NEGATIVE_RADIUS,
-    CGT_PRIMITIVE_DEGENERATE
-} cgt_primitive_state;
-
-/* The array that holds an object: the last one that starts at it or before. */
+/* The array that holds a primitive: the last one that starts at it or before. */
 static inline const cgt_primitive_array *cgt_primitives_array(const cgt_primitives *prims, uint32_t prim)
 {
     uint32_t low = 0, high = prims->arrays;
@@ -55,7 +47,7 @@ static inline const cgt_primitive_array *cgt_primitives_array(const cgt_primitiv
     return &prims->array[low];
 }
 
-/* Whether rays of a mask pass over some object. */
+/* Whether some primitive is hidden from rays of a mask. */
 static inline bool cgt_primitives_masked_out(const cgt_primitives *prims, uint32_t mask)
 {
     bool hidden = false;
@@ -64,7 +56,8 @@ static inline bool cgt_primitives_masked_out(const cgt_primitives *prims, uint32
     return hidden;
 }
 
-/* The object of a primitive; CGT_INVALID_ID where there is no such geometry, or the geometry has no such primitive. */
+/* The primitive of a primitive; CGT_INVALID_ID where there is no such geometry, or the geometry has no such primitive.
+ * */
 static inline uint32_t cgt_primitives_number(const cgt_primitives *prims, uint32_t geometry, uint32_t primitive)
 {
     uint32_t low = 0, high = prims->arrays;
@@ -113,7 +106,7 @@ static inline cgt_triangle cgt_array_triangle(const cgt_primitive_array *a, uint
     return q;
 }
 
-/* Which triangle of all triangles an object is. */
+/* Which triangle of all triangles a primitive is. */
 static inline uint32_t cgt_array_triangle_number(const cgt_primitive_array *a, uint32_t prim)
 {
     return prim - a->spheres_before;
@@ -145,32 +138,6 @@ static inline cgt_primitive cgt_primitives_get(const cgt_primitives *prims, uint
 {
     const cgt_primitive_array *a = cgt_primitives_array(prims, prim);
     return cgt_array_primitive(a, prim - a->first);
-}
-
-static inline cgt_primitive_state cgt_sphere_check(cgt_sphere q)
-{
-    /* finite times zero is zero; infinity and NaN give NaN, and NaN stays */
-    const float zero = q.x * 0 + q.y * 0 + q.z * 0 + q.r * 0;
-    return zero != 0 ? CGT_PRIMITIVE_NOT_FINITE : q.r < 0 ? CGT_PRIMITIVE_NEGATIVE_RADIUS : CGT_PRIMITIVE_VALID;
-}
-
-/* Whether a triangle has an area, decided exactly. */
-bool cgt_triangle_has_area(const cgt_triangle *q);
-
-static inline cgt_primitive_state cgt_triangle_check(const cgt_triangle *q)
-{
-    float zero = 0;
-    for (int k = 0; k < 3; k++)
-        zero += q->v[k][0] * 0 + q->v[k][1] * 0 + q->v[k][2] * 0;
-    return zero != 0                  ? CGT_PRIMITIVE_NOT_FINITE
-           : cgt_triangle_has_area(q) ? CGT_PRIMITIVE_VALID
-                                      : CGT_PRIMITIVE_DEGENERATE;
-}
-
-static inline cgt_primitive_state cgt_primitive_check(const cgt_primitive *primitive)
-{
-    return primitive->kind == CGT_KIND_SPHERES ? cgt_sphere_check(primitive->sphere)
-                                               : cgt_triangle_check(&primitive->triangle);
 }
 
 #endif

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The queue grid (Chapman, section 3.4): a uniform grid whose voxels are queues of 16 references of 16 bits; of 32 bits
- * where there are more than 65,535 objects.
+ * where there are more than 65,535 primitives.
  *
  *   byte   0     2     4                     28    30
  *        +-----+-----+-----+--- . . . ---+-----+-----+
@@ -10,10 +10,11 @@
  *        +-----+-----+-----+--- . . . ---+-----+-----+
  *
  * A push shifts the bytes by one reference and writes the new one in front: references fill from the front. Where
- * the text would lose the oldest of 17 references, it goes to the overflow list, sorted by cell.
+ * Chapman would lose the oldest of 17 references, it is moved to the overflow list, sorted by cell.
  *
  * Grid space: g = (p - org) * rcell in real arithmetic on these floats; point p lies in cell floor(g), clamped to the
- * grid. Whatever computes g in floats widens its answer by `slack` cells, and so finds the cell of every point. */
+ * grid. Code that computes g in floats widens the result by `cell_error` cells, and so finds the cell of every point.
+ * */
 #ifndef CGT_QUEUE_GRID_H
 #define CGT_QUEUE_GRID_H
 
@@ -25,9 +26,9 @@
 
 #define CGT_QUEUE_LENGTH 16
 #define CGT_QUEUE_NONE 0xffffu
-#define CGT_QUEUE_MAX_REFS16 65535u   /* objects for references of 16 bits: 0 to 65,534 */
+#define CGT_QUEUE_MAX_REFS16 65535u   /* primitives for references of 16 bits: 0 to 65,534 */
 #define CGT_GRID_MAX_RESOLUTION 1024u /* per axis: a packet keeps the bounds of that many slices */
-#define CGT_GRID_MAX_CELLS (1u << 24) /* 512 MB of voxels, or 1 GB of wide ones */
+#define CGT_GRID_MAX_CELLS (1u << 24) /* 512 MB of voxels, or 1 GB of BVH nodes */
 
 typedef struct cgt_voxel {
     uint16_t reference[CGT_QUEUE_LENGTH];
@@ -46,13 +47,13 @@ typedef struct cgt_queue_grid {
     const cgt_primitives *prims;
     float org[3];        /* lower corner, world */
     float rcell[3];      /* cells per world unit */
-    float cell_error[3]; /* cells: bound of the rounding of g for any point of any object */
+    float cell_error[3]; /* cells: bound of the rounding of g for any point of any primitive */
     uint32_t resolution[3];
     uint32_t stride[3]; /* voxels from one cell to the next along each axis; x fastest */
     uint32_t cells;
-    uint32_t max_cells;           /* that any arrangement of as many objects is given: room for them is reserved */
+    uint32_t max_cells;           /* that any arrangement of as many primitives is given: room for them is reserved */
     bool refs_are_32_bits;        /* wide voxels */
-    cgt_voxel *voxel;             /* cells of them; NULL where there is no object */
+    cgt_voxel *voxel;             /* cells of them; NULL where there is no primitive */
     cgt_voxel32 *voxel32;         /* the same memory */
     const cgt_overflow *overflow; /* sorted by cell */
     uint32_t overflows;
@@ -63,8 +64,8 @@ static inline size_t cgt_queue_grid_voxel_bytes(const cgt_queue_grid *grid)
     return grid->refs_are_32_bits ? sizeof(cgt_voxel32) : sizeof(cgt_voxel);
 }
 
-/* Chooses origin, resolution and slack. wanted: the caller's resolution, zeros where it is to be chosen. why: gets the
- * reason in words. Fails with TOO_LARGE where a wanted resolution is beyond the limits. */
+/* Chooses origin, resolution and cell_error. requested: the caller's resolution, or zeros. reason: gets the reason in
+ * words. Fails with TOO_LARGE where the requested resolution is beyond the limits. */
 cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_primitive_bounds *bounds, const uint32_t requested[3],
                                char reason[128]);
 

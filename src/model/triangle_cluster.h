@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Clusters: runs of consecutive triangles, cluster i the objects CGT_CLUSTER i and on. Meshes list neighbours one after
- * the other more often than not; loose grid and wide tree are made of such a mesh's clusters in place of its triangles,
- * so that there are an eighth as many things to sort, and a grid's whole clusters are left out by their boxes before any
- * vertex is read. Scenes of triangles alone, enough of them, whose order is that of neighbours, get clusters
- * (choose_clusters.c); a tree only where they are tight. */
+ * Clusters: eight consecutive triangles each; cluster i begins with primitive CGT_CLUSTER i. Most meshes list
+ * neighbours one after the other. Loose grid and BVH are built from the clusters of such a mesh instead of its
+ * triangles, so that an eighth as many items are sorted, and a grid culls whole clusters by their boxes before any
+ * vertex is read. Scenes of many triangles alone, in the order of neighbours, get clusters (choose_clusters.c); a tree
+ * only where they are tight. */
 #ifndef CGT_TRIANGLE_CLUSTER_H
 #define CGT_TRIANGLE_CLUSTER_H
 
@@ -14,23 +14,21 @@
 #include "model/primitives.h"
 
 #define CGT_CLUSTER_SHIFT 3
-#define CGT_CLUSTER                                                                                                    \
-    (1u << CGT_CLUSTER_SHIFT) /* triangles, the last one fewer. 4 and 16 are slower, both building and tracing */
+#define CGT_CLUSTER (1u << CGT_CLUSTER_SHIFT) /* triangles, fewer in the last; 4 and 16 build and trace more slowly */
 
-/* As kernels load it: eight floats. */
+/* Eight floats, as kernels load them. While clusters are gathered, middle and half hold the least and the largest
+ * corner. */
 typedef struct cgt_cluster {
-    float middle[3]; /* of the bounds of all its valid triangles; while they are gathered, the least corner */
-    uint32_t
-        valid; /* those that are not skipped, as bits; the rest of a cluster without any is of no use, but for size */
-    float
-        half[3]; /* half extents, seen from the middle, rounded upwards; while they are gathered, the largest corner */
-    float size;  /* the largest half extent; -1 where nothing is valid */
+    float middle[3]; /* of the bounds of all its valid triangles */
+    uint32_t valid;  /* those that are not skipped, as bits; of a cluster without any only `size` is defined */
+    float half[3];   /* half extents, seen from the middle, rounded upwards */
+    float size;      /* the largest half extent; -1 where nothing is valid */
 } cgt_cluster;
 
-/* What is made of clusters in place of triangles. */
+/* Which structures are built from clusters instead of triangles. */
 typedef enum cgt_cluster_use { CGT_CLUSTERS_NONE = 0, CGT_CLUSTERS_GRID, CGT_CLUSTERS_ALL } cgt_cluster_use;
 
-/* What should be, of these objects. */
+/* Chooses it for these primitives. */
 cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims);
 
 static inline uint32_t cgt_clusters(uint32_t prims) { return prims / CGT_CLUSTER + (prims % CGT_CLUSTER > 0); }

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The directions of ambient occlusion: made by integers and unfused float arithmetic alone, without functions of the C
- * library, so that they are the same bits everywhere. */
+ * The directions of ambient occlusion. Integers and unfused float arithmetic alone, without functions of the C library
+ * but sqrtf, give the same bits everywhere. A header, so that a test sees it. */
 #ifndef CGT_AMBIENT_DIRECTIONS_H
 #define CGT_AMBIENT_DIRECTIONS_H
 
@@ -13,12 +13,12 @@
 
 #define CGT_AMBIENT_SAMPLES 1024u /* at most */
 
-/* Of a sequence in the unit square, in units of 2^-32. */
+/* Points of a sequence in the unit square, in units of 2^-32. */
 typedef struct cgt_ambient_points {
     uint32_t coordinate[2][CGT_AMBIENT_SAMPLES];
 } cgt_ambient_points;
 
-/* A hash of 32 bits, one to one. */
+/* A bijective hash of 32 bits. */
 static inline uint32_t cgt_ambient_mix(uint32_t x)
 {
     x += 0x9e3779b9u;
@@ -27,7 +27,8 @@ static inline uint32_t cgt_ambient_mix(uint32_t x)
     return x ^ x >> 16;
 }
 
-/* Sobol's first two dimensions: of 2^k points from a multiple of 2^k on, each of 2^k equal boxes of a grid has one. */
+/* Sobol's first two dimensions: of 2^k points that start at a multiple of 2^k, each of 2^k equal boxes of a grid has
+ * one. */
 static inline void cgt_ambient_points_init(uint32_t count, cgt_ambient_points *p)
 {
     for (uint32_t k = 0; k < count; k++) {
@@ -40,10 +41,10 @@ static inline void cgt_ambient_points_init(uint32_t count, cgt_ambient_points *p
     }
 }
 
-/* To (-1, 1), without 0. */
+/* Maps 32 bits to (-1, 1), never to 0. */
 static inline float cgt_ambient_centred(uint32_t x) { return ((float)(x >> 9) + 0.5f) * 0x1p-22f - 1; }
 
-/* Two axes across a unit vector (Duff and others, "Building an Orthonormal Basis, Revisited", 2017). */
+/* Two axes orthogonal to a unit vector (Duff and others, "Building an Orthonormal Basis, Revisited", 2017). */
 static inline void cgt_ambient_axes(const float n[3], float across[2][3])
 {
     const float sign = n[2] < 0 ? -1.f : 1.f, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
@@ -55,9 +56,9 @@ static inline void cgt_ambient_axes(const float n[3], float across[2][3])
     across[1][2] = -n[1];
 }
 
-/* The directions of pixel (x, y) about the unit vector n: on a disc (Shirley, Chiu 1997), and from there up to the
- * sphere, which makes their density that of the cosine. On the disc an angle is at most pi / 4 from an axis, where
- * these terms of sine and cosine are within 2^-24. */
+/* The directions of pixel (x, y) about the unit vector n: points on a disc (Shirley, Chiu 1997), projected up to the
+ * sphere, so that their density is the cosine. An angle on the disc is at most pi / 4 from an axis; there these terms of
+ * sine and cosine are within 2^-24. */
 static inline void cgt_ambient_directions(const cgt_ambient_points *points, const cgt_ambient_options *ambient,
                                           uint32_t x, uint32_t y, const float n[3], float *const dir[3])
 {

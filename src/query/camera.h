@@ -5,8 +5,6 @@
 #ifndef CGT_CAMERA_H
 #define CGT_CAMERA_H
 
-#include <stdbool.h>
-
 #include <cgt/cgt.h>
 
 /* With px = (x + 0.5f) * pixel[0] - 1 and py = 1 - (y + 0.5f) * pixel[1], all in float and unfused, the ray of pixel
@@ -20,7 +18,7 @@ typedef struct cgt_camera_rays {
     float up[3];    /* half the picture's height long */
     float pixel[2]; /* 2 / width, 2 / height */
     float t_min, t_max;
-    uint32_t mask; /* all bits set where it hides nothing; where it does, tiles do not serve */
+    uint32_t mask; /* all bits set where it hides nothing */
     uint32_t width, height;
     bool orthographic;
 } cgt_camera_rays;
@@ -36,8 +34,10 @@ static inline void cgt_camera_pixel(const cgt_camera_rays *c, uint32_t x, uint32
     }
 }
 
-/* Returns CGT_OK, or INVALID_ARGUMENT with a message of at most 160 characters. */
+#define CGT_CAMERA_MESSAGE_BYTES 160
+
+/* Makes the rays of a camera. INVALID_ARGUMENT with a message where its values are bad. */
 cgt_result cgt_camera_prepare(const cgt_camera *camera, uint32_t width, uint32_t height, cgt_camera_rays *rays,
-                              char message[160]);
+                              char message[CGT_CAMERA_MESSAGE_BYTES]);
 
 #endif

@@ -1,16 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which frames tiles serve (kernel/tile_trace.c). All others go packet by packet. */
-#ifndef CGT_TILE_SERVES_H
-#define CGT_TILE_SERVES_H
+ * The frames that go tile by tile (kernel/tile_frame/tile_trace.c). All others go packet by packet. A header, so that
+ * tests see its parts. */
+#ifndef CGT_TILE_LIMITS_H
+#define CGT_TILE_LIMITS_H
 
 #include <math.h>
 
 #include "query/camera.h"
 #include "model/committed_scene.h"
 
-/* Half a picture's width and height at distance 1: openings of 0.11 to 165 degrees. */
+/* Limits of half a picture's width and height at distance 1: openings of 0.11 to 165 degrees. */
 #define CGT_TILE_MIN_EXTENT 0x1p-10
 #define CGT_TILE_MAX_EXTENT 8.0
 
@@ -28,15 +29,15 @@ static inline bool cgt_tile_in_range(double length, double least, double most)
     return length >= least && length <= most;
 }
 
-/* Whether the picture has room for the windows' slack: rounding of the origins is at most half a pixel. Beyond that all
- * would be left open, and packets are faster. */
+/* Whether rounding of the origins is at most half a pixel, as the bounds of windows assume. Beyond that single precision
+ * would decide nothing, and packets are faster. */
 static inline bool cgt_tile_supports_origins(const cgt_camera_rays *c, double right, double up)
 {
     const double off = (2 * sqrt(cgt_tile_dot(c->eye, c->eye)) + 3 * right + 2 * up) * 0x1p-23;
     return off <= right * (double)c->pixel[0] && off <= up * (double)c->pixel[1];
 }
 
-/* The bounds of tile_spheres.h and tile_triangles.h hold for axes like these. Comparisons fail for what is not a number. */
+/* Whether the bounds of tile_spheres.h and tile_triangles.h hold for the camera's axes. Comparisons fail for a NaN. */
 static inline bool cgt_tile_supports_camera(const cgt_camera_rays *c)
 {
     const double right = sqrt(cgt_tile_dot(c->right, c->right)), up = sqrt(cgt_tile_dot(c->up, c->up));
@@ -53,10 +54,11 @@ static inline bool cgt_tile_supports_camera(const cgt_camera_rays *c)
            (!c->orthographic || cgt_tile_supports_origins(c, right, up)) && c->t_min >= 0;
 }
 
+/* Whether a frame may go by tiles: a loose grid, no masks, and a camera of usual size. */
 static inline bool cgt_tile_supports(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera)
 {
     return committed_scene->valid && !committed_scene->brute_force && committed_scene->loose.levels &&
-           cgt_tile_supports_camera(camera);
+           camera->mask == UINT32_MAX && cgt_tile_supports_camera(camera);
 }
 
 #endif

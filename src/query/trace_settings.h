@@ -1,25 +1,23 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the tracing calls and the kernels hand to each other. */
+ * What the tracing calls pass to the kernels, and the counts that they get back. */
 #ifndef CGT_TRACE_SETTINGS_H
 #define CGT_TRACE_SETTINGS_H
 
 #include <stdbool.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 #define CGT_RAYS_CHUNK 4096u /* rays of an array that one task traces */
 
-/* The same, of calls that are large enough for all threads: streams of more rays share more of the way, and fill more
- * lanes. */
+/* The same, of calls with enough rays for all threads: larger streams share more of the traversal and fill more lanes. */
 #define CGT_STREAM_CHUNK (2 * CGT_RAYS_CHUNK)
 
-/* The choices of a call, made: no AUTO left. */
+/* The choices of a call; no AUTO is left. */
 typedef struct cgt_trace_settings {
     uint32_t packet; /* edge of a camera's packets: 4, 8, 16 */
     bool strip;      /* tiles of four scanlines */
-    bool tiled;      /* nothing is asked about packets and their tests: tiles of a loose grid may go without */
     bool flattened;
     cgt_cull cull;
     bool mailbox;
@@ -27,26 +25,13 @@ typedef struct cgt_trace_settings {
     cgt_precision precision;
     cgt_triangle_test triangle_test;
     bool light_tiles; /* points against a light go through the loose grid, tile by tile */
-    bool use_bvh;    /* there is a wide tree that rays may go through. Where it is false, another thread may be building
-                        one: world->wide must not be looked at then */
-    uint32_t fields; /* cgt_field values that anybody wants */
+    bool use_bvh;     /* rays go through committed_scene->bvh. Where it is false, another thread may be building that:
+                         it must not be read then */
+    uint32_t fields;  /* cgt_field values that somebody asked for */
 } cgt_trace_settings;
 
-/* A region of a camera's frame and where its hits go: pixel (x + i, y + j) to element j * row_stride + i of each
- * plane; NULL planes are not written. */
-typedef struct cgt_region {
-    uint32_t x, y, width, height;
-    size_t row_stride;
-    float *t;
-    uint32_t *primitive;
-    uint32_t *geometry;
-    float *normal[3];
-    float *u, *v;
-    bool nontemporal; /* nobody reads the planes soon */
-} cgt_region;
-
-/* Counts of one task; summed into cgt_trace_statistics, whose fields they are. All are uint64_t: they are added up as
- * an array. */
+/* Counts of one task, fields of cgt_trace_statistics and cgt_research_trace_statistics. All are uint64_t, added up as an
+ * array. */
 typedef struct cgt_counts {
     uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes: geometries come, change and go. Nothing is read from the caller's arrays here. */
+ * Scenes: options and geometries. Nothing is read from the caller's arrays here. */
 #include "scene/scene.h"
 
 #include <math.h>
@@ -13,22 +13,15 @@ static cgt_geometry *geometry_at(const cgt_scene *scene, uint32_t id)
     return id < scene->geometries && geometry[id].used ? &geometry[id] : NULL;
 }
 
-void cgt_scene_options_init(cgt_scene_options *options) { memset(options, 0, sizeof *options); }
+void cgt_scene_options_init(cgt_scene_options *options) { *options = (cgt_scene_options){0}; }
 
-static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
+void cgt_research_scene_options_init(cgt_research_scene_options *options)
 {
-    const uint32_t *r = o->resolution;
-    if ((unsigned)o->structure > CGT_STRUCTURE_BVH)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: structure %d is unknown", (int)o->structure);
-    if ((unsigned)o->rays > CGT_RAY_KIND_INCOHERENT)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: rays %d is unknown", (int)o->rays);
-    if ((unsigned)o->kd_builder > CGT_KD_BUILDER_SWEEP)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_builder %d is unknown", (int)o->kd_builder);
-    if ((unsigned)o->kd_layout > CGT_KD_LAYOUT_MIXED)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_layout %d is unknown", (int)o->kd_layout);
-    if (o->kd_break_level > CGT_KD_MAX_DEPTH)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_break_level %u: at most %u",
-                        o->kd_break_level, CGT_KD_MAX_DEPTH);
+    *options = (cgt_research_scene_options){0};
+}
+
+static cgt_result check_resolution(cgt_context *c, const uint32_t r[3])
+{
     if ((!r[0] || !r[1] || !r[2]) && (r[0] || r[1] || r[2]))
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: resolution %ux%ux%u: all three or none", r[0],
                         r[1], r[2]);
@@ -39,17 +32,48 @@ static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
     return CGT_OK;
 }
 
+/* The research options of options, or the defaults. */
+static const cgt_research_scene_options *research_options(const cgt_scene_options *o)
+{
+    static const cgt_research_scene_options defaults = {0};
+    return o->research ? o->research : &defaults;
+}
+
+static cgt_result check_options(cgt_context *c, const cgt_scene_options *o)
+{
+    const cgt_research_scene_options *r = research_options(o);
+    const struct {
+        const char *name;
+        unsigned value, last;
+    } option[] = {{"structure", o->structure, CGT_STRUCTURE_KD_ROPES},
+                  {"rays", o->rays, CGT_RAY_KIND_INCOHERENT},
+                  {"kd_builder", r->kd_builder, CGT_KD_BUILDER_SWEEP},
+                  {"kd_layout", r->kd_layout, CGT_KD_LAYOUT_MIXED}};
+    for (size_t i = 0; i < sizeof option / sizeof option[0]; i++)
+        if (option[i].value > option[i].last)
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: %s %d is unknown", option[i].name,
+                            (int)option[i].value);
+    if (r->kd_break_level > CGT_KD_MAX_DEPTH)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "scene options: kd_break_level %u: at most %u",
+                        r->kd_break_level, CGT_KD_MAX_DEPTH);
+    return check_resolution(c, r->resolution);
+}
+
+static void set_options(cgt_scene *scene, const cgt_scene_options *o)
+{
+    scene->research_options = *research_options(o);
+    scene->options = *o;
+    scene->options.research = &scene->research_options;
+}
+
 cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *options, cgt_scene **scene)
 {
-    cgt_scene_options defaults;
+    static const cgt_scene_options defaults = {0};
     if (!context || !scene)
         return CGT_ERROR_INVALID_ARGUMENT;
     *scene = NULL;
-    if (!options) {
-        cgt_scene_options_init(&defaults);
-        options = &defaults;
-    }
-    const cgt_result result = check_options(context, options);
+    const cgt_scene_options *o = options ? options : &defaults;
+    const cgt_result result = check_options(context, o);
     if (result != CGT_OK)
         return result;
     cgt_scene *s = cgt_allocate(&context->memory, sizeof *s);
@@ -57,7 +81,7 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
         return cgt_fail(context, CGT_ERROR_OUT_OF_MEMORY, "out of memory for a scene");
     memset(s, 0, sizeof *s);
     s->context = context;
-    s->options = *options;
+    set_options(s, o);
     s->mutable_scene = s;
     atomic_init(&s->bvh_is_built, false);
     atomic_init(&s->bvh_rays, 0);
@@ -89,12 +113,12 @@ cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *opti
     const cgt_result result = check_options(scene->context, options);
     if (result != CGT_OK)
         return result;
-    scene->options = *options;
+    set_options(scene, options);
     scene->is_committed = false;
     return CGT_OK;
 }
 
-/* Whether element i of count fits the address space at every i. */
+/* Whether the elements of an array fit into the address space. */
 static bool stride_fits(uint32_t count, size_t stride, size_t element)
 {
     return stride % sizeof(float) == 0 && (!count || stride <= (SIZE_MAX / 2 - element) / count);
@@ -154,7 +178,7 @@ static uint64_t count_with(const cgt_scene *scene, uint32_t id, uint32_t count)
     return sum;
 }
 
-/* Sets geometry `id`, which exists or is the next one, to a checked description. */
+/* Stores a checked description as geometry `id`, which exists or is the next one. */
 static cgt_result set_geometry(cgt_scene *scene, uint32_t id, const cgt_geometry *geometry)
 {
     const uint64_t sum = count_with(scene, id, primitives_of(geometry));
@@ -194,14 +218,14 @@ static cgt_result check_update(const cgt_scene *scene, uint32_t id, cgt_kind kin
 
 cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry)
 {
-    if (!scene || !spheres || !geometry)
+    if (!scene || !spheres)
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
     const uint32_t id = free_id(scene);
     cgt_result result = check_spheres(scene->context, &g.spheres);
     if (result == CGT_OK)
         result = set_geometry(scene, id, &g);
-    if (result == CGT_OK)
+    if (result == CGT_OK && geometry)
         *geometry = id;
     return result;
 }
@@ -219,14 +243,14 @@ cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const c
 
 cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triangles, uint32_t *geometry)
 {
-    if (!scene || !triangles || !geometry)
+    if (!scene || !triangles)
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
     const uint32_t id = free_id(scene);
     cgt_result result = check_triangles(scene->context, &g.triangles);
     if (result == CGT_OK)
         result = set_geometry(scene, id, &g);
-    if (result == CGT_OK)
+    if (result == CGT_OK && geometry)
         *geometry = id;
     return result;
 }
@@ -259,6 +283,16 @@ cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics
         return CGT_ERROR_INVALID_ARGUMENT;
     pthread_mutex_lock(&scene->mutable_scene->bvh_lock);
     *statistics = scene->statistics;
+    pthread_mutex_unlock(&scene->mutable_scene->bvh_lock);
+    return CGT_OK;
+}
+
+cgt_result cgt_research_get_scene_statistics(const cgt_scene *scene, cgt_research_scene_statistics *statistics)
+{
+    if (!scene || !statistics)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    pthread_mutex_lock(&scene->mutable_scene->bvh_lock);
+    *statistics = scene->research_statistics;
     pthread_mutex_unlock(&scene->mutable_scene->bvh_lock);
     return CGT_OK;
 }

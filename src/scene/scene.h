@@ -1,9 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The scene: geometries that the caller described, and the structure of the last commit. */
+ * The scene: the caller's geometries, and the structure of the last commit. */
 #ifndef CGT_SCENE_H
 #define CGT_SCENE_H
+
+#include <cgt/research.h>
 
 #include "core/context.h"
 #include "model/committed_scene.h"
@@ -21,25 +23,25 @@ typedef struct cgt_geometry {
 typedef enum cgt_scene_buffer {
     CGT_BUFFER_GEOMETRY = 0, /* cgt_geometry, by id */
     CGT_BUFFER_ARRAYS,       /* cgt_primitive_array of the commit */
-    CGT_BUFFER_BOUNDS,       /* cgt_primitive_bounds, one per chunk of objects */
+    CGT_BUFFER_BOUNDS,       /* cgt_primitive_bounds, one per chunk of primitives */
     CGT_BUFFER_VOXELS,       /* cgt_voxel or cgt_voxel32 */
-    CGT_BUFFER_OVERFLOW,     /* cgt_overflow, as they came */
+    CGT_BUFFER_OVERFLOW,     /* cgt_overflow, in the order of their pushes */
     CGT_BUFFER_OVERFLOW_SORTING,
     CGT_BUFFER_KD_NODES,
     CGT_BUFFER_KD_REFERENCES,
     CGT_BUFFER_KD_LEAVES,
     CGT_BUFFER_LEAF_TRIANGLES,
     CGT_BUFFER_KD_WORK,      /* what the builder needs while it runs */
-    CGT_BUFFER_SIZE_CLASSES, /* cgt_size_classes, one per chunk of objects */
+    CGT_BUFFER_SIZE_CLASSES, /* cgt_size_classes, one per chunk of primitives */
     CGT_BUFFER_LOOSE_START,
     CGT_BUFFER_LOOSE_PRIM,
-    CGT_BUFFER_CELL_SORT_WORK, /* middles of triangles; keys of all objects, or what is sorted by them */
-    CGT_BUFFER_CELL_SORT_BINS, /* where bins end in chunks of objects */
+    CGT_BUFFER_CELL_SORT_WORK, /* centres of triangles; keys of all primitives, or the primitives sorted by them */
+    CGT_BUFFER_CELL_SORT_BINS, /* ends of bins in chunks of primitives */
     CGT_BUFFER_CLUSTERS,
     CGT_BUFFER_BVH_START,
-    CGT_BUFFER_BVH_PRIM,   /* all objects by cell and leaf */
-    CGT_BUFFER_BVH_LEAVES, /* where they part, see cgt_bvh_build */
-    CGT_BUFFER_BVH_WORK,   /* keys and objects of cells that are sorted on, then records of the binary tree */
+    CGT_BUFFER_BVH_PRIM,   /* all primitives by cell and leaf */
+    CGT_BUFFER_BVH_LEAVES, /* where leaves begin among them, see cgt_bvh_build */
+    CGT_BUFFER_BVH_WORK,   /* keys and primitives of cells that are sorted further, then records of the binary tree */
     CGT_BUFFER_BVH_RANGES, /* cgt_bvh_range, then a branch for each */
     CGT_BUFFER_BVH_NODES,
     CGT_BUFFER_BVH_SPHERES,
@@ -49,16 +51,18 @@ typedef enum cgt_scene_buffer {
 
 struct cgt_scene {
     cgt_context *context;
-    cgt_scene_options options;
+    cgt_scene_options options; /* research: those below */
+    cgt_research_scene_options research_options;
     cgt_buffer buffer[CGT_SCENE_BUFFERS];
     uint32_t geometries; /* in CGT_BUFFER_GEOMETRY, free ones included */
     bool is_committed;   /* nothing changed since the last commit */
     cgt_committed_scene committed_scene;
     cgt_scene_statistics statistics;
-    struct cgt_scene *mutable_scene; /* for what tracing builds */
-    pthread_mutex_t bvh_lock;        /* of a wide tree that tracing builds, and of the statistics with it */
+    cgt_research_scene_statistics research_statistics;
+    struct cgt_scene *mutable_scene; /* the scene itself: tracing has a const one and may build a BVH in it */
+    pthread_mutex_t bvh_lock;        /* of that BVH, and of the statistics with it */
     atomic_bool bvh_is_built;        /* by tracing */
-    _Atomic uint64_t bvh_rays;       /* that would have gone through it, since the commit */
+    _Atomic uint64_t bvh_rays;       /* since the commit, that would have gone through it */
 };
 
 /* Memory that a scene holds. */

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Ambient occlusion of a frame: cut into tiles, each a task. The rays of a tile's pixels, neighbours together, go in
- * batches through the structure as those of cgt_occluded_rays do. */
+ * Ambient occlusion of a frame: cut into tiles, each a task. The rays of a tile's pixels go through the structure in
+ * batches of neighbours, as those of cgt_occluded_rays do. */
 #include <math.h>
 
 #include "query/ambient_directions.h"
 #include "core/float_environment.h"
-#include "scene/scene.h"
+#include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
 
@@ -65,7 +65,7 @@ static void trace_batch(const ambient_job *job, ray_batch *b)
     b->rays = b->pixels = 0;
 }
 
-/* Adds the rays of a pixel with a hit. */
+/* Appends the rays of a pixel with a hit to the batch. */
 static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t element, ray_batch *b)
 {
     const cgt_frame *f = job->frame;
@@ -94,7 +94,7 @@ static void append_pixel(const ambient_job *job, uint32_t x, uint32_t y, size_t 
     b->rays = end;
 }
 
-/* Every second bit. */
+/* The even bits of i, packed: x of a Morton code; of i >> 1: y. */
 static uint32_t even_bits(uint32_t i)
 {
     uint32_t bits = 0;
@@ -110,8 +110,6 @@ static void trace_ambient_tile(void *argument, uint32_t index)
     const cgt_frame *f = job->frame;
     const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
     ray_batch b;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     b.counts = (cgt_counts){0};
     b.rays = b.pixels = 0;
     cgt_ambient_points_init(job->ambient.samples, &b.points);
@@ -129,7 +127,6 @@ static void trace_ambient_tile(void *argument, uint32_t index)
         append_pixel(job, x, y, element, &b);
     }
     trace_batch(job, &b);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &b.counts);
 }
 
@@ -140,37 +137,42 @@ void cgt_ambient_options_init(cgt_ambient_options *ambient)
     *ambient = (cgt_ambient_options){.samples = 16, .radius = INFINITY};
 }
 
+/* The options with the defaults in place of zeros; ambient may be NULL. */
+static cgt_ambient_options with_defaults(const cgt_ambient_options *ambient)
+{
+    cgt_ambient_options a, defaults;
+    cgt_ambient_options_init(&defaults);
+    a = ambient ? *ambient : defaults;
+    a.samples = a.samples ? a.samples : defaults.samples;
+    a.radius = a.radius == 0 ? defaults.radius : a.radius;
+    return a;
+}
+
 static cgt_result check_ambient(cgt_context *c, const cgt_ambient_options *a, const cgt_frame *f)
 {
-    if (!a->samples || a->samples > CGT_AMBIENT_SAMPLES)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: %u samples: 1 to %u", a->samples, CGT_AMBIENT_SAMPLES);
+    if (a->samples > CGT_AMBIENT_SAMPLES)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: %u samples: at most %u", a->samples,
+                        CGT_AMBIENT_SAMPLES);
     if (!(a->radius > 0))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: radius %g: above 0", (double)a->radius);
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "ambient: radius %g: 0 or more", (double)a->radius);
     if (!f->t || !f->primitive || !f->geometry || !f->normal[0])
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
                         "ambient: the frame needs its planes t, primitive, geometry and normal");
     return CGT_OK;
 }
 
-/* Checks all and makes the camera's rays; of the counter only what counts is left to do. */
+/* Checks all arguments and makes the camera's rays. */
 static cgt_result prepare_job(ambient_job *job, const cgt_camera *camera, const cgt_trace_options *options,
                               cgt_trace_counter *counter)
 {
     const cgt_frame *f = job->frame;
     cgt_context *c = job->scene->context;
-    char message[160];
-    cgt_float_environment callers;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, counter);
     if (result == CGT_OK)
         result = cgt_check_frame(c, f);
     if (result == CGT_OK)
         result = check_ambient(c, &job->ambient, f);
-    if (result != CGT_OK)
-        return result;
-    cgt_float_environment_enter(&callers);
-    result = cgt_camera_prepare(camera, f->width, f->height, &job->camera, message);
-    cgt_float_environment_leave(&callers);
-    return result == CGT_OK ? result : cgt_fail(c, result, "%s", message);
+    return result == CGT_OK ? cgt_prepare_camera(c, camera, f, &job->camera) : result;
 }
 
 cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
@@ -180,10 +182,11 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     cgt_trace_counter counter;
     if (!scene || !camera || !frame || !visibility)
         return CGT_ERROR_INVALID_ARGUMENT;
-    ambient_job job = {.scene = scene, .frame = frame, .visibility = visibility};
-    cgt_ambient_options_init(&job.ambient);
-    if (ambient)
-        job.ambient = *ambient;
+    ambient_job job = {.scene = scene,
+                       .frame = frame,
+                       .ambient = with_defaults(ambient),
+                       .visibility = visibility,
+                       .counter = &counter};
     cgt_result result = prepare_job(&job, camera, options, &counter);
     if (result == CGT_OK)
         result = cgt_bvh_build_on_demand(scene, (uint64_t)frame->width * frame->height * job.ambient.samples,
@@ -191,10 +194,8 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     if (result != CGT_OK)
         return result;
     job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
-    job.settings.fields = 0;
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.tiles_across = (frame->width + TILE_EDGE - 1) / TILE_EDGE;
-    job.counter = options && options->statistics ? &counter : NULL;
     cgt_run_tasks(scene->context, trace_ambient_tile, &job,
                   job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE));
     cgt_trace_store_statistics(options, &job.settings, &counter);

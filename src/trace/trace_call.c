@@ -6,66 +6,97 @@
 
 #include <string.h>
 
-/* Measured by `cgt-bench loops` (docs/coherent_grid_traversal.md): the largest packets share the most work, whether a
+#include "core/float_environment.h"
+
+/* Measured by `cgt-bench loops` (docs/reports/coherent_grid_traversal.md): the largest packets share the most work, whether a
  * sphere is 3 pixels across or 40; the loops are within a few per cent of each other on x86-64. */
 #define DEFAULT_PACKET 16
 #define DEFAULT_FLATTENED false
 
-void cgt_trace_options_init(cgt_trace_options *options)
+static const cgt_trace_options default_options;
+static const cgt_research_trace_options default_research;
+
+void cgt_trace_options_init(cgt_trace_options *options) { *options = default_options; }
+
+void cgt_research_trace_options_init(cgt_research_trace_options *options) { *options = default_research; }
+
+/* ---- options to settings ---- */
+
+static const cgt_research_trace_options *research_options(const cgt_trace_options *o)
 {
-    *options = (cgt_trace_options){.cull = CGT_CULL_BLOCKS, .mailbox = 1};
+    return o->research ? o->research : &default_research;
+}
+
+static cgt_result check_options(cgt_context *c, const cgt_trace_options *o)
+{
+    const cgt_research_trace_options *r = research_options(o);
+    const struct {
+        const char *name;
+        unsigned value, last;
+    } option[] = {{"precision", o->precision, CGT_PRECISION_EXACT},
+                  {"tile", r->tile, CGT_TILE_SHAPE_STRIP},
+                  {"loop", r->loop, CGT_LOOP_FLATTENED},
+                  {"cull", r->cull, CGT_CULL_BLOCKS},
+                  {"mailbox", r->mailbox, CGT_MAILBOX_OFF},
+                  {"kd_traversal", r->kd_traversal, CGT_KD_TRAVERSAL_PACKET},
+                  {"triangle_test", r->triangle_test, CGT_TRIANGLE_TEST_ACCELERATED}};
+    for (size_t i = 0; i < sizeof option / sizeof option[0]; i++)
+        if (option[i].value > option[i].last)
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: %s %d is unknown", option[i].name,
+                            (int)option[i].value);
+    if (r->packet != 0 && r->packet != 4 && r->packet != 8 && r->packet != 16)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", r->packet);
+    if (r->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT && o->precision != CGT_PRECISION_FAST)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
+                        "trace options: this triangle_test has no error bound: precision must be FAST");
+    return CGT_OK;
 }
 
 static cgt_result choose_settings(cgt_context *c, const cgt_trace_options *o, bool camera, cgt_trace_settings *s)
 {
-    if (o->packet != 0 && o->packet != 4 && o->packet != 8 && o->packet != 16)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", o->packet);
-    if ((unsigned)o->tile > CGT_TILE_SHAPE_STRIP)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: tile is unknown");
-    if ((unsigned)o->loop > CGT_LOOP_FLATTENED)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: loop is unknown");
-    if ((unsigned)o->cull > CGT_CULL_BLOCKS)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: cull is unknown");
-    if ((unsigned)o->kd_traversal > CGT_KD_TRAVERSAL_PACKET)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: kd_traversal is unknown");
-    if ((unsigned)o->precision > CGT_PRECISION_EXACT)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: precision is unknown");
-    if ((unsigned)o->triangle_test > CGT_TRIANGLE_TEST_ACCELERATED)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: triangle_test is unknown");
-    if (o->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT && o->precision != CGT_PRECISION_FAST)
+    const cgt_research_trace_options *r = research_options(o);
+    const cgt_result result = check_options(c, o);
+    if (result != CGT_OK)
+        return result;
+    *s = (cgt_trace_settings){.strip = camera && r->tile == CGT_TILE_SHAPE_STRIP,
+                              .flattened = r->loop == CGT_LOOP_AUTO ? DEFAULT_FLATTENED : r->loop == CGT_LOOP_FLATTENED,
+                              .cull = r->cull == CGT_CULL_AUTO ? CGT_CULL_BLOCKS : r->cull,
+                              .mailbox = r->mailbox != CGT_MAILBOX_OFF,
+                              .kd_traversal =
+                                  r->kd_traversal == CGT_KD_TRAVERSAL_AUTO ? CGT_KD_TRAVERSAL_PACKET : r->kd_traversal,
+                              .precision = o->precision,
+                              .triangle_test = r->triangle_test};
+    if (s->strip && r->packet > 4)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
-                        "trace options: this triangle_test has no error bound: precision must be FAST");
-    s->strip = camera && o->tile == CGT_TILE_SHAPE_STRIP;
-    if (s->strip && o->packet > 4)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
-                        "trace options: strips of four scanlines take packets of 4, not %u", o->packet);
-    s->tiled = camera && !o->packet && o->tile == CGT_TILE_SHAPE_AUTO && o->loop == CGT_LOOP_AUTO &&
-               o->cull == CGT_CULL_BLOCKS && o->mailbox && o->triangle_test == CGT_TRIANGLE_TEST_WATERTIGHT;
-    s->packet = s->strip ? 4 : o->packet ? o->packet : DEFAULT_PACKET;
-    s->flattened = o->loop == CGT_LOOP_AUTO ? DEFAULT_FLATTENED : o->loop == CGT_LOOP_FLATTENED;
-    s->cull = o->cull;
-    s->mailbox = o->mailbox;
-    s->kd_traversal = o->kd_traversal == CGT_KD_TRAVERSAL_AUTO ? CGT_KD_TRAVERSAL_PACKET : o->kd_traversal;
-    s->precision = o->precision;
-    s->triangle_test = o->triangle_test;
-    s->use_bvh = false; /* rays ask for it */
-    if (!camera)
-        s->packet = 0;
+                        "trace options: strips of four scanlines take packets of 4, not %u", r->packet);
+    if (camera)
+        s->packet = s->strip ? 4 : r->packet ? r->packet : DEFAULT_PACKET;
     return CGT_OK;
+}
+
+bool cgt_requires_packets(const cgt_trace_options *options)
+{
+    const cgt_research_trace_options *r = options ? research_options(options) : &default_research;
+    return r->packet || r->tile != CGT_TILE_SHAPE_AUTO || r->loop != CGT_LOOP_AUTO || r->cull != CGT_CULL_AUTO ||
+           r->mailbox != CGT_MAILBOX_AUTO || r->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT;
 }
 
 cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
                              cgt_trace_settings *settings, cgt_trace_counter *counter)
 {
-    cgt_trace_options defaults;
-    cgt_trace_options_init(&defaults);
-    counter->start_ms = options && options->statistics ? cgt_now_ms() : 0; /* a call of one ray takes as long */
-    for (size_t i = 0; i < CGT_COUNTS; i++)
-        atomic_init(&counter->sum[i], 0);
+    const cgt_trace_options *o = options ? options : &default_options;
+    counter->enabled = o->statistics || research_options(o)->statistics;
+    if (counter->enabled) { /* reading the clock takes as long as a call of one ray */
+        counter->start_ms = cgt_now_ms();
+        for (size_t i = 0; i < CGT_COUNTS; i++)
+            atomic_init(&counter->sum[i], 0);
+    }
     if (!scene->is_committed)
         return cgt_fail(scene->context, CGT_ERROR_NOT_COMMITTED, "trace: the scene was not committed since it changed");
-    return choose_settings(scene->context, options ? options : &defaults, camera, settings);
+    return choose_settings(scene->context, o, camera, settings);
 }
+
+/* ---- checks ---- */
 
 cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count)
 {
@@ -76,10 +107,49 @@ cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uin
     return CGT_OK;
 }
 
+cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[CGT_PLANES])
+{
+    for (uint32_t k = 1; k < CGT_PLANES; k++)
+        if (cgt_plane_field[k] == cgt_plane_field[k - 1] && !plane[k] != !plane[k - 1])
+            return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "%s: %s or none", what,
+                            cgt_plane_field[k] == CGT_FIELD_NORMAL ? "normal: all three" : "u and v: both");
+    return CGT_OK;
+}
+
+cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
+{
+    void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
+    const uint32_t all_fields =
+        CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
+    if (!f->width || !f->height)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: %u x %u pixels: at least 1 x 1", f->width, f->height);
+    if (f->width > 65536 || f->height > 65536)
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: %u x %u pixels: at most 65,536 a side", f->width, f->height);
+    if (f->row_stride && f->row_stride < f->width)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: row_stride is less than width");
+    if (f->row_stride > SIZE_MAX / sizeof(float) / f->height)
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: row_stride times height leaves the address space");
+    if (f->visitor_fields & ~all_fields)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
+    return cgt_check_planes(c, "frame", plane);
+}
+
+cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cgt_frame *frame, cgt_camera_rays *rays)
+{
+    char message[CGT_CAMERA_MESSAGE_BYTES];
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    const cgt_result result = cgt_camera_prepare(camera, frame->width, frame->height, rays, message);
+    cgt_float_environment_leave(&callers);
+    return result == CGT_OK ? result : cgt_fail(c, result, "%s", message);
+}
+
+/* ---- statistics ---- */
+
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
 {
     uint64_t value[CGT_COUNTS];
-    if (!counter)
+    if (!counter->enabled)
         return;
     memcpy(value, counts, sizeof value);
     for (size_t i = 0; i < CGT_COUNTS; i++)
@@ -87,43 +157,52 @@ void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
             atomic_fetch_add_explicit(&counter->sum[i], value[i], memory_order_relaxed);
 }
 
-void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trace_settings *settings,
-                                cgt_trace_counter *counter)
+static cgt_counts read_counts(const cgt_trace_counter *counter)
 {
     uint64_t value[CGT_COUNTS];
-    cgt_counts c;
-    if (!options || !options->statistics)
-        return;
+    cgt_counts counts;
     for (size_t i = 0; i < CGT_COUNTS; i++)
         value[i] = atomic_load_explicit(&counter->sum[i], memory_order_relaxed);
-    memcpy(&c, value, sizeof c);
-    *options->statistics =
-        (cgt_trace_statistics){.rays = c.rays,
-                               .invalid_rays = c.invalid_rays,
-                               .hits = c.hits,
-                               .bvh_rays = c.bvh_rays,
-                               .tiles = c.tiles,
-                               .packets = c.packets,
-                               .split_packets = c.split_packets,
-                               .slices = c.slices,
-                               .cells = c.cells,
-                               .nodes = c.nodes,
-                               .leaves = c.leaves,
-                               .rope_steps = c.rope_steps,
-                               .exact_steps = c.exact_steps,
-                               .rope_loops = c.rope_loops,
-                               .references = c.references,
-                               .mailbox_skipped = c.mailbox_skipped,
-                               .cull_tests = c.cull_tests,
-                               .culled = c.culled,
-                               .packet_tests = c.packet_tests,
-                               .ray_tests = c.ray_tests,
-                               .double_tests = c.double_tests,
-                               .exact_tests = c.exact_tests,
-                               .exact_values = c.exact_values,
-                               .early_exits = c.early_exits,
-                               .packet_size = settings->packet,
-                               .tile = settings->strip ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE,
-                               .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED,
-                               .trace_ms = cgt_now_ms() - counter->start_ms};
+    memcpy(&counts, value, sizeof counts);
+    return counts;
+}
+
+void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trace_settings *settings,
+                                const cgt_trace_counter *counter)
+{
+    if (!counter->enabled)
+        return;
+    const cgt_counts c = read_counts(counter);
+    cgt_research_trace_statistics *research = research_options(options)->statistics;
+    if (options->statistics)
+        *options->statistics = (cgt_trace_statistics){.rays = c.rays,
+                                                      .invalid_rays = c.invalid_rays,
+                                                      .hits = c.hits,
+                                                      .bvh_rays = c.bvh_rays,
+                                                      .tiles = c.tiles,
+                                                      .packets = c.packets,
+                                                      .packet_tests = c.packet_tests,
+                                                      .ray_tests = c.ray_tests,
+                                                      .double_tests = c.double_tests,
+                                                      .exact_tests = c.exact_tests,
+                                                      .exact_values = c.exact_values,
+                                                      .trace_ms = cgt_now_ms() - counter->start_ms};
+    if (research)
+        *research =
+            (cgt_research_trace_statistics){.split_packets = c.split_packets,
+                                            .slices = c.slices,
+                                            .cells = c.cells,
+                                            .nodes = c.nodes,
+                                            .leaves = c.leaves,
+                                            .rope_steps = c.rope_steps,
+                                            .exact_steps = c.exact_steps,
+                                            .rope_loops = c.rope_loops,
+                                            .references = c.references,
+                                            .mailbox_skipped = c.mailbox_skipped,
+                                            .cull_tests = c.cull_tests,
+                                            .culled = c.culled,
+                                            .early_exits = c.early_exits,
+                                            .packet_size = settings->packet,
+                                            .tile = settings->strip ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE,
+                                            .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED};
 }

@@ -1,32 +1,44 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the tracing calls share: options to settings, and the counting over threads. */
+ * What the tracing calls share: checks, options to settings, and counting over threads. */
 #ifndef CGT_TRACE_CALL_H
 #define CGT_TRACE_CALL_H
 
+#include "dispatch/kernel.h"
+#include "query/region.h"
 #include "scene/scene.h"
 
 typedef struct cgt_trace_counter {
-    _Atomic uint64_t sum[CGT_COUNTS]; /* cgt_counts */
+    bool enabled; /* somebody asked for statistics */
     double start_ms;
+    _Atomic uint64_t sum[CGT_COUNTS]; /* cgt_counts */
 } cgt_trace_counter;
 
-/* Checks that the scene may be traced and makes the choices that the options leave open. */
+/* Checks that the scene may be traced, makes the choices that the options leave open and starts the counter. */
 cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,
                              cgt_trace_settings *settings, cgt_trace_counter *counter);
 
-/* Whether so many elements of a caller's array, `what`, can be told apart by addresses and be shared out to tasks. */
+/* Whether the options set anything about packets, so that a frame must not go by whole tiles. */
+bool cgt_requires_packets(const cgt_trace_options *options);
+
+/* Checks that all elements of a caller's array, called `what`, have addresses, and that task numbers reach them. */
 cgt_result cgt_check_stride(cgt_context *c, const char *what, size_t stride, uint64_t count);
 
-/* Whether a frame's size, stride and planes are ones. */
+/* Checks that planes of one field, called `what`, come together. */
+cgt_result cgt_check_planes(cgt_context *c, const char *what, void *const plane[CGT_PLANES]);
+
+/* Checks a frame's size, stride and planes. */
 cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f);
 
-/* Adds the counts of one task; counter may be NULL. */
+/* Checks a camera and makes its rays. */
+cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cgt_frame *frame, cgt_camera_rays *rays);
+
+/* Adds the counts of one task. */
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts);
 
-/* Fills in the caller's statistics, where asked for. */
+/* Fills in the caller's statistics, where there are any. */
 void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trace_settings *settings,
-                                cgt_trace_counter *counter);
+                                const cgt_trace_counter *counter);
 
 #endif

@@ -3,11 +3,11 @@
  *
  * A camera's frame: cut into tiles, each a task. A tile is traced straight into the caller's planes, or into a buffer
  * on the stack that goes to the visitor and from there, row by row, to the planes. */
-#include <math.h>
 #include <string.h>
 
 #include "core/float_environment.h"
-#include "scene/scene.h"
+#include "dispatch/kernel.h"
+#include "query/tile_limits.h"
 #include "trace/trace_call.h"
 
 #define SQUARE_EDGE 64u
@@ -20,158 +20,96 @@ typedef struct frame_job {
     const cgt_frame *frame;
     cgt_camera_rays camera;
     cgt_trace_settings settings;
+    bool by_tiles;     /* whole tiles go through a loose grid, no packets */
+    cgt_region planes; /* the whole frame */
     uint32_t tile_width, tile_height, tiles_across;
-    size_t row_stride;
     bool buffered; /* tiles go through a buffer */
     atomic_bool stopped;
     cgt_trace_counter *counter;
+    cgt_float_environment callers; /* the visitor's, too */
 } frame_job;
 
-static uint32_t plane_fields(const cgt_frame *f)
+static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes, uint32_t buffer[][TILE_PIXELS])
 {
-    return (f->t ? CGT_FIELD_T : 0u) | (f->primitive ? CGT_FIELD_PRIMITIVE : 0u) |
-           (f->geometry ? CGT_FIELD_GEOMETRY : 0u) | (f->normal[0] ? CGT_FIELD_NORMAL : 0u) |
-           (f->u ? CGT_FIELD_UV : 0u);
-}
-
-/* A region's planes within larger ones that start at its first pixel's element. */
-static cgt_region region_in_planes(const frame_job *job, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
-{
-    const cgt_frame *f = job->frame;
-    const size_t first = (size_t)y * job->row_stride + x;
-    cgt_region r = {
-        .x = x, .y = y, .width = width, .height = height, .row_stride = job->row_stride, .nontemporal = !f->visitor};
-    r.t = f->t ? f->t + first : NULL;
-    r.primitive = f->primitive ? f->primitive + first : NULL;
-    r.geometry = f->geometry ? f->geometry + first : NULL;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = f->normal[a] ? f->normal[a] + first : NULL;
-    r.u = f->u ? f->u + first : NULL;
-    r.v = f->v ? f->v + first : NULL;
-    return r;
-}
-
-static cgt_region region_in_buffer(const frame_job *job, const cgt_region *planes, uint32_t buffer[8][TILE_PIXELS])
-{
-    const uint32_t fields = job->settings.fields;
     cgt_region r = *planes;
     r.row_stride = planes->width;
     r.nontemporal = false;
-    r.t = fields & CGT_FIELD_T ? (float *)buffer[0] : NULL;
-    r.primitive = fields & CGT_FIELD_PRIMITIVE ? buffer[1] : NULL;
-    r.geometry = fields & CGT_FIELD_GEOMETRY ? buffer[2] : NULL;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = fields & CGT_FIELD_NORMAL ? (float *)buffer[3 + a] : NULL;
-    r.u = fields & CGT_FIELD_UV ? (float *)buffer[6] : NULL;
-    r.v = fields & CGT_FIELD_UV ? (float *)buffer[7] : NULL;
+    for (int k = 0; k < CGT_PLANES; k++)
+        r.plane[k] = job->settings.fields & cgt_plane_field[k] ? buffer[k] : NULL;
     return r;
-}
-
-static void copy_rows(void *to, const void *from, const cgt_region *planes, const cgt_region *tile)
-{
-    if (!to)
-        return;
-    for (uint32_t y = 0; y < tile->height; y++)
-        memcpy((uint32_t *)to + y * planes->row_stride, (const uint32_t *)from + y * tile->row_stride,
-               tile->width * sizeof(uint32_t));
 }
 
 static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
 {
-    copy_rows(planes->t, tile->t, planes, tile);
-    copy_rows(planes->primitive, tile->primitive, planes, tile);
-    copy_rows(planes->geometry, tile->geometry, planes, tile);
-    for (int a = 0; a < 3; a++)
-        copy_rows(planes->normal[a], tile->normal[a], planes, tile);
-    copy_rows(planes->u, tile->u, planes, tile);
-    copy_rows(planes->v, tile->v, planes, tile);
+    for (int k = 0; k < CGT_PLANES; k++)
+        for (uint32_t y = 0; planes->plane[k] && y < tile->height; y++)
+            memcpy(planes->plane[k] + y * planes->row_stride, tile->plane[k] + y * tile->row_stride,
+                   tile->width * sizeof(uint32_t));
 }
 
-static int call_visitor(const cgt_frame *f, const cgt_region *r)
+/* Tasks run in the library's floating-point environment, the visitor in that of the call. */
+static cgt_visit call_visitor(const frame_job *job, const cgt_region *r)
 {
-    const uint32_t fields = f->visitor_fields;
-    const bool normal = fields & CGT_FIELD_NORMAL, uv = fields & CGT_FIELD_UV;
-    const cgt_tile tile = {
-        .x = r->x,
-        .y = r->y,
-        .width = r->width,
-        .height = r->height,
-        .row_stride = r->row_stride,
-        .t = fields & CGT_FIELD_T ? r->t : NULL,
-        .primitive = fields & CGT_FIELD_PRIMITIVE ? r->primitive : NULL,
-        .geometry = fields & CGT_FIELD_GEOMETRY ? r->geometry : NULL,
-        .normal = {normal ? r->normal[0] : NULL, normal ? r->normal[1] : NULL, normal ? r->normal[2] : NULL},
-        .u = uv ? r->u : NULL,
-        .v = uv ? r->v : NULL};
-    return f->visitor(f->visitor_user, &tile);
+    const cgt_frame *f = job->frame;
+    cgt_float_environment visitors;
+    cgt_region q = *r;
+    for (int k = 0; k < CGT_PLANES; k++)
+        q.plane[k] = f->visitor_fields & cgt_plane_field[k] ? q.plane[k] : NULL;
+    const cgt_tile tile = {.x = q.x,
+                           .y = q.y,
+                           .width = q.width,
+                           .height = q.height,
+                           .row_stride = q.row_stride,
+                           .t = q.t,
+                           .primitive = q.primitive,
+                           .geometry = q.geometry,
+                           .normal = {q.normal[0], q.normal[1], q.normal[2]},
+                           .u = q.u,
+                           .v = q.v};
+    cgt_float_environment_leave(&job->callers);
+    const cgt_visit visit = f->visitor(f->visitor_user, &tile);
+    cgt_float_environment_enter(&visitors);
+    return visit;
 }
 
-static void trace_region_into(const frame_job *job, const cgt_region *r)
+static void trace_region(const frame_job *job, const cgt_region *r)
 {
     const cgt_scene *s = job->scene;
+    const cgt_kernel *kernel = s->context->kernel;
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
-    if (s->committed_scene.structure == CGT_STRUCTURE_LOOSE_GRID && job->settings.tiled)
-        s->context->kernel->trace_tile(&s->committed_scene, &job->camera, &job->settings, r, &counts);
-    else
-        s->context->kernel->trace_region(&s->committed_scene, &job->camera, &job->settings, r, &counts);
-    cgt_float_environment_leave(&callers);
+    (job->by_tiles ? kernel->trace_tile : kernel->trace_region)(&s->committed_scene, &job->camera, &job->settings, r,
+                                                                &counts);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
 /* A function of its own: its stack is taken only where it is needed. */
-__attribute__((noinline)) static int trace_buffered(const frame_job *job, const cgt_region *planes)
+__attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, const cgt_region *planes)
 {
-    uint32_t buffer[8][TILE_PIXELS];
+    uint32_t buffer[CGT_PLANES][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
-    trace_region_into(job, &tile);
-    const int stop = job->frame->visitor ? call_visitor(job->frame, &tile) : 0;
+    trace_region(job, &tile);
+    const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile) : CGT_VISIT_CONTINUE;
     copy_to_planes(planes, &tile);
-    return stop;
+    return visit;
 }
 
 static void trace_frame_tile(void *argument, uint32_t index)
 {
     frame_job *job = argument;
-    const cgt_frame *f = job->frame;
     const uint32_t x = index % job->tiles_across * job->tile_width, y = index / job->tiles_across * job->tile_height;
-    const uint32_t width = f->width - x < job->tile_width ? f->width - x : job->tile_width;
-    const uint32_t height = f->height - y < job->tile_height ? f->height - y : job->tile_height;
-    int stop = 0;
+    cgt_visit visit = CGT_VISIT_CONTINUE;
     if (atomic_load_explicit(&job->stopped, memory_order_relaxed))
         return;
-    const cgt_region planes = region_in_planes(job, x, y, width, height);
+    const cgt_region part = cgt_region_part(&job->planes, x, y, job->tile_width, job->tile_height);
     if (job->buffered)
-        stop = trace_buffered(job, &planes);
+        visit = trace_buffered(job, &part);
     else {
-        trace_region_into(job, &planes);
-        if (f->visitor)
-            stop = call_visitor(f, &planes);
+        trace_region(job, &part);
+        if (job->frame->visitor)
+            visit = call_visitor(job, &part);
     }
-    if (stop)
+    if (visit != CGT_VISIT_CONTINUE)
         atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
-}
-
-cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
-{
-    const uint32_t all_fields =
-        CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
-    if (!f->width || !f->height)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: %u x %u pixels: at least 1 x 1", f->width, f->height);
-    if (f->width > 65536 || f->height > 65536)
-        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: %u x %u pixels: at most 65,536 a side", f->width, f->height);
-    if (f->row_stride && f->row_stride < f->width)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: row_stride is less than width");
-    if (f->row_stride > SIZE_MAX / sizeof(float) / f->height)
-        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: row_stride times height leaves the address space");
-    if (!f->normal[0] != !f->normal[1] || !f->normal[0] != !f->normal[2])
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: normal: all three planes or none");
-    if (!f->u != !f->v)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: u and v: both planes or none");
-    if (f->visitor_fields & ~all_fields)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
-    return CGT_OK;
 }
 
 void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
@@ -179,43 +117,48 @@ void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
     *frame = (cgt_frame){.width = width, .height = height};
 }
 
-static void compute_tiling(frame_job *job)
+/* Chooses tiles and whether they are traced as a whole. */
+static void plan_frame(frame_job *job, const cgt_trace_options *options)
 {
     const cgt_frame *f = job->frame;
+    const cgt_committed_scene *committed_scene = &job->scene->committed_scene;
     const uint32_t visitor_fields = f->visitor ? f->visitor_fields : 0;
+    void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
+    if (!cgt_primitives_masked_out(&committed_scene->prims, job->camera.mask))
+        job->camera.mask = UINT32_MAX;
+    job->by_tiles = !cgt_requires_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
+    job->planes = (cgt_region){.width = f->width,
+                               .height = f->height,
+                               .row_stride = f->row_stride ? f->row_stride : f->width,
+                               .nontemporal = !f->visitor};
+    for (int k = 0; k < CGT_PLANES; k++)
+        job->planes.plane[k] = plane[k];
+    const uint32_t plane_fields = cgt_planes_fields(plane);
+    job->settings.fields = plane_fields | visitor_fields;
+    job->buffered = job->settings.strip || (visitor_fields & ~plane_fields);
     job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE;
     job->tile_height = job->settings.strip ? STRIP_HEIGHT : SQUARE_EDGE;
     job->tiles_across = (f->width + job->tile_width - 1) / job->tile_width;
-    job->row_stride = f->row_stride ? f->row_stride : f->width;
-    job->settings.fields = plane_fields(f) | visitor_fields;
-    job->buffered = job->settings.strip || (visitor_fields & ~plane_fields(f));
 }
 
 cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                             const cgt_trace_options *options)
 {
-    frame_job job = {.scene = scene, .frame = frame};
     cgt_trace_counter counter;
-    char message[160];
+    frame_job job = {.scene = scene, .frame = frame, .counter = &counter};
     if (!scene || !camera || !frame)
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_context *c = scene->context;
     cgt_result result = cgt_trace_prepare(scene, options, true, &job.settings, &counter);
     if (result == CGT_OK)
         result = cgt_check_frame(c, frame);
+    if (result == CGT_OK)
+        result = cgt_prepare_camera(c, camera, frame, &job.camera);
     if (result != CGT_OK)
         return result;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
-    result = cgt_camera_prepare(camera, frame->width, frame->height, &job.camera, message);
-    cgt_float_environment_leave(&callers);
-    if (result != CGT_OK)
-        return cgt_fail(c, result, "%s", message);
-    if (!cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask))
-        job.camera.mask = UINT32_MAX;
-    job.settings.tiled &= job.camera.mask == UINT32_MAX;
-    compute_tiling(&job);
-    job.counter = options && options->statistics ? &counter : NULL;
+    plan_frame(&job, options);
+    cgt_float_environment_enter(&job.callers); /* keeps it for the visitor */
+    cgt_float_environment_leave(&job.callers);
     atomic_init(&job.stopped, false);
     cgt_run_tasks(c, trace_frame_tile, &job,
                   job.tiles_across * ((frame->height + job.tile_height - 1) / job.tile_height));

@@ -1,20 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points in the light of one lamp: cut into chunks, each a task. */
+ * Points against one light: cut into chunks, each a task. */
 #include <math.h>
 
 #include "core/float_environment.h"
-#include "scene/scene.h"
+#include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
 
-/* Chunks of a call that are looked at to choose a way, and the objects that a tile may take for each point: more, and a
- * tree is faster. Measured. */
+/* How tiles or a tree are chosen: the chunks of a call that are sampled, and the primitives that a tile may test for each
+ * point; with more of them a tree is faster. Measured. */
 #define SAMPLED_CHUNKS 8u
 #define PRIMS_PER_POINT 16u
 
-#define FEW_POINTS 256u /* go through a wide tree where there is one */
+#define FEW_POINTS 256u /* fewer go through a BVH where there is one */
 
 typedef struct light_job {
     const cgt_scene *scene;
@@ -37,15 +37,12 @@ static void trace_chunk(void *argument, uint32_t index)
     const cgt_scene *s = job->scene;
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
                                     job->occluded, &counts);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-/* Whether neighbours among the points are near enough to each other, as the light sees them, for tiles: of most chunks. */
+/* Whether, in most chunks, neighbouring points are near enough to each other for tiles, as the light sees them. */
 static bool choose_tiles(const light_job *job)
 {
     const cgt_scene *s = job->scene;
@@ -75,10 +72,9 @@ static cgt_result check_light(cgt_context *c, const cgt_light *light)
             return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: its position is not finite");
         zero = zero && light->position[a] == 0;
     }
-    if (light->w != 0 && light->w != 1)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: w is %g: 1 for a place, 0 for a direction",
-                        (double)light->w);
-    if (light->w == 0 && zero)
+    if ((unsigned)light->kind > CGT_LIGHT_DIRECTIONAL)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: kind %d is unknown", (int)light->kind);
+    if (light->kind == CGT_LIGHT_DIRECTIONAL && zero)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "light: a direction of length zero");
     return CGT_OK;
 }
@@ -98,7 +94,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
     if (!scene || !light || !points || (!occluded && points->count))
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_context *c = scene->context;
-    light_job job = {.scene = scene, .light = light, .occluded = occluded};
+    light_job job = {.scene = scene, .light = light, .occluded = occluded, .counter = &counter};
     cgt_result result = cgt_trace_prepare(scene, options, false, &job.settings, &counter);
     if (result == CGT_OK)
         result = check_light(c, light);
@@ -119,8 +115,6 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
     if (result != CGT_OK)
         return result;
     job.settings.light_tiles = tiles && !(job.settings.use_bvh && points->count < FEW_POINTS);
-    job.settings.fields = 0;
-    job.counter = options && options->statistics ? &counter : NULL;
     cgt_run_tasks(c, trace_chunk, &job, (uint32_t)((points->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
     cgt_trace_store_statistics(options, &job.settings, &counter);
     return CGT_OK;

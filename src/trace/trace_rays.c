@@ -24,11 +24,8 @@ static void trace_chunk(void *argument, uint32_t index)
     const uint64_t first = (uint64_t)index * job->chunk, remaining = job->rays->count - first,
                    end = first + (remaining < job->chunk ? remaining : job->chunk);
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     s->context->kernel->trace_rays(&s->committed_scene, job->rays, first, end, &job->settings, job->hits, job->occluded,
                                    &counts);
-    cgt_float_environment_leave(&callers);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
@@ -40,23 +37,7 @@ static cgt_result check_rays(cgt_context *c, const cgt_rays *r)
     return cgt_check_stride(c, "rays", r->stride, r->count);
 }
 
-static cgt_result check_hits(cgt_context *c, const cgt_hits *h, uint64_t count)
-{
-    if (!h->normal[0] != !h->normal[1] || !h->normal[0] != !h->normal[2])
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "hits: normal: all three arrays or none");
-    if (!h->u != !h->v)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "hits: u and v: both arrays or none");
-    return cgt_check_stride(c, "hits", h->stride, count);
-}
-
-static uint32_t hit_fields(const cgt_hits *h)
-{
-    return (h->t ? CGT_FIELD_T : 0u) | (h->primitive ? CGT_FIELD_PRIMITIVE : 0u) |
-           (h->geometry ? CGT_FIELD_GEOMETRY : 0u) | (h->normal[0] ? CGT_FIELD_NORMAL : 0u) |
-           (h->u ? CGT_FIELD_UV : 0u);
-}
-
-/* Large chunks where each thread gets two of them; how many threads a caller's runner has, nobody knows. */
+/* Large chunks where each thread gets two of them; a caller's runner counts as 64 threads. */
 static uint32_t choose_chunk(const rays_job *job)
 {
     const cgt_scene *s = job->scene;
@@ -65,21 +46,33 @@ static uint32_t choose_chunk(const rays_job *job)
     return streams && job->rays->count >= threads * 2 * CGT_STREAM_CHUNK ? CGT_STREAM_CHUNK : CGT_RAYS_CHUNK;
 }
 
+/* Checks the hits and finds the fields that they want. */
+static cgt_result prepare_hits(rays_job *job)
+{
+    const cgt_hits *h = job->hits;
+    if (!h)
+        return CGT_OK;
+    cgt_context *c = job->scene->context;
+    void *const plane[CGT_PLANES] = CGT_PLANES_OF(h);
+    const cgt_result result = cgt_check_planes(c, "hits", plane);
+    job->settings.fields = cgt_planes_fields(plane);
+    return result == CGT_OK ? cgt_check_stride(c, "hits", h->stride, job->rays->count) : result;
+}
+
 static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
 {
     cgt_context *c = job->scene->context;
     cgt_trace_counter counter;
+    job->counter = &counter;
     cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, &counter);
     if (result == CGT_OK)
         result = check_rays(c, job->rays);
-    if (result == CGT_OK && job->hits)
-        result = check_hits(c, job->hits, job->rays->count);
+    if (result == CGT_OK)
+        result = prepare_hits(job);
     if (result == CGT_OK)
         result = cgt_bvh_build_on_demand(job->scene, job->rays->count, &job->settings.use_bvh);
     if (result != CGT_OK)
         return result;
-    job->settings.fields = job->hits ? hit_fields(job->hits) : 0;
-    job->counter = options && options->statistics ? &counter : NULL;
     job->chunk = choose_chunk(job);
     cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
     cgt_trace_store_statistics(options, &job->settings, &counter);

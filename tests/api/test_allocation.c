@@ -104,10 +104,9 @@ static const choice choices[] = {
 };
 #define FOR_EACH_CHOICE(c) for (const choice *c = choices; c < choices + TEST_COUNT(choices); c++)
 
-static cgt_scene_options options_of(const choice *c)
+static test_scene_options options_of(const choice *c)
 {
-    cgt_scene_options o;
-    cgt_scene_options_init(&o);
+    test_scene_options o = {0};
     o.structure = c->structure;
     o.kd_builder = c->builder;
     o.kd_layout = c->layout;
@@ -191,11 +190,11 @@ static void set_triangles(memory *m, cgt_scene *scene, uint32_t geometry, bool a
 /* want: what every structure shows; NULL to find out. */
 static void session(memory *m, const choice *c, uint32_t threads, const planes want[2])
 {
-    const cgt_scene_options options = options_of(c);
+    const test_scene_options options = options_of(c);
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     TRY(m, create(m, threads, &context));
-    TRY(m, cgt_scene_create(context, &options, &scene));
+    TRY(m, cgt_scene_create(context, SCENE_OPTIONS(&options), &scene));
     for (int frame = 0; frame < 2; frame++) {
         const uint32_t each = spheres.count / GEOMETRIES, count = frame ? each : each / 4;
         const bool add = frame == 0;
@@ -207,7 +206,8 @@ static void session(memory *m, const choice *c, uint32_t threads, const planes w
         cgt_scene_statistics st;
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
         assert_int_equal(st.structure, c->structure);
-        assert_true(c->structure != CGT_STRUCTURE_QUEUE_GRID || st.overflow_references > 0); /* and then more */
+        assert_true(c->structure != CGT_STRUCTURE_QUEUE_GRID ||
+                    research_of(scene).overflow_references > 0); /* and then more */
         check_frame(scene, want ? &want[frame] : NULL);
         if (!want)
             memcpy(expected[frame].memory, got.memory, 6 * got.elements * sizeof(uint32_t));
@@ -279,13 +279,13 @@ static void every_allocation_fails_in_turn(void **state)
 /* Failures one after another: the second try fails too, and the third. */
 static void fail_again_and_again(const choice *c)
 {
-    const cgt_scene_options options = options_of(c);
+    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     uint32_t id = 77;
     assert_int_equal(create(&m, 2, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
     const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
     for (int i = 0; i < 5; i++) {
         m.fail_at = m.calls + 1;
@@ -325,15 +325,14 @@ static void trace_all(const cgt_scene *scene, uint32_t frame)
     frame_trace(scene, &camera, &got, NULL);
     const uint32_t step = test_samples() ? 5 : 1; /* of the ways; prime to them */
     for (uint32_t way = test_sample_start(frame, step); way < 12; way += step) {
-        cgt_trace_options o;
+        test_trace_options o = {0};
         cgt_trace_statistics st;
-        cgt_trace_options_init(&o);
         o.tile = way % 2 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE;
         o.loop = way / 2 % 2 ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
-        o.mailbox = way / 4 % 2;
+        o.mailbox = mailbox_of(way / 4 % 2);
         o.kd_traversal = (cgt_kd_traversal)(way % 3);
         o.statistics = &st;
-        frame_trace(scene, &camera, &got, &o);
+        frame_trace(scene, &camera, &got, TRACE_OPTIONS(&o));
     }
     rays_trace(scene, rays, SIDE, hit, NULL);
     assert_int_equal(cgt_occluded_rays(scene, &r, occluded, NULL), CGT_OK);
@@ -343,13 +342,13 @@ static void trace_all(const cgt_scene *scene, uint32_t frame)
 /* All move, and counts change, through the same four states: from the fifth on nothing is new. */
 static void keep_steady(const choice *c, uint32_t threads)
 {
-    const cgt_scene_options options = options_of(c);
+    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
     uint32_t id;
     assert_int_equal(create(&m, threads, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
     const cgt_spheres cloud_spheres = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
     const cgt_spheres pile_spheres = spheres_of((const float(*)[4])pile, 300);
     const cgt_triangles triangles = {.count = TRIANGLES, .vertex_count = 3 * TRIANGLES, .vertices = mesh[0][0]};
@@ -395,7 +394,7 @@ static void move_without_growing(const choice *c)
 {
     enum { COUNT = 900, STEPS = 40 };
     static float sphere[COUNT][4];
-    const cgt_scene_options options = options_of(c);
+    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
@@ -404,7 +403,7 @@ static void move_without_growing(const choice *c)
     size_t before = 0, shapes = 0, grown = 0;
     test_random r = random_make(77);
     assert_int_equal(create(&m, 2, &context), CGT_OK);
-    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
     const cgt_spheres spheres_moving = spheres_of((const float(*)[4])sphere, COUNT);
     assert_int_equal(cgt_scene_add_spheres(scene, &spheres_moving, &id), CGT_OK);
     for (int step = 0; step < STEPS; step++) {
@@ -417,13 +416,14 @@ static void move_without_growing(const choice *c)
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         cgt_scene_statistics st;
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-        const bool grid = !st.kd_nodes;
-        if (before && !(grid ? st.overflow_references > 0 : st.bytes > most_bytes))
+        const cgt_research_scene_statistics research = research_of(scene);
+        const bool grid = !research.kd_nodes;
+        if (before && !(grid ? research.overflow_references > 0 : st.bytes > most_bytes))
             assert_int_equal(m.calls, before);
         grown += before && m.calls != before;
         before = m.calls;
-        shapes += grid ? st.cells != cells : st.kd_nodes != cells;
-        cells = grid ? st.cells : st.kd_nodes;
+        shapes += grid ? research.cells != cells : research.kd_nodes != cells;
+        cells = grid ? research.cells : research.kd_nodes;
         most_bytes = st.bytes > most_bytes ? st.bytes : most_bytes;
     }
     assert_true(shapes > 10 && grown <= 4);
@@ -441,7 +441,7 @@ static void moving_without_growing_allocates_nothing(void **state)
 
 static void compare_bytes(const choice *c)
 {
-    const cgt_scene_options options = options_of(c);
+    const test_scene_options options = options_of(c);
     memory m = {0};
     cgt_context *context = NULL;
     cgt_scene *scene = NULL;
@@ -449,7 +449,7 @@ static void compare_bytes(const choice *c)
     uint32_t id;
     assert_int_equal(create(&m, 2, &context), CGT_OK);
     const size_t without = m.bytes;
-    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
     for (uint32_t count = 10; count <= 900; count += 89) {
         const cgt_spheres s = spheres_of((const float(*)[4])spheres.sphere, count);
         assert_int_equal(count == 10 ? cgt_scene_add_spheres(scene, &s, &id) : cgt_scene_update_spheres(scene, 0, &s),

@@ -6,12 +6,9 @@
 #include "support/scenes.h"
 
 #include <sched.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 /* ---- options ---- */
@@ -202,95 +199,126 @@ static void a_scene_keeps_its_context(void **state)
 
 /* ---- CGT_DISABLE_CPU, in processes of its own ---- */
 
-#define REFUSED 100 /* by UNSUPPORTED, with a message that names the mask */
+#define REFUSED 100 /* UNSUPPORTED, with a message that names CGT_DISABLE_CPU */
+#define UNKNOWN 101 /* INVALID_ARGUMENT, the same */
 
-static void keep_message(void *user, cgt_log_level level, const char *message)
+/* What a context finds with the mask: the variant's place in cgt_get_variant_names, REFUSED or UNKNOWN; message gets the
+ * reason. */
+static int place_with_mask(const char *mask, const char *variant, char message[200])
 {
-    (void)level;
-    snprintf(user, 200, "%s", message);
-}
-
-/* What a child finds with the mask: the variant's place in cgt_get_variant_names, or REFUSED; -signal where it was ended. */
-static int child_with_mask(const char *mask, const char *variant)
-{
-    fflush(NULL);
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (child == 0) {
-        char message[200] = "";
-        cgt_context_options options;
-        cgt_context *context;
-        const struct rlimit no_core = {0, 0};
-        setrlimit(RLIMIT_CORE, &no_core);
-        signal(SIGABRT, SIG_DFL);
-        if (!freopen("/dev/null", "w", stderr) || setenv("CGT_DISABLE_CPU", mask, 1))
-            _exit(99);
-        cgt_context_options_init(&options);
-        options.threads = 1;
-        options.variant = variant;
-        options.log = (cgt_log_hook){message, keep_message};
-        const cgt_result result = cgt_context_create(&options, &context);
-        if (result == CGT_ERROR_UNSUPPORTED && strstr(message, "CGT_DISABLE_CPU"))
-            _exit(REFUSED);
-        int place = 0;
-        while (result == CGT_OK && strcmp(cgt_get_variant_names()[place], cgt_context_get_variant(context)) != 0)
-            place++;
-        _exit(result == CGT_OK ? place : 98);
+    cgt_context *context = NULL;
+    const cgt_context_options options = {.threads = 1, .variant = variant, .message = message, .message_size = 200};
+    assert_int_equal(setenv("CGT_DISABLE_CPU", mask, 1), 0);
+    const cgt_result result = cgt_context_create(&options, &context);
+    assert_int_equal(unsetenv("CGT_DISABLE_CPU"), 0);
+    if (result != CGT_OK) {
+        assert_null(context);
+        assert_non_null(strstr(message, "CGT_DISABLE_CPU"));
+        return result == CGT_ERROR_UNSUPPORTED ? REFUSED : result == CGT_ERROR_INVALID_ARGUMENT ? UNKNOWN : -1;
     }
-    int status = 0;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+    int place = 0;
+    while (strcmp(cgt_get_variant_names()[place], cgt_context_get_variant(context)) != 0)
+        place++;
+    assert_string_equal(message, "");
+    cgt_context_release(context);
+    return place;
 }
 
 static void variants_can_be_masked(void **state)
 {
     (void)state;
+    char message[200];
     int place[8], running = 0;
     for (int i = 0; cgt_get_variant_names()[i]; i++)
         if (test_variant_runs(cgt_get_variant_names()[i]))
             place[running++] = i;
     const int widest = place[running - 1];
     assert_int_equal(place[0], 0);
-    assert_int_equal(child_with_mask("", NULL), widest);
-    assert_int_equal(child_with_mask(",,", NULL), widest);
-    assert_int_equal(child_with_mask("avx512,avx2,sse,neon", NULL), 0);
-    assert_int_equal(child_with_mask("neon,,sse,avx512,avx2,", NULL), 0);
-    assert_int_equal(child_with_mask("avx512,avx2,sse,neon", "portable"), 0);
-    assert_int_equal(child_with_mask("portable,avx512,avx2,sse,neon", NULL), REFUSED);
-    assert_int_equal(child_with_mask("portable", "portable"), REFUSED);
-    assert_int_equal(child_with_mask("portable", NULL), running > 1 ? widest : REFUSED);
+    assert_int_equal(place_with_mask("", NULL, message), widest);
+    assert_int_equal(place_with_mask(",,", NULL, message), widest);
+    assert_int_equal(place_with_mask("avx512,avx2,sse,neon", NULL, message), 0);
+    assert_int_equal(place_with_mask("neon,,sse,avx512,avx2,", NULL, message), 0);
+    assert_int_equal(place_with_mask("avx512,avx2,sse,neon", "portable", message), 0);
+    assert_int_equal(place_with_mask("portable,avx512,avx2,sse,neon", NULL, message), REFUSED);
+    assert_int_equal(place_with_mask("portable", "portable", message), REFUSED);
+    assert_int_equal(place_with_mask("portable", NULL, message), running > 1 ? widest : REFUSED);
     /* without the wider ones each is the widest; without itself the one before it is, and itself is refused */
     char mask[100] = "";
     for (int k = running - 1; k > 0; k--) {
         const char *name = cgt_get_variant_names()[place[k]];
-        assert_int_equal(child_with_mask(mask, NULL), place[k]);
-        assert_int_equal(child_with_mask(mask, name), place[k]);
+        assert_int_equal(place_with_mask(mask, NULL, message), place[k]);
+        assert_int_equal(place_with_mask(mask, name, message), place[k]);
         snprintf(mask + strlen(mask), sizeof mask - strlen(mask), "%s%s", *mask ? "," : "", name);
-        assert_int_equal(child_with_mask(mask, NULL), place[k - 1]);
-        assert_int_equal(child_with_mask(mask, name), REFUSED);
-        assert_int_equal(child_with_mask(name, name), REFUSED);
+        assert_int_equal(place_with_mask(mask, NULL, message), place[k - 1]);
+        assert_int_equal(place_with_mask(mask, name, message), REFUSED);
+        assert_int_equal(place_with_mask(name, name, message), REFUSED);
     }
 }
 
-static void unknown_variants_end_the_process(void **state)
+static void unknown_variants_are_refused(void **state)
 {
     (void)state;
-    static const char *const unknown[] = {"sse4.1", "sse4",     "SSE",      "avx9", "avx51",   "avx5122",
-                                          "sse ",   "sse,avx9", "avx9,sse", " ",    "sse:avx2"};
-    for (size_t i = 0; i < TEST_COUNT(unknown); i++) {
-        assert_int_equal(child_with_mask(unknown[i], NULL), -SIGABRT);
-        assert_int_equal(child_with_mask(unknown[i], "portable"), -SIGABRT);
+    static const char *const unknown[][2] = {
+        {"sse4.1", "sse4.1"},
+        {"sse4", "sse4"},
+        {"SSE", "SSE"},
+        {"avx9", "avx9"},
+        {"avx51", "avx51"},
+        {"avx5122", "avx5122"},
+        {"sse ", "sse "},
+        {"sse,avx9", "avx9"},
+        {"avx9,sse", "avx9"},
+        {" ", " "},
+        {"sse:avx2", "sse:avx2"},
+        {"a-name-that-is-longer-than-all-variants", "a-name-that-is-longer-than-all-\""}}; /* cut */
+    for (size_t i = 0; i < TEST_COUNT(unknown); i++)
+        for (int named = 0; named < 2; named++) {
+            char message[200], quoted[50];
+            assert_int_equal(place_with_mask(unknown[i][0], named ? "portable" : NULL, message), UNKNOWN);
+            snprintf(quoted, sizeof quoted, "\"%s", unknown[i][1]);
+            assert_non_null(strstr(message, quoted));
+        }
+}
+
+/* The message is cut to the caller's size, always ends, and is empty after a success. */
+static void reasons_reach_the_caller(void **state)
+{
+    (void)state;
+    static const char sentence[] = "variant avx9: not in this build";
+    for (size_t size = 0; size <= sizeof sentence + 1; size++) {
+        char text[64];
+        cgt_context *context = (cgt_context *)text;
+        const cgt_context_options options = {.variant = "avx9", .message = text, .message_size = size};
+        memset(text, '#', sizeof text);
+        assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_INVALID_ARGUMENT);
+        assert_null(context);
+        const size_t kept = size > sizeof sentence ? sizeof sentence : size;
+        for (size_t i = 0; i < sizeof text; i++)
+            assert_int_equal(text[i], i >= kept ? '#' : i + 1 == kept ? 0 : sentence[i]);
     }
+    char text[64] = "####";
+    cgt_context *context = NULL;
+    cgt_context_options options = {.threads = 1, .message = text, .message_size = sizeof text};
+    assert_int_equal(cgt_context_create(&options, NULL), CGT_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(text, "NULL"));
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    assert_string_equal(text, "");
+    cgt_context_release(context);
+    options.threads = 2000;
+    assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(text, "threads: 2000"));
+    options.message = NULL; /* the size alone does nothing */
+    assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_INVALID_ARGUMENT);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_options_are_refused),          cmocka_unit_test(defaults_take_every_cpu),
-        cmocka_unit_test(variants_are_found_by_name),       cmocka_unit_test(results_and_version_have_words),
-        cmocka_unit_test(messages_are_kept_and_cut),        cmocka_unit_test(log_tells_what_was_skipped),
-        cmocka_unit_test(a_scene_keeps_its_context),        cmocka_unit_test(variants_can_be_masked),
-        cmocka_unit_test(unknown_variants_end_the_process),
+        cmocka_unit_test(bad_options_are_refused),      cmocka_unit_test(defaults_take_every_cpu),
+        cmocka_unit_test(variants_are_found_by_name),   cmocka_unit_test(results_and_version_have_words),
+        cmocka_unit_test(messages_are_kept_and_cut),    cmocka_unit_test(log_tells_what_was_skipped),
+        cmocka_unit_test(a_scene_keeps_its_context),    cmocka_unit_test(variants_can_be_masked),
+        cmocka_unit_test(unknown_variants_are_refused), cmocka_unit_test(reasons_reach_the_caller),
     };
     test_begin("test_context");
     unsetenv("CGT_DISABLE_CPU"); /* these tests set their own */

@@ -44,109 +44,6 @@ static uint32_t add(cgt_scene *scene, cgt_spheres spheres)
 
 /* ---- arguments ---- */
 
-static void options_are_checked(void **state)
-{
-    (void)state;
-    static const struct {
-        int structure;
-        uint32_t resolution[3];
-        cgt_result expected;
-    } row[] = {{0, {0, 0, 0}, CGT_OK},
-               {1, {1, 1, 1}, CGT_OK},
-               {1, {1024, 128, 128}, CGT_OK},
-               {1, {128, 1024, 128}, CGT_OK},
-               {7, {0, 0, 0}, CGT_ERROR_INVALID_ARGUMENT},
-               {-1, {0, 0, 0}, CGT_ERROR_INVALID_ARGUMENT},
-               {0, {4, 0, 4}, CGT_ERROR_INVALID_ARGUMENT},
-               {0, {0, 4, 4}, CGT_ERROR_INVALID_ARGUMENT},
-               {0, {4, 4, 0}, CGT_ERROR_INVALID_ARGUMENT},
-               {0, {1025, 1, 1}, CGT_ERROR_TOO_LARGE},
-               {0, {1, 1, UINT32_MAX}, CGT_ERROR_TOO_LARGE},
-               {0, {1024, 128, 129}, CGT_ERROR_TOO_LARGE},
-               {0, {1024, 1024, 1024}, CGT_ERROR_TOO_LARGE}};
-    cgt_scene *kept = scene_of(context, NULL, one, 1);
-    for (size_t i = 0; i < TEST_COUNT(row); i++) {
-        cgt_scene_options options;
-        cgt_scene *scene = kept;
-        cgt_scene_options_init(&options);
-        options.structure = (cgt_structure)row[i].structure;
-        memcpy(options.resolution, row[i].resolution, sizeof options.resolution);
-        assert_int_equal(cgt_scene_create(context, &options, &scene), row[i].expected);
-        if (row[i].expected == CGT_OK)
-            cgt_scene_release(scene);
-        else
-            assert_null(scene);
-        if (row[i].expected == CGT_OK)
-            continue;
-        assert_int_equal(cgt_scene_set_options(kept, &options), row[i].expected);
-        assert_true(ray_trace(kept, ahead).t == 4); /* a refusal changes nothing */
-    }
-    cgt_scene_release(kept);
-}
-
-static void null_is_refused(void **state)
-{
-    (void)state;
-    cgt_scene *scene = empty_scene();
-    cgt_scene_statistics statistics;
-    cgt_scene_options options;
-    uint32_t geometry;
-    const cgt_spheres spheres = spheres_of(one, 1);
-    cgt_scene_options_init(&options);
-    assert_int_equal(cgt_scene_create(NULL, NULL, &scene), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_create(context, NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_set_options(NULL, &options), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_set_options(scene, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_add_spheres(NULL, &spheres, &geometry), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_add_spheres(scene, NULL, &geometry), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_update_spheres(NULL, 0, &spheres), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_update_spheres(scene, 0, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_remove_geometry(NULL, 0), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_commit(NULL), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_get_statistics(NULL, &statistics), CGT_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(cgt_scene_get_statistics(scene, NULL), CGT_ERROR_INVALID_ARGUMENT);
-    cgt_scene_release(scene);
-}
-
-static void spheres_are_checked(void **state)
-{
-    (void)state;
-    static _Alignas(16) const float data[64] = {0};
-    const float *const crooked = (const float *)(const void *)((const char *)data + 2);
-    const cgt_spheres good = {.count = 4, .centers = data, .radius = 1};
-    cgt_scene *scene = scene_of(context, NULL, one, 1);
-    cgt_spheres bad[15];
-    uint32_t geometry = 77;
-    for (size_t i = 0; i < TEST_COUNT(bad); i++)
-        bad[i] = good;
-    bad[0].centers = NULL;
-    bad[1].centers = crooked;
-    bad[2].radii = crooked;
-    bad[3].center_stride = 13;
-    bad[4].radii = data, bad[4].radius_stride = 6;
-    bad[5].center_stride = SIZE_MAX - 3;
-    bad[6].center_stride = SIZE_MAX / 8 * 4;
-    bad[7].radii = data, bad[7].radius_stride = SIZE_MAX - 3;
-    bad[8].radius = -1;
-    bad[9].radius = NAN;
-    bad[10].radius = INFINITY;
-    bad[11].radius = -INFINITY;
-    bad[12].count = UINT32_MAX - 1; /* with the one that is there, the sum is 2^32 - 1 */
-    bad[13].count = UINT32_MAX;
-    bad[14].count = UINT32_MAX - 1, bad[14].center_stride = SIZE_MAX / 4 / UINT32_MAX * 4 * 4;
-    for (size_t i = 0; i < TEST_COUNT(bad); i++) {
-        const cgt_result expected = i == 12 || i == 13 ? CGT_ERROR_TOO_LARGE : CGT_ERROR_INVALID_ARGUMENT;
-        if (cgt_scene_add_spheres(scene, &bad[i], &geometry) != expected)
-            fail_msg("row %zu is not refused", i);
-        assert_int_equal(geometry, 77);
-        if (i != 12 && cgt_scene_update_spheres(scene, 0, &bad[i]) != expected)
-            fail_msg("row %zu is not refused", i);
-        assert_true(ray_trace(scene, ahead).t == 4); /* still committed, still the same */
-    }
-    cgt_scene_release(scene);
-}
-
 static void huge_counts_do_not_wrap(void **state)
 {
     (void)state;
@@ -247,17 +144,15 @@ static void options_hold_from_the_next_commit(void **state)
 {
     (void)state;
     cgt_scene *scene = scene_of(context, NULL, one, 1);
-    cgt_scene_options options;
-    cgt_scene_statistics statistics;
-    cgt_scene_options_init(&options);
+    test_scene_options options = {0};
     options.resolution[0] = 3;
     options.resolution[1] = 5;
     options.resolution[2] = 7;
-    assert_int_equal(cgt_scene_set_options(scene, &options), CGT_OK);
+    assert_int_equal(cgt_scene_set_options(scene, SCENE_OPTIONS(&options)), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    assert_int_equal(cgt_scene_get_statistics(scene, &statistics), CGT_OK);
-    assert_memory_equal(statistics.resolution, options.resolution, sizeof options.resolution);
-    assert_int_equal(statistics.cells, 105);
+    const cgt_research_scene_statistics research = research_of(scene);
+    assert_memory_equal(research.resolution, options.resolution, sizeof options.resolution);
+    assert_int_equal(research.cells, 105);
     assert_true(ray_trace(scene, ahead).t == 4);
     cgt_scene_release(scene);
 }
@@ -273,7 +168,8 @@ static void empty_scenes_are_valid(void **state)
     for (int round = 0; round < 3; round++) {
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
-        assert_true(s.references == 0 && s.overflow_references == 0 && s.primitives == (round == 2 ? 2 : 0));
+        assert_true(research_of(scene).references == 0 && research_of(scene).overflow_references == 0 &&
+                    s.primitives == (round == 2 ? 2 : 0));
         for (int a = 0; a < 3; a++)
             assert_true(s.bounds_min[a] == 0 && s.bounds_max[a] == 0);
         const ray_hit hit = ray_trace(scene, ahead);
@@ -392,9 +288,6 @@ static void bad_spheres_are_skipped_and_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(options_are_checked),
-        cmocka_unit_test(null_is_refused),
-        cmocka_unit_test(spheres_are_checked),
         cmocka_unit_test(huge_counts_do_not_wrap),
         cmocka_unit_test(lowest_free_id_is_given),
         cmocka_unit_test(changes_ask_for_a_commit),

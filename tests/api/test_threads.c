@@ -140,7 +140,7 @@ typedef struct watch {
     atomic_uint most_threads; /* that the process had while tiles were visited */
 } watch;
 
-static int watch_tile(void *user, const cgt_tile *tile)
+static cgt_visit watch_tile(void *user, const cgt_tile *tile)
 {
     watch *w = user;
     const unsigned threads = count_threads();

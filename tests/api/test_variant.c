@@ -41,25 +41,30 @@ static void keep_message(void *user, cgt_log_level level, const char *message)
 /* A name that the build has is refused as one that the CPU does not run, in words too. */
 static void check_refused(const char *name)
 {
-    char message[200] = "";
+    char logged[200] = "", message[200] = "", expected[200];
     cgt_context *context = (cgt_context *)message;
     cgt_context_options options;
     cgt_context_options_init(&options);
     options.variant = name;
-    options.log = (cgt_log_hook){message, keep_message};
+    options.log = (cgt_log_hook){logged, keep_message};
+    options.message = message;
+    options.message_size = sizeof message;
     assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_UNSUPPORTED);
     assert_null(context);
-    assert_string_equal(message, "variant: this CPU lacks instructions that it needs");
+    snprintf(expected, sizeof expected, "variant %s: this CPU lacks instructions that it needs", name);
+    assert_string_equal(message, expected);
+    assert_string_equal(logged, expected);
 }
 
 static void check_widest(const char *features, const char *expected)
 {
     static const char *const wide[] = {"sse", "avx2", "avx512"};
     cgt_variant_state state;
+    char unknown[CGT_VARIANT_NAME_BYTES];
     bool runs = true;
     cpu_features = features;
     if (in_build(expected)) {
-        const cgt_kernel *kernel = cgt_variant_find(NULL, &state);
+        const cgt_kernel *kernel = cgt_variant_find(NULL, &state, unknown);
         assert_non_null(kernel);
         assert_string_equal(kernel->name, expected);
         assert_int_equal(state, CGT_VARIANT_RUNS);
@@ -106,16 +111,17 @@ static void names_that_are_not_in_the_build(void **state)
 {
     (void)state;
     cgt_variant_state found;
+    char unknown[CGT_VARIANT_NAME_BYTES];
     cpu_features = AVX512;
     for (size_t i = 0; i < ROWS; i++) {
-        const cgt_kernel *kernel = cgt_variant_find(table[i].name, &found);
+        const cgt_kernel *kernel = cgt_variant_find(table[i].name, &found, unknown);
         assert_true(in_build(table[i].name) == (kernel != NULL));
         assert_true((found == CGT_VARIANT_ABSENT) == (kernel == NULL));
         assert_true(!kernel || strcmp(kernel->name, table[i].name) == 0);
     }
-    assert_null(cgt_variant_find("", &found));
+    assert_null(cgt_variant_find("", &found, unknown));
     assert_int_equal(found, CGT_VARIANT_ABSENT);
-    assert_null(cgt_variant_find("avx", &found));
+    assert_null(cgt_variant_find("avx", &found, unknown));
     assert_int_equal(found, CGT_VARIANT_ABSENT);
 }
 

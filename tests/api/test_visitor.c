@@ -54,11 +54,11 @@ static void rows_may_lie_apart(void **state)
     enum { STRIDE = WIDTH + 13 };
     for (int tile = CGT_TILE_SHAPE_AUTO; tile <= CGT_TILE_SHAPE_STRIP; tile++) {
         uint32_t *memory = malloc((size_t)6 * STRIDE * HEIGHT * sizeof *memory);
-        cgt_trace_options o;
+        test_trace_options o;
         cgt_frame frame;
         assert_non_null(memory);
         memset(memory, 0x3c, (size_t)6 * STRIDE * HEIGHT * sizeof *memory);
-        cgt_trace_options_init(&o);
+        o = (test_trace_options){0};
         o.tile = (cgt_tile_shape)tile;
         cgt_frame_init(&frame, WIDTH, HEIGHT);
         frame.row_stride = STRIDE;
@@ -67,7 +67,7 @@ static void rows_may_lie_apart(void **state)
         frame.geometry = memory + 2 * STRIDE * HEIGHT;
         for (int a = 0; a < 3; a++)
             frame.normal[a] = (float *)(memory + (3 + a) * STRIDE * HEIGHT);
-        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_OK);
+        assert_int_equal(cgt_trace_camera(scene, &camera, &frame, TRACE_OPTIONS(&o)), CGT_OK);
         for (int plane = 0; plane < 6; plane++)
             for (int y = 0; y < HEIGHT; y++) {
                 const uint32_t *row = memory + (plane * HEIGHT + y) * STRIDE;
@@ -130,7 +130,7 @@ static void keep(visit *v, uint32_t *to, const void *from, const cgt_tile *tile,
                tile->width * sizeof(uint32_t));
 }
 
-static int visit_tile(void *user, const cgt_tile *tile)
+static cgt_visit visit_tile(void *user, const cgt_tile *tile)
 {
     visit *v = user;
     const unsigned call = atomic_fetch_add(&v->calls, 1) + 1;
@@ -182,14 +182,13 @@ static void any_fields_to_planes_and_visitors(void **state)
             for (int tile = CGT_TILE_SHAPE_SQUARE; tile <= CGT_TILE_SHAPE_STRIP; tile++) {
                 visit *v = visit_make(visitor_fields, (cgt_tile_shape)tile);
                 cgt_frame frame = frame_with(&p, plane_fields);
-                cgt_trace_options o;
-                cgt_trace_options_init(&o);
+                test_trace_options o = {0};
                 o.tile = (cgt_tile_shape)tile;
                 frame.visitor = visit_tile;
                 frame.visitor_user = v;
                 frame.visitor_fields = visitor_fields;
                 memset(p.memory, 0x5a, 6 * p.elements * sizeof(uint32_t));
-                assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_OK);
+                assert_int_equal(cgt_trace_camera(scene, &camera, &frame, TRACE_OPTIONS(&o)), CGT_OK);
                 assert_int_equal(v->wrong, 0);
                 assert_int_equal(v->calls, tile == CGT_TILE_SHAPE_STRIP ? (HEIGHT + 3) / 4 : 3 * 2);
                 for (int i = 0; i < WIDTH * HEIGHT; i++)
@@ -221,16 +220,15 @@ static void a_visitor_stops_the_frame(void **state)
     for (int tile = CGT_TILE_SHAPE_SQUARE; tile <= CGT_TILE_SHAPE_STRIP; tile++)
         for (unsigned stop_at = 1; stop_at <= 6; stop_at += 5) {
             visit *v = visit_make(CGT_FIELD_T, (cgt_tile_shape)tile);
-            cgt_trace_options o;
+            test_trace_options o = {0};
             cgt_frame frame;
-            cgt_trace_options_init(&o);
             o.tile = (cgt_tile_shape)tile;
             cgt_frame_init(&frame, WIDTH, HEIGHT);
             frame.visitor = visit_tile;
             frame.visitor_user = v;
             frame.visitor_fields = CGT_FIELD_T;
             v->stop_at = stop_at;
-            assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_ERROR_STOPPED);
+            assert_int_equal(cgt_trace_camera(scene, &camera, &frame, TRACE_OPTIONS(&o)), CGT_ERROR_STOPPED);
             assert_non_null(strstr(context_message(context), "visitor"));
             /* after the first that stopped, only those under way on other threads */
             assert_in_range(v->calls, stop_at, stop_at + 2);
@@ -247,16 +245,15 @@ static void strips_span_the_width(void **state)
 {
     (void)state;
     visit *v = visit_make(CGT_FIELD_T, CGT_TILE_SHAPE_STRIP);
-    cgt_trace_options o;
+    test_trace_options o = {0};
     cgt_frame frame;
-    cgt_trace_options_init(&o);
     o.tile = CGT_TILE_SHAPE_STRIP;
     cgt_frame_init(&frame, WIDTH, HEIGHT);
     frame.visitor = visit_tile;
     frame.visitor_user = v;
     frame.visitor_fields = CGT_FIELD_T;
     v->tile_width = WIDTH; /* no other start than 0 then */
-    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, &o), CGT_OK);
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, TRACE_OPTIONS(&o)), CGT_OK);
     assert_int_equal(v->wrong, 0);
     assert_int_equal(v->calls, (HEIGHT + 3) / 4);
     visit_free(v);

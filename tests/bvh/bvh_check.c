@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Checks a BVH from the root down. */
+#include "exact/valid_primitive.h"
 #include "bvh/bvh_check.h"
 
 #include <math.h>

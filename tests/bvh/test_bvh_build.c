@@ -21,15 +21,16 @@ static cgt_context *contexts[2]; /* of one thread, and of two */
 static void check_tree(const cgt_scene *scene, const char *what)
 {
     const char *wrong = bvh_check(&scene->committed_scene);
+    const cgt_research_scene_statistics research = research_of(scene);
     cgt_scene_statistics st;
     if (wrong)
         fail_msg("%s: %s", what, wrong);
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
-    assert_int_equal(st.bvh_nodes, scene->committed_scene.bvh.nodes);
-    assert_int_equal(st.bvh_leaves,
+    assert_int_equal(research.bvh_nodes, scene->committed_scene.bvh.nodes);
+    assert_int_equal(research.bvh_leaves,
                      scene->committed_scene.bvh.sphere_blocks + scene->committed_scene.bvh.triangle_blocks);
-    assert_int_equal(st.bvh_depth, scene->committed_scene.bvh.depth);
-    assert_true(st.bytes >= st.bvh_bytes && !st.bvh_bytes == !st.bvh_nodes);
+    assert_int_equal(research.bvh_depth, scene->committed_scene.bvh.depth);
+    assert_true(st.bytes >= st.bvh_bytes && !st.bvh_bytes == !research.bvh_nodes);
 }
 
 static cgt_scene_options options_of(cgt_structure structure)

@@ -5,6 +5,7 @@
  * force: for any rays, batch sizes, orders, layouts and ranges, as streams and interleaved, with large and with
  * minimal buffers, and with skipped primitives. Then the bounds of slabs are tightened until hits are lost. The test
  * compiles the streams itself and links them in place of the library's. */
+#include "exact/valid_primitive.h"
 #include "support/scenes.h"
 #include "support/tightened.h"
 
@@ -24,6 +25,8 @@ static float slack_scale = 1, filter_u = 0x1p-24f;
 #define INTERLEAVE_SPREAD_RAYS interleave_spread
 #define INTERLEAVE_MAX_RAYS interleave_max
 #define BVH_ERROR_SCALE slack_scale
+#include "kernel/stream/stream_hits.c"
+#include "kernel/stream/stream_single.c"
 #include "kernel/stream/stream_trace.c"
 
 /* With an emulator or sanitizers. */
@@ -490,9 +493,9 @@ static void counts_add_up(void **state)
         const cgt_rays rays = array_of(given, RAYS, false);
         const cgt_hits none = {0};
         cgt_trace_statistics n;
-        cgt_trace_options options;
-        cgt_trace_options_init(&options);
-        options.statistics = &n;
+        cgt_research_trace_statistics visits;
+        const cgt_research_trace_options research = {.statistics = &visits};
+        const cgt_trace_options options = {.statistics = &n, .research = &research};
         set_interleaved(turn / 2);
         if (any)
             assert_int_equal(cgt_occluded_rays(s.scene, &rays, occluded, &options), CGT_OK);
@@ -502,7 +505,7 @@ static void counts_add_up(void **state)
         assert_int_equal(n.bvh_rays, RAYS);
         assert_int_equal(n.invalid_rays, invalid);
         assert_int_equal(n.hits, hits);
-        assert_true(n.nodes && n.leaves && n.packet_tests && n.ray_tests >= n.packet_tests);
+        assert_true(visits.nodes && visits.leaves && n.packet_tests && n.ray_tests >= n.packet_tests);
         assert_true(n.double_tests && n.exact_tests <= n.double_tests && n.double_tests < n.ray_tests);
     }
     subject_free(&s);

@@ -29,9 +29,9 @@ typedef struct view {
 } view;
 
 static const cgt_light lights[LIGHTS] = {
-    {{0.05f, -0.1f, 0.2f}, 1}, /* within the roll */
-    {{3, 2, 1}, 1},
-    {{-0.4f, 0.7f, 0.5f}, 0},
+    {CGT_LIGHT_POINT, {0.05f, -0.1f, 0.2f}}, /* within the roll */
+    {CGT_LIGHT_POINT, {3, 2, 1}},
+    {CGT_LIGHT_DIRECTIONAL, {-0.4f, 0.7f, 0.5f}},
 };
 
 #define VIEWS 6u
@@ -134,16 +134,17 @@ static void trace_frames(const cgt_scene *scene, const questions *q, uint32_t tu
             continue;
         const view v = view_at(i);
         cgt_trace_statistics st;
-        cgt_trace_options o;
-        cgt_trace_options_init(&o);
+        cgt_research_trace_statistics research;
+        test_trace_options o = {0};
         o.statistics = &st;
+        o.research_statistics = &research;
         if (v.some)
             o.cull = (cgt_cull)((turn + i) % 3);
-        frame_trace(scene, &v.camera, &a->frame[i], &o);
+        frame_trace(scene, &v.camera, &a->frame[i], TRACE_OPTIONS(&o));
         assert_true(st.hits > PIXELS / 8 && st.hits < PIXELS);
-        const bool tiles = grid && !(v.some && (several || o.cull != CGT_CULL_BLOCKS));
+        const bool tiles = grid && !(v.some && (several || o.cull != CGT_CULL_AUTO));
         assert_int_equal(st.tiles > 0, tiles);
-        assert_true(!tiles || (st.culled > 0 && st.culled < st.cull_tests));
+        assert_true(!tiles || (research.culled > 0 && research.culled < research.cull_tests));
         if (v.some && several) /* the hidden geometry is of some use */
             assert_memory_not_equal(a->frame[i].memory, a->frame[i - APART].memory,
                                     a->frame[i].elements * sizeof(uint32_t));
@@ -160,10 +161,9 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
         if (!is_asked(q, i))
             continue;
         cgt_trace_statistics st;
-        cgt_trace_options o;
-        cgt_trace_options_init(&o);
+        test_trace_options o = {0};
         o.statistics = &st;
-        assert_int_equal(cgt_occluded_points(scene, &lights[i], &points, a->shadow[i], &o), CGT_OK);
+        assert_int_equal(cgt_occluded_points(scene, &lights[i], &points, a->shadow[i], TRACE_OPTIONS(&o)), CGT_OK);
         assert_true(st.hits > PIXELS / 20 && st.hits < PIXELS);
         assert_int_equal(st.tiles > 0, scene->committed_scene.loose.levels > 0);
     }
@@ -180,13 +180,12 @@ static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t 
         const uint32_t some = first + count - i < each ? first + count - i : each;
         const cgt_rays rays = ray_array(q->ray + i, some);
         cgt_trace_statistics st;
-        cgt_trace_options o;
-        cgt_trace_options_init(&o);
+        test_trace_options o = {0};
         o.statistics = &st;
         o.cull = (cgt_cull)(i / each % 3);
-        assert_int_equal(trace_array(scene, q->ray + i, some, a->hit + i, &o), CGT_OK);
+        assert_int_equal(trace_array(scene, q->ray + i, some, a->hit + i, TRACE_OPTIONS(&o)), CGT_OK);
         bvh_rays += st.bvh_rays;
-        assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded + i, &o), CGT_OK);
+        assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded + i, TRACE_OPTIONS(&o)), CGT_OK);
         bvh_rays += st.bvh_rays;
     }
     return bvh_rays;

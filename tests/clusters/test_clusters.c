@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/valid_primitive.h"
 #include "clusters/cluster_meshes.h"
 
 static cgt_scene_statistics statistics_of(const cgt_scene *scene)
@@ -68,7 +69,7 @@ static void neighbours_do(void **state)
         const cgt_scene_statistics st = statistics_of(scene);
         const uint32_t used = count_used(&scene->committed_scene.prims);
         assert_non_null(scene->committed_scene.cluster);
-        assert_int_equal(st.references, used);
+        assert_int_equal(research_of(scene).references, used);
         assert_int_equal(used == LEAST / CGT_CLUSTER, !spoiled);
         assert_int_equal(st.skipped_not_finite > 0 && st.skipped_degenerate > 0, spoiled);
         assert_non_null(strstr(st.reason, "runs of 8 neighbouring triangles"));
@@ -84,7 +85,8 @@ static void neighbours_do(void **state)
 static void others_do_not(void **state)
 {
     (void)state;
-    const cgt_scene_options cells = {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {20, 20, 20}};
+    const cgt_research_scene_options resolution = {.resolution = {20, 20, 20}};
+    const cgt_scene_options cells = {.structure = CGT_STRUCTURE_LOOSE_GRID, .research = &resolution};
     const cgt_scene_options voxels = {.structure = CGT_STRUCTURE_QUEUE_GRID};
     cgt_context *context = context_make(2, NULL);
     mesh m = mesh_of(LEAST, 0), few = mesh_of(LEAST - 1, 0);
@@ -133,7 +135,7 @@ static void each_commit_decides(void **state)
     mesh_store(&m);
     commit(scene);
     assert_null(scene->committed_scene.cluster);
-    assert_int_equal(statistics_of(scene).references, LEAST + 5);
+    assert_int_equal(research_of(scene).references, LEAST + 5);
     assert_null(strstr(statistics_of(scene).reason, "runs of 8"));
     mesh_place(&m, 0.5);
     mesh_store(&m);

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 #include "hard_cases/hard_scene.h"
 

@@ -105,9 +105,9 @@ static void judge(const subject *w, const truth_ray *ray, const full_hit *ours, 
 }
 
 /* Structures take turns from scene to scene. */
-static const cgt_scene_options *next_structure(void)
+static const test_scene_options *next_structure(void)
 {
-    static const cgt_scene_options structure[] = {
+    static const test_scene_options structure[] = {
         {.structure = CGT_STRUCTURE_KD},
         {.structure = CGT_STRUCTURE_QUEUE_GRID},
         {.structure = CGT_STRUCTURE_LOOSE_GRID},
@@ -125,7 +125,8 @@ static void compare(cgt_context *context, hard_scene *s, const cgt_camera *camer
 {
     picture q = picture_make(WIDTH, HEIGHT);
     cgt_scene *scene;
-    if (hard_commit_with(context, s, next_structure(), &scene) != CGT_OK)
+    const test_scene_options *next = next_structure();
+    if (hard_commit_with(context, s, SCENE_OPTIONS(next), &scene) != CGT_OK)
         fail_msg("%s", context_message(context));
     picture_aim(s, camera, WIDTH, HEIGHT);
     picture_trace(scene, camera, NULL, &q);
@@ -308,14 +309,12 @@ static void compare_trees(cgt_context *context, hard_scene *s, const cgt_camera 
     picture_aim(s, camera, WIDTH, HEIGHT);
     subject w = subject_make(s);
     for (int way = 0; way < 8; way++) {
-        const cgt_scene_options options = {.structure = structure[way / 4], .kd_builder = builder[way / 2 % 2]};
-        cgt_trace_options trace;
+        const test_scene_options options = {.structure = structure[way / 4], .kd_builder = builder[way / 2 % 2]};
+        const test_trace_options trace = {.kd_traversal = traversal[way % 2]};
         cgt_scene *scene;
-        cgt_trace_options_init(&trace);
-        trace.kd_traversal = traversal[way % 2];
-        if (hard_commit_with(context, s, &options, &scene) != CGT_OK)
+        if (hard_commit_with(context, s, SCENE_OPTIONS(&options), &scene) != CGT_OK)
             fail_msg("%s", context_message(context));
-        picture_trace(scene, camera, &trace, &q);
+        picture_trace(scene, camera, TRACE_OPTIONS(&trace), &q);
         cgt_scene_release(scene);
         if (first) {
             for (uint32_t i = 0; i < s->rays; i++)
@@ -368,7 +367,8 @@ static void outlines_from_afar(void **state)
     hard_scene s = scene_of_spheres((const float(*)[4])c.sphere, c.count);
     cgt_context *context = context_make(2, NULL);
     cgt_scene *scene;
-    assert_int_equal(hard_commit_with(context, &s, next_structure(), &scene), CGT_OK);
+    const test_scene_options *next = next_structure();
+    assert_int_equal(hard_commit_with(context, &s, SCENE_OPTIONS(next), &scene), CGT_OK);
     subject w = subject_make(&s);
     tally sum = {0};
     for (uint32_t i = 0; i < count; i++) {

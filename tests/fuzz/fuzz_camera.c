@@ -95,7 +95,7 @@ typedef struct visit {
 } visit;
 
 /* A visitor's tile holds the values of the planes. */
-static int visitor(void *user, const cgt_tile *tile)
+static cgt_visit visitor(void *user, const cgt_tile *tile)
 {
     const visit *const v = user;
     const planes *const p = v->planes;
@@ -114,10 +114,10 @@ static int visitor(void *user, const cgt_tile *tile)
                            "tile: plane %d differs from the frame's", k);
             }
         }
-    return v->stop;
+    return v->stop ? CGT_VISIT_STOP : CGT_VISIT_CONTINUE;
 }
 
-static void trace_visited(fuzz_model *m, const cgt_camera *camera, const planes *p, const cgt_trace_options *o)
+static void trace_visited(fuzz_model *m, const cgt_camera *camera, const planes *p, const test_trace_options *o)
 {
     const size_t pixels = (size_t)p->width * p->height;
     visit v = {.planes = p, .seen = memset(fuzz_allocate(pixels), 0, pixels), .stop = fuzz_byte(&m->bytes) > 240};
@@ -125,7 +125,7 @@ static void trace_visited(fuzz_model *m, const cgt_camera *camera, const planes 
     frame.visitor = visitor;
     frame.visitor_user = &v;
     frame.visitor_fields = 31;
-    const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, o);
+    const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, TRACE_OPTIONS(o));
     FUZZ_CHECK(result == (v.stop ? CGT_ERROR_STOPPED : CGT_OK), "frame: %s", cgt_get_result_string(result));
     for (size_t i = 0; i < pixels && !v.stop; i++)
         FUZZ_CHECK(v.seen[i] == 1, "pixel %zu is visited %u times", i, v.seen[i]);
@@ -150,22 +150,25 @@ static void trace_as_array(fuzz_model *m, const fuzz_answers *a)
 }
 
 static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camera_rays *prepared, const planes *p,
-                        cgt_trace_options *o, uint8_t how)
+                        test_trace_options *o, uint8_t how)
 {
     cgt_trace_statistics statistics;
+    cgt_research_trace_statistics research;
     const uint32_t count = p->width * p->height;
     truth_ray *ray = fuzz_allocate(count * sizeof *ray);
     for (uint32_t i = 0; i < count; i++)
         ray[i] = camera_ray(prepared, i % p->width, i / p->width);
     fuzz_answers a = fuzz_answers_make(ray, count);
     o->statistics = &statistics;
+    o->research_statistics = &research;
     const cgt_frame frame = frame_into(p);
-    const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, o);
+    const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, TRACE_OPTIONS(o));
     FUZZ_CHECK(result == CGT_OK, "frame: %s", cgt_get_result_string(result));
     take_pixels(p, a.other);
     fuzz_check_hits(m, &a, a.other, o->precision);
-    fuzz_check_counts(&a, a.other, &statistics);
+    fuzz_check_counts(&a, a.other, &statistics, &research);
     o->statistics = NULL;
+    o->research_statistics = NULL;
     trace_as_array(m, &a);
     fuzz_check_same(m, &a, o->precision);
     if ((how & 3) == 3)
@@ -175,7 +178,7 @@ static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camer
 }
 
 /* How open the pixels of a traced frame lie, by bits of a byte that nothing else reads. */
-static void trace_ambient(fuzz_model *m, const cgt_camera *camera, const planes *p, cgt_trace_options *o, uint8_t how)
+static void trace_ambient(fuzz_model *m, const cgt_camera *camera, const planes *p, test_trace_options *o, uint8_t how)
 {
     static const uint32_t samples[] = {1, 3, 16, 100};
     const size_t elements = p->row_stride * p->height;
@@ -186,7 +189,7 @@ static void trace_ambient(fuzz_model *m, const cgt_camera *camera, const planes 
     cgt_trace_statistics statistics;
     uint64_t hits = 0;
     o->statistics = &statistics;
-    const cgt_result result = cgt_ambient_occlusion(m->scene, camera, &frame, &ambient, open, o);
+    const cgt_result result = cgt_ambient_occlusion(m->scene, camera, &frame, &ambient, open, TRACE_OPTIONS(o));
     FUZZ_CHECK(result == CGT_OK, "ambient: %s", cgt_get_result_string(result));
     o->statistics = NULL;
     for (size_t i = 0; i < elements; i++) {
@@ -208,12 +211,12 @@ void fuzz_trace_camera(fuzz_model *m)
     const uint8_t how = fuzz_byte(&m->bytes);
     const cgt_camera camera = any_camera(m);
     const uint32_t width = 1 + fuzz_below(&m->bytes, MOST_EDGE), height = 1 + fuzz_below(&m->bytes, MOST_EDGE / 2);
-    cgt_trace_options o = fuzz_options(m, true, &legal);
+    test_trace_options o = fuzz_options(m, true, &legal);
     planes p = make_planes(m, width, height);
     legal &= cgt_camera_prepare(&camera, width, height, &prepared, message) == CGT_OK;
     const cgt_frame frame = frame_into(&p);
     if (!m->committed || !legal) {
-        const cgt_result result = cgt_trace_camera(m->scene, &camera, &frame, &o);
+        const cgt_result result = cgt_trace_camera(m->scene, &camera, &frame, TRACE_OPTIONS(&o));
         FUZZ_CHECK((!legal && result == CGT_ERROR_INVALID_ARGUMENT) ||
                        (!m->committed && result == CGT_ERROR_NOT_COMMITTED),
                    "frame: %s", cgt_get_result_string(result));

@@ -20,11 +20,10 @@ static uint32_t odd_below(fuzz_model *m, uint32_t count, bool *legal)
     return value;
 }
 
-cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
+test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
 {
     static const uint32_t packets[] = {0, 4, 8, 16, 0, 4, 16, 5};
-    cgt_trace_options o;
-    cgt_trace_options_init(&o);
+    test_trace_options o = {0};
     *legal = true;
     o.precision = (cgt_precision)odd_below(m, 3, legal);
     /* the other tests need FAST: otherwise few calls would be legal */
@@ -32,11 +31,11 @@ cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
         o.triangle_test = (cgt_triangle_test)odd_below(m, 3, legal);
     o.tile = (cgt_tile_shape)odd_below(m, 3, legal);
     o.loop = (cgt_loop)odd_below(m, 3, legal);
-    o.cull = (cgt_cull)odd_below(m, 3, legal);
+    o.cull = (cgt_cull)odd_below(m, 4, legal);
     const uint8_t packet = fuzz_byte(&m->bytes);
     o.packet = packets[packet % 8];
     o.kd_traversal = (cgt_kd_traversal)(packet < 250 ? packet / 8 % 3 : 3);
-    o.mailbox = (int)fuzz_below(&m->bytes, 3) - 1;
+    o.mailbox = (cgt_mailbox)fuzz_below(&m->bytes, 3);
     *legal &= packet < 250 && o.packet != 5;
     *legal &= (o.triangle_test == CGT_TRIANGLE_TEST_WATERTIGHT || o.precision == CGT_PRECISION_FAST);
     *legal &= !camera || o.tile != CGT_TILE_SHAPE_STRIP || o.packet <= 4;
@@ -156,7 +155,8 @@ void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit 
     }
 }
 
-void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s)
+void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s,
+                       const cgt_research_trace_statistics *research)
 {
     uint64_t hits = 0, invalid = 0;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -170,12 +170,13 @@ void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_tra
     FUZZ_CHECK(s->double_tests <= s->ray_tests && s->exact_tests <= s->double_tests,
                "%llu ray tests, %llu of them in double, %llu of those exact", (unsigned long long)s->ray_tests,
                (unsigned long long)s->double_tests, (unsigned long long)s->exact_tests);
-    FUZZ_CHECK(s->culled <= s->cull_tests, "%llu culled of %llu", (unsigned long long)s->culled,
-               (unsigned long long)s->cull_tests);
-    FUZZ_CHECK(s->mailbox_skipped <= s->references, "%llu skipped of %llu references",
-               (unsigned long long)s->mailbox_skipped, (unsigned long long)s->references);
-    FUZZ_CHECK(!s->rope_loops && s->rope_steps <= s->leaves, "%llu loops, %llu rope steps of %llu leaves",
-               (unsigned long long)s->rope_loops, (unsigned long long)s->rope_steps, (unsigned long long)s->leaves);
+    FUZZ_CHECK(research->culled <= research->cull_tests, "%llu culled of %llu", (unsigned long long)research->culled,
+               (unsigned long long)research->cull_tests);
+    FUZZ_CHECK(research->mailbox_skipped <= research->references, "%llu skipped of %llu references",
+               (unsigned long long)research->mailbox_skipped, (unsigned long long)research->references);
+    FUZZ_CHECK(!research->rope_loops && research->rope_steps <= research->leaves,
+               "%llu loops, %llu rope steps of %llu leaves", (unsigned long long)research->rope_loops,
+               (unsigned long long)research->rope_steps, (unsigned long long)research->leaves);
     FUZZ_CHECK(s->exact_values <= s->hits, "%llu exact values of %llu hits", (unsigned long long)s->exact_values,
                (unsigned long long)s->hits);
 }

@@ -11,7 +11,7 @@
 #include "support/ray_arrays.h"
 
 /* Options for a trace, some outside the documented range: *legal tells whether the call may succeed. */
-cgt_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
+test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal);
 
 /* A camera's frame and an array of rays are checked in the same way. */
 typedef struct fuzz_answers {
@@ -27,7 +27,8 @@ void fuzz_answers_free(fuzz_answers *a);
 void fuzz_check_hits(const fuzz_model *m, const fuzz_answers *a, const full_hit *hit, cgt_precision precision);
 
 /* The counts of a call fit each other and the hits. */
-void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s);
+void fuzz_check_counts(const fuzz_answers *a, const full_hit *hit, const cgt_trace_statistics *s,
+                       const cgt_research_trace_statistics *research);
 
 /* ROBUST and EXACT return the same hits; `other` holds the hits of the defaults in its precision. */
 void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision precision_of_other);

@@ -8,7 +8,7 @@
 #include <pthread.h>
 #include <stdbool.h>
 
-#include <cgt/cgt.h>
+#include "support/research_options.h"
 
 typedef struct fuzz_memory {
     size_t blocks, bytes; /* that are out */

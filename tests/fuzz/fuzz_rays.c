@@ -178,27 +178,28 @@ static void must(fuzz_model *m, cgt_result result, bool legal)
 static void trace_defaults(fuzz_model *m, const fuzz_answers *a)
 {
     cgt_trace_statistics statistics;
-    cgt_trace_options o;
-    cgt_trace_options_init(&o);
+    cgt_research_trace_statistics research;
+    test_trace_options o = {0};
     o.statistics = &statistics;
-    MUST(m, trace_array(m->scene, a->ray, a->count, a->robust, &o), true);
+    o.research_statistics = &research;
+    MUST(m, trace_array(m->scene, a->ray, a->count, a->robust, TRACE_OPTIONS(&o)), true);
     fuzz_check_hits(m, a, a->robust, o.precision);
-    fuzz_check_counts(a, a->robust, &statistics);
+    fuzz_check_counts(a, a->robust, &statistics, &research);
     o.precision = CGT_PRECISION_EXACT;
-    MUST(m, trace_array(m->scene, a->ray, a->count, a->exact, &o), true);
+    MUST(m, trace_array(m->scene, a->ray, a->count, a->exact, TRACE_OPTIONS(&o)), true);
     fuzz_check_hits(m, a, a->exact, o.precision);
-    fuzz_check_counts(a, a->exact, &statistics);
+    fuzz_check_counts(a, a->exact, &statistics, &research);
 }
 
-static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *rays, const cgt_trace_options *o)
+static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *rays, const test_trace_options *o)
 {
     uint8_t *occluded = memset(fuzz_allocate(a->count), 0x77, a->count);
-    MUST(m, cgt_occluded_rays(m->scene, rays, occluded, o), true);
+    MUST(m, cgt_occluded_rays(m->scene, rays, occluded, TRACE_OPTIONS(o)), true);
     for (uint32_t i = 0; i < a->count; i++)
         FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_INVALID_ID),
                    "ray %u: any hit says %u, nearest hit %u.%u", i, occluded[i], a->other[i].geometry,
                    a->other[i].primitive);
-    fuzz_check_counts(a, a->other, o->statistics);
+    fuzz_check_counts(a, a->other, o->statistics, o->research_statistics);
     free(occluded);
 }
 
@@ -229,10 +230,11 @@ static void make_filters(const fuzz_answers *a, filters *f)
     }
 }
 
+static uint32_t all_if_zero(uint32_t mask) { return mask ? mask : UINT32_MAX; }
+
 static uint32_t mask_of(const fuzz_geometry *g)
 {
-    const uint32_t mask = g->triangular ? g->triangles.mask : g->spheres.mask;
-    return mask ? mask : UINT32_MAX;
+    return all_if_zero(g->triangular ? g->triangles.mask : g->spheres.mask);
 }
 
 static cgt_primitive shape_at(const fuzz_geometry *g, uint32_t i)
@@ -274,7 +276,7 @@ static void nearest_left(const fuzz_model *m, const truth_ray *from, const filte
     *h = (full_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
     for (uint32_t id = 0; id < FUZZ_GEOMETRIES && !fuzz_ray_is_invalid(from); id++) {
         const fuzz_geometry *g = &m->geometry[id];
-        for (uint32_t i = 0; g->used && mask_of(g) & f->mask[of] && i < fuzz_count(g); i++) {
+        for (uint32_t i = 0; g->used && mask_of(g) & all_if_zero(f->mask[of]) && i < fuzz_count(g); i++) {
             if ((id == f->geometry[of] && i == f->primitive[of]) || !meets(&ray, g, i, &hit))
                 continue;
             if (h->primitive != CGT_INVALID_ID && cgt_decide_order(&ray, &hit, &best, &exact) >= 0)
@@ -311,9 +313,10 @@ static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace
         hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
         FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_INVALID_ID), "ray %u, filtered: any hit says %u", i,
                    occluded[i]);
-        FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID ||
-                       (hit[i].geometry < FUZZ_GEOMETRIES && mask_of(&m->geometry[hit[i].geometry]) & f.mask[i]),
-                   "ray %u: hits geometry %u, which its mask leaves out", i, hit[i].geometry);
+        FUZZ_CHECK(
+            hit[i].geometry == CGT_INVALID_ID ||
+                (hit[i].geometry < FUZZ_GEOMETRIES && mask_of(&m->geometry[hit[i].geometry]) & all_if_zero(f.mask[i])),
+            "ray %u: hits geometry %u, which its mask leaves out", i, hit[i].geometry);
         FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID || hit[i].geometry != f.geometry[i] ||
                        hit[i].primitive != f.primitive[i],
                    "ray %u: hits what it ignores", i);
@@ -332,20 +335,22 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
 {
     bool legal;
     cgt_trace_statistics statistics;
-    cgt_trace_options o = fuzz_options(m, false, &legal);
+    cgt_research_trace_statistics research;
+    test_trace_options o = fuzz_options(m, false, &legal);
     o.statistics = &statistics;
+    o.research_statistics = &research;
     const uint32_t fields = o.precision == CGT_PRECISION_FAST ? 31 : fuzz_below(&m->bytes, 32);
     arrays in = make_arrays(m, a->count), out = make_arrays(m, a->count);
     const cgt_rays rays = rays_in(&in, a->ray, ranges);
     const cgt_hits hits = hits_in(&out, fields);
-    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, &o), legal);
+    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, TRACE_OPTIONS(&o)), legal);
     if (legal) {
         take_hits(&out, fields, o.precision == CGT_PRECISION_EXACT ? a->exact : a->robust, a->other);
         fuzz_check_hits(m, a, a->other, o.precision);
-        fuzz_check_counts(a, a->other, &statistics);
+        fuzz_check_counts(a, a->other, &statistics, &research);
         fuzz_check_same(m, a, o.precision);
         check_any_hit(m, a, &rays, &o);
-        trace_filtered(m, a, &o);
+        trace_filtered(m, a, TRACE_OPTIONS(&o));
     }
     free_arrays(&in);
     free_arrays(&out);
@@ -370,20 +375,20 @@ static void copy_scene(const fuzz_model *m, cgt_scene *scene)
 static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *variant, const uint32_t resolution[3])
 {
     cgt_context_options options;
-    cgt_scene_options grid;
+    test_scene_options grid;
     cgt_context *context;
     cgt_scene *scene;
     cgt_context_options_init(&options);
     options.variant = variant;
     options.threads = 1;
-    cgt_scene_options_init(&grid);
+    grid = (test_scene_options){0};
     grid.structure = CGT_STRUCTURE_QUEUE_GRID;
     memcpy(grid.resolution, resolution, sizeof grid.resolution);
     const cgt_result result = cgt_context_create(&options, &context);
     FUZZ_CHECK(result == CGT_OK || result == CGT_ERROR_UNSUPPORTED, "context: %s", cgt_get_result_string(result));
     if (result != CGT_OK)
         return;
-    FUZZ_CHECK(cgt_scene_create(context, &grid, &scene) == CGT_OK, "no second scene");
+    FUZZ_CHECK(cgt_scene_create(context, SCENE_OPTIONS(&grid), &scene) == CGT_OK, "no second scene");
     copy_scene(m, scene);
     FUZZ_CHECK(trace_array(scene, a->ray, a->count, a->other, NULL) == CGT_OK, "the second scene cannot be traced");
     fuzz_check_same(m, a, CGT_PRECISION_ROBUST);
@@ -396,9 +401,8 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *va
 static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
 {
     uint32_t resolution[3] = {3, 2, 4};
-    cgt_scene_statistics s;
+    const cgt_research_scene_statistics s = research_of(m->scene);
     const char *variant = NULL;
-    FUZZ_CHECK(cgt_scene_get_statistics(m->scene, &s) == CGT_OK, "no statistics");
     if (asked) {
         variant = fuzz_variant(fuzz_byte(&m->bytes));
         for (int k = 0; k < 3; k++)

@@ -76,11 +76,12 @@ static bool create_context(fuzz_model *m)
 }
 
 /* Structure, builder, layout and kind of rays from one number; the last four of 256 must be refused. */
-static cgt_scene_options any_structure(uint8_t how)
+static test_scene_options any_structure(uint8_t how)
 {
-    cgt_scene_options o;
-    cgt_scene_options_init(&o);
-    o.structure = how == 255 ? (cgt_structure)9 : (cgt_structure)((how & 1) + (how >> 1 & 2));
+    static const cgt_structure structure[] = {CGT_STRUCTURE_AUTO, CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
+                                              CGT_STRUCTURE_KD_ROPES};
+    test_scene_options o = {0};
+    o.structure = how == 255 ? (cgt_structure)9 : structure[(how & 1) + (how >> 1 & 2)];
     if (o.structure == CGT_STRUCTURE_AUTO && how & 16)
         o.structure = how & 32 ? CGT_STRUCTURE_BVH : CGT_STRUCTURE_LOOSE_GRID;
     o.kd_builder = how == 254 ? (cgt_kd_builder)3 : (cgt_kd_builder)((how >> 3) % 3);
@@ -91,11 +92,11 @@ static cgt_scene_options any_structure(uint8_t how)
 }
 
 /* Resolutions that take little memory and time, or that must be refused. */
-static cgt_scene_options any_options(fuzz_model *m, bool *legal)
+static test_scene_options any_options(fuzz_model *m, bool *legal)
 {
     static const uint32_t edges[] = {1, 2, 3, 4, 5, 7, 8, 16, 33, 64, 1024, 1025, 0, CGT_INVALID_ID};
     const uint8_t how = fuzz_byte(&m->bytes);
-    cgt_scene_options o = any_structure(how);
+    test_scene_options o = any_structure(how);
     *legal = how < 252;
     if (how & 2)
         return o;
@@ -116,14 +117,14 @@ static cgt_scene_options any_options(fuzz_model *m, bool *legal)
 static void create_scene(fuzz_model *m)
 {
     bool legal;
-    const cgt_scene_options o = any_options(m, &legal);
-    cgt_result result = cgt_scene_create(m->context, &o, &m->scene);
+    const test_scene_options o = any_options(m, &legal);
+    cgt_result result = cgt_scene_create(m->context, SCENE_OPTIONS(&o), &m->scene);
     FUZZ_CHECK(legal || (result != CGT_OK && result != CGT_ERROR_OUT_OF_MEMORY), "scene: %s",
                cgt_get_result_string(result));
     for (int i = 0; i < 2 && result != CGT_OK; i++) {
         FUZZ_CHECK(!m->scene, "scene: an object after an error");
         fuzz_check_error(m, result);
-        result = cgt_scene_create(m->context, legal ? &o : NULL, &m->scene);
+        result = cgt_scene_create(m->context, legal ? SCENE_OPTIONS(&o) : NULL, &m->scene);
     }
     FUZZ_CHECK(result == CGT_OK && m->scene, "scene: %s", cgt_get_result_string(result));
 }
@@ -131,8 +132,8 @@ static void create_scene(fuzz_model *m)
 static void set_options(fuzz_model *m)
 {
     bool legal;
-    const cgt_scene_options o = any_options(m, &legal);
-    const cgt_result result = cgt_scene_set_options(m->scene, &o);
+    const test_scene_options o = any_options(m, &legal);
+    const cgt_result result = cgt_scene_set_options(m->scene, SCENE_OPTIONS(&o));
     FUZZ_CHECK((result == CGT_OK) == legal, "scene options: %s", cgt_get_result_string(result));
     if (legal)
         m->committed = false;
@@ -142,24 +143,25 @@ static void set_options(fuzz_model *m)
 
 /* ---- commit ---- */
 
-static void check_tree(const cgt_scene_statistics *s)
+static void check_tree(const cgt_scene_statistics *s, const cgt_research_scene_statistics *r)
 {
     const uint32_t valid = s->primitives - s->skipped_not_finite - s->skipped_radius - s->skipped_degenerate;
-    if (!s->kd_leaves) {
-        FUZZ_CHECK(!s->kd_nodes && !s->kd_empty_leaves && !s->kd_largest_leaf, "statistics: half a tree");
+    if (!r->kd_leaves) {
+        FUZZ_CHECK(!r->kd_nodes && !r->kd_empty_leaves && !r->kd_largest_leaf, "statistics: half a tree");
         return;
     }
     FUZZ_CHECK(s->structure == CGT_STRUCTURE_KD || s->structure == CGT_STRUCTURE_KD_ROPES, "statistics: not a tree");
-    FUZZ_CHECK(s->kd_nodes == 2 * s->kd_leaves - 1 && s->kd_empty_leaves < s->kd_leaves && s->kd_depth <= 50 &&
-                   s->kd_largest_leaf >= 1 && s->kd_largest_leaf <= valid,
-               "statistics: %u nodes, %u leaves, %u empty, depth %u, %u of %u in one", s->kd_nodes, s->kd_leaves,
-               s->kd_empty_leaves, s->kd_depth, s->kd_largest_leaf, valid);
-    FUZZ_CHECK(!s->cells && s->structure_bytes >= (size_t)8 * s->kd_nodes && s->structure_bytes <= s->bytes,
+    FUZZ_CHECK(r->kd_nodes == 2 * r->kd_leaves - 1 && r->kd_empty_leaves < r->kd_leaves && r->kd_depth <= 50 &&
+                   r->kd_largest_leaf >= 1 && r->kd_largest_leaf <= valid,
+               "statistics: %u nodes, %u leaves, %u empty, depth %u, %u of %u in one", r->kd_nodes, r->kd_leaves,
+               r->kd_empty_leaves, r->kd_depth, r->kd_largest_leaf, valid);
+    FUZZ_CHECK(!r->cells && s->structure_bytes >= (size_t)8 * r->kd_nodes && s->structure_bytes <= s->bytes,
                "statistics: a tree of %zu bytes", s->structure_bytes);
 }
 
 static void check_statistics(const fuzz_model *m)
 {
+    const cgt_research_scene_statistics r = research_of(m->scene);
     cgt_scene_statistics s;
     uint32_t geometries = 0, spheres = 0, triangles = 0;
     for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++) {
@@ -176,17 +178,17 @@ static void check_statistics(const fuzz_model *m)
                    s.skipped_radius <= spheres && s.skipped_degenerate <= triangles,
                "statistics: %u, %u, %u skipped of %u", s.skipped_not_finite, s.skipped_radius, s.skipped_degenerate,
                s.primitives);
-    const uint64_t finest = (uint64_t)s.resolution[0] * s.resolution[1] * s.resolution[2];
-    FUZZ_CHECK(s.levels > 1 ? s.cells > finest : s.cells == finest, "statistics: cells");
-    FUZZ_CHECK(!s.levels == (s.structure != CGT_STRUCTURE_LOOSE_GRID || !s.cells), "statistics: levels");
-    FUZZ_CHECK(s.overflow_references <= s.references && s.overflow_cells <= s.overflow_references &&
-                   s.large_primitives <= s.primitives && s.bytes <= m->memory.bytes,
+    const uint64_t finest = (uint64_t)r.resolution[0] * r.resolution[1] * r.resolution[2];
+    FUZZ_CHECK(r.levels > 1 ? r.cells > finest : r.cells == finest, "statistics: cells");
+    FUZZ_CHECK(!r.levels == (s.structure != CGT_STRUCTURE_LOOSE_GRID || !r.cells), "statistics: levels");
+    FUZZ_CHECK(r.overflow_references <= r.references && r.overflow_cells <= r.overflow_references &&
+                   r.large_primitives <= s.primitives && s.bytes <= m->memory.bytes,
                "statistics: the counts do not fit each other");
     for (int a = 0; a < 3; a++)
         FUZZ_CHECK(s.bounds_min[a] <= s.bounds_max[a], "statistics: bounds %a to %a", (double)s.bounds_min[a],
                    (double)s.bounds_max[a]);
     FUZZ_CHECK(s.reason[0] && memchr(s.reason, 0, sizeof s.reason), "statistics: no reason, or one without an end");
-    check_tree(&s);
+    check_tree(&s, &r);
 }
 
 bool fuzz_commit(fuzz_model *m)

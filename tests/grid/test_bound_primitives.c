@@ -3,6 +3,7 @@
  *
  * The pass that bounds all primitives against a plain loop: every number has the same bits, for each variant and any
  * number of threads; and the first index out of range is found wherever it is. */
+#include "exact/valid_primitive.h"
 #include "grid/loose_scenes.h"
 
 #include <math.h>

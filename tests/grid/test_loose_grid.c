@@ -4,17 +4,18 @@
  * The loose grid after a commit against its contract (loose_grid.h). Every valid primitive lies in one cell, in
  * ascending order, and within reach of the cell's box, as exact arithmetic decides. Levels hold similar sizes, and
  * the number of cells is as specified. All of it is the same for each variant and any number of threads. */
+#include "exact/valid_primitive.h"
 #include "grid/loose_scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "builders/grid/loose_grid_build.h"
+#include "builders/order/cell_sort.h"
 #include "scene/scene.h"
 #include "support/oracle/dyadic.h"
 
-static const cgt_scene_options loose_options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
+static const test_scene_options loose_options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
 
 /* ---- one grid against its objects ---- */
 
@@ -165,14 +166,15 @@ static void check_grid(const cgt_scene *scene)
 static void check_statistics(const cgt_scene *scene)
 {
     const cgt_loose_grid *g = &scene->committed_scene.loose;
+    const cgt_research_scene_statistics research = research_of(scene);
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
-    assert_int_equal(st.cells, g->cells);
-    assert_int_equal(st.levels, g->levels);
-    assert_int_equal(st.references, scene->committed_scene.valid);
+    assert_int_equal(research.cells, g->cells);
+    assert_int_equal(research.levels, g->levels);
+    assert_int_equal(research.references, scene->committed_scene.valid);
     assert_int_equal(st.structure_bytes, 4 * ((uint64_t)g->cells + 1 + scene->committed_scene.valid));
-    assert_memory_equal(st.resolution, g->level[g->levels - 1].size, sizeof st.resolution);
+    assert_memory_equal(research.resolution, g->level[g->levels - 1].size, sizeof research.resolution);
     assert_non_null(strstr(st.reason, "loose grid"));
     assert_true(st.bytes >= st.structure_bytes);
 }
@@ -190,7 +192,7 @@ static void compare_grids(const cgt_loose_grid *a, const cgt_loose_grid *b, uint
 
 static cgt_scene *commit(const loose_scene *s, cgt_context *context)
 {
-    cgt_scene *scene = loose_add(s, context, &loose_options);
+    cgt_scene *scene = loose_add(s, context, SCENE_OPTIONS(&loose_options));
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
@@ -244,14 +246,14 @@ static void few_and_none(void **state)
 }
 
 /* On one thread and on three; where cells were asked for, too. */
-static void compare_sorts(const loose_scene *s, const cgt_scene_options *options, bool check)
+static void compare_sorts(const loose_scene *s, const test_scene_options *options, bool check)
 {
     static const uint32_t threads[] = {1, 3};
     cgt_context *context[TEST_COUNT(threads)];
     cgt_scene *scene[TEST_COUNT(threads)];
     for (size_t i = 0; i < TEST_COUNT(threads); i++) {
         context[i] = context_make(threads[i], NULL);
-        scene[i] = loose_add(s, context[i], options);
+        scene[i] = loose_add(s, context[i], SCENE_OPTIONS(options));
         assert_int_equal(cgt_scene_commit(scene[i]), CGT_OK);
         if (i)
             compare_grids(&scene[0]->committed_scene.loose, &scene[i]->committed_scene.loose,
@@ -275,7 +277,7 @@ static void many_are_sorted(void **state)
         const uint32_t count =
             k < 2 ? CGT_CELL_SORT_DIRECT_SERIAL + 5003 : 17000 + test_scaled(40000); /* by bins and not */
         loose_scene s = loose_make(&r, kind[k], k % 2 ? LOOSE_BOTH : LOOSE_SPHERES, count);
-        cgt_scene_options options = loose_options;
+        test_scene_options options = loose_options;
         compare_sorts(&s, &options, k == 0 || k == 3);
         for (int a = 0; a < 3; a++)
             options.resolution[a] = k % 2 ? 64 : 40;
@@ -291,7 +293,7 @@ static void points_between_cells_are_in_reach(void **state)
     (void)state;
     enum { CELLS = 1024, COUNT = 3 * CELLS };
     static float point[COUNT][4];
-    const cgt_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {CELLS, 1, 1}};
+    const test_scene_options options = {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {CELLS, 1, 1}};
     test_random r = random_make(9);
     cgt_context *context = context_make(1, NULL);
     uint32_t wrong = 0;
@@ -300,7 +302,7 @@ static void points_between_cells_are_in_reach(void **state)
         memset(point, 0, sizeof point);
         for (int i = 0; i < COUNT; i++)
             point[i][0] = i ? last : first;
-        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])point, COUNT);
+        cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])point, COUNT);
         const cgt_loose_level level = scene->committed_scene.loose.level[0];
         for (int i = 1; i < COUNT - 1; i++) {
             float x = (float)(level.low[0] + (double)(i / 3) * level.cell[0]);
@@ -368,7 +370,7 @@ static void a_full_axis_leaves_cells_to_the_others(void **state)
         sphere[i][3] = 0;
     }
     cgt_context *context = context_make(1, NULL);
-    cgt_scene *scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
     const cgt_loose_level *level = &scene->committed_scene.loose.level[0];
     assert_int_equal(level->size[0], 1024);
     assert_true(level->size[1] > 1 && scene->committed_scene.loose.cells >= COUNT / 16);
@@ -389,18 +391,18 @@ static void sizes_share_levels(void **state)
             sphere[i][a] = random_float(&r, -1, 1);
         sphere[i][3] = i < 300 ? 0.3f : i < 600 ? 1e-3f : 1e-30f; /* three sizes, far apart */
     }
-    cgt_scene *scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
     assert_int_equal(scene->committed_scene.loose.levels, 3);
     cgt_scene_release(scene);
     for (int i = 0; i < COUNT; i++)
         sphere[i][3] = i < 850 ? random_float(&r, 0.3f, 0.59f) : 1e-3f; /* few small ones: guests */
-    scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
     assert_int_equal(scene->committed_scene.loose.levels, 1);
     check_grid(scene);
     cgt_scene_release(scene);
     for (int i = 0; i < COUNT; i++)
         sphere[i][3] = ldexpf(1, -4 * (i % 30)); /* more sizes than levels */
-    scene = scene_of(context, &loose_options, (const float(*)[4])sphere, COUNT);
+    scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
     assert_int_equal(scene->committed_scene.loose.levels, CGT_LOOSE_LEVELS);
     check_grid(scene);
     cgt_scene_release(scene);
@@ -413,11 +415,11 @@ static void a_resolution_asked_for_is_given(void **state)
     test_random r = random_make(7);
     cgt_context *context = context_make(2, NULL);
     for (int kind = 0; kind < LOOSE_KINDS; kind++) {
-        const cgt_scene_options options = {
+        const test_scene_options options = {
             .structure = CGT_STRUCTURE_LOOSE_GRID,
             .resolution = {1 + random_below(&r, 40), 1 + random_below(&r, 40), kind ? 1 + random_below(&r, 9) : 1024}};
         loose_scene s = loose_make(&r, (loose_kind)kind, LOOSE_BOTH, 200);
-        cgt_scene *scene = loose_add(&s, context, &options);
+        cgt_scene *scene = loose_add(&s, context, SCENE_OPTIONS(&options));
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         const cgt_loose_grid *g = &scene->committed_scene.loose;
         assert_int_equal(g->levels, 1);
@@ -446,7 +448,7 @@ static void frames_are_those_of_other_structures(void **state)
     for (int kind = 0; kind < CLOUD_KINDS; kind++) {
         cloud c = cloud_make(&r, (cloud_kind)kind, test_scaled(300));
         cgt_scene *grid = scene_of(context, NULL, (const float(*)[4])c.sphere, c.count);
-        cgt_scene *loose = scene_of(context, &loose_options, (const float(*)[4])c.sphere, c.count);
+        cgt_scene *loose = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])c.sphere, c.count);
         const cgt_camera camera = camera_before(&c);
         for (int precision = CGT_PRECISION_ROBUST; precision <= CGT_PRECISION_EXACT; precision += 2) {
             cgt_trace_options o;
@@ -470,13 +472,13 @@ static void it_is_chosen_when_asked_for(void **state)
     (void)state;
     const float far_off[2][4] = {{0x1p60f, 0, 0, 1}, {0, 0, 0, 1}};
     cgt_context *context = context_make(1, NULL);
-    cgt_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_BVH + 1)};
+    test_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_KD_ROPES + 1)};
     cgt_scene *scene = NULL;
-    assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_ERROR_INVALID_ARGUMENT);
-    scene = scene_of(context, &loose_options, far_off, 2); /* beyond what a structure may hold */
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_ERROR_INVALID_ARGUMENT);
+    scene = scene_of(context, SCENE_OPTIONS(&loose_options), far_off, 2); /* beyond what a structure may hold */
     assert_true(scene->committed_scene.brute_force && !scene->committed_scene.loose.levels);
     cgt_scene_release(scene);
-    scene = scene_of(context, &loose_options, far_off, 0);
+    scene = scene_of(context, SCENE_OPTIONS(&loose_options), far_off, 0);
     assert_false(scene->committed_scene.valid || scene->committed_scene.loose.levels);
     cgt_scene_release(scene);
     cgt_context_release(context);

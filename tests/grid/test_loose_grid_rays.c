@@ -76,17 +76,17 @@ static truth_ray rim_ray(test_random *r, bool triangle, const float middle[3])
     return ray;
 }
 
-static cgt_scene *commit(cgt_context *context, const hard_scene *s, const cgt_scene_options *options)
+static cgt_scene *commit(cgt_context *context, const hard_scene *s, const test_scene_options *options)
 {
     cgt_scene *scene;
-    if (hard_commit_with(context, s, options, &scene) != CGT_OK)
+    if (hard_commit_with(context, s, SCENE_OPTIONS(options), &scene) != CGT_OK)
         fail_msg("%s", context_message(context));
     return scene;
 }
 
 /* In bundles of `bundle` neighbours; of one ray each has a call of its own. */
 static void check_rays(const cgt_scene *loose, const truth_ray *ray, const full_hit *is, uint32_t bundle,
-                       const cgt_scene_options *options)
+                       const test_scene_options *options)
 {
     static full_hit hit[RAYS];
     static uint8_t occluded[RAYS];
@@ -138,8 +138,8 @@ static void rays_find_what_reaches_out(void **state)
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(1, variant);
-            const cgt_scene_options one = {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {1, 1, 1}};
-            cgt_scene_options o = {.structure = CGT_STRUCTURE_LOOSE_GRID};
+            const test_scene_options one = {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {1, 1, 1}};
+            test_scene_options o = {.structure = CGT_STRUCTURE_LOOSE_GRID};
             memcpy(o.resolution, resolution[round / 2 % TEST_COUNT(resolution)], sizeof o.resolution);
             const uint32_t bundle = bundles[random_below(&r, TEST_COUNT(bundles))];
             cgt_scene *cell = commit(context, &s, &one), *loose = commit(context, &s, &o);

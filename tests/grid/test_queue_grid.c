@@ -117,17 +117,18 @@ static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint3
     assert_in_range(large, surely, perhaps);
 }
 
-static cgt_scene_statistics check_grid(const cgt_scene *scene, const float (*sphere)[4], uint32_t count,
-                                       uint64_t stream)
+static cgt_research_scene_statistics check_grid(const cgt_scene *scene, const float (*sphere)[4], uint32_t count,
+                                                uint64_t stream)
 {
     const cgt_queue_grid *g = &scene->committed_scene.grid;
-    cgt_scene_statistics s;
+    const cgt_research_scene_statistics s = research_of(scene);
+    cgt_scene_statistics st;
     test_random r = random_make(stream);
     uint64_t references = 0;
     uint32_t overflow_cells = 0;
-    assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
-    assert_int_equal(s.structure, CGT_STRUCTURE_QUEUE_GRID);
-    assert_true(s.reason[0] && memchr(s.reason, 0, sizeof s.reason));
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    assert_int_equal(st.structure, CGT_STRUCTURE_QUEUE_GRID);
+    assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
     assert_int_equal((uint64_t)s.resolution[0] * s.resolution[1] * s.resolution[2], s.cells);
     if (count)
         check_order(g, &references, &overflow_cells);
@@ -141,9 +142,9 @@ static cgt_scene_statistics check_grid(const cgt_scene *scene, const float (*sph
     return s;
 }
 
-static cgt_scene_options with_resolution(uint32_t x, uint32_t y, uint32_t z)
+static test_scene_options with_resolution(uint32_t x, uint32_t y, uint32_t z)
 {
-    return (cgt_scene_options){.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {x, y, z}};
+    return (test_scene_options){.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {x, y, z}};
 }
 
 /* ---- tests: each runs on every variant, whose kernels fill the grid ---- */
@@ -160,10 +161,10 @@ static void random_clouds_lose_nothing(void **state)
             const cloud_kind kind = (cloud_kind)(round % CLOUD_KINDS);
             cloud c = cloud_make(&r, kind, random_below(&r, 1200));
             const uint32_t n = edge[random_below(&r, TEST_COUNT(edge))];
-            const cgt_scene_options options =
+            const test_scene_options options =
                 with_resolution(n, n ? 1 + random_below(&r, 40) : 0, n ? 1 + random_below(&r, 40) : 0);
-            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])c.sphere, c.count);
-            const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])c.sphere, c.count, round);
+            cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])c.sphere, c.count);
+            const cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])c.sphere, c.count, round);
             if (n)
                 assert_memory_equal(s.resolution, options.resolution, sizeof s.resolution);
             cgt_scene_release(scene);
@@ -183,15 +184,15 @@ static void coincident_spheres_overflow(void **state)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
-        const cgt_scene_options options = with_resolution(1, 1, 1), chosen = with_resolution(0, 0, 0);
+        const test_scene_options options = with_resolution(1, 1, 1), chosen = with_resolution(0, 0, 0);
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
-            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, counts[k]);
-            cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, counts[k], k);
+            cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, counts[k]);
+            cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, counts[k], k);
             assert_int_equal(s.references, counts[k]);
             assert_int_equal(s.overflow_references, counts[k] > 16 ? counts[k] - 16 : 0);
             assert_int_equal(s.overflow_cells, counts[k] > 16);
             cgt_scene_release(scene);
-            scene = scene_of(context, &chosen, (const float(*)[4])sphere, counts[k]);
+            scene = scene_of(context, SCENE_OPTIONS(&chosen), (const float(*)[4])sphere, counts[k]);
             check_grid(scene, (const float(*)[4])sphere, counts[k], k);
             cgt_scene_release(scene);
         }
@@ -213,9 +214,9 @@ static void one_sphere_covers_the_grid(void **state)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
-        const cgt_scene_options options = with_resolution(40, 24, 16);
-        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, 64);
-        const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, 64, 1);
+        const test_scene_options options = with_resolution(40, 24, 16);
+        cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, 64);
+        const cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, 64, 1);
         assert_int_equal(s.large_primitives, 1);
         /* the ball's part of its box is 0.52; its surface adds cells */
         assert_in_range(s.references, s.cells / 2, s.cells * 7 / 10);
@@ -239,8 +240,8 @@ static void spheres_on_cell_borders(void **state)
     {
         cgt_context *context = context_make(1, variant);
         for (uint32_t n = 1; n <= 36; n += n < 12 ? 1 : 3) {
-            const cgt_scene_options options = with_resolution(n, n, n);
-            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, N);
+            const test_scene_options options = with_resolution(n, n, n);
+            cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, N);
             check_grid(scene, (const float(*)[4])sphere, N, n);
             cgt_scene_release(scene);
         }
@@ -268,8 +269,8 @@ static void flat_and_tiny_extents(void **state)
                     sphere[i][a] = p[a] + (a < flat ? 0 : (float)random_below(&r, 5) * (q + 1e-20f));
                 sphere[i][3] = q;
             }
-            const cgt_scene_options options = k % 2 ? with_resolution(16, 8, 5) : with_resolution(0, 0, 0);
-            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, 40);
+            const test_scene_options options = k % 2 ? with_resolution(16, 8, 5) : with_resolution(0, 0, 0);
+            cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, 40);
             check_grid(scene, (const float(*)[4])sphere, 40, k);
             cgt_scene_release(scene);
         }
@@ -294,9 +295,9 @@ static void radii_of_six_orders(void **state)
                     sphere[i][a] = random_float(&r, -1000, 1000);
                 sphere[i][3] = random_log(&r, 1e-3f, 1e3f);
             }
-            const cgt_scene_options options = round % 2 ? with_resolution(n, n, n) : with_resolution(0, 0, 0);
-            cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, N);
-            const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, N, round);
+            const test_scene_options options = round % 2 ? with_resolution(n, n, n) : with_resolution(0, 0, 0);
+            cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, N);
+            const cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, N, round);
             assert_true(s.large_primitives > 0);
             overflows += s.overflow_references;
             cgt_scene_release(scene);
@@ -320,15 +321,13 @@ static void references_widen_beyond_65535(void **state)
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(2, variant);
-        const cgt_scene_options grid = with_resolution(0, 0, 0);
-        cgt_scene *scene = scene_of(context, &grid, (const float(*)[4])sphere, most);
+        const test_scene_options grid = with_resolution(0, 0, 0);
+        cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&grid), (const float(*)[4])sphere, most);
         for (uint32_t count = most; count <= most + 1; count++) {
             const cgt_spheres spheres = spheres_of((const float(*)[4])sphere, count);
-            cgt_scene_statistics s;
             assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
             assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-            assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
-            assert_int_equal(s.reference_bits, count == most ? 16 : 32);
+            assert_int_equal(research_of(scene).reference_bits, count == most ? 16 : 32);
             for (uint32_t k = 0; k < 64; k++) { /* from inside some spheres, the last one among them */
                 const uint32_t i = k ? (count - 1) / k : count - 1;
                 const truth_ray ray = {{sphere[i][0], sphere[i][1], sphere[i][2]}, {0, 0, -1}, 0, 1};
@@ -359,10 +358,10 @@ static void local_store_budget(void **state)
     }
     cgt_context *context = context_make(1, NULL);
     for (size_t k = 0; k < TEST_COUNT(row); k++) {
-        const cgt_scene_options options =
+        const test_scene_options options =
             with_resolution(row[k].resolution[0], row[k].resolution[1], row[k].resolution[2]);
-        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, row[k].count);
-        const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, row[k].count, k);
+        cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, row[k].count);
+        const cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, row[k].count, k);
         assert_int_equal(s.local_store_bytes, 32 * s.cells + 8 * s.overflow_references + 16 * row[k].count);
         assert_int_equal(s.fits_local_store, row[k].fits);
         assert_int_equal(s.fits_local_store, s.local_store_bytes <= (256 - 64) * 1024 && row[k].resolution[0] <= 16 &&
@@ -380,9 +379,9 @@ static void largest_resolutions_are_accepted(void **state)
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 200);
     cgt_context *context = context_make(1, NULL);
     for (size_t k = 0; k < TEST_COUNT(size); k++) {
-        const cgt_scene_options options = with_resolution(size[k][0], size[k][1], size[k][2]);
-        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])c.sphere, c.count);
-        const cgt_scene_statistics s = check_grid(scene, (const float(*)[4])c.sphere, c.count, k);
+        const test_scene_options options = with_resolution(size[k][0], size[k][1], size[k][2]);
+        cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])c.sphere, c.count);
+        const cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])c.sphere, c.count, k);
         assert_memory_equal(s.resolution, size[k], sizeof s.resolution);
         cgt_scene_release(scene);
     }

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/valid_primitive.h"
 #include "primitive/triangle_scenes.h"
 #include "scene/scene.h"
 
@@ -139,24 +140,24 @@ static uint64_t check_triangle(const cgt_queue_grid *g, const triangle t, uint32
 
 static cgt_scene *gridded(cgt_context *context, const uint32_t resolution[3], const triangle *t, uint32_t count)
 {
-    cgt_scene_options options;
-    cgt_scene_options_init(&options);
+    test_scene_options options = {0};
     options.structure = CGT_STRUCTURE_QUEUE_GRID;
     if (resolution)
         memcpy(options.resolution, resolution, sizeof options.resolution);
-    return scene_of_triangles(context, &options, t, count);
+    return scene_of_triangles(context, SCENE_OPTIONS(&options), t, count);
 }
 
 /* Checks all triangles, which must have an area, or every so manieth; *near gets the cells that they come near to. */
-static cgt_scene_statistics check_scene(const cgt_scene *scene, const triangle *t, uint32_t count, uint32_t step,
-                                        uint64_t *near)
+static cgt_research_scene_statistics check_scene(const cgt_scene *scene, const triangle *t, uint32_t count,
+                                                 uint32_t step, uint64_t *near)
 {
     const cgt_queue_grid *g = &scene->committed_scene.grid;
-    cgt_scene_statistics s;
+    const cgt_research_scene_statistics s = research_of(scene);
+    cgt_scene_statistics st;
     uint32_t overflow_cells;
-    assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
-    assert_int_equal(s.triangles, count);
-    assert_int_equal(s.skipped_not_finite + s.skipped_degenerate, 0);
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    assert_int_equal(st.triangles, count);
+    assert_int_equal(st.skipped_not_finite + st.skipped_degenerate, 0);
     assert_int_equal(s.references, count_references(g, &overflow_cells));
     assert_int_equal(s.overflow_references, g->overflows);
     assert_int_equal(s.overflow_cells, overflow_cells);
@@ -215,7 +216,7 @@ static void random_soups_lose_nothing(void **state)
             uint64_t near;
             make_soup(&r, (soup)(round % SOUPS), count, t);
             cgt_scene *scene = gridded(context, resolution, (const triangle *)t, count);
-            const cgt_scene_statistics s = check_scene(scene, (const triangle *)t, count, 1, &near);
+            const cgt_research_scene_statistics s = check_scene(scene, (const triangle *)t, count, 1, &near);
             assert_true(s.references >= count);
             cgt_scene_release(scene);
         }
@@ -241,7 +242,7 @@ static void large_triangles_take_few_useless_cells(void **state)
                 for (int k = 0; k < 9; k++)
                     t[i][k / 3][k % 3] = random_float(&r, -10, 10);
             cgt_scene *scene = gridded(context, resolution, (const triangle *)t, COUNT);
-            const cgt_scene_statistics s = check_scene(scene, (const triangle *)t, COUNT, 1, &near);
+            const cgt_research_scene_statistics s = check_scene(scene, (const triangle *)t, COUNT, 1, &near);
             assert_true(s.large_primitives >= COUNT - 2);
             references += s.references;
             touched += near;
@@ -276,7 +277,7 @@ static void coincident_triangles_overflow(void **state)
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
             uint64_t near;
             cgt_scene *scene = gridded(context, one, (const triangle *)t, counts[k]);
-            cgt_scene_statistics s = check_scene(scene, (const triangle *)t, counts[k], 1, &near);
+            cgt_research_scene_statistics s = check_scene(scene, (const triangle *)t, counts[k], 1, &near);
             assert_int_equal(s.references, counts[k]);
             assert_int_equal(s.overflow_references, counts[k] - 16);
             assert_int_equal(s.overflow_cells, counts[k] > 16);
@@ -308,7 +309,8 @@ static void references_widen_beyond_65535(void **state)
         for (size_t k = 0; k < TEST_COUNT(counts); k++) {
             uint64_t near;
             cgt_scene *scene = gridded(context, NULL, (const triangle *)t, counts[k]);
-            const cgt_scene_statistics s = check_scene(scene, (const triangle *)t, counts[k], k ? 7 : 61, &near);
+            const cgt_research_scene_statistics s =
+                check_scene(scene, (const triangle *)t, counts[k], k ? 7 : 61, &near);
             check_triangle(&scene->committed_scene.grid, (const float(*)[3])t[counts[k] - 1], counts[k] - 1);
             assert_true(s.overflow_references > 0);
             cgt_scene_release(scene);

@@ -28,10 +28,9 @@ static cgt_result add_geometry(cgt_scene *scene, const hard_geometry *g)
 
 cgt_result hard_commit(cgt_context *context, const hard_scene *s, const uint32_t resolution[3], cgt_scene **scene)
 {
-    cgt_scene_options options;
-    cgt_scene_options_init(&options);
-    options.structure = CGT_STRUCTURE_QUEUE_GRID;
-    memcpy(options.resolution, resolution ? resolution : s->resolution, sizeof options.resolution);
+    cgt_research_scene_options research = {0};
+    const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID, .research = &research};
+    memcpy(research.resolution, resolution ? resolution : s->resolution, sizeof research.resolution);
     return hard_commit_with(context, s, &options, scene);
 }
 

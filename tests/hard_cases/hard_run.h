@@ -5,7 +5,7 @@
 #ifndef HARD_RUN_H
 #define HARD_RUN_H
 
-#include <cgt/cgt.h>
+#include <cgt/research.h>
 
 #include "hard_cases/hard_cases.h"
 #include "support/oracle/oracle.h"

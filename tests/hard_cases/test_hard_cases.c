@@ -103,10 +103,10 @@ static void fail_ray(const subject *s, uint32_t i, const full_hit *hit, const ch
 /* ---- decisions and bits ---- */
 
 static void trace(const subject *s, const cgt_scene *scene, const truth_ray *rays, uint32_t count, full_hit *hits,
-                  const cgt_trace_options *options)
+                  const test_trace_options *options)
 {
     memset(hits, 0x77, count * sizeof *hits);
-    const cgt_result result = trace_array(scene, rays, count, hits, options);
+    const cgt_result result = trace_array(scene, rays, count, hits, options ? TRACE_OPTIONS(options) : NULL);
     if (result != CGT_OK)
         fail_msg("%s: %s", s->variant, cgt_get_result_string(result));
 }
@@ -255,17 +255,19 @@ static void expect(subject *s, hard_trait trait, bool there, const char *what)
         fail_msg("%s: the case shows no %s: it is not hard", s->variant, what);
 }
 
-static void check_traits(subject *s, const cgt_scene *scene, const cgt_trace_statistics *traced)
+static void check_traits(subject *s, const cgt_scene *scene, const cgt_trace_statistics *traced,
+                         const cgt_research_trace_statistics *packets)
 {
+    const cgt_research_scene_statistics cells = research_of(scene);
     cgt_scene_statistics built;
     assert_int_equal(cgt_scene_get_statistics(scene, &built), CGT_OK);
     expect(s, HARD_DOUBLE, traced->double_tests > 0, "test that single precision leaves open");
     expect(s, HARD_EXACT, traced->exact_tests > 0, "test that double precision leaves open");
-    expect(s, HARD_SPLITS, traced->split_packets > 0, "packet that splits");
+    expect(s, HARD_SPLITS, packets->split_packets > 0, "packet that splits");
     expect(s, HARD_INVALID, traced->invalid_rays > 0, "invalid ray");
     expect(s, HARD_MISSES, traced->hits < traced->rays, "ray that misses");
-    expect(s, HARD_OVERFLOW, built.overflow_references > 0, "overflow");
-    expect(s, HARD_SPREAD, built.references > built.primitives, "primitive in more than one cell");
+    expect(s, HARD_OVERFLOW, cells.overflow_references > 0, "overflow");
+    expect(s, HARD_SPREAD, cells.references > built.primitives, "primitive in more than one cell");
     expect(s, HARD_SKIPPED, built.skipped_not_finite > 0 && built.skipped_radius > 0, "skipped primitive");
     expect(s, HARD_FLAT, built.skipped_degenerate > 0, "triangle without an area");
     expect(s, (hard_trait)0, traced->hits > 0, "ray that hits");
@@ -273,8 +275,7 @@ static void check_traits(subject *s, const cgt_scene *scene, const cgt_trace_sta
 
 static void count_fast_errors(subject *s, const cgt_scene *scene)
 {
-    cgt_trace_options options;
-    cgt_trace_options_init(&options);
+    test_trace_options options = {0};
     options.precision = CGT_PRECISION_FAST;
     for (int test = CGT_TRIANGLE_TEST_WATERTIGHT; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
         options.triangle_test = (cgt_triangle_test)test;
@@ -308,18 +309,18 @@ static void check_structure(subject *s, cgt_context *context, const other_struct
     const char *variant = s->variant;
     char name[80];
     cgt_scene *scene;
-    cgt_scene_options made;
-    cgt_trace_options options;
-    cgt_trace_statistics statistics;
-    cgt_scene_options_init(&made);
-    cgt_trace_options_init(&options);
+    test_scene_options made;
+    test_trace_options options;
+    cgt_research_trace_statistics statistics;
+    made = (test_scene_options){0};
+    options = (test_trace_options){0};
     made.structure = other->structure;
     made.kd_builder = other->builder;
     options.kd_traversal = other->traversal;
-    options.statistics = &statistics;
+    options.research_statistics = &statistics;
     snprintf(name, sizeof name, "%s, %s", variant, other->name);
     s->variant = name;
-    if (hard_commit_with(context, &s->scene, &made, &scene) != CGT_OK)
+    if (hard_commit_with(context, &s->scene, SCENE_OPTIONS(&made), &scene) != CGT_OK)
         fail_msg("%s: %s", name, context_message(context));
     trace(s, scene, s->scene.ray, rays, s->answer, &options);
     for (uint32_t i = 0; i < rays; i++)
@@ -327,7 +328,7 @@ static void check_structure(subject *s, cgt_context *context, const other_struct
     assert_int_equal(statistics.rope_loops, 0);
     uint8_t *occluded = array(rays, 1);
     const cgt_rays arrays = ray_array(s->scene.ray, rays);
-    assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, &options), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, TRACE_OPTIONS(&options)), CGT_OK);
     for (uint32_t i = 0; i < rays; i++)
         if (occluded[i] != (s->robust[i].geometry != CGT_INVALID_ID))
             fail_ray(s, i, &s->robust[i], occluded[i] ? "occluded, but no hit" : "a hit, but not occluded");
@@ -367,23 +368,26 @@ static void check_threads(subject *s)
 static void check_variant(subject *s, bool first)
 {
     const uint32_t rays = s->scene.rays;
-    cgt_trace_options options;
+    test_trace_options options;
     cgt_trace_statistics statistics;
+    cgt_research_trace_statistics research;
     cgt_scene *scene;
     cgt_context *context = context_make(1, s->variant);
-    cgt_trace_options_init(&options);
+    options = (test_trace_options){0};
     if (hard_commit(context, &s->scene, NULL, &scene) != CGT_OK)
         fail_msg("%s: %s", s->variant, context_message(context));
 
     options.statistics = &statistics;
+    options.research_statistics = &research;
     trace(s, scene, s->scene.ray, rays, first ? s->robust : s->answer, &options);
-    check_traits(s, scene, &statistics);
+    check_traits(s, scene, &statistics, &research);
     for (uint32_t i = 0; !first && i < rays; i++)
         check_same_bits(s, i, &s->answer[i], &s->robust[i], "other bits than the first variant's");
     if (first)
         judge(s, s->robust);
 
     options.statistics = NULL;
+    options.research_statistics = NULL;
     options.precision = CGT_PRECISION_EXACT;
     trace(s, scene, s->scene.ray, rays, first ? s->exact : s->answer, &options);
     for (uint32_t i = 0; !first && i < rays; i++)

@@ -174,12 +174,12 @@ static uint64_t count_misses(const uint32_t *primitive, uint32_t count)
     return misses;
 }
 
-static void trace(const subject *w, const cgt_scene *scene, uint32_t *primitive, const cgt_trace_options *options)
+static void trace(const subject *w, const cgt_scene *scene, uint32_t *primitive, const test_trace_options *options)
 {
     const cgt_rays rays = ray_array(w->s.ray, w->s.rays);
     const cgt_hits hits = {.primitive = primitive};
     memset(primitive, 0x77, CHUNK * sizeof *primitive);
-    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, options), CGT_OK);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, options ? TRACE_OPTIONS(options) : NULL), CGT_OK);
 }
 
 /* Traces this many rays at one mesh in one place, chunk by chunk, with the variants in turn. */
@@ -187,8 +187,7 @@ static void check_mesh(closed_kind kind, const location *at, uint32_t rays, leak
 {
     subject w;
     uint32_t primitive[CHUNK];
-    cgt_trace_options fast;
-    cgt_trace_options_init(&fast);
+    test_trace_options fast = {0};
     fast.precision = CGT_PRECISION_FAST;
     fast.triangle_test = CGT_TRIANGLE_TEST_MOLLER_TRUMBORE;
     subject_make(&w, kind, at->place, (uint64_t)kind * 100 + (uint64_t)(at - locations));

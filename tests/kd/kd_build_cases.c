@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Checker of raw kd-trees, and degenerate scenes. */
+#include "exact/valid_primitive.h"
 #include "kd/kd_build_cases.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Scenes of a few primitives, trees that no heuristic would build, and rays in their split planes. */
+#include "exact/valid_primitive.h"
 #include "kd/kd_rope_cases.h"
 
 #include <math.h>

@@ -3,6 +3,7 @@
  *
  * The checker of kd-trees finds each kind of fault planted in a good tree. Its geometry is checked, too: borderline
  * cases by hand, points of triangles, and the library's own conservative test. */
+#include "exact/valid_primitive.h"
 #include "kd/kd_trees.h"
 
 #include <math.h>

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "exact/valid_primitive.h"
 #include "builders/kd/split/kd_clip.h"
 #include "support/kd/kd_touch.h"
 #include "support/test.h"

@@ -3,6 +3,7 @@
  *
  * Rays along ropes, single and in packets, with one variant: the hits are those of brute force, and the leaves on a
  * ray cover it without a gap and without repetition, by arithmetic that shares no code with the library. */
+#include "exact/valid_primitive.h"
 #include "support/oracle/dyadic.h"
 #include "support/kd/kd_check.h"
 #include "kd/kd_rope_cases.h"

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The bounds of points against a light tile by tile, of the variant that this is compiled for: of points whose light
- * passes corners, edges and silhouettes to within rounding, or that lie on surfaces, none gets another answer than by
- * exact decisions. Then the bounds are made tighter until some does: the unit roundoff of the tests of rays, and the
- * margin of tiles. The tiles are compiled into the test, where the library finds them. */
+ * The bounds of points against a light, tile by tile. Points whose rays pass corners, edges and silhouettes to within
+ * rounding, or that lie on surfaces, get the same answer as by exact decisions. Then the bounds are tightened until one
+ * does not: the unit roundoff of the tests, and the margin of tiles. The kernel's sources are compiled into the test,
+ * where they take the place of the library's. For the variant that this is compiled for. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,18 +15,18 @@ static float filter_u = 0x1p-24f, margin_used = 0x1p-17f;
 #define FILTER_ROUNDOFF filter_u
 #define LIGHT_MARGIN margin_used
 #include "kernel/light/light_grid.c"
+#include "kernel/light/light_read.c"
 
 #define OBJECTS 240u
-#define COPIES                                                                                                         \
-    16u /* of each point, to within rounding: all of a group of lanes, whose slopes are then as good as one */
+#define COPIES 16u /* of each point, to within rounding: they fill a group, whose slopes are then nearly one */
 #define POINTS (64u * COPIES)
-#define SHRUNK 11u /* times a quarter of the bound before, then 0 */
+#define SHRUNK 11u /* steps to a quarter of the bound before, then one to 0 */
 
 typedef enum content { SPHERES, SPECKS, TRIANGLES, CONTENTS } content;
 
 typedef struct subject {
     cgt_context *context;
-    cgt_scene *tiles, *exact; /* the same by other means */
+    cgt_scene *tiles, *exact; /* the same through another structure */
     cloud spheres;
     float (*corner)[9];
     content what;
@@ -70,7 +70,7 @@ static void subject_make(test_random *r, content what, subject *s)
         for (int k = 0; k < 9; k++) /* some are neighbours that share an edge */
             s->corner[i][k] =
                 i % 4 == 1 && k >= 3 ? s->corner[i - 1][k] : sphere[k % 3] + sphere[3] * random_float(r, -1, 1);
-        if (what == SPECKS) /* hardly more than points: their windows are little but margin */
+        if (what == SPECKS) /* hardly more than points: their windows are mostly margin */
             sphere[3] = s->spheres.reach * 0x1p-23f;
     }
     s->tiles = commit(s, CGT_STRUCTURE_LOOSE_GRID);
@@ -88,26 +88,27 @@ static void subject_free(subject *s)
 
 /* ---- what is asked ---- */
 
-/* From any side; parallel light half of the time, of short numbers, so that lines pass exactly through corners. */
+/* From any side. Half of them parallel, with short numbers, so that lines pass exactly through corners. */
 static void place_light(test_random *r, subject *s)
 {
     const float far = s->spheres.reach * (float[]){2.5f, 4, 10}[random_below(r, 3)];
     const uint32_t axis = random_below(r, 3);
-    s->light.w = (float)random_below(r, 2);
+    s->light.kind = random_below(r, 2) ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL;
     for (uint32_t a = 0; a < 3; a++) {
         const float share = a == axis ? (random_below(r, 2) ? 1.f : -1.f) : random_float(r, -0.4f, 0.4f);
-        s->light.position[a] = s->light.w == 1 ? s->spheres.middle[a] + share * far : rintf(share * 64) / 64;
+        s->light.position[a] =
+            s->light.kind == CGT_LIGHT_POINT ? s->spheres.middle[a] + share * far : rintf(share * 64) / 64;
     }
 }
 
-/* The way from a place to the light. */
+/* The direction from a point to the light. */
 static void to_light(const subject *s, const float at[3], float d[3])
 {
     for (int a = 0; a < 3; a++)
-        d[a] = s->light.w == 1 ? s->light.position[a] - at[a] : s->light.position[a];
+        d[a] = s->light.kind == CGT_LIGHT_POINT ? s->light.position[a] - at[a] : s->light.position[a];
 }
 
-/* A corner, a point of an edge, or one of a silhouette as the light sees it. */
+/* A corner, a point of an edge, or one of a silhouette as seen from the light. */
 static void hard_point(test_random *r, const subject *s, float e[3])
 {
     const uint32_t i = random_below(r, OBJECTS);
@@ -132,8 +133,8 @@ static void hard_point(test_random *r, const subject *s, float e[3])
         length += across[a] * across[a];
     }
     /* rays to a place touch the sphere a little before its middle */
-    const float ahead = s->light.w == 1 ? sphere[3] * sphere[3] / dd : 0;
-    const float beside = sphere[3] * sqrtf(1 - (s->light.w == 1 ? ahead : 0)) / sqrtf(length);
+    const float ahead = s->light.kind == CGT_LIGHT_POINT ? sphere[3] * sphere[3] / dd : 0;
+    const float beside = sphere[3] * sqrtf(1 - (s->light.kind == CGT_LIGHT_POINT ? ahead : 0)) / sqrtf(length);
     for (int a = 0; a < 3; a++)
         e[a] = sphere[a] + ahead * d[a] + beside * across[a];
 }
@@ -145,7 +146,7 @@ static void place_points(test_random *r, subject *s)
         hard_point(r, s, e);
         to_light(s, e, d);
         float away = (float[]){0, 0.25f, 0.5f, 1}[random_below(r, 4)];
-        if (s->light.w == 0)
+        if (s->light.kind == CGT_LIGHT_DIRECTIONAL)
             away *= s->spheres.reach;
         for (uint32_t k = 0; k < COPIES; k++)
             for (int a = 0; a < 3; a++) {
@@ -167,7 +168,7 @@ static void find_truth(subject *s)
         to_light(s, (const float[]){s->at[0][i], s->at[1][i], s->at[2][i]}, d);
         for (int a = 0; a < 3; a++)
             dir[a][i] = d[a];
-        t_max[i] = s->light.w == 1 ? 1 : INFINITY;
+        t_max[i] = s->light.kind == CGT_LIGHT_POINT ? 1 : INFINITY;
     }
     const cgt_rays rays = {
         .count = POINTS, .org = {s->at[0], s->at[1], s->at[2]}, .dir = {dir[0], dir[1], dir[2]}, .t_max = t_max};
@@ -201,14 +202,14 @@ static void add_wrong(const subject *s, tally *sum)
         sum->lost += s->is[i] > got[i];
         sum->invented += s->is[i] < got[i];
         if (told && s->is[i] != got[i] && sum->lost + sum->invented < 4)
-            print_message("content %d, light %a %a %a, %g: point %a %a %a is %s\n", (int)s->what,
+            print_message("content %d, light %a %a %a, kind %d: point %a %a %a is %s\n", (int)s->what,
                           (double)s->light.position[0], (double)s->light.position[1], (double)s->light.position[2],
-                          (double)s->light.w, (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
+                          (int)s->light.kind, (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
                           got[i] ? "in the light" : "in shadow");
     }
 }
 
-/* Both bounds shrink apart: a tally for each bound, 0 of the roundoff, 1 of the margin, and each step. */
+/* Tightens each bound by itself: tallies of the roundoff (0) and of the margin (1), for each step. */
 static void ask(test_random *r, content what, bool shrink, tally sum[2][SHRUNK + 2], uint64_t *hidden)
 {
     static subject s;
@@ -248,7 +249,7 @@ static void bounds_hold(void **state)
     }
 }
 
-/* The first step at which there are any. */
+/* The first step with a wrong answer. */
 static uint32_t first_wrong(const tally *sum, bool invented)
 {
     uint32_t step = 0;

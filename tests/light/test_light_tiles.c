@@ -1,10 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points as a camera finds them against one light, of scenes large enough for tiles of them to go through a loose grid:
- * the answer is that of cgt_occluded_rays through another structure, whatever the light, the order of the points, their
- * number, ranges, masks, ignored primitives and gaps in the arrays, of every variant and number of threads; and tiles
- * are taken where they serve, and not where they do not. */
+ * The points that a camera sees against one light, in scenes large enough for tiles through the loose grid. The answer
+ * is that of cgt_occluded_rays through another structure, for any light, order and number of points, ranges, masks,
+ * skipped primitives and strides, every variant and number of threads. Tiles are used exactly where they serve. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,8 +14,8 @@
 static bool is_slow(void) { return test_scaled(10) < 2; }
 
 #define SIDE 64u
-#define POINTS (SIDE * SIDE + 1)           /* the pixels of a frame, and one of them again */
-#define LARGE (is_slow() ? 8400u : 10000u) /* objects: their points are sorted in any case */
+#define POINTS (SIDE * SIDE + 1)           /* the pixels of a frame, and one more */
+#define LARGE (is_slow() ? 8400u : 10000u) /* primitives: points are always sorted */
 #define SMALL 2000u
 
 /* ---- scenes ---- */
@@ -30,7 +29,7 @@ typedef struct crowd {
     const char *name;
 } crowd;
 
-/* Triangles are as large as the spheres that they stand for; of four, two share an edge. */
+/* Triangles of the size of the spheres that they replace; two of four share an edge. */
 static crowd crowd_make(test_random *r, cloud_kind kind, content what, uint32_t prims)
 {
     crowd c = {.balls = cloud_make(r, kind, prims), .what = what, .name = cloud_name(kind)};
@@ -50,7 +49,7 @@ static void crowd_free(crowd *c)
     cloud_free(&c->balls);
 }
 
-/* A geometry of either kind, with masks that have a bit in common. Both: every object is one of the two. */
+/* A geometry of each kind, with masks that have a bit in common. Both: every primitive is in one of the two. */
 static cgt_scene *crowd_commit(cgt_context *context, const crowd *c, cgt_structure structure)
 {
     const uint32_t half = c->what == BOTH ? c->balls.count / 2 : 0;
@@ -108,7 +107,7 @@ typedef struct question {
     bool shuffled, ranges, masks, ignores, packed; /* packed: arrays without gaps */
 } question;
 
-/* Where the pixels of a frame lie on what they see; behind the objects where they see nothing. */
+/* The points that the pixels of a frame see; behind the primitives if they see nothing. */
 static void look(question *q, test_random *r, const cgt_scene *scene, const crowd *c)
 {
     planes p = planes_make(SIDE, SIDE);
@@ -143,7 +142,7 @@ static void place_light(question *q, test_random *r, const crowd *c, uint32_t ki
     const uint32_t axis = random_below(r, 3);
     float aside[3];
     random_direction(r, aside);
-    q->light.w = kind < LIGHT_OCTANT;
+    q->light.kind = kind < LIGHT_OCTANT ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL;
     for (uint32_t a = 0; a < 3; a++) {
         const float inside = random_float(r, -1, 1), eye = q->camera.eye[a];
         float *const to = &q->light.position[a];
@@ -174,11 +173,11 @@ static void shuffle(question *q, test_random *r)
     }
 }
 
-/* One way to ask after the other; numbers that follow each other ask in other ways. */
+/* A variation of the arrays for each number; successive numbers differ widely. */
 static void ask(question *q, test_random *r, uint32_t number)
 {
     static const uint32_t counts[] = {SIDE * SIDE, POINTS, 1025, SIDE * SIDE, 999, 15, SIDE * SIDE, 2055, 1};
-    const bool ends = q->light.w == 1;
+    const bool ends = q->light.kind == CGT_LIGHT_POINT;
     q->count = counts[number % TEST_COUNT(counts)];
     q->shuffled = number % 5 == 4;
     q->ranges = number % 4 == 3;
@@ -198,7 +197,7 @@ static void ask(question *q, test_random *r, uint32_t number)
     }
     if (q->shuffled)
         shuffle(q, r);
-    if (number % 13 == 6) /* what is no ray, or an extreme one */
+    if (number % 13 == 6) /* an invalid ray, or an extreme one */
         for (uint32_t k = 0; k < 8; k++)
             q->p[random_below(r, q->count)].at[k % 3] = (float[]){NAN, INFINITY, 0x1p70f, -0x1p-140f}[k % 4];
 }
@@ -213,16 +212,16 @@ static void answer(question *q, const cgt_scene *scene)
     for (uint32_t i = 0; i < q->count; i++) {
         ends[8 * i] = 1;
         for (int a = 0; a < 3; a++)
-            dir[a][8 * i] = q->light.w == 1 ? q->light.position[a] - p[i].at[a] : q->light.position[a];
+            dir[a][8 * i] = q->light.kind == CGT_LIGHT_POINT ? q->light.position[a] - p[i].at[a] : q->light.position[a];
     }
     const cgt_rays rays = {.count = q->count,
                            .stride = sizeof *p,
                            .org = {&p->at[0], &p->at[1], &p->at[2]},
                            .dir = {dir[0], dir[1], dir[2]},
                            .t_min = q->ranges ? &p->t_min : NULL,
-                           .t_max = q->ranges         ? &p->t_max
-                                    : q->light.w == 1 ? ends
-                                                      : NULL,
+                           .t_max = q->ranges                          ? &p->t_max
+                                    : q->light.kind == CGT_LIGHT_POINT ? ends
+                                                                       : NULL,
                            .mask = q->masks ? &p->mask : NULL,
                            .skip_primitive = q->ignores ? &p->primitive : NULL,
                            .skip_geometry = q->ignores ? &p->geometry : NULL};
@@ -278,13 +277,14 @@ static uint64_t check(const question *q, const cgt_scene *scene, const crowd *c,
     assert_int_equal(cgt_occluded_points(scene, &q->light, &points, got, &options), CGT_OK);
     for (uint32_t i = 0; i < q->count; i++)
         if (got[i] != q->is[i])
-            fail_msg("%s, %u %s objects of content %d, light %u at %a %a %a, %g; point %u of %u, at %a %a %a, range %a "
-                     "%a, mask %x, without %u of %u (shuffled %d, ranges %d, masks %d, ignores %d, packed %d) %s",
-                     variant, c->balls.count, c->name, (int)c->what, kind, (double)q->light.position[0],
-                     (double)q->light.position[1], (double)q->light.position[2], (double)q->light.w, i, q->count,
-                     (double)q->p[i].at[0], (double)q->p[i].at[1], (double)q->p[i].at[2], (double)q->p[i].t_min,
-                     (double)q->p[i].t_max, q->p[i].mask, q->p[i].primitive, q->p[i].geometry, q->shuffled, q->ranges,
-                     q->masks, q->ignores, q->packed, q->is[i] ? "is in the light" : "is in shadow");
+            fail_msg(
+                "%s, %u %s objects of content %d, light %u at %a %a %a, kind %d; point %u of %u, at %a %a %a, range %a "
+                "%a, mask %x, without %u of %u (shuffled %d, ranges %d, masks %d, ignores %d, packed %d) %s",
+                variant, c->balls.count, c->name, (int)c->what, kind, (double)q->light.position[0],
+                (double)q->light.position[1], (double)q->light.position[2], (int)q->light.kind, i, q->count,
+                (double)q->p[i].at[0], (double)q->p[i].at[1], (double)q->p[i].at[2], (double)q->p[i].t_min,
+                (double)q->p[i].t_max, q->p[i].mask, q->p[i].primitive, q->p[i].geometry, q->shuffled, q->ranges,
+                q->masks, q->ignores, q->packed, q->is[i] ? "is in the light" : "is in shadow");
     assert_int_equal(got[q->count], 0x77);
     assert_int_equal(by_points.rays, q->count);
     assert_int_equal(by_points.hits, q->by_rays.hits);
@@ -293,7 +293,7 @@ static uint64_t check(const question *q, const cgt_scene *scene, const crowd *c,
     return by_points.tiles;
 }
 
-/* Where tiles must be taken: light from outside onto the whole frame, in its order, and some rays meet the world. */
+/* Tiles must be used: light from outside onto the whole frame, in its order, and some rays meet the scene. */
 static bool tiles_are_due(const question *q, uint32_t number, uint32_t kind)
 {
     const bool outside = kind == LIGHT_FAR || kind == LIGHT_BEHIND || kind >= LIGHT_OCTANT;
@@ -309,7 +309,7 @@ typedef struct tally {
     uint64_t points, hidden, with_tiles, without;
 } tally;
 
-/* A scene against lights of all kinds; every step-th of them. */
+/* A scene against every step-th kind of light. */
 static void check_scene(uint32_t number, uint32_t step, tally *sum)
 {
     static const cloud_kind kinds[] = {CLOUD_UNIFORM, CLOUD_CLUSTERED, CLOUD_MIXED,

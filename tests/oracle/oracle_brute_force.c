@@ -132,7 +132,7 @@ static void rays_through_the_trajectory(void **state)
         ray[i] = ray_random(&r, &c);
     cgt_context *context = context_make(2, NULL);
     const cgt_rays rays = ray_array(ray, count);
-    for (uint32_t k = 0; k < CGT_STRUCTURE_BVH; k++) { /* hits are the same bits through each */
+    for (uint32_t k = 0; k < TEST_STRUCTURES; k++) { /* hits are the same bits through each */
         const cgt_scene_options made = structure_in_turn(k);
         cgt_scene *scene = scene_of(context, &made, sphere, f.count);
         rays_trace(scene, ray, count, again, NULL);

@@ -22,8 +22,8 @@
 #define ROUNDS 8u
 #define RAYS 1500u
 
-static const cgt_scene_options one_cell = {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {1, 1, 1}};
-static const cgt_scene_options structures[] = {
+static const test_scene_options one_cell = {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {1, 1, 1}};
+static const test_scene_options structures[] = {
     {.structure = CGT_STRUCTURE_QUEUE_GRID},
     {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {7, 5, 3}},
     {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {40, 40, 40}},
@@ -34,7 +34,7 @@ static const cgt_scene_options structures[] = {
     {.structure = CGT_STRUCTURE_KD_ROPES, .kd_builder = CGT_KD_BUILDER_SWEEP},
 };
 
-static bool is_tested(const cgt_scene_options *o)
+static bool is_tested(const test_scene_options *o)
 {
     return !clusters_always() || o->structure == CGT_STRUCTURE_LOOSE_GRID || o->structure == CGT_STRUCTURE_BVH;
 }
@@ -55,10 +55,10 @@ static void set_variant(subject *s, const char *variant)
     s->is_outer = variant_is_outer(variant);
 }
 
-static cgt_scene *commit(const subject *s, cgt_context *context, const cgt_scene_options *options)
+static cgt_scene *commit(const subject *s, cgt_context *context, const test_scene_options *options)
 {
     cgt_scene *scene;
-    if (hard_commit_with(context, &s->scene, options, &scene) != CGT_OK)
+    if (hard_commit_with(context, &s->scene, SCENE_OPTIONS(options), &scene) != CGT_OK)
         fail_msg("%s, %s: %s", soup_name(s->kind), s->variant, context_message(context));
     return scene;
 }
@@ -82,8 +82,8 @@ static void judge_kernel(const subject *s, const full_hit *answers, const char *
 
 /* ---- the structure ---- */
 
-static void check_same(const subject *s, const full_hit *expected, const full_hit *got, const cgt_scene_options *so,
-                       const cgt_trace_options *o)
+static void check_same(const subject *s, const full_hit *expected, const full_hit *got, const test_scene_options *so,
+                       const test_trace_options *o)
 {
     for (uint32_t i = 0; i < s->scene.rays; i++)
         if (memcmp(&expected[i], &got[i], sizeof *got) != 0)
@@ -100,29 +100,28 @@ static void check_same(const subject *s, const full_hit *expected, const full_hi
  * ones. In one cell the shapes of packets matter, and nothing else does. */
 #define WAYS (4u * 2 * 3)
 
-static cgt_trace_options way(uint32_t number)
+static test_trace_options way(uint32_t number)
 {
     const uint32_t shape = number / 6, loop = number / 3 % 2, cull = number % 3;
-    cgt_trace_options o;
-    cgt_trace_options_init(&o);
+    test_trace_options o = {0};
     o.packet = shape == 3 ? 4 : 4u << shape;
     o.tile = shape == 3 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE;
     o.loop = loop ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED;
     o.cull = cull == 0 ? CGT_CULL_NONE : cull == 1 ? CGT_CULL_FRUSTUM : CGT_CULL_BLOCKS;
-    o.mailbox = cull % 2 == loop;
+    o.mailbox = mailbox_of(cull % 2 == loop);
     o.kd_traversal = loop ? CGT_KD_TRAVERSAL_SINGLE : CGT_KD_TRAVERSAL_PACKET;
     return o;
 }
 
-static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const cgt_scene_options *so,
+static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *camera, const test_scene_options *so,
                   const full_hit *expected, picture *q)
 {
     const bool any_way = test_scaled(WAYS) >= WAYS && s->is_outer && so != &one_cell;
     const uint32_t step = any_way ? 1 : test_samples() ? 11 : 5; /* coprime to WAYS */
     const uint32_t start = test_sample_start(5 * (uint32_t)s->kind + so->resolution[0] + (uint32_t)so->structure, step);
     for (uint32_t number = start; number < WAYS; number += step) {
-        const cgt_trace_options o = way(number);
-        picture_trace(scene, camera, &o, q);
+        const test_trace_options o = way(number);
+        picture_trace(scene, camera, TRACE_OPTIONS(&o), q);
         check_same(s, expected, q->hit, so, &o);
     }
 }
@@ -130,19 +129,19 @@ static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *ca
 /* One scene, one camera, one variant. answers: of the one cell; to be compared from variant to variant. */
 static void check_frame(const subject *s, const cgt_camera *camera, bool all_options, full_hit *answers)
 {
-    cgt_trace_options robust, exact;
+    test_trace_options robust, exact;
     picture q = picture_make(WIDTH, HEIGHT);
     cgt_context *context = context_make(2, s->variant);
-    cgt_trace_options_init(&robust);
-    cgt_trace_options_init(&exact);
+    robust = (test_trace_options){0};
+    exact = (test_trace_options){0};
     exact.precision = CGT_PRECISION_EXACT;
 
     cgt_scene *scene = commit(s, context, &one_cell);
     if (s->is_outer) {
-        picture_trace(scene, camera, &exact, &q);
+        picture_trace(scene, camera, TRACE_OPTIONS(&exact), &q);
         judge_kernel(s, q.hit, "EXACT");
     }
-    picture_trace(scene, camera, &robust, &q);
+    picture_trace(scene, camera, TRACE_OPTIONS(&robust), &q);
     judge_kernel(s, q.hit, "ROBUST");
     memcpy(answers, q.hit, PIXELS * sizeof *answers);
     if (all_options && !clusters_always())
@@ -155,7 +154,7 @@ static void check_frame(const subject *s, const cgt_camera *camera, bool all_opt
         scene = commit(s, context, &structures[g]);
         if (all_options)
             sweep(s, scene, camera, &structures[g], answers, &q);
-        picture_trace(scene, camera, &robust, &q);
+        picture_trace(scene, camera, TRACE_OPTIONS(&robust), &q);
         check_same(s, answers, q.hit, &structures[g], &robust);
         cgt_scene_release(scene);
     }
@@ -222,17 +221,16 @@ static void test_frames(void **state)
 static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint8_t *occluded)
 {
     const uint32_t rays = s->scene.rays;
-    cgt_trace_options options;
+    test_trace_options options = {0};
     cgt_context *context = context_make(1, s->variant);
-    cgt_trace_options_init(&options);
     cgt_scene *scene = commit(s, context, &one_cell);
     if (s->is_outer) {
         options.precision = CGT_PRECISION_EXACT;
-        assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, &options), CGT_OK);
+        assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, TRACE_OPTIONS(&options)), CGT_OK);
         judge_kernel(s, expected, "EXACT");
     }
     options.precision = CGT_PRECISION_ROBUST;
-    assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, &options), CGT_OK);
+    assert_int_equal(trace_array(scene, s->scene.ray, rays, expected, TRACE_OPTIONS(&options)), CGT_OK);
     judge_kernel(s, expected, "ROBUST");
     cgt_scene_release(scene);
     for (size_t g = 0; g < TEST_COUNT(structures); g++) {
@@ -246,7 +244,7 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
             options.loop = (cgt_loop)(CGT_LOOP_NESTED + k % 2);
             options.kd_traversal = (cgt_kd_traversal)options.loop; /* single, packet */
             memset(got, 0x77, rays * sizeof *got);
-            assert_int_equal(trace_array(scene, s->scene.ray, rays, got, &options), CGT_OK);
+            assert_int_equal(trace_array(scene, s->scene.ray, rays, got, TRACE_OPTIONS(&options)), CGT_OK);
             check_same(s, expected, got, &structures[g], &options);
         }
         assert_int_equal(cgt_occluded_rays(scene, &arrays, occluded, NULL), CGT_OK);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays and primitives for the tests of leaves. */
+#include "exact/valid_primitive.h"
 #include "primitive/lane_cases.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ static float sign(test_random *r) { return random_below(r, 2) ? 1.f : -1.f; }
 
 /* ---- objects ---- */
 
-/* What is known in double is good enough to aim. */
+/* A primitive in double: good enough to aim at. */
 typedef struct subject {
     double middle[3], size, normal[3]; /* of unit length */
 } subject;
@@ -62,7 +63,7 @@ static bool is_valid(const oracle_primitive *q)
 
 static uint32_t numbers_of(oracle_kind kind) { return kind == ORACLE_SPHERE ? 4 : 9; }
 
-/* Triangles and spheres around the origin and aside, about as large as 1. */
+/* Triangles and spheres around the origin or away from it, of a size of about 1. */
 static void shape_object(test_random *r, case_family f, oracle_primitive *q)
 {
     const bool sphere = q->kind == ORACLE_SPHERE;
@@ -79,7 +80,7 @@ static void shape_object(test_random *r, case_family f, oracle_primitive *q)
         memset(q->data, 0, 3 * sizeof *q->data); /* floats are fine around this corner */
     if (sphere || f != CASE_NEEDLES)
         return;
-    /* the third vertex beside the edge of the other two, or beyond its end */
+    /* the third vertex next to the edge of the other two, or beyond its end */
     const float along = random_float(r, -0.2f, 1.2f), width = random_log(r, 1e-7f, 1e-2f) * size;
     for (int a = 0; a < 3; a++)
         q->data[6 + a] = q->data[a] + along * (q->data[3 + a] - q->data[a]) + random_float(r, -1, 1) * width;
@@ -108,7 +109,7 @@ static void scale_object(oracle_primitive *q, int exponent)
         q->data[i] = ldexpf(q->data[i], exponent);
 }
 
-/* The first object again, with other corners first or moved a little; or somewhere beside it. */
+/* A copy of the first primitive, with another corner first or moved a little; or one next to it. */
 static void other_object(test_random *r, lane_case *c, int k, double size)
 {
     oracle_primitive *q = &c->prim[k];
@@ -183,7 +184,7 @@ static void aim_triangle(test_random *r, case_family f, const oracle_primitive *
     }
 }
 
-/* So many radii from the centre, and more where the line is a tangent. */
+/* A point at some radii from the centre, farther out for a tangent. */
 static void aim_sphere(test_random *r, case_family f, const subject *s, const float org[3], double point[3])
 {
     const double fine = 1 + (double)(random_float(r, -1, 1) * random_log(r, 1e-8f, 1e-2f));
@@ -243,7 +244,7 @@ static float range_from(test_random *r, case_family f, double t)
     }
 }
 
-/* Flattens the way along one axis or two: the origin moves to where the target is, there. */
+/* Makes one or two components of the direction 0: the origin gets the target's coordinate. */
 static void flatten(test_random *r, const double point[3], float org[3], double to[3])
 {
     const uint32_t first = random_below(r, 3), axes = 1 + random_below(r, 2);
@@ -283,8 +284,7 @@ static void make_ray(test_random *r, const lane_case *c, const subject *s, const
     ray->t_min = range_from(r, c->family, reach / length);
 }
 
-/* Through a corner, the middle of an edge or the origin, all of it exact in float but for what is far from the origin.
- */
+/* Through a corner, the middle of an edge or the origin, exact in float except far from the origin. */
 static void make_lattice_ray(test_random *r, const lane_case *c, truth_ray *ray)
 {
     const float *v = c->prim[0].data;
@@ -319,7 +319,7 @@ static truth_real steepness(const float *v, const float d[3])
     return sum;
 }
 
-/* Of the directions within some units in the last place the one that is most nearly in the plane, but not in it. */
+/* Among the directions within some units in the last place, the one nearest to the plane but not in it. */
 static double flattest(const float *v, float d[3])
 {
     enum { WIDE = 9 };

@@ -39,7 +39,7 @@ typedef struct lane_case {
 
 void case_make(test_random *r, oracle_kind kind, case_family f, lane_case *c);
 
-/* Of each ray with the first object, and of the first ray with each object. */
+/* For each ray and the first primitive, and for the first ray and each primitive. */
 typedef struct case_truth {
     bool hit[2][CASE_LANES];
     truth_real t[2][CASE_LANES];

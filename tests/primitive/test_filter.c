@@ -114,8 +114,8 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
 /* ---- verdicts ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, undecided;  /* open: left to double precision */
-    uint64_t lost, invented, outside; /* what must not happen */
+    uint64_t lanes, hits, undecided;  /* undecided: left to double precision */
+    uint64_t lost, invented, outside; /* must be 0 */
 } tally;
 
 static void judge_lane(const packet *p, int i, const float sphere[4], bool certain_hit, bool undecided, float low,
@@ -194,7 +194,7 @@ static void bounds_hold(void **state)
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
-        assert_true(t.hits > t.lanes / 5 && t.undecided < t.lanes); /* the filter had something to tell */
+        assert_true(t.hits > t.lanes / 5 && t.undecided < t.lanes); /* the filter decided many */
         if (f == CROSSING)
             assert_true(t.undecided < t.lanes / 2);
     }
@@ -223,7 +223,7 @@ static void bounds_break_where_they_are_tightened(void **state)
     }
     print_message("first failures: a hit lost at %.3g of the bounds, one invented at %.3g, t outside at %.3g\n",
                   (double)lost_at, (double)invented_at, (double)outside_at);
-    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    /* the bounds are worst cases: random rays come within orders of magnitude */
     assert_true(lost_at > 0x1p-6f && lost_at < 1);
     assert_true(invented_at > 0x1p-11f && invented_at < 1); /* certain only beyond 17 eps */
     assert_true(outside_at > 0x1p-6f && outside_at < 1);

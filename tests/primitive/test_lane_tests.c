@@ -63,7 +63,7 @@ static void subject_make(const lane_case *c, subject *s)
     assert_int_equal(cgt_leaf_triangles_init(context, &leaf_memory, &s->committed_scene), CGT_OK);
 }
 
-/* Object k in every lane. */
+/* Primitive k in every lane. */
 static bool test_one(const subject *s, const lane_rays *r, lane_hits *q)
 {
     const float *x = s->of.prim[0].data;
@@ -76,7 +76,7 @@ static bool test_one(const subject *s, const lane_rays *r, lane_hits *q)
     return lane_test_triangle(r, &triangle, q);
 }
 
-/* Objects k to k + CGT_LANES - 1. */
+/* Primitives k to k + CGT_LANES - 1. */
 static bool test_vector(const subject *s, const lane_rays *r, int k, lane_hits *q)
 {
     _Alignas(64) float row[11][CGT_LANES];
@@ -112,7 +112,7 @@ static bool test_vector(const subject *s, const lane_rays *r, int k, lane_hits *
 
 typedef struct tally {
     uint64_t lanes, hits, certain_hit, undecided;
-    uint64_t lost, invented, outside; /* what must not happen */
+    uint64_t lost, invented, outside; /* must be 0 */
 } tally;
 
 static void print_lane(const subject *s, int form, int i, const char *what, const truth_real *t, float low, float high)
@@ -128,7 +128,7 @@ static void print_lane(const subject *s, int form, int i, const char *what, cons
     print_message("\n");
 }
 
-/* What the traversal takes of an open lane is where the interval begins. */
+/* The traversal uses only the begin of an undecided lane's interval. */
 static void judge_lane(const subject *s, const case_truth *truth, int form, int i, bool certain_hit, bool undecided,
                        float low, float high, tally *sum)
 {
@@ -165,7 +165,7 @@ static void judge_vector(const subject *s, const case_truth *truth, int form, in
                    some ? q->high[lane] : 0, sum);
 }
 
-/* sum: of a vector of rays, and of a vector of objects. */
+/* sum: for a vector of rays, and for a vector of primitives. */
 static void judge(const subject *s, const case_truth *truth, tally sum[2])
 {
     lane_rays r;
@@ -193,7 +193,7 @@ static void print_and_check(case_family f, const char *form, const tally *t)
     assert_int_equal(t->lost, 0);
     assert_int_equal(t->invented, 0);
     assert_int_equal(t->outside, 0);
-    /* each kind of answer is there; of rays in the plane nothing is certain, and inside hardly any lane is open */
+    /* each kind of answer occurs; for rays in the plane nothing is certain, and inside hardly any lane is undecided */
     assert_true(t->hits >= 3 && (f == CASE_INTERIOR || t->undecided >= 3));
     assert_true(f == CASE_FLAT || (t->certain_hit >= 3 && t->lanes - t->certain_hit - t->undecided >= 3));
 }
@@ -225,7 +225,7 @@ static const struct {
     float triangle[9], magnitude;
     truth_ray ray;
 } known[] = {
-    /* nearly in the plane, from beside a corner: t is far from what single precision makes of it */
+    /* nearly in the plane, from next to a corner: t is far from its value in single precision */
     {{0, 0, 0, -0x1.2c4d0ap-3f, 0x1.82d198p-1f, -0x1.ba065ap-6f, 0x1.de4b92p-1f, 0x1.313ef8p-4f, 0x1.f80624p-1f},
      0.75f,
      {{0x1.7b22aep-15f, -0x1.e85dap-13f, 0x1.17083p-17f},
@@ -291,7 +291,7 @@ static void bounds_break_where_they_are_tightened(void **state)
             filter_u = 0x1p-24f;
         }
     }
-    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    /* the bounds are worst cases: random rays come within orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-7);
     /* spheres are certain only beyond 17 eps */
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented),

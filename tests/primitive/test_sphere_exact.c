@@ -30,7 +30,7 @@ static void for_each_variant(void (*test)(void))
     }
 }
 
-/* What the rays of a family met: that a test saw what it is about. */
+/* Counts of a family of rays: whether the test saw the cases that it is about. */
 typedef struct tally {
     uint64_t rays, hits, doubts, loose; /* loose: t further off than the header says; only grazing rays may be */
 } tally;
@@ -84,7 +84,7 @@ static void print_tally(const char *what, tally t)
                   (unsigned long long)t.doubts, (unsigned long long)t.loose);
 }
 
-/* From org past the sphere's centre, by up to `wide` times the half width of its outline, times a length. */
+/* Directions past the sphere's centre, by up to `wide` times the half width of its outline, of a random length. */
 static truth_ray aim(test_random *r, const float org[3], const float sphere[4], float wide, float length)
 {
     truth_ray ray = {.t_min = 0, .t_max = INFINITY};
@@ -258,7 +258,7 @@ static void special_places(void **state)
 }
 
 /* A point is hit where double precision finds the distance to be zero: always where d.d is a power of two; mostly, but
- * not always, where its reciprocal is rounded; never from beside. */
+ * not always, where its reciprocal is rounded; never from a line that passes outside. */
 static void zero_radius_rays(void)
 {
     enum { ROUNDS = 300 };

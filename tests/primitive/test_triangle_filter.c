@@ -39,7 +39,7 @@ typedef struct subject {
     float scale;                       /* of a grid around it */
 } subject;
 
-/* What is known of a triangle in double is good enough to aim. */
+/* A triangle in double: good enough to aim at. */
 static void describe_subject(subject *s)
 {
     double e[2][3], square = 0;
@@ -77,7 +77,7 @@ static void make_triangle(test_random *r, family f, subject *s)
         for (int k = 0; k < 3; k++)
             s->vertex[k][a] = middle[a] + random_float(r, -1, 1) * size;
     }
-    if (f == NEEDLES) { /* the third vertex beside the edge of the other two, or beyond its end */
+    if (f == NEEDLES) { /* the third vertex next to the edge of the other two, or beyond its end */
         const float along = random_float(r, -0.2f, 1.2f), width = random_log(r, 1e-7f, 1e-2f) * size;
         for (int a = 0; a < 3; a++)
             s->vertex[2][a] =
@@ -179,8 +179,8 @@ static void make_packet(test_random *r, family f, packet *p, subject *s)
 /* ---- judging ---- */
 
 typedef struct tally {
-    uint64_t lanes, hits, undecided;  /* open: left to double precision */
-    uint64_t lost, invented, outside; /* what must not happen */
+    uint64_t lanes, hits, undecided;  /* undecided: left to double precision */
+    uint64_t lost, invented, outside; /* must be 0 */
 } tally;
 
 typedef struct truth_of_packet {
@@ -303,7 +303,7 @@ static void bounds_hold(void **state)
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
-        assert_true(t.hits * 100 > t.lanes * families[f].least_hits); /* the filter had something to tell */
+        assert_true(t.hits * 100 > t.lanes * families[f].least_hits); /* the filter decided many */
         assert_true(t.undecided * 100 < t.lanes * families[f].most_open);
     }
 }
@@ -328,7 +328,7 @@ static void bounds_break_where_they_are_tightened(void **state)
             filter_u = 0x1p-24f;
         }
     }
-    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    /* the bounds are worst cases: random rays come within orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-7);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-7);
     check_break("t outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
@@ -374,7 +374,7 @@ static void order_packet(packet *p, const subject *first, const subject *second,
         spux_store(p->high + i, spux_select(spux_load(p->high + i), f.high, f.certain_hit));
         spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), spux_vuint(0), f.certain_hit));
         const bool again = filter_triangle_rays(p, &a, i, p->common_origin, &f);
-        if (again) /* met before: neither better than itself nor in doubt */
+        if (again) /* hit already: neither nearer than itself nor undecided */
             assert_int_equal((spux_mask_bits(f.certain_hit) | spux_mask_bits(f.undecided)) & hit, 0);
         const bool some = filter_triangle_rays(p, &b, i, p->common_origin, &f);
         const unsigned nearer = some ? spux_mask_bits(f.certain_hit) : 0,

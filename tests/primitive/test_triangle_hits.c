@@ -155,7 +155,7 @@ typedef struct picture {
     uint32_t geometry[HEIGHT][WIDTH];
 } picture;
 
-static int keep_tile(void *user, const cgt_tile *tile)
+static cgt_visit keep_tile(void *user, const cgt_tile *tile)
 {
     picture *p = user;
     if (!tile->u || !tile->v || !tile->geometry || tile->t || tile->primitive || tile->normal[0])
@@ -245,7 +245,8 @@ static void arguments_are_checked(void **state)
     for (int precision = -1; precision < 5; precision++)
         for (int test = -1; test < 5; test++) {
             cgt_trace_options options = with_precision((cgt_precision)precision);
-            options.triangle_test = (cgt_triangle_test)test;
+            const cgt_research_trace_options research = {.triangle_test = (cgt_triangle_test)test};
+            options.research = &research;
             const bool known = precision >= 0 && precision <= CGT_PRECISION_EXACT && test >= 0 &&
                                test <= CGT_TRIANGLE_TEST_ACCELERATED;
             const bool good = known && (test == CGT_TRIANGLE_TEST_WATERTIGHT || precision == CGT_PRECISION_FAST);
@@ -308,7 +309,7 @@ static void rays_in_a_triangles_plane_miss(void **state)
     static const truth_ray in_plane[] = {
         {{-1, 1, 0}, {1, 0, 0}, 0, INFINITY},        {{-1, 0, 0}, {1, 0, 0}, 0, INFINITY}, /* along an edge */
         {{1, 1, 0}, {-1, -1, 0}, 0, INFINITY},       {{-1, 1, 0}, {1, 0, -0.f}, -INFINITY, INFINITY},
-        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* beside it */
+        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* next to it */
         {{-1, 1, 0x1p-149f}, {1, 0, 0}, 0, INFINITY}};
     static const truth_ray through[] = {{{1, 1, 1}, {0, 0, -1}, 0, INFINITY},
                                         {{0, 0, 1}, {0, 0, -1}, 0, INFINITY}, /* a vertex */

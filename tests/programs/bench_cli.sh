@@ -76,10 +76,7 @@ for command in frame loops; do
 done
 refuses 2 'sub-command'
 refuses 2 'no sub-command dance' dance
-run 0 pareto --help
-says out 'Usage: cgt-bench pareto'
 refuses 2 'FILE' frame
-refuses 2 'FILE' pareto
 refuses 2 'FILE' loops
 
 # ---- frame ----------------------------------------------------------------------------------------------------------
@@ -98,8 +95,8 @@ is 'the number of lines' "$(wc -l <"$tmp/stdout" | tr -d ' ')" 2
 is config "$(cell config)" loose-grid
 is threads "$(cell threads)" 1
 is hit_pixels "$(cell hit_pixels)" "$expected"
-is shadow_ms "$(cell shadow_ms)" 0.000
-is ao_ms "$(cell ao_ms)" 0.000
+is shadow_ms "$(cell shadow_ms)" 0
+is ao_ms "$(cell ao_ms)" 0
 is ao_open "$(cell ao_open)" 0
 
 # From outside a lone sphere no ambient-occlusion ray meets anything; with one frame the columns add up.
@@ -137,7 +134,7 @@ for options in '-t 2' '-k 4' '-k 8' '-k 16' '--tile strip' '--loop nested' '--lo
 done
 is config "$(cell config)" loose-grid
 run 0 frame "$tmp/unit.frames" $front -k 8 -g 3,4,5 --loop nested --cull off --no-mailbox
-is config "$(cell config)" 'grid-queue,packet=8,loop=nested,cull=off,mailbox=off,grid=3x4x5'
+is config "$(cell config)" 'queue-grid,packet=8,loop=nested,cull=off,mailbox=off,grid=3x4x5'
 
 # --all: the library's choice, then packets and tiles; the same pixels hit in every row.
 run 0 frame "$tmp/unit.frames" $front -a 2 --all
@@ -196,8 +193,8 @@ says out '^# hits	2 frames	12 configurations	46 traces compared	0 different'
 
 run 0 loops "$tmp/unit.frames" -c 0,0,-5,0,0,0,0,1,0,45 -s 32x24 -k 8 -g 4,4,4 --variant portable
 is 'the head of the table' "$(head -n 1 "$tmp/stdout")" "config	variant	loop	cull	mailbox	packet	resolution	build_ms	\
-trace_ms	tests_per_ray	packet_tests	slices	cells	references	ms"
-is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/stdout")" 12
+trace_ms	ms	tests_per_ray	packet_tests	slices	cells	references"
+is 'the number of rows' "$(grep -c '^queue-grid' "$tmp/stdout")" 12
 is 'pairs of loops' "$(grep -c '^# nested/flattened	' "$tmp/stdout")" 6
 is 'pairs of culling by the frustum' "$(grep -c '^# frustum	' "$tmp/stdout")" 4
 is 'pairs of culling by blocks' "$(grep -c '^# blocks	' "$tmp/stdout")" 4
@@ -211,8 +208,8 @@ if [ -n "$trajectory" ]; then
     [ -z "$slow" ] || length='-s 48x36 -n 4'
     run 0 loops "$trajectory" -c 10,-30,14,10,6,9,0,0,1,45 $length -t 2
     says out '	0 different	'
-    variants=$(grep '^grid-queue' "$tmp/stdout" | cut -f 2 | sort -u | wc -l)
-    is 'the number of rows' "$(grep -c '^grid-queue' "$tmp/stdout")" $((50 * variants))
+    variants=$(grep '^queue-grid' "$tmp/stdout" | cut -f 2 | sort -u | wc -l)
+    is 'the number of rows' "$(grep -c '^queue-grid' "$tmp/stdout")" $((50 * variants))
     grep '^# frustum	' "$tmp/stdout" | awk -F '\t' '{ n++; if (!($8 > 1)) bad++ } END { exit !n || bad }' ||
         fail "culling saves nothing: $(grep '^# frustum' "$tmp/stdout" | head -n 2)"
 else
@@ -234,67 +231,59 @@ refuses 2 'no scene nowhere' make nowhere "$tmp/nowhere.frames"
 refuses 2 'SCENE and FILE' make cloud2k
 refuses 1 'no/folder' make cloud2k "$tmp/no/folder/cloud.frames"
 
-# ---- pareto ---------------------------------------------------------------------------------------------------------
+# ---- accuracy -------------------------------------------------------------------------------------------------------
 
-# A fake gnuplot in front of the real one: whether that is there does not matter, nor how long it takes.
-mkdir "$tmp/fake" "$tmp/empty"
-printf '#!/bin/sh\ncat "$1" >"drawn_$1"\n' >"$tmp/fake/gnuplot"
-printf '#!/bin/sh\nexit 3\n' >"$tmp/empty/gnuplot"
-chmod +x "$tmp/fake/gnuplot" "$tmp/empty/gnuplot"
-real_path=$PATH
-PATH=$tmp/fake:$real_path
+run 0 accuracy --help
+says out 'Usage: cgt-bench accuracy'
+for option in --part --rays --case --seed --camera --frames --repeat --variant --json; do says out "$option"; done
+
+# Hard cases: ROBUST and EXACT are right about every ray, and the same rows go to JSON.
+run 0 accuracy -w cases,structure,modes --rays 200 -r 1 --variant portable --case slab -j "$tmp/accuracy.json"
+says out 'precision=robust'
+awk -F'\t' '/^#/ { exit } $2 ~ /precision=(robust|exact)/ { rows++; wrong += $6 + $7 + $8 }
+    END { exit !(rows > 0 && wrong == 0) }' "$tmp/stdout"
+is 'decisions of ROBUST and EXACT' $? 0
+for section in structure modes; do says out "^# $section$"; done
+for section in cases structure modes; do grep -q "\"$section\": \[" "$tmp/accuracy.json" || fail "no $section in JSON"; done
+grep -q '"missed"' "$tmp/accuracy.json"
+is 'rows as JSON' $? 0
+
+# A file: rays of its first frame, judged by exact arithmetic.
+run 0 accuracy -w cases --case square --rays 100 -r 1 --variant portable $front "$tmp/square.frames" "$tmp/unit.frames"
+is 'rows of a file' "$(sed 1d "$tmp/stdout" | cut -f 1 | sort | uniq -c | tr -s ' ')" " 5 $tmp/square.frames"
+
+# Whole frames: every variant, precision and test, relative to EXACT.
 size=64x36 pixels=2304
 [ -z "$slow" ] || size=32x18 pixels=576
-run 0 pareto "$tmp/cloud.frames" "$tmp/blobs.frames" -o out -s $size -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46 -n 1
-for script in out.gnuplot out_tests.gnuplot; do
-    cmp -s "$tmp/$script" "$tmp/drawn_$script" || fail "gnuplot did not get $script"
-done
-grep -v '^#' "$tmp/stdout" | cmp -s - "$tmp/out.tsv" || fail 'standard output and out.tsv differ'
-is 'the head of the table' "$(head -n 1 "$tmp/out.tsv")" "scene	config	variant	precision	test	threads	build_ms	trace_ms	ms	\
+run 0 accuracy -w frames,tests "$tmp/cloud.frames" "$tmp/blobs.frames" -s $size -r 1 -n 1 \
+    -c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46
+grep -v '^#' "$tmp/stdout" >"$tmp/frames.tsv"
+sed -n 's/^# //p' "$tmp/stdout" | sed 1d >"$tmp/tests.tsv"
+is 'the head of the table' "$(head -n 1 "$tmp/frames.tsv")" "scene	config	variant	precision	test	threads	build_ms	trace_ms	ms	\
 rays	hits	missed	invented	wrong	wrong_share	t_ulp_median	t_ulp_p99	t_ulp_worst	cost_percent	trace_cost_percent"
-variants=$(cut -f 3 "$tmp/out.tsv" | sed 1d | sort -u | wc -l)
-is 'rows of spheres' "$(grep -c '^cloud	' "$tmp/out.tsv")" $((3 * variants))
-is 'rows of triangles' "$(grep -c '^blobs	' "$tmp/out.tsv")" $((5 * variants))
+variants=$(cut -f 3 "$tmp/frames.tsv" | sed 1d | sort -u | wc -l)
+is 'rows of spheres' "$(grep -c '^cloud	' "$tmp/frames.tsv")" $((3 * variants))
+is 'rows of triangles' "$(grep -c '^blobs	' "$tmp/frames.tsv")" $((5 * variants))
 awk -F '\t' -v pixels=$pixels '
     NR > 1 { if (NF != 20 || $10 != pixels || !($8 > 0) || !($9 > 0)) bad++ }
     $4 == "exact" || $4 == "robust" { if ($12 + $13 + $14 + $15 || $18 > 1) bad++ }
     $4 == "exact" { if ($18 != 0) bad++ }
     $4 == "fast" && ($5 == "-" || $5 == "watertight") { if ($19 != 0 || $20 != 0) bad++ }
     $4 == "fast" { if ($12 + $13 + $14 > pixels / 10) bad++ }
-    END { exit bad }' "$tmp/out.tsv" || fail "the table of cgt-bench pareto: $(cat "$tmp/out.tsv")"
+    END { exit bad }' "$tmp/frames.tsv" || fail "frames of cgt-bench accuracy: $(cat "$tmp/frames.tsv")"
 # The tests alone: each in every variant, and in the SPU's arithmetic; none is far from exact arithmetic.
-is 'rows of tests' "$(sed 1d "$tmp/out_tests.tsv" | wc -l | tr -d ' ')" $((4 * (variants + 1)))
+is 'rows of tests' "$(sed 1d "$tmp/tests.tsv" | wc -l | tr -d ' ')" $((4 * (variants + 1)))
 awk -F '\t' '
-    NR > 1 { if (NF != 13 || !($5 > 0) || !($7 > $6 / 20) || $7 > $6 / 2 || $8 + $9 > $6 / 50000) bad++
-             if ($11 > 2 || $12 > 20 || $12 > $13) bad++ }
+    NR > 1 { if (NF != 14 || !($5 > 0) || !($7 > $6 / 20) || $7 > $6 / 2 || $8 + $9 > $6 / 50000 || $10) bad++
+             if ($12 > 2 || $13 > 20 || $13 > $14) bad++ }
     $4 == "spu" { spu++ }
-    END { exit bad || spu != 4 }' "$tmp/out_tests.tsv" || fail "the tests of cgt-bench pareto: $(cat "$tmp/out_tests.tsv")"
-PATH=$real_path
-if [ -z "$slow" ]; then # each measures all tests again
-    PATH=$tmp/empty:$real_path
-    run 1 pareto "$tmp/unit.frames" -o failed $front
-    says err 'gnuplot failed on failed\.gnuplot'
-    is 'lines of the table without a picture' "$(wc -l <"$tmp/failed.tsv" | tr -d ' ')" $((3 * variants + 1))
-    rm "$tmp/empty/gnuplot"
-    PATH=$real_path
-fi
-if [ -z "$slow$emulator" ]; then
-    PATH=$tmp/empty
-    run 1 pareto "$tmp/unit.frames" -o without $front
-    PATH=$real_path
-    says err 'cannot run gnuplot'
-    [ -s "$tmp/without.tsv" ] || fail 'no table where gnuplot is missing'
-fi
-if [ -z "$slow" ] && command -v gnuplot >/dev/null 2>&1; then
-    run 0 pareto "$tmp/unit.frames" "$tmp/square.frames" -o "a picture's name" $front
-    ! grep -q -v 'left out' "$tmp/stderr" || fail "gnuplot says: $(cat "$tmp/stderr")"
-    grep -q '</svg>' "$tmp/a picture's name.svg" || fail 'no whole SVG'
-    [ "$(head -c 4 "$tmp/a picture's name.png" | tail -c 3)" = PNG ] || fail 'no PNG'
-fi
-refuses 2 'PREFIX is missing' pareto "$tmp/unit.frames"
-refuses 1 'no/folder' pareto "$tmp/unit.frames" -o no/folder/x
-refuses 1 'missing\.frames' pareto "$tmp/unit.frames" "$tmp/missing.frames" -o x $front
-[ ! -e "$tmp/x.tsv" ] || fail 'a table beside an error'
+    END { exit bad || spu != 4 }' "$tmp/tests.tsv" || fail "tests of cgt-bench accuracy: $(cat "$tmp/tests.tsv")"
+
+refuses 2 'no speed' accuracy -w speed
+refuses 2 '--rays' accuracy --rays 0
+refuses 2 '--seed' accuracy --seed x
+refuses 1 'no/folder' accuracy -w frames "$tmp/unit.frames" -j no/folder/x
+refuses 1 'missing\.frames' accuracy -w frames "$tmp/missing.frames" $front
 
 # ---- simd -----------------------------------------------------------------------------------------------------------
 
@@ -372,7 +361,7 @@ refuses 2 '-a' frame "$unit" -a 1025
 refuses 2 '-a' frame "$unit" -a -1
 refuses 2 '-l' frame "$unit" -l 1,2
 refuses 2 '--loop' frame "$unit" --loop round
-refuses 2 'of primary rays alone' frame "$unit" -O -a 1
+refuses 2 'only primary rays' frame "$unit" -O -a 1
 refuses 2 '--tile' frame "$unit" --tile round
 refuses 2 '--all' frame "$unit" --all -k 4
 refuses 2 '-p' frame "$unit" -p vague
@@ -385,15 +374,6 @@ if [ -c /dev/full ]; then
     $emulator "$program" frame "$unit" $front >/dev/full 2>"$tmp/stderr"
     is 'exit code with a full disk' $? 1
 fi
-
-# accuracy: ROBUST and EXACT are right about every ray, and the same rows go to JSON
-run 0 accuracy -r 200 -n 1 -V portable --case slab -j "$tmp/accuracy.json"
-says out 'precision=robust'
-awk -F'\t' '/^#/ { exit } $2 ~ /precision=(robust|exact)/ { rows++; wrong += $6 + $7 + $8 }
-    END { exit !(rows > 0 && wrong == 0) }' "$tmp/stdout"
-is 'decisions of ROBUST and EXACT' $? 0
-grep -q '"missed"' "$tmp/accuracy.json"
-is 'rows as JSON' $? 0
 
 [ "$failures" -eq 0 ] || { echo "$failures failures" >&2; exit 1; }
 echo 'cgt-bench: command line as described'

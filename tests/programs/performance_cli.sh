@@ -100,7 +100,7 @@ holds 'sums' 'c["part"] != "limit" ? 1 : c["item"] ~ /^limit:/ ? (sum += c["valu
 is 'rows as JSON' "$(grep -c '"config"' "$tmp/rows.json")" "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')"
 
 # Scenes made in memory, threads.
-run 0 floor $camera -S grid-queue -s 32x18 -n 1 -r 1 --megabytes 1 --spheres 100 --triangles 100 -t 2
+run 0 floor $camera -S queue-grid -s 32x18 -n 1 -r 1 --megabytes 1 --spheres 100 --triangles 100 -t 2
 is 'scenes in memory' "$(awk -F '\t' '$2 == "limit" && !seen[$3]++ { printf "%s ", $3 }' "$tmp/stdout")" \
     'spheres triangles '
 holds 'threads' 'c["part"] == "tests" ? c["threads"] == 1 : c["threads"] == 2'
@@ -109,7 +109,7 @@ is 'the machine alone' "$(column part)" 'memory empty tests'
 
 # ---- Errors ---------------------------------------------------------------------------------------------------------
 
-refuses 2 'no FILE' scaling file.frames
+refuses 2 'takes no FILE' scaling file.frames
 refuses 2 'no hash' scaling -w hash
 refuses 2 'no cubes' scaling -o cubes
 refuses 2 'comma' scaling --primitives 100

@@ -1,17 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Parts of cgt-bench structures: the simulated memories that count transfers, against plain ones; the walk through a
- * small tree, against one by hand; and the comparison, which must find every differing bit. */
+ * Parts of cgt-bench structures: the memories that count transfers, against plain implementations; the walk through a tree
+ * that can be followed by hand; and the comparison, which must find every bit that differs. */
 #include "support/test.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "structures/bench_structures_cache.h"
-#include "structures/bench_structures_results.h"
-#include "structures/bench_structures_walk.h"
+#include "structures/structures_cache.h"
+#include "structures/structures_found.h"
+#include "structures/structures_walk.h"
 
 /* ---- Memories ------------------------------------------------------------------------------------------------ */
 
@@ -188,65 +188,74 @@ static void test_walk(void **state)
 
 enum { WIDTH = 7, HEIGHT = 5, PIXELS = WIDTH * HEIGHT, RAYS = 40 };
 
-static structures_results make_results(void)
+static structures_found make_found(void)
 {
-    structures_results r;
-    assert_int_equal(structures_results_create(&r, WIDTH, HEIGHT), 0);
-    structures_planes_reset(&r);
-    assert_int_equal(structures_occluded_reset(&r.shadow, RAYS), 0);
-    assert_int_equal(structures_occluded_reset(&r.ao, RAYS), 0);
-    assert_int_equal(structures_hits_reset(&r.random, RAYS), 0);
-    return r;
+    structures_found found;
+    assert_int_equal(structures_found_create(&found, WIDTH, HEIGHT), 0);
+    assert_int_equal(structures_found_reset(&found, FOUND_FRAME, PIXELS), 0);
+    assert_int_equal(structures_found_reset(&found, FOUND_HITS, RAYS), 0);
+    assert_int_equal(structures_found_reset(&found, FOUND_OCCLUDED, RAYS), 0);
+    return found;
 }
 
 static void test_comparison(void **state)
 {
     (void)state;
     test_random random = random_make(2);
-    structures_results a = make_results(), b = make_results();
-    char text[1024], name[64];
-    assert_false(structures_results_differ(&a, &b, text, sizeof text));
-    assert_string_equal(text, "");
+    structures_found a = make_found(), b = make_found();
+    char text[400], name[64];
     const struct {
-        const char *kind;
+        found_form form;
         void *memory;
-        uint32_t count, bytes;
-    } parts[] = {{"primary", b.planes.t, PIXELS, 4},
-                 {"primary", b.planes.primitive, PIXELS, 4},
-                 {"primary", b.geometry, PIXELS, 4},
-                 {"primary", b.planes.normal[0], PIXELS, 4},
-                 {"primary", b.planes.normal[2], PIXELS, 4},
-                 {"shadow", b.shadow.occluded, RAYS, 1},
-                 {"ambient-occlusion", b.ao.occluded, RAYS, 1},
-                 {"random", b.random.t, RAYS, 4},
-                 {"random", b.random.primitive, RAYS, 4},
-                 {"random", b.random.geometry, RAYS, 4}};
-    for (size_t p = 0; p < TEST_COUNT(parts); p++)
+        uint32_t count, bytes; /* rays, and bytes of each */
+    } places[] = {{FOUND_FRAME, b.planes.t, PIXELS, 4},         {FOUND_FRAME, b.planes.primitive, PIXELS, 4},
+                  {FOUND_FRAME, b.planes.normal[0], PIXELS, 4}, {FOUND_FRAME, b.planes.normal[1], PIXELS, 4},
+                  {FOUND_FRAME, b.planes.normal[2], PIXELS, 4}, {FOUND_HITS, b.t, RAYS, 4},
+                  {FOUND_HITS, b.primitive, RAYS, 4},           {FOUND_OCCLUDED, b.occluded, RAYS, 1}};
+    for (size_t p = 0; p < TEST_COUNT(places); p++)
         for (int round = 0; round < 20; round++) {
-            /* one bit of one ray, and another of a later one: the first is named */
-            const uint32_t ray = random_below(&random, parts[p].count - 1), last = parts[p].count - 1;
-            uint8_t *const byte =
-                (uint8_t *)parts[p].memory + ray * parts[p].bytes + random_below(&random, parts[p].bytes);
-            uint8_t *const later = (uint8_t *)parts[p].memory + last * parts[p].bytes;
-            const uint8_t bit = (uint8_t)(1u << random_below(&random, 8));
-            *byte ^= bit;
-            *later ^= 1;
-            assert_true(structures_results_differ(&a, &b, text, sizeof text));
-            snprintf(name, sizeof name, "%s ray %u%s", parts[p].kind, (unsigned)ray, p < 5 ? " (pixel " : ":");
-            if (strncmp(text, name, strlen(name)) != 0)
-                fail_msg("\"%s\" does not begin with \"%s\"", text, name);
-            *byte ^= bit;
-            *later ^= 1;
+            unsigned char *bytes = places[p].memory;
+            const uint32_t ray = random_below(&random, places[p].count);
+            const size_t at = (size_t)ray * places[p].bytes + random_below(&random, places[p].bytes);
+            const unsigned char bit = (unsigned char)(1u << random_below(&random, 8));
+            assert_int_equal(structures_found_differ(&a, &b, places[p].form, places[p].count, text, sizeof text), 0);
+            assert_string_equal(text, "");
+            bytes[at] ^= bit;
+            assert_int_equal(structures_found_differ(&a, &b, places[p].form, places[p].count, text, sizeof text), 1);
+            snprintf(name, sizeof name, "ray %u: ", (unsigned)ray);
+            assert_non_null(strstr(text, name));
+            bytes[at] ^= bit;
         }
-    assert_false(structures_results_differ(&a, &b, text, sizeof text));
-    structures_results_release(&a);
-    structures_results_release(&b);
+    /* Several rays: the first one is named. */
+    b.t[3] = b.t[5] = 1.0f;
+    b.primitive[3] = 7;
+    assert_int_equal(structures_found_differ(&a, &b, FOUND_HITS, RAYS, text, sizeof text), 2);
+    assert_non_null(strstr(text, "ray 3: t 1 (3f800000), primitive 7, not t "));
+    structures_found_release(&a);
+    structures_found_release(&b);
+}
+
+static void test_hits(void **state)
+{
+    (void)state;
+    structures_found found = make_found();
+    for (uint32_t i = 0; i < RAYS; i++) {
+        found.t[i] = i % 4 ? (float)i : INFINITY;
+        found.occluded[i] = i % 4 == 0;
+    }
+    for (uint32_t i = 0; i < PIXELS; i++)
+        found.planes.t[i] = i % 5 ? INFINITY : 2.0f;
+    assert_int_equal(structures_found_hits(&found, FOUND_HITS, RAYS), 30);
+    assert_int_equal(structures_found_hits(&found, FOUND_OCCLUDED, RAYS), 10);
+    assert_int_equal(structures_found_hits(&found, FOUND_FRAME, PIXELS), 7);
+    structures_found_release(&found);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_memories), cmocka_unit_test(test_windows),
-                                       cmocka_unit_test(test_walk), cmocka_unit_test(test_comparison)};
+                                       cmocka_unit_test(test_walk), cmocka_unit_test(test_comparison),
+                                       cmocka_unit_test(test_hits)};
     test_begin("test_bench_structures");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,8 @@
 # check_includes.sh SOURCE_DIR
 # Who may include whom: include <- simd <- src <- backends. Programs see the public API and each other's common parts;
 # cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests, and compare-embree beside it
-# sees Embree; tests see all. The library includes nothing of others but C and POSIX.
+# sees Embree; tests see all. The library includes nothing of others but C and POSIX. Within src, a table says which
+# folders a folder may include; no two include each other.
 set -eu
 cd "$1"
 bad=$(mktemp)
@@ -66,9 +67,75 @@ check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|m
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples" \
-    "cgt/(cgt|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h"
+    "cgt/(cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h"
 check bench "bench src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
+
+# The layers of src, the calls first: each folder with the folders that it may include besides its own.
+layers='
+trace: builders/bvh core dispatch query scene
+builders: core dispatch model scene
+builders/bvh: builders builders/order core dispatch scene
+builders/grid: builders builders/order dispatch model
+builders/kd: builders core model
+builders/kd/split: builders/kd exact
+builders/order: builders dispatch model scene
+scene: core model
+dispatch: core model query
+query: model
+exact: exact/integer model
+exact/integer: model
+model: core
+core:
+kernel/entry: dispatch exact kernel/light kernel/packet kernel/primitive
+kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
+kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
+kernel/light: kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw
+kernel/tile: kernel/primitive
+kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive
+kernel/grid: kernel/packet kernel/primitive
+kernel/kd: exact/integer kernel kernel/packet kernel/primitive
+kernel/builders/bvh: core dispatch kernel/builders kernel/bvh kernel/primitive model
+kernel/builders: dispatch exact kernel/primitive model
+kernel/bvh: dispatch exact kernel kernel/packet kernel/primitive model
+kernel/resolve: exact kernel/packet kernel/primitive
+kernel/primitive: dispatch exact kernel kernel/packet model
+kernel/packet: dispatch
+kernel:
+'
+find src -name '*.[ch]' | LC_ALL=C sort | xargs awk -v layers="$layers" '
+    function exists(path,   line, there) {
+        there = (getline line <path) >= 0
+        close(path)
+        return there
+    }
+    BEGIN {
+        n = split(layers, line, "\n")
+        for (i = 1; i <= n; i++) {
+            m = split(line[i], word, "[: ]+")
+            known[word[1]]
+            for (k = 2; k <= m; k++) if (word[k] != "") allowed[word[1], word[k]]
+        }
+    }
+    /^[ \t]*#[ \t]*include "/ {
+        split($0, quoted, "\"")
+        if (!exists("src/" quoted[2])) next # of simd
+        from = FILENAME
+        sub(/^src\//, "", from)
+        sub(/\/[^\/]*$/, "", from)
+        to = quoted[2]
+        sub(/\/[^\/]*$/, "", to)
+        if (from == to) next
+        if (!((from, to) in allowed)) print FILENAME ":" FNR ": " from "/ may not include " to "/"
+        pair[from, to] = FILENAME
+    }
+    END {
+        for (p in pair) {
+            split(p, folder, SUBSEP)
+            if ((folder[2], folder[1]) in pair && folder[1] < folder[2])
+                print folder[1] "/ and " folder[2] "/ include each other: " pair[p] ", " pair[folder[2], folder[1]]
+        }
+    }' >>"$bad"
 
 # What names an instruction set is in simd alone.
 grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends examples bench \

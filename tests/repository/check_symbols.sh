@@ -5,7 +5,7 @@
 # check_symbols.sh SOURCE_DIR STATIC_LIBRARY SHARED_LIBRARY NM OBJDUMP LIST_OF_OBJECTS cflags=CFLAGS
 # The list has a line for each object: the row of the variant table that it belongs to, or "common", then its path.
 #   1. every symbol that the static library offers begins with cgt_
-#   2. the shared library exports exactly what cgt.h declares
+#   2. the shared library exports exactly what the public headers declare
 #   3. the library has no variable that can change: there is no global state
 #   4. an object of a row offers names of its own row alone, and nothing that a linker may merge with another's (weak,
 #      common, COMDAT): else a CPU could meet an inline function that was compiled for a wider one
@@ -27,12 +27,12 @@ grep -v '^cgt_' "$work/static" >"$work/alien" && fail "symbols without cgt_ in $
 [ "$(wc -l <"$work/static")" -gt 10 ] || fail "hardly any symbol in $static" "$work/static"
 
 "$nm" -D --defined-only "$shared" | awk 'NF == 3 { print $3 }' | sort -u >"$work/exported"
-tr '\n' ' ' <"$source/include/cgt/cgt.h" | tr ';' '\n' | sed -nE 's/.*CGT_API [^(]*[ *](cgt_[a-z0-9_]+)\(.*/\1/p' |
+cat "$source"/include/cgt/*.h | tr '\n' ' ' | tr ';' '\n' | sed -nE 's/.*CGT_API [^(]*[ *](cgt_[a-z0-9_]+)\(.*/\1/p' |
     sort -u >"$work/declared"
-[ -s "$work/declared" ] || fail "no CGT_API found in cgt.h" "$work/declared"
+[ -s "$work/declared" ] || fail "no CGT_API found in the public headers" "$work/declared"
 cmp -s "$work/exported" "$work/declared" || {
     diff "$work/declared" "$work/exported" >"$work/difference" || true
-    fail "cgt.h (<) and the exports of $shared (>) differ" "$work/difference"
+    fail "the public headers (<) and the exports of $shared (>) differ" "$work/difference"
 }
 
 # Constants that hold addresses lie in .data.rel.ro, which the loader locks: only the sections below can change.

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # check_spu_reference.sh SOURCE_DIR CC
-# docs/spu.md has a row for every word of the vocabulary, and for nothing else: table rows that begin
+# docs/guide/spu.md has a row for every word of the vocabulary, and for nothing else: table rows that begin
 #     | `spu_WORD` | OVERLOADS |
 # The words that compute, with their overloads, are those of simd/spu_words.h, counted by the preprocessor; the others
 # are what simd/spu_channels.h defines, whose second column is free. There are 95 words in all, __align_hint aside.
@@ -35,23 +35,23 @@ sed -nE 's/^#define ((spu_[a-z0-9_]+|__align_hint)).*/\1/p
     sort -u >"$work/channels"
 grep -c '^spu_' "$work/channels" | grep -qx 23 || fail "simd/spu_channels.h: not 23 words" "$work/channels"
 
-[ -r "$source/docs/spu.md" ] || { echo "no docs/spu.md"; exit 1; }
+[ -r "$source/docs/guide/spu.md" ] || { echo "no docs/spu.md"; exit 1; }
 awk -F '|' '/^\| `(spu_[a-z0-9_]+|__align_hint)` \|/ {
     gsub(/[ `]/, "", $2)
     gsub(/ /, "", $3)
     print $2, $3
-}' "$source/docs/spu.md" | sort >"$work/rows"
+}' "$source/docs/guide/spu.md" | sort >"$work/rows"
 cut -d ' ' -f 1 "$work/rows" | uniq -d >"$work/twice"
-[ -s "$work/twice" ] && fail "docs/spu.md: more than one row" "$work/twice"
+[ -s "$work/twice" ] && fail "docs/guide/spu.md: more than one row" "$work/twice"
 
 cut -d ' ' -f 1 "$work/words" | sort -m - "$work/channels" >"$work/names"
 cut -d ' ' -f 1 "$work/rows" | sort -u >"$work/documented"
 comm -23 "$work/names" "$work/documented" >"$work/missing"
 comm -13 "$work/names" "$work/documented" >"$work/superfluous"
-[ -s "$work/missing" ] && fail "docs/spu.md: no row for" "$work/missing"
-[ -s "$work/superfluous" ] && fail "docs/spu.md: a row, but no word" "$work/superfluous"
+[ -s "$work/missing" ] && fail "docs/guide/spu.md: no row for" "$work/missing"
+[ -s "$work/superfluous" ] && fail "docs/guide/spu.md: a row, but no word" "$work/superfluous"
 
-join "$work/words" "$work/rows" | awk '$2 != $3 { print $1 ": " $2 " overloads, docs/spu.md says " $3 }' >"$work/counts"
+join "$work/words" "$work/rows" | awk '$2 != $3 { print $1 ": " $2 " overloads, docs/guide/spu.md says " $3 }' >"$work/counts"
 [ -s "$work/counts" ] && fail "overloads" "$work/counts"
 
 [ $status = 0 ] && echo "$(wc -l <"$work/documented") rows for $(wc -l <"$work/names") words"

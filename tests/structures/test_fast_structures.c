@@ -32,22 +32,21 @@ static const way ways[] = {
 
 static cgt_scene *commit(cgt_context *context, const hard_scene *s, const way *w)
 {
-    cgt_scene_options options;
+    test_scene_options options = {0};
     cgt_scene *scene;
-    cgt_scene_options_init(&options);
     options.structure = w->structure;
     options.kd_builder = w->builder;
-    if (hard_commit_with(context, s, &options, &scene) != CGT_OK)
+    if (hard_commit_with(context, s, SCENE_OPTIONS(&options), &scene) != CGT_OK)
         fail_msg("%s", context_message(context));
     return scene;
 }
 
-static cgt_trace_options fast_way(const way *w, int test, bool mailbox)
+static test_trace_options fast_way(const way *w, int test, bool mailbox)
 {
-    cgt_trace_options options = with_precision(CGT_PRECISION_FAST);
+    test_trace_options options = {.precision = CGT_PRECISION_FAST};
     options.kd_traversal = w->traversal;
     options.triangle_test = (cgt_triangle_test)test;
-    options.mailbox = mailbox;
+    options.mailbox = mailbox_of(mailbox);
     return options;
 }
 
@@ -167,15 +166,15 @@ static hard_scene make_scene(test_random *r)
 }
 
 static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_ray *ray, const full_hit *is,
-                        const cgt_trace_options *options, tally *sum)
+                        const test_trace_options *options, tally *sum)
 {
     static full_hit hit[RAYS];
     static uint8_t occluded[RAYS];
     const cgt_rays rays = ray_array(ray, RAYS);
     memset(hit, 0x77, sizeof hit);
     memset(occluded, 0x77, sizeof occluded);
-    trace_all(scene, ray, RAYS, hit, options);
-    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, options), CGT_OK);
+    trace_all(scene, ray, RAYS, hit, TRACE_OPTIONS(options));
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(options)), CGT_OK);
     for (int i = 0; i < RAYS; i++) {
         judge(&truth->scene, &ray[i], &is[i], &hit[i], sum);
         assert_int_equal(occluded[i], hit[i].geometry != CGT_INVALID_ID);
@@ -203,7 +202,7 @@ static void fast_is_close_to_robust(void **state)
                 cgt_scene *scene = commit(context, &s, &ways[w]);
                 trace_all(scene, ray, RAYS, is, NULL);
                 for (int test = 0; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
-                    const cgt_trace_options fast = fast_way(&ways[w], test, (round + w / step) % 2);
+                    const test_trace_options fast = fast_way(&ways[w], test, (round + w / step) % 2);
                     check_scene(scene, &truth, ray, is, &fast, &sum);
                 }
                 cgt_scene_release(scene);
@@ -253,10 +252,10 @@ typedef struct leaks {
     uint64_t rays, edges, vertices; /* that leak at an edge, at a vertex */
 } leaks;
 
-static void count_leaks(const cgt_scene *scene, const hard_scene *s, const cgt_trace_options *options, leaks *sum)
+static void count_leaks(const cgt_scene *scene, const hard_scene *s, const test_trace_options *options, leaks *sum)
 {
     static full_hit hit[RAYS];
-    trace_all(scene, s->ray, s->rays, hit, options);
+    trace_all(scene, s->ray, s->rays, hit, TRACE_OPTIONS(options));
     for (uint32_t i = 0; i < s->rays; i++) {
         assert_true(is_number(&hit[i]));
         sum->rays++;
@@ -276,7 +275,7 @@ static void closed_meshes_do_not_leak(void **state)
             hard_scene s = make_closed((closed_kind)(round % CLOSED_KINDS), 700 + round);
             for (size_t w = 0; w < TEST_COUNT(ways); w++) {
                 cgt_scene *scene = commit(context, &s, &ways[w]);
-                cgt_trace_options fast = fast_way(&ways[w], CGT_TRIANGLE_TEST_WATERTIGHT, round % 2);
+                test_trace_options fast = fast_way(&ways[w], CGT_TRIANGLE_TEST_WATERTIGHT, round % 2);
                 count_leaks(scene, &s, &fast, &sum);
                 fast.triangle_test = CGT_TRIANGLE_TEST_MOLLER_TRUMBORE;
                 count_leaks(scene, &s, &fast, &others);

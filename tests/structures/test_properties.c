@@ -11,22 +11,21 @@
 #define WIDTH 61 /* no multiple of a packet or a tile */
 #define HEIGHT 47
 
-static cgt_trace_options random_options(test_random *r)
+static test_trace_options random_options(test_random *r)
 {
-    cgt_trace_options o;
-    cgt_trace_options_init(&o);
+    test_trace_options o = {0};
     o.packet = (uint32_t[]){0, 4, 8, 16}[random_below(r, 4)];
     o.loop = (cgt_loop)random_below(r, 3);
     o.cull = (cgt_cull)random_below(r, 3);
-    o.mailbox = (int)random_below(r, 2);
+    o.mailbox = (cgt_mailbox)random_below(r, 3);
     o.kd_traversal = (cgt_kd_traversal)random_below(r, 3);
     o.tile = o.packet <= 4 ? (cgt_tile_shape)random_below(r, 3) : CGT_TILE_SHAPE_SQUARE;
     return o;
 }
 
-static cgt_scene_options random_scene_options(test_random *r)
+static test_scene_options random_scene_options(test_random *r)
 {
-    cgt_scene_options o = structure_random(r);
+    test_scene_options o = structure_random(r);
     if (o.structure == CGT_STRUCTURE_QUEUE_GRID && random_below(r, 2))
         for (int a = 0; a < 3; a++)
             o.resolution[a] = 1 + random_below(r, random_below(r, 6) ? 24 : 90);
@@ -40,7 +39,7 @@ static uint32_t random_count(test_random *r)
 
 /* Rays from anywhere; or fans, all from one origin and close to each other, which become coherent packets. */
 static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, bool fan,
-                       const cgt_trace_options *options, uint64_t *doubts)
+                       const test_trace_options *options, uint64_t *doubts)
 {
     enum { RAYS = 384 };
     truth_ray ray[RAYS];
@@ -57,7 +56,7 @@ static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, b
             ray[i].dir[a] = first->dir[a] * (1 + random_float(r, -spread, spread)) + 0x1p-60f;
         }
     }
-    rays_trace(scene, ray, RAYS, hit, options);
+    rays_trace(scene, ray, RAYS, hit, TRACE_OPTIONS(options));
     for (int i = 0; i < RAYS; i++) {
         const char *wrong = truth_judge(&truth, &ray[i], hit[i].primitive, hit[i].t, doubts);
         if (wrong)
@@ -90,15 +89,15 @@ static void nearest_hit_is_that_of_brute_force(void **state)
             test_random r = random_make(round);
             cloud c =
                 cloud_make(&r, (cloud_kind)(round % CLOUD_KINDS), round < CLOUD_KINDS ? round / 2 : random_count(&r));
-            const cgt_scene_options scene_options = random_scene_options(&r);
-            const cgt_trace_options options = random_options(&r);
+            const test_scene_options scene_options = random_scene_options(&r);
+            const test_trace_options options = random_options(&r);
             const cgt_camera camera = camera_random(&r, &c);
             planes p = planes_make(WIDTH, HEIGHT);
             truth_ray *rays = frame_rays(&camera, WIDTH, HEIGHT);
-            cgt_scene *scene = scene_of(context, &scene_options, (const float(*)[4])c.sphere, c.count);
+            cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&scene_options), (const float(*)[4])c.sphere, c.count);
             print_message("round %u of %s: %u %s spheres, structure %d\n", round, variant, c.count,
                           cloud_name((cloud_kind)(round % CLOUD_KINDS)), (int)scene_options.structure);
-            frame_trace(scene, &camera, &p, &options);
+            frame_trace(scene, &camera, &p, TRACE_OPTIONS(&options));
             doubts += frame_judge(&p, rays, (const float(*)[4])c.sphere, c.count);
             judge_rays(scene, &c, &r, false, &options, &doubts);
             judge_rays(scene, &c, &r, true, &options, &doubts);

@@ -187,7 +187,7 @@ static bool takes_part(const cgt_primitive *primitive)
 
 static answer truth_of(const subject *t, const filtered_ray *f, uint32_t what)
 {
-    const uint32_t mask = what & GIVEN_MASK ? f->mask : UINT32_MAX;
+    const uint32_t mask = what & GIVEN_MASK && f->mask ? f->mask : UINT32_MAX;
     const uint32_t primitive = what & GIVEN_PRIMITIVE ? f->primitive : CGT_INVALID_ID;
     const uint32_t geometry = what & GIVEN_GEOMETRY ? f->geometry : 0;
     const float t_min = f->ray.t_min < -3e38f ? -3.4028234664e38f : f->ray.t_min;
@@ -220,7 +220,7 @@ typedef struct tally {
 
 static bool is_left_out(const subject *t, const filtered_ray *f, uint32_t what, const full_hit *h)
 {
-    const uint32_t mask = what & GIVEN_MASK ? f->mask : UINT32_MAX;
+    const uint32_t mask = what & GIVEN_MASK && f->mask ? f->mask : UINT32_MAX;
     const uint32_t geometry = what & GIVEN_GEOMETRY ? f->geometry : 0;
     for (uint32_t k = 0; k < t->parts; k++)
         if (t->part[k].id == h->geometry && !(t->part[k].mask & mask))
@@ -229,17 +229,17 @@ static bool is_left_out(const subject *t, const filtered_ray *f, uint32_t what, 
 }
 
 static void compare(const subject *t, const cgt_scene *scene, const filtered_ray *ray, const answer *truth,
-                    uint32_t count, uint32_t what, const cgt_trace_options *given_options, tally *sum)
+                    uint32_t count, uint32_t what, const test_trace_options *given_options, tally *sum)
 {
     static full_hit hit[RAYS];
     static uint8_t occluded[RAYS];
     cgt_trace_statistics statistics;
-    cgt_trace_options options = *given_options;
+    test_trace_options options = *given_options;
     options.statistics = &statistics;
     const cgt_rays rays = rays_of(ray, count, what);
     const cgt_hits hits = hit_array(hit);
     uint64_t found = 0, wrong = 0;
-    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, &options), CGT_OK);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, TRACE_OPTIONS(&options)), CGT_OK);
     for (uint32_t i = 0; i < count; i++) {
         const answer got = {hit[i].t, hit[i].primitive, hit[i].geometry};
         const bool same = memcmp(&got, &truth[i], sizeof got) == 0;
@@ -253,7 +253,7 @@ static void compare(const subject *t, const cgt_scene *scene, const filtered_ray
     }
     assert_int_equal(statistics.hits, found);
     memset(occluded, 7, sizeof occluded);
-    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, &options), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(&options)), CGT_OK);
     for (uint32_t i = 0; i < count; i++)
         if (occluded[i] != (hit[i].primitive != CGT_INVALID_ID))
             fail_msg("%s, ray %u: any hit %u, nearest hit %u.%u", t->s.name, i, occluded[i], hit[i].geometry,
@@ -292,13 +292,12 @@ static void hits_are_those_of_what_is_left(void **state)
             cgt_context *own = context_make(1 + 2 * (number % 2), variant);
             /* a sample: half of the structures, by turns of two, for what follows from number + k takes turns of one */
             const uint32_t step = test_samples() ? 2 : 1;
-            for (uint32_t k = test_sample_start(number / 2, step); k < CGT_STRUCTURE_BVH; k += step) {
+            for (uint32_t k = test_sample_start(number / 2, step); k < TEST_STRUCTURES; k += step) {
                 const cgt_scene_options made = structure_in_turn(k);
-                cgt_trace_options options;
-                cgt_trace_options_init(&options);
+                test_trace_options options = {0};
                 options.cull = (cgt_cull)((number + k) % 3);
                 options.loop = (cgt_loop)((number + k) % 2 + 1);
-                options.mailbox = (number + k) % 3 != 0;
+                options.mailbox = mailbox_of((number + k) % 3);
                 scene = commit(own, &t, &made);
                 for (int single = 0; single < 2; single++) {
                     options.kd_traversal = single ? CGT_KD_TRAVERSAL_SINGLE : CGT_KD_TRAVERSAL_PACKET;
@@ -344,7 +343,7 @@ static void copies_are_found(void **state)
     (void)state;
     const float sphere[4][4] = {{0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, -9, 1}, {0, 0, 0, NAN}};
     cgt_context *context = context_make(1, NULL);
-    for (uint32_t k = 0; k < CGT_STRUCTURE_BVH; k++) {
+    for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {
         const cgt_scene_options made = structure_in_turn(k);
         cgt_scene *scene = scene_of(context, &made, sphere, 4);
         assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 1), 0);
@@ -357,7 +356,7 @@ static void copies_are_found(void **state)
         assert_int_equal(hit_of(scene, 0, 1, 1), 0); /* no such geometry */
         assert_int_equal(hit_of(scene, 0, CGT_INVALID_ID, 1), 0);
         assert_int_equal(hit_of(scene, CGT_INVALID_ID, CGT_INVALID_ID, 1), 0);
-        assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0), CGT_INVALID_ID);
+        assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0), 0); /* all bits */
         assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0x80000000u), 0);
         cgt_scene_release(scene);
     }
@@ -381,6 +380,7 @@ static void masks_change_with_commits(void **state)
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 4), CGT_INVALID_ID);
     assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 6), 0);
+    assert_int_equal(hit_of(scene, CGT_INVALID_ID, 0, 0), 0); /* all bits */
     spheres.mask = 0;
     assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
@@ -400,7 +400,7 @@ static void any_layout(void **state)
     static full_hit hit[RAYS], again[RAYS];
     cgt_context *context = context_make(2, NULL);
     subject t = subject_make((structure_kind)SOUP_MIXED, 41);
-    for (uint32_t k = 0; k < CGT_STRUCTURE_BVH; k++) {
+    for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {
         const cgt_scene_options made = structure_in_turn(k);
         cgt_scene *scene = commit(context, &t, &made);
         make_filters(&t, scene, ray);
@@ -446,15 +446,17 @@ static void lights_are_filtered_too(void **state)
             subject t = subject_make((structure_kind)(number % STRUCTURE_COINCIDENT), 60 + number);
             const cgt_scene_options made = structure_in_turn(number);
             cgt_scene *scene = commit(context, &t, &made);
-            cgt_light light = {.w = (float)(number / 4 % 2)};
+            cgt_light light = {.kind = number / 4 % 2 ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL};
             make_filters(&t, scene, ray);
             for (int a = 0; a < 3; a++)
-                light.position[a] = (light.w == 1 ? t.s.where.middle[a] : 0) + (float)(a + 2) * t.s.where.reach;
+                light.position[a] =
+                    (light.kind == CGT_LIGHT_POINT ? t.s.where.middle[a] : 0) + (float)(a + 2) * t.s.where.reach;
             for (uint32_t i = 0; i < RAYS; i++) {
                 ray[i].ray.t_min = 0;
-                ray[i].ray.t_max = light.w == 1 ? 1 : INFINITY;
+                ray[i].ray.t_max = light.kind == CGT_LIGHT_POINT ? 1 : INFINITY;
                 for (int a = 0; a < 3; a++)
-                    ray[i].ray.dir[a] = light.w == 1 ? light.position[a] - ray[i].ray.org[a] : light.position[a];
+                    ray[i].ray.dir[a] =
+                        light.kind == CGT_LIGHT_POINT ? light.position[a] - ray[i].ray.org[a] : light.position[a];
             }
             const cgt_rays rays = rays_of(ray, RAYS, GIVEN_ALL);
             const cgt_points points = {.count = RAYS,
@@ -497,20 +499,20 @@ static void cameras_have_masks(void **state)
     {
         cgt_context *context = context_make(2, variant);
         subject t = subject_make((structure_kind)SOUP_MIXED, 77);
-        for (uint32_t number = 0; number < CGT_STRUCTURE_BVH * TEST_COUNT(masks); number++) {
+        for (uint32_t number = 0; number < TEST_STRUCTURES * TEST_COUNT(masks); number++) {
             const cgt_scene_options made = structure_in_turn(number);
-            const uint32_t mask = masks[number / CGT_STRUCTURE_BVH];
+            const uint32_t mask = masks[number / TEST_STRUCTURES];
             cgt_scene *scene = commit(context, &t, &made);
             cgt_camera camera = soup_camera(&t.s.scene);
             cgt_camera_rays of;
             cgt_trace_statistics statistics;
-            cgt_trace_options options;
+            test_trace_options options;
             char message[160];
             planes p = planes_make(width, height);
-            cgt_trace_options_init(&options);
+            options = (test_trace_options){0};
             options.statistics = &statistics;
             camera.mask = mask;
-            frame_trace(scene, &camera, &p, &options);
+            frame_trace(scene, &camera, &p, TRACE_OPTIONS(&options));
             if (made.structure == CGT_STRUCTURE_LOOSE_GRID && mask + 1 > 1)
                 assert_int_equal(statistics.tiles, 0);
             assert_int_equal(cgt_camera_prepare(&camera, width, height, &of, message), CGT_OK);

@@ -17,10 +17,9 @@
 #define WIDTH 45u
 #define HEIGHT 31u
 
-static cgt_scene_options of_structure(cgt_structure structure)
+static test_scene_options of_structure(cgt_structure structure)
 {
-    cgt_scene_options o;
-    cgt_scene_options_init(&o);
+    test_scene_options o = {0};
     o.structure = structure;
     return o;
 }
@@ -34,15 +33,15 @@ static cgt_scene_statistics statistics_of(const cgt_scene *scene)
 
 /* ---- refused options ---- */
 
-static void refuse(cgt_context *context, cgt_scene *committed, const cgt_scene_options *o, const char *word)
+static void refuse(cgt_context *context, cgt_scene *committed, const test_scene_options *o, const char *word)
 {
     cgt_scene *scene = committed;
     const cgt_camera camera = camera_before(&(cloud){.reach = 1});
     planes p = planes_make(WIDTH, HEIGHT);
-    assert_int_equal(cgt_scene_create(context, o, &scene), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(o), &scene), CGT_ERROR_INVALID_ARGUMENT);
     assert_null(scene);
     assert_non_null(strstr(context_message(context), word));
-    assert_int_equal(cgt_scene_set_options(committed, o), CGT_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(cgt_scene_set_options(committed, SCENE_OPTIONS(o)), CGT_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(context_message(context), word));
     frame_trace(committed, &camera, &p, NULL); /* nothing has changed: it still may be traced */
     planes_free(&p);
@@ -56,10 +55,10 @@ static void options_out_of_range_are_refused(void **state)
                      wrong_traversal[] = {-1, 3, 77};
     static const uint32_t wrong_level[] = {51, 1000, CGT_INVALID_ID};
     cgt_context *context = context_make(1, NULL);
-    const cgt_scene_options good = of_structure(CGT_STRUCTURE_KD);
-    cgt_scene *scene = scene_of(context, &good, sphere, 1);
+    const test_scene_options good = of_structure(CGT_STRUCTURE_KD);
+    cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&good), sphere, 1);
     for (int i = 0; i < 3; i++) {
-        cgt_scene_options o = good;
+        test_scene_options o = good;
         o.structure = (cgt_structure)wrong[i];
         refuse(context, scene, &o, "structure");
         o = good;
@@ -74,12 +73,12 @@ static void options_out_of_range_are_refused(void **state)
         o = good;
         o.kd_break_level = wrong_level[i];
         refuse(context, scene, &o, "kd_break_level");
-        cgt_trace_options t;
+        test_trace_options t;
         full_hit hit;
         const truth_ray ray = {{0, 0, 5}, {0, 0, -1}, 0, INFINITY};
-        cgt_trace_options_init(&t);
+        t = (test_trace_options){0};
         t.kd_traversal = (cgt_kd_traversal)wrong_traversal[i];
-        assert_int_equal(trace_array(scene, &ray, 1, &hit, &t), CGT_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(trace_array(scene, &ray, 1, &hit, TRACE_OPTIONS(&t)), CGT_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(context_message(context), "kd_traversal"));
     }
     cgt_scene_release(scene);
@@ -102,10 +101,10 @@ static void move(hard_scene *s, float factor)
 static void check_as_one_cell(cgt_context *context, const hard_scene *s, const cgt_scene *scene,
                               const cgt_camera *camera, picture q[2])
 {
-    cgt_scene_options one_cell = of_structure(CGT_STRUCTURE_QUEUE_GRID);
+    test_scene_options one_cell = of_structure(CGT_STRUCTURE_QUEUE_GRID);
     cgt_scene *fresh;
     memcpy(one_cell.resolution, (uint32_t[]){1, 1, 1}, sizeof one_cell.resolution);
-    if (hard_commit_with(context, s, &one_cell, &fresh) != CGT_OK)
+    if (hard_commit_with(context, s, SCENE_OPTIONS(&one_cell), &fresh) != CGT_OK)
         fail_msg("%s", context_message(context));
     picture_trace(scene, camera, NULL, &q[0]);
     picture_trace(fresh, camera, NULL, &q[1]);
@@ -125,16 +124,16 @@ static void a_scene_changes_its_structure(void **state)
     hard_scene s = soup_make(SOUP_MIXED, 17, 700);
     picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
     test_random r = random_make(4711);
-    cgt_scene_options o = of_structure(CGT_STRUCTURE_KD_ROPES);
-    uint32_t built[CGT_STRUCTURE_BVH + 1] = {0};
+    test_scene_options o = of_structure(CGT_STRUCTURE_KD_ROPES);
+    uint32_t built[TEST_STRUCTURES + 1] = {0};
     cgt_scene *scene;
-    assert_int_equal(hard_commit_with(context, &s, &o, &scene), CGT_OK);
+    assert_int_equal(hard_commit_with(context, &s, SCENE_OPTIONS(&o), &scene), CGT_OK);
     for (uint32_t step = 0; step < steps; step++) {
         const cgt_camera camera = soup_camera(&s);
         if (step % 4 != 3) {
             o = structure_random(&r);
             o.structure = step < TEST_COUNT(first) ? first[step] : o.structure;
-            assert_int_equal(cgt_scene_set_options(scene, &o), CGT_OK);
+            assert_int_equal(cgt_scene_set_options(scene, SCENE_OPTIONS(&o)), CGT_OK);
         }
         if (step % 3)
             move(&s, step % 2 ? 0.75f : 1.25f);
@@ -143,17 +142,18 @@ static void a_scene_changes_its_structure(void **state)
             assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_ERROR_NOT_COMMITTED);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         const cgt_scene_statistics st = statistics_of(scene);
+        const cgt_research_scene_statistics research = research_of(scene);
         assert_true(o.structure == CGT_STRUCTURE_AUTO || st.structure == o.structure);
         const bool tree = st.structure == CGT_STRUCTURE_KD || st.structure == CGT_STRUCTURE_KD_ROPES;
-        assert_int_equal(st.kd_leaves != 0, tree);
+        assert_int_equal(research.kd_leaves != 0, tree);
         const bool wide = st.structure == CGT_STRUCTURE_BVH;
-        assert_int_equal(st.bvh_leaves != 0, wide);
-        assert_int_equal(st.cells == 0, tree || wide);
-        assert_int_equal(st.levels != 0, st.structure == CGT_STRUCTURE_LOOSE_GRID);
+        assert_int_equal(research.bvh_leaves != 0, wide);
+        assert_int_equal(research.cells == 0, tree || wide);
+        assert_int_equal(research.levels != 0, st.structure == CGT_STRUCTURE_LOOSE_GRID);
         built[st.structure]++;
         check_as_one_cell(context, &s, scene, &camera, q);
     }
-    for (int k = CGT_STRUCTURE_QUEUE_GRID; k <= CGT_STRUCTURE_BVH; k++)
+    for (uint32_t k = 1; k <= TEST_STRUCTURES; k++)
         assert_true(built[k] > 0);
     for (int k = 0; k < 2; k++)
         picture_free(&q[k]);
@@ -170,11 +170,11 @@ static void geometries_come_and_go(void **state)
     hard_scene s = soup_make(SOUP_MIXED, 23, 400);
     static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES};
     for (int k = 0; k < 2; k++) {
-        const cgt_scene_options o = of_structure(structure[k]);
+        const test_scene_options o = of_structure(structure[k]);
         const cgt_camera camera = camera_before(&(cloud){.reach = 1});
         picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
         cgt_scene *scene;
-        assert_int_equal(hard_commit_with(context, &s, &o, &scene), CGT_OK);
+        assert_int_equal(hard_commit_with(context, &s, SCENE_OPTIONS(&o), &scene), CGT_OK);
         for (uint32_t g = s.geometries; g-- > 0;) { /* the last one first: the ids stay those of a fresh scene */
             hard_scene fewer = s;
             fewer.geometries = g;
@@ -183,7 +183,7 @@ static void geometries_come_and_go(void **state)
             check_as_one_cell(context, &fewer, scene, &camera, q);
             const cgt_scene_statistics st = statistics_of(scene);
             assert_int_equal(st.primitives, hard_scene_primitives(&fewer));
-            assert_int_equal(st.kd_leaves > 0, g > 0);
+            assert_int_equal(research_of(scene).kd_leaves > 0, g > 0);
         }
         picture_free(&q[0]);
         picture_free(&q[1]);
@@ -196,25 +196,26 @@ static void geometries_come_and_go(void **state)
 /* ---- what AUTO chooses ---- */
 
 /* Commits with AUTO; checks the hits too. */
-static cgt_scene_statistics choose(const hard_scene *s, cgt_ray_kind rays)
+static cgt_structure choose(const hard_scene *s, cgt_ray_kind rays, uint32_t *levels)
 {
     cgt_context *context = context_make(1, NULL);
-    cgt_scene_options o = of_structure(CGT_STRUCTURE_AUTO);
+    test_scene_options o = of_structure(CGT_STRUCTURE_AUTO);
     const cgt_camera camera = camera_before(&(cloud){.reach = 1});
     picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
     cgt_scene *scene;
     o.rays = rays;
-    assert_int_equal(hard_commit_with(context, s, &o, &scene), CGT_OK);
+    assert_int_equal(hard_commit_with(context, s, SCENE_OPTIONS(&o), &scene), CGT_OK);
     check_as_one_cell(context, s, scene, &camera, q);
     const cgt_scene_statistics st = statistics_of(scene);
     print_message("%s\n", st.reason);
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
-    assert_int_equal(strstr(st.reason, "kd-tree") != NULL, st.kd_leaves != 0);
+    assert_int_equal(strstr(st.reason, "kd-tree") != NULL, research_of(scene).kd_leaves != 0);
+    *levels = research_of(scene).levels;
     picture_free(&q[0]);
     picture_free(&q[1]);
     cgt_scene_release(scene);
     cgt_context_release(context);
-    return st;
+    return st.structure;
 }
 
 /* An even cloud of small spheres. */
@@ -234,8 +235,9 @@ static void rays_that_run_apart_get_a_tree(void **state)
 {
     (void)state;
     hard_scene s = even_cloud(2000);
-    assert_int_equal(choose(&s, CGT_RAY_KIND_INCOHERENT).structure, CGT_STRUCTURE_BVH);
-    assert_int_equal(choose(&s, CGT_RAY_KIND_COHERENT).structure, CGT_STRUCTURE_LOOSE_GRID);
+    uint32_t levels;
+    assert_int_equal(choose(&s, CGT_RAY_KIND_INCOHERENT, &levels), CGT_STRUCTURE_BVH);
+    assert_int_equal(choose(&s, CGT_RAY_KIND_COHERENT, &levels), CGT_STRUCTURE_LOOSE_GRID);
     hard_scene_free(&s);
 }
 
@@ -251,9 +253,9 @@ static void a_teapot_in_a_stadium_gets_a_level_of_its_own(void **state)
     closed_mesh_free(&stadium);
     closed_mesh_free(&teapot);
     assert_false(s.failed);
-    const cgt_scene_statistics st = choose(&s, CGT_RAY_KIND_COHERENT);
-    assert_int_equal(st.structure, CGT_STRUCTURE_LOOSE_GRID);
-    assert_true(st.levels > 1);
+    uint32_t levels;
+    assert_int_equal(choose(&s, CGT_RAY_KIND_COHERENT, &levels), CGT_STRUCTURE_LOOSE_GRID);
+    assert_true(levels > 1);
     hard_scene_free(&s);
 }
 
@@ -263,7 +265,8 @@ static void auto_chooses_for_any_scene(void **state)
     for (int kind = 0; kind < SOUP_KINDS; kind++)
         for (uint32_t count = 0; count <= 600; count = 5 * count + (count < 4)) { /* 0, 1, 6, 30, 150 */
             hard_scene s = soup_make((soup_kind)kind, 40 + (uint64_t)kind, count);
-            choose(&s, count % 2 ? CGT_RAY_KIND_INCOHERENT : CGT_RAY_KIND_COHERENT);
+            uint32_t levels;
+            choose(&s, count % 2 ? CGT_RAY_KIND_INCOHERENT : CGT_RAY_KIND_COHERENT, &levels);
             hard_scene_free(&s);
         }
 }

@@ -65,18 +65,17 @@ static const layout layouts[] = {{CGT_KD_LAYOUT_DEPTH_FIRST, 0},
                                  {CGT_KD_LAYOUT_MIXED, 3},
                                  {CGT_KD_LAYOUT_MIXED, 50}};
 #define TREES (2 * 2 * (uint32_t)TEST_COUNT(layouts))
-static const cgt_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRID},
-                                          {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {5, 9, 7}},
-                                          {.structure = CGT_STRUCTURE_LOOSE_GRID},
-                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
-                                          {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}},
-                                          {.structure = CGT_STRUCTURE_BVH}};
+static const test_scene_options grids[] = {{.structure = CGT_STRUCTURE_QUEUE_GRID},
+                                           {.structure = CGT_STRUCTURE_QUEUE_GRID, .resolution = {5, 9, 7}},
+                                           {.structure = CGT_STRUCTURE_LOOSE_GRID},
+                                           {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {5, 9, 7}},
+                                           {.structure = CGT_STRUCTURE_LOOSE_GRID, .resolution = {1, 1, 1}},
+                                           {.structure = CGT_STRUCTURE_BVH}};
 #define WAYS (TREES + (uint32_t)TEST_COUNT(grids))
 
-static cgt_scene_options scene_way(uint32_t number)
+static test_scene_options scene_way(uint32_t number)
 {
-    cgt_scene_options o;
-    cgt_scene_options_init(&o);
+    test_scene_options o = {0};
     if (number < TREES) {
         o.structure = number % 2 ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD;
         o.kd_builder = number / 2 % 2 ? CGT_KD_BUILDER_SWEEP : CGT_KD_BUILDER_BINNED;
@@ -89,16 +88,21 @@ static cgt_scene_options scene_way(uint32_t number)
     return o;
 }
 
-static cgt_trace_options trace_way(uint32_t number, cgt_trace_statistics *statistics)
+typedef struct way_counts {
+    cgt_trace_statistics trace;
+    cgt_research_trace_statistics research;
+} way_counts;
+
+static test_trace_options trace_way(uint32_t number, way_counts *counts)
 {
-    cgt_trace_options o;
-    cgt_trace_options_init(&o);
+    test_trace_options o = {0};
     o.kd_traversal = number % 2 ? CGT_KD_TRAVERSAL_PACKET : CGT_KD_TRAVERSAL_SINGLE;
-    o.mailbox = number / 2 % 2;
+    o.mailbox = mailbox_of(number / 2 % 2);
     o.packet = (uint32_t[]){0, 4, 8, 16}[number / 3 % 4];
     o.tile = o.packet == 4 ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_AUTO;
     o.cull = (cgt_cull)(number % 3);
-    o.statistics = statistics;
+    o.statistics = &counts->trace;
+    o.research_statistics = &counts->research;
     return o;
 }
 
@@ -121,7 +125,7 @@ typedef struct question {
     uint64_t hits, fast, fast_rays; /* fast: answers of FAST that are not those of ROBUST */
 } question;
 
-static void fail_way(const question *q, const cgt_scene_options *so, const cgt_trace_options *to, const char *what,
+static void fail_way(const question *q, const test_scene_options *so, const test_trace_options *to, const char *what,
                      uint32_t i, const full_hit *got, const full_hit *is)
 {
     fail_msg("%s: structure %d, builder %d, layout %d, break level %u, traversal %d, mailbox %d, packet %u, precision "
@@ -131,10 +135,10 @@ static void fail_way(const question *q, const cgt_scene_options *so, const cgt_t
              (int)got->primitive, (double)got->t, (int)is->geometry, (int)is->primitive, (double)is->t);
 }
 
-static cgt_scene *commit(const question *q, cgt_context *context, const cgt_scene_options *options)
+static cgt_scene *commit(const question *q, cgt_context *context, const test_scene_options *options)
 {
     cgt_scene *scene;
-    if (hard_commit_with(context, &q->s.scene, options, &scene) != CGT_OK)
+    if (hard_commit_with(context, &q->s.scene, SCENE_OPTIONS(options), &scene) != CGT_OK)
         fail_msg("%s: %s", q->s.name, context_message(context));
     return scene;
 }
@@ -151,9 +155,8 @@ static full_hit *copy_of(const full_hit *hits, size_t count)
 static question ask(structure_kind kind, uint64_t stream)
 {
     question q = {.s = structure_scene_make(kind, stream)};
-    cgt_scene_options one_cell;
+    test_scene_options one_cell = {0};
     full_hit hit[MOST_RAYS];
-    cgt_scene_options_init(&one_cell);
     one_cell.structure = CGT_STRUCTURE_QUEUE_GRID;
     memcpy(one_cell.resolution, (uint32_t[]){1, 1, 1}, sizeof one_cell.resolution);
     structure_rays(&q.s, RAYS);
@@ -165,14 +168,13 @@ static question ask(structure_kind kind, uint64_t stream)
         q.picture[f] = picture_make(sizes[f][0], sizes[f][1]);
     }
     for (int exact = 0; exact < 2; exact++) {
-        cgt_trace_options o;
-        cgt_trace_options_init(&o);
+        test_trace_options o = {0};
         o.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
         for (int f = 0; f < FRAMES; f++) {
-            picture_trace(scene, &q.camera[f], &o, &q.picture[f]);
+            picture_trace(scene, &q.camera[f], TRACE_OPTIONS(&o), &q.picture[f]);
             q.is[exact].frame[f] = copy_of(q.picture[f].hit, q.picture[f].p.elements);
         }
-        assert_int_equal(trace_array(scene, q.s.scene.ray, RAYS, hit, &o), CGT_OK);
+        assert_int_equal(trace_array(scene, q.s.scene.ray, RAYS, hit, TRACE_OPTIONS(&o)), CGT_OK);
         q.is[exact].ray = copy_of(hit, RAYS);
     }
     for (uint32_t i = 0; i < RAYS; i++)
@@ -195,35 +197,39 @@ static void forget(question *q)
 
 /* ---- statistics ---- */
 
-static void check_tree(const question *q, const cgt_scene_options *o, const cgt_scene_statistics *st)
+static void check_tree(const question *q, const test_scene_options *o, const cgt_scene_statistics *st,
+                       const cgt_research_scene_statistics *research)
 {
     const uint32_t skipped = st->skipped_not_finite + st->skipped_radius + st->skipped_degenerate,
                    valid = st->primitives - skipped;
     const bool ropes = o->structure == CGT_STRUCTURE_KD_ROPES;
-    assert_int_equal(st->kd_nodes, 2 * st->kd_leaves - 1);
-    assert_true(st->kd_empty_leaves < st->kd_leaves);
-    assert_true(st->kd_depth <= (uint32_t)(8 + 1.3 * log2(valid)));
-    assert_true(st->kd_depth >= ceil(log2(st->kd_leaves)));
-    assert_true(st->kd_largest_leaf >= 1 && st->kd_largest_leaf <= valid);
-    assert_true(st->references <= (uint64_t)st->kd_largest_leaf * (st->kd_leaves - st->kd_empty_leaves));
-    assert_true(st->references >= valid);
-    assert_true(st->kd_cost > 0 && isfinite(st->kd_cost));
-    assert_int_equal(st->kd_builder, o->kd_builder);
-    assert_int_equal(st->kd_layout, o->kd_layout);
-    assert_int_equal(st->reference_bits, 32);
-    assert_true(st->structure_bytes >= st->kd_nodes * (size_t)8 + (ropes ? st->kd_leaves * (size_t)80 : 0));
-    assert_true(st->structure_bytes <= 8 + st->kd_nodes * (size_t)8 + st->references * 4 + st->kd_leaves * (size_t)80);
+    assert_int_equal(research->kd_nodes, 2 * research->kd_leaves - 1);
+    assert_true(research->kd_empty_leaves < research->kd_leaves);
+    assert_true(research->kd_depth <= (uint32_t)(8 + 1.3 * log2(valid)));
+    assert_true(research->kd_depth >= ceil(log2(research->kd_leaves)));
+    assert_true(research->kd_largest_leaf >= 1 && research->kd_largest_leaf <= valid);
+    assert_true(research->references <=
+                (uint64_t)research->kd_largest_leaf * (research->kd_leaves - research->kd_empty_leaves));
+    assert_true(research->references >= valid);
+    assert_true(research->kd_cost > 0 && isfinite(research->kd_cost));
+    assert_int_equal(research->kd_builder, o->kd_builder);
+    assert_int_equal(research->kd_layout, o->kd_layout);
+    assert_int_equal(research->reference_bits, 32);
+    assert_true(st->structure_bytes >= research->kd_nodes * (size_t)8 + (ropes ? research->kd_leaves * (size_t)80 : 0));
+    assert_true(st->structure_bytes <=
+                8 + research->kd_nodes * (size_t)8 + research->references * 4 + research->kd_leaves * (size_t)80);
     assert_true(q->s.skipped == 0 || skipped == q->s.skipped);
 }
 
-static bool is_tree(const cgt_scene_options *o)
+static bool is_tree(const test_scene_options *o)
 {
     return o->structure == CGT_STRUCTURE_KD || o->structure == CGT_STRUCTURE_KD_ROPES;
 }
 
 /* Returns whether there is a structure: not over nothing, nor where coordinates are too large for one. */
-static bool check_commit(const question *q, const cgt_scene *scene, const cgt_scene_options *o)
+static bool check_commit(const question *q, const cgt_scene *scene, const test_scene_options *o)
 {
+    const cgt_research_scene_statistics research = research_of(scene);
     cgt_scene_statistics st;
     assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
     const bool tree = is_tree(o);
@@ -231,36 +237,37 @@ static bool check_commit(const question *q, const cgt_scene *scene, const cgt_sc
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
     assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
     assert_int_equal(st.geometries, q->s.scene.geometries);
-    const bool there = st.cells || st.kd_nodes || st.bvh_nodes, wide = o->structure == CGT_STRUCTURE_BVH;
+    const bool there = research.cells || research.kd_nodes || research.bvh_nodes,
+               wide = o->structure == CGT_STRUCTURE_BVH;
     const bool some = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
     assert_true(there || !some || strstr(q->s.name, "beyond"));
     if (tree && there)
-        check_tree(q, o, &st);
-    assert_int_equal(st.cells != 0, there && !tree && !wide);
-    assert_int_equal(st.bvh_nodes != 0, there && wide);
-    assert_int_equal(st.kd_leaves != 0, there && tree);
+        check_tree(q, o, &st, &research);
+    assert_int_equal(research.cells != 0, there && !tree && !wide);
+    assert_int_equal(research.bvh_nodes != 0, there && wide);
+    assert_int_equal(research.kd_leaves != 0, there && tree);
     return there;
 }
 
-static void check_counts(const cgt_trace_statistics *c, const cgt_scene_options *o, bool there, uint64_t rays,
-                         uint64_t hits)
+static void check_counts(const cgt_trace_statistics *c, const cgt_research_trace_statistics *research,
+                         const test_scene_options *o, bool there, uint64_t rays, uint64_t hits)
 {
     const bool tree = there && (is_tree(o) || o->structure == CGT_STRUCTURE_BVH);
     assert_int_equal(c->rays, rays);
     assert_int_equal(c->hits, hits);
-    assert_int_equal(c->rope_loops, 0);
-    assert_true(!hits || !tree || c->leaves);
+    assert_int_equal(research->rope_loops, 0);
+    assert_true(!hits || !tree || research->leaves);
     assert_int_equal(c->bvh_rays != 0, o->structure == CGT_STRUCTURE_BVH && there && rays);
-    assert_true(!hits || !there || !is_tree(o) || c->references);
-    assert_true(o->structure != CGT_STRUCTURE_KD_ROPES || c->rope_steps <= c->leaves);
-    assert_true(tree ? !c->cells && !c->slices : !c->nodes && !c->leaves);
-    assert_true(o->structure == CGT_STRUCTURE_KD_ROPES || !c->rope_steps);
+    assert_true(!hits || !there || !is_tree(o) || research->references);
+    assert_true(o->structure != CGT_STRUCTURE_KD_ROPES || research->rope_steps <= research->leaves);
+    assert_true(tree ? !research->cells && !research->slices : !research->nodes && !research->leaves);
+    assert_true(o->structure == CGT_STRUCTURE_KD_ROPES || !research->rope_steps);
     assert_true(c->exact_tests <= c->double_tests && c->double_tests <= c->ray_tests);
 }
 
 /* ---- one way ---- */
 
-static void compare(const question *q, const cgt_scene_options *so, const cgt_trace_options *to, const char *what,
+static void compare(const question *q, const test_scene_options *so, const test_trace_options *to, const char *what,
                     const full_hit *got, const full_hit *is, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -270,7 +277,7 @@ static void compare(const question *q, const cgt_scene_options *so, const cgt_tr
 
 /* The rays as arrays of their own with gaps; those of ranges that are the defaults are left out where all are. */
 static void trace_strided(const cgt_scene *scene, const truth_ray *ray, uint32_t step, full_hit *hit,
-                          const cgt_trace_options *o)
+                          const test_trace_options *o)
 {
     float *in = malloc(8 * (size_t)RAYS * step * sizeof *in), *array[8];
     assert_non_null(in);
@@ -288,30 +295,30 @@ static void trace_strided(const cgt_scene *scene, const truth_ray *ray, uint32_t
                            .t_min = array[6],
                            .t_max = array[7]};
     const cgt_hits hits = hit_array(hit);
-    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, o), CGT_OK);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, TRACE_OPTIONS(o)), CGT_OK);
     free(in);
 }
 
-static void check_any_hit(const question *q, const cgt_scene *scene, const cgt_scene_options *so,
-                          const cgt_trace_options *to, bool there)
+static void check_any_hit(const question *q, const cgt_scene *scene, const test_scene_options *so,
+                          const test_trace_options *to, bool there)
 {
     uint8_t occluded[MOST_RAYS];
     const cgt_rays rays = ray_array(q->s.scene.ray, RAYS);
     memset(occluded, 0x77, sizeof occluded);
-    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, to), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(to)), CGT_OK);
     for (uint32_t i = 0; i < RAYS; i++)
         if (occluded[i] != (q->is[0].ray[i].geometry != CGT_INVALID_ID))
             fail_way(q, so, to, "any hit of ray", i, &q->is[0].ray[i], &q->is[0].ray[i]);
-    check_counts(to->statistics, so, there, RAYS, q->hits);
+    check_counts(to->statistics, to->research_statistics, so, there, RAYS, q->hits);
 }
 
 /* FAST may differ, but rarely: it is traced for that, too. */
-static void count_fast(question *q, const cgt_scene *scene, cgt_trace_options o)
+static void count_fast(question *q, const cgt_scene *scene, test_trace_options o)
 {
     full_hit hit[MOST_RAYS];
     o.precision = CGT_PRECISION_FAST;
-    assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, &o), CGT_OK);
-    assert_int_equal(o.statistics->rope_loops, 0);
+    assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, TRACE_OPTIONS(&o)), CGT_OK);
+    assert_int_equal(o.research_statistics->rope_loops, 0);
     q->fast_rays += RAYS;
     for (uint32_t i = 0; i < RAYS; i++)
         q->fast += hit[i].primitive != q->is[0].ray[i].primitive || hit[i].geometry != q->is[0].ray[i].geometry;
@@ -319,18 +326,18 @@ static void count_fast(question *q, const cgt_scene *scene, cgt_trace_options o)
 
 static void check_way(question *q, cgt_context *context, uint32_t number, uint32_t round)
 {
-    const cgt_scene_options so = scene_way(number);
-    cgt_trace_statistics counts;
+    const test_scene_options so = scene_way(number);
+    way_counts counts;
     full_hit hit[MOST_RAYS];
     cgt_scene *scene = commit(q, context, &so);
     const bool there = check_commit(q, scene, &so);
     for (uint32_t traversal = 0; traversal < 2; traversal++) {
-        cgt_trace_options to = trace_way(2 * (number + round) + traversal, &counts);
+        test_trace_options to = trace_way(2 * (number + round) + traversal, &counts);
         const bool exact = (number + round + traversal) % 4 == 0;
         const answers *is = &q->is[exact];
         to.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
         for (int f = 0; f < FRAMES; f++) {
-            picture_trace(scene, &q->camera[f], &to, &q->picture[f]);
+            picture_trace(scene, &q->camera[f], TRACE_OPTIONS(&to), &q->picture[f]);
             compare(q, &so, &to, f ? "orthographic pixel" : "pixel", q->picture[f].hit, is->frame[f],
                     sizes[f][0] * sizes[f][1]);
         }
@@ -338,9 +345,9 @@ static void check_way(question *q, cgt_context *context, uint32_t number, uint32
         if ((number + traversal) % 3)
             trace_strided(scene, q->s.scene.ray, 1 + number % 3, hit, &to);
         else
-            assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, &to), CGT_OK);
+            assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, TRACE_OPTIONS(&to)), CGT_OK);
         compare(q, &so, &to, "ray", hit, is->ray, RAYS);
-        check_counts(&counts, &so, there, RAYS, q->hits);
+        check_counts(&counts.trace, &counts.research, &so, there, RAYS, q->hits);
         check_any_hit(q, scene, &so, &to, there);
         count_fast(q, scene, to);
     }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Loose grids built the plain way. */
+#include "exact/valid_primitive.h"
 #include "support/loose_reference.h"
 
 #include <math.h>

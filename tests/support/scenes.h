@@ -61,7 +61,7 @@ const char *cloud_name(cloud_kind kind);
 cgt_spheres spheres_of(const float (*sphere)[4], uint32_t count);
 
 /* Any structure, AUTO included, of any builder, layout and break level. */
-cgt_scene_options structure_random(test_random *r);
+test_scene_options structure_random(test_random *r);
 
 /* The defaults with one structure after the other, without AUTO. */
 cgt_scene_options structure_in_turn(uint32_t turn);

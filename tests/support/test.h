@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Included by every test of the core: cmocka, the public header, the seed, random numbers.
+ * Included by every test of the core: cmocka, the public headers, the seed, random numbers.
  *
  *   CGT_TEST_SEED   seed of all random numbers; each program prints the one it used
  *   CGT_TEST_SCALE  factor for the length of heavy loops, default 1; emulators and sanitizers take less */
@@ -16,9 +16,8 @@
 
 #include <stdbool.h>
 
-#include <cgt/cgt.h>
-
 #include "support/random.h"
+#include "support/research_options.h"
 
 #define TEST_COUNT(a) (sizeof(a) / sizeof((a)[0]))
 #define TEST_SKIPPED 77 /* exit code: not possible on this machine */

@@ -1,12 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames by tiles, of the variant that this is compiled for, are those that packets through the queue grid give, bit for
- * bit; and the march over the grid leaves out nothing that a ray hits. */
+ * Frames by tiles are the same, bit for bit, as by packets through the queue grid; and the march over the grid leaves
+ * out no primitive that a ray hits. For the variant that this is compiled for. */
 #include "hard_cases/hard_run.h"
 #include "tile/tile_compare.h"
 
 #include "kernel/tile/tile_march.h"
+#include "kernel/tile_frame/tile_init.c"
 
 static cgt_context *context;
 
@@ -20,7 +21,7 @@ static cgt_scene *queue_scene(const float (*sphere)[4], uint32_t count)
 
 static const uint32_t sizes[][2] = {{1, 1}, {3, 70}, {64, 64}, {65, 63}, {100, 65}};
 
-/* A huge one, one about the eye, points, and a copy. */
+/* A huge sphere, one around the eye, points, and a copy. */
 static void add_special_spheres(cloud *c, const float eye[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -33,7 +34,7 @@ static void add_special_spheres(cloud *c, const float eye[3])
     memcpy(c->sphere[7], c->sphere[6], sizeof c->sphere[7]);
 }
 
-/* Clouds of every kind from outside and from within; ranges; spheres about the eye. */
+/* Clouds of every kind, from outside and from within; ranges; spheres around the eye. */
 static void frames_of_clouds(void **state)
 {
     (void)state;
@@ -67,7 +68,7 @@ static void frames_of_clouds(void **state)
         }
         print_tally(cloud_name((cloud_kind)kind), &tally);
         assert_true(tally.served > 0);
-        parallel += tally.parallel; /* not where origins of float are some pixels apart */
+        parallel += tally.parallel; /* fewer than frames: origins of float may be several pixels apart */
     }
     assert_true(parallel > 0);
 }
@@ -87,14 +88,14 @@ static void frame_of_many_tiles(void **state)
     compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
     print_tally("many tiles", &tally);
     assert_int_equal(tally.served, 2);
-    /* culling and windows are of use: by far not every object meets every ray */
+    /* culling and windows work: far fewer tests than primitives times rays */
     assert_true(tally.counts.ray_tests < tally.counts.rays * 100);
     loose_reference_free(&grid);
     cgt_scene_release(scene);
     cloud_free(&c);
 }
 
-/* A whole frame by tiles into planes that begin on lines, past the caches or not; 8 planes of `pixels`. */
+/* A whole frame by tiles into 8 planes aligned to cache lines, past the caches or not. */
 static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_camera_rays *rays, uint32_t width,
                         uint32_t height, bool nontemporal, uint32_t *to)
 {
@@ -106,13 +107,8 @@ static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_ca
     cgt_counts counts = {0};
     cgt_region r = {.width = width, .height = height, .row_stride = width, .nontemporal = nontemporal};
     memset(to, nontemporal ? 0x55 : 0x77, 8 * pixels * sizeof *to);
-    r.t = (float *)to;
-    r.primitive = to + pixels;
-    r.geometry = to + 2 * pixels;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = (float *)to + (3 + (size_t)a) * pixels;
-    r.u = (float *)to + 6 * pixels;
-    r.v = (float *)to + 7 * pixels;
+    for (size_t k = 0; k < CGT_PLANES; k++)
+        r.plane[k] = to + k * pixels;
     CGT_KERNEL(cgt_trace_tile)(committed_scene, rays, &settings, &r, &counts);
 }
 
@@ -131,7 +127,7 @@ static void compare_lines(const cgt_scene *scene, const loose_reference *grid, c
     free(memory);
 }
 
-/* Objects in few of the tiles, or in none: whole tiles see nothing. */
+/* Primitives in few tiles or none: other tiles stay empty. */
 static void frames_of_sky(void **state)
 {
     (void)state;
@@ -161,7 +157,7 @@ static void frames_of_sky(void **state)
     assert_true(tally.counts.hits < tally.counts.rays / 8);
 }
 
-/* Pictures from far below a pixel of the usual ones to far above the usual scenes, each of its own scene. */
+/* Scenes and pictures of sizes from 2^-36 to 2^36. */
 static void orthographic_frames_at_every_scale(void **state)
 {
     (void)state;
@@ -192,7 +188,7 @@ static void orthographic_frames_at_every_scale(void **state)
     assert_true(tally.parallel >= tally.frames / 2 && tally.counts.hits > 0);
 }
 
-/* Centres without radii beside them, and a radius for all: what no vector load reads. */
+/* Centres without radii next to them, and one radius for all: no vector load reads these. */
 static void frames_of_two_geometries(void **state)
 {
     (void)state;
@@ -226,7 +222,7 @@ static void frames_of_two_geometries(void **state)
     assert_true(tally.served == tally.frames && tally.counts.hits > 0);
 }
 
-/* A picture's height as a share of the world's extent. */
+/* The picture's height as a share of the scene's extent. */
 static float height_of(const cgt_committed_scene *committed_scene, float share)
 {
     float most = 0;
@@ -236,14 +232,14 @@ static float height_of(const cgt_committed_scene *committed_scene, float share)
     return height > 0 && height < INFINITY ? height : 1;
 }
 
-/* Cameras where the hard rays start, looking where they look; then orthographic ones there. */
+/* Cameras at the origins of the hard rays, looking along them; then orthographic ones there. */
 static void frames_of_hard_cases(void **state)
 {
     (void)state;
     frames_tally tally = {0};
     test_random r = random_make(335);
     uint32_t cases = 0;
-    /* where it is slow smaller pictures, and of each case as many rays as there are openings below */
+    /* slow machines: smaller pictures, and one ray of each case for each opening angle below */
     const bool small = test_samples();
     const uint32_t width = small ? 13 : 21, height = small ? 11 : 23, rays_of_case = small ? 3 : 3 + test_scaled(5);
     for (size_t i = 0; i < hard_case_count(); i++) {
@@ -287,8 +283,8 @@ static void frames_of_hard_cases(void **state)
     assert_true(cases >= 3 && tally.served >= 3 && tally.parallel >= 3);
 }
 
-/* A wall before the camera, which all its rays meet at one t, and one right behind it; where the range ends or begins
- * there, every pixel is for double to decide. */
+/* A wall that all rays hit at the same t, and another right behind it. If the range ends or begins there, double
+ * precision must decide every pixel. */
 static void frames_of_walls_where_ranges_end(void **state)
 {
     (void)state;
@@ -335,7 +331,7 @@ static void frames_of_walls_where_ranges_end(void **state)
 
 /* ---- the march ---- */
 
-/* Every object that a ray hits is visited, once, in a slice that is not said to begin beyond the hit. */
+/* Every primitive that a ray hits is visited exactly once, in a slice whose near_t is not beyond the hit. */
 static void march_visits_what_rays_hit(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames of triangles, and of triangles and spheres, by tiles, of the variant that this is compiled for: bit for bit
- * those that packets through the queue grid give. */
+ * Frames of triangles, and of triangles and spheres, by tiles are the same, bit for bit, as by packets through the
+ * queue grid. For the variant that this is compiled for. */
 #include "hard_cases/hard_run.h"
 #include "tile/tile_compare.h"
 
@@ -12,7 +12,7 @@ static cgt_context *context;
 
 static const uint32_t sizes[][2] = {{1, 1}, {65, 3}, {3, 70}, {64, 64}, {65, 63}, {100, 65}};
 
-/* More than a tile: the last of the sizes, or a third of it where samples do. */
+/* More than a tile: the last of the sizes, or a third of it if samples suffice. */
 static const uint32_t *large_size(void)
 {
     static const uint32_t small[] = {66, 34};
@@ -74,7 +74,7 @@ static void frames_of_closed_meshes(void **state)
             hard_direction(&s, to);
             for (int a = 0; a < 3; a++) {
                 to[a] += from[a];
-                if (i % 2) /* the other way round, from farther out */
+                if (i % 2) /* the other orientation, from farther away */
                     to[a] = 4 * to[a] - 3 * from[a];
             }
             hard_put(&s, i % 2 ? to : from, eye);
@@ -97,7 +97,7 @@ static void frames_of_closed_meshes(void **state)
 
 /* ---- random triangles ---- */
 
-/* Of any size from a fraction of a pixel to that of the scene and beyond; slivers, and copies. */
+/* Triangles of any size from a fraction of a pixel to beyond the scene; slivers, and copies. */
 static void add_triangles(hard_scene *s, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -121,7 +121,7 @@ static void add_triangles(hard_scene *s, uint32_t count)
     }
 }
 
-/* Cameras in the middle of a scene and outside; some at a point of a triangle's plane or very near one; ranges. */
+/* Cameras inside a scene and outside; some on a triangle's plane or very near one; ranges. */
 static cgt_camera camera_for(hard_scene *s)
 {
     test_random *r = &s->random;
@@ -183,7 +183,7 @@ static void frames_of_soups(uint64_t nontemporal, bool mixed, const char *what)
         both_free(&b, &s);
     }
     print_tally(what, &tally);
-    assert_true(tally.served > 0); /* not where a narrow picture opens too wide */
+    assert_true(tally.served > 0); /* fewer than frames: a narrow picture may open too wide */
 }
 
 static void frames_of_triangles(void **state)
@@ -200,8 +200,8 @@ static void frames_of_both_kinds(void **state)
 
 /* ---- fine meshes ---- */
 
-/* A wavy sheet of n x n squares that fills a tile, so that each of its triangles has some pixels: less of them than a tile
- * has room to prepare, and more. */
+/* A wavy sheet of n x n squares that fills a tile, each triangle with some pixels: fewer triangles than a tile can
+ * list, and more. */
 static void add_sheet(hard_scene *s, uint32_t n)
 {
     for (uint32_t i = 0; i < 2 * n * n; i++) {
@@ -240,8 +240,8 @@ static void frames_of_fine_meshes(void **state)
 
 /* ---- large layers ---- */
 
-/* More triangles, all larger than the picture, than are drawn between two looks at how far the tile still sees; little
- * parts them in depth. */
+/* More triangles, all larger than the picture and close in depth, than are rasterised between two updates of the far
+ * distances. */
 static void frames_of_large_layers(void **state)
 {
     (void)state;
@@ -275,8 +275,8 @@ static void frames_of_large_layers(void **state)
 
 /* ---- edges through pixels ---- */
 
-/* Height fields whose vertices lie on the rays of every fourth pixel, exactly or to rounding, one behind the other, and
- * one of them twice. */
+/* Height fields, one behind the other and one of them twice, whose vertices lie on the rays of every fourth pixel,
+ * exactly or except for rounding. */
 static void frames_of_edges_on_rays(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres over the pixels of a tile, of the variant that this is compiled for: the bounds of single precision hold
- * against the truth in wide arithmetic. Then they are made tighter, by giving FILTER_ROUNDOFF less than the unit roundoff, until
- * they break. */
+ * Spheres over the pixels of a tile: the bounds of single precision hold against wide arithmetic. Then they are
+ * tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant that this is compiled
+ * for. */
 #include "support/test.h"
 #include "support/oracle/truth.h"
 #include "support/tightened.h"
@@ -17,6 +17,7 @@ static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/tile_draw/tile_sphere_draw.h"
 #include "kernel/tile_draw/tile_parallel_spheres.h"
+#include "kernel/tile_frame/tile_init.c"
 
 #include "query/tile_limits.h"
 
@@ -30,7 +31,7 @@ static cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, uint32_
 
 /* ---- one tile ---- */
 
-/* A tile as tile_trace.c makes it. */
+/* A tile as cgt_tile_init makes it. */
 static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y, uint32_t columns, uint32_t rows,
                     float c, float r)
 {
@@ -54,10 +55,10 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y
 
 typedef struct tally {
     uint64_t lanes, hits, certain, undecided, double_lanes;
-    uint64_t lost, invented, outside; /* what must not happen */
+    uint64_t lost, invented, outside; /* must be 0 */
 } tally;
 
-/* What the truth says of a sphere at each pixel of a tile, with the depth as tile.h counts it. */
+/* The true hits of a sphere at each pixel of a tile, with depths as in tile.h. */
 typedef struct tile_truth {
     bool hit[TILE_PIXELS];
     truth_real depth[TILE_PIXELS];
@@ -76,7 +77,7 @@ static void find_truth(const tile *t, const float sphere[4], tile_truth *truth)
         }
 }
 
-/* A sphere over a fresh tile: what it wins is certain, what it queues is open. */
+/* Rasterises a sphere over an empty tile: stored pixels are certain, queued ones undecided. */
 static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth, tally *sum)
 {
     static tile_queue queue;
@@ -91,14 +92,14 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     const uint32_t reference = 0;
     const vfloat zero = spux_vfloat(0);
     vfloat v[4];
-    vuint prim;
     tile_visible_spheres found;
     tile_spheres s;
     cgt_counts counts = {0};
     found.count = 0;
     queue.entries = 0;
     memset(undecided, 0, sizeof undecided);
-    tile_gather_spheres(&prims, &reference, 1, v, &prim);
+    const vuint prim = load_references(&reference, 1);
+    gather_scene_spheres(&prims, prim, v);
     assert_int_equal(spux_mask_bits(spu_cmpeq(v[3], zero)) != 0, sphere[3] == 0);
     s.single_lanes = s.double_lanes = s.small_lanes[0] = s.small_lanes[1] = 0;
     if (t->parallel)
@@ -115,7 +116,7 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
     tile_rect rect;
     if (s.single_lanes & s.small_lanes[1] & 1)
         tile_rasterise_small_sphere(&prims, t, &s, 0, s.small_lanes[0] & 1 ? 3 : 4, &queue, &counts);
-    else if (s.single_lanes & 1 && tile_clip_window(t, &s, 0, &rect))
+    else if (s.single_lanes & 1 && tile_clip_window(t, &s.window, 0, s.min_distance[0], &rect))
         tile_rasterise_sphere(&prims, t, &s, 0, rect, &queue, &counts);
     for (uint32_t k = 0; k < queue.entries; k++)
         undecided[queue.pixel[k]] = true;
@@ -135,8 +136,8 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
         }
 }
 
-/* A camera, and a sphere whose silhouette passes a tile of 8x8 pixels somewhere; most often it is the silhouette of one
- * ray as well as float can tell. */
+/* A camera, and a sphere whose silhouette crosses a tile of 8x8 pixels; mostly a ray touches it as closely as float
+ * allows. */
 static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint32_t at[2], float sphere[4])
 {
     cgt_camera camera;
@@ -194,7 +195,7 @@ static float distance_of(const cgt_camera_rays *rays, const float sphere[4])
     return sqrtf(square) * (1 + 0x1p-20f) + sphere[3];
 }
 
-/* usual: the radius that the tile's gap is for, over the sphere's. */
+/* usual: the radius that the tile's depth error is made for, over the sphere's. */
 static void judge_case(const cgt_camera_rays *rays, const uint32_t at[2], const float sphere[4], float usual,
                        tile_truth *truth, bool fresh, tally *sum)
 {
@@ -219,12 +220,12 @@ static void check_bounds(uint64_t stream, bool parallel)
         if (cgt_tile_supports_camera(&rays))
             judge_case(&rays, at, sphere, usual, &truth, true, &sum);
     }
-    print_message(
-        "%llu lanes, %llu hits, %llu certain, %llu open, %llu spheres slow; lost %llu, invented %llu, outside "
-        "%llu\n",
-        (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
-        (unsigned long long)sum.undecided, (unsigned long long)sum.double_lanes, (unsigned long long)sum.lost,
-        (unsigned long long)sum.invented, (unsigned long long)sum.outside);
+    print_message("%llu lanes, %llu hits, %llu certain, %llu undecided, %llu spheres in double; lost %llu, invented "
+                  "%llu, outside "
+                  "%llu\n",
+                  (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
+                  (unsigned long long)sum.undecided, (unsigned long long)sum.double_lanes, (unsigned long long)sum.lost,
+                  (unsigned long long)sum.invented, (unsigned long long)sum.outside);
     assert_int_equal(sum.lost, 0);
     assert_int_equal(sum.invented, 0);
     assert_int_equal(sum.outside, 0);
@@ -263,7 +264,7 @@ static void check_tightened_bounds(uint64_t stream, bool parallel)
         }
         filter_u = 0x1p-24f;
     }
-    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    /* the bounds are worst cases: random rays come within orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-10);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-11);
     check_break("depth outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-11);
@@ -304,7 +305,7 @@ static void serves_what_it_can(void **state)
     camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
     rays = rays_of(&camera, 64, 64);
     assert_true(cgt_tile_supports_camera(&rays));
-    rays.eye[1] = 0x1p20f; /* origins of float are some pixels apart */
+    rays.eye[1] = 0x1p20f; /* origins of float are several pixels apart */
     assert_false(cgt_tile_supports_camera(&rays));
     camera.height = 0x1p-41f;
     rays = rays_of(&camera, 64, 64);

@@ -1,10 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles over the pixels of a tile, of the variant that this is compiled for: the bounds of single precision hold
- * against exact decisions and canonical depths. Then they are made tighter, by giving FILTER_ROUNDOFF less than the unit
- * roundoff, until they break. */
+ * Triangles over the pixels of a tile: the bounds of single precision hold against exact decisions and canonical
+ * depths. Then they are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant
+ * that this is compiled for. */
 #include "support/test.h"
+#include "exact/valid_primitive.h"
 #include "support/tightened.h"
 
 #include <math.h>
@@ -14,8 +15,10 @@
 
 static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
+#include "kernel/tile_draw/tile_decide_triangles.c"
 #include "kernel/tile_draw/tile_parallel_triangles.h"
 #include "kernel/tile_draw/tile_triangle_draw.h"
+#include "kernel/tile_frame/tile_init.c"
 
 #include "query/tile_limits.h"
 
@@ -45,11 +48,11 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, const uint32_t at[2], 
 
 typedef struct tally {
     uint64_t lanes, hits, certain, undecided, double_lanes, coarse;
-    uint64_t beyond, aside;           /* triangles that whole tiles miss */
-    uint64_t lost, invented, outside; /* what must not happen */
+    uint64_t beyond, aside;           /* triangles that are culled for the whole tile */
+    uint64_t lost, invented, outside; /* must be 0 */
 } tally;
 
-/* What exact decisions say of a triangle at each pixel of a tile, and its t. */
+/* The exact decision about a triangle at each pixel of a tile, and its t. */
 typedef struct tile_truth {
     bool hit[TILE_PIXELS];
     double hit_t[TILE_PIXELS];
@@ -81,7 +84,7 @@ static bool any_hit(const tile *t, const tile_truth *truth)
     return any;
 }
 
-/* A triangle over a fresh tile: what it wins is certain, what it queues is open. */
+/* Rasterises a triangle over an empty tile: stored pixels are certain, queued ones undecided. */
 static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *truth, tally *sum)
 {
     static tile_queue queue;
@@ -103,8 +106,8 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
     cgt_counts counts = {0};
     queue.entries = 0;
     memset(undecided, 0, sizeof undecided);
-    tile_load_references(&reference, 1, s.prim);
-    tile_gather_triangles(&prims, s.prim, v);
+    spux_store_uint(s.prim, load_references(&reference, 1));
+    gather_scene_triangles(&prims, s.prim, v);
     if (t->parallel)
         tile_init_parallel_triangles(t, v, 1, &s);
     else
@@ -138,8 +141,8 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
     }
 }
 
-/* A camera, and a triangle of which an edge or a vertex passes a ray of a tile of 8x8 pixels as well as float can tell.
- * Its size is from far less than a pixel's to far more than the distance, when it may pass the eye plane. */
+/* A camera, and a triangle of which an edge or a vertex touches a ray of a tile of 8x8 pixels as closely as float
+ * allows. Its size is from far below a pixel to far above its distance; then it may cross the eye's plane. */
 static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
 {
     cgt_camera camera;
@@ -187,7 +190,7 @@ static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint
         q->v[1][a] = p + (1 - share) * size * e[0][a];
         q->v[2][a] = p + size * (width * e[1][a] + (width < 1 ? 0.3f * e[0][a] : 0));
     }
-    if (random_below(r, 2)) /* the other way round */
+    if (random_below(r, 2)) /* the other orientation */
         for (int a = 0; a < 3; a++) {
             const float first = q->v[0][a];
             q->v[0][a] = q->v[2][a];
@@ -278,7 +281,7 @@ static void check_tightened_bounds(uint64_t stream, bool parallel)
         }
         filter_u = 0x1p-24f;
     }
-    /* derived for the worst case: what random rays reach is less, but not by orders of magnitude */
+    /* the bounds are worst cases: random rays come within orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-8);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-8);
     check_break("depth outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
@@ -298,8 +301,8 @@ static void bounds_of_parallel_rays_break_where_they_are_tightened(void **state)
 
 /* ---- triangles beside a tile ---- */
 
-/* Of a camera and a tile of it, a triangle that crosses the eye's plane or not, and touches one side of the tile about
- * as well as float can tell: its vertices are in that side's plane, some of them moved outwards. */
+/* A triangle that may cross the eye's plane, and touches one side of a camera's tile as closely as float allows: its
+ * vertices are in that side's plane, some of them moved outwards. */
 static bool make_beside(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
 {
     static tile t;
@@ -325,7 +328,7 @@ static bool make_beside(test_random *r, cgt_camera_rays *rays, uint32_t at[2], c
     return cgt_triangle_has_area(q);
 }
 
-/* What is cast aside has no hit; a triangle whose least vertex touches the tile may be or not. */
+/* Culled triangles have no hit. Those that just touch the tile may be culled or not. */
 static void judge_beside(const tile *t, const cgt_triangle *q, const tile_truth *truth, tally *sum)
 {
     vfloat v[3][3];
@@ -369,7 +372,7 @@ static void triangles_beside_a_tile(void **state)
 
 /* ---- pairs of triangles ---- */
 
-/* An object and a winner whose planes are one, or one but for rounding, or share vertices, or neither. */
+/* Two triangles in one plane, exactly or except for rounding, or sharing vertices, or neither. */
 static void make_pair(test_random *r, cgt_triangle pair[2])
 {
     const uint32_t kind = random_below(r, 5), axis = random_below(r, 3);
@@ -380,7 +383,7 @@ static void make_pair(test_random *r, cgt_triangle pair[2])
             v[a] = random_float(r, -3, 3);
         if (kind == 0) /* one plane exactly */
             v[axis] = 0.75f;
-        else if (kind == 1) /* but for rounding */
+        else if (kind == 1) /* except for rounding */
             v[axis] = slope * v[(axis + 1) % 3];
         else if (kind == 2) /* layers */
             v[axis] = 0.5f + (float)(i / 3) * 0x1p-24f * (float)random_below(r, 3);
@@ -392,7 +395,7 @@ static void make_pair(test_random *r, cgt_triangle pair[2])
         memcpy(pair[1].v[k - 1], pair[0].v[k - 1], sizeof pair[1].v[k - 1]);
 }
 
-/* Decisions of pairs are those of any two objects, and hits have the same bits. */
+/* Decisions of pairs agree with those of any two primitives, and hits have the same bits. */
 static void pairs_are_decided_as_ever(void **state)
 {
     (void)state;
@@ -446,7 +449,7 @@ static void pairs_are_decided_as_ever(void **state)
 
 /* ---- long thin triangles ---- */
 
-/* A triangle whose vertices are far apart and whose first is at its smallest angle is as certain as one turned round. */
+/* The order of vertices does not matter to the bounds: a large triangle with its smallest angle first is as certain. */
 static void thin_triangles_are_certain(void **state)
 {
     (void)state;
@@ -474,7 +477,7 @@ static void thin_triangles_are_certain(void **state)
 
 /* ---- fetching ---- */
 
-/* The last triangle and the last vertex of an array are followed by nothing: read alone, no byte beyond. */
+/* No byte beyond the last triangle and the last vertex of an array is read. */
 static void fetches_every_triangle(void **state)
 {
     (void)state;
@@ -503,8 +506,8 @@ static void fetches_every_triangle(void **state)
         array.count = array.index ? 60 : 13;
         for (uint32_t k = 0; k < count; k++)
             reference[k] = 7 + random_below(&r, array.count - (round % 2 ? 0 : array.count / 6));
-        tile_load_references(reference, count, prim);
-        tile_gather_triangles(&prims, prim, v);
+        spux_store_uint(prim, load_references(reference, count));
+        gather_scene_triangles(&prims, prim, v);
         for (uint32_t k = 0; k < CGT_LANES; k++) {
             assert_int_equal(prim[k], reference[k < count ? k : 0]);
             const cgt_triangle q = cgt_primitives_triangle(&prims, prim[k]);

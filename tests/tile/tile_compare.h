@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One frame by tiles and by packets, of the variant that this is compiled for, compared bit for bit. What fails here
- * fails the test. */
+ * Compares a frame by tiles with the same frame by packets, bit for bit, for the variant that this is compiled for. A
+ * difference fails the test. */
 #ifndef TILE_COMPARE_H
 #define TILE_COMPARE_H
 
@@ -26,7 +26,7 @@ static inline cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, 
     return rays;
 }
 
-/* Makes a camera orthographic, its picture so high; often one that looks along an axis, either way. */
+/* Makes a camera orthographic, with a picture of this height; often looking along an axis. */
 static inline void make_orthographic(test_random *r, float height, cgt_camera *camera)
 {
     camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
@@ -46,14 +46,11 @@ static inline void make_orthographic(test_random *r, float height, cgt_camera *c
 
 static inline cgt_region region_of(const planes *p, float *uv)
 {
+    void *const plane[CGT_PLANES] = {p->t,         p->primitive, p->geometry, p->normal[0],
+                                     p->normal[1], p->normal[2], uv,          uv + p->elements};
     cgt_region r = {.width = p->width, .height = p->height, .row_stride = p->width};
-    r.t = p->t;
-    r.primitive = p->primitive;
-    r.geometry = p->geometry;
-    for (int a = 0; a < 3; a++)
-        r.normal[a] = p->normal[a];
-    r.u = uv;
-    r.v = uv + p->elements;
+    for (int k = 0; k < CGT_PLANES; k++)
+        r.plane[k] = plane[k];
     return r;
 }
 
@@ -75,8 +72,8 @@ static inline void fail_at(const planes *got, const planes *wanted, const cgt_ca
              (double)c->eye[1], (double)c->eye[2]);
 }
 
-/* What FAST tiles are off by from ROBUST ones, in pixels that hit a sphere: the same sphere, and t and the normal as near
- * as resolve_fast_vectors.h says, with room. Other pixels get the same bits. */
+/* FAST tiles against ROBUST ones: pixels that hit a sphere hit the same one, with t and the normal within the error of
+ * resolve_fast.h and some margin. Other pixels have the same bits. */
 static inline void compare_fast(const cgt_committed_scene *committed_scene, const cgt_camera_rays *c, const planes *got,
                                 const planes *wanted, const char *what)
 {
@@ -110,7 +107,7 @@ static inline void compare_fast(const cgt_committed_scene *committed_scene, cons
     }
 }
 
-/* Both ways over one frame. */
+/* Traces one frame both ways. */
 static inline void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera,
                                  uint32_t width, uint32_t height, const char *what, frames_tally *tally)
 {
@@ -130,18 +127,21 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
     assert_non_null(uv);
     memset(uv, 0x66, 4 * wanted.elements * sizeof(float));
     cgt_region to_wanted = region_of(&wanted, uv), to_got = region_of(&got, uv + 2 * wanted.elements);
-    if (tally->frames % 3 == 2) { /* what is not asked for goes other ways */
-        to_wanted.u = to_wanted.v = to_got.u = to_got.v = NULL;
+    if (tally->frames % 3 == 2) { /* other loops serve frames without u and v */
+        to_wanted.plane[CGT_PLANE_U] = to_wanted.plane[CGT_PLANE_V] = NULL;
+        to_got.plane[CGT_PLANE_U] = to_got.plane[CGT_PLANE_V] = NULL;
         settings.fields &= ~CGT_FIELD_UV;
     }
     CGT_KERNEL(cgt_trace_region)(&scene->committed_scene, &rays, &settings, &to_wanted, &other);
-    CGT_KERNEL(cgt_trace_tile)(&committed_scene, &rays, &settings, &to_got, &counts);
+    const bool served = cgt_tile_supports(&committed_scene, &rays); /* as the call decides */
+    (served ? CGT_KERNEL(cgt_trace_tile) : CGT_KERNEL(cgt_trace_region))(&committed_scene, &rays, &settings, &to_got,
+                                                                         &counts);
     if (!planes_equal(&wanted, &got) || memcmp(uv, uv + 2 * wanted.elements, 2 * wanted.elements * sizeof(float)) != 0)
         fail_at(&got, &wanted, &rays, what);
     assert_int_equal(counts.rays, other.rays);
     assert_int_equal(counts.hits, other.hits);
     tally->frames++;
-    if (cgt_tile_supports(&committed_scene, &rays)) {
+    if (served) {
         cgt_trace_settings fast = settings;
         cgt_counts fast_counts = {0};
         fast.precision = CGT_PRECISION_FAST;
@@ -149,7 +149,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
         compare_fast(&committed_scene, &rays, &got, &wanted, what);
         assert_int_equal(fast_counts.hits, counts.hits);
     }
-    if (cgt_tile_supports(&committed_scene, &rays)) {
+    if (served) {
         const uint64_t *from = (const uint64_t *)&counts;
         uint64_t *to = (uint64_t *)&tally->counts;
         tally->served++;

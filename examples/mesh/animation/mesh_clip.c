@@ -10,9 +10,9 @@
 #include <string.h>
 
 #define DEFAULT_TICKS 25.0  /* a second, where the file does not say: assimp's own rule */
-#define MOST_FRAMES 1000000 /* more are a damaged duration */
+#define MOST_FRAMES 1000000 /* more mean a damaged duration */
 
-/* ---- Which -------------------------------------------------------------------------------------------------- */
+/* ---- Choice ------------------------------------------------------------------------------------------------- */
 
 static double ticks_per_second(const struct aiAnimation *a)
 {
@@ -50,14 +50,14 @@ static double duration(const struct aiAnimation *a)
 static double seconds_of(const struct aiAnimation *a) { return duration(a) / ticks_per_second(a); }
 
 /* The clip's number, or MESH_NONE. A name counts before a number. */
-static uint32_t find_clip(const struct aiScene *scene, const char *wanted)
+static uint32_t find_clip(const struct aiScene *scene, const char *name)
 {
     for (unsigned a = 0; a < scene->mNumAnimations; a++) {
-        if (strcmp(scene->mAnimations[a]->mName.data, wanted) == 0) {
+        if (strcmp(scene->mAnimations[a]->mName.data, name) == 0) {
             return a;
         }
     }
-    const text_span word = {wanted, wanted + strlen(wanted)};
+    const text_span word = {name, name + strlen(name)};
     uint64_t number = 0;
     if (scene->mNumAnimations > 0 && text_u64(word, scene->mNumAnimations - 1, &number)) {
         return (uint32_t)number;
@@ -65,7 +65,7 @@ static uint32_t find_clip(const struct aiScene *scene, const char *wanted)
     return MESH_NONE;
 }
 
-/* Says which clips there are. */
+/* Reports the existing clips. */
 static int unknown_clip(trajectory *t, const struct aiScene *scene)
 {
     if (scene->mNumAnimations == 0) {
@@ -101,7 +101,7 @@ int mesh_clip_choose(trajectory *t, const mesh_model *model, mesh_clip *clip)
     clip->animation = scene->mAnimations[number];
     clip->ticks_per_second = ticks_per_second(clip->animation);
     clip->seconds = seconds_of(clip->animation);
-    /* A last frame that rounding put behind the end is there all the same. */
+    /* The tolerance keeps a last frame that rounding put past the end. */
     const double frames = floor(clip->seconds * t->options.fps + 1e-6) + 1.0;
     if (!(frames <= MOST_FRAMES)) {
         return trajectory_fail(t, 0, "the clip lasts %g s: more than %d frames at %g per second", clip->seconds,

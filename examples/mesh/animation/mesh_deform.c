@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Vertices under a pose. Without bones a vertex follows its node; with bones it goes where their transforms, blended by
- * its weights, take it (linear blend skinning). */
+ * Vertices under a pose. Without bones a vertex follows its node; with bones it follows their transforms, blended by
+ * its weights (linear blend skinning). */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/animation/mesh_pose.h"
 
 #include <string.h>
 
-/* A normal of length 1. One that has no direction, or is not finite, stays what the transform made of it. */
+/* A unit normal. One without direction, or not finite, stays as the transform leaves it. */
 static void set_normal(float *out, const mesh_transform *transform, const struct aiVector3D *n)
 {
     const float value[3] = {n->x, n->y, n->z};
@@ -33,7 +33,7 @@ static void set_position(float *out, const mesh_transform *transform, const stru
 
 /* ---- Without bones ------------------------------------------------------------------------------------------ */
 
-/* The bits of the file: even -0 and NaN stay, which a multiplication by 1 and 0 would change. */
+/* Copies the bits of the file: -0 and NaN stay, which a multiplication by 1 and 0 would change. */
 static void copy_part(const mesh_part *part, float *position, float *normal)
 {
     for (uint32_t v = 0; v < part->count; v++) {
@@ -93,21 +93,21 @@ void mesh_deform(const mesh_model *model, mesh_pose *pose, float *position, floa
     for (uint32_t p = 0; p < model->part_count; p++) {
         const mesh_part *const part = &model->parts[p];
         const mesh_transform *const node = &pose->global[part->node];
-        float *const to = position + 3 * (size_t)part->first;
-        float *const normal_to = normal != NULL ? normal + 3 * (size_t)part->first : NULL;
-        if (normal_to != NULL && part->mesh->mNormals == NULL) {
-            memset(normal_to, 0, (size_t)part->count * 3 * sizeof *normal_to);
+        float *const position_out = position + 3 * (size_t)part->first;
+        float *const normal_out = normal != NULL ? normal + 3 * (size_t)part->first : NULL;
+        if (normal_out != NULL && part->mesh->mNormals == NULL) {
+            memset(normal_out, 0, (size_t)part->count * 3 * sizeof *normal_out);
         }
         for (uint32_t b = 0; b < part->skin->bone_count; b++) {
             const mesh_bone *const bone = &part->skin->bones[b];
             pose->bones[b] = mesh_multiply(&pose->global[bone->node], &bone->offset);
         }
         if (part->skin->bone_count > 0) {
-            bend_part(part, pose->bones, node, to, normal_to);
+            bend_part(part, pose->bones, node, position_out, normal_out);
         } else if (mesh_is_identity(node)) {
-            copy_part(part, to, normal_to);
+            copy_part(part, position_out, normal_out);
         } else {
-            move_part(part, node, to, normal_to);
+            move_part(part, node, position_out, normal_out);
         }
     }
 }

@@ -40,14 +40,15 @@ static int add_node(trajectory *t, mesh_model *model, const struct aiNode *node,
     return 1;
 }
 
-/* A node that waits for its turn. */
-typedef struct waiting {
+/* A node still to be visited. */
+typedef struct pending_node {
     const struct aiNode *node;
     uint32_t parent;
-} waiting;
+} pending_node;
 
 /* Puts the children on the stack, the first on top. */
-static int push_children(const struct aiNode *node, uint32_t number, waiting **stack, size_t *used, size_t *capacity)
+static int push_children(const struct aiNode *node, uint32_t number, pending_node **stack, size_t *used,
+                         size_t *capacity)
 {
     while (*capacity - *used < node->mNumChildren) {
         const size_t larger = *capacity == 0 ? 64 : 2 * *capacity;
@@ -58,23 +59,23 @@ static int push_children(const struct aiNode *node, uint32_t number, waiting **s
     }
     for (unsigned i = node->mNumChildren; i-- > 0;) {
         if (node->mChildren[i] != NULL) {
-            (*stack)[(*used)++] = (waiting){node->mChildren[i], number};
+            (*stack)[(*used)++] = (pending_node){node->mChildren[i], number};
         }
     }
     return 0;
 }
 
-/* The tree in its own order, parents first. Trees may be deep: the stack is not that of the program. */
+/* Flattens the tree depth first, parents first. Trees may be deep, so the stack is on the heap. */
 static int flatten(trajectory *t, mesh_model *model)
 {
-    waiting *stack = NULL;
+    pending_node *stack = NULL;
     size_t used = 0, capacity = 0;
     int result = add_node(t, model, model->scene->mRootNode, MESH_NONE);
     if (result > 0 && push_children(model->scene->mRootNode, 0, &stack, &used, &capacity)) {
         result = trajectory_fail(t, 0, "not enough memory for the nodes");
     }
     while (result > 0 && used > 0) {
-        const waiting next = stack[--used];
+        const pending_node next = stack[--used];
         const uint32_t number = model->node_count;
         result = add_node(t, model, next.node, next.parent);
         if (result > 0 && push_children(next.node, number, &stack, &used, &capacity)) {

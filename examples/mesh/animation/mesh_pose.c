@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Where the nodes of a mesh file are at a time. Between two keys positions and scales go along a line and rotations
- * along an arc; before the first key and after the last they stay. */
+ * The nodes of a mesh file at a time. Between two keys, positions and scales are interpolated linearly and rotations
+ * along an arc; before the first key and after the last they are constant. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/animation/mesh_pose.h"
 
@@ -12,17 +12,17 @@
 
 /* ---- Keys --------------------------------------------------------------------------------------------------- */
 
-/* Between which two of `count` keys a time lies, and how far: 0 at the first, 1 at the second. */
+/* The two keys around a time, and its share of the interval: 0 at the first, 1 at the second. */
 typedef struct key_place {
     unsigned first, second;
     double share;
 } key_place;
 
-/* times: mTime of the first key; keys are `stride` bytes apart, and their times do not fall. */
+/* times: mTime of the first key; keys are `stride` bytes apart, with ascending times. */
 static key_place find_key(const void *times, size_t stride, unsigned count, double time)
 {
     const char *const base = times;
-    unsigned low = 0, high = count; /* keys before low are not after the time, those from high on are */
+    unsigned low = 0, high = count; /* keys below low are not later than the time, those from high on are */
     while (low < high) {
         const unsigned middle = low + (high - low) / 2;
         if (*(const double *)(const void *)(base + middle * stride) <= time) {
@@ -32,8 +32,8 @@ static key_place find_key(const void *times, size_t stride, unsigned count, doub
         }
     }
     if (low == 0 || low == count) {
-        const unsigned only = low == 0 ? 0 : count - 1;
-        return (key_place){only, only, 0.0};
+        const unsigned index = low == 0 ? 0 : count - 1;
+        return (key_place){index, index, 0.0};
     }
     const double a = *(const double *)(const void *)(base + (low - 1) * stride);
     const double b = *(const double *)(const void *)(base + low * stride);
@@ -71,7 +71,7 @@ static mesh_transform local_at(const mesh_node *node, const struct aiNodeAnim *c
     double scale[3] = {(double)file_scale.x, (double)file_scale.y, (double)file_scale.z};
     double move[3] = {(double)file_move.x, (double)file_move.y, (double)file_move.z};
     mesh_rotation turn = rotation_of(&file_turn);
-    /* What a channel has no keys for stays as the file has it. */
+    /* Components without keys stay as in the file. */
     if (channel->mNumScalingKeys > 0) {
         vector_at(channel->mScalingKeys, channel->mNumScalingKeys, time, scale);
     }

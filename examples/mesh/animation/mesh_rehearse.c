@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A file is first read by a process of its own: assimp 5.2 crashes on some files (a glTF skin without matrices), ends
- * the program on others, and on a few never comes back. Then that process is gone, and there is an error instead. It
- * costs the time of reading again; files are read once per run. */
+ * A file is first read by a child process: assimp 5.2 crashes on some files (a glTF skin without matrices), aborts on
+ * others, and never returns from a few. Then the child dies, and the program reports an error. The price is reading
+ * twice; files are read once per run. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/mesh_model.h"
 
@@ -17,8 +17,8 @@
 
 #include <assimp/cimport.h>
 
-#define SECONDS_LEAST 60u        /* that the file may take, however small it is */
-#define BYTES_PER_SECOND 500000u /* and for its size; files are read at some megabytes a second */
+#define SECONDS_LEAST 60u        /* granted to any file, however small */
+#define BYTES_PER_SECOND 500000u /* granted for its size; files are read at some megabytes a second */
 #define SECONDS_MOST 86400u
 
 static unsigned seconds_for(uint64_t bytes)
@@ -27,24 +27,24 @@ static unsigned seconds_for(uint64_t bytes)
     return (unsigned)(seconds < SECONDS_MOST ? seconds : SECONDS_MOST);
 }
 
-/* In the process of its own: reads the file and ends, in silence. */
+/* The child: reads the file and exits silently. */
 _Noreturn static void rehearse(trajectory *t)
 {
-    static const int deadly[] = {SIGALRM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+    static const int fatal[] = {SIGALRM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
     const struct rlimit no_core = {0, 0};
-    for (size_t i = 0; i < sizeof deadly / sizeof deadly[0]; i++) {
-        signal(deadly[i], SIG_DFL);
+    for (size_t i = 0; i < sizeof fatal / sizeof fatal[0]; i++) {
+        signal(fatal[i], SIG_DFL);
     }
     setrlimit(RLIMIT_CORE, &no_core);
-    const int nowhere = open("/dev/null", O_WRONLY);
-    if (nowhere >= 0) {
-        dup2(nowhere, STDERR_FILENO);
-        dup2(nowhere, STDOUT_FILENO);
+    const int null_device = open("/dev/null", O_WRONLY);
+    if (null_device >= 0) {
+        dup2(null_device, STDERR_FILENO);
+        dup2(null_device, STDOUT_FILENO);
     }
     alarm(seconds_for(t->file_size));
     mesh_model model = {.scene = NULL};
     mesh_import_scene(t, &model);
-    _exit(0); /* an error is one that the second reading will meet and word */
+    _exit(0); /* the second reading will find and report any error */
 }
 
 int mesh_rehearse(trajectory *t)
@@ -57,12 +57,12 @@ int mesh_rehearse(trajectory *t)
         rehearse(t);
     }
     int status = 0;
-    pid_t done;
+    pid_t waited;
     do {
-        done = waitpid(child, &status, 0);
-    } while (done < 0 && errno == EINTR);
-    if (done < 0) {
-        return 1; /* someone else collects this program's processes: what this one met is not known */
+        waited = waitpid(child, &status, 0);
+    } while (waited < 0 && errno == EINTR);
+    if (waited < 0) {
+        return 1; /* another part of the program collects child processes: the outcome is unknown */
     }
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
         return trajectory_fail(t, 0, "assimp did not come back from this file within %u s", seconds_for(t->file_size));

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Skins: assimp lists the vertices of each bone, blending wants the bones of each vertex. */
+ * Skins: assimp lists the vertices of each bone; blending needs the bones of each vertex. */
 #define _POSIX_C_SOURCE 200809L
 #include "mesh/mesh_model.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Weights that pull nothing, or cannot be summed, are as if they were not there. */
+/* Weights that are zero, or cannot be summed, are ignored. */
 static int counts(const struct aiVertexWeight *w) { return w->mWeight > 0.0f && isfinite(w->mWeight); }
 
 static int read_bone(trajectory *t, const mesh_model *model, const struct aiMesh *mesh, const struct aiBone *bone,
@@ -25,11 +25,11 @@ static int read_bone(trajectory *t, const mesh_model *model, const struct aiMesh
     if (out->node == MESH_NONE && bone->mNumWeights > 0) {
         return trajectory_fail(t, 0, "bone '%.200s' has no node", bone->mName.data);
     }
-    out->node = out->node == MESH_NONE ? 0 : out->node; /* nothing follows it */
+    out->node = out->node == MESH_NONE ? 0 : out->node; /* no vertex follows it */
     return 1;
 }
 
-/* Counts influences into skin->first[vertex + 1] and sums them up. Returns how many there are. */
+/* Counts influences into skin->first[vertex + 1] and sums them. Returns their number. */
 static size_t count_influences(const struct aiMesh *mesh, mesh_skin *skin)
 {
     for (unsigned b = 0; b < mesh->mNumBones; b++) {
@@ -44,7 +44,7 @@ static size_t count_influences(const struct aiMesh *mesh, mesh_skin *skin)
     return skin->first[mesh->mNumVertices];
 }
 
-/* Puts the influences where they belong. first[v] moves on to first[v + 1] meanwhile, and comes back. */
+/* Stores the influences by vertex. first[v] advances to first[v + 1] meanwhile and is restored. */
 static void place_influences(const struct aiMesh *mesh, mesh_skin *skin)
 {
     for (unsigned b = 0; b < mesh->mNumBones; b++) {

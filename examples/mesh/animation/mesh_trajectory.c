@@ -10,12 +10,12 @@
 #include <assimp/cimport.h>
 
 typedef struct mesh_state {
-    int opened; /* model, clip and pose are there: rewinding does not read the file again */
+    int opened; /* model, clip and pose are ready: rewinding does not read the file again */
     mesh_model model;
     mesh_clip clip;
     mesh_pose pose;
     float *position;
-    float *normal; /* NULL where the file has none */
+    float *normal; /* NULL where the file has no normals */
 } mesh_state;
 
 static int mesh_knows(const char *ending) { return aiIsExtensionSupported(ending) == AI_TRUE; }

@@ -1,16 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The wide tree beside a loose grid: AUTO builds it when there are rays for it. */
+ * The BVH beside a loose grid: AUTO builds it when rays need it. */
 #ifndef CGT_BVH_ON_DEMAND_H
 #define CGT_BVH_ON_DEMAND_H
 
 #include "scene/scene.h"
 
-/* Says that so many rays of a committed scene are going anywhere; any thread may. is_built: gets whether they may go
- * through world.wide; where it is false, another thread may be building that. Where AUTO chose a loose grid, and enough
- * rays have asked since the commit, the tree is built first, by the context's threads. Fails with OUT_OF_MEMORY or
- * TOO_LARGE, with a message; the scene is as it was. */
+/* Announces incoherent rays of a committed scene; any thread may. is_built: gets whether they may traverse the scene's
+ * BVH; where it is false, another thread may be building that. Where AUTO chose a loose grid, and enough rays have come
+ * since the commit, the tree is built first, by the context's threads. Fails with OUT_OF_MEMORY or TOO_LARGE, with a
+ * message; the scene is as it was. */
 cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *is_built);
 
 #endif

@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The runs of cells that one task of the wide tree's builder takes each. They are subtrees of the binary tree over all
- * cells: of each part by the bits of its keys, then over the parts by halves. A node is there only where both sides
- * hold objects. Trees over things in a row are told by the depths at which neighbours part. */
+ * The ranges of cells, each the work of one task. They are subtrees of the binary tree over all cells: within each part
+ * by the bits of its keys, then over the parts by halves. A node exists only where both sides hold primitives. A tree
+ * over consecutive items is described by the depths at which neighbours part. */
 #include "builders/bvh/bvh_build.h"
 
-/* The part's cells yet to be looked at, first ones last. */
+/* The part's cells that are still to be visited, the first ones last. */
 typedef struct range_stack {
     struct {
         uint32_t cell, bits, depth, parting;
@@ -22,8 +22,8 @@ static void push_cells(range_stack *s, uint32_t cell, uint32_t bits, uint32_t de
     s->entry[s->count++].parting = parting;
 }
 
-/* Of `parts` things in a row, halved and halved: how deep thing k lies, and at which depth it parts from the one
- * before. */
+/* Finds, for parts in a row that are halved again and again, how deep part k lies, and at which depth it parts from the
+ * one before. */
 static void locate_part(uint32_t parts, uint32_t k, uint32_t *depth, uint32_t *parting)
 {
     uint32_t first = 0, end = parts;

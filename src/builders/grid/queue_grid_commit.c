@@ -5,10 +5,11 @@
 #include <string.h>
 
 #include "builders/commit.h"
+#include "dispatch/kernel.h"
 
 /* ---- filling ---- */
 
-/* Room in the overflow list to begin with: a push asks for as much as it might spill, though it rarely spills. */
+/* Room in the overflow list to begin with: a push needs as much as it might spill, though it rarely spills. */
 #define MIN_OVERFLOW 1024
 
 static cgt_result fill(cgt_scene *scene)
@@ -44,8 +45,8 @@ static cgt_result fill(cgt_scene *scene)
     }
     g->overflow = list.entry;
     g->overflows = list.count;
-    scene->statistics.references = counts.references;
-    scene->statistics.large_primitives = counts.large_primitives;
+    scene->research_statistics.references = counts.references;
+    scene->research_statistics.large_primitives = counts.large_primitives;
     return CGT_OK;
 }
 
@@ -75,9 +76,9 @@ static cgt_result sort_overflow(cgt_scene *scene)
     cgt_overflow *entry = scene->buffer[CGT_BUFFER_OVERFLOW].data;
     sort_pass(entry, scene->buffer[CGT_BUFFER_OVERFLOW_SORTING].data, g->overflows, 0);
     sort_pass(scene->buffer[CGT_BUFFER_OVERFLOW_SORTING].data, entry, g->overflows, 12);
-    scene->statistics.overflow_references = g->overflows;
+    scene->research_statistics.overflow_references = g->overflows;
     for (uint32_t i = 0; i < g->overflows; i++)
-        scene->statistics.overflow_cells += i == 0 || entry[i].cell != entry[i - 1].cell;
+        scene->research_statistics.overflow_cells += i == 0 || entry[i].cell != entry[i - 1].cell;
     return CGT_OK;
 }
 
@@ -86,26 +87,26 @@ static cgt_result sort_overflow(cgt_scene *scene)
 static void report(cgt_scene *scene)
 {
     cgt_scene_statistics *st = &scene->statistics;
+    cgt_research_scene_statistics *research = &scene->research_statistics;
     const cgt_queue_grid *g = &scene->committed_scene.grid;
     bool small = true;
     for (int a = 0; a < 3; a++) {
-        st->resolution[a] = g->resolution[a];
+        research->resolution[a] = g->resolution[a];
         small &= g->resolution[a] <= 16;
     }
-    st->reference_bits = g->refs_are_32_bits ? 32 : 16;
-    st->cells = g->cells;
+    research->reference_bits = g->refs_are_32_bits ? 32 : 16;
+    research->cells = g->cells;
     st->structure_bytes =
         (size_t)g->cells * cgt_queue_grid_voxel_bytes(g) + (size_t)g->overflows * sizeof(cgt_overflow);
-    st->local_store_bytes = st->structure_bytes + (size_t)g->prims->spheres * sizeof(cgt_sphere) +
-                            (size_t)g->prims->triangles * sizeof(cgt_triangle);
-    st->fits_local_store = small && st->local_store_bytes + (64u << 10) <= 256u << 10;
+    cgt_report_local_store(scene, sizeof(cgt_sphere), sizeof(cgt_triangle));
+    research->fits_local_store &= small;
 }
 
 cgt_result cgt_queue_grid_commit(cgt_scene *scene, const cgt_primitive_bounds *bounds)
 {
     cgt_queue_grid *g = &scene->committed_scene.grid;
     g->prims = &scene->committed_scene.prims;
-    cgt_result result = cgt_queue_grid_plan(g, bounds, scene->options.resolution, scene->statistics.reason);
+    cgt_result result = cgt_queue_grid_plan(g, bounds, scene->options.research->resolution, scene->statistics.reason);
     if (result != CGT_OK)
         return cgt_fail(scene->context, result, "commit: the resolution is beyond the limits");
     result = fill(scene);

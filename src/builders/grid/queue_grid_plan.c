@@ -4,15 +4,15 @@
  * Where the queue grid lies and how fine it is.
  *
  * Cells are as near to cubes as whole numbers allow. Their edge is the smallest that keeps both the cells and the
- * references within a multiple of the objects: small spheres are limited by the first, large or mixed ones by the
- * second. An object of diameter d touches about (1 + d / edge)^3 cells; summed over all objects that is a cubic in
+ * references within a multiple of the primitives: small spheres are limited by the first, large or mixed ones by the
+ * second. A primitive of diameter d touches about (1 + d / edge)^3 cells; summed over all primitives that is a cubic in
  * 1 / edge whose coefficients are the sums of the powers of the diameters, so no second pass is needed. */
 #include "model/queue_grid.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* Measured by `cgt-bench loops`: flat between half and twice these. Chapman and Wald et al. take 5 cells an object;
+/* Measured by `cgt-bench loops`: flat between half and twice these. Chapman and Wald et al. take 5 cells a primitive;
  * culling by whole vectors favours larger cells. */
 #define CELLS_PER_PRIM 2.0
 #define REFERENCES_PER_PRIM 6.0
@@ -51,7 +51,7 @@ static double choose_edge(const cgt_primitive_bounds *bounds, const double exten
     return high;
 }
 
-/* The extents of the grid: those of the bounds, but nowhere thinner than what float can divide into cells. */
+/* Places the grid at the bounds, but nowhere thinner than float can divide into cells. */
 static void place_grid(cgt_queue_grid *grid, const cgt_primitive_bounds *bounds, double extent[3])
 {
     double largest = 0;
@@ -94,7 +94,7 @@ cgt_result cgt_queue_grid_plan(cgt_queue_grid *grid, const cgt_primitive_bounds 
         const double n = requested[0] ? requested[a] : fmin(fmax(ceil(extent[a] / edge), 1), CGT_GRID_MAX_RESOLUTION);
         grid->resolution[a] = (uint32_t)n;
         grid->rcell[a] = (float)(n / extent[a]);
-        /* 16 roundings of 2^-24 each, of the cell and of the world coordinate behind it */
+        /* 16 roundings of 2^-24 each, of the cell and of the scene coordinate behind it */
         grid->cell_error[a] = 0x1p-20f * ((float)n + bounds->magnitude * grid->rcell[a]);
         grid->stride[a] = stride;
         stride *= grid->resolution[a];

@@ -1,16 +1,18 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * From the valid objects of a commit to a kd-tree, in two steps: the builder splits boxes (kd_binned.c, kd_sweep.c),
- * and leaves nodes and references with gaps in whatever order its tasks made them; flattening (kd_flatten.c) brings
- * them into the layout asked for, without gaps, and links the leaves (kd_ropes.c). */
+ * From the valid primitives of a commit to a kd-tree, in two steps: the builder splits boxes (kd_binned.c, kd_sweep.c),
+ * which leaves nodes and references with gaps, in the order of its tasks; flattening (kd_flatten.c) brings them into
+ * the requested layout, without gaps, and links the leaves (kd_ropes.c). */
 #ifndef CGT_KD_BUILD_H
 #define CGT_KD_BUILD_H
+
+#include <cgt/research.h>
 
 #include "core/context.h"
 #include "model/committed_scene.h"
 
-/* What the surface-area heuristic weighs, in units of one sphere test; measured (docs/structures.md). */
+/* The costs of the surface-area heuristic, in units of one sphere test; measured (docs/reports/grids_and_trees.md). */
 typedef struct cgt_kd_costs {
     double inner;         /* a step through an inner node */
     double test[2];       /* a test, by cgt_kind */
@@ -19,8 +21,8 @@ typedef struct cgt_kd_costs {
 
 extern const cgt_kd_costs cgt_kd_default_costs;
 
-/* A tree as the builder leaves it. Children are side by side, as in cgt_kd_tree; the root is node 0. Word 1 of a leaf is
- * where its objects begin in `reference`, also of a single one. */
+/* The tree that a builder produces. Children are side by side, as in cgt_kd_tree; the root is node 0. Word 1 of a leaf
+ * is where its primitives begin in `reference`, also of a single one. */
 typedef struct cgt_kd_raw {
     const cgt_kd_node *node;
     uint32_t nodes; /* numbers in use are below; some are not in use */
@@ -30,9 +32,9 @@ typedef struct cgt_kd_raw {
     uint32_t limited_leaves; /* leaves that would have been split but for the limits of depth or room */
 } cgt_kd_raw;
 
-/* Builds over the valid objects of the world, of which there is at least one; coordinates are within
- * CGT_MAX_COORDINATE. The tree depends on the objects, the builder and the costs alone, not on the threads. work is
- * memory that is kept from commit to commit; raw points into it. Fails with OUT_OF_MEMORY or TOO_LARGE, with a
+/* Builds over the valid primitives of the scene, of which there is at least one; coordinates are within
+ * CGT_MAX_COORDINATE. The tree depends on the primitives, the builder and the costs alone, not on the threads. work:
+ * memory that the scene keeps from commit to commit; raw points into it. Fails with OUT_OF_MEMORY or TOO_LARGE, with a
  * message. */
 cgt_result cgt_kd_build(cgt_context *context, cgt_buffer *work, const cgt_committed_scene *committed_scene,
                         cgt_kd_builder builder, const cgt_kd_costs *costs, cgt_kd_raw *raw);

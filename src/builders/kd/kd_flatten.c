@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * From a builder's tree to its final arrays, without gaps, in the layout asked for.
+ * From a builder's tree to its final arrays, without gaps, in the requested layout.
  *
  * All layouts are one: levels are stored one after the other down to the break level, and what is below comes after
  * them, depth first. Breadth first breaks below all levels, depth first below the root. Each level, and what is below
- * the break, is a `run` of nodes; a walk that takes each node before its lower and that before its upper subtree meets
- * the nodes of every run in their order. So the walk needs no queue, only the next free place of each run.
+ * the break, is a `run` of nodes; a walk that visits each node before its lower subtree, and that before its upper
+ * one, meets the nodes of every run in their order. So the walk needs no queue, only the next free place of each run.
  *
  * It is done twice: the first walk counts, from which follows where each run begins; the second one writes. Subtrees
  * below a cut, whose level depends on tree and layout alone, are walked by tasks: between the walks each gets its
@@ -15,12 +15,12 @@
 
 #include "builders/kd/kd_build.h"
 
-#define SERIAL_NODES 8192u /* below, tasks are not worth their start */
+#define SERIAL_NODES 8192u /* with fewer, tasks cost more than they save */
 #define CUT_LEVEL 8u
 #define MAX_PARTS (1u << CUT_LEVEL)
 #define MAX_CURSORS 2048u /* of all parts: the cut is higher where there are many runs */
 
-/* How much a run holds; then, where its next pair, leaf and reference go. */
+/* How much a run holds; then, the places of its next pair, leaf and reference. */
 typedef struct run_cursor {
     uint64_t reference;
     uint32_t node, leaf;
@@ -31,7 +31,7 @@ typedef struct step {
     uint32_t raw, final, depth;
 } step;
 
-/* What one walk finds besides. */
+/* Other results of a walk. */
 typedef struct walk_result {
     uint32_t depth, empty_leaves;
     bool too_deep;
@@ -58,7 +58,7 @@ typedef struct flattening {
 
 /* ---- a walk ---- */
 
-/* References that the tree keeps of a leaf: without ropes a single object is in the node itself. */
+/* References that the tree keeps of a leaf: without ropes a single primitive is in the node itself. */
 static inline uint32_t stored_references(const flattening *f, uint32_t count)
 {
     return count > 1 || f->ropes ? count : 0;
@@ -152,7 +152,7 @@ static inline void walk_top(flattening *f, bool write)
         count_leaf(f, root, &f->top[0], &f->walk_result);
 }
 
-/* On places of its own, so that threads do not write to the same cache lines. */
+/* Counts in variables of its own, so that threads do not write to the same cache lines. */
 static inline void walk_part(flattening *f, uint32_t i, bool write)
 {
     run_cursor cursor[CGT_KD_MAX_DEPTH], *saved_cursor = f->run_cursor + (size_t)i * f->runs;
@@ -198,7 +198,7 @@ static bool too_deep(const flattening *f)
     return any;
 }
 
-/* From how much each run holds, of top and parts, to where it begins. Returns what they hold in all. */
+/* Replaces how much each run of top and parts holds by where it begins. Returns the totals. */
 static run_cursor assign_runs(flattening *f)
 {
     run_cursor next = {.node = 2};

@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: MIT
  *
  * Boxes and ropes of the leaves of a flattened kd-tree (Popov et al. 2007, section 3.2), from the root down. The upper
- * faces of a lower child lead to its sibling, the lower face of an upper child likewise, and all other faces where the
- * parent's do. Ropes of single rays are pushed down at every node on the way, so that their children start from there.
+ * face of a lower child leads to its sibling, and so does the lower face of an upper child; all other faces lead where
+ * the parent's do. Ropes of single rays are pushed down at every node on the way, so that their children start from
+ * there.
  *
- * What a rope leads to holds the whole face in its closed box. Where a split lies in the plane of the face, and so cuts
- * off a box without thickness, the rope passes that by. */
-#include "core/float_environment.h"
+ * The node that a rope leads to holds the whole face in its closed box. Where a split lies in the plane of the face,
+ * and so cuts off a box without thickness, the rope skips that box. */
 #include "builders/kd/kd_build.h"
 
 #define PARTS_DEPTH 6u
@@ -94,10 +94,7 @@ static void link_below(linking *l, const linked_node *from, uint32_t levels)
 static void link_part(void *argument, uint32_t index)
 {
     linking *l = argument;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers); /* comparisons, too, may take denormals for zero */
     link_below(l, &l->part[index], CGT_KD_MAX_DEPTH);
-    cgt_float_environment_leave(&callers);
 }
 
 void cgt_kd_link_leaves(cgt_context *context, const cgt_kd_tree *tree, cgt_kd_leaf *leaf)

@@ -1,16 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bounds and validity of every object: by chunks of fixed size, put together in order, so that the sums do not depend
- * on the threads. */
+ * Bounds and validity of every primitive: by chunks of fixed size, merged in order, so that the sums do not depend on
+ * the threads. */
 #include "builders/commit.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "builders/choose_structure.h"
-#include "core/float_environment.h"
-#include "builders/grid/loose_grid_build.h"
+#include "builders/order/cell_sort.h"
 
 #define CHUNK 8192u
 #define MAX_VECTOR 16u /* clusters are written by whole vectors */
@@ -30,7 +28,7 @@ static void bounds_clear(cgt_primitive_bounds *s)
         .min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}, .bad_index = CGT_INVALID_ID};
 }
 
-/* Clusters that the chunk's objects are in: chunks have whole ones, but for the last. */
+/* Completes the clusters of a chunk's triangles: chunks have whole ones, except the last. */
 static void compute_cluster_bounds(const bounds_job *job, uint32_t first, uint32_t end, cgt_size_classes *classes)
 {
     cgt_cluster *cluster = job->request.cluster + first / CGT_CLUSTER;
@@ -45,8 +43,6 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
     const cgt_primitive_array *a = cgt_primitives_array(o, first);
     cgt_bounds_request request = job->request;
     cgt_primitive_bounds s;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     bounds_clear(&s);
     if (request.classes) {
         request.classes += index;
@@ -60,7 +56,6 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
     if (request.cluster && s.bad_index == CGT_INVALID_ID)
         compute_cluster_bounds(job, first, end, request.classes);
     job->chunk_bounds[index] = s;
-    cgt_float_environment_leave(&callers);
 }
 
 static void bounds_merge(cgt_primitive_bounds *s, const cgt_primitive_bounds *chunk_bounds)
@@ -90,7 +85,7 @@ static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
                     prim - a->first, corner[k], a->points);
 }
 
-/* All classes to those of the first chunk. */
+/* Adds all classes to those of the first chunk. */
 static void merge_classes(cgt_size_classes *classes, uint32_t chunks)
 {
     for (uint32_t i = 1; i < chunks; i++)
@@ -114,15 +109,14 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, bool clusters, boun
 {
     const cgt_memory_hooks *hooks = &scene->context->memory;
     const cgt_primitives *o = &scene->committed_scene.prims;
-    const char *reason;
-    const cgt_structure structure = cgt_choose_structure(&scene->options, &reason);
+    const cgt_structure structure = scene->committed_scene.structure;
     const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID || structure == CGT_STRUCTURE_BVH;
     cgt_buffer *buffer = scene->buffer;
     cgt_result result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_BOUNDS], chunks, sizeof(cgt_primitive_bounds));
     if (result == CGT_OK && loose)
         result = cgt_buffer_reserve(hooks, &buffer[CGT_BUFFER_SIZE_CLASSES], chunks, sizeof(cgt_size_classes));
     if (result == CGT_OK && loose)
-        result = cgt_cell_sort_reserve_work(hooks, &buffer[CGT_BUFFER_CELL_SORT_WORK], o, clusters);
+        result = cgt_cell_sort_reserve_work(scene, clusters);
     if (result != CGT_OK)
         return cgt_fail(scene->context, result, "commit: out of memory to bound %u primitives", o->count);
     *job = (bounds_job){.prims = o,
@@ -155,7 +149,7 @@ static cgt_result compute_bounds(cgt_scene *scene, bool clusters, cgt_primitive_
         merge_classes(job.request.classes, chunks);
     s->diameter[0] = s->valid;
     for (int a = 0; a < 3; a++) {
-        /* the sums were rounded to nearest: one step outwards covers it */
+        /* the sums were rounded to nearest, which one step outwards covers */
         s->min[a] = s->valid ? nextafterf(s->min[a], -INFINITY) : 0;
         s->max[a] = s->valid ? nextafterf(s->max[a], INFINITY) : 0;
         s->magnitude = fmaxf(s->magnitude, fmaxf(fabsf(s->min[a]), fabsf(s->max[a])));
@@ -165,9 +159,8 @@ static cgt_result compute_bounds(cgt_scene *scene, bool clusters, cgt_primitive_
 
 cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
 {
-    const char *reason;
-    const cgt_structure structure = cgt_choose_structure(&scene->options, &reason);
-    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.resolution[0];
+    const cgt_structure structure = scene->committed_scene.structure;
+    const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.research->resolution[0];
     const bool tree = structure == CGT_STRUCTURE_BVH;
     const cgt_cluster_use use = loose || tree ? cgt_choose_clusters(&scene->committed_scene.prims) : CGT_CLUSTERS_NONE;
     const bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);

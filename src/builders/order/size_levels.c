@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which levels a loose grid has, where each lies and how fine it is. All from the size classes: the objects are not
- * read again. */
-#include "builders/grid/loose_grid_build.h"
+ * Which levels a loose grid has, where each lies and how fine it is: all from the size classes, without reading the
+ * primitives again. */
+#include "builders/order/size_levels.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 
 /* ---- levels ---- */
 
-/* Objects of consecutive classes. */
+/* Primitives of consecutive classes. */
 typedef struct size_range {
     cgt_size_class all;
     uint32_t least; /* class */
@@ -43,7 +43,7 @@ static void add_class(size_range *range, const cgt_size_classes *classes, uint32
     }
 }
 
-/* The largest class at `from` or below that has objects, or -1. */
+/* The largest class at `from` or below that has primitives, or -1. */
 static int next_class(const cgt_size_classes *classes, int from)
 {
     while (from >= 0 && !class_is_used(classes, (uint32_t)from))
@@ -51,7 +51,7 @@ static int next_class(const cgt_size_classes *classes, int from)
     return from;
 }
 
-/* The objects of a class and of the one below it: sizes within a factor of 4. */
+/* The primitives of a class and of the one below it: sizes within a factor of 4. */
 static uint32_t count_pair(const cgt_size_classes *classes, int k)
 {
     uint32_t count = classes->of[k].count;
@@ -67,8 +67,8 @@ static void add_pair(size_range *range, const cgt_size_classes *classes, int k)
         add_class(range, classes, (uint32_t)k - 1);
 }
 
-/* Takes the objects of the next level from class k on, which has some. Smaller ones join while they are no more than an
- * eighth, and a cell's worth. Returns the first class that is left, or -1. */
+/* Collects the primitives of the next level, from class k on, which has some. Smaller ones join while they are no more
+ * than an eighth, plus one cell's worth. Returns the first remaining class, or -1. */
 static int collect_level(const cgt_size_classes *classes, int k, bool last, size_range *range)
 {
     uint32_t joined_count = 0;
@@ -88,7 +88,7 @@ static int collect_level(const cgt_size_classes *classes, int k, bool last, size
 /* ---- cells ---- */
 
 /* Cells along the axes, of which there are about `cells`, as near to cubes as they can be. An axis that is shorter than
- * a cube gets one, and one that would get more than it may gets as many as it may; the others share what is left. */
+ * a cube gets one cell, and one that would exceed its maximum gets that; the others share the remaining cells. */
 static void divide_axes(const double extent[3], const double most[3], double cells, uint32_t size[3])
 {
     bool fixed[3] = {false, false, false};
@@ -125,7 +125,7 @@ static void divide_axes(const double extent[3], const double most[3], double cel
         }
 }
 
-/* The least edge of a cell along each axis: a sixteenth of the objects, and what floats can tell apart. */
+/* The least edge of a cell along each axis: a sixteenth of the primitives, and what floats can tell apart. */
 static void min_cell_edges(const cgt_size_class *c, double least[3])
 {
     double extent = 0, magnitude = 0;
@@ -137,8 +137,8 @@ static void min_cell_edges(const cgt_size_class *c, double least[3])
         least[a] = fmax(fmax(extent * 0x1p-10, magnitude * 0x1p-20), fmax(c->half[a] * 0x1p-4, MIN_CELL));
 }
 
-/* How many cells an axis may have: none much smaller than the objects that they hold, since whoever reads a cell for
- * its objects' bounds reads `reach` on either side as well. */
+/* Returns how many cells an axis may have: cells are not much smaller than their primitives, since a query reads
+ * `reach` on either side, too. */
 static double max_cells_along(double extent, double half, double least)
 {
     return floor(fmin(fmax(extent / fmax(least, half / 2), 1), CGT_GRID_MAX_RESOLUTION));
@@ -173,8 +173,8 @@ static void init_level(const size_range *range, const uint32_t requested[3], cgt
         level->low[a] = c->low[a] + 0.f; /* +0, whichever zero came first */
         level->cell[a] = cell_edge(extent[a], level->size[a], least[a]);
         level->rcell[a] = 1 / level->cell[a];
-        /* 4 u n cells for the rounding of keys (kernel/loose_grid_keys.c); what the sum and its float lose is less than
-         * 2^-22 of them */
+        /* 4 u n cells for the rounding of keys (kernel/builders/loose_grid_keys.c); what the sum and its float lose is
+         * less than 2^-22 of them */
         level->reach[a] = (float)(((double)c->half[a] + 0x1p-22 * n * level->cell[a]) * (1 + 0x1p-22));
     }
     level->prims = c->count;
@@ -205,6 +205,6 @@ void cgt_loose_grid_plan(cgt_loose_grid *grid, const cgt_size_classes *classes, 
     }
 }
 
-/* An axis has at most half as many again as its share, so a level 3.375 times its objects over 8, or that of one
+/* An axis has at most half as many again as its share, so a level 3.375 times its primitives over 8, or that of one
  * cell. */
 uint64_t cgt_loose_grid_max_cells(uint32_t prims) { return (uint64_t)prims / 2 + 4 * CGT_LOOSE_LEVELS; }

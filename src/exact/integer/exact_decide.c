@@ -127,17 +127,9 @@ static int compare_quadratic_with_plane(const cgt_exact_ray *ray, const cgt_exac
     return sign_with_root(&left, side, &root) * p.determinant.sign;
 }
 
-static bool same_primitive(const cgt_primitive *a, const cgt_primitive *b)
-{
-    if (a->kind != b->kind)
-        return false;
-    return a->kind == CGT_KIND_SPHERES ? !memcmp(&a->sphere, &b->sphere, sizeof a->sphere)
-                                       : !memcmp(&a->triangle, &b->triangle, sizeof a->triangle);
-}
-
 int cgt_exact_compare(const cgt_exact_ray *ray, const cgt_exact_root *a, const cgt_exact_root *b)
 {
-    if (a->far == b->far && same_primitive(a->primitive, b->primitive))
+    if (a->far == b->far && cgt_same_primitive(a->primitive, b->primitive))
         return 0;
     if (a->primitive->kind == CGT_KIND_TRIANGLES && b->primitive->kind == CGT_KIND_TRIANGLES)
         return compare_planes(ray, &a->primitive->triangle, &b->primitive->triangle);

@@ -190,7 +190,7 @@ static inline void cgt_exact_shift_left(cgt_exact_integer *x, uint32_t bits)
     const uint32_t limbs = bits / CGT_EXACT_LIMB_BITS, rest = bits % CGT_EXACT_LIMB_BITS;
     if (!bits || !x->sign)
         return;
-    cgt_exact_limb above = 0; /* what the limb above got from the one below comes with the next round */
+    cgt_exact_limb above = 0; /* the next round adds the carry into the limb above */
     for (uint32_t i = x->size; i-- > 0;) {
         const cgt_exact_two_limbs shifted = (cgt_exact_two_limbs)x->limb[i] << rest;
         x->limb[i + limbs + 1] = (cgt_exact_limb)(shifted >> CGT_EXACT_LIMB_BITS) | above;

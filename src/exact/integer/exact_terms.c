@@ -6,7 +6,7 @@
 
 #include "exact/integer/exact_vector.h"
 
-/* What all start from: the direction, and a primitive's points seen from the origin. */
+/* The input of all terms: the direction, and a primitive's points relative to the origin. */
 typedef struct ray_frame {
     cgt_exact_unit length, direction;
     bool narrow;

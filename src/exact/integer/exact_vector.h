@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Vectors of whole numbers for exact.h, made of floats. The floats of a group (positions; directions) share a unit, a
- * power of two of which all are whole multiples. Two tiers:
+ * Vectors of whole numbers for exact.h, converted from floats. The floats of a group (positions; directions) share a
+ * unit, a power of two of which all are whole multiples. Two tiers:
  *   narrow  groups that span up to 61 bits, as ordinary scenes do: components of 64 bits, products of 128 and 192
  *   wide    any floats: cgt_exact_integer throughout
- * The vectors of one computation are of one tier; results are cgt_exact_integer in both.
- * Floats are read by their bits: a mode in which the processor takes denormals for zeros changes nothing. */
+ * All vectors of one computation have the same tier; results are cgt_exact_integer in both.
+ * Floats are read bit by bit, so that a processor mode that flushes denormals changes nothing. */
 #ifndef CGT_EXACT_VECTOR_H
 #define CGT_EXACT_VECTOR_H
 
@@ -43,8 +43,8 @@ static inline cgt_exact_float cgt_exact_read(float value)
                              .sign = bits >> 31 ? -1 : 1};
 }
 
-/* The range of a group's floats by size, zeros left out: their bits without the sign, which order as the sizes do, are
- * kept as 2 bits - 1 and 2 bits. */
+/* The range of the magnitudes of a group's floats, without zeros: their bits without the sign, which order as the
+ * magnitudes do, stored as 2 bits - 1 and 2 bits. */
 typedef struct cgt_exact_range {
     uint32_t least, most;
 } cgt_exact_range;
@@ -199,7 +199,7 @@ static inline void cgt_exact_big_dot(cgt_exact_integer *out, const cgt_exact_int
 /* ---- Products of either tier ------------------------------------------------------------------------------------- */
 
 #ifdef CGT_EXACT_INT128
-/* Sum of products of 125 and 62 bits, which 192 hold: that of the magnitudes, added or taken away. */
+/* Sum of products of 125 and 62 bits, which 192 bits hold: products of magnitudes, added or subtracted. */
 static inline void cgt_exact_narrow_dot192(cgt_exact_integer *out, const cgt_int128 a[3], const int64_t b[3])
 {
     uint64_t sum[3] = {0, 0, 0};

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The order of two planes in whole numbers: coordinates share a unit, components of the direction another, so that the
- * sign of a difference of two products is left. Where each group spans up to 61 bits, 128 hold the products: of a
+ * The order of two planes in whole numbers: coordinates share a unit, components of the direction another, which leaves
+ * the sign of a difference of two products. Where each group spans up to 61 bits, 128 hold the products: of a
  * difference below 2^62 and a component below 2^61. */
 #include "exact/integer/plane_order.h"
 

@@ -8,7 +8,7 @@
  * the opposite one elsewhere. In double, e = 2^-53: the difference of two floats errs by e of itself, its product with
  * a float by another, and nothing leaves the range, since it lies between 2^-298 and 2^257. Each of the two products is
  * right within 2.01 e of itself, so their order is certain where they are further apart than 4 e of their sum; the
- * rounding of that comparison takes less than the 1.99 e that are left. The rest goes to whole numbers. */
+ * rounding of that comparison takes less than the 1.99 e that are left. Other pairs are compared in whole numbers. */
 #ifndef CGT_PLANE_ORDER_H
 #define CGT_PLANE_ORDER_H
 

@@ -1,9 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The pass over all objects of a commit, a vector at a time: what is skipped, bounds, sizes. Every number is the one
- * that the objects one after another give, on any width: sums are taken in their order, in double; extremes have
- * none. */
+ * The pass over all primitives of a commit, a vector at a time: skipped ones, bounds, sizes. The results are those of
+ * visiting one primitive after the other, for any vector width: sums are added in that order, in double; extremes do
+ * not depend on it. */
+#include "exact/valid_primitive.h"
 #include "dispatch/kernel.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@
 #include "kernel/builders/cluster_bounds.h"
 #include "kernel/primitive/gather_primitives.h"
 
-/* What is known of a vector of objects. */
+/* The results for a vector of primitives. */
 typedef struct lane_bounds {
     vfloat low[3], high[3];
     vmask valid;
@@ -111,8 +112,8 @@ static void add_spheres(bounds_pass *p, const cgt_primitive_array *a, uint32_t i
 
 /* Which of the triangles certainly have an area. Differences, products, their difference and the sum of their sizes are
  * rounded four times each at most, within 2^-24, and underflow loses less than 2^-148: a component of the normal that
- * is more than 2^-20 of that sum and 2^-120 is not 0. What overflows is infinite on both sides, or not a number, and
- * the comparison is false. */
+ * is more than 2^-20 of that sum and 2^-120 is not 0. Overflow gives infinity on both sides, or NaN, and the
+ * comparison is false. */
 CGT_SPU_INLINE vmask has_area(const vfloat v[3][3])
 {
     vfloat e1[3], e2[3];
@@ -121,7 +122,7 @@ CGT_SPU_INLINE vmask has_area(const vfloat v[3][3])
         e1[a] = spu_sub(v[1][a], v[0][a]);
         e2[a] = spu_sub(v[2][a], v[0][a]);
     }
-    for (int a = 0; a < 3 && !spux_all(nonzero); a++) { /* mostly the first component tells of all */
+    for (int a = 0; a < 3 && !spux_all(nonzero); a++) { /* the first component mostly decides all */
         const vfloat p = spu_mul(e1[a], e2[(a + 1) % 3]), q = spu_mul(e1[(a + 1) % 3], e2[a]);
         const vfloat area_error =
             spu_madd(spu_add(spux_abs(p), spux_abs(q)), spux_vfloat(0x1p-20f), spux_vfloat(0x1p-120f));
@@ -262,8 +263,8 @@ static uint32_t first_bad_triangle(const cgt_primitive_array *a, uint32_t i)
     }
 }
 
-/* Triangles from the first of a cluster on, a cluster in each lane: its triangles come one after the other, so that
- * nothing goes from lane to lane. Returns false at an index out of range. */
+/* Bounds triangles from the first of a cluster on, a cluster in each lane, one triangle of each after the other, so
+ * that lanes exchange nothing. Returns false at an index out of range. */
 static bool add_clusters(bounds_pass *p, const cgt_primitive_array *a, uint32_t i, uint32_t count)
 {
     const vuint first = spu_sl(spux_lane_index(), CGT_CLUSTER_SHIFT), last = spux_vuint(count - 1);
@@ -308,7 +309,7 @@ void CGT_KERNEL(cgt_compute_array_bounds)(const cgt_primitive_array *array, uint
     bounds_pass p;
     bounds_pass_init(&p, request, bounds);
     for (uint32_t prim = first; prim < end;) {
-        /* what an array has of the last one's cluster comes alone */
+        /* an array's part of the cluster that it shares with the last one is visited alone */
         const uint32_t cluster_offset = request->cluster ? prim % CGT_CLUSTER : 0,
                        cluster_rest = CGT_CLUSTER - cluster_offset;
         const bool clusters_aligned = request->cluster && !cluster_offset;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The boxes of clusters, gathered from vectors of triangles: one of each of a vector of clusters, or, where an array ends
- * inside of one, triangles in ascending order. The first goes through a mesh with nothing from lane to lane. */
+ * The boxes of clusters, gathered from vectors of triangles: one triangle of each of a vector of clusters, which needs
+ * no exchange between lanes; or, where an array ends inside a cluster, triangles in ascending order. */
 #ifndef CGT_CLUSTER_BOUNDS_H
 #define CGT_CLUSTER_BOUNDS_H
 
@@ -35,7 +35,7 @@ static bool clusters_fit_gather(const cgt_primitive_array *a, uint32_t i, uint32
     return spux_all(spu_cmpgt(spux_vuint(a->points - 1), largest));
 }
 
-/* Corner k of triangles i, i + CGT_CLUSTER and so on. Indices go from memory to addresses, not by way of vectors. */
+/* Corner k of triangles i, i + CGT_CLUSTER and so on. Indices become addresses without passing through vectors. */
 CGT_SPU_INLINE void gather_cluster_corners(const cgt_primitive_array *a, uint32_t i, uint32_t k, vfloat v[3])
 {
     const float *point = cgt_array_point(a, 0);
@@ -51,8 +51,8 @@ CGT_SPU_INLINE void gather_cluster_corners(const cgt_primitive_array *a, uint32_
         v[c] = d[c];
 }
 
-/* Asks for the vertices of a vector of triangles, by one corner of each, and for indices that follow. They are asked for
- * in their order, but fetched in another, which processors do not foresee. */
+/* Prefetches the vertices of a vector of triangles, by one corner of each, and the indices that follow. They are
+ * prefetched in their order, but loaded in another, which hardware prefetchers do not predict. */
 CGT_SPU_INLINE void prefetch_cluster_corners(const cgt_primitive_array *a, uint32_t i)
 {
     if (!a->index || a->count < CGT_LANES || i > a->count - CGT_LANES)
@@ -83,7 +83,7 @@ static inline void cluster_add(cgt_cluster *c, const float low[3], const float h
     }
 }
 
-/* Lanes hold triangles from `object` on, the first `count` of them: one after the other. */
+/* Adds consecutive triangles from `primitive` on, in the first `count` lanes. */
 __attribute__((noinline)) static void clusters_add(cgt_cluster *cluster, uint32_t prim, uint32_t count,
                                                    const vfloat low[3], const vfloat high[3], vmask valid)
 {

@@ -1,15 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Fills the queue grid (Chapman, section 3.4): the corners of each object's bounds are found for a vector of objects at
- * once, and pushed as eight references. He assumes objects smaller than a cell; where the corners are more than one
- * cell apart on any axis, the object goes to every cell of its bounds that it touches. */
+ * Fills the queue grid (Chapman, section 3.4): the corners of the bounds are found for a vector of primitives at once,
+ * and pushed as eight references each. Chapman assumes primitives smaller than a cell; here, a primitive whose corners
+ * are more than one cell apart on any axis is pushed to every cell of its bounds that it touches. */
+#include "exact/valid_primitive.h"
 #include "dispatch/kernel.h"
 
 #include "kernel/builders/triangle_box.h"
 #include "kernel/builders/queue_push.h"
 
-/* Bounds of a vector of objects, and the cells of their lower and upper corners, per axis. */
+/* Bounds of a vector of primitives, and the cells of their lower and upper corners, per axis. */
 typedef struct corners {
     _Alignas(CGT_VECTOR_BYTES) float lowest[3][CGT_LANES];
     _Alignas(CGT_VECTOR_BYTES) float highest[3][CGT_LANES];
@@ -94,7 +95,7 @@ static void push_corners(const cgt_queue_grid *grid, const corners *c, int lane,
         queue_push8(grid->voxel, cell, spu_splats((uint16_t)prim));
 }
 
-/* ---- objects of more than eight corners ---- */
+/* ---- primitives of more than eight corners ---- */
 
 /* Distance from a coordinate to the slab of cells i, in world units, never more than it is. */
 static float slab_distance(const cgt_queue_grid *grid, int axis, int32_t i, float p)
@@ -157,7 +158,7 @@ static uint64_t push_large_triangle(const cgt_queue_grid *grid, const corners *c
 
 /* ---- the whole ---- */
 
-/* Pushes the objects of one vector; returns how many of them it got to. */
+/* Pushes the primitives of one vector; returns how many of them it got to. */
 static uint32_t push_vector(const cgt_queue_grid *grid, const corners *c, uint32_t prim, uint32_t count,
                             cgt_overflow_list *overflow, cgt_fill_counts *counts)
 {

@@ -3,9 +3,9 @@
  *
  * The push of a reference to voxel queues (Chapman, section 3.4).
  *
- * Words per push: 2 loads, 2 shuffles, 2 stores: the six that Chapman counts. The reference is splatted once for an
- * object's eight pushes; one more word per push tells whether any of the queues was full, which his text
- * leaves out. A test counts the words by giving CGT_QUEUE_LOAD, CGT_QUEUE_STORE, CGT_QUEUE_SHUFFLE other meanings. */
+ * Words per push: 2 loads, 2 shuffles, 2 stores: the six that Chapman counts. The reference is splatted once for
+ * a primitive's eight pushes; one more word per push finds out whether any of the queues was full, which Chapman omits.
+ * A test counts the words by defining CGT_QUEUE_LOAD, CGT_QUEUE_STORE and CGT_QUEUE_SHUFFLE. */
 #ifndef CGT_QUEUE_PUSH_H
 #define CGT_QUEUE_PUSH_H
 
@@ -23,8 +23,8 @@
 #define CGT_QUEUE_BACK ((vec_uchar16){14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29})
 
 /* Pushes one reference to the queues of eight cells, some or all of which may be the same: all are read before any is
- * written, so that equal cells are written with equal queues and hold the reference once. Where a queue is full its
- * oldest reference is lost: the caller has saved it before. */
+ * written, so that equal cells are written with equal queues and hold the reference once. A full queue
+ * loses its oldest reference: the caller has saved it before. */
 CGT_SPU_INLINE void queue_push8(cgt_voxel *voxel, const uint32_t cell[8], vec_ushort8 reference)
 {
     vec_ushort8 front[8], back[8];

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Gathers size classes of vectors of objects: each class keeps a vector of every bound, which is narrowed to one number
- * at the end. */
+ * Gathers size classes of vectors of primitives: each class keeps a vector of every bound, which is narrowed to one
+ * number at the end. */
 #ifndef CGT_SIZE_GATHER_H
 #define CGT_SIZE_GATHER_H
 

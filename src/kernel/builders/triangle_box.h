@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Whether a triangle touches a box, by separating axes (Akenine-Moller, "Fast 3D Triangle-Box Overlap Testing", 2001):
- * the plane's normal and the nine cross products of edges and coordinate axes; the boxes that are asked about lie in
- * the bounds already. All boxes of a grid have one size, so what a box reaches along each axis is found once.
- * Conservative: says no only where exact arithmetic would. */
+ * the plane's normal and the nine cross products of edges and coordinate axes; the tested boxes lie in the bounds
+ * already. All boxes of a grid have one size, so the reach of a box along each axis is computed once. Conservative:
+ * false only where exact arithmetic gives false. */
 #ifndef CGT_TRIANGLE_BOX_H
 #define CGT_TRIANGLE_BOX_H
 
@@ -19,9 +19,9 @@ typedef struct cgt_triangle_box {
     double low[CGT_TRIANGLE_BOX_AXES], high[CGT_TRIANGLE_BOX_AXES]; /* of the centres of boxes that touch */
 } cgt_triangle_box;
 
-/* Along an axis the triangle covers the span of its vertices, a box of half edges `half` reaches `reach` around its
- * centre. The axis errs by 2^-51 of `magnitude` in each component, which tells where the box is at most `extent`
- * away. */
+/* Along an axis the triangle covers the span of its vertices, and a box of half edges `half` reaches `reach` around its
+ * centre. The axis errs by 2^-51 of `magnitude` in each component, which bounds the error where the box is at most
+ * `extent` away. */
 static inline void cgt_triangle_box_axis(cgt_triangle_box *t, int i, const double axis[3], const double edge[2][3],
                                          const double half[3], double magnitude)
 {

@@ -1,41 +1,27 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Nodes and leaf blocks of the wide tree, as wide as the variant. */
+ * Nodes and leaf blocks of the BVH, as wide as the variant. */
 #ifndef CGT_BVH_NODE_H
 #define CGT_BVH_NODE_H
 
+#include "kernel/primitive/primitive_block.h"
 #include "model/bvh.h"
 #include "dispatch/kernel.h"
 #include "vector.h"
 
-/* Children are packed: those that there are come first. */
+/* Children are packed: present ones first. */
 typedef struct bvh_node {
     _Alignas(CGT_VECTOR_BYTES) float low[3][CGT_LANES]; /* of children, rounded outwards; +infinity without a child */
     float high[3][CGT_LANES];                           /* -infinity without a child */
     uint32_t child[CGT_LANES];                          /* see bvh.h */
-    uint8_t order[4]
-                 [CGT_LANES]; /* all lanes, in the order in which rays of octant k meet children, k = 0..3: bit a of k
-                                    is set where the direction's component a is negative; octant 7 - k has the reverse.
-                                    Lanes without a child come last in the row; whoever reads it backwards starts at the
-                                    number of children */
-    uint32_t children;        /* 2 to CGT_LANES; 1 in a root only */
+    /* All lanes, in the order in which rays of octant k = 0..3 meet children: bit a of k is set where the direction's
+     * component a is negative; octant 7 - k has the reverse. Lanes without a child come last: to read a row backwards,
+     * start at the number of children. */
+    uint8_t order[4][CGT_LANES];
+    uint32_t children; /* 2 to CGT_LANES; 1 in a root only */
     uint32_t unused[3];
 } bvh_node;
-
-/* A leaf's primitives; lanes beyond its count repeat the last one. */
-typedef struct sphere_block {
-    _Alignas(CGT_VECTOR_BYTES) float center[3][CGT_LANES];
-    float radius[CGT_LANES];
-    uint32_t prim[CGT_LANES];
-} sphere_block;
-
-typedef struct triangle_block { /* fields of leaf_triangle.h, by the same arithmetic: times the world's scale */
-    _Alignas(CGT_VECTOR_BYTES) float vertex[3][CGT_LANES];
-    float edge[2][3][CGT_LANES];
-    float sum[2][CGT_LANES];
-    uint32_t prim[CGT_LANES];
-} triangle_block;
 
 CGT_SPU_INLINE uint32_t bvh_leaf_count(uint32_t code) { return (code >> CGT_BVH_COUNT_SHIFT & 15) + 1; }
 

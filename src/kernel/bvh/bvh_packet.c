@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays of a packet through the wide tree, one at a time. In FAST precision too the hits are decided exactly. */
+ * Rays of a packet through the BVH, one at a time. Hits are decided exactly in FAST precision, too. */
+#include "exact/valid_primitive.h"
 #include "kernel/bvh/bvh_single.h"
 
 /* Ray i, normalised. Returns false where the bounds do not cover it. */
@@ -38,15 +39,13 @@ CGT_SPU_INLINE bool bvh_ray_from_packet(const bvh_call *c, uint32_t i, bvh_ray *
     return farthest <= BVH_MAX_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
 }
 
-/* A ray that takes part, against every object. */
+/* A ray that takes part, against every primitive. */
 __attribute__((noinline, cold)) static void bvh_packet_ray_extreme(const bvh_call *c, packet *p, uint32_t i)
 {
     const cgt_primitives *prims = &c->committed_scene->prims;
-    for (uint32_t prim = 0; prim < prims->count; prim++) {
-        const cgt_primitive primitive = cgt_primitives_get(prims, prim);
-        if (cgt_primitive_check(&primitive) == CGT_PRIMITIVE_VALID && !bvh_ray_skips(c, i, prim))
+    for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1))
+        if (!bvh_ray_skips(c, i, prim))
             filter_decide(prims, p, i, prim, c->counts);
-    }
 }
 
 CGT_SPU_INLINE void bvh_packet_trace_rays(const bvh_call *c, packet *p, bool any_hit)

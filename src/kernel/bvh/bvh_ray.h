@@ -1,27 +1,27 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays as the wide tree takes them, and its slabs (Kay, Kajiya, "Ray Tracing Complex Scenes", 1986), conservative: a
- * child is left out for a ray only where the ray surely does not pass its closed box at a t that still counts.
+ * Normalised rays for the BVH, and its slabs (Kay, Kajiya, "Ray Tracing Complex Scenes", 1986), conservative: a child
+ * is culled for a ray only where the ray certainly does not pass its closed box at a t that still counts.
  *
- * Normalised rays. Origins are times the world's scale, a power of two that brings the world's coordinates to at most 2;
- * directions are times 2^-k, so that their largest component is at least 1 and less than 2; and t is times s = 2^k scale.
- * All three are exact but for what underflows, which is below 2^-149 and vanishes in the bounds of what follows. Rays for
- * which origins are beyond 2^60 or s is outside of 2^-100 to 2^60 are extreme: they go another way.
+ * Normalised rays. Origins are times the scene's scale, a power of two that brings the scene's coordinates to at most
+ * 2; directions are times 2^-k, so that their largest component is at least 1 and less than 2; and t is times s = 2^k
+ * scale. All three are exact except for underflow, which is below 2^-149 and vanishes in the bounds below. Rays with
+ * origins beyond 2^60 or s outside 2^-100 to 2^60 are extreme: they take another way.
  *
  * Which t count: t is rounded to float before it is compared with the range. So the range is widened, by 2^-20 of its
  * ends and by 2^-86, which is more than 2^-149 s; beyond 2^100 no ray meets anything. `near` and `far` are these ends;
- * 2^-18 of them and 2^-84 further in t is inside for certain.
+ * 2^-18 of them and 2^-84 further in, t is certainly inside.
  *
  * Slabs, for each axis a, with o and d of the ray, p of a plane, P the largest |p| of the root's box, and u = 2^-24. A
- * component of d below 2^-40 is made 2^-40, its sign kept, that of a zero too, and r = 1 / d, within 2^-21. Planes are
- * moved outwards by
+ * component of d below 2^-40 is replaced by 2^-40 of the same sign, also that of a zero, and r = 1 / d within 2^-21.
+ * Planes are moved outwards by
  *   E = 2^-20 (|o| + P) + 2^-37 M + 2^-85,   M the largest |o| + P of the axes
  * and t = (p +- E) r - o r, fused or not.
  *   Rounding: r loses 2^-21 (|p| + |o|) |r|, the products and sums at most 5 u of it: together less than 0.82 times
- * 2^-20 (|p| + |o|) |r|. What is left covers the roundings of E itself, and 2^-85 what underflows, in the boxes too.
- *   Components that were made larger: a ray that counts is inside the root's box at t, and along the axis of its largest
- * component |t| |d| <= |o| + P, so |t| <= M. With d' for the component that it was, the ray is at p = o + t d', where the
+ * 2^-20 (|p| + |o|) |r|. The remainder covers the roundings of E itself, and 2^-85 covers underflow, also in the boxes.
+ *   Components that were enlarged: a ray that counts is inside the root's box at t, and along the axis of its largest
+ * component |t| |d| <= |o| + P, so |t| <= M. With d' for the original component, the ray is at p = o + t d', where the
  * slab's t is t d' / d, at most |t| away from 0, so at most 2 M from t; the planes' move is worth 2^-37 M |r| > 7 M.
  * A test shrinks E until hits are lost.
  *
@@ -32,16 +32,13 @@
 #include "kernel/primitive/lane_tests.h"
 #include "kernel/packet/ray_packet.h"
 #include "kernel/bvh/bvh_node.h"
-
-#ifndef BVH_ERROR_SCALE /* a test gives it less, to find where hits are lost */
-#define BVH_ERROR_SCALE 1.f
-#endif
+#include "kernel/tunables.h"
 
 #define BVH_MAX_ORG 0x1p60f
 #define BVH_MAX_T 0x1p100f
 #define BVH_MIN_DIR 0x1p-40f
 
-/* The call, as all its rays see it. Either they come from arrays or from a packet. */
+/* The state of a call, common to its rays, which are those of arrays or of a packet. */
 typedef struct bvh_call {
     const cgt_committed_scene *committed_scene;
     const cgt_bvh *tree;
@@ -52,12 +49,12 @@ typedef struct bvh_call {
     float scale;
     float max_plane[3]; /* P */
     bool any_hit;
-    bool skips_prims;          /* there are rays that do not see everything: bvh_ray_skips */
-    const uint32_t *skip_prim; /* of each ray an object, or CGT_INVALID_ID; NULL: nobody ignores anything */
+    bool skips_prims;          /* some rays skip primitives: bvh_ray_skips */
+    const uint32_t *skip_prim; /* of each ray, a primitive or CGT_INVALID_ID; NULL: rays skip nothing */
     const uint32_t *mask;      /* of each ray; NULL: masks hide nothing */
 } bvh_call;
 
-/* Whether the call can go through the tree at all; else rays are extreme. */
+/* Returns whether the tree serves the call; else all rays are extreme. */
 CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cgt_counts *counts, bvh_call *c)
 {
     memset(c, 0, sizeof *c);
@@ -72,7 +69,7 @@ CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cg
     return c->scale <= 0x1p60f && c->scale >= 0x1p-60f;
 }
 
-/* E of a ray, or of the largest of several. */
+/* Computes E of a ray; of several, org holds the largest components. */
 CGT_SPU_INLINE void bvh_slab_error(const bvh_call *c, const float org[3], float slab_error[3])
 {
     float max_plane = 0;
@@ -84,7 +81,7 @@ CGT_SPU_INLINE void bvh_slab_error(const bvh_call *c, const float org[3], float 
         slab_error[a] = (slab_error[a] * 0x1p-20f + (max_plane * 0x1p-37f + 0x1p-85f)) * BVH_ERROR_SCALE;
 }
 
-/* Whether ray i does not see an object: the one that it ignores, or of a geometry that its mask leaves out. */
+/* Whether ray i skips a primitive: the one that it names, or one of a geometry that its mask excludes. */
 CGT_SPU_INLINE bool bvh_ray_skips(const bvh_call *c, uint32_t i, uint32_t prim)
 {
     if (c->skip_prim && c->skip_prim[i] == prim)
@@ -94,7 +91,7 @@ CGT_SPU_INLINE bool bvh_ray_skips(const bvh_call *c, uint32_t i, uint32_t prim)
 
 /* ---- deciding ---- */
 
-/* Ray i as the caller gave it. */
+/* Returns ray i as the caller described it. */
 CGT_SPU_INLINE cgt_ray bvh_input_ray(const bvh_call *c, uint32_t i)
 {
     cgt_ray ray;
@@ -126,7 +123,8 @@ typedef struct best_hit {
     uint32_t unused;
 } best_hit;
 
-/* Decides whether object beats the best hit of ray i, which it then is. Of any-hit rays low and high become -infinity. */
+/* Decides whether primitive beats the best hit of ray i, which it then is. For any-hit rays, low and
+ * high become -infinity. */
 __attribute__((noinline, cold, unused)) static bool bvh_decide(const bvh_call *c, uint32_t i, uint32_t prim,
                                                                best_hit *best)
 {

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One ray through the wide tree: lanes are the children of a node, or the primitives of a leaf. */
+ * One ray through the BVH: lanes are the children of a node, or the primitives of a leaf. */
 #ifndef CGT_BVH_SINGLE_H
 #define CGT_BVH_SINGLE_H
 
 #include "kernel/bvh/bvh_ray.h"
 
-/* A normalised ray. Numbers of planes are as the tree has them: rdir is times the world's scale. */
+/* A normalised ray. Planes are unscaled, as in the tree: rdir is times the scene's scale. */
 typedef struct bvh_ray {
     float org[3], dir[3];
     float rdir[3], first[3], last[3]; /* t = plane rdir + first or last */
@@ -17,7 +17,7 @@ typedef struct bvh_ray {
     best_hit best;
 } bvh_ray;
 
-/* What slabs need besides origin and direction. */
+/* Sets the fields that slabs need besides origin and direction. */
 CGT_SPU_INLINE void bvh_ray_set_slabs(const bvh_call *c, const float rdir[3], const float slab_error[3], bvh_ray *r)
 {
     r->octant = 0;
@@ -34,7 +34,7 @@ CGT_SPU_INLINE void bvh_ray_set_slabs(const bvh_call *c, const float rdir[3], co
 
 typedef struct bvh_leaf_ray {
     lane_rays ray;   /* the same in every lane; t_min is `near` */
-    vfloat t_inside; /* after which t is in the range for certain */
+    vfloat t_inside; /* t beyond is certainly in the range */
 } bvh_leaf_ray;
 
 CGT_SPU_INLINE void bvh_leaf_ray_init(const bvh_call *c, const bvh_ray *r, bvh_leaf_ray *l)
@@ -59,7 +59,7 @@ CGT_SPU_INLINE void bvh_leaf_ray_init(const bvh_call *c, const bvh_ray *r, bvh_l
     l->t_inside = spux_vfloat(r->near + fabsf(r->near) * 0x1p-18f + 0x1p-84f);
 }
 
-/* Keeps what the ray found out about the lanes' objects, as leaf_update_ray does. */
+/* Updates the ray's best hit by what the test found about the lanes' primitives. */
 CGT_SPU_INLINE void bvh_single_update(const bvh_call *c, bvh_ray *r, const bvh_leaf_ray *l, const lane_hits *q,
                                       const uint32_t *prim, unsigned used_lanes, bool any_hit)
 {
@@ -135,16 +135,16 @@ CGT_SPU_INLINE void bvh_single_leaf(const bvh_call *c, bvh_ray *r, const bvh_lea
 
 /* ---- a node ---- */
 
-/* A node takes one entry away and adds at most CGT_LANES; stores are of whole vectors. */
+/* A node pops one entry and pushes at most CGT_LANES; stores are of whole vectors. */
 #define BVH_STACK_SIZE (CGT_BVH_MAX_DEPTH * (CGT_LANES - 1) + 1 + CGT_LANES)
 
 typedef struct bvh_stack {
     uint32_t code[BVH_STACK_SIZE];
-    float near[BVH_STACK_SIZE]; /* where the ray enters; of nearest hits only */
+    float near[BVH_STACK_SIZE]; /* where the ray enters; for closest hits only */
     uint32_t top;
 } bvh_stack;
 
-/* The lanes of children, those to be visited last first. */
+/* Returns the lanes of children, those to be visited last first. */
 CGT_SPU_INLINE vuint bvh_push_order(const bvh_node *n, uint32_t octant)
 {
     const bool reverse = octant > 3;
@@ -154,18 +154,31 @@ CGT_SPU_INLINE vuint bvh_push_order(const bvh_node *n, uint32_t octant)
     return spux_permute(order, spu_sub(spux_vuint(n->children - 1), spux_lane_index()));
 }
 
+/* Clips the ray's range to the children's boxes. near and far: the planes that the ray meets first and last along each
+ * axis. */
+CGT_SPU_INLINE void bvh_clip_to_boxes(const bvh_ray *r, const float *const near[3], const float *const far[3],
+                                      vfloat *enter, vfloat *leave)
+{
+    *enter = spux_vfloat(r->near);
+    *leave = spux_vfloat(r->far);
+    for (int a = 0; a < 3; a++) {
+        const vfloat rdir = spux_vfloat(r->rdir[a]);
+        *enter = spux_max(spu_madd(spux_load(near[a]), rdir, spux_vfloat(r->first[a])), *enter);
+        *leave = spux_min(spu_madd(spux_load(far[a]), rdir, spux_vfloat(r->last[a])), *leave);
+    }
+}
+
 /* Pushes the children that the ray passes. */
 CGT_SPU_INLINE void bvh_single_node(const bvh_call *c, const bvh_ray *r, const bvh_node *n, bvh_stack *s, bool any_hit)
 {
-    vfloat enter = spux_vfloat(r->near), leave = spux_vfloat(r->far);
+    const float *near[3], *far[3];
+    vfloat enter, leave;
     for (int a = 0; a < 3; a++) {
         const bool from_above = r->octant >> a & 1;
-        const vfloat rdir = spux_vfloat(r->rdir[a]);
-        enter =
-            spux_max(spu_madd(spux_load(from_above ? n->high[a] : n->low[a]), rdir, spux_vfloat(r->first[a])), enter);
-        leave =
-            spux_min(spu_madd(spux_load(from_above ? n->low[a] : n->high[a]), rdir, spux_vfloat(r->last[a])), leave);
+        near[a] = from_above ? n->high[a] : n->low[a];
+        far[a] = from_above ? n->low[a] : n->high[a];
     }
+    bvh_clip_to_boxes(r, near, far, &enter, &leave);
     vuint code = spux_load_uint(n->child);
     vmask passed = spu_and(spux_cmpge(leave, enter), spux_mask_first(n->children));
     c->counts->nodes++;
@@ -181,7 +194,7 @@ CGT_SPU_INLINE void bvh_single_node(const bvh_call *c, const bvh_ray *r, const b
     s->top += spux_count_bits(spux_mask_bits(passed));
 }
 
-/* The ray through what hangs on a code. */
+/* Traces the ray through the subtree of a code. */
 CGT_SPU_INLINE void bvh_single_trace(const bvh_call *c, bvh_ray *r, uint32_t code, bool any_hit)
 {
     bvh_stack s;

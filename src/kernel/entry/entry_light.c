@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Points against one light, any hit: neighbours in the arrays become packets of rays from the points to the light. Such
- * rays share a direction, or where they end: large packets have much in common. */
+ * rays share a direction, or their end: large packets share much work. */
 #include "kernel/light/light_points.h"
 
 #define LIGHT_PACKET_RAYS 128u /* rays; measured: larger ones share more of spheres, smaller ones of fine meshes */

@@ -2,19 +2,18 @@
  * SPDX-License-Identifier: MIT
  *
  * The hits of a packet, through the structure that the commit built. */
+#include "exact/valid_primitive.h"
 #include "kernel/primitive/filter.h"
 
-/* Numbers too large or too small for the bounds of single precision: every ray against every object in double. */
+/* Numbers too large or too small for the bounds of single precision: every ray against every primitive in double. */
 static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
 {
-    for (uint32_t prim = 0; prim < committed_scene->prims.count; prim++) {
-        const cgt_primitive primitive = cgt_primitives_get(&committed_scene->prims, prim);
-        if (cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID)
-            continue;
+    const cgt_primitives *prims = &committed_scene->prims;
+    for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
         counts->packet_tests++;
         counts->ray_tests += p->rays;
         for (uint32_t i = 0; i < p->lanes; i++)
-            filter_decide(&committed_scene->prims, p, i, prim, counts);
+            filter_decide(prims, p, i, prim, counts);
     }
 }
 

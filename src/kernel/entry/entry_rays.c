@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays. Through a grid, neighbours become packets as they come, and the traversal splits those whose rays run
- * apart. Through a tree, packets are made of neighbours among the rays of like direction. */
-#include "kernel/packet/ray_hits.h"
+ * Arrays of rays. Through a grid, neighbours become packets in their order, and the traversal splits packets that
+ * diverge. Through a kd-tree, packets consist of neighbours among the rays of one octant. */
+#include "kernel/packet/ray_packet.h"
 
 #define RAY_PACKET 64
 
-/* The call, as all its packets see it. */
+/* The state of a call, common to its packets. */
 typedef struct rays_call {
     const cgt_committed_scene *committed_scene;
     ray_source source;
@@ -37,7 +37,7 @@ static void trace_packet(const rays_call *c, const ray_order *order, uint32_t fi
     }
 }
 
-/* ---- rays of like direction together ---- */
+/* ---- rays of one octant together ---- */
 
 #define DIRECTIONS 8u /* octants */
 
@@ -48,7 +48,7 @@ static uint32_t direction_of(const ray_source *s, uint64_t i)
     return (uint32_t)(x < 0) | (uint32_t)(y < 0) << 1 | (uint32_t)(z < 0) << 2;
 }
 
-/* A counting sort by direction: rays of one keep their order. Returns whether there are several. */
+/* A stable counting sort by octant. Returns whether there are several. */
 static bool order_rays(const ray_source *s, uint64_t first, uint32_t count, uint32_t *from)
 {
     uint8_t direction[CGT_RAYS_CHUNK];
@@ -68,7 +68,8 @@ static bool order_rays(const ray_source *s, uint64_t first, uint32_t count, uint
     return true;
 }
 
-/* Packets through whatever structure there is. Not inline: its arrays and those of streams are not there at once. */
+/* Traces packets through the committed structure. Not inline, so that its arrays and those of streams do not share a
+ * stack frame. */
 __attribute__((noinline)) static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_rays *rays,
                                                     uint64_t first, uint64_t end, const cgt_trace_settings *settings,
                                                     const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts)

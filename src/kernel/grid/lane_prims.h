@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The few rays of a packet against a list of objects, a vector of them at a time and a ray in all lanes, by the tests
- * of lane_tests.h. */
+ * The few rays of a packet against a list of primitives, a vector of them at a time and a ray in all lanes, by the
+ * tests of lane_tests.h. */
 #ifndef CGT_LANE_PRIMS_H
 #define CGT_LANE_PRIMS_H
 
@@ -10,7 +10,7 @@
 #include "kernel/primitive/sphere_filter.h"
 #include "kernel/primitive/triangle_filter.h"
 
-#define LANE_MAX_RAYS (CGT_LANES / 4) /* a vector of objects against more of them costs more than vectors of rays */
+#define LANE_MAX_RAYS (CGT_LANES / 4) /* a vector of primitives against more of them costs more than vectors of rays */
 
 typedef struct lane_prims {
     const cgt_primitives *prims;
@@ -19,7 +19,7 @@ typedef struct lane_prims {
     float scale;
     uint32_t rays, number[LANE_MAX_RAYS]; /* in the packet */
     lane_rays ray[LANE_MAX_RAYS];         /* each in every lane */
-    /* of the vector in work: lanes beyond its count hold what they held before */
+    /* of the current vector: lanes beyond its count keep their old contents */
     filter_spheres spheres;
     filter_triangles triangles;
 } lane_prims;

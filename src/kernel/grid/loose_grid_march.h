@@ -2,18 +2,18 @@
  * SPDX-License-Identifier: MIT
  *
  * Which cells of a loose grid the rays of a packet may need, front to back. The packet's frustum (frustum.h) lives in a
- * space of its own, the bounds of all objects, so that one frustum serves all levels. The march goes along its main
- * axis w. All levels go together: the next slice of cells is always the one that begins nearest.
+ * space of its own, the bounds of all primitives, so that one frustum serves all levels. The march advances along its
+ * main axis w through all levels together: the next slice of cells is always the one that begins nearest.
  *
- * A slice of cells holds objects between two planes, its cells' own enlarged by the level's reach (loose_grid.h). No
- * object is met outside the bounds of all, nor where the frustum does not pass them; between what is left of the planes
- * the frustum's bounds are lines over w, so that their values at both ends give a rectangle of cells, enlarged by the
- * reach too: an object that a ray meets touches it.
+ * A slice of cells holds primitives between two planes: those of its cells, moved outwards by the level's reach
+ * (loose_grid.h). Rays meet no primitive outside the bounds of all, nor where the frustum does not pass these; between
+ * the remaining planes the frustum's bounds are lines over w, so that their values at both ends give a rectangle of
+ * cells, enlarged by the reach, too: a primitive that a ray meets touches it.
  *
  * Rounding. Planes and lines are brought to a level's cells in double and kept in float. Planes are within 2^-24 of the
  * largest number M on the way from level to slice, each 4 times; 2^-20 M is taken on either side. A line's value at a
- * plane is within 3 2^-24 of the sum of sizes of its terms; 2^-20 of that is taken off. Lines that are steeper than
- * floats are good for, in a level that is very small beside the scene, bound nothing. */
+ * plane is within 3 2^-24 of the sum of sizes of its terms; 2^-20 of that is taken off. Lines that are too steep for
+ * float, in a level that is very small compared with the scene, bound nothing. */
 #ifndef CGT_LOOSE_GRID_MARCH_H
 #define CGT_LOOSE_GRID_MARCH_H
 
@@ -24,7 +24,7 @@
 /* A level, seen along the frustum; w counts from the frustum's w0. */
 typedef struct loose_grid_march_level {
     vec_float4 bound, step, last_cells; /* lower bounds of cells u, -u, v, -v, as lines over w; the last cells */
-    float begin, pitch;                 /* where objects of slice 0 begin; from one slice to the next */
+    float begin, pitch;                 /* where primitives of slice 0 begin; from one slice to the next */
     float thickness;                    /* of a slice and its reach */
     uint32_t next, end;                 /* slices, counted along the rays */
 } loose_grid_march_level;
@@ -43,7 +43,7 @@ typedef struct loose_grid_slice {
     vec_int4 cells;
 } loose_grid_slice;
 
-/* The bounds of all objects as a space, nowhere thinner than what float can divide. */
+/* The bounds of all primitives as a space, nowhere thinner than float can divide. */
 CGT_SPU_INLINE void loose_grid_init_space(const cgt_committed_scene *committed_scene, frustum_space *s)
 {
     double extent[3], largest = 0, magnitude = 0;
@@ -108,7 +108,7 @@ CGT_SPU_INLINE void loose_grid_march_init_slices(const loose_grid_march *m, cons
     l->end = last < grid_level->size[w] ? last > 0 ? (uint32_t)last : 0 : grid_level->size[w];
 }
 
-/* The frustum and its space stay as they are while the march goes on. */
+/* The frustum and its space do not change during the march. */
 CGT_SPU_INLINE void loose_grid_march_init(const cgt_loose_grid *grid, const frustum_space *s, const frustum *f,
                                           loose_grid_march *m)
 {
@@ -160,7 +160,7 @@ CGT_SPU_INLINE loose_grid_slice loose_grid_march_next_slice(loose_grid_march *m,
     return s;
 }
 
-/* The objects of cells (x, y, z) to (x + more, y, z). */
+/* The primitives of cells (x, y, z) to (x + more, y, z). */
 CGT_SPU_INLINE const uint32_t *loose_grid_cell_run(const cgt_loose_grid *grid, const cgt_loose_level *l, uint32_t x,
                                                    uint32_t y, uint32_t z, uint32_t extra, uint32_t *count)
 {

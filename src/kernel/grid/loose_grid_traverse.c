@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Coherent traversal of a loose grid by a packet of any rays of one main axis: slice by slice, all levels together, the
- * references of the cells that the packet's frustum touches are collected; a vector of objects at a time is culled and
- * what is left tested against the rays. The packet is done when every ray's hit lies before the next slice. Few rays
- * are tested one by one against a vector of objects at a time. */
+ * references of the cells that the packet's frustum touches are collected; a vector of primitives at a time is culled
+ * and what is left tested against the rays. The packet is done when every ray's hit lies before the next slice. Few
+ * rays are tested one by one against a vector of primitives at a time. */
 #include "kernel/grid/lane_prims.h"
 #include "kernel/grid/loose_grid_march.h"
 #include "kernel/primitive/gather_primitives.h"
@@ -59,7 +59,7 @@ CGT_SPU_INLINE void collect_run(loose_traversal *v, const uint32_t *prim, uint32
     }
 }
 
-/* Lanes whose cluster lies outside the frustum, or before or beyond what its rays still want. */
+/* Returns the lanes whose cluster lies outside the frustum, or before or beyond the ranges of its rays. */
 static unsigned clusters_outside(const packet_prims *v, const uint32_t *number, uint32_t count)
 {
     const frustum *f = &v->frustum;
@@ -183,7 +183,7 @@ static void march(loose_traversal *v)
 #define SPLIT_INCOHERENT 4.f /* times as many: the rays have little in common */
 #define SPLIT_INCOHERENT_PARTS 8u
 
-/* Into how many parts to split a packet, by the level with most objects, half way; 1: none. */
+/* Into how many parts to split a packet, by the level with most primitives, half way; 1: none. */
 static uint32_t choose_parts(const loose_traversal *v)
 {
     const loose_grid_march *m = &v->march;
@@ -210,8 +210,8 @@ static uint32_t choose_parts(const loose_traversal *v)
                                                                                    : 2;
 }
 
-/* Traces rays with one main axis and sign; or returns into how many parts to split them first: 1 where that is done.
- * A function of its own, so that its stack is free again while parts are traced. */
+/* Traces rays with one main axis and sign, and returns 1; or returns into how many parts to split them first. A
+ * separate function, so that its stack is free while the parts are traced. */
 __attribute__((noinline)) static uint32_t traverse(const cgt_committed_scene *committed_scene, packet *p,
                                                    uint32_t class, const cgt_trace_settings *settings,
                                                    cgt_counts *counts)

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Objects of a grid against a packet: a list of them is fetched a vector at a time, culled against the packet's frustum,
- * and what is left is tested against the rays. */
+ * Primitives of a grid against a packet: a list of them is fetched a vector at a time, culled against the packet's
+ * frustum, and what is left is tested against the rays. */
 #ifndef CGT_PACKET_PRIMS_H
 #define CGT_PACKET_PRIMS_H
 
@@ -20,7 +20,7 @@ typedef struct packet_prims {
     frustum frustum;
     filter_packet filter;
     block_cones blocks;
-    float w_far; /* no ray wants a hit beyond */
+    float w_far; /* hits beyond count for no ray */
     cgt_cull cull;
 } packet_prims;
 
@@ -48,7 +48,7 @@ CGT_SPU_INLINE vfloat frustum_bound_distance(const packet_prims *v, const frustu
     return spu_sub(x, spu_madd(spux_vfloat(f->step[k]), along, spux_vfloat(f->bound[k])));
 }
 
-/* Lanes whose sphere lies outside the frustum, or before or beyond what its rays still want. */
+/* Returns the lanes whose sphere lies outside the frustum, or before or beyond the ranges of its rays. */
 static unsigned spheres_outside(const packet_prims *v, const filter_spheres *s)
 {
     const frustum *f = &v->frustum;
@@ -152,7 +152,7 @@ static void packet_test_triangles(packet_prims *v, const uint32_t *reference, ui
     }
 }
 
-/* Spheres to the front, triangles to a list of their own; only scenes of both kinds come here. */
+/* Moves spheres to the front and triangles to a separate list; for scenes of both kinds. */
 static void packet_test_mixed(packet_prims *v, uint32_t *reference, uint32_t length)
 {
     uint32_t triangle[PACKET_MAX_PRIMS], spheres = 0, triangles = 0;
@@ -180,7 +180,8 @@ static void packet_test_prims(packet_prims *v, uint32_t *reference, uint32_t len
         packet_test_mixed(v, reference, length);
 }
 
-/* The coordinate w beyond which no ray wants a hit: by blocks where their rays share an origin and start there. */
+/* Returns the coordinate w beyond which a hit counts for no ray: by blocks where rays share an origin and start there.
+ * */
 CGT_SPU_INLINE float packet_max_w(const packet_prims *v)
 {
     const packet *p = v->p;
@@ -192,7 +193,7 @@ CGT_SPU_INLINE float packet_max_w(const packet_prims *v)
     return frustum_max_w_from_origin(&v->space, &v->frustum, p, spux_hmax(most));
 }
 
-/* What tests need of the packet, whose frustum there is. */
+/* Sets what tests need of a packet that has a frustum. */
 CGT_SPU_INLINE void packet_prims_init(packet_prims *v)
 {
     packet *p = v->p;

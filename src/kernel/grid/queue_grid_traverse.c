@@ -3,8 +3,8 @@
  *
  * Coherent grid traversal of a packet (Wald et al. 2006; Chapman, section 3): the frustum marches slice by slice along
  * its main axis; the references in the cells that it touches are collected; a vector of primitives at a time is culled
- * against the frustum; what is left is tested against the rays; the packet is done when every ray's hit lies before
- * the next slice.
+ * against the frustum; the remaining ones are tested against the rays; the packet is done when every ray's hit lies
+ * before the next slice.
  *
  * The cells of the slices are visited in two ways with the same result: by three nested loops, and by Chapman's one
  * loop, which steps cell, row and slice by selection and not by branches. His listing keeps one pair of bounds for all
@@ -69,7 +69,7 @@ static void collect_overflow(traversal *v, uint32_t cell)
     }
 }
 
-/* Takes out the references that the mailbox holds, puts the others in. */
+/* Removes the references that the mailbox holds, and adds the others to it. */
 static void apply_mailbox(traversal *v)
 {
     uint32_t unvisited = 0;
@@ -95,7 +95,7 @@ static void flush_pending(traversal *v)
     v->pending = 0;
 }
 
-/* After a slice: tests what it held. True where no ray wants anything from the next slice on. */
+/* Tests what a slice held. Returns true where no ray needs the next slices. */
 static bool finish_slice(traversal *v, uint32_t slice)
 {
     if (v->pending) {
@@ -142,7 +142,7 @@ typedef struct slice_cells {
     uint32_t slice;
 } slice_cells;
 
-/* Finds the slices and returns how many cells they hold in all. */
+/* Finds the slices and returns the sum of their cells. */
 static uint32_t find_slices(traversal *v, slice_cells *s)
 {
     const frustum *f = &v->prims.frustum;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The objects of a leaf of a tree against rays of a packet: a vector of rays and one object after the other, or one ray
- * and a vector of objects. FAST precision takes the filters of the grid, whose tests it shares. */
+ * The primitives of a leaf of a tree against rays of a packet: a vector of rays and one primitive after the other, or
+ * one ray and a vector of primitives. FAST precision takes the filters of the grid, whose tests it shares. */
 #ifndef CGT_KD_LEAF_H
 #define CGT_KD_LEAF_H
 
@@ -11,9 +11,9 @@
 #include "kernel/primitive/triangle_fast.h"
 
 #define LEAF_TRIANGLE 11  /* fields of a leaf triangle */
-#define LEAF_MAILBOX 256u /* direct mapped by the low bits of the object */
+#define LEAF_MAILBOX 256u /* direct mapped by the low bits of the primitive */
 
-/* What leaf tests need, made once a packet. */
+/* The state of leaf tests, initialised once per packet. */
 typedef struct leaf_tests {
     const cgt_primitives *prims;
     packet *p;
@@ -21,9 +21,9 @@ typedef struct leaf_tests {
     const cgt_leaf_triangle *triangle;
     float scale;
     bool mailbox;
-    uint32_t visited[LEAF_MAILBOX]; /* objects that the rays in work have met lately */
+    uint32_t visited[LEAF_MAILBOX]; /* primitives that the current rays were tested against lately */
     filter_packet filter;           /* in FAST precision */
-    /* of the leaf in work: lanes beyond its count hold what they held before */
+    /* of the current leaf: lanes beyond its count keep their old contents */
     filter_spheres spheres;
     filter_triangles triangles;                       /* in FAST precision */
     _Alignas(64) float row[LEAF_TRIANGLE][CGT_LANES]; /* else: fields of leaf triangles */
@@ -60,7 +60,7 @@ CGT_SPU_INLINE void leaf_mailbox_clear(leaf_tests *l)
         memset(l->visited, 0xff, sizeof l->visited);
 }
 
-/* Whether the rays in work have met the object; remembers it. */
+/* Whether the current rays were tested against the primitive; remembers it. */
 CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t prim)
 {
     uint32_t *visited = &l->visited[prim % LEAF_MAILBOX];
@@ -72,7 +72,7 @@ CGT_SPU_INLINE bool leaf_mailbox_has(leaf_tests *l, uint32_t prim)
 
 /* ---- a vector of rays ---- */
 
-/* Keeps what lanes found out about the object that all of them tested. */
+/* Keeps what lanes found out about the primitive that all of them tested. */
 CGT_SPU_INLINE void leaf_update_vector(leaf_tests *l, uint32_t prim, uint32_t i, const lane_hits *q)
 {
     packet *p = l->p;
@@ -164,8 +164,8 @@ static void leaf_test_fast(leaf_tests *l, const uint32_t *reference, uint32_t co
     }
 }
 
-/* Objects of a leaf lie here and there: all are asked for before the first is tested. Of several arrays none is: to find
- * the right one takes as long. */
+/* Primitives of a leaf are scattered: all are prefetched before the first is tested. With several arrays none is:
+ * finding the right one takes as long. */
 CGT_SPU_INLINE void leaf_prefetch(const leaf_tests *l, const uint32_t *reference, uint32_t count)
 {
     const cgt_primitive_array *a = l->prims->array;
@@ -175,8 +175,8 @@ CGT_SPU_INLINE void leaf_prefetch(const leaf_tests *l, const uint32_t *reference
         __builtin_prefetch(l->triangle ? (const void *)&l->triangle[reference[k]] : cgt_array_point(a, reference[k]));
 }
 
-/* Tests rays i to i + CGT_LANES - 1 against all objects of a leaf. r: these rays. Some that do not pass the leaf may be
- * among them: what they meet, they meet. */
+/* Tests rays i to i + CGT_LANES - 1 against all primitives of a leaf. r: these rays. Some that do not pass the leaf may
+ * be among them: what they meet, they meet. */
 CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
                                      uint32_t i)
 {
@@ -197,7 +197,7 @@ CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const ui
 
 /* ---- one ray ---- */
 
-/* At most a vector of triangles to the first lanes; the others hold what they held before. */
+/* Loads at most a vector of triangles to the first lanes; the others keep their old contents. */
 CGT_SPU_INLINE void leaf_gather_triangles(leaf_tests *l, const uint32_t *reference, uint32_t count, lane_triangles *q)
 {
     for (uint32_t k = 0; k < count; k++) {
@@ -220,8 +220,8 @@ CGT_SPU_INLINE void leaf_gather_triangles(leaf_tests *l, const uint32_t *referen
     q->sum[1] = spux_load(l->row[10]);
 }
 
-/* Tests ray i of the packet against all objects of a leaf. r: this ray in every lane. In FAST precision its neighbours
- * are tested too. */
+/* Tests ray i of the packet against all primitives of a leaf. r: this ray in every lane. In FAST precision its
+ * neighbours are tested too. */
 CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint32_t *reference, uint32_t count,
                                   uint32_t i)
 {

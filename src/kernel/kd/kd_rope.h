@@ -4,28 +4,28 @@
  * The way of a ray from leaf to leaf of a kd-tree with ropes, exactly.
  *
  * A ray is a point that moves along. Its position is the time T of the plane that it crossed last, exact as the pair of
- * plane and axis (plane_order.h), and a moment later: where it is in a split plane at T, its direction says which side
- * it is on. A component of the direction that is 0 leaves it on the side of its origin, or in the plane for ever: then
- * either side will do, since boxes are closed and objects that touch a plane are listed on both sides of it.
+ * plane and axis (plane_order.h), and a moment later: where it is in a split plane at T, its direction decides the
+ * side. A component of the direction that is 0 leaves it on the side of its origin, or in the plane for ever: then
+ * either side will do, since boxes are closed and primitives that touch a plane are listed on both sides of it.
  *   start  T is the latest of the times at which the ray enters the slabs of the root, and the start of its range; it
  *          misses the root where it leaves some slab before
  *   down   to the side of each split that the ray is on, a moment after T, down to a leaf
- *   leave  by the face of the leaf whose plane comes first, of those that come at the same time by any. T is the time
+ *   leave  by the face of the leaf whose plane the ray crosses first, by any of several at one time. T is the time
  *          of that plane, and the rope of the face leads on
  *
  * The leaves cover the ray. Its point at T is in the closed box of the node that it goes down from: of the root at the
  * start; later it is in the face that it left by, which the node of the rope holds. Down keeps it in the closed box. So
  * from T to the time it leaves it is in the leaf, and then the next leaf takes over. The exact point of a hit is thus
- * in the closed box of a leaf that is visited; and that leaf lists the object.
+ * in the closed box of a leaf that is visited; and that leaf lists the primitive.
  *
- * No leaf comes twice, so the way ends. Say that one did, and let C be the lowest node that holds all leaves from one
- * visit to the next. Some of them are below its split and some are above, so there are steps both ways. A rope leads
- * to the sibling S of a node that holds the leaf it comes from, or to a node in S (pushed down). Take a step from
+ * No leaf is visited twice, so the path ends. Suppose one were, and let C be the lowest node that holds all leaves from
+ * one visit to the next. Some of them are below its split and some are above, so there are steps both ways. A rope
+ * leads to the sibling S of a node that holds the leaf it comes from, or to a node in S (pushed down). Take a step from
  * below the split of C to above it: S holds something above the split, but not the leaf, so it is no node from C
  * upwards; and the parent of S holds the leaf, so S is not inside the upper child of C: it is that child. So the step
  * goes through an upper face across the axis of C, and a step back would go through a lower one. But a ray leaves by
- * the upper faces of an axis alone, or by the lower ones alone. This takes no thickness of boxes, and no arithmetic
- * but the sign of the direction: it is the hits that need the exact order. */
+ * the upper faces of an axis alone, or by the lower ones alone. This takes no thickness of boxes, and no arithmetic but
+ * the sign of the direction: it is the hits that need the exact order. */
 #ifndef CGT_KD_ROPE_H
 #define CGT_KD_ROPE_H
 
@@ -33,11 +33,7 @@
 
 #include "exact/integer/plane_order.h"
 #include "kernel/packet/packet.h"
-
-/* A test sees which leaves rays come to: lanes are those of a vector, the first of them ray `first` of the packet. */
-#ifndef ROPE_VISIT
-#define ROPE_VISIT(first, lanes, leaf) ((void)0)
-#endif
+#include "kernel/tunables.h"
 
 /* In place of an axis: T is the start of the ray's range. */
 #define ROPE_START 3u

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: MIT
  *
  * A vector of rays at a time along the ropes of packets, directions of any signs mixed. Each ray has its current node
- * and its last plane; rays at the node in work are active. At an inner node each active ray goes to its own child, and
+ * and its last plane; rays at the current node are active. At an inner node each active ray moves to its own child, and
  * the packet to one of them; after a leaf, the node with the highest number among those of the rays is next. Children
- * come after their parents, and depth first all of a subtree comes before what is left of its parent: so rays that went
- * apart gather again, as far as they can.
+ * come after their parents, and in depth-first order a whole subtree comes before the rest of its parent: so rays that
+ * diverged gather again, as far as they can.
  *
  * Times are computed in single precision. The t of a plane is (plane - org) * (1 / dir): a difference errs by 2^-24 of
  * itself, a reciprocal by 2^-21, a product by 2^-24, together by less than 1.26 * 2^-21, and by 2^-149 where it
@@ -176,8 +176,8 @@ CGT_SPU_INLINE unsigned rope_packet_above(rope_packet *r, uint32_t axis, float s
     return above & active;
 }
 
-/* The child that the packet goes to: 0 or 1. Where all active rays are on one side, that one; where all on one side
- * head for the other, the first, so that they meet again; else where more are. */
+/* Returns the child that the packet moves to: 0 or 1. Where all active rays are on one side, that one; where all on one
+ * side head for the other, the first, so that they meet again; else the one with more rays. */
 CGT_SPU_INLINE uint32_t rope_packet_choose(const rope_packet *r, uint32_t axis, unsigned below, unsigned above)
 {
     if (!below || !above)
@@ -189,7 +189,7 @@ CGT_SPU_INLINE uint32_t rope_packet_choose(const rope_packet *r, uint32_t axis, 
     return spux_count_bits(above) > spux_count_bits(below);
 }
 
-/* From a node down to a leaf; rays that go elsewhere wait there. */
+/* Descends from a node to a leaf; rays that take other children wait there. */
 CGT_SPU_INLINE cgt_kd_node rope_packet_down(rope_packet *r, const cgt_kd_tree *tree, uint32_t node_index,
                                             unsigned *active, cgt_counts *counts)
 {
@@ -254,8 +254,8 @@ CGT_SPU_INLINE void rope_packet_leave(rope_packet *r, const cgt_kd_leaf *leaf, u
 
 /* ---- all ---- */
 
-/* The node to go on from, the highest of those of rays that are not done; CGT_INVALID_ID where all are. A ray is done where
- * it has left the root, or can meet nothing more that counts; t rounds to the ends of the range. */
+/* Returns the next node, the highest of those of rays that are not done; CGT_INVALID_ID where all are. A ray is done
+ * where it has left the root, or can meet nothing more that counts; t rounds to the ends of the range. */
 CGT_SPU_INLINE uint32_t rope_packet_next(rope_packet *r, unsigned *active)
 {
     const vfloat high = spux_load(r->p->high + r->first), time = spux_load(r->time);
@@ -271,7 +271,7 @@ CGT_SPU_INLINE uint32_t rope_packet_next(rope_packet *r, unsigned *active)
 
 static void rope_trace_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
 {
-    const uint64_t most = (uint64_t)tree->leaves * CGT_LANES; /* each ray comes to each leaf once */
+    const uint64_t most = (uint64_t)tree->leaves * CGT_LANES; /* each ray visits each leaf once */
     uint64_t steps = 0;
     uint32_t leaves = 0;
     unsigned active;

@@ -1,23 +1,25 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays through a kd-tree with a stack: a vector of rays of a packet at a time, each with its own interval [near, far]
- * of t inside the node (Wald 2004; thesis, section 4.1), or one ray at a time.
+ * Rays through a kd-tree: along ropes (kd_rope.h), or with a stack: a vector of rays of a packet at a time, each with
+ * its own interval [near, far] of t inside the node (Wald 2004; thesis, section 4.1), or one ray at a time.
  *
  * Directions of any signs may be mixed: a ray's part below and above a split is the same whatever the others do; only
- * the order in which the children are visited is common, that of most rays that go to both. A ray whose order is the
- * other one loses nothing but a chance to stop early.
+ * the order in which the children are visited is common: that of most rays that visit both. A ray with the opposite
+ * order only loses a chance to stop early.
  *
- * Exactness: a child is left out for a ray only where the ray surely does not pass its closed box at a t that still
+ * Exactness: a child is culled for a ray only where the ray certainly does not pass its closed box at a t that still
  * counts. With r = 1 / dir, within 2^-21, the t of a plane is
  *   one ray:   (split - org) * r, within 2^-20 of its size and 2^-126
  *   a vector:  split * r - org * r, within 2^-20 of (|split| + |org|) |r| and 2^-120, fused or not, since products and
- *              sums lose four times 2^-24 of that. Of the root's largest split this is one number for a ray and an axis,
- *              so that both ends of the interval cost one operation, and wait for nothing but the split
- * and intervals are widened by that on both sides. A component of the direction that is 0 leaves a ray on the side of its
- * origin, on both where the origin lies in the plane; below 2^-70, where reciprocals leave the range, a ray counts as on
- * both. */
+ *              sums lose four times 2^-24 of that. Of the root's largest split this is one number for a ray and an
+ *              axis, so that both ends of the interval cost one operation, and depend on the split alone
+ * and intervals are widened by that on both sides. A component of the direction that is 0 leaves a ray on the side of
+ * its origin, on both where the origin lies in the plane; below 2^-70, where reciprocals leave the range, a ray counts
+ * as on both. */
 #include "kernel/kd/kd_leaf.h"
+#include "kernel/kd/kd_rope_packet.h"
+#include "kernel/kd/kd_rope_single.h"
 #include "kernel/packet/ray_box.h"
 
 #define PLANE_REL_ERROR 0x1p-20f
@@ -32,7 +34,7 @@ typedef struct kd_rays {
     vmask flat[3];            /* lanes whose direction has no such component, or hardly any */
     vmask zero[3];            /* of those, the ones that have none */
     uint32_t mixed;           /* axes for which any lane is one of these, as bits */
-    uint32_t reverse;         /* axes along which most rays come from above */
+    uint32_t reverse;         /* axes along which most rays start above */
 } kd_rays;
 
 typedef struct kd_entry {
@@ -69,7 +71,7 @@ typedef struct kd_parts {
     vfloat near[2], far[2];
 } kd_parts;
 
-/* Where any lane goes another way than most, or along the split. */
+/* Lanes that differ from most, or run along the split. */
 CGT_SPU_INLINE void kd_split_mixed(const kd_rays *r, uint32_t axis, float split, vfloat near, vfloat far, vfloat low,
                                    vfloat high, kd_parts *q)
 {
@@ -138,8 +140,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     for (;;) {
         if (!cgt_kd_is_leaf(n)) {
             const uint32_t axis = cgt_kd_axis(n), first = r.reverse >> axis & 1;
-            /* both children are read before it is known which one comes next: their way from memory and the arithmetic
-             * below go side by side */
+            /* load both children before it is known which one is next: the loads overlap with the arithmetic below */
             const cgt_kd_node lower = tree->node[n.word[1]], upper = tree->node[n.word[1] + 1];
             kd_parts q;
             nodes++;
@@ -288,4 +289,20 @@ void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet
         else
             traverse_vector(&committed_scene->kd, &l, i);
     }
+}
+
+/* ---- ropes ---- */
+
+void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_committed_scene *committed_scene, packet *p,
+                                    const cgt_trace_settings *settings, cgt_counts *counts)
+{
+    leaf_tests l;
+    leaf_tests_init(committed_scene, p, settings, counts, &l);
+    if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE) {
+        for (uint32_t i = 0; i < p->lanes; i++)
+            rope_trace_ray(&committed_scene->kd, &l, i);
+        return;
+    }
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+        rope_trace_vector(&committed_scene->kd, &l, i);
 }

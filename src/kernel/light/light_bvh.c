@@ -1,24 +1,223 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points against one light through the wide tree. Neighbours in the arrays become packets: all that runs between them
- * and the light lies in a frustum (light_frustum.h), against which a node's children are tested at once, and a leaf's
- * primitives. What is left is tested against all rays (light_leaf.h).
+ * Points against one light through the BVH. Neighbours in the arrays become packets, whose rays lie in a frustum
+ * (light_packet.h). A node's children are tested against the frustum at once, and so are a leaf's primitives; those
+ * that remain are tested against all rays (light_leaf.h).
  *
- * That shares most where primitives are large beside the packet. Where they are not, each ray is better off by itself:
- * a chunk of points whose first packets take more work than that goes through the tree as any other rays do. */
+ * Packets pay if primitives are large compared to them. Otherwise single rays are faster: a chunk whose first packets
+ * take too much work is traced like any other rays. */
+#include "kernel/bvh/bvh_node.h"
 #include "kernel/light/light_leaf.h"
 #include "kernel/light/light_points.h"
 
 #define LIGHT_BVH_PACKET_RAYS 64u
 #define LIGHT_STACK_SIZE (CGT_BVH_MAX_DEPTH * (CGT_LANES - 1) + 1)
 
-/* Packets that tell whether a chunk goes on as packets, and the work, in visits and tests, that one may take. Measured. */
+/* The first packets of a chunk, whose work decides whether it goes on as packets (LIGHT_PACKET_WORK). */
 #define LIGHT_TRIAL_PACKETS 4u
-#ifndef LIGHT_PACKET_WORK
-#define LIGHT_PACKET_WORK 160u
-#endif
-#define LIGHT_MAX_WORK (4 * LIGHT_PACKET_WORK) /* of one packet: it is left off */
+#define LIGHT_MAX_WORK (4 * LIGHT_PACKET_WORK) /* of one packet: it is aborted beyond */
+
+/* ---- the frustum ---- */
+
+/* Widens the frustum by its margins. */
+static void light_frustum_add_margins(const light_packet *l, light_frustum *f)
+{
+    for (int a = 0; a < 2; a++)
+        for (int k = 0; k < 2; k++) {
+            const float slope = f->slope[a][k], error = l->margin * (1 + fabsf(slope));
+            f->offset[a][k] += k ? error : -error;
+            f->length[a][k] = __builtin_sqrtf(1 + slope * slope) * (1 + 0x1p-20f);
+        }
+    f->w[0] -= l->margin;
+    f->w[1] += l->margin;
+}
+
+/* Rays to a point light. Returns false if their directions differ too much for one frustum. */
+static bool light_frustum_init_point(const packet *p, const light_packet *l, light_frustum *f)
+{
+    const vfloat zero = spux_vfloat(0);
+    vfloat lower[3], upper[3];
+    vmask diverging = spux_mask_none();
+    for (int a = 0; a < 3; a++) {
+        lower[a] = spux_vfloat(INFINITY);
+        upper[a] = spux_vfloat(-INFINITY);
+    }
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const int main = l->axis[0];
+        const vfloat w =
+            spu_mul(spu_sub(spux_load(p->org[main] + i), spux_vfloat(l->origin[main])), spux_vfloat(l->sign));
+        const vfloat rw = spux_div(spux_vfloat(1), w);
+        diverging = spu_or(diverging, spux_not(spu_cmpgt(w, zero)));
+        lower[0] = spux_min(lower[0], w);
+        upper[0] = spux_max(upper[0], w);
+        for (int k = 1; k < 3; k++) {
+            const int a = l->axis[k];
+            const vfloat slope = spu_mul(spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->origin[a])), rw);
+            diverging = spu_or(diverging, spux_not(spu_cmpgt(spux_vfloat(LIGHT_MAX_SLOPE), spux_abs(slope))));
+            lower[k] = spux_min(lower[k], slope);
+            upper[k] = spux_max(upper[k], slope);
+        }
+    }
+    if (spux_any(diverging))
+        return false;
+    f->w[0] = 0;
+    f->w[1] = spux_hmax(upper[0]);
+    for (int k = 1; k < 3; k++) {
+        f->slope[k - 1][0] = spux_hmin(lower[k]);
+        f->slope[k - 1][1] = spux_hmax(upper[k]);
+        f->offset[k - 1][0] = f->offset[k - 1][1] = 0;
+    }
+    light_frustum_add_margins(l, f);
+    return true;
+}
+
+/* Parallel rays. */
+static void light_frustum_init_parallel(const packet *p, const light_packet *l, light_frustum *f)
+{
+    const int main = l->axis[0];
+    vfloat low_w = spux_vfloat(INFINITY);
+    for (int k = 1; k < 3; k++) {
+        const int a = l->axis[k];
+        const float slope = p->dir[a][0] / (l->sign * p->dir[main][0]);
+        vfloat lower = spux_vfloat(INFINITY), upper = spux_vfloat(-INFINITY);
+        for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+            const vfloat w =
+                spu_mul(spu_sub(spux_load(p->org[main] + i), spux_vfloat(l->origin[main])), spux_vfloat(l->sign));
+            const vfloat v = spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->origin[a]));
+            const vfloat offset = spu_nmsub(spux_vfloat(slope), w, v);
+            low_w = spux_min(low_w, w);
+            lower = spux_min(lower, offset);
+            upper = spux_max(upper, offset);
+        }
+        f->slope[k - 1][0] = f->slope[k - 1][1] = slope;
+        f->offset[k - 1][0] = spux_hmin(lower);
+        f->offset[k - 1][1] = spux_hmax(upper);
+    }
+    f->w[0] = spux_hmin(low_w);
+    f->w[1] = INFINITY;
+    light_frustum_add_margins(l, f);
+}
+
+/* light_init_axes by the last lane: a ray of the packet, or a copy of one. */
+static bool light_init_axes_from_last(light_packet *l)
+{
+    const packet *p = &l->rays;
+    const uint32_t last_lane = p->lanes - 1;
+    const float org[3] = {p->org[0][last_lane], p->org[1][last_lane], p->org[2][last_lane]};
+    const float dir[3] = {p->dir[0][last_lane], p->dir[1][last_lane], p->dir[2][last_lane]};
+    return light_init_axes(p, org, dir, l);
+}
+
+static bool light_packet_init(const cgt_committed_scene *committed_scene, light_packet *l)
+{
+    const packet *p = &l->rays;
+    if (p->extreme || !light_check_ranges(p, l) || !light_init_axes_from_last(l))
+        return false;
+    light_compute_margin(committed_scene, p, l);
+    if (!p->to_light)
+        light_frustum_init_parallel(p, l, &l->frustum);
+    else if (!light_frustum_init_point(p, l, &l->frustum))
+        return false;
+    light_compute_terms(p, committed_scene->scale, l);
+    return true;
+}
+
+/* The children that overlap the frustum, as bits. */
+CGT_SPU_INLINE unsigned light_visible_children(const light_packet *l, const bvh_node *node)
+{
+    const light_frustum *f = &l->frustum;
+    const int main = l->axis[0];
+    const vfloat main_origin = spux_vfloat(l->origin[main]);
+    const bool reversed = l->sign < 0;
+    const vfloat below = spu_sub(spux_load(node->low[main]), main_origin),
+                 above = spu_sub(spux_load(node->high[main]), main_origin);
+    const vfloat minus = spux_vfloat(-0.f);
+    const vfloat w0 = reversed ? spu_xor(above, minus) : below, w1 = reversed ? spu_xor(below, minus) : above;
+    vmask out = spu_or(spu_cmpgt(spux_vfloat(f->w[0]), w1), spu_cmpgt(w0, spux_vfloat(f->w[1])));
+    for (int k = 0; k < 2; k++) {
+        const int a = l->axis[k + 1];
+        const vfloat origin = spux_vfloat(l->origin[a]);
+        const vfloat low = spu_sub(spux_load(node->low[a]), origin);
+        const vfloat high = spu_sub(spux_load(node->high[a]), origin);
+        const vfloat s0 = spux_vfloat(f->slope[k][0]), s1 = spux_vfloat(f->slope[k][1]);
+        const vfloat upper = spu_sub(high, spux_min(spu_mul(s0, w0), spu_mul(s0, w1)));
+        const vfloat lower = spu_sub(low, spux_max(spu_mul(s1, w0), spu_mul(s1, w1)));
+        out = spu_or(out, spu_or(spu_cmpgt(spux_vfloat(f->offset[k][0]), upper),
+                                 spu_cmpgt(lower, spux_vfloat(f->offset[k][1]))));
+    }
+    return ~spux_mask_bits(out) & (CGT_ALL_LANES >> (CGT_LANES - node->children));
+}
+
+/* A leaf's primitives in the frustum's coordinates. */
+typedef struct light_primitives {
+    vfloat w[3], v[2][3]; /* of each vertex; of a sphere's centre, three times */
+    vfloat radius;
+    float scale; /* factor of their coordinates */
+} light_primitives;
+
+CGT_SPU_INLINE void light_transform_points(const light_packet *l, const float point[3][CGT_LANES], float scale,
+                                           vfloat w[1], vfloat v[2])
+{
+    const int main = l->axis[0];
+    w[0] = spu_mul(spu_sub(spux_load(point[main]), spux_vfloat(l->origin[main] * scale)), spux_vfloat(l->sign));
+    for (int k = 0; k < 2; k++)
+        v[k] = spu_sub(spux_load(point[l->axis[k + 1]]), spux_vfloat(l->origin[l->axis[k + 1]] * scale));
+}
+
+CGT_SPU_INLINE void light_transform_spheres(const light_packet *l, const sphere_block *s, light_primitives *q)
+{
+    vfloat v[2];
+    light_transform_points(l, s->center, 1, q->w, v);
+    for (int k = 0; k < 3; k++) {
+        q->w[k] = q->w[0];
+        q->v[0][k] = v[0];
+        q->v[1][k] = v[1];
+    }
+    q->radius = spux_load(s->radius);
+    q->scale = 1;
+}
+
+CGT_SPU_INLINE void light_transform_triangles(const light_packet *l, const triangle_block *s, float scale,
+                                              light_primitives *q)
+{
+    vfloat v[2];
+    light_transform_points(l, s->vertex, scale, q->w, v);
+    for (int k = 0; k < 3; k++) {
+        const vfloat sign = spux_vfloat(l->sign);
+        q->w[k] = k ? spu_madd(spux_load(s->edge[k - 1][l->axis[0]]), sign, q->w[0]) : q->w[0];
+        for (int a = 0; a < 2; a++)
+            q->v[a][k] = k ? spu_add(spux_load(s->edge[k - 1][l->axis[a + 1]]), v[a]) : v[a];
+    }
+    q->radius = spux_vfloat(0);
+    q->scale = scale;
+}
+
+/* The primitives of a leaf that overlap the frustum. */
+CGT_SPU_INLINE vmask light_frustum_overlaps(const light_frustum *f, const light_primitives *q, int vertices)
+{
+    const vfloat scale = spux_vfloat(q->scale);
+    vfloat low = q->w[0], high = q->w[0];
+    for (int k = 1; k < vertices; k++) {
+        low = spux_min(low, q->w[k]);
+        high = spux_max(high, q->w[k]);
+    }
+    vmask out = spu_or(spu_cmpgt(spu_sub(spu_mul(spux_vfloat(f->w[0]), scale), q->radius), high),
+                       spu_cmpgt(spu_sub(low, q->radius), spu_mul(spux_vfloat(f->w[1]), scale)));
+    for (int a = 0; a < 2; a++) {
+        const vfloat s0 = spux_vfloat(f->slope[a][0]), s1 = spux_vfloat(f->slope[a][1]);
+        vfloat upper = spu_nmsub(s0, q->w[0], q->v[a][0]), lower = spu_nmsub(s1, q->w[0], q->v[a][0]);
+        for (int k = 1; k < vertices; k++) {
+            upper = spux_max(upper, spu_nmsub(s0, q->w[k], q->v[a][k]));
+            lower = spux_min(lower, spu_nmsub(s1, q->w[k], q->v[a][k]));
+        }
+        const vfloat radius0 = spu_mul(q->radius, spux_vfloat(f->length[a][0]));
+        const vfloat radius1 = spu_mul(q->radius, spux_vfloat(f->length[a][1]));
+        out = spu_or(out, spu_cmpgt(spu_mul(spux_vfloat(f->offset[a][0]), scale), spu_add(upper, radius0)));
+        out = spu_or(out, spu_cmpgt(spu_sub(lower, radius1), spu_mul(spux_vfloat(f->offset[a][1]), scale)));
+    }
+    return spux_not(out);
+}
 
 /* ---- nodes and leaves ---- */
 
@@ -46,18 +245,21 @@ static void light_test_leaf(const light_call *c, light_packet *l, uint32_t code)
     l->work += 1 + tests;
     if (!remaining)
         return;
+    light_leaf leaf;
+    leaf.sphere = spheres;
+    leaf.triangle = triangles;
     if (!is_triangle_leaf)
-        light_test_spheres(c->committed_scene, l, spheres, remaining, c->counts);
+        light_test_primitives(c->committed_scene, l, &leaf, LIGHT_SPHERES, remaining, c->counts);
     else if (l->rays.to_light)
-        light_test_triangles(c->committed_scene, l, triangles, remaining, true, c->counts);
+        light_test_primitives(c->committed_scene, l, &leaf, LIGHT_TRIANGLES_TO_POINT, remaining, c->counts);
     else
-        light_test_triangles(c->committed_scene, l, triangles, remaining, false, c->counts);
+        light_test_primitives(c->committed_scene, l, &leaf, LIGHT_TRIANGLES_PARALLEL, remaining, c->counts);
     if (!l->undecided)
         l->last_leaf = code;
 }
 
-/* False where it took too much work: what was found by then is right, the rest is not known. The leaf that closed the
- * packet before comes first: shadows are larger than packets. */
+/* Returns false if it takes too much work: hits found by then are right, the other rays are unknown. The leaf that
+ * occluded the previous packet is tested first: shadows are larger than packets. */
 static bool light_traverse(const light_call *c, light_packet *l)
 {
     const bvh_node *nodes = c->committed_scene->bvh.node;
@@ -71,6 +273,7 @@ static bool light_traverse(const light_call *c, light_packet *l)
     while (l->undecided) {
         if (l->work > LIGHT_MAX_WORK)
             return false;
+        /* test a leaf, or push the children of a node */
         if (code & CGT_BVH_LEAF) {
             light_test_leaf(c, l, code);
         } else {
@@ -80,6 +283,7 @@ static bool light_traverse(const light_call *c, light_packet *l)
             for (unsigned remaining = light_visible_children(l, node); remaining; remaining &= remaining - 1)
                 stack[top++] = node->child[__builtin_ctz(remaining)];
         }
+        /* pop the next node */
         if (!top)
             return true;
         code = stack[--top];
@@ -89,7 +293,7 @@ static bool light_traverse(const light_call *c, light_packet *l)
 
 /* ---- points ---- */
 
-/* Rays as structure of arrays. */
+/* Rays as a structure of arrays. */
 typedef struct light_rays {
     float org[3][CGT_RAYS_CHUNK], dir[3][CGT_RAYS_CHUNK], t_min[CGT_RAYS_CHUNK], t_max[CGT_RAYS_CHUNK];
     uint32_t mask[CGT_RAYS_CHUNK], primitive[CGT_RAYS_CHUNK], geometry[CGT_RAYS_CHUNK];
@@ -105,7 +309,7 @@ static const uint32_t *light_copy_ids(const light_call *c, const uint32_t *from,
     return to;
 }
 
-/* Points first to end - 1 as rays like any others. */
+/* Traces points first to end - 1 as single rays. */
 __attribute__((noinline)) static void light_trace_single_rays(const light_call *c, uint64_t first, uint64_t end)
 {
     light_rays copy;
@@ -134,8 +338,8 @@ __attribute__((noinline)) static void light_trace_single_rays(const light_call *
     c->counts->rays -= count; /* the call has counted them */
 }
 
-/* Points first to first + count - 1 of the order, and the work that they took. False where it was too much: then they
- * are as they were before. */
+/* Traces points first to first + count - 1 of the order as a packet and adds the work that it took. Returns false if it
+ * was too much: then nothing has changed. */
 static bool light_trace_points(const light_call *c, light_packet *l, uint32_t first, uint32_t count, uint64_t *work)
 {
     const uint64_t invalid = c->counts->invalid_rays;

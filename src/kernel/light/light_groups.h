@@ -1,16 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A tile of points against one light: 64 groups, a vector of rays each, with the slopes of each group's rays as the light
- * sees them; and the windows of objects, which tell the groups that may meet them.
+ * A tile of points against one light: 64 groups, a vector of rays each, with the range of slopes of each group's rays
+ * as seen from the light; and the windows of primitives, which tell the groups that they may occlude.
  *
- * A window holds whatever a ray may meet: all numbers are widened by the frustum's margin, which is a share of 2^-17 of
- * the largest, where divisions here are within 2^-20. An object that reaches behind the light has no bounds in slopes: its
- * window is everything. */
+ * Windows are conservative: all numbers are widened by the packet's margin, 2^-17 of the largest number, and divisions
+ * here are within 2^-20. A primitive that reaches behind the light has no bounded slopes: its window is unbounded.
+ * Apart from light_grid.c and light_read.c, which inline it. */
 #ifndef CGT_LIGHT_GROUPS_H
 #define CGT_LIGHT_GROUPS_H
 
 #include "kernel/light/light_leaf.h"
+#include "kernel/light/light_points.h"
 #include "kernel/tile/prefetch_queue.h"
 
 #define LIGHT_GROUPS 64u
@@ -18,46 +19,30 @@
 #define LIGHT_TILE_PACKETS (LIGHT_TILE_RAYS / PACKET_MAX_RAYS)
 #define LIGHT_PACKET_GROUPS (PACKET_MAX_RAYS / CGT_LANES)
 
-/* A tile. Of each group the least and the most slope along both axes, or offset; and w of its ray that is farthest from the
- * light, or the least one with its sign reversed where rays are parallel, so that what an object is compared with is its
- * end nearer to the light either way. A group that wants nothing any more has no slopes: infinity is their least. */
+/* A tile. Of each group: the range of slopes along both axes, or of offsets of parallel rays; and `end`, the largest w
+ * of its rays, or minus the least one of parallel rays. So either way a primitive is compared by its end nearer to the
+ * light. A group whose rays are all occluded has an empty range. */
 typedef struct light_tile {
     _Alignas(64) float low[2][LIGHT_GROUPS];
     float high[2][LIGHT_GROUPS], end[LIGHT_GROUPS];
     light_packet packet[LIGHT_TILE_PACKETS];
     uint32_t packets;
-    uint64_t undecided;              /* groups as bits */
-    uint64_t changed;                /* groups some of whose rays have met something since their slopes were found */
-    uint32_t group_tests;            /* groups, since the slopes of all were found */
+    uint64_t undecided;              /* groups with rays that have hit nothing, as bits */
+    uint64_t changed;                /* groups some of whose rays were hit since their range was computed */
+    uint32_t group_tests;            /* since all ranges were computed */
     float slope[2];                  /* of parallel rays */
-    float margin;                    /* of lines, so far apart from the numbers here along any axis */
-    float lower[2], upper[2], far_w; /* of `low`, `high` and `end` */
+    float margin;                    /* of lines along any axis */
+    float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
     bool is_point;
     prefetch_queues pending;
+    prefetch_owner prefetch; /* of `pending` */
 } light_tile;
 
-/* ---- objects ---- */
+/* ---- primitives ---- */
 
-/* Groups whose slopes meet a window, as bits. */
-CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const float low[2][CGT_LANES],
-                                                 const float high[2][CGT_LANES], const float near_w[CGT_LANES],
-                                                 uint32_t k)
-{
-    uint64_t overlaps = 0;
-    for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES) {
-        vmask in = spux_cmpge(spux_load(t->end + g), spux_vfloat(near_w[k]));
-        for (int a = 0; a < 2; a++) {
-            in = spu_and(in, spux_cmpge(spux_vfloat(high[a][k]), spux_load(t->low[a] + g)));
-            in = spu_and(in, spux_cmpge(spux_load(t->high[a] + g), spux_vfloat(low[a][k])));
-        }
-        overlaps |= (uint64_t)spux_mask_bits(in) << g;
-    }
-    return overlaps & t->undecided;
-}
-
-/* Groups without rays. */
+/* Marks a group as done. */
 CGT_SPU_INLINE void light_disable_group(light_tile *t, uint32_t group)
 {
     for (int a = 0; a < 2; a++) {
@@ -68,7 +53,7 @@ CGT_SPU_INLINE void light_disable_group(light_tile *t, uint32_t group)
     t->undecided &= ~((uint64_t)1 << group);
 }
 
-/* After a test that may have closed rays of a group. */
+/* To be called after a test that may have hit rays of a group. */
 CGT_SPU_INLINE void light_update_group(light_tile *t, uint32_t group)
 {
     t->changed |= (uint64_t)1 << group;
@@ -76,13 +61,28 @@ CGT_SPU_INLINE void light_update_group(light_tile *t, uint32_t group)
         light_disable_group(t, group);
 }
 
-/* Windows of a vector of objects. */
+/* Windows of a vector of primitives. */
 typedef struct light_windows {
     _Alignas(CGT_VECTOR_BYTES) float low[2][CGT_LANES], high[2][CGT_LANES];
     float near_w[CGT_LANES]; /* the end nearer to the light */
 } light_windows;
 
-/* Objects of which the tile may want something, as bits. near, far: their ends along w. */
+/* Groups whose ranges overlap window k, as bits. */
+CGT_SPU_INLINE uint64_t light_overlapping_groups(const light_tile *t, const light_windows *w, uint32_t k)
+{
+    uint64_t overlaps = 0;
+    for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES) {
+        vmask in = spux_cmpge(spux_load(t->end + g), spux_vfloat(w->near_w[k]));
+        for (int a = 0; a < 2; a++) {
+            in = spu_and(in, spux_cmpge(spux_vfloat(w->high[a][k]), spux_load(t->low[a] + g)));
+            in = spu_and(in, spux_cmpge(spux_load(t->high[a] + g), spux_vfloat(w->low[a][k])));
+        }
+        overlaps |= (uint64_t)spux_mask_bits(in) << g;
+    }
+    return overlaps & t->undecided;
+}
+
+/* Stores windows, and returns the lanes that overlap the tile, as bits. near_w, far_w: a primitive's ends along w. */
 CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat low[2], const vfloat high[2],
                                               vfloat near_w, vfloat far_w, light_windows *w)
 {
@@ -102,7 +102,7 @@ CGT_SPU_INLINE unsigned light_visible_windows(const light_tile *t, const vfloat 
     return ~spux_mask_bits(out) & CGT_ALL_LANES;
 }
 
-/* A point as the light sees it. */
+/* A point seen from the light. */
 CGT_SPU_INLINE void light_project_point(const light_packet *l, const vfloat point[3], vfloat *w, vfloat v[2])
 {
     const int main = l->axis[0];
@@ -111,7 +111,7 @@ CGT_SPU_INLINE void light_project_point(const light_packet *l, const vfloat poin
         v[a] = spu_sub(point[l->axis[a + 1]], spux_vfloat(l->origin[l->axis[a + 1]]));
 }
 
-/* Whatever lies within `half` of a middle along each axis. */
+/* Boxes, by middles and half extents. */
 CGT_SPU_INLINE unsigned light_project_boxes(const light_tile *t, const vfloat middle[3], const vfloat half[3],
                                             light_windows *windows)
 {
@@ -152,7 +152,7 @@ CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vert
         light_project_point(&t->packet[0], vertex[k], &w[k], v[k]);
     const vfloat near_w = spu_sub(spux_min(w[0], spux_min(w[1], w[2])), margin);
     const vfloat far_w = spu_add(spux_max(w[0], spux_max(w[1], w[2])), margin);
-    vfloat scale[3], margin_slope = margin; /* what a margin comes to in slopes, but for their own size */
+    vfloat scale[3], margin_slope = margin; /* the margin as a slope, without the factor 1 + |slope| */
     for (int k = 0; k < 3; k++)
         scale[k] = t->is_point ? spux_div(spux_vfloat(1), w[k]) : spux_vfloat(1);
     if (t->is_point)
@@ -174,7 +174,7 @@ CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vert
 
 /* ---- slopes ---- */
 
-/* Slopes or offsets of rays from points, and w. Returns the lanes that have too many directions to the light. */
+/* Slopes or offsets of rays, and w. Returns the lanes whose slope is too large. */
 CGT_SPU_INLINE vmask light_project_rays(const light_tile *t, const light_packet *l, const vfloat org[3], vfloat *w,
                                         vfloat coord[2])
 {
@@ -192,7 +192,7 @@ CGT_SPU_INLINE vmask light_project_rays(const light_tile *t, const light_packet 
     return diverging;
 }
 
-/* Slopes of a group, of the rays that have met nothing. Returns the lanes that have too many. */
+/* The range of a group, over the rays that have hit nothing. Returns the lanes whose slope is too large. */
 CGT_SPU_INLINE vmask light_compute_group(light_tile *t, uint32_t group)
 {
     const light_packet *l = &t->packet[group / LIGHT_PACKET_GROUPS];
@@ -213,8 +213,8 @@ CGT_SPU_INLINE vmask light_compute_group(light_tile *t, uint32_t group)
     return diverging;
 }
 
-/* The groups of a packet. False where rays leave too many directions to the light. */
-static bool light_compute_groups(light_tile *t, uint32_t number)
+/* The groups of a packet. Returns false if a slope is too large. */
+static inline bool light_compute_groups(light_tile *t, uint32_t number)
 {
     vmask diverging = spux_mask_none();
     for (uint32_t i = 0; i < t->packet[number].rays.lanes; i += CGT_LANES)
@@ -222,8 +222,8 @@ static bool light_compute_groups(light_tile *t, uint32_t number)
     return spux_none(diverging);
 }
 
-/* What all groups have in common. */
-static void light_compute_bounds(light_tile *t)
+/* The bounds over all groups. */
+static inline void light_compute_bounds(light_tile *t)
 {
     vfloat far_w = spux_vfloat(-INFINITY);
     for (uint32_t g = 0; g < LIGHT_GROUPS; g += CGT_LANES)
@@ -240,8 +240,8 @@ static void light_compute_bounds(light_tile *t)
     }
 }
 
-/* Slopes of those rays alone that still want something. */
-static void light_refresh_groups(light_tile *t)
+/* Recomputes the ranges of changed groups over the rays that have hit nothing yet. */
+static inline void light_refresh_groups(light_tile *t)
 {
     for (uint64_t remaining = t->changed & t->undecided; remaining; remaining &= remaining - 1)
         light_compute_group(t, (uint32_t)__builtin_ctzll(remaining));
@@ -249,5 +249,32 @@ static void light_refresh_groups(light_tile *t)
     t->group_tests = 0;
     light_compute_bounds(t);
 }
+
+/* ---- reading ---- */
+
+/* Sets the axes and the origin of a packet: those of the tile's first packet, which are chosen by any ray of it.
+ * Returns false if that ray has no direction. */
+CGT_SPU_INLINE bool light_tile_init_axes(light_tile *t, light_packet *l, const float org[3], const float dir[3])
+{
+    const light_packet *first = &t->packet[0];
+    if (t->packets) {
+        for (int a = 0; a < 3; a++) {
+            l->axis[a] = first->axis[a];
+            l->origin[a] = first->origin[a];
+        }
+        l->sign = first->sign;
+        return true;
+    }
+    if (!light_init_axes(&l->rays, org, dir, l))
+        return false;
+    for (int a = 0; a < 2; a++)
+        t->slope[a] = t->is_point ? 0 : dir[l->axis[a + 1]] / (l->sign * dir[l->axis[0]]);
+    return true;
+}
+
+/* Reads the tile's next packet in one pass: points first to first + count - 1 of the order, whole vectors of
+ * light_points_are_dense without ranges of their own. Returns false where something about them is unusual. */
+bool CGT_KERNEL(cgt_light_tile_read)(const light_call *c, light_tile *t, light_packet *l, uint32_t first,
+                                     uint32_t count);
 
 #endif

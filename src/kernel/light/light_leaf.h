@@ -1,49 +1,50 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Primitives of a leaf against a packet of rays to one light (light_frustum.h): lanes are rays, what does not depend on
- * the ray is worked out once for all primitives of the leaf. In single precision with derived bounds, u = 2^-24, |x| the
- * largest component and [x] the sum of their sizes, P(p, q, r) of triangle_filter.h at most |p| [q] [r] in any order.
+ * Primitives of a leaf against a packet of rays to one light (light_packet.h). Lanes are rays; what does not depend on
+ * the ray is computed once for all primitives of the leaf. Single precision with derived bounds: u = 2^-24, |x| is the
+ * largest component and [x] the 1-norm; P(p, q, r) of triangle_filter.h is at most |p| [q] [r] in any order.
  *
- * Triangles. As in lane_tests.h, s is a ray's origin from the first vertex, e_1 and e_2 the edges from there, d its
- * direction, all times the world's scale, and
+ * Triangles. As in lane_tests.h, s is a ray's origin seen from the first vertex, e_1 and e_2 the edges from there, d
+ * its direction, all times the scene's scale, and
  *   U = s.(d x e_2)   V = d.(s x e_1)   D = e_1.(d x e_2)   T = e_2.(s x e_1)   W = D - U - V   t = T / D
- * Rays to a place L: s = G - d - q, with G from the first vertex to L, and q what d lost when it was rounded, at most
- * u |d| along each axis. What has d twice is 0, so that with x = d
+ * Point light at L: s = G - d - q, where G leads from the first vertex to L, and q is the rounding error of d, at most
+ * u |d| along each axis. Products with d twice are 0, so with x = d
  *   U = x.(e_2 x G)   V = x.(G x e_1)   D = x.(e_2 x e_1)   T = D - G.(e_2 x e_1)
  * U and V are within 9 u |x| [G] [e] of that, counted as there, and q adds u |x| [x] [e]. W is within the errors of all
- * three, and 2 u of their sizes. T is within 10 u of D's and 8 u of G's part, with u for the difference and u for q:
- * 12 u (|x| + [G]) [e_1] [e_2].
- * Parallel rays: d is the same for all, x the origin from the reference, H the reference from the first vertex, and
+ * three plus 2 u of their sizes. T is within 10 u of D's part and 8 u of G's part, plus u for the difference and u for
+ * q: 12 u (|x| + [G]) [e_1] [e_2].
+ * Parallel rays: d is common, x is the ray's origin seen from the packet's, H the packet's seen from the first vertex:
  *   U = (x + H).(d x e_2)   V = (x + H).(e_1 x d)   T = (x + H).(e_1 x e_2)   D the same for all
  * U and V are within 9 u |d| ([x] + [H]) [e], T within 12 u (|x| + [H]) [e_1] [e_2].
- * What underflows is below 2^-124, and |x| or [G] may be multiplied with it, or both: 2^-118 (1 + |x|) (1 + [G]).
- * What is not finite compares with nothing, so that such rays are open.
+ * Underflow is below 2^-124, and may be multiplied by |x|, by [G] or by both: 2^-118 (1 + |x|) (1 + [G]). Comparisons
+ * with infinities and NaN are false, so such rays are undecided.
  *
- * Spheres. With c the centre from the ray's origin, A = d.d, B = d.c, C = c.c - r^2, the ray has a root where
- * B^2 - A C >= 0. C is within 7 u (c.c + r^2), B within 4 u |d||c|, so that B^2 - A C is within 26 u A (c.c + r^2). From
- * outside, C > 0, no root lies ahead where B < 0. B is surely not 0 where B^2 is more than 2 u times the bound of
- * B^2 - A C, which is more than its own error's square. Where ranges are [0, 1] or [0, infinity), and the light is
- * outside the sphere, nothing else has to be known: from inside, C < 0, there is one root ahead; from outside two where
- * B > 0, before the light where B < A (the middle of the roots lies as surely there as B / A < 1 - 16 u where
- * c.c < 4 A). Other spheres, and what is not sure, go to the test of lane_tests.h. Squares lose 2^-124 when they
- * underflow: 2^-97 is added to r^2 in bounds, and 2^-118 where A is a factor. */
+ * Spheres. Let c be the centre seen from the ray's origin, A = d.d, B = d.c and C = c.c - r^2. The ray has a root if
+ * B^2 - A C >= 0. C is within 7 u (c.c + r^2), B within 4 u |d||c|, so B^2 - A C is within 26 u A (c.c + r^2). From
+ * outside, C > 0, no root lies ahead if B < 0. B is certainly not 0 if B^2 exceeds 2 u times the bound of B^2 - A C,
+ * which is more than the square of its own error. With ranges [0, 1] or [0, infinity) and a light outside the sphere,
+ * this suffices: from inside, C < 0, there is one root ahead; from outside there are two if B > 0, and they are before
+ * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). Other spheres and
+ * uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added to r^2 in bounds, and
+ * 2^-118 where A is a factor. */
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
 
+#include "kernel/light/light_packet.h"
 #include "kernel/primitive/lane_tests.h"
-#include "kernel/light/light_frustum.h"
+#include "kernel/primitive/primitive_block.h"
 
 #define LIGHT_EPS_NUM (12 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 #define LIGHT_EPS_ROUNDING (1.125f * FILTER_ROUNDOFF) /* q */
-#define LIGHT_DEPTH_FACTOR (1 + 0x1p-10f)             /* what is of second order where t is compared with a range */
+#define LIGHT_DEPTH_FACTOR (1 + 0x1p-10f)             /* covers second order terms where t is compared with a range */
 #define LIGHT_EPS_DISC (26 * FILTER_ROUNDOFF)
 #define LIGHT_EPS_INNER (8 * FILTER_ROUNDOFF)
 #define LIGHT_MIDDLE_FACTOR (1 - 16 * FILTER_ROUNDOFF)
 
-/* ---- what is found ---- */
+/* ---- hits ---- */
 
-/* Closes the rays of a vector that hit for certain; the open ones are decided. */
+/* Stores the certain hits of a vector of rays, and decides the undecided ones. */
 CGT_SPU_INLINE void light_store_hits(const cgt_primitives *prims, light_packet *l, uint32_t i, uint32_t prim,
                                      vmask certain_hit, vmask undecided, cgt_counts *counts)
 {
@@ -63,14 +64,14 @@ CGT_SPU_INLINE void light_store_hits(const cgt_primitives *prims, light_packet *
 /* ---- triangles ---- */
 
 typedef struct light_triangles {
-    _Alignas(CGT_VECTOR_BYTES) float u[3][CGT_LANES]; /* what x is multiplied with for U, V and T, or D */
+    _Alignas(CGT_VECTOR_BYTES) float u[3][CGT_LANES]; /* factors of x in U, V and T, or D */
     float v[3][CGT_LANES];
     float n[3][CGT_LANES];
-    float offset_u[CGT_LANES], offset_v[CGT_LANES]; /* and what is added; of parallel rays alone */
-    float offset_n[CGT_LANES];                      /* to T */
+    float offset_u[CGT_LANES], offset_v[CGT_LANES]; /* added to U and V; parallel rays only */
+    float offset_n[CGT_LANES];                      /* added to T */
     float den[CGT_LANES];                           /* D of parallel rays */
     float side[CGT_LANES], den_error[CGT_LANES], num_error[CGT_LANES];
-    float error_t_min[CGT_LANES], error_t_max[CGT_LANES]; /* errors at t = 0 and 1 */
+    float error_t_min[CGT_LANES], error_t_max[CGT_LANES]; /* errors of T - t D at t = 0 and 1 */
 } light_triangles;
 
 CGT_SPU_INLINE void light_init_triangles(const light_packet *l, const triangle_block *leaf, float scale, bool is_point,
@@ -129,9 +130,9 @@ CGT_SPU_INLINE vfloat light_dot(const vfloat x[3], const float n[3][CGT_LANES], 
 }
 
 typedef struct light_sides {
-    vfloat lower, upper;        /* of U, V and W */
+    vfloat lower, upper;        /* the least and the largest of U, V and W */
     vfloat den, num;            /* |D|, and T with D's sign */
-    vmask outside, den_certain; /* the line passes outside; D's sign is right */
+    vmask outside, den_certain; /* the line passes outside of an edge; the sign of D is certain */
 } light_sides;
 
 CGT_SPU_INLINE void light_compute_sides(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
@@ -155,8 +156,8 @@ CGT_SPU_INLINE void light_compute_sides(const light_packet *l, const light_trian
     f->den_certain = spu_cmpgt(f->den, spux_vfloat(q->den_error[k]));
 }
 
-/* Whether any ray of a vector may pass inside all edges of what is not surely behind it: the surface that it leaves is,
- * where the light sees it. */
+/* Whether any ray of a vector may pass inside all edges of a triangle that is not certainly behind it. The surface that
+ * a ray leaves towards the light mostly is. */
 CGT_SPU_INLINE bool light_triangle_may_hit(const light_packet *l, const light_triangles *q, uint32_t k, uint32_t i,
                                            bool is_point)
 {
@@ -165,7 +166,7 @@ CGT_SPU_INLINE bool light_triangle_may_hit(const light_packet *l, const light_tr
     return !spux_all(spu_or(f.outside, spu_and(f.den_certain, spu_cmpgt(spux_vfloat(-q->error_t_min[k]), f.num))));
 }
 
-/* Rays whose t is surely beyond their range, and those whose t is surely within, where den is surely above 0. */
+/* Rays whose t is certainly outside their range, and certainly inside, if the sign of den is certain. */
 typedef struct light_range_test {
     vmask out, in;
 } light_range_test;
@@ -184,7 +185,7 @@ CGT_SPU_INLINE light_range_test light_test_ranges(const packet *p, const light_t
                               .in = spu_and(spu_cmpgt(spu_nmsub(t_min, den, num), error_t_min), before)};
 }
 
-/* The same of rays from t = 0, to 1 at a light that has a place. */
+/* The same for ranges [0, 1], or [0, infinity] for parallel rays. */
 CGT_SPU_INLINE light_range_test light_test_default_range(const light_triangles *q, uint32_t k, vfloat den, vfloat num,
                                                          bool is_point)
 {
@@ -214,31 +215,13 @@ CGT_SPU_INLINE void light_test_triangle(const cgt_primitives *prims, light_packe
     light_store_hits(prims, l, i, prim, certain_hit, spu_andc(possible, certain_hit), counts);
 }
 
-/* A leaf's triangles, those of `left`, against the whole packet. */
-CGT_SPU_INLINE void light_test_triangles(const cgt_committed_scene *committed_scene, light_packet *l,
-                                         const triangle_block *leaf, unsigned remaining, bool is_point,
-                                         cgt_counts *counts)
-{
-    light_triangles q;
-    light_init_triangles(l, leaf, committed_scene->scale, is_point, &q);
-    for (; remaining; remaining &= remaining - 1) {
-        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
-        uint64_t reached = 0;
-        for (uint32_t i = 0; i < l->rays.lanes; i += CGT_LANES)
-            reached |= (uint64_t)light_triangle_may_hit(l, &q, k, i, is_point) << i / CGT_LANES;
-        for (reached &= l->undecided; reached; reached &= reached - 1)
-            light_test_triangle(&committed_scene->prims, l, &q, k, (uint32_t)__builtin_ctzll(reached) * CGT_LANES,
-                                leaf->prim[k], is_point, counts);
-    }
-}
-
 /* ---- spheres ---- */
 
-/* Of a leaf's spheres those that the light is surely outside of, as bits. */
+/* The spheres of a leaf that certainly do not contain the light, as bits. */
 CGT_SPU_INLINE unsigned light_outside_spheres(const light_packet *l, const sphere_block *leaf, float scale)
 {
     const vfloat radius = spux_load(leaf->radius), square = spu_mul(radius, radius);
-    const float max_component = l->max_component / scale; /* of the directions: what q is measured by */
+    const float max_component = l->max_component / scale; /* of the directions: q is a share of it */
     vfloat distance = spux_vfloat(0);
     if (!l->rays.to_light)
         return CGT_ALL_LANES;
@@ -255,8 +238,8 @@ typedef struct light_roots {
     vfloat dd, distance;           /* A, c.c */
     vfloat inner, inner_error;     /* C */
     vfloat middle, disc, error;    /* B, and B^2 - A C */
-    vmask middle_certain, outside; /* B is not 0; C is above it */
-    vmask missed;                  /* the sphere lies beside the line, or behind the origin */
+    vmask middle_certain, outside; /* B is certainly not 0; C is certainly above 0 */
+    vmask missed;                  /* the line passes outside, or the sphere is behind the origin */
 } light_roots;
 
 CGT_SPU_INLINE void light_compute_roots(const light_packet *l, const sphere_block *leaf, uint32_t k, float square,
@@ -282,10 +265,10 @@ CGT_SPU_INLINE void light_compute_roots(const light_packet *l, const sphere_bloc
     f->missed = spu_or(spu_cmpgt(spu_sub(zero, f->error), f->disc), behind);
 }
 
-/* What does not depend on the ray, of all spheres of a leaf. */
+/* What does not depend on the ray, for all spheres of a leaf. */
 typedef struct light_spheres {
     _Alignas(CGT_VECTOR_BYTES) float square[CGT_LANES]; /* r^2 */
-    unsigned plain_rule;                                /* where the rule of plain ranges holds, as bits */
+    unsigned plain_rule;                                /* spheres for which the rule above suffices, as bits */
 } light_spheres;
 
 CGT_SPU_INLINE void light_init_spheres(const light_packet *l, const sphere_block *leaf, float scale, light_spheres *q)
@@ -295,7 +278,7 @@ CGT_SPU_INLINE void light_init_spheres(const light_packet *l, const sphere_block
     q->plain_rule = l->default_ranges ? light_outside_spheres(l, leaf, scale) : 0;
 }
 
-/* Whether any ray of a vector may meet the sphere. */
+/* Whether any ray of a vector may hit the sphere. */
 CGT_SPU_INLINE bool light_sphere_may_hit(const light_packet *l, const light_spheres *q, const sphere_block *leaf,
                                          uint32_t k, uint32_t i)
 {
@@ -304,7 +287,7 @@ CGT_SPU_INLINE bool light_sphere_may_hit(const light_packet *l, const light_sphe
     return !spux_all(f.missed);
 }
 
-/* Rays that the simple rule leaves open. */
+/* Rays that the rule above does not decide. */
 __attribute__((noinline)) static void light_test_undecided_sphere(const cgt_committed_scene *committed_scene,
                                                                   light_packet *l, const sphere_block *leaf, uint32_t k,
                                                                   uint32_t i, const vmask *lanes, cgt_counts *counts)
@@ -351,20 +334,62 @@ CGT_SPU_INLINE void light_test_sphere(const cgt_committed_scene *committed_scene
         light_test_undecided_sphere(committed_scene, l, leaf, k, i, &undecided, counts);
 }
 
-/* A leaf's spheres, those of `left`, against the whole packet. */
-CGT_SPU_INLINE void light_test_spheres(const cgt_committed_scene *committed_scene, light_packet *l,
-                                       const sphere_block *leaf, unsigned remaining, cgt_counts *counts)
+/* ---- leaves ---- */
+
+/* Which tests a leaf takes; a constant where functions are called. */
+typedef enum light_kind { LIGHT_SPHERES, LIGHT_TRIANGLES_TO_POINT, LIGHT_TRIANGLES_PARALLEL } light_kind;
+
+/* A leaf's primitives, of one kind, as the tests take them. */
+typedef struct light_leaf {
+    const sphere_block *sphere;
+    const triangle_block *triangle;
+    light_spheres spheres;
+    light_triangles triangles;
+} light_leaf;
+
+/* Fills in what does not depend on the ray; the leaf has its block. */
+CGT_SPU_INLINE void light_init_leaf(const light_packet *l, float scale, light_kind kind, light_leaf *leaf)
 {
-    light_spheres q;
-    light_init_spheres(l, leaf, committed_scene->scale, &q);
+    if (kind == LIGHT_SPHERES)
+        light_init_spheres(l, leaf->sphere, scale, &leaf->spheres);
+    else
+        light_init_triangles(l, leaf->triangle, scale, kind == LIGHT_TRIANGLES_TO_POINT, &leaf->triangles);
+}
+
+/* Whether any of the rays i to i + CGT_LANES - 1 may hit primitive k. */
+CGT_SPU_INLINE bool light_may_hit(const light_packet *l, const light_leaf *leaf, light_kind kind, uint32_t k,
+                                  uint32_t i)
+{
+    return kind == LIGHT_SPHERES ? light_sphere_may_hit(l, &leaf->spheres, leaf->sphere, k, i)
+                                 : light_triangle_may_hit(l, &leaf->triangles, k, i, kind == LIGHT_TRIANGLES_TO_POINT);
+}
+
+CGT_SPU_INLINE void light_test_primitive(const cgt_committed_scene *committed_scene, light_packet *l,
+                                         const light_leaf *leaf, light_kind kind, uint32_t k, uint32_t i,
+                                         cgt_counts *counts)
+{
+    if (kind == LIGHT_SPHERES)
+        light_test_sphere(committed_scene, l, leaf->sphere, k, leaf->spheres.square[k],
+                          leaf->spheres.plain_rule >> k & 1, i, counts);
+    else
+        light_test_triangle(&committed_scene->prims, l, &leaf->triangles, k, i, leaf->triangle->prim[k],
+                            kind == LIGHT_TRIANGLES_TO_POINT, counts);
+}
+
+/* A leaf's primitives, those of `remaining`, against the whole packet. */
+CGT_SPU_INLINE void light_test_primitives(const cgt_committed_scene *committed_scene, light_packet *l, light_leaf *leaf,
+                                          light_kind kind, unsigned remaining, cgt_counts *counts)
+{
+    light_init_leaf(l, committed_scene->scale, kind, leaf);
     for (; remaining; remaining &= remaining - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         uint64_t reached = 0;
+        /* vectors of rays that may hit it: no branch on each, since most do not */
         for (uint32_t i = 0; i < l->rays.lanes; i += CGT_LANES)
-            reached |= (uint64_t)light_sphere_may_hit(l, &q, leaf, k, i) << i / CGT_LANES;
+            reached |= (uint64_t)light_may_hit(l, leaf, kind, k, i) << i / CGT_LANES;
         for (reached &= l->undecided; reached; reached &= reached - 1)
-            light_test_sphere(committed_scene, l, leaf, k, q.square[k], q.plain_rule >> k & 1,
-                              (uint32_t)__builtin_ctzll(reached) * CGT_LANES, counts);
+            light_test_primitive(committed_scene, l, leaf, kind, k, (uint32_t)__builtin_ctzll(reached) * CGT_LANES,
+                                 counts);
     }
 }
 

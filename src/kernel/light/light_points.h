@@ -7,8 +7,8 @@
 
 #include "kernel/packet/ray_packet.h"
 
-/* How far a light may be, in world's sizes: where all rays are longer, single precision could not tell primitives of
- * usual size apart by what they have in common at the light. */
+/* The largest distance of a light, in sizes of the scene: beyond it, single precision could not tell primitives of
+ * usual size apart by the terms that all rays share at the light. */
 #define LIGHT_MAX_DISTANCE 64.f
 
 typedef struct light_call {
@@ -21,16 +21,23 @@ typedef struct light_call {
     cgt_counts *counts;
 } light_call;
 
-/* False where what rays to the light have in common there could not tell primitives apart. */
+/* Sorts points that the light sees side by side into the same groups, along a Morton curve: from[i] is the number of
+ * the i-th (light_order.c). */
+void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK]);
+
+/* Whether neighbours in the arrays mostly lie far apart: on average a third of what the light sees of the chunk. */
+bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count);
+
+/* Whether the light is near enough for tests by shared terms. */
 CGT_SPU_INLINE bool light_is_near(const light_call *c)
 {
     float farthest = 0;
     for (int a = 0; a < 3; a++)
-        farthest += c->light.w == 1 ? fabsf(c->light.position[a]) * c->committed_scene->scale : 0;
+        farthest += c->light.kind == CGT_LIGHT_POINT ? fabsf(c->light.position[a]) * c->committed_scene->scale : 0;
     return farthest <= LIGHT_MAX_DISTANCE;
 }
 
-/* Numbers i to i + CGT_LANES - 1 of an array, in the order. */
+/* Elements i to i + CGT_LANES - 1 of an array, in the order. */
 CGT_SPU_INLINE vfloat light_gather_points(const ray_order *order, const float *array, uint32_t i)
 {
     const float *from = array + order->first;
@@ -38,12 +45,12 @@ CGT_SPU_INLINE vfloat light_gather_points(const ray_order *order, const float *a
                        : spux_load_unaligned(from + i);
 }
 
-/* Whole vectors of points, all of them rays as they should be: else false, and they are read one by one. */
+/* Loads whole vectors of points. Returns false if one is not a usual ray: then they are read one by one. */
 CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
     const cgt_rays *points = c->source.rays;
     const ray_order *order = &c->order;
-    const bool is_point = c->light.w == 1;
+    const bool is_point = c->light.kind == CGT_LIGHT_POINT;
     vmask valid = spux_mask_all();
     p->lanes = p->rays = count;
     p->common_origin = p->from_origin = p->extreme = p->skips_prims = p->has_masks = false;
@@ -54,7 +61,7 @@ CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint3
             const vfloat light = spux_vfloat(c->light.position[a]);
             const vfloat o = light_gather_points(order, points->org[a], first + i),
                          d = is_point ? spu_sub(light, o) : light;
-            zero = spu_madd(o, spux_vfloat(0), zero); /* not a number where o is not finite */
+            zero = spu_madd(o, spux_vfloat(0), zero); /* NaN if o is not finite */
             largest = spux_max(largest, spux_abs(o));
             max_component = spux_max(max_component, spux_abs(d));
             dd = spu_add(dd, spu_mul(d, d));
@@ -80,15 +87,15 @@ CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint3
     return spux_all(valid);
 }
 
-/* Whether the points are arrays of their own, and nothing but the light and their ranges matters. */
+/* Whether the points are dense arrays without masks and skipped primitives. */
 CGT_SPU_INLINE bool light_points_are_dense(const light_call *c)
 {
     const cgt_rays *points = c->source.rays;
     return c->source.stride == sizeof(float) && !points->mask && !points->skip_primitive;
 }
 
-/* Points first to first + count - 1 of the order, at most a packet. Returns false where one of several is extreme: read
- * them apart then. */
+/* Reads points first to first + count - 1 of the order, at most a packet. Returns false if one of several is extreme:
+ * then they must be read one by one. */
 CGT_SPU_INLINE bool light_read_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
     const bool dense = count % CGT_LANES == 0 && light_points_are_dense(c);
@@ -96,20 +103,20 @@ CGT_SPU_INLINE bool light_read_packet(const light_call *c, uint32_t first, uint3
            ray_packet_init(c->committed_scene, &c->source, &c->order, first, count, p, c->counts);
 }
 
-/* Whether points first to first + count - 1 of the order have met something. */
+/* Stores whether points first to first + count - 1 of the order are occluded. */
 CGT_SPU_INLINE void light_store_occluded(const light_call *c, const packet *p, uint32_t first, uint32_t count)
 {
     const uint32_t *restrict from = c->order.from ? c->order.from + first : NULL, *restrict prim = p->prim;
-    uint8_t *restrict occluded = c->occluded + c->order.first; /* bytes, which may be a part of anything else */
+    uint8_t *restrict occluded = c->occluded + c->order.first; /* restrict: bytes may alias anything */
     if (!from)
-        for (size_t k = 0; k < count; k++) /* of sizes that cannot wrap: a compiler makes vectors of it */
+        for (size_t k = 0; k < count; k++) /* size_t cannot wrap: compilers vectorise this */
             occluded[(size_t)first + k] = prim[k] != CGT_INVALID_ID;
     else
         for (size_t k = 0; k < count; k++)
             occluded[from[k]] = prim[k] != CGT_INVALID_ID;
 }
 
-/* Counts those of the first `count` points that have. */
+/* Counts the occluded ones of the first `count` points. */
 CGT_SPU_INLINE void light_count_hits(const light_call *c, uint32_t count)
 {
     const uint8_t *occluded = c->occluded + c->order.first;
@@ -119,7 +126,7 @@ CGT_SPU_INLINE void light_count_hits(const light_call *c, uint32_t count)
     c->counts->hits += hits;
 }
 
-/* Points first to first + count - 1 of the order, at most a packet, through whatever structure there is. */
+/* Traces points first to first + count - 1 of the order, at most a packet, through any structure. */
 __attribute__((unused)) static void light_trace_packet(const light_call *c, uint32_t first, uint32_t count, packet *p)
 {
     if (!ray_packet_init(c->committed_scene, &c->source, &c->order, first, count, p, c->counts)) {

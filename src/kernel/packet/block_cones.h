@@ -25,10 +25,10 @@ typedef struct block_cones {
     _Alignas(64) float axis[3][PACKET_MAX_BLOCKS];
     _Alignas(64) float tangent[PACKET_MAX_BLOCKS];
     _Alignas(64) float secant[PACKET_MAX_BLOCKS];
-    _Alignas(64) float apex_error
-        [PACKET_MAX_BLOCKS]; /* 0, or how far rays pass beside the light; infinity where they are too
+    _Alignas(
+        64) float apex_error[PACKET_MAX_BLOCKS]; /* 0, or how far rays pass from the light; infinity where they are too
                                                     wide for a cone: never culled */
-    _Alignas(64) float far_t[PACKET_MAX_BLOCKS]; /* no ray of the block wants a hit beyond this t */
+    _Alignas(64) float far_t[PACKET_MAX_BLOCKS]; /* hits beyond this t count for no ray of the block */
     _Alignas(64) float speed[PACKET_MAX_BLOCKS]; /* cells of the main axis per t of the fastest ray */
     float apex[3];
     uint32_t blocks;
@@ -96,7 +96,7 @@ CGT_SPU_INLINE void block_init_cone(const packet *p, block_cones *b, uint32_t bl
     b->apex_error[block] = !narrow ? INFINITY : p->to_light ? block_max_length(p, block) * 0x1p-22f : 0;
 }
 
-/* Whether hits behind an origin count: a cone does not hold them. */
+/* Whether hits behind an origin count, which a cone does not hold. */
 CGT_SPU_INLINE bool block_has_negative_t(const packet *p)
 {
     vfloat lower = spux_vfloat(0);
@@ -105,7 +105,7 @@ CGT_SPU_INLINE bool block_has_negative_t(const packet *p)
     return spux_hmin(lower) < 0;
 }
 
-/* Whether hits beyond the light count: the cone that ends there does not hold them. */
+/* Whether hits beyond the light count, which a cone that ends there does not hold. */
 CGT_SPU_INLINE bool block_passes_light(const packet *p)
 {
     vfloat upper = spux_vfloat(0);

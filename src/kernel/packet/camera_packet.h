@@ -25,8 +25,8 @@ CGT_SPU_INLINE vfloat pixel_rows(const float *py, uint32_t i, uint32_t edge)
     return spux_permute(spux_load_unaligned(py + lane_row(i, edge)), spu_sr(spux_lane_index(), 2));
 }
 
-/* What is the same for all packets of a perspective camera, and the range of t of any. masked: the camera's mask leaves
- * something out. */
+/* Sets what all packets of a perspective camera share, and the range of t of any camera. masked: the camera's mask
+ * hides something. */
 CGT_SPU_INLINE void camera_packet_init(const cgt_camera_rays *c, const cgt_trace_settings *settings, uint32_t edge,
                                        bool has_masks, packet *p)
 {
@@ -102,17 +102,18 @@ CGT_SPU_INLINE bool camera_is_extreme(const cgt_camera_rays *c)
 }
 
 /* A row of a packet: the blocks' rows of four, one after the other. */
-CGT_SPU_INLINE void store_row(void *to, const void *from, uint32_t row, uint32_t edge, uint32_t columns)
+CGT_SPU_INLINE void store_row(uint32_t *to, const uint32_t *from, uint32_t row, uint32_t edge, uint32_t columns)
 {
-    const uint32_t *start = (const uint32_t *)from + row / 4 * 4 * edge + row % 4 * 4;
+    const uint32_t *start = from + row / 4 * 4 * edge + row % 4 * 4;
     uint32_t k = 0;
     for (; k + 4 <= columns; k += 4)
-        memcpy((uint32_t *)to + k, start + k * 4, 16);
+        memcpy(to + k, start + k * 4, 16);
     for (; k < columns; k++)
-        memcpy((uint32_t *)to + k, start + k / 4 * 16 + k % 4, 4);
+        memcpy(to + k, start + k / 4 * 16 + k % 4, 4);
 }
 
-/* The fours of a vector are rows of one block; BLOCK_ROWS vectors of blocks side by side are rows of a vector's length. */
+/* The fours of a vector are rows of one block; BLOCK_ROWS vectors of blocks side by side are rows of a vector's length.
+ * */
 #define BLOCK_ROWS (CGT_LANES / 4)
 
 CGT_SPU_INLINE void store_whole_plane(uint32_t *to, size_t row_stride, const uint32_t *from, uint32_t edge)
@@ -129,29 +130,24 @@ CGT_SPU_INLINE void store_whole_plane(uint32_t *to, size_t row_stride, const uin
         }
 }
 
-CGT_SPU_INLINE void store_plane(void *plane, const void *from, uint32_t edge, uint32_t columns, uint32_t rows,
+CGT_SPU_INLINE void store_plane(uint32_t *plane, const uint32_t *from, uint32_t edge, uint32_t columns, uint32_t rows,
                                 const cgt_region *r, size_t first)
 {
     if (!plane)
         return;
     if (columns == edge && rows == edge && edge % CGT_LANES == 0) {
-        store_whole_plane((uint32_t *)plane + first, r->row_stride, from, edge);
+        store_whole_plane(plane + first, r->row_stride, from, edge);
         return;
     }
     for (uint32_t y = 0; y < rows; y++)
-        store_row((uint32_t *)plane + first + y * r->row_stride, from, y, edge, columns);
+        store_row(plane + first + y * r->row_stride, from, y, edge, columns);
 }
 
 CGT_SPU_INLINE void camera_packet_store(const packet_hits *h, uint32_t edge, uint32_t columns, uint32_t rows,
                                         const cgt_region *r, size_t first)
 {
-    store_plane(r->t, h->t, edge, columns, rows, r, first);
-    store_plane(r->primitive, h->primitive, edge, columns, rows, r, first);
-    store_plane(r->geometry, h->geometry, edge, columns, rows, r, first);
-    for (int a = 0; a < 3; a++)
-        store_plane(r->normal[a], h->normal[a], edge, columns, rows, r, first);
-    store_plane(r->u, h->u, edge, columns, rows, r, first);
-    store_plane(r->v, h->v, edge, columns, rows, r, first);
+    for (int k = 0; k < CGT_PLANES; k++)
+        store_plane(r->plane[k], h->plane[k], edge, columns, rows, r, first);
 }
 
 #endif

@@ -14,9 +14,9 @@
 
 #include "kernel/packet/packet.h"
 
-/* The space that a frustum lives in: a box in the world, divided along each axis. Point p has coordinates
- * (p - org) * rcell, in real arithmetic on these floats. What single precision computes is within `slack` of them, for
- * any point of any object. */
+/* The space of a frustum: a box in world coordinates, divided along each axis. Point p has coordinates
+ * (p - org) * rcell, in real arithmetic on these floats. Single precision computes them within `cell_error`, for any
+ * point of any primitive. */
 typedef struct frustum_space {
     float org[3], rcell[3], cell_error[3];
     uint32_t resolution[3];
@@ -146,7 +146,7 @@ CGT_SPU_INLINE float frustum_min_w(const frustum_space *g, const frustum *f, con
     return spux_hmin(least);
 }
 
-/* The coordinate w beyond which no ray wants a hit any more; -inf where all are closed. */
+/* Returns the coordinate w beyond which a hit counts for no ray; -inf where all are done. */
 CGT_SPU_INLINE float frustum_max_w(const frustum_space *g, const frustum *f, const packet *p)
 {
     vfloat most = spux_vfloat(-INFINITY);
@@ -179,8 +179,8 @@ CGT_SPU_INLINE float frustum_radius_scale(const frustum_space *g, const frustum 
     return g->rcell[axis] * __builtin_sqrtf(1 + k * k) * (1 + 0x1p-20f);
 }
 
-/* Leaves out slices before and after the grid's part that the frustum passes beside the grid: the lower bound of k, a
- * line over w, must not be above its limit. One slice more at each end covers the rounding. */
+/* Drops slices at both ends in which the frustum passes outside the grid: the lower bound of k, a line over w, must not
+ * be above its limit. One slice more at each end covers the rounding. */
 CGT_SPU_INLINE void frustum_clip(frustum *f)
 {
     const float limit[4] = {f->last[1] + 1, 0, f->last[2] + 1, 0};
@@ -254,7 +254,8 @@ CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w,
 }
 
 /* The cells between the lower bounds of u, -u, v, -v at two planes, or the lower of them where the bounds are lines
- * between: low and high of u, low and high of v; none where low > high. most: those of the axes, see frustum_max_cells. */
+ * between: low and high of u, low and high of v; none where low > high. most: those of the axes, see frustum_max_cells.
+ * */
 CGT_SPU_INLINE vec_int4 frustum_cells(vec_float4 near, vec_float4 far, vec_float4 most)
 {
     const vec_float4 sign = {1, -1, 1, -1};

@@ -3,14 +3,15 @@
  *
  * A packet: up to 256 rays as structure of arrays, with the best hit of each so far.
  *
- * Filter, then decide. Single precision finds for a ray and a primitive an interval that surely holds the exact t, or
- * that there surely is no hit. So a ray's best hit is an interval too, [low, high] with the object that it belongs to:
+ * Filter, then decide. Single precision finds for a ray and a primitive an interval that certainly holds the exact t,
+ * or that there certainly is no hit. So a ray's best hit is an interval too, [low, high] with the primitive that it
+ * belongs to:
  *   a hit whose interval ends before `low`    is certainly nearer: it replaces the best at once
  *   a hit whose interval starts after `high`  is certainly not
- *   anything else                             is decided (decide.h) by the exact t, then by the lower object
- * The winner's t is computed once, at the end. In FAST precision nothing is decided: low and high are the t that single
- * precision gives, and u and v are kept beside it. An open ray starts with [t_max, t_max] and no object; a ray that takes
- * no part has [-inf, -inf]. */
+ *   anything else                             is decided (decide.h) by the exact t, then by the lower primitive
+ * The closest hit's t is computed once, at the end. In FAST precision nothing is decided: low and high are the t that
+ * single precision gives, and u and v are stored with it. An active ray starts with [t_max, t_max] and no primitive;
+ * one that takes no part has [-inf, -inf]. */
 #ifndef CGT_PACKET_H
 #define CGT_PACKET_H
 
@@ -33,7 +34,7 @@ typedef struct packet {
     _Alignas(64) uint32_t prim[PACKET_MAX_RAYS];               /* CGT_INVALID_ID: none yet */
     _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS]; /* of a triangle in FAST precision */
     _Alignas(64)
-        uint32_t skip_prim[PACKET_MAX_RAYS]; /* where selective: an object that the ray does not find, CGT_INVALID_ID:
+        uint32_t skip_prim[PACKET_MAX_RAYS]; /* where selective: a primitive that the ray does not find, CGT_INVALID_ID:
                                                        none; and its mask */
     _Alignas(64) uint32_t mask[PACKET_MAX_RAYS];
     /* only for triangles of packets without a common origin: */
@@ -46,7 +47,7 @@ typedef struct packet {
     bool from_origin;   /* and all start there: t_min is 0 */
     bool to_light;      /* all run from their origins to `light`, where t is 1, but for rounding */
     float light[3];
-    bool skips_prims;                /* some ray ignores an object, or has a mask that leaves one out */
+    bool skips_prims;                /* some ray ignores a primitive, or has a mask that leaves one out */
     bool has_masks;                  /* selective, by masks too */
     bool any_hit;                    /* the first hit found closes a ray */
     bool fast;                       /* FAST precision */
@@ -58,52 +59,35 @@ typedef struct packet {
 #define PACKET_MAX_COORDINATE 0x1p55f
 #define PACKET_MIN_DIR 0x1p-55f
 
-/* A region of a camera's frame: packet by packet through any structure; and tile by tile through a loose grid,
- * or packet by packet where tiles do not serve (tile_limits.h). */
-void CGT_KERNEL(cgt_trace_region)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
-void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                                const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+/* The entries of cgt_kernel that kernels call, too. */
+cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 
-/* Finds the hits of all rays of the packet, through whatever structure there is; and through each. */
-void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                  const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                      const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_loose_grid_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                      const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
-                              cgt_counts *counts);
-void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                                    const cgt_trace_settings *settings, cgt_counts *counts);
-void CGT_KERNEL(cgt_bvh_trace)(const cgt_committed_scene *committed_scene, packet *p,
-                               const cgt_trace_settings *settings, cgt_counts *counts);
+/* Finds the hits of all rays of the packet: through the committed structure, or through a given one. */
+typedef void cgt_trace_packet_fn(const cgt_committed_scene *committed_scene, packet *p,
+                                 const cgt_trace_settings *settings, cgt_counts *counts);
+cgt_trace_packet_fn CGT_KERNEL(cgt_packet_trace);
+cgt_trace_packet_fn CGT_KERNEL(cgt_queue_grid_trace), CGT_KERNEL(cgt_loose_grid_trace), CGT_KERNEL(cgt_kd_trace),
+    CGT_KERNEL(cgt_kd_ropes_trace), CGT_KERNEL(cgt_bvh_trace);
 
-/* Points against a light through a loose grid; and see light_prims of cgt_kernel. */
-void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                      const cgt_light *light, uint64_t first, uint64_t end,
-                                      const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
-uint64_t CGT_KERNEL(cgt_tile_light_prims)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                          const cgt_light *light, uint64_t first, uint64_t end);
+/* Points against a light, through a loose grid and through the BVH; the light_prims of cgt_kernel. */
+cgt_trace_light_fn CGT_KERNEL(cgt_tile_trace_light), CGT_KERNEL(cgt_bvh_trace_light);
+cgt_light_prims_fn CGT_KERNEL(cgt_tile_light_prims);
 
-/* Arrays of rays, and points against a light, through the wide tree: see trace_rays and trace_light of cgt_kernel. */
-void CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
-                                     const cgt_light *light, uint64_t first, uint64_t end,
-                                     const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
-void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
-                                    uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
-                                    uint8_t *occluded, cgt_counts *counts);
+/* Arrays of rays through the BVH. */
+cgt_trace_rays_fn CGT_KERNEL(cgt_bvh_trace_rays);
 
-/* The hits of a packet, ready to be handed out. */
-typedef struct packet_hits {
-    _Alignas(64) float t[PACKET_MAX_RAYS];
-    _Alignas(64) uint32_t primitive[PACKET_MAX_RAYS];
-    _Alignas(64) uint32_t geometry[PACKET_MAX_RAYS];
-    _Alignas(64) float normal[3][PACKET_MAX_RAYS];
-    _Alignas(64) float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS];
+/* The hits of a packet, ready to be handed out, by their names or plane by plane. */
+typedef union packet_hits {
+    struct {
+        _Alignas(64) float t[PACKET_MAX_RAYS];
+        uint32_t primitive[PACKET_MAX_RAYS], geometry[PACKET_MAX_RAYS];
+        float normal[3][PACKET_MAX_RAYS];
+        float u[PACKET_MAX_RAYS], v[PACKET_MAX_RAYS];
+    };
+    uint32_t plane[CGT_PLANES][PACKET_MAX_RAYS];
 } packet_hits;
 
-/* Computes the fields of the winners that the settings ask for, canonically. Counts the hits and returns how many. */
+/* Computes the requested fields of the closest hits, canonically. Counts the hits and returns how many. */
 uint32_t CGT_KERNEL(cgt_packet_resolve)(const cgt_committed_scene *committed_scene, const packet *p,
                                         const cgt_trace_settings *settings, packet_hits *hits, cgt_counts *counts);
 

@@ -36,7 +36,7 @@ static bool packet_all_equal(const uint32_t *class, uint32_t count)
     return !differs;
 }
 
-/* Copies the rays of one part to a packet of their own; from[] tells where each came from. */
+/* Copies the rays of one part to a new packet; from[] holds where each was. */
 static void packet_extract(const packet *p, const uint32_t *part, uint32_t part_number, packet *sub, uint32_t *from)
 {
     uint32_t n = 0;
@@ -66,7 +66,7 @@ static void packet_extract(const packet *p, const uint32_t *part, uint32_t part_
     }
 }
 
-/* Traces the rays of a packet as several packets; part[i], below `parts`, is which one ray i goes to. */
+/* Traces the rays of a packet as several packets; part[i], below `parts`, is the one of ray i. */
 static void packet_trace_parts(const cgt_committed_scene *committed_scene, packet *p, const uint32_t *part,
                                uint32_t parts, packet_tracer *trace, const cgt_trace_settings *settings,
                                cgt_counts *counts)

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays against an axis-aligned box by slabs (Kay, Kajiya, "Ray Tracing Complex Scenes", 1986), conservative: what is
- * said to miss does miss in exact arithmetic.
+ * Rays against an axis-aligned box by slabs (Kay, Kajiya, "Ray Tracing Complex Scenes", 1986), conservative: a
+ * ray that misses by this test misses in exact arithmetic.
  *
- * No step makes a NaN of finite input. A component of the direction that is zero, of either sign, has no reciprocal:
- * there the origin is inside the slab, which then says nothing, or outside, and the ray misses. Components below 2^-100
- * say nothing either. The interval of a slab is widened by 2^-20 of its ends, more than a difference, a reciprocal
- * within 2^-21 and a product lose together (Ize, "Robust BVH Ray Traversal", JCGT 2013, widens by 2 ulp of an exact
- * division), and by 2^-126 where products underflow. */
+ * No step produces a NaN from finite input. A component of the direction that is zero, of either sign, has no
+ * reciprocal: there the origin is inside the slab, which then bounds nothing, or outside, and the ray misses.
+ * Components below 2^-100 bound nothing, either. The interval of a slab is widened by 2^-20 of its ends, more than a
+ * difference, a reciprocal within 2^-21 and a product lose together (Ize, "Robust BVH Ray Traversal", JCGT 2013, widens
+ * by 2 ulp of an exact division), and by 2^-126 where products underflow. */
 #ifndef CGT_RAY_BOX_H
 #define CGT_RAY_BOX_H
 
@@ -16,7 +16,7 @@
 
 #define RAY_BOX_REL_ERROR 0x1p-20f
 
-/* Narrows [near, far] to the slab of axis a; outside: rays that lie beside the slab for ever. */
+/* Narrows [near, far] to the slab of axis a; outside: rays that run parallel to the slab, outside it. */
 CGT_SPU_INLINE void ray_box_slab(const packet *p, uint32_t i, int a, float low, float high, vfloat *near, vfloat *far,
                                  vmask *outside)
 {

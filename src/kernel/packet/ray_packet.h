@@ -10,7 +10,7 @@
 #include "dispatch/kernel.h"
 #include "kernel/packet/ray_box.h"
 
-/* Where rays come from. With a light the arrays' directions are not read: rays run from their origins to it. */
+/* The source of rays. With a light, the arrays' directions are not read: rays run from their origins to it. */
 typedef struct ray_source {
     const cgt_rays *rays;
     size_t stride;
@@ -20,7 +20,7 @@ typedef struct ray_source {
 
 CGT_SPU_INLINE ray_source ray_source_init(const cgt_rays *rays, const cgt_light *light)
 {
-    const bool ends = light && light->w == 1; /* at the light */
+    const bool ends = light && light->kind == CGT_LIGHT_POINT; /* at the light */
     return (ray_source){rays, rays->stride ? rays->stride : sizeof(float), light, ends ? 1 : INFINITY};
 }
 
@@ -30,12 +30,12 @@ CGT_SPU_INLINE float ray_element(const ray_source *s, const float *array, uint64
 }
 
 /* The first two take part. */
-typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_EMPTY_MASK, RAY_INVALID } ray_state;
+typedef enum ray_state { RAY_OPEN, RAY_EXTREME, RAY_OUTSIDE, RAY_EMPTY_RANGE, RAY_INVALID } ray_state;
 
 /* Rays in the order in which packets take them: `from` of the array's, counted from its `first`. */
 typedef struct ray_order {
     uint64_t first;
-    const uint32_t *from; /* NULL: as they come */
+    const uint32_t *from; /* NULL: in the order of the arrays */
 } ray_order;
 
 CGT_SPU_INLINE uint64_t ray_index(const ray_order *o, uint32_t i) { return o->first + (o->from ? o->from[i] : i); }
@@ -45,7 +45,7 @@ CGT_SPU_INLINE float ray_direction(const ray_source *s, uint64_t i, int a, float
 {
     if (!s->light)
         return ray_element(s, s->rays->dir[a], i);
-    return s->light->w == 1 ? s->light->position[a] - o : s->light->position[a];
+    return s->light->kind == CGT_LIGHT_POINT ? s->light->position[a] - o : s->light->position[a];
 }
 
 static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k)
@@ -81,7 +81,14 @@ CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, u
     return *(const uint32_t *)(const void *)((const char *)array + i * s->stride);
 }
 
-/* The object that a ray ignores. */
+/* The mask of a ray: 0 stands for all bits. */
+CGT_SPU_INLINE uint32_t ray_read_mask(const ray_source *s, uint64_t i)
+{
+    const uint32_t mask = s->rays->mask ? ray_number(s, s->rays->mask, i) : 0;
+    return mask ? mask : UINT32_MAX;
+}
+
+/* The primitive that a ray ignores. */
 CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_source *s, uint64_t i)
 {
     const cgt_rays *r = s->rays;
@@ -91,9 +98,9 @@ CGT_SPU_INLINE uint32_t ray_ignored(const cgt_primitives *prims, const ray_sourc
     return cgt_primitives_number(prims, r->skip_geometry ? ray_number(s, r->skip_geometry, i) : 0, primitive);
 }
 
-/* What counts for the rays of a packet, where they say so. */
+/* Sets masks and skipped primitives of a packet's rays, where the arrays have them. */
 static void ray_packet_select(const cgt_committed_scene *committed_scene, const ray_source *s, const ray_order *order,
-                              uint32_t first, uint32_t count, packet *p, ray_state *state)
+                              uint32_t first, uint32_t count, packet *p)
 {
     uint32_t common_mask = UINT32_MAX;
     p->skips_prims = p->has_masks = false;
@@ -101,12 +108,10 @@ static void ray_packet_select(const cgt_committed_scene *committed_scene, const 
         return;
     for (uint32_t k = 0; k < count; k++) {
         const uint64_t i = ray_index(order, first + k);
-        p->mask[k] = s->rays->mask ? ray_number(s, s->rays->mask, i) : UINT32_MAX;
+        p->mask[k] = ray_read_mask(s, i);
         p->skip_prim[k] = ray_ignored(&committed_scene->prims, s, i);
         p->skips_prims |= p->skip_prim[k] != CGT_INVALID_ID;
         common_mask &= p->mask[k];
-        if (!p->mask[k] && state[k] < RAY_EMPTY_MASK)
-            state[k] = RAY_EMPTY_MASK;
     }
     p->has_masks = committed_scene->has_masks && common_mask != UINT32_MAX;
     p->skips_prims |= p->has_masks;
@@ -127,7 +132,7 @@ static void ray_packet_disable_lane(packet *p, uint32_t k, uint32_t valid_lane)
     p->mask[k] = 0;
 }
 
-/* Rays that miss the bounds of all objects take no part. */
+/* Rays that miss the bounds of all primitives take no part. */
 static void ray_packet_cull_outside(const cgt_committed_scene *committed_scene, const packet *p, uint32_t count,
                                     ray_state *state)
 {
@@ -139,7 +144,7 @@ static void ray_packet_cull_outside(const cgt_committed_scene *committed_scene, 
     }
 }
 
-/* The rays that take part, and the others made to repeat one of them. */
+/* Finds the rays that take part, and makes the others repeat one of them. */
 static void ray_packet_init_lanes(packet *p, uint32_t count, const ray_state *state)
 {
     uint32_t valid_lane = 0;
@@ -169,7 +174,7 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
     uint32_t invalid = 0;
     p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
     p->from_origin = false;
-    p->to_light = s->light && s->light->w == 1;
+    p->to_light = s->light && s->light->kind == CGT_LIGHT_POINT;
     for (int a = 0; a < 3 && p->to_light; a++)
         p->light[a] = s->light->position[a];
     p->extreme = false;
@@ -181,7 +186,7 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
             p->extreme = true;
         invalid += state[k] == RAY_INVALID;
     }
-    ray_packet_select(committed_scene, s, order, first, count, p, state);
+    ray_packet_select(committed_scene, s, order, first, count, p);
     if (!p->extreme && !committed_scene->brute_force) {
         for (uint32_t k = count; k < p->lanes; k++)
             ray_packet_disable_lane(p, k, 0);
@@ -190,6 +195,31 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
     ray_packet_init_lanes(p, count, state);
     counts->invalid_rays += invalid;
     return true;
+}
+
+/* ---- hits ---- */
+
+/* Stores a packet's hits in the caller's arrays. */
+CGT_SPU_INLINE void ray_store_hits(const packet_hits *h, const ray_order *order, uint32_t first, uint32_t count,
+                                   const cgt_hits *hits)
+{
+    const size_t stride = hits->stride ? hits->stride : sizeof(float);
+    for (uint32_t k = 0; k < count; k++) {
+        const size_t offset = (size_t)ray_index(order, first + k) * stride;
+        if (hits->t)
+            memcpy((char *)hits->t + offset, &h->t[k], sizeof(float));
+        if (hits->primitive)
+            memcpy((char *)hits->primitive + offset, &h->primitive[k], sizeof(uint32_t));
+        if (hits->geometry)
+            memcpy((char *)hits->geometry + offset, &h->geometry[k], sizeof(uint32_t));
+        for (int a = 0; a < 3; a++)
+            if (hits->normal[a])
+                memcpy((char *)hits->normal[a] + offset, &h->normal[a][k], sizeof(float));
+        if (hits->u)
+            memcpy((char *)hits->u + offset, &h->u[k], sizeof(float));
+        if (hits->v)
+            memcpy((char *)hits->v + offset, &h->v[k], sizeof(float));
+    }
 }
 
 #endif

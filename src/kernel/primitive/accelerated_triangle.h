@@ -1,16 +1,17 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The thesis' accelerated triangle: 48 bytes that project a triangle onto the coordinate plane that it faces most (Wald,
- * "Realtime Ray Tracing and Interactive Global Illumination", 2004, section 7.2). With k that axis and u, v the next
- * two, the line meets the plane at
+ * The thesis' accelerated triangle: 48 bytes that project a triangle onto the coordinate plane that it faces most
+ * (Wald, "Realtime Ray Tracing and Interactive Global Illumination", 2004, section 7.2). With k that axis and u, v the
+ * next two, the line meets the plane at
  *   t = (nw - o_k - nu o_u - nv o_v) / (d_k + nu d_u + nv d_v)
- * and there h_u, h_v give the shares of the second and the third vertex:
+ * The point h there gives the shares of the second and the third vertex:
  *   share1 = bnu h_u + bnv h_v + bd    share2 = cnu h_u + cnv h_v + cd
  *
- * What its listings had wrong: set-up reads c, which is not defined (the edge to the second vertex, and the first edge
- * is taken the wrong way round); the test's KV is KU; share1 lacks its constant; the test of share2 tests share1 again;
- * t, u, v and both ids are all written to the distance, and from the unselected side. */
+ * Errors in the thesis' listings, corrected here: the set-up reads c, which is not defined (it is the edge to the
+ * second vertex), and takes the first edge in the wrong direction; KV of the test is KU; share1 lacks its constant; the
+ * test of share2 tests share1 again; t, u, v and both ids are all written to the distance, and from the unselected
+ * side. */
 #ifndef CGT_ACCELERATED_TRIANGLE_H
 #define CGT_ACCELERATED_TRIANGLE_H
 
@@ -24,7 +25,7 @@ typedef struct cgt_accelerated_triangle {
     uint32_t triangle, geometry; /* ids */
 } cgt_accelerated_triangle;
 
-_Static_assert(sizeof(cgt_accelerated_triangle) == 48, "three 16-byte blocks: a transfer by DMA takes whole ones");
+_Static_assert(sizeof(cgt_accelerated_triangle) == 48, "three 16-byte blocks: DMA transfers whole ones");
 
 static inline cgt_accelerated_triangle cgt_accelerated_triangle_init(const cgt_triangle *q)
 {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the filters of spheres and triangles share: what they know of the packet, what they find out about the rays of a
- * vector, how the rays that they leave open are decided, and the loop over the packet's blocks. */
+ * Shared by the filters of spheres and triangles: bounds of a packet's rays, the result of a test of a vector of rays,
+ * the decision of the rays that a filter leaves undecided, and the loop over the packet's blocks. */
 #ifndef CGT_FILTER_H
 #define CGT_FILTER_H
 
@@ -11,24 +11,22 @@
 #include "exact/decide.h"
 #include "kernel/packet/block_cones.h"
 #include "kernel/packet/ray_mask.h"
+#include "kernel/primitive/lane_vectors.h"
+#include "kernel/tunables.h"
 
-#ifndef FILTER_ROUNDOFF /* a test gives it other values, to find where the bounds break */
-#define FILTER_ROUNDOFF 0x1p-24f
-#endif
-
-/* What the bounds need to know of the rays. */
+/* Bounds of the packet's rays. */
 typedef struct filter_packet {
-    float org[3];      /* the common origin, or the middle of the box of the origins */
-    float org_reach;   /* from there to any origin, as a sum over the axes */
-    float reach[3];    /* and along each */
+    float org[3];      /* the common origin, or the middle of the origins' box */
+    float org_reach;   /* the largest 1-norm of an origin, seen from there */
+    float reach[3];    /* the same along each axis */
     float rlength;     /* at least 1 / |d| of the shortest direction */
-    float rlength_low; /* at most 1 / |d| of the longest direction; -infinity where hits behind an origin count */
+    float rlength_low; /* at most 1 / |d| of the longest direction; -infinity if hits behind an origin count */
     float longest;     /* at least the length of the longest direction */
-    float share[3];    /* along each axis: the largest component of any direction over its length bound, rounded up */
+    float share[3];    /* along each axis: the largest component of a direction over its length bound, rounded up */
     float scale;       /* a power of two that brings the scene's coordinates near 1 */
 } filter_packet;
 
-/* scale: the world's. */
+/* scale: the scene's. */
 CGT_SPU_INLINE void filter_packet_init(const packet *p, float scale, filter_packet *f)
 {
     vfloat most = spux_vfloat(0), least = spux_vfloat(INFINITY), t_min = least;
@@ -65,9 +63,8 @@ CGT_SPU_INLINE void filter_packet_init(const packet *p, float scale, filter_pack
     }
 }
 
-/* Before which t no ray meets anything in the spheres of a vector. The sums are rounded 8 times each, and lose 2^-74
- * where squares underflow; the distance from the filter's origin to a surface is at least what is left, where anything
- * is. */
+/* For each sphere of a vector, a t before which no ray hits it. The distance from the filter's origin to the surface is
+ * at least `near`, if that is above 0: the sums are rounded 8 times each, and lose 2^-74 where squares underflow. */
 CGT_SPU_INLINE void filter_min_t(const filter_packet *f, const float center[3][CGT_LANES],
                                  const float radius[CGT_LANES], float min_t[CGT_LANES])
 {
@@ -85,8 +82,8 @@ CGT_SPU_INLINE void filter_min_t(const filter_packet *f, const float center[3][C
     spux_store(min_t, spux_select(spux_vfloat(-INFINITY), spu_mul(near, spux_vfloat(f->rlength_low)), outside));
 }
 
-/* For triangles, where there is no common origin: the Pluecker coordinates of the rays, seen from the filter's origin,
- * and each ray's own length in place of the longest, since such directions may be of any. */
+/* For triangles and rays without a common origin: the rays' Pluecker coordinates, seen from the filter's origin, and
+ * each ray's own length in place of the longest one, since lengths may differ widely. */
 CGT_SPU_INLINE void filter_moments_init(packet *p, filter_packet *f)
 {
     vfloat share[3] = {spux_vfloat(0), spux_vfloat(0), spux_vfloat(0)};
@@ -109,15 +106,15 @@ CGT_SPU_INLINE void filter_moments_init(packet *p, filter_packet *f)
         f->share[a] = spux_hmax(share[a]);
 }
 
-/* What a test finds out about the rays of a vector. */
+/* The result of a test of a vector of rays. */
 typedef struct filter_result {
-    vfloat low, high;  /* the interval of t; twice the t in FAST precision */
+    vfloat low, high;  /* the interval of t; both are t in FAST precision */
     vfloat u, v;       /* of triangles in FAST precision */
     vmask certain_hit; /* a hit, certainly in the range and nearer than the best */
-    vmask undecided;   /* to be decided: neither certain nor certainly not */
+    vmask undecided;   /* neither a certain hit nor a certain miss */
 } filter_result;
 
-/* Decides whether the ray hits object before its winner so far (CGT_INVALID_ID: none yet), and where. */
+/* Decides whether the ray hits `prim` before its closest hit so far (CGT_INVALID_ID: none yet), and where. */
 CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t best_prim, uint32_t prim,
                                      double *t, cgt_counts *counts)
 {
@@ -132,11 +129,11 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
     cgt_decided_hit best = {.primitive = cgt_primitives_get(prims, best_prim)};
     cgt_decide_t(ray, &best);
     const int order = cgt_decide_order(ray, &hit, &best, &exact);
-    counts->exact_tests += exact && !was_exact; /* once a test */
+    counts->exact_tests += exact && !was_exact; /* count a test once */
     return order < 0 || (order == 0 && prim < best_prim);
 }
 
-/* Decides whether object beats the best hit of ray i. */
+/* Decides whether `prim` is the closest hit of ray i, and stores it. */
 __attribute__((noinline, unused)) static void filter_decide(const cgt_primitives *prims, packet *p, uint32_t i,
                                                             uint32_t prim, cgt_counts *counts)
 {
@@ -147,7 +144,7 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_primitives
     const uint32_t best_prim = p->prim[i];
     double t;
     if (best_prim == prim || p->high[i] == -INFINITY)
-        return; /* met before; or the ray takes no part */
+        return; /* it is already, or the ray is disabled */
     if (p->skips_prims && ray_skips(p, i, prim, skip_mask_of(prims, p, prim)))
         return;
     if (!filter_is_closer(prims, &ray, p->any_hit ? CGT_INVALID_ID : best_prim, prim, &t, counts))
@@ -162,10 +159,10 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_primitives
     p->high[i] = rounded + width;
 }
 
-/* A test of rays i to i + CGT_LANES - 1 against one primitive: false where all surely miss. */
+/* Tests rays i to i + CGT_LANES - 1 against one primitive. Returns false if all certainly miss. */
 typedef bool filter_test(const packet *p, const void *primitive, uint32_t i, bool common_origin, filter_result *f);
 
-/* Decides the rays of a block that the filter leaves open. They are rare: they are found a second time here. */
+/* Decides the undecided rays of a block. They are rare: the test is repeated to find them. */
 CGT_SPU_INLINE void filter_decide_block(const cgt_primitives *prims, packet *p, filter_test *test,
                                         const void *primitive, uint32_t prim, uint32_t first, uint32_t end,
                                         bool common_origin, cgt_counts *counts)
@@ -179,7 +176,7 @@ CGT_SPU_INLINE void filter_decide_block(const cgt_primitives *prims, packet *p, 
     }
 }
 
-/* How a packet is tested; constants where the loop below is called. */
+/* How a packet is tested: constants where the loop below is instantiated. */
 typedef struct filter_mode {
     bool common_origin;
     bool any_hit;
@@ -187,7 +184,7 @@ typedef struct filter_mode {
     bool store_uv; /* FAST, triangles */
 } filter_mode;
 
-/* The modes are constants here, so that each gets a loop of its own. uv: FAST keeps u and v. */
+/* Calls `call` with a constant mode, so that each mode gets a loop of its own. uv: FAST stores u and v. */
 #define FILTER_FOR_MODE(p, uv, call)                                                                                   \
     switch ((p)->fast << 2 | (p)->common_origin << 1 | (p)->any_hit) {                                                 \
     case 0: call(((filter_mode){false, false, true, false})); break;                                                   \
@@ -200,7 +197,7 @@ typedef struct filter_mode {
     default: call(((filter_mode){true, true, false, false})); break;                                                   \
     }
 
-/* Keeps what a test found out about a vector of rays. */
+/* Stores the certain hits of a vector of rays. */
 CGT_SPU_INLINE void filter_store(packet *p, uint32_t i, const filter_result *f, vuint prim, filter_mode mode)
 {
     const vfloat no_hit = spux_vfloat(-INFINITY);

@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A vector of primitives from the caller's arrays, at any stride. Records of three numbers are read as four where
- * another record follows: its bytes are the caller's too. Near the end of an array they are read one by one. */
+ * Loads vectors of primitives from the caller's arrays, at any stride. load_*: consecutive ones; gather_*: by numbers.
+ * Records of three numbers are read as four if another record follows, since its bytes are the caller's, too. Near the
+ * end of an array they are read one by one. */
 #ifndef CGT_GATHER_PRIMITIVES_H
 #define CGT_GATHER_PRIMITIVES_H
 
@@ -10,7 +11,7 @@
 #include "dispatch/kernel.h"
 #include "vector.h"
 
-/* Spheres i to i + count - 1 to the first lanes: x, y, z, radius; zeros beyond. */
+/* Spheres i to i + count - 1: x, y, z, radius; 0 in the lanes beyond. */
 CGT_SPU_INLINE void load_spheres(const cgt_primitive_array *a, uint32_t i, uint32_t count, vfloat d[4])
 {
     const bool inside = count == CGT_LANES && a->count - i > CGT_LANES;
@@ -34,7 +35,7 @@ CGT_SPU_INLINE void load_spheres(const cgt_primitive_array *a, uint32_t i, uint3
         d[k] = spux_load(row[k]);
 }
 
-/* A number times a stride, of each lane: in vectors for the strides that there mostly are. */
+/* Numbers times a stride: with vector operations for the usual strides. */
 CGT_SPU_INLINE void compute_offsets(vuint number, uint32_t stride, uint32_t offset[CGT_LANES])
 {
     if (stride == 4) {
@@ -50,7 +51,7 @@ CGT_SPU_INLINE void compute_offsets(vuint number, uint32_t stride, uint32_t offs
         offset[k] *= stride;
 }
 
-/* Any spheres of an array; lane by lane where offsets are beyond 32 bits, or another record does not follow each. */
+/* Spheres of one array; lane by lane if offsets exceed 32 bits, or if one is the last record. */
 CGT_SPU_INLINE void gather_spheres(const cgt_primitive_array *a, vuint number, vfloat d[4])
 {
     const bool records = a->radius == a->point + 3 * sizeof(float) && a->radius_stride == a->point_stride;
@@ -80,7 +81,7 @@ CGT_SPU_INLINE void gather_spheres(const cgt_primitive_array *a, vuint number, v
         d[k] = spux_load(row[k]);
 }
 
-/* The corners of triangles i to i + count - 1, zeros beyond. */
+/* The vertex numbers of triangles i to i + count - 1; 0 in the lanes beyond. */
 CGT_SPU_INLINE void load_corners(const cgt_primitive_array *a, uint32_t i, uint32_t count, vuint corner[3])
 {
     if (a->index && count == CGT_LANES && a->count - i > CGT_LANES) {
@@ -102,8 +103,8 @@ CGT_SPU_INLINE void load_corners(const cgt_primitive_array *a, uint32_t i, uint3
         corner[j] = spux_load_uint(row[j]);
 }
 
-/* The corners of any triangles of an array; lane by lane where offsets are beyond 32 bits, or another record does not
- * follow each. */
+/* The vertex numbers of triangles of one array; lane by lane if offsets exceed 32 bits, or if one is the last
+ * record. */
 CGT_SPU_INLINE void gather_corners(const cgt_primitive_array *a, vuint number, vuint corner[3])
 {
     const bool fit = (uint64_t)a->count * (a->index_stride / sizeof(uint32_t)) <= UINT32_MAX;
@@ -132,13 +133,13 @@ CGT_SPU_INLINE void gather_corners(const cgt_primitive_array *a, vuint number, v
         corner[j] = spux_load_uint(row[j]);
 }
 
-/* Whether vertices of an array can be told by 32 bits that count floats. */
+/* Whether offsets of vertices, in floats, fit into 32 bits. */
 CGT_SPU_INLINE bool vertices_fit_offsets(const cgt_primitive_array *a)
 {
     return (uint64_t)a->points * (a->point_stride / sizeof(float)) <= UINT32_MAX;
 }
 
-/* Vertices of an array by their numbers, which are in range. before_last: none is the last one, and they fit. */
+/* Vertices by their numbers, which are in range. before_last: none is the last one, and offsets fit into 32 bits. */
 CGT_SPU_INLINE void gather_vertices(const cgt_primitive_array *a, vuint corner, bool before_last, vfloat v[3])
 {
     _Alignas(CGT_VECTOR_BYTES) uint32_t offset[CGT_LANES];
@@ -161,7 +162,7 @@ CGT_SPU_INLINE void gather_vertices(const cgt_primitive_array *a, vuint corner, 
         v[j] = spux_load(row[j]);
 }
 
-/* Any triangles of an array. */
+/* Triangles of one array. */
 CGT_SPU_INLINE void gather_triangles(const cgt_primitive_array *a, vuint number, vfloat vertex[3][3])
 {
     const bool fit = vertices_fit_offsets(a);
@@ -171,7 +172,7 @@ CGT_SPU_INLINE void gather_triangles(const cgt_primitive_array *a, vuint number,
         gather_vertices(a, corner[k], fit && spux_all(spu_cmpgt(spux_vuint(a->points - 1), corner[k])), vertex[k]);
 }
 
-/* Asks for the vertices of triangles, whose indices are at hand. */
+/* Prefetches the vertices of triangles whose indices are in the cache. */
 CGT_SPU_INLINE void prefetch_triangles(const cgt_primitive_array *a, const uint32_t *reference, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
@@ -183,9 +184,68 @@ CGT_SPU_INLINE void prefetch_triangles(const cgt_primitive_array *a, const uint3
     }
 }
 
+/* ---- any primitives of a scene ---- */
+
+/* The first lanes, as bits. */
+CGT_SPU_INLINE unsigned first_lanes(uint32_t count) { return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES; }
+
+/* Loads references; lanes beyond count repeat the first one. */
+CGT_SPU_INLINE vuint load_references(const uint32_t *reference, uint32_t count)
+{
+    if (count >= CGT_LANES)
+        return spux_load_unaligned_uint(reference);
+    _Alignas(CGT_VECTOR_BYTES) uint32_t padded[CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++)
+        padded[k] = reference[k < count ? k : 0];
+    return spux_load_uint(padded);
+}
+
+/* Spheres of any arrays: x, y, z, radius. */
+CGT_SPU_INLINE void gather_scene_spheres(const cgt_primitives *prims, vuint prim, vfloat sphere[4])
+{
+    if (prims->arrays == 1) { /* its first primitive is 0 */
+        gather_spheres(prims->array, prim, sphere);
+        return;
+    }
+    _Alignas(CGT_VECTOR_BYTES) uint32_t number[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES];
+    spux_store_uint(number, prim);
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const cgt_sphere q = cgt_primitives_sphere(prims, number[k]);
+        row[0][k] = q.x;
+        row[1][k] = q.y;
+        row[2][k] = q.z;
+        row[3][k] = q.r;
+    }
+    for (int a = 0; a < 4; a++)
+        sphere[a] = spux_load(row[a]);
+}
+
+/* Triangles of any arrays; one by one where they lie in several. */
+CGT_SPU_INLINE void gather_scene_triangles(const cgt_primitives *prims, const uint32_t prim[CGT_LANES],
+                                           vfloat vertex[3][3])
+{
+    const cgt_primitive_array *a = prims->arrays == 1 ? prims->array : cgt_primitives_array(prims, prim[0]);
+    const vuint number = spu_sub(spux_load_uint(prim), spux_vuint(a->first));
+    if (prims->arrays == 1 || spux_all(spu_cmpgt(spux_vuint(a->count), number))) {
+        gather_triangles(a, number, vertex);
+        return;
+    }
+    _Alignas(CGT_VECTOR_BYTES) float row[3][3][CGT_LANES];
+    for (uint32_t k = 0; k < CGT_LANES; k++) {
+        const cgt_triangle q = cgt_primitives_triangle(prims, prim[k]);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                row[i][j][k] = q.v[i][j];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            vertex[i][j] = spux_load(row[i][j]);
+}
+
 /* ---- clusters ---- */
 
-/* A vector of clusters as they lie in memory: middle, valid, half, size. */
+/* A vector of clusters, as they lie in memory: middle, valid, half, size. */
 CGT_SPU_INLINE void gather_clusters(const cgt_cluster *cluster, const uint32_t number[CGT_LANES], vfloat d[8])
 {
     uint32_t offset[CGT_LANES];
@@ -194,7 +254,7 @@ CGT_SPU_INLINE void gather_clusters(const cgt_cluster *cluster, const uint32_t n
     spux_load_records8_at(cluster->middle, offset, d);
 }
 
-/* The first clusters; lanes beyond count repeat the last one. */
+/* The first `count` clusters; lanes beyond repeat the last one. */
 CGT_SPU_INLINE void load_clusters(const cgt_cluster *cluster, uint32_t count, vfloat d[8])
 {
     uint32_t number[CGT_LANES];
@@ -203,7 +263,7 @@ CGT_SPU_INLINE void load_clusters(const cgt_cluster *cluster, uint32_t count, vf
     gather_clusters(cluster, number, d);
 }
 
-/* Those of references; lanes beyond count repeat the first one. */
+/* Clusters of references; lanes beyond count repeat the first one. */
 CGT_SPU_INLINE void gather_cluster_list(const cgt_cluster *cluster, const uint32_t *reference, uint32_t count,
                                         vfloat d[8])
 {
@@ -215,7 +275,7 @@ CGT_SPU_INLINE void gather_cluster_list(const cgt_cluster *cluster, const uint32
 
 /* ---- keys ---- */
 
-/* Stores those of the first `count` lanes. */
+/* Stores the keys of the first `count` lanes. */
 CGT_SPU_INLINE void store_keys(uint32_t *to, vuint key, uint32_t count)
 {
     if (count >= CGT_LANES)

@@ -1,47 +1,47 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One ray and one object in each lane of a vector, in single precision with derived bounds. Leaves of trees hold few
- * objects and are met by few rays: nothing is prepared for a packet, only what a commit can (leaf_triangle.h), and either
- * side may be the same in all lanes. The form of spheres is that of sphere_filter.h.
+ * Tests one ray against one primitive in each lane, in single precision with derived bounds. Leaves of trees hold few
+ * primitives and are reached by few rays, so nothing is prepared per packet, only per commit (leaf_triangle.h). The
+ * rays, or the primitives, of all lanes may be the same. The formula for spheres is that of sphere_filter.h.
  *
- * Triangles (Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997), with s the ray's origin from
- * the first vertex, e_1 and e_2 the edges from there, all times the world's scale, u = 2^-24, |x| the largest component
- * and [x] the sum of their sizes. P(p, q, r) of triangle_filter.h is at most |p| [q] [r] in any order. So
+ * Triangles (Moeller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997): let s be the ray's origin
+ * seen from the first vertex, e_1 and e_2 the edges from there, all times the scene's scale, u = 2^-24, |x| the largest
+ * component and [x] the 1-norm. P(p, q, r) of triangle_filter.h is at most |p| [q] [r] in any order. So
  *   U = s.(d x e_2)   within 9 u |d| [s] [e_2]        V = d.(s x e_1)   within 9 u |d| [s] [e_1]
  *   D = e_1.(d x e_2) within 9 u |d| [e_1] [e_2]      T = e_2.(s x e_1) within 9 u [s] [e_1] [e_2]
  *   W = D - U - V     within the errors of all three, and 2 u of their sizes
- * each enlarged by 2^-7 for what is of second order. U, V and W are on which side of each edge the line passes: the
- * signs of triangle_double.h, times scale^2. t = T / D, over the scale.
+ * each enlarged by 2^-7 for second order terms. The signs of U, V and W tell on which side of each edge the line
+ * passes: they are the sides of triangle_double.h, times scale^2. t = T / D, divided by the scale.
  *
- * What underflows, in a vertex, a product or a sum, is below 2^-124, and |d| or [s] may be multiplied with it, or both:
- * 2^-118 (|d| + 1) ([s] + 1) is added to U, V and W, 2^-118 ([s] + 1) to T, and 2^-118 (|d| + 1) to D. Where [s] is
- * beyond 2^124, products may overflow: then what is added is infinite, and no sign is certain. What is not finite
- * compares with nothing, so that such lanes are open.
- * Where |D| is not above four times its error, t may be anything, and its interval is everything. */
-#ifndef CGT_LEAF_LANES_H
-#define CGT_LEAF_LANES_H
+ * Underflow in a vertex, a product or a sum is below 2^-124, and may be multiplied by |d|, by [s] or by both:
+ * 2^-118 (|d| + 1) ([s] + 1) is added to the bounds of U, V and W, 2^-118 ([s] + 1) to that of T, and 2^-118 (|d| + 1)
+ * to that of D. If [s] exceeds 2^124, products may overflow: then this addend is infinite and no sign is certain.
+ * Comparisons with infinities and NaN are false, so such lanes are undecided. If |D| is not above four times its error,
+ * the interval of t is unbounded. */
+#ifndef CGT_LANE_TESTS_H
+#define CGT_LANE_TESTS_H
 
 #include "kernel/primitive/filter.h"
 #include "model/leaf_triangle.h"
 
-/* Bounds of triangles, see above. */
+/* Error bounds of triangles, see above. */
 #define LANE_EPS_UV (9 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 #define LANE_EPS_W (11 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 #define LANE_EPS_PLANE (10 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 
-/* The rays of the lanes, all alike or each its own. */
+/* The rays of the lanes, all the same or different ones. */
 typedef struct lane_rays {
     vfloat org[3], dir[3];
     vfloat t_min;
-    vfloat rdd;                /* 1 / d.d; only where there are spheres, and so is the next */
+    vfloat rdd;                /* 1 / d.d; this and the next one only for spheres */
     vfloat rlength;            /* 1 / |d|, rounded up */
-    vfloat max_dir, underflow; /* of triangles, and so is the next */
+    vfloat max_dir, underflow; /* these and the next ones only for triangles */
     vfloat scaled_org[3];
-    vfloat unscale; /* 1 over the world's scale */
+    vfloat unscale; /* 1 over the scene's scale */
 } lane_rays;
 
-/* What the tests find: which lanes hit for certain, with an interval of t; and which may hit, not before `low`. */
+/* The result of a test: certain hits, with an interval of t; and undecided lanes, which do not hit before `low`. */
 typedef struct lane_hits {
     vfloat low, high;
     vmask certain_hit, undecided;
@@ -81,17 +81,7 @@ CGT_SPU_INLINE void lane_rays_of_one(const packet *p, uint32_t i, float scale, l
     lane_rays_derive(r, scale);
 }
 
-CGT_SPU_INLINE vfloat lane_dot(const vfloat p[3], const vfloat q[3])
-{
-    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
-}
-
-CGT_SPU_INLINE vfloat lane_sum(const vfloat v[3])
-{
-    return spu_add(spux_abs(v[0]), spu_add(spux_abs(v[1]), spux_abs(v[2])));
-}
-
-/* False where all surely miss. */
+/* Returns false if all certainly miss. */
 CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, lane_hits *q)
 {
     vfloat c[3], l[3];
@@ -115,22 +105,14 @@ CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3],
         spu_madd(t_error, spux_vfloat(2), spu_mul(spux_sqrt(eps), spu_mul(r->rlength, spux_vfloat(0.27f))));
     q->low = spu_sub(spu_sub(mid, half), t_error);
     q->high = spu_add(q->low, t_width);
-    /* both roots before the range */
+    /* both roots lie before the range */
     const vmask behind = spu_cmpgt(r->t_min, spu_add(spu_add(mid, half), t_error));
     q->certain_hit = spu_and(spu_cmpgt(h, spu_mul(eps, spux_vfloat(17))), spu_cmpgt(q->low, r->t_min));
     q->undecided = spux_not(spu_or(spu_or(missed, behind), q->certain_hit));
     return true;
 }
 
-CGT_SPU_INLINE void lane_cross(const vfloat p[3], const vfloat q[3], vfloat cross[3])
-{
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        cross[a] = spu_msub(p[b], q[c], spu_mul(p[c], q[b]));
-    }
-}
-
-/* Triangles as the test takes them (leaf_triangle.h). */
+/* Triangles in the form of leaf_triangle.h. */
 typedef struct lane_triangles {
     vfloat vertex[3], edge[2][3], sum[2];
 } lane_triangles;
@@ -147,7 +129,7 @@ CGT_SPU_INLINE void lane_triangles_of_one(const cgt_leaf_triangle *t, lane_trian
     }
 }
 
-/* Which lanes' lines pass inside all edges for certain, and which outside of one; all[k]: above, below; any[k]. */
+/* Adds one edge: lanes on the upper [0] or the lower [1] side of all edges, and of any edge, for certain. */
 CGT_SPU_INLINE void lane_test_side(vfloat w, vfloat eps, vmask inside_sides[2], vmask outside_sides[2])
 {
     const vmask above = spu_cmpgt(w, eps), below = spu_cmpgt(spu_xor(eps, spux_vfloat(-0.f)), w);
@@ -157,7 +139,7 @@ CGT_SPU_INLINE void lane_test_side(vfloat w, vfloat eps, vmask inside_sides[2], 
     outside_sides[1] = spu_or(outside_sides[1], below);
 }
 
-/* False where all surely miss. */
+/* Returns false if all certainly miss. */
 CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles *triangle, lane_hits *q)
 {
     const vfloat *e1 = triangle->edge[0], *e2 = triangle->edge[1];
@@ -183,6 +165,7 @@ CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles 
                 outside = spu_and(outside_sides[0], outside_sides[1]);
     if (spux_all(outside))
         return false;
+    /* t and its interval */
     const vfloat delta = spu_madd(eps_den, spux_vfloat(LANE_EPS_PLANE), r->underflow);
     const vfloat num_error = spu_madd(spu_madd(edges, spux_vfloat(LANE_EPS_PLANE), spux_vfloat(0x1p-118f)), distance,
                                       spux_vfloat(0x1p-118f));
@@ -191,7 +174,7 @@ CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles 
     const vfloat error = spu_mul(spu_madd(reach, delta, num_error), spu_mul(spux_abs(rden), spux_vfloat(1.34f)));
     const vfloat width = spu_madd(reach, spux_vfloat(0x1p-20f), spu_add(error, spux_vfloat(0x1p-124f)));
     const vmask steep = spu_cmpgt(spux_abs(den), spu_mul(delta, spux_vfloat(4)));
-    /* 1 / den is a number near 1 whatever the world's scale: that comes last */
+    /* 1 / den is of ordinary size at any scale of the scene: unscale last */
     q->low = spux_select(spux_vfloat(-INFINITY), spu_msub(spu_sub(t, width), r->unscale, tiny), steep);
     q->high = spux_select(spux_vfloat(INFINITY), spu_madd(spu_add(t, width), r->unscale, tiny), steep);
     const vmask behind = spu_and(steep, spu_cmpgt(r->t_min, q->high));
@@ -202,7 +185,7 @@ CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles 
 
 /* ---- one ray and a list ---- */
 
-/* How many of the first objects of a list are of one kind, at most a vector. */
+/* The number of primitives, from the first of a list on and at most a vector, that are of one kind. */
 CGT_SPU_INLINE uint32_t leaf_same_kind_run(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
                                            cgt_kind *kind)
 {
@@ -217,8 +200,8 @@ CGT_SPU_INLINE uint32_t leaf_same_kind_run(const cgt_primitives *prims, const ui
     return same_kind;
 }
 
-/* Keeps what ray i found out about the objects of the lanes, at most a vector. Lanes whose interval lies beyond the best
- * hit are out, those before it replace it, the others are decided. */
+/* Updates the closest hit of ray i with the primitives of the first `count` lanes. Lanes whose interval lies beyond the
+ * closest hit are dropped, those before it replace it, the others are decided exactly. */
 __attribute__((unused)) static void leaf_update_ray(const cgt_primitives *prims, packet *p, uint32_t i,
                                                     const lane_hits *q, const uint32_t *reference, uint32_t count,
                                                     cgt_counts *counts)

@@ -1,43 +1,43 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays of a packet against one sphere, in single precision with derived bounds; what they leave open is decided in
- * double. The form is the perpendicular one of sphere_double.h:
+ * Tests the rays of a packet against one sphere, in single precision with derived bounds; undecided rays are decided in
+ * double. The formula is the perpendicular one of sphere_double.h:
  *   s = d.c / d.d,  l = c - s d,  h = r^2 - l.l,  t = s - sqrt(h / d.d)
  *
- * Bounds, with u = 2^-24, |c| the distance from origin to centre, first order unless said; they hold for fused and
- * unfused arithmetic and for reciprocals and roots within 2^-21:
+ * Error bounds, u = 2^-24, |c| the distance from origin to centre, of first order unless stated. They hold for fused
+ * and unfused arithmetic, and for reciprocals and roots within 2^-21:
  *   c        u |c| per component, as a vector
  *   d.c      4 u |d||c|;  1/d.d  8 u relative;  so s within 13 u |c|/|d|
  *   l        along d: 13 u |c|, which changes l.l in second order only, since l is perpendicular to d;
  *            otherwise u |c| (c) + u |c| (s d) + u |c| (difference) = 3 u |c|
  *   l.l      within 2 |l| 3 u |c| + 3 u |l|^2 + (16^2 + 96 + 9) u^2 |c|^2
  *   h        at the silhouette |l| = r: 6 u r |c| + 6 u r^2 + 361 u^2 |c|^2
- *   eps      9 u r (|c| + r) + 640 u^2 |c|^2 + 2^-120, the last for what underflows
- * A hit's exact h is at least 0, and computed r^2 + eps - l.l then is at least 0 too: less is a certain miss. Where it
- * is more than 17 eps the hit is certain, its exact h at least that minus 2 eps, and the two roots differ by at most
+ *   eps      9 u r (|c| + r) + 640 u^2 |c|^2 + 2^-120; the last term covers underflow
+ * If the exact h is at least 0, so is the computed r^2 + eps - l.l: a negative one is a certain miss. Above 17 eps the
+ * hit is certain, its exact h is at least the computed one minus 2 eps, and the two roots differ by at most
  * 2 eps / (sqrt(17 eps) + sqrt(15 eps)) < 0.26 sqrt(eps), over |d|. The rest of the interval is
  *   e0       13 u |c| (s) + 13 u sqrt(h) (root) + u |t|: 18 u (|c| + r), over |d|
- * and, for what underflows (flushed denormals included), 2^-62 where h / d.d does and 2^-122 / d.d where d.c does.
- * A test in the suite checks these against double, and shrinks them until they fail. */
+ * and, for underflow (also of flushed denormals), 2^-62 for h / d.d and 2^-122 / d.d for d.c.
+ * A test checks the bounds against double, and tightens them until it sees them break. */
 #ifndef CGT_SPHERE_FILTER_H
 #define CGT_SPHERE_FILTER_H
 
 #include "kernel/primitive/filter.h"
 
-/* Spheres of one vector, with what the bounds of each come to for this packet. */
+/* A vector of spheres, with the bounds of each for this packet. */
 typedef struct filter_spheres {
     _Alignas(64) float center[3][CGT_LANES];
     _Alignas(64) float radius[CGT_LANES];
     _Alignas(64) float r2[CGT_LANES];          /* r^2 + eps */
     _Alignas(64) float certain_hit[CGT_LANES]; /* 17 eps */
-    _Alignas(64) float t_error[CGT_LANES];     /* e0: from the computed t down to the interval's start */
+    _Alignas(64) float t_error[CGT_LANES];     /* e0: from the computed t down to the start of the interval */
     _Alignas(64) float t_width[CGT_LANES];     /* the interval's length */
     _Alignas(64) float min_t[CGT_LANES];       /* no ray meets the sphere before this t */
     uint32_t prim[CGT_LANES];
 } filter_spheres;
 
-/* Reads at most a vector of spheres to the first `lanes` lanes; beyond count they repeat the first. */
+/* Reads `count` spheres into the first `lanes` lanes; lanes beyond count repeat the first one. */
 CGT_SPU_INLINE void filter_gather_spheres(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
                                           uint32_t lanes, filter_spheres *s)
 {
@@ -72,9 +72,9 @@ CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres 
     spux_store(s->t_width, spu_madd(e0, spux_vfloat(2), root));
 }
 
-/* One sphere as the vectors of a test. */
+/* One sphere, broadcast for a test. */
 typedef struct filter_sphere {
-    vfloat center[3]; /* seen from the common origin, where there is one */
+    vfloat center[3]; /* seen from the common origin, if there is one */
     vfloat r2, certain_hit, t_error, t_width, min_t;
     vuint prim;
 } filter_sphere;
@@ -92,8 +92,7 @@ CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_sph
     return q;
 }
 
-/* Returns false where all rays of the vector surely miss. Comparisons are written so that what is not a number stays
- * open. */
+/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided. */
 CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
                                        filter_result *f)
 {
@@ -109,17 +108,17 @@ CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, u
     const vfloat mid = spu_mul(spu_madd(dx, cx, spu_madd(dy, cy, spu_mul(dz, cz))), rdd);
     const vfloat lx = spu_nmsub(mid, dx, cx), ly = spu_nmsub(mid, dy, cy), lz = spu_nmsub(mid, dz, cz);
     const vfloat h = spu_sub(q->r2, spu_madd(lx, lx, spu_madd(ly, ly, spu_mul(lz, lz))));
-    /* a miss; or the sphere's nearest point lies beyond the best, which spares the root of a hidden one */
+    /* a miss, or the sphere's nearest point is occluded: this saves the root */
     const vmask missed = spu_or(spu_cmpgt(zero, h), spu_cmpgt(q->min_t, spux_load(p->high + i)));
     if (spux_all(missed))
         return false;
     const vfloat half = spux_sqrt(spu_mul(h, rdd)), t_min = spux_load(p->t_min + i);
     const vfloat low = spu_sub(spu_sub(mid, half), q->t_error), high = spu_add(low, q->t_width);
-    /* beyond the best; or both roots before the range; or met before */
+    /* beyond the closest hit; both roots before the range; or the closest hit already */
     const vmask beyond = spu_cmpgt(low, spux_load(p->high + i));
     const vmask behind = spu_cmpgt(t_min, spu_add(spu_add(mid, half), q->t_error));
     const vmask already_hit = spu_cmpeq(spux_load_uint(p->prim + i), q->prim);
-    /* greater, not equal: where h / d.d leaves the range of float, low is -infinity and so may t_min be */
+    /* greater, not equal: if h / d.d overflows, low is -infinity, and so may t_min be */
     const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spu_cmpgt(low, t_min));
     f->low = low;
     f->high = high;
@@ -128,7 +127,7 @@ CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, u
     return true;
 }
 
-/* The same without a bound, for FAST precision: certain is what single precision finds. */
+/* The same for FAST precision, without bounds: hits of single precision are certain. */
 CGT_SPU_INLINE bool filter_sphere_rays_fast(const packet *p, const void *primitive, uint32_t i, bool common_origin,
                                             filter_result *f)
 {
@@ -155,7 +154,7 @@ CGT_SPU_INLINE bool filter_sphere_rays_fast(const packet *p, const void *primiti
     return true;
 }
 
-/* Tests the rays of the packet's blocks that sphere k of a vector may reach. */
+/* Tests sphere k of a vector against the packet's blocks that it may reach. */
 CGT_SPU_INLINE void filter_test_sphere(const cgt_primitives *prims, packet *p, const filter_spheres *s, int k,
                                        block_cones *blocks, filter_mode mode, cgt_counts *counts)
 {

@@ -1,15 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The two other triangle tests, for FAST precision: Moeller and Trumbore's, and the thesis' by projection. They decide
- * by comparisons with 0 and 1 in single precision: rays that pass a shared edge may slip through. */
-#ifndef CGT_TRIANGLE_TESTS_H
-#define CGT_TRIANGLE_TESTS_H
+ * Two more triangle tests for FAST precision: that of Moeller and Trumbore, and the thesis' by projection. They decide
+ * by comparisons with 0 and 1 in single precision, so rays may slip through a shared edge. */
+#ifndef CGT_TRIANGLE_FAST_H
+#define CGT_TRIANGLE_FAST_H
 
 #include "kernel/primitive/accelerated_triangle.h"
 #include "kernel/primitive/triangle_filter.h"
 
-/* What both share at the end: a hit where u, v and 1 - u - v are at least 0. */
+/* The common end: a hit if u, v and 1 - u - v are at least 0. */
 CGT_SPU_INLINE bool triangle_test_end(const packet *p, uint32_t i, vuint prim, vfloat t, vfloat u, vfloat v,
                                       filter_result *f)
 {
@@ -52,11 +52,11 @@ CGT_SPU_INLINE bool moller_trumbore_rays(const packet *p, const void *primitive,
         d[a] = spux_load(p->dir[a] + i);
         s[a] = spu_sub(spux_load(p->org[a] + i), q->v0[a]);
     }
-    filter_cross(d, q->e2, h);
-    const vfloat det = filter_dot(q->e1, h), r = spux_div(spux_vfloat(1), det);
-    const vfloat u = spu_mul(filter_dot(s, h), r);
-    filter_cross(s, q->e1, g);
-    const vfloat v = spu_mul(filter_dot(d, g), r), t = spu_mul(filter_dot(q->e2, g), r);
+    lane_cross(d, q->e2, h);
+    const vfloat det = lane_dot(q->e1, h), r = spux_div(spux_vfloat(1), det);
+    const vfloat u = spu_mul(lane_dot(s, h), r);
+    lane_cross(s, q->e1, g);
+    const vfloat v = spu_mul(lane_dot(d, g), r), t = spu_mul(lane_dot(q->e2, g), r);
     return triangle_test_end(p, i, q->prim, t, u, v, f);
 }
 
@@ -96,9 +96,9 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
     return triangle_test_end(p, i, g->prim, t, u, v, f);
 }
 
-/* ---- which one ---- */
+/* ---- the packet's choice ---- */
 
-/* call(test, &q) with the test that the packet asks for and triangle k of a vector as it takes it. */
+/* Expands to call(test, &q), with the test that the packet chooses and triangle k of a vector in its form. */
 #define FILTER_WITH_TRIANGLE(p, of_packet, s, k, mode, call)                                                           \
     if ((mode).decides) {                                                                                              \
         const filter_triangle q = filter_triangle_get(of_packet, s, k, (mode).common_origin);                          \
@@ -114,7 +114,7 @@ CGT_SPU_INLINE bool accelerated_rays(const packet *p, const void *primitive, uin
         call(filter_triangle_rays_fast, &q);                                                                           \
     }
 
-/* Tests the rays of the packet's blocks that triangle k of a vector may reach. */
+/* Tests triangle k of a vector against the packet's blocks that it may reach. */
 CGT_SPU_INLINE void filter_test_triangle(const cgt_primitives *prims, packet *p, const filter_packet *of_packet,
                                          const filter_triangles *s, int k, block_cones *blocks, filter_mode mode,
                                          cgt_counts *counts)

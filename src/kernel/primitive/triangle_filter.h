@@ -1,43 +1,44 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays of a packet against one triangle, in single precision with derived bounds; what they leave open is decided. The
- * form is that of triangle_double.h, in the Pluecker coordinates of ray and edges:
- *   w_k = d.(b x e) + m.e,  b the vertex before edge k and e the edge; m = from x d where the ray starts `from` away
+ * Tests the rays of a packet against one triangle, in single precision with derived bounds; undecided rays are decided
+ * exactly. The formula is that of triangle_double.h, in the Pluecker coordinates of rays and edges:
+ *   w_k = d.(b x e) + m.e,  b the vertex before edge k, e the edge, m = from x d for a ray whose origin is `from`
  *   t = (n.a - n.from) / d.n,  n = e0 x e1 for two edges
- * Vertices are seen from the filter's origin: the rays' common one, where from and m are 0 and left out, or the middle
- * of them. An edge's vector comes from its two vertices, not from their difference to the origin: the error of w_k is
- * then in proportion to the edge, and so the uncertain band beside an edge as wide as the rounding of a vertex.
+ * Vertices and `from` are seen from the filter's origin: the rays' common one, in which case from and m are 0 and left
+ * out, or the middle of the origins. An edge is the difference of its two vertices as given, not of vertices seen from
+ * the origin. So the error of w_k is proportional to the edge, and the undecided band along an edge is as wide as the
+ * rounding of a vertex.
  *
- * Bounds, with u = 2^-24, first order; they hold for fused and unfused arithmetic. A determinant is a sum of products of
- * three components, and its error that many u of the sum of their sizes, P(p, q, r) = sum over the axes of
- * |p_x| (|q_y| |r_z| + |q_z| |r_y|). far is the largest |b| plus the largest |from|, component by component, and d the
- * largest of the packet: scenes that are long in one direction have tighter bounds than lengths would give.
+ * Error bounds, u = 2^-24, of first order. They hold for fused and unfused arithmetic. A determinant is a sum of
+ * products of three components. Its error is a number of u times the sum of their sizes, P(p, q, r) = the sum over the
+ * axes of |p_x| (|q_y| |r_z| + |q_z| |r_y|). `far` is the largest |b| plus the largest |from|, component by component,
+ * and d the packet's largest direction: this is tighter than lengths in scenes that are long in one direction.
  *   b, e, from   u each;  e and a factor of 1/eps 2 u
  *   d.(b x e)    u (b) + 2 u (e) + u + u (cross) + 3 u (dot) = 8 u;  9 u with the last sum
  *   m.e          u (from) + 2 u (m) + 2 u (e) + 3 u = 8 u, likewise
  *   eps_k        9 u P(d, far, e_k)
  *   n            2 u + 2 u, and u for a factor;  d.n  8 u: delta = 8 u P(d, e0, e1)
  *   n.a, n.from  u + 5 u + 3 u + 1 u: 10 u P(far, e0, e1)
- * Each is enlarged by 2^-7 for what is of second order, and is at least 2^-20 of what lengths give, so that it does not
- * vanish beside axis-parallel edges. d is taken relative to its length (of the longest, with a common origin).
- * Edge vectors are divided by eps_k and n by delta, so that the bound of all is that length.
+ * Each is enlarged by 2^-7 for second order terms, and is at least 2^-20 of the same bound by lengths, so that it does
+ * not vanish for axis-parallel edges. d is taken relative to its length (that of the longest one, with a common
+ * origin). Edge vectors are divided by eps_k and n by delta, so the bound of all is that length.
  * With D = that length and |d.n| > 4 D: t = num / den errs by at most (num's error + |t| D) / (|den| - D), which
- * is 4/3 of the same over |den|, and 2^-20 of t for division and rounding, and 2^-126 where they underflow.
- * Coordinates are scaled by a power of two that brings the scene near 1. Where a length, or that of the scaled directions,
- * leaves [2^-100, 2^100] all the same, the triangle's numbers are set to zero: then every ray is open.
- * A test in the suite checks these against exact arithmetic, and shrinks them until they fail. */
+ * is 4/3 of the same over |den|, plus 2^-20 of t for division and rounding, and 2^-126 for underflow.
+ * Coordinates are scaled by a power of two that brings the scene near 1. If a length, also of the scaled directions,
+ * still leaves [2^-100, 2^100], the triangle is "wild": its numbers are set to zero, and every ray is undecided.
+ * A test checks the bounds against exact arithmetic, and tightens them until it sees them break. */
 #ifndef CGT_TRIANGLE_FILTER_H
 #define CGT_TRIANGLE_FILTER_H
 
 #include "kernel/primitive/filter.h"
 
-/* Triangles of one vector, with what the bounds of each come to for this packet. */
+/* A vector of triangles, with the bounds of each for this packet. */
 typedef struct filter_triangles {
-    _Alignas(64) float vertex[3][3][CGT_LANES]; /* [k][a]: coordinate a of vertex k, world */
-    _Alignas(64) float center[3][CGT_LANES];    /* of a sphere around it, world */
+    _Alignas(64) float vertex[3][3][CGT_LANES]; /* [k][a]: coordinate a of vertex k, as given */
+    _Alignas(64) float center[3][CGT_LANES];    /* of a sphere around it, as given */
     _Alignas(64) float radius[CGT_LANES];
-    _Alignas(64) float min_t[CGT_LANES];            /* no ray meets it before this t */
+    _Alignas(64) float min_t[CGT_LANES];            /* no ray hits it before this t */
     _Alignas(64) float edge[3][3][CGT_LANES];       /* [k][a]: edge k, opposite vertex k, over eps_k */
     _Alignas(64) float edge_cross[3][3][CGT_LANES]; /* b x edge k, over eps_k */
     _Alignas(64) float normal[3][CGT_LANES];        /* n over delta */
@@ -46,7 +47,7 @@ typedef struct filter_triangles {
     uint32_t prim[CGT_LANES];
 } filter_triangles;
 
-/* Reads at most a vector of triangles to the first `lanes` lanes; beyond count they repeat the first. */
+/* Reads `count` triangles into the first `lanes` lanes; lanes beyond count repeat the first one. */
 CGT_SPU_INLINE void filter_gather_triangles(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
                                             uint32_t lanes, filter_triangles *s)
 {
@@ -62,7 +63,7 @@ CGT_SPU_INLINE void filter_gather_triangles(const cgt_primitives *prims, const u
 
 /* ---- bounds ---- */
 
-/* The box's middle, and a radius from there that surely holds the vertices. */
+/* A sphere around the vertices: the middle of their box, and a radius rounded up. */
 CGT_SPU_INLINE void filter_triangles_enclose(filter_triangles *s)
 {
     vfloat square = spux_vfloat(0), magnitude = square;
@@ -78,14 +79,9 @@ CGT_SPU_INLINE void filter_triangles_enclose(filter_triangles *s)
     spux_store(s->radius, spu_madd(spux_sqrt(square), spux_vfloat(1 + 0x1p-18f), rounding));
 }
 
-CGT_SPU_INLINE vfloat filter_dot(const vfloat p[3], const vfloat q[3])
-{
-    return spu_madd(p[0], q[0], spu_madd(p[1], q[1], spu_mul(p[2], q[2])));
-}
+CGT_SPU_INLINE vfloat filter_length(const vfloat v[3]) { return spux_sqrt(lane_dot(v, v)); }
 
-CGT_SPU_INLINE vfloat filter_length(const vfloat v[3]) { return spux_sqrt(filter_dot(v, v)); }
-
-/* 1 over a length, 0 where it is out of range. */
+/* 1 over a length; the lane becomes wild if it is out of range. */
 CGT_SPU_INLINE vfloat filter_reciprocal(vfloat length, vmask *wild)
 {
     const vmask good = spu_and(spu_cmpgt(length, spux_vfloat(0x1p-100f)), spu_cmpgt(spux_vfloat(0x1p100f), length));
@@ -93,15 +89,7 @@ CGT_SPU_INLINE vfloat filter_reciprocal(vfloat length, vmask *wild)
     return spux_div(spux_vfloat(1), spux_select(spux_vfloat(1), length, good));
 }
 
-CGT_SPU_INLINE void filter_cross(const vfloat p[3], const vfloat q[3], vfloat cross[3])
-{
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        cross[a] = spu_msub(p[b], q[c], spu_mul(p[c], q[b]));
-    }
-}
-
-/* Stores v * k where the triangle is not wild, else 0: infinities go too. */
+/* Stores v * k, or 0 for wild triangles, also in place of infinities. */
 CGT_SPU_INLINE void filter_store_scaled(float to[3][CGT_LANES], const vfloat v[3], vfloat k, vmask wild)
 {
     for (int a = 0; a < 3; a++)
@@ -120,19 +108,19 @@ CGT_SPU_INLINE vfloat filter_permanent(const vfloat p[3], const vfloat q[3], con
     return sum;
 }
 
-/* `roundings` u of the sum of sizes, and not less than 2^-20 of that of the lengths. */
+/* `roundings` u times the sum of sizes, at least 2^-20 of the same by lengths. */
 CGT_SPU_INLINE vfloat filter_triangles_error(float roundings, vfloat sizes, vfloat lengths)
 {
     const float u = roundings * FILTER_ROUNDOFF * (1 + 0x1p-7f);
     return spu_mul(spux_max(sizes, spu_mul(lengths, spux_vfloat(0x1p-20f))), spux_vfloat(u));
 }
 
-/* The bounds of a vector of triangles. */
+/* Computes the bounds of a vector of triangles. */
 CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triangles *s)
 {
     const vfloat scale = spux_vfloat(f->scale), from = spux_vfloat(f->org_reach * f->scale);
     vfloat v[3][3], e[3][3], length[3], farthest = spux_vfloat(0), cross[3];
-    /* the rays' Pluecker coordinates are scaled too */
+    /* the rays' Pluecker coordinates are scaled, too */
     vmask wild = spu_cmpgt(spux_vfloat(f->longest * f->scale), spux_vfloat(0x1p100f));
     filter_triangles_enclose(s);
     filter_min_t(f, (const float(*)[CGT_LANES])s->center, s->radius, s->min_t);
@@ -161,22 +149,25 @@ CGT_SPU_INLINE void filter_triangles_bound(const filter_packet *f, filter_triang
     const vfloat num_error =
         filter_triangles_error(10, filter_permanent(far, e[0], e[1]), spu_mul(spu_mul(length[0], length[1]), reach));
     for (int k = 0; k < 3; k++) {
-        filter_cross(v[(k + 1) % 3], e[k], cross);
+        lane_cross(v[(k + 1) % 3], e[k], cross);
         filter_store_scaled(s->edge_cross[k], cross, reps[k], wild);
         filter_store_scaled(s->edge[k], e[k], reps[k], wild);
     }
-    filter_cross(e[0], e[1], cross);
+    lane_cross(e[0], e[1], cross);
     filter_store_scaled(s->normal, cross, rdelta, wild);
     const vfloat unscale = spux_vfloat(1 / f->scale);
     const vfloat n[3] = {spux_load(s->normal[0]), spux_load(s->normal[1]), spux_load(s->normal[2])};
-    const vfloat num = filter_dot(n, v[0]);
+    const vfloat num = lane_dot(n, v[0]);
     spux_store(s->num, spux_select(spu_mul(num, unscale), spux_vfloat(0), wild));
     spux_store(s->num_error, spu_madd(spu_mul(num_error, rdelta), unscale, spux_vfloat(0x1p-126f)));
 }
 
-/* For FAST precision: no bounds, no scales. Two triangles that share an edge must find the same side of it for every
- * ray: an edge is taken from its lower end to its higher one, by coordinates, whichever way the triangle runs along it,
- * and its sign is put on at the end. Then both compute the same numbers, with or without fused operations. */
+/* Whether p comes after q in lexicographic order.
+ *
+ * FAST precision has no bounds and no scales, but two triangles that share an edge must find the same side of it for
+ * every ray. So an edge is computed from its lower end to its higher one, in this order, whichever way the triangle
+ * runs along it, and its sign is applied at the end. Then both compute the same numbers, with or without fused
+ * operations. */
 CGT_SPU_INLINE vmask filter_above(const vfloat p[3], const vfloat q[3])
 {
     const vmask x = spu_cmpgt(p[0], q[0]), y = spu_cmpgt(p[1], q[1]), z = spu_cmpgt(p[2], q[2]);
@@ -204,20 +195,20 @@ CGT_SPU_INLINE void filter_triangles_prepare_fast(const filter_packet *f, filter
             e[k][a] = spu_xor(edge[a], sign);
             spux_store(s->edge[k][a], e[k][a]);
         }
-        filter_cross(low, edge, cross);
+        lane_cross(low, edge, cross);
         for (int a = 0; a < 3; a++)
             spux_store(s->edge_cross[k][a], spu_xor(cross[a], sign));
     }
-    filter_cross(e[0], e[1], cross);
+    lane_cross(e[0], e[1], cross);
     for (int a = 0; a < 3; a++)
         spux_store(s->normal[a], cross[a]);
-    spux_store(s->num, spu_mul(filter_dot(cross, v[0]), spux_vfloat(1 / f->scale)));
+    spux_store(s->num, spu_mul(lane_dot(cross, v[0]), spux_vfloat(1 / f->scale)));
     spux_store(s->num_error, plus);
 }
 
 /* ---- the test ---- */
 
-/* One triangle as the vectors of a test. */
+/* One triangle, broadcast for a test. */
 typedef struct filter_triangle {
     vfloat edge[3][3], edge_cross[3][3], normal[3];
     vfloat num, num_error, min_t, longest;
@@ -248,12 +239,12 @@ CGT_SPU_INLINE void filter_triangle_sides(const packet *p, const filter_triangle
 {
     const vfloat d[3] = {spux_load(p->dir[0] + i), spux_load(p->dir[1] + i), spux_load(p->dir[2] + i)};
     for (int k = 0; k < 3; k++)
-        w[k] = filter_dot(d, q->edge_cross[k]);
+        w[k] = lane_dot(d, q->edge_cross[k]);
     if (common_origin)
         return;
     const vfloat m[3] = {spux_load(p->moment[0] + i), spux_load(p->moment[1] + i), spux_load(p->moment[2] + i)};
     for (int k = 0; k < 3; k++)
-        w[k] = spu_add(w[k], filter_dot(m, q->edge[k]));
+        w[k] = spu_add(w[k], lane_dot(m, q->edge[k]));
 }
 
 CGT_SPU_INLINE void filter_triangle_plane(const packet *p, const filter_triangle *q, uint32_t i, bool common_origin,
@@ -261,15 +252,14 @@ CGT_SPU_INLINE void filter_triangle_plane(const packet *p, const filter_triangle
 {
     const vfloat d[3] = {spux_load(p->dir[0] + i), spux_load(p->dir[1] + i), spux_load(p->dir[2] + i)};
     *num = q->num;
-    *den = filter_dot(d, q->normal);
+    *den = lane_dot(d, q->normal);
     if (common_origin)
         return;
     const vfloat from[3] = {spux_load(p->from[0] + i), spux_load(p->from[1] + i), spux_load(p->from[2] + i)};
-    *num = spu_sub(*num, filter_dot(from, q->normal));
+    *num = spu_sub(*num, lane_dot(from, q->normal));
 }
 
-/* Returns false where all rays of the vector surely miss. Comparisons are written so that what is not a number stays
- * open. */
+/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided. */
 CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
                                          filter_result *f)
 {
@@ -279,7 +269,7 @@ CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive,
     vfloat w[3], num, den;
     filter_triangle_sides(p, q, i, common_origin, w);
     const vfloat least = spux_min(w[0], spux_min(w[1], w[2])), most = spux_max(w[0], spux_max(w[1], w[2]));
-    /* on both sides of edges; or the nearest point lies beyond the best */
+    /* outside of an edge on each side, or the nearest point is occluded */
     const vmask missed =
         spu_or(spu_and(spu_cmpgt(minus, least), spu_cmpgt(most, bound)), spu_cmpgt(q->min_t, spux_load(p->high + i)));
     if (spux_all(missed))
@@ -302,7 +292,7 @@ CGT_SPU_INLINE bool filter_triangle_rays(const packet *p, const void *primitive,
     return true;
 }
 
-/* The same without a bound, for FAST precision: the signs decide. */
+/* The same for FAST precision, without bounds: the signs decide. */
 CGT_SPU_INLINE bool filter_triangle_rays_fast(const packet *p, const void *primitive, uint32_t i, bool common_origin,
                                               filter_result *f)
 {
@@ -317,7 +307,7 @@ CGT_SPU_INLINE bool filter_triangle_rays_fast(const packet *p, const void *primi
     filter_triangle_plane(p, q, i, common_origin, &num, &den);
     const vfloat t = spu_mul(num, spux_div(spux_vfloat(1), den));
     const vfloat sum = spu_add(w[0], spu_add(w[1], w[2]));
-    /* all three may be 0 where the exact ones are only small: any share will do then, but a number */
+    /* all three may be 0 if the exact ones are small: then any finite shares will do */
     const vfloat divisor = spux_select(sum, spux_vfloat(1), spu_cmpeq(sum, zero));
     f->low = f->high = t;
     f->u = spux_div(w[1], divisor);

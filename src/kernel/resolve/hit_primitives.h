@@ -1,16 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The winning shapes of a packet's rays, as structure of arrays. */
-#ifndef CGT_WINNERS_H
-#define CGT_WINNERS_H
+ * The closest primitives of a packet's rays, as a structure of arrays. */
+#ifndef CGT_HIT_PRIMITIVES_H
+#define CGT_HIT_PRIMITIVES_H
 
 #include "kernel/packet/packet.h"
 
 #define RESOLVE_RAYS 16u
 
 typedef struct hit_primitives {
-    _Alignas(64) float sphere[4][PACKET_MAX_RAYS];    /* x, y, z, r; 0 where no sphere is hit */
+    _Alignas(64) float sphere[4][PACKET_MAX_RAYS];    /* x, y, z, r; 0 if no sphere is hit */
     _Alignas(64) float vertex[3][3][PACKET_MAX_RAYS]; /* [k][a]; only in scenes with triangles */
     _Alignas(64) uint32_t is_sphere[PACKET_MAX_RAYS]; /* 0 or 1; only in scenes with triangles */
     uint32_t hits;

@@ -1,19 +1,18 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * From the winning object of each ray to the fields of its hit: once per ray, in double, in the order of
- * sphere_double.h and triangle_double.h, so that no choice made on the way shows in the bits. Plain loops over the
- * packet: the compiler makes vectors of them, and unfused double arithmetic has one result at any width. Rays whose
- * values cancel too much are found on the way, and computed once more in exact arithmetic.
- * FAST precision hands out what the tests found. */
+ * The fields of each ray's hit, from its closest primitive: once per ray, in double, in the order of sphere_double.h
+ * and triangle_double.h. So the bits do not depend on the structure or the tests that found the hit, and unfused double
+ * arithmetic has the same result at any width. Rays whose values suffer from cancellation are computed again in exact
+ * arithmetic. FAST precision returns what the tests found. */
 #include "kernel/primitive/gather_primitives.h"
 #include "kernel/resolve/resolve_fast.h"
 #include "kernel/resolve/resolve_spheres.h"
 #include "kernel/resolve/resolve_triangles.h"
 
-/* ---- the winners ---- */
+/* ---- the primitives ---- */
 
-/* Neighbours mostly hit the same sphere: each different one of a vector is looked up once. */
+/* Spheres of several arrays. Neighbours mostly hit the same one: each distinct sphere of a vector is looked up once. */
 CGT_SPU_INLINE void resolve_lookup_spheres(const cgt_primitives *prims, const packet *p, uint32_t i, hit_primitives *w,
                                            packet_hits *hits)
 {
@@ -40,7 +39,7 @@ CGT_SPU_INLINE void resolve_lookup_spheres(const cgt_primitives *prims, const pa
     spux_store_uint(hits->geometry + i, geometry);
 }
 
-/* Spheres of one array, of a vector that has a winner: its other lanes take that one's. */
+/* Spheres of one array, for a vector with a hit: lanes without one take that of another lane. */
 CGT_SPU_INLINE void resolve_load_spheres(const cgt_primitive_array *array, const packet *p, uint32_t i, unsigned hit,
                                          hit_primitives *w, packet_hits *hits)
 {
@@ -76,7 +75,7 @@ static void set_triangle(hit_primitives *w, uint32_t i, const cgt_triangle *q)
             w->vertex[k][a][i] = q->v[k][a];
 }
 
-/* Triangles, or both kinds; what is not hit, or is of the other kind, gets a shape that computes to something. */
+/* Triangles of several arrays, or both kinds. Lanes without a hit, or of the other kind, get a dummy. */
 CGT_SPU_INLINE void resolve_lookup_mixed(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
                                          hit_primitives *w, packet_hits *hits)
 {
@@ -105,13 +104,13 @@ CGT_SPU_INLINE void resolve_lookup_mixed(const cgt_primitives *prims, const pack
     }
 }
 
-/* A vector of triangles of one array, of which some lane, `some`, has a winner: the others take that one. */
+/* A vector of triangles of one array. Lanes without a hit take the triangle `fallback`. */
 CGT_SPU_INLINE void resolve_load_triangles(const cgt_primitive_array *array, vuint prim, vmask missed,
                                            uint32_t fallback, uint32_t i, hit_primitives *w)
 {
     const vuint number = spux_select(prim, spux_vuint(fallback), missed);
     vfloat vertex[3][3];
-    if (spux_all(spu_cmpeq(number, spux_vuint(fallback)))) { /* neighbours mostly hit the same */
+    if (spux_all(spu_cmpeq(number, spux_vuint(fallback)))) { /* neighbours mostly hit the same one */
         const cgt_triangle q = cgt_array_triangle(array, fallback);
         for (int k = 0; k < 3; k++)
             for (int a = 0; a < 3; a++)
@@ -124,7 +123,7 @@ CGT_SPU_INLINE void resolve_load_triangles(const cgt_primitive_array *array, vui
             spux_store(w->vertex[k][a] + i, vertex[k][a]);
 }
 
-/* Triangles of one array alone. */
+/* Triangles of one array. */
 CGT_SPU_INLINE void resolve_find_triangles(const cgt_primitive_array *array, const packet *p, uint32_t first,
                                            uint32_t count, hit_primitives *w, packet_hits *hits)
 {
@@ -177,7 +176,7 @@ CGT_SPU_INLINE void fill_no_primitive(uint32_t first, uint32_t count, packet_hit
     }
 }
 
-/* Rays first to first + count - 1. Each kind's loop writes the rays of its kind. */
+/* Rays first to first + count - 1. The loop of each kind writes the rays that hit it. */
 CGT_SPU_INLINE void resolve_rays(const cgt_primitives *prims, const packet *p, uint32_t first, uint32_t count,
                                  const cgt_trace_settings *settings, hit_primitives *w, packet_hits *hits,
                                  cgt_counts *counts)
@@ -192,6 +191,7 @@ CGT_SPU_INLINE void resolve_rays(const cgt_primitives *prims, const packet *p, u
         fill_no_primitive(first, count, hits);
         return;
     }
+    /* gather the primitives, then compute */
     resolve_load_hits(prims, p, first, count, w, hits);
     if (prims->spheres)
         resolve_spheres(p, first, count, settings, !prims->triangles, w, hits, counts);
@@ -204,7 +204,7 @@ static void resolve_all(const cgt_primitives *prims, const packet *p, const cgt_
 {
     const uint32_t lanes = p->lanes;
     uint32_t i = 0;
-    for (; i + RESOLVE_RAYS <= lanes; i += RESOLVE_RAYS) /* a length that the compiler knows */
+    for (; i + RESOLVE_RAYS <= lanes; i += RESOLVE_RAYS) /* a constant length */
         resolve_rays(prims, p, i, RESOLVE_RAYS, settings, w, hits, counts);
     if (i < lanes)
         resolve_rays(prims, p, i, lanes - i, settings, w, hits, counts);

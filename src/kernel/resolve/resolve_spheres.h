@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * t and normals of the rays that hit spheres. The functions work on some rays at a time, first to first + count - 1;
- * `alone` says that the scene has nothing but spheres. */
+ * t and normals of the rays that hit spheres, a vector at a time. The short formula of sphere_double.h serves most
+ * rays, the long one those near a silhouette, and exact arithmetic the rest, ray by ray. single_kind: the scene has no
+ * other kind. */
 #ifndef CGT_RESOLVE_SPHERES_H
 #define CGT_RESOLVE_SPHERES_H
 
@@ -13,7 +14,7 @@
 
 /* Half a vector of rays and their spheres. */
 typedef struct resolve_half {
-    vdouble t, c[3], d[3]; /* c: the centre seen from the origin */
+    vdouble t, c[3], d[3]; /* c: the centre, seen from the origin */
     vdouble square, disc;  /* the terms of cgt_sphere_double_near: d.d, and the discriminant */
 } resolve_half;
 
@@ -25,7 +26,7 @@ CGT_SPU_INLINE void resolve_directions(const vfloat dir[3], resolve_half h[2])
     }
 }
 
-/* Of the lanes in `where`, 0 beside them. k: 1 / r */
+/* Normals of the lanes in `where`, 0 in the others. k: 1 / r. */
 CGT_SPU_INLINE void resolve_normals(const resolve_half h[2], const vdouble k[2], vmask where, vfloat n[3])
 {
     for (int a = 0; a < 3; a++)
@@ -33,10 +34,10 @@ CGT_SPU_INLINE void resolve_normals(const resolve_half h[2], const vdouble k[2],
             spux_float_where((h[0].t * h[0].d[a] - h[0].c[a]) * k[0], (h[1].t * h[1].d[a] - h[1].c[a]) * k[1], where);
 }
 
-/* ---- the short way of sphere_double.h, in its order ---- */
+/* ---- the short formula of sphere_double.h, in its order ---- */
 
-/* Returns the lanes whose t is cgt_canonical_sphere_t's, of those outside; t has the sign of the middle there. Both roots
- * before both quotients: a CPU has one slow unit for them, and one half's wait is the other one's work. */
+/* Returns the lanes, among those in `outside`, whose t is that of cgt_canonical_sphere_t; it has the sign of the middle
+ * there. Both halves' roots come before both quotients: a CPU has one slow unit for them, and the halves overlap. */
 CGT_SPU_INLINE vmask resolve_near_roots(const vdouble product[2], vmask outside, vfloat t_min, resolve_half h[2],
                                         vfloat *t)
 {
@@ -62,13 +63,13 @@ CGT_SPU_INLINE vmask resolve_near_roots(const vdouble product[2], vmask outside,
     return spu_and(spu_and(outside, ahead), inside);
 }
 
-/* ---- the long way ---- */
+/* ---- the long formula ---- */
 
-#define SPHERE_SAFE_RATIO 0x1p-16 /* twice what cgt_sphere_double_unsafe asks for, and more */
+#define SPHERE_SAFE_RATIO 0x1p-16 /* more than twice what cgt_sphere_double_unsafe requires */
 
-/* Rays of some lanes, in place of what t and n have there. Returns those whose t is the near root, and safe:
- * cgt_sphere_double_unsafe is 0 there. The product, d.d times that of the roots, is so far above 0 that where t is the
- * middle is. */
+/* Overwrites t and n in some of these lanes, and returns them: t is the near root, and safe, so that
+ * cgt_sphere_double_unsafe is 0. The product, d.d times that of the roots, is so far above 0 that the middle has the
+ * sign of t. */
 __attribute__((noinline, unused)) static vmask resolve_spheres_long(const vfloat org[3], const vfloat dir[3],
                                                                     const vfloat sphere[4], vfloat t_min, bool normal,
                                                                     vmask lanes, vfloat *t, vfloat n[3])
@@ -114,8 +115,8 @@ typedef struct resolved_sphere {
     float t, normal[3];
 } resolved_sphere;
 
-/* A ray whose t cancels, or is the far root, or whose sphere is a point: that has no normal of its own, and gets the
- * direction back to the ray's origin. */
+/* A ray whose t suffers from cancellation or is the far root, or whose sphere is a point. A point has no normal of its
+ * own: it gets the direction towards the ray's origin. */
 __attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(const cgt_ray *ray, cgt_sphere q,
                                                                             cgt_counts *counts)
 {
@@ -133,8 +134,8 @@ __attribute__((noinline, unused)) static resolved_sphere resolve_sphere_ray(cons
 
 /* ---- vectors of rays ---- */
 
-/* The lanes that hit, what of them the short way knows. Returns what both ways know; the others are for
- * resolve_sphere_ray. */
+/* The long formula for the lanes of `hit` that the short one left. Returns the lanes that are safe by either; the
+ * others are left to resolve_sphere_ray. */
 CGT_SPU_INLINE vmask resolve_spheres_fallback(const vfloat org[3], const vfloat dir[3], const vfloat sphere[4],
                                               vfloat t_min, bool normal, vmask hit, vmask safe_lanes, vfloat *t,
                                               vfloat n[3])
@@ -142,7 +143,7 @@ CGT_SPU_INLINE vmask resolve_spheres_fallback(const vfloat org[3], const vfloat 
     const vmask remaining = spu_andc(hit, safe_lanes);
     if (!spux_any(remaining))
         return safe_lanes;
-    /* of copies, so that the others stay in registers */
+    /* copies, so that the originals stay in registers */
     const vfloat o[3] = {org[0], org[1], org[2]}, d[3] = {dir[0], dir[1], dir[2]};
     const vfloat q[4] = {sphere[0], sphere[1], sphere[2], sphere[3]};
     vfloat long_t = *t, long_n[3];
@@ -155,7 +156,8 @@ CGT_SPU_INLINE vmask resolve_spheres_fallback(const vfloat org[3], const vfloat 
     return spu_or(safe_lanes, more);
 }
 
-/* What the short way asks for, but directions, which h has: centres and products. Returns the lanes outside. */
+/* The terms of the short formula: centres and products. Directions are in h already. Returns the lanes whose origin is
+ * outside the sphere. */
 CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat sphere[4], resolve_half h[2], vdouble product[2])
 {
     const vdouble r[2] = {spux_double_low(sphere[3]), spux_double_high(sphere[3])};
@@ -172,9 +174,9 @@ CGT_SPU_INLINE vmask resolve_terms(const vfloat org[3], const vfloat sphere[4], 
     return spux_not(spux_double_cmpgt(least, product));
 }
 
-/* Rays whose directions h has, of which some hit their spheres: t, and the normals of these, 0 beside them. The outward
- * unit normal is the vector from the centre over the radius. Origin and centre may both be far away: their difference
- * comes first. */
+/* t of rays whose directions are in h, and normals of the lanes in `hit`, 0 in the others. The outward unit normal is
+ * the vector from the centre, divided by the radius. Origin and centre may both be far away, so their difference is
+ * taken first. Returns the lanes whose result is right. */
 CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat sphere[4], vfloat t_min, bool normal,
                                             vmask hit, resolve_half h[2], vfloat *t, vfloat n[3])
 {
@@ -189,7 +191,7 @@ CGT_SPU_INLINE vmask resolve_spheres_vector(const vfloat org[3], const vfloat sp
     return safe_lanes;
 }
 
-/* What rays from one origin to one sphere have in common. */
+/* The terms that rays from one origin to one sphere share. */
 typedef struct prepared_sphere {
     double c[3], product, reciprocal;
     bool outside;
@@ -204,7 +206,7 @@ CGT_SPU_INLINE prepared_sphere prepare_sphere(const float org[3], cgt_sphere q)
         .c = {cx, cy, cz}, .product = cc - rr, .reciprocal = 1 / r, .outside = cc - rr >= cc * CGT_SPHERE_OUTSIDE};
 }
 
-/* As resolve_spheres_vector. */
+/* As resolve_spheres_vector, for one sphere. */
 CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, vfloat t_min, bool normal, vmask hit,
                                              resolve_half h[2], vfloat *t, vfloat n[3])
 {
@@ -219,7 +221,7 @@ CGT_SPU_INLINE vmask resolve_prepared_sphere(const prepared_sphere *p, vfloat t_
     return safe_lanes;
 }
 
-/* Lanes of a packet. */
+/* Rays i to i + CGT_LANES - 1 of a packet. */
 CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal, bool single_kind,
                                           const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {
@@ -232,6 +234,7 @@ CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal
         org[a] = spux_load(p->org[a] + i);
         dir[a] = spux_load(p->dir[a] + i);
     }
+    /* the short formula, then the long one */
     const vfloat t_min = spux_load(p->t_min + i);
     resolve_half h[2];
     resolve_directions(dir, h);
@@ -242,6 +245,7 @@ CGT_SPU_INLINE void resolve_spheres_lanes(const packet *p, size_t i, bool normal
         const vfloat previous = single_kind ? spux_vfloat(0) : spux_load(hits->normal[a] + i);
         spux_store(hits->normal[a] + i, spux_select(previous, n[a], hit));
     }
+    /* what both leave, ray by ray */
     for (unsigned remaining = spux_mask_bits(spu_andc(hit, safe_lanes)); remaining; remaining &= remaining - 1) {
         const size_t lane = i + (size_t)__builtin_ctz(remaining);
         const cgt_ray ray = {.line = {.org = {p->org[0][lane], p->org[1][lane], p->org[2][lane]},

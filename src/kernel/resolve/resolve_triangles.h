@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * t, u, v and normals of the rays that hit triangles. The functions work on some rays at a time, first to
- * first + count - 1; `alone` says that the scene has nothing but triangles. */
+ * t, u, v and normals of the rays that hit triangles, a vector at a time; values that suffer from cancellation in exact
+ * arithmetic, ray by ray. single_kind: the scene has no other kind. */
 #ifndef CGT_RESOLVE_TRIANGLES_H
 #define CGT_RESOLVE_TRIANGLES_H
 
@@ -13,15 +13,15 @@
 
 /* ---- a ray ---- */
 
-/* Between 0 and 1, where the exact value is: rounding may have left it. */
+/* Clamps a share to [0, 1], where the exact value is. */
 CGT_SPU_INLINE float share_of(double u)
 {
     const float rounded = (float)u, low = rounded > 0 ? rounded : 0;
     return low < 1 ? low : 1;
 }
 
-/* The shares of the second and third vertex. ROBUST does not ask how much of them is left. Returns whether they had to be
- * computed exactly. */
+/* The shares of the second and third vertex. ROBUST precision ignores their cancellation. Returns whether they had to
+ * be computed exactly. */
 static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_triangle_plane *plane, bool exact,
                            double share[2])
 {
@@ -37,7 +37,7 @@ static bool resolve_ray_uv(const cgt_ray *ray, const cgt_triangle *q, const cgt_
     return !safe;
 }
 
-/* What a component of the plane's normal may be off by. */
+/* The error of a component of the plane's normal. */
 CGT_SPU_INLINE double triangle_edges(const cgt_triangle *q)
 {
     double size[2] = {0, 0};
@@ -47,8 +47,8 @@ CGT_SPU_INLINE double triangle_edges(const cgt_triangle *q)
     return CGT_TRIANGLE_DOUBLE_ERROR * (size[0] * size[1]);
 }
 
-/* Of all components together, or in EXACT precision of each: one that is exactly 0 is as good as it gets where its
- * products are too. */
+/* Whether the normal is safe: as a vector, or in EXACT precision each of its components. A component of 0 is safe only
+ * if its error bound is 0, too. */
 static bool normal_is_safe(const cgt_triangle *q, const double n[3], bool exact)
 {
     const double error = triangle_edges(q);
@@ -66,7 +66,7 @@ typedef struct resolved_triangle {
     float t, u, v, normal[3];
 } resolved_triangle;
 
-/* A ray of which something cancels. */
+/* A ray with a value that suffers from cancellation. */
 __attribute__((noinline, unused)) static resolved_triangle
 resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields, bool exact, cgt_counts *counts)
 {
@@ -97,16 +97,16 @@ resolve_triangle_ray(const cgt_ray *ray, const cgt_triangle *q, uint32_t fields,
 
 /* ---- a vector of rays ---- */
 
-/* Half a vector: the steps of cgt_triangle_double_plane, in its order. */
+/* Half a vector of rays and their triangles: the steps of cgt_triangle_double_plane, in its order. */
 typedef struct resolve_half_plane {
     vdouble d[3], org[3], v[3][3];
-    vdouble n[3], num, den, edges, t_margin, den_margin; /* the last two: above 0 where t and den are safe */
+    vdouble n[3], num, den, edges, t_margin, den_margin; /* margins: above 0 if t, or den, is safe */
 } resolve_half_plane;
 
 #define NORM1(x) (spux_double_abs((x)[0]) + spux_double_abs((x)[1]) + spux_double_abs((x)[2]))
 #define DOT(p, q) ((p)[0] * (q)[0] + (p)[1] * (q)[1] + (p)[2] * (q)[2])
 
-/* Rays and the triangles that they hit. */
+/* Splits rays and the triangles that they hit into halves. */
 CGT_SPU_INLINE void resolve_half_load(const vfloat org[3], const vfloat dir[3], const vfloat vertex[3][3],
                                       resolve_half_plane h[2])
 {
@@ -122,7 +122,7 @@ CGT_SPU_INLINE void resolve_half_load(const vfloat org[3], const vfloat dir[3], 
     }
 }
 
-/* What does not depend on the rays' directions. */
+/* The terms that do not depend on the rays' directions. */
 CGT_SPU_INLINE void resolve_half_normal(resolve_half_plane *h)
 {
     vdouble a[3], e1[3], e2[3];
@@ -145,7 +145,7 @@ CGT_SPU_INLINE void resolve_half_plane_init(resolve_half_plane *h)
     h->den_margin = spux_double_abs(h->den) * CGT_DOUBLE_SAFE - h->edges * NORM1(h->d);
 }
 
-/* The cross product of the edge from vertex `from` to `to`, as cgt_triangle_double_edge has it; returns the bound. */
+/* The cross product of the edge from vertex `from` to `to`, as in cgt_triangle_double_edge. Returns its error bound. */
 CGT_SPU_INLINE vdouble resolve_half_edge(const resolve_half_plane *h, int from, int to, vdouble cross[3])
 {
     vdouble b[3], e[3];
@@ -158,7 +158,7 @@ CGT_SPU_INLINE vdouble resolve_half_edge(const resolve_half_plane *h, int from, 
     return CGT_TRIANGLE_DOUBLE_ERROR * NORM1(b) * NORM1(e);
 }
 
-/* w1 or w2: the side of the edge, as cgt_triangle_double_sides has it; and what is above 0 where it is safe. */
+/* w1 or w2: the side of the edge, as in cgt_triangle_double_sides. margin: above 0 if it is safe. */
 CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, int to, vdouble *margin)
 {
     vdouble cross[3];
@@ -167,7 +167,7 @@ CGT_SPU_INLINE vdouble resolve_half_side(const resolve_half_plane *h, int from, 
     return side;
 }
 
-/* What a vector of rays gets. */
+/* The results of a vector of rays. */
 typedef struct resolved_triangles {
     vfloat t, u, v, normal[3];
 } resolved_triangles;
@@ -183,7 +183,7 @@ CGT_SPU_INLINE vmask resolve_vector_uv(const resolve_half_plane h[2], bool exact
 {
     const vdouble r[2] = {spux_vdouble(1) / h[0].den, spux_vdouble(1) / h[1].den};
     vmask safe_lanes = spux_double_above0(h[0].den_margin, h[1].den_margin);
-    for (int k = 0; k < 2; k++) { /* w1 is of the edge from v2 to v0, w2 from v0 to v1 */
+    for (int k = 0; k < 2; k++) { /* w1: the edge from v2 to v0, w2: from v0 to v1 */
         const int from = k ? 0 : 2, end = k ? 1 : 0;
         vdouble margin[2];
         const vdouble low = resolve_half_side(&h[0], from, end, &margin[0]);
@@ -213,7 +213,7 @@ CGT_SPU_INLINE vmask resolve_vector_normal(const resolve_half_plane h[2], bool e
     return exact ? safe_lanes : spux_double_above0(sum[0], sum[1]);
 }
 
-/* Returns the lanes that are right; the others are for resolve_triangle_ray. */
+/* Returns the lanes whose result is right; the others are left to resolve_triangle_ray. */
 CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat dir[3], const vfloat vertex[3][3],
                                               uint32_t fields, bool exact, resolved_triangles *to)
 {
@@ -236,14 +236,19 @@ CGT_SPU_INLINE vmask resolve_triangles_vector(const vfloat org[3], const vfloat 
 
 /* ---- triangles seen from one origin ---- */
 
-/* What all rays to a triangle have in common, as records of 8 doubles. The first: n, num and the bound of den's error
- * over |d|, as cgt_triangle_double_plane has them, +infinity where t or the normal is not safe; the unit normal. The
- * second, where u and v are asked for: the sides of w1 and w2, cross products and bounds. */
+/* The terms that all rays from one origin to a triangle share, as one record of 8 doubles, or two if u and v are asked
+ * for:
+ *
+ *   0    1    2    3    4                5    6    7
+ *   n_x  n_y  n_z  num  error of den     unit normal          error over |d|; +infinity if t or the normal is not safe
+ *   cross product of w1 and of w2 ...        error  error     over |d|
+ *
+ * n, num and den are those of cgt_triangle_double_plane. */
 enum { PREPARED_N = 0, PREPARED_NUM = 3, PREPARED_ERROR = 4, PREPARED_NORMAL = 5 };
 enum { PREPARED_SIDE = 0, PREPARED_SIDE_ERROR = 6 };
 #define PREPARED_RECORD 8u
 
-/* |d| is summed up otherwise than for a single ray: the bound allows for its rounding. */
+/* |d| is summed in another order than for a single ray: the bound allows for its rounding. */
 #define PREPARED_ERROR_SCALE 1.01
 
 CGT_SPU_INLINE void prepare_half_plane(resolve_half_plane *h, uint32_t fields, bool exact, vdouble record[8])
@@ -283,14 +288,14 @@ CGT_SPU_INLINE void prepare_half_sides(const resolve_half_plane *h, vdouble reco
     }
 }
 
-/* A vector of triangles to records that lie one after the other, `stride` doubles apart: one record, or two where u and v
- * are asked for. */
+/* Prepares a vector of triangles: the first record of each is stored `stride` doubles after that of the one before, a
+ * second one right behind the first. */
 CGT_SPU_INLINE void prepare_triangles(const float eye[3], const vfloat vertex[3][3], uint32_t fields, bool exact,
                                       double *to, size_t stride)
 {
     const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
     resolve_half_plane h[2];
-    resolve_half_load(org, org, vertex, h); /* no directions */
+    resolve_half_load(org, org, vertex, h); /* directions are not used */
     for (size_t half = 0; half < 2; half++) {
         vdouble record[8];
         prepare_half_plane(&h[half], fields, exact, record);
@@ -302,7 +307,7 @@ CGT_SPU_INLINE void prepare_triangles(const float eye[3], const vfloat vertex[3]
     }
 }
 
-/* Half a vector of rays, each to a triangle of its own: records as vectors. */
+/* The results of half a vector of rays. */
 typedef struct prepared_half {
     vdouble t, den, margin;
     vdouble normal[3];
@@ -328,7 +333,7 @@ CGT_SPU_INLINE void resolve_prepared_sides(const vdouble d[3], const vdouble rec
     }
 }
 
-/* Returns the lanes that are right, as resolve_triangles_vector. */
+/* Returns the lanes whose result is right. */
 CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t fields, bool exact,
                                              resolved_triangles *to)
 {
@@ -346,7 +351,8 @@ CGT_SPU_INLINE vmask resolve_prepared_halves(const prepared_half h[2], uint32_t 
     return safe_lanes;
 }
 
-/* The records at `at`, so many doubles from `record`, of half a vector; at is NULL: this one in every lane. */
+/* Loads the records of half a vector: offset[k] doubles from `record` on, or `record` itself in all lanes if offset is
+ * NULL. */
 CGT_SPU_INLINE void prepared_load(const double *record, const uint32_t *offset, vdouble q[8])
 {
     if (offset)
@@ -356,7 +362,7 @@ CGT_SPU_INLINE void prepared_load(const double *record, const uint32_t *offset, 
             q[k] = spux_vdouble(record[k]);
 }
 
-/* Rays from the origin, each to its record, see above. */
+/* Resolves rays from the prepared origin, each with its own record. */
 CGT_SPU_INLINE vmask resolve_prepared(const double *record, const uint32_t *offset, const vfloat dir[3],
                                       uint32_t fields, bool exact, resolved_triangles *to)
 {
@@ -394,7 +400,7 @@ __attribute__((noinline)) static void resolve_triangle_lane(const packet *p, siz
         hits->normal[a][i] = h.normal[a];
 }
 
-/* Lanes of a packet. */
+/* Rays i to i + CGT_LANES - 1 of a packet. */
 CGT_SPU_INLINE void resolve_triangles_lanes(const packet *p, size_t i, uint32_t fields, bool exact, bool single_kind,
                                             const hit_primitives *w, packet_hits *hits, cgt_counts *counts)
 {

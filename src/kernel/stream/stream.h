@@ -1,38 +1,36 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Streams of rays through the wide tree: the rays of a call, normalised (bvh_ray.h), one record each, and lists of them
- * by their numbers.
+ * Streams of rays through the BVH: the rays of a call, normalised (bvh_ray.h), one record each, and lists of rays by
+ * number.
  *
  * Stack. A stream takes, with CGT_STREAM_CHUNK = 8192, 512 KB for records, 128 KB for best hits, 33 KB for the list of
- * all rays, 32 KB for keys and later for what rays ignore, 32 KB for their masks, and 64 KB for the arena: 805 KB with the
- * call's frame. Beside it there are, one at a time, the levels of a list with the stack of a single ray, 20 KB, or rays in
- * flight, 40 KB, or a packet, its hits and the frame of the resolve, 49 KB: a call stays below 860 KB. Points against a
- * light come with 177 KB more, ambient occlusion with 181 KB. */
+ * all rays, 32 KB for keys and later for skipped primitives, 32 KB for masks, and 64 KB for the arena: 805 KB with the
+ * call's frame. Besides there are, one at a time, the levels of a list with the stack of a single ray, 20 KB, or
+ * interleaved rays, 40 KB, or a packet, its hits and the frame of the resolve, 49 KB: a call stays below 860 KB. Points
+ * against a light add 177 KB, ambient occlusion 181 KB. */
 #ifndef CGT_STREAM_H
 #define CGT_STREAM_H
 
 #include "kernel/bvh/bvh_single.h"
+#include "kernel/tunables.h"
 
 #define CGT_STREAM_ARENA 16384u /* words */
-#ifndef STREAM_ARENA_USED       /* a test makes it as small as it may be */
-#define STREAM_ARENA_USED CGT_STREAM_ARENA
-#endif
 
 #define STREAM_RECORD 16u                                   /* floats: one line of the cache */
 #define STREAM_DUMMY_RAY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
-#define STREAM_MAX_ORG 16.f                                 /* origins beyond, normalised, go one by one */
-#define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of so many rays, filled up */
+#define STREAM_MAX_ORG 16.f                                 /* normalised origins beyond: traced one by one */
+#define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of `count` rays, padded */
 
-/* Octants, then the rays that do not go in streams. */
+/* The keys that rays are sorted by: octants, then the rays that streams do not take. */
 enum { STREAM_SINGLE = 8, STREAM_EXTREME, STREAM_SKIPPED, STREAM_KEYS };
 
-/* Where the numbers of a record are: t's range stands in both halves, that of nodes and that of leaves. */
+/* Indices of a record's floats. The range of t is in both halves: for nodes and for leaves. */
 enum {
     RECORD_RDIR = 0,
     RECORD_NEAR = 3,
     RECORD_SHIFT = 4, /* -org rdir */
-    RECORD_FAR = 7,   /* -infinity: of no use any more */
+    RECORD_FAR = 7,   /* -infinity: the ray is done */
     RECORD_ORG = 8,
     RECORD_LEAF_NEAR = 11,
     RECORD_DIR = 12,
@@ -41,27 +39,27 @@ enum {
 
 typedef struct stream {
     _Alignas(64) float record[CGT_STREAM_CHUNK + 1][STREAM_RECORD];
-    _Alignas(64) best_hit best[CGT_STREAM_CHUNK + 1]; /* of nearest hits */
+    _Alignas(64) best_hit best[CGT_STREAM_CHUNK + 1]; /* of closest hits */
     _Alignas(64) uint32_t arena[CGT_STREAM_ARENA];
     _Alignas(64) uint32_t ray_list[CGT_STREAM_CHUNK + STREAM_KEYS * CGT_LANES]; /* records, by key */
     union {
         _Alignas(64) uint32_t key[CGT_STREAM_CHUNK]; /* until they are sorted */
-        uint32_t skip_prim[CGT_STREAM_CHUNK];        /* objects; where rays ignore any, and so is the next */
+        uint32_t skip_prim[CGT_STREAM_CHUNK];        /* primitives; where rays ignore any, and so is the next */
     };
     uint32_t mask[CGT_STREAM_CHUNK];
     bvh_call call;
     float slab_error[3];                                    /* E of all rays of streams */
     float org_low[3], org_high[3], end_low[3], end_high[3]; /* bounds of where those rays begin and end */
     float origin_spread; /* how far their origins lie apart, along an axis, as a share of the tree's size */
-    uint32_t octant;     /* in work */
-    float reach_low[3], reach_high[3]; /* no ray of the octant comes to what lies outside */
+    uint32_t octant;     /* being traced */
+    float reach_low[3], reach_high[3]; /* no ray of the octant reaches what lies outside */
     uint32_t updates;  /* any hit: rays that have found theirs; nearest: how often a ray found another one */
     uint8_t *occluded; /* any hit: the caller's, all 0 at first */
 } stream;
 
 CGT_SPU_INLINE float *stream_record(stream *s, uint32_t offset) { return &s->record[0][0] + offset; }
 
-/* Where the octant's rays may come to: from the least origin or the least end of all streams to the greatest. */
+/* Sets the bounds of where the octant's rays may go: from the least origin or end of all streams to the greatest. */
 CGT_SPU_INLINE void stream_set_octant(stream *s, uint32_t octant)
 {
     s->octant = octant;
@@ -72,8 +70,8 @@ CGT_SPU_INLINE void stream_set_octant(stream *s, uint32_t octant)
     }
 }
 
-/* Boxes that the octant's rays may reach, as bits: lanes hold bounds that are off by less than they were moved outwards,
- * by 2^-85 at least. A ray that counts stays after its origin but for so much. */
+/* Returns the boxes that the octant's rays may reach, as bits. The bounds err by less than they were moved outwards, by
+ * 2^-85 at least; a ray that counts lies beyond its origin but for as much. */
 CGT_SPU_INLINE unsigned stream_reachable(const stream *s, const vfloat low[3], const vfloat high[3])
 {
     vmask out = spux_mask_none();
@@ -83,7 +81,7 @@ CGT_SPU_INLINE unsigned stream_reachable(const stream *s, const vfloat low[3], c
     return ~spux_mask_bits(out);
 }
 
-/* An any-hit ray has found its hit: none is wanted any more. */
+/* Ends an any-hit ray that has found a hit. */
 CGT_SPU_INLINE void stream_set_occluded(stream *s, uint32_t offset)
 {
     stream_record(s, offset)[RECORD_FAR] = stream_record(s, offset)[RECORD_LEAF_FAR] = -INFINITY;
@@ -91,7 +89,7 @@ CGT_SPU_INLINE void stream_set_occluded(stream *s, uint32_t offset)
     s->updates++;
 }
 
-/* Keeps a ray's best hit. */
+/* Stores a ray's best hit. */
 CGT_SPU_INLINE void stream_set_best(stream *s, uint32_t offset, float low, float high, uint32_t prim)
 {
     best_hit *b = &s->best[offset / STREAM_RECORD];
@@ -102,7 +100,7 @@ CGT_SPU_INLINE void stream_set_best(stream *s, uint32_t offset, float low, float
     s->updates++;
 }
 
-/* A record as a single ray, but for the planes. */
+/* Loads a record as a single ray, without its slabs. */
 CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t offset, bool any_hit, bvh_ray *r)
 {
     const float *d = stream_record(s, offset);
@@ -119,7 +117,7 @@ CGT_SPU_INLINE void stream_ray_load(stream *s, uint32_t offset, bool any_hit, bv
         r->best = s->best[r->number];
 }
 
-/* Keeps what the ray has found, if it was wanted. */
+/* Stores what a single ray has found, unless the record is done. */
 CGT_SPU_INLINE void stream_ray_store(stream *s, uint32_t offset, const bvh_ray *r, bool any_hit)
 {
     const float far = stream_record(s, offset)[RECORD_FAR];
@@ -130,5 +128,17 @@ CGT_SPU_INLINE void stream_ray_store(stream *s, uint32_t offset, const bvh_ray *
     if (!any_hit && (r->far != far || r->best.prim != s->best[r->number].prim))
         stream_set_best(s, offset, r->best.low, r->best.high, r->best.prim);
 }
+
+/* Rays of a stream as single rays: the listed ones through the subtree of a code; those from far away, each with an E
+ * of its own; those that single precision does not cover, against every primitive; and rays of all octants,
+ * interleaved. */
+void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
+void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t count);
+void CGT_KERNEL(cgt_stream_trace_extreme)(stream *s, const uint32_t *list, uint32_t count);
+void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t count);
+
+/* Resolves the best hits of all `count` rays and stores them in the caller's arrays. */
+void CGT_KERNEL(cgt_stream_store_hits)(stream *s, uint32_t count, const cgt_trace_settings *settings,
+                                       const cgt_hits *hits);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A leaf of the wide tree and a list of rays: lanes are rays, one primitive after the other. The tests are those of
+ * A leaf of the BVH and a list of rays: lanes are rays, one primitive after the other. The tests are those of
  * lane_tests.h, in the normalised space of bvh_ray.h, where coordinates of the scene are at most 2, those of origins at
  * most STREAM_MAX_ORG, and |d| is from 1 to 2 sqrt(3). Their bounds grow with the distance from the origin and with the
  * primitive's size; here a leaf's primitives share them, by the leaf's box and by its largest primitive, so that they
- * are worked out once for a vector of rays and not for each primitive. */
+ * are computed once for a vector of rays, not for each primitive. */
 #ifndef CGT_STREAM_LEAF_H
 #define CGT_STREAM_LEAF_H
 
@@ -25,17 +25,17 @@ CGT_SPU_INLINE leaf_box leaf_box_init(const bvh_node *n, uint32_t child, float s
         p.middle[a] = 0.5f * (low + high);
         p.half += 0.5f * (high - low);
     }
-    p.half += 0x1p-18f; /* of coordinates up to 2, and the sums of what comes after */
+    p.half += 0x1p-18f; /* of coordinates up to 2, and of the sums below */
     return p;
 }
 
 /* Primitives of a leaf that the octant's rays may reach. */
 typedef struct leaf_candidates {
-    uint8_t lane[16]; /* as many as a node's code may tell of */
+    uint8_t lane[16]; /* as many as a code can count */
     uint32_t count;
 } leaf_candidates;
 
-/* Of the leaf's first `count` those that are in reach; without a branch: what is left out is written over. */
+/* Lists those of the leaf's first `count` that are in reach; branchless: those that are not are overwritten. */
 CGT_SPU_INLINE void leaf_candidates_init(unsigned in_reach, uint32_t count, leaf_candidates *m)
 {
     m->count = 0;
@@ -95,13 +95,13 @@ CGT_SPU_INLINE void leaf_rays_narrow(leaf_rays *r, bool any_hit)
         r->far_in = spu_sub(spu_nmsub(spux_abs(r->far), margin, r->far), least);
 }
 
-/* What tests found out about a primitive: low and high only of nearest hits. */
+/* Result of a test of one primitive; low and high only for closest hits. */
 typedef struct leaf_result {
     vfloat low, high;
-    vmask certain_hit, possible; /* may: certain ones too */
+    vmask certain_hit, possible; /* possible: certain ones, too */
 } leaf_result;
 
-/* Lanes that do not see the object. */
+/* Returns the lanes whose rays skip the primitive. */
 CGT_SPU_INLINE vmask leaf_skipping_rays(const stream *s, const leaf_rays *r, uint32_t prim)
 {
     unsigned hidden = 0;
@@ -130,7 +130,7 @@ typedef struct leaf_best {
     uint32_t prim[CGT_LANES];
 } leaf_best;
 
-/* Decides nearest-hit lanes; returns those that have another best hit. */
+/* Decides closest-hit lanes; returns those that have another best hit. */
 __attribute__((noinline, cold, unused)) static unsigned
 leaf_decide_closest(stream *s, const uint32_t *offset, unsigned undecided, uint32_t prim, leaf_best *b)
 {
@@ -148,7 +148,7 @@ leaf_decide_closest(stream *s, const uint32_t *offset, unsigned undecided, uint3
     return updates;
 }
 
-/* Takes what a test found out. */
+/* Updates the rays by the result of a test. */
 CGT_SPU_INLINE void leaf_update_hits(stream *s, leaf_rays *r, const leaf_result *f, uint32_t prim, bool any_hit,
                                      bool skips_prims)
 {
@@ -184,7 +184,7 @@ CGT_SPU_INLINE void leaf_update_hits(stream *s, leaf_rays *r, const leaf_result 
     }
 }
 
-/* Any hit: which primitives are open in each lane, a bit of each. */
+/* Any hit: adds a primitive's bit in the lanes where it is undecided. */
 CGT_SPU_INLINE vuint leaf_undecided_add(vuint undecided, uint32_t k, vmask lanes)
 {
     static const uint32_t bit[16] = {1u << 0, 1u << 1, 1u << 2,  1u << 3,  1u << 4,  1u << 5,  1u << 6,  1u << 7,
@@ -192,7 +192,7 @@ CGT_SPU_INLINE vuint leaf_undecided_add(vuint undecided, uint32_t k, vmask lanes
     return spux_select(undecided, spu_or(undecided, spux_vuint(bit[k])), lanes);
 }
 
-/* Those of any lane. */
+/* Returns the primitives that are undecided in any lane. */
 CGT_SPU_INLINE uint32_t leaf_undecided_union(vuint undecided)
 {
     _Alignas(CGT_VECTOR_BYTES) uint32_t remaining[CGT_LANES];
@@ -205,7 +205,7 @@ CGT_SPU_INLINE uint32_t leaf_undecided_union(vuint undecided)
     return primitives;
 }
 
-/* Back to the records. */
+/* Stores the rays back to the records. */
 CGT_SPU_INLINE void leaf_rays_store(stream *s, const leaf_rays *r, bool any_hit)
 {
     unsigned hit = spux_mask_bits(r->hit);

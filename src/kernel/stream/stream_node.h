@@ -1,20 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A node of the wide tree and a list of rays of one octant: masks of the rays that pass each child, and lists of them; see
+ * A node of the BVH and a list of rays of one octant: masks of the rays that pass each child, and lists of them; see
  * stream_trace.c. */
 #ifndef CGT_STREAM_NODE_H
 #define CGT_STREAM_NODE_H
 
 #include "kernel/stream/stream.h"
 
-/* Words of the masks of a piece of so many vectors, in whole vectors; and what a piece of one vector takes. */
+/* Words of the masks of a piece of `chunks` vectors, in whole vectors; and of all that a piece of one vector takes. */
 #define STREAM_MASK_WORDS(chunks) ((CGT_LANES * (chunks) / 2 + CGT_LANES - 1) / CGT_LANES * CGT_LANES)
 #define STREAM_MIN_WORDS (STREAM_MASK_WORDS(1u) + STREAM_LIST_WORDS(CGT_LANES))
 
 _Static_assert(CGT_STREAM_ARENA >= CGT_BVH_MAX_DEPTH * STREAM_MIN_WORDS, "a piece fits at every depth");
 
-/* A node on the way down, and the piece of its list that is in work. */
+/* A node on the way down, and the current piece of its list. */
 typedef struct stream_level {
     const bvh_node *node;
     const uint32_t *list;
@@ -25,9 +25,9 @@ typedef struct stream_level {
     uint32_t children;        /* those that rays pass */
     uint8_t child[CGT_LANES]; /* in the order in which the octant's rays meet them */
     uint8_t row[CGT_LANES];   /* of the masks */
-    uint32_t updates;         /* the stream's, when the masks were made */
+    uint32_t updates;         /* the stream's, when the masks were computed */
     uint16_t *mask;           /* [row][chunk]: rays that pass the child */
-    uint32_t *scratch;        /* behind the masks */
+    uint32_t *scratch;        /* after the masks */
 } stream_level;
 
 /* Planes of a node's children as the octant's rays meet them, moved outwards. */
@@ -53,7 +53,7 @@ CGT_SPU_INLINE unsigned stream_planes_init(const stream *s, const bvh_node *n, s
     return stream_reachable(s, low, high);
 }
 
-/* Lists those children; without a branch: what is left out is written over. */
+/* Lists those children; branchless: the others are overwritten. */
 CGT_SPU_INLINE void stream_list_children(const stream *s, unsigned reached, stream_level *v)
 {
     const bvh_node *n = v->node;
@@ -67,7 +67,7 @@ CGT_SPU_INLINE void stream_list_children(const stream *s, unsigned reached, stre
     }
 }
 
-/* The rays of a piece against the children that are still to come; those that none passes are left out, as above. */
+/* Tests the rays of a piece against the remaining children; children that no ray passes are dropped, as above. */
 CGT_SPU_INLINE void stream_test_node(stream *s, stream_level *v, const stream_planes *p)
 {
     const uint32_t first = v->next, end = v->children, chunks = v->chunks;
@@ -126,7 +126,7 @@ CGT_SPU_INLINE bool stream_next_piece(stream *s, stream_level *v, uint32_t *scra
     return true;
 }
 
-/* Takes any-hit rays that have found their hit out of the masks of children that are still to come. */
+/* Removes any-hit rays that have found a hit from the masks of the remaining children. */
 CGT_SPU_INLINE void stream_mask_occluded(stream *s, stream_level *v)
 {
     const uint32_t chunks = v->chunks;
@@ -141,8 +141,8 @@ CGT_SPU_INLINE void stream_mask_occluded(stream *s, stream_level *v)
     }
 }
 
-/* Masks grow old: any-hit rays find their hit, nearest ones what hides the rest. Where that is so of many rays of a piece,
- * masks of children that are still to come are brought up to date; how many was measured. */
+/* Child masks go stale as rays end (any hit) or shorten (closest hit). Where more than 1/8 or 1/3 of a piece changed,
+ * recomputes the masks of the remaining children; both shares were measured. */
 CGT_SPU_INLINE void stream_refresh_masks(stream *s, stream_level *v, bool any_hit)
 {
     const uint32_t updates = s->updates - v->updates;
@@ -155,8 +155,8 @@ CGT_SPU_INLINE void stream_refresh_masks(stream *s, stream_level *v, bool any_hi
     }
 }
 
-/* Makes the list of a child's rays; returns how many they are. Chunks that all miss are not left out: the branch would
- * often be foretold wrong. */
+/* Compacts the list of a child's rays; returns how many there are. Chunks that all miss are not skipped: the branch
+ * would often be mispredicted. */
 CGT_SPU_INLINE uint32_t stream_compact_list(const stream_level *v, uint32_t position)
 {
     const uint16_t *mask = v->mask + (size_t)v->row[position] * v->chunks;

@@ -19,7 +19,7 @@ CGT_SPU_INLINE vfloat stream_load_array(const ray_source *s, const float *array,
     return spux_load(row);
 }
 
-/* Rays as they are read. */
+/* A vector of input rays. */
 typedef struct stream_lanes {
     vfloat org[3], dir[3], t_min, t_max;
 } stream_lanes;
@@ -67,8 +67,8 @@ CGT_SPU_INLINE vmask stream_extreme(const stream_lanes *q, vfloat longest, vfloa
     return spu_or(bad_input, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(BVH_MAX_ORG))));
 }
 
-/* 1 / d with components made large enough, see bvh_ray.h: estimates are good to 11 bits at least, a step of Newton's
- * makes them 2^-21. */
+/* 1 / d with components made large enough, see bvh_ray.h: estimates have 11 bits at least, and a Newton step
+ * makes that 2^-21. */
 CGT_SPU_INLINE vfloat stream_reciprocal(vfloat d)
 {
     const vfloat flat = spux_vfloat(BVH_MIN_DIR), sign = spu_and(d, spux_vfloat(-0.f));
@@ -82,8 +82,8 @@ typedef struct stream_bounds {
     vfloat org_low[3], org_high[3], end_low[3], end_high[3], first;
 } stream_bounds;
 
-/* Ends are off by less than their margin, or than 2^-22: where an origin is farther away than the scene is large, so is
- * an end that comes near to it. */
+/* Adds rays. Ends err by less than their margin, or by less than 2^-22: where an origin is farther away than the scene
+ * is large, so is an end near it. */
 CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
                                       vfloat last, vmask lanes)
 {
@@ -98,7 +98,7 @@ CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], con
     }
 }
 
-/* Makes the records of rays i to i + count - 1. bounds: grown by theirs. */
+/* Stores the records of rays i to i + count - 1, and adds these to the bounds. */
 CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, bool any_hit, uint32_t *key,
                                          stream_bounds *bounds, uint32_t *invalid_rays)
 {
@@ -151,7 +151,7 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     spux_store_records4(&s->best[i].low, 4, (const vfloat[4]){inside, last, dummy, dummy});
 }
 
-/* E of all streams, where their rays begin and end, and how far apart their origins lie. */
+/* Computes E of all streams, the bounds of their rays' origins and ends, and the spread of the origins. */
 CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b)
 {
     const cgt_bvh *tree = s->call.tree;
@@ -172,15 +172,15 @@ CGT_SPU_INLINE void stream_compute_bounds(stream *s, const stream_bounds *b)
     s->origin_spread = origin_spread > 0 ? origin_spread / size : 0;
 }
 
-/* A chunk is sorted in so many runs side by side, each with counters of its own: rays of one octant come one after the
- * other, and a counter would wait for its last change. */
+/* A chunk is sorted in this many runs side by side, each with counters of its own: consecutive rays share an octant,
+ * and a single counter would serialise them. */
 #define STREAM_SORT_RUNS 4u
 
-/* Sorts the rays to s->all by key, stable: number[k] with key k from start[k], which is aligned; each list is filled up. */
+/* Sorts the rays to s->ray_list by key, stable: number[k] with key k from start[k], which is aligned; each list is
+ * padded. */
 CGT_SPU_INLINE void stream_sort(stream *s, uint32_t count, uint32_t start[STREAM_KEYS], uint32_t number[STREAM_KEYS])
 {
-    const uint32_t run = count / STREAM_SORT_RUNS,
-                   last = STREAM_SORT_RUNS - 1; /* what is left over is the last one's */
+    const uint32_t run = count / STREAM_SORT_RUNS, last = STREAM_SORT_RUNS - 1; /* the last one takes the remainder */
     uint32_t to[STREAM_SORT_RUNS][STREAM_KEYS], next = 0;
     memset(to, 0, sizeof to);
     for (uint32_t i = 0; i < run; i++)
@@ -206,7 +206,7 @@ CGT_SPU_INLINE void stream_sort(stream *s, uint32_t count, uint32_t start[STREAM
         s->ray_list[to[last][s->key[i]]++] = i * STREAM_RECORD;
 }
 
-/* Makes the records of all `count` rays and sorts them. */
+/* Stores the records of all `count` rays and sorts the rays. */
 CGT_SPU_INLINE void stream_read_rays(stream *s, uint32_t count, bool any_hit, uint32_t start[STREAM_KEYS],
                                      uint32_t number[STREAM_KEYS])
 {

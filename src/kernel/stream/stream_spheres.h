@@ -1,41 +1,42 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres of a leaf of the wide tree and a list of rays; see stream_leaf.h.
+ * Spheres of a leaf of the BVH and a list of rays; see stream_leaf.h.
  *
  * Spheres. With A at least the sum of the sizes of the components of c, for each centre of the leaf, and r the largest
- * radius: eps and e0 of sphere_filter.h with A for |c|, and 1 for 1 / |d|. Any hit wants less than the nearest: where h
- * is more than 2 eps the line hits for certain, and the first root is between s - sqrt(h) / |d| - e0 and s + e0, whatever
- * the root's error; so it is in the range for certain where both of these are.
+ * radius: eps and e0 of sphere_filter.h with A for |c|, and 1 for 1 / |d|. Any hit needs less than the closest: where h
+ * is more than 2 eps the line certainly hits, and the first root is between s - sqrt(h) / |d| - e0 and s + e0, whatever
+ * the root's error; so it is certainly in the range where both of these are.
  *
- * Before that, which spheres a vector of rays may meet at all. With m the middle of the leaf's box, x = o + t d - m for a
- * t near the foot of m, p = c - m, and X = [x] + half >= |x| + |p|, X >= r, the ray's part within the range is nearest
- * to c at s = (p - x).d / d.d, brought into the range less t, and the square of the distance is there
+ * Before that, spheres that a vector of rays cannot meet are culled. With m the middle of the leaf's box, x = o + t d -
+ * m for a t near the foot of m, p = c - m, and X = [x] + half >= |x| + |p|, X >= r, the ray's part within the range is
+ * nearest to c at s = (p - x).d / d.d, brought into the range less t, and the square of the distance is there
  *   x.x + p.p - 2 p.x + s (s d.d - 2 (p - x).d).
  * d.d has its reciprocal from an estimate, within 2^-11. So t is off, by 2^-11 A at most, which is why x.d is kept, and
  * [x] no less than what is used of it; and so is s, which counts squared: 2^-22 X^2. Where the ray does come as near as
- * r, s |d| is at most 2.1 X, so that roundings of the terms lose 85 u X^2 at most. Those of m - o and of x move the line,
- * by 2.8 u A + u X: 6 u X A + 2 u X^2, and their square. So
+ * r, s |d| is at most 2.1 X, so that roundings of the terms lose 85 u X^2 at most. Those of m - o and of x move the
+ * line, by 2.8 u A + u X: 6 u X A + 2 u X^2, and their square. So
  *   E = X (256 u X + 32 u A) + (32 u A)^2
  * is more than enough. Ends of the range are moved outwards by 2^-21 of themselves; of a closed ray that leaves
  * -infinity or nothing that compares. Lengths are below 2^8 but for s at an end of the range: where its square is
  * infinite, the ray passes far off.
  *
- * Any hit: what is nearer than r by more than E' is inside the sphere, at a t that is in the range but for what its ends
- * were moved: w at the near one, so that in the range the distance is at most |d| w more, where |d| < 3.47, and
+ * Any hit: what is nearer than r by more than E' is inside the sphere, at a t that is in the range but for what its
+ * ends were moved: w at the near one, so that in the range the distance is at most |d| w more, where |d| < 3.47, and
  *   E' = E + w (8 X + 16 w);
- * 2^-21 of s at an end, less than 36 u X^2, is in E. A line that is inside goes out again. So there is a root in the range
- * where that has no end; else where s is before the range's inner end and the ray is outside of the sphere there. Far from
- * the sphere that distance's error grows only with itself. The first test leaves few lanes open. */
+ * 2^-21 of s at an end, less than 36 u X^2, is in E. A line that is inside goes out again. So there is a root in the
+ * range where that has no end; else where s is before the range's inner end and the ray is outside of the sphere there.
+ * Far from the sphere that distance's error grows only with itself. The first test leaves few lanes undecided. */
 #ifndef CGT_STREAM_SPHERES_H
 #define CGT_STREAM_SPHERES_H
 
+#include "kernel/primitive/vector_math.h"
 #include "kernel/stream/stream_leaf.h"
 
-/* What all spheres of a leaf share, for a vector of rays. */
+/* The bounds that all spheres of a leaf share, for a vector of rays. */
 typedef struct leaf_sphere_bounds {
     vfloat scale, rdd, eps, certain_hit;
-    vfloat t_error, t_width;            /* of nearest hits */
+    vfloat t_error, t_width;            /* of closest hits */
     vfloat behind;                      /* far roots before this are out of the range */
     vfloat first_in, last_in, last_out; /* any: first roots in here are certain; beyond last_out they are out */
 } leaf_sphere_bounds;
@@ -68,10 +69,10 @@ CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bound
     vfloat c[3], l[3];
     for (int a = 0; a < 3; a++)
         c[a] = spu_msub(spux_vfloat(leaf->center[a][k]), b->scale, r->org[a]);
-    const vfloat mid = spu_mul(lane_dot(r->dir, c), b->rdd), zero = spux_vfloat(0);
+    const vfloat mid = spu_mul(vector_dot(r->dir, c), b->rdd), zero = spux_vfloat(0);
     for (int a = 0; a < 3; a++)
         l[a] = spu_nmsub(mid, r->dir[a], c[a]);
-    const vfloat h = spu_sub(spu_add(spux_vfloat(square), b->eps), lane_dot(l, l));
+    const vfloat h = spu_sub(spu_add(spux_vfloat(square), b->eps), vector_dot(l, l));
     const vfloat half = spux_sqrt(spu_mul(spux_max(h, zero), b->rdd));
     const vmask line_hits = spu_and(spux_cmpge(h, zero), spux_cmpge(spu_add(mid, half), b->behind));
     const vmask above_certain = spu_cmpgt(h, b->certain_hit);
@@ -118,7 +119,7 @@ CGT_SPU_INLINE void leaf_sphere_terms_init(const sphere_block *leaf, const leaf_
         p[a] = spu_msub(spux_load(leaf->center[a]), spux_vfloat(scale), spux_vfloat(box->middle[a]));
         spux_store(q->twice[a], spu_add(p[a], p[a]));
     }
-    spux_store(q->within, spu_sub(square, lane_dot(p, p)));
+    spux_store(q->within, spu_sub(square, vector_dot(p, p)));
     spux_store(q->square, square);
     q->most = spux_hmax(radius);
 }
@@ -138,14 +139,14 @@ CGT_SPU_INLINE void leaf_foot_init(const leaf_rays *r, const leaf_box *box, leaf
 {
     const vfloat grow = spux_vfloat(0x1p-21f);
     vfloat v[3];
-    n->dd = lane_dot(r->dir, r->dir);
+    n->dd = vector_dot(r->dir, r->dir);
     n->half = spu_mul(spu_re(n->dd), spux_vfloat(0.5f));
     for (int a = 0; a < 3; a++)
         v[a] = spu_sub(spux_vfloat(box->middle[a]), r->org[a]);
-    const vfloat along = lane_dot(v, r->dir), t = spu_mul(spu_add(along, along), n->half);
+    const vfloat along = vector_dot(v, r->dir), t = spu_mul(spu_add(along, along), n->half);
     for (int a = 0; a < 3; a++)
         n->back[a] = spu_nmsub(t, r->dir[a], v[a]);
-    const vfloat behind = lane_dot(n->back, r->dir), square = lane_dot(n->back, n->back);
+    const vfloat behind = vector_dot(n->back, r->dir), square = vector_dot(n->back, n->back);
     const vfloat reach = spu_add(lane_sum(n->back), spux_vfloat(box->half));
     const vfloat lost =
         spu_madd(reach, spux_vfloat(256 * FILTER_ROUNDOFF), spu_mul(r->distance, spux_vfloat(32 * FILTER_ROUNDOFF)));
@@ -193,7 +194,7 @@ CGT_SPU_INLINE leaf_sphere_offset leaf_compute_offset(const leaf_rays *r, const 
     return b;
 }
 
-/* The spheres that any lane's part of the line may meet: without branches, since few of them could be foretold. */
+/* Lists the spheres that any lane's part of the line may meet: branchless, since the branches would be mispredicted. */
 CGT_SPU_INLINE uint32_t leaf_spheres_reached(const leaf_rays *r, const leaf_foot *n, const leaf_sphere_terms *q,
                                              const leaf_candidates *m)
 {

@@ -1,28 +1,30 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles of a leaf of the wide tree and a list of rays; see stream_leaf.h.
+ * Triangles of a leaf of the BVH and a list of rays; see stream_leaf.h.
  *
  * Triangles. With g the first vertex from the origin, A at least [g], S_1 and S_2 the largest sums of the sizes of the
- * edges' components, |d| < 2, and N = e_2 x e_1 made once a leaf
+ * edges' components, |d| < 2, and N = e_2 x e_1 computed once per leaf
  *   c = g x d,  U = -e_2.c,  V = e_1.c,  D = d.N,  T = g.N,  W = D - U - V
- * are the terms of lane_tests.h, each a triple product: u for g, 2 u for an edge, 2 u for the cross product, 3 u for the
- * dot product, so that they are within 9 u of the sizes of their factors too. So all three sides share one bound,
+ * are the terms of lane_tests.h, each a triple product: u for g, 2 u for an edge, 2 u for the cross product, 3 u for
+ * the dot product, so that they are within 9 u of the sizes of their factors too. So all three sides share one bound,
  *   LANE_EPS_W 2 (A (S_1 + S_2) + S_1 S_2) + 2^-112,   D has LANE_EPS_PLANE 2 S_1 S_2 + 2^-116,
  * and T has LANE_EPS_PLANE S_1 S_2 A + 2^-112, with more than enough for what underflows, since A is below 2^7.
  * Any hit does not divide: with U, V, T and D made positive by the sign of D, t > t_min is T - t_min D > 0, within the
- * error of T and |t_min| times that of D; the roundings of the product and the difference vanish in what `near` and `far`
- * were widened by. If both ends hold by more than their errors, |D| is more than its own, so that its sign is right. One
- * product serves both ends of the near one's widening: |D| is at most 2 S_1 S_2.
- *   The sign of D is right too where the least of U, V and W is above their bound, since D is their sum. Where it is wrong,
- * D is within its error of 0, and of a line that passes inside U, V and W are no larger: so lines are out below the bound
- * of the sides and twice that of D. */
+ * error of T and |t_min| times that of D; the roundings of the product and the difference vanish in what `near` and
+ * `far` were widened by. If both ends hold by more than their errors, |D| is more than its own, so that its sign is
+ * right. One product serves both ends of the near one's widening: |D| is at most 2 S_1 S_2.
+ *   The sign of D is right too where the least of U, V and W is above their bound, since D is their sum. Where it is
+ *   wrong,
+ * D is within its error of 0, and of a line that passes inside U, V and W are no larger: so lines are out below the
+ * bound of the sides and twice that of D. */
 #ifndef CGT_STREAM_TRIANGLES_H
 #define CGT_STREAM_TRIANGLES_H
 
+#include "kernel/primitive/vector_math.h"
 #include "kernel/stream/stream_leaf.h"
 
-/* What a leaf's triangles have in common, and of each what the tests take beside the block's. */
+/* The bounds that a leaf's triangles share, and the terms of each that are not in its block. */
 typedef struct leaf_normals {
     _Alignas(CGT_VECTOR_BYTES) float normal[3][CGT_LANES]; /* N */
     float back[3][CGT_LANES];                              /* -e_2 */
@@ -35,7 +37,7 @@ typedef struct leaf_triangle_bounds {
     vfloat num;              /* of T */
     vfloat first, last;      /* of T - t_min D and t_max D - T; any hit, and so are the next */
     vfloat outside;          /* of the least of U, V and W */
-    vfloat before, inside;   /* T - near D of rays that come before their range, of those that come inside */
+    vfloat before, inside;   /* T - near D of rays before their range, and of those inside */
 } leaf_triangle_bounds;
 
 CGT_SPU_INLINE void leaf_normals_init(const triangle_block *leaf, leaf_normals *p)
@@ -46,7 +48,7 @@ CGT_SPU_INLINE void leaf_normals_init(const triangle_block *leaf, leaf_normals *
         e[1][a] = spux_load(leaf->edge[1][a]);
         spux_store(p->back[a], spu_xor(e[1][a], spux_vfloat(-0.f)));
     }
-    lane_cross(e[1], e[0], n);
+    vector_cross(e[1], e[0], n);
     for (int a = 0; a < 3; a++)
         spux_store(p->normal[a], n[a]);
     p->sum[0] = spux_hmax(spux_load(leaf->sum[0]));
@@ -100,8 +102,8 @@ CGT_SPU_INLINE leaf_determinants leaf_compute_determinants(const leaf_rays *r, c
         back[a] = spux_vfloat(p->back[a][k]);
         n[a] = spux_vfloat(p->normal[a][k]);
     }
-    lane_cross(g, r->dir, c);
-    return (leaf_determinants){lane_dot(back, c), lane_dot(e, c), lane_dot(n, r->dir), lane_dot(n, g)};
+    vector_cross(g, r->dir, c);
+    return (leaf_determinants){vector_dot(back, c), vector_dot(e, c), vector_dot(n, r->dir), vector_dot(n, g)};
 }
 
 /* Which side of its edges the lines pass. */

@@ -1,16 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * References that wait until what they stand for has come to the cache. */
-#ifndef CGT_WAITING_H
-#define CGT_WAITING_H
+ * References of a loose grid's cells, queued until the memory behind them has come to the cache: each is prefetched
+ * when it is appended, and tested some hundred references later.
+ *
+ *   cells -> clusters -> triangles -> test       a scene with clusters: their boxes are tested first
+ *         -> spheres, triangles    -> test       others, each kind in a queue of its own */
+#ifndef CGT_PREFETCH_QUEUE_H
+#define CGT_PREFETCH_QUEUE_H
 
 #include "kernel/primitive/gather_primitives.h"
 
 #define PREFETCH_QUEUE_CAPACITY 256u
-#define PREFETCH_QUEUE_AHEAD 64u /* whose vertices are on their way */
+#define PREFETCH_QUEUE_AHEAD 64u /* triangles whose vertices are prefetched before their test */
 
-/* Indices and vertices of fewer triangles are mostly in a cache as they are, and are not asked for. */
+/* Indices and vertices of fewer triangles are mostly in a cache anyway, and are not prefetched. */
 #define PREFETCH_QUEUE_MIN_TRIANGLES 131072u
 
 typedef struct prefetch_queue {
@@ -18,11 +22,12 @@ typedef struct prefetch_queue {
     uint32_t count;
 } prefetch_queue;
 
-/* Adds references while there is room, and asks for what they stand for. Returns how many were added. */
+/* ---- appending ---- */
+
+/* Appends references while there is room, and prefetches what they refer to. Returns how many were appended. */
 typedef uint32_t prefetch_append_fn(prefetch_queue *q, const cgt_committed_scene *committed_scene,
                                     const uint32_t *reference, uint32_t count);
 
-/* References of spheres. */
 CGT_SPU_INLINE uint32_t prefetch_append_spheres(prefetch_queue *q, const cgt_committed_scene *committed_scene,
                                                 const uint32_t *reference, uint32_t count)
 {
@@ -39,7 +44,7 @@ CGT_SPU_INLINE uint32_t prefetch_append_spheres(prefetch_queue *q, const cgt_com
     return added;
 }
 
-/* Of triangles, whose indices are asked for. */
+/* Prefetches the triangles' indices. */
 CGT_SPU_INLINE uint32_t prefetch_append_triangles(prefetch_queue *q, const cgt_committed_scene *committed_scene,
                                                   const uint32_t *reference, uint32_t count)
 {
@@ -57,7 +62,6 @@ CGT_SPU_INLINE uint32_t prefetch_append_triangles(prefetch_queue *q, const cgt_c
     return added;
 }
 
-/* Of clusters. */
 CGT_SPU_INLINE uint32_t prefetch_append_clusters(prefetch_queue *q, const cgt_committed_scene *committed_scene,
                                                  const uint32_t *reference, uint32_t count)
 {
@@ -72,7 +76,7 @@ CGT_SPU_INLINE uint32_t prefetch_append_clusters(prefetch_queue *q, const cgt_co
     return added;
 }
 
-/* Adds the triangles of a cluster, for which there must be room, and asks for their indices. */
+/* Appends the valid triangles of a cluster, for which there must be room, and prefetches their indices. */
 CGT_SPU_INLINE void prefetch_append_members(prefetch_queue *q, const cgt_primitives *prims, uint32_t number,
                                             uint32_t valid)
 {
@@ -85,13 +89,13 @@ CGT_SPU_INLINE void prefetch_append_members(prefetch_queue *q, const cgt_primiti
         __builtin_prefetch(index + (CGT_CLUSTER - 1) * a->index_stride);
     }
     for (uint32_t k = 0; k < CGT_CLUSTER; k++) {
-        q->reference[q->count] = first + k; /* written over where it is not valid */
+        q->reference[q->count] = first + k; /* the next one overwrites it where it is not valid */
         q->count += valid >> k & 1;
     }
 }
 
-/* Asks for the vertices of triangles up to PREFETCH_QUEUE_AHEAD after reference k, of the first `count`, from `asked` on. Returns
- * up to which they are asked for now. */
+/* Prefetches the vertices of the queue's triangles up to PREFETCH_QUEUE_AHEAD after number k, among the first `count`,
+ * except for the first `prefetched`. Returns how many of the first ones are prefetched now. */
 CGT_SPU_INLINE uint32_t prefetch_queue_vertices(const prefetch_queue *q, const cgt_primitives *prims, uint32_t k,
                                                 uint32_t count, uint32_t prefetched)
 {
@@ -101,68 +105,131 @@ CGT_SPU_INLINE uint32_t prefetch_queue_vertices(const prefetch_queue *q, const c
     return end;
 }
 
-/* Takes the first `count` away; what is left over moves up. */
+/* Removes the first `count` references; the rest moves up. */
 CGT_SPU_INLINE void prefetch_queue_remove(prefetch_queue *q, uint32_t count)
 {
     q->count -= count;
     memmove(q->reference, q->reference + count, q->count * sizeof *q->reference);
 }
 
-/* ---- runs of references, each to its own list ---- */
+/* ---- draining ---- */
+
+/* What the owner of queues does with references. */
+typedef struct prefetch_tests {
+    uint32_t sphere_batch;                                                        /* spheres of one call */
+    void (*spheres)(void *owner, const uint32_t *reference, uint32_t count);      /* tests them */
+    void (*triangles)(void *owner, const uint32_t *reference, uint32_t count);    /* tests at most a vector */
+    unsigned (*clusters)(void *owner, const uint32_t *reference, uint32_t count); /* of at most a vector: those whose
+                                                                                     boxes are visible, as bits */
+    bool (*is_done)(const void *owner);                                           /* whether the rest may be dropped */
+} prefetch_tests;
 
 typedef struct prefetch_queues {
     prefetch_queue spheres, triangles, clusters;
 } prefetch_queues;
+
+/* Whose queues they are. */
+typedef struct prefetch_owner {
+    const cgt_committed_scene *committed_scene;
+    prefetch_queues *pending;
+    void *owner;
+} prefetch_owner;
 
 CGT_SPU_INLINE void prefetch_queues_clear(prefetch_queues *q)
 {
     q->spheres.count = q->triangles.count = q->clusters.count = 0;
 }
 
-/* Takes the first `count` references of a list of the owner's. */
-typedef void prefetch_drain_fn(void *owner, uint32_t count);
+/* Tests the first `count` references of a queue and removes them. `tests` is the same constant in every call of a file:
+ * compilers make copies of these functions with direct calls. */
+typedef void prefetch_drain_fn(const prefetch_owner *o, const prefetch_tests *tests, uint32_t count);
 
-/* Functions of a list's owner: constants where runs are added. */
-typedef struct prefetch_drain_fns {
-    prefetch_drain_fn *spheres, *triangles, *clusters;
-} prefetch_drain_fns;
+__attribute__((unused)) static void prefetch_drain_spheres(const prefetch_owner *o, const prefetch_tests *tests,
+                                                           uint32_t count)
+{
+    prefetch_queue *q = &o->pending->spheres;
+    const uint32_t batch = tests->sphere_batch;
+    for (uint32_t k = 0; k < count && !tests->is_done(o->owner); k += batch)
+        tests->spheres(o->owner, q->reference + k, count - k < batch ? count - k : batch);
+    prefetch_queue_remove(q, count);
+}
 
-CGT_SPU_INLINE void prefetch_append_and_drain(prefetch_queue *q, const cgt_committed_scene *committed_scene,
-                                              const uint32_t *reference, uint32_t count, prefetch_append_fn *add,
-                                              prefetch_drain_fn *drain, void *owner)
+__attribute__((unused)) static void prefetch_drain_triangles(const prefetch_owner *o, const prefetch_tests *tests,
+                                                             uint32_t count)
+{
+    prefetch_queue *q = &o->pending->triangles;
+    uint32_t prefetched = 0;
+    for (uint32_t k = 0; k < count && !tests->is_done(o->owner); k += CGT_LANES) {
+        prefetched = prefetch_queue_vertices(q, &o->committed_scene->prims, k, count, prefetched);
+        tests->triangles(o->owner, q->reference + k, count - k < CGT_LANES ? count - k : CGT_LANES);
+    }
+    prefetch_queue_remove(q, count);
+}
+
+/* Queues the triangles of visible clusters. */
+__attribute__((unused)) static void prefetch_drain_clusters(const prefetch_owner *o, const prefetch_tests *tests,
+                                                            uint32_t count)
+{
+    const cgt_cluster *cluster = o->committed_scene->cluster;
+    prefetch_queue *q = &o->pending->clusters, *triangles = &o->pending->triangles;
+    for (uint32_t k = 0; k < count && !tests->is_done(o->owner); k += CGT_LANES) {
+        const uint32_t lanes = count - k < CGT_LANES ? count - k : CGT_LANES;
+        for (unsigned left = tests->clusters(o->owner, q->reference + k, lanes); left; left &= left - 1) {
+            const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(left)];
+            if (triangles->count > PREFETCH_QUEUE_CAPACITY - CGT_CLUSTER)
+                prefetch_drain_triangles(o, tests, PREFETCH_QUEUE_CAPACITY / 2);
+            prefetch_append_members(triangles, &o->committed_scene->prims, number, cluster[number].valid);
+        }
+    }
+    prefetch_queue_remove(q, count);
+}
+
+/* Drains all queues. */
+CGT_SPU_INLINE void prefetch_drain_all(const prefetch_owner *o, const prefetch_tests *tests)
+{
+    prefetch_drain_clusters(o, tests, o->pending->clusters.count);
+    prefetch_drain_spheres(o, tests, o->pending->spheres.count);
+    prefetch_drain_triangles(o, tests, o->pending->triangles.count);
+}
+
+/* ---- runs of references ---- */
+
+CGT_SPU_INLINE void prefetch_append_and_drain(const prefetch_owner *o, const prefetch_tests *tests, prefetch_queue *q,
+                                              const uint32_t *reference, uint32_t count, prefetch_append_fn *append,
+                                              prefetch_drain_fn *drain)
 {
     while (count) {
-        const uint32_t added = add(q, committed_scene, reference, count);
-        reference += added;
-        count -= added;
+        const uint32_t appended = append(q, o->committed_scene, reference, count);
+        reference += appended;
+        count -= appended;
         if (q->count == PREFETCH_QUEUE_CAPACITY)
-            drain(owner, PREFETCH_QUEUE_CAPACITY / 2);
+            drain(o, tests, PREFETCH_QUEUE_CAPACITY / 2);
     }
 }
 
-/* Adds a run of what a loose grid refers to; takes half of a list when it is full. */
-CGT_SPU_INLINE void prefetch_append_run(prefetch_queues *q, const cgt_committed_scene *committed_scene,
-                                        const uint32_t *reference, uint32_t count, prefetch_drain_fns drain,
-                                        void *owner)
+/* Appends a run of a loose grid's references, each to the queue of its kind; drains half of a queue when it is full. */
+CGT_SPU_INLINE void prefetch_append_run(const prefetch_owner *o, const prefetch_tests *tests, const uint32_t *reference,
+                                        uint32_t count)
 {
-    const cgt_primitives *o = &committed_scene->prims;
-    if (committed_scene->cluster)
-        prefetch_append_and_drain(&q->clusters, committed_scene, reference, count, prefetch_append_clusters,
-                                  drain.clusters, owner);
-    else if (!o->triangles)
-        prefetch_append_and_drain(&q->spheres, committed_scene, reference, count, prefetch_append_spheres,
-                                  drain.spheres, owner);
-    else if (!o->spheres)
-        prefetch_append_and_drain(&q->triangles, committed_scene, reference, count, prefetch_append_triangles,
-                                  drain.triangles, owner);
-    else
-        for (uint32_t k = 0; k < count; k++)
-            if (cgt_primitives_array(o, reference[k])->kind == CGT_KIND_SPHERES)
-                prefetch_append_and_drain(&q->spheres, committed_scene, reference + k, 1, prefetch_append_spheres,
-                                          drain.spheres, owner);
-            else
-                prefetch_append_and_drain(&q->triangles, committed_scene, reference + k, 1, prefetch_append_triangles,
-                                          drain.triangles, owner);
+    const cgt_primitives *prims = &o->committed_scene->prims;
+    prefetch_queues *q = o->pending;
+    if (o->committed_scene->cluster) {
+        prefetch_append_and_drain(o, tests, &q->clusters, reference, count, prefetch_append_clusters,
+                                  prefetch_drain_clusters);
+        return;
+    }
+    const bool both = prims->spheres && prims->triangles;
+    for (uint32_t k = 0, run; k < count; k += run) { /* one by one where there are both kinds */
+        run = both ? 1 : count;
+        const bool sphere =
+            both ? cgt_primitives_array(prims, reference[k])->kind == CGT_KIND_SPHERES : !prims->triangles;
+        if (sphere)
+            prefetch_append_and_drain(o, tests, &q->spheres, reference + k, run, prefetch_append_spheres,
+                                      prefetch_drain_spheres);
+        else
+            prefetch_append_and_drain(o, tests, &q->triangles, reference + k, run, prefetch_append_triangles,
+                                      prefetch_drain_triangles);
+    }
 }
 
 #endif

@@ -1,21 +1,24 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A tile: up to 64x64 pixels of a camera, traced together, with all that is kept of them small enough for the first
- * cache.
+ * A tile: up to 64x64 pixels of a camera that are traced together. Its state fits into the first-level cache.
  *
- * Per pixel an object and a depth q are kept. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near d.d that is the
- * same for all objects, a hit's depth is q = t N. The exact q of a pixel's best hit lies in [z, z + gap], where gap is
- * one number for the whole tile. A pixel without a hit has the end of the camera's range there; a pixel beyond the
- * region has -infinity, and takes no part.
+ * Each pixel has its closest primitive so far and a depth q. With N = 1 + |right|^2 px^2 + |up|^2 py^2, a number near
+ * d.d that depends on the pixel alone, a hit's depth is q = t N. The exact q of a pixel's closest hit lies in
+ * [z, z + depth_error], where depth_error is one number for the whole tile. A pixel without a hit has z at the end of
+ * the camera's range. A pixel outside the region has z = -infinity and never gets a hit.
  *
- * Where a scene has triangles alone, the depth is -1/t: it is linear on the screen, and cheaper. Its exact value lies in
- * [z, z (1 - TILE_LINEAR_ERROR)] then, which is as wide near the eye as far away. Such tiles are called linear.
+ *   kind          when                     depth   exact depth lies in
+ *   perspective   spheres, or both kinds   t N     [z, z + depth_error]
+ *   linear        triangles only           -1/t    [z, z (1 - TILE_LINEAR_ERROR)]: relative, the same near and far
+ *   parallel      orthographic camera      t       [z, z + depth_error]; N is 1
+ * A linear depth is linear on the screen, and so cheaper to compute.
  *
- * Rays of an orthographic camera are parallel; N is 1 for them, and depths are t. Such tiles are called parallel.
+ * Pixels are stored as pairs of rows, interleaved: (x, y) at y / 2 * 128 + 2 x + y % 2. A vector that starts at any
+ * column holds CGT_LANES / 2 columns of two rows, whatever its width:
  *
- * Pixels are stored as pairs of rows, interleaved: (x, y) at y / 2 * 128 + 2 x + y % 2. So a vector that starts at any
- * column holds CGT_LANES / 2 columns of two rows, at every width. */
+ *   row y      0 2 4 6 8 ...  126
+ *   row y + 1  1 3 5 7 9 ...  127       of rows y + 2 and y + 3: 128 and on */
 #ifndef CGT_TILE_H
 #define CGT_TILE_H
 
@@ -24,22 +27,21 @@
 #define TILE_EDGE 64u
 #define TILE_PIXELS (TILE_EDGE * TILE_EDGE)
 #define TILE_ROW_PAIR (2 * TILE_EDGE) /* pixels of a pair of rows */
-#define TILE_PAD 16u                  /* a window may begin in the last column */
+#define TILE_PAD 16u                  /* a vector may start in the last column */
 #define TILE_PARTS 4u                 /* parts of 16x16 pixels along an edge */
 #define TILE_MAX_TRIANGLES 2048u      /* triangles that a tile lists */
-#define TILE_QUEUE_CAPACITY 1024u     /* entries of its queue */
 
-/* Of 1/t, in linear tiles: what the best hit's may be less than z says. Less, and planes that are seen at a slant are
- * too coarse; more, and more layers are too near to each other. */
+/* The relative depth error of linear tiles. With a smaller one, single precision cannot decide planes that are seen at
+ * a slant; with a larger one, more layers are too close to each other. */
 #define TILE_LINEAR_ERROR 0x1p-9
 #define TILE_LINEAR_FACTOR (1 - TILE_LINEAR_ERROR)
 
-/* How a tile's depths come about; a constant where functions are called. */
+/* Which depths a tile has; a constant where functions are called. */
 typedef enum tile_kind { TILE_PERSPECTIVE, TILE_LINEAR, TILE_PARALLEL } tile_kind;
 
-/* What a tile's arithmetic knows of the camera. The axes are orthogonal but for rounding, which tile_limits.h checks,
- * and a point c' seen from the eye is c' = z forward + x right / |right| + y up / |up| with z, x, y the products of c'
- * and `dual`, the rows of the inverse of exactly these axes. So what the axes lack is an error of the metric alone. */
+/* The camera. Its axes are orthogonal except for rounding, which tile_limits.h checks. A point c' seen from the eye is
+ * c' = z forward + x right / |right| + y up / |up|, where z, x, y are the products of c' and `dual`, the rows of the
+ * inverse of exactly these axes. So a defect of the axes is an error of the metric only. */
 typedef struct tile_camera {
     float dual[3][3];
     float right, up;   /* lengths */
@@ -47,53 +49,47 @@ typedef struct tile_camera {
     float rright, rup; /* reciprocals */
 } tile_camera;
 
-/* Columns or rows: x / z of camera space times `scale`, less `first`, counts from the middle of the tile's first one. */
+/* An axis of the screen: x / z of camera space times `scale`, minus `first`, is a column (or row), counted from the
+ * middle of the tile's first one. */
 typedef struct tile_span {
     float scale, first;
-    float pixels, last; /* how many, and that less one */
+    float pixels, last; /* their number, and that minus one */
 } tile_span;
 
 typedef struct tile {
     _Alignas(64) float z[TILE_PIXELS + TILE_PAD];
     _Alignas(64) uint32_t prim[TILE_PIXELS + TILE_PAD]; /* CGT_INVALID_ID: none yet */
-    _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD]; /* linear: where in `listed` a pixel's object is */
-    _Alignas(64) float px[TILE_ROW_PAIR + TILE_PAD];    /* of a pair of rows; NaN where a window leaves the tile */
-    _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];    /* the two rows of a pair by turns */
-    _Alignas(
-        64) float far_distance[TILE_PARTS * TILE_PARTS]; /* beyond this distance a part of 16x16 pixels wants nothing */
+    _Alignas(64) uint32_t slot[TILE_PIXELS + TILE_PAD]; /* linear: index of a pixel's primitive in `triangles` */
+    _Alignas(64) float px[TILE_ROW_PAIR + TILE_PAD];    /* of a pair of rows; NaN beyond the tile */
+    _Alignas(64) float py[TILE_EDGE / 2][CGT_LANES];    /* the two rows of a pair, alternating */
+    /* of each part of 16x16 pixels: the farthest distance at which it can still be hit; anything beyond is occluded */
+    _Alignas(64) float far_distance[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float rlength[TILE_PARTS * TILE_PARTS]; /* at least 1 / sqrt(N) of any pixel of a part */
-    float max_far_distance, max_far_t;                   /* of all parts, as distance and as t */
-    bool initialised; /* pixels have been opened: until then nothing is in z and object */
-    bool linear;      /* depths are -1/t; `far` and `farthest` are t then */
-    bool parallel;    /* depths are t, and the rays have one direction */
-    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS]; /* middles of the parts, as px and py */
+    float max_far_distance, max_far_t;                   /* the largest of all parts, as distance and as t */
+    bool initialised;                                    /* false: z and prim are not set yet */
+    bool linear;                                         /* depths are -1/t; far_distance is a t */
+    bool parallel;                                       /* depths are t; all rays have one direction */
+    _Alignas(64) float part_x[TILE_PARTS * TILE_PARTS];  /* the parts' middles, in px and py */
     _Alignas(64) float part_y[TILE_PARTS * TILE_PARTS];
     _Alignas(64) float part_half_width[TILE_PARTS * TILE_PARTS]; /* half their sizes, rounded up */
     _Alignas(64) float part_half_height[TILE_PARTS * TILE_PARTS];
-    _Alignas(
-        64) uint32_t triangles[TILE_MAX_TRIANGLES + CGT_LANES]; /* what has won pixels; it may have lost them since */
-    uint32_t triangle_count;                                    /* how many; TILE_MAX_TRIANGLES: there were too many */
-    float column[TILE_EDGE], row[TILE_EDGE];                    /* px and py; beyond the region the last ones again */
-    uint32_t columns, rows;                                     /* in the region */
+    /* linear tiles: triangles that have been the closest one of a pixel; some have lost all of theirs since */
+    _Alignas(64) uint32_t triangles[TILE_MAX_TRIANGLES + CGT_LANES];
+    uint32_t triangle_count;                 /* TILE_MAX_TRIANGLES: too many to list */
+    float column[TILE_EDGE], row[TILE_EDGE]; /* px and py; the last one is repeated beyond the region */
+    uint32_t columns, rows;                  /* in the region */
     tile_span column_span, row_span;
     float span_ratio;                      /* ratio of their scales */
-    float depth_error, padded_depth_error; /* wide: what rounding of differences adds is in it */
-    float max_norm, min_norm;              /* N of any pixel is between these */
-    float max_dir_length;                  /* at least sqrt(most) */
-    float length_error;                    /* of lengths: what underflows, and what origins are off by twice */
-    float origin_error,
-        origin_offset; /* of parallel rays: origins are off by u times this; the farthest one beside the eye */
+    float depth_error, padded_depth_error; /* padded: with the rounding of differences */
+    float max_norm, min_norm;              /* bounds of N over all pixels */
+    float max_dir_length;                  /* at least sqrt(max_norm) */
+    float length_error;                    /* absolute error of lengths: underflow, and twice the error of origins */
+    float origin_error;                    /* parallel rays: u times this bounds the error of an origin */
+    float origin_offset;                   /* parallel rays: the largest distance of an origin from the eye */
     const cgt_camera_rays *rays;
     tile_camera camera;
-    float axis[3], tangent, secant; /* a cone about all rays, as z, x, y; secant 0: too wide for one */
+    float axis[3], tangent, secant; /* a cone around all rays, as z, x, y; secant 0: they are too wide for one */
 } tile;
-
-/* What single precision leaves open (tile_decide.h): pixels, and objects that may be their nearest. */
-typedef struct tile_queue {
-    uint32_t entries;
-    uint16_t pixel[TILE_QUEUE_CAPACITY];
-    uint32_t prim[TILE_QUEUE_CAPACITY];
-} tile_queue;
 
 CGT_SPU_INLINE uint32_t tile_column(uint32_t i) { return (i & (TILE_ROW_PAIR - 1)) >> 1; }
 CGT_SPU_INLINE uint32_t tile_row(uint32_t i) { return i / TILE_ROW_PAIR * 2 + (i & 1); }
@@ -110,146 +106,10 @@ CGT_SPU_INLINE tile_kind tile_get_kind(const tile *t)
     return t->linear ? TILE_LINEAR : t->parallel ? TILE_PARALLEL : TILE_PERSPECTIVE;
 }
 
-CGT_SPU_INLINE void tile_cross(const float p[3], const float q[3], double cross[3])
-{
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        cross[a] = (double)p[b] * (double)q[c] - (double)p[c] * (double)q[b];
-    }
-}
-
-CGT_SPU_INLINE void tile_init_camera(const cgt_camera_rays *c, tile_camera *q)
-{
-    double normal[3][3], right = 0, up = 0, volume = 0;
-    tile_cross(c->right, c->up, normal[0]);
-    tile_cross(c->up, c->fwd, normal[1]);
-    tile_cross(c->fwd, c->right, normal[2]);
-    for (int a = 0; a < 3; a++) {
-        right += (double)c->right[a] * (double)c->right[a];
-        up += (double)c->up[a] * (double)c->up[a];
-        volume += (double)c->fwd[a] * normal[0][a];
-    }
-    const double length[3] = {1, sqrt(right), sqrt(up)};
-    for (int k = 0; k < 3; k++)
-        for (int a = 0; a < 3; a++)
-            q->dual[k][a] = (float)(normal[k][a] / volume * length[k]);
-    q->right = (float)length[1];
-    q->up = (float)length[2];
-    q->a = c->orthographic ? 0 : (float)right;
-    q->b = c->orthographic ? 0 : (float)up;
-    q->rright = (float)(1 / length[1]);
-    q->rup = (float)(1 / length[2]);
-}
-
-/* ---- the tables ---- */
-
-CGT_SPU_INLINE tile_span tile_compute_span(float scale, float first, float pixel, uint32_t pixels)
-{
-    return (tile_span){scale / pixel, first / pixel, (float)pixels, (float)(pixels - 1)};
-}
-
-CGT_SPU_INLINE void tile_init_tables(tile *t, uint32_t x0, uint32_t y0)
-{
-    const float *pixel = t->rays->pixel;
-    const uint32_t last_column = t->columns - 1, last_row = t->rows - 1;
-    const vmask second = spu_cmpeq(spu_and(spux_lane_index(), spux_vuint(1)), spux_vuint(1));
-    for (uint32_t k = 0; k < TILE_EDGE; k++) { /* in the order of camera.h */
-        t->column[k] = ((float)(int32_t)(x0 + (k < last_column ? k : last_column)) + 0.5f) * pixel[0] - 1;
-        t->row[k] = 1 - ((float)(int32_t)(y0 + (k < last_row ? k : last_row)) + 0.5f) * pixel[1];
-    }
-    for (uint32_t k = 0; k < TILE_EDGE; k++)
-        t->px[2 * k] = t->px[2 * k + 1] = t->column[k];
-    for (uint32_t k = 0; k < TILE_PAD; k++)
-        t->px[TILE_ROW_PAIR + k] = NAN;
-    for (uint32_t y = 0; y < TILE_EDGE; y += 2)
-        spux_store(t->py[y / 2], spux_select(spux_vfloat(t->row[y]), spux_vfloat(t->row[y + 1]), second));
-    t->column_span = tile_compute_span(t->camera.rright, t->column[0], pixel[0], t->columns);
-    t->row_span = tile_compute_span(-t->camera.rup, -t->row[0], pixel[1], t->rows); /* rows run down */
-    t->span_ratio = t->row_span.scale / t->column_span.scale;
-}
-
-CGT_SPU_INLINE float tile_min_square(float a, float b)
-{
-    const float low = fabsf(a) < fabsf(b) ? fabsf(a) : fabsf(b);
-    return (a < 0) != (b < 0) ? 0 : low * low;
-}
-CGT_SPU_INLINE float tile_max_square(float a, float b)
-{
-    const float high = fabsf(a) > fabsf(b) ? fabsf(a) : fabsf(b);
-    return high * high;
-}
-
-/* Each coordinate of a canonical origin is made with four roundings, of px right, eye + px right, py up and the sum:
- * with |px| and |py| at most 1 it is off by u (2 |eye| + 3 |right| + 2 |up|) of that axis, and as a vector by u times the
- * sum of those lengths. The inverse of the axes takes it to camera space as it is, but for a share of 4 u. */
-CGT_SPU_INLINE void tile_init_parallel(tile *t)
-{
-    const cgt_camera_rays *c = t->rays;
-    const double e[3] = {(double)c->eye[0], (double)c->eye[1], (double)c->eye[2]};
-    const double eye = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
-    const double right = (double)t->camera.right, up = (double)t->camera.up;
-    t->parallel = c->orthographic;
-    t->origin_error = t->parallel ? (float)((2 * eye + 3 * right + 2 * up) * (1 + 0x1p-18)) : 0;
-    t->origin_offset = t->parallel ? (float)((right + up) * (1 + 0x1p-18)) : 0;
-    t->length_error = 0x1p-60f + t->origin_error * 0x1p-23f;
-}
-
-/* The range of N, of the tile and of its parts, rounded outwards. */
-CGT_SPU_INLINE void tile_init_norms(tile *t)
-{
-    const float *x = t->column, *y = t->row, a = t->camera.a, b = t->camera.b;
-    const uint32_t last = TILE_EDGE - 1;
-    t->max_norm = (1 + a * tile_max_square(x[0], x[last]) + b * tile_max_square(y[0], y[last])) * (1 + 0x1p-20f);
-    t->min_norm = (1 + a * tile_min_square(x[0], x[last]) + b * tile_min_square(y[0], y[last])) * (1 - 0x1p-20f);
-    t->max_dir_length = sqrtf(t->max_norm) * (1 + 0x1p-20f);
-    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
-        const uint32_t u = k % TILE_PARTS * 16, v = k / TILE_PARTS * 16;
-        const float min_norm = 1 + a * tile_min_square(x[u], x[u + 15]) + b * tile_min_square(y[v], y[v + 15]);
-        t->rlength[k] = 1 / sqrtf(min_norm) * (1 + 0x1p-20f);
-    }
-}
-
-CGT_SPU_INLINE void tile_init_parts(tile *t)
-{
-    for (uint32_t k = 0; k < TILE_PARTS * TILE_PARTS; k++) {
-        const float *x = t->column + k % TILE_PARTS * 16, *y = t->row + k / TILE_PARTS * 16;
-        t->part_x[k] = 0.5f * (x[0] + x[15]);
-        t->part_y[k] = 0.5f * (y[0] + y[15]);
-        t->part_half_width[k] = 0.5f * fabsf(x[15] - x[0]) + 0x1p-22f;
-        t->part_half_height[k] = 0.5f * fabsf(y[15] - y[0]) + 0x1p-22f;
-    }
-}
-
-/* Rays lie in the cone about the axis through the middle that holds those at the corners. The tile's slack in culling
- * (2^-18) is more than what rounding of the axis comes to. */
-CGT_SPU_INLINE void tile_init_cone(tile *t)
-{
-    const uint32_t last = TILE_EDGE - 1;
-    const float gx[2] = {t->column[0] * t->camera.right, t->column[last] * t->camera.right};
-    const float gy[2] = {t->row[0] * t->camera.up, t->row[last] * t->camera.up};
-    const float mx = 0.5f * (gx[0] + gx[1]), my = 0.5f * (gy[0] + gy[1]), r = 1 / sqrtf(1 + mx * mx + my * my);
-    float sine2 = 0;
-    bool narrow = !t->parallel;
-    t->axis[0] = r;
-    t->axis[1] = mx * r;
-    t->axis[2] = my * r;
-    for (int k = 0; k < 4; k++) {
-        const float x = gx[k & 1], y = gy[k >> 1], s = r + x * t->axis[1] + y * t->axis[2];
-        const float ez = 1 - s * t->axis[0], ex = x - s * t->axis[1], ey = y - s * t->axis[2];
-        const float square = (ex * ex + ey * ey + ez * ez) / (1 + x * x + y * y);
-        sine2 = square > sine2 ? square : sine2;
-        narrow = narrow && s > 0;
-    }
-    sine2 = sine2 * (1 + 0x1p-18f) + 0x1p-40f;
-    narrow = narrow && sine2 < 0.5f;
-    t->secant = narrow ? 1 / sqrtf(1 - sine2) * (1 + 0x1p-18f) : 0;
-    t->tangent = narrow ? sqrtf(sine2) * t->secant : 0;
-}
-
 /* ---- the pixels ---- */
 
-/* Of a hit at t of pixel i, the depth that is kept: the exact one is in the middle of what it tells. A linear one stays
- * finite, since -infinity would close the pixel. */
+/* The z for a hit of pixel i at hit_t: the exact depth is in the middle of the interval that z stands for. A linear
+ * depth stays finite, because -infinity would disable the pixel. */
 CGT_SPU_INLINE float tile_compute_depth(const tile *t, uint32_t i, double hit_t)
 {
     if (!t->linear)
@@ -258,13 +118,13 @@ CGT_SPU_INLINE float tile_compute_depth(const tile *t, uint32_t i, double hit_t)
     return hit_t > 0x1p-120 ? (float)depth : -0x1p120f;
 }
 
-/* The exact depth of a best hit is not beyond this. */
+/* An upper bound of the exact depth of a pixel with this z. */
 CGT_SPU_INLINE double tile_depth_bound(const tile *t, double z)
 {
     return t->linear ? z * TILE_LINEAR_FACTOR : z + (double)t->depth_error;
 }
 
-/* Refreshes how far each part still looks. */
+/* Recomputes far_distance of each part from its pixels' z. */
 CGT_SPU_INLINE void tile_update_far_distances(tile *t)
 {
     float max_far_distance = -INFINITY, max_far_t = -INFINITY;
@@ -288,7 +148,7 @@ CGT_SPU_INLINE void tile_update_far_distances(tile *t)
     t->max_far_t = max_far_t * (1 + 0x1p-20f);
 }
 
-/* Closes the pixels of a vector that are beyond the region. */
+/* Disables the pixels of a vector that lie outside the region. */
 CGT_SPU_INLINE void tile_disable_outside_pixels(tile *t, uint32_t first)
 {
     if (tile_row(first) >= t->rows || tile_column(first) >= t->columns)
@@ -299,7 +159,7 @@ CGT_SPU_INLINE void tile_disable_outside_pixels(tile *t, uint32_t first)
                 t->z[i] = -INFINITY;
 }
 
-/* Pixels without a hit, and without an end of the range. */
+/* Sets all pixels to no hit, with an infinite range. */
 CGT_SPU_INLINE void tile_clear_pixels(tile *t)
 {
     t->initialised = true;
@@ -309,9 +169,9 @@ CGT_SPU_INLINE void tile_clear_pixels(tile *t)
     }
 }
 
-/* Open pixels begin with the range's end, those beyond the region closed. far_t: no object is hit beyond this t; an end
- * there is none. Where every pixel would be as the others, that waits for the first object that the tile may see: many
- * a tile of the sky never has one. */
+/* Pixels start with the end of the range; those outside the region are disabled. far_t: no primitive is hit beyond this
+ * t, so a larger end of the range is none. If all pixels would be set alike, that is deferred to the first visible
+ * primitive (tile_ensure_pixels): many sky tiles never need it. */
 CGT_SPU_INLINE void tile_init_pixels(tile *t, float far_t)
 {
     const bool has_end = t->rays->t_max < far_t, full = t->columns == TILE_EDGE && t->rows == TILE_EDGE;
@@ -332,21 +192,22 @@ CGT_SPU_INLINE void tile_init_pixels(tile *t, float far_t)
     tile_update_far_distances(t);
 }
 
-/* Before an object comes to the pixels. */
+/* To be called before the first primitive is rasterised. */
 CGT_SPU_INLINE void tile_ensure_pixels(tile *t)
 {
     if (!t->initialised)
         tile_clear_pixels(t);
 }
 
-/* Lists an object, if it has won any pixel: with slot `lists`, as it was. */
+/* Lists a triangle if it has become the closest one of a pixel; those pixels have the old triangle_count as their
+ * slot. */
 CGT_SPU_INLINE void tile_append_triangle(tile *t, uint32_t prim, bool won)
 {
     t->triangles[t->triangle_count] = prim;
     t->triangle_count += won && t->triangle_count < TILE_MAX_TRIANGLES;
 }
 
-/* Gives a pixel to an object. */
+/* Makes a primitive the closest one of pixel i. */
 CGT_SPU_INLINE void tile_set_closest(tile *t, uint32_t i, uint32_t prim)
 {
     t->prim[i] = prim;
@@ -357,7 +218,7 @@ CGT_SPU_INLINE void tile_set_closest(tile *t, uint32_t i, uint32_t prim)
     t->slot[i] = t->triangle_count - 1;
 }
 
-/* The canonical directions of px and py, or the origins of parallel rays, in the order of camera.h. */
+/* The canonical directions for px and py, or origins of parallel rays, computed in the order of camera.h. */
 CGT_SPU_INLINE void tile_compute_directions(const tile *t, bool parallel, vfloat px, vfloat py, vfloat dir[3])
 {
     const cgt_camera_rays *c = t->rays;
@@ -368,7 +229,7 @@ CGT_SPU_INLINE void tile_compute_directions(const tile *t, bool parallel, vfloat
     }
 }
 
-/* The canonical directions of so many pixels, at most a vector; the first one again beyond them. */
+/* The canonical directions of `count` pixels, at most a vector; lanes beyond repeat the first. */
 CGT_SPU_INLINE void tile_gather_directions(const tile *t, const uint16_t *pixel, uint32_t count, vfloat dir[3])
 {
     _Alignas(CGT_VECTOR_BYTES) float px[CGT_LANES], py[CGT_LANES];
@@ -380,7 +241,7 @@ CGT_SPU_INLINE void tile_gather_directions(const tile *t, const uint16_t *pixel,
     tile_compute_directions(t, false, spux_load(px), spux_load(py), dir);
 }
 
-/* The canonical line of a pixel, in the order of camera.h. */
+/* The canonical line of a pixel, computed in the order of camera.h. */
 CGT_SPU_INLINE cgt_exact_ray tile_pixel_line(const cgt_camera_rays *c, bool parallel, float px, float py)
 {
     const float *from = parallel ? c->eye : c->fwd;

@@ -1,56 +1,58 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which cells of a loose grid the rays of a tile may need, front to back. The march goes along the axis w that most
- * of the tile looks along. All levels go together: the next slice of cells is always the one that begins nearest.
+ * The cells of a loose grid that the rays of a tile may need, front to back. The march goes along w, the axis that the
+ * rays mostly run along. All levels are marched together: the next slice of cells is always the one that begins
+ * nearest.
  *
- * A slice of cells holds objects between the planes w = low and w = high, the cells' own enlarged by the level's reach.
- * Rays start at the eye and none runs against the march, so between the planes their other coordinates lie between
- * those of the corner rays there: rays are the corner rays' convex combinations but for their rounding. With the slopes
- * m = d_u / d_w of the corner rays, that is a rectangle of cells, enlarged by the reach too.
+ * The primitives of a slice lie between two planes w = low and w = high: its cells, enlarged by the level's reach. Rays
+ * start at the eye and none runs against the march. They are convex combinations of the corner rays, except for
+ * rounding. So between the planes their other two coordinates lie between those of the corner rays. With the corner
+ * rays' slopes m = d_u / d_w that is a rectangle of cells, again enlarged by the reach.
  *
- * Parallel rays have one slope, and origins that vary: they start at w between the least and the most of the corner rays'
- * origins, and where their lines pass w = 0 is between those of the corner rays too.
+ * Parallel rays have one slope and different origins. They start at a w between the least and the largest one of the
+ * corner rays' origins, and their lines pass w = 0 between the corner rays' lines.
  *
- * Rounding: a canonical direction lies within 3.5 u |d| of the exact one, u = 2^-24, so its slope within
- * 3.5 u (1 + |m|) |d| / d_w of a combination's; 2^-21 is taken for 3.5 u. A parallel ray's direction is exact, its origin
- * within u spread (tile.h). All other arithmetic here is double, with 2^-48 of the largest number for what it rounds.
- * Where the corner rays are too wide for it, everything is visited. */
+ * Rounding: a canonical direction lies within 3.5 u |d| of the exact one, u = 2^-24, and its slope within
+ * 3.5 u (1 + |m|) |d| / d_w of the combination's; 2^-21 is taken for 3.5 u. A parallel ray's direction is exact, its
+ * origin is off by at most u origin_error (tile.h). All other arithmetic is double, with 2^-48 of the largest number
+ * for its rounding. If the corner rays are too wide for these bounds, all cells are visited. */
 #ifndef CGT_TILE_MARCH_H
 #define CGT_TILE_MARCH_H
 
 #include "kernel/tile/tile.h"
 
-/* A level, seen from the eye; w runs forwards in march direction, k from 0. */
+/* A level, seen from the eye; w grows in the direction of the march, slices are numbered from 0. */
 typedef struct tile_march_level {
-    uint32_t next_slice, slices;   /* k of the next slice */
-    double begin, step, thickness; /* where objects of slice 0 begin; from one slice to the next; of a slice */
-    double base[2], rcell[2], reach[2], cell_error[2]; /* of the other two axes: corner, cells per length; in cells */
+    uint32_t next_slice, slices;   /* the number of the next one; how many */
+    double begin, step, thickness; /* w where slice 0 begins; from slice to slice; of one, with the reach */
+    /* of the other two axes: the grid's corner; cells per length; the reach and the rounding, in cells */
+    double base[2], rcell[2], reach[2], cell_error[2];
 } tile_march_level;
 
 typedef struct tile_march {
     const cgt_loose_grid *grid;
     uint32_t w, u, v; /* axes, u < v */
     double slope_low[2], slope_high[2];
-    double base_low[2], base_high[2]; /* of parallel rays: where they pass w = 0, from the eye; else 0 */
-    double start_low, start_high;     /* w where rays start; else 0 */
-    double rspeed;                    /* t per length along w, at most */
+    double base_low[2], base_high[2]; /* parallel rays: where they pass w = 0, from the eye; else 0 */
+    double start_low, start_high;     /* parallel rays: w where they start; else 0 */
+    double rspeed;                    /* at most the t per length along w */
     bool forward;
     bool brute_force;
     tile_march_level level[CGT_LOOSE_LEVELS];
 } tile_march;
 
-/* Cells low to high of the two other axes, in one slice. */
+/* The cells of one slice that the rays may need. */
 typedef struct tile_slice {
-    uint32_t level, cell; /* along w */
+    uint32_t level, cell; /* the number of its layer of cells along w */
     uint32_t low[2], high[2];
-    double near_t; /* no ray of the tile hits an object of this or a later slice before */
+    double near_t; /* no ray hits a primitive of this or a later slice before this t */
 } tile_slice;
 
 CGT_SPU_INLINE double tile_min(double a, double b) { return a < b ? a : b; }
 CGT_SPU_INLINE double tile_max(double a, double b) { return a > b ? a : b; }
 
-/* Slopes and speeds of the rays, from the four at the corners. */
+/* The range of slopes and the largest speed, from the four corner rays. */
 CGT_SPU_INLINE void tile_march_init_perspective(const tile *t, tile_march *m)
 {
     const cgt_camera_rays *c = t->rays;
@@ -79,7 +81,7 @@ CGT_SPU_INLINE void tile_march_init_perspective(const tile *t, tile_march *m)
     }
 }
 
-/* The same for parallel rays: from the origins at the corners. */
+/* The same for parallel rays, from the origins at the corners. */
 CGT_SPU_INLINE void tile_march_init_parallel(const tile *t, tile_march *m)
 {
     const cgt_camera_rays *c = t->rays;
@@ -120,7 +122,7 @@ CGT_SPU_INLINE void tile_march_init_level(const float eye[3], const tile_march *
     l->begin = (m->forward ? low : -(low + length)) - reach - rounding;
     l->step = cell;
     l->thickness = cell + 2 * (reach + rounding);
-    /* slices that end before the rays start */
+    /* skip the slices that end before the rays start */
     const double behind = m->brute_force ? -1 : (m->start_low - (l->begin + l->thickness)) / cell;
     l->next_slice = behind > 0 ? behind < l->slices ? (uint32_t)behind : l->slices : 0;
     const double end = tile_max(l->begin + l->slices * cell + l->thickness, -m->start_low);
@@ -158,7 +160,7 @@ CGT_SPU_INLINE void tile_march_init(const tile *t, const cgt_loose_grid *grid, t
         tile_march_init_level(c->eye, m, &grid->level[i], &m->level[i]);
 }
 
-/* The cells of axis k of a slice that lies between near and far; false where there are none. */
+/* The cells along axis k of a slice from near_w to far_w. Returns false if there are none. */
 CGT_SPU_INLINE bool tile_march_compute_cells(const tile_march *m, const tile_march_level *l, int k, double near_w,
                                              double far_w, uint32_t size, tile_slice *s)
 {
@@ -181,10 +183,11 @@ CGT_SPU_INLINE bool tile_march_compute_cells(const tile_march *m, const tile_mar
     return s->low[k] <= s->high[k];
 }
 
-/* The next slice that holds cells for the tile; false where there is none. */
+/* Finds the next slice with cells that the rays may need. Returns false at the end of the grid. */
 CGT_SPU_INLINE bool tile_march_next_slice(tile_march *m, tile_slice *s)
 {
     for (;;) {
+        /* the level whose next slice begins nearest */
         double next_begin = INFINITY;
         s->level = CGT_LOOSE_LEVELS;
         for (uint32_t i = 0; i < m->grid->levels; i++) {
@@ -197,6 +200,7 @@ CGT_SPU_INLINE bool tile_march_next_slice(tile_march *m, tile_slice *s)
         }
         if (s->level == CGT_LOOSE_LEVELS)
             return false;
+        /* its cells, if the rays meet any */
         tile_march_level *l = &m->level[s->level];
         const cgt_loose_level *grid_level = &m->grid->level[s->level];
         const double start = m->start_low, near_w = tile_max(next_begin, start),
@@ -210,13 +214,15 @@ CGT_SPU_INLINE bool tile_march_next_slice(tile_march *m, tile_slice *s)
     }
 }
 
-/* Runs of objects of a slice: cells along x lie side by side. */
+/* The number of runs of references of a slice. Cells along x lie side by side in the grid's arrays, so a row of them is
+ * one run. */
 CGT_SPU_INLINE uint32_t tile_slice_run_count(const tile_march *m, const tile_slice *s)
 {
     const uint32_t rows = s->high[1] - s->low[1] + 1;
     return m->w == 0 ? rows * (s->high[0] - s->low[0] + 1) : rows;
 }
 
+/* Run number `run`: its references and their count. */
 CGT_SPU_INLINE const uint32_t *tile_slice_get_run(const tile_march *m, const tile_slice *s, uint32_t run,
                                                   uint32_t *count)
 {

@@ -1,69 +1,62 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres against a tile: a vector of them at a time to camera space and screen bounds, then each that is left over its
- * own window of pixels, without branches.
+ * Spheres against a tile. A vector of spheres at a time is projected to camera space and culled by its windows; each
+ * visible sphere is then tested over the pixels of its window, without branches (tile_sphere_draw.h).
  *
- * With z, x, y a centre in camera space (tile.h), lengths rho and upsilon of right and up, X = x / (z rho),
- * Y = y / (z upsilon), dx = px - X, dy = py - Y, N = 1 + rho^2 px^2 + upsilon^2 py^2, the discriminant of pixel
+ * Let z, x, y be a centre in camera space (tile.h), rho and upsilon the lengths of right and up, X = x / (z rho),
+ * Y = y / (z upsilon), dx = px - X, dy = py - Y and N = 1 + rho^2 px^2 + upsilon^2 py^2. The discriminant of pixel
  * (px, py) is
  *   D = N (r^2 - b^2) = r^2 N - (A dx^2 + B dx dy + C dy^2)
- * with b the distance of centre and ray, A = rho^2 (z^2 + y^2), B = -2 rho upsilon x y, C = upsilon^2 (z^2 + x^2). N is
- * expanded about (X, Y) too, which leaves a polynomial in dx and dy, and a depth (tile.h)
+ * where b is the distance from the centre to the ray, A = rho^2 (z^2 + y^2), B = -2 rho upsilon x y and
+ * C = upsilon^2 (z^2 + x^2). Expanding N about (X, Y), too, leaves a polynomial in dx and dy, and a depth (tile.h)
  *   D = r^2 N0 + dy (2 r^2 upsilon^2 Y - C' dy) + dx (2 r^2 rho^2 X - B dy - A' dx)
  *   N0 = 1 + (x^2 + y^2) / z^2,  A' = A - rho^2 r^2,  C' = C - upsilon^2 r^2
  *   q = z + rho x px + upsilon y py - sqrt(D)
  *
- * Bounds, with u = 2^-24, c the distance of eye and centre, |d|^2 the largest N of the tile, for spheres whose
- * z is at least 1.5 r; for fused and unfused arithmetic; divisions and roots within 2^-21 = 8 u:
- *   direction   the canonical one is off by u (|px right| + |fwd + px right| + |py up| + |d|), at most 3.5 u |d|
- *   centre      u c where the eye is subtracted, 4 u c in each coordinate: sqrt(3) 4 u c + u c = 8 u c
+ * Error bounds, for spheres with z >= 1.5 r. u = 2^-24, c is the distance from the eye to the centre, |d|^2 the tile's
+ * largest N. They hold for fused and unfused arithmetic, and for divisions and roots within 2^-21 = 8 u:
+ *   direction   the canonical one is off by u (|px right| + |fwd + px right| + |py up| + |d|) <= 3.5 u |d|
+ *   centre      u c from subtracting the eye, 4 u c in each coordinate: sqrt(3) 4 u c + u c = 8 u c
  *   X, Y        10 u relative: 10 u sin cos of the angle to the axis, at most 5 u of the direction
- *   b           all three: at most 16.5 u c. So at the silhouette b = r, D moves by
+ *   b           the sum of these: at most 16.5 u c. At the silhouette b = r, this moves D by
  *               N (2 r 16.5 u c + (16.5 u c)^2); further out D falls faster than this grows
- *   metric      products of the axes are within 2^-22 = 4 u of 1 and 0, a square rounded besides: no norm or product of
- *               two vectors in them is off by more than 12 u of the norms. D by (4 + 1) 12 u r^2 N N0
- *   evaluation  |(rho dx, upsilon dy)| <= r |d| / z at the silhouette, so that no term, r^2 N0 included, is above
- *               r^2 N N0 times 1, 1/2, 1, 4/3, 1/2: 4.4 together, and none is rounded more than 11 times: 49 u r^2 N N0
- *   eps         |d|^2 (34 u r c + 112 u r^2 N0 + (20 u c)^2) + 2^-116, the last for what underflows
- * eps is added to D: less than 0 is a certain miss. Beyond 3 eps the hit is certain and its D at least that minus 2 eps.
- * Where it is beyond some `certain` of at least 3 eps, the two roots differ by at most
+ *   metric      products of the axes are within 2^-22 = 4 u of 1 and 0, and a square is rounded: no norm or product of
+ *               two vectors in these axes is off by more than 12 u of the norms. D: (4 + 1) 12 u r^2 N N0
+ *   evaluation  at the silhouette |(rho dx, upsilon dy)| <= r |d| / z, so the terms, r^2 N0 included, are at most
+ *               r^2 N N0 times 1, 1/2, 1, 4/3, 1/2: 4.4 in total, each rounded at most 11 times: 49 u r^2 N N0
+ *   eps         |d|^2 (34 u r c + 112 u r^2 N0 + (20 u c)^2) + 2^-116; the last term covers underflow
+ * eps is added to D. A result below 0 is a certain miss. A result above 3 eps is a certain hit, whose exact D is at
+ * least the result minus 2 eps. Above a threshold `certain` >= 3 eps, the computed and the exact root differ by at most
  *   root        2 eps / (sqrt(certain) + sqrt(certain - 2 eps)); 0.74 sqrt(eps) for 3 eps; eps / sqrt(certain - 2 eps)
- * The depth besides, against the exact t times N:
- *   centre 8 u c |d|, direction 3.5 u c |d|, metric 24 u c |d| and 10 u r |d|, sums 5 u (c + r) |d|, and
- *   the estimate of 1 / sqrt(D), within TILE_RSQRT_ERROR: that times r |d| + sqrt(2 eps)
+ * The other errors of the depth, against the exact t times N:
+ *   centre 8 u c |d|, direction 3.5 u c |d|, metric 24 u c |d| and 10 u r |d|, sums 5 u (c + r) |d|, and the estimate
+ *   of 1 / sqrt(D): TILE_RSQRT_ERROR times (r |d| + sqrt(2 eps))
  *   e0          |d| (44 u c + (18 u + TILE_RSQRT_ERROR) r) + 2^-10 sqrt(eps) + 2^-100
- * q - e0 is at most the exact depth, and q - e0 + gap at least, for gap = 2 e0 + root. The tile has one gap; a sphere
- * whose `certain` that makes too large, like all that the above does not hold for, goes to tile_double.h.
+ * So the exact depth lies in [q - e0, q - e0 + depth_error] if depth_error >= 2 e0 + root. The tile has one
+ * depth_error. A sphere for which it makes `certain` too large goes to tile_double.c, like all for which these bounds
+ * do not hold.
  *
  * The window: a tangent to the silhouette in the plane of forward and right has
  *   px rho = (x z -+ r sqrt(x^2 + z^2 - r^2)) / (z^2 - r^2)
- * and rounding of it is less than what a radius larger by 2^-18 (c + r) adds, which covers what b is off by as well.
- * Columns are widened by 1/32 more: their px is rounded to 2^-23, at most 2^-8 of a column.
+ * A radius enlarged by 2^-18 (c + r) covers the rounding of this and the error of b. Columns are widened by another
+ * 1/32: their px is rounded to 2^-23, at most 2^-8 of a column.
  *
- * A test in the suite checks these against wide arithmetic, and shrinks them until they fail. */
+ * A test checks the bounds against wide arithmetic, and tightens them until it sees them break. */
 #ifndef CGT_TILE_SPHERES_H
 #define CGT_TILE_SPHERES_H
 
 #include "kernel/primitive/gather_primitives.h"
-#include "kernel/primitive/sphere_filter.h"
-#include "kernel/tile_draw/tile_decide.h"
+#include "kernel/tile/tile_window.h"
 
 #define TILE_EPS_ANGLE (34 * FILTER_ROUNDOFF)
 #define TILE_EPS_SUMS (112 * FILTER_ROUNDOFF)
 #define TILE_EPS_SECOND (20 * FILTER_ROUNDOFF)
 #define TILE_EPS_DEPTH (44 * FILTER_ROUNDOFF)
-#ifndef TILE_RSQRT_ERROR /* of spu_rsqrte */
-#if CGT_LANES == 16
-#define TILE_RSQRT_ERROR 0x1p-14f
-#else
-#define TILE_RSQRT_ERROR 0x1.8p-12f
-#endif
-#endif
 
-/* ---- the bounds, of a vector and of one sphere ---- */
+/* ---- bounds ---- */
 
-/* What D and q may be off by. */
+/* The errors of D and q. */
 typedef struct tile_sphere_errors {
     vfloat eps, e0;
 } tile_sphere_errors;
@@ -80,8 +73,8 @@ CGT_SPU_INLINE tile_sphere_errors tile_compute_sphere_errors(const tile *t, vflo
     return (tile_sphere_errors){eps, spu_madd(depth, spux_vfloat(t->max_dir_length), rest)};
 }
 
-/* The tile's gap: right for spheres of radius r up to distance c, and so wide that every depth of the scene and the end
- * of the range have room in it, c being the distance of its farthest point. far_t: no t is beyond. */
+/* Sets the tile's depth error: large enough for spheres of radius r up to distance c, the scene's farthest point, and
+ * for the rounding of any depth in the scene and of the range's end. far_t: no hit has a larger t. */
 CGT_SPU_INLINE void tile_init_sphere_depth_error(tile *t, float c, float r, float far_t)
 {
     const tile_sphere_errors b =
@@ -94,26 +87,21 @@ CGT_SPU_INLINE void tile_init_sphere_depth_error(tile *t, float c, float r, floa
 
 /* ---- a vector of spheres ---- */
 
-/* Windows of a vector of objects: columns x0 to x1 and rows y0 to y1. */
-typedef struct tile_windows {
-    _Alignas(64) uint32_t x0[CGT_LANES], x1[CGT_LANES], y0[CGT_LANES], y1[CGT_LANES];
-} tile_windows;
-
-/* Of each lane, what its loop over pixels takes. */
+/* What the loops over pixels need of each sphere. */
 typedef struct tile_spheres {
     _Alignas(64) float X[CGT_LANES], Y[CGT_LANES];
     _Alignas(64) float a[CGT_LANES], b[CGT_LANES], c[CGT_LANES];    /* A', -B, C' */
     _Alignas(64) float d0[CGT_LANES], dx[CGT_LANES], dy[CGT_LANES]; /* of D: r^2 N0 + eps; 2 r^2 rho^2 X, and for Y */
     _Alignas(64) float q0[CGT_LANES], qx[CGT_LANES], qy[CGT_LANES]; /* of q: z - e0, rho x, upsilon y */
-    _Alignas(64) float certain[CGT_LANES], min_distance[CGT_LANES]; /* distance before which nothing is hit */
+    _Alignas(64) float certain[CGT_LANES], min_distance[CGT_LANES]; /* nothing is hit at a smaller distance */
     tile_windows window;
     _Alignas(64) uint32_t prim[CGT_LANES];
-    unsigned single_lanes, double_lanes; /* lanes as bits: for tile_rasterise_sphere, for tile_double.h */
-    unsigned small_lanes[2]; /* lanes whose window is one vector wide, and at most 3 or 4 pairs of rows high */
+    unsigned single_lanes, double_lanes; /* as bits: for tile_rasterise_sphere, for tile_double.c */
+    unsigned small_lanes[2];             /* windows one vector wide, and at most 3 or 4 pairs of rows high */
 } tile_spheres;
 
-/* Spheres that a tile may see, in camera space, side by side: culling goes on without a branch, and what comes after it
- * finds whole vectors of them. */
+/* The visible spheres of several vectors, in camera space and compacted: culling appends without a branch, and the
+ * steps after it have full vectors. */
 #define TILE_MAX_VISIBLE 128u
 typedef struct tile_visible_spheres {
     _Alignas(64) float z[TILE_MAX_VISIBLE + CGT_LANES], x[TILE_MAX_VISIBLE + CGT_LANES];
@@ -123,32 +111,8 @@ typedef struct tile_visible_spheres {
     uint32_t count;
 } tile_visible_spheres;
 
-/* Reads the spheres of at most a vector of references; lanes beyond count repeat the first. */
-CGT_SPU_INLINE void tile_gather_spheres(const cgt_primitives *prims, const uint32_t *reference, uint32_t count,
-                                        vfloat sphere[4], vuint *prim)
-{
-    if (prims->arrays == 1) { /* its first object is 0 */
-        if (count == CGT_LANES)
-            *prim = spux_load_unaligned_uint(reference);
-        else {
-            _Alignas(64) uint32_t padded[CGT_LANES];
-            for (uint32_t k = 0; k < CGT_LANES; k++)
-                padded[k] = reference[k < count ? k : 0];
-            *prim = spux_load_uint(padded);
-        }
-        gather_spheres(prims->array, *prim, sphere);
-        return;
-    }
-    filter_spheres s;
-    filter_gather_spheres(prims, reference, count, CGT_LANES, &s);
-    for (int a = 0; a < 3; a++)
-        sphere[a] = spux_load(s.center[a]);
-    sphere[3] = spux_load(s.radius);
-    *prim = spux_load_uint(s.prim);
-}
-
-/* The silhouette's tangents against an axis, as columns or rows from the tile's first; low <= high where the scale is
- * positive, else the reverse. r2: r^2; unit: the scale over z^2 - r^2. */
+/* The columns (or rows) of the silhouette's two tangents. low <= high if the span's scale is positive, else the
+ * reverse. r2: r^2. unit: the scale over z^2 - r^2. */
 CGT_SPU_INLINE void tile_compute_tangents(const tile_span *span, vfloat x, vfloat z, vfloat r, vfloat r2, vfloat unit,
                                           vfloat *low, vfloat *high)
 {
@@ -158,20 +122,7 @@ CGT_SPU_INLINE void tile_compute_tangents(const tile_span *span, vfloat x, vfloa
     *high = spu_msub(spu_add(middle, root), unit, first);
 }
 
-/* The pixels from low to high, cut to the tile. Returns the lanes without any, whose first and last are open. */
-CGT_SPU_INLINE vmask tile_compute_window(vfloat low, vfloat high, const tile_span *span, uint32_t *first,
-                                         uint32_t *last)
-{
-    /* up from 1/16 below, which is less than 1/32 below where that is a whole number */
-    const vfloat low_column = spux_max(spu_add(low, spux_vfloat(0.9375f)), spux_vfloat(0));
-    const vfloat to = spux_min(spu_add(high, spux_vfloat(0.0625f)), spux_vfloat(span->last));
-    const vint from = spux_truncate(spux_min(low_column, spux_vfloat(span->pixels)));
-    spux_store_uint(first, (vuint)from);
-    spux_store_uint(last, (vuint)spux_truncate(to));
-    return spu_cmpgt((vfloat)spu_convtf(from, 0), to);
-}
-
-/* Lanes that surely miss the cone of all rays. */
+/* Lanes outside the cone of all rays. */
 CGT_SPU_INLINE vmask tile_cull_by_cone(const tile *t, vfloat z, vfloat x, vfloat y, vfloat c, vfloat r)
 {
     if (t->secant == 0)
@@ -185,7 +136,7 @@ CGT_SPU_INLINE vmask tile_cull_by_cone(const tile *t, vfloat z, vfloat x, vfloat
     return spu_or(spu_cmpgt(spux_vfloat(0), reach), spu_cmpgt(p2, spu_mul(reach, reach)));
 }
 
-/* Lanes that no ray of the tile wants: hidden, or before the range. nearest: the distance before which nothing is hit. */
+/* Lanes that are occluded, or lie before the range. */
 CGT_SPU_INLINE vmask tile_cull_spheres_by_depth(const tile *t, vfloat c, vfloat r, vfloat min_distance)
 {
     const vmask occluded = spu_cmpgt(min_distance, spux_vfloat(t->max_far_distance));
@@ -200,12 +151,12 @@ CGT_SPU_INLINE vmask tile_cull_spheres_by_depth(const tile *t, vfloat c, vfloat 
 typedef struct tile_projected_spheres {
     vfloat z, x, y, r, z2, x2, y2, r2;
     vfloat distance;
-    vfloat min_distance;  /* distance before which nothing is hit */
+    vfloat min_distance;  /* nothing is hit at a smaller distance */
     vfloat padded_radius; /* the radius, and more than all that the window may be off by */
     vmask in_front;       /* as far in front of the eye as the bounds ask, and not far beside what it sees */
 } tile_projected_spheres;
 
-/* z, x, y and r of spheres. */
+/* Spheres to camera space: z, x, y and r. */
 CGT_SPU_INLINE void tile_transform_spheres(const tile *t, const vfloat sphere[4], vfloat q[4])
 {
     const float(*dual)[3] = t->camera.dual;
@@ -218,7 +169,7 @@ CGT_SPU_INLINE void tile_transform_spheres(const tile *t, const vfloat sphere[4]
     q[3] = sphere[3];
 }
 
-/* From what that gives. */
+/* q: from tile_transform_spheres. */
 CGT_SPU_INLINE tile_projected_spheres tile_project_spheres(const tile *t, const vfloat q[4])
 {
     tile_projected_spheres v = {.z = q[0], .x = q[1], .y = q[2], .r = q[3]};
@@ -236,7 +187,7 @@ CGT_SPU_INLINE tile_projected_spheres tile_project_spheres(const tile *t, const 
     return v;
 }
 
-/* Windows of the spheres in front. Returns those of them that have none. */
+/* Windows of the spheres in front. Returns those of them that are outside the tile. */
 CGT_SPU_INLINE vmask tile_cull_spheres_by_window(const tile *t, const tile_projected_spheres *v, tile_windows *s)
 {
     const vfloat r2 = spu_mul(v->padded_radius, v->padded_radius), column_span = spux_vfloat(t->column_span.scale);
@@ -250,43 +201,15 @@ CGT_SPU_INLINE vmask tile_cull_spheres_by_window(const tile *t, const tile_proje
     return spu_and(v->in_front, spu_or(outside_x, outside_y));
 }
 
-/* How far the parts of the tile with these numbers see; lanes without a window may have any number. */
-CGT_SPU_INLINE vfloat tile_gather_far_distance(const tile *t, vuint part)
-{
-#if CGT_LANES == 16
-    return spux_permute(spux_load(t->far_distance), part);
-#else
-    return spux_gather(t->far_distance, (vint)spu_and(part, spux_vuint(TILE_PARTS * TILE_PARTS - 1)));
-#endif
-}
-
-/* How far the parts under the corners of windows see; apart: windows that span more than two parts, of which the corners
- * do not tell. */
-CGT_SPU_INLINE vfloat tile_window_far_distance(const tile *t, const uint32_t *x0, const uint32_t *x1,
-                                               const uint32_t *y0, const uint32_t *y1, vmask *large_windows)
-{
-    const vuint row = spux_vuint(3 * TILE_PARTS), one = spux_vuint(1);
-    const vuint left_part = spu_sr(spux_load_uint(x0), 4), right_part = spu_sr(spux_load_uint(x1), 4);
-    const vuint y[2] = {spux_load_uint(y0), spux_load_uint(y1)};
-    const vuint top = spu_and(spu_sr(y[0], 2), row), bottom = spu_and(spu_sr(y[1], 2), row);
-    const vfloat above = spux_max(tile_gather_far_distance(t, spu_or(top, left_part)),
-                                  tile_gather_far_distance(t, spu_or(top, right_part)));
-    const vfloat below = spux_max(tile_gather_far_distance(t, spu_or(bottom, left_part)),
-                                  tile_gather_far_distance(t, spu_or(bottom, right_part)));
-    *large_windows =
-        spu_or(spu_cmpgt(spu_sub(right_part, left_part), one), spu_cmpgt(spu_sub(bottom, top), spux_vuint(TILE_PARTS)));
-    return spux_max(above, below);
-}
-
-/* Spheres that no part under their window sees: windows that span two parts at most, so that their corners tell. */
+/* Spheres that are occluded in all parts under their window, as far as its corners tell. */
 CGT_SPU_INLINE vmask tile_cull_occluded_spheres(const tile *t, const tile_projected_spheres *v, const tile_windows *s)
 {
     vmask large_windows;
-    const vfloat far_distance = tile_window_far_distance(t, s->x0, s->x1, s->y0, s->y1, &large_windows);
+    const vfloat far_distance = tile_window_far_distance(t, s, &large_windows);
     return spu_andc(spu_and(v->in_front, spu_cmpgt(v->min_distance, far_distance)), large_windows);
 }
 
-/* What the loops over pixels take. */
+/* Stores the coefficients of D and q. */
 CGT_SPU_INLINE void tile_store_spheres(const tile *t, const tile_projected_spheres *v, vfloat gx, vfloat gy, vfloat n0,
                                        tile_sphere_errors errors, tile_spheres *s)
 {
@@ -306,11 +229,11 @@ CGT_SPU_INLINE void tile_store_spheres(const tile *t, const tile_projected_spher
     spux_store(s->min_distance, v->min_distance);
 }
 
-/* `certain`. Returns the lanes that have most of what they cover beyond it. */
+/* Stores `certain`. Returns the lanes most of whose pixels are beyond it. */
 CGT_SPU_INLINE vmask tile_store_sphere_certain(const tile *t, const tile_projected_spheres *v,
                                                tile_sphere_errors errors, tile_spheres *s)
 {
-    /* root fits into the room of the gap where D is that far beyond 2 eps */
+    /* D that far beyond 2 eps makes `root` fit into the depth error */
     const vfloat room = spu_nmsub(errors.e0, spux_vfloat(2), spux_vfloat(t->depth_error));
     const vfloat beyond = spux_div(spu_mul(errors.eps, spux_vfloat(1 + 0x1p-18f)), room);
     const vfloat beyond2 = spu_mul(beyond, beyond), upper = spux_max(spu_mul(v->r2, spux_vfloat(0.25f)), errors.eps);
@@ -318,8 +241,8 @@ CGT_SPU_INLINE vmask tile_store_sphere_certain(const tile *t, const tile_project
     return spu_and(spu_cmpgt(room, spu_mul(errors.e0, spux_vfloat(0.25f))), spu_cmpgt(upper, beyond2));
 }
 
-/* Coefficients and `certain`. Returns the lanes that the bounds hold for, as bits: in front, after the range's begin,
- * and most of what they cover beyond `certain`. */
+/* Stores coefficients and `certain`. Returns the lanes for which the bounds hold, as bits: in front, after the range's
+ * begin, and most of their pixels beyond `certain`. */
 CGT_SPU_INLINE unsigned tile_setup_spheres(const tile *t, const tile_projected_spheres *v, tile_spheres *s)
 {
     const vfloat rz = spux_div(spux_vfloat(1), v->z), gx = spu_mul(v->x, rz), gy = spu_mul(v->y, rz);
@@ -332,19 +255,14 @@ CGT_SPU_INLINE unsigned tile_setup_spheres(const tile *t, const tile_projected_s
     return spux_mask_bits(spu_and(v->in_front, spu_and(fits, past_t_min)));
 }
 
-/* Spheres that go to tile_double.h: those that miss the cone are left out, and those without a window get the tile. */
+/* For the spheres that go to tile_double.c: drops those outside the cone; those without a window get the whole tile. */
 CGT_SPU_INLINE void tile_setup_double_spheres(const tile *t, const tile_projected_spheres *v, tile_spheres *s)
 {
     s->double_lanes &= ~spux_mask_bits(tile_cull_by_cone(t, v->z, v->x, v->y, v->distance, v->r));
-    for (unsigned k = s->double_lanes & ~spux_mask_bits(v->in_front); k; k &= k - 1) {
-        const int i = __builtin_ctz(k);
-        s->window.x0[i] = s->window.y0[i] = 0;
-        s->window.x1[i] = t->columns - 1;
-        s->window.y1[i] = t->rows - 1;
-    }
+    tile_set_full_windows(t, s->double_lanes & ~spux_mask_bits(v->in_front), &s->window);
 }
 
-/* Which windows are one vector wide and few pairs of rows high. */
+/* Finds the windows that are one vector wide and few pairs of rows high. */
 CGT_SPU_INLINE void tile_classify_small_spheres(tile_spheres *s)
 {
     const tile_windows *window = &s->window;
@@ -355,7 +273,7 @@ CGT_SPU_INLINE void tile_classify_small_spheres(tile_spheres *s)
     s->small_lanes[1] = spux_mask_bits(spu_and(narrow, spu_cmpgt(spux_vuint(4), height)));
 }
 
-/* Keeps those of a vector of spheres that are left, as bits. */
+/* Appends these lanes, as bits, of a vector of spheres. */
 CGT_SPU_INLINE void tile_append_visible(tile_visible_spheres *f, const vfloat q[4], vuint prim, const tile_windows *s,
                                         unsigned lanes)
 {
@@ -371,7 +289,7 @@ CGT_SPU_INLINE void tile_append_visible(tile_visible_spheres *f, const vfloat q[
     f->count += spux_count_bits(lanes);
 }
 
-/* A vector of those that were found, from number `first` on. */
+/* Loads a vector of visible spheres, from number `first` on. */
 CGT_SPU_INLINE void tile_load_visible(const tile_visible_spheres *f, uint32_t first, vfloat q[4], tile_spheres *s)
 {
     const vuint window = spux_load_uint(f->window + first), byte = spux_vuint(255);
@@ -386,13 +304,7 @@ CGT_SPU_INLINE void tile_load_visible(const tile_visible_spheres *f, uint32_t fi
     spux_store_uint(s->window.y1, spu_sr(window, 24));
 }
 
-/* The first lanes, as bits. */
-CGT_SPU_INLINE unsigned tile_first_lanes(uint32_t count)
-{
-    return count < CGT_LANES ? (1u << count) - 1 : CGT_ALL_LANES;
-}
-
-/* Of the first lanes of a vector of spheres, so many, keeps those that the tile may see. */
+/* Culls the first `count` lanes of a vector of spheres, and appends the visible ones. */
 CGT_SPU_INLINE void tile_cull_spheres(const tile *t, const vfloat sphere[4], vuint prim, uint32_t count,
                                       tile_visible_spheres *f)
 {
@@ -403,13 +315,13 @@ CGT_SPU_INLINE void tile_cull_spheres(const tile *t, const vfloat sphere[4], vui
     const vmask out_of_range = tile_cull_spheres_by_depth(t, v.distance, v.r, v.min_distance);
     const vmask out = spu_or(out_of_range, tile_cull_spheres_by_window(t, &v, &w));
     const unsigned culled = spux_mask_bits(spu_or(out, tile_cull_occluded_spheres(t, &v, &w)));
-    tile_append_visible(f, q, prim, &w, tile_first_lanes(count) & ~culled);
+    tile_append_visible(f, q, prim, &w, first_lanes(count) & ~culled);
 }
 
-/* Coefficients of a vector of those that were found. */
+/* Coefficients of a vector of visible spheres, from number `first` on. */
 CGT_SPU_INLINE void tile_init_spheres(const tile *t, const tile_visible_spheres *f, uint32_t first, tile_spheres *s)
 {
-    const unsigned lanes = tile_first_lanes(f->count - first);
+    const unsigned lanes = first_lanes(f->count - first);
     vfloat q[4];
     tile_load_visible(f, first, q, s);
     const tile_projected_spheres v = tile_project_spheres(t, q);

@@ -1,20 +1,20 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A triangle over the pixels of its window in a tile, without branches: what it certainly wins is kept, what it may win
- * is queued. tile_triangles.h says what is computed, and with which bounds. `kind` is a constant where these are
- * called. */
+ * Rasterises a triangle over the pixels of its window, without branches: pixels that it certainly wins are stored,
+ * those that it may win are queued. tile_triangles.h has the formulas and their bounds. `kind` is a constant in every
+ * call. */
 #ifndef CGT_TILE_TRIANGLE_DRAW_H
 #define CGT_TILE_TRIANGLE_DRAW_H
 
-#include "kernel/tile_draw/tile_sphere_draw.h"
+#include "kernel/tile_draw/tile_queue.h"
 #include "kernel/tile_draw/tile_triangles.h"
 
-/* What the loops take of one triangle. */
+/* One triangle as the vectors of the loops. */
 typedef struct tile_triangle {
     vfloat side[3][3], plane[3], certain;
-    vfloat depth_factor;                         /* linear: what is kept of a depth at least */
-    vfloat depth_error, minus_depth_error, a, b; /* not linear: the gap and N */
+    vfloat depth_factor;                         /* linear: TILE_LINEAR_FACTOR */
+    vfloat depth_error, minus_depth_error, a, b; /* not linear: the depth error, and the factors of N */
     vuint prim;
 } tile_triangle;
 
@@ -36,7 +36,7 @@ CGT_SPU_INLINE tile_triangle tile_broadcast_triangle(const tile *t, const tile_t
     return q;
 }
 
-/* What a pair of rows has in common for one triangle. */
+/* The terms of a pair of rows for one triangle. */
 typedef struct tile_triangle_row_pair {
     vfloat side[3], plane, minus_norm;
 } tile_triangle_row_pair;
@@ -53,8 +53,8 @@ CGT_SPU_INLINE tile_triangle_row_pair tile_prepare_triangle_rows(const tile *t, 
     return row;
 }
 
-/* The test of a vector of pixels. What is not a number is neither certain nor possible: the px beyond the tile. Within
- * the cone no depth is. */
+/* Tests a vector of pixels. NaN is neither certain nor possible: px is NaN beyond the tile. Inside the triangle's cone
+ * no depth is NaN. */
 CGT_SPU_INLINE tile_pixel_test tile_test_triangle(const tile_triangle *q, const tile_triangle_row_pair *row,
                                                   const float *columns, const float *best, tile_kind kind)
 {
@@ -75,10 +75,10 @@ CGT_SPU_INLINE tile_pixel_test tile_test_triangle(const tile_triangle *q, const 
                              .possible = spu_and(near, spux_cmpge(q->depth_error, depth_difference))};
 }
 
-/* So many windows side by side in so many pairs of rows, from the box's first ones on. Returns whether any lane is left
- * open; the lanes go to `open`. */
+/* Rasterises `vectors` vectors in each of `pairs` pairs of rows, from the first pixels of `rect` on. Stores the
+ * undecided lanes of each vector. Returns the union of them. */
 CGT_SPU_INLINE unsigned tile_rasterise_triangle_rows(tile *t, const tile_triangle *q, uint32_t prim, tile_rect rect,
-                                                     uint32_t windows, uint32_t pairs, uint16_t *undecided,
+                                                     uint32_t vectors, uint32_t pairs, uint16_t *undecided,
                                                      tile_kind kind)
 {
     const vuint slot = spux_vuint(t->triangle_count);
@@ -89,7 +89,7 @@ CGT_SPU_INLINE unsigned tile_rasterise_triangle_rows(tile *t, const tile_triangl
         const tile_triangle_row_pair row = tile_prepare_triangle_rows(t, q, pair, kind);
         const float *px = t->px + 2 * rect.x0;
         uint32_t i = pair * TILE_ROW_PAIR + 2 * rect.x0;
-        for (uint32_t w = 0; w < windows; w++, i += CGT_LANES, px += CGT_LANES) {
+        for (uint32_t w = 0; w < vectors; w++, i += CGT_LANES, px += CGT_LANES) {
             const tile_pixel_test f = tile_test_triangle(q, &row, px, t->z + i, kind);
             const unsigned undecided_lanes = spux_mask_bits(spu_andc(f.possible, f.certain));
             tile_store_certain(t, i, &f, q->prim);
@@ -105,36 +105,36 @@ CGT_SPU_INLINE unsigned tile_rasterise_triangle_rows(tile *t, const tile_triangl
     return any;
 }
 
-/* Small triangles go without the branches of loops: pairs of rows more than they need cost less. */
+/* Small triangles are rasterised without the branches of loops: a superfluous pair of rows costs less. */
 CGT_SPU_INLINE void tile_rasterise_triangle_rect(const cgt_primitives *prims, tile *t, const tile_triangle *q,
                                                  uint32_t prim, tile_rect rect, tile_kind kind, tile_queue *queue,
                                                  cgt_counts *counts)
 {
-    const uint32_t windows = (rect.x1 - rect.x0) / (CGT_LANES / 2) + 1;
+    const uint32_t vectors = (rect.x1 - rect.x0) / (CGT_LANES / 2) + 1;
     uint32_t pairs = rect.y1 / 2 - rect.y0 / 2 + 1;
-    uint16_t undecided[TILE_MAX_WINDOWS + 4];
+    uint16_t undecided[TILE_MAX_VECTORS + 4];
     unsigned any;
-    if (windows == 1 && pairs <= 2) {
+    if (vectors == 1 && pairs <= 2) {
         const uint32_t last = TILE_EDGE - 4;
         rect.y0 = rect.y0 < last ? rect.y0 : last;
         rect.y1 = rect.y0 + 2;
         pairs = 2;
         any = tile_rasterise_triangle_rows(t, q, prim, rect, 1, 2, undecided, kind);
-    } else if (windows == 1) {
+    } else if (vectors == 1) {
         any = tile_rasterise_triangle_rows(t, q, prim, rect, 1, pairs, undecided, kind);
-    } else if (windows == 2) {
+    } else if (vectors == 2) {
         any = tile_rasterise_triangle_rows(t, q, prim, rect, 2, pairs, undecided, kind);
     } else {
-        any = tile_rasterise_triangle_rows(t, q, prim, rect, windows, pairs, undecided, kind);
+        any = tile_rasterise_triangle_rows(t, q, prim, rect, vectors, pairs, undecided, kind);
     }
-    counts->ray_tests += (uint64_t)windows * pairs * CGT_LANES;
+    counts->ray_tests += (uint64_t)vectors * pairs * CGT_LANES;
     if (any)
-        tile_queue_undecided(prims, t, prim, rect, windows, undecided, queue, counts);
+        CGT_KERNEL(cgt_tile_queue_undecided)(prims, t, prim, rect, vectors, undecided, queue, counts);
 }
 
 /* ---- large triangles ---- */
 
-/* The most that a linear form comes to in each of a vector of parts, from part i on. */
+/* Upper bounds of a linear form in each of a vector of parts, from part i on. */
 CGT_SPU_INLINE vfloat tile_part_upper_bounds(const tile *t, uint32_t i, float constant, float slope_x, float slope_y)
 {
     const vfloat x = spux_vfloat(slope_x), y = spux_vfloat(slope_y);
@@ -144,7 +144,7 @@ CGT_SPU_INLINE vfloat tile_part_upper_bounds(const tile *t, uint32_t i, float co
                     spu_madd(spux_load(t->part_half_height + i), spux_abs(y), middle));
 }
 
-/* The parts, as bits, that a triangle may reach and that look as far as its plane is there. */
+/* The parts, as bits, that a triangle may reach and in which its plane is not occluded. */
 CGT_SPU_INLINE unsigned tile_visible_triangle_parts(const tile *t, const tile_triangles *s, int k)
 {
     unsigned reached = 0;
@@ -152,7 +152,7 @@ CGT_SPU_INLINE unsigned tile_visible_triangle_parts(const tile *t, const tile_tr
         const vfloat far_distance = spux_load(t->far_distance + i), speed = spux_vfloat(1 + 0x1p-16f);
         const vfloat far_t =
             spu_mul(t->linear ? far_distance : spu_mul(far_distance, spux_load(t->rlength + i)), speed);
-        /* 1/t at most, where that is above 0; -t of parallel rays */
+        /* at most 1/t where that is above 0; -t of parallel rays */
         const vfloat upper = tile_part_upper_bounds(t, i, -s->plane[0][k], -s->plane[1][k], -s->plane[2][k]);
         vmask missed = t->parallel ? spu_cmpgt(spu_sub(spux_vfloat(0), upper), far_distance)
                                    : spu_cmpgt(spux_vfloat(1), spu_mul(upper, far_t));
@@ -165,44 +165,21 @@ CGT_SPU_INLINE unsigned tile_visible_triangle_parts(const tile *t, const tile_tr
     return reached;
 }
 
-/* The parts under a window, as bits. */
-CGT_SPU_INLINE unsigned tile_window_parts(const tile_triangles *s, int k)
-{
-    const uint32_t u0 = s->x0[k] / 16, u1 = s->x1[k] / 16, v0 = s->y0[k] / 16, v1 = s->y1[k] / 16;
-    const unsigned column_mask = (2u << u1) - (1u << u0), row_mask = (2u << 4 * v1) - (1u << 4 * v0);
-    return column_mask * 0x1111u & (row_mask | row_mask << 1 | row_mask << 2 | row_mask << 3);
-}
-
-/* The part of a window in one row of parts, from the first to the last of the parts there. */
-CGT_SPU_INLINE tile_rect tile_part_row_rect(const tile_triangles *s, int k, uint32_t v, unsigned parts)
-{
-    const uint32_t x_first = 16 * (uint32_t)__builtin_ctz(parts),
-                   x_last = 16 * (31 - (uint32_t)__builtin_clz(parts)) + 15;
-    const uint32_t y_first = 16 * v, y_last = y_first + 15;
-    return (tile_rect){.x0 = s->x0[k] > x_first ? s->x0[k] : x_first,
-                       .x1 = s->x1[k] < x_last ? s->x1[k] : x_last,
-                       .y0 = s->y0[k] > y_first ? s->y0[k] : y_first,
-                       .y1 = s->y1[k] < y_last ? s->y1[k] : y_last};
-}
-
-/* A window with a corner in every part that it meets: whether the tile is open there was asked of the whole vector. */
-CGT_SPU_INLINE bool tile_window_is_small(const tile_triangles *s, int k)
-{
-    return s->x1[k] / 16 - s->x0[k] / 16 <= 1 && s->y1[k] / 16 - s->y0[k] / 16 <= 1;
-}
-
+/* A window of many parts: one rectangle in each row of parts, from the first to the last visible one. */
 CGT_SPU_INLINE bool tile_rasterise_part_rows(const cgt_primitives *prims, tile *t, const tile_triangles *s, int k,
                                              tile_kind kind, tile_queue *queue, cgt_counts *counts)
 {
     const tile_triangle q = tile_broadcast_triangle(t, s, k, kind);
-    unsigned parts = tile_window_parts(s, k) & tile_visible_parts(t, s->min_distance[k]);
+    unsigned parts = tile_window_parts(&s->window, k) & tile_visible_parts(t, s->min_distance[k]);
     if (parts)
         parts &= tile_visible_triangle_parts(t, s, k);
     for (uint32_t v = 0; v < TILE_PARTS; v++) {
         const unsigned row_parts = parts >> 4 * v & 15;
         if (row_parts)
-            tile_rasterise_triangle_rect(prims, t, &q, s->prim[k], tile_part_row_rect(s, k, v, row_parts), kind, queue,
-                                         counts);
+            tile_rasterise_triangle_rect(prims, t, &q, s->prim[k],
+                                         tile_cut_window(&s->window, k, (uint32_t)__builtin_ctz(row_parts),
+                                                         31 - (uint32_t)__builtin_clz(row_parts), v, v),
+                                         kind, queue, counts);
     }
     return parts != 0;
 }
@@ -218,15 +195,15 @@ __attribute__((noinline, unused)) static bool tile_rasterise_large_triangle(cons
     }
 }
 
-/* Draws a triangle where the tile is open for it; false where it is not. */
+/* Rasterises a triangle. Returns false if it is occluded everywhere. */
 CGT_SPU_INLINE bool tile_rasterise_triangle(const cgt_primitives *prims, tile *t, const tile_triangles *s, int k,
                                             tile_kind kind, tile_queue *queue, cgt_counts *counts)
 {
     counts->packet_tests++;
-    if (!tile_window_is_small(s, k))
+    if (!tile_window_is_small(&s->window, k))
         return tile_rasterise_large_triangle(prims, t, s, k, queue, counts);
     const tile_triangle q = tile_broadcast_triangle(t, s, k, kind);
-    const tile_rect rect = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
+    const tile_rect rect = tile_window_rect(&s->window, k);
     tile_rasterise_triangle_rect(prims, t, &q, s->prim[k], rect, kind, queue, counts);
     return true;
 }

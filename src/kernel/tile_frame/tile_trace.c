@@ -1,21 +1,29 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A camera's frame tile by tile: objects of a loose grid, front to back, to the pixels that they may reach. The hits are
- * those that every other way finds. */
-#include "query/tile_limits.h"
-#include "kernel/tile_frame/tile_cells.h"
-#include "kernel/tile_draw/tile_double.h"
-#include "kernel/tile_draw/tile_sphere_draw.h"
-#include "kernel/tile_frame/tile_make.h"
-#include "kernel/tile_frame/tile_resolve.h"
-#include "kernel/tile_draw/tile_triangle_draw.h"
+ * Traces a camera's frame tile by tile: primitives of a loose grid, front to back, are rasterised over the pixels that
+ * they may reach. The hits are the same as those of all other structures.
+ *
+ *   slice of cells    tile_march.h                     which cells the rays may need
+ *   visible cells     tile_cull.h                      boxes against windows and occlusion
+ *   references        prefetch_queue.h                 wait for the caches
+ *   visible prims     tile_spheres.h, tile_triangles.h windows and occlusion, a vector at a time
+ *   pixels            tile_sphere_draw.h, ...          certain hits are stored, undecided ones queued
+ *   the queue         tile_decide.c                    decided exactly
+ *   planes            tile_resolve.c                   t, u, v and normals */
+#include "kernel/packet/packet.h"
 #include "kernel/tile/prefetch_queue.h"
+#include "kernel/tile_draw/tile_parallel_triangles.h"
+#include "kernel/tile_draw/tile_sphere_draw.h"
+#include "kernel/tile_draw/tile_triangle_draw.h"
+#include "kernel/tile_frame/tile_cull.h"
+#include "kernel/tile_frame/tile_planes.h"
+#include "query/tile_limits.h"
 
-#define REFRESH_INTERVAL 128u /* objects after which it pays to look how far the parts still see */
+#define REFRESH_INTERVAL 128u /* rasterised primitives between updates of the parts' far distances */
 
-#define MIN_CELL_REFERENCES 96u /* references of a slice: to look at cells costs more */
-#define MAX_RUNS 16u            /* of references, looked up together */
+#define MIN_CELL_REFERENCES 96u /* slices with fewer references: culling cells costs more than it saves */
+#define MAX_RUNS 16u            /* of references, prefetched together */
 
 typedef struct tile_work {
     const cgt_committed_scene *committed_scene;
@@ -23,19 +31,20 @@ typedef struct tile_work {
     tile_queue queue;
     cgt_counts *counts;
     prefetch_queues pending;
-    uint32_t rasterised; /* since the last refresh */
+    prefetch_owner prefetch; /* of `pending` */
+    uint32_t rasterised;     /* since the last refresh */
 } tile_work;
 
-/* ---- objects ---- */
+/* ---- primitives ---- */
 
 static void tile_refresh_depths(tile_work *w)
 {
-    tile_flush(&w->committed_scene->prims, w->t, &w->queue, w->counts);
+    CGT_KERNEL(cgt_tile_flush)(&w->committed_scene->prims, w->t, &w->queue, w->counts);
     tile_update_far_distances(w->t);
     w->rasterised = 0;
 }
 
-/* Counts a vector of references of which some are drawn; refreshes what the tile knows after enough of them. */
+/* Counts references, of which some were rasterised; updates the far distances after enough of them. */
 CGT_SPU_INLINE void tile_count_references(tile_work *w, uint32_t count, uint32_t rasterised)
 {
     w->counts->references += count;
@@ -46,11 +55,10 @@ CGT_SPU_INLINE void tile_count_references(tile_work *w, uint32_t count, uint32_t
         tile_refresh_depths(w);
 }
 
-CGT_SPU_INLINE uint32_t tile_clamp_lanes(uint32_t count) { return count < CGT_LANES ? count : CGT_LANES; }
-
 CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres *s)
 {
     const cgt_primitives *prims = &w->committed_scene->prims;
+    /* small windows: without clipping */
     const unsigned small_lanes = s->small_lanes[1] & s->single_lanes;
     uint32_t rasterised = (uint32_t)__builtin_popcount(small_lanes);
     if (small_lanes & ~s->small_lanes[0])
@@ -59,33 +67,35 @@ CGT_SPU_INLINE uint32_t tile_rasterise_spheres(tile_work *w, const tile_spheres 
     else
         for (unsigned remaining = small_lanes; remaining; remaining &= remaining - 1)
             tile_rasterise_small_sphere(prims, w->t, s, __builtin_ctz(remaining), 3, &w->queue, w->counts);
+    /* all others, in single or double precision */
     for (unsigned remaining = (s->single_lanes | s->double_lanes) & ~small_lanes; remaining;
          remaining &= remaining - 1) {
         const int k = __builtin_ctz(remaining);
         tile_rect rect;
-        if (!tile_clip_window(w->t, s, k, &rect))
+        if (!tile_clip_window(w->t, &s->window, k, s->min_distance[k], &rect))
             continue;
         rasterised++;
         if (s->single_lanes >> k & 1)
             tile_rasterise_sphere(prims, w->t, s, k, rect, &w->queue, w->counts);
         else
-            tile_rasterise_double(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
+            CGT_KERNEL(cgt_tile_rasterise_double)(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
     }
     return rasterised;
 }
 
-/* At most TILE_MAX_VISIBLE references; parallel is a constant. Returns how many were drawn. */
+/* At most TILE_MAX_VISIBLE references; `parallel` is a constant. Returns how many were rasterised. */
 CGT_SPU_INLINE uint32_t tile_test_spheres_by_kind(tile_work *w, const uint32_t *reference, uint32_t count,
                                                   bool parallel)
 {
     vfloat sphere[4];
-    vuint prim;
     tile_visible_spheres visible;
     tile_spheres s;
     uint32_t rasterised = 0;
     visible.count = 0;
+    /* cull all vectors first: the visible ones fill vectors of their own */
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        tile_gather_spheres(&w->committed_scene->prims, reference + k, tile_clamp_lanes(count - k), sphere, &prim);
+        const vuint prim = load_references(reference + k, count - k);
+        gather_scene_spheres(&w->committed_scene->prims, prim, sphere);
         if (parallel)
             tile_cull_parallel_spheres(w->t, sphere, prim, count - k, &visible);
         else
@@ -103,15 +113,16 @@ CGT_SPU_INLINE uint32_t tile_test_spheres_by_kind(tile_work *w, const uint32_t *
     return rasterised;
 }
 
-/* A function of its own: what perspective takes stays as short as it is. */
+/* Not inlined: keeps the code for perspective short. */
 __attribute__((noinline)) static uint32_t tile_test_parallel_spheres(tile_work *w, const uint32_t *reference,
                                                                      uint32_t count)
 {
     return tile_test_spheres_by_kind(w, reference, count, true);
 }
 
-static void tile_test_spheres(tile_work *w, const uint32_t *reference, uint32_t count)
+static void tile_test_spheres(void *owner, const uint32_t *reference, uint32_t count)
 {
+    tile_work *w = owner;
     const bool parallel = w->t->parallel;
     tile_count_references(w, count,
                           parallel ? tile_test_parallel_spheres(w, reference, count)
@@ -127,11 +138,11 @@ CGT_SPU_INLINE uint32_t tile_rasterise_triangles(tile_work *w, const tile_triang
         rasterised += tile_rasterise_triangle(prims, w->t, s, __builtin_ctz(remaining), kind, &w->queue, w->counts);
     for (unsigned remaining = s->double_lanes; remaining; remaining &= remaining - 1) {
         const int k = __builtin_ctz(remaining);
-        const tile_rect rect = {.x0 = s->x0[k], .x1 = s->x1[k], .y0 = s->y0[k], .y1 = s->y1[k]};
-        if (!(tile_window_parts(s, k) & tile_visible_parts(w->t, s->min_distance[k])))
+        const tile_rect rect = tile_window_rect(&s->window, k);
+        if (!(tile_window_parts(&s->window, k) & tile_visible_parts(w->t, s->min_distance[k])))
             continue;
         rasterised++;
-        tile_rasterise_double(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
+        CGT_KERNEL(cgt_tile_rasterise_double)(prims, w->t, s->prim[k], rect, &w->queue, w->counts);
     }
     return rasterised;
 }
@@ -141,15 +152,16 @@ __attribute__((noinline)) static void tile_test_parallel_triangles(tile_work *w,
 {
     vfloat vertex[3][3];
     tile_triangles s;
-    tile_load_references(reference, count, s.prim);
-    tile_gather_triangles(&w->committed_scene->prims, s.prim, vertex);
-    tile_init_parallel_triangles(w->t, vertex, tile_first_lanes(count), &s);
+    spux_store_uint(s.prim, load_references(reference, count));
+    gather_scene_triangles(&w->committed_scene->prims, s.prim, vertex);
+    tile_init_parallel_triangles(w->t, vertex, first_lanes(count), &s);
     tile_count_references(w, count,
                           s.single_lanes | s.double_lanes ? tile_rasterise_triangles(w, &s, TILE_PARALLEL) : 0);
 }
 
-static void tile_test_triangles(tile_work *w, const uint32_t *reference, uint32_t count)
+static void tile_test_triangles(void *owner, const uint32_t *reference, uint32_t count)
 {
+    tile_work *w = owner;
     vfloat vertex[3][3];
     tile_triangles s;
     uint32_t rasterised = 0;
@@ -157,71 +169,44 @@ static void tile_test_triangles(tile_work *w, const uint32_t *reference, uint32_
         tile_test_parallel_triangles(w, reference, count);
         return;
     }
-    tile_load_references(reference, count, s.prim);
-    tile_gather_triangles(&w->committed_scene->prims, s.prim, vertex);
-    tile_init_triangles(w->t, vertex, tile_first_lanes(count), &s);
+    spux_store_uint(s.prim, load_references(reference, count));
+    gather_scene_triangles(&w->committed_scene->prims, s.prim, vertex);
+    tile_init_triangles(w->t, vertex, first_lanes(count), &s);
     if (s.single_lanes | s.double_lanes)
         rasterised = w->t->linear ? tile_rasterise_triangles(w, &s, TILE_LINEAR)
                                   : tile_rasterise_triangles(w, &s, TILE_PERSPECTIVE);
     tile_count_references(w, count, rasterised);
 }
 
-/* Takes the first of the references that wait; what is left over moves up. */
-static void tile_drain_spheres(void *owner, uint32_t count)
+/* The visible ones of at most a vector of clusters, as bits. */
+static unsigned tile_test_clusters(void *owner, const uint32_t *reference, uint32_t count)
 {
     tile_work *w = owner;
-    prefetch_queue *q = &w->pending.spheres;
-    for (uint32_t k = 0; k < count; k += TILE_MAX_VISIBLE)
-        tile_test_spheres(w, q->reference + k, count - k < TILE_MAX_VISIBLE ? count - k : TILE_MAX_VISIBLE);
-    prefetch_queue_remove(q, count);
+    const unsigned visible = tile_visible_clusters(w->t, w->committed_scene->cluster, reference, count);
+    w->counts->references += count;
+    w->counts->cull_tests += count;
+    w->counts->culled += count - spux_count_bits(visible);
+    return visible;
 }
 
-/* The same, with the vertices of some vectors on their way. */
-static void tile_drain_triangles(void *owner, uint32_t count)
+static bool tile_is_done(const void *owner)
 {
-    tile_work *w = owner;
-    prefetch_queue *q = &w->pending.triangles;
-    uint32_t prefetched = 0;
-    for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        prefetched = prefetch_queue_vertices(q, &w->committed_scene->prims, k, count, prefetched);
-        tile_test_triangles(w, q->reference + k, tile_clamp_lanes(count - k));
-    }
-    prefetch_queue_remove(q, count);
+    (void)owner;
+    return false;
 }
 
-/* Takes the first of the clusters that wait: the triangles of those that the tile wants wait then. */
-static void tile_drain_clusters(void *owner, uint32_t count)
-{
-    tile_work *w = owner;
-    const cgt_cluster *cluster = w->committed_scene->cluster;
-    prefetch_queue *q = &w->pending.clusters;
-    for (uint32_t k = 0; k < count; k += CGT_LANES) {
-        const uint32_t lane_count = tile_clamp_lanes(count - k);
-        unsigned remaining = tile_visible_clusters(w->t, cluster, q->reference + k, lane_count);
-        w->counts->references += lane_count;
-        w->counts->cull_tests += lane_count;
-        w->counts->culled += lane_count - spux_count_bits(remaining);
-        for (; remaining; remaining &= remaining - 1) {
-            const uint32_t number = q->reference[k + (uint32_t)__builtin_ctz(remaining)];
-            if (w->pending.triangles.count > PREFETCH_QUEUE_CAPACITY - CGT_CLUSTER)
-                tile_drain_triangles(w, PREFETCH_QUEUE_CAPACITY / 2);
-            prefetch_append_members(&w->pending.triangles, &w->committed_scene->prims, number, cluster[number].valid);
-        }
-    }
-    prefetch_queue_remove(q, count);
-}
+static const prefetch_tests tile_tests = {TILE_MAX_VISIBLE, tile_test_spheres, tile_test_triangles, tile_test_clusters,
+                                          tile_is_done};
 
-static const prefetch_drain_fns tile_drain_fns = {tile_drain_spheres, tile_drain_triangles, tile_drain_clusters};
-
-/* Whole vectors: what is left over comes with the next slice. */
+/* Drains whole vectors: the remainder is tested with the next slice. */
 static void tile_drain_whole_vectors(tile_work *w)
 {
-    tile_drain_clusters(w, w->pending.clusters.count / CGT_LANES * CGT_LANES);
-    tile_drain_spheres(w, w->pending.spheres.count / CGT_LANES * CGT_LANES);
-    tile_drain_triangles(w, w->pending.triangles.count / CGT_LANES * CGT_LANES);
+    prefetch_drain_clusters(&w->prefetch, &tile_tests, w->pending.clusters.count / CGT_LANES * CGT_LANES);
+    prefetch_drain_spheres(&w->prefetch, &tile_tests, w->pending.spheres.count / CGT_LANES * CGT_LANES);
+    prefetch_drain_triangles(&w->prefetch, &tile_tests, w->pending.triangles.count / CGT_LANES * CGT_LANES);
 }
 
-/* Runs of references, some looked up ahead, so that they come to the cache, too. */
+/* Runs of references whose cache lines are prefetched before the first one is read. */
 typedef struct runs {
     const uint32_t *reference[MAX_RUNS];
     uint32_t count[MAX_RUNS], runs;
@@ -230,7 +215,7 @@ typedef struct runs {
 static void tile_flush_runs(tile_work *w, runs *r)
 {
     for (uint32_t k = 0; k < r->runs; k++)
-        prefetch_append_run(&w->pending, w->committed_scene, r->reference[k], r->count[k], tile_drain_fns, w);
+        prefetch_append_run(&w->prefetch, &tile_tests, r->reference[k], r->count[k]);
     r->runs = 0;
 }
 
@@ -239,7 +224,7 @@ CGT_SPU_INLINE void tile_append_run(tile_work *w, runs *r, const uint32_t *refer
     const uint32_t last = r->runs - 1;
     for (uint32_t i = 0; i < count; i += 16)
         __builtin_prefetch(reference + i);
-    if (r->runs && r->reference[last] + r->count[last] == reference) { /* cells side by side */
+    if (r->runs && r->reference[last] + r->count[last] == reference) { /* cells side by side: one run */
         r->count[last] += count;
         return;
     }
@@ -249,7 +234,7 @@ CGT_SPU_INLINE void tile_append_run(tile_work *w, runs *r, const uint32_t *refer
     r->count[r->runs++] = count;
 }
 
-/* The references of the cells that the tile wants. */
+/* Collects the references of the slice's visible cells. */
 static void tile_visit_cells(tile_work *w, const tile_march *m, const tile_slice *s, runs *r)
 {
     const tile_cells c = tile_init_cells(w->t, m, s);
@@ -261,13 +246,14 @@ static void tile_visit_cells(tile_work *w, const tile_march *m, const tile_slice
         }
 }
 
-/* Runs of whole rows where there are few references, else the cells that are wanted. */
+/* Collects whole rows of cells if there are few references, otherwise the visible cells. */
 static void tile_visit_slice(tile_work *w, const tile_march *m, const tile_slice *s)
 {
     const uint32_t rows = tile_slice_run_count(m, s);
     uint32_t count, references = 0;
     runs r;
     r.runs = 0;
+    /* are there few references? */
     for (uint32_t k = 0; k < rows && references < MIN_CELL_REFERENCES; k++) {
         tile_slice_get_run(m, s, k, &count);
         references += count;
@@ -298,10 +284,8 @@ static void tile_march_grid(tile_work *w)
         w->counts->slices++;
         tile_visit_slice(w, &m, &s);
     }
-    tile_drain_clusters(w, w->pending.clusters.count);
-    tile_drain_spheres(w, w->pending.spheres.count);
-    tile_drain_triangles(w, w->pending.triangles.count);
-    tile_flush(&w->committed_scene->prims, w->t, &w->queue, w->counts);
+    prefetch_drain_all(&w->prefetch, &tile_tests);
+    CGT_KERNEL(cgt_tile_flush)(&w->committed_scene->prims, w->t, &w->queue, w->counts);
 }
 
 /* ---- the tile ---- */
@@ -310,49 +294,27 @@ static void tile_trace_region(const cgt_committed_scene *committed_scene, const 
                               const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
     tile t;
-    tile_work w; /* large: not all of it is set */
+    tile_work w; /* large: set field by field */
     w.committed_scene = committed_scene;
     w.t = &t;
     w.queue.entries = 0;
     w.counts = counts;
     w.rasterised = 0;
+    w.prefetch = (prefetch_owner){committed_scene, &w.pending, &w};
     prefetch_queues_clear(&w.pending);
-    tile_init(&t, committed_scene, camera, region);
+    CGT_KERNEL(cgt_tile_init)(&t, committed_scene, camera, region);
     tile_march_grid(&w);
     counts->tiles++;
     counts->rays += (uint64_t)region->width * region->height;
-    tile_resolve(committed_scene, &t, settings, region, counts);
-}
-
-/* The part of a region that begins at (x, y) in it. */
-static cgt_region tile_clip_region(const cgt_region *r, uint32_t x, uint32_t y)
-{
-    const size_t first = (size_t)y * r->row_stride + x;
-    cgt_region q = *r;
-    q.x += x;
-    q.y += y;
-    q.width = r->width - x < TILE_EDGE ? r->width - x : TILE_EDGE;
-    q.height = r->height - y < TILE_EDGE ? r->height - y : TILE_EDGE;
-    q.t = r->t ? r->t + first : NULL;
-    q.primitive = r->primitive ? r->primitive + first : NULL;
-    q.geometry = r->geometry ? r->geometry + first : NULL;
-    for (int a = 0; a < 3; a++)
-        q.normal[a] = r->normal[a] ? r->normal[a] + first : NULL;
-    q.u = r->u ? r->u + first : NULL;
-    q.v = r->v ? r->v + first : NULL;
-    return q;
+    CGT_KERNEL(cgt_tile_resolve)(committed_scene, &t, settings, region, counts);
 }
 
 void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                 const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
-    if (!cgt_tile_supports(committed_scene, camera)) {
-        CGT_KERNEL(cgt_trace_region)(committed_scene, camera, settings, region, counts);
-        return;
-    }
     for (uint32_t y = 0; y < region->height; y += TILE_EDGE)
         for (uint32_t x = 0; x < region->width; x += TILE_EDGE) {
-            const cgt_region part = tile_clip_region(region, x, y);
+            const cgt_region part = cgt_region_part(region, x, y, TILE_EDGE, TILE_EDGE);
             tile_trace_region(committed_scene, camera, settings, &part, counts);
         }
 }

@@ -43,7 +43,12 @@ for header in "$prefix"/include/cgt/*.h; do
     esac
     count=$((count + 1))
 done
-[ "$count" -ge 2 ]
+[ "$count" -ge 3 ]
+if command -v "$cxx" >/dev/null; then # the structures of research.h are constants of C++, too
+    printf '#include <cgt/research.h>\nextern const cgt_structure s;\nconstexpr cgt_structure s = CGT_STRUCTURE_%s;\n' \
+        KD_ROPES >"$work/alone.c"
+    "$cxx" -x c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -I"$prefix/include" -fsyntax-only "$work/alone.c"
+fi
 
 echo "== SPU source"
 for flags in "" -DCGT_SPU_PORTABLE -DCGT_SPU_EXACT "-DCGT_SPU_EXACT -DCGT_SPU_PORTABLE" "-D__SPU__ -DCGT_SPU_HOST"; do

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The checker of kd-trees: one walk over all nodes with their boxes and the objects whose bounds touch those. */
+#include "exact/valid_primitive.h"
 #include "support/kd/kd_check.h"
 
 #include <math.h>

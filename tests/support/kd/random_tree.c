@@ -3,6 +3,7 @@
  *
  * Random kd-trees. Nodes that wait to be split are taken from the end or from anywhere, so that some trees are deep and
  * some are broad; then the pairs of children get random places. */
+#include "exact/valid_primitive.h"
 #include "support/kd/random_tree.h"
 
 #include <math.h>

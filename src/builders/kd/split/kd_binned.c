@@ -4,7 +4,7 @@
  * The binned builder, from a node down. The candidates are the edges of equal bins along each axis of the items'
  * bounds, and the planes just outside of those bounds, which cut empty space off.
  *
- * A subtree needs little memory beside its own items: of two children the larger takes the place of its parent's items,
+ * A subtree needs little memory besides its items: of two children the larger takes the place of its parent's items,
  * the smaller goes on a stack and is built first. */
 #include "builders/kd/split/kd_binned.h"
 
@@ -127,7 +127,7 @@ cgt_kd_plane cgt_kd_choose_binned(const cgt_kd_rules *rules, const cgt_kd_bins *
 
 /* ---- subtrees ---- */
 
-/* What is the same for all nodes of a task. */
+/* The state of a task. */
 typedef struct task {
     const cgt_kd_rules *rules;
     cgt_kd_output *out;
@@ -170,7 +170,8 @@ static void build_smaller(task *t, const node *child, uint32_t larger)
     out->end_reference = end_reference;
 }
 
-/* Splits where items are on both sides; *n becomes the larger child. False where both children have all of them. */
+/* Splits where items are on both sides; *n becomes the larger child. Returns false where both children have all of
+ * them. */
 static bool descend(task *t, node *n, const cgt_kd_plane *plane)
 {
     const uint32_t larger = plane->upper_larger, smaller = !larger;
@@ -219,19 +220,11 @@ static void build(task *t, node n)
             cgt_kd_fill_bins(&t->bins, n.item, n.count);
         }
         const cgt_kd_plane plane = cgt_kd_choose_binned(t->rules, &t->bins, &n.box, weight);
-        if (plane.axis == 3)
+        const cgt_kd_step step =
+            cgt_kd_next_step(t->rules, t->out, &plane, n.count, t->room, &n.number, &n.depth, &n.box);
+        if (step == CGT_KD_STOP || (step == CGT_KD_DIVIDE && !descend(t, &n, &plane)))
             break;
-        if (n.depth == t->rules->max_leaf_depth || !cgt_kd_has_room(t->out, n.count, t->room)) {
-            t->out->limited_leaves++;
-            break;
-        }
-        binned = plane.lower_empty || plane.upper_empty;
-        if (binned) {
-            n.number = cgt_kd_cut_off(t->rules, t->out, n.number, &n.box, &plane);
-            n.depth++;
-        } else if (!descend(t, &n, &plane)) {
-            break;
-        }
+        binned = step == CGT_KD_CUT; /* the items are the same */
     }
     cgt_kd_add_leaf(t->rules, t->out, n.number, &n.box, n.item, n.count);
 }

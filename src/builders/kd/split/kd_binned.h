@@ -9,8 +9,8 @@
 
 #define CGT_KD_BINS 16
 
-/* Vectors hold the three axes; the fourth element means nothing. Weights instead of counts: sums of few numbers that
- * floats hold, or nearly so; the choice alone rests on them. */
+/* Vectors hold the three axes; the fourth element is undefined. Weights instead of counts: sums of few numbers, exact
+ * in float or nearly so; only the choice depends on them. */
 typedef struct cgt_kd_bins {
     cgt_float4 start[CGT_KD_BINS], end[CGT_KD_BINS];
     cgt_float4 low, high; /* of the items */

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the builders share: boxes, the planes that a node can hold, the rules of a build, and where a task leaves its
- * nodes. */
-#ifndef CGT_KD_WORK_H
-#define CGT_KD_WORK_H
+ * Common to all builders of kd-trees: boxes, the planes that a node can hold, the rules of a build, and the output of a
+ * task. */
+#ifndef CGT_KD_BUILDER_H
+#define CGT_KD_BUILDER_H
 
 #include <math.h>
 
@@ -31,8 +31,8 @@ typedef struct cgt_kd_box {
     float low[3], high[3];
 } cgt_kd_box;
 
-/* An object in a node: the bounds of its part within the node's box, and what a test costs. low and high are each read
- * as a vector of four. */
+/* A primitive in a node: the bounds of its part within the node's box, and what a test costs. low and high are each
+ * read as a vector of four. */
 typedef struct cgt_kd_item {
     float low[3];
     float weight;
@@ -40,7 +40,7 @@ typedef struct cgt_kd_item {
     uint32_t prim;
 } cgt_kd_item;
 
-/* What holds for the whole build. */
+/* The rules of a build. */
 typedef struct cgt_kd_rules {
     const cgt_primitives *prims;
     cgt_kd_costs costs;
@@ -48,7 +48,7 @@ typedef struct cgt_kd_rules {
     double root_area;        /* half the surface of the root's box */
 } cgt_kd_rules;
 
-/* Where a task leaves what it makes: its slices of the raw tree. Numbers count from the start of the whole arrays.
+/* The output of a task: its slices of the raw tree. Numbers count from the start of the whole arrays.
  * There is always room for the references of all items that are not in a leaf yet: a task can stop splitting, but not
  * fail. */
 typedef struct cgt_kd_output {
@@ -69,7 +69,7 @@ typedef struct cgt_kd_plane {
 } cgt_kd_plane;
 
 /* Half areas as shares of a node's: of the two sides across each axis together, and of what is around it for each unit
- * of length. The fourth element means nothing. */
+ * of length. The fourth element is undefined. */
 typedef struct cgt_kd_shares {
     cgt_float4 side, around;
 } cgt_kd_shares;
@@ -91,7 +91,7 @@ static inline cgt_kd_shares cgt_kd_area_shares(const cgt_kd_box *box)
                            {(float)((y + z) * of), (float)((z + x) * of), (float)((x + y) * of), 0}};
 }
 
-/* The planes that a node can hold are the floats whose two lowest bits are zero. Numbered through in ascending order, 0
+/* The planes that a node can hold are the floats whose two lowest bits are zero. Numbered in ascending order, 0 is
  * the plane at zero: */
 static inline int32_t cgt_kd_plane_number(float plane)
 {
@@ -163,14 +163,23 @@ static inline bool cgt_kd_may_split(const cgt_kd_rules *rules, float weight)
     return weight > rules->costs.inner * (1 - rules->costs.empty_cut_off);
 }
 
-/* Where the plane leaves one side empty: makes the inner node and the empty leaf; number and box become those of the
- * other child, which is returned. */
+/* Adds, where the plane leaves one side empty, the inner node and the empty leaf; box becomes that of the other child,
+ * whose number is returned. */
 uint32_t cgt_kd_cut_off(const cgt_kd_rules *rules, cgt_kd_output *out, uint32_t node, cgt_kd_box *box,
                         const cgt_kd_plane *plane);
 
+/* What happens to a node whose plane was chosen. */
+typedef enum cgt_kd_step { CGT_KD_STOP = 0, CGT_KD_CUT, CGT_KD_DIVIDE } cgt_kd_step;
+
+/* STOP where there is no plane, or no depth or room (counted as a limited leaf); CUT where the plane leaves one side
+ * empty, and the node became the other child; else DIVIDE. room: items that the stack takes. */
+cgt_kd_step cgt_kd_next_step(const cgt_kd_rules *rules, cgt_kd_output *out, const cgt_kd_plane *plane, uint32_t count,
+                             size_t room, uint32_t *node, uint32_t *depth, cgt_kd_box *box);
+
 /* ---- items: kd_items.c ---- */
 
-/* Makes items of the valid objects first to end - 1 in their order; all: every one is. Returns how many. */
+/* Collects the items of the valid primitives from first to end - 1 in order; all: every one is valid. Returns how
+ * many. */
 uint32_t cgt_kd_collect_items(const cgt_kd_rules *rules, uint32_t first, uint32_t end, bool all, cgt_kd_item *item);
 uint32_t cgt_kd_count_valid(const cgt_primitives *prims, uint32_t first, uint32_t end);
 
@@ -187,23 +196,27 @@ void cgt_kd_partition(const cgt_kd_rules *rules, const cgt_kd_box *box, const cg
 
 /* ---- subtrees: kd_binned.c, kd_sweep.c ---- */
 
-/* The work of a task: a node and all below. In memory of its own it has its items, room for as many on a stack, and
- * what the sweep needs. */
+/* The work of a task: a node and its subtree. Its memory holds its items, a stack of as many, and what the sweep
+ * needs. */
 typedef struct cgt_kd_subtree {
     uint32_t number, depth, count;
     cgt_kd_box box;
     cgt_kd_item *item, *stack;
     size_t room; /* of item and of stack */
-    char *sweep; /* CGT_KD_SWEEP_BYTES for each item that there is room for */
+    char *sweep; /* CGT_KD_SWEEP_BYTES for each item of the room */
     cgt_kd_output out;
 } cgt_kd_subtree;
 
 void cgt_kd_build_binned(const cgt_kd_rules *rules, cgt_kd_subtree *subtree);
 void cgt_kd_build_sweep(const cgt_kd_rules *rules, cgt_kd_subtree *subtree);
 
+/* The cheapest plane across the axis. memory: CGT_KD_SWEEP_AXIS_BYTES an item. */
+cgt_kd_plane cgt_kd_sweep_once(const cgt_kd_rules *rules, const cgt_kd_box *box, uint32_t axis, const cgt_kd_item *item,
+                               uint32_t count, void *memory);
+
 /* ---- the top of the tree: kd_top.c ---- */
 
-#define CGT_KD_MAX_TASKS 1024u /* the top has fewer nodes in work, and makes fewer tasks */
+#define CGT_KD_MAX_TASKS 1024u /* the top has fewer active nodes, and produces fewer tasks */
 #define CGT_KD_TOP_NODES (16 * CGT_KD_MAX_TASKS)
 #define CGT_KD_TASKS_OF_ALL 64u /* a node with this part of all items is a task, */
 #define CGT_KD_MIN_TASK 256u    /* and one with as many */
@@ -217,9 +230,9 @@ typedef struct cgt_kd_chunk cgt_kd_chunk;
 typedef struct cgt_kd_top_node cgt_kd_top_node;
 
 /* The memory of a build, all of it in one buffer. A slot is room for an item, in two places: there are about twice as
- * many slots as objects. A node of the top owns a range of slots in both places; its items are in one of them, its
- * children's come to the other. Each child gets its share of the slots, at last the tasks. Slices of the output belong
- * to slots as well. */
+ * many slots as primitives. A node of the top owns a range of slots in both places; its items are in one of them,
+ * those of its children in the other. Each child gets its share of the slots, and so do the tasks in the end. Slices of
+ * the output belong to slots as well. */
 typedef struct cgt_kd_workspace {
     uint32_t slots;
     cgt_kd_item *item[2];
@@ -231,14 +244,14 @@ typedef struct cgt_kd_workspace {
     cgt_kd_top_node *active[2];
     cgt_kd_plane *axis_plane; /* of each active node and axis */
     cgt_kd_chunk *chunk;
-    uint32_t *valid; /* of each chunk of objects */
+    uint32_t *valid; /* of each chunk of primitives */
 } cgt_kd_workspace;
 
 /* Bytes of the chunks of the top, and of the nodes of a level. */
 size_t cgt_kd_chunk_bytes(uint32_t slots);
 size_t cgt_kd_level_bytes(void);
 
-/* Builds down to subtrees that are small enough for a task, which it makes. */
+/* Builds down to subtrees that are small enough for a task, and lists these. */
 void cgt_kd_build_top(const cgt_context *context, const cgt_kd_rules *rules, cgt_kd_workspace *room, bool sweep,
                       const cgt_kd_box *box, uint32_t count, cgt_kd_output *out);
 

@@ -13,11 +13,11 @@ typedef struct cgt_kd_bounds4 {
     cgt_float4 low, high;
 } cgt_kd_bounds4;
 
-/* Makes side[0] and side[1] bounds of the triangle's parts at most and at least at the plane, but for the plane itself,
+/* Bounds the parts of the triangle below and above the plane in side[0] and side[1], except along the plane's axis,
  * which the caller knows; both sides have a point of the triangle. */
 void cgt_kd_clip_sides(const cgt_triangle *q, uint32_t axis, float split, cgt_kd_bounds4 side[2]);
 
-/* Makes `bounds` at most the bounds of the triangle's part within the box. False where there is surely none. */
+/* Narrows `bounds` to those of the triangle's part within the box. Returns false where there is certainly none. */
 bool cgt_kd_clip_box(const cgt_triangle *q, const cgt_kd_box *box, cgt_kd_box *bounds);
 
 #endif

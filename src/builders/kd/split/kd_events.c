@@ -80,7 +80,7 @@ void cgt_kd_merge_events(cgt_kd_event *event, size_t count, const cgt_kd_event *
 
 /* ---- the sweep ---- */
 
-/* What a plane has on its sides. */
+/* The items on the sides of a plane. */
 typedef struct sides {
     double below, above; /* weights */
     uint32_t lower, upper;

@@ -4,10 +4,10 @@
  * Events of the sweep along an axis (Wald, Havran, "On building fast kd-trees for ray tracing, and on doing that in O(N
  * log N)", 2006). Planes are those that a node can hold. An item starts at the last plane before it, at which it is not
  * yet in the lower box, and ends at the first plane after it, at which it is no longer in the upper box. So each end
- * lies after its start, flat items are nothing special, and the planes that matter are all among the events: between
- * two of them nothing changes sides.
+ * lies after its start, flat items need no special case, and all planes that matter are among the events: between two
+ * of them no item changes sides.
  *
- * An event is a number that sorts right: plane, end before start, item. */
+ * An event is a number whose order is that of the sweep: plane, end before start, item. */
 #ifndef CGT_KD_EVENTS_H
 #define CGT_KD_EVENTS_H
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Items: the objects with their bounds, and what becomes of them where a plane divides them. */
+ * Items: primitives with their bounds, and how planes divide them. */
+#include "exact/valid_primitive.h"
 #include "builders/kd/split/kd_clip.h"
 
 static inline float min_of(float a, float b) { return a < b ? a : b; }
@@ -54,7 +55,7 @@ uint32_t cgt_kd_count_valid(const cgt_primitives *prims, uint32_t first, uint32_
     return count;
 }
 
-/* Narrows the bounds to those of a part, and keeps weight and object in the fourth elements. False where nothing is
+/* Narrows the bounds to those of a part, and keeps weight and primitive in the fourth elements. False where nothing is
  * left. */
 static inline bool narrow(cgt_kd_item *item, cgt_float4 low, cgt_float4 high)
 {

@@ -53,3 +53,19 @@ uint32_t cgt_kd_cut_off(const cgt_kd_rules *rules, cgt_kd_output *out, uint32_t 
     *box = cgt_kd_child_box(box, plane->axis, plane->split, full_side);
     return lower + full_side;
 }
+
+cgt_kd_step cgt_kd_next_step(const cgt_kd_rules *rules, cgt_kd_output *out, const cgt_kd_plane *plane, uint32_t count,
+                             size_t room, uint32_t *node, uint32_t *depth, cgt_kd_box *box)
+{
+    if (plane->axis == 3)
+        return CGT_KD_STOP;
+    if (*depth == rules->max_leaf_depth || !cgt_kd_has_room(out, count, room)) {
+        out->limited_leaves++;
+        return CGT_KD_STOP;
+    }
+    if (!plane->lower_empty && !plane->upper_empty)
+        return CGT_KD_DIVIDE;
+    *node = cgt_kd_cut_off(rules, out, *node, box, plane);
+    ++*depth;
+    return CGT_KD_CUT;
+}

@@ -5,7 +5,6 @@
  * split leaves those of items on one side in their order; items on both sides are clipped, and their new events are
  * sorted and merged in. As in the binned builder the larger child takes the place of its parent, the smaller goes on a
  * stack. */
-#include "builders/kd/split/kd_sweep.h"
 
 #include "builders/kd/split/kd_events.h"
 
@@ -31,7 +30,7 @@ cgt_kd_plane cgt_kd_sweep_once(const cgt_kd_rules *rules, const cgt_kd_box *box,
 #define NOT_IN_CHILD UINT32_MAX
 #define SPLIT_FLAG 0x80000000u /* the item has new bounds there */
 
-/* What is the same for all nodes of a task. */
+/* The state of a task. */
 typedef struct task {
     const cgt_kd_rules *rules;
     cgt_kd_output *out;
@@ -127,7 +126,8 @@ static void build_smaller(task *t, const node *child, uint32_t larger)
     out->end_reference = end_reference;
 }
 
-/* Splits where items are on both sides; *n becomes the larger child. False where both children have all of them. */
+/* Splits where items are on both sides; *n becomes the larger child. Returns false where both children have all of
+ * them. */
 static bool descend(task *t, node *n, const cgt_kd_plane *plane)
 {
     const uint32_t larger = plane->upper_larger, smaller = !larger;
@@ -158,18 +158,10 @@ static void build(task *t, node n)
 {
     while (n.count) {
         const cgt_kd_plane plane = choose_plane(t, &n);
-        if (plane.axis == 3)
+        const cgt_kd_step step =
+            cgt_kd_next_step(t->rules, t->out, &plane, n.count, t->room, &n.number, &n.depth, &n.box);
+        if (step == CGT_KD_STOP || (step == CGT_KD_DIVIDE && !descend(t, &n, &plane)))
             break;
-        if (n.depth == t->rules->max_leaf_depth || !cgt_kd_has_room(t->out, n.count, t->room)) {
-            t->out->limited_leaves++;
-            break;
-        }
-        if (plane.lower_empty || plane.upper_empty) {
-            n.number = cgt_kd_cut_off(t->rules, t->out, n.number, &n.box, &plane);
-            n.depth++;
-        } else if (!descend(t, &n, &plane)) {
-            break;
-        }
     }
     cgt_kd_add_leaf(t->rules, t->out, n.number, &n.box, n.item, n.count);
 }

@@ -2,10 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The top of the tree, level by level: nodes with many items are worked on by all threads, chunk by chunk. Chunks,
- * levels and what becomes a task depend on counts alone, and what chunks find is put together in their order. */
-#include "core/float_environment.h"
+ * levels and tasks depend on counts alone, and the results of chunks are merged in order. */
 #include "builders/kd/split/kd_binned.h"
-#include "builders/kd/split/kd_sweep.h"
 
 struct cgt_kd_top_node {
     uint32_t number, depth, count;
@@ -52,22 +50,16 @@ static void bound_chunk(void *argument, uint32_t index)
 {
     const top *t = argument;
     cgt_kd_chunk *c = &t->room->chunk[index];
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     c->low = cgt_all4(INFINITY);
     c->high = cgt_all4(-INFINITY);
     c->weight = cgt_kd_bound_items(items_of(t, &t->node[c->node]) + c->first, c->count, &c->low, &c->high);
-    cgt_float_environment_leave(&callers);
 }
 
 static void bin_chunk(void *argument, uint32_t index)
 {
     const top *t = argument;
     cgt_kd_chunk *c = &t->room->chunk[index];
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     cgt_kd_fill_bins(&c->bins, items_of(t, &t->node[c->node]) + c->first, c->count);
-    cgt_float_environment_leave(&callers);
 }
 
 static void count_chunk(void *argument, uint32_t index)
@@ -91,12 +83,9 @@ static void divide_chunk(void *argument, uint32_t index)
     const cgt_kd_top_node *n = &t->node[c->node];
     cgt_kd_item *to[2];
     uint32_t counts[2];
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     for (int s = 0; s < 2; s++)
         to[s] = t->room->item[!n->item_buffer] + n->side_base[s] + c->to[s];
     cgt_kd_partition(t->rules, &n->box, &n->plane, items_of(t, n) + c->first, c->count, true, to, counts);
-    cgt_float_environment_leave(&callers);
 }
 
 static void plan_chunks(top *t)
@@ -117,7 +106,7 @@ static void plan_chunks(top *t)
 
 /* ---- the choice ---- */
 
-/* Puts together what the chunks of each node have, in the first chunk. */
+/* Merges the bounds of each node's chunks into the first chunk. */
 static void merge_bounds(top *t)
 {
     for (uint32_t i = 0; i < t->nodes; i++) {
@@ -177,11 +166,8 @@ static void sweep_axis(void *argument, uint32_t index)
     const top *t = argument;
     const cgt_kd_top_node *n = &t->node[index / 3];
     char *memory = t->room->sweep + (size_t)n->base * CGT_KD_SWEEP_BYTES;
-    cgt_float_environment callers;
-    cgt_float_environment_enter(&callers);
     t->axis_plane[index] = cgt_kd_sweep_once(t->rules, &n->box, index % 3, items_of(t, n), n->count,
                                              memory + index % 3 * (size_t)n->room * CGT_KD_SWEEP_AXIS_BYTES);
-    cgt_float_environment_leave(&callers);
 }
 
 static void choose_swept(top *t)
@@ -221,8 +207,8 @@ static void add_task(top *t, const cgt_kd_top_node *n)
     };
 }
 
-/* Adds up what is on each side, and gives each its share of the slots. False where there is no room, or where both
- * sides would have all items. Some side has some. */
+/* Adds up the items on each side, and gives each side its share of the slots. Returns false where there is no room,
+ * where both sides would have all items, or none has any. */
 static bool plan_sides(const top *t, cgt_kd_top_node *n)
 {
     cgt_kd_chunk *c = &t->room->chunk[n->first_chunk];
@@ -244,7 +230,7 @@ static bool plan_sides(const top *t, cgt_kd_top_node *n)
     return true;
 }
 
-/* Keeps the nodes that are divided; the others are tasks, or, cut, in `next` already. */
+/* Keeps the nodes that are divided; the others become tasks, or, if cut, move to `next`. */
 static uint32_t compact_split_nodes(top *t, cgt_kd_top_node *next)
 {
     uint32_t split_nodes = 0, cut = 0;
@@ -283,7 +269,7 @@ static void add_child(top *t, const cgt_kd_top_node *n, uint32_t lower, uint32_t
         add_task(t, &child);
 }
 
-/* Makes the nodes of the next level, from those of this one. */
+/* Creates the nodes of the next level from those of this one. */
 static uint32_t descend(top *t, cgt_kd_top_node *next)
 {
     uint32_t next_count = compact_split_nodes(t, next), divided = 0;

@@ -1,24 +1,24 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The binary tree under a wide one, from the leaves to the root: records of its leaves and inner nodes, and for each
- * inner node the best way to make wide nodes of what is below it (Aila, Karras, Laine, "On Quality Metrics of Bounding
- * Volume Hierarchies", 2013, and others for the measure; Wald, Benthin, Boulos 2008 for wide nodes).
+ * The binary tree below a BVH, from the leaves to the root: records of its leaves and inner nodes, and for each inner
+ * node the best way to collapse its subtree to BVH nodes (Aila, Karras, Laine, "On Quality Metrics of Bounding
+ * Volume Hierarchies", 2013, and others for the measure; Wald, Benthin, Boulos 2008 for BVH nodes).
  *
- * A wide node costs its area, which is proportional to how many rays visit it; leaves are given and cost nothing here.
- * With C(n, k) the least cost of all wide nodes below n, where n may take up to k of the slots of a wide node,
+ * A BVH node costs its area, which is proportional to how many rays visit it; leaves are given and cost nothing here.
+ * With C(n, k) the least cost of all BVH nodes below n, where n may take up to k of the slots of a BVH node,
  *   S(n, k) = min over 0 < i < k of C(l, i) + C(r, k - i)      for the children l and r: n is parted
- *   C(n, 1) = area(n) + S(n, CGT_LANES)                        n is a wide node
+ *   C(n, 1) = area(n) + S(n, CGT_LANES)                        n is a BVH node
  *   C(n, k) = min(C(n, 1), S(n, k))
  * and 0 for a leaf. Lane k - 1 of a vector is for k slots. */
 #ifndef CGT_BVH_BINARY_H
 #define CGT_BVH_BINARY_H
 
 #include "core/memory.h"
-#include "builders/bvh/bvh_build.h"
+#include "dispatch/bvh_builder.h"
 #include "kernel/bvh/bvh_node.h"
 
-/* Both begin as a leaf does: whoever makes a node reads their boxes. */
+/* Both kinds of records begin alike: nodes are built from their boxes. */
 typedef struct bvh_leaf_record {
     float low[3];
     uint32_t code; /* see bvh.h */
@@ -28,9 +28,9 @@ typedef struct bvh_leaf_record {
 
 typedef struct bvh_inner_record {
     _Alignas(16) float low[3];
-    uint32_t number; /* of its wide node in its range, where it is one whose parent is over ranges */
+    uint32_t number; /* of its BVH node in its range, where it is one whose parent is over ranges */
     float high[3];
-    uint32_t depth;           /* wide nodes above it, where it is one */
+    uint32_t depth;           /* BVH nodes above it, where it is one */
     uint32_t child[2];        /* references */
     uint8_t slots[CGT_LANES]; /* how many of k child 0 takes, in element k - 1; 0: the node is a wide one. Of one that
                                  was chosen as such the first element, which would be 0, tells its children */
@@ -43,7 +43,7 @@ typedef struct bvh_branch {
     uint32_t reference, leaves;
 } bvh_branch;
 
-/* Branches side by side, each with the depth at which it parts from the one before. */
+/* Adjacent branches, each with the depth at which it parts from the one before. */
 typedef struct bvh_branch_stack {
     bvh_branch branch[CGT_BVH_MAX_DEPTH + 2];
     uint32_t parting[CGT_BVH_MAX_DEPTH + 2];
@@ -56,7 +56,7 @@ CGT_SPU_INLINE bvh_leaf_record *bvh_leaf_at(const cgt_bvh_build *b, uint32_t ref
     return (bvh_leaf_record *)b->record + (reference & ~CGT_BVH_LEAF_REF);
 }
 
-/* Inner records come after those of leaves, aligned. */
+/* Inner records follow those of leaves, aligned. */
 CGT_SPU_INLINE bvh_inner_record *bvh_inner_records(const cgt_bvh_build *b)
 {
     const size_t bytes = (size_t)b->leaves * sizeof(bvh_leaf_record);
@@ -64,8 +64,8 @@ CGT_SPU_INLINE bvh_inner_record *bvh_inner_records(const cgt_bvh_build *b)
                                         (bytes + CGT_ALIGNMENT - 1) / CGT_ALIGNMENT * CGT_ALIGNMENT);
 }
 
-/* The references that are children of a range's wide nodes: first the wide nodes whose parents are over ranges, then
- * node by node, in the order of this list, its children. None comes twice, so that a range has no more than records. */
+/* The list of children of a range's BVH nodes: first the BVH nodes whose parents lie above the ranges, then node by
+ * node, in the order of this list, their children. None is listed twice, so that a range lists at most its records. */
 CGT_SPU_INLINE uint32_t *bvh_child_list(const cgt_bvh_build *b, const cgt_bvh_range *range)
 {
     return (uint32_t *)(void *)(bvh_inner_records(b) + b->leaves) + 2 * (size_t)range->first_leaf;
@@ -79,7 +79,7 @@ CGT_SPU_INLINE float bvh_half_area(const float low[3], const float high[3])
     return x * y + y * z + z * x;
 }
 
-/* S and C of a node of two children, of which the first has no more leaves: more slots would not help it. */
+/* Computes S and C of a node of two children. l has no more leaves than r: more slots than leaves would not help it. */
 CGT_SPU_INLINE void bvh_choose_slots(const bvh_branch *l, const bvh_branch *r, float area, float cost[CGT_LANES],
                                      uint8_t slots[CGT_LANES])
 {
@@ -104,7 +104,7 @@ CGT_SPU_INLINE void bvh_choose_slots(const bvh_branch *l, const bvh_branch *r, f
         slots[k] = (uint8_t)number[k];
 }
 
-/* Joins the last two. */
+/* Merges the last two branches. */
 CGT_SPU_INLINE void bvh_branch_merge(const cgt_bvh_build *b, bvh_branch_stack *s)
 {
     bvh_branch *first = &s->branch[s->count - 2], *second = &s->branch[s->count - 1];
@@ -130,7 +130,7 @@ CGT_SPU_INLINE void bvh_branch_merge(const cgt_bvh_build *b, bvh_branch_stack *s
     s->count--;
 }
 
-/* Before something is added that parts from what is there at a depth: what is joined deeper down. */
+/* Merges the branches that part deeper than the next one, which is about to be pushed. */
 CGT_SPU_INLINE void bvh_branch_merge_deeper(const cgt_bvh_build *b, bvh_branch_stack *s, uint32_t parting)
 {
     while (s->count > 1 && s->parting[s->count - 1] > parting)

@@ -1,13 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The primitives of a run of objects of one kind, at most a vector of them; lanes beyond repeat the last one. */
+ * A run of primitives of one kind, at most a vector of them; lanes beyond its end repeat the last one. */
 #ifndef CGT_BVH_FETCH_H
 #define CGT_BVH_FETCH_H
 
 #include "kernel/primitive/gather_primitives.h"
 
-/* The objects of a run, and the array that holds them all, or NULL. */
+/* A run, and the array that holds all of it, or NULL. */
 typedef struct prim_run {
     const cgt_primitives *prims;
     const cgt_primitive_array *array;
@@ -29,8 +29,8 @@ CGT_SPU_INLINE prim_run prim_run_load(const cgt_primitives *prims, const uint32_
     return r;
 }
 
-/* Objects lie anywhere in their arrays: they are asked for this far ahead, and triangles' indices twice as far. What is
- * asked for may be of another array, and is then not. */
+/* Primitives are scattered over their arrays: they are prefetched this far ahead, and triangles' indices twice as far;
+ * those of another array are not. */
 #define PREFETCH_DISTANCE 32u
 
 CGT_SPU_INLINE void prefetch_vertices(const cgt_primitive_array *a, const uint32_t *prim, uint32_t count)
@@ -57,7 +57,7 @@ CGT_SPU_INLINE void prefetch_indices(const cgt_primitive_array *a, const uint32_
             __builtin_prefetch(a->index + (size_t)(prim[k] - a->first) * a->index_stride);
 }
 
-/* Objects number i to i + count - 1 of a list were fetched: asks for as many later ones. */
+/* After primitives i to i + count - 1 of a list were fetched: prefetches as many later ones. */
 CGT_SPU_INLINE void prefetch_run(const prim_run *r, const uint32_t *prim, uint32_t i, uint32_t count, uint32_t end)
 {
     if (!r->array || end - i < 2 * PREFETCH_DISTANCE + count)

@@ -1,18 +1,18 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Leaf blocks of the wide tree, and the binary tree over them. Spheres are copied as they are; triangles become what
- * src/model/leaf_triangle.c makes of them, bit by bit. */
+ * Leaf blocks of the BVH, and the binary tree over them. Spheres are copied as they are; triangles are
+ * prepared as in src/model/leaf_triangle.c, with the same bits. */
 #include <math.h>
 
 #include "kernel/builders/bvh/bvh_binary.h"
 #include "kernel/builders/bvh/bvh_fetch.h"
 
-#define MAX_LISTED_PRIMS 512u /* of clusters, listed together */
-#define PREFETCH_CLUSTERS 32u /* that are on their way */
+#define MAX_LISTED_PRIMS 512u /* of clusters that are listed together */
+#define PREFETCH_CLUSTERS 32u /* prefetch distance */
 
-/* Bounds of spheres. A sum is rounded by at most 2^-24 of itself, or not at all where it is below 2^-126. What 2^-22 of
- * it comes to is rounded by 2^-150 at most, the difference once more by 2^-24: 2^-23 at least is left. */
+/* Bounds of spheres. A sum is rounded by at most 2^-24 of itself, or not at all where it is below 2^-126. 2^-22 of it
+ * is rounded by 2^-150 at most, and the difference once more by 2^-24: a margin of 2^-23 at least remains. */
 CGT_SPU_INLINE void bound_spheres(const vfloat d[4], bvh_leaf_record *leaf)
 {
     const vfloat radius = spux_abs(d[3]), rel_error = spux_vfloat(0x1p-22f);
@@ -23,7 +23,7 @@ CGT_SPU_INLINE void bound_spheres(const vfloat d[4], bvh_leaf_record *leaf)
     }
 }
 
-/* To a block. */
+/* Stores to a block. */
 CGT_SPU_INLINE void store_block(float *to, vfloat v, bool nontemporal)
 {
     if (nontemporal)
@@ -40,11 +40,11 @@ CGT_SPU_INLINE void store_block_uint(uint32_t *to, vuint v, bool nontemporal)
         spux_store_uint(to, v);
 }
 
-/* Objects in the order of leaves: as they were sorted, or those of clusters, some of which were taken from there. */
+/* Primitives in the order of leaves: sorted ones, or those of sorted clusters, of which some are listed ahead. */
 typedef struct leaf_prims {
     const uint32_t *prim;
-    uint32_t next, end;         /* those that are asked for ahead may be another range's */
-    uint32_t cluster, clusters; /* that are still to come */
+    uint32_t next, end;         /* prefetched ones may be those of another range */
+    uint32_t cluster, clusters; /* not listed yet */
     uint32_t cluster_prims[MAX_LISTED_PRIMS + CGT_CLUSTER];
 } leaf_prims;
 
@@ -55,11 +55,11 @@ static void leaf_prims_init(const cgt_bvh_build *b, const cgt_bvh_range *range, 
     o->end = b->cluster ? 0 : b->sorted;
     o->cluster = b->cluster ? range->begin : range->end;
     o->clusters = range->end;
-    if (b->cluster) /* it is filled before it is read, which analysers do not see */
+    if (b->cluster) /* for analysers, which do not see that it is filled before it is read */
         memset(o->cluster_prims, 0, sizeof o->cluster_prims);
 }
 
-/* Takes triangles of as many clusters as there is room for, where there are not enough for a leaf. */
+/* Lists the triangles of as many clusters as there is room for, where there are too few for a leaf. */
 CGT_SPU_INLINE void leaf_prims_refill(const cgt_bvh_build *b, leaf_prims *o)
 {
     if (o->cluster == o->clusters || o->end - o->next >= CGT_LANES)
@@ -78,7 +78,7 @@ CGT_SPU_INLINE void leaf_prims_refill(const cgt_bvh_build *b, leaf_prims *o)
             continue;
         }
         for (uint32_t k = 0; k < CGT_CLUSTER; k++) {
-            o->cluster_prims[o->end] = number * CGT_CLUSTER + k; /* written over where it is not valid */
+            o->cluster_prims[o->end] = number * CGT_CLUSTER + k; /* overwritten where it is not valid */
             o->end += valid >> k & 1;
         }
     }
@@ -123,7 +123,7 @@ static void build_triangle_block(const cgt_bvh_build *b, const leaf_prims *o, ui
     store_block_uint(block->prim, run.prim, b->nontemporal);
 }
 
-/* Block `number` of its kind, of the next `count` objects. */
+/* Block `number` of its kind, of the next `count` primitives. */
 static void build_leaf(const cgt_bvh_build *b, cgt_kind kind, leaf_prims *o, uint32_t count, uint32_t number,
                        bvh_leaf_record *leaf)
 {

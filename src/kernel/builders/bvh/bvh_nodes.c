@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * From the binary tree to wide nodes. First the inner records that become wide ones are chosen, from the root down:
- * those over ranges by one thread, then each range's. Their children are listed, node by node, and nodes have the order
- * in which they come in that list. Then the nodes are made. */
+ * From the binary tree to BVH nodes. First the inner records that become BVH nodes are chosen, from the root down:
+ * those above the ranges by one thread, then those of each range. Their children are listed node by node, and nodes
+ * have the order of that list. Then the nodes are written. */
 #include <math.h>
 
 #include "kernel/builders/bvh/bvh_binary.h"
@@ -12,7 +12,7 @@
 
 static bool is_inner(uint32_t reference) { return !(reference & CGT_BVH_LEAF_REF); }
 
-/* Lists the children of a wide node. Returns how many. */
+/* Lists the children of a BVH node. Returns how many. */
 static uint32_t list_children(const cgt_bvh_build *b, const bvh_inner_record *root, uint32_t *child)
 {
     const bvh_inner_record *first = bvh_inner_records(b);
@@ -36,8 +36,8 @@ static uint32_t list_children(const cgt_bvh_build *b, const bvh_inner_record *ro
     return children;
 }
 
-/* The number of the range that holds an inner record, or how many there are: the top. Ranges of one leaf hold none: the
- * last that starts there does. */
+/* Returns the number of the range that holds an inner record, or b->ranges for the top. Ranges of one leaf hold none:
+ * of several that start at a record, the last one holds it. */
 static uint32_t find_range(const cgt_bvh_build *b, uint32_t inner)
 {
     uint32_t low = 0, high = b->ranges;
@@ -53,7 +53,7 @@ static uint32_t find_range(const cgt_bvh_build *b, uint32_t inner)
     return low;
 }
 
-/* Where a child is a node of a range, the range gets to know of it. */
+/* Lists a child as a root of its range, where it is a node of one. */
 static void append_root(cgt_bvh_build *b, uint32_t inner, uint32_t depth)
 {
     const uint32_t number = find_range(b, inner);
@@ -66,7 +66,7 @@ static void append_root(cgt_bvh_build *b, uint32_t inner, uint32_t depth)
     bvh_child_list(b, range)[range->roots++] = inner;
 }
 
-/* Chooses the wide nodes of a range whose roots are listed. */
+/* Chooses the BVH nodes of a range whose roots are listed. */
 CGT_SPU_INLINE void choose_range_nodes(cgt_bvh_build *top, const cgt_bvh_build *b, cgt_bvh_range *range)
 {
     bvh_inner_record *first = bvh_inner_records(b);
@@ -120,7 +120,7 @@ void CGT_KERNEL(cgt_bvh_join_ranges)(cgt_bvh_build *b)
     choose_range_nodes(b, b, &b->top);
 }
 
-/* Asks for memory that is about to be read in any order. */
+/* Prefetches memory that is about to be read in random order. */
 CGT_SPU_INLINE void prefetch_span(const void *first, const void *end)
 {
     for (const char *p = first; p < (const char *)end; p += CGT_ALIGNMENT)
@@ -146,7 +146,7 @@ void CGT_KERNEL(cgt_bvh_choose_nodes)(const cgt_bvh_build *b, cgt_bvh_range *ran
     choose_range_nodes(NULL, b, range);
 }
 
-/* ---- making ---- */
+/* ---- writing ---- */
 
 /* Lanes in ascending order of keys, equal ones by number. */
 CGT_SPU_INLINE void order_lanes(vfloat key, uint8_t order[CGT_LANES])
@@ -167,8 +167,8 @@ CGT_SPU_INLINE void order_lanes(vfloat key, uint8_t order[CGT_LANES])
         order[ranks[k]] = (uint8_t)k;
 }
 
-/* Twice the middles' coordinates along the diagonal of an octant. Sums are finite: a world that has a structure is
- * within CGT_MAX_COORDINATE. */
+/* Orders children by twice the coordinate of their middles along the diagonal of an octant. Sums are finite: a scene
+ * that has a structure is within CGT_MAX_COORDINATE. */
 CGT_SPU_INLINE void order_children(const vfloat low[3], const vfloat high[3], vmask present, bvh_node *node)
 {
     const vfloat x = spu_add(low[0], high[0]), y = spu_add(low[1], high[1]), z = spu_add(low[2], high[2]);
@@ -179,7 +179,7 @@ CGT_SPU_INLINE void order_children(const vfloat low[3], const vfloat high[3], vm
     order_lanes(spux_select(none, spu_sub(z, sum), present), node->order[3]);
 }
 
-/* Boxes of the records of references. */
+/* Loads the boxes of records. */
 CGT_SPU_INLINE void load_boxes(const cgt_bvh_build *b, const uint32_t reference[CGT_LANES], vfloat low[3],
                                vfloat high[3])
 {
@@ -199,7 +199,7 @@ CGT_SPU_INLINE void load_boxes(const cgt_bvh_build *b, const uint32_t reference[
         high[a] = d[a];
 }
 
-/* The code of a child. next: the number of the next node of the range that comes as a child. */
+/* Returns the code of a child. next: the number of the range's next node that is a child. */
 CGT_SPU_INLINE uint32_t child_code(const cgt_bvh_build *b, const cgt_bvh_range *range, uint32_t child, uint32_t *next)
 {
     if (!is_inner(child))
@@ -251,12 +251,12 @@ void CGT_KERNEL(cgt_bvh_build_nodes)(const cgt_bvh_build *b, const cgt_bvh_range
     }
 }
 
-void CGT_KERNEL(cgt_bvh_compute_keys)(const cgt_bvh_keys_job *job, const cgt_primitive_array *array, uint32_t first,
-                                      uint32_t end, uint32_t *key);
-void CGT_KERNEL(cgt_bvh_compute_cluster_keys)(const cgt_bvh_keys_job *job, const cgt_cluster *cluster, uint32_t count,
-                                              uint32_t *key);
-void CGT_KERNEL(cgt_bvh_split_range)(const cgt_bvh_build *build, cgt_bvh_range *range);
-void CGT_KERNEL(cgt_bvh_build_leaves)(const cgt_bvh_build *build, uint32_t range);
+/* ---- the table ---- */
+
+cgt_prim_keys_fn CGT_KERNEL(cgt_bvh_keys);
+cgt_cluster_keys_fn CGT_KERNEL(cgt_bvh_cluster_keys);
+cgt_bvh_split_fn CGT_KERNEL(cgt_bvh_split_range);
+cgt_bvh_leaves_fn CGT_KERNEL(cgt_bvh_build_leaves);
 
 const cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder) = {
     .node_bytes = sizeof(bvh_node),
@@ -265,8 +265,8 @@ const cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder) = {
     .inner_bytes = sizeof(bvh_inner_record),
     .branch_bytes = sizeof(bvh_branch),
     .lanes = CGT_LANES,
-    .keys = CGT_KERNEL(cgt_bvh_compute_keys),
-    .cluster_keys = CGT_KERNEL(cgt_bvh_compute_cluster_keys),
+    .keys = CGT_KERNEL(cgt_bvh_keys),
+    .cluster_keys = CGT_KERNEL(cgt_bvh_cluster_keys),
     .split = CGT_KERNEL(cgt_bvh_split_range),
     .leaves = CGT_KERNEL(cgt_bvh_build_leaves),
     .join = CGT_KERNEL(cgt_bvh_join_ranges),

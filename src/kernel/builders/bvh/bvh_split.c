@@ -1,24 +1,24 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The leaves of a range: runs of at most CGT_LANES objects, or of the triangles of one or two clusters. Cells are halved
- * by the bits of their keys until a run is short enough. A cell with more is divided into cells of its own, along a curve
- * through the middles of its objects, and so on; what lies at one place, or still together after some rounds, is halved
- * as it came.
+ * The leaves of a range: runs of at most CGT_LANES primitives, or of the triangles of one or two clusters. Cells are
+ * halved by the bits of their keys until a run is short enough. A crowded cell is divided into cells of its own, along
+ * a curve through the middles of its primitives, and so on; primitives that lie at one place, or are still together
+ * after some rounds, are halved in their present order.
  *
- * Depth. Binary nodes over something are as many as halvings with objects on both sides. There are at most
- * CGT_BVH_PART_DEPTH over parts and CGT_BVH_KEY_BITS over a part's cells. A cell's own bits are no more than what is
- * left of CGT_BVH_MAX_DEPTH after the halvings that its objects as they came would take: at most 30, of 2^32 objects
- * and leaves of 4. 5 + 24 + 30 is below 64, so that there is always room for those. A way down a wide tree takes at
- * least one binary node for each wide one.
+ * Depth. Above a run there are as many binary nodes as halvings with primitives on both sides: at most
+ * CGT_BVH_PART_DEPTH over parts and CGT_BVH_KEY_BITS over a part's cells. The bits of a cell's own cells are limited so
+ * that its primitives could still be halved in their present order within CGT_BVH_MAX_DEPTH: that takes at most 30
+ * halvings, for 2^32 primitives and leaves of 4. 5 + 24 + 30 is below 64, so that there is always room for these. A
+ * path in the BVH has at most as many nodes as the binary nodes that it passes.
  *
- * Time. A round looks at each object of a crowded cell some times and has no more cells than objects; there are at most
- * MAX_ROUNDS, and each cell that a key can name is looked at once. */
-#include "kernel/builders/bvh/bvh_cells.h"
-
+ * Time. A round visits each primitive of a crowded cell a few times and has no more cells than primitives; there are at
+ * most MAX_ROUNDS, and each cell that a key can name is visited once. */
 #include <math.h>
 
+#include "dispatch/bvh_builder.h"
 #include "kernel/builders/bvh/bvh_fetch.h"
+#include "kernel/builders/bvh/morton_cells.h"
 
 #define MAX_ROUNDS 8
 #define ROUND_BITS 10u
@@ -26,16 +26,16 @@
 
 _Static_assert(CGT_BVH_PART_DEPTH + CGT_BVH_KEY_BITS + 30 <= CGT_BVH_MAX_DEPTH, "leaves need depth");
 
-/* A run of objects: those of cells, or as they came. */
+/* A run of primitives: those of cells, or in their present order. */
 typedef struct split_run {
-    const uint32_t *start; /* of the cells; NULL: as they came */
+    const uint32_t *start; /* of the cells; NULL: in the present order */
     uint32_t cell, bits;   /* 2^bits of them */
     uint32_t begin, end;
     uint8_t depth, parting, round;
 } split_run;
 
-/* What is on the stack lies side by side, each run after the first under a binary node of its own, and the deepest may
- * have both its halves there. */
+/* The runs on the stack are adjacent; each but the first lies under a binary node of its own, and the deepest may have
+ * both its halves there. */
 typedef struct split_work {
     const cgt_bvh_build *build;
     cgt_bvh_range *range;
@@ -58,7 +58,7 @@ static void push_run(split_work *w, const split_run *of, uint32_t cell, uint32_t
                                         .round = of->round};
 }
 
-/* The latter half first, so that it is looked at last. */
+/* Pushes both halves, the latter first, so that it is visited last. */
 static void push_halves(split_work *w, const split_run *r, uint32_t middle)
 {
     const bool splits = r->begin < middle && middle < r->end;
@@ -74,7 +74,7 @@ static void append_leaf(split_work *w, uint32_t count, uint32_t parting)
     b->leaf[range->begin * b->leaves_each + range->leaves++] = (uint16_t)((count - 1) | parting << 8);
 }
 
-/* A run for a leaf; or, of a cluster that is more than one, for two: a binary node above those. */
+/* Appends a run as a leaf; or, where a cluster is too large for one, as two leaves with a binary node above. */
 static void append_leaves(split_work *w, const split_run *r)
 {
     const cgt_bvh_build *b = w->build;
@@ -92,24 +92,24 @@ static void append_leaves(split_work *w, const split_run *r)
     append_leaf(w, count, parting);
 }
 
-/* How many objects or clusters a run may have that is split no more. */
+/* Returns how many primitives or clusters a run of leaves may have. */
 static uint32_t max_run(const cgt_bvh_build *b)
 {
     return !b->cluster ? CGT_LANES : CGT_LANES > CGT_CLUSTER ? CGT_LANES / CGT_CLUSTER : 1;
 }
 
-/* Such runs, were they full. */
+/* Returns how many such runs there are, if full. */
 static uint32_t count_full_runs(const cgt_bvh_build *b, const split_run *r)
 {
     return (r->end - r->begin - 1) / max_run(b) + 1;
 }
 
-/* Bits that number so many things: halvings until one is left. */
+/* Returns the bits that number `count` items: halvings until one remains. */
 static uint32_t bits_for(uint32_t count) { return count > 1 ? 32 - (uint32_t)__builtin_clz(count - 1) : 0; }
 
 /* ---- crowded cells ---- */
 
-/* Middles of objects or clusters i to i + count - 1. */
+/* Loads the middles of primitives or clusters i to i + count - 1. */
 CGT_SPU_INLINE void load_centroids(const cgt_bvh_build *b, const cgt_bvh_range *range, uint32_t i, uint32_t count,
                                    vfloat middle[3])
 {
@@ -121,11 +121,11 @@ CGT_SPU_INLINE void load_centroids(const cgt_bvh_build *b, const cgt_bvh_range *
         return;
     }
     const prim_run run = prim_run_load(b->prims, b->prim + i, count);
-    prefetch_run(&run, b->prim, i, CGT_LANES, range->end); /* what is beyond may be moved by another thread */
+    prefetch_run(&run, b->prim, i, CGT_LANES, range->end); /* another thread may be moving those beyond */
     prim_run_centroids(&run, range->kind, middle);
 }
 
-/* The curve of a run's objects, whose middles are kept. Returns false where all lie at one place. */
+/* Lays a curve through a run's primitives, and stores their middles. Returns false where all lie at one place. */
 static bool make_curve(const cgt_bvh_build *b, const cgt_bvh_range *range, const split_run *r, cgt_morton_curve *curve)
 {
     const uint32_t depth = r->depth + bits_for(count_full_runs(b, r) * b->leaves_each),
@@ -158,7 +158,7 @@ static bool make_curve(const cgt_bvh_build *b, const cgt_bvh_range *range, const
     return curve->bits > 0;
 }
 
-/* Counts the objects of each cell to start[cell + 1]. */
+/* Counts the primitives of each cell to start[cell + 1]. */
 static void count_cells(const cgt_bvh_build *b, const split_run *r, const cgt_morton_curve *curve, uint32_t *start)
 {
     for (uint32_t i = r->begin; i < r->end; i += CGT_LANES) {
@@ -174,7 +174,7 @@ static void count_cells(const cgt_bvh_build *b, const split_run *r, const cgt_mo
     }
 }
 
-/* Sorts a run's objects by cells of its own, of which `start` gets the starts. */
+/* Sorts a run's primitives by cells of its own, whose starts are stored in `start`. */
 static void sort_by_cells(const cgt_bvh_build *b, const split_run *r, const cgt_morton_curve *curve, uint32_t *start)
 {
     const uint32_t cells = UINT32_C(1) << curve->bits;
@@ -186,11 +186,11 @@ static void sort_by_cells(const cgt_bvh_build *b, const split_run *r, const cgt_
     memcpy(b->scratch + r->begin, b->prim + r->begin, (r->end - r->begin) * sizeof *b->prim);
     for (uint32_t i = r->begin; i < r->end; i++)
         b->prim[start[b->key[i]]++] = b->scratch[i];
-    memmove(start + 1, start, cells * sizeof *start); /* each was moved to its cell's end */
+    memmove(start + 1, start, cells * sizeof *start); /* each has moved to its cell's end */
     start[0] = r->begin;
 }
 
-/* A run that cells cannot part. */
+/* Splits a run that cells cannot part. */
 static void split_crowded(split_work *w, const split_run *r)
 {
     cgt_morton_curve curve;

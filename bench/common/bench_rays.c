@@ -1,0 +1,542 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Makes secondary rays in batches or tile by tile, and has them traced. bench_rays.h has the definitions. */
+#include "common/bench_rays.h"
+
+#include "common/bench_clones.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BLOCK = 4,             /* pixels along a block's edge */
+    GROUP = BLOCK * BLOCK, /* hit pixels whose rays lie together */
+    GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
+    GROUPS_AHEAD = 8,      /* whose hits are on their way */
+    SHADOW_RUN = 256,      /* shadow rays made at once */
+    /* Hits are listed a round of tiles at a time, rays are made and traced a batch at a time: as many as stay in a
+     * cache. With several threads each gets twice as many, since waking them takes as long as tracing some thousand
+     * rays; more gain nothing. MOST_SHARES limits the memory of many threads. */
+    TILES_PER_ROUND = 8,
+    RAYS_PER_BATCH = 32 * 1024,
+    MOST_SHARES = 64
+};
+
+struct bench_rays {
+    bench_threads *threads;
+    const bench_camera_axes *axes;
+    const bench_planes *planes;
+    uint32_t block_columns;
+    uint32_t tiles;
+    uint32_t round_tiles; /* of a round */
+    uint32_t round_first; /* the first tile whose hits are not listed yet */
+    uint32_t tile_hits[TILES_PER_ROUND * MOST_SHARES];
+    uint32_t *of_tile; /* hit pixels of each tile of a round: x + 65536 y */
+    float *t_of_tile;
+    uint32_t *hit; /* of all tiles, without gaps */
+    float *hit_t;
+    uint64_t hits;
+    uint64_t batch_rays; /* rays that the arrays hold */
+    float *org[3], *dir[3];
+    float *ones; /* the far end of all shadow rays */
+    uint8_t *occluded;
+    int nearest;
+    float *t; /* of nearest hits */
+    uint32_t *primitive;
+    /* the batch in work */
+    uint64_t batch_first; /* first hit pixel */
+    uint64_t batch_hits;
+    uint32_t samples;
+    int diffuse; /* 1: bounces, in place of ambient-occlusion rays */
+    float light[3];
+    bench_rays_sink *sink, *tile_sink;
+    void *sink_user;
+};
+
+/* ---- Memory -------------------------------------------------------------------------------------------------- */
+
+bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *axes, const bench_planes *planes,
+                              uint32_t most_ao)
+{
+    bench_rays *rays = calloc(1, sizeof *rays);
+    const uint32_t workers = bench_threads_count(threads), most = MOST_SHARES / 2;
+    const uint32_t shares = workers == 1 ? 1 : 2 * (workers < most ? workers : most);
+    if (!rays)
+        return NULL;
+    rays->threads = threads;
+    rays->axes = axes;
+    rays->planes = planes;
+    rays->block_columns = (axes->width + BLOCK - 1) / BLOCK;
+    rays->tiles = bench_tiles(axes);
+    rays->round_tiles = TILES_PER_ROUND * shares;
+    const size_t listed = (size_t)rays->round_tiles * (BENCH_TILE_PIXELS + 1);
+    const size_t pixels = (size_t)axes->width * axes->height + 1;
+    rays->of_tile = calloc(listed, sizeof *rays->of_tile);
+    rays->t_of_tile = calloc(listed, sizeof *rays->t_of_tile);
+    rays->hit = calloc(pixels, sizeof *rays->hit);
+    rays->hit_t = calloc(pixels, sizeof *rays->hit_t);
+    rays->batch_rays = (uint64_t)GROUP * (most_ao > 1 ? most_ao : 1);
+    if (rays->batch_rays < RAYS_PER_BATCH * shares)
+        rays->batch_rays = RAYS_PER_BATCH * shares;
+
+    const size_t batch = (size_t)rays->batch_rays;
+    int complete = rays->of_tile && rays->t_of_tile && rays->hit && rays->hit_t;
+    for (int i = 0; i < 3; i++) {
+        rays->org[i] = malloc(batch * sizeof(float));
+        rays->dir[i] = malloc(batch * sizeof(float));
+        complete = complete && rays->org[i] && rays->dir[i];
+    }
+    rays->ones = malloc(batch * sizeof(float));
+    rays->occluded = malloc(batch);
+    rays->t = malloc(batch * sizeof(float));
+    rays->primitive = malloc(batch * sizeof(uint32_t));
+    if (!complete || !rays->ones || !rays->occluded || !rays->t || !rays->primitive) {
+        bench_rays_release(rays);
+        return NULL;
+    }
+    for (size_t i = 0; i < batch; i++)
+        rays->ones[i] = 1.0f;
+    return rays;
+}
+
+void bench_rays_release(bench_rays *rays)
+{
+    if (!rays)
+        return;
+    free(rays->primitive);
+    free(rays->t);
+    free(rays->occluded);
+    free(rays->ones);
+    for (int i = 0; i < 3; i++) {
+        free(rays->dir[i]);
+        free(rays->org[i]);
+    }
+    free(rays->hit_t);
+    free(rays->hit);
+    free(rays->t_of_tile);
+    free(rays->of_tile);
+    free(rays);
+}
+
+void bench_rays_set_sink(bench_rays *rays, bench_rays_sink *sink, void *user)
+{
+    rays->sink = sink;
+    rays->tile_sink = NULL;
+    rays->sink_user = user;
+}
+
+void bench_rays_set_tile_sink(bench_rays *rays, bench_rays_sink *sink) { rays->tile_sink = sink; }
+
+void bench_rays_nearest(bench_rays *rays, int nearest) { rays->nearest = nearest; }
+
+/* ---- The hit pixels, round by round --------------------------------------------------------------------------- */
+
+/* Lists the hits of one tile of a round in the tile's own part of the list. */
+static void list_one(void *argument, uint32_t index)
+{
+    bench_rays *rays = argument;
+    rays->tile_hits[index] = bench_tile_hits(rays->axes, rays->planes->t, rays->round_first + index,
+                                             rays->of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1),
+                                             rays->t_of_tile + (size_t)index * (BENCH_TILE_PIXELS + 1));
+}
+
+/* Appends the hits of the next `tiles` tiles. */
+static void list_round(bench_rays *rays, uint32_t tiles)
+{
+    if (bench_threads_count(rays->threads) == 1) {
+        for (uint32_t i = 0; i < tiles; i++)
+            rays->hits += bench_tile_hits(rays->axes, rays->planes->t, rays->round_first + i, rays->hit + rays->hits,
+                                          rays->hit_t + rays->hits);
+        rays->round_first += tiles;
+        return;
+    }
+    bench_threads_run(rays->threads, list_one, rays, tiles);
+    for (uint32_t i = 0; i < tiles; i++) {
+        const size_t hits = rays->tile_hits[i], from = (size_t)i * (BENCH_TILE_PIXELS + 1);
+        memcpy(rays->hit + rays->hits, rays->of_tile + from, hits * sizeof *rays->hit);
+        memcpy(rays->hit_t + rays->hits, rays->t_of_tile + from, hits * sizeof *rays->hit_t);
+        rays->hits += hits;
+    }
+    rays->round_first += tiles;
+}
+
+/* ---- Making rays --------------------------------------------------------------------------------------------- */
+
+static float length3(const float v[3]) { return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/* The end of the hits of a batch that a piece of work covers. */
+static uint64_t piece_begin(uint32_t piece) { return (uint64_t)piece * GROUPS_PER_PIECE * GROUP; }
+static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
+{
+    const uint64_t end = piece_begin(piece) + GROUPS_PER_PIECE * GROUP;
+    return end < rays->batch_hits ? end : rays->batch_hits;
+}
+
+/* Makes shadow rays from some hits. Plain loops, which the compiler vectorises. dir: NULL where only origins are
+ * needed. */
+BENCH_CLONES
+static void make_shadow_run(const bench_camera_axes *axes, const float light[3], const uint32_t *hit, const float *t,
+                            uint32_t count, float *const org[3], float *const dir[3])
+{
+    const float sx = axes->step[0], sy = axes->step[1];
+    float px[SHADOW_RUN], py[SHADOW_RUN], back[SHADOW_RUN];
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t pixel = hit[k], x = pixel & 0xffff, y = pixel >> 16;
+        px[k] = ((float)x + 0.5f) * sx - 1.0f;
+        py[k] = 1.0f - ((float)y + 0.5f) * sy;
+        back[k] = t[k] * 0.9999f;
+    }
+    for (int a = 0; a < 3; a++) {
+        const float eye = axes->eye[a], fwd = axes->fwd[a], right = axes->right[a], up = axes->up[a], to = light[a];
+        float *o = org[a], *d = dir ? dir[a] : NULL;
+        for (uint32_t k = 0; k < count; k++)
+            o[k] = eye + back[k] * (fwd + px[k] * right + py[k] * up);
+        for (uint32_t k = 0; k < count && d; k++)
+            d[k] = to - o[k];
+    }
+}
+
+/* All of `count` hits. */
+static void make_shadow_rays(const bench_rays *rays, const uint32_t *hit, const float *t, uint32_t count,
+                             float *const org[3], float *const dir[3])
+{
+    for (uint32_t i = 0; i < count; i += SHADOW_RUN) {
+        float *o[3], *d[3];
+        for (int a = 0; a < 3; a++) {
+            o[a] = org[a] + i;
+            d[a] = dir ? dir[a] + i : NULL;
+        }
+        make_shadow_run(rays->axes, rays->light, hit + i, t + i, count - i < SHADOW_RUN ? count - i : SHADOW_RUN, o,
+                        dir ? d : NULL);
+    }
+}
+
+/* Of a piece of a batch, for a sink. */
+static void make_shadow_piece(void *argument, uint32_t piece)
+{
+    const bench_rays *rays = argument;
+    const uint64_t first = piece_begin(piece);
+    float *org[3], *dir[3];
+    for (int a = 0; a < 3; a++) {
+        org[a] = rays->org[a] + first;
+        dir[a] = rays->dir[a] + first;
+    }
+    make_shadow_rays(rays, rays->hit + rays->batch_first + first, rays->hit_t + rays->batch_first + first,
+                     (uint32_t)(piece_end(rays, piece) - first), org, dir);
+}
+
+static uint32_t mix(uint32_t v)
+{
+    v ^= v >> 16;
+    v *= 0x7feb352du;
+    v ^= v >> 15;
+    v *= 0x846ca68bu;
+    return v ^ v >> 16;
+}
+
+/* Where the rays of a group of neighbouring pixels start. Lanes beyond its pixels repeat the last one. */
+typedef struct ao_group {
+    float point[3][GROUP], normal[3][GROUP], side[GROUP];
+    uint32_t order[GROUP];
+} ao_group;
+
+/* Points of the octahedron from a hash: two coordinates in [-1, 1), the corners folded over to the lower half. No
+ * branches: half of them would be mispredicted. Plain loops, which the compiler vectorises. */
+BENCH_INLINE void octahedron_points(const ao_group *g, uint32_t sample, float v[3][GROUP])
+{
+    for (int k = 0; k < GROUP; k++) {
+        const uint32_t first = mix(g->order[k] * 64u + sample), second = mix(first + 0x9e3779b9u);
+        const float x = (float)(int32_t)(first >> 8) * (2 / 16777216.0f) - 1;
+        const float y = (float)(int32_t)(second >> 8) * (2 / 16777216.0f) - 1;
+        const float z = 1 - fabsf(x) - fabsf(y), fold = -z > 0 ? -z : 0;
+        v[0][k] = x - copysignf(fold, x);
+        v[1][k] = y - copysignf(fold, y);
+        v[2][k] = z;
+    }
+}
+
+/* Moves the hashed points to the unit sphere around the tip of the normal: directions are distributed by the cosine. */
+static void lean_to_normals(const ao_group *g, float v[3][GROUP])
+{
+    for (int k = 0; k < GROUP; k++) {
+        const float point[3] = {v[0][k], v[1][k], v[2][k]}, length = length3(point);
+        for (int i = 0; i < 3; i++)
+            v[i][k] = v[i][k] / length + copysignf(1.0f, g->side[k]) * g->normal[i][k];
+    }
+}
+
+/* Turns directions to the side of the surface that the eye sees. */
+BENCH_INLINE void turn_to_eye(const ao_group *g, float v[3][GROUP])
+{
+    for (int k = 0; k < GROUP; k++) {
+        const float cosine = v[0][k] * g->normal[0][k] + v[1][k] * g->normal[1][k] + v[2][k] * g->normal[2][k];
+        const float sign = cosine * g->side[k] < 0 ? -1.0f : 1.0f;
+        for (int i = 0; i < 3; i++)
+            v[i][k] *= sign;
+    }
+}
+
+/* Plain loops, as above. */
+BENCH_INLINE void read_group(const bench_rays *rays, uint64_t first, uint32_t pixels, ao_group *g)
+{
+    const bench_camera_axes *axes = rays->axes;
+    const bench_planes *planes = rays->planes;
+    const float sx = axes->step[0], sy = axes->step[1], *t = rays->hit_t + rays->batch_first + first;
+    const uint32_t *hit = rays->hit + rays->batch_first + first, width = axes->width, columns = rays->block_columns;
+    int32_t element[GROUP]; /* at most 2^28 pixels */
+    float px[GROUP], py[GROUP], back[GROUP];
+    uint32_t of[GROUP];
+    for (uint32_t k = 0; k < GROUP; k++) {
+        of[k] = hit[k < pixels ? k : pixels - 1];
+        back[k] = t[k < pixels ? k : pixels - 1] * 0.9999f;
+    }
+    for (uint32_t k = 0; k < GROUP; k++) {
+        const uint32_t x = of[k] & 0xffff, y = of[k] >> 16;
+        element[k] = (int32_t)(y * width + x);
+        px[k] = ((float)x + 0.5f) * sx - 1.0f;
+        py[k] = 1.0f - ((float)y + 0.5f) * sy;
+        g->order[k] = (y / BLOCK * columns + x / BLOCK) * GROUP + (y % BLOCK) * BLOCK + x % BLOCK;
+        g->side[k] = 0;
+    }
+    for (int i = 0; i < 3; i++) {
+        const float eye = axes->eye[i], fwd = axes->fwd[i], right = axes->right[i], up = axes->up[i];
+        const float *normal = planes->normal[i];
+        for (uint32_t k = 0; k < GROUP; k++) {
+            const float dir = fwd + px[k] * right + py[k] * up;
+            g->point[i][k] = eye + back[k] * dir;
+            g->normal[i][k] = normal[element[k]];
+            g->side[k] -= dir * g->normal[i][k];
+        }
+    }
+}
+
+/* Most groups are complete, and a copy of constant size takes a few instructions. */
+BENCH_INLINE void put_group(float *to, const float from[GROUP], uint32_t pixels)
+{
+    if (pixels == GROUP)
+        memcpy(to, from, GROUP * sizeof *to);
+    else
+        memcpy(to, from, pixels * sizeof *to);
+}
+
+/* Makes all samples of one group's pixels, sample by sample: neighbours in the arrays are neighbours in space. */
+BENCH_CLONES
+static void make_ao_group(bench_rays *rays, uint64_t first, uint32_t pixels)
+{
+    ao_group g;
+    float v[3][GROUP];
+    uint64_t ray = first * rays->samples;
+    read_group(rays, first, pixels, &g);
+    for (uint32_t s = 0; s < rays->samples; s++, ray += pixels) {
+        octahedron_points(&g, s, v);
+        if (rays->diffuse)
+            lean_to_normals(&g, v);
+        turn_to_eye(&g, v);
+        for (int i = 0; i < 3; i++) {
+            put_group(rays->org[i] + ray, g.point[i], pixels);
+            put_group(rays->dir[i] + ray, v[i], pixels);
+        }
+    }
+}
+
+/* Prefetches the normals of a group to come. The planes were written past the caches, and a group's rows are far apart.
+ * */
+static void prefetch_group(const bench_rays *rays, uint64_t first)
+{
+    const bench_planes *planes = rays->planes;
+    const uint32_t *hit = rays->hit + rays->batch_first + first, width = rays->axes->width;
+    for (uint32_t k = 0; k < GROUP; k += BLOCK) {
+        const size_t element = (size_t)(hit[k] >> 16) * width + (hit[k] & 0xffff);
+        for (int i = 0; i < 3; i++)
+            __builtin_prefetch(planes->normal[i] + element);
+    }
+}
+
+static void make_ao_rays(void *argument, uint32_t piece)
+{
+    bench_rays *rays = argument;
+    for (uint32_t group = 0; group < GROUPS_PER_PIECE; group++) {
+        const uint64_t first = ((uint64_t)piece * GROUPS_PER_PIECE + group) * GROUP;
+        const uint64_t ahead = first + (uint64_t)GROUPS_AHEAD * GROUP;
+        if (first >= rays->batch_hits)
+            return;
+        if (ahead + GROUP <= rays->batch_hits)
+            prefetch_group(rays, ahead);
+        const uint64_t left = rays->batch_hits - first;
+        make_ao_group(rays, first, left < GROUP ? (uint32_t)left : GROUP);
+    }
+}
+
+/* ---- Passes -------------------------------------------------------------------------------------------------- */
+
+static cgt_result trace_nearest(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                                const cgt_rays *array)
+{
+    cgt_hits hits;
+    memset(&hits, 0, sizeof hits);
+    hits.t = rays->t;
+    hits.primitive = rays->primitive;
+    const cgt_result result = cgt_trace_rays(scene, array, &hits, options);
+    for (uint64_t i = 0; i < array->count; i++)
+        rays->occluded[i] = rays->t[i] < INFINITY;
+    return result;
+}
+
+/* Rays as a structure of arrays. Shadow rays end at t = 1. */
+static cgt_rays array_of(const bench_rays *rays, float *const org[3], float *const dir[3], uint64_t count, int light)
+{
+    cgt_rays array;
+    memset(&array, 0, sizeof array);
+    array.count = count;
+    for (int i = 0; i < 3; i++) {
+        array.org[i] = org[i];
+        array.dir[i] = dir[i];
+    }
+    array.t_max = light ? rays->ones : NULL;
+    return array;
+}
+
+/* Traces the current batch; shadow rays only for a sink. */
+static cgt_result trace_batch(const bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                              uint64_t count, int light)
+{
+    const cgt_rays array = array_of(rays, rays->org, rays->dir, count, light);
+    if (rays->sink)
+        return rays->sink(rays->sink_user, &array, rays->occluded);
+    return rays->nearest ? trace_nearest(rays, scene, options, &array)
+                         : cgt_occluded_rays(scene, &array, rays->occluded, options);
+}
+
+BENCH_CLONES
+static uint64_t sum_bytes(const uint8_t *byte, uint64_t count)
+{
+    uint64_t sum = 0;
+    for (uint64_t i = 0; i < count; i++)
+        sum += byte[i];
+    return sum;
+}
+
+/* One pass over all hit pixels with `samples` rays each; shadow rays where light is 1. */
+static cgt_result trace_pass(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                             uint32_t samples, int light, uint64_t *occluded)
+{
+    const uint64_t batch = rays->batch_rays / samples / GROUP * GROUP; /* hit pixels: at least one group */
+    const uint64_t per_piece = (uint64_t)GROUPS_PER_PIECE * GROUP;
+
+    *occluded = 0;
+    rays->samples = samples;
+    rays->hits = rays->batch_first = rays->round_first = 0;
+    while (rays->round_first < rays->tiles) {
+        const uint32_t tiles = rays->tiles - rays->round_first;
+        list_round(rays, tiles < rays->round_tiles ? tiles : rays->round_tiles);
+        /* whole groups, but for the last one */
+        const uint64_t end = rays->round_first < rays->tiles ? rays->hits / GROUP * GROUP : rays->hits;
+        for (; rays->batch_first < end; rays->batch_first += rays->batch_hits) {
+            const uint64_t left = end - rays->batch_first;
+            rays->batch_hits = left < batch ? left : batch;
+            const uint32_t pieces = (uint32_t)((rays->batch_hits + per_piece - 1) / per_piece);
+            bench_threads_run(rays->threads, light ? make_shadow_piece : make_ao_rays, rays, pieces);
+
+            const uint64_t count = rays->batch_hits * samples;
+            const cgt_result result = trace_batch(rays, scene, options, count, light);
+            if (result != CGT_OK)
+                return result;
+            *occluded += sum_bytes(rays->occluded, count);
+        }
+    }
+    return CGT_OK;
+}
+
+/* ---- Shadow rays tile by tile -------------------------------------------------------------------------------- */
+
+typedef struct shadow_pass {
+    const bench_rays *rays;
+    const cgt_scene *scene;
+    const cgt_trace_options *options;
+    atomic_uint_least64_t hits, hidden;
+    atomic_int failed; /* the last failure; 0: none */
+} shadow_pass;
+
+/* What a thread needs for a tile. */
+typedef struct shadow_tile {
+    uint32_t pixel[BENCH_TILE_PIXELS + 1];
+    float t[BENCH_TILE_PIXELS + 1];
+    float org[3][BENCH_TILE_PIXELS], dir[3][BENCH_TILE_PIXELS];
+    uint8_t occluded[BENCH_TILE_PIXELS];
+} shadow_tile;
+
+/* The library gets points and a light. A tile is one task, which the calling thread runs. */
+static cgt_result trace_shadow_tile(const shadow_pass *pass, shadow_tile *s, uint32_t count)
+{
+    const bench_rays *rays = pass->rays;
+    float *const org[3] = {s->org[0], s->org[1], s->org[2]}, *const dir[3] = {s->dir[0], s->dir[1], s->dir[2]};
+    make_shadow_rays(rays, s->pixel, s->t, count, org, rays->tile_sink ? dir : NULL);
+    if (rays->tile_sink) {
+        const cgt_rays array = array_of(rays, org, dir, count, 1);
+        return rays->tile_sink(rays->sink_user, &array, s->occluded);
+    }
+    const cgt_light lamp = {.position = {rays->light[0], rays->light[1], rays->light[2]}, .kind = CGT_LIGHT_POINT};
+    const cgt_points points = {.count = count, .position = {org[0], org[1], org[2]}};
+    return cgt_occluded_points(pass->scene, &lamp, &points, s->occluded, pass->options);
+}
+
+static void shadow_one(void *argument, uint32_t tile)
+{
+    shadow_pass *pass = argument;
+    shadow_tile s;
+    const uint32_t count = bench_tile_hits(pass->rays->axes, pass->rays->planes->t, tile, s.pixel, s.t);
+    const cgt_result result = count ? trace_shadow_tile(pass, &s, count) : CGT_OK;
+    if (result != CGT_OK)
+        atomic_store(&pass->failed, (int)result);
+    else if (count)
+        atomic_fetch_add(&pass->hidden, sum_bytes(s.occluded, count));
+    atomic_fetch_add(&pass->hits, count);
+}
+
+cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
+                             const float light[3], uint64_t *hidden)
+{
+    shadow_pass pass = {.rays = rays, .scene = scene, .options = options};
+    memcpy(rays->light, light, sizeof rays->light);
+    if (rays->sink && !rays->tile_sink)
+        return trace_pass(rays, scene, options, 1, 1, hidden);
+    atomic_init(&pass.hits, 0);
+    atomic_init(&pass.hidden, 0);
+    atomic_init(&pass.failed, 0);
+    bench_threads_run(rays->threads, shadow_one, &pass, rays->tiles);
+    rays->hits = atomic_load(&pass.hits);
+    *hidden = atomic_load(&pass.hidden);
+    return (cgt_result)atomic_load(&pass.failed);
+}
+
+/* ---- The others ---------------------------------------------------------------------------------------------- */
+
+cgt_result bench_rays_ao(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options, uint32_t samples,
+                         uint64_t *open)
+{
+    uint64_t occluded = 0;
+    const cgt_result result = trace_pass(rays, scene, options, samples, 0, &occluded);
+    *open = rays->hits * samples - occluded;
+    return result;
+}
+
+cgt_result bench_rays_bounce(bench_rays *rays)
+{
+    uint64_t occluded = 0;
+    assert(rays->sink);
+    rays->diffuse = 1;
+    const cgt_result result = trace_pass(rays, NULL, NULL, 1, 0, &occluded);
+    rays->diffuse = 0;
+    return result;
+}
+
+uint32_t bench_rays_pixel(const bench_rays *rays, uint64_t ray, uint32_t samples)
+{
+    const uint64_t first = ray / ((uint64_t)GROUP * samples) * GROUP, left = rays->hits - first;
+    const uint64_t pixels = left < GROUP ? left : GROUP;
+    return rays->hit[first + (ray - first * samples) % pixels];
+}

@@ -1,0 +1,154 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Collects a row cell by cell and prints it, below the section's head where it is the first one. */
+#include "common/bench_table.h"
+
+#include <assert.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/program.h"
+
+enum { HEAD_SIZE = 4096, ROW_SIZE = 16384 };
+
+struct bench_table {
+    FILE *json; /* NULL: none */
+    const char *path;
+    const char *section;
+    size_t sections, rows; /* sections with rows; rows of the current one */
+    char head[HEAD_SIZE], row[ROW_SIZE];
+};
+
+bench_table *bench_table_open(const char *json_path)
+{
+    bench_table *table = calloc(1, sizeof *table);
+    if (!table) {
+        program_error("out of memory");
+        return NULL;
+    }
+    table->path = json_path;
+    if (json_path && !(table->json = fopen(json_path, "w"))) {
+        program_error("%s: %s", json_path, strerror(errno));
+        free(table);
+        return NULL;
+    }
+    if (table->json)
+        fputs("{", table->json);
+    return table;
+}
+
+int bench_table_close(bench_table *table)
+{
+    int failed = 0;
+    if (table && table->json) {
+        fputs(table->sections ? "\n  ]\n}\n" : "}\n", table->json);
+        failed = ferror(table->json) != 0;
+        failed |= fclose(table->json) != 0;
+        if (failed)
+            program_error("%s: the rows could not be written: %s", table->path, strerror(errno));
+    }
+    free(table);
+    return failed ? -1 : 0;
+}
+
+void bench_table_section(bench_table *table, const char *name)
+{
+    assert(!table->row[0]); /* no row is half done */
+    if (table->section && !strcmp(table->section, name))
+        return;
+    table->section = name;
+    table->rows = 0;
+    table->head[0] = '\0';
+}
+
+static void write_json_text(FILE *json, const char *text)
+{
+    putc('"', json);
+    for (; *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\')
+            fprintf(json, "\\%c", c);
+        else if (c < 0x20)
+            fprintf(json, "\\u%04x", c);
+        else
+            putc(c, json);
+    }
+    putc('"', json);
+}
+
+/* What precedes the first cell of a row in the JSON. */
+static void begin_json_row(bench_table *table)
+{
+    if (!table->rows) {
+        fputs(table->sections ? "\n  ],\n  " : "\n  ", table->json);
+        write_json_text(table->json, table->section);
+        fputs(": [", table->json);
+    }
+    fputs(table->rows ? ",\n    {" : "\n    {", table->json);
+}
+
+static void append(char *line, size_t size, const char *text)
+{
+    const size_t length = strlen(line);
+    snprintf(line + length, size - length, "%s%s", length ? "\t" : "", text);
+}
+
+/* A cell: its text, and what JSON calls it; NULL: the text in quotes. */
+static void add_cell(bench_table *table, const char *column, const char *text, const char *json)
+{
+    if (table->json) {
+        table->row[0] ? (void)fputs(", ", table->json) : begin_json_row(table);
+        write_json_text(table->json, column);
+        fputs(": ", table->json);
+        json ? (void)fputs(json, table->json) : write_json_text(table->json, text);
+    }
+    if (!table->rows)
+        append(table->head, HEAD_SIZE, column);
+    append(table->row, ROW_SIZE, text[0] ? text : " ");
+}
+
+void bench_table_text(bench_table *table, const char *column, const char *text)
+{
+    char clean[1024];
+    snprintf(clean, sizeof clean, "%s", text);
+    for (char *c = clean; *c; c++) /* the name of a file may hold what ends a cell */
+        if ((unsigned char)*c < 0x20)
+            *c = ' ';
+    add_cell(table, column, clean, NULL);
+}
+
+void bench_table_count(bench_table *table, const char *column, uint64_t count)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%" PRIu64, count);
+    add_cell(table, column, text, text);
+}
+
+void bench_table_real(bench_table *table, const char *column, double number)
+{
+    char text[32], json[32];
+    snprintf(text, sizeof text, "%.6g", number);
+    snprintf(json, sizeof json, "%.9g", number);
+    add_cell(table, column, isnan(number) ? "-" : text, isfinite(number) ? json : "null");
+}
+
+void bench_table_end_row(bench_table *table)
+{
+    const char *comment = table->sections + !table->rows > 1 ? "# " : "";
+    if (!table->rows && *comment)
+        printf("#\n# %s\n", table->section);
+    if (!table->rows)
+        printf("%s%s\n", comment, table->head);
+    printf("%s%s\n", comment, table->row);
+    fflush(stdout);
+    if (table->json)
+        putc('}', table->json);
+    table->sections += !table->rows;
+    table->rows++;
+    table->row[0] = '\0';
+}

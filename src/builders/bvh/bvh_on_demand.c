@@ -1,0 +1,50 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * When rays are worth a BVH, and who builds it. */
+#include "builders/bvh/bvh_on_demand.h"
+
+#include "builders/bvh/bvh_build.h"
+#include "core/float_environment.h"
+
+/* Rays that came without a tree before one is built. Building takes as long as about 1/60 as many rays as primitives
+ * take through the grid if they share nothing, by estimate; whether they do share nothing is not known. */
+static uint64_t min_rays_for_build(uint32_t valid) { return valid / 32; }
+
+/* Several threads may need the tree: one builds it, and the others trace without it. */
+static cgt_result build_for_rays(cgt_scene *scene, bool *is_built)
+{
+    cgt_result result = CGT_OK;
+    cgt_float_environment callers;
+    if (pthread_mutex_trylock(&scene->bvh_lock))
+        return CGT_OK;
+    if (!atomic_load_explicit(&scene->bvh_is_built, memory_order_relaxed)) {
+        cgt_float_environment_enter(&callers);
+        result = cgt_bvh_build_tree(scene);
+        cgt_float_environment_leave(&callers);
+        atomic_store_explicit(&scene->bvh_is_built, result == CGT_OK, memory_order_release);
+    }
+    pthread_mutex_unlock(&scene->bvh_lock);
+    *is_built = result == CGT_OK;
+    return result;
+}
+
+cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *is_built)
+{
+    const cgt_committed_scene *committed_scene = &scene->committed_scene;
+    cgt_scene *mutable_scene = scene->mutable_scene;
+    *is_built = false;
+    if (scene->options.structure != CGT_STRUCTURE_AUTO || committed_scene->structure != CGT_STRUCTURE_LOOSE_GRID ||
+        !committed_scene->valid || committed_scene->brute_force) {
+        *is_built = committed_scene->structure == CGT_STRUCTURE_BVH && committed_scene->bvh.node;
+        return CGT_OK;
+    }
+    if (atomic_load_explicit(&mutable_scene->bvh_is_built, memory_order_acquire)) {
+        *is_built = true;
+        return CGT_OK;
+    }
+    const uint64_t earlier_rays = atomic_fetch_add_explicit(&mutable_scene->bvh_rays, rays, memory_order_relaxed);
+    if (!rays || earlier_rays + rays < min_rays_for_build(committed_scene->valid))
+        return CGT_OK;
+    return build_for_rays(mutable_scene, is_built);
+}

@@ -1,0 +1,132 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A packet of rays to one light. All of them lie in a frustum with its apex at the light or, for parallel rays, with
+ * parallel sides: four planes and two ends.
+ *
+ * The rays run mostly along one axis, the main one. w is the coordinate along it, seen from the origin of the packet
+ * (the light, or the first point of parallel rays), and mirrored if the rays run against it; v is the coordinate along
+ * another axis. Each ray's line is v = slope w + offset. With a point light the offset is 0, with parallel rays the
+ * slope is common. So a plane of the frustum is
+ *     v - a w <= h,  a the largest slope and h the largest offset, and likewise with the smallest
+ * Margin. Let M be the sum of the largest coordinates, along any axis, of light, points and primitives, and u = 2^-24.
+ * Differences are within 2 u M. A slope is within a relative 2 u plus the errors of v and w, so a line is off by at
+ * most 8 u M between a point and the light, and by 16 u M beyond a parallel ray's point as far as the primitives, for
+ * slopes of at most 2. A canonical ray misses the light by u of its length, and t is rounded before it is compared with
+ * the range. The three operations of v - a w round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than the
+ * sum of these. */
+#ifndef CGT_LIGHT_PACKET_H
+#define CGT_LIGHT_PACKET_H
+
+#include "kernel/packet/ray_packet.h"
+#include "kernel/tunables.h"
+
+#define LIGHT_MAX_SLOPE 2.f
+
+/* Rays lie between the planes v - slope[a][0] w >= offset[a][0] and v - slope[a][1] w <= offset[a][1], for both axes a,
+ * and between two w. Margins are included. */
+typedef struct light_frustum {
+    float slope[2][2], offset[2][2];
+    float length[2][2]; /* of each plane's normal, rounded up */
+    float w[2];
+} light_frustum;
+
+typedef struct light_packet {
+    packet rays;
+    light_frustum frustum;
+    _Alignas(CGT_VECTOR_BYTES) float ray_terms[3][PACKET_MAX_RAYS]; /* x of light_leaf.h */
+    float square[PACKET_MAX_RAYS];                                  /* d.d */
+    float max_component, max_sum; /* over all x: the largest component, and the largest 1-norm */
+    bool default_ranges;          /* every range is [0, 1], or [0, infinity] for parallel rays */
+    uint64_t undecided;           /* vectors with rays that have hit nothing, as bits */
+    int axis[3];                  /* the main one first */
+    float sign;                   /* of the rays' origins along it, seen from `origin` */
+    float origin[3];
+    float margin;       /* without the factor 1 + |a| */
+    uint32_t last_leaf; /* the leaf that occluded the last rays of the previous packet; 0: none */
+    uint64_t work;
+} light_packet;
+
+static inline float light_max(float a, float b) { return a > b ? a : b; }
+
+/* Chooses the main axis and the origin by any ray of the packet. Returns false if the ray has no direction. */
+static inline bool light_init_axes(const packet *p, const float org[3], const float dir[3], light_packet *l)
+{
+    const bool is_point = p->to_light;
+    float upper = 0;
+    l->axis[0] = 0;
+    for (int a = 0; a < 3; a++) {
+        const float d = is_point ? org[a] - p->light[a] : dir[a];
+        if (fabsf(d) > upper) {
+            upper = fabsf(d);
+            l->axis[0] = a;
+            l->sign = d < 0 ? -1 : 1;
+        }
+        l->origin[a] = is_point ? p->light[a] : org[a];
+    }
+    l->axis[1] = (l->axis[0] + 1) % 3;
+    l->axis[2] = (l->axis[0] + 2) % 3;
+    return upper > 0;
+}
+
+/* max_org: in its lanes, the largest size of points' coordinates along each axis. */
+CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene, const vfloat max_org[3],
+                                     light_packet *l)
+{
+    float magnitude = 0;
+    for (int a = 0; a < 3; a++)
+        magnitude = light_max(magnitude, light_max(fabsf(committed_scene->low[a]), fabsf(committed_scene->high[a])) +
+                                             spux_hmax(max_org[a]) + fabsf(l->origin[a]));
+    l->margin = magnitude * LIGHT_MARGIN;
+}
+
+static inline void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
+{
+    vfloat max_org[3];
+    for (int a = 0; a < 3; a++) {
+        max_org[a] = spux_vfloat(0);
+        for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
+            max_org[a] = spux_max(max_org[a], spux_abs(spux_load(p->org[a] + i)));
+    }
+    light_set_margin(committed_scene, max_org, l);
+}
+
+/* Whether all rays end at the light or before. */
+static inline bool light_check_ranges(const packet *p, light_packet *l)
+{
+    const vfloat end = spux_vfloat(p->to_light ? 1 : INFINITY);
+    vmask beyond = spux_mask_none(), other = spux_mask_none();
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        const vfloat t_min = spux_load(p->t_min + i), t_max = spux_load(p->t_max + i);
+        beyond = spu_or(beyond, spu_or(spu_cmpgt(spux_vfloat(0), t_min), spu_cmpgt(t_max, end)));
+        other = spu_or(other, spu_or(spu_cmpgt(t_min, spux_vfloat(0)), spu_cmpgt(end, t_max)));
+    }
+    l->default_ranges = spux_none(other);
+    return spux_none(beyond);
+}
+
+/* The terms of the rays that the tests of leaves need. */
+static inline void light_compute_terms(const packet *p, float scale, light_packet *l)
+{
+    vfloat max_component = spux_vfloat(0), max_sum = spux_vfloat(0);
+    l->undecided = 0;
+    for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
+        vfloat sum = spux_vfloat(0), square = spux_vfloat(0);
+        for (int a = 0; a < 3; a++) {
+            const vfloat d = spux_load(p->dir[a] + i);
+            const vfloat x = spu_mul(p->to_light ? d : spu_sub(spux_load(p->org[a] + i), spux_vfloat(l->origin[a])),
+                                     spux_vfloat(scale));
+            square = spu_madd(d, d, square);
+            max_component = spux_max(max_component, spux_abs(x));
+            sum = spu_add(sum, spux_abs(x));
+            spux_store(l->ray_terms[a] + i, x);
+        }
+        max_sum = spux_max(max_sum, sum);
+        spux_store(l->square + i, square);
+        l->undecided |= (uint64_t)spux_any(spu_cmpgt(spux_load(p->high + i), spux_vfloat(-INFINITY))) << i / CGT_LANES;
+    }
+    l->max_component = spux_hmax(max_component);
+    l->max_sum = spux_hmax(max_sum);
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Constants that tests replace, by defining them before they include a kernel: bounds are tightened until they break,
+ * buffers made as small as they may be, and choices forced. The library is built with the values below. */
+#ifndef CGT_TUNABLES_H
+#define CGT_TUNABLES_H
+
+#include "vector.h"
+
+/* ---- bounds ---- */
+
+/* The unit roundoff u of single precision, in every bound of a filter. */
+#ifndef FILTER_ROUNDOFF
+#define FILTER_ROUNDOFF 0x1p-24f
+#endif
+
+/* The relative error of spu_rsqrte. */
+#if CGT_LANES == 16
+#define TILE_RSQRT_ERROR 0x1p-14f
+#else
+#define TILE_RSQRT_ERROR 0x1.8p-12f
+#endif
+
+/* Factor of the slabs' error E (bvh/bvh_ray.h). */
+#ifndef BVH_ERROR_SCALE
+#define BVH_ERROR_SCALE 1.f
+#endif
+
+/* The margin of a light's frustum, as a share of the largest coordinates: derived in light/light_packet.h. */
+#ifndef LIGHT_MARGIN
+#define LIGHT_MARGIN 0x1p-17f
+#endif
+
+/* ---- buffers ---- */
+
+/* Words of a stream's arena that lists may take. */
+#ifndef STREAM_ARENA_USED
+#define STREAM_ARENA_USED CGT_STREAM_ARENA
+#endif
+
+/* Entries of an interleaved ray's stack that it may take. */
+#ifndef INTERLEAVED_STACK_USED
+#define INTERLEAVED_STACK_USED INTERLEAVED_STACK
+#endif
+
+/* ---- choices ---- */
+
+/* A call's rays are interleaved where streams would be short: where an octant has fewer rays than the first number, or
+ * than more of them if they start far apart, up to a limit. Measured, with the rays of `cgt-bench structures`. Closest
+ * hits: half the growth, half the limit. */
+#ifndef INTERLEAVE_MIN_RAYS
+#define INTERLEAVE_MIN_RAYS 8.f
+#define INTERLEAVE_SPREAD_RAYS (CGT_LANES == 16 ? 300.f : CGT_LANES == 8 ? 600.f : 1000.f)
+#define INTERLEAVE_MAX_RAYS (CGT_LANES == 16 ? 160.f : CGT_LANES == 8 ? 320.f : 640.f)
+#endif
+
+/* Work, in nodes visited and primitives tested, that a packet of a light's rays may take in the BVH before its chunk is
+ * traced ray by ray. Measured. */
+#ifndef LIGHT_PACKET_WORK
+#define LIGHT_PACKET_WORK 160u
+#endif
+
+/* ---- observation ---- */
+
+/* Called for each leaf that a ray along ropes visits: lanes are those of a vector whose first ray is `first` of the
+ * packet. */
+#ifndef ROPE_VISIT
+#define ROPE_VISIT(first, lanes, leaf) ((void)0)
+#endif
+
+#endif

@@ -1,0 +1,477 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Arguments that are refused: one table of calls, the field that is bad, its value, the result, and a word that the
+ * message has. Whatever is refused changes nothing. */
+#include "support/scenes.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    CAMERA = 1,
+    RAYS = 2,
+    OCCLUDED_RAYS = 4,
+    POINTS = 8,
+    AMBIENT = 16,
+    SPHERES = 32, /* adding and updating */
+    TRIANGLES = 64,
+    OPTIONS = 128, /* creating a scene and setting its options */
+    FRAMES = CAMERA | AMBIENT,
+    ARRAYS = RAYS | OCCLUDED_RAYS,
+    TRACES = FRAMES | ARRAYS | POINTS
+};
+
+/* All arguments of all calls. Pointers go to the structs behind them. */
+typedef struct arguments {
+    const cgt_scene *const_scene;
+    cgt_scene *scene;
+    cgt_context *context;
+    const cgt_camera *camera_at;
+    const cgt_frame *frame_at;
+    const cgt_rays *rays_at;
+    const cgt_hits *hits_at;
+    const cgt_points *points_at;
+    const cgt_light *light_at;
+    const cgt_spheres *spheres_at;
+    const cgt_triangles *triangles_at;
+    uint8_t *occluded;
+    float *visibility;
+    cgt_camera camera;
+    cgt_frame frame;
+    cgt_rays rays;
+    cgt_hits hits;
+    cgt_points points;
+    cgt_light light;
+    cgt_ambient_options ambient;
+    cgt_spheres spheres;
+    cgt_triangles triangles;
+    test_scene_options options;
+    test_trace_options trace;
+} arguments;
+
+typedef struct row {
+    unsigned calls;
+    size_t offset, bytes;
+    const void *value;
+    cgt_result result;
+    const char *word; /* NULL: the call has no context to keep a message in, or none is asked for */
+} row;
+
+#define BAD(calls, field, type, bad, word)                                                                             \
+    {                                                                                                                  \
+        calls, offsetof(arguments, field), sizeof(type), &(type){bad}, CGT_ERROR_INVALID_ARGUMENT, word                \
+    }
+#define LARGE(calls, field, type, bad, word)                                                                           \
+    {                                                                                                                  \
+        calls, offsetof(arguments, field), sizeof(type), &(type){bad}, CGT_ERROR_TOO_LARGE, word                       \
+    }
+#define NONE(calls, field, word) BAD(calls, field, void *, NULL, word)
+#define BAD3(calls, field, x, y, z, word)                                                                              \
+    {                                                                                                                  \
+        calls, offsetof(arguments, field), 3 * sizeof(float), (const float[3]){x, y, z}, CGT_ERROR_INVALID_ARGUMENT,   \
+            word                                                                                                       \
+    }
+#define NOT_FINITE(calls, field, word)                                                                                 \
+    BAD(calls, field[0], float, NAN, word), BAD(calls, field[1], float, INFINITY, word),                               \
+        BAD(calls, field[2], float, -INFINITY, word)
+
+static const float data[64] = {0};
+#define CROOKED ((const float *)(const void *)((const char *)data + 2))
+
+static const row rows[] = {
+    /* what is missing */
+    NONE(TRACES, const_scene, NULL),
+    NONE(SPHERES | TRIANGLES, scene, NULL),
+    NONE(FRAMES, camera_at, NULL),
+    NONE(FRAMES, frame_at, NULL),
+    NONE(ARRAYS, rays_at, NULL),
+    NONE(RAYS, hits_at, NULL),
+    NONE(POINTS, points_at, NULL),
+    NONE(POINTS, light_at, NULL),
+    NONE(OCCLUDED_RAYS | POINTS, occluded, NULL),
+    NONE(AMBIENT, visibility, NULL),
+    NONE(SPHERES, spheres_at, NULL),
+    NONE(TRIANGLES, triangles_at, NULL),
+    /* trace options */
+    BAD(TRACES, trace.precision, cgt_precision, (cgt_precision)3, "precision"),
+    BAD(TRACES, trace.precision, cgt_precision, (cgt_precision)-1, "precision"),
+    BAD(TRACES, trace.packet, uint32_t, 1, "packet"),
+    BAD(TRACES, trace.packet, uint32_t, 5, "packet"),
+    BAD(TRACES, trace.packet, uint32_t, 32, "packet"),
+    BAD(TRACES, trace.tile, cgt_tile_shape, (cgt_tile_shape)3, "tile"),
+    BAD(TRACES, trace.tile, cgt_tile_shape, (cgt_tile_shape)-1, "tile"),
+    BAD(TRACES, trace.loop, cgt_loop, (cgt_loop)3, "loop"),
+    BAD(TRACES, trace.loop, cgt_loop, (cgt_loop)-1, "loop"),
+    BAD(TRACES, trace.cull, cgt_cull, (cgt_cull)4, "cull"),
+    BAD(TRACES, trace.cull, cgt_cull, (cgt_cull)-1, "cull"),
+    BAD(TRACES, trace.mailbox, cgt_mailbox, (cgt_mailbox)3, "mailbox"),
+    BAD(TRACES, trace.mailbox, cgt_mailbox, (cgt_mailbox)-1, "mailbox"),
+    BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)3, "kd_traversal"),
+    BAD(TRACES, trace.kd_traversal, cgt_kd_traversal, (cgt_kd_traversal)-1, "kd_traversal"),
+    BAD(TRACES, trace.triangle_test, cgt_triangle_test, (cgt_triangle_test)3, "triangle_test"),
+    BAD(TRACES, trace.triangle_test, cgt_triangle_test, (cgt_triangle_test)-1, "triangle_test"),
+    BAD(TRACES, trace.triangle_test, cgt_triangle_test, CGT_TRIANGLE_TEST_ACCELERATED, "FAST"),
+    /* cameras */
+    NOT_FINITE(FRAMES, camera.eye, "eye"),
+    NOT_FINITE(FRAMES, camera.target, "target"),
+    NOT_FINITE(FRAMES, camera.up, "up"),
+    BAD3(FRAMES, camera.target, 0, 0, 5, "target"), /* the eye */
+    BAD3(FRAMES, camera.eye, 0, 0, 0, "target"),    /* the target: with an up of its own it is no default view */
+    BAD3(FRAMES, camera.up, 0, 0, 1, "up"),
+    BAD3(FRAMES, camera.up, 0, 0, -1e-20f, "up"),
+    BAD3(FRAMES, camera.up, 0, 1e-8f, 1, "up"),
+    BAD(FRAMES, camera.projection, cgt_projection, (cgt_projection)2, "projection"),
+    BAD(FRAMES, camera.projection, cgt_projection, (cgt_projection)-1, "projection"),
+    BAD(FRAMES, camera.fov, float, -45, "fov"),
+    BAD(FRAMES, camera.fov, float, 180, "fov"),
+    BAD(FRAMES, camera.fov, float, 1e30f, "fov"),
+    BAD(FRAMES, camera.fov, float, NAN, "fov"),
+    BAD(FRAMES, camera.fov, float, INFINITY, "fov"),
+    BAD(FRAMES, camera.t_min, float, -1e-30f, "t_min"),
+    BAD(FRAMES, camera.t_min, float, NAN, "t_min"),
+    BAD(FRAMES, camera.t_max, float, -1, "t_max"),
+    BAD(FRAMES, camera.t_max, float, NAN, "t_max"),
+    /* frames */
+    BAD(FRAMES, frame.width, uint32_t, 0, "frame"),
+    BAD(FRAMES, frame.height, uint32_t, 0, "frame"),
+    LARGE(FRAMES, frame.width, uint32_t, 65537, "65,536"),
+    LARGE(FRAMES, frame.height, uint32_t, UINT32_MAX, "65,536"),
+    BAD(FRAMES, frame.row_stride, size_t, 3, "row_stride"),
+    LARGE(FRAMES, frame.row_stride, size_t, SIZE_MAX / 8, "row_stride"),
+    NONE(FRAMES, frame.normal[0], "normal"),
+    NONE(FRAMES, frame.normal[1], "normal"),
+    NONE(FRAMES, frame.normal[2], "normal"),
+    NONE(FRAMES, frame.u, "u and v"),
+    NONE(FRAMES, frame.v, "u and v"),
+    BAD(FRAMES, frame.visitor_fields, uint32_t, 32, "visitor_fields"),
+    NONE(AMBIENT, frame.t, "planes"),
+    NONE(AMBIENT, frame.primitive, "planes"),
+    NONE(AMBIENT, frame.geometry, "planes"),
+    BAD(AMBIENT, ambient.samples, uint32_t, 1025, "samples"),
+    BAD(AMBIENT, ambient.samples, uint32_t, UINT32_MAX, "samples"),
+    BAD(AMBIENT, ambient.radius, float, -1, "radius"),
+    BAD(AMBIENT, ambient.radius, float, NAN, "radius"),
+    /* arrays */
+    NONE(ARRAYS, rays.org[0], "org"),
+    NONE(ARRAYS, rays.org[2], "org"),
+    NONE(ARRAYS, rays.dir[0], "dir"),
+    NONE(ARRAYS, rays.dir[1], "dir"),
+    BAD(ARRAYS, rays.stride, size_t, 6, "stride"),
+    LARGE(ARRAYS, rays.stride, size_t, SIZE_MAX / 2 / 4 * 4, "stride"),
+    LARGE(ARRAYS, rays.count, uint64_t, UINT64_MAX, "count"),
+    LARGE(ARRAYS, rays.count, uint64_t, UINT64_C(1) << 45, "count"),
+    BAD(RAYS, hits.stride, size_t, 7, "hits"),
+    NONE(RAYS, hits.normal[0], "normal"),
+    NONE(RAYS, hits.normal[1], "normal"),
+    NONE(RAYS, hits.u, "u and v"),
+    NONE(RAYS, hits.v, "u and v"),
+    NONE(POINTS, points.position[0], "position"),
+    NONE(POINTS, points.position[1], "position"),
+    NONE(POINTS, points.position[2], "position"),
+    BAD(POINTS, points.stride, size_t, 6, "stride"),
+    LARGE(POINTS, points.count, uint64_t, UINT64_MAX / 2, "count"),
+    NOT_FINITE(POINTS, light.position, "light"),
+    BAD(POINTS, light.kind, cgt_light_kind, (cgt_light_kind)2, "light"),
+    BAD(POINTS, light.kind, cgt_light_kind, (cgt_light_kind)-1, "light"),
+    BAD(POINTS, light.kind, cgt_light_kind, CGT_LIGHT_DIRECTIONAL, "length zero"), /* its position is the origin */
+    /* geometries; with the one that is there the sum of counts reaches 2^32 - 1 */
+    NONE(SPHERES, spheres.centers, "centers"),
+    BAD(SPHERES, spheres.centers, const float *, CROOKED, "aligned"),
+    BAD(SPHERES, spheres.radii, const float *, CROOKED, "aligned"),
+    BAD(SPHERES, spheres.center_stride, size_t, 13, "stride"),
+    BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX - 3, "stride"),
+    BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX / 8 * 4, "stride"),
+    BAD(SPHERES, spheres.radius_stride, size_t, 6, "stride"),
+    BAD(SPHERES, spheres.radius_stride, size_t, SIZE_MAX - 3, "stride"),
+    BAD(SPHERES, spheres.radius, float, -1, "radius"),
+    BAD(SPHERES, spheres.radius, float, NAN, "radius"),
+    BAD(SPHERES, spheres.radius, float, INFINITY, "radius"),
+    BAD(SPHERES, spheres.radius, float, -INFINITY, "radius"),
+    LARGE(SPHERES, spheres.count, uint32_t, UINT32_MAX, "2^32"),
+    NONE(TRIANGLES, triangles.vertices, "vertices"),
+    BAD(TRIANGLES, triangles.vertices, const float *, CROOKED, "aligned"),
+    BAD(TRIANGLES, triangles.indices, const uint32_t *, (const uint32_t *)(const void *)CROOKED, "aligned"),
+    BAD(TRIANGLES, triangles.vertex_stride, size_t, 13, "stride"),
+    BAD(TRIANGLES, triangles.index_stride, size_t, SIZE_MAX - 3, "stride"),
+    BAD(TRIANGLES, triangles.count, uint32_t, 2, "indices"),
+    /* scene options */
+    BAD(OPTIONS, options.structure, cgt_structure, (cgt_structure)6, "structure"),
+    BAD(OPTIONS, options.structure, cgt_structure, CGT_STRUCTURE_MAX, "structure"),
+    BAD(OPTIONS, options.structure, cgt_structure, (cgt_structure)-1, "structure"),
+    BAD(OPTIONS, options.rays, cgt_ray_kind, (cgt_ray_kind)2, "rays"),
+    BAD(OPTIONS, options.rays, cgt_ray_kind, (cgt_ray_kind)-1, "rays"),
+    BAD(OPTIONS, options.kd_builder, cgt_kd_builder, (cgt_kd_builder)3, "kd_builder"),
+    BAD(OPTIONS, options.kd_layout, cgt_kd_layout, (cgt_kd_layout)4, "kd_layout"),
+    BAD(OPTIONS, options.kd_break_level, uint32_t, 51, "kd_break_level"),
+    BAD(OPTIONS, options.resolution[0], uint32_t, 4, "resolution"),
+    BAD(OPTIONS, options.resolution[2], uint32_t, 1, "resolution"),
+    {OPTIONS, offsetof(arguments, options.resolution), 3 * sizeof(uint32_t), (const uint32_t[3]){1025, 1, 1},
+     CGT_ERROR_TOO_LARGE, "resolution"},
+    {OPTIONS, offsetof(arguments, options.resolution), 3 * sizeof(uint32_t), (const uint32_t[3]){1, 1, UINT32_MAX},
+     CGT_ERROR_TOO_LARGE, "resolution"},
+    {OPTIONS, offsetof(arguments, options.resolution), 3 * sizeof(uint32_t), (const uint32_t[3]){1024, 128, 129},
+     CGT_ERROR_TOO_LARGE, "resolution"},
+    {OPTIONS, offsetof(arguments, options.resolution), 3 * sizeof(uint32_t), (const uint32_t[3]){1024, 1024, 1024},
+     CGT_ERROR_TOO_LARGE, "resolution"},
+};
+
+/* ---- the calls ---- */
+
+#define PIXELS 16
+#define COUNT 2
+
+static float plane[6][PIXELS], hit[6][COUNT], visibility[PIXELS];
+static uint32_t ids[4][PIXELS];
+static uint8_t occluded[COUNT];
+static const float one[COUNT] = {1, 1};
+
+static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
+{
+    *a = (arguments){
+        .const_scene = scene,
+        .scene = scene,
+        .context = context,
+        .camera_at = &a->camera,
+        .frame_at = &a->frame,
+        .rays_at = &a->rays,
+        .hits_at = &a->hits,
+        .points_at = &a->points,
+        .light_at = &a->light,
+        .spheres_at = &a->spheres,
+        .triangles_at = &a->triangles,
+        .occluded = occluded,
+        .visibility = visibility,
+        .frame = {.width = 4,
+                  .height = 4,
+                  .t = plane[0],
+                  .primitive = ids[0],
+                  .geometry = ids[1],
+                  .normal = {plane[1], plane[2], plane[3]},
+                  .u = plane[4],
+                  .v = plane[5]},
+        .rays = {.count = COUNT, .org = {one, one, one}, .dir = {one, one, one}},
+        .hits = {.t = hit[0],
+                 .primitive = ids[2],
+                 .geometry = ids[3],
+                 .normal = {hit[1], hit[2], hit[3]},
+                 .u = hit[4],
+                 .v = hit[5]},
+        .points = {.count = COUNT, .position = {one, one, one}},
+        .spheres = {.count = 4, .centers = data, .radius = 1},
+        .triangles = {.count = 1, .vertex_count = 3, .vertices = data},
+    };
+    cgt_camera_init(&a->camera);
+}
+
+/* The radius matters where there are no radii, and their stride where there are. */
+static void adapt(arguments *a, size_t offset)
+{
+    if (offset == offsetof(arguments, spheres.radius_stride))
+        a->spheres.radii = data;
+    if (offset == offsetof(arguments, triangles.index_stride))
+        a->triangles.indices = ids[0];
+}
+
+static cgt_result make_call(unsigned call, const arguments *a)
+{
+    const cgt_trace_options *o = TRACE_OPTIONS(&a->trace);
+    cgt_scene *made = NULL;
+    uint32_t id = 77;
+    cgt_result result = CGT_OK, other = CGT_OK;
+    switch (call) {
+    case CAMERA: return cgt_trace_camera(a->const_scene, a->camera_at, a->frame_at, o);
+    case RAYS: return cgt_trace_rays(a->const_scene, a->rays_at, a->hits_at, o);
+    case OCCLUDED_RAYS: return cgt_occluded_rays(a->const_scene, a->rays_at, a->occluded, o);
+    case POINTS: return cgt_occluded_points(a->const_scene, a->light_at, a->points_at, a->occluded, o);
+    case AMBIENT:
+        return cgt_ambient_occlusion(a->const_scene, a->camera_at, a->frame_at, &a->ambient, a->visibility, o);
+    case SPHERES:
+        result = cgt_scene_add_spheres(a->scene, a->spheres_at, &id);
+        other = cgt_scene_update_spheres(a->scene, 0, a->spheres_at);
+        break;
+    case TRIANGLES:
+        result = cgt_scene_add_triangles(a->scene, a->triangles_at, &id);
+        other = cgt_scene_update_triangles(a->scene, 1, a->triangles_at);
+        break;
+    default:
+        result = cgt_scene_create(a->context, SCENE_OPTIONS(&a->options), &made);
+        other = cgt_scene_set_options(a->scene, SCENE_OPTIONS(&a->options));
+        assert_true(result == CGT_OK || !made);
+        cgt_scene_release(made);
+    }
+    assert_int_equal(other, result);
+    assert_true(result == CGT_OK || id == 77);
+    return result;
+}
+
+static uint64_t sum_outputs(void)
+{
+    uint64_t sum = 0;
+    const unsigned char *const block[] = {(void *)plane, (void *)hit, (void *)visibility, (void *)ids, occluded};
+    const size_t bytes[] = {sizeof plane, sizeof hit, sizeof visibility, sizeof ids, sizeof occluded};
+    for (size_t k = 0; k < TEST_COUNT(block); k++)
+        for (size_t i = 0; i < bytes[k]; i++)
+            sum = sum * 31 + block[k][i];
+    return sum;
+}
+
+/* A sphere about the origin, geometry 0, and a triangle beside it, geometry 1. */
+static cgt_scene *make_scene(cgt_context *context)
+{
+    static const float sphere[1][4] = {{0, 0, 0, 1}}, corner[9] = {9, 0, 0, 10, 0, 0, 9, 1, 0};
+    const cgt_triangles triangles = {.count = 1, .vertex_count = 3, .vertices = corner};
+    cgt_scene *scene = scene_of(context, NULL, sphere, 1);
+    assert_int_equal(cgt_scene_add_triangles(scene, &triangles, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    return scene;
+}
+
+static void check_row(const row *r, size_t number, unsigned call, cgt_context *context, cgt_scene *scene)
+{
+    const uint64_t outputs = sum_outputs();
+    cgt_trace_statistics statistics = {.rays = 55};
+    arguments a;
+    init_arguments(&a, context, scene);
+    a.trace.statistics = &statistics;
+    adapt(&a, r->offset);
+    memcpy((char *)&a + r->offset, r->value, r->bytes);
+    const cgt_result result = make_call(call, &a);
+    if (result != r->result)
+        fail_msg("row %zu, call %u: %s", number, call, cgt_get_result_string(result));
+    if (r->word && !strstr(context_message(context), r->word))
+        fail_msg("row %zu, call %u: \"%s\" does not speak of %s", number, call, context_message(context), r->word);
+    assert_true(sum_outputs() == outputs && statistics.rays == 55);
+    /* nothing has changed: it still may be traced */
+    assert_true(ray_trace(scene, (truth_ray){{0, 0, 5}, {0, 0, -1}, 0, INFINITY}).t == 4);
+}
+
+static void bad_values_are_refused(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = make_scene(context);
+    for (size_t i = 0; i < TEST_COUNT(rows); i++)
+        for (unsigned call = 1; call <= OPTIONS; call *= 2)
+            if (rows[i].calls & call)
+                check_row(&rows[i], i, call, context, scene);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* The table refuses what it says, and nothing else. */
+static void good_values_are_taken(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = make_scene(context);
+    arguments a;
+    init_arguments(&a, context, scene);
+    for (unsigned call = 1; call <= OPTIONS; call *= 2) {
+        assert_int_equal(make_call(call, &a), CGT_OK);
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    }
+    static const uint32_t largest[][3] = {{1024, 128, 128}, {128, 1024, 128}, {1, 1, 1}};
+    for (size_t i = 0; i < TEST_COUNT(largest); i++) {
+        memcpy(a.options.resolution, largest[i], sizeof largest[i]);
+        assert_int_equal(make_call(OPTIONS, &a), CGT_OK);
+    }
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    a.camera.height = NAN; /* a projection does not read what it does not use */
+    assert_int_equal(make_call(CAMERA, &a), CGT_OK);
+    a.camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
+    static const float bad_height[] = {-1, NAN, INFINITY};
+    for (size_t i = 0; i < TEST_COUNT(bad_height); i++) {
+        a.camera.height = bad_height[i];
+        assert_int_equal(make_call(CAMERA, &a), CGT_ERROR_INVALID_ARGUMENT);
+        assert_non_null(strstr(context_message(context), "height"));
+    }
+    a.camera.height = 3;
+    a.camera.fov = 1000;
+    assert_int_equal(make_call(CAMERA, &a), CGT_OK);
+    a.camera.t_min = 2;
+    a.camera.t_max = 1.5f;
+    assert_int_equal(make_call(CAMERA, &a), CGT_ERROR_INVALID_ARGUMENT);
+    a.camera.t_max = 2;
+    assert_int_equal(make_call(CAMERA, &a), CGT_OK);
+    a.trace.tile = CGT_TILE_SHAPE_STRIP;
+    a.trace.packet = 8;
+    assert_int_equal(make_call(CAMERA, &a), CGT_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(context_message(context), "strips"));
+    assert_int_equal(make_call(RAYS, &a), CGT_OK); /* arrays have neither tiles nor packets of pixels */
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* No rays, no points: nothing is read or written, whatever is NULL. */
+static void nothing_is_valid(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = make_scene(context);
+    const uint64_t outputs = sum_outputs();
+    arguments a;
+    init_arguments(&a, context, scene);
+    a.rays = (cgt_rays){0};
+    a.points = (cgt_points){0};
+    assert_int_equal(make_call(RAYS, &a), CGT_OK);
+    assert_int_equal(make_call(OCCLUDED_RAYS, &a), CGT_OK);
+    assert_int_equal(make_call(POINTS, &a), CGT_OK);
+    a.occluded = NULL;
+    a.hits = (cgt_hits){0};
+    assert_int_equal(make_call(RAYS, &a), CGT_OK);
+    assert_int_equal(make_call(OCCLUDED_RAYS, &a), CGT_OK);
+    assert_int_equal(make_call(POINTS, &a), CGT_OK);
+    assert_true(sum_outputs() == outputs);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+static void uncommitted_scenes_are_refused(void **state)
+{
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = make_scene(context);
+    arguments a;
+    init_arguments(&a, context, scene);
+    assert_int_equal(make_call(OPTIONS, &a), CGT_OK);
+    for (unsigned call = 1; call <= AMBIENT; call *= 2)
+        assert_int_equal(make_call(call, &a), CGT_ERROR_NOT_COMMITTED);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* Calls that the table has no place for. */
+static void null_is_refused(void **state)
+{
+    (void)state;
+    const cgt_result bad = CGT_ERROR_INVALID_ARGUMENT;
+    const cgt_scene_options options = {0};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *scene = make_scene(context), *made = scene;
+    cgt_scene_statistics statistics;
+    cgt_research_scene_statistics research;
+    assert_int_equal(cgt_scene_create(NULL, NULL, &made), bad);
+    assert_int_equal(cgt_scene_create(context, NULL, NULL), bad);
+    assert_int_equal(cgt_scene_set_options(NULL, &options), bad);
+    assert_int_equal(cgt_scene_set_options(scene, NULL), bad);
+    assert_int_equal(cgt_scene_remove_geometry(NULL, 0), bad);
+    assert_int_equal(cgt_scene_commit(NULL), bad);
+    assert_int_equal(cgt_scene_get_statistics(NULL, &statistics), bad);
+    assert_int_equal(cgt_scene_get_statistics(scene, NULL), bad);
+    assert_int_equal(cgt_research_get_scene_statistics(NULL, &research), bad);
+    assert_int_equal(cgt_research_get_scene_statistics(scene, NULL), bad);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_values_are_refused), cmocka_unit_test(good_values_are_taken),
+        cmocka_unit_test(nothing_is_valid),       cmocka_unit_test(uncommitted_scenes_are_refused),
+        cmocka_unit_test(null_is_refused),
+    };
+    test_begin("test_arguments");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,307 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Programs may flush denormals and round any way: every task of every structure gives the same bits, on threads of the
+ * library and on those of a caller's runner, and the caller's environment stays as it was. */
+#include "support/test.h"
+
+#include <fenv.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
+/* ---- environments ---- */
+
+typedef struct environment {
+    const char *name;
+    int rounding;
+    bool flushed; /* denormal operands and results are zero */
+} environment;
+
+static const environment environments[] = {
+    {"flushed denormals", FE_TONEAREST, true},
+#ifdef FE_UPWARD
+    {"upwards", FE_UPWARD, false},
+    {"upwards, flushed denormals", FE_UPWARD, true},
+#endif
+#ifdef FE_DOWNWARD
+    {"downwards", FE_DOWNWARD, false},
+#endif
+#ifdef FE_TOWARDZERO
+    {"towards zero", FE_TOWARDZERO, false},
+#endif
+};
+
+/* Only the bits that control arithmetic: the flags of exceptions change with it. */
+static uint64_t control_bits(void)
+{
+#if defined(__SSE__)
+    return _mm_getcsr() & 0xffc0u;
+#elif defined(__aarch64__)
+    uint64_t fpcr;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(fpcr));
+    return fpcr;
+#else
+    return (uint64_t)fegetround();
+#endif
+}
+
+static void flush_denormals(void)
+{
+#if defined(__SSE__)
+    _mm_setcsr(_mm_getcsr() | 0x8040u);
+#elif defined(__aarch64__)
+    __asm__ volatile("msr fpcr, %0" : : "r"(control_bits() | UINT64_C(1) << 24));
+#endif
+}
+
+static void enter(const environment *e, fenv_t *before)
+{
+    assert_int_equal(fegetenv(before), 0);
+    if (!e)
+        return;
+    assert_int_equal(fesetround(e->rounding), 0);
+    if (e->flushed)
+        flush_denormals();
+}
+
+/* A runner on the calling thread, backwards, whose tasks find an environment of its own. */
+static void run_in_environment(void *user, cgt_task *task, void *argument, uint32_t count)
+{
+    fenv_t before;
+    enter(user, &before);
+    const uint64_t control = control_bits();
+    for (uint32_t i = count; i-- > 0;) {
+        task(argument, i);
+        assert_true(control_bits() == control);
+    }
+    assert_int_equal(fesetenv(&before), 0);
+}
+
+/* ---- the scene ---- */
+
+#define SPHERES 20000u /* several chunks for every task, and a top of the kd-tree */
+#define TRIANGLES 9000u
+#define EDGE 40u
+#define PIXELS (EDGE * EDGE)
+#define SAMPLES 4u
+
+static float sphere[SPHERES][4], vertex[TRIANGLES * 3][3];
+
+/* A third of all x are denormal, so that trees have splits there. */
+static float any_x(test_random *r, uint32_t i)
+{
+    if (i % 3 == 0)
+        return random_float(r, -1, -0.1f);
+    return i % 3 == 1 ? (float)((int)random_below(r, 2001) - 1000) * 0x1p-149f : random_float(r, 0.1f, 1);
+}
+
+static void make_scene(void)
+{
+    test_random r = random_make(1);
+    for (uint32_t i = 0; i < SPHERES; i++) {
+        sphere[i][0] = any_x(&r, i);
+        for (int a = 1; a < 3; a++)
+            sphere[i][a] = random_float(&r, 0, 0.5f);
+        sphere[i][3] = i % 5 ? 0 : i % 2 ? 0x1p-140f : 0x1p-8f;
+    }
+    for (uint32_t i = 0; i < TRIANGLES; i++) {
+        const float x = any_x(&r, i), y = random_float(&r, 0, 0.5f), z = random_float(&r, 0, 0.5f);
+        for (uint32_t k = 0; k < 3; k++) {
+            vertex[3 * i + k][0] = x + (i % 2 ? (float)k * 0x1p-148f : random_float(&r, 0, 0.01f));
+            vertex[3 * i + k][1] = y + random_float(&r, 0, 0.02f);
+            vertex[3 * i + k][2] = z + random_float(&r, 0, 0.02f);
+        }
+    }
+}
+
+/* ---- everything that runs tasks ---- */
+
+/* What a scene gives: compared bit by bit. */
+typedef struct results {
+    uint64_t counts[8]; /* of the structure */
+    double cost;
+    float bounds[6];
+    float plane[6][PIXELS], ray[6][PIXELS]; /* t, normal, u, v */
+    uint32_t primitive[2][PIXELS], geometry[2][PIXELS];
+    uint8_t occluded_ray[PIXELS], occluded_point[PIXELS];
+    float visibility[PIXELS];
+} results;
+
+/* The visitor is the caller's: it finds the environment of the call. */
+static cgt_visit visit(void *user, const cgt_tile *tile)
+{
+    (void)tile;
+    return control_bits() == *(const uint64_t *)user ? CGT_VISIT_CONTINUE : CGT_VISIT_STOP;
+}
+
+static void trace_frame(const cgt_scene *scene, results *to)
+{
+    cgt_camera camera;
+    cgt_frame frame;
+    cgt_ambient_options ambient;
+    uint64_t control = control_bits();
+    cgt_camera_init(&camera);
+    memcpy(camera.eye, (const float[3]){-0.3f, 0.25f, 2.5f}, sizeof camera.eye);
+    memcpy(camera.target, (const float[3]){0.01f, 0.25f, 0.25f}, sizeof camera.target);
+    camera.fov = 30;
+    cgt_frame_init(&frame, EDGE, EDGE);
+    frame.t = to->plane[0];
+    frame.primitive = to->primitive[0];
+    frame.geometry = to->geometry[0];
+    for (int a = 0; a < 3; a++)
+        frame.normal[a] = to->plane[1 + a];
+    frame.u = to->plane[4];
+    frame.v = to->plane[5];
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+    frame.visitor = visit;
+    frame.visitor_user = &control;
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+    cgt_ambient_options_init(&ambient);
+    ambient.samples = SAMPLES;
+    assert_int_equal(cgt_ambient_occlusion(scene, &camera, &frame, &ambient, to->visibility, NULL), CGT_OK);
+}
+
+/* Every second ray starts at a denormal distance from where it goes. */
+static void trace_arrays(const cgt_scene *scene, results *to)
+{
+    static float org[3][PIXELS], dir[3][PIXELS];
+    const cgt_rays rays = {.count = PIXELS, .org = {org[0], org[1], org[2]}, .dir = {dir[0], dir[1], dir[2]}};
+    const cgt_points points = {.count = PIXELS, .position = {org[0], org[1], org[2]}};
+    const cgt_light light = {.position = {0x1p-140f, 1.5f, 0.25f}};
+    cgt_hits hits = {.t = to->ray[0],
+                     .primitive = to->primitive[1],
+                     .geometry = to->geometry[1],
+                     .normal = {to->ray[1], to->ray[2], to->ray[3]},
+                     .u = to->ray[4],
+                     .v = to->ray[5]};
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const float *target = sphere[5 * i];
+        for (uint32_t a = 0; a < 3; a++) {
+            org[a][i] = i % 2 ? sphere[i][a] : a == i % 3 ? -3 : target[a];
+            dir[a][i] = i % 2 ? (float)((int)((i + a) % 7) - 3) + 0.25f : a == i % 3 ? 1 : 0x1p-140f;
+        }
+    }
+    /* points first: by tiles of a grid; then rays, for which AUTO builds a tree */
+    assert_int_equal(cgt_occluded_points(scene, &light, &points, to->occluded_point, NULL), CGT_OK);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, to->occluded_ray, NULL), CGT_OK);
+}
+
+static void store_counts(const cgt_scene *scene, results *to)
+{
+    cgt_scene_statistics st;
+    assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
+    const cgt_research_scene_statistics research = research_of(scene);
+    const uint64_t counts[8] = {research.references,   research.kd_nodes, research.kd_leaves,    research.kd_depth,
+                                st.skipped_not_finite, st.skipped_radius, st.skipped_degenerate, st.structure_bytes};
+    memcpy(to->counts, counts, sizeof counts);
+    to->cost = research.kd_cost;
+    memcpy(to->bounds, st.bounds_min, sizeof st.bounds_min);
+    memcpy(to->bounds + 3, st.bounds_max, sizeof st.bounds_max);
+}
+
+static void trace_all(cgt_context *context, const test_scene_options *options, bool triangles, results *to)
+{
+    const cgt_spheres spheres = {.count = SPHERES,
+                                 .centers = sphere[0],
+                                 .center_stride = sizeof sphere[0],
+                                 .radii = &sphere[0][3],
+                                 .radius_stride = sizeof sphere[0]};
+    const cgt_triangles soup = {.count = TRIANGLES, .vertices = vertex[0], .vertex_count = 3 * TRIANGLES};
+    const uint64_t control = control_bits();
+    cgt_scene *scene;
+    uint32_t id;
+    memset(to, 0, sizeof *to);
+    assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(options), &scene), CGT_OK);
+    assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
+    if (triangles)
+        assert_int_equal(cgt_scene_add_triangles(scene, &soup, &id), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
+    store_counts(scene, to);
+    trace_frame(scene, to);
+    trace_arrays(scene, to);
+    cgt_scene_release(scene);
+    assert_true(control_bits() == control);
+}
+
+/* ---- tests ---- */
+
+typedef struct way {
+    const char *name;
+    cgt_structure structure;
+    cgt_kd_builder kd_builder;
+    bool triangles;
+} way;
+
+static const way ways[] = {
+    {"kd-tree", CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, false},
+    {"kd-tree by sweeps", CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, true},
+    {"ropes", CGT_STRUCTURE_KD_ROPES, CGT_KD_BUILDER_BINNED, true},
+    {"queue grid", CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, false},
+    {"loose grid", CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, true},
+    {"BVH", CGT_STRUCTURE_BVH, CGT_KD_BUILDER_AUTO, true},
+    {"AUTO: BVH on demand", CGT_STRUCTURE_AUTO, CGT_KD_BUILDER_AUTO, true},
+};
+
+/* The context's threads are made in the environment, and inherit it. */
+static void check_environment(const way *w, const environment *e, bool runner, const results *expected, results *got)
+{
+    environment runners = *e;
+    cgt_context_options options;
+    test_scene_options scene_options = {0};
+    cgt_context *context;
+    fenv_t before;
+    cgt_context_options_init(&options);
+    scene_options.structure = w->structure;
+    scene_options.kd_builder = w->kd_builder;
+    options.threads = 3;
+    if (runner)
+        options.tasks = (cgt_task_runner){&runners, run_in_environment};
+    enter(e, &before);
+    assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+    if (runner)
+        assert_int_equal(fesetenv(&before), 0); /* the tasks' alone */
+    trace_all(context, &scene_options, w->triangles, got);
+    cgt_context_release(context);
+    assert_int_equal(fesetenv(&before), 0);
+    if (memcmp(got, expected, sizeof *got) != 0)
+        fail_msg("%s, %s, %s: other bits", w->name, e->name, runner ? "runner" : "threads");
+}
+
+static void every_task_gives_the_same_bits(void **state)
+{
+    (void)state;
+    results *expected = malloc(sizeof *expected), *got = malloc(sizeof *got);
+    assert_true(expected && got);
+    for (size_t i = 0; i < TEST_COUNT(ways); i++) {
+        cgt_context_options options;
+        test_scene_options scene_options = {0};
+        cgt_context *context;
+        cgt_context_options_init(&options);
+        options.threads = 1;
+            scene_options.structure = ways[i].structure;
+        scene_options.kd_builder = ways[i].kd_builder;
+        assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
+        trace_all(context, &scene_options, ways[i].triangles, expected);
+        cgt_context_release(context);
+        for (size_t k = 0; k < TEST_COUNT(environments); k++)
+            for (int runner = 0; runner < 2; runner++)
+                if ((k == 0 && !test_samples()) || (i + k + (size_t)runner) % 2 == 0)
+                    check_environment(&ways[i], &environments[k], runner, expected, got);
+    }
+    free(expected);
+    free(got);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_task_gives_the_same_bits)};
+    test_begin("test_float_environment");
+    make_scene();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
