@@ -79,7 +79,7 @@ static void pixels_of_the_trajectory(void **state)
 {
     (void)state;
     static const uint64_t number[] = {0, 3, 12, 30, 52, 75};
-    const uint32_t width = test_scaled(320) < 64 ? 64 : test_scaled(320), height = width * 9 / 16;
+    const uint32_t width = test_between(64, 240), height = width * 9 / 16;
     planes p = planes_make(width, height), other = planes_make(width, height);
     uint64_t hits = 0, doubts = 0;
     for (size_t k = 0; k < TEST_COUNT(number); k++) {

@@ -236,7 +236,7 @@ static void order_of_two_spheres(void **state)
     (void)state;
     test_random r = random_make(100);
     uint64_t certain_hit = 0, undecided = 0;
-    for (uint32_t round = test_scaled(6000); round; round--) {
+    for (uint32_t round = 150 + test_scaled(5850); round; round--) {
         packet p;
         float sphere[4], other[4];
         filter_packet of_packet;

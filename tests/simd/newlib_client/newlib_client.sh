@@ -104,7 +104,7 @@ build() {
     for part in client float_functions double_functions special_cases; do
         # shellcheck disable=SC2086 # lists of words
         "$compiler" -std=gnu11 -O1 -ffp-contract=off -Wall -Wextra -Werror -D__SPU__ -DCGT_SPU_HOST "$@" \
-            -I"$tree/simd" $cast -isystem "$build/$form" -isystem "$build/$form/headers" -I"$client" \
+            -I"$tree/simd" $cast -isystem "$build/$form" -isystem "$build/$form/headers" -I"$tree/tests" \
             -c "$client/$part.c" -o "$build/$part.o" || return 1
         objects="$objects $build/$part.o"
     done
