@@ -284,7 +284,7 @@ static void every_task_gives_the_same_bits(void **state)
         cgt_context *context;
         cgt_context_options_init(&options);
         options.threads = 1;
-            scene_options.structure = ways[i].structure;
+        scene_options.structure = ways[i].structure;
         scene_options.kd_builder = ways[i].kd_builder;
         assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
         trace_all(context, &scene_options, ways[i].triangles, expected);
