@@ -345,8 +345,8 @@ typedef struct cgt_tile {
 
 typedef enum cgt_visit { CGT_VISIT_CONTINUE = 0, CGT_VISIT_STOP } cgt_visit;
 
-/* Gets each finished tile once, from the threads that trace, several at once, in any order. Returning CGT_VISIT_STOP
- * ends the frame: cgt_trace_camera returns CGT_ERROR_STOPPED. */
+/* Gets each finished tile once, from the threads that trace, several at once, in any order, in the floating-point
+ * environment of the call. Returning CGT_VISIT_STOP ends the frame: cgt_trace_camera returns CGT_ERROR_STOPPED. */
 typedef cgt_visit cgt_tile_visitor(void *user, const cgt_tile *tile);
 
 /* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both. Any planes will do.
@@ -381,7 +381,7 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  *           of the distances to the triangle's two farther vertices over its area as the ray sees it; the normal
  *           of a sphere is within 2^-23 + 2^-48 c / r, c the distance to its centre, in both precisions
  *   EXACT   u and v are within 1 ulp, and so are the components of a triangle's normal
- *   FAST    t, u, v and the normal are what single precision gives; docs/accuracy.md measures how far they are off
+ *   FAST    t, u, v and the normal are what single precision gives; docs/reports/accuracy.md measures how far they are off
  * Allocates nothing. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED. */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);

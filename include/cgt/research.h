@@ -53,10 +53,9 @@ typedef enum cgt_kd_layout {
 } cgt_kd_layout;
 
 typedef struct cgt_research_scene_options {
-    uint32_t
-        resolution[3]; /* of a grid: cells along x, y, z, each at most 1024 and 16,777,216 in all; 0, 0, 0 (default):
-                               chosen from the scene at each commit. With AUTO a resolution means QUEUE_GRID; a loose
-                               grid has one level then */
+    /* Cells of a grid along x, y, z, each at most 1024 and 16,777,216 in all; 0, 0, 0 (default): chosen from the scene at
+     * each commit. With AUTO a resolution means QUEUE_GRID; a loose grid has one level then. */
+    uint32_t resolution[3];
     cgt_kd_builder kd_builder;
     cgt_kd_layout kd_layout;
     uint32_t kd_break_level; /* of MIXED: levels stored breadth first, at most 50; 0 (default): 8 */
@@ -122,8 +121,8 @@ typedef enum cgt_cull {
 
 /* Whether a packet remembers the primitives that it has lately been tested against. */
 typedef enum cgt_mailbox {
-    CGT_MAILBOX_AUTO =
-        0, /* ON: it saves a fifth of the time (docs/coherent_grid_traversal.md); Chapman expected a loss */
+    CGT_MAILBOX_AUTO = 0, /* ON: it saves a fifth of the time, where Chapman expected a loss; measured in
+                             docs/reports/coherent_grid_traversal.md */
     CGT_MAILBOX_ON,
     CGT_MAILBOX_OFF
 } cgt_mailbox;
