@@ -111,6 +111,7 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
     p->lanes = p->rays = count;
     p->common_origin = p->from_origin = p->extreme = p->skips_prims = p->has_masks = false;
     l->default_ranges = true;
+    /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): count is whole vectors, at least one */
     l->undecided = UINT64_MAX >> (64 - count / CGT_LANES);
     l->max_component = spux_hmax(max_component) * committed_scene->scale; /* a power of two */
     l->max_sum = spux_hmax(max_sum) * committed_scene->scale;

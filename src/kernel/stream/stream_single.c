@@ -100,6 +100,7 @@ CGT_SPU_INLINE void interleaved_pop(interleaved_ray *f, bool any_hit)
 {
     do
         f->top--;
+    /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the bottom is -infinity, and popped once */
     while (!any_hit && f->near[f->top] > f->ray.far);
     f->code = f->stack[f->top];
 }
