@@ -4,16 +4,16 @@
 #
 # mutations.sh [--jobs N] [--build DIR] [ID-REGEX]
 # mutations.sh --check
-# Does the suite notice? Applies the deliberate bugs of tests/mutations.tsv one by one to a copy of the tree in
-# DIR/tree (build/mutations without --build), rebuilds what the concerned tests need, and runs those. A line of output
-# for each bug says what came of it:
-#   caught          a test failed, or did not end
-#   SURVIVED        all of them passed: a test is missing
-#   does not build  the compiler noticed: the table has to be mended
+# Checks that the tests notice bugs. Applies the deliberate bugs of tests/mutations.tsv, one at a time, to a copy of the
+# tree in DIR/tree (build/mutations without --build), builds what the tests of that row need, and runs them. Prints a
+# line for each bug:
+#   caught          a test failed or did not end
+#   SURVIVED        all its tests passed: one is missing
+#   does not build  the compiler noticed: correct the table
 #   not here        this machine has none of the tests
-# DIR/results.tsv has the same. ID-REGEX picks the bugs whose whole id it matches. The exit code is 0 where every bug was
-# caught or is not for this machine, 1 where one was not, 2 where the tests fail without any bug.
-# --check looks only at the table: whether each file is there and has each pattern exactly once.
+# DIR/results.tsv has the same. ID-REGEX selects bugs by their whole id. Exit code 0: every bug was caught or is not for
+# this machine, 1: one was not, 2: the tests fail without a bug.
+# --check checks the table alone: every file exists and has each pattern exactly once.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 table=tests/mutations.tsv
