@@ -15,6 +15,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "core/context.h"
+
 /* ---- the system's threads ---- */
 
 /* The linker sends the library's calls here: the call that makes refuse_after 0 fails; negative: none does. */
@@ -235,6 +237,29 @@ static void refused_threads_are_an_error(void **state)
     refuse_after = -1;
 }
 
+#define BATCH 3
+
+static void count_task(void *argument, uint32_t index)
+{
+    atomic_uint *runs = argument;
+    atomic_fetch_add(&runs[index < BATCH ? index : BATCH], 1);
+}
+
+/* Batches so short that many workers come for a task that is gone. */
+static void every_task_runs_once(void **state)
+{
+    (void)state;
+    const uint32_t batches = test_scaled(20000);
+    atomic_uint runs[BATCH + 1] = {0};
+    cgt_context *context = context_make(8, NULL);
+    for (uint32_t i = 0; i < batches; i++)
+        cgt_run_tasks(context, count_task, runs, BATCH);
+    for (uint32_t index = 0; index < BATCH; index++)
+        assert_int_equal(runs[index], batches);
+    assert_int_equal(runs[BATCH], 0); /* tasks beyond the last one */
+    cgt_context_release(context);
+}
+
 /* ---- the caller's runner ---- */
 
 typedef struct runner {
@@ -393,9 +418,13 @@ static void many_threads_have_contexts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_thread_starts_none),       cmocka_unit_test(a_pool_starts_one_less_and_ends_them),
-        cmocka_unit_test(refused_threads_are_an_error), cmocka_unit_test(a_runner_does_all_the_work),
-        cmocka_unit_test(many_threads_trace_one_scene), cmocka_unit_test(many_threads_have_scenes_of_one_context),
+        cmocka_unit_test(one_thread_starts_none),
+        cmocka_unit_test(a_pool_starts_one_less_and_ends_them),
+        cmocka_unit_test(refused_threads_are_an_error),
+        cmocka_unit_test(every_task_runs_once),
+        cmocka_unit_test(a_runner_does_all_the_work),
+        cmocka_unit_test(many_threads_trace_one_scene),
+        cmocka_unit_test(many_threads_have_scenes_of_one_context),
         cmocka_unit_test(many_threads_have_contexts),
     };
     test_begin("test_threads");

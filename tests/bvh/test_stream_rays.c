@@ -525,6 +525,19 @@ static void make_specks(test_random *r, subject *s)
     assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
 }
 
+/* Ray i passes exactly through the centre of a speck, which is that many steps of dir away from its origin. */
+static void aim_at_speck(test_random *r, const subject *s, uint32_t i, uint32_t steps, const float dir[3])
+{
+    const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
+    truth_ray q = {.t_max = INFINITY};
+    for (uint32_t a = 0; a < 3; a++) {
+        q.dir[a] = dir[a];
+        q.org[a] = sphere[a] - (float)steps * dir[a];
+    }
+    given[i] = (given_ray){.ray = q};
+    truth[i] = find_truth(s, &given[i]);
+}
+
 static void margins_break_where_they_are_made_smaller(void **state)
 {
     typedef struct tally {
@@ -542,15 +555,10 @@ static void margins_break_where_they_are_made_smaller(void **state)
         subject_make(&r, CLOUD_UNIFORM, SPHERES, 1, &s);
         make_specks(&r, &s);
         for (uint32_t i = 0; i < RAYS; i++) {
-            const float *sphere = s.spheres.sphere[random_below(&r, OBJECTS)];
-            truth_ray q = {.t_max = INFINITY};
-            const float steps = (float)(1 + random_below(&r, 12));
-            for (uint32_t a = 0; a < 3; a++) { /* exactly through the centre */
-                q.dir[a] = ((float)random_below(&r, 127) - 63) / 64;
-                q.org[a] = sphere[a] - steps * q.dir[a];
-            }
-            given[i] = (given_ray){.ray = q};
-            truth[i] = find_truth(&s, &given[i]);
+            float dir[3];
+            for (uint32_t a = 0; a < 3; a++)
+                dir[a] = ((float)random_below(&r, 127) - 63) / 64;
+            aim_at_speck(&r, &s, i, 1 + random_below(&r, 12), dir);
             hits += truth[i].primitive != CGT_INVALID_ID;
         }
         const cgt_rays rays = array_of(given, RAYS, false);
@@ -565,6 +573,31 @@ static void margins_break_where_they_are_made_smaller(void **state)
     }
     assert_true(hits > RAYS);
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-9);
+}
+
+/* Errors of slabs grow with the distance of the origins, which may all have negative coordinates. */
+static void origins_may_lie_on_one_side(void **state)
+{
+    (void)state;
+    if (clusters_always()) /* its specks are spheres */
+        skip();
+    for (uint32_t turn = 0; turn < 4; turn++) {
+        test_random r = random_make(350 + turn);
+        subject s;
+        subject_make(&r, CLOUD_UNIFORM, SPHERES, 1, &s);
+        make_specks(&r, &s);
+        for (uint32_t i = 0; i < RAYS; i++) {
+            float dir[3];
+            for (uint32_t a = 0; a < 3; a++)
+                dir[a] = (float)(32 + random_below(&r, 32)) / (turn % 2 ? 64 : -64);
+            aim_at_speck(&r, &s, i, 6 + random_below(&r, 6), dir);
+        }
+        const cgt_rays rays = array_of(given, RAYS, false);
+        set_interleaved(turn / 2);
+        trace(&s, &rays, 0, NULL);
+        assert_int_equal(wrong_answers(&s, RAYS, true), 0);
+        subject_free(&s);
+    }
 }
 
 /* Rays past the edges of triangles and the silhouettes of spheres, to within rounding. */
@@ -626,6 +659,7 @@ int main(void)
         cmocka_unit_test(batches_do_not_matter),
         cmocka_unit_test(counts_add_up),
         cmocka_unit_test(margins_break_where_they_are_made_smaller),
+        cmocka_unit_test(origins_may_lie_on_one_side),
         cmocka_unit_test(bounds_of_leaves_break_where_they_are_tightened),
     };
     test_begin("test_stream_rays");

@@ -9,8 +9,8 @@
 
 const char *double_family_name(double_family f)
 {
-    static const char *const name[DOUBLE_FAMILIES] = {"anywhere", "at edges", "far away",
-                                                      "slivers",  "lattice",  "huge or tiny"};
+    static const char *const name[DOUBLE_FAMILIES] = {"anywhere", "at edges",     "far away", "slivers",
+                                                      "lattice",  "huge or tiny", "grazing"};
     return name[f];
 }
 
@@ -80,10 +80,24 @@ static void scale_all(test_random *r, oracle_primitive *q, truth_ray *ray)
     }
 }
 
+/* r^2 = y^2 + z^2 in whole numbers: the x axis is a tangent. A ray that is hardly turned from it hits or misses. */
+static void graze(test_random *r, oracle_primitive *q, truth_ray *ray)
+{
+    const float a = (float)(1 + random_below(r, 1000)), b = a + (float)(1 + random_below(r, 1000));
+    const float turn = random_log(r, 0x1p-60f, 0x1p-40f);
+    q->data[0] = random_float(r, 0.25f, 4) * b * b;
+    q->data[1] = b * b - a * a;
+    q->data[2] = 2 * a * b;
+    q->data[3] = a * a + b * b;
+    *ray = (truth_ray){.dir = {1, random_below(r, 4) ? turn : -turn, 0}, .t_max = INFINITY};
+}
+
 void double_case_make(test_random *r, double_family f, bool sphere, oracle_primitive *q, truth_ray *ray)
 {
     double_case_shape(r, f, sphere, q);
     *ray = double_case_ray(r, f, q);
+    if (f == GRAZING && sphere)
+        graze(r, q, ray);
     if (f == HUGE_OR_TINY)
         scale_all(r, q, ray);
 }

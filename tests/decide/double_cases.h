@@ -16,6 +16,7 @@ typedef enum double_family {
     SLIVERS,
     LATTICE, /* small whole numbers: rays go exactly through edges, vertices and silhouettes, and start on surfaces */
     HUGE_OR_TINY,
+    GRAZING, /* spheres whose silhouette is passed within 2^-40 to 2^-60 of the distance */
     DOUBLE_FAMILIES
 } double_family;
 
@@ -25,7 +26,8 @@ const char *double_family_name(double_family f);
 void double_case_shape(test_random *r, double_family f, bool sphere, oracle_primitive *q);
 truth_ray double_case_ray(test_random *r, double_family f, const oracle_primitive *q);
 
-/* Both; of family HUGE_OR_TINY scaled by powers of two, the direction by others. */
+/* Both; of family HUGE_OR_TINY scaled by powers of two, the direction by others. Only here GRAZING is a family of its
+ * own. */
 void double_case_make(test_random *r, double_family f, bool sphere, oracle_primitive *q, truth_ray *ray);
 
 /* As the library takes them. */

@@ -116,6 +116,23 @@ static void needles(void **state)
     assert_true(normal[0] == 0 && normal[1] == 0 && normal[2] >= 0.5 && normal[2] <= 4);
 }
 
+/* 2^120 + 2^67 lies half-way between two doubles: one bit far below decides. */
+static void one_bit_decides_rounding(void **state)
+{
+    (void)state;
+    static const struct {
+        float factor;
+        double rounded;
+    } cases[] = {{0x1p33f, 0.5}, {0x1.000004p33f, 0x1.0000000000001p-1}, {0x1.fffffcp32f, 0.5}};
+    for (size_t i = 0; i < TEST_COUNT(cases); i++) {
+        const float edges[9] = {0, 0, 0, 0x1p60f, -cases[i].factor, 0, 0x1p34f, 0x1p60f, 0};
+        const cgt_primitive shape = triangle_of(edges);
+        double normal[3];
+        cgt_exact_normal(&shape.triangle, normal);
+        assert_true(normal[0] == 0 && normal[1] == 0 && normal[2] == cases[i].rounded);
+    }
+}
+
 /* ---- Spheres ---- */
 
 /* Lines that touch: a right angle in whole numbers. */
@@ -240,6 +257,7 @@ int main(void)
         cmocka_unit_test(edges_and_vertices_belong),
         cmocka_unit_test(parallel_lines_and_no_area),
         cmocka_unit_test(needles),
+        cmocka_unit_test(one_bit_decides_rounding),
         cmocka_unit_test(tangents),
         cmocka_unit_test(points),
         cmocka_unit_test(origins_at_the_surface),

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "builders/kd/split/kd_binned.h"
 #include "structures/random_soup.h"
 
 static const cgt_kd_builder builders[] = {CGT_KD_BUILDER_BINNED, CGT_KD_BUILDER_SWEEP};
@@ -104,6 +105,60 @@ static void test_costs(void **state)
         hard_scene_free(&s);
     }
     assert_true(sum[1] < sum[0]);
+}
+
+/* ---- bins ---- */
+
+/* What a node costs that is split there: items count on each side that they reach. The node is a cube of edge 16. */
+static double cost_at(const cgt_kd_rules *rules, const cgt_kd_item *item, uint32_t count, uint32_t axis, float split)
+{
+    double below = 0, above = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        below += item[i].low[axis] < split ? (double)item[i].weight : 0;
+        above += item[i].high[axis] > split ? (double)item[i].weight : 0;
+    }
+    const double area_below = 256 + 32 * (double)split, area_above = 256 + 32 * (16 - (double)split);
+    return rules->costs.inner + (area_below * below + area_above * above) / 768;
+}
+
+/* A cube has 16 bins along each axis. Items begin and end inside of bins, so that counting them tells what each plane
+ * between two bins costs. */
+static void bins_choose_the_cheapest_plane(void **state)
+{
+    const cgt_kd_rules rules = {.costs = {.inner = 0.4, .test = {1, 1}}};
+    const cgt_kd_box box = {{0, 0, 0}, {16, 16, 16}};
+    test_random r = random_make(800);
+    uint32_t chosen = 0;
+    (void)state;
+    for (uint32_t round = 0; round < 20 + test_scaled(500); round++) {
+        cgt_kd_item item[40] = {{.high = {0.5f, 0.5f, 0.5f}, .weight = 1},
+                                {.low = {15.5f, 15.5f, 15.5f}, .high = {16, 16, 16}, .weight = 1}};
+        const uint32_t count = 14 + random_below(&r, 27), longest = 1 + random_below(&r, 16);
+        for (uint32_t i = 2; i < count; i++) {
+            item[i].weight = (float)(1 + random_below(&r, 3));
+            for (int a = 0; a < 3; a++) {
+                const uint32_t first = random_below(&r, 16), most = 16 - first < longest ? 16 - first : longest;
+                item[i].low[a] = (float)first + 0.25f;
+                item[i].high[a] = (float)(first + random_below(&r, most)) + 0.75f;
+            }
+        }
+        cgt_float4 low = cgt_all4(INFINITY), high = cgt_all4(-INFINITY);
+        cgt_kd_bins bins;
+        const float weight = cgt_kd_bound_items(item, count, &low, &high);
+        cgt_kd_plan_bins(&bins, low, high, count);
+        assert_int_equal(bins.count, 16);
+        cgt_kd_fill_bins(&bins, item, count);
+        const cgt_kd_plane plane = cgt_kd_choose_binned(&rules, &bins, &box, weight);
+        double least = (double)weight; /* of a leaf */
+        for (uint32_t k = 0; k < 3 * 15; k++)
+            least = fmin(least, cost_at(&rules, item, count, k % 3, (float)(1 + k / 3)));
+        assert_true(fabs((double)plane.cost - least) <= 1e-4 * least);
+        if (plane.axis == 3)
+            continue;
+        assert_true(fabs(cost_at(&rules, item, count, plane.axis, plane.split) - least) <= 1e-4 * least);
+        chosen++;
+    }
+    assert_true(chosen > 10);
 }
 
 /* ---- degenerate scenes ---- */
@@ -301,9 +356,11 @@ static void test_too_many(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_leaves),     cmocka_unit_test(test_large),     cmocka_unit_test(test_costs),
-        cmocka_unit_test(test_degenerate), cmocka_unit_test(test_same_tree), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_memory),     cmocka_unit_test(test_too_many),
+        cmocka_unit_test(test_leaves),     cmocka_unit_test(test_large),
+        cmocka_unit_test(test_costs),      cmocka_unit_test(bins_choose_the_cheapest_plane),
+        cmocka_unit_test(test_degenerate), cmocka_unit_test(test_same_tree),
+        cmocka_unit_test(test_limits),     cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_too_many),
     };
     test_begin("test_kd_build");
     one_thread = context_make(1, NULL);

@@ -155,7 +155,11 @@ static void scaled_coordinates_use_the_box(void **state)
                      /* corner 0, 0, 0, lengths 4, 8, 2, tilts xy = 1, xz = -2, yz = 3: bounds as LAMMPS widens them */
                      HEAD("1", "2") "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-2 5 1\n0 11 -2\n0 2 3\n"
                                     "ITEM: ATOMS xsu ysu zsu radius\n0 0 0 1\n0.5 0.5 0.5 1\n"
-                     HEAD("2", "1") "ITEM: BOX BOUNDS abc origin pp pp pp\n0 2 0 10\n-4 0 0 20\n0 0 8 30\n"
+                     HEAD("2", "1") "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-3 4 -1\n0 11 -2\n0 2 3\n"
+                                    "ITEM: ATOMS xs ys zs radius\n0.5 0.5 0.5 1\n"
+                     HEAD("3", "1") "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 7 1\n-3 8 2\n0 2 -3\n"
+                                    "ITEM: ATOMS xs ys zs radius\n0.5 0.5 0.5 1\n"
+                     HEAD("4", "1") "ITEM: BOX BOUNDS abc origin pp pp pp\n0 2 0 10\n-4 0 0 20\n0 0 8 30\n"
                                     "ITEM: ATOMS xs ys zs radius\n0.5 0.25 0.75 1\n"),
         NULL);
     trajectory_frame f = scratch_read(t);
@@ -165,6 +169,10 @@ static void scaled_coordinates_use_the_box(void **state)
     scratch_expect_sphere(&f, 0, 0, 0, 0, 1);
     scratch_expect_sphere(&f, 1, 1.5f, 5.5f, 1, 1);
     assert_true(f.box_min[0] == -2 && f.box_max[0] == 5 && f.box_max[1] == 11);
+    f = scratch_read(t); /* xy = -1 and xz = -2: their sum tells how far down the box reaches */
+    scratch_expect_sphere(&f, 0, 0.5f, 5.5f, 1, 1);
+    f = scratch_read(t); /* all signs changed: and how far up */
+    scratch_expect_sphere(&f, 0, 3.5f, 2.5f, 1, 1);
     f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 9, 21, 36, 1);
     assert_true(f.box_min[0] == 6 && f.box_max[0] == 10 && f.box_max[1] == 22 && f.box_max[2] == 38);

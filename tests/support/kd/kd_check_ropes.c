@@ -32,6 +32,18 @@ static bool below(const kd_walk *w, uint32_t node, uint32_t ancestor)
     return node == ancestor;
 }
 
+/* A split in the plane of the face cuts off a box without thickness there, which a rope does not lead into. */
+static void check_splits_in_face(kd_walk *w, uint32_t node, uint32_t side, uint32_t rope, uint32_t wide, float plane)
+{
+    for (uint32_t parent; rope != wide; rope = parent) {
+        parent = w->parent[rope];
+        const cgt_kd_node n = w->tree->node[parent];
+        const uint32_t is_upper = rope != n.word[1];
+        if (cgt_kd_axis(n) == side / 2 && cgt_kd_split(n) == plane && is_upper != (side & 1))
+            kd_fault(w, "leaf %u, face %u: the rope leads into node %u, which has no thickness", node, side, rope);
+    }
+}
+
 static void check_rope(kd_walk *w, uint32_t node, const cgt_kd_leaf *leaf, uint32_t side)
 {
     const uint32_t axis = side / 2, rope = leaf->rope[side];
@@ -52,6 +64,7 @@ static void check_rope(kd_walk *w, uint32_t node, const cgt_kd_leaf *leaf, uint3
         kd_fault(w, "leaf %u, face %u: the rope leads to node %u, which does not hold the face", node, side, rope);
         return;
     }
+    check_splits_in_face(w, node, side, rope, wide, face.low[axis]);
     const cgt_kd_node n = w->tree->node[rope];
     for (uint32_t i = 0; !cgt_kd_is_leaf(n) && i < 2; i++)
         if (holds(&w->box[n.word[1] + i], &face))
