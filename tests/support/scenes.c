@@ -30,7 +30,7 @@ bool variant_is_outer(const char *name)
         first = first ? first : variant;
         last = variant;
     }
-    return !strcmp(name, first) || !strcmp(name, last);
+    return first && (!strcmp(name, first) || !strcmp(name, last));
 }
 
 bool clusters_always(void)
