@@ -6,7 +6,8 @@
 # Checks every file that git knows or would take: heading, layout (clang-format), spelling (codespell), the patterns of
 # tests/mutations.tsv, and clang-tidy on what build/release compiles. --fix lets clang-format write.
 # clang-tidy does not look again at a file that it passed before, as long as the file, its headers, its command line and
-# .clang-tidy are the same; --all looks at everything. What passed is kept in ${XDG_CACHE_HOME:-~/.cache}/libcgt/lint.
+# .clang-tidy are the same. What passed is kept in ${XDG_CACHE_HOME:-~/.cache}/libcgt/lint. --all, for releases, looks at
+# everything again and gives the analyzer all the time it wants, which takes it four times as long.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/dependencies.sh build render tests lint
@@ -98,6 +99,9 @@ files_of() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' "build/$1/compile_commands.js
 passed=${XDG_CACHE_HOME:-$HOME/.cache}/libcgt/lint
 mkdir -p "$passed"
 tidy_version=$(clang-tidy-14 --version | sha256sum)
+# the analyzer's limit for the states of a function; clang's own is 225,000
+budget=()
+[ $again = yes ] || for word in -Xclang -analyzer-config -Xclang max-nodes=40000; do budget+=("--extra-arg=$word"); done
 export passed again tidy_version
 
 # tidy_file DATABASE FILE OPTION...: runs clang-tidy unless the same text has passed. The key of a file are all commands
@@ -134,7 +138,7 @@ export -f tidy_file
 kernels=/src/kernel/ words='/test_spu_(words|constants|literals)|/simd_words' no_paths='--checks=-clang-analyzer-*'
 tidy() {
     # shellcheck disable=SC2016 # the inner shell expands
-    tr '\n' '\0' | xargs -0 -r -n 1 -P "$jobs" bash -c 'tidy_file "$1" "${@: -1}" "${@:2:$#-2}"' tidy "$@"
+    tr '\n' '\0' | xargs -0 -r -n 1 -P "$jobs" bash -c 'tidy_file "$1" "${@: -1}" "${@:2:$#-2}"' tidy "$@" "${budget[@]}"
 }
 : >build/lint_tidy.log
 files_of lint | grep -E "$kernels" | tidy lint || fail "clang-tidy: kernels"
