@@ -332,7 +332,7 @@ static void extreme_places(void **state)
         for (uint32_t round = 0; round < test_scaled(variant_is_outer(variant) ? 200 : 50); round++) {
             test_random r = random_make(round);
             const int size = (int)random_below(&r, 150) - 80, offset = size - 10 + (int)random_below(&r, 30);
-            enum { N = 60, SOME = 130 };
+            enum { N = 60, SAMPLE = 130 };
             static float sphere[N][4];
             for (int i = 0; i < N; i++) {
                 for (int a = 0; a < 3; a++)
@@ -344,7 +344,7 @@ static void extreme_places(void **state)
             for (int a = 0; a < 3 && options.structure == CGT_STRUCTURE_QUEUE_GRID; a++)
                 options.resolution[a] = 1 + random_below(&r, 60);
             scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, N);
-            for (int i = 0; i < SOME; i++) {
+            for (int i = 0; i < SAMPLE; i++) {
                 const float *to = sphere[random_below(&r, N)];
                 const int from = size + (int)random_below(&r, 40) - 5;
                 /* neither so short nor so long that t leaves float's range */
@@ -362,8 +362,8 @@ static void extreme_places(void **state)
                 if (ray[i].dir[0] == 0 && ray[i].dir[1] == 0 && ray[i].dir[2] == 0)
                     ray[i].dir[2] = length;
             }
-            rays_trace(scene, ray, SOME, hit, NULL);
-            judge(ray, hit, SOME);
+            rays_trace(scene, ray, SAMPLE, hit, NULL);
+            judge(ray, hit, SAMPLE);
             cgt_scene_release(scene);
         }
         cgt_context_release(context);
