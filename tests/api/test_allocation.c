@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Memory through the caller's hook: every allocation of a whole session fails in turn, and each time there is an error,
- * nothing is lost or leaked, and the objects work afterwards. In a steady state nothing is allocated. All of it with
- * the grids, and with each builder's tree, with ropes and without. */
+ * Memory through the caller's hook: every allocation of a whole session fails in turn, and each failure is reported as
+ * an error, nothing is lost or leaked, and scenes work afterwards. In a steady state nothing is allocated. All of it
+ * with the grids, and with the kd-tree of each builder, with and without ropes. */
 #define _POSIX_C_SOURCE 200809L
 #include "support/scenes.h"
 
@@ -35,9 +35,9 @@ static void *hook_allocate(void *user, size_t bytes, size_t alignment)
     if (!pthread_equal(pthread_self(), m->caller))
         m->wrong = "allocate is called from a worker";
     if (!alignment || alignment & (alignment - 1) || alignment > 64)
-        m->wrong = "an alignment is none";
+        m->wrong = "an alignment is not a power of two up to 64";
     if (!bytes)
-        m->wrong = "nothing is asked for";
+        m->wrong = "allocate is called for 0 bytes";
     if (++m->calls == m->fail_at) {
         m->failed = true;
         return NULL;
@@ -45,7 +45,7 @@ static void *hook_allocate(void *user, size_t bytes, size_t alignment)
     if (m->blocks == TEST_COUNT(m->live))
         m->wrong = "more blocks than the test has room for";
     else if (posix_memalign(&p, alignment < sizeof p ? sizeof p : alignment, bytes) == 0) {
-        memset(p, 0xa5, bytes); /* what it holds is nobody's business */
+        memset(p, 0xa5, bytes); /* the library must not rely on its contents */
         m->live[m->blocks++] = (block){p, bytes};
         m->bytes += bytes;
     }
@@ -60,13 +60,13 @@ static void hook_release(void *user, void *p, size_t bytes)
     for (size_t i = 0; i < m->blocks; i++)
         if (m->live[i].memory == p) {
             if (m->live[i].bytes != bytes)
-                m->wrong = "release gets another size than allocate";
+                m->wrong = "release gets a size that differs from allocate's";
             m->bytes -= m->live[i].bytes;
             m->live[i] = m->live[--m->blocks];
             free(p);
             return;
         }
-    m->wrong = p ? "release gets what allocate did not give" : "release gets NULL";
+    m->wrong = p ? "release gets a pointer that allocate did not return" : "release gets NULL";
 }
 
 static void check_memory(const memory *m)
@@ -120,13 +120,13 @@ static test_scene_options options_of(const choice *c)
 #define SIDE test_between(16, MOST_SIDE)
 #define TRIANGLES 120
 
-static cloud spheres; /* grows from frame to frame: the first quarter of each, then all */
+static cloud spheres; /* grows from frame to frame: the first quarter of each geometry, then all */
 static float pile[300][4];
 static float mesh[TRIANGLES][3][3];
 static planes expected[2], got;
 static cgt_camera camera;
 
-/* One call that may fail. Where the hook failed it must say so; then the same call must do. */
+/* A call that may fail. If the hook failed, the call must report it, and must succeed when repeated. */
 #define TRY(m, call)                                                                                                   \
     do {                                                                                                               \
         (m)->failed = false;                                                                                           \
@@ -149,7 +149,7 @@ static void check_frame(const cgt_scene *scene, const planes *want)
         assert_true(planes_equal(&got, want));
 }
 
-/* After a commit that failed there is a message, and the scene says that it is not committed. */
+/* A failed commit leaves a message, and a scene that reports that it is not committed. */
 static void commit(memory *m, const cgt_context *context, cgt_scene *scene)
 {
     const cgt_frame frame = frame_of(&got);
@@ -187,7 +187,7 @@ static void set_triangles(memory *m, cgt_scene *scene, uint32_t geometry, bool a
     assert_int_equal(id, geometry);
 }
 
-/* want: what every structure shows; NULL to find out. */
+/* want: the frames that every structure must show; NULL to record them. */
 static void session(memory *m, const choice *c, uint32_t threads, const planes want[2])
 {
     const test_scene_options options = options_of(c);
@@ -207,7 +207,7 @@ static void session(memory *m, const choice *c, uint32_t threads, const planes w
         assert_int_equal(cgt_scene_get_statistics(scene, &st), CGT_OK);
         assert_int_equal(st.structure, c->structure);
         assert_true(c->structure != CGT_STRUCTURE_QUEUE_GRID ||
-                    research_of(scene).overflow_references > 0); /* and then more */
+                    research_of(scene).overflow_references > 0); /* more of them in the second frame */
         check_frame(scene, want ? &want[frame] : NULL);
         if (!want)
             memcpy(expected[frame].memory, got.memory, 6 * got.elements * sizeof(uint32_t));
@@ -255,7 +255,7 @@ static int free_session(void **state)
 static void every_allocation_fails_in_turn(void **state)
 {
     (void)state;
-    const uint32_t step = test_samples() ? 12 : 1; /* of the allocations, where it is slow */
+    const uint32_t step = test_samples() ? 12 : 1; /* every 12th allocation on slow machines */
     bool shown = false;
     FOR_EACH_CHOICE(c)
     for (uint32_t threads = 1; threads <= 3; threads += 2) {
@@ -263,7 +263,7 @@ static void every_allocation_fails_in_turn(void **state)
         if (test_samples() && (threads == 3) != test_sample_start(number, 2))
             continue;
         memory m = {0};
-        session(&m, c, threads, shown ? expected : NULL); /* counts, and shows the frames */
+        session(&m, c, threads, shown ? expected : NULL); /* counts allocations; records or checks the frames */
         shown = true;
         const size_t calls = m.calls;
         print_message("%s, %u threads: %zu allocations\n", c->name, threads, calls);
@@ -276,7 +276,7 @@ static void every_allocation_fails_in_turn(void **state)
     }
 }
 
-/* Failures one after another: the second try fails too, and the third. */
+/* Consecutive failures: the second attempt fails too, and the third. */
 static void fail_again_and_again(const choice *c)
 {
     const test_scene_options options = options_of(c);
@@ -315,7 +315,7 @@ static void repeated_failures_lose_nothing(void **state)
 
 /* ---- steady state ---- */
 
-/* frame: the same ways each time that it is the same. */
+/* The same frame number selects the same options. */
 static void trace_all(const cgt_scene *scene, uint32_t frame)
 {
     ray_hit hit[MOST_SIDE];
@@ -323,7 +323,7 @@ static void trace_all(const cgt_scene *scene, uint32_t frame)
     truth_ray *rays = frame_rays(&camera, SIDE, 1);
     const cgt_rays r = ray_array(rays, SIDE);
     frame_trace(scene, &camera, &got, NULL);
-    const uint32_t step = test_samples() ? 5 : 1; /* of the ways; prime to them */
+    const uint32_t step = test_samples() ? 5 : 1; /* coprime to the number of options */
     for (uint32_t way = test_sample_start(frame, step); way < 12; way += step) {
         test_trace_options o = {0};
         cgt_trace_statistics st;
@@ -339,7 +339,7 @@ static void trace_all(const cgt_scene *scene, uint32_t frame)
     free(rays);
 }
 
-/* All move, and counts change, through the same four states: from the fifth on nothing is new. */
+/* All primitives move and counts change through a cycle of four states: from the fifth commit on, no state is new. */
 static void keep_steady(const choice *c, uint32_t threads)
 {
     const test_scene_options options = options_of(c);
@@ -362,8 +362,9 @@ static void keep_steady(const choice *c, uint32_t threads)
     for (int i = 0; i < (test_samples() ? 8 : 12); i++) {
         for (int k = 0; k < 300; k++)
             pile[k][0] = start[k] + 0.001f * (float)(i % 4);
-        const cgt_spheres some = spheres_of((const float(*)[4])spheres.sphere, spheres.count - 100 * (uint32_t)(i % 4));
-        assert_int_equal(cgt_scene_update_spheres(scene, 0, &some), CGT_OK);
+        const cgt_spheres spheres_now =
+            spheres_of((const float(*)[4])spheres.sphere, spheres.count - 100 * (uint32_t)(i % 4));
+        assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres_now), CGT_OK);
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         trace_all(scene, (uint32_t)i % 4);
         if (i < 4)
@@ -382,14 +383,15 @@ static void keep_steady(const choice *c, uint32_t threads)
 static void steady_state_allocates_nothing(void **state)
 {
     (void)state;
-    const uint32_t step = test_samples() ? 3 : 1; /* where it is slow, each choice with another number of threads */
+    const uint32_t step = test_samples() ? 3 : 1; /* on slow machines each choice gets another number of threads */
     FOR_EACH_CHOICE(c)
     for (uint32_t k = test_sample_start((uint32_t)(c - choices), step); k < 3; k += step)
         keep_steady(c, 1 + k);
 }
 
-/* The same number of spheres in ever other places. The grid's shape changes, its memory does not: spheres smaller than
- * their spacing overflow no queue. A tree takes memory only where it, or what it is made with, is larger than ever. */
+/* The same number of spheres at ever new positions. The grid's shape changes, its memory does not: spheres smaller than
+ * their spacing overflow no queue. A tree takes memory only if it, or a buffer of its build, is larger than ever
+ * before. */
 static void move_without_growing(const choice *c)
 {
     enum { COUNT = 900, STEPS = 40 };
@@ -466,7 +468,7 @@ static void compare_bytes(const choice *c)
     assert_int_equal(m.bytes, 0);
 }
 
-static void statistics_tell_the_bytes(void **state)
+static void statistics_report_the_bytes(void **state)
 {
     (void)state;
     FOR_EACH_CHOICE(c)
@@ -478,7 +480,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_allocation_fails_in_turn), cmocka_unit_test(repeated_failures_lose_nothing),
         cmocka_unit_test(steady_state_allocates_nothing), cmocka_unit_test(moving_without_growing_allocates_nothing),
-        cmocka_unit_test(statistics_tell_the_bytes),
+        cmocka_unit_test(statistics_report_the_bytes),
     };
     test_begin("test_allocation");
     return cmocka_run_group_tests(tests, make_session, free_session);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Ambient occlusion of frames: cases with a known answer; a sum over the same rays by cgt_occluded_rays; the same bits
- * for any threads, variant and structure; the directions; what is refused; and that nothing is allocated. */
+ * for any threads, variant and structure; the directions; refused arguments; and that nothing is allocated. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,18 +13,18 @@
 #define STRIDE 80u
 #define PIXELS (STRIDE * 50u)
 
-/* Of the picture: where it is slow, a fifteenth of the pixels, and where samples do, a fortieth; these are no whole
- * blocks either. */
+/* The part of the picture that is traced: on slow machines a fifteenth of the pixels, for samples a fortieth. Neither
+ * is a whole number of blocks. */
 #define SLOW (test_scaled(10) < 2)
 #define WIDTH (test_samples() ? 11u : SLOW ? 19u : 75u)
 #define HEIGHT (test_samples() ? 9u : SLOW ? 13u : 50u)
-#define MANY (test_samples() ? 20u : SLOW ? 50u : 1000u) /* of its pixels */
+#define MANY (test_samples() ? 20u : SLOW ? 50u : 1000u) /* pixels of that part */
 #define ROWS (STRIDE * HEIGHT)
 
-/* Of the structures: every one, or where it is slow every second. */
+/* Every structure, or every second one on slow machines. */
 #define STEP (SLOW ? 2u : 1u)
 
-/* ---- a frame with all that is needed ---- */
+/* ---- a frame with all required planes ---- */
 
 typedef struct view {
     float t[PIXELS], normal[3][PIXELS], visibility[PIXELS];
@@ -59,7 +59,8 @@ static cgt_ambient_options ambient_of(uint32_t samples, float radius, uint32_t s
     return a;
 }
 
-/* Traces the frame and how open it is; what lies beside the picture must stay. Returns the number of pixels hit. */
+/* Traces the frame and its ambient visibility; memory outside the picture must not change. Returns the number of pixels
+ * hit. */
 static uint32_t look(const cgt_scene *scene, view *v, const cgt_ambient_options *ambient,
                      const cgt_trace_options *options)
 {
@@ -90,7 +91,7 @@ static void expect_all(const view *v, float visibility)
 
 /* ---- scenes ---- */
 
-/* A floor at y = 0, of two triangles whose common edge lies far from the middle. */
+/* A floor at y = 0: two triangles whose common edge lies far from the centre. */
 static const float floor_corner[4][3] = {{-100, 0, -100}, {100, 0, -101}, {103, 0, 100}, {-100, 0, 90}};
 static const uint32_t floor_index[2][3] = {{0, 1, 3}, {1, 2, 3}};
 
@@ -130,7 +131,7 @@ static cgt_scene *box_make(cgt_context *context, uint32_t structure)
 
 /* ---- known answers ---- */
 
-static void what_stands_alone_is_open(void **state)
+static void isolated_points_are_open(void **state)
 {
     (void)state;
     static view v;
@@ -158,7 +159,7 @@ static void what_stands_alone_is_open(void **state)
     cgt_context_release(context);
 }
 
-static void inside_a_box_it_is_dark(void **state)
+static void points_inside_a_box_are_dark(void **state)
 {
     (void)state;
     static view v;
@@ -175,9 +176,9 @@ static void inside_a_box_it_is_dark(void **state)
     cgt_context_release(context);
 }
 
-/* Under the middle of a ball of radius r, d above, a share of (r / d)^2 of the cosine is hidden; within a radius that
- * does not reach the ball, nothing. */
-static void a_ball_hides_what_it_must(void **state)
+/* At distance d below the centre of a ball of radius r, a share of (r / d)^2 of the cosine-weighted sky is occluded;
+ * within a radius that does not reach the ball, nothing. */
+static void a_ball_occludes_its_share(void **state)
 {
     (void)state;
     static view v;
@@ -189,7 +190,7 @@ static void a_ball_hides_what_it_must(void **state)
     v.camera.fov = 0.5f;
     cgt_ambient_options ambient = ambient_of(1024, INFINITY, 0);
     look(scene, &v, &ambient, NULL);
-    expect_all(&v, 1); /* the side below is turned away from the ball */
+    expect_all(&v, 1); /* the lower side faces away from the ball */
     light_init_projection(&v, (float[]){0.5f, 0.25f, 0}, (float[]){0, 0, 0}); /* from between ball and floor */
     v.camera.fov = 0.5f;
     look(scene, &v, &ambient, NULL);
@@ -199,7 +200,7 @@ static void a_ball_hides_what_it_must(void **state)
     ambient.radius = 0.99f;
     look(scene, &v, &ambient, NULL);
     expect_all(&v, 1);
-    ambient.radius = 1.02f; /* some of the nearest part */
+    ambient.radius = 1.02f; /* reaches only the nearest part */
     look(scene, &v, &ambient, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
         assert_true(i % STRIDE >= WIDTH || (v.visibility[i] < 1 && v.visibility[i] > 0.9f));
@@ -248,7 +249,7 @@ static float open_by_rays(const cgt_scene *scene, const view *v, const cgt_ambie
     return (float)open / (float)ambient->samples;
 }
 
-static void it_is_the_share_of_these_rays(void **state)
+static void visibility_is_the_share_of_open_rays(void **state)
 {
     (void)state;
     static view v, other;
@@ -261,7 +262,7 @@ static void it_is_the_share_of_these_rays(void **state)
         FOR_EACH_VARIANT(variant)
         for (uint32_t threads = 1; threads < 3; threads++)
             for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {
-                if (samples[s] > 50 && (k + threads) % 4 != s % 2) /* the long ones take turns */
+                if (samples[s] > 50 && (k + threads) % 4 != s % 2) /* long runs take turns */
                     continue;
                 if (samples[s] <= 50 && (k + threads) % STEP != test_sample_start((uint32_t)s, STEP))
                     continue;
@@ -297,7 +298,7 @@ static void it_is_the_share_of_these_rays(void **state)
     }
 }
 
-static void the_camera_mask_is_theirs(void **state)
+static void ambient_rays_use_the_camera_mask(void **state)
 {
     (void)state;
     static view v;
@@ -382,7 +383,7 @@ static void seeds_and_pixels_differ(void **state)
     }
 }
 
-/* ---- what is refused, and what is odd ---- */
+/* ---- refused arguments and odd pixels ---- */
 
 static void odd_pixels_are_open(void **state)
 {
@@ -395,7 +396,7 @@ static void odd_pixels_are_open(void **state)
     light_init_projection(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
     v.camera.fov = 10;
     look(scene, &v, &ambient, NULL);
-    expect_all(&v, 0); /* within the larger one */
+    expect_all(&v, 0); /* inside the larger sphere */
     v.t[3] = NAN;
     v.t[4] = INFINITY;
     v.normal[1][5] = NAN;
@@ -403,7 +404,7 @@ static void odd_pixels_are_open(void **state)
     assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &ambient, v.visibility, NULL), CGT_OK);
     for (uint32_t x = 0; x < WIDTH; x++)
         assert_true(v.visibility[x] == (x >= 3 && x <= 6 ? 1 : 0));
-    v.primitive[7] = 2; /* ids of nothing ignore nothing */
+    v.primitive[7] = 2; /* ids of no primitive skip nothing */
     v.geometry[8] = CGT_INVALID_ID;
     assert_int_equal(cgt_ambient_occlusion(scene, &v.camera, &v.frame, &ambient, v.visibility, NULL), CGT_OK);
     assert_true(v.visibility[7] == 0 && v.visibility[8] == 0);
@@ -422,7 +423,7 @@ static void nothing_is_allocated(void **state)
     cgt_context *context = context_counting(&allocations);
     cgt_scene *scene = scene_of(context, NULL, ball, 1);
     light_init_projection(&v, (float[]){0, 0, 4}, (float[]){0, 0, 0});
-    look(scene, &v, NULL, NULL); /* may have a tree built, whose memory the next frame finds */
+    look(scene, &v, NULL, NULL); /* may build a tree, whose memory the next frame reuses */
     const unsigned before = allocations;
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     look(scene, &v, NULL, NULL);
@@ -433,12 +434,15 @@ static void nothing_is_allocated(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_stands_alone_is_open), cmocka_unit_test(inside_a_box_it_is_dark),
-        cmocka_unit_test(a_ball_hides_what_it_must), cmocka_unit_test(it_is_the_share_of_these_rays),
-        cmocka_unit_test(the_camera_mask_is_theirs), cmocka_unit_test(directions_are_cosine_weighted),
-        cmocka_unit_test(seeds_and_pixels_differ),   cmocka_unit_test(odd_pixels_are_open),
-        cmocka_unit_test(nothing_is_allocated)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(isolated_points_are_open),
+                                       cmocka_unit_test(points_inside_a_box_are_dark),
+                                       cmocka_unit_test(a_ball_occludes_its_share),
+                                       cmocka_unit_test(visibility_is_the_share_of_open_rays),
+                                       cmocka_unit_test(ambient_rays_use_the_camera_mask),
+                                       cmocka_unit_test(directions_are_cosine_weighted),
+                                       cmocka_unit_test(seeds_and_pixels_differ),
+                                       cmocka_unit_test(odd_pixels_are_open),
+                                       cmocka_unit_test(nothing_is_allocated)};
     test_begin("test_ambient_occlusion");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arguments that are refused: one table of calls, the field that is bad, its value, the result, and a word that the
- * message has. Whatever is refused changes nothing. */
+ * Refused arguments: a table of the calls, the bad field, its value, the expected result, and a word of the message. A
+ * refused call changes nothing. */
 #include "support/scenes.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ enum {
     TRACES = FRAMES | ARRAYS | POINTS
 };
 
-/* All arguments of all calls. Pointers go to the structs behind them. */
+/* All arguments of all calls. Pointers point to the structs that follow them. */
 typedef struct arguments {
     const cgt_scene *const_scene;
     cgt_scene *scene;
@@ -55,7 +55,7 @@ typedef struct row {
     size_t offset, bytes;
     const void *value;
     cgt_result result;
-    const char *word; /* NULL: the call has no context to keep a message in, or none is asked for */
+    const char *word; /* NULL: the call has no context to keep a message in, or the message is not checked */
 } row;
 
 #define BAD(calls, field, type, bad, word)                                                                             \
@@ -77,10 +77,10 @@ typedef struct row {
         BAD(calls, field[2], float, -INFINITY, word)
 
 static const float data[64] = {0};
-#define CROOKED ((const float *)(const void *)((const char *)data + 2))
+#define MISALIGNED ((const float *)(const void *)((const char *)data + 2))
 
 static const row rows[] = {
-    /* what is missing */
+    /* missing arguments */
     NONE(TRACES, const_scene, NULL),
     NONE(SPHERES | TRIANGLES, scene, NULL),
     NONE(FRAMES, camera_at, NULL),
@@ -116,8 +116,8 @@ static const row rows[] = {
     NOT_FINITE(FRAMES, camera.eye, "eye"),
     NOT_FINITE(FRAMES, camera.target, "target"),
     NOT_FINITE(FRAMES, camera.up, "up"),
-    BAD3(FRAMES, camera.target, 0, 0, 5, "target"), /* the eye */
-    BAD3(FRAMES, camera.eye, 0, 0, 0, "target"),    /* the target: with an up of its own it is no default view */
+    BAD3(FRAMES, camera.target, 0, 0, 5, "target"), /* equals the eye */
+    BAD3(FRAMES, camera.eye, 0, 0, 0, "target"),    /* equals the target; with an up vector, not the default view */
     BAD3(FRAMES, camera.up, 0, 0, 1, "up"),
     BAD3(FRAMES, camera.up, 0, 0, -1e-20f, "up"),
     BAD3(FRAMES, camera.up, 0, 1e-8f, 1, "up"),
@@ -175,10 +175,10 @@ static const row rows[] = {
     BAD(POINTS, light.kind, cgt_light_kind, (cgt_light_kind)2, "light"),
     BAD(POINTS, light.kind, cgt_light_kind, (cgt_light_kind)-1, "light"),
     BAD(POINTS, light.kind, cgt_light_kind, CGT_LIGHT_DIRECTIONAL, "length zero"), /* its position is the origin */
-    /* geometries; with the one that is there the sum of counts reaches 2^32 - 1 */
+    /* geometries; together with the existing one, the sum of counts reaches 2^32 - 1 */
     NONE(SPHERES, spheres.centers, "centers"),
-    BAD(SPHERES, spheres.centers, const float *, CROOKED, "aligned"),
-    BAD(SPHERES, spheres.radii, const float *, CROOKED, "aligned"),
+    BAD(SPHERES, spheres.centers, const float *, MISALIGNED, "aligned"),
+    BAD(SPHERES, spheres.radii, const float *, MISALIGNED, "aligned"),
     BAD(SPHERES, spheres.center_stride, size_t, 13, "stride"),
     BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX / 8 * 4, "stride"),
@@ -190,8 +190,8 @@ static const row rows[] = {
     BAD(SPHERES, spheres.radius, float, -INFINITY, "radius"),
     LARGE(SPHERES, spheres.count, uint32_t, UINT32_MAX, "2^32"),
     NONE(TRIANGLES, triangles.vertices, "vertices"),
-    BAD(TRIANGLES, triangles.vertices, const float *, CROOKED, "aligned"),
-    BAD(TRIANGLES, triangles.indices, const uint32_t *, (const uint32_t *)(const void *)CROOKED, "aligned"),
+    BAD(TRIANGLES, triangles.vertices, const float *, MISALIGNED, "aligned"),
+    BAD(TRIANGLES, triangles.indices, const uint32_t *, (const uint32_t *)(const void *)MISALIGNED, "aligned"),
     BAD(TRIANGLES, triangles.vertex_stride, size_t, 13, "stride"),
     BAD(TRIANGLES, triangles.index_stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(TRIANGLES, triangles.count, uint32_t, 2, "indices"),
@@ -264,7 +264,7 @@ static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
     cgt_camera_init(&a->camera);
 }
 
-/* The radius matters where there are no radii, and their stride where there are. */
+/* The radius is read only without an array of radii, and their stride only with one. */
 static void adapt(arguments *a, size_t offset)
 {
     if (offset == offsetof(arguments, spheres.radius_stride))
@@ -316,7 +316,7 @@ static uint64_t sum_outputs(void)
     return sum;
 }
 
-/* A sphere about the origin, geometry 0, and a triangle beside it, geometry 1. */
+/* A sphere about the origin, geometry 0, and a triangle next to it, geometry 1. */
 static cgt_scene *make_scene(cgt_context *context)
 {
     static const float sphere[1][4] = {{0, 0, 0, 1}}, corner[9] = {9, 0, 0, 10, 0, 0, 9, 1, 0};
@@ -340,9 +340,9 @@ static void check_row(const row *r, size_t number, unsigned call, cgt_context *c
     if (result != r->result)
         fail_msg("row %zu, call %u: %s", number, call, cgt_get_result_string(result));
     if (r->word && !strstr(context_message(context), r->word))
-        fail_msg("row %zu, call %u: \"%s\" does not speak of %s", number, call, context_message(context), r->word);
+        fail_msg("row %zu, call %u: \"%s\" does not mention %s", number, call, context_message(context), r->word);
     assert_true(sum_outputs() == outputs && statistics.rays == 55);
-    /* nothing has changed: it still may be traced */
+    /* nothing has changed: the scene can still be traced */
     assert_true(ray_trace(scene, (truth_ray){{0, 0, 5}, {0, 0, -1}, 0, INFINITY}).t == 4);
 }
 
@@ -359,8 +359,8 @@ static void bad_values_are_refused(void **state)
     cgt_context_release(context);
 }
 
-/* The table refuses what it says, and nothing else. */
-static void good_values_are_taken(void **state)
+/* The values that the table does not list are accepted. */
+static void good_values_are_accepted(void **state)
 {
     (void)state;
     cgt_context *context = context_make(1, NULL);
@@ -377,7 +377,7 @@ static void good_values_are_taken(void **state)
         assert_int_equal(make_call(OPTIONS, &a), CGT_OK);
     }
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    a.camera.height = NAN; /* a projection does not read what it does not use */
+    a.camera.height = NAN; /* a projection does not read fields that it does not use */
     assert_int_equal(make_call(CAMERA, &a), CGT_OK);
     a.camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
     static const float bad_height[] = {-1, NAN, INFINITY};
@@ -398,13 +398,13 @@ static void good_values_are_taken(void **state)
     a.trace.packet = 8;
     assert_int_equal(make_call(CAMERA, &a), CGT_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(context_message(context), "strips"));
-    assert_int_equal(make_call(RAYS, &a), CGT_OK); /* arrays have neither tiles nor packets of pixels */
+    assert_int_equal(make_call(RAYS, &a), CGT_OK); /* ray arrays have neither tiles nor pixel packets */
     cgt_scene_release(scene);
     cgt_context_release(context);
 }
 
-/* No rays, no points: nothing is read or written, whatever is NULL. */
-static void nothing_is_valid(void **state)
+/* Without rays or points nothing is read or written, whichever pointers are NULL. */
+static void empty_arrays_are_valid(void **state)
 {
     (void)state;
     cgt_context *context = context_make(1, NULL);
@@ -441,7 +441,7 @@ static void uncommitted_scenes_are_refused(void **state)
     cgt_context_release(context);
 }
 
-/* Calls that the table has no place for. */
+/* Calls that do not fit the table. */
 static void null_is_refused(void **state)
 {
     (void)state;
@@ -468,8 +468,8 @@ static void null_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_values_are_refused), cmocka_unit_test(good_values_are_taken),
-        cmocka_unit_test(nothing_is_valid),       cmocka_unit_test(uncommitted_scenes_are_refused),
+        cmocka_unit_test(bad_values_are_refused), cmocka_unit_test(good_values_are_accepted),
+        cmocka_unit_test(empty_arrays_are_valid), cmocka_unit_test(uncommitted_scenes_are_refused),
         cmocka_unit_test(null_is_refused),
     };
     test_begin("test_arguments");

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Cameras: what is refused, the rays, and pictures from hard places: along the axes and diagonals, from inside, with
- * the scene behind, with openings near 0 and 180 degrees, with clipped ranges. Brute force judges the pixels. */
+ * Cameras: their rays, and pictures from hard positions: along the axes and diagonals, from inside, with the scene
+ * behind, with fields of view near 0 and 180 degrees, with clipped ranges. Brute force judges the pixels. */
 #include "support/scenes.h"
 
 #include <math.h>
@@ -64,7 +64,7 @@ static void formula_ray(const cgt_camera *c, uint32_t width, uint32_t height, ui
     }
 }
 
-static void rays_are_those_of_the_formula(void **state)
+static void rays_match_the_formula(void **state)
 {
     (void)state;
     for (uint32_t round = 0; round < test_scaled(400); round++) {
@@ -76,7 +76,7 @@ static void rays_are_those_of_the_formula(void **state)
         for (uint32_t i = 0; i < width * height; i++) {
             vec3 org, dir;
             formula_ray(&camera, width, height, i % width, i / width, org, dir);
-            /* right and up are at most as long as the opening makes them */
+            /* the field of view limits the lengths of right and up */
             const double half = camera.projection == CGT_PROJECTION_ORTHOGRAPHIC
                                     ? 0.5 * (double)camera.height
                                     : tan((double)camera.fov * 3.14159265358979 / 360);
@@ -93,7 +93,7 @@ static void rays_are_those_of_the_formula(void **state)
     }
 }
 
-static void frames_equal_arrays_of_the_same_rays(void **state)
+static void frames_match_arrays_of_the_same_rays(void **state)
 {
     (void)state;
     static const uint32_t size[][2] = {{1, 1}, {1, 70}, {200, 3}, {64, 64}, {65, 66}, {131, 67}, {17, 5}, {1300, 6}};
@@ -124,7 +124,7 @@ static void frames_equal_arrays_of_the_same_rays(void **state)
     }
 }
 
-/* ---- places ---- */
+/* ---- positions ---- */
 
 static uint32_t count_hits(const planes *p)
 {
@@ -134,7 +134,7 @@ static uint32_t count_hits(const planes *p)
     return hits;
 }
 
-/* Traces with either loop and judges; returns the hits. */
+/* Traces with both loops and checks the pixels; returns the number of hits. */
 static uint32_t look(const cgt_scene *scene, const cgt_camera *camera, const cloud *c, const planes *p)
 {
     truth_ray *rays = frame_rays(camera, p->width, p->height);
@@ -157,7 +157,7 @@ static void point_camera(cgt_camera *camera, int direction, const float middle[3
         camera->target[a] = middle[a] + (distance == 0 ? d[a] : 0);
         camera->eye[a] = middle[a] - distance * d[a];
     }
-    /* the axis that is least along d */
+    /* the axis that d is most nearly orthogonal to */
     memcpy(camera->up, (float[3]){0, 1, 0}, sizeof camera->up);
     if (d[1] != 0)
         memcpy(camera->up, d[0] == 0 ? (float[3]){1, 0, 0} : (float[3]){0, 0, d[2] == 0 ? 1.f : -1.f},
@@ -177,11 +177,11 @@ static void along_26_directions(void **state)
             scenes[k] = scene_of(context, &made, (const float(*)[4])c.sphere, c.count);
         }
         for (int direction = 0; direction < 27; direction++)
-            for (int place = 0; place < 3; place++) { /* outside, at the middle, orthographic from within */
+            for (int place = 0; place < 3; place++) { /* outside, at the centre, orthographic from inside */
                 cgt_camera camera;
                 const cgt_scene *scene = scenes[(size_t)(direction + place) % TEST_COUNT(scenes)];
                 if (direction == 13)
-                    continue; /* nowhere */
+                    continue; /* no direction */
                 cgt_camera_init(&camera);
                 point_camera(&camera, direction, c.middle, place == 0 ? 3 * c.reach : 0);
                 camera.fov = 50;
@@ -203,7 +203,7 @@ static void along_26_directions(void **state)
     planes_free(&p);
 }
 
-static void wide_and_narrow_openings(void **state)
+static void wide_and_narrow_fields_of_view(void **state)
 {
     (void)state;
     static const float fov[] = {1e-4f, 0.1f, 90, 150, 175, 179, 179.9f, 179.999f};
@@ -218,7 +218,7 @@ static void wide_and_narrow_openings(void **state)
         const bool grid = made.structure == CGT_STRUCTURE_QUEUE_GRID || made.structure == CGT_STRUCTURE_LOOSE_GRID;
         cgt_scene *scene = scene_of(context, &made, (const float(*)[4])c.sphere, c.count);
         look(scene, &camera, &c, &p);
-        if (camera.fov > 170 && grid) { /* packets whose rays disagree on the main axis were split, and right */
+        if (camera.fov > 170 && grid) { /* packets whose rays differ in the main axis were split, with right results */
             cgt_research_trace_statistics statistics;
             test_trace_options options = {0};
             options.packet = 16;
@@ -246,7 +246,7 @@ static void ranges_are_clipped(void **state)
         const uint32_t all = look(scene, &camera, &c, &whole);
         camera.t_min = random_float(&r, 0, 3) * c.reach;
         camera.t_max = round % 3 ? camera.t_min + random_float(&r, 0, 2) * c.reach : INFINITY;
-        if (round % 4 == 0 && all) { /* exactly at what a pixel sees, with each structure */
+        if (round % 4 == 0 && all) { /* exactly at the hit of a pixel, with each structure */
             size_t i = random_below(&r, (uint32_t)p.elements);
             while (whole.primitive[i] == CGT_INVALID_ID)
                 i = (i + 1) % p.elements;
@@ -260,7 +260,7 @@ static void ranges_are_clipped(void **state)
         cgt_scene_release(scene);
         cloud_free(&c);
     }
-    assert_true(fewer > 0 && others > 0); /* clipped away, and what was hidden behind */
+    assert_true(fewer > 0 && others > 0); /* some hits clipped away, others uncovered */
     planes_free(&p);
     planes_free(&whole);
 }
@@ -268,10 +268,8 @@ static void ranges_are_clipped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_are_those_of_the_formula),
-        cmocka_unit_test(frames_equal_arrays_of_the_same_rays),
-        cmocka_unit_test(along_26_directions),
-        cmocka_unit_test(wide_and_narrow_openings),
+        cmocka_unit_test(rays_match_the_formula), cmocka_unit_test(frames_match_arrays_of_the_same_rays),
+        cmocka_unit_test(along_26_directions),    cmocka_unit_test(wide_and_narrow_fields_of_view),
         cmocka_unit_test(ranges_are_clipped),
     };
     test_begin("test_camera");

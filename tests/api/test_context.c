@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Contexts: options, variants, messages, the log, life time, and the environment variable that masks the CPU. */
+ * Contexts: options, variants, messages, the log, lifetime, and the environment variable that masks the CPU. */
 #define _GNU_SOURCE
 #include "support/scenes.h"
 
@@ -48,7 +48,7 @@ static void expect_refused(const cgt_context_options *options, log_record *log, 
     assert_int_equal(log->errors, 1);
     assert_false(log->bad_line);
     if (!strstr(log->last, word))
-        fail_msg("\"%s\" does not speak of %s", log->last, word);
+        fail_msg("\"%s\" does not mention %s", log->last, word);
 }
 
 static void *never_allocate(void *user, size_t bytes, size_t alignment)
@@ -85,7 +85,7 @@ static void bad_options_are_refused(void **state)
     assert_int_equal(cgt_context_create(NULL, NULL), CGT_ERROR_INVALID_ARGUMENT);
 }
 
-static void defaults_take_every_cpu(void **state)
+static void defaults_use_every_cpu(void **state)
 {
     (void)state;
     cgt_context *context = NULL;
@@ -117,7 +117,7 @@ static void variants_are_found_by_name(void **state)
     cgt_context_release(context);
 }
 
-static void results_and_version_have_words(void **state)
+static void results_and_version_have_strings(void **state)
 {
     (void)state;
     for (int i = CGT_OK; i <= CGT_ERROR_STOPPED + 1; i++) {
@@ -132,7 +132,7 @@ static void results_and_version_have_words(void **state)
 
 /* ---- messages ---- */
 
-static void messages_are_kept_and_cut(void **state)
+static void messages_are_kept_and_truncated(void **state)
 {
     (void)state;
     log_record log = {0};
@@ -157,14 +157,14 @@ static void messages_are_kept_and_cut(void **state)
     assert_int_equal(strlen(cut), sizeof cut - 2);
     assert_int_equal(cut[sizeof cut - 1], 'x');
     assert_memory_equal(cut, text, sizeof cut - 2);
-    assert_int_equal(cgt_scene_commit(scene), CGT_OK); /* a success leaves it */
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK); /* success leaves the message */
     assert_int_equal(cgt_context_get_error_message(context, NULL, 0), length);
     cgt_scene_release(scene);
     cgt_context_release(context);
     assert_false(log.bad_line);
 }
 
-static void log_tells_what_was_skipped(void **state)
+static void log_reports_skipped_primitives(void **state)
 {
     (void)state;
     log_record log = {0};
@@ -197,14 +197,14 @@ static void a_scene_keeps_its_context(void **state)
     cgt_scene_release(NULL);
 }
 
-/* ---- CGT_DISABLE_CPU, in processes of its own ---- */
+/* ---- CGT_DISABLE_CPU, in child processes ---- */
 
 #define REFUSED 100 /* UNSUPPORTED, with a message that names CGT_DISABLE_CPU */
-#define UNKNOWN 101 /* INVALID_ARGUMENT, the same */
+#define UNKNOWN 101 /* INVALID_ARGUMENT, with such a message */
 
-/* What a context finds with the mask: the variant's place in cgt_get_variant_names, REFUSED or UNKNOWN; message gets the
- * reason. */
-static int place_with_mask(const char *mask, const char *variant, char message[200])
+/* What a new context finds under the mask: the variant's index in cgt_get_variant_names, REFUSED or UNKNOWN. message
+ * receives the reason. */
+static int index_with_mask(const char *mask, const char *variant, char message[200])
 {
     cgt_context *context = NULL;
     const cgt_context_options options = {.threads = 1, .variant = variant, .message = message, .message_size = 200};
@@ -234,24 +234,25 @@ static void variants_can_be_masked(void **state)
             place[running++] = i;
     const int widest = place[running - 1];
     assert_int_equal(place[0], 0);
-    assert_int_equal(place_with_mask("", NULL, message), widest);
-    assert_int_equal(place_with_mask(",,", NULL, message), widest);
-    assert_int_equal(place_with_mask("avx512,avx2,sse,neon", NULL, message), 0);
-    assert_int_equal(place_with_mask("neon,,sse,avx512,avx2,", NULL, message), 0);
-    assert_int_equal(place_with_mask("avx512,avx2,sse,neon", "portable", message), 0);
-    assert_int_equal(place_with_mask("portable,avx512,avx2,sse,neon", NULL, message), REFUSED);
-    assert_int_equal(place_with_mask("portable", "portable", message), REFUSED);
-    assert_int_equal(place_with_mask("portable", NULL, message), running > 1 ? widest : REFUSED);
-    /* without the wider ones each is the widest; without itself the one before it is, and itself is refused */
+    assert_int_equal(index_with_mask("", NULL, message), widest);
+    assert_int_equal(index_with_mask(",,", NULL, message), widest);
+    assert_int_equal(index_with_mask("avx512,avx2,sse,neon", NULL, message), 0);
+    assert_int_equal(index_with_mask("neon,,sse,avx512,avx2,", NULL, message), 0);
+    assert_int_equal(index_with_mask("avx512,avx2,sse,neon", "portable", message), 0);
+    assert_int_equal(index_with_mask("portable,avx512,avx2,sse,neon", NULL, message), REFUSED);
+    assert_int_equal(index_with_mask("portable", "portable", message), REFUSED);
+    assert_int_equal(index_with_mask("portable", NULL, message), running > 1 ? widest : REFUSED);
+    /* with all wider variants masked, each variant is the widest; once masked itself, it is refused and the next
+     * narrower one is the widest */
     char mask[100] = "";
     for (int k = running - 1; k > 0; k--) {
         const char *name = cgt_get_variant_names()[place[k]];
-        assert_int_equal(place_with_mask(mask, NULL, message), place[k]);
-        assert_int_equal(place_with_mask(mask, name, message), place[k]);
+        assert_int_equal(index_with_mask(mask, NULL, message), place[k]);
+        assert_int_equal(index_with_mask(mask, name, message), place[k]);
         snprintf(mask + strlen(mask), sizeof mask - strlen(mask), "%s%s", *mask ? "," : "", name);
-        assert_int_equal(place_with_mask(mask, NULL, message), place[k - 1]);
-        assert_int_equal(place_with_mask(mask, name, message), REFUSED);
-        assert_int_equal(place_with_mask(name, name, message), REFUSED);
+        assert_int_equal(index_with_mask(mask, NULL, message), place[k - 1]);
+        assert_int_equal(index_with_mask(mask, name, message), REFUSED);
+        assert_int_equal(index_with_mask(name, name, message), REFUSED);
     }
 }
 
@@ -270,17 +271,17 @@ static void unknown_variants_are_refused(void **state)
         {"avx9,sse", "avx9"},
         {" ", " "},
         {"sse:avx2", "sse:avx2"},
-        {"a-name-that-is-longer-than-all-variants", "a-name-that-is-longer-than-all-\""}}; /* cut */
+        {"a-name-that-is-longer-than-all-variants", "a-name-that-is-longer-than-all-\""}}; /* truncated */
     for (size_t i = 0; i < TEST_COUNT(unknown); i++)
         for (int named = 0; named < 2; named++) {
             char message[200], quoted[50];
-            assert_int_equal(place_with_mask(unknown[i][0], named ? "portable" : NULL, message), UNKNOWN);
+            assert_int_equal(index_with_mask(unknown[i][0], named ? "portable" : NULL, message), UNKNOWN);
             snprintf(quoted, sizeof quoted, "\"%s", unknown[i][1]);
             assert_non_null(strstr(message, quoted));
         }
 }
 
-/* The message is cut to the caller's size, always ends, and is empty after a success. */
+/* The message is truncated to the caller's size, always terminated, and empty after success. */
 static void reasons_reach_the_caller(void **state)
 {
     (void)state;
@@ -292,9 +293,9 @@ static void reasons_reach_the_caller(void **state)
         memset(text, '#', sizeof text);
         assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_INVALID_ARGUMENT);
         assert_null(context);
-        const size_t kept = size > sizeof sentence ? sizeof sentence : size;
+        const size_t stored = size > sizeof sentence ? sizeof sentence : size;
         for (size_t i = 0; i < sizeof text; i++)
-            assert_int_equal(text[i], i >= kept ? '#' : i + 1 == kept ? 0 : sentence[i]);
+            assert_int_equal(text[i], i >= stored ? '#' : i + 1 == stored ? 0 : sentence[i]);
     }
     char text[64] = "####";
     cgt_context *context = NULL;
@@ -307,18 +308,18 @@ static void reasons_reach_the_caller(void **state)
     options.threads = 2000;
     assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(text, "threads: 2000"));
-    options.message = NULL; /* the size alone does nothing */
+    options.message = NULL; /* a size without a buffer has no effect */
     assert_int_equal(cgt_context_create(&options, &context), CGT_ERROR_INVALID_ARGUMENT);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_options_are_refused),      cmocka_unit_test(defaults_take_every_cpu),
-        cmocka_unit_test(variants_are_found_by_name),   cmocka_unit_test(results_and_version_have_words),
-        cmocka_unit_test(messages_are_kept_and_cut),    cmocka_unit_test(log_tells_what_was_skipped),
-        cmocka_unit_test(a_scene_keeps_its_context),    cmocka_unit_test(variants_can_be_masked),
-        cmocka_unit_test(unknown_variants_are_refused), cmocka_unit_test(reasons_reach_the_caller),
+        cmocka_unit_test(bad_options_are_refused),         cmocka_unit_test(defaults_use_every_cpu),
+        cmocka_unit_test(variants_are_found_by_name),      cmocka_unit_test(results_and_version_have_strings),
+        cmocka_unit_test(messages_are_kept_and_truncated), cmocka_unit_test(log_reports_skipped_primitives),
+        cmocka_unit_test(a_scene_keeps_its_context),       cmocka_unit_test(variants_can_be_masked),
+        cmocka_unit_test(unknown_variants_are_refused),    cmocka_unit_test(reasons_reach_the_caller),
     };
     test_begin("test_context");
     unsetenv("CGT_DISABLE_CPU"); /* these tests set their own */

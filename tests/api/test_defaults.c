@@ -40,7 +40,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* The work of a call: all that it counts but the time. */
+/* The work of a call: all of its counters except the time. */
 typedef struct work {
     cgt_trace_statistics trace;
     cgt_research_trace_statistics research;
@@ -121,7 +121,7 @@ static void trace_options(void **state)
     assert_true(planes_equal(&plain, &counted));
     assert_int_equal(expected.trace.tiles, 3 * 2);
     assert_int_equal(expected.trace.packets, 0);
-    for (int k = 0; k < 2; k++) { /* either statistics alone */
+    for (int k = 0; k < 2; k++) { /* each statistics struct without the other */
         const cgt_research_trace_options r = {.statistics = k ? &got.research : NULL};
         const cgt_trace_options o = {.statistics = k ? NULL : &got.trace, .research = k ? &r : NULL};
         planes p = trace(&camera, &o);
@@ -155,7 +155,7 @@ static void cameras(void **state)
         assert_true(hits > PIXELS / 10 && hits < PIXELS);
         assert_true(planes_equal(&expected, &got));
         planes_free(&got);
-        /* each field alone */
+        /* one field at a time */
         for (int field = 0; field < 5; field++) {
             cgt_camera c = initialised;
             if (field == 0)
@@ -176,7 +176,7 @@ static void cameras(void **state)
     }
 }
 
-/* A view from the origin is one where anything of it is said. */
+/* A camera with any field set is not the default view: its eye is the origin. */
 static void cameras_at_the_origin(void **state)
 {
     (void)state;
@@ -208,8 +208,8 @@ static void ambient_options(void **state)
     (void)state;
     static float visibility[4][PIXELS];
     cgt_ambient_options initialised;
-    const cgt_ambient_options zero = {0}, told = {.samples = 16, .radius = INFINITY};
-    const cgt_ambient_options *const options[] = {&told, NULL, &zero, &initialised};
+    const cgt_ambient_options zero = {0}, explicit_defaults = {.samples = 16, .radius = INFINITY};
+    const cgt_ambient_options *const options[] = {&explicit_defaults, NULL, &zero, &initialised};
     const cgt_camera camera = {0};
     planes p = trace(&camera, NULL);
     const cgt_frame frame = frame_of(&p);
@@ -223,7 +223,8 @@ static void ambient_options(void **state)
 
 /* ---- arrays ---- */
 
-/* A mask of 0 has all bits set, for rays and for points, whatever the geometry's; an empty range is what turns one off. */
+/* A mask of 0 stands for all bits, for rays and points, with any geometry mask. To disable a ray, give it an empty
+ * range. */
 static void masks(void **state)
 {
     (void)state;
@@ -277,7 +278,7 @@ static void lights(void **state)
     cgt_scene_release(ball);
 }
 
-/* A geometry of {0} is empty, and its id need not be taken. */
+/* A geometry of {0} is empty, and the pointer to its id may be NULL. */
 static void geometries(void **state)
 {
     (void)state;

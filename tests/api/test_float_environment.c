@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Programs may flush denormals and round any way: every task of every structure gives the same bits, on threads of the
- * library and on those of a caller's runner, and the caller's environment stays as it was. */
+ * Programs may flush denormals and use any rounding mode: every task of every structure computes the same bits, on the
+ * library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
 #include "support/test.h"
 
 #include <fenv.h>
@@ -36,7 +36,7 @@ static const environment environments[] = {
 #endif
 };
 
-/* Only the bits that control arithmetic: the flags of exceptions change with it. */
+/* Only the bits that control arithmetic: exception flags change as it runs. */
 static uint64_t control_bits(void)
 {
 #if defined(__SSE__)
@@ -69,7 +69,7 @@ static void enter(const environment *e, fenv_t *before)
         flush_denormals();
 }
 
-/* A runner on the calling thread, backwards, whose tasks find an environment of its own. */
+/* Runs the tasks in reverse on the calling thread, each in the runner's own environment. */
 static void run_in_environment(void *user, cgt_task *task, void *argument, uint32_t count)
 {
     fenv_t before;
@@ -84,7 +84,7 @@ static void run_in_environment(void *user, cgt_task *task, void *argument, uint3
 
 /* ---- the scene ---- */
 
-#define SPHERES 20000u /* several chunks for every task, and a top of the kd-tree */
+#define SPHERES 20000u /* several chunks per task, and a kd-tree with a top */
 #define TRIANGLES 9000u
 #define EDGE 40u
 #define PIXELS (EDGE * EDGE)
@@ -92,7 +92,7 @@ static void run_in_environment(void *user, cgt_task *task, void *argument, uint3
 
 static float sphere[SPHERES][4], vertex[TRIANGLES * 3][3];
 
-/* A third of all x are denormal, so that trees have splits there. */
+/* A third of all x are denormal, so that trees split there. */
 static float any_x(test_random *r, uint32_t i)
 {
     if (i % 3 == 0)
@@ -119,11 +119,11 @@ static void make_scene(void)
     }
 }
 
-/* ---- everything that runs tasks ---- */
+/* ---- calls that run tasks ---- */
 
-/* What a scene gives: compared bit by bit. */
+/* The results of a scene, compared bit by bit. */
 typedef struct results {
-    uint64_t counts[8]; /* of the structure */
+    uint64_t counts[8]; /* of the structure's elements */
     double cost;
     float bounds[6];
     float plane[6][PIXELS], ray[6][PIXELS]; /* t, normal, u, v */
@@ -132,7 +132,7 @@ typedef struct results {
     float visibility[PIXELS];
 } results;
 
-/* The visitor is the caller's: it finds the environment of the call. */
+/* The visitor is the caller's code: it runs in the environment of the call. */
 static cgt_visit visit(void *user, const cgt_tile *tile)
 {
     (void)tile;
@@ -166,7 +166,7 @@ static void trace_frame(const cgt_scene *scene, results *to)
     assert_int_equal(cgt_ambient_occlusion(scene, &camera, &frame, &ambient, to->visibility, NULL), CGT_OK);
 }
 
-/* Every second ray starts at a denormal distance from where it goes. */
+/* Every second ray starts at a denormal distance from its target. */
 static void trace_arrays(const cgt_scene *scene, results *to)
 {
     static float org[3][PIXELS], dir[3][PIXELS];
@@ -186,7 +186,7 @@ static void trace_arrays(const cgt_scene *scene, results *to)
             dir[a][i] = i % 2 ? (float)((int)((i + a) % 7) - 3) + 0.25f : a == i % 3 ? 1 : 0x1p-140f;
         }
     }
-    /* points first: by tiles of a grid; then rays, for which AUTO builds a tree */
+    /* first points, by tiles of a grid; then rays, for which AUTO builds a BVH */
     assert_int_equal(cgt_occluded_points(scene, &light, &points, to->occluded_point, NULL), CGT_OK);
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
     assert_int_equal(cgt_occluded_rays(scene, &rays, to->occluded_ray, NULL), CGT_OK);
@@ -248,7 +248,7 @@ static const way ways[] = {
     {"AUTO: BVH on demand", CGT_STRUCTURE_AUTO, CGT_KD_BUILDER_AUTO, true},
 };
 
-/* The context's threads are made in the environment, and inherit it. */
+/* The context's threads are created in the environment and inherit it. */
 static void check_environment(const way *w, const environment *e, bool runner, const results *expected, results *got)
 {
     environment runners = *e;
@@ -265,15 +265,15 @@ static void check_environment(const way *w, const environment *e, bool runner, c
     enter(e, &before);
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     if (runner)
-        assert_int_equal(fesetenv(&before), 0); /* the tasks' alone */
+        assert_int_equal(fesetenv(&before), 0); /* only the tasks see it */
     trace_all(context, &scene_options, w->triangles, got);
     cgt_context_release(context);
     assert_int_equal(fesetenv(&before), 0);
     if (memcmp(got, expected, sizeof *got) != 0)
-        fail_msg("%s, %s, %s: other bits", w->name, e->name, runner ? "runner" : "threads");
+        fail_msg("%s, %s, %s: the bits differ", w->name, e->name, runner ? "runner" : "threads");
 }
 
-static void every_task_gives_the_same_bits(void **state)
+static void every_task_computes_the_same_bits(void **state)
 {
     (void)state;
     results *expected = malloc(sizeof *expected), *got = malloc(sizeof *got);
@@ -300,7 +300,7 @@ static void every_task_gives_the_same_bits(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_task_gives_the_same_bits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_task_computes_the_same_bits)};
     test_begin("test_float_environment");
     make_scene();
     return cmocka_run_group_tests(tests, NULL, NULL);

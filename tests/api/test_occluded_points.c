@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points against a light: the answer is that of cgt_occluded_rays to the rays that cgt.h writes down, of every
- * structure, variant and number of threads, for points on surfaces and anywhere, ranges, gaps in the arrays, and
- * numbers that are none; what is refused; and that nothing is allocated. */
+ * Points against a light: the result is that of cgt_occluded_rays for the rays that cgt.h specifies, for every
+ * structure, variant and number of threads, for points on surfaces and anywhere, ranges, gaps in the arrays and NaNs;
+ * and nothing is allocated. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,20 +13,20 @@
 
 #define POINTS 1500u
 
-/* ---- what is asked ---- */
+/* ---- queries ---- */
 
-typedef struct question {
+typedef struct query {
     structure_scene s;
     cgt_light light;
     bool ranges;
     float *memory;   /* x, y, z, t_min, t_max of each point */
-    uint32_t stride; /* floats from one to the next */
-} question;
+    uint32_t stride; /* floats from one point to the next */
+} query;
 
-static float *point_at(const question *q, uint32_t i) { return q->memory + (size_t)i * q->stride; }
+static float *point_at(const query *q, uint32_t i) { return q->memory + (size_t)i * q->stride; }
 
-/* A point where a ray meets the scene, or anywhere: by groups, so that some are neighbours. */
-static void place_points(question *q, cgt_scene *scene)
+/* A point where a ray hits the scene, or anywhere: in groups, so that some are neighbours. */
+static void place_points(query *q, cgt_scene *scene)
 {
     static full_hit hit[POINTS];
     test_random *r = &q->s.scene.random;
@@ -47,7 +47,7 @@ static void place_points(question *q, cgt_scene *scene)
     }
 }
 
-static void spoil_points(question *q)
+static void spoil_points(query *q)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1p60f, -0x1p100f, 0x1p-140f};
     test_random *r = &q->s.scene.random;
@@ -57,7 +57,7 @@ static void spoil_points(question *q)
         memcpy(point_at(q, random_below(r, POINTS)), q->light.position, sizeof q->light.position);
 }
 
-static void place_light(question *q, uint32_t number)
+static void place_light(query *q, uint32_t number)
 {
     test_random *r = &q->s.scene.random;
     const float far = (float[]){0.5f, 2, 30, 1e4f}[number % 4] * q->s.where.reach;
@@ -65,16 +65,16 @@ static void place_light(question *q, uint32_t number)
     for (int a = 0; a < 3; a++)
         q->light.position[a] =
             (q->light.kind == CGT_LIGHT_POINT ? q->s.where.middle[a] : 0) + random_float(r, -1, 1) * far;
-    if (number % 5 == 0) /* along an axis, or above */
+    if (number % 5 == 0) /* along an axis, or above the scene */
         for (int a = 1; a < 3; a++)
             q->light.position[a] = q->light.kind == CGT_LIGHT_POINT ? q->s.where.middle[a] : 0;
     if (q->light.kind == CGT_LIGHT_DIRECTIONAL && q->light.position[0] == 0)
         q->light.position[0] = 1;
 }
 
-static question ask(cgt_context *context, structure_kind kind, uint64_t stream, uint32_t number)
+static query query_make(cgt_context *context, structure_kind kind, uint64_t stream, uint32_t number)
 {
-    question q = {.s = structure_scene_make(kind, stream), .ranges = number % 2, .stride = number % 4 == 3 ? 7 : 5};
+    query q = {.s = structure_scene_make(kind, stream), .ranges = number % 2, .stride = number % 4 == 3 ? 7 : 5};
     cgt_scene *scene;
     q.memory = malloc(POINTS * sizeof(float) * q.stride);
     assert_non_null(q.memory);
@@ -88,15 +88,15 @@ static question ask(cgt_context *context, structure_kind kind, uint64_t stream, 
     return q;
 }
 
-static void forget(question *q)
+static void query_free(query *q)
 {
     free(q->memory);
     structure_scene_free(&q->s);
 }
 
-/* ---- the same by rays ---- */
+/* ---- the same with rays ---- */
 
-static cgt_points points_of(const question *q, uint32_t count)
+static cgt_points points_of(const query *q, uint32_t count)
 {
     const float *p = q->memory;
     return (cgt_points){.count = count,
@@ -106,8 +106,8 @@ static cgt_points points_of(const question *q, uint32_t count)
                         .t_max = q->ranges ? p + 4 : NULL};
 }
 
-/* Word by word as cgt.h has it. */
-static truth_ray ray_to_light(const question *q, uint32_t i)
+/* Exactly as cgt.h specifies it. */
+static truth_ray ray_to_light(const query *q, uint32_t i)
 {
     const float *p = point_at(q, i);
     truth_ray ray = {.t_min = q->ranges ? p[3] : 0,
@@ -121,11 +121,11 @@ static truth_ray ray_to_light(const question *q, uint32_t i)
     return ray;
 }
 
-static void check_answers(const question *q, const cgt_scene *scene, test_trace_options options, uint32_t count,
-                          uint64_t *hidden)
+static void check_results(const query *q, const cgt_scene *scene, test_trace_options options, uint32_t count,
+                          uint64_t *occluded_points)
 {
     static truth_ray ray[POINTS];
-    static uint8_t is[POINTS], got[POINTS + 1];
+    static uint8_t expected[POINTS], got[POINTS + 1];
     cgt_trace_statistics by_rays, by_points;
     for (uint32_t i = 0; i < count; i++)
         ray[i] = ray_to_light(q, i);
@@ -133,35 +133,35 @@ static void check_answers(const question *q, const cgt_scene *scene, test_trace_
     const cgt_points points = points_of(q, count);
     memset(got, 0x77, sizeof got);
     options.statistics = &by_rays;
-    assert_int_equal(cgt_occluded_rays(scene, &rays, is, TRACE_OPTIONS(&options)), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, expected, TRACE_OPTIONS(&options)), CGT_OK);
     options.statistics = &by_points;
     assert_int_equal(cgt_occluded_points(scene, &q->light, &points, got, TRACE_OPTIONS(&options)), CGT_OK);
     for (uint32_t i = 0; i < count; i++)
-        if (got[i] != is[i])
+        if (got[i] != expected[i])
             fail_msg("%s, light %a %a %a, kind %d: point %u, %a %a %a, is %s", q->s.name, (double)q->light.position[0],
                      (double)q->light.position[1], (double)q->light.position[2], (int)q->light.kind, i,
                      (double)ray[i].org[0], (double)ray[i].org[1], (double)ray[i].org[2],
-                     is[i] ? "in the light" : "in shadow");
+                     expected[i] ? "in the light" : "in shadow");
     assert_int_equal(got[count], 0x77);
     assert_int_equal(by_points.rays, count);
     assert_int_equal(by_points.invalid_rays, by_rays.invalid_rays);
     assert_int_equal(by_points.hits, by_rays.hits);
     assert_true(by_points.exact_tests <= by_points.double_tests && by_points.double_tests <= by_points.ray_tests);
-    *hidden += by_points.hits;
+    *occluded_points += by_points.hits;
 }
 
-/* Every structure, culling and precision with a bound, in turn. */
-static void answers_are_those_of_rays(void **state)
+/* Cycles through every structure, culling and precision with a bound. */
+static void results_match_rays(void **state)
 {
     (void)state;
-    const uint32_t step = test_scaled(10) < 2 ? 3 : 1; /* of the structures, where it is slow */
-    uint64_t hidden = 0, asked = 0;
+    const uint32_t step = test_scaled(10) < 2 ? 3 : 1; /* every third structure on slow machines */
+    uint64_t occluded_points = 0, total = 0;
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context[2] = {context_make(1, variant), context_make(3, variant)};
         for (uint32_t number = 0; number < (uint32_t)STRUCTURE_KINDS * test_scaled(2); number++) {
             const structure_kind kind = (structure_kind)(number % STRUCTURE_KINDS);
-            question q = ask(context[0], kind, 700 + number, number + number / STRUCTURE_KINDS);
+            query q = query_make(context[0], kind, 700 + number, number + number / STRUCTURE_KINDS);
             for (uint32_t k = test_sample_start(number, step); k < TEST_STRUCTURES; k += step) {
                 const cgt_scene_options made = structure_in_turn(k);
                 test_trace_options options = {0};
@@ -171,25 +171,26 @@ static void answers_are_those_of_rays(void **state)
                 options.precision = (number + k) % 4 ? CGT_PRECISION_ROBUST : CGT_PRECISION_EXACT;
                 assert_int_equal(hard_commit_with(context[(number + k) % 2], &q.s.scene, &made, &scene), CGT_OK);
                 const uint32_t count = number % 7 ? POINTS : 1 + (number + k) % 70;
-                check_answers(&q, scene, options, count, &hidden);
-                asked += count;
+                check_results(&q, scene, options, count, &occluded_points);
+                total += count;
                 cgt_scene_release(scene);
             }
-            forget(&q);
+            query_free(&q);
         }
         for (int i = 0; i < 2; i++)
             cgt_context_release(context[i]);
     }
-    print_message("%llu of %llu points in shadow\n", (unsigned long long)hidden, (unsigned long long)asked);
-    assert_true(hidden > asked / 20 && hidden < asked - asked / 20);
+    print_message("%llu of %llu points in shadow\n", (unsigned long long)occluded_points, (unsigned long long)total);
+    assert_true(occluded_points > total / 20 && occluded_points < total - total / 20);
 }
 
 /* ---- a ball on a table ---- */
 
 #define SIDE 128u
 
-/* In a frame's order, large enough for many packets of many blocks; FAST too, which the picture does not trouble. */
-static void a_ball_throws_a_shadow(void **state)
+/* In a frame's order, large enough for many packets of many blocks; FAST too, since this picture has no borderline
+ * rays. */
+static void a_ball_casts_a_shadow(void **state)
 {
     (void)state;
     static float at[3][SIDE * SIDE];
@@ -211,7 +212,7 @@ static void a_ball_throws_a_shadow(void **state)
             const cgt_points points = {.count = SIDE * SIDE, .position = {at[0], at[1], at[2]}};
             for (int w = 0; w < 2; w++) {
                 const cgt_light light = {.position = {0, 2, 0}, .kind = w ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL};
-                /* a cone of sine 1/2 about the light, or a cylinder */
+                /* a cone of sine 1/2 around the light, or a cylinder */
                 const float radius2 = w ? 4.f / 3 : 0.25f;
                 assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, TRACE_OPTIONS(&options)),
                                  CGT_OK);
@@ -226,8 +227,8 @@ static void a_ball_throws_a_shadow(void **state)
         }
 }
 
-/* A point on a surface finds it at t = 0, and not with a little t_min. */
-static void a_range_leaves_the_surface_out(void **state)
+/* A point on a surface is occluded by that surface at t = 0, but not with a small t_min. */
+static void t_min_excludes_the_surface(void **state)
 {
     (void)state;
     const float sphere[1][4] = {{0, 0, 0, 1}}, point[3] = {0, 1, 0}, little = 1e-5f;
@@ -245,8 +246,6 @@ static void a_range_leaves_the_surface_out(void **state)
     cgt_context_release(context);
 }
 
-/* ---- what is refused ---- */
-
 /* ---- memory ---- */
 
 static void nothing_is_allocated(void **state)
@@ -261,7 +260,7 @@ static void nothing_is_allocated(void **state)
     cgt_context *context = context_counting(&allocations);
     cgt_scene *scene = scene_of(context, NULL, sphere, 1);
     assert_true(allocations > 0);
-    /* the first points of a scene may have a tree built for them, whose memory the next ones find */
+    /* the first points of a scene may build a tree, whose memory the next ones reuse */
     assert_int_equal(cgt_occluded_points(scene, &light, &points, occluded, NULL), CGT_OK);
     const unsigned before = allocations;
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
@@ -273,9 +272,9 @@ static void nothing_is_allocated(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_are_those_of_rays), cmocka_unit_test(a_ball_throws_a_shadow),
-        cmocka_unit_test(a_range_leaves_the_surface_out), cmocka_unit_test(nothing_is_allocated)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(results_match_rays), cmocka_unit_test(a_ball_casts_a_shadow),
+                                       cmocka_unit_test(t_min_excludes_the_surface),
+                                       cmocka_unit_test(nothing_is_allocated)};
     test_begin("test_occluded_points");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

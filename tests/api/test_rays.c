@@ -1,24 +1,24 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays: layouts, rays without order, rays that are invalid or extreme, ranges, and the any-hit form, which
- * must agree with the nearest-hit form. */
+ * Arrays of rays: layouts, incoherent rays, invalid and extreme rays, ranges, and any hit, which must agree with
+ * closest hit. */
 #include "support/scenes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_RAYS 1700 /* no multiple of a packet */
+#define MOST_RAYS 1700 /* not a multiple of a packet */
 
 static cgt_context *context; /* of the variant under test */
 static cgt_scene *scene;
 static cloud spheres;
 static truth_ray ray[MOST_RAYS];
-static ray_hit hit[MOST_RAYS], again[MOST_RAYS];
-static uint32_t rays_used; /* of them, in this run */
+static ray_hit hit[MOST_RAYS], repeated[MOST_RAYS];
+static uint32_t rays_used; /* number of rays in this run */
 
-/* Runs a test for each variant on the kind of cloud that it asks for; structures take turns. */
+/* Runs a test for each variant on a cloud of the given kind; structures take turns. */
 static void for_each_variant(cloud_kind kind, uint32_t count, void (*test)(test_random *r))
 {
     static uint32_t turn;
@@ -114,7 +114,7 @@ static void layouts_rays(test_random *r)
     for (uint32_t i = 0; i < rays_used; i++) {
         assert_true(same_hit(&wide[i].h, &hit[i]) && wide[i].more == 0x11111111);
     }
-    hits = (cgt_hits){.primitive = ids[0]}; /* one field, the rest not wanted */
+    hits = (cgt_hits){.primitive = ids[0]}; /* one field; the rest is not requested */
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
     for (uint32_t i = 0; i < rays_used; i++)
         assert_int_equal(ids[0][i], hit[i].primitive);
@@ -135,10 +135,10 @@ static void ranges_default_rays(test_random *r)
         ray[i].t_min = 0, ray[i].t_max = INFINITY;
     rays_trace(scene, ray, rays_used, hit, NULL);
     cgt_rays rays = ray_array(ray, rays_used);
-    const cgt_hits hits = hits_of(again);
+    const cgt_hits hits = hits_of(repeated);
     rays.t_min = rays.t_max = NULL;
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
-    assert_memory_equal(hit, again, rays_used * sizeof *hit);
+    assert_memory_equal(hit, repeated, rays_used * sizeof *hit);
 }
 
 static void ranges_default_to_all_ahead(void **state)
@@ -147,7 +147,7 @@ static void ranges_default_to_all_ahead(void **state)
     for_each_variant(CLOUD_UNIFORM, 100, ranges_default_rays);
 }
 
-/* ---- which rays ---- */
+/* ---- kinds of rays ---- */
 
 static uint32_t incoherent_hits;
 
@@ -161,7 +161,7 @@ static void incoherent_rays(test_random *r)
     }
 }
 
-static void rays_without_order(void **state)
+static void incoherent_rays_hit(void **state)
 {
     (void)state;
     for (int kind = 0; kind < CLOUD_KINDS; kind++)
@@ -169,7 +169,7 @@ static void rays_without_order(void **state)
     assert_true(incoherent_hits > rays_used);
 }
 
-/* Fans: one origin, neighbouring directions, in packets that look ahead, back, and to both sides. */
+/* Fans: one origin and neighbouring directions, in packets that look forward, backward and sideways. */
 static void fan_rays(test_random *r)
 {
     for (uint32_t round = 0; round < test_scaled(8); round++) {
@@ -183,7 +183,7 @@ static void fan_rays(test_random *r)
             for (int a = 0; a < 3; a++)
                 ray[i].dir[a] += random_float(r, -spread, spread) * ray[i].dir[(a + 1) % 3];
             if (i % 64 >= 32 && i / 64 % 4 == 0)
-                ray[i].t_min = -ray[i].t_min; /* ranges of their own */
+                ray[i].t_min = -ray[i].t_min; /* ranges differ */
         }
         rays_trace(scene, ray, rays_used, hit, NULL);
         judge(ray, hit, rays_used);
@@ -197,7 +197,7 @@ static void rays_from_common_origins(void **state)
         for_each_variant((cloud_kind)kind, 500, fan_rays);
 }
 
-/* Along the axes, in planes, with zeros of either sign and tiny components, from cell borders. */
+/* Along the axes and in their planes, with zeros of either sign and tiny components, from cell boundaries. */
 static void axis_rays(test_random *r)
 {
     static const float part[] = {0, -0.f, 1, -1, 0x1p-140f, -0x1p-149f, 1e-20f};
@@ -272,9 +272,9 @@ static void invalid_rays(test_random *r)
             judge(&ray[i], &hit[i], 1);
         assert_int_equal(occluded[i], hit[i].primitive != CGT_INVALID_ID);
     }
-    for (uint32_t i = 0; i < rays_used; i += 7) { /* alone, without neighbours to lean on */
-        rays_trace(scene, &ray[i], 1, again, NULL);
-        assert_true(same_hit(&again[0], &hit[i]));
+    for (uint32_t i = 0; i < rays_used; i += 7) { /* one by one, without neighbours */
+        rays_trace(scene, &ray[i], 1, repeated, NULL);
+        assert_true(same_hit(&repeated[0], &hit[i]));
     }
 }
 
@@ -284,7 +284,7 @@ static void invalid_rays_hit_nothing(void **state)
     for_each_variant(CLOUD_UNIFORM, 400, invalid_rays);
 }
 
-/* Any bits at all: no crash, no trap, and the same answer alone as in company. */
+/* Arbitrary bits: no crash, no trap, and the same result for a single ray as within an array. */
 static void garbage_rays(test_random *r)
 {
     make_rays(r);
@@ -304,8 +304,8 @@ static void garbage_rays(test_random *r)
     }
     rays_trace(scene, ray, rays_used, hit, NULL);
     for (uint32_t i = 0; i < rays_used; i++) {
-        rays_trace(scene, &ray[i], 1, again, NULL);
-        assert_true(same_hit(&again[0], &hit[i]));
+        rays_trace(scene, &ray[i], 1, repeated, NULL);
+        assert_true(same_hit(&repeated[0], &hit[i]));
         if (i % 3 == 0)
             judge(&ray[i], &hit[i], 1);
         if (hit[i].primitive == CGT_INVALID_ID)
@@ -322,7 +322,7 @@ static void garbage_does_no_harm(void **state)
     for_each_variant(CLOUD_FAR, 100, garbage_rays);
 }
 
-/* Scenes of any size seen from anywhere up to 2^60: where single precision gives up, double must take over. */
+/* Scenes of any size, seen from distances up to 2^60: where single precision cannot decide, double must. */
 static void extreme_places(void **state)
 {
     (void)state;
@@ -332,7 +332,7 @@ static void extreme_places(void **state)
         for (uint32_t round = 0; round < test_scaled(variant_is_outer(variant) ? 200 : 50); round++) {
             test_random r = random_make(round);
             const int size = (int)random_below(&r, 150) - 80, offset = size - 10 + (int)random_below(&r, 30);
-            enum { N = 60, SOME = 130 };
+            enum { N = 60, SAMPLE = 130 };
             static float sphere[N][4];
             for (int i = 0; i < N; i++) {
                 for (int a = 0; a < 3; a++)
@@ -344,10 +344,10 @@ static void extreme_places(void **state)
             for (int a = 0; a < 3 && options.structure == CGT_STRUCTURE_QUEUE_GRID; a++)
                 options.resolution[a] = 1 + random_below(&r, 60);
             scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, N);
-            for (int i = 0; i < SOME; i++) {
+            for (int i = 0; i < SAMPLE; i++) {
                 const float *to = sphere[random_below(&r, N)];
                 const int from = size + (int)random_below(&r, 40) - 5;
-                /* neither so short nor so long that t leaves the range of float */
+                /* neither so short nor so long that t leaves float's range */
                 const int k = (int)random_below(&r, 180) - 90;
                 const float length = ldexpf(1, k < from - 110 ? from - 110 : k > from + 90 ? from + 90 : k);
                 ray[i].t_min = random_below(&r, 4) ? 0 : -INFINITY;
@@ -362,8 +362,8 @@ static void extreme_places(void **state)
                 if (ray[i].dir[0] == 0 && ray[i].dir[1] == 0 && ray[i].dir[2] == 0)
                     ray[i].dir[2] = length;
             }
-            rays_trace(scene, ray, SOME, hit, NULL);
-            judge(ray, hit, SOME);
+            rays_trace(scene, ray, SAMPLE, hit, NULL);
+            judge(ray, hit, SAMPLE);
             cgt_scene_release(scene);
         }
         cgt_context_release(context);
@@ -398,13 +398,13 @@ static void occluded_rays(test_random *r)
                 assert_int_equal(occluded[i], hit[i].primitive != CGT_INVALID_ID);
             assert_int_equal(occluded[rays_used], 9);
             assert_int_equal(s.hits, count_hits(hit, rays_used));
-            rays_trace(scene, ray, rays_used, again, TRACE_OPTIONS(&o));
-            assert_memory_equal(hit, again, rays_used * sizeof *hit);
+            rays_trace(scene, ray, rays_used, repeated, TRACE_OPTIONS(&o));
+            assert_memory_equal(hit, repeated, rays_used * sizeof *hit);
         }
     }
 }
 
-static void occluded_is_nearest_exists(void **state)
+static void occluded_if_a_closest_hit_exists(void **state)
 {
     (void)state;
     for (int kind = 0; kind < CLOUD_KINDS; kind++)
@@ -416,13 +416,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_layout),
         cmocka_unit_test(ranges_default_to_all_ahead),
-        cmocka_unit_test(rays_without_order),
+        cmocka_unit_test(incoherent_rays_hit),
         cmocka_unit_test(rays_from_common_origins),
         cmocka_unit_test(rays_along_axes),
         cmocka_unit_test(invalid_rays_hit_nothing),
         cmocka_unit_test(garbage_does_no_harm),
         cmocka_unit_test(extreme_places),
-        cmocka_unit_test(occluded_is_nearest_exists),
+        cmocka_unit_test(occluded_if_a_closest_hit_exists),
     };
     test_begin("test_rays");
     rays_used = test_scaled(MOST_RAYS) < 333 ? 333 : test_scaled(MOST_RAYS);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes: checks of arguments, ids of geometries, what makes a scene uncommitted, arrays of every shape, spheres that
- * are skipped, and what the statistics say. */
+ * Scenes: checks of arguments, ids of geometries, what uncommits a scene, arrays of every layout, skipped spheres, and
+ * the statistics. */
 #include "support/scenes.h"
 
 #include <math.h>
@@ -61,7 +61,7 @@ static void huge_counts_do_not_wrap(void **state)
 
 /* ---- ids and commits ---- */
 
-static void lowest_free_id_is_given(void **state)
+static void the_lowest_free_id_is_assigned(void **state)
 {
     (void)state;
     cgt_scene *scene = empty_scene();
@@ -116,7 +116,7 @@ static void expect_not_committed(const cgt_scene *scene)
     assert_non_null(strstr(context_message(context), "committed"));
 }
 
-static void changes_ask_for_a_commit(void **state)
+static void changes_require_a_commit(void **state)
 {
     (void)state;
     float moving[1][4] = {{0, 0, 0, 1}};
@@ -130,7 +130,7 @@ static void changes_ask_for_a_commit(void **state)
     assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
     expect_not_committed(scene);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-    moving[0][2] = -2; /* numbers alone: the commit is all */
+    moving[0][2] = -2; /* only data changes: a commit suffices */
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_true(ray_trace(scene, ahead).t == 6);
     assert_int_equal(cgt_scene_remove_geometry(scene, 0), CGT_OK);
@@ -140,7 +140,7 @@ static void changes_ask_for_a_commit(void **state)
     cgt_scene_release(scene);
 }
 
-static void options_hold_from_the_next_commit(void **state)
+static void options_take_effect_at_the_next_commit(void **state)
 {
     (void)state;
     cgt_scene *scene = scene_of(context, NULL, one, 1);
@@ -258,7 +258,7 @@ static void bad_spheres_are_skipped_and_counted(void **state)
         if (i % 4 == 3)
             sphere[i][3] = i % 8 == 3 ? -sphere[i][3] : -0x1p-149f, negative++;
         if (i % 16 == 5)
-            sphere[i][3] = -1, sphere[i][0] = NAN; /* both: not finite */
+            sphere[i][3] = -1, sphere[i][0] = NAN; /* counted as not finite */
     }
     cgt_scene *scene = scene_of(context, NULL, (const float(*)[4])sphere, N);
     cgt_scene_statistics s;
@@ -279,7 +279,7 @@ static void bad_spheres_are_skipped_and_counted(void **state)
     planes p = planes_make(80, 60);
     truth_ray *rays = frame_rays(&camera, 80, 60);
     frame_trace(scene, &camera, &p, NULL);
-    frame_judge(&p, rays, (const float(*)[4])sphere, N); /* ids count the skipped ones */
+    frame_judge(&p, rays, (const float(*)[4])sphere, N); /* ids include skipped spheres */
     free(rays);
     planes_free(&p);
     cgt_scene_release(scene);
@@ -289,9 +289,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(huge_counts_do_not_wrap),
-        cmocka_unit_test(lowest_free_id_is_given),
-        cmocka_unit_test(changes_ask_for_a_commit),
-        cmocka_unit_test(options_hold_from_the_next_commit),
+        cmocka_unit_test(the_lowest_free_id_is_assigned),
+        cmocka_unit_test(changes_require_a_commit),
+        cmocka_unit_test(options_take_effect_at_the_next_commit),
         cmocka_unit_test(empty_scenes_are_valid),
         cmocka_unit_test(arrays_of_any_shape_are_read),
         cmocka_unit_test(bad_spheres_are_skipped_and_counted),

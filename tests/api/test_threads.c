@@ -19,7 +19,7 @@
 
 /* ---- the system's threads ---- */
 
-/* The linker sends the library's calls here: the call that makes refuse_after 0 fails; negative: none does. */
+/* The linker redirects the library's calls here. The call that finds refuse_after at 0 fails; negative: none does. */
 static int refuse_after = -1;
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument);
 int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument);
@@ -30,7 +30,7 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, v
     return __real_pthread_create(thread, attributes, start, argument);
 }
 
-/* Threads of this process; 0 where the system does not tell. */
+/* Threads of this process; 0 if the system does not report it. */
 static unsigned count_threads(void)
 {
     unsigned threads = 0;
@@ -43,7 +43,7 @@ static unsigned count_threads(void)
     return threads;
 }
 
-/* The same once it has stayed for a while: a thread that was joined may be listed for a moment longer. */
+/* The same once it has been stable for a while: a joined thread may remain listed for a moment. */
 static unsigned count_settled_threads(void)
 {
     const struct timespec moment = {0, 5000000};
@@ -68,7 +68,7 @@ static void expect_threads(unsigned expected)
     assert_int_equal(threads, expected);
 }
 
-/* ---- a scene that is worth several tasks ---- */
+/* ---- a scene large enough for several tasks ---- */
 
 typedef struct committed_scene {
     cloud spheres;
@@ -78,7 +78,7 @@ typedef struct committed_scene {
     ray_hit *hits;
 } committed_scene;
 
-#define WIDTH test_between(130, 200) /* several tiles either way */
+#define WIDTH test_between(130, 200) /* several tiles in each direction */
 #define HEIGHT test_between(70, 130)
 #define TILES ((WIDTH + 63) / 64 * ((HEIGHT + 63) / 64))
 
@@ -107,7 +107,7 @@ static void free_world(committed_scene *w)
     cloud_free(&w->spheres);
 }
 
-/* Frame, rays and any-hit rays against what they should be; the number of those that differ. For any thread. */
+/* Traces frame, rays and any-hit rays; returns how many differ from the expected results. Callable from any thread. */
 static unsigned trace_everything(const cgt_scene *scene, const committed_scene *w)
 {
     planes p = {.width = WIDTH, .height = HEIGHT, .elements = (size_t)WIDTH * HEIGHT};
@@ -134,12 +134,12 @@ static unsigned trace_everything(const cgt_scene *scene, const committed_scene *
     return wrong;
 }
 
-/* ---- how many threads there are ---- */
+/* ---- number of threads ---- */
 
 typedef struct watch {
     pthread_t caller;
     atomic_uint other_threads, tiles;
-    atomic_uint most_threads; /* that the process had while tiles were visited */
+    atomic_uint most_threads; /* of the process while tiles were visited */
 } watch;
 
 static cgt_visit watch_tile(void *user, const cgt_tile *tile)
@@ -206,7 +206,7 @@ static void a_pool_starts_one_less_and_ends_them(void **state)
         const cgt_scene_options made = structure_in_turn((uint32_t)i);
         cgt_scene *scene = scene_of(context, &made, (const float(*)[4])w.spheres.sphere, w.spheres.count);
         watch_frame(scene, &w, &seen);
-        assert_int_equal(seen.most_threads, before + threads[i] - 1); /* no more during the work */
+        assert_int_equal(seen.most_threads, before + threads[i] - 1); /* no extra threads during the work */
         assert_int_equal(trace_everything(scene, &w), 0);
         cgt_scene_release(scene);
         cgt_context_release(context);
@@ -231,7 +231,7 @@ static void refused_threads_are_an_error(void **state)
         if (before)
             expect_threads(before);
     }
-    refuse_after = 5; /* six threads are five besides the caller's: the sixth call would fail */
+    refuse_after = 5; /* six threads are the caller's and five more: a sixth call would fail */
     cgt_context_release(context_make(6, NULL));
     assert_int_equal(refuse_after, 0);
     refuse_after = -1;
@@ -266,7 +266,7 @@ typedef struct runner {
     unsigned runs, tasks;
     uint32_t last_count;
     pthread_t caller;
-    bool elsewhere; /* run was called on another thread than the library was */
+    bool wrong_thread; /* run was called on a thread other than the library's caller */
 } runner;
 
 static void run_even_then_odd(void *user, cgt_task *task, void *argument, uint32_t count)
@@ -275,7 +275,7 @@ static void run_even_then_odd(void *user, cgt_task *task, void *argument, uint32
     r->runs++;
     r->tasks += count;
     r->last_count = count;
-    r->elsewhere |= !pthread_equal(pthread_self(), r->caller);
+    r->wrong_thread |= !pthread_equal(pthread_self(), r->caller);
     for (uint32_t start = 0; start < 2; start++)
         for (uint32_t i = start; i < count; i += 2)
             task(argument, i);
@@ -291,7 +291,7 @@ static void a_runner_does_all_the_work(void **state)
     cgt_context_options options;
     cgt_context *context = NULL;
     cgt_context_options_init(&options);
-    options.threads = 8; /* ignored */
+    options.threads = 8; /* ignored with a runner */
     options.tasks = (cgt_task_runner){&r, run_even_then_odd};
     assert_int_equal(cgt_context_create(&options, &context), CGT_OK);
     assert_int_equal(cgt_context_get_threads(context), 0);
@@ -305,7 +305,7 @@ static void a_runner_does_all_the_work(void **state)
     assert_int_equal(r.runs, runs + 1);
     assert_int_equal(r.tasks, tasks + TILES);
     assert_int_equal(trace_everything(scene, &w), 0);
-    assert_false(r.elsewhere);
+    assert_false(r.wrong_thread);
     assert_int_equal(count_threads(), before);
     cgt_scene_release(scene);
     cgt_context_release(context);
@@ -324,7 +324,7 @@ typedef struct caller {
     unsigned rounds, wrong;
 } caller;
 
-/* Commits and traces; what is wrong is counted, since cmocka is for the main thread. */
+/* Commits and traces; errors are counted, since cmocka works only on the main thread. */
 static void *call(void *argument)
 {
     caller *c = argument;
@@ -345,7 +345,7 @@ static void *call(void *argument)
         if (!scene) {
             c->wrong += cgt_scene_create(context, &made, &scene) != CGT_OK;
             c->wrong += cgt_scene_add_spheres(scene, &spheres, &id) != CGT_OK;
-            c->wrong += cgt_scene_add_spheres(scene, &bad, &id) != CGT_ERROR_INVALID_ARGUMENT; /* messages at once */
+            c->wrong += cgt_scene_add_spheres(scene, &bad, &id) != CGT_ERROR_INVALID_ARGUMENT; /* concurrent messages */
             c->wrong += cgt_context_get_error_message(context, message, sizeof message) == 0;
             c->wrong += cgt_scene_commit(scene) != CGT_OK;
         }
@@ -428,7 +428,7 @@ int main(void)
         cmocka_unit_test(many_threads_have_contexts),
     };
     test_begin("test_threads");
-    /* a sanitizer starts a thread of its own with the first of the program's: let it come before the counting */
+    /* a sanitizer starts its own thread with the program's first: let that happen before threads are counted */
     cgt_context_release(context_make(2, NULL));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The same bits from every choice: variant, threads, order of tasks, structure, tile, packet, loop, culling, mailbox and
- * resolution change how the hits are found, never what they are; and from every machine, by a hash that all share.
- * Then what the statistics of a trace say. */
+ * Every choice gives the same bits: variant, threads, order of tasks, structure, tile, packet, loop, culling, mailbox
+ * and resolution change how hits are found, never the hits. So does every machine, by a hash that all share. Then the
+ * statistics of a trace. */
 #include "support/scenes.h"
 
 #include <math.h>
@@ -20,9 +20,9 @@ static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t c
         task(argument, count);
 }
 
-/* ---- one picture, many ways ---- */
+/* ---- one picture, many options ---- */
 
-/* An edge in pixels, less where it is slow. */
+/* A side in pixels, shorter on slow machines. */
 static uint32_t pixels(uint32_t most, uint32_t least)
 {
     return test_scaled(most) > most ? most : test_scaled(most) < least ? least : test_scaled(most);
@@ -62,14 +62,15 @@ static void compare(picture *p, const cgt_scene *scene, const test_trace_options
     frame_trace(scene, &p->camera, &p->got, TRACE_OPTIONS(o));
     p->compared++;
     if (!planes_equal(&p->got, &p->expected))
-        fail_msg("%s: packet %u, tile %d, loop %d, cull %d, mailbox %d, traversal %d: other bits", where, o->packet,
-                 (int)o->tile, (int)o->loop, (int)o->cull, (int)o->mailbox, (int)o->kd_traversal);
+        fail_msg("%s: packet %u, tile %d, loop %d, cull %d, mailbox %d, traversal %d: the bits differ", where,
+                 o->packet, (int)o->tile, (int)o->loop, (int)o->cull, (int)o->mailbox, (int)o->kd_traversal);
 }
 
-/* With sanitizers, too, only a sample of the choices. */
+/* With an emulator or sanitizers, where only a sample of the choices is run. */
 static bool is_slow(void) { return test_scaled(10) < 2; }
 
-/* Where it is slow, and of variants between the others, a sample of the choices, each time another. */
+/* On slow machines, and for variants between the narrowest and the widest, a sample of the choices that changes each
+ * time. */
 static void compare_all_options(picture *p, const cgt_scene *scene, const char *where)
 {
     const uint32_t step = test_samples() ? 7 : is_slow() || !variant_is_outer(where) ? 5 : 1; /* prime to the choices */
@@ -107,7 +108,7 @@ static cgt_scene *structured(cgt_context *context, cgt_structure structure, cons
 static void every_option_gives_the_same_bits(void **state)
 {
     (void)state;
-    const uint32_t first = test_sample_start(0, CLOUD_KINDS); /* where there are fewer rounds than kinds */
+    const uint32_t first = test_sample_start(0, CLOUD_KINDS); /* if there are fewer rounds than kinds */
     for (uint32_t round = first; round < first + 3 + test_scaled(4); round++) {
         picture p = picture_make(round, (cloud_kind)(round % CLOUD_KINDS), 600, pixels(97, 41), pixels(53, 37));
         FOR_EACH_VARIANT(variant)
@@ -139,7 +140,7 @@ static void every_resolution_gives_the_same_bits(void **state)
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *context = context_make(2, variant);
-            /* a sample is prime to them: both structures, each kind at another */
+            /* the step is coprime to their number: both structures, each kind with another resolution */
             const uint32_t step = is_slow() || !variant_is_outer(variant) ? 5 : 1;
             for (size_t i = test_sample_start(round, step); i < 2 * TEST_COUNT(resolution); i += step) {
                 test_scene_options scene_options = {0};
@@ -205,7 +206,7 @@ static void flushed_denormals_give_the_same_bits(void **state)
             const unsigned before = _mm_getcsr();
             test_trace_options o = {0};
             const cgt_scene_options made = structure_in_turn(turn++);
-            _mm_setcsr(before | 0x8040); /* flush results, take operands for zero */
+            _mm_setcsr(before | 0x8040); /* flush denormal results, treat denormal operands as zero */
             cgt_scene *scene = scene_of(context, &made, (const float(*)[4])p.spheres.sphere, p.spheres.count);
             frame_trace(scene, &p.camera, &p.got, TRACE_OPTIONS(&o));
             _mm_setcsr(before);
@@ -222,7 +223,7 @@ static void flushed_denormals_give_the_same_bits(void **state)
 
 /* ---- every machine ---- */
 
-/* Numbers that need no library and no rounding: the same scene everywhere, whatever the seed of this run. */
+/* Numbers from neither a library nor rounding: the same scene on every machine, whatever the seed. */
 static float fixed_number(uint32_t *state, int bits)
 {
     *state = *state * 1664525u + 1013904223u;
@@ -280,9 +281,7 @@ static void every_machine_gives_the_same_bits(void **state)
         }
         print_message("%s, structure %u: %u of %d rays hit, hash 0x%016llx\n", variant, k, hits, RAYS,
                       (unsigned long long)h);
-        assert_true(
-            h ==
-            UINT64_C(0x68da6853de4acb43)); /* found on x86-64; it changes with the forms of sphere_double.h alone */
+        assert_true(h == UINT64_C(0x68da6853de4acb43)); /* recorded on x86-64; depends only on sphere_double.h */
         cgt_scene_release(scene);
         cgt_context_release(context);
     }
@@ -346,14 +345,14 @@ static void statistics_add_up(void **state)
         cgt_context_release(context);
     }
     for (int cull = 0; cull < 3; cull++)
-        assert_int_equal(tests[0][cull], tests[1][cull]); /* threads do not count */
+        assert_int_equal(tests[0][cull], tests[1][cull]); /* the number of threads does not matter */
     print_message("ray tests: %llu without culling, %llu by frustum, %llu by blocks\n", (unsigned long long)tests[0][0],
                   (unsigned long long)tests[0][1], (unsigned long long)tests[0][2]);
     assert_true(tests[0][0] > tests[0][1] && tests[0][1] > tests[0][2]);
     picture_free(&p);
 }
 
-/* Tiles unless something is asked about packets. */
+/* Tiles are used unless an option concerns packets. */
 static void tiles_are_counted(void **state)
 {
     (void)state;

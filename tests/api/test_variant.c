@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The choice of a variant on CPUs that this machine is not: src/dispatch/variant.c is compiled into this program, with its own
- * answer to what the CPU has. A row whose flags ask for something that the CPU lacks is neither chosen nor to be forced. */
+ * The choice of a variant on CPUs other than this machine's: src/dispatch/variant.c is compiled into this program, with
+ * simulated CPU features. A row whose flags need a feature that the CPU lacks is not chosen and cannot be forced. */
 #define _POSIX_C_SOURCE 200809L
 #include "support/test.h"
 
@@ -38,7 +38,7 @@ static void keep_message(void *user, cgt_log_level level, const char *message)
     snprintf(user, 200, "%s", message);
 }
 
-/* A name that the build has is refused as one that the CPU does not run, in words too. */
+/* A variant of this build is refused as one that the CPU cannot run, and the message says so. */
 static void check_refused(const char *name)
 {
     char logged[200] = "", message[200] = "", expected[200];
@@ -77,11 +77,11 @@ static void check_widest(const char *features, const char *expected)
     }
 }
 
-static void widest_that_the_cpu_runs(void **state)
+static void the_widest_variant_of_the_cpu_is_chosen(void **state)
 {
     (void)state;
     if (!in_build("sse")) {
-        print_message("no variant of this build asks the CPU\n");
+        print_message("no variant of this build depends on the CPU\n");
         skip();
     }
     check_widest("", "portable");
@@ -91,8 +91,8 @@ static void widest_that_the_cpu_runs(void **state)
     check_widest(AVX512 " avx9 ", "avx512");
 }
 
-/* Each feature counts: without it the next narrower row is the widest. */
-static void every_feature_is_asked_for(void **state)
+/* Each feature is required: without it the next narrower row is the widest. */
+static void every_feature_is_required(void **state)
 {
     (void)state;
     if (!in_build("sse"))
@@ -107,7 +107,7 @@ static void every_feature_is_asked_for(void **state)
     check_widest(SSE " avx2  bmi  avx512f  avx512bw  avx512dq  avx512vl ", "sse");
 }
 
-static void names_that_are_not_in_the_build(void **state)
+static void names_not_in_the_build_are_unknown(void **state)
 {
     (void)state;
     cgt_variant_state found;
@@ -125,7 +125,7 @@ static void names_that_are_not_in_the_build(void **state)
     assert_int_equal(found, CGT_VARIANT_ABSENT);
 }
 
-/* Narrow to wide, and lanes as the rows say. */
+/* Rows go from narrow to wide, with the lanes that they state. */
 static void rows_ascend(void **state)
 {
     (void)state;
@@ -145,8 +145,8 @@ static void rows_ascend(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(widest_that_the_cpu_runs), cmocka_unit_test(every_feature_is_asked_for),
-        cmocka_unit_test(names_that_are_not_in_the_build), cmocka_unit_test(rows_ascend)};
+        cmocka_unit_test(the_widest_variant_of_the_cpu_is_chosen), cmocka_unit_test(every_feature_is_required),
+        cmocka_unit_test(names_not_in_the_build_are_unknown), cmocka_unit_test(rows_ascend)};
     test_begin("test_variant");
     unsetenv("CGT_DISABLE_CPU");
     return cmocka_run_group_tests(tests, NULL, NULL);

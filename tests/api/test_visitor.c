@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Where a frame goes: planes with and without a row stride, any set of fields, visitors that get tiles while they are
- * traced, both at once; and visitors that stop. Every way has the bits of the others. */
+ * Where a frame is stored: planes with and without a row stride, any set of fields, visitors that get tiles as they are
+ * traced, both at once; and visitors that stop. All have the same bits. */
 #include "support/scenes.h"
 
 #include <stdatomic.h>
@@ -12,7 +12,7 @@
 #define WIDTH 150
 #define HEIGHT 71
 
-static cgt_structure structure; /* that the tests go through */
+static cgt_structure structure; /* under test */
 static cgt_context *context;
 static cgt_scene *scene;
 static cloud spheres;
@@ -48,7 +48,7 @@ static int close_scene(void **state)
 
 /* ---- planes ---- */
 
-static void rows_may_lie_apart(void **state)
+static void row_stride_may_exceed_the_width(void **state)
 {
     (void)state;
     enum { STRIDE = WIDTH + 13 };
@@ -94,7 +94,7 @@ static cgt_frame frame_with(const planes *p, uint32_t fields)
     return frame;
 }
 
-/* The planes of the fields are as expected, those of the others as they were. */
+/* The planes of the given fields are as expected, all others unchanged. */
 static void check_planes(const planes *p, uint32_t fields)
 {
     static const uint32_t field[6] = {CGT_FIELD_T,      CGT_FIELD_PRIMITIVE, CGT_FIELD_GEOMETRY,
@@ -112,9 +112,9 @@ static void check_planes(const planes *p, uint32_t fields)
 /* ---- visitors ---- */
 
 typedef struct visit {
-    planes tiles;                     /* what the tiles held */
+    planes tiles;                     /* the contents of the tiles */
     atomic_uint seen[WIDTH * HEIGHT]; /* visits of each pixel */
-    atomic_uint calls, wrong;         /* what is wrong is counted: cmocka is for the main thread */
+    atomic_uint calls, wrong;         /* errors are counted: cmocka works only on the main thread */
     uint32_t fields, tile_width, tile_height;
     unsigned stop_at; /* the call that stops; 0: none */
 } visit;
@@ -171,11 +171,11 @@ static void visit_free(visit *v)
     free(v);
 }
 
-static void any_fields_to_planes_and_visitors(void **state)
+static void any_fields_reach_planes_and_visitors(void **state)
 {
     (void)state;
     planes p = planes_make(WIDTH, HEIGHT);
-    const uint32_t step = test_samples() ? 5 : 1; /* of the visitor's fields, where it is slow */
+    const uint32_t step = test_samples() ? 5 : 1; /* every fifth set of the visitor's fields on slow machines */
     for (uint32_t plane_fields = 0; plane_fields < 16; plane_fields++)
         for (uint32_t visitor_fields = test_sample_start(plane_fields, step); visitor_fields < 16;
              visitor_fields += step)
@@ -209,7 +209,7 @@ static void fields_without_a_visitor_are_ignored(void **state)
     memset(p.memory, 0x5a, 6 * p.elements * sizeof(uint32_t));
     assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
     check_planes(&p, CGT_FIELD_PRIMITIVE);
-    frame.primitive = NULL; /* nothing wanted at all */
+    frame.primitive = NULL; /* no field requested */
     assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
     planes_free(&p);
 }
@@ -230,17 +230,17 @@ static void a_visitor_stops_the_frame(void **state)
             v->stop_at = stop_at;
             assert_int_equal(cgt_trace_camera(scene, &camera, &frame, TRACE_OPTIONS(&o)), CGT_ERROR_STOPPED);
             assert_non_null(strstr(context_message(context), "visitor"));
-            /* after the first that stopped, only those under way on other threads */
+            /* after the first stop, only the calls in progress on other threads */
             assert_in_range(v->calls, stop_at, stop_at + 2);
             visit_free(v);
         }
     planes p = planes_make(WIDTH, HEIGHT);
-    frame_trace(scene, &camera, &p, NULL); /* the scene is as good as before */
+    frame_trace(scene, &camera, &p, NULL); /* the scene is unaffected */
     assert_true(planes_equal(&p, &expected));
     planes_free(&p);
 }
 
-/* One tile's planes lie within the frame's where no copy is needed; strips are Chapman's lines of the whole width. */
+/* A tile's planes are part of the frame's if no copy is needed; strips are Chapman's lines over the full width. */
 static void strips_span_the_width(void **state)
 {
     (void)state;
@@ -252,7 +252,7 @@ static void strips_span_the_width(void **state)
     frame.visitor = visit_tile;
     frame.visitor_user = v;
     frame.visitor_fields = CGT_FIELD_T;
-    v->tile_width = WIDTH; /* no other start than 0 then */
+    v->tile_width = WIDTH; /* so that tiles start only at 0 */
     assert_int_equal(cgt_trace_camera(scene, &camera, &frame, TRACE_OPTIONS(&o)), CGT_OK);
     assert_int_equal(v->wrong, 0);
     assert_int_equal(v->calls, (HEIGHT + 3) / 4);
@@ -262,8 +262,8 @@ static void strips_span_the_width(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_may_lie_apart),
-        cmocka_unit_test(any_fields_to_planes_and_visitors),
+        cmocka_unit_test(row_stride_may_exceed_the_width),
+        cmocka_unit_test(any_fields_reach_planes_and_visitors),
         cmocka_unit_test(fields_without_a_visitor_are_ignored),
         cmocka_unit_test(a_visitor_stops_the_frame),
         cmocka_unit_test(strips_span_the_width),

@@ -36,8 +36,8 @@ typedef struct walk {
     const cgt_committed_scene *committed_scene;
     const cgt_bvh *tree;
     const bvh_node *node;
-    uint8_t *met;      /* objects */
-    uint8_t *met_node; /* and nodes */
+    uint8_t *reached;      /* primitives */
+    uint8_t *reached_node; /* nodes */
     visit *stack;
     uint32_t waiting, nodes, blocks[2], prims, depth;
 } walk;
@@ -48,7 +48,7 @@ static bool sphere_within(const cgt_sphere *q, const float low[3], const float h
 {
     const float center[3] = {q->x, q->y, q->z};
     for (int a = 0; a < 3; a++) {
-        /* a number that rounds beyond a float lies beyond it */
+        /* a value that rounds beyond a float lies beyond it */
         if ((double)center[a] - q->r > low[a] && (double)center[a] + q->r < high[a])
             continue;
         const dyadic c = dyadic_of_float(center[a]), r = dyadic_of_float(q->r);
@@ -73,7 +73,7 @@ static bool triangle_within(const cgt_triangle *q, const float low[3], const flo
 static const char *check_sphere(const sphere_block *b, uint32_t k, const cgt_sphere *q)
 {
     const float got[4] = {b->center[0][k], b->center[1][k], b->center[2][k], b->radius[k]};
-    return memcmp(got, q, sizeof got) ? fault("sphere %u is not as the caller has it", b->prim[k]) : NULL;
+    return memcmp(got, q, sizeof got) ? fault("sphere %u differs from the caller's", b->prim[k]) : NULL;
 }
 
 static const char *check_triangle(const triangle_block *b, uint32_t k, const cgt_triangle *q, float scale)
@@ -90,7 +90,7 @@ static const char *check_triangle(const triangle_block *b, uint32_t k, const cgt
         }
         same &= b->sum[e][k] == sum;
     }
-    return same ? NULL : fault("triangle %u is not as it should be", b->prim[k]);
+    return same ? NULL : fault("triangle %u is wrong", b->prim[k]);
 }
 
 static const char *check_leaf(walk *w, uint32_t code, const float low[3], const float high[3])
@@ -107,17 +107,17 @@ static const char *check_leaf(walk *w, uint32_t code, const float low[3], const 
     w->prims += count;
     for (uint32_t k = 0; k < CGT_LANES; k++) {
         if (prim[k] >= w->committed_scene->prims.count)
-            return fault("leaf %08x: object %u", code, prim[k]);
-        if (k < count ? w->met[prim[k]]++ : prim[k] != prim[count - 1])
-            return fault("object %u lies in two places", prim[k]);
+            return fault("leaf %08x: primitive %u", code, prim[k]);
+        if (k < count ? w->reached[prim[k]]++ : prim[k] != prim[count - 1])
+            return fault("primitive %u is in two leaves", prim[k]);
         if (k && prim[k] == prim[k - 1])
             continue;
         const cgt_primitive q = cgt_primitives_get(&w->committed_scene->prims, prim[k]);
         if (q.kind != kind || cgt_primitive_check(&q) != CGT_PRIMITIVE_VALID)
-            return fault("object %u is of the other kind, or not valid", prim[k]);
+            return fault("primitive %u is of the other kind, or invalid", prim[k]);
         const bool sphere = kind == CGT_KIND_SPHERES;
         if (sphere ? !sphere_within(&q.sphere, low, high) : !triangle_within(&q.triangle, low, high))
-            return fault("object %u is not within its leaf", prim[k]);
+            return fault("primitive %u is not within its leaf", prim[k]);
         const char *wrong = sphere ? check_sphere(spheres, k, &q.sphere)
                                    : check_triangle(triangles, k, &q.triangle, w->committed_scene->scale);
         if (wrong)
@@ -138,7 +138,7 @@ static double along(const bvh_node *n, uint32_t child, uint32_t octant)
     return sum;
 }
 
-/* Sums were rounded. */
+/* Allows for rounded sums. */
 static const char *check_order(const bvh_node *n, uint32_t number, uint32_t octant)
 {
     const uint8_t *order = n->order[octant];
@@ -153,9 +153,9 @@ static const char *check_order(const bvh_node *n, uint32_t number, uint32_t octa
         lanes |= 1u << order[k];
         if (k && k < n->children &&
             along(n, order[k], octant) < along(n, order[k - 1], octant) - size * 0x1p-18 - 0x1p-140)
-            return fault("node %u: children of octant %u do not follow each other", number, octant);
+            return fault("node %u: children are out of order for octant %u", number, octant);
     }
-    return lanes == CGT_ALL_LANES ? NULL : fault("node %u: a lane is not in the order", number);
+    return lanes == CGT_ALL_LANES ? NULL : fault("node %u: a lane is missing in the order", number);
 }
 
 static const char *check_children(walk *w, const visit *v)
@@ -177,7 +177,7 @@ static const char *check_children(walk *w, const visit *v)
         const char *wrong = NULL;
         if (child.node & CGT_BVH_LEAF)
             wrong = check_leaf(w, child.node, child.low, child.high);
-        else if (child.node >= w->tree->nodes || w->met_node[child.node]++)
+        else if (child.node >= w->tree->nodes || w->reached_node[child.node]++)
             wrong = fault("node %u: child %u has number %u", v->node, k, child.node);
         else
             w->stack[w->waiting++] = child;
@@ -207,9 +207,9 @@ static const char *check_counts(const walk *w)
         return fault("%u nodes, %u and %u blocks of %u, %u and %u", w->nodes, w->blocks[0], w->blocks[1], t->nodes,
                      t->sphere_blocks, t->triangle_blocks);
     if (w->prims != w->committed_scene->valid)
-        return fault("%u objects of %u", w->prims, w->committed_scene->valid);
+        return fault("%u primitives of %u", w->prims, w->committed_scene->valid);
     if (w->depth != t->depth || t->depth > CGT_BVH_MAX_DEPTH)
-        return fault("depth %u, it says %u", w->depth, t->depth);
+        return fault("depth %u, but the BVH states %u", w->depth, t->depth);
     return NULL;
 }
 
@@ -219,25 +219,25 @@ const char *bvh_check(const cgt_committed_scene *committed_scene)
     walk w = {.committed_scene = committed_scene, .tree = t, .node = t->node};
     const char *wrong = NULL;
     if (!t->node)
-        return committed_scene->valid && !committed_scene->brute_force ? fault("there is none") : NULL;
-    w.met = calloc((size_t)committed_scene->prims.count + 1, 1);
-    w.met_node = calloc((size_t)t->nodes + 1, 1);
+        return committed_scene->valid && !committed_scene->brute_force ? fault("there is no BVH") : NULL;
+    w.reached = calloc((size_t)committed_scene->prims.count + 1, 1);
+    w.reached_node = calloc((size_t)t->nodes + 1, 1);
     w.stack = malloc(((size_t)t->nodes + 1) * sizeof *w.stack);
-    if (!w.met || !w.met_node || !w.stack)
+    if (!w.reached || !w.reached_node || !w.stack)
         wrong = fault("out of memory");
     else {
         visit root = {.depth = 1};
         memcpy(root.low, t->low, sizeof root.low);
         memcpy(root.high, t->high, sizeof root.high);
         w.stack[w.waiting++] = root;
-        w.met_node[0] = 1;
+        w.reached_node[0] = 1;
     }
     while (!wrong && w.waiting) {
         const visit v = w.stack[--w.waiting];
         wrong = check_node(&w, &v);
     }
-    free(w.met);
-    free(w.met_node);
+    free(w.reached);
+    free(w.reached_node);
     free(w.stack);
     return wrong ? wrong : check_counts(&w);
 }
@@ -248,7 +248,7 @@ bool bvh_equal(const cgt_bvh *a, const cgt_bvh *b)
     bool same = a->nodes == b->nodes && a->sphere_blocks == b->sphere_blocks &&
                 a->triangle_blocks == b->triangle_blocks && a->depth == b->depth &&
                 !memcmp(a->low, b->low, sizeof a->low) && !memcmp(a->high, b->high, sizeof a->high);
-    for (uint32_t i = 0; same && i < a->nodes; i++) /* without what pads a node */
+    for (uint32_t i = 0; same && i < a->nodes; i++) /* without a node's padding */
         same = !memcmp(&n[i], &m[i], offsetof(bvh_node, unused) + sizeof n[i].unused);
     return same && (!a->sphere_blocks || !memcmp(a->sphere, b->sphere, a->sphere_blocks * sizeof(sphere_block))) &&
            (!a->triangle_blocks || !memcmp(a->triangle, b->triangle, a->triangle_blocks * sizeof(triangle_block)));

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Builds BVHs with one variant and checks their invariants (bvh_check.h). The scenes have extreme sizes and
- * positions, and primitives that no cell separates. The tree has the same bits for any number of threads, and
- * whether a commit or rays build it. Each allocation fails in turn, and a steady state allocates nothing. */
+ * Builds BVHs with one variant and checks their invariants (bvh_check.h). The scenes have extreme sizes and positions,
+ * and primitives that no cell separates. The tree has the same bits for any number of threads, and whether a commit or
+ * ray calls build it. Each allocation fails in turn, and a steady state allocates nothing. */
 #define _POSIX_C_SOURCE 200809L
 #include "grid/loose_scenes.h"
 
@@ -41,8 +41,8 @@ static cgt_scene_options options_of(cgt_structure structure)
     return o;
 }
 
-/* Traces this many rays, all of them invalid: they cost nothing, but count. */
-static cgt_result want(const cgt_scene *scene, uint64_t rays)
+/* Traces this many rays, all of them invalid: they are cheap, but count as rays. */
+static cgt_result trace_invalid_rays(const cgt_scene *scene, uint64_t rays)
 {
     float *zero = calloc(rays, sizeof *zero);
     uint8_t *occluded = malloc(rays);
@@ -58,13 +58,13 @@ static cgt_result want(const cgt_scene *scene, uint64_t rays)
 
 static void check_scene(const loose_scene *s, const char *what)
 {
-    const cgt_scene_options asked = options_of(CGT_STRUCTURE_BVH), automatic = options_of(CGT_STRUCTURE_AUTO);
+    const cgt_scene_options explicit_bvh = options_of(CGT_STRUCTURE_BVH), automatic = options_of(CGT_STRUCTURE_AUTO);
     cgt_scene *scene[4];
     for (int k = 0; k < 4; k++) {
-        scene[k] = loose_add(s, contexts[k % 2], k < 2 ? &asked : &automatic);
+        scene[k] = loose_add(s, contexts[k % 2], k < 2 ? &explicit_bvh : &automatic);
         assert_int_equal(cgt_scene_commit(scene[k]), CGT_OK);
         if (k >= 2)
-            assert_int_equal(want(scene[k], scene[k]->committed_scene.valid / 8 + 1), CGT_OK);
+            assert_int_equal(trace_invalid_rays(scene[k], scene[k]->committed_scene.valid / 8 + 1), CGT_OK);
         check_tree(scene[k], what);
         if (!bvh_equal(&scene[0]->committed_scene.bvh, &scene[k]->committed_scene.bvh))
             fail_msg("%s: tree %d differs", what, k);
@@ -73,7 +73,7 @@ static void check_scene(const loose_scene *s, const char *what)
         cgt_scene_release(scene[k]);
 }
 
-/* With clusters, only what has some. */
+/* With clusters, only scenes that get them. */
 static bool is_tested(int what) { return what == LOOSE_TRIANGLES || !clusters_always(); }
 
 static void test_scenes(void **state)
@@ -109,7 +109,7 @@ static void test_many(void **state)
 
 typedef void place(uint32_t i, uint32_t count, float sphere[4]);
 
-static void at_one_place(uint32_t i, uint32_t count, float q[4])
+static void at_one_position(uint32_t i, uint32_t count, float q[4])
 {
     (void)count;
     q[0] = 0.25f;
@@ -118,7 +118,7 @@ static void at_one_place(uint32_t i, uint32_t count, float q[4])
     q[3] = i % 3 ? 0.5f : 0.75f;
 }
 
-/* Each half as far away as the one before. */
+/* Each half as far away as the previous one. */
 static void by_powers(uint32_t i, uint32_t count, float q[4])
 {
     (void)count;
@@ -177,12 +177,17 @@ static void test_places(void **state)
     static const struct {
         place *place;
         const char *name;
-    } places[] = {{at_one_place, "one place"}, {by_powers, "powers"},         {by_powers_in_space, "powers in space"},
-                  {on_a_line, "line"},         {one_far_away, "far away"},    {one_large, "large"},
-                  {two_heaps, "two heaps"},    {smallest_numbers, "denormal"}};
+    } places[] = {{at_one_position, "one place"},
+                  {by_powers, "powers"},
+                  {by_powers_in_space, "powers in space"},
+                  {on_a_line, "line"},
+                  {one_far_away, "far away"},
+                  {one_large, "large"},
+                  {two_heaps, "two heaps"},
+                  {smallest_numbers, "denormal"}};
     const uint32_t counts[] = {1, CGT_LANES, CGT_LANES + 1, 5 * CGT_LANES, 999, test_between(5000, 70000)};
     (void)state;
-    if (clusters_always()) /* all are spheres */
+    if (clusters_always()) /* all places are spheres */
         skip();
     for (size_t p = 0; p < TEST_COUNT(places); p++)
         for (size_t n = 0; n < TEST_COUNT(counts); n++) {
@@ -197,7 +202,7 @@ static void test_places(void **state)
         }
 }
 
-static void test_nothing(void **state)
+static void test_empty(void **state)
 {
     const cgt_scene_options o = options_of(CGT_STRUCTURE_BVH);
     const float nowhere[1][4] = {{NAN, 0, 0, 1}};
@@ -205,12 +210,12 @@ static void test_nothing(void **state)
     for (uint32_t count = 0; count < 2; count++) {
         cgt_scene *scene = scene_of(contexts[0], &o, nowhere, count);
         assert_null(scene->committed_scene.bvh.node);
-        assert_int_equal(want(scene, 10), CGT_OK);
+        assert_int_equal(trace_invalid_rays(scene, 10), CGT_OK);
         cgt_scene_release(scene);
     }
 }
 
-/* ---- when rays build it ---- */
+/* ---- when rays build the BVH ---- */
 
 static void test_threshold(void **state)
 {
@@ -218,28 +223,28 @@ static void test_threshold(void **state)
     cloud c = cloud_make(&r, CLOUD_UNIFORM, 8000);
     const cgt_scene_options o = options_of(CGT_STRUCTURE_AUTO), grid = options_of(CGT_STRUCTURE_LOOSE_GRID);
     cgt_scene *scene = scene_of(contexts[0], &o, (const float(*)[4])c.sphere, c.count);
-    cgt_scene *asked = scene_of(contexts[0], &grid, (const float(*)[4])c.sphere, c.count);
+    cgt_scene *grid_scene = scene_of(contexts[0], &grid, (const float(*)[4])c.sphere, c.count);
     (void)state;
     for (int round = 0; round < 2; round++) {
-        assert_int_equal(want(scene, 150), CGT_OK);
+        assert_int_equal(trace_invalid_rays(scene, 150), CGT_OK);
         assert_null(scene->committed_scene.bvh.node);
-        assert_int_equal(want(scene, 150), CGT_OK);
+        assert_int_equal(trace_invalid_rays(scene, 150), CGT_OK);
         assert_non_null(scene->committed_scene.bvh.node);
         check_tree(scene, "threshold");
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_null(scene->committed_scene.bvh.node);
     }
-    assert_int_equal(want(asked, 20000), CGT_OK);
-    assert_null(asked->committed_scene.bvh.node);
-    cgt_scene_release(asked);
+    assert_int_equal(trace_invalid_rays(grid_scene, 20000), CGT_OK);
+    assert_null(grid_scene->committed_scene.bvh.node);
+    cgt_scene_release(grid_scene);
     cgt_scene_release(scene);
     cloud_free(&c);
 }
 
-static void *want_some(void *scene)
+static void *trace_on_thread(void *scene)
 {
     for (int i = 0; i < 20; i++)
-        if (want(scene, 300) != CGT_OK)
+        if (trace_invalid_rays(scene, 300) != CGT_OK)
             return scene;
     return NULL;
 }
@@ -255,7 +260,7 @@ static void test_several_threads(void **state)
         pthread_t thread[4];
         void *failed = NULL;
         for (size_t i = 0; i < TEST_COUNT(thread); i++)
-            assert_int_equal(pthread_create(&thread[i], NULL, want_some, scene), 0);
+            assert_int_equal(pthread_create(&thread[i], NULL, trace_on_thread, scene), 0);
         for (size_t i = 0; i < TEST_COUNT(thread); i++) {
             assert_int_equal(pthread_join(thread[i], &failed), 0);
             assert_null(failed);
@@ -301,7 +306,7 @@ static cgt_context *context_of(memory *m, uint32_t threads)
     return context;
 }
 
-/* Builds a scene's tree by rays; fails at allocation number `fail` of that. Returns whether it failed. */
+/* Builds a scene's BVH by rays; allocation number `fail` of the build fails. Returns whether the build failed. */
 static bool build_failing(const loose_scene *s, const cgt_scene_options *o, size_t fail, uint32_t threads)
 {
     memory m = {0};
@@ -311,14 +316,14 @@ static bool build_failing(const loose_scene *s, const cgt_scene_options *o, size
     if (lazy)
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     m.fail_at = m.calls + fail;
-    cgt_result result = lazy ? want(scene, scene->committed_scene.valid) : cgt_scene_commit(scene);
+    cgt_result result = lazy ? trace_invalid_rays(scene, scene->committed_scene.valid) : cgt_scene_commit(scene);
     const bool failed = result != CGT_OK;
     if (failed) {
         assert_int_equal(result, CGT_ERROR_OUT_OF_MEMORY);
         assert_true(cgt_context_get_error_message(context, NULL, 0) > 0);
         assert_true(!lazy || (!scene->committed_scene.bvh.node && scene->is_committed));
         m.fail_at = 0;
-        result = lazy ? want(scene, scene->committed_scene.valid) : cgt_scene_commit(scene);
+        result = lazy ? trace_invalid_rays(scene, scene->committed_scene.valid) : cgt_scene_commit(scene);
     }
     assert_int_equal(result, CGT_OK);
     check_tree(scene, "memory");
@@ -333,7 +338,7 @@ static void test_every_allocation_fails(void **state)
     const cgt_scene_options o[2] = {options_of(CGT_STRUCTURE_AUTO), options_of(CGT_STRUCTURE_BVH)};
     (void)state;
     for (int k = 0; k < 4; k++) {
-        /* many with threads: the grid's pairs take the middles' place */
+        /* many primitives with threads: the grid's pairs take the place of the centres */
         loose_scene s = loose_make(&r, LOOSE_UNIFORM, clusters_always() ? LOOSE_TRIANGLES : LOOSE_BOTH,
                                    k < 2 ? 1000 : test_between(2000, 70000));
         size_t fail = 1;
@@ -344,7 +349,7 @@ static void test_every_allocation_fails(void **state)
     }
 }
 
-/* Objects move, and nothing is allocated once the scene was built in about the same state. */
+/* Primitives move, and nothing is allocated once the scene has been built in a similar state. */
 static void test_steady_state(void **state)
 {
     test_random r = random_make(6);
@@ -361,7 +366,7 @@ static void test_steady_state(void **state)
                 c.sphere[i][frame % 3] += 0.01f * c.sphere[i][3] * random_float(&r, -1, 1);
             assert_int_equal(cgt_scene_commit(scene), CGT_OK);
             if (lazy)
-                assert_int_equal(want(scene, c.count), CGT_OK);
+                assert_int_equal(trace_invalid_rays(scene, c.count), CGT_OK);
             check_tree(scene, "steady state");
             if (!frame)
                 calls = m.calls;
@@ -378,7 +383,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes),
                                        cmocka_unit_test(test_many),
                                        cmocka_unit_test(test_places),
-                                       cmocka_unit_test(test_nothing),
+                                       cmocka_unit_test(test_empty),
                                        cmocka_unit_test(test_threshold),
                                        cmocka_unit_test(test_several_threads),
                                        cmocka_unit_test(test_every_allocation_fails),

@@ -35,8 +35,8 @@ static fraction slab_end(float plane, float org, const dyadic *dir)
     return (fraction){dyadic_signed(&p, dir->sign), dyadic_signed(dir, dir->sign)};
 }
 
-/* Whether some t that rounds into the range leads to a point of the box. */
-static bool box_is_met(const truth_ray *ray, const box *b)
+/* Whether a t that rounds into the range leads to a point of the box. */
+static bool box_is_hit(const truth_ray *ray, const box *b)
 {
     const oracle_range range = oracle_range_make(ray->t_min, ray->t_max, 0);
     fraction first[4] = {{range.low.p, range.low.q}}, last[4] = {{range.high.p, range.high.q}};
@@ -61,11 +61,11 @@ static bool box_is_met(const truth_ray *ray, const box *b)
 /* ---- vectors of rays ---- */
 
 typedef struct tally {
-    uint64_t rays, met, missed, told; /* told: misses that the test reported */
-    uint64_t lost, not_numbers;       /* what must not happen */
+    uint64_t rays, hit, missed, reported; /* reported: misses that the test found */
+    uint64_t lost, not_numbers;           /* must be 0 */
 } tally;
 
-/* The ends of the interval of a ray are numbers; but where they leave the range of float. */
+/* Checks that the ends of a ray's interval are numbers, unless they leave the range of float. */
 static void check_numbers(const packet *p, const box *b, tally *sum)
 {
     for (int a = 0; a < 3; a++) {
@@ -95,12 +95,12 @@ static void judge(const truth_ray ray[CGT_LANES], const box *b, tally *sum)
     check_numbers(&p, b, sum);
     const unsigned missed = spux_mask_bits(ray_box_missed(&p, 0, b->low, b->high));
     for (int k = 0; k < CGT_LANES; k++) {
-        const bool met = box_is_met(&ray[k], b), said = missed >> k & 1;
+        const bool hit = box_is_hit(&ray[k], b), reports_miss = missed >> k & 1;
         sum->rays++;
-        sum->met += met;
-        sum->missed += !met;
-        sum->told += !met && said;
-        if (met && said && !sum->lost++)
+        sum->hit += hit;
+        sum->missed += !hit;
+        sum->reported += !hit && reports_miss;
+        if (hit && reports_miss && !sum->lost++)
             print_message("lost: org %a %a %a dir %a %a %a range %a %a, box %a %a %a to %a %a %a\n",
                           (double)ray[k].org[0], (double)ray[k].org[1], (double)ray[k].org[2], (double)ray[k].dir[0],
                           (double)ray[k].dir[1], (double)ray[k].dir[2], (double)ray[k].t_min, (double)ray[k].t_max,
@@ -109,7 +109,7 @@ static void judge(const truth_ray ray[CGT_LANES], const box *b, tally *sum)
     }
 }
 
-/* Rays one by one; a vector is judged when it is full. */
+/* Rays one by one; a full vector is judged. */
 typedef struct queue {
     truth_ray ray[CGT_LANES];
     int used;
@@ -126,7 +126,7 @@ static void push(queue *q, const truth_ray *ray)
     }
 }
 
-/* The rest, filled up with the last ray. */
+/* Judges the remaining rays, padded with the last one. */
 static void flush(queue *q)
 {
     while (q->used)
@@ -136,15 +136,15 @@ static void flush(queue *q)
                                    .t_max = q->ray[0].t_max});
 }
 
-static void expect_right(const char *what, const tally *t, double least_told)
+static void expect_right(const char *what, const tally *t, double least_reported)
 {
-    print_message("%s: %llu rays, %llu meet the box; of %llu that miss %.2f %% are told\n", what,
-                  (unsigned long long)t->rays, (unsigned long long)t->met, (unsigned long long)t->missed,
-                  t->missed ? 100. * (double)t->told / (double)t->missed : 100.);
+    print_message("%s: %llu rays, %llu hit the box; of %llu misses %.2f %% are reported\n", what,
+                  (unsigned long long)t->rays, (unsigned long long)t->hit, (unsigned long long)t->missed,
+                  t->missed ? 100. * (double)t->reported / (double)t->missed : 100.);
     assert_int_equal(t->lost, 0);
     assert_int_equal(t->not_numbers, 0);
-    assert_true(t->met * 20 > t->rays && t->missed * 20 > t->rays); /* there was something to tell apart */
-    assert_true((double)t->told >= least_told * (double)t->missed);
+    assert_true(t->hit * 20 > t->rays && t->missed * 20 > t->rays); /* hits and misses both occur */
+    assert_true((double)t->reported >= least_reported * (double)t->missed);
 }
 
 /* ---- boxes ---- */
@@ -161,7 +161,7 @@ static box random_box(test_random *r)
     return b;
 }
 
-/* Along an axis of the box: its ends, their neighbours, its middle, beyond. */
+/* Coordinates along an axis of the box: its ends, their neighbours, its centre, beyond. */
 #define PLACES 11
 static float place(const box *b, int a, int i)
 {
@@ -182,7 +182,7 @@ static float place(const box *b, int a, int i)
 
 /* ---- tests ---- */
 
-/* Axes and diagonals, with every kind of nothing in the other components, from faces, edges, corners, inside,
+/* Axes and diagonals, with every kind of (nearly) zero in the other components, from faces, edges, corners, inside,
  * outside. */
 static void directions_of_axes_and_diagonals(void **state)
 {
@@ -215,7 +215,7 @@ static void directions_of_axes_and_diagonals(void **state)
 }
 
 /* Aimed at corners, edges and faces, or just past them, with ranges that end there. */
-static void aimed_at_the_border(void **state)
+static void aimed_at_the_surface(void **state)
 {
     (void)state;
     test_random r = random_make(2);
@@ -240,10 +240,10 @@ static void aimed_at_the_border(void **state)
         }
         flush(&q);
     }
-    expect_right("aimed at the border", &q.sum, 0.25);
+    expect_right("aimed at the surface", &q.sum, 0.25);
 }
 
-/* Coordinates up to 2^55 and directions as short as 2^-55: where products overflow and underflow. */
+/* Coordinates up to 2^55 and directions as short as 2^-55, where products overflow and underflow. */
 static void extremes(void **state)
 {
     (void)state;
@@ -280,7 +280,7 @@ static void extremes(void **state)
 }
 
 /* Rays that pass the box by at most a hundredth of its size. */
-static void near_misses_are_told(void **state)
+static void near_misses_are_reported(void **state)
 {
     (void)state;
     test_random r = random_make(4);
@@ -298,7 +298,7 @@ static void near_misses_are_told(void **state)
             grown.low[a] -= 0.01f * size;
             grown.high[a] += 0.01f * size;
         }
-        for (int k = 0; k < CGT_LANES; k++) { /* towards a point of the border of the grown box */
+        for (int k = 0; k < CGT_LANES; k++) { /* towards a point on the surface of the enlarged box */
             const int flat = (int)random_below(&r, 3);
             ray[k] = (truth_ray){.t_min = 0, .t_max = INFINITY};
             for (int a = 0; a < 3; a++) {
@@ -310,9 +310,9 @@ static void near_misses_are_told(void **state)
         }
         judge(ray, &b, &all);
         sum.rays += all.rays;
-        sum.met += all.met;
+        sum.hit += all.hit;
         sum.missed += all.missed;
-        sum.told += all.told;
+        sum.reported += all.reported;
         sum.lost += all.lost;
         sum.not_numbers += all.not_numbers;
     }
@@ -323,9 +323,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directions_of_axes_and_diagonals),
-        cmocka_unit_test(aimed_at_the_border),
+        cmocka_unit_test(aimed_at_the_surface),
         cmocka_unit_test(extremes),
-        cmocka_unit_test(near_misses_are_told),
+        cmocka_unit_test(near_misses_are_reported),
     };
     test_begin("test_ray_box");
     if (!test_variant_runs(CGT_VARIANT_NAME))

@@ -17,28 +17,28 @@
 
 static uint32_t arena_used = 16384, interleaved_stack = 64;
 static float interleave_min, interleave_spread, interleave_max; /* when the rays of a call are interleaved */
-static float slack_scale = 1, filter_u = 0x1p-24f;
+static float error_scale = 1, filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
 #define INTERLEAVED_STACK_USED interleaved_stack
 #define STREAM_ARENA_USED arena_used
 #define INTERLEAVE_MIN_RAYS interleave_min
 #define INTERLEAVE_SPREAD_RAYS interleave_spread
 #define INTERLEAVE_MAX_RAYS interleave_max
-#define BVH_ERROR_SCALE slack_scale
+#define BVH_ERROR_SCALE error_scale
 #include "kernel/stream/stream_hits.c"
 #include "kernel/stream/stream_single.c"
 #include "kernel/stream/stream_trace.c"
 
-/* With an emulator or sanitizers. */
+/* Whether an emulator or sanitizers slow the test down. */
 static bool is_slow(void) { return test_scaled(10) < 2; }
 
-#define OBJECTS 240u
+#define PRIMITIVES 240u
 #define RAYS (is_slow() ? 600u : 1000u)
-#define ALL_RAYS 20000u /* beyond two large chunks */
+#define ALL_RAYS 20000u /* more than two large chunks */
 
 typedef struct given_ray {
     truth_ray ray;
-    uint32_t primitive, geometry; /* that it ignores */
+    uint32_t primitive, geometry; /* that it skips */
 } given_ray;
 
 typedef struct found {
@@ -51,7 +51,7 @@ typedef struct subject {
     cgt_scene *scene;
     cloud spheres;
     float (*corner)[9]; /* of triangles */
-    bool ignores;
+    bool skips;
 } subject;
 
 static given_ray given[ALL_RAYS];
@@ -70,28 +70,29 @@ static void subject_make(test_random *r, cloud_kind kind, content what, float sc
     options.structure = CGT_STRUCTURE_BVH;
     memset(s, 0, sizeof *s);
     s->context = context_make(1, CGT_VARIANT_NAME);
-    s->spheres = cloud_make(r, kind, OBJECTS);
-    s->corner = malloc(OBJECTS * sizeof *s->corner);
+    s->spheres = cloud_make(r, kind, PRIMITIVES);
+    s->corner = malloc(PRIMITIVES * sizeof *s->corner);
     assert_non_null(s->corner);
     assert_int_equal(cgt_scene_create(s->context, &options, &s->scene), CGT_OK);
-    for (uint32_t i = 0; i < OBJECTS; i++)
-        for (int k = 0; k < 9; k++) /* some are neighbours that share an edge */
+    for (uint32_t i = 0; i < PRIMITIVES; i++)
+        for (int k = 0; k < 9; k++) /* some neighbours share an edge */
             s->corner[i][k] =
                 i % 4 == 1 && k >= 3
                     ? s->corner[i - 1][k]
                     : scale * (s->spheres.sphere[i][k % 3] + 3 * s->spheres.sphere[i][3] * random_float(r, -1, 1));
-    for (uint32_t i = 0; i < OBJECTS; i++)
+    for (uint32_t i = 0; i < PRIMITIVES; i++)
         for (int k = 0; k < 4; k++)
             s->spheres.sphere[i][k] *= scale;
     for (int k = 0; k < 3; k++)
         s->spheres.middle[k] *= scale;
     s->spheres.reach *= scale;
     if (what & SPHERES) {
-        const cgt_spheres spheres = spheres_of((const float(*)[4])s->spheres.sphere, OBJECTS);
+        const cgt_spheres spheres = spheres_of((const float(*)[4])s->spheres.sphere, PRIMITIVES);
         assert_int_equal(cgt_scene_add_spheres(s->scene, &spheres, &geometry), CGT_OK);
     }
     if (what & TRIANGLES) {
-        const cgt_triangles triangles = {.count = OBJECTS, .vertex_count = 3 * OBJECTS, .vertices = &s->corner[0][0]};
+        const cgt_triangles triangles = {
+            .count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = &s->corner[0][0]};
         assert_int_equal(cgt_scene_add_triangles(s->scene, &triangles, &geometry), CGT_OK);
     }
     assert_int_equal(cgt_scene_commit(s->scene), CGT_OK);
@@ -109,8 +110,8 @@ static void subject_free(subject *s)
 
 static void aim(test_random *r, const subject *s, truth_ray *q)
 {
-    const float *to = random_below(r, 2) ? s->spheres.sphere[random_below(r, OBJECTS)]
-                                         : &s->corner[random_below(r, OBJECTS)][3 * random_below(r, 3)];
+    const float *to = random_below(r, 2) ? s->spheres.sphere[random_below(r, PRIMITIVES)]
+                                         : &s->corner[random_below(r, PRIMITIVES)][3 * random_below(r, 3)];
     for (int a = 0; a < 3; a++)
         q->dir[a] = to[a] - q->org[a];
 }
@@ -119,15 +120,15 @@ static void aim(test_random *r, const subject *s, truth_ray *q)
 static truth_ray hard_ray(test_random *r, const subject *s)
 {
     truth_ray q = ray_random(r, &s->spheres);
-    const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
+    const float *sphere = s->spheres.sphere[random_below(r, PRIMITIVES)];
     const uint32_t axis = random_below(r, 3);
     switch (random_below(r, 11)) {
-    case 0: /* along an axis, at a surface or a corner, with components that are hardly there */
+    case 0: /* along an axis, at a surface or a corner, with nearly zero components */
         for (uint32_t a = 0; a < 3; a++) {
             static const float none[] = {0, -0.f, 0x1p-149f, -0x1p-140f, 0x1p-60f, -0x1p-41f, 0x1p-39f};
             q.dir[a] = a == axis ? 1 : none[random_below(r, TEST_COUNT(none))];
             q.org[a] = random_below(r, 2) ? sphere[a] + sphere[3] * ((float)random_below(r, 3) - 1)
-                                          : s->corner[random_below(r, OBJECTS)][a];
+                                          : s->corner[random_below(r, PRIMITIVES)][a];
         }
         q.org[axis] -= random_float(r, -3, 3) * s->spheres.reach;
         break;
@@ -136,19 +137,19 @@ static truth_ray hard_ray(test_random *r, const subject *s)
             q.org[a] = s->spheres.middle[a] + s->spheres.reach * random_log(r, 10, 1e9f) * random_float(r, -1, 1);
         aim(r, s, &q);
         break;
-    case 2: /* from a corner */ memcpy(q.org, s->corner[random_below(r, OBJECTS)], sizeof q.org); break;
+    case 2: /* from a corner */ memcpy(q.org, s->corner[random_below(r, PRIMITIVES)], sizeof q.org); break;
     case 3: /* from inside a sphere */
         for (int a = 0; a < 3; a++)
             q.org[a] = sphere[a] + 0.5f * sphere[3] * random_float(r, -1, 1);
         break;
-    case 4: /* of any length */
+    case 4: /* any length */
         for (int a = 0; a < 3; a++)
             q.dir[a] *= ldexpf(1, (int)random_below(r, 100) - 50);
         break;
     case 5: /* hits behind the origin count */
         q.t_min = random_below(r, 2) ? -INFINITY : -random_log(r, 1e-3f, 1e3f);
         break;
-    case 6: /* not valid, or empty */
+    case 6: /* an invalid ray, or an empty range */
         q.t_max = random_below(r, 2) ? NAN : q.t_min - 1;
         if (random_below(r, 2))
             q.dir[axis] = NAN;
@@ -174,12 +175,12 @@ static truth_ray hard_ray(test_random *r, const subject *s)
 static bool ray_counts(const truth_ray *q)
 {
     float zero = 0;
-    bool some = false;
+    bool nonzero = false;
     for (int a = 0; a < 3; a++) {
         zero += q->org[a] * 0 + q->dir[a] * 0;
-        some |= q->dir[a] != 0;
+        nonzero |= q->dir[a] != 0;
     }
-    return zero == 0 && some && q->t_min <= q->t_max;
+    return zero == 0 && nonzero && q->t_min <= q->t_max;
 }
 
 static found find_truth(const subject *s, const given_ray *g)
@@ -188,7 +189,7 @@ static found find_truth(const subject *s, const given_ray *g)
     found f = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
     cgt_counts counts = {0};
     cgt_ray ray = {.t_min = g->ray.t_min < -FLT_MAX ? -FLT_MAX : g->ray.t_min, .t_max = g->ray.t_max};
-    uint32_t winner = CGT_INVALID_ID;
+    uint32_t closest = CGT_INVALID_ID;
     double t;
     memcpy(ray.line.org, g->ray.org, sizeof g->ray.org);
     memcpy(ray.line.dir, g->ray.dir, sizeof g->ray.dir);
@@ -196,13 +197,13 @@ static found find_truth(const subject *s, const given_ray *g)
         return f;
     for (uint32_t i = 0; i < prims->count; i++) {
         const cgt_primitive_array *a = cgt_primitives_array(prims, i);
-        const cgt_primitive shape = cgt_primitives_get(prims, i);
-        if (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID ||
-            (s->ignores && g->geometry == a->geometry && g->primitive == i - a->first))
+        const cgt_primitive primitive = cgt_primitives_get(prims, i);
+        if (cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID ||
+            (s->skips && g->geometry == a->geometry && g->primitive == i - a->first))
             continue;
-        if (!filter_is_closer(prims, &ray, winner, i, &t, &counts))
+        if (!filter_is_closer(prims, &ray, closest, i, &t, &counts))
             continue;
-        winner = i;
+        closest = i;
         f = (found){(float)t, i - a->first, a->geometry};
     }
     return f;
@@ -216,22 +217,22 @@ static void make_rays(test_random *r, subject *s, uint32_t count)
         *g = (given_ray){.ray = i % 2 ? hard_ray(r, s) : ray_random(r, &s->spheres)};
         if (i % 3 == 0)
             aim(r, s, &g->ray);
-        s->ignores = false;
+        s->skips = false;
         const found f = find_truth(s, g);
-        if (f.primitive != CGT_INVALID_ID && i % 5 == 0) /* ranges that begin or end at the hit, to the last bit */
+        if (f.primitive != CGT_INVALID_ID && i % 5 == 0) /* ranges that begin or end exactly at the hit */
             *(random_below(r, 2) ? &g->ray.t_max : &g->ray.t_min) = f.t;
         if (f.primitive != CGT_INVALID_ID && i % 11 == 0)
             *(random_below(r, 2) ? &g->ray.t_max : &g->ray.t_min) =
                 nextafterf(f.t, random_below(r, 2) ? INFINITY : -INFINITY);
         const uint32_t which = random_below(r, 4);
-        g->primitive = which == 0 ? CGT_INVALID_ID : which == 1 ? random_below(r, 2 * OBJECTS) : f.primitive;
+        g->primitive = which == 0 ? CGT_INVALID_ID : which == 1 ? random_below(r, 2 * PRIMITIVES) : f.primitive;
         g->geometry = which == 1 ? random_below(r, arrays + 1) : f.geometry;
     }
 }
 
 /* ---- comparing ---- */
 
-static cgt_rays array_of(const given_ray *q, uint64_t count, bool ignores)
+static cgt_rays array_of(const given_ray *q, uint64_t count, bool skips)
 {
     return (cgt_rays){.count = count,
                       .stride = sizeof *q,
@@ -239,12 +240,12 @@ static cgt_rays array_of(const given_ray *q, uint64_t count, bool ignores)
                       .dir = {&q->ray.dir[0], &q->ray.dir[1], &q->ray.dir[2]},
                       .t_min = &q->ray.t_min,
                       .t_max = &q->ray.t_max,
-                      .skip_primitive = ignores ? &q->primitive : NULL,
-                      .skip_geometry = ignores ? &q->geometry : NULL};
+                      .skip_primitive = skips ? &q->primitive : NULL,
+                      .skip_geometry = skips ? &q->geometry : NULL};
 }
 
-/* How many answers are wrong. */
-static uint64_t wrong_answers(const subject *s, uint32_t count, bool tell)
+/* Returns the number of wrong hits. */
+static uint64_t wrong_hits(const subject *s, uint32_t count, bool tell)
 {
     uint64_t wrong = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -288,28 +289,28 @@ static void check(subject *s, uint32_t count)
 {
     static const uint32_t least = CGT_BVH_MAX_DEPTH * STREAM_MIN_WORDS, arenas[] = {CGT_STREAM_ARENA, least},
                           stacks[] = {INTERLEAVED_STACK, 1};
-    for (int ignores = 0; ignores < 2; ignores++) {
-        s->ignores = ignores;
+    for (int skips = 0; skips < 2; skips++) {
+        s->skips = skips;
         for (uint32_t i = 0; i < count; i++)
             truth[i] = find_truth(s, &given[i]);
         for (size_t k = 0; k < TEST_COUNT(arenas); k++)
             for (int interleaved = 0; interleaved < 2; interleaved++) {
-                const cgt_rays rays = array_of(given, count, ignores);
+                const cgt_rays rays = array_of(given, count, skips);
                 arena_used = arenas[k];
                 interleaved_stack = stacks[k];
                 set_interleaved(interleaved);
                 trace(s, &rays, 0, NULL);
-                assert_int_equal(wrong_answers(s, count, true), 0);
+                assert_int_equal(wrong_hits(s, count, true), 0);
             }
         arena_used = CGT_STREAM_ARENA;
         interleaved_stack = INTERLEAVED_STACK;
     }
 }
 
-/* Rays without an end, for which no array is given; some begin at a second root, to the last bit. */
+/* Rays without t_max, whose array is omitted; some begin exactly at a second root. */
 static void check_endless(test_random *r, subject *s, uint32_t count)
 {
-    s->ignores = false;
+    s->skips = false;
     for (uint32_t i = 0; i < count; i++) {
         given_ray *g = &given[i];
         g->ray.t_max = INFINITY;
@@ -326,12 +327,12 @@ static void check_endless(test_random *r, subject *s, uint32_t count)
     cgt_rays rays = array_of(given, count, false);
     rays.t_max = NULL;
     trace(s, &rays, 0, NULL);
-    assert_int_equal(wrong_answers(s, count, true), 0);
+    assert_int_equal(wrong_hits(s, count, true), 0);
 }
 
 /* ---- tests ---- */
 
-/* Beyond 2^-60 rays are extreme; beyond 2^55 there is no tree. */
+/* Beyond 2^-60 rays are extreme; beyond 2^55 there is no BVH. */
 static float scale_of(int kind, int what)
 {
     static const float scales[] = {1, 0x1p-50f, 0x1p30f, 0x1p-80f};
@@ -357,18 +358,18 @@ static void hits_are_exact(void **state)
         }
 }
 
-/* A stream's rays that begin near each other, at a surface or a corner, where boxes and primitives end to the last
- * bit; of any octants. */
+/* Rays of a stream that start near each other, at a surface or a corner, exactly where boxes and primitives end; in any
+ * octant. */
 static void make_neighbours(test_random *r, subject *s, uint32_t count)
 {
     static const float spreads[] = {0, 0x1p-24f, 1e-5f, 1e-3f, 0.1f};
     const float spread = spreads[random_below(r, TEST_COUNT(spreads))] * s->spheres.reach;
-    const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
+    const float *sphere = s->spheres.sphere[random_below(r, PRIMITIVES)];
     const uint32_t axis = random_below(r, 3), ends = random_below(r, 3), before = random_below(r, 4);
-    const bool along = random_below(r, 3) == 0; /* to a pole, where box and sphere end, all alike */
+    const bool along = random_below(r, 3) == 0; /* to a pole, where box and sphere end, all equal */
     const float side = random_below(r, 2) ? 1 : -1;
     float from[3];
-    memcpy(from, s->corner[random_below(r, OBJECTS)] + 3 * random_below(r, 3), sizeof from);
+    memcpy(from, s->corner[random_below(r, PRIMITIVES)] + 3 * random_below(r, 3), sizeof from);
     if (random_below(r, 2))
         for (uint32_t a = 0; a < 3; a++)
             from[a] = sphere[a] + (a == axis ? side * sphere[3] : 0);
@@ -390,7 +391,7 @@ static void make_neighbours(test_random *r, subject *s, uint32_t count)
             g->ray.dir[a] = a == axis ? -side : 0;
         if (ends)
             g->ray.t_max = along ? INFINITY : random_float(r, 0, 0.3f) * s->spheres.reach;
-        s->ignores = false;
+        s->skips = false;
         const found f = find_truth(s, g);
         if (f.primitive != CGT_INVALID_ID && ends == 2)
             g->ray.t_max = random_below(r, 4) ? f.t : nextafterf(f.t, 0);
@@ -447,9 +448,9 @@ static void batches_do_not_matter(void **state)
     cgt_trace_options_init(&options);
     for (size_t k = 0; k < TEST_COUNT(sizes); k++)
         for (int layout = 0; layout < 2; layout++) {
-            /* where it is slow little more than a batch */
-            const uint32_t some = sizes[k] + 70 < ALL_RAYS ? sizes[k] + 70 : ALL_RAYS;
-            const uint32_t all = is_slow() ? some : ALL_RAYS;
+            /* on slow machines little more than a batch */
+            const uint32_t least = sizes[k] + 70 < ALL_RAYS ? sizes[k] + 70 : ALL_RAYS;
+            const uint32_t all = is_slow() ? least : ALL_RAYS;
             if (all < ALL_RAYS && layout != (int)(k % 2))
                 continue;
             for (uint32_t i = 0; i < all; i += sizes[k]) {
@@ -464,7 +465,7 @@ static void batches_do_not_matter(void **state)
                 options.precision = k % 2 ? CGT_PRECISION_FAST : CGT_PRECISION_ROBUST;
                 trace(&s, &rays, i, &options);
             }
-            assert_int_equal(wrong_answers(&s, all, true), 0);
+            assert_int_equal(wrong_hits(&s, all, true), 0);
         }
     subject_free(&s);
 }
@@ -484,7 +485,7 @@ static void counts_add_up(void **state)
             zero += q->org[a] * 0 + q->dir[a] * 0;
         invalid += zero != 0 || q->t_min != q->t_min || q->t_max != q->t_max ||
                    (q->dir[0] == 0 && q->dir[1] == 0 && q->dir[2] == 0);
-        s.ignores = false;
+        s.skips = false;
         truth[i] = find_truth(&s, &given[i]);
         hits += truth[i].primitive != CGT_INVALID_ID;
     }
@@ -511,14 +512,14 @@ static void counts_add_up(void **state)
     subject_free(&s);
 }
 
-/* Leaves whose boxes are smaller than what slabs are rounded by: heaps of spheres that are hardly more than points. */
+/* Leaves with boxes smaller than the rounding error of slabs: clumps of spheres that are nearly points. */
 static void make_specks(test_random *r, subject *s)
 {
     float middle[16][3];
     for (int k = 0; k < 16; k++)
         for (int a = 0; a < 3; a++)
             middle[k][a] = ((float)random_below(r, 1 << 17) - 0x1p16f) * 0x1p-16f;
-    for (uint32_t i = 0; i < OBJECTS; i++) {
+    for (uint32_t i = 0; i < PRIMITIVES; i++) {
         memcpy(s->spheres.sphere[i], middle[i % 16], sizeof middle[0]);
         s->spheres.sphere[i][3] = 0x1p-30f;
     }
@@ -528,7 +529,7 @@ static void make_specks(test_random *r, subject *s)
 /* Ray i passes exactly through the centre of a speck, which is that many steps of dir away from its origin. */
 static void aim_at_speck(test_random *r, const subject *s, uint32_t i, uint32_t steps, const float dir[3])
 {
-    const float *sphere = s->spheres.sphere[random_below(r, OBJECTS)];
+    const float *sphere = s->spheres.sphere[random_below(r, PRIMITIVES)];
     truth_ray q = {.t_max = INFINITY};
     for (uint32_t a = 0; a < 3; a++) {
         q.dir[a] = dir[a];
@@ -538,7 +539,7 @@ static void aim_at_speck(test_random *r, const subject *s, uint32_t i, uint32_t 
     truth[i] = find_truth(s, &given[i]);
 }
 
-static void margins_break_where_they_are_made_smaller(void **state)
+static void bounds_of_slabs_break_where_they_are_tightened(void **state)
 {
     typedef struct tally {
         uint64_t lost;
@@ -546,7 +547,7 @@ static void margins_break_where_they_are_made_smaller(void **state)
     tally sum[STEPS] = {{0}};
     uint64_t hits = 0;
     (void)state;
-    if (clusters_always()) /* its specks are spheres */
+    if (clusters_always()) /* specks are spheres */
         skip();
     for (uint32_t turn = 0; turn < 4; turn++) {
         test_random r = random_make(300 + turn);
@@ -563,12 +564,12 @@ static void margins_break_where_they_are_made_smaller(void **state)
         }
         const cgt_rays rays = array_of(given, RAYS, false);
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
-            slack_scale = scale;
+            error_scale = scale;
             set_interleaved(turn % 2);
             trace(&s, &rays, 0, NULL);
-            sum[step].lost += wrong_answers(&s, RAYS, false);
+            sum[step].lost += wrong_hits(&s, RAYS, false);
         }
-        slack_scale = 1;
+        error_scale = 1;
         subject_free(&s);
     }
     assert_true(hits > RAYS);
@@ -616,15 +617,15 @@ static void bounds_of_leaves_break_where_they_are_tightened(void **state)
             continue;
         subject_make(&r, CLOUD_UNIFORM, turn % 2 ? SPHERES : TRIANGLES, 1, &s);
         for (uint32_t i = 0; i < RAYS; i++) {
-            const float *sphere = s.spheres.sphere[random_below(&r, OBJECTS)], share = random_float(&r, 0, 1);
-            const float *corner = s.corner[random_below(&r, OBJECTS)];
+            const float *sphere = s.spheres.sphere[random_below(&r, PRIMITIVES)], share = random_float(&r, 0, 1);
+            const float *corner = s.corner[random_below(&r, PRIMITIVES)];
             truth_ray q = ray_random(&r, &s.spheres);
             float c[3], cc = 0, side[3];
             for (int a = 0; a < 3; a++) {
                 c[a] = sphere[a] - q.org[a];
                 cc += c[a] * c[a];
             }
-            /* across c and y: to the point of the silhouette there, seen from afar */
+            /* orthogonal to c and y: to the point of the silhouette there, seen from afar */
             const float across = sqrtf(c[0] * c[0] + c[2] * c[2]), root = sqrtf(1 - sphere[3] * sphere[3] / cc);
             side[0] = c[2] / across;
             side[1] = 0;
@@ -643,12 +644,12 @@ static void bounds_of_leaves_break_where_they_are_tightened(void **state)
             filter_u = scale;
             set_interleaved(turn / 2 % 2);
             trace(&s, &rays, 0, NULL);
-            sum[step].wrong += wrong_answers(&s, RAYS, step == 0);
+            sum[step].wrong += wrong_hits(&s, RAYS, step == 0);
         }
         filter_u = 0x1p-24f;
         subject_free(&s);
     }
-    check_break("a wrong answer", sum, sizeof *sum, offsetof(tally, wrong), 0x1p-11);
+    check_break("a wrong hit", sum, sizeof *sum, offsetof(tally, wrong), 0x1p-11);
 }
 
 int main(void)
@@ -658,7 +659,7 @@ int main(void)
         cmocka_unit_test(neighbours_are_exact),
         cmocka_unit_test(batches_do_not_matter),
         cmocka_unit_test(counts_add_up),
-        cmocka_unit_test(margins_break_where_they_are_made_smaller),
+        cmocka_unit_test(bounds_of_slabs_break_where_they_are_tightened),
         cmocka_unit_test(origins_may_lie_on_one_side),
         cmocka_unit_test(bounds_of_leaves_break_where_they_are_tightened),
     };

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Replaces the library's choose_clusters.c: every structure of triangles alone gets clusters, however few there are
- * and wherever they lie. */
+ * Replaces the library's choose_clusters.c: every structure over triangles only gets clusters, however few and wherever
+ * they are. */
 #include "model/triangle_cluster.h"
 
 cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims)

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What cluster_meshes.h declares. */
+ * Builds and changes the meshes of cluster_meshes.h. */
 #include "clusters/cluster_meshes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define COLUMNS 64u /* squares of a row */
+#define COLUMNS 64u /* squares per row */
 
 const uint32_t uneven[PARTS] = {1, 7, 9, 4099, 6003};
 
@@ -19,8 +19,8 @@ const cgt_scene_options kd_tree = {.structure = CGT_STRUCTURE_KD};
 
 /* ---- meshes ---- */
 
-/* A wavy sheet, rolled up, so that it has several layers from wherever it is seen; rows run along the
- * roll, and squares grow from row to row and along each. */
+/* A wavy sheet, rolled up, so that it shows several layers from any direction; rows run along the roll, and squares
+ * grow from row to row and along each row. */
 static void point_at(uint32_t column, uint32_t row, uint32_t rows, double phase, float p[3])
 {
     const double s = (double)row / rows, t = (double)column / COLUMNS;
@@ -41,7 +41,7 @@ void mesh_place(mesh *m, double phase)
                      m->triangle[i][k]);
 }
 
-/* Form: with indices or without, with gaps in the arrays or without. */
+/* form: with or without indices, with or without gaps in the arrays. */
 static void part_make(part *p, uint32_t first, uint32_t count, uint32_t beyond, uint32_t form)
 {
     const bool indexed = form % 2, gaps = form / 2 % 2;
@@ -88,7 +88,8 @@ uint32_t *index_at(const part *p, uint32_t i)
     return (uint32_t *)(void *)((char *)p->index + i * p->triangles.index_stride);
 }
 
-/* To the arrays, with indices from the last vertex to the first. What lies beyond cuts through the middle. */
+/* Stores the triangles in the arrays, with indices from the last vertex to the first. Triangles beyond the last one cut
+ * through the centre. */
 void mesh_store(const mesh *m)
 {
     static const float beyond[3][3] = {{-3, -3, 0.1f}, {3, -3, 0.2f}, {0, 4, -0.3f}};
@@ -103,8 +104,8 @@ void mesh_store(const mesh *m)
             }
 }
 
-/* Triangles that are skipped: of some clusters all are, of some each other one, and single ones. Where they lie far
- * off, the boxes must not. Those with a NaN or far off are few: clusters with them do not count as neighbours. */
+/* Makes triangles that are skipped: all or every other one of some clusters, and single ones. Some lie far away, where
+ * boxes must not reach. Those and NaNs are few, since their clusters do not count as neighbours. */
 void mesh_spoil(const mesh *m)
 {
     for (uint32_t i = 0; i < m->count; i++) {
@@ -120,7 +121,7 @@ void mesh_spoil(const mesh *m)
     }
 }
 
-/* To zeros of either sign, of which neither is the lesser. */
+/* Sets coordinates to +0 or -0, of which neither is less. */
 void mesh_flatten(const mesh *m)
 {
     for (uint32_t i = 0; i < m->count; i++)
@@ -151,7 +152,7 @@ void mesh_shuffle(const mesh *m, test_random *r)
 }
 /* ---- scenes ---- */
 
-/* Not committed. */
+/* Returns an uncommitted scene. */
 cgt_scene *scene_with(cgt_context *context, const cgt_scene_options *options, const mesh *m)
 {
     cgt_scene *scene = NULL;
@@ -159,7 +160,7 @@ cgt_scene *scene_with(cgt_context *context, const cgt_scene_options *options, co
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     for (uint32_t k = 0; k < m->parts; k++) {
         cgt_triangles t = m->part[k].triangles;
-        t.mask = k == HIDDEN_PART ? ~SOME : 0;
+        t.mask = k == HIDDEN_PART ? ~VISIBLE_MASK : 0;
         assert_int_equal(cgt_scene_add_triangles(scene, &t, &id), CGT_OK);
     }
     return scene;

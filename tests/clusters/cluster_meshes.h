@@ -10,19 +10,19 @@
 #include "support/scenes.h"
 #include "model/triangle_cluster.h"
 
-#define LEAST 8192u   /* triangles that get clusters */
-#define PARTS 5u      /* geometries at most */
-#define HIDDEN_PART 3 /* the geometry that rays of SOME do not see */
-#define SOME 1u
+#define LEAST 8192u   /* fewest triangles that get clusters */
+#define PARTS 5u      /* maximum number of geometries */
+#define HIDDEN_PART 3 /* the geometry that rays of VISIBLE_MASK do not see */
+#define VISIBLE_MASK 1u
 
 extern const uint32_t uneven[PARTS]; /* counts of triangles */
 
 extern const cgt_scene_options automatic, loose_grid, bvh, kd_tree;
 
-/* A geometry, in memory of its own that ends where its arrays do. */
+/* A geometry, in separate memory that ends where its arrays do. */
 typedef struct part {
     cgt_triangles triangles;
-    uint32_t first, held; /* triangles in its arrays */
+    uint32_t first, held; /* first triangle, and number of triangles in its arrays */
     float *vertex;
     uint32_t *index;
 } part;
@@ -33,32 +33,33 @@ typedef struct mesh {
     part part[PARTS];
 } mesh;
 
-/* All triangles, row by row; another phase: elsewhere. */
+/* Places all triangles, row by row; the phase moves the mesh. */
 void mesh_place(mesh *m, double phase);
 
-/* beyond: triangles that each part's arrays hold after the last one, and that must not be seen. form: with indices or
- * without, with gaps in the arrays or without. */
+/* beyond: number of triangles that each part's arrays hold after the last one, and that must not be hit. form: with or
+ * without indices, with or without gaps in the arrays. */
 mesh mesh_make(const uint32_t *counts, uint32_t parts, uint32_t beyond, uint32_t form);
 mesh mesh_of(uint32_t count, uint32_t form);
 void mesh_free(mesh *m);
 uint32_t *index_at(const part *p, uint32_t i);
 
-/* To the arrays, with indices from the last vertex to the first. What lies beyond cuts through the middle. */
+/* Stores the triangles in the arrays, with indices from the last vertex to the first. Triangles beyond the last one cut
+ * through the centre. */
 void mesh_store(const mesh *m);
 
-/* Triangles that are skipped: of some clusters all are, of some each other one, and single ones. Where they lie far
- * off, the boxes must not. */
+/* Makes triangles that are skipped: all or every other one of some clusters, and single ones. Some lie far away, where
+ * boxes must not reach. */
 void mesh_spoil(const mesh *m);
 
-/* To zeros of either sign, of which neither is the lesser. */
+/* Sets coordinates to +0 or -0, of which neither is less. */
 void mesh_flatten(const mesh *m);
 
-/* Makes clusters eight times as long as necessary, and of use only to grids. */
+/* Makes clusters eight times as long as necessary, and useful only in grids. */
 void mesh_loosen(const mesh *m);
 
 void mesh_shuffle(const mesh *m, test_random *r);
 
-/* Not committed. */
+/* Returns an uncommitted scene. */
 cgt_scene *scene_with(cgt_context *context, const cgt_scene_options *options, const mesh *m);
 
 void commit(cgt_scene *scene);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays through clusters (triangle_cluster.h) have the hits of a kd-tree over single triangles, bit for bit, at rest
- * and in motion, with each variant. */
+ * Rays through clusters (triangle_cluster.h) find the hits of a kd-tree over single triangles, bit for bit, at rest and
+ * in motion, with each variant. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,51 +18,51 @@
 #define HEIGHT 66u
 #define PIXELS (WIDTH * HEIGHT)
 #define RAYS 2400u
-#define FEWER_RAYS 320u /* where it is slow; frames stay, since tiles want neighbouring points to be near each other */
-#define FEW 128u        /* rays that are too few for a BVH of their own, twice */
+#define FEWER_RAYS 320u /* on slow machines; frames stay, since tiles need neighbouring points that are close */
+#define FEW 128u        /* rays, of which even twice as many do not build a BVH */
 #define BUNDLE 16u
 #define LIGHTS 3u
 
 typedef struct view {
     cgt_camera camera;
-    bool some; /* of SOME: not all geometries */
+    bool masked; /* of VISIBLE_MASK: not all geometries */
 } view;
 
 static const cgt_light lights[LIGHTS] = {
-    {CGT_LIGHT_POINT, {0.05f, -0.1f, 0.2f}}, /* within the roll */
+    {CGT_LIGHT_POINT, {0.05f, -0.1f, 0.2f}}, /* inside the roll */
     {CGT_LIGHT_POINT, {3, 2, 1}},
     {CGT_LIGHT_DIRECTIONAL, {-0.4f, 0.7f, 0.5f}},
 };
 
 #define VIEWS 6u
-/* Where it is slow, views and lights that are asked for lie so far apart: a view of some goes with that of all. */
-#define APART 3u
+/* On slow machines only every third view and light is used: a masked view goes with one of all geometries. */
+#define SAMPLE_STEP 3u
 
-/* From outside, parallel, and from within the bounds; some from outside and parallel; all along the roll. */
+/* From outside, parallel, and from inside the bounds; masked from outside and parallel; all along the roll. */
 static view view_at(uint32_t number)
 {
     static const float eye[VIEWS][3] = {{2.4f, 1.1f, 1.3f}, {-1.5f, -2.2f, 0.7f}, {0.1f, -0.15f, 0.3f},
                                         {2.4f, 1.1f, 1.3f}, {-1.5f, -2.2f, 0.7f}, {0.2f, 0.1f, 3}};
     static const float target[VIEWS][3] = {{0, 0, 0}, {0, 0.1f, 0.1f}, {0.6f, 0.5f, -0.4f},
                                            {0, 0, 0}, {0, 0.1f, 0.1f}, {0, 0, 0}};
-    view v = {.some = number == 3 || number == 4};
+    view v = {.masked = number == 3 || number == 4};
     cgt_camera_init(&v.camera);
     memcpy(v.camera.eye, eye[number], sizeof v.camera.eye);
     memcpy(v.camera.target, target[number], sizeof v.camera.target);
     v.camera.fov = number == 2 ? 80 : 50;
     v.camera.height = 2.3f;
     v.camera.projection = number == 1 || number == 4 ? CGT_PROJECTION_ORTHOGRAPHIC : CGT_PROJECTION_PERSPECTIVE;
-    v.camera.mask = v.some ? SOME : 0;
+    v.camera.mask = v.masked ? VISIBLE_MASK : 0;
     return v;
 }
 
 /* The queries: bundles of rays from one origin each to points of triangles, and points visible in the first view. */
-typedef struct questions {
+typedef struct queries {
     uint32_t rays, sample;
     truth_ray ray[RAYS];
     float point[3][PIXELS];
     uint32_t skip_prim[2][PIXELS]; /* the triangle that the point is on, and its geometry */
-} questions;
+} queries;
 
 typedef struct answers {
     planes frame[VIEWS];
@@ -70,7 +70,10 @@ typedef struct answers {
     uint8_t occluded[RAYS], shadow[LIGHTS][PIXELS];
 } answers;
 
-static bool is_asked(const questions *q, uint32_t number) { return !test_samples() || number % APART == q->sample; }
+static bool is_selected(const queries *q, uint32_t number)
+{
+    return !test_samples() || number % SAMPLE_STEP == q->sample;
+}
 
 static answers *answers_make(void)
 {
@@ -88,7 +91,7 @@ static void answers_free(answers *a)
     free(a);
 }
 
-static void ask_rays(questions *q, const mesh *m, test_random *r)
+static void make_rays(queries *q, const mesh *m, test_random *r)
 {
     float from[3] = {0, 0, 0};
     for (uint32_t i = 0; i < q->rays; i++) {
@@ -101,13 +104,13 @@ static void ask_rays(questions *q, const mesh *m, test_random *r)
                 from[a] = random_float(r, -2, 2);
             const float to = v[0][a] + s * (v[1][a] - v[0][a]) + t * (v[2][a] - v[0][a]);
             ray->org[a] = from[a];
-            ray->dir[a] = isfinite(to) ? to - from[a] : 1; /* of a NaN: anywhere */
+            ray->dir[a] = isfinite(to) ? to - from[a] : 1; /* for a NaN: any direction */
         }
     }
 }
 
-/* Where the first view has no hit, a point in the air. */
-static void ask_points(questions *q, const cgt_scene *scene)
+/* A pixel of the first view without a hit gets a point in the air. */
+static void make_points(queries *q, const cgt_scene *scene)
 {
     const view v = view_at(0);
     planes p = planes_make(WIDTH, HEIGHT);
@@ -124,13 +127,13 @@ static void ask_points(questions *q, const cgt_scene *scene)
     planes_free(&p);
 }
 
-/* Frames: by tiles where the scene has a grid; by packets where a view does not show all, with each culling in turn. */
-static void trace_frames(const cgt_scene *scene, const questions *q, uint32_t turn, answers *a)
+/* Frames: by tiles if the scene has a grid; by packets for masked views, with each culling in turn. */
+static void trace_frames(const cgt_scene *scene, const queries *q, uint32_t turn, answers *a)
 {
     const bool grid = scene->committed_scene.loose.levels > 0,
                several = scene->committed_scene.prims.arrays > HIDDEN_PART;
     for (uint32_t i = 0; i < VIEWS; i++) {
-        if (!is_asked(q, i))
+        if (!is_selected(q, i))
             continue;
         const view v = view_at(i);
         cgt_trace_statistics st;
@@ -138,27 +141,27 @@ static void trace_frames(const cgt_scene *scene, const questions *q, uint32_t tu
         test_trace_options o = {0};
         o.statistics = &st;
         o.research_statistics = &research;
-        if (v.some)
+        if (v.masked)
             o.cull = (cgt_cull)((turn + i) % 3);
         frame_trace(scene, &v.camera, &a->frame[i], TRACE_OPTIONS(&o));
         assert_true(st.hits > PIXELS / 8 && st.hits < PIXELS);
-        const bool tiles = grid && !(v.some && (several || o.cull != CGT_CULL_AUTO));
+        const bool tiles = grid && !(v.masked && (several || o.cull != CGT_CULL_AUTO));
         assert_int_equal(st.tiles > 0, tiles);
         assert_true(!tiles || (research.culled > 0 && research.culled < research.cull_tests));
-        if (v.some && several) /* the hidden geometry is of some use */
-            assert_memory_not_equal(a->frame[i].memory, a->frame[i - APART].memory,
+        if (v.masked && several) /* the hidden geometry makes a difference */
+            assert_memory_not_equal(a->frame[i].memory, a->frame[i - SAMPLE_STEP].memory,
                                     a->frame[i].elements * sizeof(uint32_t));
     }
 }
 
-static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
+static void trace_lights(const cgt_scene *scene, const queries *q, answers *a)
 {
     const cgt_points points = {.count = PIXELS,
                                .position = {q->point[0], q->point[1], q->point[2]},
                                .skip_primitive = q->skip_prim[0],
                                .skip_geometry = q->skip_prim[1]};
     for (uint32_t i = 0; i < LIGHTS; i++) {
-        if (!is_asked(q, i))
+        if (!is_selected(q, i))
             continue;
         cgt_trace_statistics st;
         test_trace_options o = {0};
@@ -169,21 +172,21 @@ static void trace_lights(const cgt_scene *scene, const questions *q, answers *a)
     }
 }
 
-/* In calls of `each` rays. Returns how many went through a BVH. */
-static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t first, uint32_t count, uint32_t each,
-                           answers *a)
+/* Traces in calls of `each` rays. Returns how many rays went through a BVH. */
+static uint64_t trace_batches(const cgt_scene *scene, const queries *q, uint32_t first, uint32_t count, uint32_t each,
+                              answers *a)
 {
     uint64_t bvh_rays = 0;
     memset(a->hit + first, 0x77, count * sizeof a->hit[0]);
     memset(a->occluded + first, 0x77, count);
     for (uint32_t i = first; i < first + count; i += each) {
-        const uint32_t some = first + count - i < each ? first + count - i : each;
-        const cgt_rays rays = ray_array(q->ray + i, some);
+        const uint32_t batch = first + count - i < each ? first + count - i : each;
+        const cgt_rays rays = ray_array(q->ray + i, batch);
         cgt_trace_statistics st;
         test_trace_options o = {0};
         o.statistics = &st;
         o.cull = (cgt_cull)(i / each % 3);
-        assert_int_equal(trace_array(scene, q->ray + i, some, a->hit + i, TRACE_OPTIONS(&o)), CGT_OK);
+        assert_int_equal(trace_array(scene, q->ray + i, batch, a->hit + i, TRACE_OPTIONS(&o)), CGT_OK);
         bvh_rays += st.bvh_rays;
         assert_int_equal(cgt_occluded_rays(scene, &rays, a->occluded + i, TRACE_OPTIONS(&o)), CGT_OK);
         bvh_rays += st.bvh_rays;
@@ -191,10 +194,10 @@ static uint64_t trace_some(const cgt_scene *scene, const questions *q, uint32_t 
     return bvh_rays;
 }
 
-static void compare_answers(const answers *got, const answers *want, const questions *q, const char *what)
+static void compare_answers(const answers *got, const answers *want, const queries *q, const char *what)
 {
     for (uint32_t i = 0; i < VIEWS; i++)
-        if (is_asked(q, i) && !planes_equal(&got->frame[i], &want->frame[i])) {
+        if (is_selected(q, i) && !planes_equal(&got->frame[i], &want->frame[i])) {
             size_t k = 0;
             while (got->frame[i].memory[k] == want->frame[i].memory[k])
                 k++;
@@ -204,7 +207,7 @@ static void compare_answers(const answers *got, const answers *want, const quest
                      (double)want->frame[i].t[k]);
         }
     for (uint32_t i = 0; i < LIGHTS; i++)
-        for (uint32_t k = 0; is_asked(q, i) && k < PIXELS; k++)
+        for (uint32_t k = 0; is_selected(q, i) && k < PIXELS; k++)
             if (got->shadow[i][k] != want->shadow[i][k])
                 fail_msg("%s: light %u: point %u is %s", what, i, k, want->shadow[i][k] ? "in shadow" : "in the light");
     for (uint32_t i = 0; i < q->rays; i++)
@@ -213,19 +216,19 @@ static void compare_answers(const answers *got, const answers *want, const quest
                      (double)got->hit[i].t, got->occluded[i], (int)want->hit[i].primitive, (double)want->hit[i].t);
 }
 
-/* The answers of the kd-tree, which is made of triangles. */
-static answers *ask_kd(cgt_context *context, questions *q, const mesh *m, test_random *r, uint32_t number)
+/* The hits in a kd-tree, which holds single triangles. */
+static answers *kd_answers(cgt_context *context, queries *q, const mesh *m, test_random *r, uint32_t number)
 {
     cgt_scene *scene = committed(context, &kd_tree, m);
     uint32_t hits = 0;
     q->rays = test_samples() ? FEWER_RAYS : RAYS;
-    q->sample = test_sample_start(number, APART);
+    q->sample = test_sample_start(number, SAMPLE_STEP);
     answers *a = answers_make();
-    ask_rays(q, m, r);
-    ask_points(q, scene);
+    make_rays(q, m, r);
+    make_points(q, scene);
     trace_frames(scene, q, 0, a);
     trace_lights(scene, q, a);
-    trace_some(scene, q, 0, q->rays, q->rays, a);
+    trace_batches(scene, q, 0, q->rays, q->rays, a);
     for (uint32_t i = 0; i < q->rays; i++)
         hits += a->hit[i].primitive != CGT_INVALID_ID;
     assert_true(hits > q->rays / 2 && hits < q->rays);
@@ -233,8 +236,8 @@ static answers *ask_kd(cgt_context *context, questions *q, const mesh *m, test_r
     return a;
 }
 
-/* All through the grid, in calls of one ray and of a bundle. */
-static void check_grid(cgt_context *context, const questions *q, const mesh *m, uint32_t turn, const answers *want)
+/* Traces everything through the grid, in calls of one ray and of a bundle. */
+static void check_grid(cgt_context *context, const queries *q, const mesh *m, uint32_t turn, const answers *want)
 {
     cgt_scene *scene = committed(context, &loose_grid, m);
     assert_non_null(scene->committed_scene.cluster);
@@ -242,37 +245,37 @@ static void check_grid(cgt_context *context, const questions *q, const mesh *m, 
     trace_frames(scene, q, turn, got);
     trace_lights(scene, q, got);
     for (uint32_t each = 1; each <= BUNDLE; each += BUNDLE - 1) {
-        assert_int_equal(trace_some(scene, q, 0, q->rays, each, got), 0);
+        assert_int_equal(trace_batches(scene, q, 0, q->rays, each, got), 0);
         compare_answers(got, want, q, each == 1 ? "rays one by one" : "rays in bundles");
     }
     answers_free(got);
     cgt_scene_release(scene);
 }
 
-/* Few rays after the commit go through the grid; then there are enough of them for a BVH. */
-static void check_automatic(const cgt_scene *scene, const questions *q, const answers *want)
+/* The first few rays after a commit go through the grid; then there are enough for a BVH. */
+static void check_automatic(const cgt_scene *scene, const queries *q, const answers *want)
 {
     answers *got = answers_make();
     assert_true(scene->committed_scene.cluster && !scene->committed_scene.bvh.node);
-    assert_int_equal(trace_some(scene, q, 0, FEW / 2, 1, got), 0);
-    assert_int_equal(trace_some(scene, q, FEW / 2, FEW / 2, BUNDLE, got), 0);
-    assert_int_equal(trace_some(scene, q, FEW, q->rays - FEW, q->rays - FEW, got), 2 * (q->rays - FEW));
+    assert_int_equal(trace_batches(scene, q, 0, FEW / 2, 1, got), 0);
+    assert_int_equal(trace_batches(scene, q, FEW / 2, FEW / 2, BUNDLE, got), 0);
+    assert_int_equal(trace_batches(scene, q, FEW, q->rays - FEW, q->rays - FEW, got), 2 * (q->rays - FEW));
     trace_frames(scene, q, 0, got);
     trace_lights(scene, q, got);
     compare_answers(got, want, q, "automatic");
-    assert_int_equal(trace_some(scene, q, 0, q->rays, BUNDLE, got), 2 * q->rays);
-    compare_answers(got, want, q, "bundles through a tree");
+    assert_int_equal(trace_batches(scene, q, 0, q->rays, BUNDLE, got), 2 * q->rays);
+    compare_answers(got, want, q, "bundles through a BVH");
     answers_free(got);
 }
 
 static void check_hits(const mesh *m, uint32_t stream)
 {
-    questions *q = malloc(sizeof *q);
+    queries *q = malloc(sizeof *q);
     test_random r = random_make(stream);
     cgt_context *context = context_make(1, NULL);
     uint32_t turn = 0;
     assert_non_null(q);
-    answers *want = ask_kd(context, q, m, &r, stream);
+    answers *want = kd_answers(context, q, m, &r, stream);
     cgt_context_release(context);
     FOR_EACH_VARIANT(variant)
     {
@@ -291,7 +294,7 @@ static void hits_are_those_of_triangles(void **state)
 {
     (void)state;
     static const uint32_t whole[] = {10003};
-    for (uint32_t form = 0; form < 3; form++) { /* the last one with a tree of triangles */
+    for (uint32_t form = 0; form < 3; form++) { /* the last one with a BVH of single triangles */
         mesh m = mesh_make(whole, 1, BEYOND, form);
         if (form == 2)
             mesh_loosen(&m);
@@ -315,12 +318,12 @@ static void hits_are_those_of_several_geometries(void **state)
 
 /* ---- motion ---- */
 
-/* Each commit finds the mesh elsewhere, and other triangles skipped; only the first one takes memory. */
+/* Before each commit the mesh moves and other triangles are skipped; only the first commit allocates. */
 static void move(bool loosened)
 {
     unsigned allocations = 0, before = 0;
     test_random r = random_make(30);
-    questions *q = malloc(sizeof *q);
+    queries *q = malloc(sizeof *q);
     cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
     mesh m = mesh_make(uneven, PARTS, 0, 1);
     cgt_scene *scene = scene_with(context, &automatic, &m);
@@ -329,13 +332,13 @@ static void move(bool loosened)
         mesh_place(&m, 0.1 * step);
         if (loosened)
             mesh_loosen(&m);
-        if (step != 1 || loosened) /* a tree of triangles that are all valid has more leaves */
+        if (step != 1 || loosened) /* a BVH of triangles that are all valid has more leaves */
             mesh_spoil(&m);
         mesh_store(&m);
         commit(scene);
         assert_int_equal(scene->committed_scene.bvh_of_clusters, !loosened);
         assert_true(!step || allocations == before);
-        answers *want = ask_kd(other, q, &m, &r, step);
+        answers *want = kd_answers(other, q, &m, &r, step);
         check_automatic(scene, q, want);
         assert_true(!step || allocations == before);
         before = allocations;
@@ -356,14 +359,14 @@ static void hits_move_with_the_mesh(void **state)
     move(true);
 }
 
-/* A tree of clusters takes no memory for a mesh that turns, either. */
-static void trees_move_in_their_memory(void **state)
+/* A BVH of clusters allocates nothing for a rotating mesh, either. */
+static void trees_move_without_allocations(void **state)
 {
     (void)state;
     static full_hit got[RAYS], want[RAYS];
     unsigned allocations = 0, before = 0;
     test_random r = random_make(31);
-    questions *q = malloc(sizeof *q);
+    queries *q = malloc(sizeof *q);
     cgt_context *context = context_counting(&allocations), *other = context_make(1, NULL);
     mesh m = mesh_make(uneven, PARTS, 0, 0);
     cgt_scene *scene = scene_with(context, &bvh, &m);
@@ -373,7 +376,7 @@ static void trees_move_in_their_memory(void **state)
         mesh_place(&m, 0.1 * step);
         mesh_spoil(&m);
         mesh_store(&m);
-        ask_rays(q, &m, &r);
+        make_rays(q, &m, &r);
         commit(scene);
         assert_true(scene->committed_scene.cluster && scene->committed_scene.bvh.node);
         assert_true(!step || allocations == before);
@@ -397,7 +400,7 @@ int main(void)
         cmocka_unit_test(hits_are_those_of_triangles),
         cmocka_unit_test(hits_are_those_of_several_geometries),
         cmocka_unit_test(hits_move_with_the_mesh),
-        cmocka_unit_test(trees_move_in_their_memory),
+        cmocka_unit_test(trees_move_without_allocations),
     };
     test_begin("test_cluster_hits");
     return cmocka_run_group_tests(tests, NULL, NULL);

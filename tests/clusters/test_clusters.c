@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Clusters of a mesh's triangles (triangle_cluster.h): which scenes get them, that their boxes hold the triangles
- * and how tightly, and in which cells they lie. All of it is the same for each variant and any number of threads. */
+ * Clusters of a mesh's triangles (triangle_cluster.h): which scenes get them, that their boxes bound the triangles
+ * tightly, and in which cells they lie. All of it is the same for each variant and any number of threads. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static cgt_scene_statistics statistics_of(const cgt_scene *scene)
     return st;
 }
 
-/* The valid triangles of cluster c as bits, one after the other. */
+/* The valid triangles of cluster c, one bit each. */
 static uint32_t valid_of(const cgt_primitives *o, uint32_t c)
 {
     uint32_t valid = 0;
@@ -37,7 +37,7 @@ static uint32_t count_used(const cgt_primitives *o)
     return used;
 }
 
-/* ---- which scenes get them ---- */
+/* ---- which scenes get clusters ---- */
 
 static cgt_cluster_use use_of(cgt_context *context, const cgt_scene_options *options, const mesh *m)
 {
@@ -55,7 +55,7 @@ static bool gets_clusters(cgt_context *context, const cgt_scene_options *options
     return use_of(context, options, m) != CGT_CLUSTERS_NONE;
 }
 
-static void neighbours_do(void **state)
+static void neighbours_get_clusters(void **state)
 {
     (void)state;
     const cgt_scene_options incoherent = {.rays = CGT_RAY_KIND_INCOHERENT};
@@ -82,7 +82,7 @@ static void neighbours_do(void **state)
     cgt_context_release(context);
 }
 
-static void others_do_not(void **state)
+static void others_get_no_clusters(void **state)
 {
     (void)state;
     const cgt_research_scene_options resolution = {.resolution = {20, 20, 20}};
@@ -102,8 +102,8 @@ static void others_do_not(void **state)
     cgt_context_release(context);
 }
 
-/* Loose clusters serve only grids. */
-static void loose_ones_go_to_grids(void **state)
+/* Loose clusters are used only in grids. */
+static void loose_clusters_serve_grids(void **state)
 {
     (void)state;
     cgt_context *context = context_make(2, NULL);
@@ -118,7 +118,7 @@ static void loose_ones_go_to_grids(void **state)
     cgt_context_release(context);
 }
 
-/* One scene, whose order is lost and comes back, with a sphere for a while: each commit decides anew. */
+/* One scene whose order is lost and restored, with a sphere for a while: each commit decides anew. */
 static void each_commit_decides(void **state)
 {
     (void)state;
@@ -152,9 +152,8 @@ static void each_commit_decides(void **state)
     cgt_context_release(context);
 }
 
-/* In clusters that are looked at before anything is decided, the first among them, and elsewhere; in one that is not
- * full, too. */
-static void an_index_out_of_range_is_told(void **state)
+/* In clusters that the decision samples, the first among them, and in others; also in one that is not full. */
+static void an_index_out_of_range_is_reported(void **state)
 {
     (void)state;
     static const uint32_t at[] = {0, 7, 9, LEAST / 2, LEAST - 1, LEAST + 4};
@@ -180,7 +179,7 @@ static void an_index_out_of_range_is_told(void **state)
 }
 /* ---- boxes ---- */
 
-/* Every number is a difference of floats, which double holds but for what rounding of the box itself is above. */
+/* Every number is a difference of floats, exact in double up to an error below the rounding of the box itself. */
 static void check_box(const cgt_primitives *o, const cgt_cluster *box, uint32_t c)
 {
     const uint32_t valid = valid_of(o, c);
@@ -209,7 +208,7 @@ static void check_box(const cgt_primitives *o, const cgt_cluster *box, uint32_t 
     assert_true(same_bits(box->size, size));
 }
 
-static void boxes_hold_what_is_valid(void **state)
+static void boxes_bound_valid_triangles(void **state)
 {
     (void)state;
     cgt_context *context = context_make(1, NULL);
@@ -270,7 +269,7 @@ static uint32_t check_level(const cgt_committed_scene *w, const cgt_loose_level 
 static void each_is_in_one_cell(void **state)
 {
     (void)state;
-    const uint32_t large = test_scaled(150000); /* more clusters than are sorted together */
+    const uint32_t large = test_scaled(150000); /* more clusters than are sorted at once */
     cgt_context *context = context_make(2, NULL);
     for (uint32_t round = 0; round < 2; round++) {
         mesh m = round && large > LEAST ? mesh_of(large, 0) : mesh_make(uneven, PARTS, 0, 0);
@@ -296,7 +295,7 @@ static void each_is_in_one_cell(void **state)
 
 /* ---- everywhere the same ---- */
 
-static void compare_worlds(const cgt_committed_scene *a, const cgt_committed_scene *b)
+static void compare_committed(const cgt_committed_scene *a, const cgt_committed_scene *b)
 {
     const cgt_loose_grid *g = &a->loose, *h = &b->loose;
     assert_true(a->cluster && b->cluster);
@@ -325,7 +324,7 @@ static void variants_and_threads_change_nothing(void **state)
         for (size_t k = 0; k < TEST_COUNT(threads); k++) {
             cgt_context *context = context_make(threads[k], variant);
             cgt_scene *got = committed(context, &automatic, &m);
-            compare_worlds(&got->committed_scene, &want->committed_scene);
+            compare_committed(&got->committed_scene, &want->committed_scene);
             cgt_scene_release(got);
             cgt_context_release(context);
         }
@@ -338,12 +337,12 @@ static void variants_and_threads_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(neighbours_do),
-        cmocka_unit_test(others_do_not),
-        cmocka_unit_test(loose_ones_go_to_grids),
+        cmocka_unit_test(neighbours_get_clusters),
+        cmocka_unit_test(others_get_no_clusters),
+        cmocka_unit_test(loose_clusters_serve_grids),
         cmocka_unit_test(each_commit_decides),
-        cmocka_unit_test(an_index_out_of_range_is_told),
-        cmocka_unit_test(boxes_hold_what_is_valid),
+        cmocka_unit_test(an_index_out_of_range_is_reported),
+        cmocka_unit_test(boxes_bound_valid_triangles),
         cmocka_unit_test(each_is_in_one_cell),
         cmocka_unit_test(variants_and_threads_change_nothing),
     };

@@ -16,7 +16,7 @@ const char *loose_name(loose_kind kind)
     return name[kind];
 }
 
-/* ---- places and sizes ---- */
+/* ---- positions and sizes ---- */
 
 static void place(test_random *r, loose_kind kind, uint32_t count, float q[4])
 {
@@ -65,7 +65,7 @@ static void place(test_random *r, loose_kind kind, uint32_t count, float q[4])
     }
 }
 
-/* A triangle about a sphere's place and of its size. */
+/* A triangle at a sphere's position, of its size. */
 static void triangle_at(test_random *r, loose_kind kind, const float q[4], float v[3][3])
 {
     for (int k = 0; k < 3; k++)
@@ -73,7 +73,7 @@ static void triangle_at(test_random *r, loose_kind kind, const float q[4], float
             const float way = kind == LOOSE_LATTICE ? (float)random_below(r, 2) : random_float(r, -1, 1);
             v[k][a] = q[a] + (kind == LOOSE_FLAT && a == 2 ? 0 : q[3] * way);
         }
-    if (kind == LOOSE_SPOILED && random_below(r, 5) == 0) { /* a needle, which may have an area or none */
+    if (kind == LOOSE_SPOILED && random_below(r, 5) == 0) { /* a needle, with or without an area */
         for (int a = 0; a < 3; a++)
             v[2][a] = 0.25f * v[0][a] + 0.75f * v[1][a];
     }
@@ -90,7 +90,7 @@ static void *array_of(loose_scene *s, size_t bytes)
     return s->array[s->arrays++] = p;
 }
 
-/* Spheres as records of four, or in two arrays of other strides. */
+/* Spheres as records of four floats, or in two arrays with other strides. */
 static void add_spheres(loose_scene *s, test_random *r, loose_kind kind, uint32_t all, uint32_t count, int form)
 {
     const size_t stride = form == 0 ? 4 : form == 1 ? 3 : 5, radius_stride = form == 0 ? 4 : form == 1 ? 1 : 3;
@@ -110,7 +110,7 @@ static void add_spheres(loose_scene *s, test_random *r, loose_kind kind, uint32_
                                                 .radius_stride = radius_stride * sizeof(float)};
 }
 
-/* Triangles in order, or by indices that run backwards. */
+/* Triangles in order, or with descending indices. */
 static void add_triangles(loose_scene *s, test_random *r, loose_kind kind, uint32_t all, uint32_t count, int form)
 {
     const size_t stride = form == 1 ? 3 : 4, index_stride = form == 1 ? 3 : 4;
@@ -140,16 +140,16 @@ static void add_triangles(loose_scene *s, test_random *r, loose_kind kind, uint3
 loose_scene loose_make(test_random *r, loose_kind kind, loose_what what, uint32_t count)
 {
     loose_scene s = {.arrays = 0};
-    uint32_t left = count;
+    uint32_t remaining = count;
     for (int form = 0; form < 3; form++) {
         const bool last = form == 2;
-        const uint32_t some = last ? left : random_below(r, left + 1);
-        const uint32_t triangles = what == LOOSE_SPHERES ? 0 : what == LOOSE_TRIANGLES ? some : some / 2;
+        const uint32_t part = last ? remaining : random_below(r, remaining + 1);
+        const uint32_t triangles = what == LOOSE_SPHERES ? 0 : what == LOOSE_TRIANGLES ? part : part / 2;
         if (what != LOOSE_TRIANGLES)
-            add_spheres(&s, r, kind, count, some - triangles, form);
+            add_spheres(&s, r, kind, count, part - triangles, form);
         if (what != LOOSE_SPHERES)
             add_triangles(&s, r, kind, count, triangles, form);
-        left -= some;
+        remaining -= part;
     }
     return s;
 }

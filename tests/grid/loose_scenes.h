@@ -11,17 +11,17 @@
 typedef enum loose_kind {
     LOOSE_UNIFORM,
     LOOSE_CLUSTERED,
-    LOOSE_FLAT,   /* all middles in one plane across z */
+    LOOSE_FLAT,   /* all centres in one plane perpendicular to z */
     LOOSE_LINE,   /* along y */
     LOOSE_ORDERS, /* sizes over 30 orders of magnitude, and points */
     LOOSE_POINTS,
     LOOSE_COINCIDENT,
-    LOOSE_LATTICE, /* whole numbers: middles on the cells' planes, degenerate triangles */
+    LOOSE_LATTICE, /* integers: centres on the cells' planes, degenerate triangles */
     LOOSE_FAR,     /* small and far from the origin */
     LOOSE_HUGE,
     LOOSE_TINY,
-    LOOSE_SPOILED, /* a third is not finite, negative or without an area */
-    LOOSE_STADIUM, /* few large ones, most in a small corner */
+    LOOSE_SPOILED, /* a third is not finite, negative or has no area */
+    LOOSE_STADIUM, /* few large primitives, most in a small corner */
     LOOSE_KINDS
 } loose_kind;
 
@@ -37,7 +37,7 @@ typedef struct loose_scene {
     cgt_spheres spheres[8];
     cgt_triangles triangles[8];
     uint32_t geometries;
-    bool sphere[8]; /* which of the two geometry i is */
+    bool sphere[8]; /* whether geometry i has spheres */
 } loose_scene;
 
 loose_scene loose_make(test_random *r, loose_kind kind, loose_what what, uint32_t count);

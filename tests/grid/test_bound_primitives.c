@@ -15,7 +15,7 @@
 
 #define CHUNK 8192u /* primitives whose diameters are summed together */
 
-/* ---- the plain pass ---- */
+/* ---- the reference pass ---- */
 
 static double bounds_of(const cgt_primitive *q, float low[3], float high[3])
 {
@@ -115,7 +115,7 @@ static void check_scene(const loose_scene *s, uint32_t threads, const char *vari
     }
 }
 
-static void it_is_what_one_after_another_gives(void **state)
+static void bounds_match_the_plain_loop(void **state)
 {
     (void)state;
     test_random r = random_make(1);
@@ -140,8 +140,8 @@ static void chunks_and_threads_change_nothing(void **state)
     }
 }
 
-/* The area of a flat triangle hangs on the last bit of a vertex, or is lost by underflow. */
-static void areas_are_decided(void **state)
+/* Whether a flat triangle has an area depends on the last bit of a vertex, or underflows. */
+static void areas_are_decided_exactly(void **state)
 {
     (void)state;
     enum { COUNT = 3000 };
@@ -173,7 +173,7 @@ static void areas_are_decided(void **state)
     free(v);
 }
 
-static void the_first_bad_index_is_told(void **state)
+static void the_first_bad_index_is_reported(void **state)
 {
     (void)state;
     enum { COUNT = 70 };
@@ -215,10 +215,10 @@ static void the_first_bad_index_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_what_one_after_another_gives),
+        cmocka_unit_test(bounds_match_the_plain_loop),
         cmocka_unit_test(chunks_and_threads_change_nothing),
-        cmocka_unit_test(areas_are_decided),
-        cmocka_unit_test(the_first_bad_index_is_told),
+        cmocka_unit_test(areas_are_decided_exactly),
+        cmocka_unit_test(the_first_bad_index_is_reported),
     };
     test_begin("test_bound_primitives");
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,7 +17,7 @@
 
 static const test_scene_options loose_options = {.structure = CGT_STRUCTURE_LOOSE_GRID};
 
-/* ---- one grid against its objects ---- */
+/* ---- one grid against its primitives ---- */
 
 static void bounds_of(const cgt_primitives *prims, uint32_t prim, dyadic low[3], dyadic high[3])
 {
@@ -36,7 +36,7 @@ static void bounds_of(const cgt_primitives *prims, uint32_t prim, dyadic low[3],
     }
 }
 
-/* The largest half extent, and each; rounded. */
+/* Returns the largest half extent; half gets all three, rounded. */
 static double halves_of(const cgt_primitives *prims, uint32_t prim, double half[3])
 {
     dyadic low[3], high[3];
@@ -69,8 +69,8 @@ static bool within_reach(const cgt_loose_level *level, const uint32_t cell[3], c
     return within;
 }
 
-/* The most that rounding the center adds to a half extent. */
-static double doubt_of(const cgt_committed_scene *w)
+/* The maximum that rounding the centre adds to a half extent. */
+static double rounding_of(const cgt_committed_scene *w)
 {
     double magnitude = 0;
     for (int a = 0; a < 3; a++)
@@ -102,7 +102,7 @@ static void find_level(const cgt_committed_scene *w, const cgt_loose_level *leve
             assert_int_equal(seen[prim]++, 0);
             bounds_of(&w->prims, prim, low, high);
             if (!within_reach(level, cell, low, high))
-                fail_msg("object %u is out of reach of cell %u %u %u", prim, cell[0], cell[1], cell[2]);
+                fail_msg("primitive %u is out of reach of cell %u %u %u", prim, cell[0], cell[1], cell[2]);
             const double size = halves_of(&w->prims, prim, half);
             f->largest = fmax(f->largest, size);
             f->smallest = fmin(f->smallest, size);
@@ -113,21 +113,21 @@ static void find_level(const cgt_committed_scene *w, const cgt_loose_level *leve
     }
     for (uint32_t i = w->loose.start[level->first]; i < w->loose.start[level->first + cells]; i++) {
         double half[3];
-        f->guests += halves_of(&w->prims, w->loose.prim[i], half) + doubt_of(w) < f->largest * (0.25 - 0x1p-20);
+        f->guests += halves_of(&w->prims, w->loose.prim[i], half) + rounding_of(w) < f->largest * (0.25 - 0x1p-20);
     }
 }
 
-static void check_level(const cgt_loose_level *level, const level_found *f, bool last, double doubt)
+static void check_level(const cgt_loose_level *level, const level_found *f, bool last, double rounding)
 {
     const uint32_t hosts = f->prims - f->guests;
     assert_int_equal(f->prims, level->prims);
-    assert_true(f->prims > 0 && f->smallest + doubt >= level->least * (1 - 0x1p-20));
+    assert_true(f->prims > 0 && f->smallest + rounding >= level->least * (1 - 0x1p-20));
     assert_true(last || f->guests <= hosts / 8 + 8);
     for (int a = 0; a < 3; a++) {
         assert_true(level->size[a] >= 1 && level->size[a] <= 1024 && level->cell[a] > 0);
-        /* and no wider than it has to be */
+        /* and no wider than necessary */
         assert_true(level->reach[a] <=
-                    f->half[a] * (1 + 0x1p-18) + level->cell[a] * (double)level->size[a] * 0x1p-20 + doubt);
+                    f->half[a] * (1 + 0x1p-18) + level->cell[a] * (double)level->size[a] * 0x1p-20 + rounding);
         if (level->size[a] > 1)
             assert_true(level->cell[a] >= f->half[a] * 0.49);
     }
@@ -150,9 +150,9 @@ static void check_grid(const cgt_scene *scene)
         assert_int_equal(level->first, cells);
         cells += level->size[0] * level->size[1] * level->size[2];
         find_level(w, level, seen, &found[k]);
-        check_level(level, &found[k], k + 1 == g->levels, doubt_of(w));
+        check_level(level, &found[k], k + 1 == g->levels, rounding_of(w));
         assert_true(k + 1 < g->levels || level->least == 0);
-        assert_true(!k || found[k].largest <= g->level[k - 1].least * (1 + 0x1p-20) + doubt_of(w));
+        assert_true(!k || found[k].largest <= g->level[k - 1].least * (1 + 0x1p-20) + rounding_of(w));
     }
     assert_int_equal(cells, g->cells);
     assert_true(cells <= w->valid / 2 + 64);
@@ -197,7 +197,7 @@ static cgt_scene *commit(const loose_scene *s, cgt_context *context)
     return scene;
 }
 
-/* The grid on one thread of the widest variant is right, and all others are the same. */
+/* The grid of the widest variant on one thread is right, and all others are equal. */
 static void check_everywhere(const loose_scene *s)
 {
     cgt_context *context = context_make(1, NULL);
@@ -245,7 +245,7 @@ static void few_and_none(void **state)
         }
 }
 
-/* On one thread and on three; where cells were asked for, too. */
+/* On one thread and on three; with an explicit resolution, too. */
 static void compare_sorts(const loose_scene *s, const test_scene_options *options, bool check)
 {
     static const uint32_t threads[] = {1, 3};
@@ -267,7 +267,7 @@ static void compare_sorts(const loose_scene *s, const test_scene_options *option
     }
 }
 
-/* More than one thread counts at once, and more than one bin holds. */
+/* More primitives than one thread counts at once, and than one bin holds. */
 static void many_are_sorted(void **state)
 {
     static const loose_kind kind[] = {LOOSE_UNIFORM, LOOSE_CLUSTERED, LOOSE_COINCIDENT, LOOSE_SPOILED, LOOSE_ORDERS};
@@ -275,7 +275,7 @@ static void many_are_sorted(void **state)
     test_random r = random_make(3);
     for (size_t k = 0; k < TEST_COUNT(kind); k++) {
         const uint32_t count =
-            k < 2 ? CGT_CELL_SORT_DIRECT_SERIAL + 5003 : 17000 + test_scaled(40000); /* by bins and not */
+            k < 2 ? CGT_CELL_SORT_DIRECT_SERIAL + 5003 : 17000 + test_scaled(40000); /* with bins and without */
         loose_scene s = loose_make(&r, kind[k], k % 2 ? LOOSE_BOTH : LOOSE_SPHERES, count);
         test_scene_options options = loose_options;
         compare_sorts(&s, &options, k == 0 || k == 3);
@@ -286,8 +286,8 @@ static void many_are_sorted(void **state)
     }
 }
 
-/* Points on the planes between cells and some steps of float off them: rounding puts some of them into the wrong
- * cell, and the reach, which is nothing but rounding here, must cover it. */
+/* Points on the planes between cells and a few ulps off them: rounding puts some of them into the wrong cell, and the
+ * reach, which is nothing but rounding error here, must cover that. */
 static void points_between_cells_are_in_reach(void **state)
 {
     (void)state;
@@ -355,7 +355,7 @@ static void cells_follow_the_axes(void **state)
     cgt_context_release(context);
 }
 
-/* Points along a line, more than an axis has cells for: the others take over. */
+/* Points along a line, more than one axis has cells for: the other axes get the rest. */
 static void a_full_axis_leaves_cells_to_the_others(void **state)
 {
     (void)state;
@@ -395,7 +395,7 @@ static void sizes_share_levels(void **state)
     assert_int_equal(scene->committed_scene.loose.levels, 3);
     cgt_scene_release(scene);
     for (int i = 0; i < COUNT; i++)
-        sphere[i][3] = i < 850 ? random_float(&r, 0.3f, 0.59f) : 1e-3f; /* few small ones: guests */
+        sphere[i][3] = i < 850 ? random_float(&r, 0.3f, 0.59f) : 1e-3f; /* few small spheres: guests */
     scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
     assert_int_equal(scene->committed_scene.loose.levels, 1);
     check_grid(scene);
@@ -409,7 +409,7 @@ static void sizes_share_levels(void **state)
     cgt_context_release(context);
 }
 
-static void a_resolution_asked_for_is_given(void **state)
+static void a_requested_resolution_is_used(void **state)
 {
     (void)state;
     test_random r = random_make(7);
@@ -439,7 +439,7 @@ static void a_resolution_asked_for_is_given(void **state)
 
 /* ---- through the interface ---- */
 
-static void frames_are_those_of_other_structures(void **state)
+static void frames_match_other_structures(void **state)
 {
     (void)state;
     test_random r = random_make(8);
@@ -467,7 +467,7 @@ static void frames_are_those_of_other_structures(void **state)
     cgt_context_release(context);
 }
 
-static void it_is_chosen_when_asked_for(void **state)
+static void it_is_used_when_requested(void **state)
 {
     (void)state;
     const float far_off[2][4] = {{0x1p60f, 0, 0, 1}, {0, 0, 0, 1}};
@@ -475,7 +475,7 @@ static void it_is_chosen_when_asked_for(void **state)
     test_scene_options options = {.structure = (cgt_structure)(CGT_STRUCTURE_KD_ROPES + 1)};
     cgt_scene *scene = NULL;
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_ERROR_INVALID_ARGUMENT);
-    scene = scene_of(context, SCENE_OPTIONS(&loose_options), far_off, 2); /* beyond what a structure may hold */
+    scene = scene_of(context, SCENE_OPTIONS(&loose_options), far_off, 2); /* too far for a structure */
     assert_true(scene->committed_scene.brute_force && !scene->committed_scene.loose.levels);
     cgt_scene_release(scene);
     scene = scene_of(context, SCENE_OPTIONS(&loose_options), far_off, 0);
@@ -494,9 +494,9 @@ int main(void)
         cmocka_unit_test(cells_follow_the_axes),
         cmocka_unit_test(a_full_axis_leaves_cells_to_the_others),
         cmocka_unit_test(sizes_share_levels),
-        cmocka_unit_test(a_resolution_asked_for_is_given),
-        cmocka_unit_test(frames_are_those_of_other_structures),
-        cmocka_unit_test(it_is_chosen_when_asked_for),
+        cmocka_unit_test(a_requested_resolution_is_used),
+        cmocka_unit_test(frames_match_other_structures),
+        cmocka_unit_test(it_is_used_when_requested),
     };
     test_begin("test_loose_grid");
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,7 +12,7 @@
 #include "hard_cases/hard_run.h"
 #include "support/scenes.h"
 
-#define OBJECTS 700u
+#define PRIMITIVES 700u
 #define RAYS 1200u
 #define SIZE 0.06f
 
@@ -20,11 +20,11 @@ static hard_scene make_scene(test_random *r, bool triangles, float (*middle)[3])
 {
     hard_scene s = {.place = {.scale = 1}};
     hard_new_geometry(&s);
-    for (uint32_t i = 0; i < OBJECTS; i++) {
+    for (uint32_t i = 0; i < PRIMITIVES; i++) {
         float sphere[4] = {0, 0, 0, SIZE}, v[3][3];
         for (int a = 0; a < 3; a++) {
             middle[i][a] = sphere[a] = random_float(r, -1, 1);
-            /* two corners of its box, and a third point off the line between them */
+            /* two corners of its box, and a third point off their line */
             const float side = random_below(r, 2) ? SIZE : -SIZE;
             v[0][a] = sphere[a] + side;
             v[1][a] = sphere[a] - side;
@@ -39,14 +39,14 @@ static hard_scene make_scene(test_random *r, bool triangles, float (*middle)[3])
     return s;
 }
 
-/* A unit vector orthogonal to another one. For a triangle any will do: its corners are along the diagonals. */
+/* A unit vector orthogonal to another one. For a triangle any will do: its corners lie along the diagonals. */
 static void rim_of(test_random *r, const float dir[3], bool triangle, float rim[3])
 {
     float length = 0, along = 0;
     for (int a = 0; a < 3; a++) {
         rim[a] = triangle ? (random_below(r, 2) ? 1.f : -1.f) : random_float(r, -1, 1);
         if (!triangle && random_below(r, 3) == 0)
-            rim[a] = 0; /* towards a cell's wall */
+            rim[a] = 0; /* towards a cell's face */
         length += dir[a] * dir[a];
         along += rim[a] * dir[a];
     }
@@ -61,7 +61,7 @@ static void rim_of(test_random *r, const float dir[3], bool triangle, float rim[
         rim[a] /= square > 0 ? sqrtf(square) : 1;
 }
 
-/* A ray to nearly the rim of an object, mostly along an axis or nearly so: then walls of cells are walls for it too. */
+/* A ray close to the rim of a primitive, mostly (nearly) parallel to an axis, so that it runs along faces of cells. */
 static truth_ray rim_ray(test_random *r, bool triangle, const float middle[3])
 {
     truth_ray ray = {.t_min = random_below(r, 4) ? 0 : -10, .t_max = random_below(r, 3) ? INFINITY : 1};
@@ -84,8 +84,8 @@ static cgt_scene *commit(cgt_context *context, const hard_scene *s, const test_s
     return scene;
 }
 
-/* In bundles of `bundle` neighbours; of one ray each has a call of its own. */
-static void check_rays(const cgt_scene *loose, const truth_ray *ray, const full_hit *is, uint32_t bundle,
+/* Traces calls of `bundle` neighbouring rays; 1: each ray has its own call. */
+static void check_rays(const cgt_scene *loose, const truth_ray *ray, const full_hit *expected, uint32_t bundle,
                        const test_scene_options *options)
 {
     static full_hit hit[RAYS];
@@ -97,16 +97,17 @@ static void check_rays(const cgt_scene *loose, const truth_ray *ray, const full_
         assert_int_equal(cgt_occluded_rays(loose, &rays, occluded + i, NULL), CGT_OK);
     }
     for (uint32_t i = 0; i < RAYS; i++)
-        if (memcmp(&hit[i], &is[i], sizeof is[i]) != 0 || occluded[i] != (is[i].primitive != CGT_INVALID_ID))
+        if (memcmp(&hit[i], &expected[i], sizeof expected[i]) != 0 ||
+            occluded[i] != (expected[i].primitive != CGT_INVALID_ID))
             fail_msg("%u x %u x %u cells, bundles of %u: ray %u, org %a %a %a, dir %a %a %a: primitive %d at %a, any "
                      "hit %d; in one cell %d at %a",
                      options->resolution[0], options->resolution[1], options->resolution[2], bundle, i,
                      (double)ray[i].org[0], (double)ray[i].org[1], (double)ray[i].org[2], (double)ray[i].dir[0],
                      (double)ray[i].dir[1], (double)ray[i].dir[2], (int)hit[i].primitive, (double)hit[i].t, occluded[i],
-                     (int)is[i].primitive, (double)is[i].t);
+                     (int)expected[i].primitive, (double)expected[i].t);
 }
 
-/* Rays of one bundle share their origin, their direction, or where they end. */
+/* Rays of one bundle share their origin, their direction or their end point. */
 static void bundle_rays(test_random *r, truth_ray *ray, uint32_t bundle)
 {
     for (uint32_t i = 0; i < RAYS; i += bundle) {
@@ -123,14 +124,14 @@ static void bundle_rays(test_random *r, truth_ray *ray, uint32_t bundle)
     }
 }
 
-static void rays_find_what_reaches_out(void **state)
+static void rays_find_primitives_beyond_their_cells(void **state)
 {
     (void)state;
     static const uint32_t resolution[][3] = {{0, 0, 0}, {9, 7, 5}, {40, 40, 40}, {1, 1, 64}};
     static const uint32_t bundles[] = {1, 2, 4, 16, 64};
-    static float middle[OBJECTS][3];
+    static float middle[PRIMITIVES][3];
     static truth_ray ray[RAYS];
-    static full_hit is[RAYS];
+    static full_hit expected[RAYS];
     uint64_t hits = 0, rays = 0;
     for (uint32_t round = 0; round < 2 * test_scaled(10); round++) {
         test_random r = random_make(900 + round);
@@ -144,14 +145,14 @@ static void rays_find_what_reaches_out(void **state)
             const uint32_t bundle = bundles[random_below(&r, TEST_COUNT(bundles))];
             cgt_scene *cell = commit(context, &s, &one), *loose = commit(context, &s, &o);
             for (uint32_t i = 0; i < RAYS; i++)
-                ray[i] = rim_ray(&r, round % 2, middle[random_below(&r, OBJECTS)]);
+                ray[i] = rim_ray(&r, round % 2, middle[random_below(&r, PRIMITIVES)]);
             for (uint32_t way = 0; way < 2; way++) { /* one by one, then in bundles */
                 if (way)
                     bundle_rays(&r, ray, bundle);
-                assert_int_equal(trace_array(cell, ray, RAYS, is, NULL), CGT_OK);
-                check_rays(loose, ray, is, way ? bundle : 1, &o);
+                assert_int_equal(trace_array(cell, ray, RAYS, expected, NULL), CGT_OK);
+                check_rays(loose, ray, expected, way ? bundle : 1, &o);
                 for (uint32_t i = 0; i < RAYS; i++)
-                    hits += is[i].primitive != CGT_INVALID_ID;
+                    hits += expected[i].primitive != CGT_INVALID_ID;
                 rays += RAYS;
             }
             cgt_scene_release(cell);
@@ -166,7 +167,7 @@ static void rays_find_what_reaches_out(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rays_find_what_reaches_out)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rays_find_primitives_beyond_their_cells)};
     test_begin("test_loose_grid_rays");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@
 
 /* ---- one grid against its spheres ---- */
 
-/* True where the cell refers to the object; fails the test where it does so twice. */
+/* Whether the cell refers to the primitive; fails the test if it does so twice. */
 static bool cell_holds(const cgt_queue_grid *g, uint32_t cell, uint32_t prim)
 {
     unsigned found = 0;
@@ -22,7 +22,7 @@ static bool cell_holds(const cgt_queue_grid *g, uint32_t cell, uint32_t prim)
     for (uint32_t i = cgt_queue_grid_overflow(g, cell); i < g->overflows && g->overflow[i].cell == cell; i++)
         found += g->overflow[i].reference == prim;
     if (found > 1)
-        fail_msg("cell %u holds object %u %u times", cell, prim, found);
+        fail_msg("cell %u holds primitive %u %u times", cell, prim, found);
     return found == 1;
 }
 
@@ -44,7 +44,7 @@ static void expect_held(const cgt_queue_grid *g, const float sphere[4], uint32_t
                  (double)sphere[0], (double)sphere[1], (double)sphere[2], (double)sphere[3]);
 }
 
-/* The centre, the six extremes, and random points: on the surface, which reaches furthest, and inside. */
+/* The centre, the six extremes, and random points: on the surface, which extends farthest, and inside. */
 static void check_superset(const cgt_queue_grid *g, const float sphere[4], uint32_t prim, test_random *r,
                            uint32_t points)
 {
@@ -92,7 +92,7 @@ static void check_order(const cgt_queue_grid *g, uint64_t *references, uint32_t 
         assert_true(g->overflow[i].cell >= g->overflow[i - 1].cell);
 }
 
-/* Larger than two cells anywhere is large for certain, smaller than a cell everywhere is not. */
+/* A sphere larger than two cells along any axis is certainly large; one smaller than a cell along all axes is not. */
 static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint32_t count, uint32_t large)
 {
     uint32_t surely = 0, perhaps = 0;
@@ -105,7 +105,7 @@ static void check_large(const cgt_queue_grid *g, const float (*sphere)[4], uint3
             wide |= cells > 2 && g->resolution[a] > 2;
             narrow &= cells + 2 * g->cell_error[a] < 0.99 || g->resolution[a] <= 2;
         }
-        /* at the border of the grid a part may be cut off */
+        /* at the boundary of the grid a part may be cut off */
         bool inside = true;
         for (int a = 0; a < 3; a++) {
             const double low = ((double)sphere[i][a] - sphere[i][3] - g->org[a]) * g->rcell[a];
@@ -218,14 +218,14 @@ static void one_sphere_covers_the_grid(void **state)
         cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&options), (const float(*)[4])sphere, 64);
         const cgt_research_scene_statistics s = check_grid(scene, (const float(*)[4])sphere, 64, 1);
         assert_int_equal(s.large_primitives, 1);
-        /* the ball's part of its box is 0.52; its surface adds cells */
+        /* the ball's part of its box is 0.52; cells along its surface come on top */
         assert_in_range(s.references, s.cells / 2, s.cells * 7 / 10);
         cgt_scene_release(scene);
         cgt_context_release(context);
     }
 }
 
-static void spheres_on_cell_borders(void **state)
+static void spheres_on_cell_boundaries(void **state)
 {
     (void)state;
     enum { N = 512 };
@@ -309,7 +309,7 @@ static void radii_of_six_orders(void **state)
 
 /* ---- limits ---- */
 
-/* 65,535 objects are the last that 16 bits refer to; one more makes the references wide, and none is lost. */
+/* 16 bits can refer to 65,535 primitives; with one more, references widen to 32 bits, and none is lost. */
 static void references_widen_beyond_65535(void **state)
 {
     (void)state;
@@ -328,7 +328,7 @@ static void references_widen_beyond_65535(void **state)
             assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres), CGT_OK);
             assert_int_equal(cgt_scene_commit(scene), CGT_OK);
             assert_int_equal(research_of(scene).reference_bits, count == most ? 16 : 32);
-            for (uint32_t k = 0; k < 64; k++) { /* from inside some spheres, the last one among them */
+            for (uint32_t k = 0; k < 64; k++) { /* from inside some of the spheres, among them the last one */
                 const uint32_t i = k ? (count - 1) / k : count - 1;
                 const truth_ray ray = {{sphere[i][0], sphere[i][1], sphere[i][2]}, {0, 0, -1}, 0, 1};
                 assert_int_equal(ray_trace(scene, ray).primitive, i);
@@ -395,7 +395,7 @@ int main(void)
         cmocka_unit_test(random_clouds_lose_nothing),
         cmocka_unit_test(coincident_spheres_overflow),
         cmocka_unit_test(one_sphere_covers_the_grid),
-        cmocka_unit_test(spheres_on_cell_borders),
+        cmocka_unit_test(spheres_on_cell_boundaries),
         cmocka_unit_test(flat_and_tiny_extents),
         cmocka_unit_test(radii_of_six_orders),
         cmocka_unit_test(references_widen_beyond_65535),

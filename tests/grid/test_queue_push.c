@@ -25,7 +25,7 @@ static struct words {
 
 #define CELLS 12u
 
-/* ---- a grid of queues, and what a plain program makes of the same pushes ---- */
+/* ---- a grid of queues, and a plain model of the same pushes ---- */
 
 typedef struct queues {
     bool is_wide; /* references of 32 bits */
@@ -105,12 +105,12 @@ static void six_words_per_push(void **state)
     expect_words(2, 2, 2);
     push8(&q, (const uint32_t[8]){0, 1, 2, 3, 4, 5, 6, 7}, 8);
     expect_words(16, 16, 16);
-    push8(&q, (const uint32_t[8]){5, 5, 5, 5, 5, 5, 5, 5}, 9); /* no branch on duplicates: as many */
+    push8(&q, (const uint32_t[8]){5, 5, 5, 5, 5, 5, 5, 5}, 9); /* no branch on duplicates: the same number */
     expect_words(16, 16, 16);
     check(&q);
 }
 
-/* From the 17th on the oldest is lost. */
+/* From the 17th push on, the oldest reference is lost. */
 static void newest_comes_first(void **state)
 {
     (void)state;

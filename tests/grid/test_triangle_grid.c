@@ -68,23 +68,23 @@ typedef struct polygon {
 /* Clips a polygon to sign * p[axis] >= sign * plane (Sutherland and Hodgman). */
 static void clip(polygon *q, int axis, double sign, double plane)
 {
-    polygon kept = {0};
+    polygon clipped = {0};
     for (int i = 0; i < q->count; i++) {
         const double *a = q->p[i], *b = q->p[(i + 1) % q->count];
         const double da = sign * (a[axis] - plane), db = sign * (b[axis] - plane);
         if (da >= 0)
-            memcpy(kept.p[kept.count++], a, sizeof kept.p[0]);
+            memcpy(clipped.p[clipped.count++], a, sizeof clipped.p[0]);
         if ((da > 0 && db < 0) || (da < 0 && db > 0)) {
-            double *p = kept.p[kept.count++];
+            double *p = clipped.p[clipped.count++];
             for (int k = 0; k < 3; k++)
                 p[k] = a[k] + (b[k] - a[k]) * (da / (da - db));
             p[axis] = plane;
         }
     }
-    *q = kept;
+    *q = clipped;
 }
 
-/* Cells at the border reach beyond it. */
+/* Cells at the boundary of the grid extend beyond it. */
 static bool touches(const cgt_queue_grid *g, const polygon *of, const int32_t cell[3], double wider)
 {
     polygon q = *of;
@@ -112,13 +112,13 @@ static int32_t clamped(double g, uint32_t resolution)
 }
 
 /* Every cell that the triangle touches refers to it once, and no cell refers to it twice. Returns how many cells it
- * touches, or comes near to by the grid's own slack. */
+ * touches, or nearly touches within the grid's error bound. */
 static uint64_t check_triangle(const cgt_queue_grid *g, const triangle t, uint32_t prim)
 {
     const polygon q = in_grid_space(g, t);
     int32_t low[3], high[3], cell[3];
     uint64_t near = 0;
-    for (int a = 0; a < 3; a++) { /* a cell more on each side, for what lies on a border */
+    for (int a = 0; a < 3; a++) { /* one more cell on each side, for vertices on a boundary */
         low[a] = clamped(fmin(q.p[0][a], fmin(q.p[1][a], q.p[2][a])) - 1, g->resolution[a]);
         high[a] = clamped(fmax(q.p[0][a], fmax(q.p[1][a], q.p[2][a])) + 1, g->resolution[a]);
     }
@@ -147,7 +147,8 @@ static cgt_scene *gridded(cgt_context *context, const uint32_t resolution[3], co
     return scene_of_triangles(context, SCENE_OPTIONS(&options), t, count);
 }
 
-/* Checks all triangles, which must have an area, or every so manieth; *near gets the cells that they come near to. */
+/* Checks all triangles, which must have an area, or every step-th one; *near gets the number of cells that they nearly
+ * touch. */
 static cgt_research_scene_statistics check_scene(const cgt_scene *scene, const triangle *t, uint32_t count,
                                                  uint32_t step, uint64_t *near)
 {
@@ -224,8 +225,8 @@ static void random_soups_lose_nothing(void **state)
     }
 }
 
-/* The cells of its bounding box would be tens of times as many. */
-static void large_triangles_take_few_useless_cells(void **state)
+/* The cells of the bounding box would be tens of times as many. */
+static void large_triangles_take_few_unneeded_cells(void **state)
 {
     (void)state;
     enum { COUNT = 24 };
@@ -301,7 +302,7 @@ static void references_widen_beyond_65535(void **state)
     test_random r = random_make(200);
     assert_non_null(t);
     make_soup(&r, SMALL, most + 4000, t);
-    for (uint32_t i = 0; i < 40; i++) /* in one place, some of the highest numbers among them: wide queues overflow */
+    for (uint32_t i = 0; i < 40; i++) /* at one position, with some of the highest numbers: wide queues overflow */
         memcpy(t[i % 2 ? most + 3999 - i : 100 * i], t[7], sizeof *t);
     FOR_EACH_VARIANT(variant)
     {
@@ -320,15 +321,15 @@ static void references_widen_beyond_65535(void **state)
     free(t);
 }
 
-/* Borders at whole numbers: triangles that lie in them, and whose vertices do. */
-static void triangles_in_cell_borders(void **state)
+/* Cell boundaries at integers: triangles that lie in them, and triangles with vertices on them. */
+static void triangles_in_cell_boundaries(void **state)
 {
     (void)state;
     enum { COUNT = 200 };
     static triangle t[COUNT];
     test_random r = random_make(300);
     make_soup(&r, LATTICE, COUNT, t);
-    for (uint32_t i = 0; i < COUNT; i += 3) { /* a half of a square of a plane */
+    for (uint32_t i = 0; i < COUNT; i += 3) { /* half of a square in a plane */
         const int a = (int)(i / 3 % 3), b = (a + 1) % 3;
         for (int k = 0; k < 3; k++)
             for (int axis = 0; axis < 3; axis++)
@@ -351,9 +352,9 @@ static void triangles_in_cell_borders(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_soups_lose_nothing),     cmocka_unit_test(large_triangles_take_few_useless_cells),
+        cmocka_unit_test(random_soups_lose_nothing),     cmocka_unit_test(large_triangles_take_few_unneeded_cells),
         cmocka_unit_test(coincident_triangles_overflow), cmocka_unit_test(references_widen_beyond_65535),
-        cmocka_unit_test(triangles_in_cell_borders),
+        cmocka_unit_test(triangles_in_cell_boundaries),
     };
     test_begin("test_triangle_grid");
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -34,13 +34,13 @@ static double half_area(const kd_box *b)
 }
 
 /* Whether the bounds, rounded outwards, touch the box. */
-static bool bounds_touch(const cgt_primitive *shape, const kd_box *box)
+static bool bounds_touch(const cgt_primitive *primitive, const kd_box *box)
 {
     for (int a = 0; a < 3; a++) {
-        const cgt_triangle *t = &shape->triangle;
-        const cgt_sphere *s = &shape->sphere;
+        const cgt_triangle *t = &primitive->triangle;
+        const cgt_sphere *s = &primitive->sphere;
         const float center = a == 0 ? s->x : a == 1 ? s->y : s->z;
-        const bool sphere = shape->kind == CGT_KIND_SPHERES;
+        const bool sphere = primitive->kind == CGT_KIND_SPHERES;
         const float low =
             sphere ? nextafterf(center - s->r, -INFINITY) : fminf(t->v[0][a], fminf(t->v[1][a], t->v[2][a]));
         const float high =
@@ -59,13 +59,13 @@ static bool listed(const uint32_t *reference, uint32_t count, uint32_t prim)
     return false;
 }
 
-static bool say(uint32_t node, const char *what, uint32_t prim)
+static bool report_fault(uint32_t node, const char *what, uint32_t prim)
 {
-    snprintf(fault, sizeof fault, "node %u: %s (object %u)", node, what, prim);
+    snprintf(fault, sizeof fault, "node %u: %s (primitive %u)", node, what, prim);
     return false;
 }
 
-static bool check_leaf(check *c, uint32_t number, const kd_box *box, const uint32_t *near, uint32_t count)
+static bool check_leaf(check *c, uint32_t number, const kd_box *box, const uint32_t *candidates, uint32_t count)
 {
     const cgt_primitives *o = &c->committed_scene->prims;
     const uint32_t references = cgt_kd_count(c->raw->node[number]);
@@ -73,49 +73,50 @@ static bool check_leaf(check *c, uint32_t number, const kd_box *box, const uint3
     double weight = 0;
     for (uint32_t i = 0; i < references; i++) {
         if (reference[i] >= o->count || (i && reference[i] <= reference[i - 1]))
-            return say(number, "references do not ascend", reference[i]);
-        const cgt_primitive shape = cgt_primitives_get(o, reference[i]);
-        if (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID)
-            return say(number, "not a valid object", reference[i]);
-        if (!bounds_touch(&shape, box))
-            return say(number, "its bounds are away from the leaf", reference[i]);
-        weight += c->costs->test[shape.kind];
+            return report_fault(number, "references do not ascend", reference[i]);
+        const cgt_primitive primitive = cgt_primitives_get(o, reference[i]);
+        if (cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID)
+            return report_fault(number, "not a valid primitive", reference[i]);
+        if (!bounds_touch(&primitive, box))
+            return report_fault(number, "its bounds do not touch the leaf", reference[i]);
+        weight += c->costs->test[primitive.kind];
     }
     for (uint32_t i = 0; i < count; i++)
-        if (!listed(reference, references, near[i]))
-            return say(number, "it touches the leaf but is not there", near[i]);
+        if (!listed(reference, references, candidates[i]))
+            return report_fault(number, "touches the leaf but is not listed", candidates[i]);
     c->cost += weight * half_area(box) / c->root_area;
     return true;
 }
 
-/* near: the objects that touch the box of the parent. */
-static bool check_node(check *c, uint32_t number, const kd_box *box, uint32_t depth, const uint32_t *near,
+/* candidates: the primitives that touch the box of the parent. */
+static bool check_node(check *c, uint32_t number, const kd_box *box, uint32_t depth, const uint32_t *candidates,
                        uint32_t count)
 {
     if (number >= c->raw->nodes || c->reached[number]++)
-        return say(number, "out of range, or reached twice", 0);
+        return report_fault(number, "out of range, or reached twice", 0);
     const cgt_kd_node node = c->raw->node[number];
-    uint32_t *touching = malloc((count + 1) * sizeof *touching), some = 0;
+    uint32_t *touching = malloc((count + 1) * sizeof *touching), touching_count = 0;
     assert_non_null(touching);
     for (uint32_t i = 0; i < count; i++) {
-        const cgt_primitive shape = cgt_primitives_get(&c->committed_scene->prims, near[i]);
-        if (kd_touches(&shape, box))
-            touching[some++] = near[i];
+        const cgt_primitive primitive = cgt_primitives_get(&c->committed_scene->prims, candidates[i]);
+        if (kd_touches(&primitive, box))
+            touching[touching_count++] = candidates[i];
     }
     bool good;
     if (cgt_kd_is_leaf(node)) {
-        good = check_leaf(c, number, box, touching, some);
+        good = check_leaf(c, number, box, touching, touching_count);
     } else {
         const uint32_t axis = cgt_kd_axis(node);
         const float split = cgt_kd_split(node);
         kd_box lower = *box, upper = *box;
         lower.high[axis] = upper.low[axis] = split;
         c->cost += c->costs->inner * half_area(box) / c->root_area;
-        good = split > box->low[axis] && split < box->high[axis] ? true : say(number, "the split is not inside", 0);
-        good = good && (depth < c->max_leaf_depth ? true : say(number, "too deep", 0));
-        good = good && (node.word[1] % 2 == 0 ? true : say(number, "children are not a pair", 0));
-        good = good && check_node(c, node.word[1], &lower, depth + 1, touching, some) &&
-               check_node(c, node.word[1] + 1, &upper, depth + 1, touching, some);
+        good = split > box->low[axis] && split < box->high[axis] ? true
+                                                                 : report_fault(number, "the split is not inside", 0);
+        good = good && (depth < c->max_leaf_depth ? true : report_fault(number, "too deep", 0));
+        good = good && (node.word[1] % 2 == 0 ? true : report_fault(number, "children are not a pair", 0));
+        good = good && check_node(c, node.word[1], &lower, depth + 1, touching, touching_count) &&
+               check_node(c, node.word[1] + 1, &upper, depth + 1, touching, touching_count);
     }
     free(touching);
     return good;
@@ -128,8 +129,8 @@ const char *raw_tree_check(const cgt_kd_raw *raw, const cgt_committed_scene *com
     assert_non_null(valid);
     assert_non_null(c.reached);
     for (uint32_t i = 0; i < committed_scene->prims.count; i++) {
-        const cgt_primitive shape = cgt_primitives_get(&committed_scene->prims, i);
-        if (cgt_primitive_check(&shape) == CGT_PRIMITIVE_VALID)
+        const cgt_primitive primitive = cgt_primitives_get(&committed_scene->prims, i);
+        if (cgt_primitive_check(&primitive) == CGT_PRIMITIVE_VALID)
             valid[count++] = i;
     }
     assert_int_equal(count, committed_scene->valid);
@@ -192,7 +193,7 @@ static void triangle(degenerate_scene *d, const float v[3][3])
     memcpy(d->vertex[3 * d->triangles++], v, 9 * sizeof(float));
 }
 
-/* A random triangle within `size` of the origin; flat: across an axis. */
+/* A random triangle within `size` of the origin; flat: perpendicular to an axis. */
 static void random_triangle(degenerate_scene *d, test_random *r, float size, float floor)
 {
     float v[3][3];
@@ -217,7 +218,7 @@ static void floor_triangle(degenerate_scene *d, uint32_t i, uint32_t axis, float
     triangle(d, (const float(*)[3])v);
 }
 
-/* Any bits, but for numbers so large that there would be no tree. */
+/* Arbitrary bits, except numbers so large that no tree would be built. */
 static float garbage(test_random *r)
 {
     const float x = random_any_float(r);

@@ -11,7 +11,7 @@
 
 #include "model/leaf_triangle.h"
 
-/* ---- objects ---- */
+/* ---- primitives ---- */
 
 static float coordinate(test_random *r, const rope_case *c)
 {
@@ -32,7 +32,7 @@ static void make_spheres(test_random *r, rope_case *c, uint32_t count)
 static void make_triangles(test_random *r, rope_case *c, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t flat = random_below(r, 4); /* one of three lies across an axis */
+        const uint32_t flat = random_below(r, 4); /* one of three is perpendicular to an axis */
         for (uint32_t k = 0; k < 3; k++)
             for (uint32_t a = 0; a < 3; a++)
                 c->vertex[3 * i + k][a] = k && a == flat ? c->vertex[3 * i][a] : coordinate(r, c);
@@ -84,7 +84,7 @@ static void set_scene_bounds(cgt_committed_scene *w)
     w->scale = largest > 0 ? ldexpf(1, -ilogbf(largest)) : 1;
 }
 
-static void make_objects(test_random *r, rope_case *c)
+static void make_primitives(test_random *r, rope_case *c)
 {
     const uint32_t count = 1 + random_below(r, ROPE_MOST_OBJECTS), spheres = random_below(r, 3) * count / 2;
     const uint32_t triangles = count - spheres;
@@ -113,7 +113,7 @@ static void make_objects(test_random *r, rope_case *c)
     set_scene_bounds(&c->committed_scene);
 }
 
-/* A tree that a builder makes, or one that none would. */
+/* A tree from a builder, or one that no builder would make. */
 static void make_tree(test_random *r, cgt_context *context, rope_case *c)
 {
     static const uint32_t depths[] = {1, 4, 8, 16, 30, CGT_KD_MAX_DEPTH - 1, CGT_KD_MAX_DEPTH - 1};
@@ -146,7 +146,7 @@ rope_case *rope_case_make(test_random *r, cgt_context *context, rope_place place
     c->unit = units[random_below(r, TEST_COUNT(units))];
     do {
         c->committed_scene.valid = 0;
-        make_objects(r, c);
+        make_primitives(r, c);
     } while (!c->committed_scene.valid);
     make_tree(r, context, c);
     c->committed_scene.structure = CGT_STRUCTURE_KD_ROPES;
@@ -165,7 +165,7 @@ void rope_case_free(rope_case *c)
 
 /* ---- rays ---- */
 
-/* A corner of a leaf, or a point of its box where `inside` has the axis' bit. */
+/* A corner of a leaf; along axes whose bit is set in `inside`, a random coordinate of its box. */
 static void leaf_point(test_random *r, const rope_case *c, unsigned inside, float p[3])
 {
     const cgt_kd_leaf *leaf = &c->committed_scene.kd.leaf[random_below(r, c->committed_scene.kd.leaves)];
@@ -190,7 +190,7 @@ static void any_point(test_random *r, const rope_case *c, float p[3])
     }
 }
 
-/* Nothing, or hardly anything: most are 0 */
+/* Zero or nearly zero; most are 0. */
 static float no_component(test_random *r)
 {
     static const float nothing[] = {0.f,       -0.f,       0.f,      -0.f,      0.f,     -0.f,
@@ -204,7 +204,7 @@ static void direction(test_random *r, const rope_case *c, const float org[3], fl
     float to[3], longest = 0;
     any_point(r, c, to);
     for (int a = 0; a < 3; a++) {
-        dir[a] = how == 0 ? (float)random_below(r, 7) - 3 /* meets a lattice exactly */
+        dir[a] = how == 0 ? (float)random_below(r, 7) - 3 /* hits lattice points exactly */
                           : (to[a] - org[a]) / c->unit;
         dir[a] = drop >> a & 1 ? no_component(r) : dir[a];
         longest = fmaxf(longest, fabsf(dir[a]));

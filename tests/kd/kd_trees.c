@@ -26,7 +26,7 @@ cgt_scene *mixed_scene(cgt_context *context, cloud_kind kind, uint64_t stream, u
         for (int k = 0; k < 3; k++)
             for (int a = 0; a < 3; a++)
                 triangles[i][k][a] = random_below(&r, 4) ? q[a] + random_float(&r, -size, size) : q[a];
-        if (i % 16 == 5) /* no area */
+        if (i % 16 == 5) /* without an area */
             for (int a = 0; a < 3; a++)
                 triangles[i][2][a] = triangles[i][1][a];
     }

@@ -18,7 +18,7 @@ static const char *const builder_names[] = {"binned", "sweep"};
 
 static cgt_context *one_thread;
 
-/* Builds with both builders, checks every leaf against every object. */
+/* Builds with both builders, and checks every leaf against every primitive. */
 static void check_scene(const char *name, const cgt_scene *scene)
 {
     for (size_t b = 0; b < TEST_COUNT(builders); b++) {
@@ -63,7 +63,7 @@ static void test_leaves(void **state)
     }
 }
 
-/* Where there is a top, built chunk by chunk, of one scene from more than one chunk of objects. */
+/* Trees with a top, built chunk by chunk; in one scene from more than one chunk of primitives. */
 static void test_large(void **state)
 {
     (void)state;
@@ -77,9 +77,9 @@ static void test_large(void **state)
     }
 }
 
-/* The sweep knows all planes, the bins few of them; but both are greedy. Where a step costs much, either may stop
- * before splits that would pay off further down; where it costs little, the sweep finds the better tree, but for scenes
- * where few giants decide what the tree costs. */
+/* The sweep considers all planes, the binned builder a few of them; but both are greedy. If a traversal step is
+ * expensive, either may stop before splits that would pay off further down. If it is cheap, the sweep finds the better
+ * tree, except in scenes where a few giant primitives determine the cost. */
 static void test_costs(void **state)
 {
     const cgt_kd_costs costs = {.inner = 0.4, .test = {1, 1}, .empty_cut_off = 0.1};
@@ -232,7 +232,7 @@ static void test_same_tree(void **state)
 
 /* ---- limits ---- */
 
-/* A fan: all triangles meet in a point, so that each leaf there would be split for ever. */
+/* A fan: all triangles meet in a point, so that leaves there would be split forever. */
 static void test_limits(void **state)
 {
     (void)state;
@@ -248,7 +248,7 @@ static void test_limits(void **state)
         if (wrong)
             fail_msg("%s: %s", builder_names[b], wrong);
         assert_true(raw.limited_leaves > 0);
-        costs.inner = 1e30; /* then a leaf is best, and nothing limits it */
+        costs.inner = 1e30; /* then a leaf is best, and no limit applies */
         assert_int_equal(cgt_kd_build(one_thread, &work, &scene->committed_scene, builders[b], &costs, &raw), CGT_OK);
         assert_int_equal(raw.limited_leaves, 0);
         assert_true(cgt_kd_is_leaf(raw.node[0]));
@@ -284,7 +284,7 @@ static void count_release(void *user, void *memory, size_t bytes)
     free(memory);
 }
 
-/* Each allocation of a build fails in turn; then the build succeeds, and repeated it allocates nothing. */
+/* Each allocation of a build fails in turn; then the build succeeds, and a repeated build allocates nothing. */
 static void check_memory(cgt_context *context, counted *c, const cgt_scene *scene, cgt_kd_builder builder)
 {
     char text[256] = "";
@@ -333,7 +333,7 @@ static void test_memory(void **state)
     hard_scene_free(&s);
 }
 
-/* More objects than a tree can number: refused before anything is read. */
+/* More primitives than a tree can number are refused before anything is read. */
 static void test_too_many(void **state)
 {
     static const uint32_t counts[] = {UINT32_MAX - 1, 0x80000000u, 0x40000000u, 0x20000000u};

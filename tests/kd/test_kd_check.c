@@ -13,12 +13,12 @@
 #include "support/kd/kd_touch.h"
 #include "kernel/builders/triangle_box.h"
 
-/* ---- shapes and boxes ---- */
+/* ---- primitives and boxes ---- */
 
 static bool ball_touches(float x, float y, float z, float r, kd_box box)
 {
-    const cgt_primitive shape = {.kind = CGT_KIND_SPHERES, .sphere = {x, y, z, r}};
-    return kd_touches(&shape, &box);
+    const cgt_primitive primitive = {.kind = CGT_KIND_SPHERES, .sphere = {x, y, z, r}};
+    return kd_touches(&primitive, &box);
 }
 
 static void spheres_at_the_limit(void **state)
@@ -29,12 +29,12 @@ static void spheres_at_the_limit(void **state)
     assert_false(ball_touches(0, 0, 0, nextafterf(1, 0), right));
     assert_true(ball_touches(0, 0, 0, 5, corner));
     assert_false(ball_touches(0, 0, 0, nextafterf(5, 0), corner));
-    assert_true(ball_touches(0, 0, 0, 5, around)); /* the corners of the box */
+    assert_true(ball_touches(0, 0, 0, 5, around)); /* touches the corners of the box */
     assert_false(ball_touches(0, 0, 0, nextafterf(5, 6), around));
     assert_true(ball_touches(0, 0, 0, nextafterf(5, 0), around));
     assert_true(ball_touches(1, 0, 0, 0, right)); /* a point */
     assert_false(ball_touches(nextafterf(1, 0), 0, 0, 0, right));
-    /* scaled to denormals and far up */
+    /* scaled to denormals and to huge numbers */
     for (int e = -148; e <= 50; e += 33) {
         const float s = ldexpf(1, e);
         const kd_box box = {{3 * s, 4 * s, 0}, {9 * s, 9 * s, 9 * s}};
@@ -45,9 +45,9 @@ static void spheres_at_the_limit(void **state)
 
 static bool triangle_touches(const float v[3][3], kd_box box)
 {
-    cgt_primitive shape = {.kind = CGT_KIND_TRIANGLES};
-    memcpy(shape.triangle.v, v, sizeof shape.triangle.v);
-    return kd_touches(&shape, &box);
+    cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES};
+    memcpy(primitive.triangle.v, v, sizeof primitive.triangle.v);
+    return kd_touches(&primitive, &box);
 }
 
 static void triangles_at_the_limit(void **state)
@@ -55,10 +55,10 @@ static void triangles_at_the_limit(void **state)
     const kd_box unit = {{0, 0, 0}, {1, 1, 1}};
     const float plane[3][3] = {{3, 0, 0}, {0, 3, 0}, {0, 0, 3}}; /* x + y + z = 3 */
     const float off[3][3] = {{nextafterf(3, 4), 0, 0}, {0, nextafterf(3, 4), 0}, {0, 0, nextafterf(3, 4)}};
-    const float edge[3][3] = {{2, 0, 0.5f}, {0, 2, 0.5f}, {2, 2, 0.5f}}; /* an edge through x = y = 1 */
+    const float edge[3][3] = {{2, 0, 0.5f}, {0, 2, 0.5f}, {2, 2, 0.5f}}; /* an edge that crosses x = y = 1 */
     const float past[3][3] = {{2, nextafterf(0, 1), 0.5f}, {0, nextafterf(2, 3), 0.5f}, {2, 2, 0.5f}};
     const float vertex[3][3] = {{1, 0.5f, 0.5f}, {2, 0, 0}, {2, 1, 0}};
-    const float beside[3][3] = {{nextafterf(1, 2), 0.5f, 0.5f}, {2, 0, 0}, {2, 1, 0}};
+    const float adjacent[3][3] = {{nextafterf(1, 2), 0.5f, 0.5f}, {2, 0, 0}, {2, 1, 0}};
     const float inside[3][3] = {{0.4f, 0.5f, 0.5f}, {0.5f, 0.6f, 0.5f}, {0.5f, 0.5f, 0.7f}};
     const float wide[3][3] = {{-9, -9, 0.5f}, {9, -9, 0.5f}, {0, 20, 0.25f}};
     (void)state;
@@ -67,12 +67,12 @@ static void triangles_at_the_limit(void **state)
     assert_true(triangle_touches(edge, unit));
     assert_false(triangle_touches(past, unit));
     assert_true(triangle_touches(vertex, unit));
-    assert_false(triangle_touches(beside, unit));
+    assert_false(triangle_touches(adjacent, unit));
     assert_true(triangle_touches(inside, unit));
     assert_true(triangle_touches(wide, unit));
 }
 
-/* Short numbers, so that many triangles and boxes just touch. */
+/* Small integers, so that many triangles and boxes just touch. */
 static float lattice(test_random *r) { return (float)random_below(r, 9) - 4; }
 
 static bool library_touches(const cgt_triangle *q, const kd_box *box)
@@ -92,8 +92,9 @@ static bool library_touches(const cgt_triangle *q, const kd_box *box)
     return cgt_triangle_box_touches(&t, center);
 }
 
-/* On small whole numbers the library's test has next to no margin, and it says no only where that is so. */
-static void triangles_of_both_opinions(void **state)
+/* On small integers the margin of the library's test is nearly zero, so that both tests must agree. A triangle with a
+ * point in the box touches it. */
+static void triangles_by_both_tests(void **state)
 {
     test_random r = random_make(0);
     uint32_t touches = 0, points = 0;
@@ -113,7 +114,7 @@ static void triangles_of_both_opinions(void **state)
         const bool touch = kd_touches(&s, &box);
         assert_int_equal(touch, library_touches(&s.triangle, &box));
         touches += touch;
-        bool point = true; /* of the triangle, in eighths: is it in the box? */
+        bool point = true; /* whether a point of the triangle, in eighths, lies in the box */
         const uint32_t u = random_below(&r, 9), v = random_below(&r, 9 - u);
         for (int a = 0; a < 3; a++) {
             const float p = ((float)(8 - u - v) * s.triangle.v[0][a] + (float)u * s.triangle.v[1][a] +
@@ -130,7 +131,7 @@ static void triangles_of_both_opinions(void **state)
 
 /* ---- planted faults ---- */
 
-/* A copy of a tree that may be spoilt. */
+/* A copy of a tree, to be spoilt. */
 typedef struct spoilt {
     const cgt_committed_scene *committed_scene;
     cgt_kd_tree tree;
@@ -142,7 +143,7 @@ typedef struct spoilt {
 
 static void *copy(const void *from, size_t bytes)
 {
-    void *to = NULL; /* aligned as the library's */
+    void *to = NULL; /* aligned like the library's memory */
     const cgt_memory_hooks hooks = cgt_memory_default();
     to = cgt_allocate(&hooks, bytes);
     assert_non_null(to);
@@ -179,43 +180,43 @@ static uint32_t any_node(spoilt *s, bool leaf, uint32_t prims)
     }
 }
 
-static uint32_t *objects_of(spoilt *s, uint32_t leaf)
+static uint32_t *references_of(spoilt *s, uint32_t leaf)
 {
     const uint32_t first = s->leaf ? s->leaf[s->node[leaf].word[1]].first : s->node[leaf].word[1];
     return s->reference + first;
 }
 
-static void swap_objects(spoilt *s)
+static void swap_references(spoilt *s)
 {
-    uint32_t *prim = objects_of(s, any_node(s, true, 2)), first = prim[0];
+    uint32_t *prim = references_of(s, any_node(s, true, 2)), first = prim[0];
     prim[0] = prim[1];
     prim[1] = first;
 }
 
-static void repeat_object(spoilt *s)
+static void repeat_reference(spoilt *s)
 {
-    uint32_t *prim = objects_of(s, any_node(s, true, 2));
+    uint32_t *prim = references_of(s, any_node(s, true, 2));
     prim[1] = prim[0];
 }
 
-static void list_skipped_object(spoilt *s)
+static void list_skipped_primitive(spoilt *s)
 {
     const cgt_primitives *prims = &s->committed_scene->prims;
     for (;;) {
-        const uint32_t leaf = any_node(s, true, 2), last = objects_of(s, leaf)[cgt_kd_count(s->node[leaf]) - 1];
+        const uint32_t leaf = any_node(s, true, 2), last = references_of(s, leaf)[cgt_kd_count(s->node[leaf]) - 1];
         const uint32_t i = random_below(&s->random, prims->count);
-        const cgt_primitive shape = cgt_primitives_get(prims, i);
-        if (i < last && cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID) {
-            objects_of(s, leaf)[0] = i;
+        const cgt_primitive primitive = cgt_primitives_get(prims, i);
+        if (i < last && cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID) {
+            references_of(s, leaf)[0] = i;
             return;
         }
     }
 }
 
-static void list_no_object(spoilt *s)
+static void list_missing_primitive(spoilt *s)
 {
     const uint32_t leaf = any_node(s, true, 2);
-    objects_of(s, leaf)[cgt_kd_count(s->node[leaf]) - 1] = s->committed_scene->prims.count;
+    references_of(s, leaf)[cgt_kd_count(s->node[leaf]) - 1] = s->committed_scene->prims.count;
 }
 
 static void refer_beyond(spoilt *s)
@@ -328,8 +329,8 @@ static void lost_rope(spoilt *s)
     *rope = *rope == CGT_INVALID_ID ? 0 : CGT_INVALID_ID;
 }
 
-/* Another node than the one it leads to; 1 is none. */
-static void rope_elsewhere(spoilt *s)
+/* A node other than the rope's target; node 1 is unused. */
+static void rope_to_wrong_node(spoilt *s)
 {
     for (;;) {
         uint32_t *rope = &any_leaf(s)->rope[random_below(&s->random, 6)];
@@ -367,17 +368,17 @@ static void rope_too_far(spoilt *s)
     fail_msg("all ropes lead to leaves");
 }
 
-/* Leaves out one object of a leaf that touches it; the references behind it move up. */
-static void omit_object(spoilt *s)
+/* Removes a primitive from a leaf that it touches; the references after it move up. */
+static void omit_primitive(spoilt *s)
 {
     for (;;) {
         const uint32_t leaf = any_node(s, true, 2), count = cgt_kd_count(s->node[leaf]);
-        uint32_t *prim = objects_of(s, leaf), i = random_below(&s->random, count);
+        uint32_t *prim = references_of(s, leaf), i = random_below(&s->random, count);
         kd_box box;
         memcpy(box.low, s->leaf[s->node[leaf].word[1]].low, sizeof box.low);
         memcpy(box.high, s->leaf[s->node[leaf].word[1]].high, sizeof box.high);
-        const cgt_primitive shape = cgt_primitives_get(&s->committed_scene->prims, prim[i]);
-        if (!kd_touches(&shape, &box))
+        const cgt_primitive primitive = cgt_primitives_get(&s->committed_scene->prims, prim[i]);
+        if (!kd_touches(&primitive, &box))
             continue;
         memmove(prim + i, prim + i + 1, (count - 1 - i) * sizeof *prim);
         s->node[leaf] = cgt_kd_leaf_node(count - 1, s->node[leaf].word[1]);
@@ -388,13 +389,13 @@ static void omit_object(spoilt *s)
 
 static const struct {
     void (*plant)(spoilt *s);
-    const char *found; /* part of the message; NULL: any */
-    bool ropes;        /* only with them */
+    const char *found; /* part of the message; NULL: any message */
+    bool ropes;        /* only in trees with ropes */
 } faults[] = {
-    {swap_objects, " after ", false},
-    {repeat_object, " after ", false},
-    {list_skipped_object, "take part", false},
-    {list_no_object, "take part", false},
+    {swap_references, " after ", false},
+    {repeat_reference, " after ", false},
+    {list_skipped_primitive, "take part", false},
+    {list_missing_primitive, "take part", false},
     {refer_beyond, "out of range", false},
     {share_references, NULL, false},
     {odd_children, "children", false},
@@ -415,10 +416,10 @@ static const struct {
     {wrong_box, "box", true},
     {wrong_wide_rope, "wide rope", true},
     {lost_rope, "rope leads", true},
-    {rope_elsewhere, "does not hold", true},
+    {rope_to_wrong_node, "does not hold", true},
     {rope_not_pushed_down, "its child", true},
     {rope_too_far, "does not hold", true},
-    {omit_object, "does not list", true},
+    {omit_primitive, "does not list", true},
 };
 
 static void planted_faults_are_found(void **state)
@@ -431,7 +432,7 @@ static void planted_faults_are_found(void **state)
         test_random r = random_make(round);
         const bool ropes = round % 2;
         random_tree tree;
-        do { /* until all kinds of faults have room */
+        do { /* until there is room for every kind of fault */
             tree = random_tree_make(&r, committed_of(scene), 20, 4);
             assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, ropes), CGT_OK);
             random_tree_free(&tree);
@@ -459,7 +460,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spheres_at_the_limit),
         cmocka_unit_test(triangles_at_the_limit),
-        cmocka_unit_test(triangles_of_both_opinions),
+        cmocka_unit_test(triangles_by_both_tests),
         cmocka_unit_test(planted_faults_are_found),
     };
     test_begin("test_kd_check");

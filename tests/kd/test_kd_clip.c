@@ -27,7 +27,7 @@ static float number(test_random *r, place where)
 {
     switch (where) {
     case PLACE_LATTICE: return (float)((int)random_below(r, 9) - 4);
-    case PLACE_CANCELS: { /* close to 1, -1 or 0: what is between them is nearly nothing */
+    case PLACE_CANCELS: { /* close to 1, -1 or 0: differences nearly cancel */
         const float step = (float)random_below(r, 8) * 0x1p-23f;
         return random_below(r, 4) ? (random_below(r, 2) ? 1 + step : -1 - step) : step;
     }
@@ -41,16 +41,16 @@ static float number(test_random *r, place where)
 
 static cgt_primitive random_triangle(test_random *r, place where)
 {
-    cgt_primitive shape = {.kind = CGT_KIND_TRIANGLES};
+    cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES};
     do
         for (int k = 0; k < 3; k++)
             for (int a = 0; a < 3; a++)
-                shape.triangle.v[k][a] = number(r, where);
-    while (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID);
-    return shape;
+                primitive.triangle.v[k][a] = number(r, where);
+    while (cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID);
+    return primitive;
 }
 
-/* Of numbers from the same place, or of the triangle's own: then it touches exactly. */
+/* Coordinates from the same range, or the triangle's own, so that the box touches it exactly. */
 static kd_box random_box(test_random *r, place where, const cgt_triangle *q)
 {
     kd_box box;
@@ -69,7 +69,7 @@ static kd_box random_box(test_random *r, place where, const cgt_triangle *q)
     return box;
 }
 
-static void say(const char *what, const cgt_triangle *q, const kd_box *box)
+static void fail_clip(const char *what, const cgt_triangle *q, const kd_box *box)
 {
     for (int k = 0; k < 3; k++)
         print_message("vertex %a %a %a\n", (double)q->v[k][0], (double)q->v[k][1], (double)q->v[k][2]);
@@ -78,33 +78,33 @@ static void say(const char *what, const cgt_triangle *q, const kd_box *box)
     fail_msg("%s", what);
 }
 
-/* Nothing of the triangle may be in the box but outside of the bounds. */
-static void check_outside(const cgt_primitive *shape, const kd_box *box, const cgt_kd_box *bounds)
+/* No part of the triangle inside the box may lie outside the bounds. */
+static void check_outside(const cgt_primitive *primitive, const kd_box *box, const cgt_kd_box *bounds)
 {
     for (int a = 0; a < 3; a++) {
         kd_box lower = *box, upper = *box;
         lower.high[a] = nextafterf(bounds->low[a], -INFINITY);
         upper.low[a] = nextafterf(bounds->high[a], INFINITY);
-        if (lower.low[a] <= lower.high[a] && kd_touches(shape, &lower))
-            say("a part is below the bounds", &shape->triangle, box);
-        if (upper.low[a] <= upper.high[a] && kd_touches(shape, &upper))
-            say("a part is above the bounds", &shape->triangle, box);
+        if (lower.low[a] <= lower.high[a] && kd_touches(primitive, &lower))
+            fail_clip("a part is below the bounds", &primitive->triangle, box);
+        if (upper.low[a] <= upper.high[a] && kd_touches(primitive, &upper))
+            fail_clip("a part is above the bounds", &primitive->triangle, box);
     }
 }
 
-/* A little inside of each face there is something, where the bounds are tight. */
-static uint32_t count_tight(const cgt_primitive *shape, const kd_box *box, const cgt_kd_box *bounds)
+/* Counts the faces where the bounds are tight: the clipped part reaches to just inside of them. */
+static uint32_t count_tight(const cgt_primitive *primitive, const kd_box *box, const cgt_kd_box *bounds)
 {
     uint32_t tight = 0;
     for (int a = 0; a < 3; a++) {
         kd_box lower = *box, upper = *box;
         float largest = fmaxf(fabsf(bounds->low[a]), fabsf(bounds->high[a]));
         for (int k = 0; k < 3; k++)
-            largest = fmaxf(largest, fabsf(shape->triangle.v[k][a]));
+            largest = fmaxf(largest, fabsf(primitive->triangle.v[k][a]));
         lower.high[a] = fminf(box->high[a], bounds->low[a] + 0x1p-20f * largest + 0x1p-147f);
         upper.low[a] = fmaxf(box->low[a], bounds->high[a] - 0x1p-20f * largest - 0x1p-147f);
-        tight += kd_touches(shape, &lower);
-        tight += kd_touches(shape, &upper);
+        tight += kd_touches(primitive, &lower);
+        tight += kd_touches(primitive, &upper);
     }
     return tight;
 }
@@ -116,24 +116,24 @@ static void test_boxes(void **state)
     for (int where = 0; where < PLACES; where++) {
         test_random r = random_make((uint64_t)where);
         for (uint32_t i = 0; i < 100 + test_scaled(CASES); i++) {
-            const cgt_primitive shape = random_triangle(&r, (place)where);
-            const kd_box box = random_box(&r, (place)where, &shape.triangle);
+            const cgt_primitive primitive = random_triangle(&r, (place)where);
+            const kd_box box = random_box(&r, (place)where, &primitive.triangle);
             cgt_kd_box clip, bounds;
             memcpy(&clip, &box, sizeof clip);
             bounds = clip;
-            const bool some = cgt_kd_clip_box(&shape.triangle, &clip, &bounds);
-            if (!kd_touches(&shape, &box)) {
-                refused += !some;
+            const bool nonempty = cgt_kd_clip_box(&primitive.triangle, &clip, &bounds);
+            if (!kd_touches(&primitive, &box)) {
+                refused += !nonempty;
                 continue;
             }
-            if (!some)
-                say("the part is not empty", &shape.triangle, &box);
-            check_outside(&shape, &box, &bounds);
+            if (!nonempty)
+                fail_clip("the part is not empty", &primitive.triangle, &box);
+            check_outside(&primitive, &box, &bounds);
             touched++;
-            tight += count_tight(&shape, &box, &bounds);
+            tight += count_tight(&primitive, &box, &bounds);
         }
     }
-    print_message("%u boxes touch, %u of %u bounds are tight; %u do not and are seen not to\n", touched, tight,
+    print_message("%u boxes touch, %u of %u bounds are tight; %u do not touch and are rejected\n", touched, tight,
                   6 * touched, refused);
     assert_true(touched > 100);
     assert_true(refused > 100);
@@ -147,14 +147,14 @@ static void test_sides(void **state)
     for (int where = 0; where < PLACES; where++) {
         test_random r = random_make(100 + (uint64_t)where);
         for (uint32_t i = 0; i < 100 + test_scaled(CASES); i++) {
-            const cgt_primitive shape = random_triangle(&r, (place)where);
+            const cgt_primitive primitive = random_triangle(&r, (place)where);
             const uint32_t axis = random_below(&r, 3);
             const float split = number(&r, (place)where);
-            const float *x = &shape.triangle.v[0][axis];
+            const float *x = &primitive.triangle.v[0][axis];
             if (split < fminf(x[0], fminf(x[3], x[6])) || split > fmaxf(x[0], fmaxf(x[3], x[6])))
                 continue;
             cgt_kd_bounds4 side[2];
-            cgt_kd_clip_sides(&shape.triangle, axis, split, side);
+            cgt_kd_clip_sides(&primitive.triangle, axis, split, side);
             for (int s = 0; s < 2; s++) {
                 kd_box box = {{-0x1p56f, -0x1p56f, -0x1p56f}, {0x1p56f, 0x1p56f, 0x1p56f}};
                 cgt_kd_box bounds;
@@ -164,9 +164,9 @@ static void test_sides(void **state)
                 }
                 (s ? bounds.low : bounds.high)[axis] = split;
                 (s ? box.low : box.high)[axis] = split;
-                check_outside(&shape, &box, &bounds);
+                check_outside(&primitive, &box, &bounds);
                 cut++;
-                tight += count_tight(&shape, &box, &bounds);
+                tight += count_tight(&primitive, &box, &bounds);
             }
         }
     }

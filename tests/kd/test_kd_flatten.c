@@ -13,7 +13,7 @@
 static const struct {
     cgt_kd_layout layout;
     uint32_t break_level;
-    uint32_t levels; /* that are breadth first */
+    uint32_t levels; /* that are laid out breadth first */
 } layouts[] = {
     {CGT_KD_LAYOUT_AUTO, 0, 1},    {CGT_KD_LAYOUT_DEPTH_FIRST, 0, 1}, {CGT_KD_LAYOUT_BREADTH_FIRST, 0, 50},
     {CGT_KD_LAYOUT_MIXED, 1, 1},   {CGT_KD_LAYOUT_MIXED, 2, 2},       {CGT_KD_LAYOUT_MIXED, 7, 7},
@@ -22,7 +22,7 @@ static const struct {
 
 /* ---- the order of nodes, from the definitions ---- */
 
-/* By final number: the node of the raw tree. */
+/* The raw node at each final index. */
 typedef struct expected_order {
     uint32_t *raw;
     uint32_t nodes;
@@ -34,7 +34,7 @@ static void append_pair(expected_order *o, const cgt_kd_raw *raw, uint32_t paren
     o->raw[o->nodes++] = raw->node[parent].word[1] + 1;
 }
 
-/* All below a node, depth first. */
+/* All nodes below a node, depth first. */
 static void append_below(expected_order *o, const cgt_kd_raw *raw, uint32_t node)
 {
     if (cgt_kd_is_leaf(raw->node[node]))
@@ -49,7 +49,7 @@ static expected_order expect_order(const cgt_kd_raw *raw, uint32_t levels)
     expected_order o = {malloc((raw->nodes + (size_t)2) * sizeof(uint32_t)), 2};
     assert_non_null(o.raw);
     o.raw[0] = 0;
-    uint32_t begin = 0, end = 1; /* of a level */
+    uint32_t begin = 0, end = 1; /* nodes of a level */
     for (uint32_t level = 1; level < levels && begin < end; level++) {
         const uint32_t next = o.nodes;
         for (uint32_t i = begin; i < end; i++)
@@ -75,13 +75,13 @@ static void check_leaf(const cgt_kd_raw *raw, const cgt_kd_tree *tree, cgt_kd_no
         assert_int_equal(n.word[1], number);
         assert_int_equal(tree->leaf[number].count, count);
     }
-    if (count > 1 || tree->leaf) { /* references are in the order of the nodes too */
+    if (count > 1 || tree->leaf) { /* references follow the order of the nodes */
         assert_true((tree->leaf ? tree->leaf[number].first : n.word[1]) == *next);
         *next += count;
     }
 }
 
-/* That tree is raw in the order of a layout. */
+/* Checks that tree holds raw's nodes in the order of a layout. */
 static void check_order(const cgt_kd_raw *raw, const cgt_kd_tree *tree, uint32_t levels)
 {
     const expected_order o = expect_order(raw, levels);
@@ -173,25 +173,26 @@ static void one_leaf(void **state)
 static void threads_make_the_same_bytes(void **state)
 {
     static const uint32_t threads[] = {2, 3, 8};
-    cgt_context *alone = context_make(1, NULL);
-    cgt_scene *scene = mixed_scene(alone, CLOUD_UNIFORM, 1, 4000);
+    cgt_context *one_thread = context_make(1, NULL);
+    cgt_scene *scene = mixed_scene(one_thread, CLOUD_UNIFORM, 1, 4000);
     test_random r = random_make(1);
     random_tree tree;
     flat_tree want = {0}, got = {0};
     (void)state;
     do { /* until there are enough nodes for tasks, and not all of them in one subtree */
         tree = random_tree_make(&r, committed_of(scene), 40, 4);
-        assert_int_equal(flatten(&want, alone, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_OK);
+        assert_int_equal(flatten(&want, one_thread, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, false), CGT_OK);
         if (want.tree.nodes < 16384)
             random_tree_free(&tree);
     } while (want.tree.nodes < 16384);
-    check_layouts(alone, committed_of(scene), &tree.raw, &want);
+    check_layouts(one_thread, committed_of(scene), &tree.raw, &want);
     print_message("%u nodes, %llu references\n", want.tree.nodes, (unsigned long long)want.tree.references);
     for (size_t t = 0; t < TEST_COUNT(threads); t++) {
         cgt_context *context = context_make(threads[t], NULL);
         for (size_t i = 0; i < TEST_COUNT(layouts); i++) {
             const bool ropes = i & 1;
-            assert_int_equal(flatten(&want, alone, &tree.raw, layouts[i].layout, layouts[i].break_level, ropes), 0);
+            assert_int_equal(flatten(&want, one_thread, &tree.raw, layouts[i].layout, layouts[i].break_level, ropes),
+                             0);
             assert_int_equal(flatten(&got, context, &tree.raw, layouts[i].layout, layouts[i].break_level, ropes), 0);
             const cgt_kd_tree *a = &want.tree, *b = &got.tree;
             assert_int_equal(a->nodes, b->nodes);
@@ -211,10 +212,10 @@ static void threads_make_the_same_bytes(void **state)
     random_tree_free(&tree);
     flat_tree_free(&want);
     mixed_scene_free(scene);
-    cgt_context_release(alone);
+    cgt_context_release(one_thread);
 }
 
-/* ---- what cannot be done ---- */
+/* ---- refused trees ---- */
 
 typedef struct refusal {
     uint32_t calls, refused; /* the call that is refused, from 1; 0: none */
@@ -256,7 +257,7 @@ static void refused_memory(void **state)
         assert_non_null(strstr(context_message(context), "kd-tree: out of memory"));
         assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_AUTO, 0, true), CGT_OK);
         assert_null(kd_check(&flat.tree, committed_of(scene)));
-        assert_int_equal(refuse.calls, 4); /* three buffers, one of them asked for twice; nothing else */
+        assert_int_equal(refuse.calls, 4); /* three buffers, one of them requested twice; nothing else */
         assert_int_equal(flatten(&flat, context, &tree.raw, CGT_KD_LAYOUT_BREADTH_FIRST, 0, true), CGT_OK);
         assert_int_equal(refuse.calls, 4); /* the same size again: nothing is allocated */
         flat_tree_free(&flat);
@@ -267,7 +268,7 @@ static void refused_memory(void **state)
     cgt_context_release(context);
 }
 
-/* A chain of splits at the lower end of the root, `depth` of them; the last leaf has all objects, like the others. */
+/* A chain of `depth` splits at the lower end of the root; every leaf has all primitives. */
 static random_tree chain(const cgt_committed_scene *committed_scene, uint32_t depth)
 {
     random_tree tree = random_tree_leaf(committed_scene);

@@ -39,7 +39,7 @@ static int teardown(void **state)
 
 /* ---- packets ---- */
 
-/* Rays that share nothing but the scene; or their origin, too. */
+/* Independent rays, or rays with a common origin. */
 static void make_rays(test_random *r, const rope_case *c, bool common_origin, truth_ray ray[RAYS])
 {
     for (uint32_t k = 0; k < RAYS; k++) {
@@ -74,8 +74,8 @@ static void fill_packet(packet *p, const truth_ray ray[RAYS], bool common_origin
 static void trace_all(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
 {
     for (uint32_t prim = 0; prim < committed_scene->prims.count; prim++) {
-        const cgt_primitive shape = cgt_primitives_get(&committed_scene->prims, prim);
-        if (cgt_primitive_check(&shape) == CGT_PRIMITIVE_VALID)
+        const cgt_primitive primitive = cgt_primitives_get(&committed_scene->prims, prim);
+        if (cgt_primitive_check(&primitive) == CGT_PRIMITIVE_VALID)
             for (uint32_t i = 0; i < p->lanes; i++)
                 filter_decide(&committed_scene->prims, p, i, prim, counts);
     }
@@ -109,7 +109,7 @@ static void compare_hits(const rope_case *c, const truth_ray ray[RAYS], const pa
         if (same)
             continue;
         if (!sum->wrong++) {
-            print_message("object %u, expected %u, %s, place %d: ", p->prim[k], truth->prim[k],
+            print_message("primitive %u, expected %u, %s, place %d: ", p->prim[k], truth->prim[k],
                           traversal == CGT_KD_TRAVERSAL_SINGLE ? "single" : "packet", (int)c->place);
             print_ray(&ray[k]);
         }
@@ -133,7 +133,7 @@ static void hits_are_those_of_brute_force(void **state)
         for (int turn = 0; turn < 4; turn++) {
             const bool common_origin = turn == 3, any_hit = turn == 1;
             uint64_t closed = random_bits(&r);
-            closed &= random_bits(&r); /* one of four is closed */
+            closed &= random_bits(&r); /* one of four lanes is closed */
             make_rays(&r, c, common_origin, ray);
             fill_packet(truth, ray, common_origin, any_hit, closed);
             trace_all(&c->committed_scene, truth, &unused);
@@ -174,10 +174,10 @@ static int order(const fraction *a, const fraction *b)
 
 static fraction whole(float t) { return (fraction){dyadic_of_float(t), dyadic_make(1, 0)}; }
 
-/* The part of a line in a closed box; false where there is none. A direction is not zero, so ends are finite. */
+/* The part of a line in a closed box; false if it is empty. A direction is not zero, so ends are finite. */
 static bool part_in_box(const truth_ray *ray, const float low[3], const float high[3], fraction *near, fraction *far)
 {
-    bool some = false;
+    bool found = false;
     for (int a = 0; a < 3; a++) {
         const dyadic d = dyadic_of_float(ray->dir[a]), o = dyadic_of_float(ray->org[a]);
         if (d.sign == 0) {
@@ -188,10 +188,10 @@ static bool part_in_box(const truth_ray *ray, const float low[3], const float hi
         for (int end = 0; end < 2; end++) {
             const dyadic plane = dyadic_of_float((d.sign > 0) == end ? high[a] : low[a]), to = dyadic_sub(&plane, &o);
             const fraction t = {dyadic_signed(&to, d.sign), dyadic_signed(&d, d.sign)};
-            if (end == 0 ? !some || order(&t, near) > 0 : !some || order(&t, far) < 0)
+            if (end == 0 ? !found || order(&t, near) > 0 : !found || order(&t, far) < 0)
                 *(end ? far : near) = t;
         }
-        some = true;
+        found = true;
     }
     return order(near, far) <= 0;
 }
@@ -221,7 +221,7 @@ static bool comes_twice(const uint32_t *leaf, uint32_t count)
 }
 
 typedef struct cover {
-    uint64_t rays, misses, leaves, touched; /* touched: passed at one point only */
+    uint64_t rays, misses, leaves, touched; /* touched: the ray meets the leaf at one point only */
 } cover;
 
 /* NULL, or the fault in the leaves that ray k visited; it may stop at `high`. */
@@ -233,7 +233,7 @@ static const char *judge_leaves(const cgt_kd_tree *tree, const truth_ray *ray, u
     sum->rays++;
     if (!part_in_box(ray, tree->low, tree->high, &near, &far)) {
         sum->misses++;
-        return count ? "leaves where the root is missed" : NULL;
+        return count ? "leaves are visited, but the ray misses the root" : NULL;
     }
     reached = near;
     if (ray->t_min > -INFINITY) {
@@ -258,15 +258,15 @@ static const char *judge_leaves(const cgt_kd_tree *tree, const truth_ray *ray, u
         late = order(&reached, &last) > 0;
     }
     if (!late && (!count || order(&reached, &far) < 0))
-        return "the end is missing";
-    return comes_twice(leaf, count) ? "a leaf comes twice" : NULL;
+        return "the end of the ray is not covered";
+    return comes_twice(leaf, count) ? "a leaf is visited twice" : NULL;
 }
 
 static void judge_packet(const rope_case *c, const truth_ray ray[RAYS], const packet *p, cover *sum)
 {
     for (uint32_t k = 0; k < RAYS; k++) {
         if (p->high[k] == -INFINITY)
-            continue; /* stopped anywhere, or never started */
+            continue; /* stopped early, or never started */
         const char *wrong = judge_leaves(&c->committed_scene.kd, &ray[k], k, p->high[k], sum);
         if (!wrong)
             continue;
@@ -317,7 +317,7 @@ static void leaves_cover_the_rays(void **state)
 
 /* ---- faces ---- */
 
-/* A leaf that each ray could leave by either of two faces, with a rope for each axis. */
+/* A leaf that each ray could leave through either of two faces, with a rope for each axis. */
 static void set_leaf(packet *p, uint32_t k, const cgt_plane_time t[2], uint32_t swap, cgt_kd_leaf *leaf)
 {
     for (uint32_t a = 0; a < 3; a++) {
@@ -347,7 +347,7 @@ static void faces_at_nearly_the_same_time(void **state)
         const int k = near_times_make(&r, t);
         const uint32_t swap = random_below(&r, 2), axis = (k > 0) ^ swap, lane = random_below(&r, CGT_LANES);
         if (k == 0)
-            continue; /* either will do */
+            continue; /* either face is right */
         for (uint32_t i = 0; i < CGT_LANES; i++)
             set_leaf(p, i, t, swap, &leaf);
         rope_ray_init(p, lane, &one);

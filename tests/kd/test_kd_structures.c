@@ -13,30 +13,31 @@
 #include "support/closed_meshes.h"
 #include "primitive/triangle_scenes.h"
 
-/* The primitives of a scene; a NAN as a coordinate makes a skipped one. */
-typedef struct things {
+/* The primitives of a scene; a primitive with a NAN is skipped. */
+typedef struct primitive_set {
     uint32_t spheres, triangles;
     float (*sphere)[4];
     triangle *triangle;
-} things;
+} primitive_set;
 
-static things things_make(uint32_t spheres, uint32_t triangles)
+static primitive_set primitive_set_make(uint32_t spheres, uint32_t triangles)
 {
-    things t = {spheres, triangles, calloc(spheres + 1, sizeof *t.sphere), calloc(triangles + 1, sizeof *t.triangle)};
+    primitive_set t = {spheres, triangles, calloc(spheres + 1, sizeof *t.sphere),
+                       calloc(triangles + 1, sizeof *t.triangle)};
     assert_true(t.sphere && t.triangle);
     return t;
 }
 
-static void things_free(things *t)
+static void primitive_set_free(primitive_set *t)
 {
     free(t->sphere);
     free(t->triangle);
 }
 
-/* In a box about a middle, of a size each. */
-static things anywhere(test_random *r, uint32_t count, float middle, float reach, float size)
+/* In a box around a centre, each of about the given size. */
+static primitive_set random_set(test_random *r, uint32_t count, float middle, float reach, float size)
 {
-    things t = things_make(count, count);
+    primitive_set t = primitive_set_make(count, count);
     for (uint32_t i = 0; i < count; i++)
         for (int a = 0; a < 3; a++) {
             const float at = middle + random_float(r, -reach, reach);
@@ -50,9 +51,9 @@ static things anywhere(test_random *r, uint32_t count, float middle, float reach
 
 /* ---- kinds of scenes ---- */
 
-static things coincident(test_random *r, uint32_t count)
+static primitive_set coincident(test_random *r, uint32_t count)
 {
-    things t = anywhere(r, count, 1, 2, 1);
+    primitive_set t = random_set(r, count, 1, 2, 1);
     for (uint32_t i = 1; i < count; i++) {
         memcpy(t.sphere[i], t.sphere[0], sizeof t.sphere[0]);
         memcpy(t.triangle[i], t.triangle[0], sizeof t.triangle[0]);
@@ -60,10 +61,10 @@ static things coincident(test_random *r, uint32_t count)
     return t;
 }
 
-/* All in a plane across an axis: the box of the root has no thickness. */
-static things planar(test_random *r, uint32_t count)
+/* All in a plane perpendicular to an axis: the root has no thickness. */
+static primitive_set planar(test_random *r, uint32_t count)
 {
-    things t = anywhere(r, count, 0, 3, 0.5f);
+    primitive_set t = random_set(r, count, 0, 3, 0.5f);
     const uint32_t axis = random_below(r, 3);
     const float at = random_float(r, -3, 3);
     for (uint32_t i = 0; i < count; i++) {
@@ -75,10 +76,10 @@ static things planar(test_random *r, uint32_t count)
     return t;
 }
 
-/* All points and triangles on one line's bounds: triangles in a plane through an axis, points along it. */
-static things line(test_random *r, uint32_t count)
+/* Points along an axis, and triangles in a plane through it. */
+static primitive_set line(test_random *r, uint32_t count)
 {
-    things t = anywhere(r, count, 0, 3, 0.25f);
+    primitive_set t = random_set(r, count, 0, 3, 0.25f);
     for (uint32_t i = 0; i < count; i++) {
         t.sphere[i][1] = t.sphere[i][2] = t.sphere[i][3] = 0;
         for (int k = 0; k < 3; k++)
@@ -87,53 +88,53 @@ static things line(test_random *r, uint32_t count)
     return t;
 }
 
-static things one_sphere(test_random *r, uint32_t count)
+static primitive_set one_sphere(test_random *r, uint32_t count)
 {
-    things t = anywhere(r, 1, 0, 9, 3);
+    primitive_set t = random_set(r, 1, 0, 9, 3);
     (void)count;
     t.triangles = 0;
     return t;
 }
 
-static things one_point(test_random *r, uint32_t count)
+static primitive_set one_point(test_random *r, uint32_t count)
 {
-    things t = one_sphere(r, count);
+    primitive_set t = one_sphere(r, count);
     t.sphere[0][3] = 0;
     return t;
 }
 
-static things one_triangle(test_random *r, uint32_t count)
+static primitive_set one_triangle(test_random *r, uint32_t count)
 {
-    things t = anywhere(r, 1, 0, 9, 3);
+    primitive_set t = random_set(r, 1, 0, 9, 3);
     (void)count;
     t.spheres = 0;
     return t;
 }
 
-static things one_valid(test_random *r, uint32_t count)
+static primitive_set one_valid(test_random *r, uint32_t count)
 {
-    things t = anywhere(r, count, 0, 9, 3);
-    const uint32_t kept = random_below(r, 2 * count);
+    primitive_set t = random_set(r, count, 0, 9, 3);
+    const uint32_t valid = random_below(r, 2 * count);
     for (uint32_t i = 0; i < count; i++) {
-        if (i != kept)
+        if (i != valid)
             t.sphere[i][random_below(r, 4)] = i % 2 ? NAN : INFINITY;
-        if (i + count != kept)
+        if (i + count != valid)
             t.triangle[i][random_below(r, 3)][random_below(r, 3)] = i % 2 ? NAN : -INFINITY;
     }
     return t;
 }
 
-static things huge(test_random *r, uint32_t count) { return anywhere(r, count, 0, 0x1p53f, 0x1p50f); }
+static primitive_set huge(test_random *r, uint32_t count) { return random_set(r, count, 0, 0x1p53f, 0x1p50f); }
 
-static things denormal(test_random *r, uint32_t count) { return anywhere(r, count, 0, 0x1p-136f, 0x1p-139f); }
+static primitive_set denormal(test_random *r, uint32_t count) { return random_set(r, count, 0, 0x1p-136f, 0x1p-139f); }
 
 /* Few floats between the ends. */
-static things far_away(test_random *r, uint32_t count) { return anywhere(r, count, 0x1p20f, 4, 0.5f); }
+static primitive_set far_away(test_random *r, uint32_t count) { return random_set(r, count, 0x1p20f, 4, 0.5f); }
 
-/* One of the largest among the smallest. */
-static things all_sizes(test_random *r, uint32_t count)
+/* One of the largest primitives among the smallest. */
+static primitive_set all_sizes(test_random *r, uint32_t count)
 {
-    things t = anywhere(r, count, 0, 1, 0.01f);
+    primitive_set t = random_set(r, count, 0, 1, 0.01f);
     for (uint32_t i = 0; i < count; i++) {
         const float factor = random_log(r, 1e-9f, 1e9f);
         for (int a = 0; a < 3; a++)
@@ -144,10 +145,10 @@ static things all_sizes(test_random *r, uint32_t count)
     return t;
 }
 
-/* Whole numbers: all that is nearby touches. */
-static things lattice(test_random *r, uint32_t count)
+/* Integers: neighbouring primitives touch. */
+static primitive_set lattice(test_random *r, uint32_t count)
 {
-    things t = things_make(count, count);
+    primitive_set t = primitive_set_make(count, count);
     for (uint32_t i = 0; i < count; i++)
         for (int a = 0; a < 3; a++) {
             t.sphere[i][a] = (float)random_below(r, 8) - 4;
@@ -159,9 +160,9 @@ static things lattice(test_random *r, uint32_t count)
 }
 
 /* Long thin triangles across everything. */
-static things needles(test_random *r, uint32_t count)
+static primitive_set needles(test_random *r, uint32_t count)
 {
-    things t = things_make(0, count);
+    primitive_set t = primitive_set_make(0, count);
     for (uint32_t i = 0; i < count; i++)
         for (int a = 0; a < 3; a++) {
             t.triangle[i][0][a] = random_float(r, -5, 5);
@@ -171,11 +172,11 @@ static things needles(test_random *r, uint32_t count)
     return t;
 }
 
-static things mesh(test_random *r, uint32_t count)
+static primitive_set mesh(test_random *r, uint32_t count)
 {
     closed_mesh m;
     assert_true(closed_mesh_make(&m, (closed_kind)random_below(r, CLOSED_KINDS), count < 100 ? 3 : 4));
-    things t = things_make(0, m.triangles);
+    primitive_set t = primitive_set_make(0, m.triangles);
     for (uint32_t i = 0; i < m.triangles; i++)
         for (int k = 0; k < 3; k++)
             for (int a = 0; a < 3; a++)
@@ -186,7 +187,7 @@ static things mesh(test_random *r, uint32_t count)
 
 static const struct {
     const char *name;
-    things (*make)(test_random *r, uint32_t count);
+    primitive_set (*make)(test_random *r, uint32_t count);
 } kinds[] = {
     {"coincident", coincident}, {"planar", planar},       {"line", line},
     {"one sphere", one_sphere}, {"one point", one_point}, {"one triangle", one_triangle},
@@ -214,7 +215,7 @@ static const struct {
     {CGT_KD_LAYOUT_MIXED, 3},
 };
 
-/* The same bytes, whoever built the tree. */
+/* Both trees have the same bytes. */
 static void check_same(const cgt_kd_tree *a, const cgt_kd_tree *b)
 {
     assert_int_equal(a->nodes, b->nodes);
@@ -227,7 +228,7 @@ static void check_same(const cgt_kd_tree *a, const cgt_kd_tree *b)
         assert_memory_equal(a->leaf, b->leaf, a->leaves * sizeof *a->leaf);
 }
 
-/* Memory that is kept from scene to scene, as a scene keeps it from commit to commit. */
+/* Memory reused from scene to scene, as a scene reuses it from commit to commit. */
 typedef struct workshop {
     cgt_context *context[3]; /* of 1, 2 and 3 threads */
     cgt_buffer work[3];
@@ -303,7 +304,7 @@ static void scenes_of_all_kinds(void **state)
     for (size_t kind = 0; kind < TEST_COUNT(kinds); kind++)
         for (uint32_t round = 0; round < 1 + test_scaled(3); round++) {
             test_random r = random_make(100 * kind + round);
-            things t = kinds[kind].make(&r, round == 0 ? 8 : 40 + test_scaled(200));
+            primitive_set t = kinds[kind].make(&r, round == 0 ? 8 : 40 + test_scaled(200));
             cgt_scene *scene = scene_begin(w.context[0]);
             if (t.spheres)
                 scene_add_spheres(scene, (const float(*)[4])t.sphere, t.spheres);
@@ -314,14 +315,14 @@ static void scenes_of_all_kinds(void **state)
             for (size_t b = 0; b < TEST_COUNT(builders); b++)
                 check_builder(&w, committed_of(scene), b, kinds[kind].name);
             cgt_scene_release(scene);
-            things_free(&t);
+            primitive_set_free(&t);
         }
     print_workshop("kinds", &w);
     assert_true(w.leaves > 6 * TEST_COUNT(kinds) * TEST_COUNT(builders));
     workshop_free(&w);
 }
 
-static void clouds_of_both(void **state)
+static void clouds_of_both_kinds(void **state)
 {
     workshop w = workshop_make();
     (void)state;
@@ -338,7 +339,7 @@ static void clouds_of_both(void **state)
 }
 
 /* Enough primitives for builders and flattening to use tasks. */
-static void many(void **state)
+static void many_primitives(void **state)
 {
     workshop w = workshop_make();
     (void)state;
@@ -356,8 +357,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_of_all_kinds),
-        cmocka_unit_test(clouds_of_both),
-        cmocka_unit_test(many),
+        cmocka_unit_test(clouds_of_both_kinds),
+        cmocka_unit_test(many_primitives),
     };
     test_begin("test_kd_structures");
     return cmocka_run_group_tests(tests, NULL, NULL);

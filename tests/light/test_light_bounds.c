@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The bounds of points against a light, tile by tile. Points whose rays pass corners, edges and silhouettes to within
- * rounding, or that lie on surfaces, get the same answer as by exact decisions. Then the bounds are tightened until one
+ * rounding, or that lie on surfaces, get the same result as by exact decisions. Then the bounds are tightened until one
  * does not: the unit roundoff of the tests, and the margin of tiles. The kernel's sources are compiled into the test,
  * where they take the place of the library's. For the variant that this is compiled for. */
 #include <math.h>
@@ -17,22 +17,22 @@ static float filter_u = 0x1p-24f, margin_used = 0x1p-17f;
 #include "kernel/light/light_grid.c"
 #include "kernel/light/light_read.c"
 
-#define OBJECTS 240u
-#define COPIES 16u /* of each point, to within rounding: they fill a group, whose slopes are then nearly one */
+#define PRIMITIVES 240u
+#define COPIES 16u /* of each point, up to rounding: they fill a group, whose slopes then nearly coincide */
 #define POINTS (64u * COPIES)
-#define SHRUNK 11u /* steps to a quarter of the bound before, then one to 0 */
+#define SHRUNK 11u /* steps, each to a quarter of the previous bound, then one to 0 */
 
 typedef enum content { SPHERES, SPECKS, TRIANGLES, CONTENTS } content;
 
 typedef struct subject {
     cgt_context *context;
-    cgt_scene *tiles, *exact; /* the same through another structure */
+    cgt_scene *tiles, *exact; /* the same scene in another structure */
     cloud spheres;
     float (*corner)[9];
     content what;
     cgt_light light;
     float at[3][POINTS];
-    uint8_t is[POINTS];
+    uint8_t expected[POINTS];
     uint64_t hidden;
 } subject;
 
@@ -40,8 +40,8 @@ typedef struct subject {
 
 static cgt_scene *commit(const subject *s, cgt_structure structure)
 {
-    const cgt_spheres spheres = spheres_of((const float(*)[4])s->spheres.sphere, OBJECTS);
-    const cgt_triangles triangles = {.count = OBJECTS, .vertex_count = 3 * OBJECTS, .vertices = s->corner[0]};
+    const cgt_spheres spheres = spheres_of((const float(*)[4])s->spheres.sphere, PRIMITIVES);
+    const cgt_triangles triangles = {.count = PRIMITIVES, .vertex_count = 3 * PRIMITIVES, .vertices = s->corner[0]};
     cgt_scene_options options;
     cgt_scene *scene;
     uint32_t geometry;
@@ -61,16 +61,16 @@ static void subject_make(test_random *r, content what, subject *s)
     static const cloud_kind kinds[] = {CLOUD_UNIFORM, CLOUD_FAR, CLOUD_LATTICE};
     memset(s, 0, sizeof *s);
     s->context = context_make(1, CGT_VARIANT_NAME);
-    s->spheres = cloud_make(r, kinds[random_below(r, TEST_COUNT(kinds))], OBJECTS);
+    s->spheres = cloud_make(r, kinds[random_below(r, TEST_COUNT(kinds))], PRIMITIVES);
     s->what = what;
-    s->corner = malloc(OBJECTS * sizeof *s->corner);
+    s->corner = malloc(PRIMITIVES * sizeof *s->corner);
     assert_non_null(s->corner);
-    for (uint32_t i = 0; i < OBJECTS; i++) {
+    for (uint32_t i = 0; i < PRIMITIVES; i++) {
         float *sphere = s->spheres.sphere[i];
         for (int k = 0; k < 9; k++) /* some are neighbours that share an edge */
             s->corner[i][k] =
                 i % 4 == 1 && k >= 3 ? s->corner[i - 1][k] : sphere[k % 3] + sphere[3] * random_float(r, -1, 1);
-        if (what == SPECKS) /* hardly more than points: their windows are mostly margin */
+        if (what == SPECKS) /* nearly points: their windows are mostly margin */
             sphere[3] = s->spheres.reach * 0x1p-23f;
     }
     s->tiles = commit(s, CGT_STRUCTURE_LOOSE_GRID);
@@ -86,9 +86,10 @@ static void subject_free(subject *s)
     free(s->corner);
 }
 
-/* ---- what is asked ---- */
+/* ---- queries ---- */
 
-/* From any side. Half of them parallel, with short numbers, so that lines pass exactly through corners. */
+/* From any side. Half of the lights are directional, with coordinates of few bits, so that rays pass exactly through
+ * corners. */
 static void place_light(test_random *r, subject *s)
 {
     const float far = s->spheres.reach * (float[]){2.5f, 4, 10}[random_below(r, 3)];
@@ -102,7 +103,7 @@ static void place_light(test_random *r, subject *s)
 }
 
 /* The direction from a point to the light. */
-static void to_light(const subject *s, const float at[3], float d[3])
+static void direction_to_light(const subject *s, const float at[3], float d[3])
 {
     for (int a = 0; a < 3; a++)
         d[a] = s->light.kind == CGT_LIGHT_POINT ? s->light.position[a] - at[a] : s->light.position[a];
@@ -111,7 +112,7 @@ static void to_light(const subject *s, const float at[3], float d[3])
 /* A corner, a point of an edge, or one of a silhouette as seen from the light. */
 static void hard_point(test_random *r, const subject *s, float e[3])
 {
-    const uint32_t i = random_below(r, OBJECTS);
+    const uint32_t i = random_below(r, PRIMITIVES);
     const float *sphere = s->spheres.sphere[i], share = random_below(r, 2) ? random_float(r, 0, 1) : 0;
     const uint32_t k = random_below(r, 3);
     float d[3], side[3], across[3], length = 0, dd = 0, along = 0;
@@ -122,7 +123,7 @@ static void hard_point(test_random *r, const subject *s, float e[3])
         }
         return;
     }
-    to_light(s, sphere, d);
+    direction_to_light(s, sphere, d);
     random_direction(r, side);
     for (int a = 0; a < 3; a++) {
         dd += d[a] * d[a];
@@ -132,11 +133,11 @@ static void hard_point(test_random *r, const subject *s, float e[3])
         across[a] = side[a] - along / dd * d[a];
         length += across[a] * across[a];
     }
-    /* rays to a place touch the sphere a little before its middle */
+    /* rays to a point light touch the sphere a little before its centre */
     const float ahead = s->light.kind == CGT_LIGHT_POINT ? sphere[3] * sphere[3] / dd : 0;
-    const float beside = sphere[3] * sqrtf(1 - (s->light.kind == CGT_LIGHT_POINT ? ahead : 0)) / sqrtf(length);
+    const float offset = sphere[3] * sqrtf(1 - (s->light.kind == CGT_LIGHT_POINT ? ahead : 0)) / sqrtf(length);
     for (int a = 0; a < 3; a++)
-        e[a] = sphere[a] + ahead * d[a] + beside * across[a];
+        e[a] = sphere[a] + ahead * d[a] + offset * across[a];
 }
 
 static void place_points(test_random *r, subject *s)
@@ -144,7 +145,7 @@ static void place_points(test_random *r, subject *s)
     for (uint32_t i = 0; i < POINTS; i += COPIES) {
         float e[3], d[3];
         hard_point(r, s, e);
-        to_light(s, e, d);
+        direction_to_light(s, e, d);
         float away = (float[]){0, 0.25f, 0.5f, 1}[random_below(r, 4)];
         if (s->light.kind == CGT_LIGHT_DIRECTIONAL)
             away *= s->spheres.reach;
@@ -165,7 +166,7 @@ static void find_truth(subject *s)
     cgt_trace_options options;
     for (uint32_t i = 0; i < POINTS; i++) {
         float d[3];
-        to_light(s, (const float[]){s->at[0][i], s->at[1][i], s->at[2][i]}, d);
+        direction_to_light(s, (const float[]){s->at[0][i], s->at[1][i], s->at[2][i]}, d);
         for (int a = 0; a < 3; a++)
             dir[a][i] = d[a];
         t_max[i] = s->light.kind == CGT_LIGHT_POINT ? 1 : INFINITY;
@@ -175,7 +176,7 @@ static void find_truth(subject *s)
     cgt_trace_options_init(&options);
     options.precision = CGT_PRECISION_EXACT;
     options.statistics = &statistics;
-    assert_int_equal(cgt_occluded_rays(s->exact, &rays, s->is, &options), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(s->exact, &rays, s->expected, &options), CGT_OK);
     s->hidden = statistics.hits;
 }
 
@@ -189,7 +190,7 @@ static void add_wrong(const subject *s, tally *sum)
 {
     static uint8_t got[POINTS];
     const cgt_points points = {.count = POINTS, .position = {s->at[0], s->at[1], s->at[2]}};
-    const bool told = filter_u == 0x1p-24f && margin_used == 0x1p-17f;
+    const bool report = filter_u == 0x1p-24f && margin_used == 0x1p-17f;
     cgt_trace_statistics statistics;
     cgt_trace_options options;
     cgt_trace_options_init(&options);
@@ -199,9 +200,9 @@ static void add_wrong(const subject *s, tally *sum)
     assert_true(statistics.tiles > 0);
     for (uint32_t i = 0; i < POINTS; i++) {
         assert_true(got[i] < 2);
-        sum->lost += s->is[i] > got[i];
-        sum->invented += s->is[i] < got[i];
-        if (told && s->is[i] != got[i] && sum->lost + sum->invented < 4)
+        sum->lost += s->expected[i] > got[i];
+        sum->invented += s->expected[i] < got[i];
+        if (report && s->expected[i] != got[i] && sum->lost + sum->invented < 4)
             print_message("content %d, light %a %a %a, kind %d: point %a %a %a is %s\n", (int)s->what,
                           (double)s->light.position[0], (double)s->light.position[1], (double)s->light.position[2],
                           (int)s->light.kind, (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
@@ -209,11 +210,11 @@ static void add_wrong(const subject *s, tally *sum)
     }
 }
 
-/* Tightens each bound by itself: tallies of the roundoff (0) and of the margin (1), for each step. */
-static void ask(test_random *r, content what, bool shrink, tally sum[2][SHRUNK + 2], uint64_t *hidden)
+/* Tightens each bound separately: tallies of the roundoff (0) and of the margin (1), for each step. */
+static void tighten(test_random *r, content what, bool shrink, tally sum[2][SHRUNK + 2], uint64_t *hidden)
 {
     static subject s;
-    const uint32_t stride = test_samples() ? 3 : 1; /* ends at the last step, too */
+    const uint32_t stride = test_samples() ? 3 : 1; /* reaches the last step, too */
     subject_make(r, what, &s);
     for (uint32_t k = 0; k < 4; k++) {
         place_light(r, &s);
@@ -241,7 +242,7 @@ static void bounds_hold(void **state)
         tally sum[2][SHRUNK + 2] = {{{0}}};
         uint64_t hidden = 0;
         for (uint32_t turn = 0; turn < turns; turn++)
-            ask(&r, (content)what, false, sum, &hidden);
+            tighten(&r, (content)what, false, sum, &hidden);
         print_message("content %d: %llu of %llu in shadow\n", what, (unsigned long long)hidden, 4ull * turns * POINTS);
         assert_true(hidden > turns && hidden < 4ull * turns * POINTS);
         assert_int_equal(sum[0][0].lost, 0);
@@ -267,7 +268,7 @@ static void bounds_break_where_they_are_tightened(void **state)
         tally sum[2][SHRUNK + 2] = {{{0}}};
         uint64_t hidden = 0;
         for (uint32_t turn = 2 + test_scaled(4); turn; turn--)
-            ask(&r, (content)what, true, sum, &hidden);
+            tighten(&r, (content)what, true, sum, &hidden);
         const uint32_t lost = first_wrong(sum[0], false), invented = first_wrong(sum[0], true);
         const uint32_t missed = first_wrong(sum[1], false);
         print_message("content %d: the roundoff loses at 4^-%u and invents at 4^-%u, the margin loses at 4^-%u\n", what,
@@ -275,7 +276,7 @@ static void bounds_break_where_they_are_tightened(void **state)
         of_margin = missed < of_margin ? missed : of_margin;
         for (int bound = 0; bound < 2; bound++)
             assert_true(sum[bound][0].lost + sum[bound][0].invented == 0);
-        assert_int_equal(first_wrong(sum[1], true), SHRUNK + 2); /* a margin cannot */
+        assert_int_equal(first_wrong(sum[1], true), SHRUNK + 2); /* a smaller margin cannot invent occlusion */
         assert_true(lost < SHRUNK + 2 && (what == SPECKS || invented < SHRUNK + 2));
     }
     assert_true(of_margin > 0 && of_margin < SHRUNK + 2);

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The points that a camera sees against one light, in scenes large enough for tiles through the loose grid. The answer
+ * The points that a camera sees against one light, in scenes large enough for tiles through the loose grid. The result
  * is that of cgt_occluded_rays through another structure, for any light, order and number of points, ranges, masks,
- * skipped primitives and strides, every variant and number of threads. Tiles are used exactly where they serve. */
+ * skipped primitives and strides, every variant and number of threads. Tiles are used exactly where they apply. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static bool is_slow(void) { return test_scaled(10) < 2; }
 
 #define SIDE 64u
 #define POINTS (SIDE * SIDE + 1)           /* the pixels of a frame, and one more */
-#define LARGE (is_slow() ? 8400u : 10000u) /* primitives: points are always sorted */
+#define LARGE (is_slow() ? 8400u : 10000u) /* primitives: enough that points are always sorted */
 #define SMALL 2000u
 
 /* ---- scenes ---- */
@@ -29,7 +29,7 @@ typedef struct crowd {
     const char *name;
 } crowd;
 
-/* Triangles of the size of the spheres that they replace; two of four share an edge. */
+/* Triangles as large as the spheres that they replace; two of four share an edge. */
 static crowd crowd_make(test_random *r, cloud_kind kind, content what, uint32_t prims)
 {
     crowd c = {.balls = cloud_make(r, kind, prims), .what = what, .name = cloud_name(kind)};
@@ -49,7 +49,7 @@ static void crowd_free(crowd *c)
     cloud_free(&c->balls);
 }
 
-/* A geometry of each kind, with masks that have a bit in common. Both: every primitive is in one of the two. */
+/* A geometry of each kind, with masks that share a bit. BOTH: every primitive is in one of the two. */
 static cgt_scene *crowd_commit(cgt_context *context, const crowd *c, cgt_structure structure)
 {
     const uint32_t half = c->what == BOTH ? c->balls.count / 2 : 0;
@@ -73,14 +73,14 @@ static cgt_scene *crowd_commit(cgt_context *context, const crowd *c, cgt_structu
     return scene;
 }
 
-/* ---- what is asked ---- */
+/* ---- queries ---- */
 
 typedef struct point {
     float at[3], t_min, t_max;
     uint32_t mask, primitive, geometry;
 } point;
 
-/* Octants of parallel light and the axes follow. */
+/* Octants of directional light and the axes follow. */
 typedef enum light_kind {
     LIGHT_NEAR,
     LIGHT_FAR,
@@ -96,23 +96,23 @@ typedef enum light_kind {
     LIGHT_KINDS = LIGHT_AXIS + 6
 } light_kind;
 
-typedef struct question {
+typedef struct query {
     cgt_camera camera;
-    point plain[POINTS]; /* as the frame has them */
+    point plain[POINTS]; /* in the frame's order */
     point p[POINTS];
-    uint8_t is[POINTS]; /* the answers */
+    uint8_t expected[POINTS]; /* the expected results */
     cgt_trace_statistics by_rays;
     cgt_light light;
     uint32_t count;
-    bool shuffled, ranges, masks, ignores, packed; /* packed: arrays without gaps */
-} question;
+    bool shuffled, ranges, masks, skips, packed; /* packed: arrays without gaps */
+} query;
 
-/* The points that the pixels of a frame see; behind the primitives if they see nothing. */
-static void look(question *q, test_random *r, const cgt_scene *scene, const crowd *c)
+/* The points that a frame's pixels see; pixels without a hit get a point behind the primitives. */
+static void look(query *q, test_random *r, const cgt_scene *scene, const crowd *c)
 {
     planes p = planes_make(SIDE, SIDE);
     q->camera = random_below(r, 3) ? camera_before(&c->balls) : camera_random(r, &c->balls);
-    if (random_below(r, 2) && q->camera.projection == CGT_PROJECTION_PERSPECTIVE) /* a part of it, from nearer */
+    if (random_below(r, 2) && q->camera.projection == CGT_PROJECTION_PERSPECTIVE) /* a closer view of a part */
         q->camera.fov /= 4;
     truth_ray *ray = frame_rays(&q->camera, SIDE, SIDE);
     frame_trace(scene, &q->camera, &p, NULL);
@@ -134,28 +134,28 @@ static void look(question *q, test_random *r, const cgt_scene *scene, const crow
     planes_free(&p);
 }
 
-static void place_light(question *q, test_random *r, const crowd *c, uint32_t kind)
+static void place_light(query *q, test_random *r, const crowd *c, uint32_t kind)
 {
     const float *middle = c->balls.middle, reach = c->balls.reach;
     const float *prim = c->balls.sphere[random_below(r, c->balls.count)];
     const float *on = q->plain[random_below(r, SIDE * SIDE)].at;
     const uint32_t axis = random_below(r, 3);
-    float aside[3];
-    random_direction(r, aside);
+    float away[3];
+    random_direction(r, away);
     q->light.kind = kind < LIGHT_OCTANT ? CGT_LIGHT_POINT : CGT_LIGHT_DIRECTIONAL;
     for (uint32_t a = 0; a < 3; a++) {
         const float inside = random_float(r, -1, 1), eye = q->camera.eye[a];
         float *const to = &q->light.position[a];
         switch (kind) {
         case LIGHT_NEAR: *to = on[a] + 0.05f * (eye - on[a]) + 0.02f * reach * inside; break;
-        case LIGHT_FAR: *to = middle[a] + 8 * reach * aside[a]; break;
+        case LIGHT_FAR: *to = middle[a] + 8 * reach * away[a]; break;
         case LIGHT_VERY_FAR: *to = middle[a] + 1e6f * (reach + fabsf(middle[a])) * (inside < 0 ? -1.f : 1.f); break;
         case LIGHT_AMONG: *to = middle[a] + reach * inside; break;
         case LIGHT_IN_OBJECT: *to = prim[a] + 0.5f * prim[3] * inside; break;
         case LIGHT_ON_SURFACE: *to = on[a]; break;
         case LIGHT_BEHIND: *to = middle[a] - 3 * (eye - middle[a]) + reach * inside; break;
         case LIGHT_AT_EYE: *to = eye; break;
-        case LIGHT_ON_AXIS: *to = middle[a] + (a == axis ? (aside[a] < 0 ? -5 : 5) * reach : 0); break;
+        case LIGHT_ON_AXIS: *to = middle[a] + (a == axis ? (away[a] < 0 ? -5 : 5) * reach : 0); break;
         default:
             *to = kind < LIGHT_AXIS ? ((kind - LIGHT_OCTANT) >> a & 1 ? -1.f : 1.f) * random_float(r, 0.05f, 2)
                                     : (float)((kind - LIGHT_AXIS) / 2 == a) * (kind % 2 ? -3.f : 0x1p-10f);
@@ -163,7 +163,7 @@ static void place_light(question *q, test_random *r, const crowd *c, uint32_t ki
     }
 }
 
-static void shuffle(question *q, test_random *r)
+static void shuffle(query *q, test_random *r)
 {
     for (uint32_t i = POINTS; --i;) {
         const uint32_t k = random_below(r, i + 1);
@@ -173,8 +173,8 @@ static void shuffle(question *q, test_random *r)
     }
 }
 
-/* A variation of the arrays for each number; successive numbers differ widely. */
-static void ask(question *q, test_random *r, uint32_t number)
+/* Varies the arrays by number; successive numbers differ widely. */
+static void vary_query(query *q, test_random *r, uint32_t number)
 {
     static const uint32_t counts[] = {SIDE * SIDE, POINTS, 1025, SIDE * SIDE, 999, 15, SIDE * SIDE, 2055, 1};
     const bool ends = q->light.kind == CGT_LIGHT_POINT;
@@ -182,7 +182,7 @@ static void ask(question *q, test_random *r, uint32_t number)
     q->shuffled = number % 5 == 4;
     q->ranges = number % 4 == 3;
     q->masks = number % 7 == 5;
-    q->ignores = number % 4 != 1;
+    q->skips = number % 4 != 1;
     q->packed = number % 3 != 2;
     memcpy(q->p, q->plain, sizeof q->p);
     for (uint32_t i = 0; i < POINTS; i++) {
@@ -202,11 +202,11 @@ static void ask(question *q, test_random *r, uint32_t number)
             q->p[random_below(r, q->count)].at[k % 3] = (float[]){NAN, INFINITY, 0x1p70f, -0x1p-140f}[k % 4];
 }
 
-/* ---- the answers ---- */
+/* ---- expected results ---- */
 
-static void answer(question *q, const cgt_scene *scene)
+static void find_expected(query *q, const cgt_scene *scene)
 {
-    static float dir[3][POINTS * 8], ends[POINTS * 8]; /* as far apart as the points */
+    static float dir[3][POINTS * 8], ends[POINTS * 8]; /* as widely strided as the points */
     const point *p = q->p;
     cgt_trace_options options;
     for (uint32_t i = 0; i < q->count; i++) {
@@ -223,14 +223,14 @@ static void answer(question *q, const cgt_scene *scene)
                                     : q->light.kind == CGT_LIGHT_POINT ? ends
                                                                        : NULL,
                            .mask = q->masks ? &p->mask : NULL,
-                           .skip_primitive = q->ignores ? &p->primitive : NULL,
-                           .skip_geometry = q->ignores ? &p->geometry : NULL};
+                           .skip_primitive = q->skips ? &p->primitive : NULL,
+                           .skip_geometry = q->skips ? &p->geometry : NULL};
     cgt_trace_options_init(&options);
     options.statistics = &q->by_rays;
-    assert_int_equal(cgt_occluded_rays(scene, &rays, q->is, &options), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, q->expected, &options), CGT_OK);
 }
 
-static cgt_points points_of(const question *q)
+static cgt_points points_of(const query *q)
 {
     static float at[3][POINTS], t_min[POINTS], t_max[POINTS];
     static uint32_t mask[POINTS], primitive[POINTS], geometry[POINTS];
@@ -259,13 +259,13 @@ static cgt_points points_of(const question *q)
         points.t_min = points.t_max = NULL;
     if (!q->masks)
         points.mask = NULL;
-    if (!q->ignores)
+    if (!q->skips)
         points.skip_primitive = points.skip_geometry = NULL;
     return points;
 }
 
-/* Returns the tiles. */
-static uint64_t check(const question *q, const cgt_scene *scene, const crowd *c, const char *variant, uint32_t kind)
+/* Returns the number of tiles. */
+static uint64_t check(const query *q, const cgt_scene *scene, const crowd *c, const char *variant, uint32_t kind)
 {
     static uint8_t got[POINTS + 1];
     const cgt_points points = points_of(q);
@@ -276,15 +276,15 @@ static uint64_t check(const question *q, const cgt_scene *scene, const crowd *c,
     memset(got, 0x77, sizeof got);
     assert_int_equal(cgt_occluded_points(scene, &q->light, &points, got, &options), CGT_OK);
     for (uint32_t i = 0; i < q->count; i++)
-        if (got[i] != q->is[i])
+        if (got[i] != q->expected[i])
             fail_msg(
-                "%s, %u %s objects of content %d, light %u at %a %a %a, kind %d; point %u of %u, at %a %a %a, range %a "
-                "%a, mask %x, without %u of %u (shuffled %d, ranges %d, masks %d, ignores %d, packed %d) %s",
+                "%s, %u %s primitives of content %d, light %u at %a %a %a, kind %d; point %u of %u, at %a %a %a, "
+                "range %a %a, mask %x, skipping %u of %u (shuffled %d, ranges %d, masks %d, skips %d, packed %d) %s",
                 variant, c->balls.count, c->name, (int)c->what, kind, (double)q->light.position[0],
                 (double)q->light.position[1], (double)q->light.position[2], (int)q->light.kind, i, q->count,
                 (double)q->p[i].at[0], (double)q->p[i].at[1], (double)q->p[i].at[2], (double)q->p[i].t_min,
                 (double)q->p[i].t_max, q->p[i].mask, q->p[i].primitive, q->p[i].geometry, q->shuffled, q->ranges,
-                q->masks, q->ignores, q->packed, q->is[i] ? "is in the light" : "is in shadow");
+                q->masks, q->skips, q->packed, q->expected[i] ? "is in the light" : "is in shadow");
     assert_int_equal(got[q->count], 0x77);
     assert_int_equal(by_points.rays, q->count);
     assert_int_equal(by_points.hits, q->by_rays.hits);
@@ -293,28 +293,28 @@ static uint64_t check(const question *q, const cgt_scene *scene, const crowd *c,
     return by_points.tiles;
 }
 
-/* Tiles must be used: light from outside onto the whole frame, in its order, and some rays meet the scene. */
-static bool tiles_are_due(const question *q, uint32_t number, uint32_t kind)
+/* Whether tiles must be used: light from outside onto the whole frame, in its order, and some rays hit the scene. */
+static bool tiles_are_required(const query *q, uint32_t number, uint32_t kind)
 {
     const bool outside = kind == LIGHT_FAR || kind == LIGHT_BEHIND || kind >= LIGHT_OCTANT;
     return outside && q->count >= SIDE * SIDE && q->by_rays.hits > q->count / 50 && !q->shuffled && number % 8 != 3 &&
            number % 13 != 6;
 }
 
-/* ---- all of it ---- */
+/* ---- every scene and light ---- */
 
 #define MOST_VARIANTS 8u
 
 typedef struct tally {
-    uint64_t points, hidden, with_tiles, without;
+    uint64_t points, occluded_points, with_tiles, without;
 } tally;
 
-/* A scene against every step-th kind of light. */
+/* Checks a scene with every step-th kind of light. */
 static void check_scene(uint32_t number, uint32_t step, tally *sum)
 {
     static const cloud_kind kinds[] = {CLOUD_UNIFORM, CLOUD_CLUSTERED, CLOUD_MIXED,
                                        CLOUD_PLANAR,  CLOUD_FAR,       CLOUD_LATTICE};
-    static question q;
+    static query q;
     test_random r = random_make(900 + number);
     crowd c = crowd_make(&r, kinds[number % TEST_COUNT(kinds)], (content)(1 + (number + number / 6) % 3),
                          number % 5 == 4 ? SMALL : LARGE);
@@ -326,7 +326,7 @@ static void check_scene(uint32_t number, uint32_t step, tally *sum)
     {
         assert_true(variants < MOST_VARIANTS);
         name[variants] = variant;
-        for (uint32_t k = 0; k < 2; k++) { /* where it is slow, one of the two */
+        for (uint32_t k = 0; k < 2; k++) { /* on slow machines one of the two */
             const bool left_out = is_slow() && k != (number + variants) % 2;
             context[variants][k] = left_out ? NULL : context_make(k ? 3 : 1, variant);
             scene[variants][k] =
@@ -339,23 +339,23 @@ static void check_scene(uint32_t number, uint32_t step, tally *sum)
     for (uint32_t kind = test_sample_start(number, step); kind < LIGHT_KINDS; kind += step) {
         const uint32_t way = number * LIGHT_KINDS + kind;
         place_light(&q, &r, &c, kind);
-        ask(&q, &r, way);
-        answer(&q, truth);
+        vary_query(&q, &r, way);
+        find_expected(&q, truth);
         for (uint32_t v = 0; v < variants; v++) {
             for (uint32_t k = 0; k < 2; k++) {
                 if (!scene[v][k])
                     continue;
                 const uint64_t tiles = check(&q, scene[v][k], &c, name[v], kind);
-                if (k == 0 && tiles_are_due(&q, way, kind) && !tiles)
-                    fail_msg("%s: no tiles: %u %s objects of content %d, light %u; %u points, ranges %d, masks %d, "
-                             "ignores %d",
-                             name[v], c.balls.count, c.name, (int)c.what, kind, q.count, q.ranges, q.masks, q.ignores);
+                if (k == 0 && tiles_are_required(&q, way, kind) && !tiles)
+                    fail_msg("%s: no tiles: %u %s primitives of content %d, light %u; %u points, ranges %d, masks %d, "
+                             "skips %d",
+                             name[v], c.balls.count, c.name, (int)c.what, kind, q.count, q.ranges, q.masks, q.skips);
                 sum->with_tiles += tiles != 0;
                 sum->without += tiles == 0;
             }
         }
         sum->points += q.count;
-        sum->hidden += q.by_rays.hits;
+        sum->occluded_points += q.by_rays.hits;
     }
     for (uint32_t v = 0; v < variants; v++)
         for (uint32_t k = 0; k < 2; k++)
@@ -368,7 +368,7 @@ static void check_scene(uint32_t number, uint32_t step, tally *sum)
     crowd_free(&c);
 }
 
-static void answers_are_those_of_rays(void **state)
+static void results_match_rays(void **state)
 {
     (void)state;
     const bool few = test_scaled(100) < 3;
@@ -379,18 +379,18 @@ static void answers_are_those_of_rays(void **state)
     for (uint32_t k = 0; k < scenes; k++)
         check_scene(scenes < 18 ? (test_sample_start(0, 18) + 5 * k) % 18 : k, step, &sum);
     print_message("%llu of %llu points in shadow; %llu calls with tiles, %llu without\n",
-                  (unsigned long long)sum.hidden, (unsigned long long)sum.points, (unsigned long long)sum.with_tiles,
-                  (unsigned long long)sum.without);
-    assert_true(sum.hidden && sum.hidden < sum.points && sum.with_tiles);
-    if (!is_slow()) { /* enough for all that there is */
-        assert_true(sum.hidden > sum.points / 20 && sum.hidden < sum.points - sum.points / 20);
+                  (unsigned long long)sum.occluded_points, (unsigned long long)sum.points,
+                  (unsigned long long)sum.with_tiles, (unsigned long long)sum.without);
+    assert_true(sum.occluded_points && sum.occluded_points < sum.points && sum.with_tiles);
+    if (!is_slow()) { /* enough rounds to cover everything */
+        assert_true(sum.occluded_points > sum.points / 20 && sum.occluded_points < sum.points - sum.points / 20);
         assert_true(sum.with_tiles > sum.without / 8 && sum.without > sum.with_tiles / 50);
     }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(answers_are_those_of_rays)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(results_match_rays)};
     test_begin("test_light_tiles");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Points to aim at where triangles meet. */
+ * Points where triangles meet, as targets of rays. */
 #ifndef EDGE_POINT_H
 #define EDGE_POINT_H
 
 #include "hard_cases/hard_scene.h"
 
-/* A vertex of any triangle of the scene, one time of three, else a point of an edge, rounded. False where there is no
- * triangle. */
+/* A vertex of a random triangle of the scene, one time in three, otherwise a rounded point of an edge. Returns false if
+ * the scene has no triangle. */
 static inline bool edge_point(hard_scene *s, float point[3])
 {
     float v[3][3];

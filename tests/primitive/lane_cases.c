@@ -10,7 +10,7 @@
 
 #include "model/primitives.h"
 
-#define LARGEST 0x1p54 /* coordinates of origins: a tree is given none beyond 2^55 */
+#define LARGEST 0x1p54 /* largest coordinate of an origin: a tree gets none beyond 2^55 */
 
 static const char *const names[CASE_FAMILIES] = {"interior", "edges", "vertices",   "lattice", "coplanar",
                                                  "needles",  "tiny",  "far",        "inside",  "ranges",
@@ -20,9 +20,9 @@ const char *case_name(case_family f) { return names[f]; }
 
 static float sign(test_random *r) { return random_below(r, 2) ? 1.f : -1.f; }
 
-/* ---- objects ---- */
+/* ---- primitives ---- */
 
-/* A primitive in double: good enough to aim at. */
+/* A primitive in double, exact enough to aim at. */
 typedef struct subject {
     double middle[3], size, normal[3]; /* of unit length */
 } subject;
@@ -63,8 +63,8 @@ static bool is_valid(const oracle_primitive *q)
 
 static uint32_t numbers_of(oracle_kind kind) { return kind == ORACLE_SPHERE ? 4 : 9; }
 
-/* Triangles and spheres around the origin or away from it, of a size of about 1. */
-static void shape_object(test_random *r, case_family f, oracle_primitive *q)
+/* Triangles and spheres around the origin or away from it, of size about 1. */
+static void place_primitive(test_random *r, case_family f, oracle_primitive *q)
 {
     const bool sphere = q->kind == ORACLE_SPHERE;
     const float size = f == CASE_TINY ? ldexpf(1, -1 - (int)random_below(r, 22)) : random_log(r, 1e-3f, 1);
@@ -77,17 +77,17 @@ static void shape_object(test_random *r, case_family f, oracle_primitive *q)
     if (sphere)
         q->data[3] = f != CASE_NEEDLES ? size : random_below(r, 8) ? size * random_log(r, 1e-7f, 1e-2f) : 0;
     if (f == CASE_FLAT)
-        memset(q->data, 0, 3 * sizeof *q->data); /* floats are fine around this corner */
+        memset(q->data, 0, 3 * sizeof *q->data); /* near this corner floats are dense */
     if (sphere || f != CASE_NEEDLES)
         return;
-    /* the third vertex next to the edge of the other two, or beyond its end */
+    /* the third vertex close to the edge of the other two, or beyond its end */
     const float along = random_float(r, -0.2f, 1.2f), width = random_log(r, 1e-7f, 1e-2f) * size;
     for (int a = 0; a < 3; a++)
         q->data[6 + a] = q->data[a] + along * (q->data[3 + a] - q->data[a]) + random_float(r, -1, 1) * width;
 }
 
-/* Of whole numbers, around the origin or through it. */
-static void shape_lattice(test_random *r, oracle_primitive *q)
+/* With integer coordinates, around the origin or through it. */
+static void place_on_lattice(test_random *r, oracle_primitive *q)
 {
     for (uint32_t i = 0; i < 9; i++)
         q->data[i] = 2 * ((float)random_below(r, 9) - 4);
@@ -103,14 +103,14 @@ static void shape_lattice(test_random *r, oracle_primitive *q)
 
 static bool is_lattice(case_family f) { return f == CASE_LATTICE || f == CASE_ANY; }
 
-static void scale_object(oracle_primitive *q, int exponent)
+static void scale_primitive(oracle_primitive *q, int exponent)
 {
     for (uint32_t i = 0; i < numbers_of(q->kind); i++)
         q->data[i] = ldexpf(q->data[i], exponent);
 }
 
-/* A copy of the first primitive, with another corner first or moved a little; or one next to it. */
-static void other_object(test_random *r, lane_case *c, int k, double size)
+/* A copy of the first primitive, with another corner first or moved a little; or a neighbour of it. */
+static void vary_primitive(test_random *r, lane_case *c, int k, double size)
 {
     oracle_primitive *q = &c->prim[k];
     const uint32_t numbers = numbers_of(q->kind);
@@ -131,7 +131,7 @@ static void other_object(test_random *r, lane_case *c, int k, double size)
         *q = c->prim[0];
 }
 
-static void make_objects(test_random *r, oracle_kind kind, lane_case *c)
+static void make_primitives(test_random *r, oracle_kind kind, lane_case *c)
 {
     static const int worlds[] = {-100, -20, 0, 0, 0, 40};
     const bool any = c->family == CASE_ANY;
@@ -139,14 +139,14 @@ static void make_objects(test_random *r, oracle_kind kind, lane_case *c)
     do {
         c->prim[0] = (oracle_primitive){.kind = kind};
         if (is_lattice(c->family))
-            shape_lattice(r, &c->prim[0]);
+            place_on_lattice(r, &c->prim[0]);
         else
-            shape_object(r, c->family, &c->prim[0]);
-        scale_object(&c->prim[0], exponent);
+            place_primitive(r, c->family, &c->prim[0]);
+        scale_primitive(&c->prim[0], exponent);
     } while (!is_valid(&c->prim[0]));
     const subject s = describe(&c->prim[0]);
     for (int k = 1; k < CASE_LANES; k++)
-        other_object(r, c, k, s.size);
+        vary_primitive(r, c, k, s.size);
     c->magnitude = 0;
     for (int k = 0; k < CASE_LANES; k++)
         for (uint32_t i = 0; i < numbers_of(kind); i++)
@@ -159,9 +159,9 @@ static void make_objects(test_random *r, oracle_kind kind, lane_case *c)
     }
 }
 
-/* ---- points to aim at and from ---- */
+/* ---- origins and targets ---- */
 
-/* Shares of the vertices. */
+/* A weighted sum of the vertices. */
 static void aim_triangle(test_random *r, case_family f, const oracle_primitive *q, double point[3])
 {
     double share[3], sum = 0;
@@ -184,12 +184,12 @@ static void aim_triangle(test_random *r, case_family f, const oracle_primitive *
     }
 }
 
-/* A point at some radii from the centre, farther out for a tangent. */
+/* A point some radii from the centre, farther out for tangents. */
 static void aim_sphere(test_random *r, case_family f, const subject *s, const float org[3], double point[3])
 {
     const double fine = 1 + (double)(random_float(r, -1, 1) * random_log(r, 1e-8f, 1e-2f));
     const bool rim = f == CASE_EDGES || f == CASE_COPLANAR || random_below(r, 4) == 0;
-    const double beside = s->size * (rim ? fine : (double)random_float(r, 0, 1.1f));
+    const double offset = s->size * (rim ? fine : (double)random_float(r, 0, 1.1f));
     float d[3];
     double cc = 0, dc = 0, square = 0, side[3];
     random_direction(r, d);
@@ -201,9 +201,9 @@ static void aim_sphere(test_random *r, case_family f, const subject *s, const fl
         side[a] = d[a] - (cc > 0 ? dc / cc * (s->middle[a] - org[a]) : 0);
         square += side[a] * side[a];
     }
-    const double slant = beside * beside < cc * 0.999999 ? sqrt(1 - beside * beside / cc) : 1;
+    const double slant = offset * offset < cc * 0.999999 ? sqrt(1 - offset * offset / cc) : 1;
     for (int a = 0; a < 3; a++)
-        point[a] = s->middle[a] + beside / slant * side[a] / sqrt(square > 1e-12 ? square : 1);
+        point[a] = s->middle[a] + offset / slant * side[a] / sqrt(square > 1e-12 ? square : 1);
 }
 
 static double away(test_random *r, case_family f, oracle_kind kind)
@@ -231,7 +231,7 @@ static void make_origin(test_random *r, case_family f, oracle_kind kind, const s
 
 /* ---- rays ---- */
 
-/* Some begin near the hit, at t, or beyond it. */
+/* The begin of a range: some lie near the hit, at t, or beyond it. */
 static float range_from(test_random *r, case_family f, double t)
 {
     const float near_t = (float)(t * (1 + (double)(random_log(r, 1e-9f, 1) * sign(r))));
@@ -244,7 +244,7 @@ static float range_from(test_random *r, case_family f, double t)
     }
 }
 
-/* Makes one or two components of the direction 0: the origin gets the target's coordinate. */
+/* Zeroes one or two components of the direction: the origin gets the target's coordinate. */
 static void flatten(test_random *r, const double point[3], float org[3], double to[3])
 {
     const uint32_t first = random_below(r, 3), axes = 1 + random_below(r, 2);
@@ -274,7 +274,7 @@ static void make_ray(test_random *r, const lane_case *c, const subject *s, const
         flatten(r, point, ray->org, to);
     for (int a = 0; a < 3; a++)
         square += to[a] * to[a];
-    if (!(square > 0)) { /* the origin is the target */
+    if (!(square > 0)) { /* the origin equals the target */
         to[0] = s->size > 0 ? s->size : 1;
         square = to[0] * to[0];
     }
@@ -284,7 +284,7 @@ static void make_ray(test_random *r, const lane_case *c, const subject *s, const
     ray->t_min = range_from(r, c->family, reach / length);
 }
 
-/* Through a corner, the middle of an edge or the origin, exact in float except far from the origin. */
+/* Through a corner, the midpoint of an edge or the origin; exact in float except far from the origin. */
 static void make_lattice_ray(test_random *r, const lane_case *c, truth_ray *ray)
 {
     const float *v = c->prim[0].data;
@@ -308,7 +308,7 @@ static void make_lattice_ray(test_random *r, const lane_case *c, truth_ray *ray)
     ray->t_min = range_from(r, c->family, ldexp(1, size + far - length));
 }
 
-/* d.n for n = e1 x e2, of a triangle whose first corner is the origin: exact but for the last bits of truth_real. */
+/* d.n for n = e1 x e2, of a triangle whose first corner is the origin: exact except for the last bits of truth_real. */
 static truth_real steepness(const float *v, const float d[3])
 {
     truth_real sum = 0;
@@ -319,7 +319,7 @@ static truth_real steepness(const float *v, const float d[3])
     return sum;
 }
 
-/* Among the directions within some units in the last place, the one nearest to the plane but not in it. */
+/* Of the directions within a few ulps, the one closest to the plane but not in it. */
 static double flattest(const float *v, float d[3])
 {
     enum { WIDE = 9 };
@@ -340,8 +340,8 @@ static double flattest(const float *v, float d[3])
     return (double)steepness(v, d);
 }
 
-/* From beside the first corner over the triangle towards the opposite edge, or back from there. The share of the normal
- * in the origin is what brings the hit to t = -1: single precision does not see it. */
+/* From next to the first corner across the triangle towards the opposite edge, or back from there. The origin's offset
+ * along the normal puts the hit at t = -1: single precision does not resolve it. */
 static void make_flat_rays(test_random *r, lane_case *c, const subject *s)
 {
     const float *v = c->prim[0].data;
@@ -357,9 +357,9 @@ static void make_flat_rays(test_random *r, lane_case *c, const subject *s)
         square += n * n;
     }
     for (int i = 0; i < CASE_LANES; i++) {
-        const double beside = (double)(random_log(r, 1e-5f, 1e-1f) * sign(r));
+        const double offset = (double)(random_log(r, 1e-5f, 1e-1f) * sign(r));
         for (int a = 0; a < 3; a++) {
-            c->ray[i].org[a] = (float)(beside * v[3 + a] + s->normal[a] * (den / sqrt(square)));
+            c->ray[i].org[a] = (float)(offset * v[3 + a] + s->normal[a] * (den / sqrt(square)));
             c->ray[i].dir[a] = i % 4 ? d[a] : -d[a];
         }
         c->ray[i].t_min = i % 8 ? -INFINITY : -(float)size;
@@ -370,7 +370,7 @@ void case_make(test_random *r, oracle_kind kind, case_family f, lane_case *c)
 {
     float origin[3];
     c->family = f;
-    make_objects(r, kind, c);
+    make_primitives(r, kind, c);
     const subject s = describe(&c->prim[0]);
     make_origin(r, f, kind, &s, origin);
     const int exponent = random_below(r, 2) ? (int)random_below(r, 101) - 50 : 0;

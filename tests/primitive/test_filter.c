@@ -16,7 +16,7 @@ static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/sphere_filter.h"
 
-#define LANES 16 /* rays per packet: whole vectors at any width */
+#define LANES 16 /* rays per packet: whole vectors of any width */
 
 typedef enum family {
     GRAZING,
@@ -39,8 +39,8 @@ typedef struct aim {
     double cc, r;
 } aim;
 
-/* Directions that pass the centre at `beside` radii. */
-static void aim_direction(test_random *r, const aim *to, double beside, float length, float dir[3])
+/* A direction that passes the centre at a distance of `radii` radii. */
+static void aim_direction(test_random *r, const aim *to, double radii, float length, float dir[3])
 {
     float d[3];
     double side[3], dc = 0, square = 0;
@@ -51,8 +51,8 @@ static void aim_direction(test_random *r, const aim *to, double beside, float le
         side[a] = d[a] - dc / to->cc * to->c[a];
         square += side[a] * side[a];
     }
-    /* a line at distance b from the centre goes through the point b / sqrt(1 - b^2 / cc) beside it */
-    const double b = beside * to->r, slant = b * b < to->cc * 0.999999 ? sqrt(1 - b * b / to->cc) : 1e-3;
+    /* a line at distance b from the centre passes the point at b / sqrt(1 - b^2 / cc) from it, orthogonal to c */
+    const double b = radii * to->r, slant = b * b < to->cc * 0.999999 ? sqrt(1 - b * b / to->cc) : 1e-3;
     const double reach = b / slant / sqrt(square > 1e-12 ? square : 1);
     const double k = length / sqrt(to->cc + b / slant * b / slant);
     for (int a = 0; a < 3; a++)
@@ -77,7 +77,7 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
     float length = random_log(r, 1e-3f, 1e3f), offset = random_below(r, 2) ? 1 : random_log(r, 1, 1e4f);
     memset(p, 0, sizeof *p);
     sphere[3] = random_log(r, 1e-3f, 1e3f);
-    if (f == ANY_SIZE) { /* products leave the range of float; coordinates stay below 2^55, directions above 2^-55 */
+    if (f == ANY_SIZE) { /* products leave float's range; coordinates stay below 2^55, directions above 2^-55 */
         sphere[3] = ldexpf(sphere[3], (int)random_below(r, 100) - 80);
         length = ldexpf(1, (int)random_below(r, 100) - 50);
         offset *= sphere[3];
@@ -139,7 +139,7 @@ static void judge_lane(const packet *p, int i, const float sphere[4], bool certa
         sum->outside += !(low <= t && t <= high);
 }
 
-/* The sphere in one lane of a vector; other spheres beside it. */
+/* The sphere in one lane of a vector, with other spheres in the other lanes. */
 static void judge_packet(test_random *r, const packet *p, const float sphere[4], tally *sum)
 {
     const int k = (int)random_below(r, CGT_LANES);
@@ -156,13 +156,13 @@ static void judge_packet(test_random *r, const packet *p, const float sphere[4],
     filter_spheres_bound(&of_packet, &s);
     const filter_sphere q = filter_sphere_get(p, &s, k, p->common_origin);
     for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
-        const bool some = filter_sphere_rays(p, &q, i, p->common_origin, &f);
-        const unsigned certain_hit = some ? spux_mask_bits(f.certain_hit) : 0,
-                       undecided = some ? spux_mask_bits(f.undecided) : 0;
+        const bool any = filter_sphere_rays(p, &q, i, p->common_origin, &f);
+        const unsigned certain_hit = any ? spux_mask_bits(f.certain_hit) : 0,
+                       undecided = any ? spux_mask_bits(f.undecided) : 0;
         assert_int_equal(certain_hit & undecided, 0);
         for (int lane = 0; lane < CGT_LANES; lane++)
-            judge_lane(p, (int)i + lane, sphere, certain_hit >> lane & 1, undecided >> lane & 1, some ? f.low[lane] : 0,
-                       some ? f.high[lane] : 0, sum);
+            judge_lane(p, (int)i + lane, sphere, certain_hit >> lane & 1, undecided >> lane & 1, any ? f.low[lane] : 0,
+                       any ? f.high[lane] : 0, sum);
     }
 }
 
@@ -188,13 +188,14 @@ static void bounds_hold(void **state)
     (void)state;
     for (int f = 0; f < FAMILIES; f++) {
         const tally t = judge_family((family)f, test_scaled(4000), 1);
-        print_message("%s: %llu rays, %llu hits, %llu open; lost %llu, invented %llu, outside %llu\n", family_name[f],
-                      (unsigned long long)t.lanes, (unsigned long long)t.hits, (unsigned long long)t.undecided,
-                      (unsigned long long)t.lost, (unsigned long long)t.invented, (unsigned long long)t.outside);
+        print_message("%s: %llu rays, %llu hits, %llu undecided; lost %llu, invented %llu, outside %llu\n",
+                      family_name[f], (unsigned long long)t.lanes, (unsigned long long)t.hits,
+                      (unsigned long long)t.undecided, (unsigned long long)t.lost, (unsigned long long)t.invented,
+                      (unsigned long long)t.outside);
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
-        assert_true(t.hits > t.lanes / 5 && t.undecided < t.lanes); /* the filter decided many */
+        assert_true(t.hits > t.lanes / 5 && t.undecided < t.lanes); /* the filter decided many of them */
         if (f == CROSSING)
             assert_true(t.undecided < t.lanes / 2);
     }
@@ -223,14 +224,14 @@ static void bounds_break_where_they_are_tightened(void **state)
     }
     print_message("first failures: a hit lost at %.3g of the bounds, one invented at %.3g, t outside at %.3g\n",
                   (double)lost_at, (double)invented_at, (double)outside_at);
-    /* the bounds are worst cases: random rays come within orders of magnitude */
+    /* the bounds are worst cases: random rays come within a few orders of magnitude */
     assert_true(lost_at > 0x1p-6f && lost_at < 1);
     assert_true(invented_at > 0x1p-11f && invented_at < 1); /* certain only beyond 17 eps */
     assert_true(outside_at > 0x1p-6f && outside_at < 1);
 }
 
-/* A second sphere is judged by the interval of the best hit so far: nearer for certain, farther for certain, or
- * open. */
+/* A second sphere is compared with the interval of the closest hit so far: certainly nearer, certainly farther, or
+ * undecided. */
 static void order_of_two_spheres(void **state)
 {
     (void)state;
@@ -263,9 +264,9 @@ static void order_of_two_spheres(void **state)
             spux_store(p.low + i, spux_select(spux_load(p.low + i), f.low, f.certain_hit));
             spux_store(p.high + i, spux_select(spux_load(p.high + i), f.high, f.certain_hit));
             spux_store_uint(p.prim + i, spux_select(spux_load_uint(p.prim + i), spux_vuint(0), f.certain_hit));
-            const bool some = filter_sphere_rays(&p, &second, i, p.common_origin, &f);
-            const unsigned nearer = some ? spux_mask_bits(f.certain_hit) : 0,
-                           left = some ? spux_mask_bits(f.undecided) : 0;
+            const bool any = filter_sphere_rays(&p, &second, i, p.common_origin, &f);
+            const unsigned nearer = any ? spux_mask_bits(f.certain_hit) : 0,
+                           undecided_lanes = any ? spux_mask_bits(f.undecided) : 0;
             for (uint32_t lane = 0; lane < CGT_LANES; lane++) {
                 const uint32_t j = i + lane;
                 if (!(hit >> lane & 1))
@@ -273,8 +274,8 @@ static void order_of_two_spheres(void **state)
                 const float org[3] = {p.org[0][j], p.org[1][j], p.org[2][j]},
                             dir[3] = {p.dir[0][j], p.dir[1][j], p.dir[2][j]};
                 const truth_roots a = truth_sphere(org, dir, sphere), b = truth_sphere(org, dir, other);
-                const truth_real t = (float)b.near >= 0 ? b.near : b.far; /* the origin may be inside the other one */
-                if (left >> lane & 1)
+                const truth_real t = (float)b.near >= 0 ? b.near : b.far; /* the origin may be inside */
+                if (undecided_lanes >> lane & 1)
                     undecided++;
                 else if (nearer >> lane & 1) {
                     certain_hit++;
@@ -285,7 +286,7 @@ static void order_of_two_spheres(void **state)
             }
         }
     }
-    print_message("nearer for certain %llu times, left open %llu times\n", (unsigned long long)certain_hit,
+    print_message("certainly nearer %llu times, undecided %llu times\n", (unsigned long long)certain_hit,
                   (unsigned long long)undecided);
     assert_true(certain_hit > 100 && undecided > 100);
 }

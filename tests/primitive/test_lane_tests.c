@@ -22,7 +22,7 @@ static float filter_u = 0x1p-24f;
 static cgt_context *context;
 static cgt_buffer leaf_memory;
 
-/* ---- what the tests take ---- */
+/* ---- input of the tests ---- */
 
 typedef struct subject {
     packet p; /* of the case's rays */
@@ -47,13 +47,13 @@ static void subject_make(const lane_case *c, subject *s)
         s->p.t_min[i] = c->ray[i].t_min;
     }
     frexpf(c->magnitude, &exponent);
-    s->committed_scene =
-        (cgt_committed_scene){.scale = ldexpf(1, exponent < -100 ? 100 : -exponent)}; /* as a commit chooses it */
+    s->committed_scene = (cgt_committed_scene){
+        .scale = ldexpf(1, exponent < -100 ? 100 : -exponent)}; /* as a commit chooses the scale */
     if (spheres)
         return;
     s->array = (cgt_primitive_array){
         .kind = CGT_KIND_TRIANGLES, .count = CASE_LANES, .points = 3 * CASE_LANES, .point_stride = 3 * sizeof(float)};
-    /* the corners of each object, one after the other */
+    /* the corners of each primitive in turn */
     static float corner[CASE_LANES][9];
     for (int i = 0; i < CASE_LANES; i++)
         memcpy(corner[i], c->prim[i].data, sizeof corner[i]);
@@ -128,12 +128,12 @@ static void print_lane(const subject *s, int form, int i, const char *what, cons
     print_message("\n");
 }
 
-/* The traversal uses only the begin of an undecided lane's interval. */
+/* Of an undecided lane's interval the traversal uses only the begin. */
 static void judge_lane(const subject *s, const case_truth *truth, int form, int i, bool certain_hit, bool undecided,
                        float low, float high, tally *sum)
 {
     const truth_real *t = &truth->t[form][i];
-    const bool hit = truth->hit[form][i], told = filter_u == 0x1p-24f;
+    const bool hit = truth->hit[form][i], report = filter_u == 0x1p-24f;
     const char *wrong = NULL;
     sum->lanes++;
     sum->hits += hit;
@@ -148,21 +148,21 @@ static void judge_lane(const subject *s, const case_truth *truth, int form, int 
     } else if ((certain_hit && !(low <= *t && *t <= high && low > s->of.ray[form ? 0 : i].t_min)) ||
                (undecided && hit && low > *t)) {
         sum->outside++;
-        wrong = certain_hit ? "t of a certain hit outside" : "t of an open hit outside";
+        wrong = certain_hit ? "t of a certain hit outside" : "t of an undecided hit outside";
     }
-    if (wrong && told && sum->lost + sum->invented + sum->outside <= 3)
+    if (wrong && report && sum->lost + sum->invented + sum->outside <= 3)
         print_lane(s, form, i, wrong, t, low, high);
 }
 
-static void judge_vector(const subject *s, const case_truth *truth, int form, int i, const lane_hits *q, bool some,
+static void judge_vector(const subject *s, const case_truth *truth, int form, int i, const lane_hits *q, bool any,
                          tally *sum)
 {
-    const unsigned certain_hit = some ? spux_mask_bits(q->certain_hit) : 0,
-                   undecided = some ? spux_mask_bits(q->undecided) : 0;
+    const unsigned certain_hit = any ? spux_mask_bits(q->certain_hit) : 0,
+                   undecided = any ? spux_mask_bits(q->undecided) : 0;
     assert_int_equal(certain_hit & undecided, 0);
     for (int lane = 0; lane < CGT_LANES; lane++)
-        judge_lane(s, truth, form, i + lane, certain_hit >> lane & 1, undecided >> lane & 1, some ? q->low[lane] : 0,
-                   some ? q->high[lane] : 0, sum);
+        judge_lane(s, truth, form, i + lane, certain_hit >> lane & 1, undecided >> lane & 1, any ? q->low[lane] : 0,
+                   any ? q->high[lane] : 0, sum);
 }
 
 /* sum: for a vector of rays, and for a vector of primitives. */
@@ -172,11 +172,11 @@ static void judge(const subject *s, const case_truth *truth, tally sum[2])
     lane_hits q;
     for (int i = 0; i < CASE_LANES; i += CGT_LANES) {
         lane_rays_of_packet(&s->p, (uint32_t)i, s->committed_scene.scale, &r);
-        bool some = test_one(s, &r, &q);
-        judge_vector(s, truth, 0, i, &q, some, &sum[0]);
+        bool any = test_one(s, &r, &q);
+        judge_vector(s, truth, 0, i, &q, any, &sum[0]);
         lane_rays_of_one(&s->p, 0, s->committed_scene.scale, &r);
-        some = test_vector(s, &r, i, &q);
-        judge_vector(s, truth, 1, i, &q, some, &sum[1]);
+        any = test_vector(s, &r, i, &q);
+        judge_vector(s, truth, 1, i, &q, any, &sum[1]);
     }
 }
 
@@ -186,14 +186,15 @@ static const oracle_kind kinds[] = {ORACLE_TRIANGLE, ORACLE_SPHERE};
 
 static void print_and_check(case_family f, const char *form, const tally *t)
 {
-    print_message("%s, %s: %llu lanes, %llu hits, %llu certain, %llu open; lost %llu, invented %llu, outside %llu\n",
-                  case_name(f), form, (unsigned long long)t->lanes, (unsigned long long)t->hits,
-                  (unsigned long long)t->certain_hit, (unsigned long long)t->undecided, (unsigned long long)t->lost,
-                  (unsigned long long)t->invented, (unsigned long long)t->outside);
+    print_message(
+        "%s, %s: %llu lanes, %llu hits, %llu certain, %llu undecided; lost %llu, invented %llu, outside %llu\n",
+        case_name(f), form, (unsigned long long)t->lanes, (unsigned long long)t->hits,
+        (unsigned long long)t->certain_hit, (unsigned long long)t->undecided, (unsigned long long)t->lost,
+        (unsigned long long)t->invented, (unsigned long long)t->outside);
     assert_int_equal(t->lost, 0);
     assert_int_equal(t->invented, 0);
     assert_int_equal(t->outside, 0);
-    /* each kind of answer occurs; for rays in the plane nothing is certain, and inside hardly any lane is undecided */
+    /* each kind of result occurs; for rays in the plane nothing is certain, and inside almost no lane is undecided */
     assert_true(t->hits >= 3 && (f == CASE_INTERIOR || t->undecided >= 3));
     assert_true(f == CASE_FLAT || (t->certain_hit >= 3 && t->lanes - t->certain_hit - t->undecided >= 3));
 }
@@ -215,7 +216,7 @@ static void bounds_hold(void **state)
             subject_make(&c, &s);
             judge(&s, &truth, sum);
         }
-        print_and_check((case_family)f, "one object", &sum[0]);
+        print_and_check((case_family)f, "one primitive", &sum[0]);
         print_and_check((case_family)f, "one ray", &sum[1]);
     }
 }
@@ -232,11 +233,11 @@ static const struct {
       {-0x1.a6203p-2f, -0x1.7b51fcp-2f, -0x1.f64b0ep-2f},
       -INFINITY,
       INFINITY}},
-    /* products of the direction and an edge underflow, and are multiplied with the origin */
+    /* products of the direction and an edge underflow, and are then multiplied by the origin */
     {{0x1p-132f, -0x1p-133f, 0x1p-132f, -0x1p-132f, 0x1p-133f, -0x1p-132f, -0x1p-131f, 0x1p-131f, 0x1p-131f},
      0x1p-19f,
      {{-0x1.8p+32f, 0x1.8p+32f, -0x1p+33f}, {0x1.8p-36f, -0x1.8p-36f, 0x1p-35f}, 0, INFINITY}},
-    /* the reciprocal of the determinant underflows where it is scaled at once */
+    /* the reciprocal of the determinant underflows if it is scaled in one step */
     {{0, 0, -0x1p-103f, 0, 0, 0x1p-103f, -0x1.8p-104f, 0x1p-103f, 0x1p-105f},
      0x1p-103f,
      {{-0x1p-47f, 0x1p-48f, 0x1p-47f}, {0x1p+43f, -0x1p+42f, -0x1p+43f}, -INFINITY, INFINITY}},
@@ -291,7 +292,7 @@ static void bounds_break_where_they_are_tightened(void **state)
             filter_u = 0x1p-24f;
         }
     }
-    /* the bounds are worst cases: random rays come within orders of magnitude */
+    /* the bounds are worst cases: random rays come within a few orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-7);
     /* spheres are certain only beyond 17 eps */
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented),

@@ -30,9 +30,9 @@ static void for_each_variant(void (*test)(void))
     }
 }
 
-/* Counts of a family of rays: whether the test saw the cases that it is about. */
+/* Counts of a family of rays, to check that the intended cases occurred. */
 typedef struct tally {
-    uint64_t rays, hits, doubts, loose; /* loose: t further off than the header says; only grazing rays may be */
+    uint64_t rays, hits, doubts, loose; /* loose: t farther off than the header states; allowed only for grazing rays */
 } tally;
 
 /* Traces the rays against one sphere and judges each by the truth. */
@@ -84,12 +84,12 @@ static void print_tally(const char *what, tally t)
                   (unsigned long long)t.doubts, (unsigned long long)t.loose);
 }
 
-/* Directions past the sphere's centre, by up to `wide` times the half width of its outline, of a random length. */
-static truth_ray aim(test_random *r, const float org[3], const float sphere[4], float wide, float length)
+/* Directions that pass the centre at up to `width` times the outline's half width, of a random length. */
+static truth_ray aim(test_random *r, const float org[3], const float sphere[4], float width, float length)
 {
     truth_ray ray = {.t_min = 0, .t_max = INFINITY};
     float d[3];
-    double cc = 0, dc = 0, beside = 0;
+    double cc = 0, dc = 0, square = 0;
     random_direction(r, d);
     for (int a = 0; a < 3; a++) {
         const double c = (double)sphere[a] - org[a];
@@ -98,13 +98,13 @@ static truth_ray aim(test_random *r, const float org[3], const float sphere[4], 
     }
     for (int a = 0; a < 3 && cc > 0; a++) {
         d[a] = (float)(d[a] - dc / cc * ((double)sphere[a] - org[a]));
-        beside += (double)d[a] * d[a];
+        square += (double)d[a] * d[a];
     }
     const double rr = (double)sphere[3] * sphere[3], outline = cc > rr * (1 + 1e-7) ? 1 / sqrt(1 - rr / cc) : 1;
-    const double k = random_below(r, 4) ? random_float(r, 0, wide)
-                     : wide > 1         ? 1 + 1e-6 * random_float(r, -1, 1)
-                                        : wide;
-    const double reach = k * sphere[3] * outline / sqrt(beside > 0 ? beside : 1);
+    const double k = random_below(r, 4) ? random_float(r, 0, width)
+                     : width > 1        ? 1 + 1e-6 * random_float(r, -1, 1)
+                                        : width;
+    const double reach = k * sphere[3] * outline / sqrt(square > 0 ? square : 1);
     for (int a = 0; a < 3; a++) {
         ray.org[a] = org[a];
         ray.dir[a] = (float)((sphere[a] + reach * d[a] - org[a]) * length);
@@ -168,7 +168,7 @@ static void near_and_far(void **state)
     for_each_variant(near_and_far_rays);
 }
 
-/* A direction times a power of two divides t by it, to the bit. */
+/* A direction scaled by a power of two divides t by it exactly. */
 static void any_length_rays(void)
 {
     test_random r = random_make(100);
@@ -190,7 +190,7 @@ static void any_length_rays(void)
                 }
             }
             if (k < 0)
-                rays_trace(scene, ray, RAYS, hit, NULL); /* some lost a component that would be denormal */
+                rays_trace(scene, ray, RAYS, hit, NULL); /* some lost a component that became denormal */
             rays_trace(scene, scaled, RAYS, scaled_hit, NULL);
             for (int i = 0; i < RAYS; i++) {
                 assert_int_equal(scaled_hit[i].primitive, hit[i].primitive);
@@ -216,7 +216,7 @@ static void any_length(void **state)
     for_each_variant(any_length_rays);
 }
 
-/* ---- special places ---- */
+/* ---- special positions ---- */
 
 static float t_of(const float sphere[4], truth_ray ray)
 {
@@ -227,12 +227,12 @@ static float t_of(const float sphere[4], truth_ray ray)
     return hit.t;
 }
 
-static void special_places_rays(void)
+static void special_positions_rays(void)
 {
     const float s[4] = {0, 0, 0, 5}, shifted[4] = {96, -32, 64, 5};
     static const float away[][3] = {{1, 0, 0}, {3, 4, 0},  {-1, -2, 0.5f}, {4, -3, 0},
                                     {0, 0, 1}, {-4, 3, 1}, {-3, -4, 0}};
-    for (size_t i = 0; i < TEST_COUNT(away); i++) { /* an origin on the surface: outwards, inwards, along it */
+    for (size_t i = 0; i < TEST_COUNT(away); i++) { /* an origin on the surface: rays outwards, inwards, tangential */
         const float *d = away[i];
         assert_true(t_of(s, (truth_ray){{3, 4, 0}, {d[0], d[1], d[2]}, 0, INFINITY}) == 0);
         assert_true(t_of(shifted, (truth_ray){{99, -28, 64}, {d[0], d[1], d[2]}, 0, INFINITY}) == 0);
@@ -241,7 +241,7 @@ static void special_places_rays(void)
     assert_true(t_of(s, (truth_ray){{0, 0, 3}, {0, 0, 1}, 0, INFINITY}) == 2);
     assert_true(t_of(s, (truth_ray){{0, 0, 3}, {0, 0, -1}, 0, INFINITY}) == 8);
     assert_true(t_of(s, (truth_ray){{0, 0, 7}, {0, 0, 1}, 0, INFINITY}) == INFINITY); /* behind */
-    assert_true(t_of(s, (truth_ray){{0, 0, 7}, {0, 0, 1}, -3, INFINITY}) == -2);      /* asked for */
+    assert_true(t_of(s, (truth_ray){{0, 0, 7}, {0, 0, 1}, -3, INFINITY}) == -2);      /* within the given range */
     assert_true(t_of(s, (truth_ray){{0, 0, 7}, {0, 0, 1}, -100, INFINITY}) == -12);
     /* tangent: one ulp decides */
     const float tangent[4] = {1, 0, 8, 1}, wider[4] = {1, 0, 8, nextafterf(1, 2)},
@@ -251,14 +251,14 @@ static void special_places_rays(void)
     assert_true(t_of(thinner, (truth_ray){{0, 0, 0}, {0, 0, 1}, 0, INFINITY}) == INFINITY);
 }
 
-static void special_places(void **state)
+static void special_positions(void **state)
 {
     (void)state;
-    for_each_variant(special_places_rays);
+    for_each_variant(special_positions_rays);
 }
 
-/* A point is hit where double precision finds the distance to be zero: always where d.d is a power of two; mostly, but
- * not always, where its reciprocal is rounded; never from a line that passes outside. */
+/* A sphere of radius 0 is hit if double precision finds a distance of zero: always if d.d is a power of two; usually,
+ * but not always, if its reciprocal is rounded; never if the line misses the point. */
 static void zero_radius_rays(void)
 {
     enum { ROUNDS = 300 };
@@ -279,7 +279,7 @@ static void zero_radius_rays(void)
         const float t = t_of(point, ray);
         assert_true(t == k || (t == INFINITY && !diagonal));
         through += t == k;
-        ray.org[i % 3] += 0x1p-10f; /* exact, too */
+        ray.org[i % 3] += 0x1p-10f; /* also exact */
         assert_true(t_of(point, ray) == INFINITY);
     }
     print_message("%s: %u of %d rays through a point hit it\n", cgt_context_get_variant(context), through, ROUNDS);
@@ -370,7 +370,7 @@ static void ties_rays(void)
             for (int i = 0; i < N; i++) {
                 memcpy(sphere[g][i], q, sizeof q);
                 if (random_below(&r, 2))
-                    sphere[g][i][3] *= random_float(&r, 0.2f, 0.9f); /* hidden within the others */
+                    sphere[g][i][3] *= random_float(&r, 0.2f, 0.9f); /* inside the others */
             }
         const cgt_scene_options made = structure_in_turn(round);
         assert_int_equal(cgt_scene_create(context, &made, &scene), CGT_OK);
@@ -424,7 +424,7 @@ static void normals_rays(void)
             const truth_roots roots = truth_sphere(ray[i].org, ray[i].dir, sphere);
             const truth_real t = (float)roots.near >= 0 ? roots.near : roots.far;
             assert_int_equal(hit[i].primitive, 0);
-            for (int a = 0; a < 3; a++) { /* outwards also where the ray comes from inside */
+            for (int a = 0; a < 3; a++) { /* outwards, even if the ray comes from inside */
                 const double n = (double)((ray[i].org[a] + t * ray[i].dir[a] - sphere[a]) / sphere[3]);
                 assert_true(fabs(hit[i].normal[a] - n) < 0x1p-22);
             }
@@ -444,7 +444,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(near_and_far),
         cmocka_unit_test(any_length),
-        cmocka_unit_test(special_places),
+        cmocka_unit_test(special_positions),
         cmocka_unit_test(zero_radius),
         cmocka_unit_test(range_is_closed_at_both_ends),
         cmocka_unit_test(ties_go_to_the_lowest_id),

@@ -17,11 +17,11 @@ static float filter_u = 0x1p-24f;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/triangle_filter.h"
 
-#define LANES 16 /* rays per packet: whole vectors at any width */
+#define LANES 16 /* rays per packet: whole vectors of any width */
 
 typedef enum family { INTERIOR, EDGES, VERTICES, GRAZING, NEEDLES, FAR, LOOKING_BACK, ANY_SIZE, FAMILIES } family;
 
-/* Per cent of a family's rays. */
+/* Percentages of a family's rays. */
 static const struct {
     const char *name;
     uint64_t least_hits, most_open;
@@ -36,10 +36,10 @@ static const struct {
 typedef struct subject {
     float vertex[3][3];
     double size, middle[3], normal[3]; /* of about unit length */
-    float scale;                       /* of a grid around it */
+    float scale;                       /* the scale of a grid around it */
 } subject;
 
-/* A triangle in double: good enough to aim at. */
+/* A triangle in double, exact enough to aim at. */
 static void describe_subject(subject *s)
 {
     double e[2][3], square = 0;
@@ -63,7 +63,7 @@ static void describe_subject(subject *s)
     for (int a = 0; a < 3; a++)
         s->normal[a] /= square > 0 ? sqrt(square) : 1;
     frexpf(magnitude, &exponent);
-    s->scale = ldexpf(1, exponent < -100 ? 100 : -exponent); /* as the grid is planned */
+    s->scale = ldexpf(1, exponent < -100 ? 100 : -exponent); /* as the grid's plan chooses it */
 }
 
 static void make_triangle(test_random *r, family f, subject *s)
@@ -77,7 +77,7 @@ static void make_triangle(test_random *r, family f, subject *s)
         for (int k = 0; k < 3; k++)
             s->vertex[k][a] = middle[a] + random_float(r, -1, 1) * size;
     }
-    if (f == NEEDLES) { /* the third vertex next to the edge of the other two, or beyond its end */
+    if (f == NEEDLES) { /* the third vertex close to the edge of the other two, or beyond its end */
         const float along = random_float(r, -0.2f, 1.2f), width = random_log(r, 1e-7f, 1e-2f) * size;
         for (int a = 0; a < 3; a++)
             s->vertex[2][a] =
@@ -89,7 +89,7 @@ static void make_triangle(test_random *r, family f, subject *s)
     describe_subject(s);
 }
 
-/* The point that a ray is aimed at: shares of the vertices. */
+/* The target of a ray: a weighted sum of the vertices. */
 static void make_target(test_random *r, family f, const subject *s, double point[3])
 {
     double share[3], sum = 0;
@@ -142,7 +142,7 @@ static void make_range(test_random *r, family f, packet *p, int i, double t)
     p->prim[i] = CGT_INVALID_ID;
 }
 
-/* A packet of one family before one triangle: from one origin, or from origins close to each other. */
+/* A packet of one family in front of one triangle: from one origin, or from origins close to each other. */
 static void make_packet(test_random *r, family f, packet *p, subject *s)
 {
     float origin[3];
@@ -164,7 +164,7 @@ static void make_packet(test_random *r, family f, packet *p, subject *s)
             square += to[a] * to[a];
         }
         reach = sqrt(square) * (f == LOOKING_BACK ? -1 : 1);
-        if (!(square > 0)) { /* the origin is the target */
+        if (!(square > 0)) { /* the origin equals the target */
             to[0] = reach = 1;
         }
         for (int a = 0; a < 3; a++) {
@@ -232,7 +232,7 @@ static void judge_lane(const truth_of_packet *truth, int i, bool certain_hit, bo
         sum->outside += !(low <= truth->t[i] && truth->t[i] <= high);
 }
 
-/* Triangles of a vector: one in lane k, others beside it. */
+/* Sets lane k of a vector of triangles. */
 static void set_triangle(filter_triangles *s, int k, const subject *of, uint32_t number)
 {
     for (int i = 0; i < 3; i++)
@@ -251,7 +251,7 @@ static void fill_triangles(test_random *r, filter_triangles *s)
     }
 }
 
-/* The packet's bounds, with Pluecker coordinates where they are needed. */
+/* The packet's bounds, with Pluecker coordinates where needed. */
 static filter_packet bound_packet(packet *p, float scale)
 {
     filter_packet of_packet;
@@ -272,9 +272,9 @@ static void judge_packet(test_random *r, packet *p, const subject *of, const tru
     filter_triangles_bound(&of_packet, &s);
     const filter_triangle q = filter_triangle_get(&of_packet, &s, k, p->common_origin);
     for (uint32_t i = 0; i < LANES; i += CGT_LANES) {
-        const bool some = filter_triangle_rays(p, &q, i, p->common_origin, &f);
-        const unsigned certain_hit = some ? spux_mask_bits(f.certain_hit) : 0,
-                       undecided = some ? spux_mask_bits(f.undecided) : 0;
+        const bool any = filter_triangle_rays(p, &q, i, p->common_origin, &f);
+        const unsigned certain_hit = any ? spux_mask_bits(f.certain_hit) : 0,
+                       undecided = any ? spux_mask_bits(f.undecided) : 0;
         assert_int_equal(certain_hit & undecided, 0);
         for (int lane = 0; lane < CGT_LANES; lane++)
             judge_lane(truth, (int)i + lane, certain_hit >> lane & 1, undecided >> lane & 1, f.low[lane], f.high[lane],
@@ -297,13 +297,14 @@ static void bounds_hold(void **state)
             const truth_of_packet truth = truth_of(&p, &s);
             judge_packet(&r, &p, &s, &truth, &t);
         }
-        print_message("%s: %llu rays, %llu hits, %llu open; lost %llu, invented %llu, outside %llu\n", families[f].name,
-                      (unsigned long long)t.lanes, (unsigned long long)t.hits, (unsigned long long)t.undecided,
-                      (unsigned long long)t.lost, (unsigned long long)t.invented, (unsigned long long)t.outside);
+        print_message("%s: %llu rays, %llu hits, %llu undecided; lost %llu, invented %llu, outside %llu\n",
+                      families[f].name, (unsigned long long)t.lanes, (unsigned long long)t.hits,
+                      (unsigned long long)t.undecided, (unsigned long long)t.lost, (unsigned long long)t.invented,
+                      (unsigned long long)t.outside);
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
-        assert_true(t.hits * 100 > t.lanes * families[f].least_hits); /* the filter decided many */
+        assert_true(t.hits * 100 > t.lanes * families[f].least_hits); /* the filter decided many of them */
         assert_true(t.undecided * 100 < t.lanes * families[f].most_open);
     }
 }
@@ -328,7 +329,7 @@ static void bounds_break_where_they_are_tightened(void **state)
             filter_u = 0x1p-24f;
         }
     }
-    /* the bounds are worst cases: random rays come within orders of magnitude */
+    /* the bounds are worst cases: random rays come within a few orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-7);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-7);
     check_break("t outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
@@ -348,12 +349,12 @@ static void judge_order(const packet *p, int i, const oracle_primitive both[2], 
     count->undecided += undecided;
     if (undecided)
         return;
-    /* of equal ones the first wins: 1 means strictly nearer */
+    /* of equal hits the first wins: 1 means strictly nearer */
     assert_int_equal(best.index, nearer ? 1 : 0);
     ++*(nearer ? &count->certain_hit : &count->not_nearer);
 }
 
-/* The second triangle of a packet is judged by the interval of the best hit so far. */
+/* The second triangle of a packet is compared with the interval of the closest hit so far. */
 static void order_packet(packet *p, const subject *first, const subject *second, order_counts *count)
 {
     const oracle_primitive both[2] = {primitive_of(first, 0), primitive_of(second, 1)};
@@ -373,12 +374,12 @@ static void order_packet(packet *p, const subject *first, const subject *second,
         spux_store(p->low + i, spux_select(spux_load(p->low + i), f.low, f.certain_hit));
         spux_store(p->high + i, spux_select(spux_load(p->high + i), f.high, f.certain_hit));
         spux_store_uint(p->prim + i, spux_select(spux_load_uint(p->prim + i), spux_vuint(0), f.certain_hit));
-        const bool again = filter_triangle_rays(p, &a, i, p->common_origin, &f);
-        if (again) /* hit already: neither nearer than itself nor undecided */
+        const bool retested = filter_triangle_rays(p, &a, i, p->common_origin, &f);
+        if (retested) /* hit before: neither nearer than itself nor undecided */
             assert_int_equal((spux_mask_bits(f.certain_hit) | spux_mask_bits(f.undecided)) & hit, 0);
-        const bool some = filter_triangle_rays(p, &b, i, p->common_origin, &f);
-        const unsigned nearer = some ? spux_mask_bits(f.certain_hit) : 0,
-                       undecided = some ? spux_mask_bits(f.undecided) : 0;
+        const bool any = filter_triangle_rays(p, &b, i, p->common_origin, &f);
+        const unsigned nearer = any ? spux_mask_bits(f.certain_hit) : 0,
+                       undecided = any ? spux_mask_bits(f.undecided) : 0;
         for (int lane = 0; lane < CGT_LANES; lane++)
             if (hit >> lane & 1)
                 judge_order(p, (int)i + lane, both, nearer >> lane & 1, undecided >> lane & 1, count);
@@ -401,7 +402,7 @@ static void order_of_two_triangles(void **state)
         }
         order_packet(&p, &first, &second, &count);
     }
-    print_message("nearer for certain %llu times, not nearer %llu, left open %llu times\n",
+    print_message("certainly nearer %llu times, not nearer %llu, undecided %llu times\n",
                   (unsigned long long)count.certain_hit, (unsigned long long)count.not_nearer,
                   (unsigned long long)count.undecided);
     assert_true(count.certain_hit > 50 && count.not_nearer > 50 && count.undecided > 50);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a hit on a triangle returns: t, u, v, the normal and ids, each only where requested; ties; any hit. */
+ * What a hit on a triangle returns: t, u, v, the normal and ids, each only if requested; ties; any hit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,7 +48,7 @@ static void check_meaning(const full_hit *h, const truth_ray *of, const triangle
     assert_true(dot / sqrt(length) > 1 - 1e-6);
 }
 
-static void hits_mean_what_is_said(void **state)
+static void hits_mean_what_is_documented(void **state)
 {
     (void)state;
     FOR_EACH_VARIANT(variant)
@@ -108,7 +108,7 @@ static void exact_values_are_within_an_ulp(void **state)
     cgt_context_release(context);
 }
 
-/* ---- what is asked for ---- */
+/* ---- requested fields ---- */
 
 static void any_set_of_fields(void **state)
 {
@@ -159,7 +159,7 @@ static cgt_visit keep_tile(void *user, const cgt_tile *tile)
 {
     picture *p = user;
     if (!tile->u || !tile->v || !tile->geometry || tile->t || tile->primitive || tile->normal[0])
-        return 1; /* only what was asked for */
+        return 1; /* only requested planes */
     for (uint32_t j = 0; j < tile->height; j++)
         for (uint32_t i = 0; i < tile->width; i++) {
             const size_t at = j * tile->row_stride + i;
@@ -207,7 +207,7 @@ static void frames_carry_u_and_v(void **state)
     }
 }
 
-static void spheres_beside_triangles_have_no_share(void **state)
+static void spheres_among_triangles_have_no_uv(void **state)
 {
     (void)state;
     static const float sphere[1][4] = {{0, 0, 0, 1}};
@@ -262,29 +262,29 @@ static void arguments_are_checked(void **state)
 
 /* ---- ties, and rays that share a plane ---- */
 
-/* Every triangle three times, in two geometries, with other corners first: of equal t the lowest ids win. */
+/* Every triangle three times, in two geometries, each with another corner first: with equal t the lowest ids win. */
 static void the_lowest_ids_win(void **state)
 {
     (void)state;
-    static triangle again[2 * COUNT];
+    static triangle rotated[2 * COUNT];
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(1, variant);
         cgt_scene *scene = make_scene(context, 300);
         uint64_t order = 0;
-        for (int i = 0; i < RAYS; i++) /* at edges and vertices too, where neighbours tie */
+        for (int i = 0; i < RAYS; i++) /* also at edges and vertices, where neighbours tie */
             for (int a = 0; a < 3 && i % 2; a++)
                 ray[i].dir[a] = given[i % COUNT][i % 3][a] - ray[i].org[a];
         trace_all(scene, ray, RAYS, expected, NULL);
         cgt_scene_release(scene);
         for (uint32_t i = 0; i < 2 * COUNT; i++)
             for (uint32_t k = 0; k < 3; k++)
-                memcpy(again[i][k], given[i % COUNT][(k + i) % 3], sizeof again[i][k]);
+                memcpy(rotated[i][k], given[i % COUNT][(k + i) % 3], sizeof rotated[i][k]);
         for (int first = 0; first < 2; first++) {
             scene = scene_begin(context);
             if (first)
                 scene_add_triangles(scene, (const triangle *)given, COUNT);
-            scene_add_triangles(scene, (const triangle *)again, 2 * COUNT);
+            scene_add_triangles(scene, (const triangle *)rotated, 2 * COUNT);
             if (!first)
                 scene_add_triangles(scene, (const triangle *)given, COUNT);
             scene_commit(context, scene);
@@ -309,13 +309,13 @@ static void rays_in_a_triangles_plane_miss(void **state)
     static const truth_ray in_plane[] = {
         {{-1, 1, 0}, {1, 0, 0}, 0, INFINITY},        {{-1, 0, 0}, {1, 0, 0}, 0, INFINITY}, /* along an edge */
         {{1, 1, 0}, {-1, -1, 0}, 0, INFINITY},       {{-1, 1, 0}, {1, 0, -0.f}, -INFINITY, INFINITY},
-        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* next to it */
+        {{-1, 1, 1}, {1, 0, 0}, 0, INFINITY}, /* next to the triangle */
         {{-1, 1, 0x1p-149f}, {1, 0, 0}, 0, INFINITY}};
     static const truth_ray through[] = {{{1, 1, 1}, {0, 0, -1}, 0, INFINITY},
                                         {{0, 0, 1}, {0, 0, -1}, 0, INFINITY}, /* a vertex */
                                         {{2, 0, -1}, {0, 0, 3}, 0, INFINITY}, /* an edge */
                                         {{2, 2, 1}, {0, 0, -1}, 0, INFINITY},
-                                        {{1, 1, 0}, {0, 0, -1}, 0, INFINITY}, /* from there */
+                                        {{1, 1, 0}, {0, 0, -1}, 0, INFINITY}, /* from the edge */
                                         {{-1, 1, 0x1p-149f}, {1, 0, -0x1p-149f}, 0, INFINITY},
                                         {{1, 1, -1}, {0, 0, -1}, -INFINITY, INFINITY}};
     FOR_EACH_VARIANT(variant)
@@ -334,7 +334,7 @@ static void rays_in_a_triangles_plane_miss(void **state)
 
 /* ---- any hit ---- */
 
-static void occluded_is_nearest_exists(void **state)
+static void occluded_if_a_closest_hit_exists(void **state)
 {
     (void)state;
     static uint8_t occluded[RAYS];
@@ -366,15 +366,15 @@ static void occluded_is_nearest_exists(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_mean_what_is_said),
+        cmocka_unit_test(hits_mean_what_is_documented),
         cmocka_unit_test(exact_values_are_within_an_ulp),
         cmocka_unit_test(any_set_of_fields),
         cmocka_unit_test(frames_carry_u_and_v),
-        cmocka_unit_test(spheres_beside_triangles_have_no_share),
+        cmocka_unit_test(spheres_among_triangles_have_no_uv),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(the_lowest_ids_win),
         cmocka_unit_test(rays_in_a_triangles_plane_miss),
-        cmocka_unit_test(occluded_is_nearest_exists),
+        cmocka_unit_test(occluded_if_a_closest_hit_exists),
     };
     test_begin("test_triangle_hits");
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,7 +26,7 @@ static cgt_scene *make_scene(cgt_context *context, uint64_t stream)
 
 /* ---- counts ---- */
 
-/* Double precision leaves rays at edges undecided, and not those far from edges. */
+/* Double precision cannot decide rays at edges, but decides those far from edges. */
 static void decisions_are_counted(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void fast_is_close_on_ordinary_scenes(void **state)
                 }
                 cgt_scene_release(scene);
             }
-            print_message("%s, test %d: %llu of %llu rays otherwise, t within %.2g units, u and v %.2g, normal %.2g\n",
+            print_message("%s, test %d: %llu of %llu rays differ, t within %.2g units, u and v %.2g, normal %.2g\n",
                           variant, test, (unsigned long long)(rays - same), (unsigned long long)rays, t, uv, normal);
             assert_true(same * 1000 >= rays * 999);
             assert_true(t < 1e-4 && uv < 1e-3 && normal < 1e-5);
@@ -115,7 +115,7 @@ static void fast_is_close_on_ordinary_scenes(void **state)
 
 /* ---- extreme numbers ---- */
 
-/* Scenes and rays of any scale, judged by the oracle: ids, and t to 0.51 ulp. */
+/* Scenes and rays of any scale. The oracle judges ids, and t to 0.51 ulp. */
 static void judge_scaled(cgt_context *context, test_random *r, int size, int away, int length)
 {
     enum { FEW = 192 };
@@ -154,14 +154,14 @@ static void any_scale_is_exact(void **state)
         for (uint32_t round = 0; round < TEST_COUNT(sizes) * (1 + test_scaled(5)); round++) {
             const int size = sizes[round % TEST_COUNT(sizes)], away = size > 100 ? 0 : (int)random_below(&r, 20);
             const int length = round < TEST_COUNT(sizes) ? 0 : (int)random_below(&r, 140) - 70;
-            /* t is about 2^(size + away - length): within the range of float, or none is a hit */
+            /* t is about 2^(size + away - length): within float's range, or there is no hit */
             judge_scaled(context, &r, size, away, length);
         }
         cgt_context_release(context);
     }
 }
 
-/* Rays from beyond 2^55 and along directions below 2^-55 at a scene of ordinary size, among others. */
+/* Rays towards a scene of ordinary size, among them rays from beyond 2^55 and with directions below 2^-55. */
 static void extreme_rays_at_ordinary_scenes(void **state)
 {
     (void)state;
@@ -196,9 +196,9 @@ static void extreme_rays_at_ordinary_scenes(void **state)
 
 /* ---- the caller's floating-point environment ---- */
 
-/* What flushes denormals, on and off; whether this machine has it. */
+/* Switches the flushing of denormals; returns whether this machine can. */
 #if defined(__x86_64__)
-#define FLUSH 0x8040u /* of operands and of results */
+#define FLUSH 0x8040u /* denormal operands and results */
 static bool set_flush(bool on)
 {
     const unsigned control = __builtin_ia32_stmxcsr();
@@ -224,7 +224,7 @@ typedef struct results {
     float bounds[6];
 } results;
 
-/* Everything, from the commit on. */
+/* Runs everything from the commit on. */
 static void run_all(cgt_scene *scene, float scale, results *to)
 {
     const cgt_rays rays = ray_array(ray, RAYS);
@@ -242,7 +242,7 @@ static void run_all(cgt_scene *scene, float scale, results *to)
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
     assert_int_equal(cgt_occluded_rays(scene, &rays, to->occluded, NULL), CGT_OK);
-    if (camera.eye[2] > 0x1p-100f) /* the camera's own arithmetic is for scenes that one can see */
+    if (camera.eye[2] > 0x1p-100f) /* the camera's arithmetic is meant for scenes of visible size */
         assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
     assert_int_equal(cgt_scene_get_statistics(scene, &s), CGT_OK);
     memcpy(to->bounds, s.bounds_min, sizeof s.bounds_min);
@@ -296,14 +296,14 @@ static void rounding_modes_change_nothing(void **state)
     }
 }
 
-/* Vertices that are denormal, or close to it. */
+/* Vertices that are denormal or nearly so. */
 static void flushed_denormals_change_nothing(void **state)
 {
     (void)state;
     static const int scales[] = {0, -120, -127, -140};
     static results plain, other;
     if (!set_flush(false)) {
-        print_message("how denormals are flushed here is not known to this test\n");
+        print_message("this test does not know how to flush denormals on this machine\n");
         skip();
     }
     FOR_EACH_VARIANT(variant)
@@ -317,9 +317,9 @@ static void flushed_denormals_change_nothing(void **state)
                 assert_true(hits_in(plain.hit, RAYS) > RAYS / 8);
                 set_flush(true);
                 run_all(scene, scale, &other);
-                const bool kept = flushes();
+                const bool unchanged = flushes();
                 set_flush(false);
-                assert_true(kept);
+                assert_true(unchanged);
                 assert_memory_equal(&plain, &other, sizeof plain);
                 cgt_scene_release(scene);
                 cgt_context_release(context);

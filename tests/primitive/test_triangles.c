@@ -99,7 +99,7 @@ static void any_layout(void **state)
 
 /* ---- several geometries ---- */
 
-/* A column of shapes, one every unit along x, each a triangle or a sphere; a ray down on each finds its ids. */
+/* A row of primitives, one per unit along x, each a triangle or a sphere; a vertical ray at each finds its ids. */
 static void expect_ids(const cgt_scene *scene, const uint32_t (*ids)[2], uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -144,10 +144,10 @@ static void several_geometries(void **state)
         assert_int_equal(cgt_scene_remove_geometry(scene, 1), CGT_ERROR_INVALID_ARGUMENT);
         scene_commit(context, scene);
         expect_ids(scene, without, 6);
-        assert_int_equal(scene_add_triangles(scene, (const triangle *)t + 2, 1), 1); /* the id is free again */
+        assert_int_equal(scene_add_triangles(scene, (const triangle *)t + 2, 1), 1); /* the id became free */
         scene_commit(context, scene);
         expect_ids(scene, at_first, 6);
-        /* the third geometry gets one triangle more */
+        /* the third geometry gets one more triangle */
         const cgt_triangles more = triangles_of((const triangle *)t + 3, 3);
         assert_int_equal(cgt_scene_update_triangles(scene, 2, &more), CGT_OK);
         assert_int_equal(cgt_scene_remove_geometry(scene, 3), CGT_OK);
@@ -163,8 +163,8 @@ static void several_geometries(void **state)
     }
 }
 
-/* Moved data needs a commit and nothing else. */
-static void vertices_that_move(void **state)
+/* Moved data needs only a commit. */
+static void moved_vertices_need_a_commit(void **state)
 {
     (void)state;
     cgt_context *context = context_make(1, NULL);
@@ -184,7 +184,7 @@ static void vertices_that_move(void **state)
     cgt_context_release(context);
 }
 
-/* ---- what is refused ---- */
+/* ---- refused input ---- */
 
 static void refuse(cgt_context *context, cgt_scene *scene, const cgt_triangles *t, cgt_result result, const char *text)
 {
@@ -194,7 +194,7 @@ static void refuse(cgt_context *context, cgt_scene *scene, const cgt_triangles *
     if (!strstr(context_message(context), text))
         fail_msg("message \"%s\" lacks \"%s\"", context_message(context), text);
     assert_int_equal(cgt_scene_update_triangles(scene, 0, t), result);
-    trace(scene, hit); /* the scene is as it was: still committed */
+    trace(scene, hit); /* the scene is unchanged and still committed */
     assert_memory_equal(hit, expected, sizeof hit);
 }
 
@@ -267,7 +267,7 @@ static void a_geometry_keeps_its_kind(void **state)
     assert_non_null(strstr(context_message(context), "geometry 1 is one of spheres"));
     trace(scene, hit);
     assert_memory_equal(hit, expected, sizeof hit);
-    assert_int_equal(cgt_scene_remove_geometry(scene, 1), CGT_OK); /* then the id is free for either */
+    assert_int_equal(cgt_scene_remove_geometry(scene, 1), CGT_OK); /* then the id is free for either kind */
     assert_int_equal(scene_add_triangles(scene, (const triangle *)given, 1), 1);
     cgt_scene_release(scene);
     cgt_context_release(context);
@@ -290,7 +290,7 @@ static void bad_indices_fail_the_commit(void **state)
         cgt_context *context = context_make(2, variant);
         cgt_scene *scene = scene_begin(context);
         uint32_t id;
-        scene_add_triangles(scene, (const triangle *)given, 5); /* so that object and triangle differ */
+        scene_add_triangles(scene, (const triangle *)given, 5); /* so that indices of primitive and triangle differ */
         assert_int_equal(cgt_scene_add_triangles(scene, &indexed, &id), CGT_OK);
         scene_commit(context, scene);
         trace(scene, expected);
@@ -298,7 +298,7 @@ static void bad_indices_fail_the_commit(void **state)
             const uint32_t i = k * 4, j = k % 3, was = index[i][j], last = index[COUNT - 1][0];
             char text[160];
             index[i][j] = bad[k / 3];
-            index[COUNT - 1][0] = UINT32_MAX; /* the first one is named */
+            index[COUNT - 1][0] = UINT32_MAX; /* the message names the first one */
             snprintf(text, sizeof text, "geometry 1: triangle %u has index %u, but there are %u vertices", i,
                      bad[k / 3], 3 * COUNT);
             assert_int_equal(cgt_scene_commit(scene), CGT_ERROR_INVALID_ARGUMENT);
@@ -316,9 +316,9 @@ static void bad_indices_fail_the_commit(void **state)
     }
 }
 
-/* ---- what is skipped ---- */
+/* ---- skipped triangles ---- */
 
-/* Triangles that no ray hits, one way each; the rest of the scene is hit as if they were not there. */
+/* Triangles that no ray hits, one of each kind; the rest of the scene is hit as if they were absent. */
 static void skipped_triangles_are_counted(void **state)
 {
     (void)state;
@@ -331,7 +331,7 @@ static void skipped_triangles_are_counted(void **state)
         {{0.1f, 0.2f, 0.3f}, {0.2f, 0.4f, 0.6f}, {0.4f, 0.8f, 1.2f}}, /* doubling is exact in float */
         {{-3, -5, 7}, {0, 0, 0}, {3, 5, -7}},
         {{0x1p-140f, 0, 0}, {0x1p-141f, 0, 0}, {0x1p-149f, 0, 0}}};
-    /* one unit in the last place off a line: an area */
+    /* one ulp off a line: has an area */
     static const triangle thin = {{-3, -5, 7}, {0, 0, 0x1p-149f}, {3, 5, -7}};
     enum { MOST = 3 * COUNT };
     static triangle t[MOST];
@@ -380,7 +380,7 @@ static void skipped_triangles_are_counted(void **state)
 }
 
 /* A vertex that no triangle uses may have any value; a scene of skipped triangles only is empty. */
-static void what_is_not_used_does_no_harm(void **state)
+static void unused_vertices_do_no_harm(void **state)
 {
     (void)state;
     static const float vertices[5][3] = {{-1, -1, 0}, {NAN, NAN, NAN}, {1, -1, 0}, {INFINITY, 0, 0}, {0, 1, 0}};
@@ -414,12 +414,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_layout),
         cmocka_unit_test(several_geometries),
-        cmocka_unit_test(vertices_that_move),
+        cmocka_unit_test(moved_vertices_need_a_commit),
         cmocka_unit_test(bad_descriptions_change_nothing),
         cmocka_unit_test(a_geometry_keeps_its_kind),
         cmocka_unit_test(bad_indices_fail_the_commit),
         cmocka_unit_test(skipped_triangles_are_counted),
-        cmocka_unit_test(what_is_not_used_does_no_harm),
+        cmocka_unit_test(unused_vertices_do_no_harm),
     };
     test_begin("test_triangles");
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles, scenes of them and rays at them. */
+ * Triangles, scenes of triangles, and rays towards them. */
 #include "primitive/triangle_scenes.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames as answers to rays. */
+ * Frames as hits of rays. */
 #include "structures/picture.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A camera's frame with all fields, pixel by pixel as an array of hits. What fails here fails the test. */
+ * A camera's frame with all fields, pixel by pixel as an array of hits. A failure here fails the test. */
 #ifndef PICTURE_H
 #define PICTURE_H
 
@@ -18,7 +18,7 @@ typedef struct picture {
 picture picture_make(uint32_t width, uint32_t height);
 void picture_free(picture *q);
 
-/* Traces all fields into q->hit; a pixel that is left out shows as a pattern. */
+/* Traces all fields into q->hit; a pixel that is not written keeps a pattern. */
 void picture_trace(const cgt_scene *scene, const cgt_camera *camera, const cgt_trace_options *options, picture *q);
 
 /* Makes the camera's pixels the scene's rays, in the order of q->hit. */

@@ -20,7 +20,7 @@ static void take_cloud(structure_scene *s, cloud_kind kind, uint32_t count)
     cloud_free(&c);
 }
 
-/* In the geometry that is last, or a new one. */
+/* In the last geometry, or in a new one. */
 static void any_sphere(hard_scene *s)
 {
     double center[3];
@@ -51,7 +51,7 @@ static void coincide(hard_scene *s, uint32_t copies)
         hard_raw_sphere(s, sphere);
 }
 
-/* What no ray can hit: numbers that are none, a radius below 0, triangles without an area. */
+/* Primitives that no ray can hit: NaNs and infinities, a negative radius, triangles without an area. */
 static void spoilt(structure_scene *s, uint32_t number)
 {
     float vertex[3][3] = {{0.25f, 0.5f, -0.5f}, {0.5f, -0.25f, 0.125f}, {-0.5f, 0.5f, 0.5f}};
@@ -75,13 +75,13 @@ static void skipped(structure_scene *s, bool all)
     for (uint32_t g = 0; g < 3; g++) {
         hard_new_geometry(&s->scene);
         for (uint32_t i = 0; i < 40; i++) {
-            const uint32_t number = g == 1 ? 3 + i % 2 + 5 * i : i % 3 + 5 * i; /* one kind a geometry */
+            const uint32_t number = g == 1 ? 3 + i % 2 + 5 * i : i % 3 + 5 * i; /* one kind per geometry */
             if (!all && random_below(&s->scene.random, 3) == 0)
                 (g == 1 ? any_triangle : any_sphere)(&s->scene);
             else
                 spoilt(s, number);
         }
-        hard_new_geometry(&s->scene); /* stays empty, or becomes the next one's */
+        hard_new_geometry(&s->scene); /* stays empty, or receives the next primitives */
     }
 }
 
@@ -131,7 +131,7 @@ void structure_scene_free(structure_scene *s) { hard_scene_free(&s->scene); }
 
 /* ---- rays ---- */
 
-/* From a point of a lattice of sixteenths of the scene's size, along an axis or a diagonal. */
+/* From a lattice point, in sixteenths of the scene's size, along an axis or a diagonal. */
 static truth_ray lattice_ray(structure_scene *s)
 {
     test_random *r = &s->scene.random;
@@ -153,7 +153,7 @@ void structure_rays(structure_scene *s, uint32_t count)
     s->scene.wanted = count;
     for (uint32_t i = 0; hard_wants_ray(&s->scene); i++) {
         truth_ray ray = i % 3 == 2 ? lattice_ray(s) : ray_random(&s->scene.random, &s->where);
-        if (i / 64 % 3 == 1) /* from one point into all directions */
+        if (i / 64 % 3 == 1) /* from one point in all directions */
             memcpy(ray.org, first.org, sizeof ray.org);
         else
             first = ray;

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * FAST precision through trees and grids, with every triangle test. Its answers are those of ROBUST unless single
- * precision cannot decide, and close to them in t, u, v and the normal; any hit exists where a nearest one does;
- * nothing is NaN; and closed meshes do not leak at shared edges. */
+ * FAST precision through trees and grids, with every triangle test. Its hits are those of ROBUST unless single
+ * precision cannot decide, and close to them in t, u, v and the normal; any hit exists where a closest hit does; no
+ * result is NaN; and closed meshes do not leak at shared edges. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,15 +13,15 @@
 
 enum { RAYS = 1024, TRIANGLES = 150, SPHERES = 50 };
 
-/* ---- ways through structures ---- */
+/* ---- paths through structures ---- */
 
-typedef struct way {
+typedef struct path {
     cgt_structure structure;
     cgt_kd_builder builder;
     cgt_kd_traversal traversal;
-} way;
+} path;
 
-static const way ways[] = {
+static const path paths[] = {
     {CGT_STRUCTURE_QUEUE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
     {CGT_STRUCTURE_KD, CGT_KD_BUILDER_BINNED, CGT_KD_TRAVERSAL_SINGLE},
     {CGT_STRUCTURE_KD, CGT_KD_BUILDER_SWEEP, CGT_KD_TRAVERSAL_PACKET},
@@ -30,7 +30,7 @@ static const way ways[] = {
     {CGT_STRUCTURE_LOOSE_GRID, CGT_KD_BUILDER_AUTO, CGT_KD_TRAVERSAL_AUTO},
 };
 
-static cgt_scene *commit(cgt_context *context, const hard_scene *s, const way *w)
+static cgt_scene *commit(cgt_context *context, const hard_scene *s, const path *w)
 {
     test_scene_options options = {0};
     cgt_scene *scene;
@@ -41,7 +41,7 @@ static cgt_scene *commit(cgt_context *context, const hard_scene *s, const way *w
     return scene;
 }
 
-static test_trace_options fast_way(const way *w, int test, bool mailbox)
+static test_trace_options fast_way(const path *w, int test, bool mailbox)
 {
     test_trace_options options = {.precision = CGT_PRECISION_FAST};
     options.kd_traversal = w->traversal;
@@ -50,7 +50,7 @@ static test_trace_options fast_way(const way *w, int test, bool mailbox)
     return options;
 }
 
-/* ---- where single precision cannot tell ---- */
+/* ---- rays that single precision cannot decide ---- */
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -63,16 +63,16 @@ static void cross(const double a[3], const double b[3], double c[3])
 /* Whether a line passes a triangle at an edge, or in its plane. */
 static bool passes_edge(const oracle_primitive *q, const double org[3], const double dir[3])
 {
-    double e[2][3], s[3], n[3], across[3], beside[3];
+    double e[2][3], s[3], n[3], dir_x_e1[3], s_x_e0[3];
     for (int a = 0; a < 3; a++) {
         s[a] = org[a] - q->data[a];
         for (int k = 0; k < 2; k++)
             e[k][a] = (double)q->data[3 * k + 3 + a] - q->data[a];
     }
     cross(e[0], e[1], n);
-    cross(dir, e[1], across);
-    cross(s, e[0], beside);
-    const double den = dot(e[0], across), u = dot(s, across) / den, v = dot(dir, beside) / den;
+    cross(dir, e[1], dir_x_e1);
+    cross(s, e[0], s_x_e0);
+    const double den = dot(e[0], dir_x_e1), u = dot(s, dir_x_e1) / den, v = dot(dir, s_x_e0) / den;
     const double least = fmin(fmin(u, v), 1 - u - v);
     return !(fabs(den) > 1e-3 * sqrt(dot(dir, dir) * dot(n, n))) || fabs(least) < 1e-3;
 }
@@ -83,12 +83,12 @@ static bool passes_silhouette(const oracle_primitive *q, const double org[3], co
     for (int a = 0; a < 3; a++)
         c[a] = q->data[a] - org[a];
     cross(dir, c, side);
-    const double beside = sqrt(dot(side, side) / dot(dir, dir)), r = q->data[3];
-    return fabs(beside - r) < 1e-3 * r || fabs(sqrt(dot(c, c)) - r) < 1e-3 * r;
+    const double distance = sqrt(dot(side, side) / dot(dir, dir)), r = q->data[3];
+    return fabs(distance - r) < 1e-3 * r || fabs(sqrt(dot(c, c)) - r) < 1e-3 * r;
 }
 
-/* Whether it takes more than single precision to tell that the named primitive is hit. Where none is named, the other
- * answer names what is doubtful. */
+/* Whether deciding a hit of the reported primitive takes more than single precision. If none is reported, the other
+ * result names the doubtful primitive. */
 static bool in_doubt(const oracle_scene *scene, const full_hit *hit, const truth_ray *ray)
 {
     double org[3], dir[3];
@@ -123,26 +123,27 @@ static bool is_number(const full_hit *h)
     return h->geometry == CGT_INVALID_ID ? !isnan(h->t) && !isnan(sum) : isfinite(h->t) && isfinite(sum);
 }
 
-static void judge(const oracle_scene *truth, const truth_ray *ray, const full_hit *is, const full_hit *fast, tally *sum)
+static void judge(const oracle_scene *truth, const truth_ray *ray, const full_hit *robust, const full_hit *fast,
+                  tally *sum)
 {
-    const double size = length_of(ray->dir), apart = fabs((double)fast->t - (double)is->t) * size;
-    const bool same = fast->geometry == is->geometry && fast->primitive == is->primitive;
+    const double size = length_of(ray->dir), distance = fabs((double)fast->t - (double)robust->t) * size;
+    const bool same = fast->geometry == robust->geometry && fast->primitive == robust->primitive;
     sum->rays++;
     sum->hits += fast->geometry != CGT_INVALID_ID;
     sum->other += !same;
     assert_true(is_number(fast));
-    if (!same && !(apart < 1e-4) && !in_doubt(truth, fast, ray) && !in_doubt(truth, is, ray))
+    if (!same && !(distance < 1e-4) && !in_doubt(truth, fast, ray) && !in_doubt(truth, robust, ray))
         fail_msg("geometry %d, primitive %d at %a, but %d, %d at %a; org %a %a %a dir %a %a %a", (int)fast->geometry,
-                 (int)fast->primitive, (double)fast->t, (int)is->geometry, (int)is->primitive, (double)is->t,
-                 (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
+                 (int)fast->primitive, (double)fast->t, (int)robust->geometry, (int)robust->primitive,
+                 (double)robust->t, (double)ray->org[0], (double)ray->org[1], (double)ray->org[2], (double)ray->dir[0],
                  (double)ray->dir[1], (double)ray->dir[2]);
-    if (!same || is->geometry == CGT_INVALID_ID || in_doubt(truth, is, ray))
+    if (!same || robust->geometry == CGT_INVALID_ID || in_doubt(truth, robust, ray))
         return; /* in a triangle's plane t, u and v may be anything */
-    sum->t = fmax(sum->t, apart);
+    sum->t = fmax(sum->t, distance);
     for (int k = 0; k < 2; k++)
-        sum->uv = fmax(sum->uv, fabs((double)fast->uv[k] - (double)is->uv[k]));
+        sum->uv = fmax(sum->uv, fabs((double)fast->uv[k] - (double)robust->uv[k]));
     for (int a = 0; a < 3; a++)
-        sum->normal = fmax(sum->normal, fabs((double)fast->normal[a] - (double)is->normal[a]));
+        sum->normal = fmax(sum->normal, fabs((double)fast->normal[a] - (double)robust->normal[a]));
 }
 
 /* Triangles and spheres about the origin. */
@@ -165,7 +166,7 @@ static hard_scene make_scene(test_random *r)
     return s;
 }
 
-static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_ray *ray, const full_hit *is,
+static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_ray *ray, const full_hit *robust,
                         const test_trace_options *options, tally *sum)
 {
     static full_hit hit[RAYS];
@@ -176,7 +177,7 @@ static void check_scene(cgt_scene *scene, const hard_truth *truth, const truth_r
     trace_all(scene, ray, RAYS, hit, TRACE_OPTIONS(options));
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(options)), CGT_OK);
     for (int i = 0; i < RAYS; i++) {
-        judge(&truth->scene, &ray[i], &is[i], &hit[i], sum);
+        judge(&truth->scene, &ray[i], &robust[i], &hit[i], sum);
         assert_int_equal(occluded[i], hit[i].geometry != CGT_INVALID_ID);
     }
 }
@@ -185,8 +186,9 @@ static void fast_is_close_to_robust(void **state)
 {
     (void)state;
     static truth_ray ray[RAYS];
-    static full_hit is[RAYS];
-    /* In a sample two rounds share the ways. There are as many rays, since the share of other hits is judged. */
+    static full_hit robust[RAYS];
+    /* In a sample two rounds share the paths. The number of rays stays, since the test bounds the share of differing
+     * hits. */
     const uint32_t step = test_samples() ? 2 : 1;
     FOR_EACH_VARIANT(variant)
     {
@@ -198,19 +200,19 @@ static void fast_is_close_to_robust(void **state)
             hard_scene s = make_scene(&r);
             random_rays(&r, ray, RAYS);
             assert_true(hard_truth_make(&s, &truth));
-            for (uint32_t w = test_sample_start(round, step); w < TEST_COUNT(ways); w += step) {
-                cgt_scene *scene = commit(context, &s, &ways[w]);
-                trace_all(scene, ray, RAYS, is, NULL);
+            for (uint32_t w = test_sample_start(round, step); w < TEST_COUNT(paths); w += step) {
+                cgt_scene *scene = commit(context, &s, &paths[w]);
+                trace_all(scene, ray, RAYS, robust, NULL);
                 for (int test = 0; test <= CGT_TRIANGLE_TEST_ACCELERATED; test++) {
-                    const test_trace_options fast = fast_way(&ways[w], test, (round + w / step) % 2);
-                    check_scene(scene, &truth, ray, is, &fast, &sum);
+                    const test_trace_options fast = fast_way(&paths[w], test, (round + w / step) % 2);
+                    check_scene(scene, &truth, ray, robust, &fast, &sum);
                 }
                 cgt_scene_release(scene);
             }
             hard_truth_free(&truth);
             hard_scene_free(&s);
         }
-        print_message("%s: %llu of %llu rays otherwise, %llu hits; t within %.2g units, u and v %.2g, normal %.2g\n",
+        print_message("%s: %llu of %llu rays differ, %llu hits; t within %.2g units, u and v %.2g, normal %.2g\n",
                       variant, (unsigned long long)sum.other, (unsigned long long)sum.rays,
                       (unsigned long long)sum.hits, sum.t, sum.uv, sum.normal);
         assert_true(sum.hits > sum.rays / 4);
@@ -222,7 +224,7 @@ static void fast_is_close_to_robust(void **state)
 
 /* ---- closed meshes ---- */
 
-/* Which of its rays is aimed at a vertex: there more than two triangles meet, and each may round to a miss. */
+/* Whether ray i is aimed at a vertex, where more than two triangles meet and each may round to a miss. */
 static bool at_vertex(uint32_t i) { return i % 8 == 0; }
 
 /* Rays from inside at vertices and at points of edges. */
@@ -249,7 +251,7 @@ static hard_scene make_closed(closed_kind kind, uint64_t stream)
 }
 
 typedef struct leaks {
-    uint64_t rays, edges, vertices; /* that leak at an edge, at a vertex */
+    uint64_t rays, edges, vertices; /* rays that leak at an edge, at a vertex */
 } leaks;
 
 static void count_leaks(const cgt_scene *scene, const hard_scene *s, const test_trace_options *options, leaks *sum)
@@ -273,9 +275,9 @@ static void closed_meshes_do_not_leak(void **state)
         cgt_context *context = context_make(1, variant);
         for (uint32_t round = 0; round < CLOSED_KINDS * test_scaled(4); round++) {
             hard_scene s = make_closed((closed_kind)(round % CLOSED_KINDS), 700 + round);
-            for (size_t w = 0; w < TEST_COUNT(ways); w++) {
-                cgt_scene *scene = commit(context, &s, &ways[w]);
-                test_trace_options fast = fast_way(&ways[w], CGT_TRIANGLE_TEST_WATERTIGHT, round % 2);
+            for (size_t w = 0; w < TEST_COUNT(paths); w++) {
+                cgt_scene *scene = commit(context, &s, &paths[w]);
+                test_trace_options fast = fast_way(&paths[w], CGT_TRIANGLE_TEST_WATERTIGHT, round % 2);
                 count_leaks(scene, &s, &fast, &sum);
                 fast.triangle_test = CGT_TRIANGLE_TEST_MOLLER_TRUMBORE;
                 count_leaks(scene, &s, &fast, &others);
@@ -288,7 +290,7 @@ static void closed_meshes_do_not_leak(void **state)
     print_message("%llu rays: %llu leak at edges, %llu at vertices; with Moeller-Trumbore %llu and %llu\n",
                   (unsigned long long)sum.rays, (unsigned long long)sum.edges, (unsigned long long)sum.vertices,
                   (unsigned long long)others.edges, (unsigned long long)others.vertices);
-    assert_true(others.edges > 0); /* the rays are where single precision leaks */
+    assert_true(others.edges > 0); /* the rays pass where single precision leaks */
     assert_int_equal(sum.edges, 0);
     assert_true(sum.vertices * 200 < sum.rays);
 }

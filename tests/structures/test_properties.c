@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random scenes, structures, cameras and options: every pixel and every ray has the hit that brute force finds. A
- * failure names the round; the printed seed reproduces it. */
+ * Random scenes, structures, cameras and options: every pixel and ray has the hit that brute force finds. A failure
+ * names the round; the printed seed reproduces it. */
 #include "support/scenes.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-#define WIDTH 61 /* no multiple of a packet or a tile */
+#define WIDTH 61 /* not a multiple of a packet or a tile */
 #define HEIGHT 47
 
 static test_trace_options random_options(test_random *r)
@@ -37,7 +37,7 @@ static uint32_t random_count(test_random *r)
     return random_below(r, 3) ? random_below(r, 400) : random_below(r, 3001);
 }
 
-/* Rays from anywhere; or fans, all from one origin and close to each other, which become coherent packets. */
+/* Random rays, or fans: close rays from one origin, which become coherent packets. */
 static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, bool fan,
                        const test_trace_options *options, uint64_t *doubts)
 {
@@ -67,7 +67,7 @@ static void judge_rays(const cgt_scene *scene, const cloud *c, test_random *r, b
     }
 }
 
-/* The variants share the rounds: each has every step-th one. 3 and 2 are prime to the kinds of clouds. */
+/* The variants share the rounds: each runs every step-th one. 3 and 2 are coprime to the number of kinds of clouds. */
 static uint32_t round_step(void)
 {
     uint32_t variants = 0;
@@ -76,7 +76,7 @@ static uint32_t round_step(void)
     return variants < 3 ? variants : 3;
 }
 
-static void nearest_hit_is_that_of_brute_force(void **state)
+static void closest_hits_are_those_of_brute_force(void **state)
 {
     (void)state;
     const uint32_t rounds = 2 + test_scaled(14), step = round_step(); /* the first of each kind are nearly empty */
@@ -113,13 +113,13 @@ static void nearest_hit_is_that_of_brute_force(void **state)
     }
     print_message("%llu pixels, %llu hits, %llu beyond double precision\n", (unsigned long long)pixels,
                   (unsigned long long)hits, (unsigned long long)doubts);
-    assert_true(hits > pixels / 10); /* the scenes were there to be seen */
+    assert_true(hits > pixels / 10); /* the scenes were visible */
     assert_true(doubts <= pixels / 10000);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nearest_hit_is_that_of_brute_force)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(closest_hits_are_those_of_brute_force)};
     test_begin("test_properties");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

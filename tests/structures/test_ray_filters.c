@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Masks and skipped primitives. Through every structure, nearest and any hit are those of brute force over the
- * remaining primitives; a copy of a skipped primitive is found; ids of nothing skip nothing; arrays of any layout,
+ * Masks and skipped primitives. Through every structure, closest and any hit are those of brute force over the
+ * remaining primitives; a copy of a skipped primitive is found; ids of no primitive skip nothing; arrays of any layout,
  * points against a light, and frames of a camera with a mask. */
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 #define RAYS 700u
 #define MOST_PARTS (2 * HARD_MOST_GEOMETRIES + 1)
 
-/* ---- scenes: each geometry as two, of different masks, and ids between that do not exist ---- */
+/* ---- scenes: each geometry split in two with different masks, with missing ids between them ---- */
 
 static const uint32_t mask_of[] = {0, 1, 2, 0x80000001u, 6};
 
@@ -35,7 +35,7 @@ typedef struct subject {
 static void add_part(subject *t, const hard_geometry *g, uint32_t first, uint32_t end)
 {
     part *q = &t->part[t->parts];
-    *q = (part){.id = t->parts + (t->parts > 0)}; /* 1 is left out */
+    *q = (part){.id = t->parts + (t->parts > 0)}; /* id 1 does not exist */
     const uint32_t mask = mask_of[t->parts++ % TEST_COUNT(mask_of)];
     q->mask = mask ? mask : UINT32_MAX;
     if (g->triangles) {
@@ -69,21 +69,21 @@ static subject subject_make(structure_kind kind, uint64_t stream)
 static cgt_scene *commit(cgt_context *context, const subject *t, const cgt_scene_options *options)
 {
     cgt_scene *scene;
-    uint32_t id, gap = CGT_INVALID_ID;
+    uint32_t id, removed_id = CGT_INVALID_ID;
     const cgt_spheres nothing = {0};
     assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     for (uint32_t i = 0; i < t->parts; i++) {
         const part *q = &t->part[i];
         if (i == 1)
-            assert_int_equal(cgt_scene_add_spheres(scene, &nothing, &gap), CGT_OK);
+            assert_int_equal(cgt_scene_add_spheres(scene, &nothing, &removed_id), CGT_OK);
         if (q->kind == CGT_KIND_TRIANGLES)
             assert_int_equal(cgt_scene_add_triangles(scene, &q->triangles, &id), CGT_OK);
         else
             assert_int_equal(cgt_scene_add_spheres(scene, &q->spheres, &id), CGT_OK);
         assert_int_equal(id, q->id);
     }
-    if (gap != CGT_INVALID_ID)
-        assert_int_equal(cgt_scene_remove_geometry(scene, gap), CGT_OK);
+    if (removed_id != CGT_INVALID_ID)
+        assert_int_equal(cgt_scene_remove_geometry(scene, removed_id), CGT_OK);
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
@@ -100,7 +100,7 @@ typedef struct filtered_ray {
     uint32_t mask, primitive, geometry;
 } filtered_ray;
 
-/* Which arrays are handed out. */
+/* The arrays that a call provides. */
 typedef enum given { GIVEN_MASK = 1, GIVEN_PRIMITIVE = 2, GIVEN_GEOMETRY = 4, GIVEN_ALL = 7 } given;
 
 static cgt_rays rays_of(const filtered_ray *ray, uint32_t count, uint32_t what)
@@ -151,12 +151,12 @@ static bool invalid(const truth_ray *ray)
 
 /* ---- brute force over the remaining primitives ---- */
 
-typedef struct answer {
+typedef struct truth_hit {
     float t;
     uint32_t primitive, geometry;
-} answer;
+} truth_hit;
 
-static cgt_primitive shape_at(const part *q, uint32_t i)
+static cgt_primitive primitive_at(const part *q, uint32_t i)
 {
     cgt_primitive primitive = {.kind = q->kind};
     if (q->kind == CGT_KIND_TRIANGLES) {
@@ -170,8 +170,8 @@ static cgt_primitive shape_at(const part *q, uint32_t i)
     return primitive;
 }
 
-/* Whether a primitive takes part, by the definition in cgt.h. */
-static bool takes_part(const cgt_primitive *primitive)
+/* Whether a primitive is valid, by the definition in cgt.h. */
+static bool is_valid(const cgt_primitive *primitive)
 {
     float zero = 0;
     if (primitive->kind == CGT_KIND_SPHERES) {
@@ -185,7 +185,7 @@ static bool takes_part(const cgt_primitive *primitive)
     return zero == 0;
 }
 
-static answer truth_of(const subject *t, const filtered_ray *f, uint32_t what)
+static truth_hit truth_of(const subject *t, const filtered_ray *f, uint32_t what)
 {
     const uint32_t mask = what & GIVEN_MASK && f->mask ? f->mask : UINT32_MAX;
     const uint32_t primitive = what & GIVEN_PRIMITIVE ? f->primitive : CGT_INVALID_ID;
@@ -193,7 +193,7 @@ static answer truth_of(const subject *t, const filtered_ray *f, uint32_t what)
     const float t_min = f->ray.t_min < -3e38f ? -3.4028234664e38f : f->ray.t_min;
     cgt_ray ray = {.t_min = t_min, .t_max = f->ray.t_max};
     cgt_decided_hit best = {.t = 0};
-    answer a = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
+    truth_hit a = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
     uint64_t exact = 0;
     memcpy(ray.line.org, f->ray.org, sizeof ray.line.org);
     memcpy(ray.line.dir, f->ray.dir, sizeof ray.line.dir);
@@ -201,12 +201,12 @@ static answer truth_of(const subject *t, const filtered_ray *f, uint32_t what)
         for (uint32_t i = 0; i < part_count(&t->part[k]) && (t->part[k].mask & mask); i++) {
             if (t->part[k].id == geometry && i == primitive)
                 continue;
-            cgt_decided_hit hit = {.primitive = shape_at(&t->part[k], i)};
-            if (!takes_part(&hit.primitive) || !cgt_decide_hit(&ray, &hit, &exact))
+            cgt_decided_hit hit = {.primitive = primitive_at(&t->part[k], i)};
+            if (!is_valid(&hit.primitive) || !cgt_decide_hit(&ray, &hit, &exact))
                 continue;
             if (a.primitive == CGT_INVALID_ID || cgt_decide_order(&ray, &hit, &best, &exact) < 0) {
                 best = hit;
-                a = (answer){(float)hit.t, i, t->part[k].id};
+                a = (truth_hit){(float)hit.t, i, t->part[k].id};
             }
         }
     return a;
@@ -218,7 +218,7 @@ typedef struct tally {
     uint64_t rays, hits, fast_differ, fast;
 } tally;
 
-static bool is_left_out(const subject *t, const filtered_ray *f, uint32_t what, const full_hit *h)
+static bool is_filtered_out(const subject *t, const filtered_ray *f, uint32_t what, const full_hit *h)
 {
     const uint32_t mask = what & GIVEN_MASK && f->mask ? f->mask : UINT32_MAX;
     const uint32_t geometry = what & GIVEN_GEOMETRY ? f->geometry : 0;
@@ -228,7 +228,7 @@ static bool is_left_out(const subject *t, const filtered_ray *f, uint32_t what, 
     return what & GIVEN_PRIMITIVE && h->primitive == f->primitive && h->geometry == geometry;
 }
 
-static void compare(const subject *t, const cgt_scene *scene, const filtered_ray *ray, const answer *truth,
+static void compare(const subject *t, const cgt_scene *scene, const filtered_ray *ray, const truth_hit *truth,
                     uint32_t count, uint32_t what, const test_trace_options *given_options, tally *sum)
 {
     static full_hit hit[RAYS];
@@ -241,11 +241,11 @@ static void compare(const subject *t, const cgt_scene *scene, const filtered_ray
     uint64_t found = 0, wrong = 0;
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, TRACE_OPTIONS(&options)), CGT_OK);
     for (uint32_t i = 0; i < count; i++) {
-        const answer got = {hit[i].t, hit[i].primitive, hit[i].geometry};
+        const truth_hit got = {hit[i].t, hit[i].primitive, hit[i].geometry};
         const bool same = memcmp(&got, &truth[i], sizeof got) == 0;
         found += got.primitive != CGT_INVALID_ID;
-        if (got.primitive != CGT_INVALID_ID && is_left_out(t, &ray[i], what, &hit[i]))
-            fail_msg("%s, ray %u: hits %u.%u, which is left out", t->s.name, i, got.geometry, got.primitive);
+        if (got.primitive != CGT_INVALID_ID && is_filtered_out(t, &ray[i], what, &hit[i]))
+            fail_msg("%s, ray %u: hits %u.%u, which is filtered out", t->s.name, i, got.geometry, got.primitive);
         if (!same && options.precision != CGT_PRECISION_FAST)
             fail_msg("%s, ray %u: hits %u.%u at %a, not %u.%u at %a", t->s.name, i, got.geometry, got.primitive,
                      (double)got.t, truth[i].geometry, truth[i].primitive, (double)truth[i].t);
@@ -256,7 +256,7 @@ static void compare(const subject *t, const cgt_scene *scene, const filtered_ray
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(&options)), CGT_OK);
     for (uint32_t i = 0; i < count; i++)
         if (occluded[i] != (hit[i].primitive != CGT_INVALID_ID))
-            fail_msg("%s, ray %u: any hit %u, nearest hit %u.%u", t->s.name, i, occluded[i], hit[i].geometry,
+            fail_msg("%s, ray %u: any hit %u, closest hit %u.%u", t->s.name, i, occluded[i], hit[i].geometry,
                      hit[i].primitive);
     assert_int_equal(statistics.hits, found);
     sum->rays += count;
@@ -267,11 +267,11 @@ static void compare(const subject *t, const cgt_scene *scene, const filtered_ray
     }
 }
 
-static void hits_are_those_of_what_is_left(void **state)
+static void hits_are_those_of_the_remaining_primitives(void **state)
 {
     (void)state;
     static filtered_ray ray[RAYS];
-    static answer truth[RAYS];
+    static truth_hit truth[RAYS];
     static const uint32_t what_of[] = {GIVEN_ALL, GIVEN_PRIMITIVE | GIVEN_GEOMETRY, GIVEN_MASK,
                                        GIVEN_MASK | GIVEN_PRIMITIVE, 0};
     tally sum = {0};
@@ -283,14 +283,14 @@ static void hits_are_those_of_what_is_left(void **state)
         cgt_scene *scene = commit(context, &t, &plain);
         make_filters(&t, scene, ray);
         cgt_scene_release(scene);
-        const uint32_t all = test_scaled(10) < 2 ? t.s.scene.rays / 4 : t.s.scene.rays; /* a sample where it is slow */
+        const uint32_t all = test_scaled(10) < 2 ? t.s.scene.rays / 4 : t.s.scene.rays; /* a sample on slow machines */
         const uint32_t count = number % 5 == 4 ? 60 : all;
         for (uint32_t i = 0; i < count; i++)
             truth[i] = truth_of(&t, &ray[i], what);
         FOR_EACH_VARIANT(variant)
         {
             cgt_context *own = context_make(1 + 2 * (number % 2), variant);
-            /* a sample: half of the structures, by turns of two, for what follows from number + k takes turns of one */
+            /* a sample: every second structure, starting from number / 2, since options follow number + k */
             const uint32_t step = test_samples() ? 2 : 1;
             for (uint32_t k = test_sample_start(number / 2, step); k < TEST_STRUCTURES; k += step) {
                 const cgt_scene_options made = structure_in_turn(k);
@@ -315,13 +315,13 @@ static void hits_are_those_of_what_is_left(void **state)
         structure_scene_free(&t.s);
     }
     cgt_context_release(context);
-    print_message("%llu of %llu rays hit what is left; %llu of %llu otherwise in FAST precision\n",
+    print_message("%llu of %llu rays hit a remaining primitive; %llu of %llu differ in FAST precision\n",
                   (unsigned long long)sum.hits, (unsigned long long)sum.rays, (unsigned long long)sum.fast_differ,
                   (unsigned long long)sum.fast);
     assert_true(sum.hits > sum.rays / 30 && sum.fast_differ < sum.fast / 20);
 }
 
-/* ---- copies, and ids of nothing ---- */
+/* ---- copies, and ids of no primitive ---- */
 
 static uint32_t hit_of(const cgt_scene *scene, uint32_t primitive, uint32_t geometry, uint32_t mask)
 {
@@ -397,7 +397,7 @@ static void any_layout(void **state)
     static filtered_ray ray[RAYS];
     static float number[8][RAYS];
     static uint32_t word[3][RAYS];
-    static full_hit hit[RAYS], again[RAYS];
+    static full_hit hit[RAYS], strided[RAYS];
     cgt_context *context = context_make(2, NULL);
     subject t = subject_make((structure_kind)SOUP_MIXED, 41);
     for (uint32_t k = 0; k < TEST_STRUCTURES; k++) {
@@ -422,9 +422,9 @@ static void any_layout(void **state)
                             .skip_geometry = word[2]};
         cgt_hits hits = hit_array(hit);
         assert_int_equal(cgt_trace_rays(scene, &a, &hits, NULL), CGT_OK);
-        hits = hit_array(again);
+        hits = hit_array(strided);
         assert_int_equal(cgt_trace_rays(scene, &b, &hits, NULL), CGT_OK);
-        assert_memory_equal(hit, again, sizeof hit);
+        assert_memory_equal(hit, strided, sizeof hit);
         cgt_scene_release(scene);
     }
     structure_scene_free(&t.s);
@@ -438,7 +438,7 @@ static void lights_are_filtered_too(void **state)
     (void)state;
     static filtered_ray ray[RAYS];
     static uint8_t by_rays[RAYS], by_points[RAYS];
-    uint32_t hidden = 0, asked = 0;
+    uint32_t occluded_points = 0, total = 0;
     FOR_EACH_VARIANT(variant)
     {
         cgt_context *context = context_make(2, variant);
@@ -469,15 +469,15 @@ static void lights_are_filtered_too(void **state)
             assert_int_equal(cgt_occluded_points(scene, &light, &points, by_points, NULL), CGT_OK);
             assert_memory_equal(by_rays, by_points, RAYS);
             for (uint32_t i = 0; i < RAYS; i++)
-                hidden += by_rays[i];
-            asked += RAYS;
+                occluded_points += by_rays[i];
+            total += RAYS;
             cgt_scene_release(scene);
             structure_scene_free(&t.s);
         }
         cgt_context_release(context);
     }
-    print_message("%u of %u points hidden\n", hidden, asked);
-    assert_true(hidden > asked / 100);
+    print_message("%u of %u points occluded\n", occluded_points, total);
+    assert_true(occluded_points > total / 100);
 }
 
 /* ---- cameras ---- */
@@ -491,7 +491,7 @@ static void cameras_have_masks(void **state)
     static filtered_ray ray[SIDE * SIDE];
     static full_hit hit[SIDE * SIDE];
     static const uint32_t masks[] = {0, UINT32_MAX, 1, 2, 4, 0x80000000u, 8};
-    /* every structure with every mask: where it is slow, two tiles in place of four, and these narrow */
+    /* every structure with every mask: on slow machines two narrow tiles instead of four */
     const bool slow = test_scaled(10) < 2;
     const uint32_t width = slow ? 70 : SIDE, height = slow ? 18 : SIDE, pixels = width * height;
     uint32_t seen = 0;
@@ -539,10 +539,12 @@ static void cameras_have_masks(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_are_those_of_what_is_left), cmocka_unit_test(copies_are_found),
-        cmocka_unit_test(masks_change_with_commits),      cmocka_unit_test(any_layout),
-        cmocka_unit_test(lights_are_filtered_too),        cmocka_unit_test(cameras_have_masks)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_are_those_of_the_remaining_primitives),
+                                       cmocka_unit_test(copies_are_found),
+                                       cmocka_unit_test(masks_change_with_commits),
+                                       cmocka_unit_test(any_layout),
+                                       cmocka_unit_test(lights_are_filtered_too),
+                                       cmocka_unit_test(cameras_have_masks)};
     test_begin("test_ray_filters");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Which structure a scene gets: what is asked for, from one commit to the next too; options that are refused; and what
- * AUTO chooses, and says why. */
+ * Which structure a scene gets: the requested one, also when it changes between commits; refused options; and what AUTO
+ * chooses, with its reason. */
 #include "support/scenes.h"
 
 #include <math.h>
@@ -43,7 +43,7 @@ static void refuse(cgt_context *context, cgt_scene *committed, const test_scene_
     assert_non_null(strstr(context_message(context), word));
     assert_int_equal(cgt_scene_set_options(committed, SCENE_OPTIONS(o)), CGT_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(context_message(context), word));
-    frame_trace(committed, &camera, &p, NULL); /* nothing has changed: it still may be traced */
+    frame_trace(committed, &camera, &p, NULL); /* nothing has changed: the scene can still be traced */
     planes_free(&p);
 }
 
@@ -87,7 +87,7 @@ static void options_out_of_range_are_refused(void **state)
 
 /* ---- from one structure to another ---- */
 
-/* Everything that moves: half the numbers, so that the shape of the scene changes with its size. */
+/* Scales half of the coordinates, so that the shape of the scene changes with its size. */
 static void move(hard_scene *s, float factor)
 {
     for (uint32_t g = 0; g < s->geometries; g++) {
@@ -112,7 +112,7 @@ static void check_as_one_cell(cgt_context *context, const hard_scene *s, const c
     cgt_scene_release(fresh);
 }
 
-/* One scene through many commits: other options, data that moved, both, or an error in between. */
+/* One scene through many commits: other options, moved data, both, or an error in between. */
 static void a_scene_changes_its_structure(void **state)
 {
     (void)state;
@@ -175,14 +175,14 @@ static void geometries_come_and_go(void **state)
         picture q[2] = {picture_make(WIDTH, HEIGHT), picture_make(WIDTH, HEIGHT)};
         cgt_scene *scene;
         assert_int_equal(hard_commit_with(context, &s, SCENE_OPTIONS(&o), &scene), CGT_OK);
-        for (uint32_t g = s.geometries; g-- > 0;) { /* the last one first: the ids stay those of a fresh scene */
-            hard_scene fewer = s;
-            fewer.geometries = g;
+        for (uint32_t g = s.geometries; g-- > 0;) { /* the last one first, so that ids stay those of a new scene */
+            hard_scene reduced = s;
+            reduced.geometries = g;
             assert_int_equal(cgt_scene_remove_geometry(scene, g), CGT_OK);
             assert_int_equal(cgt_scene_commit(scene), CGT_OK);
-            check_as_one_cell(context, &fewer, scene, &camera, q);
+            check_as_one_cell(context, &reduced, scene, &camera, q);
             const cgt_scene_statistics st = statistics_of(scene);
-            assert_int_equal(st.primitives, hard_scene_primitives(&fewer));
+            assert_int_equal(st.primitives, hard_scene_primitives(&reduced));
             assert_int_equal(research_of(scene).kd_leaves > 0, g > 0);
         }
         picture_free(&q[0]);
@@ -195,7 +195,7 @@ static void geometries_come_and_go(void **state)
 
 /* ---- what AUTO chooses ---- */
 
-/* Commits with AUTO; checks the hits too. */
+/* Commits with AUTO, and checks the hits. */
 static cgt_structure choose(const hard_scene *s, cgt_ray_kind rays, uint32_t *levels)
 {
     cgt_context *context = context_make(1, NULL);
@@ -231,7 +231,7 @@ static hard_scene even_cloud(uint32_t count)
     return s;
 }
 
-static void rays_that_run_apart_get_a_tree(void **state)
+static void incoherent_rays_get_a_tree(void **state)
 {
     (void)state;
     hard_scene s = even_cloud(2000);
@@ -277,7 +277,7 @@ int main(void)
         cmocka_unit_test(options_out_of_range_are_refused),
         cmocka_unit_test(a_scene_changes_its_structure),
         cmocka_unit_test(geometries_come_and_go),
-        cmocka_unit_test(rays_that_run_apart_get_a_tree),
+        cmocka_unit_test(incoherent_rays_get_a_tree),
         cmocka_unit_test(a_teapot_in_a_stadium_gets_a_level_of_its_own),
         cmocka_unit_test(auto_chooses_for_any_scene),
     };

@@ -14,7 +14,7 @@
 #include "structures/picture.h"
 #include "hard_cases/hard_run.h"
 
-/* ---- contexts: every variant that runs here, with each kind of threads ---- */
+/* ---- contexts: every variant that this machine runs, with each kind of threads ---- */
 
 #define MOST_CONTEXTS 24u
 
@@ -106,36 +106,37 @@ static test_trace_options trace_way(uint32_t number, way_counts *counts)
     return o;
 }
 
-/* ---- scene, cameras, rays, and the reference answers of one cell ---- */
+/* ---- scene, cameras, rays, and the reference hits of one cell ---- */
 
 #define MOST_RAYS 640u
 #define RAYS test_between(320, MOST_RAYS)
 #define FRAMES 2 /* perspective, orthographic */
 static const uint32_t sizes[FRAMES][2] = {{37, 21}, {19, 43}};
 
-typedef struct answers {
+typedef struct reference_hits {
     full_hit *frame[FRAMES], *ray;
-} answers;
+} reference_hits;
 
-typedef struct question {
+typedef struct query {
     structure_scene s;
     cgt_camera camera[FRAMES];
-    answers is[2]; /* in ROBUST, in EXACT */
+    reference_hits reference[2]; /* in ROBUST and in EXACT */
     picture picture[FRAMES];
-    uint64_t hits, fast, fast_rays; /* fast: answers of FAST that are not those of ROBUST */
-} question;
+    uint64_t hits, fast, fast_rays; /* fast: hits of FAST that differ from ROBUST */
+} query;
 
-static void fail_way(const question *q, const test_scene_options *so, const test_trace_options *to, const char *what,
-                     uint32_t i, const full_hit *got, const full_hit *is)
+static void fail_way(const query *q, const test_scene_options *so, const test_trace_options *to, const char *what,
+                     uint32_t i, const full_hit *got, const full_hit *reference)
 {
     fail_msg("%s: structure %d, builder %d, layout %d, break level %u, traversal %d, mailbox %d, packet %u, precision "
              "%d: %s %u: geometry %d, primitive %d, t %a; in one cell %d, %d, %a",
              q->s.name, (int)so->structure, (int)so->kd_builder, (int)so->kd_layout, so->kd_break_level,
              (int)to->kd_traversal, to->mailbox, to->packet, (int)to->precision, what, i, (int)got->geometry,
-             (int)got->primitive, (double)got->t, (int)is->geometry, (int)is->primitive, (double)is->t);
+             (int)got->primitive, (double)got->t, (int)reference->geometry, (int)reference->primitive,
+             (double)reference->t);
 }
 
-static cgt_scene *commit(const question *q, cgt_context *context, const test_scene_options *options)
+static cgt_scene *commit(const query *q, cgt_context *context, const test_scene_options *options)
 {
     cgt_scene *scene;
     if (hard_commit_with(context, &q->s.scene, SCENE_OPTIONS(options), &scene) != CGT_OK)
@@ -152,9 +153,9 @@ static full_hit *copy_of(const full_hit *hits, size_t count)
 }
 
 /* Traces the scene as one cell. */
-static question ask(structure_kind kind, uint64_t stream)
+static query query_make(structure_kind kind, uint64_t stream)
 {
-    question q = {.s = structure_scene_make(kind, stream)};
+    query q = {.s = structure_scene_make(kind, stream)};
     test_scene_options one_cell = {0};
     full_hit hit[MOST_RAYS];
     one_cell.structure = CGT_STRUCTURE_QUEUE_GRID;
@@ -172,32 +173,32 @@ static question ask(structure_kind kind, uint64_t stream)
         o.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
         for (int f = 0; f < FRAMES; f++) {
             picture_trace(scene, &q.camera[f], TRACE_OPTIONS(&o), &q.picture[f]);
-            q.is[exact].frame[f] = copy_of(q.picture[f].hit, q.picture[f].p.elements);
+            q.reference[exact].frame[f] = copy_of(q.picture[f].hit, q.picture[f].p.elements);
         }
         assert_int_equal(trace_array(scene, q.s.scene.ray, RAYS, hit, TRACE_OPTIONS(&o)), CGT_OK);
-        q.is[exact].ray = copy_of(hit, RAYS);
+        q.reference[exact].ray = copy_of(hit, RAYS);
     }
     for (uint32_t i = 0; i < RAYS; i++)
-        q.hits += q.is[0].ray[i].geometry != CGT_INVALID_ID;
+        q.hits += q.reference[0].ray[i].geometry != CGT_INVALID_ID;
     cgt_scene_release(scene);
     return q;
 }
 
-static void forget(question *q)
+static void query_free(query *q)
 {
     for (int f = 0; f < FRAMES; f++) {
         picture_free(&q->picture[f]);
         for (int exact = 0; exact < 2; exact++)
-            free(q->is[exact].frame[f]);
+            free(q->reference[exact].frame[f]);
     }
     for (int exact = 0; exact < 2; exact++)
-        free(q->is[exact].ray);
+        free(q->reference[exact].ray);
     structure_scene_free(&q->s);
 }
 
 /* ---- statistics ---- */
 
-static void check_tree(const question *q, const test_scene_options *o, const cgt_scene_statistics *st,
+static void check_tree(const query *q, const test_scene_options *o, const cgt_scene_statistics *st,
                        const cgt_research_scene_statistics *research)
 {
     const uint32_t skipped = st->skipped_not_finite + st->skipped_radius + st->skipped_degenerate,
@@ -226,8 +227,8 @@ static bool is_tree(const test_scene_options *o)
     return o->structure == CGT_STRUCTURE_KD || o->structure == CGT_STRUCTURE_KD_ROPES;
 }
 
-/* Returns whether there is a structure: not over nothing, nor where coordinates are too large for one. */
-static bool check_commit(const question *q, const cgt_scene *scene, const test_scene_options *o)
+/* Returns whether a structure was built: there is none for an empty scene, or if coordinates are too large. */
+static bool check_commit(const query *q, const cgt_scene *scene, const test_scene_options *o)
 {
     const cgt_research_scene_statistics research = research_of(scene);
     cgt_scene_statistics st;
@@ -237,28 +238,28 @@ static bool check_commit(const question *q, const cgt_scene *scene, const test_s
     assert_true(st.reason[0] && memchr(st.reason, 0, sizeof st.reason));
     assert_int_equal(st.primitives, hard_scene_primitives(&q->s.scene));
     assert_int_equal(st.geometries, q->s.scene.geometries);
-    const bool there = research.cells || research.kd_nodes || research.bvh_nodes,
+    const bool built = research.cells || research.kd_nodes || research.bvh_nodes,
                wide = o->structure == CGT_STRUCTURE_BVH;
-    const bool some = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
-    assert_true(there || !some || strstr(q->s.name, "beyond"));
-    if (tree && there)
+    const bool has_valid = st.primitives > st.skipped_not_finite + st.skipped_radius + st.skipped_degenerate;
+    assert_true(built || !has_valid || strstr(q->s.name, "beyond"));
+    if (tree && built)
         check_tree(q, o, &st, &research);
-    assert_int_equal(research.cells != 0, there && !tree && !wide);
-    assert_int_equal(research.bvh_nodes != 0, there && wide);
-    assert_int_equal(research.kd_leaves != 0, there && tree);
-    return there;
+    assert_int_equal(research.cells != 0, built && !tree && !wide);
+    assert_int_equal(research.bvh_nodes != 0, built && wide);
+    assert_int_equal(research.kd_leaves != 0, built && tree);
+    return built;
 }
 
 static void check_counts(const cgt_trace_statistics *c, const cgt_research_trace_statistics *research,
-                         const test_scene_options *o, bool there, uint64_t rays, uint64_t hits)
+                         const test_scene_options *o, bool built, uint64_t rays, uint64_t hits)
 {
-    const bool tree = there && (is_tree(o) || o->structure == CGT_STRUCTURE_BVH);
+    const bool tree = built && (is_tree(o) || o->structure == CGT_STRUCTURE_BVH);
     assert_int_equal(c->rays, rays);
     assert_int_equal(c->hits, hits);
     assert_int_equal(research->rope_loops, 0);
     assert_true(!hits || !tree || research->leaves);
-    assert_int_equal(c->bvh_rays != 0, o->structure == CGT_STRUCTURE_BVH && there && rays);
-    assert_true(!hits || !there || !is_tree(o) || research->references);
+    assert_int_equal(c->bvh_rays != 0, o->structure == CGT_STRUCTURE_BVH && built && rays);
+    assert_true(!hits || !built || !is_tree(o) || research->references);
     assert_true(o->structure != CGT_STRUCTURE_KD_ROPES || research->rope_steps <= research->leaves);
     assert_true(tree ? !research->cells && !research->slices : !research->nodes && !research->leaves);
     assert_true(o->structure == CGT_STRUCTURE_KD_ROPES || !research->rope_steps);
@@ -267,15 +268,15 @@ static void check_counts(const cgt_trace_statistics *c, const cgt_research_trace
 
 /* ---- one way ---- */
 
-static void compare(const question *q, const test_scene_options *so, const test_trace_options *to, const char *what,
-                    const full_hit *got, const full_hit *is, uint32_t count)
+static void compare(const query *q, const test_scene_options *so, const test_trace_options *to, const char *what,
+                    const full_hit *got, const full_hit *reference, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (memcmp(&got[i], &is[i], sizeof *got) != 0)
-            fail_way(q, so, to, what, i, &got[i], &is[i]);
+        if (memcmp(&got[i], &reference[i], sizeof *got) != 0)
+            fail_way(q, so, to, what, i, &got[i], &reference[i]);
 }
 
-/* The rays as arrays of their own with gaps; those of ranges that are the defaults are left out where all are. */
+/* The rays as separate arrays with gaps; arrays of ranges are omitted if all values are the defaults. */
 static void trace_strided(const cgt_scene *scene, const truth_ray *ray, uint32_t step, full_hit *hit,
                           const test_trace_options *o)
 {
@@ -299,21 +300,21 @@ static void trace_strided(const cgt_scene *scene, const truth_ray *ray, uint32_t
     free(in);
 }
 
-static void check_any_hit(const question *q, const cgt_scene *scene, const test_scene_options *so,
-                          const test_trace_options *to, bool there)
+static void check_any_hit(const query *q, const cgt_scene *scene, const test_scene_options *so,
+                          const test_trace_options *to, bool built)
 {
     uint8_t occluded[MOST_RAYS];
     const cgt_rays rays = ray_array(q->s.scene.ray, RAYS);
     memset(occluded, 0x77, sizeof occluded);
     assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, TRACE_OPTIONS(to)), CGT_OK);
     for (uint32_t i = 0; i < RAYS; i++)
-        if (occluded[i] != (q->is[0].ray[i].geometry != CGT_INVALID_ID))
-            fail_way(q, so, to, "any hit of ray", i, &q->is[0].ray[i], &q->is[0].ray[i]);
-    check_counts(to->statistics, to->research_statistics, so, there, RAYS, q->hits);
+        if (occluded[i] != (q->reference[0].ray[i].geometry != CGT_INVALID_ID))
+            fail_way(q, so, to, "any hit of ray", i, &q->reference[0].ray[i], &q->reference[0].ray[i]);
+    check_counts(to->statistics, to->research_statistics, so, built, RAYS, q->hits);
 }
 
-/* FAST may differ, but rarely: it is traced for that, too. */
-static void count_fast(question *q, const cgt_scene *scene, test_trace_options o)
+/* Counts the hits of FAST that differ, which are to be rare. */
+static void count_fast(query *q, const cgt_scene *scene, test_trace_options o)
 {
     full_hit hit[MOST_RAYS];
     o.precision = CGT_PRECISION_FAST;
@@ -321,24 +322,25 @@ static void count_fast(question *q, const cgt_scene *scene, test_trace_options o
     assert_int_equal(o.research_statistics->rope_loops, 0);
     q->fast_rays += RAYS;
     for (uint32_t i = 0; i < RAYS; i++)
-        q->fast += hit[i].primitive != q->is[0].ray[i].primitive || hit[i].geometry != q->is[0].ray[i].geometry;
+        q->fast +=
+            hit[i].primitive != q->reference[0].ray[i].primitive || hit[i].geometry != q->reference[0].ray[i].geometry;
 }
 
-static void check_way(question *q, cgt_context *context, uint32_t number, uint32_t round)
+static void check_way(query *q, cgt_context *context, uint32_t number, uint32_t round)
 {
     const test_scene_options so = scene_way(number);
     way_counts counts;
     full_hit hit[MOST_RAYS];
     cgt_scene *scene = commit(q, context, &so);
-    const bool there = check_commit(q, scene, &so);
+    const bool built = check_commit(q, scene, &so);
     for (uint32_t traversal = 0; traversal < 2; traversal++) {
         test_trace_options to = trace_way(2 * (number + round) + traversal, &counts);
         const bool exact = (number + round + traversal) % 4 == 0;
-        const answers *is = &q->is[exact];
+        const reference_hits *reference = &q->reference[exact];
         to.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
         for (int f = 0; f < FRAMES; f++) {
             picture_trace(scene, &q->camera[f], TRACE_OPTIONS(&to), &q->picture[f]);
-            compare(q, &so, &to, f ? "orthographic pixel" : "pixel", q->picture[f].hit, is->frame[f],
+            compare(q, &so, &to, f ? "orthographic pixel" : "pixel", q->picture[f].hit, reference->frame[f],
                     sizes[f][0] * sizes[f][1]);
         }
         memset(hit, 0x77, sizeof hit);
@@ -346,9 +348,9 @@ static void check_way(question *q, cgt_context *context, uint32_t number, uint32
             trace_strided(scene, q->s.scene.ray, 1 + number % 3, hit, &to);
         else
             assert_int_equal(trace_array(scene, q->s.scene.ray, RAYS, hit, TRACE_OPTIONS(&to)), CGT_OK);
-        compare(q, &so, &to, "ray", hit, is->ray, RAYS);
-        check_counts(&counts.trace, &counts.research, &so, there, RAYS, q->hits);
-        check_any_hit(q, scene, &so, &to, there);
+        compare(q, &so, &to, "ray", hit, reference->ray, RAYS);
+        check_counts(&counts.trace, &counts.research, &so, built, RAYS, q->hits);
+        check_any_hit(q, scene, &so, &to, built);
         count_fast(q, scene, to);
     }
     cgt_scene_release(scene);
@@ -360,13 +362,13 @@ static void test_kind(void **state)
 {
     const structure_kind kind = *(const structure_kind *)*state;
     const uint32_t scaled = test_scaled(4), rounds = kind == STRUCTURE_LARGE || kind == STRUCTURE_BEYOND ? 1 : scaled;
-    /* where it is slow, a sample of the ways: coprime to their number */
+    /* on slow machines a sample of the ways: the step is coprime to their number */
     const uint32_t step = test_samples() ? 11 : test_scaled(10) < 2 ? 3 : 1;
     for (uint32_t round = 0; round < rounds; round++) {
-        question q = ask(kind, 100 * (uint64_t)kind + round);
+        query q = query_make(kind, 100 * (uint64_t)kind + round);
         for (uint32_t number = test_sample_start(round + (uint32_t)kind, step); number < WAYS; number += step)
             check_way(&q, contexts[(number + 7 * round + (uint32_t)kind) % context_count], number, round);
-        print_message("%s: %llu of %u rays hit; FAST: %llu of %llu other hits\n", q.s.name, (unsigned long long)q.hits,
+        print_message("%s: %llu of %u rays hit; FAST: %llu of %llu hits differ\n", q.s.name, (unsigned long long)q.hits,
                       RAYS, (unsigned long long)q.fast, (unsigned long long)q.fast_rays);
         if (kind < STRUCTURE_COINCIDENT) {
             assert_true(q.hits > RAYS / 100);
@@ -374,7 +376,7 @@ static void test_kind(void **state)
         }
         if (kind == STRUCTURE_NONE || kind == STRUCTURE_ALL_SKIPPED)
             assert_int_equal(q.hits, 0);
-        forget(&q);
+        query_free(&q);
     }
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames by tiles are the same, bit for bit, as by packets through the queue grid; and the march over the grid leaves
- * out no primitive that a ray hits. For the variant that this is compiled for. */
+ * Frames by tiles are the same, bit for bit, as by packets through the queue grid; and the march over the grid skips no
+ * primitive that a ray hits. For the variant that this is compiled for. */
 #include "hard_cases/hard_run.h"
 #include "tile/tile_compare.h"
 
@@ -34,7 +34,7 @@ static void add_special_spheres(cloud *c, const float eye[3])
     memcpy(c->sphere[7], c->sphere[6], sizeof c->sphere[7]);
 }
 
-/* Clouds of every kind, from outside and from within; ranges; spheres around the eye. */
+/* Clouds of every kind, from outside and from inside; ranges; spheres around the eye. */
 static void frames_of_clouds(void **state)
 {
     (void)state;
@@ -68,7 +68,7 @@ static void frames_of_clouds(void **state)
         }
         print_tally(cloud_name((cloud_kind)kind), &tally);
         assert_true(tally.served > 0);
-        parallel += tally.parallel; /* fewer than frames: origins of float may be several pixels apart */
+        parallel += tally.parallel; /* fewer than frames: adjacent float origins may be several pixels apart */
     }
     assert_true(parallel > 0);
 }
@@ -88,14 +88,14 @@ static void frame_of_many_tiles(void **state)
     compare_frame(scene, &grid, &camera, 200, 130, "many tiles", &tally);
     print_tally("many tiles", &tally);
     assert_int_equal(tally.served, 2);
-    /* culling and windows work: far fewer tests than primitives times rays */
+    /* culling and windows work: far fewer tests than primitives x rays */
     assert_true(tally.counts.ray_tests < tally.counts.rays * 100);
     loose_reference_free(&grid);
     cgt_scene_release(scene);
     cloud_free(&c);
 }
 
-/* A whole frame by tiles into 8 planes aligned to cache lines, past the caches or not. */
+/* A whole frame by tiles into 8 planes aligned to cache lines, with or without non-temporal stores. */
 static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_camera_rays *rays, uint32_t width,
                         uint32_t height, bool nontemporal, uint32_t *to)
 {
@@ -127,7 +127,7 @@ static void compare_lines(const cgt_scene *scene, const loose_reference *grid, c
     free(memory);
 }
 
-/* Primitives in few tiles or none: other tiles stay empty. */
+/* Primitives in few tiles or none, so that other tiles stay empty. */
 static void frames_of_sky(void **state)
 {
     (void)state;
@@ -188,7 +188,7 @@ static void orthographic_frames_at_every_scale(void **state)
     assert_true(tally.parallel >= tally.frames / 2 && tally.counts.hits > 0);
 }
 
-/* Centres without radii next to them, and one radius for all: no vector load reads these. */
+/* Centres without adjacent radii, and one radius for all: layouts that no vector load reads. */
 static void frames_of_two_geometries(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void frames_of_two_geometries(void **state)
     assert_true(tally.served == tally.frames && tally.counts.hits > 0);
 }
 
-/* The picture's height as a share of the scene's extent. */
+/* The picture's height for a share of the scene's extent. */
 static float height_of(const cgt_committed_scene *committed_scene, float share)
 {
     float most = 0;
@@ -283,7 +283,7 @@ static void frames_of_hard_cases(void **state)
     assert_true(cases >= 3 && tally.served >= 3 && tally.parallel >= 3);
 }
 
-/* A wall that all rays hit at the same t, and another right behind it. If the range ends or begins there, double
+/* A wall that all rays hit at the same t, and another just behind it. If the range ends or begins there, double
  * precision must decide every pixel. */
 static void frames_of_walls_where_ranges_end(void **state)
 {
@@ -304,7 +304,7 @@ static void frames_of_walls_where_ranges_end(void **state)
             vertex[w][k][1] = k & 2 ? 5.f : -5.f;
             vertex[w][k][2] = z[w];
         }
-    const uint32_t index[4][3] = {{4, 5, 6}, {7, 6, 5}, {0, 1, 2}, {3, 2, 1}}; /* the nearer one has higher numbers */
+    const uint32_t index[4][3] = {{4, 5, 6}, {7, 6, 5}, {0, 1, 2}, {3, 2, 1}}; /* the nearer wall has higher indices */
     const cgt_triangles walls = {.count = 4, .indices = index[0], .vertex_count = 8, .vertices = vertex[0][0]};
     const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
     assert_int_equal(cgt_scene_create(context, &options, &scene), CGT_OK);
@@ -331,7 +331,7 @@ static void frames_of_walls_where_ranges_end(void **state)
 
 /* ---- the march ---- */
 
-/* Every primitive that a ray hits is visited exactly once, in a slice whose near_t is not beyond the hit. */
+/* Every primitive that a ray hits is visited exactly once, in a slice whose near_t is at most the hit's t. */
 static void march_visits_what_rays_hit(void **state)
 {
     (void)state;
@@ -391,7 +391,7 @@ static void march_visits_what_rays_hit(void **state)
         cgt_scene_release(scene);
         cloud_free(&c);
     }
-    print_message("%llu objects, %llu visits, %llu hits\n", (unsigned long long)prims, (unsigned long long)visits,
+    print_message("%llu primitives, %llu visits, %llu hits\n", (unsigned long long)prims, (unsigned long long)visits,
                   (unsigned long long)hits);
     assert_true(hits > 100 && visits < prims);
 }

@@ -32,23 +32,23 @@ static cgt_camera looking(const float eye[3], const float target[3], const float
     return camera;
 }
 
-/* A scene with both structures. */
-typedef struct both {
+/* A scene in both structures. */
+typedef struct dual_scene {
     cgt_scene *scene;
     loose_reference grid;
-} both;
+} dual_scene;
 
-static both both_of(hard_scene *s, double per_cell)
+static dual_scene dual_scene_make(hard_scene *s, double per_cell)
 {
     const cgt_scene_options options = {.structure = CGT_STRUCTURE_QUEUE_GRID};
-    both b;
+    dual_scene b;
     assert_false(s->failed);
     assert_int_equal(hard_commit_with(context, s, &options, &b.scene), CGT_OK);
     assert_true(loose_reference_make(&b.scene->committed_scene.prims, per_cell, &b.grid));
     return b;
 }
 
-static void both_free(both *b, hard_scene *s)
+static void dual_scene_free(dual_scene *b, hard_scene *s)
 {
     loose_reference_free(&b->grid);
     cgt_scene_release(b->scene);
@@ -74,13 +74,13 @@ static void frames_of_closed_meshes(void **state)
             hard_direction(&s, to);
             for (int a = 0; a < 3; a++) {
                 to[a] += from[a];
-                if (i % 2) /* the other orientation, from farther away */
+                if (i % 2) /* the opposite orientation, from farther away */
                     to[a] = 4 * to[a] - 3 * from[a];
             }
             hard_put(&s, i % 2 ? to : from, eye);
             hard_put(&s, i % 2 ? from : to, target);
             random_direction(&s.random, up);
-            both b = both_of(&s, 4);
+            dual_scene b = dual_scene_make(&s, 4);
             cgt_camera camera = looking(eye, target, up, i % 2 ? 45 : 90);
             const frames_tally before = tally;
             compare_frame(b.scene, &b.grid, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
@@ -88,7 +88,7 @@ static void frames_of_closed_meshes(void **state)
                 assert_int_equal(tally.counts.hits - before.counts.hits, size[0] * size[1]);
             make_orthographic(&s.random, (float)s.place.scale * random_log(&s.random, 0.1f, 4), &camera);
             compare_frame(b.scene, &b.grid, &camera, size[0], size[1], closed_mesh_name((closed_kind)kind), &tally);
-            both_free(&b, &s);
+            dual_scene_free(&b, &s);
         }
         print_tally(closed_mesh_name((closed_kind)kind), &tally);
         assert_true(tally.served > 0 && tally.parallel > 0);
@@ -121,7 +121,7 @@ static void add_triangles(hard_scene *s, uint32_t count)
     }
 }
 
-/* Cameras inside a scene and outside; some on a triangle's plane or very near one; ranges. */
+/* Cameras inside a scene and outside; some in a triangle's plane or very close to it; ranges. */
 static cgt_camera camera_for(hard_scene *s)
 {
     test_random *r = &s->random;
@@ -136,9 +136,9 @@ static cgt_camera camera_for(hard_scene *s)
     hard_put(s, to, target);
     random_direction(r, up);
     if (random_below(r, 4) == 0 && hard_any_triangle(s, v)) {
-        const float beside = random_below(r, 2) ? 2 : 0.3f;
+        const float factor = random_below(r, 2) ? 2 : 0.3f;
         for (int a = 0; a < 3; a++)
-            eye[a] = v[0][a] + beside * (v[1][a] - v[0][a]) - 0.25f * beside * (v[2][a] - v[0][a]);
+            eye[a] = v[0][a] + factor * (v[1][a] - v[0][a]) - 0.25f * factor * (v[2][a] - v[0][a]);
     }
     cgt_camera camera = looking(eye, target, up, random_below(r, 3) ? random_float(r, 20, 120) : random_log(r, 1, 20));
     const float scale = (float)s->place.scale;
@@ -174,16 +174,16 @@ static void frames_of_soups(uint64_t nontemporal, bool mixed, const char *what)
             hard_new_geometry(&s);
             add_triangles(&s, 20);
         }
-        both b = both_of(&s, (double)random_float(&s.random, 0.5f, 16));
+        dual_scene b = dual_scene_make(&s, (double)random_float(&s.random, 0.5f, 16));
         for (uint32_t i = 0; i < 3; i++) {
             const uint32_t *size = sizes[random_below(&s.random, TEST_COUNT(sizes))];
             const cgt_camera camera = camera_for(&s);
             compare_frame(b.scene, &b.grid, &camera, size[0], size[1], what, &tally);
         }
-        both_free(&b, &s);
+        dual_scene_free(&b, &s);
     }
     print_tally(what, &tally);
-    assert_true(tally.served > 0); /* fewer than frames: a narrow picture may open too wide */
+    assert_true(tally.served > 0); /* fewer than frames: a narrow picture may have too wide a field of view */
 }
 
 static void frames_of_triangles(void **state)
@@ -200,7 +200,7 @@ static void frames_of_both_kinds(void **state)
 
 /* ---- fine meshes ---- */
 
-/* A wavy sheet of n x n squares that fills a tile, each triangle with some pixels: fewer triangles than a tile can
+/* A wavy sheet of n x n squares that fills a tile, each triangle covering a few pixels: fewer triangles than a tile can
  * list, and more. */
 static void add_sheet(hard_scene *s, uint32_t n)
 {
@@ -226,12 +226,12 @@ static void frames_of_fine_meshes(void **state)
         hard_scene s = {.place = {.scale = 1}, .random = random_make(700 + k)};
         const uint32_t frames = test_samples() ? 2 : 6;
         add_sheet(&s, squares[k]);
-        both b = both_of(&s, 4);
+        dual_scene b = dual_scene_make(&s, 4);
         for (uint32_t i = 0; i < frames; i++) {
             const cgt_camera camera = looking(eye, target, up, 40 + 2 * (float)i);
             compare_frame(b.scene, &b.grid, &camera, 64, 64, "fine mesh", &tally);
         }
-        both_free(&b, &s);
+        dual_scene_free(&b, &s);
     }
     print_tally("fine meshes", &tally);
     assert_int_equal(tally.served, tally.frames);
@@ -240,8 +240,8 @@ static void frames_of_fine_meshes(void **state)
 
 /* ---- large layers ---- */
 
-/* More triangles, all larger than the picture and close in depth, than are rasterised between two updates of the far
- * distances. */
+/* More triangles, all larger than the picture and close in depth, than are rasterised between two updates of the
+ * farthest distances. */
 static void frames_of_large_layers(void **state)
 {
     (void)state;
@@ -262,11 +262,11 @@ static void frames_of_large_layers(void **state)
             }
             hard_triangle(&s, v);
         }
-        both b = both_of(&s, 4);
+        dual_scene b = dual_scene_make(&s, 4);
         compare_frame(b.scene, &b.grid, &camera, pixels[0], pixels[1], "large layers", &tally);
         make_orthographic(&s.random, 3, &camera);
         compare_frame(b.scene, &b.grid, &camera, pixels[0], pixels[1], "large layers", &tally);
-        both_free(&b, &s);
+        dual_scene_free(&b, &s);
     }
     print_tally("large layers", &tally);
     assert_int_equal(tally.served, tally.frames);
@@ -275,8 +275,8 @@ static void frames_of_large_layers(void **state)
 
 /* ---- edges through pixels ---- */
 
-/* Height fields, one behind the other and one of them twice, whose vertices lie on the rays of every fourth pixel,
- * exactly or except for rounding. */
+/* Height fields, one behind the other and one of them doubled, with vertices on the rays of every fourth pixel, exactly
+ * or except for rounding. */
 static void frames_of_edges_on_rays(void **state)
 {
     (void)state;
@@ -314,9 +314,9 @@ static void frames_of_edges_on_rays(void **state)
                     hard_triangle(&s, v[0]);
                     hard_triangle(&s, v[1]);
                 }
-        both b = both_of(&s, 4);
+        dual_scene b = dual_scene_make(&s, 4);
         compare_frame(b.scene, &b.grid, &camera, 64, 64, "edges on rays", &tally);
-        both_free(&b, &s);
+        dual_scene_free(&b, &s);
     }
     print_tally("edges on rays", &tally);
     assert_int_equal(tally.served, tally.frames);

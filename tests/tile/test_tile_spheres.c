@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Spheres over the pixels of a tile: the bounds of single precision hold against wide arithmetic. Then they are
- * tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant that this is compiled
- * for. */
+ * tightened, by lowering FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant that this is
+ * compiled for. */
 #include "support/test.h"
 #include "support/oracle/truth.h"
 #include "support/tightened.h"
@@ -31,7 +31,7 @@ static cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, uint32_
 
 /* ---- one tile ---- */
 
-/* A tile as cgt_tile_init makes it. */
+/* Initialises a tile as cgt_tile_init does. */
 static void tile_of(tile *t, const cgt_camera_rays *rays, uint32_t x, uint32_t y, uint32_t columns, uint32_t rows,
                     float c, float r)
 {
@@ -136,8 +136,8 @@ static void judge_sphere(tile *t, const float sphere[4], const tile_truth *truth
         }
 }
 
-/* A camera, and a sphere whose silhouette crosses a tile of 8x8 pixels; mostly a ray touches it as closely as float
- * allows. */
+/* A camera, and a sphere whose silhouette crosses a tile of 8x8 pixels; usually a ray is as close to tangential as
+ * float allows. */
 static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint32_t at[2], float sphere[4])
 {
     cgt_camera camera;
@@ -195,12 +195,12 @@ static float distance_of(const cgt_camera_rays *rays, const float sphere[4])
     return sqrtf(square) * (1 + 0x1p-20f) + sphere[3];
 }
 
-/* usual: the radius that the tile's depth error is made for, over the sphere's. */
-static void judge_case(const cgt_camera_rays *rays, const uint32_t at[2], const float sphere[4], float usual,
+/* typical: the radius for which the tile's depth error is set, relative to the sphere's. */
+static void judge_case(const cgt_camera_rays *rays, const uint32_t at[2], const float sphere[4], float typical,
                        tile_truth *truth, bool fresh, tally *sum)
 {
     static tile t;
-    tile_of(&t, rays, at[0], at[1], 8, 8, distance_of(rays, sphere), sphere[3] * usual);
+    tile_of(&t, rays, at[0], at[1], 8, 8, distance_of(rays, sphere), sphere[3] * typical);
     if (fresh)
         find_truth(&t, sphere, truth);
     judge_sphere(&t, sphere, truth, sum);
@@ -216,13 +216,12 @@ static void check_bounds(uint64_t stream, bool parallel)
         uint32_t at[2];
         float sphere[4];
         make_case(&r, parallel, &rays, at, sphere);
-        const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
+        const float typical = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
         if (cgt_tile_supports_camera(&rays))
-            judge_case(&rays, at, sphere, usual, &truth, true, &sum);
+            judge_case(&rays, at, sphere, typical, &truth, true, &sum);
     }
-    print_message("%llu lanes, %llu hits, %llu certain, %llu undecided, %llu spheres in double; lost %llu, invented "
-                  "%llu, outside "
-                  "%llu\n",
+    print_message("%llu lanes, %llu hits, %llu certain, %llu undecided, %llu spheres in double; lost %llu, "
+                  "invented %llu, outside %llu\n",
                   (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
                   (unsigned long long)sum.undecided, (unsigned long long)sum.double_lanes, (unsigned long long)sum.lost,
                   (unsigned long long)sum.invented, (unsigned long long)sum.outside);
@@ -255,16 +254,16 @@ static void check_tightened_bounds(uint64_t stream, bool parallel)
         uint32_t at[2];
         float sphere[4], scale = 0x1p-24f;
         make_case(&r, parallel, &rays, at, sphere);
-        const float usual = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
+        const float typical = random_below(&r, 2) ? 1 : random_float(&r, 0.5f, 2);
         if (!cgt_tile_supports_camera(&rays))
             continue;
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             filter_u = scale;
-            judge_case(&rays, at, sphere, usual, &truth, step == 0, &sum[step]);
+            judge_case(&rays, at, sphere, typical, &truth, step == 0, &sum[step]);
         }
         filter_u = 0x1p-24f;
     }
-    /* the bounds are worst cases: random rays come within orders of magnitude */
+    /* the bounds are worst cases: random rays come within a few orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-10);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-11);
     check_break("depth outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-11);
@@ -284,7 +283,7 @@ static void bounds_of_parallel_rays_break_where_they_are_tightened(void **state)
 
 /* ---- which frames ---- */
 
-static void serves_what_it_can(void **state)
+static void serves_frames_that_it_supports(void **state)
 {
     (void)state;
     cgt_camera camera;
@@ -305,7 +304,7 @@ static void serves_what_it_can(void **state)
     camera.projection = CGT_PROJECTION_ORTHOGRAPHIC;
     rays = rays_of(&camera, 64, 64);
     assert_true(cgt_tile_supports_camera(&rays));
-    rays.eye[1] = 0x1p20f; /* origins of float are several pixels apart */
+    rays.eye[1] = 0x1p20f; /* adjacent float origins are several pixels apart */
     assert_false(cgt_tile_supports_camera(&rays));
     camera.height = 0x1p-41f;
     rays = rays_of(&camera, 64, 64);
@@ -318,7 +317,7 @@ static void serves_what_it_can(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(serves_what_it_can),
+        cmocka_unit_test(serves_frames_that_it_supports),
         cmocka_unit_test(bounds_hold),
         cmocka_unit_test(bounds_of_parallel_rays_hold),
         cmocka_unit_test(bounds_break_where_they_are_tightened),

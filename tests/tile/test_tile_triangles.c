@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Triangles over the pixels of a tile: the bounds of single precision hold against exact decisions and canonical
- * depths. Then they are tightened, with a FILTER_ROUNDOFF below the unit roundoff, until they break. For the variant
- * that this is compiled for. */
+ * depths. Then they are tightened, by lowering FILTER_ROUNDOFF below the unit roundoff, until they break. For the
+ * variant that this is compiled for. */
 #include "support/test.h"
 #include "exact/valid_primitive.h"
 #include "support/tightened.h"
@@ -48,8 +48,8 @@ static void tile_of(tile *t, const cgt_camera_rays *rays, const uint32_t at[2], 
 
 typedef struct tally {
     uint64_t lanes, hits, certain, undecided, double_lanes, coarse;
-    uint64_t beyond, aside;           /* triangles that are culled for the whole tile */
-    uint64_t lost, invented, outside; /* must be 0 */
+    uint64_t culled_by_depth, culled_by_sides; /* triangles that are culled for the whole tile */
+    uint64_t lost, invented, outside;          /* must be 0 */
 } tally;
 
 /* The exact decision about a triangle at each pixel of a tile, and its t. */
@@ -117,7 +117,7 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
         return;
     sum->coarse += s.single_lanes & 1 && s.certain[0] == INFINITY;
     if (s.single_lanes & 1 && spux_mask_bits(tile_cull_triangles_by_forms(t, &s)) & 1) {
-        sum->beyond++;
+        sum->culled_by_depth++;
         sum->lost += any_hit(t, truth);
     }
     if (s.single_lanes & 1 && t->linear)
@@ -141,8 +141,8 @@ static void judge_triangle(tile *t, const cgt_triangle *q, const tile_truth *tru
     }
 }
 
-/* A camera, and a triangle of which an edge or a vertex touches a ray of a tile of 8x8 pixels as closely as float
- * allows. Its size is from far below a pixel to far above its distance; then it may cross the eye's plane. */
+/* A camera, and a triangle with an edge or a vertex as close to a ray of a tile of 8x8 pixels as float allows. Its size
+ * ranges from far below a pixel to far above its distance, where it may cross the eye's plane. */
 static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
 {
     cgt_camera camera;
@@ -174,12 +174,12 @@ static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint
     const float py = 1 - ((float)(at[1] + random_below(r, 8)) + 0.5f) * rays->pixel[1];
     const float t = scale * random_float(r, 0.5f, 3);
     const float size = t * (random_below(r, 3) ? random_log(r, 1e-4f, 1) : random_log(r, 1, 100));
-    const float share = random_below(r, 4) ? random_float(r, 0, 1) : 0; /* of the edge, before the ray */
+    const float share = random_below(r, 4) ? random_float(r, 0, 1) : 0; /* the part of the edge before the ray */
     const float width = random_below(r, 3) ? 1 : random_log(r, 1e-7f, 1);
     const cgt_exact_ray line = tile_pixel_line(rays, parallel, px, py);
     random_direction(r, e[0]);
     random_direction(r, e[1]);
-    if (parallel && random_below(r, 4) == 0) { /* nearly along the rays */
+    if (parallel && random_below(r, 4) == 0) { /* nearly parallel to the rays */
         const float off = random_log(r, 1e-8f, 1e-2f);
         for (int a = 0; a < 3; a++)
             e[1][a] = line.dir[a] + off * e[1][a];
@@ -190,7 +190,7 @@ static void make_case(test_random *r, bool parallel, cgt_camera_rays *rays, uint
         q->v[1][a] = p + (1 - share) * size * e[0][a];
         q->v[2][a] = p + size * (width * e[1][a] + (width < 1 ? 0.3f * e[0][a] : 0));
     }
-    if (random_below(r, 2)) /* the other orientation */
+    if (random_below(r, 2)) /* the opposite orientation */
         for (int a = 0; a < 3; a++) {
             const float first = q->v[0][a];
             q->v[0][a] = q->v[2][a];
@@ -236,7 +236,7 @@ static void check_bounds(uint64_t stream, bool parallel)
             judge_case(&rays, at, &q, true, &truth, true, &sum);
         judge_case(&rays, at, &q, false, &truth, parallel, &sum);
     }
-    print_message("%llu lanes, %llu hits, %llu certain, %llu open; triangles: %llu slow, %llu coarse; lost %llu, "
+    print_message("%llu lanes, %llu hits, %llu certain, %llu undecided; triangles: %llu slow, %llu coarse; lost %llu, "
                   "invented %llu, outside %llu\n",
                   (unsigned long long)sum.lanes, (unsigned long long)sum.hits, (unsigned long long)sum.certain,
                   (unsigned long long)sum.undecided, (unsigned long long)sum.double_lanes,
@@ -247,7 +247,7 @@ static void check_bounds(uint64_t stream, bool parallel)
     assert_int_equal(sum.outside, 0);
     assert_true(sum.certain > 100 && sum.undecided > 20 && sum.hits > 100 &&
                 sum.lanes - sum.certain - sum.undecided > 100);
-    assert_true(parallel || sum.beyond > 0);
+    assert_true(parallel || sum.culled_by_depth > 0);
 }
 
 static void bounds_hold(void **state)
@@ -281,7 +281,7 @@ static void check_tightened_bounds(uint64_t stream, bool parallel)
         }
         filter_u = 0x1p-24f;
     }
-    /* the bounds are worst cases: random rays come within orders of magnitude */
+    /* the bounds are worst cases: random rays come within a few orders of magnitude */
     check_break("a hit lost", sum, sizeof *sum, offsetof(tally, lost), 0x1p-8);
     check_break("a hit invented", sum, sizeof *sum, offsetof(tally, invented), 0x1p-8);
     check_break("depth outside", sum, sizeof *sum, offsetof(tally, outside), 0x1p-10);
@@ -299,11 +299,11 @@ static void bounds_of_parallel_rays_break_where_they_are_tightened(void **state)
     check_tightened_bounds(440, true);
 }
 
-/* ---- triangles beside a tile ---- */
+/* ---- triangles next to a tile ---- */
 
-/* A triangle that may cross the eye's plane, and touches one side of a camera's tile as closely as float allows: its
+/* A triangle that may cross the eye's plane, and lies as close to one side of a camera's tile as float allows: its
  * vertices are in that side's plane, some of them moved outwards. */
-static bool make_beside(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
+static bool make_adjacent(test_random *r, cgt_camera_rays *rays, uint32_t at[2], cgt_triangle *q)
 {
     static tile t;
     float size[3];
@@ -329,20 +329,20 @@ static bool make_beside(test_random *r, cgt_camera_rays *rays, uint32_t at[2], c
 }
 
 /* Culled triangles have no hit. Those that just touch the tile may be culled or not. */
-static void judge_beside(const tile *t, const cgt_triangle *q, const tile_truth *truth, tally *sum)
+static void judge_side_culling(const tile *t, const cgt_triangle *q, const tile_truth *truth, tally *sum)
 {
     vfloat v[3][3];
     for (int k = 0; k < 9; k++)
         v[k / 3][k % 3] = spux_vfloat(q->v[k / 3][k % 3]);
     const tile_projected_triangles seen = tile_project_triangles(t, v);
-    const bool aside = spux_mask_bits(tile_cull_triangles_by_sides(t, &seen)) & 1, hit = any_hit(t, truth);
+    const bool culled_by_sides = spux_mask_bits(tile_cull_triangles_by_sides(t, &seen)) & 1, hit = any_hit(t, truth);
     sum->lanes++;
     sum->hits += hit;
-    sum->aside += aside;
-    sum->lost += aside && hit;
+    sum->culled_by_sides += culled_by_sides;
+    sum->lost += culled_by_sides && hit;
 }
 
-static void triangles_beside_a_tile(void **state)
+static void triangles_next_to_a_tile(void **state)
 {
     (void)state;
     static tile_truth truth;
@@ -353,21 +353,22 @@ static void triangles_beside_a_tile(void **state)
         cgt_camera_rays rays;
         uint32_t at[2];
         cgt_triangle q;
-        if (!make_beside(&r, &rays, at, &q))
+        if (!make_adjacent(&r, &rays, at, &q))
             continue;
         float scale = 0x1p-24f;
         tile_of(&t, &rays, at, farthest_of(&rays, &q), true);
         find_truth(&t, &q, &truth);
         for (int step = 0; step < STEPS; step++, scale *= 0.70710678f) {
             filter_u = scale;
-            judge_beside(&t, &q, &truth, &sum[step]);
+            judge_side_culling(&t, &q, &truth, &sum[step]);
         }
         filter_u = 0x1p-24f;
     }
-    print_message("%llu triangles, %llu hit, %llu aside, %llu lost\n", (unsigned long long)sum[0].lanes,
-                  (unsigned long long)sum[0].hits, (unsigned long long)sum[0].aside, (unsigned long long)sum[0].lost);
-    assert_true(sum[0].hits > 100 && sum[0].aside > 50);
-    check_break("a triangle cast aside", sum, sizeof *sum, offsetof(tally, lost), 0x1p-10);
+    print_message("%llu triangles, %llu hit, %llu culled, %llu lost\n", (unsigned long long)sum[0].lanes,
+                  (unsigned long long)sum[0].hits, (unsigned long long)sum[0].culled_by_sides,
+                  (unsigned long long)sum[0].lost);
+    assert_true(sum[0].hits > 100 && sum[0].culled_by_sides > 50);
+    check_break("a visible triangle culled", sum, sizeof *sum, offsetof(tally, lost), 0x1p-10);
 }
 
 /* ---- pairs of triangles ---- */
@@ -396,7 +397,7 @@ static void make_pair(test_random *r, cgt_triangle pair[2])
 }
 
 /* Decisions of pairs agree with those of any two primitives, and hits have the same bits. */
-static void pairs_are_decided_as_ever(void **state)
+static void pairs_are_decided_like_any_primitives(void **state)
 {
     (void)state;
     test_random r = random_make(470);
@@ -438,7 +439,7 @@ static void pairs_are_decided_as_ever(void **state)
             assert_true(decision == TILE_REJECTED || t[0] == t[1]);
         }
     }
-    print_message("open %llu, loses %llu, beats %llu; planes: cross %llu, same %llu, nearer %llu, farther %llu\n",
+    print_message("undecided %llu, loses %llu, beats %llu; planes: cross %llu, same %llu, nearer %llu, farther %llu\n",
                   (unsigned long long)answers[TILE_UNDECIDED], (unsigned long long)answers[TILE_REJECTED],
                   (unsigned long long)answers[TILE_ACCEPTED], (unsigned long long)planes[TILE_PLANES_CROSS],
                   (unsigned long long)planes[TILE_PLANES_SAME], (unsigned long long)planes[TILE_PLANES_NEARER],
@@ -449,7 +450,8 @@ static void pairs_are_decided_as_ever(void **state)
 
 /* ---- long thin triangles ---- */
 
-/* The order of vertices does not matter to the bounds: a large triangle with its smallest angle first is as certain. */
+/* The order of vertices does not matter to the bounds: with its smallest angle first, a large triangle is decided with
+ * the same certainty. */
 static void thin_triangles_are_certain(void **state)
 {
     (void)state;
@@ -502,7 +504,7 @@ static void fetches_every_triangle(void **state)
         uint32_t reference[CGT_LANES] = {0};
         vfloat v[3][3];
         const uint32_t count = 1 + random_below(&r, CGT_LANES);
-        array.index = round % 4 < 3 ? (const char *)index : NULL; /* then there are 13, and a vertex more */
+        array.index = round % 4 < 3 ? (const char *)index : NULL; /* otherwise there are 13, and one more vertex */
         array.count = array.index ? 60 : 13;
         for (uint32_t k = 0; k < count; k++)
             reference[k] = 7 + random_below(&r, array.count - (round % 2 ? 0 : array.count / 6));
@@ -528,8 +530,8 @@ int main(void)
         cmocka_unit_test(bounds_of_parallel_rays_hold),
         cmocka_unit_test(bounds_break_where_they_are_tightened),
         cmocka_unit_test(bounds_of_parallel_rays_break_where_they_are_tightened),
-        cmocka_unit_test(triangles_beside_a_tile),
-        cmocka_unit_test(pairs_are_decided_as_ever),
+        cmocka_unit_test(triangles_next_to_a_tile),
+        cmocka_unit_test(pairs_are_decided_like_any_primitives),
         cmocka_unit_test(thin_triangles_are_certain),
     };
     test_begin("test_tile_triangles");

@@ -26,7 +26,7 @@ static inline cgt_camera_rays rays_of(const cgt_camera *camera, uint32_t width, 
     return rays;
 }
 
-/* Makes a camera orthographic, with a picture of this height; often looking along an axis. */
+/* Makes a camera orthographic with a picture of the given height, often along an axis. */
 static inline void make_orthographic(test_random *r, float height, cgt_camera *camera)
 {
     camera->projection = CGT_PROJECTION_ORTHOGRAPHIC;
@@ -59,55 +59,55 @@ typedef struct frames_tally {
     cgt_counts counts;                 /* of the served ones */
 } frames_tally;
 
-static inline void fail_at(const planes *got, const planes *wanted, const cgt_camera_rays *c, const char *what)
+static inline void fail_at(const planes *got, const planes *expected, const cgt_camera_rays *c, const char *what)
 {
     size_t i = 0;
-    while (i < 6 * got->elements && got->memory[i] == wanted->memory[i])
+    while (i < 6 * got->elements && got->memory[i] == expected->memory[i])
         i++;
     if (i == 6 * got->elements)
         fail_msg("%s: u or v", what);
     i %= got->elements;
     fail_msg("%s: %u x %u, pixel %zu: %u at %a, not %u at %a; eye %a %a %a", what, got->width, got->height, i,
-             got->primitive[i], (double)got->t[i], wanted->primitive[i], (double)wanted->t[i], (double)c->eye[0],
+             got->primitive[i], (double)got->t[i], expected->primitive[i], (double)expected->t[i], (double)c->eye[0],
              (double)c->eye[1], (double)c->eye[2]);
 }
 
-/* FAST tiles against ROBUST ones: pixels that hit a sphere hit the same one, with t and the normal within the error of
- * resolve_fast.h and some margin. Other pixels have the same bits. */
+/* FAST tiles against ROBUST ones: pixels that hit a sphere hit the same sphere, with t and the normal within the error
+ * of resolve_fast.h plus a margin. All other pixels have the same bits. */
 static inline void compare_fast(const cgt_committed_scene *committed_scene, const cgt_camera_rays *c, const planes *got,
-                                const planes *wanted, const char *what)
+                                const planes *expected, const char *what)
 {
-    assert_memory_equal(got->primitive, wanted->primitive, got->elements * sizeof *got->primitive);
-    assert_memory_equal(got->geometry, wanted->geometry, got->elements * sizeof *got->geometry);
+    assert_memory_equal(got->primitive, expected->primitive, got->elements * sizeof *got->primitive);
+    assert_memory_equal(got->geometry, expected->geometry, got->elements * sizeof *got->geometry);
     for (size_t i = 0; i < got->elements; i++) {
-        const bool hit = wanted->primitive[i] != CGT_INVALID_ID;
+        const bool hit = expected->primitive[i] != CGT_INVALID_ID;
         const cgt_primitive_array *a = committed_scene->prims.array;
-        while (hit && a->geometry != wanted->geometry[i])
+        while (hit && a->geometry != expected->geometry[i])
             a++;
         double square = 0, dd = 0, off = 0;
         if (!hit || a->kind != CGT_KIND_SPHERES) {
-            assert_memory_equal(&got->t[i], &wanted->t[i], sizeof(float));
+            assert_memory_equal(&got->t[i], &expected->t[i], sizeof(float));
             continue;
         }
-        const cgt_sphere q = cgt_array_sphere(a, wanted->primitive[i]);
+        const cgt_sphere q = cgt_array_sphere(a, expected->primitive[i]);
         const double centre[3] = {q.x, q.y, q.z};
         for (int k = 0; k < 3; k++) {
             const double reach = fabs((double)c->fwd[k]) + fabs((double)c->right[k]) + fabs((double)c->up[k]);
-            const double n = (double)got->normal[k][i] - (double)wanted->normal[k][i];
+            const double n = (double)got->normal[k][i] - (double)expected->normal[k][i];
             square += (centre[k] - (double)c->eye[k]) * (centre[k] - (double)c->eye[k]);
             dd += reach * reach;
             off += n * n;
         }
         const double far = sqrt(square) + (double)q.r;
         const double least = far * 0x1p-18 + sqrt(far * (double)q.r * 0x1p-18);
-        const double t = fabs((double)got->t[i] - (double)wanted->t[i]);
+        const double t = fabs((double)got->t[i] - (double)expected->t[i]);
         if (!(t <= least || t * sqrt(dd) <= least) || !(sqrt(off) * (double)q.r <= least))
             fail_msg("%s: pixel %zu: FAST has t %a, not %a, and a normal %a off", what, i, (double)got->t[i],
-                     (double)wanted->t[i], sqrt(off));
+                     (double)expected->t[i], sqrt(off));
     }
 }
 
-/* Traces one frame both ways. */
+/* Traces one frame by tiles and by packets. */
 static inline void compare_frame(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera,
                                  uint32_t width, uint32_t height, const char *what, frames_tally *tally)
 {
@@ -117,27 +117,28 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
                                    .precision = tally->frames % 4 == 3 ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST,
                                    .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL |
                                              CGT_FIELD_UV};
-    planes wanted = planes_make(width, height), got = planes_make(width, height);
+    planes expected = planes_make(width, height), got = planes_make(width, height);
     cgt_committed_scene committed_scene = scene->committed_scene;
     cgt_counts counts = {0}, other = {0};
     committed_scene.loose = grid->grid;
-    memset(wanted.memory, 0x77, 6 * wanted.elements * sizeof(uint32_t));
+    memset(expected.memory, 0x77, 6 * expected.elements * sizeof(uint32_t));
     memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
-    float *uv = malloc(4 * wanted.elements * sizeof(float));
+    float *uv = malloc(4 * expected.elements * sizeof(float));
     assert_non_null(uv);
-    memset(uv, 0x66, 4 * wanted.elements * sizeof(float));
-    cgt_region to_wanted = region_of(&wanted, uv), to_got = region_of(&got, uv + 2 * wanted.elements);
-    if (tally->frames % 3 == 2) { /* other loops serve frames without u and v */
+    memset(uv, 0x66, 4 * expected.elements * sizeof(float));
+    cgt_region to_wanted = region_of(&expected, uv), to_got = region_of(&got, uv + 2 * expected.elements);
+    if (tally->frames % 3 == 2) { /* separate loops serve frames without u and v */
         to_wanted.plane[CGT_PLANE_U] = to_wanted.plane[CGT_PLANE_V] = NULL;
         to_got.plane[CGT_PLANE_U] = to_got.plane[CGT_PLANE_V] = NULL;
         settings.fields &= ~CGT_FIELD_UV;
     }
     CGT_KERNEL(cgt_trace_region)(&scene->committed_scene, &rays, &settings, &to_wanted, &other);
-    const bool served = cgt_tile_supports(&committed_scene, &rays); /* as the call decides */
+    const bool served = cgt_tile_supports(&committed_scene, &rays); /* as the library decides */
     (served ? CGT_KERNEL(cgt_trace_tile) : CGT_KERNEL(cgt_trace_region))(&committed_scene, &rays, &settings, &to_got,
                                                                          &counts);
-    if (!planes_equal(&wanted, &got) || memcmp(uv, uv + 2 * wanted.elements, 2 * wanted.elements * sizeof(float)) != 0)
-        fail_at(&got, &wanted, &rays, what);
+    if (!planes_equal(&expected, &got) ||
+        memcmp(uv, uv + 2 * expected.elements, 2 * expected.elements * sizeof(float)) != 0)
+        fail_at(&got, &expected, &rays, what);
     assert_int_equal(counts.rays, other.rays);
     assert_int_equal(counts.hits, other.hits);
     tally->frames++;
@@ -146,7 +147,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
         cgt_counts fast_counts = {0};
         fast.precision = CGT_PRECISION_FAST;
         CGT_KERNEL(cgt_trace_tile)(&committed_scene, &rays, &fast, &to_got, &fast_counts);
-        compare_fast(&committed_scene, &rays, &got, &wanted, what);
+        compare_fast(&committed_scene, &rays, &got, &expected, what);
         assert_int_equal(fast_counts.hits, counts.hits);
     }
     if (served) {
@@ -158,7 +159,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
             to[i] += from[i];
     }
     free(uv);
-    planes_free(&wanted);
+    planes_free(&expected);
     planes_free(&got);
 }
 
