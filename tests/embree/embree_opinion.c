@@ -50,7 +50,7 @@ const oracle_primitive *opinion_named(const oracle_scene *scene, const full_hit 
     return NULL;
 }
 
-/* Whether the ray meets both primitives, and exactly at the same t first. */
+/* Whether the ray hits both primitives first at exactly the same t. */
 static bool is_tie(const truth_ray *ray, const oracle_primitive *a, const oracle_primitive *b)
 {
     oracle_line line;
@@ -101,7 +101,7 @@ void opinion_judge(opinion *o, const hard_scene *s, const hard_truth *truth)
     }
 }
 
-/* ---- spreads ---- */
+/* ---- order statistics ---- */
 
 static int compare_numbers(const void *a, const void *b)
 {
@@ -131,10 +131,10 @@ bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t coun
 
 void opinion_print_head(FILE *file)
 {
-    fputs("# hits: by exact arithmetic; wrong: the primitive is not the nearest one, or the ray passes beside it;\n"
+    fputs("# hits: by exact arithmetic; wrong: the primitive is not the closest hit, or the ray misses it;\n"
           "# tied: another primitive at exactly the same distance, which is no error.\n"
           "# t_ulp: error of t in ulp where the hit is right or tied; uv: the larger error of u and v in 2^-24.\n"
-          "# left_out: what Embree does not take: values beyond 1.844e18, rays that begin behind their origin.\n"
+          "# left_out: what Embree does not accept: values beyond 1.844e18, rays that begin behind their origin.\n"
           "# Embree's manual promises nothing for hits at tnear and tfar: at the origin and at the ends of the range.\n"
           "row\tcase\tconfig\trays\thits\tmissed\tinvented\twrong\ttied\tt_ulp_median\tt_ulp_p99\tt_ulp_worst\t"
           "uv_median\tuv_p99\tuv_worst\tleft_out\n",
