@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The stage in double precision (triangle_double.h, sphere_double.h): errors stay within the derived bounds, the
- * bounds are not orders of magnitude too wide, and values reported as safe are safe. */
+ * The stage in double precision (triangle_double.h, sphere_double.h): errors stay within the derived bounds, the bounds
+ * are not orders of magnitude too wide, and values reported as safe are safe. */
 #include "support/test.h"
 
 #include <math.h>
@@ -107,8 +107,8 @@ static void triangles_err_within_bounds(void **state)
     expect_near("d.n", &den, 0x1p-6);
 }
 
-/* The bounds that sphere_double.h states for its terms. The tight bound of the discriminant holds where the line
- * meets the sphere. Elsewhere larger terms may swamp it, and the result only has to be a miss. */
+/* The bounds that sphere_double.h states for its terms. The tight bound of the discriminant holds where the line meets
+ * the sphere. Elsewhere larger terms may swamp it, and the result only has to be a miss. */
 static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearness *tight_disc, nearness *rest)
 {
     const cgt_sphere sphere = double_case_shape_of(q).sphere;

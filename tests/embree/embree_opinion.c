@@ -109,11 +109,11 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t count, opinion_spread *spread)
+bool opinion_quantiles_of(const double *number, const uint8_t *among, uint32_t count, opinion_quantiles *spread)
 {
     double *sorted = malloc(((size_t)count + 1) * sizeof *sorted);
     size_t n = 0;
-    *spread = (opinion_spread){NAN, NAN, NAN};
+    *spread = (opinion_quantiles){NAN, NAN, NAN};
     if (!sorted)
         return false;
     for (uint32_t i = 0; i < count; i++)
@@ -121,7 +121,7 @@ bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t coun
             sorted[n++] = number[i];
     if (n) {
         qsort(sorted, n, sizeof *sorted, compare_numbers);
-        *spread = (opinion_spread){sorted[(n - 1) / 2], sorted[(size_t)(0.99 * (double)(n - 1))], sorted[n - 1]};
+        *spread = (opinion_quantiles){sorted[(n - 1) / 2], sorted[(size_t)(0.99 * (double)(n - 1))], sorted[n - 1]};
     }
     free(sorted);
     return true;
@@ -141,7 +141,7 @@ void opinion_print_head(FILE *file)
           file);
 }
 
-static void print_spread(FILE *file, const opinion_spread *spread)
+static void print_spread(FILE *file, const opinion_quantiles *spread)
 {
     const double number[3] = {spread->median, spread->p99, spread->worst};
     for (int i = 0; i < 3; i++) {
@@ -155,8 +155,8 @@ static void print_spread(FILE *file, const opinion_spread *spread)
 bool opinion_print_row(FILE *file, const char *row, const char *name, const opinion *o, uint32_t rays,
                        const char *left_out)
 {
-    opinion_spread t, uv;
-    if (!opinion_spread_of(o->t_error, NULL, rays, &t) || !opinion_spread_of(o->uv_error, NULL, rays, &uv))
+    opinion_quantiles t, uv;
+    if (!opinion_quantiles_of(o->t_error, NULL, rays, &t) || !opinion_quantiles_of(o->uv_error, NULL, rays, &uv))
         return false;
     fprintf(file, "%s\t%s\t%s\t%llu\t%llu\t%llu\t%llu\t%llu\t%llu", row, name, o->config,
             (unsigned long long)o->tally.rays, (unsigned long long)o->tally.hits, (unsigned long long)o->tally.missed,

@@ -31,12 +31,12 @@ void opinion_judge(opinion *o, const hard_scene *s, const hard_truth *truth);
 const oracle_primitive *opinion_named(const oracle_scene *scene, const full_hit *hit);
 
 /* Order statistics of numbers other than NaN; all NaN where there is none. */
-typedef struct opinion_spread {
+typedef struct opinion_quantiles {
     double median, p99, worst;
-} opinion_spread;
+} opinion_quantiles;
 
 /* `among`: a bit for each number to include, or NULL for all. False where memory is refused. */
-bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t count, opinion_spread *spread);
+bool opinion_quantiles_of(const double *number, const uint8_t *among, uint32_t count, opinion_quantiles *spread);
 
 /* ---- the table: tab-separated, "-" where there is no number ---- */
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Scenes traced by Embree, ray by ray, with answers in the library's form. Input that Embree does not accept must be
- * removed first: its manual drops primitives with a NaN, an infinity or a value beyond 1.844e18 (rtcCommitScene)
- * and allows no range that begins before 0 (rtcIntersect1); its assertions apply the same limit to origins and
+ * removed first: its manual drops primitives with a NaN, an infinity or a value beyond 1.844e18 (rtcCommitScene) and
+ * allows no range that begins before 0 (rtcIntersect1); its assertions apply the same limit to origins and
  * directions. */
 #ifndef EMBREE_SCENE_H
 #define EMBREE_SCENE_H

@@ -138,8 +138,8 @@ static void compare(cgt_context *context, hard_scene *s, const cgt_camera *camer
     picture_free(&q);
 }
 
-/* share: at most one ray in `share` may differ. Two ray casters agree nearly everywhere on the same scene; if not,
- * one of them sees another scene. */
+/* share: at most one ray in `share` may differ. Two ray casters agree nearly everywhere on the same scene; if not, one
+ * of them sees another scene. */
 static void print_tally(const char *what, const tally *t, uint64_t share)
 {
     print_message("%s: %llu rays, %llu hits; Embree: %llu same, %llu missed, %llu invented, %llu another primitive, "
@@ -298,7 +298,8 @@ static const real_mesh meshes[] = {
      {0.45f, 0.25f, 0.4f},
      {0.9f, 0.28f, 0.7f}}};
 
-/* The same picture through each kd-tree, ray by ray and in packets: where one is right, the others return the same bits. */
+/* The same picture through each kd-tree, ray by ray and in packets: where one is right, the others return the same
+ * bits. */
 static void compare_trees(cgt_context *context, hard_scene *s, const cgt_camera *camera, tally *sum)
 {
     static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES};

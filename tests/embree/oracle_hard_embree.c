@@ -21,9 +21,9 @@
 #define LEAST_RAYS 400u
 #define MOST_TESTS 256
 
-/* The nearer of the two floats around the exact value is at most half an ulp off. cgt.h promises 0.51 ulp for t, so
- * libcgt may exceed the error of the other neighbouring float by 0.02. */
-#define SLACK 0.02
+/* The nearer of the two floats around the exact value is at most half an ulp off. cgt.h promises 0.51 ulp for t, so its
+ * error may exceed that of the luckier of two neighbouring floats by 0.02. */
+#define ALLOWANCE 0.02
 
 enum { EMBREE, EMBREE_ROBUST, CGT_ROBUST, CGT_EXACT, CONFIGS };
 
@@ -72,12 +72,12 @@ static void ask(const hard_scene *s, int config, full_hit *hit)
 
 static void check_right(const opinion *o, uint32_t rays)
 {
-    opinion_spread t;
+    opinion_quantiles t;
     if (hard_errors(&o->tally) || o->tied)
         fail_msg("%s: %llu missed, %llu invented, %llu wrong, %llu ties not to the lowest id", o->config,
                  (unsigned long long)o->tally.missed, (unsigned long long)o->tally.invented,
                  (unsigned long long)o->tally.wrong, (unsigned long long)o->tied);
-    assert_true(opinion_spread_of(o->t_error, NULL, rays, &t));
+    assert_true(opinion_quantiles_of(o->t_error, NULL, rays, &t));
     if (t.worst > 0.51)
         fail_msg("%s: t is %g ulp off", o->config, t.worst);
 }
@@ -93,18 +93,18 @@ static bool is_same_hit(const opinion *a, const opinion *b, uint32_t i)
 static void check_not_worse(const opinion *ours, const opinion *theirs, uint32_t rays)
 {
     uint8_t *both = calloc((size_t)rays + 1, 1);
-    opinion_spread a, b;
+    opinion_quantiles a, b;
     assert_non_null(both);
     for (uint32_t i = 0; i < rays; i++) {
-        if (is_same_hit(ours, theirs, i) && ours->t_error[i] > theirs->t_error[i] + SLACK)
+        if (is_same_hit(ours, theirs, i) && ours->t_error[i] > theirs->t_error[i] + ALLOWANCE)
             fail_msg("ray %u: t is %g ulp off in %s, %g in %s", i, ours->t_error[i], ours->config, theirs->t_error[i],
                      theirs->config);
         both[i] = is_same_hit(ours, theirs, i) && ours->hit[i].geometry == theirs->hit[i].geometry &&
                   ours->hit[i].primitive == theirs->hit[i].primitive;
     }
-    assert_true(opinion_spread_of(ours->uv_error, both, rays, &a));
-    assert_true(opinion_spread_of(theirs->uv_error, both, rays, &b));
-    if (a.median > b.median + SLACK || a.p99 > b.p99 + SLACK || a.worst > b.worst + SLACK)
+    assert_true(opinion_quantiles_of(ours->uv_error, both, rays, &a));
+    assert_true(opinion_quantiles_of(theirs->uv_error, both, rays, &b));
+    if (a.median > b.median + ALLOWANCE || a.p99 > b.p99 + ALLOWANCE || a.worst > b.worst + ALLOWANCE)
         fail_msg("u, v in 2^-24 where both hit the same: %g, %g, %g in %s, %g, %g, %g in %s", a.median, a.p99, a.worst,
                  ours->config, b.median, b.p99, b.worst, theirs->config);
     free(both);

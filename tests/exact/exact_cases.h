@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random rays and primitives for the exact stage, in families, from ordinary input to the ends of the range of float. */
+ * Random rays and primitives for the exact stage, in families, from ordinary input to the ends of the range of
+ * float. */
 #ifndef EXACT_CASES_H
 #define EXACT_CASES_H
 

@@ -10,8 +10,8 @@
 #include "exact/integer/plane_order.h"
 
 /* x1 / d1 and x2 / d2 with x1 d2 - x2 d1 = k, a few units where the products have 72 bits: d1 and d2 of 24 bits, x1 and
- * x2 of 48, each the difference of two floats. Bezout's identity, by Euclid. Everything but the origins is positive. Returns
- * k, from -2 to 2: the order of the times. */
+ * x2 of 48, each the difference of two floats. Bezout's identity, by Euclid. Everything but the origins is positive.
+ * Returns k, from -2 to 2: the order of the times. */
 static inline int near_times_make(test_random *r, cgt_plane_time t[2])
 {
     int64_t d1, d2, a, b, u, next;

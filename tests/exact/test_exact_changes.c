@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Transformations that must not affect the exact stage: scale, position, axes, signs, the order of vertices, and a processor
- * mode that flushes denormals. */
+ * Transformations that must not affect the exact stage: scale, position, axes, signs, the order of vertices, and a
+ * processor mode that flushes denormals. */
 #include "support/test.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The order of two planes along a ray, and its integer stage by itself, against dyadic arithmetic, which shares no
- * code with either. Times are equal or differ in the last place; floats include denormals and the ends of the range. */
+ * The order of two planes along a ray, and its integer stage by itself, against dyadic arithmetic, which shares no code
+ * with either. Times are equal or differ in the last place; floats include denormals and the ends of the range. */
 #include "support/oracle/dyadic.h"
 #include "support/test.h"
 
@@ -144,7 +144,8 @@ static void small_whole_numbers(void **state)
     judge_family("small whole numbers", 5, whole);
 }
 
-/* Equal by construction, at any scale: t = k (m / n) with (m f, n f) for several f; then one number is moved by one ulp. */
+/* Equal by construction, at any scale: t = k (m / n) with (m f, n f) for several f; then one number is moved by one
+ * ulp. */
 static void equal_times(void **state)
 {
     (void)state;

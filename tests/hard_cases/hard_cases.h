@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The hard cases of ray casting, by name: scenes with rays on which single precision fails, on which structures lose
- * primitives, where conventions matter. Float input, reproducible from the seed. Each is a test and a row of
- * cgt-bench accuracy.
+ * primitives, where conventions matter. Float input, reproducible from the seed. Each is a test and a row of cgt-bench
+ * accuracy.
  *
  * Two rows of the literature are tested elsewhere: splits through the origin and primitives in the splitting plane by
  * the kd-tree's tests, exits through edges and corners of a leaf by those of its ropes. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes and rays on which a grid may lose primitives or its way: the boundary of the bounds; faces, edges and
- * corners of cells; long walks; primitives in many cells, on planes between cells, or all in one cell. */
+ * Scenes and rays on which a grid may lose primitives or its way: the boundary of the bounds; faces, edges and corners
+ * of cells; long walks; primitives in many cells, on planes between cells, or all in one cell. */
 #include <math.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Degenerate input: NaN, infinities, the largest and the smallest floats; copies; both kinds of primitives
- * in several geometries at equal distances. */
+ * Degenerate input: NaN, infinities, the largest and the smallest floats; copies; both kinds of primitives in several
+ * geometries at equal distances. */
 #include <float.h>
 #include <math.h>
 #include <string.h>

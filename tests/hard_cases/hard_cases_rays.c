@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays that are hard on any scene: along axes with zeros of either sign, from surfaces, with range ends at hits, of
- * any length, in packets of every kind. */
+ * Rays that are hard on any scene: along axes with zeros of either sign, from surfaces, with range ends at hits, of any
+ * length, in packets of every kind. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -120,9 +120,9 @@ static void leave_hit(hard_scene *s, uint32_t i, const hard_found *found)
 
 /* ---- packets ---- */
 
-/* Packets like a camera's: 64 adjacent rays of a common origin. Openings range from a ten-thousandth of a degree to
- * far beyond 180 degrees, include zero width and straddle the borders between main axes; the scene is in front,
- * around or behind. */
+/* Packets like a camera's: 64 adjacent rays of a common origin. Openings range from a ten-thousandth of a degree to far
+ * beyond 180 degrees, include zero width and straddle the borders between main axes; the scene is in front, around or
+ * behind. */
 static void packets(hard_scene *s)
 {
     static const float opening[] = {0, 1e-6f, 1e-2f, 0.5f, 4, 1e3f};

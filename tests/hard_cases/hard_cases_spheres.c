@@ -1,15 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres on which the quadratic loses its digits: far away, huge and close, grazed, tangent, of radius 0. Haines et al.,
- * "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, ch. 7. */
+ * Spheres on which the quadratic loses its digits: far away, huge and close, grazed, tangent, of radius 0. Haines et
+ * al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, ch. 7. */
 #include <math.h>
 #include <string.h>
 
 #include "hard_cases/hard_cases.h"
 
-/* The target point at distance `reach` from the line from `org` to the centre, level with the centre. */
-static void beside(hard_scene *s, const double org[3], const double center[3], double reach, double target[3])
+/* A target at distance `reach` from the line through `org` and the centre, in the plane perpendicular to it that
+ * contains the centre. */
+static void offset_target(hard_scene *s, const double org[3], const double center[3], double reach, double target[3])
 {
     double d[3], c[3], cc = 0, dc = 0, dd = 0;
     hard_direction(s, d);
@@ -34,7 +35,8 @@ static void aim_at(hard_scene *s, const double from[3], const double to[3])
     hard_aim(s, org, target, hard_length(s));
 }
 
-/* Distance from the centre, measured in the plane through it, at which a line from `distance` is tangent to the unit sphere. */
+/* Distance from the centre, measured in the plane through it, at which a line from `distance` is tangent to the unit
+ * sphere. */
 static double outline(double distance) { return distance > 1.0001 ? 1 / sqrt(1 - 1 / (distance * distance)) : 1; }
 
 static void spheres_about(hard_scene *s, int count, double reach, double r)
@@ -62,7 +64,7 @@ static void from_afar(hard_scene *s, bool tangent)
             org[a] = center[a] + distance * org[a];
         const double low = random_below(&s->random, 2) ? 0.98 : 0;
         const double reach = tangent ? outline(distance) * (1 + 1e-7 * hard_real(s, -1, 1)) : hard_real(s, low, 1.02);
-        beside(s, org, center, reach, target);
+        offset_target(s, org, center, reach, target);
         aim_at(s, org, target);
     }
 }
@@ -105,7 +107,7 @@ static void grazing(hard_scene *s)
             center[a] = (sphere[a] - s->place.offset[a]) / s->place.scale;
             org[a] = center[a] + 0.3 * distance * org[a];
         }
-        beside(s, org, center, 0.3 * outline(distance) * (1 + 3e-7 * hard_real(s, -1, 1)), target);
+        offset_target(s, org, center, 0.3 * outline(distance) * (1 + 3e-7 * hard_real(s, -1, 1)), target);
         aim_at(s, org, target);
     }
 }
@@ -135,7 +137,8 @@ static void touched(hard_scene *s)
     }
 }
 
-/* Points: spheres of radius 0 at lattice points, hit by rays that pass exactly through them and missed by all others. */
+/* Points: spheres of radius 0 at lattice points, hit by rays that pass exactly through them and missed by all
+ * others. */
 static void points(hard_scene *s)
 {
     for (int i = 0; i < 256; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles that are hard individually: seen from far along one axis, seen edge-on, thin, of zero area, coplanar. */
+ * Triangles that are hard individually: far away along one axis, seen edge-on, thin, of zero area, coplanar. */
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Traces scenes with hard rays through the library and has the oracle judge the answers; for tests and for cgt-bench. */
+ * Traces scenes with hard rays through the library and has the oracle judge the answers; for tests and for
+ * cgt-bench. */
 #ifndef HARD_RUN_H
 #define HARD_RUN_H
 

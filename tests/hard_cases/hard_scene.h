@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * A scene of spheres and triangles with rays that are hard on it, built piece by piece. Points are given in double,
- * around the origin and about 1 in size; the scene's place moves them to where float is coarser or finer, and rounds.
- * A failed allocation sets `failed`; nothing is added from then on. */
+ * around the origin and about 1 in size; the scene's place moves them to where float is coarser or finer, and rounds. A
+ * failed allocation sets `failed`; nothing is added from then on. */
 #ifndef HARD_SCENE_H
 #define HARD_SCENE_H
 

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Closed meshes do not leak: rays at points of their edges and at their vertices, from inside and from outside
- * towards an inner point; near 0, far from it, tiny and huge. Every such ray hits the surface, so a miss is a leak
- * and no reference is needed. The oracle also judges every hundredth answer. Structures take turns. */
+ * Closed meshes do not leak: rays at points of their edges and at their vertices, from inside and from outside towards
+ * an inner point; near 0, far from it, tiny and huge. Every such ray hits the surface, so a miss is a leak and no
+ * reference is needed. The oracle also judges every hundredth answer. Structures take turns. */
 #include "support/test.h"
 
 #include <math.h>

@@ -133,8 +133,8 @@ static void triangles_as_by_textbook(void **state)
         hits++;
         assert_true(absolute(hit.t / tuv[0] - 1) < 0x1p-40);
         assert_true(absolute(hit.uv[0] - tuv[1]) < 0x1p-40 && absolute(hit.uv[1] - tuv[2]) < 0x1p-40);
-        for (int a = 0; a < 3;
-             a++) { /* the ray's point equals the triangle's point, and the normal is perpendicular to its edges */
+        /* the ray's point equals the triangle's point, and the normal has unit length */
+        for (int a = 0; a < 3; a++) {
             const truth_real u = hit.uv[0], w = hit.uv[1], along = (truth_real)ray.org[a] + hit.t * ray.dir[a];
             const truth_real at = (1 - u - w) * v[0][a] + u * v[1][a] + w * v[2][a];
             assert_true(absolute(along - at) < 0x1p-40 * (fabs((double)b.middle) + b.reach));

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact oracle in whole scenes: closed meshes have no holes, the filter in double changes no result, and it
- * agrees with the binary128 oracle that reports doubts. */
+ * The exact oracle in whole scenes: closed meshes have no holes, the filter in double changes no result, and it agrees
+ * with the binary128 oracle that reports doubts. */
 #include "support/test.h"
 
 #include <float.h>

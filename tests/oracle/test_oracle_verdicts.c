@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Verdicts of the exact oracle: every kind of wrong answer is detected, the interval of doubt has the right width,
- * and errors are measured. */
+ * Verdicts of the exact oracle: every kind of wrong answer is detected, the interval of doubt has the right width, and
+ * errors are measured. */
 #include "support/test.h"
 
 #include <float.h>
