@@ -68,7 +68,7 @@ truth_ray double_case_ray(test_random *r, double_family f, const oracle_primitiv
     return ray;
 }
 
-/* Powers of two on everything, and others on the direction. */
+/* Scales the case by one power of two and the direction by another. */
 static void scale_all(test_random *r, oracle_primitive *q, truth_ray *ray)
 {
     const int all = (int)random_below(r, 110) - 60, more = (int)random_below(r, 60) - 30;

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Decisions in double and then exact ones agree with exact arithmetic. The canonical t is within 0.51 ulp, and
+ * Decisions in double, backed by the exact stage, agree with exact arithmetic. The canonical t is within 0.51 ulp, and
  * resolving whole packets returns its bits. */
 #include "support/scenes.h"
 
@@ -19,7 +19,7 @@ typedef struct decision_counts {
     double ulp;
 } decision_counts;
 
-/* Hit or miss, which root, and t. */
+/* Compares hit or miss, the root, and t. */
 static bool judge_decision(const oracle_primitive *q, const truth_ray *ray, cgt_decided_hit *hit,
                            decision_counts *count)
 {
@@ -27,7 +27,7 @@ static bool judge_decision(const oracle_primitive *q, const truth_ray *ray, cgt_
     oracle_hit exact;
     *hit = (cgt_decided_hit){.primitive = double_case_shape_of(q)};
     const bool is_hit = oracle_hits(q, ray, &exact), decided = cgt_decide_hit(&of, hit, &count->exact);
-    if (decided != is_hit) { /* where t lies at the range's end and rounds either way, either answer is right */
+    if (decided != is_hit) { /* at the end of the range t may round either way: both answers are right */
         const oracle_scene scene = {.primitive = q, .count = 1};
         assert_int_equal(oracle_judge(&scene, ray, decided ? 0 : ORACLE_NONE, decided ? 0 : ORACLE_NONE, &exact),
                          ORACLE_RIGHT);
@@ -40,7 +40,7 @@ static bool judge_decision(const oracle_primitive *q, const truth_ray *ray, cgt_
     return true;
 }
 
-/* Two shapes on one ray; the second at times the same, at times one that shares a vertex with the first, which is what
+/* Two primitives on one ray. The second is sometimes equal to the first, and sometimes shares with it the vertex that
  * the ray is aimed at. */
 static void judge_pair(test_random *r, double_family f, decision_counts *count)
 {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The stage in double precision (triangle_double.h, sphere_double.h): errors stay within the derived bounds, the
- * bounds are not orders of magnitude too wide, and values called safe are safe. */
+ * The stage in double precision (triangle_double.h, sphere_double.h): errors stay within the derived bounds, the bounds
+ * are not orders of magnitude too wide, and values reported as safe are safe. */
 #include "support/test.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static void difference_of(const float p[3], const float q[3], dyadic result[3])
     }
 }
 
-/* How near errors come to their bounds. */
+/* Largest ratio of error to bound, and how often values are exact. */
 typedef struct nearness {
     double most;
     uint64_t beyond, exact, values;
@@ -107,8 +107,8 @@ static void triangles_err_within_bounds(void **state)
     expect_near("d.n", &den, 0x1p-6);
 }
 
-/* What sphere_double.h says of its terms. The tight bound of the discriminant is one where the line meets the sphere;
- * beyond, where it is lost in something larger, all that counts is that it is no hit. */
+/* The bounds that sphere_double.h states for its terms. The tight bound of the discriminant holds where the line meets
+ * the sphere. Elsewhere larger terms may swamp it, and the result only has to be a miss. */
 static void judge_sphere(const oracle_primitive *q, const truth_ray *ray, nearness *tight_disc, nearness *rest)
 {
     const cgt_sphere sphere = double_case_shape_of(q).sphere;
@@ -152,9 +152,9 @@ static void spheres_err_within_bounds(void **state)
     expect_near("discriminant, any line", &rest[2], 0x1p-6);
 }
 
-/* ---- values called safe ---- */
+/* ---- values reported as safe ---- */
 
-/* Errors of the values that are used as they are, over 2^-30 of themselves; how many are not used. */
+/* Errors of the values that are used directly, relative to 2^-30 of their magnitude; the number of values not used. */
 static void safe_values_are(void **state)
 {
     (void)state;
@@ -193,7 +193,7 @@ static void safe_values_are(void **state)
     assert_true(unsafe * 100 < ordinary);
 }
 
-/* An origin right above a sphere's surface, at any height of 2 to 2^-24 radii, and a ray that goes down from there. */
+/* An origin above a sphere's surface, at a height of 2 to 2^-24 radii, and a ray that goes down from there. */
 static void start_above(test_random *r, const oracle_primitive *q, truth_ray *ray)
 {
     const float height = ldexpf(q->data[3], 1 - (int)random_below(r, 26));
@@ -205,8 +205,8 @@ static void start_above(test_random *r, const oracle_primitive *q, truth_ray *ra
     }
 }
 
-/* The short way's root over 2^-32 of itself, and the point that is hit over 2^-25 of the radius; how many go that
- * way. */
+/* Error of the root on the short path relative to 2^-32 of the root, error of the hit point relative to 2^-25 of the
+ * radius, and how many hits take that path. */
 static void short_ways_are_safe(void **state)
 {
     (void)state;
@@ -238,10 +238,10 @@ static void short_ways_are_safe(void **state)
             note_error(&point, error * sqrt(e.square), (double)sphere.r * 0x1p-25);
         }
     }
-    print_message("of %llu ordinary hits %llu go the long way\n", (unsigned long long)ordinary,
+    print_message("of %llu ordinary hits %llu take the long path\n", (unsigned long long)ordinary,
                   (unsigned long long)longer);
-    expect_near("t by the short way", &root, 0);
-    expect_near("point by the short way", &point, 0x1p-10);
+    expect_near("t by the short path", &root, 0);
+    expect_near("point by the short path", &point, 0x1p-10);
     assert_true(longer * 4 < ordinary);
 }
 

@@ -50,7 +50,7 @@ const oracle_primitive *opinion_named(const oracle_scene *scene, const full_hit 
     return NULL;
 }
 
-/* Whether the ray meets both primitives, and exactly at the same t first. */
+/* Whether the ray hits both primitives first at exactly the same t. */
 static bool is_tie(const truth_ray *ray, const oracle_primitive *a, const oracle_primitive *b)
 {
     oracle_line line;
@@ -101,7 +101,7 @@ void opinion_judge(opinion *o, const hard_scene *s, const hard_truth *truth)
     }
 }
 
-/* ---- spreads ---- */
+/* ---- order statistics ---- */
 
 static int compare_numbers(const void *a, const void *b)
 {
@@ -109,11 +109,11 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t count, opinion_spread *spread)
+bool opinion_quantiles_of(const double *number, const uint8_t *among, uint32_t count, opinion_quantiles *spread)
 {
     double *sorted = malloc(((size_t)count + 1) * sizeof *sorted);
     size_t n = 0;
-    *spread = (opinion_spread){NAN, NAN, NAN};
+    *spread = (opinion_quantiles){NAN, NAN, NAN};
     if (!sorted)
         return false;
     for (uint32_t i = 0; i < count; i++)
@@ -121,7 +121,7 @@ bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t coun
             sorted[n++] = number[i];
     if (n) {
         qsort(sorted, n, sizeof *sorted, compare_numbers);
-        *spread = (opinion_spread){sorted[(n - 1) / 2], sorted[(size_t)(0.99 * (double)(n - 1))], sorted[n - 1]};
+        *spread = (opinion_quantiles){sorted[(n - 1) / 2], sorted[(size_t)(0.99 * (double)(n - 1))], sorted[n - 1]};
     }
     free(sorted);
     return true;
@@ -131,17 +131,17 @@ bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t coun
 
 void opinion_print_head(FILE *file)
 {
-    fputs("# hits: by exact arithmetic; wrong: the primitive is not the nearest one, or the ray passes beside it;\n"
+    fputs("# hits: by exact arithmetic; wrong: the primitive is not the closest hit, or the ray misses it;\n"
           "# tied: another primitive at exactly the same distance, which is no error.\n"
           "# t_ulp: error of t in ulp where the hit is right or tied; uv: the larger error of u and v in 2^-24.\n"
-          "# left_out: what Embree does not take: values beyond 1.844e18, rays that begin behind their origin.\n"
+          "# left_out: what Embree does not accept: values beyond 1.844e18, rays that begin behind their origin.\n"
           "# Embree's manual promises nothing for hits at tnear and tfar: at the origin and at the ends of the range.\n"
           "row\tcase\tconfig\trays\thits\tmissed\tinvented\twrong\ttied\tt_ulp_median\tt_ulp_p99\tt_ulp_worst\t"
           "uv_median\tuv_p99\tuv_worst\tleft_out\n",
           file);
 }
 
-static void print_spread(FILE *file, const opinion_spread *spread)
+static void print_spread(FILE *file, const opinion_quantiles *spread)
 {
     const double number[3] = {spread->median, spread->p99, spread->worst};
     for (int i = 0; i < 3; i++) {
@@ -155,8 +155,8 @@ static void print_spread(FILE *file, const opinion_spread *spread)
 bool opinion_print_row(FILE *file, const char *row, const char *name, const opinion *o, uint32_t rays,
                        const char *left_out)
 {
-    opinion_spread t, uv;
-    if (!opinion_spread_of(o->t_error, NULL, rays, &t) || !opinion_spread_of(o->uv_error, NULL, rays, &uv))
+    opinion_quantiles t, uv;
+    if (!opinion_quantiles_of(o->t_error, NULL, rays, &t) || !opinion_quantiles_of(o->uv_error, NULL, rays, &uv))
         return false;
     fprintf(file, "%s\t%s\t%s\t%llu\t%llu\t%llu\t%llu\t%llu\t%llu", row, name, o->config,
             (unsigned long long)o->tally.rays, (unsigned long long)o->tally.hits, (unsigned long long)o->tally.missed,

@@ -15,34 +15,34 @@ typedef struct opinion {
     full_hit *hit;    /* one for each ray */
     hard_tally tally; /* without ties */
     uint64_t tied;    /* another primitive at exactly the same distance: only libcgt promises which one */
-    double *exact_t;  /* of the named primitive, for each ray; NaN where no hit was found, or a wrong one */
-    double *t_error;  /* ulp, for each ray; NaN where no hit was found, or a wrong one */
-    double *uv_error; /* the larger one of u and v, in 2^-24; NaN likewise, and on spheres */
+    double *exact_t;  /* t of the named primitive, for each ray; NaN for a miss or a wrong hit */
+    double *t_error;  /* ulp, for each ray; NaN for a miss or a wrong hit */
+    double *uv_error; /* the larger one of u and v, in 2^-24; NaN likewise, and for spheres */
 } opinion;
 
-/* Allocates answers for this many rays; false if memory is refused. */
+/* Allocates answers for `rays` rays; false if memory is refused. */
 bool opinion_make(opinion *o, const char *config, uint32_t rays);
 void opinion_free(opinion *o);
 
-/* Fills in all but the answers from the answers. */
+/* Computes everything else from the answers. */
 void opinion_judge(opinion *o, const hard_scene *s, const hard_truth *truth);
 
 /* The primitive that an answer names, NULL for none. The oracle's are in the order of ids. */
 const oracle_primitive *opinion_named(const oracle_scene *scene, const full_hit *hit);
 
-/* Of numbers, those that are NaN left out; all NaN where none is left. */
-typedef struct opinion_spread {
+/* Order statistics of numbers other than NaN; all NaN where there is none. */
+typedef struct opinion_quantiles {
     double median, p99, worst;
-} opinion_spread;
+} opinion_quantiles;
 
-/* Only numbers with a bit in `among`, where that is not NULL. False where memory is refused. */
-bool opinion_spread_of(const double *number, const uint8_t *among, uint32_t count, opinion_spread *spread);
+/* `among`: a bit for each number to include, or NULL for all. False where memory is refused. */
+bool opinion_quantiles_of(const double *number, const uint8_t *among, uint32_t count, opinion_quantiles *spread);
 
 /* ---- the table: tab-separated, "-" where there is no number ---- */
 
 void opinion_print_head(FILE *file);
 
-/* left_out: what of the case this ray caster was not asked, or "-". False where memory is refused. */
+/* left_out: the part of the case that this ray caster was not given, or "-". False where memory is refused. */
 bool opinion_print_row(FILE *file, const char *row, const char *name, const opinion *o, uint32_t rays,
                        const char *left_out);
 

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define LARGEST 1.844e18f /* the manual of rtcCommitScene; builds with assertions end at rays beyond it, too */
+#define LARGEST 1.844e18f /* limit of rtcCommitScene's manual; builds with assertions also abort on rays beyond it */
 
 static RTCDevice device;
 
@@ -33,7 +33,7 @@ void embree_end(void) { rtcReleaseDevice(device); }
 
 /* ---- scenes ---- */
 
-/* Copies an array into a buffer of the geometry's; false where Embree has no memory for it. */
+/* Copies an array into a buffer of the geometry; false where Embree is out of memory. */
 static bool fill(RTCGeometry geometry, enum RTCBufferType type, enum RTCFormat format, const void *data, size_t size,
                  uint32_t count)
 {
@@ -130,7 +130,7 @@ full_hit embree_trace(const embree_scene *scene, const truth_ray *ray)
     return best;
 }
 
-/* ---- what Embree does not take ---- */
+/* ---- input that Embree does not accept ---- */
 
 static bool all_within(const float *f, uint32_t count, float largest)
 {

@@ -11,19 +11,19 @@
 
 #include "hard_cases/hard_scene.h"
 
-/* Whether the file exists and this build can read it; prints the reason if not. */
+/* True if the file exists and this build can read it; else prints the reason. */
 bool mesh_is_here(const char *path);
 
-/* Reads the file into a scene without rays, for `rays` of them; false with a message. */
+/* Reads the file into a scene with room for `rays` rays and none yet; false with a message on failure. */
 bool mesh_read(const char *path, uint32_t rays, hard_scene *s);
 
-/* A camera whose eye and target are given by their place in the bounds, 0 to 1 along each axis. */
+/* A camera whose eye and target are given relative to the bounds, 0 to 1 along each axis. */
 cgt_camera mesh_camera(const hard_scene *s, const float eye[3], const float target[3]);
 
-/* Rays of such a camera's picture in squares of 8x8 pixels. False where the camera is not one. */
+/* The rays of such a camera's picture, in squares of 8x8 pixels. False if the camera is invalid. */
 bool mesh_aim_pixels(hard_scene *s, const float eye[3], const float target[3]);
 
-/* From anywhere in the bounds and around them to vertices and points of edges, rounded. */
+/* Rays from random points in and around the bounds to vertices and points of edges, rounded. */
 void mesh_aim_edges(hard_scene *s);
 
 #endif

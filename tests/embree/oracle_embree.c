@@ -30,7 +30,7 @@ typedef struct tally {
 /* A scene for both ray casters and for the oracle. */
 typedef struct subject {
     const hard_scene *scene;
-    hard_truth truth; /* only the scene: the oracle is asked where there is something to decide */
+    hard_truth truth; /* only the scene: the oracle runs where the two disagree */
     embree_scene embree;
 } subject;
 
@@ -58,7 +58,7 @@ static void fail_ray(const truth_ray *ray, const full_hit *ours, const full_hit 
              (double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]);
 }
 
-/* Ours must be the hit of exact arithmetic; what Embree's then is. */
+/* libcgt must give the hit of exact arithmetic; classifies Embree's answer. */
 static void judge_difference(const subject *w, const truth_ray *ray, const full_hit *ours, const full_hit *theirs,
                              tally *sum)
 {
@@ -74,8 +74,8 @@ static void judge_difference(const subject *w, const truth_ray *ray, const full_
     sum->other += ours->geometry != CGT_INVALID_ID && theirs->geometry != CGT_INVALID_ID;
 }
 
-/* The same primitive, and other numbers: ours must be within the bounds of cgt.h. u and v of ROBUST are a rounding off,
- * and what double loses where the triangle is seen from far or from the side: here less than another rounding. */
+/* The same primitive with other numbers: libcgt must be within the bounds of cgt.h. In ROBUST, u and v are off by one
+ * rounding plus what double loses on a triangle that is far away or seen edge-on: here less than another rounding. */
 static void judge_values(const subject *w, const truth_ray *ray, const full_hit *ours, const full_hit *theirs,
                          tally *sum)
 {
@@ -120,7 +120,7 @@ static const test_scene_options *next_structure(void)
     return &structure[turn++ % TEST_COUNT(structure)];
 }
 
-/* A frame of the scene. */
+/* Traces and compares a frame of the scene. */
 static void compare(cgt_context *context, hard_scene *s, const cgt_camera *camera, tally *sum)
 {
     picture q = picture_make(WIDTH, HEIGHT);
@@ -138,8 +138,8 @@ static void compare(cgt_context *context, hard_scene *s, const cgt_camera *camer
     picture_free(&q);
 }
 
-/* share: of the rays, one in so many may differ. Two programs that look at the same scene agree nearly everywhere:
- * else one of them sees another scene. */
+/* share: at most one ray in `share` may differ. Two ray casters agree nearly everywhere on the same scene; if not, one
+ * of them sees another scene. */
 static void print_tally(const char *what, const tally *t, uint64_t share)
 {
     print_message("%s: %llu rays, %llu hits; Embree: %llu same, %llu missed, %llu invented, %llu another primitive, "
@@ -226,7 +226,7 @@ static void random_spheres(void **state)
     cgt_context_release(context);
 }
 
-/* From inside and from outside, near the origin and where float is coarse. */
+/* Views from inside and outside, near the origin and where float is coarse. */
 static void closed_meshes(void **state)
 {
     (void)state;
@@ -284,7 +284,7 @@ static void random_triangles(void **state)
 
 typedef struct real_mesh {
     const char *path, *name, *package;
-    float eye[3], target[3]; /* by their place in the bounds */
+    float eye[3], target[3]; /* relative to the bounds */
 } real_mesh;
 
 static const real_mesh meshes[] = {
@@ -298,7 +298,8 @@ static const real_mesh meshes[] = {
      {0.45f, 0.25f, 0.4f},
      {0.9f, 0.28f, 0.7f}}};
 
-/* The same picture through each tree, ray by ray and in packets: where one is right, the others have its bits. */
+/* The same picture through each kd-tree, ray by ray and in packets: where one is right, the others return the same
+ * bits. */
 static void compare_trees(cgt_context *context, hard_scene *s, const cgt_camera *camera, tally *sum)
 {
     static const cgt_structure structure[] = {CGT_STRUCTURE_KD, CGT_STRUCTURE_KD_ROPES};
@@ -319,7 +320,7 @@ static void compare_trees(cgt_context *context, hard_scene *s, const cgt_camera 
         if (first) {
             for (uint32_t i = 0; i < s->rays; i++)
                 if (memcmp(&first[i], &q.hit[i], sizeof q.hit[i]) != 0)
-                    fail_ray(&s->ray[i], &q.hit[i], &first[i], "not what the first tree finds, here Embree");
+                    fail_ray(&s->ray[i], &q.hit[i], &first[i], "differs from the first kd-tree, here under Embree");
             continue;
         }
         for (uint32_t i = 0; i < s->rays; i++)
@@ -357,7 +358,7 @@ static void real_meshes(void **state)
         skip();
 }
 
-/* Rays from far away at the outlines of spheres: where single precision cannot tell. */
+/* Rays from far away at the outlines of spheres, where single precision cannot decide. */
 static void outlines_from_afar(void **state)
 {
     (void)state;

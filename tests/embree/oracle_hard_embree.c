@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * libcgt and Embree beside each other on every hard case and on real meshes: the same rays through Embree as it comes,
- * through Embree with its robust flag, and through libcgt in ROBUST and EXACT, all judged by the exact oracle. libcgt
- * must decide all rays right, and may be no farther off than Embree anywhere.
+ * libcgt compared with Embree on every hard case and on real meshes: the same rays through Embree's default mode,
+ * Embree's robust mode, and libcgt in ROBUST and EXACT, all judged by the exact oracle. libcgt must decide all rays
+ * correctly, and its errors may nowhere exceed Embree's.
  *
  *   CGT_TABLE  file that gets the table, tab-separated; standard output gets it anyway */
 #include "support/test.h"
@@ -21,9 +21,9 @@
 #define LEAST_RAYS 400u
 #define MOST_TESTS 256
 
-/* Of two floats beside the truth the nearer one is at most half an ulp off. 0.51 is what cgt.h promises of t, so that
- * libcgt may be 0.02 beyond a lucky neighbour's error. */
-#define SLACK 0.02
+/* The nearer of the two floats around the exact value is at most half an ulp off. cgt.h promises 0.51 ulp for t, so its
+ * error may exceed that of the luckier of two neighbouring floats by 0.02. */
+#define ALLOWANCE 0.02
 
 enum { EMBREE, EMBREE_ROBUST, CGT_ROBUST, CGT_EXACT, CONFIGS };
 
@@ -68,43 +68,43 @@ static void ask(const hard_scene *s, int config, full_hit *hit)
         ask_libcgt(s, config == CGT_ROBUST ? CGT_PRECISION_ROBUST : CGT_PRECISION_EXACT, hit);
 }
 
-/* ---- what must hold ---- */
+/* ---- requirements ---- */
 
 static void check_right(const opinion *o, uint32_t rays)
 {
-    opinion_spread t;
+    opinion_quantiles t;
     if (hard_errors(&o->tally) || o->tied)
         fail_msg("%s: %llu missed, %llu invented, %llu wrong, %llu ties not to the lowest id", o->config,
                  (unsigned long long)o->tally.missed, (unsigned long long)o->tally.invented,
                  (unsigned long long)o->tally.wrong, (unsigned long long)o->tied);
-    assert_true(opinion_spread_of(o->t_error, NULL, rays, &t));
+    assert_true(opinion_quantiles_of(o->t_error, NULL, rays, &t));
     if (t.worst > 0.51)
         fail_msg("%s: t is %g ulp off", o->config, t.worst);
 }
 
-/* At the end of a range that a t rounds to, two hits may both be right: then their t are not of the same hit. */
+/* Where a t rounds to the end of the range, two different hits may both be right, and their t cannot be compared. */
 static bool is_same_hit(const opinion *a, const opinion *b, uint32_t i)
 {
     return fabs(a->exact_t[i] - b->exact_t[i]) <= 0x1p-40 * fabs(a->exact_t[i]);
 }
 
-/* No number of the table is larger than Embree's: t ray by ray, u and v in their median, 99th percentile and worst
- * where both found the same triangle. */
+/* No error in the table is larger than Embree's: t ray by ray; for u and v, the median, 99th percentile and maximum
+ * over the rays where both found the same triangle. */
 static void check_not_worse(const opinion *ours, const opinion *theirs, uint32_t rays)
 {
     uint8_t *both = calloc((size_t)rays + 1, 1);
-    opinion_spread a, b;
+    opinion_quantiles a, b;
     assert_non_null(both);
     for (uint32_t i = 0; i < rays; i++) {
-        if (is_same_hit(ours, theirs, i) && ours->t_error[i] > theirs->t_error[i] + SLACK)
+        if (is_same_hit(ours, theirs, i) && ours->t_error[i] > theirs->t_error[i] + ALLOWANCE)
             fail_msg("ray %u: t is %g ulp off in %s, %g in %s", i, ours->t_error[i], ours->config, theirs->t_error[i],
                      theirs->config);
         both[i] = is_same_hit(ours, theirs, i) && ours->hit[i].geometry == theirs->hit[i].geometry &&
                   ours->hit[i].primitive == theirs->hit[i].primitive;
     }
-    assert_true(opinion_spread_of(ours->uv_error, both, rays, &a));
-    assert_true(opinion_spread_of(theirs->uv_error, both, rays, &b));
-    if (a.median > b.median + SLACK || a.p99 > b.p99 + SLACK || a.worst > b.worst + SLACK)
+    assert_true(opinion_quantiles_of(ours->uv_error, both, rays, &a));
+    assert_true(opinion_quantiles_of(theirs->uv_error, both, rays, &b));
+    if (a.median > b.median + ALLOWANCE || a.p99 > b.p99 + ALLOWANCE || a.worst > b.worst + ALLOWANCE)
         fail_msg("u, v in 2^-24 where both hit the same: %g, %g, %g in %s, %g, %g, %g in %s", a.median, a.p99, a.worst,
                  ours->config, b.median, b.p99, b.worst, theirs->config);
     free(both);
@@ -119,7 +119,7 @@ static void print_rows(const char *row, const char *name, const opinion *o, uint
         assert_true(opinion_print_row(table, row, name, o, rays, left_out));
 }
 
-/* first: the first of the configurations that are asked. */
+/* first: the first of the configurations to run. */
 static void compare(const char *row, const char *name, const hard_scene *s, int first, const char *left_out)
 {
     opinion o[CONFIGS];
@@ -148,7 +148,7 @@ static void compare(const char *row, const char *name, const hard_scene *s, int 
     hard_truth_free(&truth);
 }
 
-/* The whole scene, and without what Embree does not take where that is not the same. */
+/* Runs the whole scene and, where it differs, the scene without the input that Embree does not accept. */
 static void compare_both(const char *row, const char *name, const hard_scene *s)
 {
     embree_part part;
@@ -185,7 +185,7 @@ static void test_case(void **state)
 
 typedef struct real_mesh {
     const char *path, *name, *package;
-    float eye[3], target[3]; /* by their place in the bounds */
+    float eye[3], target[3]; /* relative to the bounds */
 } real_mesh;
 
 static const real_mesh meshes[] = {
@@ -218,9 +218,9 @@ static void test_mesh(void **state)
     hard_scene_free(&s);
 }
 
-/* ---- all together ---- */
+/* ---- totals ---- */
 
-/* The sums; and that the rays are hard: single precision cannot decide them all. */
+/* The totals; they also show that the rays are hard: single precision cannot decide all of them. */
 static void test_sums(void **state)
 {
     (void)state;
@@ -230,7 +230,7 @@ static void test_sums(void **state)
     }
     assert_true(hard_errors(&sum[EMBREE]) > 0 && hard_errors(&sum[EMBREE_ROBUST]) > 0);
     assert_true(sum[EMBREE].hits > sum[EMBREE].rays / 4);
-    /* two programs that look at the same scenes agree on most rays: else one of them sees others */
+    /* two ray casters agree on most rays of the same scenes; if not, one of them sees other scenes */
     assert_true(hard_errors(&sum[EMBREE_ROBUST]) < sum[EMBREE_ROBUST].rays / 4);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact stage as it is, with a counter for each tier. */
+ * The exact stage unchanged, with a counter for each tier. */
 #include "exact/exact_builds.h"
 
 uint64_t exact_reached[EXACT_TIERS];

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The library's exact stage, compiled again so that ordinary input takes paths it hardly ever takes. */
+ * The library's exact stage, compiled again so that ordinary input takes otherwise rare paths. */
 #ifndef EXACT_BUILDS_H
 #define EXACT_BUILDS_H
 
@@ -17,14 +17,14 @@ typedef struct exact_build {
     void (*normal)(const cgt_triangle *triangle, double normal[3]);
 } exact_build;
 
-extern const exact_build exact_counted; /* as the library's; counts the tiers that it reaches */
+extern const exact_build exact_counted; /* same as the library's; counts the tiers that it reaches */
 extern const exact_build exact_wide;    /* without the narrow tier */
 extern const exact_build exact_halves;  /* without 128-bit integers: limbs of 32 bits */
 
 typedef enum exact_tier {
     EXACT_TIER_128,  /* triple products in 128 bits */
     EXACT_TIER_192,  /* in 192 bits */
-    EXACT_TIER_wide, /* in as many as it takes */
+    EXACT_TIER_wide, /* in as many bits as needed */
     EXACT_TIER_dot,  /* dot products in 128 bits */
     EXACT_TIER_wide_dot,
     EXACT_TIERS

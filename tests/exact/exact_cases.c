@@ -61,7 +61,7 @@ static float narrow(double x) { return (float)fmax(-0x1.fffffep127, fmin(0x1.fff
 
 /* ---- Rays ---- */
 
-/* A point of the triangle: inside, on an edge or a vertex. */
+/* A point of the triangle: inside, on an edge or at a vertex. */
 static void point_of(test_random *r, const cgt_triangle *triangle, double p[3])
 {
     double share[3] = {random_float(r, 0, 1), random_float(r, 0, 1), random_float(r, 0, 1)};
@@ -145,7 +145,7 @@ static void make_alike(test_random *r, exact_case *c)
         *f = fabsf(one_ulp_off(r, fabsf(*f)));
 }
 
-/* Moves each triangle by what it takes to have its first vertex, or its middle, at a root of the first sphere. */
+/* Moves each triangle so that its first vertex or its centre lies at a root of the first sphere. */
 static void make_close(test_random *r, exact_case *c)
 {
     for (int i = 0; i < 2; i++) {
@@ -171,7 +171,7 @@ static void make_sphere(test_random *r, exact_family family, cgt_primitive *shap
     shape->sphere = (cgt_sphere){f[0], f[1], f[2], fabsf(f[3])};
 }
 
-/* Touches the line for certain where that follows an axis: the centre is beside it along another. */
+/* Touches the line exactly where the line is parallel to an axis: the centre is displaced along another axis. */
 static void make_tangent(test_random *r, const cgt_exact_ray *ray, cgt_sphere *q)
 {
     float *const centre[3] = {&q->x, &q->y, &q->z};
@@ -181,14 +181,14 @@ static void make_tangent(test_random *r, const cgt_exact_ray *ray, cgt_sphere *q
     q->r = touching(ray, *q);
 }
 
-/* Many orders of magnitude in one triangle, and a triangle in the same place. */
+/* A triangle spanning many orders of magnitude, and a second triangle in the same place. */
 static void make_places(test_random *r, exact_case *c)
 {
     float *const vertex = c->shape[0].triangle.v[2];
     const int power = random_below(r, 2) ? -32 : -70;
     for (int a = 0; a < 3; a++)
         vertex[a] = ldexpf(vertex[a], power);
-    const int step = random_below(r, 2) ? 1 : 2; /* turned, or turned over */
+    const int step = random_below(r, 2) ? 1 : 2; /* vertices rotated, or flipped */
     for (int k = 0; k < 3; k++)
         memcpy(c->shape[1].triangle.v[k], c->shape[0].triangle.v[(step * k + 1) % 3], sizeof c->shape[1].triangle.v[k]);
 }

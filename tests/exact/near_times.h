@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Two planes that a ray meets at nearly the same time: too near for double. */
+ * Two planes that a ray crosses at nearly the same t: too close for double. */
 #ifndef NEAR_TIMES_H
 #define NEAR_TIMES_H
 
@@ -10,8 +10,8 @@
 #include "exact/integer/plane_order.h"
 
 /* x1 / d1 and x2 / d2 with x1 d2 - x2 d1 = k, a few units where the products have 72 bits: d1 and d2 of 24 bits, x1 and
- * x2 of 48, each the difference of two floats. Bezout's identity, by Euclid. All is positive but the origins. Returns
- * k, from -2 to 2: the order of the times. */
+ * x2 of 48, each the difference of two floats. Bezout's identity, by Euclid. Everything but the origins is positive.
+ * Returns k, from -2 to 2: the order of the times. */
 static inline int near_times_make(test_random *r, cgt_plane_time t[2])
 {
     int64_t d1, d2, a, b, u, next;

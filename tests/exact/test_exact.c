@@ -76,9 +76,9 @@ static void parallel_lines_and_no_area(void **state)
 {
     (void)state;
     const cgt_primitive shape = triangle_of(corner);
-    static const float flat[][9] = {{0, 0, 1, 2, 0, 1, 4, 0, 1},  /* three on a line */
-                                    {1, 1, 1, 1, 1, 1, 4, 0, 1},  /* two equal */
-                                    {1, 1, 1, 1, 1, 1, 1, 1, 1}}; /* a point */
+    static const float flat[][9] = {{0, 0, 1, 2, 0, 1, 4, 0, 1},  /* three collinear vertices */
+                                    {1, 1, 1, 1, 1, 1, 4, 0, 1},  /* two equal vertices */
+                                    {1, 1, 1, 1, 1, 1, 1, 1, 1}}; /* all three equal */
     const cgt_exact_ray in_plane = {{-1, 1, 1}, {1, 0, 0}}, above = {{-1, 1, 2}, {1, 0, 0}};
     assert_false(exact_meets(&in_plane, &shape));
     assert_false(exact_meets(&above, &shape));
@@ -96,7 +96,7 @@ static void parallel_lines_and_no_area(void **state)
     }
 }
 
-/* One ulp of one vertex tips a needle's edge over a point on it. */
+/* Moving one vertex by one ulp moves a needle's edge across a point on it. */
 static void needles(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void one_bit_decides_rounding(void **state)
 
 /* ---- Spheres ---- */
 
-/* Lines that touch: a right angle in whole numbers. */
+/* Tangent lines: a right angle in integers. */
 static void tangents(void **state)
 {
     (void)state;
@@ -144,8 +144,8 @@ static void tangents(void **state)
         float centre[3], r, t;
     } touch[] = {{{{0, 5, 7}, {1, 0, 0}}, {9, 2, 3}, 5, 9},                   /* 3, 4, 5 */
                  {{{0, 0, 0}, {2, 2, 1}}, {35, 26, 22}, 9, 16},               /* 16 (2, 2, 1) + 3 (1, -2, 2) */
-                 {{{1, 0, 0}, {0, 0, 4}}, {1, 0x1p-149f, 8}, 0x1p-149f, 2},   /* the smallest there is */
-                 {{{0, 0, 0}, {0, 0x1p-149f, 0}}, {3, 0x1p-140f, 4}, 5, 512}, /* along the smallest there is */
+                 {{{1, 0, 0}, {0, 0, 4}}, {1, 0x1p-149f, 8}, 0x1p-149f, 2},   /* the smallest float */
+                 {{{0, 0, 0}, {0, 0x1p-149f, 0}}, {3, 0x1p-140f, 4}, 5, 512}, /* along the smallest float */
                  {{{0, 0, 0}, {1, 0, 0}}, {0x1p127f, 0x1p127f, 0}, 0x1p127f, 0x1p127f}};
     for (size_t i = 0; i < TEST_COUNT(touch); i++) {
         const float *c = touch[i].centre;
@@ -177,7 +177,7 @@ static void points(void **state)
     assert_int_equal(compare(&ray, &on, false, &on, true), 0);
 }
 
-/* An origin on the surface is 0 away, and one an ulp off is that ulp away: nothing cancels. */
+/* An origin on the surface has t = 0, and one an ulp off has that ulp as its t: nothing cancels. */
 static void origins_at_the_surface(void **state)
 {
     (void)state;
@@ -190,7 +190,7 @@ static void origins_at_the_surface(void **state)
     assert_true(t_of(&down, &s, false) == (double)off - 5);
     const cgt_exact_ray up = {{nextafterf(5, 0), 0, 0}, {0x1p-30f, 0, 0}};
     assert_true(t_of(&up, &s, true) == (5 - (double)nextafterf(5, 0)) * 0x1p30);
-    const cgt_primitive ground = sphere_of(0, -0x1p100f, 0, 0x1p100f); /* the origin rests on it, to the last bit */
+    const cgt_primitive ground = sphere_of(0, -0x1p100f, 0, 0x1p100f); /* the origin lies on it, to the last bit */
     const cgt_exact_ray from_ground = {{0, 0x1p-149f, 0}, {0, -1, 0}};
     assert_true(t_of(&from_ground, &ground, false) == 0x1p-149);
 }
@@ -228,7 +228,7 @@ static void equal_by_construction(void **state)
     }
 }
 
-/* A plane moves through a root that no float is, 10 -+ sqrt(3): whether it is before is known from squares. */
+/* A plane moves through the irrational root 10 -+ sqrt(3): comparing squares decides whether it comes first. */
 static void irrational_roots(void **state)
 {
     (void)state;

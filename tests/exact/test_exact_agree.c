@@ -22,13 +22,14 @@ enum { MAX_ROOTS = 6 };
 
 static const exact_build *const others[] = {&exact_counted, &exact_wide, &exact_halves};
 
-/* What a family's cases had to offer: that a test saw what it is about. */
+/* What the cases of a family contained: shows that a test met the situations it is about. */
 typedef struct tally {
     uint64_t cases, triangle_hits, sphere_hits, tangents, on_edge;
-    uint64_t pairs[3], equal, surely; /* pairs[0]: triangles, [1]: mixed, [2]: spheres; surely: in binary128, too */
+    uint64_t pairs[3], equal,
+        surely; /* pairs[0]: triangles, [1]: mixed, [2]: spheres; surely: decided by binary128 as well */
 } tally;
 
-/* The roots of a case's primitives, as the exact stage and as the oracle have them. */
+/* The roots of a case's primitives, by the exact stage and by the oracle. */
 typedef struct roots {
     int count;
     cgt_exact_root root[MAX_ROOTS];
@@ -80,7 +81,7 @@ static void check_normal(const cgt_triangle *triangle, const truth_real exact[3]
     double largest = 0;
     for (int a = 0; a < 3; a++) {
         largest = largest < n[a] ? n[a] : largest < -n[a] ? -n[a] : largest;
-        assert_true(within(exact[a] * length, n[a], 0x1p-51)); /* of n 2^-52, of the length as much */
+        assert_true(within(exact[a] * length, n[a], 0x1p-51)); /* 2^-52 relative for n and for its length */
         assert_true((exact[a] == 0) == (n[a] == 0));
     }
     assert_true(largest >= 0.5 && largest <= 4);
@@ -125,7 +126,7 @@ static void check_builds_on_shape(const cgt_exact_ray *ray, const cgt_primitive 
     }
 }
 
-/* Adds the roots of one primitive: hit or miss as the oracle has it, and by all builds. */
+/* Adds the roots of one primitive; all builds must agree with the oracle on hit or miss. */
 static void add_roots(const cgt_exact_ray *ray, const cgt_primitive *shape, const oracle_line *line, roots *all,
                       tally *sum)
 {
@@ -173,7 +174,7 @@ static void compare_pair(const cgt_exact_ray *ray, roots *all, int i, int j, tal
         assert_int_equal(order, a < b ? -1 : 1);
         sum->surely++;
     }
-    /* and the values that are handed out never contradict it by more than their error */
+    /* and the returned values never contradict it by more than their error */
     const double s = all->t[i], t = all->t[j];
     assert_true(order > 0 || s <= t + 0x1p-48 * (t < 0 ? -t : t));
 }
@@ -236,7 +237,7 @@ static void everyday_input(void **state)
         check_family(f, cases_of_family());
 }
 
-/* Input on which signs are 0, or as small as floats make them. */
+/* Input whose signs are 0, or decided by the smallest differences of floats. */
 static void degenerate_input(void **state)
 {
     (void)state;
@@ -257,7 +258,7 @@ static void whole_range_of_float(void **state)
         check_family(f, cases_of_family());
 }
 
-/* The families take each tier often. */
+/* The families reach each tier often. */
 static void every_tier_is_reached(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Changes that must not affect the exact stage: scale, position, axes, signs, the order of vertices, and a processor
- * mode that flushes denormals. */
+ * Transformations that must not affect the exact stage: scale, position, axes, signs, the order of vertices, and a
+ * processor mode that flushes denormals. */
 #include "support/test.h"
 
 #include <math.h>
@@ -54,8 +54,8 @@ static exact_case changed(const exact_case *in, const change *h)
     return out;
 }
 
-/* Everything that the stage says about a case; t as it would be without the change. No padding: they are compared by
- * their bytes. */
+/* All results of the stage for a case, with t mapped back to the untransformed case. No padding: results are compared
+ * as bytes. */
 typedef struct answers {
     double t[4];
     int order[4][4];
@@ -88,7 +88,7 @@ static bool are_quarters(const float *f, int count)
     return true;
 }
 
-/* Quarters up to 16 are floats also when they are multiplied by 2^-147 to 2^123. */
+/* Multiples of a quarter up to 16 stay exact in float when multiplied by 2^-147 to 2^123. */
 static void no_change_matters(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void no_change_matters(void **state)
                     .turn = (int)random_below(&r, 3)};
         for (int a = 0; a < 3; a++)
             h.by[a] = (float)random_below(&r, 33) / 4 - 4;
-        /* what was computed has more digits */
+        /* computed values have more digits */
         if (!are_quarters(&c.shape[2].sphere.r, 1) || !are_quarters(&c.shape[3].sphere.r, 1))
             h.length = (int)random_below(&r, 100);
         if (!are_quarters(c.ray.dir, 3))
@@ -119,7 +119,7 @@ static void no_change_matters(void **state)
     assert_true(hits > 20 && denormal > 0);
 }
 
-/* ---- Denormals that the processor flushes ---- */
+/* ---- Denormals flushed by the processor ---- */
 
 #if defined(__x86_64__)
 #define CAN_FLUSH 1
@@ -127,7 +127,7 @@ typedef unsigned int flush_mode;
 static flush_mode flush_on(void)
 {
     const flush_mode before = _mm_getcsr();
-    _mm_setcsr(before | 0x8040); /* flush results, take operands for zero */
+    _mm_setcsr(before | 0x8040); /* flush-to-zero and denormals-are-zero */
     return before;
 }
 static void flush_back(flush_mode before) { _mm_setcsr(before); }
@@ -162,7 +162,7 @@ static void flushing_changes_nothing(void **state)
         const answers before = ask(&c, &none);
         const flush_mode mode = flush_on();
         const volatile float smallest = 0x1p-149f;
-        volatile float twice = smallest + smallest; /* stored in between, so computed in between */
+        volatile float twice = smallest + smallest; /* the stores keep the computation inside this mode */
         const answers flushed = ask(&c, &none);
         flush_back(mode);
         assert_true(twice == 0);

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The order of two planes along a ray, and its whole-number stage alone, against dyadic arithmetic, which shares no
- * code with either. Times are equal or differ in the last place; floats include denormals and the ends of the range. */
+ * The order of two planes along a ray, and its integer stage by itself, against dyadic arithmetic, which shares no code
+ * with either. Times are equal or differ in the last place; floats include denormals and the ends of the range. */
 #include "support/oracle/dyadic.h"
 #include "support/test.h"
 
@@ -144,7 +144,8 @@ static void small_whole_numbers(void **state)
     judge_family("small whole numbers", 5, whole);
 }
 
-/* Equal by construction, at any scale: t = k (m / n) with (m f, n f) for several f; then one number moved a step. */
+/* Equal by construction, at any scale: t = k (m / n) with (m f, n f) for several f; then one number is moved by one
+ * ulp. */
 static void equal_times(void **state)
 {
     (void)state;
@@ -165,7 +166,7 @@ static void equal_times(void **state)
         judge(&beside_same, t[0], time_beside(&r, t[1]));
     }
     report("equal times", &same);
-    report("beside equal times", &beside_same);
+    report("next to equal times", &beside_same);
     assert_int_equal(same.equal, same.pairs);
     assert_true(beside_same.before > 0 && beside_same.after > 0);
 }
@@ -187,7 +188,7 @@ static void nearly_equal_times(void **state)
     assert_true(sum.before > sum.pairs / 8 && sum.after > sum.pairs / 8 && sum.equal > sum.pairs / 16);
 }
 
-/* The bound t of a range against a plane that is met about then. */
+/* The end of a range against a plane crossed at about the same t. */
 static void bounds_of_ranges(void **state)
 {
     (void)state;

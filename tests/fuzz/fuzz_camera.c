@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Frames of a camera: into planes and to a visitor, against the same rays as an array. */
+ * Frames of a camera, into planes and to a visitor, compared with the same rays as an array. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,7 +82,7 @@ static void take_pixels(const planes *p, full_hit *hit)
                 if (x < p->width)
                     memcpy((float *)(void *)&hit[y * p->width + x] + k, at, sizeof *at);
                 else
-                    FUZZ_CHECK(*at == 0xcdcdcdcd, "frame: an element behind the row is written");
+                    FUZZ_CHECK(*at == 0xcdcdcdcd, "frame: an element past the row is written");
             }
 }
 
@@ -90,11 +90,11 @@ static void take_pixels(const planes *p, full_hit *hit)
 
 typedef struct visit {
     const planes *planes;
-    uint8_t *seen; /* times, of each pixel; tiles do not share one */
+    uint8_t *seen; /* number of visits of each pixel; tiles are disjoint */
     bool stop;
 } visit;
 
-/* A visitor's tile holds the values of the planes. */
+/* Checks that a visitor's tile holds the values of the planes. */
 static cgt_visit visitor(void *user, const cgt_tile *tile)
 {
     const visit *const v = user;
@@ -140,7 +140,7 @@ static void trace_as_array(fuzz_model *m, const fuzz_answers *a)
     cgt_trace_options o;
     cgt_trace_options_init(&o);
     cgt_result result = trace_array(m->scene, a->ray, a->count, a->robust, &o);
-    if (result == CGT_ERROR_OUT_OF_MEMORY) { /* for a tree that rays build; it does when it is tried again */
+    if (result == CGT_ERROR_OUT_OF_MEMORY) { /* for a BVH that rays build; the second attempt succeeds */
         fuzz_check_error(m, result);
         result = trace_array(m->scene, a->ray, a->count, a->robust, &o);
     }
@@ -177,7 +177,7 @@ static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camer
     free(ray);
 }
 
-/* How open the pixels of a traced frame lie, by bits of a byte that nothing else reads. */
+/* The ambient openness of a traced frame, with options from the bits of a byte that nothing else reads. */
 static void trace_ambient(fuzz_model *m, const cgt_camera *camera, const planes *p, test_trace_options *o, uint8_t how)
 {
     static const uint32_t samples[] = {1, 3, 16, 100};

@@ -11,7 +11,7 @@
 
 /* ---- options ---- */
 
-/* One of `count` values, now and then one behind them. */
+/* One of `count` values, occasionally one past them. */
 static uint32_t odd_below(fuzz_model *m, uint32_t count, bool *legal)
 {
     const uint8_t byte = fuzz_byte(&m->bytes);
@@ -26,7 +26,7 @@ test_trace_options fuzz_options(fuzz_model *m, bool camera, bool *legal)
     test_trace_options o = {0};
     *legal = true;
     o.precision = (cgt_precision)odd_below(m, 3, legal);
-    /* the other tests need FAST: otherwise few calls would be legal */
+    /* the other triangle tests need FAST: otherwise few calls would be legal */
     if (o.precision == CGT_PRECISION_FAST || fuzz_below(&m->bytes, 8) == 0)
         o.triangle_test = (cgt_triangle_test)odd_below(m, 3, legal);
     o.tile = (cgt_tile_shape)odd_below(m, 3, legal);
@@ -50,7 +50,7 @@ fuzz_answers fuzz_answers_make(const truth_ray *ray, uint32_t count)
     full_hit **const array[] = {&a.robust, &a.exact, &a.other};
     for (int i = 0; i < 3; i++) {
         *array[i] = fuzz_allocate(count * sizeof **array[i]);
-        memset(*array[i], 0x5a, count * sizeof **array[i]); /* an answer that is not written shows */
+        memset(*array[i], 0x5a, count * sizeof **array[i]); /* a pattern, so that an unwritten answer shows */
     }
     return a;
 }
@@ -126,19 +126,21 @@ static void describe(const fuzz_model *m, const truth_ray *ray, const full_hit *
 static void check_hit(const fuzz_model *m, const truth_ray *ray, const full_hit *h, uint32_t i, cgt_precision precision)
 {
     const fuzz_geometry *g = h->geometry < FUZZ_GEOMETRIES ? &m->geometry[h->geometry] : NULL;
-    HIT_CHECK(g && g->used, "precision %d, ray %u: hits geometry %u, which is none", (int)precision, i, h->geometry);
+    HIT_CHECK(g && g->used, "precision %d, ray %u: hits geometry %u, which does not exist", (int)precision, i,
+              h->geometry);
     HIT_CHECK(h->primitive < fuzz_count(g), "precision %d, ray %u: hits primitive %u of %u", (int)precision, i,
               h->primitive, fuzz_count(g));
     HIT_CHECK(can_be_hit(g, h->primitive), "precision %d, ray %u: hits primitive %u, which is skipped", (int)precision,
               i, h->primitive);
-    HIT_CHECK(!fuzz_ray_is_invalid(ray), "precision %d, ray %u: is none, and hits", (int)precision, i);
+    HIT_CHECK(!fuzz_ray_is_invalid(ray), "precision %d, ray %u: is invalid, but hits", (int)precision, i);
     HIT_CHECK(isfinite(h->t), "precision %d, ray %u: t %a", (int)precision, i, (double)h->t);
     HIT_CHECK(ray->t_min <= h->t && h->t <= ray->t_max, "precision %d, ray %u: t %a out of range", (int)precision, i,
               (double)h->t);
     HIT_CHECK(g->triangular || (h->uv[0] == 0 && h->uv[1] == 0), "precision %d, ray %u: u and v of a sphere",
               (int)precision, i);
-    HIT_CHECK(isfinite(h->uv[0]) && isfinite(h->uv[1]), "precision %d, ray %u: u or v is no number", (int)precision, i);
-    HIT_CHECK(finite3(h->normal), "precision %d, ray %u: the normal is none", (int)precision, i);
+    HIT_CHECK(isfinite(h->uv[0]) && isfinite(h->uv[1]), "precision %d, ray %u: u or v is not finite", (int)precision,
+              i);
+    HIT_CHECK(finite3(h->normal), "precision %d, ray %u: the normal is invalid", (int)precision, i);
     if (precision != CGT_PRECISION_EXACT)
         return;
     HIT_CHECK(h->uv[0] >= 0 && h->uv[1] >= 0 && h->uv[0] <= 1 && h->uv[1] <= 1, "precision %d, ray %u: u %a, v %a",
@@ -205,9 +207,9 @@ void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision p
         if (precision_of_other == CGT_PRECISION_FAST)
             continue;
         h = precision_of_other == CGT_PRECISION_EXACT ? e : h;
-        HIT_CHECK(same_hit(o, h), "precision %d, ray %u: by another way %u.%u at %a", (int)precision_of_other, i,
+        HIT_CHECK(same_hit(o, h), "precision %d, ray %u: by another call %u.%u at %a", (int)precision_of_other, i,
                   o->geometry, o->primitive, (double)o->t);
-        HIT_CHECK(same_values(o, h), "precision %d, ray %u: by another way u %a v %a normal %a %a %a",
+        HIT_CHECK(same_values(o, h), "precision %d, ray %u: by another call u %a v %a normal %a %a %a",
                   (int)precision_of_other, i, (double)o->uv[0], (double)o->uv[1], (double)o->normal[0],
                   (double)o->normal[1], (double)o->normal[2]);
     }
@@ -215,7 +217,7 @@ void fuzz_check_same(const fuzz_model *m, const fuzz_answers *a, cgt_precision p
 
 /* ---- the truth ---- */
 
-/* Half an ulp of rounding, and what the header allows before it. */
+/* Half an ulp of rounding, plus the error before rounding that the header allows. */
 #define T_ULP 0.5101
 #define EXACT_ULP 1.0001
 
@@ -265,7 +267,7 @@ void fuzz_check_truth(const fuzz_model *m, const fuzz_answers *a)
         HIT_CHECK(verdict == ORACLE_RIGHT, "ray %u: %s: %u.%u at %a", i,
                   verdict == ORACLE_MISSED     ? "missed"
                   : verdict == ORACLE_INVENTED ? "invented"
-                                               : "another primitive is nearer",
+                                               : "another primitive is closer",
                   h->geometry, h->primitive, (double)h->t);
         if (h->geometry != CGT_INVALID_ID)
             check_values(m, ray, h, &truth, i);

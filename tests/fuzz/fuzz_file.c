@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bytes as a file for the trajectory readers. The readers open paths by their endings, so the bytes go to a scratch
- * file in TMPDIR, one per ending and process, which goes when the process ends well. */
+ * Bytes as a file for the trajectory readers. The readers choose the format by a path's ending, so the bytes go to a
+ * scratch file in TMPDIR, one per ending and process, which is removed when the process exits normally. */
 #define _DEFAULT_SOURCE /* mkdtemp */
 #include "fuzz/fuzz_file.h"
 
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define MOST_FRAMES 64u /* that are looked at; a few bytes may stand for a clip of any length */
+#define MOST_FRAMES 64u /* frames read at most; a few bytes may describe a clip of any length */
 #define ERROR_BYTES 1024
 
 /* ---- scratch files: the input, and the frames that were read, written as .frames ---- */
@@ -56,7 +56,7 @@ static void fill(const char *path, const uint8_t *bytes, size_t size)
 
 /* ---- frames ---- */
 
-/* FNV-1a; two frames of one file with the same number are the same where it is. */
+/* FNV-1a: two frames of a file with equal hashes count as equal. */
 static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)
@@ -64,7 +64,7 @@ static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
     return hash;
 }
 
-/* Of what a .frames file keeps. */
+/* Hash of the data that a .frames file stores. */
 static uint64_t hash_shapes(const trajectory_frame *f)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
@@ -75,7 +75,7 @@ static uint64_t hash_shapes(const trajectory_frame *f)
     return hash_bytes(hash, f->position, (size_t)f->count * 12);
 }
 
-/* Of all that a frame has. */
+/* Hash of all data of a frame. */
 static uint64_t hash_frame(const trajectory_frame *f)
 {
     uint64_t hash = hash_bytes(hash_shapes(f), &f->step, sizeof f->step);
@@ -90,14 +90,15 @@ static uint64_t hash_frame(const trajectory_frame *f)
 static void check_frame(const trajectory_frame *f, uint64_t number, const trajectory_options *o)
 {
     const uint64_t most = o->max_count ? o->max_count : UINT64_C(1) << 31;
-    FUZZ_CHECK(f->number == number, "frame %llu says that it is %llu", (unsigned long long)number,
+    FUZZ_CHECK(f->number == number, "frame %llu claims to be %llu", (unsigned long long)number,
                (unsigned long long)f->number);
     FUZZ_CHECK(f->count <= most && f->triangles <= most, "frame: more than the limit");
     if (f->kind == TRAJECTORY_SPHERES) {
-        FUZZ_CHECK(f->xyzr && !f->triangles && !f->index && !f->position && !f->vertex_normal, "frame: of spheres?");
+        FUZZ_CHECK(f->xyzr && !f->triangles && !f->index && !f->position && !f->vertex_normal,
+                   "frame: spheres with arrays of triangles");
         return;
     }
-    FUZZ_CHECK(f->kind == TRAJECTORY_TRIANGLES && !f->xyzr, "frame: of what?");
+    FUZZ_CHECK(f->kind == TRAJECTORY_TRIANGLES && !f->xyzr, "frame: neither spheres nor triangles");
     FUZZ_CHECK((f->position || !f->count) && (f->index || !f->triangles), "frame: arrays are missing");
     for (size_t i = 0; i < 3 * (size_t)f->triangles; i++)
         FUZZ_CHECK(f->index[i] < f->count, "frame: index %zu is %u of %u", i, f->index[i], f->count);
@@ -105,10 +106,10 @@ static void check_frame(const trajectory_frame *f, uint64_t number, const trajec
 
 /* ---- a file ---- */
 
-/* What one pass over a file has found. */
+/* The result of one pass over a file. */
 typedef struct pass {
-    uint32_t frames; /* MOST_FRAMES: there may be more */
-    int end;         /* 0 end of the file, -1 error; 1: neither was reached */
+    uint32_t frames; /* MOST_FRAMES: the file may have more */
+    int end;         /* 0: end of the file; -1: error; 1: neither reached */
     uint64_t whole[MOST_FRAMES], shapes[MOST_FRAMES];
     char error[ERROR_BYTES];
 } pass;
@@ -127,7 +128,7 @@ static void check_end(trajectory *t, const char *path, const pass *p)
     trajectory_frame frame;
     if (p->end == 1)
         return;
-    FUZZ_CHECK(trajectory_read(t, &frame, error, sizeof error) == p->end, "%s: the end is not the end", path);
+    FUZZ_CHECK(trajectory_read(t, &frame, error, sizeof error) == p->end, "%s: a frame after the end", path);
     if (p->end == 0)
         return;
     check_error(path, p->error);
@@ -163,7 +164,7 @@ static void read_all(trajectory *t, const char *path, const trajectory_options *
     check_end(t, path, p);
 }
 
-/* Skipping meets at least the frames that reading meets; where nothing was wrong, just those. */
+/* Skipping passes at least the frames that reading finds; without an error, exactly those. */
 static void skip_all(trajectory *t, const char *path, const pass *p)
 {
     char error[ERROR_BYTES] = "";
@@ -176,7 +177,7 @@ static void skip_all(trajectory *t, const char *path, const pass *p)
     FUZZ_CHECK(frames >= p->frames && (p->end == -1 || frames == p->frames), "%u frames skipped of %u", frames,
                p->frames);
     if (got == 1)
-        return; /* counting them all may take for ever, and rightly so */
+        return; /* counting all of them may legitimately take very long */
     FUZZ_CHECK(p->end == -1 || got == 0, "skip: %s", error);
     if (got == -1)
         check_error(path, error);
@@ -196,7 +197,7 @@ static void read_again(trajectory *t, const char *path, const trajectory_options
     FUZZ_CHECK(!memcmp(again.whole, first->whole, sizeof again.whole), "read twice, the frames differ");
 }
 
-/* The copy holds what was read. */
+/* The copy equals the frames that were read. */
 static void read_copy(const char *path, const pass *first)
 {
     char error[ERROR_BYTES] = "";

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bytes as a file for the trajectory readers, and what must hold of every file, good or bad. */
+ * Bytes as a file for the trajectory readers, and the invariants of every file, valid or not. */
 #ifndef FUZZ_FILE_H
 #define FUZZ_FILE_H
 

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Geometries from bytes: arrays with any stride and any numbers in them, good and bad descriptions. */
+ * Geometries from bytes: arrays of any stride and any numbers, valid and invalid descriptions. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fuzz/fuzz_model.h"
 
-/* The last five: no multiples of 4; no address space holds two such elements. */
+/* The last five are no multiples of 4, or so large that no address space holds two elements. */
 static const size_t strides[] = {0,  0,  0,  4, 8,  12,       16,           20,
                                  24, 36, 64, 3, 13, SIZE_MAX, SIZE_MAX - 3, (SIZE_MAX / 2 & ~(size_t)3) - 16};
 #define STRIDES (sizeof strides / sizeof strides[0])
@@ -23,7 +23,7 @@ typedef struct array {
 
 static size_t step_of(size_t stride, size_t element) { return stride ? stride : element; }
 
-/* An array of count elements of `words` numbers. Where it is bad there is one element. */
+/* An array of count elements of `words` numbers. An invalid array has one element. */
 static array make_array(fuzz_model *m, uint32_t count, uint32_t words)
 {
     const uint8_t how = fuzz_byte(&m->bytes);
@@ -38,7 +38,7 @@ static array make_array(fuzz_model *m, uint32_t count, uint32_t words)
     return a;
 }
 
-/* Where word k of element i is. */
+/* Address of word k of element i. */
 static char *word_at(const array *a, uint32_t words, uint32_t i, uint32_t k)
 {
     return a->at + i * step_of(a->stride, 4 * (size_t)words) + 4 * (size_t)k;
@@ -76,7 +76,7 @@ static uint32_t small_count(fuzz_model *m)
     return byte < 224 ? byte % 16 : byte % 48;
 }
 
-/* What a description has that makes it one to be refused. */
+/* Flaws for which a description must be refused. */
 typedef enum flaw { FLAW_NONE, FLAW_NULL, FLAW_MISALIGNED, FLAW_COUNT } flaw;
 
 static flaw any_flaw(fuzz_model *m)
@@ -85,10 +85,10 @@ static flaw any_flaw(fuzz_model *m)
     return byte < 250 ? FLAW_NONE : (flaw)(1 + byte % 3);
 }
 
-/* A pointer with its flaw. */
+/* A pointer with the flaw applied. */
 static void *flawed(void *at, flaw f) { return f == FLAW_NULL ? NULL : f == FLAW_MISALIGNED ? (char *)at + 1 : at; }
 
-/* By the bits of a byte that nothing else reads. */
+/* Chosen by the bits of a byte that nothing else reads. */
 static uint32_t any_mask(uint8_t how)
 {
     static const uint32_t masks[] = {0, 0, 1, 2, 3, 0x80000000u, UINT32_MAX, 6};
@@ -242,8 +242,8 @@ void fuzz_add(fuzz_model *m)
     }
 }
 
-/* Of a geometry that need not exist, by one that need not be of its kind. The old arrays go at once: nothing may read
- * them from here on. */
+/* Replaces a geometry, which need not exist, by one of either kind. The old arrays are freed at once: nothing may read
+ * them afterwards. */
 void fuzz_update(fuzz_model *m)
 {
     fuzz_geometry g;

@@ -11,9 +11,9 @@
 #include "support/research_options.h"
 
 typedef struct fuzz_memory {
-    size_t blocks, bytes; /* that are out */
-    uint32_t fail_after;  /* the call that returns NULL, counted from 1; 0: none. It fails once. */
-    bool failed;          /* it has failed since this was last cleared */
+    size_t blocks, bytes; /* allocated and not yet released */
+    uint32_t fail_after;  /* the call that returns NULL, counted from 1; 0: none. Only that call fails. */
+    bool failed;          /* set when a call has failed */
     pthread_t caller;     /* the only thread that may call */
 } fuzz_memory;
 

@@ -4,8 +4,8 @@
  * Fuzz target: the first byte chooses the kind of mesh file and the options, the rest is the file. */
 #include "fuzz/fuzz_file.h"
 
-/* assimp 5.2.5 does not give back all memory of an import that fails. What it and C++ have allocated is left out of the
- * leak check; what the readers, which are C, have allocated is not. The sanitizer looks for this function. */
+/* assimp 5.2.5 leaks memory when an import fails. The leak check skips allocations of assimp and C++, but not those of
+ * the readers, which are C. The sanitizer looks for this function. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) { return "leak:libassimp\nleak:libstdc++\n"; }
 

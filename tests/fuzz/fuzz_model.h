@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a script of fuzz_scene knows of the library's objects: one context, one scene, the geometries that the scene
- * must hold by the contract of cgt.h, and their arrays, each in a block that ends with its last element. */
+ * A model of the library's state for fuzz_scene: one context, one scene, the geometries that the scene must hold by the
+ * contract of cgt.h, and their arrays, each in a block that ends with its last element. */
 #ifndef FUZZ_MODEL_H
 #define FUZZ_MODEL_H
 
@@ -30,7 +30,7 @@ typedef struct fuzz_model {
 
 /* ---- fuzz_geometry.c ---- */
 
-/* Adds, replaces or removes a geometry as the bytes say. */
+/* Adds, replaces or removes a geometry, chosen by the bytes. */
 void fuzz_add(fuzz_model *m);
 void fuzz_update(fuzz_model *m);
 void fuzz_remove(fuzz_model *m);
@@ -41,7 +41,7 @@ void fuzz_release_geometry(fuzz_geometry *g);
 
 uint32_t fuzz_count(const fuzz_geometry *g);
 
-/* x, y, z, r; the three vertices of a triangle whose indices are good. */
+/* x, y, z, r; or the three vertices of a triangle with valid indices. */
 void fuzz_sphere_at(const fuzz_geometry *g, uint32_t i, float sphere[4]);
 void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3]);
 
@@ -53,7 +53,7 @@ bool fuzz_indices_are_good(const fuzz_geometry *g);
 /* The name of one of the build's variants. */
 const char *fuzz_variant(uint8_t number);
 
-/* Checks a call that failed: it has a message, and out of memory has a refused allocation as its cause. */
+/* Checks a failed call: it has a message, and out of memory implies a refused allocation. */
 void fuzz_check_error(fuzz_model *m, cgt_result result);
 
 /* Commits; true where the scene may be traced. */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Arrays of rays: nearest hit and any hit, with any options and strides, by another variant in a grid, and the
- * truth. */
+ * Arrays of rays: closest hit and any hit, with any options and strides, compared with another variant in a grid and
+ * with exact arithmetic. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 
 /* ---- rays that are worth it ---- */
 
-/* A vertex, a point of an edge, or of a sphere; any point where the scene has nothing. */
+/* A vertex, a point of an edge or of a sphere; any point if the scene is empty. */
 static void any_target(fuzz_model *m, float p[3])
 {
     const fuzz_geometry *g = &m->geometry[fuzz_below(&m->bytes, FUZZ_GEOMETRIES)];
@@ -44,7 +44,7 @@ static truth_ray any_ray(fuzz_model *m, const truth_ray *before)
 {
     const uint8_t kind = fuzz_byte(&m->bytes);
     truth_ray ray = *before;
-    if (kind % 8 == 0) { /* a neighbour of the last one */
+    if (kind % 8 == 0) { /* a neighbour of the last ray */
         ray.dir[kind / 8 % 3] = nextafterf(ray.dir[kind / 8 % 3], kind & 128 ? INFINITY : -INFINITY);
         return ray;
     }
@@ -79,7 +79,7 @@ static uint32_t make_rays(fuzz_model *m, uint32_t ranges, truth_ray ray[MOST_RAY
 #define OUTPUTS 8
 
 typedef struct arrays {
-    size_t stride; /* as in the call: 0 for 4 */
+    size_t stride; /* as passed to the call: 0 for 4 */
     uint32_t count;
     char *block[INPUTS];
 } arrays;
@@ -121,7 +121,7 @@ static cgt_rays rays_in(const arrays *a, const truth_ray *ray, uint32_t ranges)
                       .t_max = ranges & 2 ? at[7] : NULL};
 }
 
-/* The arrays in the order of full_hit; only those of the wanted fields are handed out. */
+/* The arrays in the order of full_hit; only those of the requested fields are passed. */
 static cgt_hits hits_in(const arrays *a, uint32_t fields)
 {
     void *at[OUTPUTS];
@@ -138,7 +138,7 @@ static cgt_hits hits_in(const arrays *a, uint32_t fields)
                       .v = at[7]};
 }
 
-/* Takes the answers out of the arrays; a field that was not asked for is as in `like`. Nothing else may be written. */
+/* Copies the answers from the arrays; fields that were not requested come from `like`. Nothing else may be written. */
 static void take_hits(const arrays *a, uint32_t fields, const full_hit *like, full_hit *hit)
 {
     const cgt_hits h = hits_in(a, fields);
@@ -164,7 +164,7 @@ static void must(fuzz_model *m, cgt_result result, bool legal)
         fuzz_check_error(m, result);
 }
 
-/* Rays may build a tree, for which memory may be short; then the call does when it is tried again. */
+/* Rays may build a BVH, for which memory may run out; the call then succeeds on the second attempt. */
 #define MUST(m, call, legal)                                                                                           \
     do {                                                                                                               \
         cgt_result result_ = (call);                                                                                   \
@@ -197,7 +197,7 @@ static void check_any_hit(fuzz_model *m, const fuzz_answers *a, const cgt_rays *
     MUST(m, cgt_occluded_rays(m->scene, rays, occluded, TRACE_OPTIONS(o)), true);
     for (uint32_t i = 0; i < a->count; i++)
         FUZZ_CHECK(occluded[i] == (a->other[i].geometry != CGT_INVALID_ID),
-                   "ray %u: any hit says %u, nearest hit %u.%u", i, occluded[i], a->other[i].geometry,
+                   "ray %u: any hit says %u, closest hit %u.%u", i, occluded[i], a->other[i].geometry,
                    a->other[i].primitive);
     fuzz_check_counts(a, a->other, o->statistics, o->research_statistics);
     free(occluded);
@@ -250,7 +250,7 @@ static cgt_primitive shape_at(const fuzz_geometry *g, uint32_t i)
     return primitive;
 }
 
-/* Whether primitive i of a geometry takes part and is met; where, in *hit. */
+/* Whether primitive i of a geometry is valid and hit; *hit gets where. */
 static bool meets(const cgt_ray *ray, const fuzz_geometry *g, uint32_t i, cgt_decided_hit *hit)
 {
     uint64_t exact = 0;
@@ -265,7 +265,7 @@ static bool meets(const cgt_ray *ray, const fuzz_geometry *g, uint32_t i, cgt_de
     return zero == 0 && (g->triangular || hit->primitive.sphere.r >= 0) && cgt_decide_hit(ray, hit, &exact);
 }
 
-/* By brute force. Only t and the ids of *h are written. */
+/* The closest hit by brute force. Only t and the ids of *h are written. */
 static void nearest_left(const fuzz_model *m, const truth_ray *from, const filters *f, uint32_t of, full_hit *h)
 {
     uint64_t exact = 0;
@@ -316,10 +316,10 @@ static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace
         FUZZ_CHECK(
             hit[i].geometry == CGT_INVALID_ID ||
                 (hit[i].geometry < FUZZ_GEOMETRIES && mask_of(&m->geometry[hit[i].geometry]) & all_if_zero(f.mask[i])),
-            "ray %u: hits geometry %u, which its mask leaves out", i, hit[i].geometry);
+            "ray %u: hits geometry %u, which its mask excludes", i, hit[i].geometry);
         FUZZ_CHECK(hit[i].geometry == CGT_INVALID_ID || hit[i].geometry != f.geometry[i] ||
                        hit[i].primitive != f.primitive[i],
-                   "ray %u: hits what it ignores", i);
+                   "ray %u: hits the primitive that it skips", i);
         nearest_left(m, &a->ray[i], &f, i, &left);
         FUZZ_CHECK(
             o->precision == CGT_PRECISION_FAST ||
@@ -358,7 +358,7 @@ static void trace_other(fuzz_model *m, const fuzz_answers *a, uint32_t ranges)
 
 /* ---- the same by another variant, in a grid ---- */
 
-/* Adds the geometries under the ids that they have; empty ones hold the places between. */
+/* Adds the geometries under their ids; empty geometries fill the gaps. */
 static void copy_scene(const fuzz_model *m, cgt_scene *scene)
 {
     const cgt_spheres nothing = {0};
@@ -367,9 +367,9 @@ static void copy_scene(const fuzz_model *m, cgt_scene *scene)
         const fuzz_geometry *g = &m->geometry[i];
         const cgt_result result = g->triangular ? cgt_scene_add_triangles(scene, &g->triangles, &id)
                                                 : cgt_scene_add_spheres(scene, g->used ? &g->spheres : &nothing, &id);
-        FUZZ_CHECK(result == CGT_OK && id == i, "a scene cannot be made again: %s", cgt_get_result_string(result));
+        FUZZ_CHECK(result == CGT_OK && id == i, "a second scene cannot be made: %s", cgt_get_result_string(result));
     }
-    FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a scene cannot be committed again");
+    FUZZ_CHECK(cgt_scene_commit(scene) == CGT_OK, "a second scene cannot be committed");
 }
 
 static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *variant, const uint32_t resolution[3])
@@ -396,8 +396,8 @@ static void trace_elsewhere(fuzz_model *m, const fuzz_answers *a, const char *va
     cgt_context_release(context);
 }
 
-/* A tree or a loose grid is always held against a queue grid, of a few cells where the bytes do not say which; a
- * grid when they ask for it. */
+/* A BVH, kd-tree or loose grid is always compared with a queue grid, of a few cells unless the bytes give a resolution;
+ * a grid only if they request it. */
 static void compare_with_grid(fuzz_model *m, const fuzz_answers *a, bool asked)
 {
     uint32_t resolution[3] = {3, 2, 4};

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Fuzz target: bytes as a script of calls of the public interface. A context has any variant, up to three threads
- * and a memory hook that fails on demand; a scene has a few geometries of tens of primitives, good and bad; then
- * come commits, rays and frames. Each call is checked against cgt.h: results, messages, ids, hits, statistics, and
- * that all memory is released. */
+ * Fuzz target: bytes as a script of calls of the public interface. A context has any variant, up to three threads and a
+ * memory hook that fails on demand; a scene has a few geometries of tens of primitives, valid and invalid; then come
+ * commits, rays and frames. Each call is checked against cgt.h: results, messages, ids, hits, statistics, and that all
+ * memory is released. */
 #include "fuzz/fuzz_check.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ static void on_log(void *user, cgt_log_level level, const char *message)
     m->log_lines++;
 }
 
-/* A valid runner: one after another, the last one first. */
+/* A valid runner: jobs one after another, the last one first. */
 static void run_backwards(void *user, cgt_task *task, void *argument, uint32_t count)
 {
     (void)user;
@@ -34,7 +34,7 @@ void fuzz_check_error(fuzz_model *m, cgt_result result)
                cgt_get_result_string(result));
     FUZZ_CHECK(cgt_context_get_error_message(m->context, text, sizeof text) > 0 && text[0] &&
                    memchr(text, 0, sizeof text),
-               "a message is cut without an end");
+               "a truncated message has no terminator");
     FUZZ_CHECK(result != CGT_ERROR_OUT_OF_MEMORY || m->memory.failed, "out of memory, but no allocation has failed");
     m->memory.failed = false;
 }
@@ -65,7 +65,7 @@ static bool create_context(fuzz_model *m)
     const bool legal = o.threads <= 1024 && variant < 250;
     cgt_result result = cgt_context_create(&o, &m->context);
     if (result == CGT_ERROR_OUT_OF_MEMORY && m->memory.failed) {
-        FUZZ_CHECK(!m->context && !m->memory.blocks, "a context that failed leaves something");
+        FUZZ_CHECK(!m->context && !m->memory.blocks, "a failed context leaves memory allocated");
         m->memory.failed = false;
         result = cgt_context_create(&o, &m->context);
     }
@@ -75,7 +75,7 @@ static bool create_context(fuzz_model *m)
     return legal;
 }
 
-/* Structure, builder, layout and kind of rays from one number; the last four of 256 must be refused. */
+/* Structure, builder, layout and kind of rays from one byte; the last four of 256 values must be refused. */
 static test_scene_options any_structure(uint8_t how)
 {
     static const cgt_structure structure[] = {CGT_STRUCTURE_AUTO, CGT_STRUCTURE_QUEUE_GRID, CGT_STRUCTURE_KD,
@@ -91,7 +91,7 @@ static test_scene_options any_structure(uint8_t how)
     return o;
 }
 
-/* Resolutions that take little memory and time, or that must be refused. */
+/* Resolutions that need little memory and time, or must be refused. */
 static test_scene_options any_options(fuzz_model *m, bool *legal)
 {
     static const uint32_t edges[] = {1, 2, 3, 4, 5, 7, 8, 16, 33, 64, 1024, 1025, 0, CGT_INVALID_ID};
@@ -113,7 +113,7 @@ static test_scene_options any_options(fuzz_model *m, bool *legal)
     return o;
 }
 
-/* Options that are refused give way to the defaults. */
+/* Refused options are replaced by the defaults. */
 static void create_scene(fuzz_model *m)
 {
     bool legal;
@@ -122,7 +122,7 @@ static void create_scene(fuzz_model *m)
     FUZZ_CHECK(legal || (result != CGT_OK && result != CGT_ERROR_OUT_OF_MEMORY), "scene: %s",
                cgt_get_result_string(result));
     for (int i = 0; i < 2 && result != CGT_OK; i++) {
-        FUZZ_CHECK(!m->scene, "scene: an object after an error");
+        FUZZ_CHECK(!m->scene, "scene: not NULL after an error");
         fuzz_check_error(m, result);
         result = cgt_scene_create(m->context, legal ? SCENE_OPTIONS(&o) : NULL, &m->scene);
     }
@@ -147,16 +147,16 @@ static void check_tree(const cgt_scene_statistics *s, const cgt_research_scene_s
 {
     const uint32_t valid = s->primitives - s->skipped_not_finite - s->skipped_radius - s->skipped_degenerate;
     if (!r->kd_leaves) {
-        FUZZ_CHECK(!r->kd_nodes && !r->kd_empty_leaves && !r->kd_largest_leaf, "statistics: half a tree");
+        FUZZ_CHECK(!r->kd_nodes && !r->kd_empty_leaves && !r->kd_largest_leaf, "statistics: half a kd-tree");
         return;
     }
-    FUZZ_CHECK(s->structure == CGT_STRUCTURE_KD || s->structure == CGT_STRUCTURE_KD_ROPES, "statistics: not a tree");
+    FUZZ_CHECK(s->structure == CGT_STRUCTURE_KD || s->structure == CGT_STRUCTURE_KD_ROPES, "statistics: not a kd-tree");
     FUZZ_CHECK(r->kd_nodes == 2 * r->kd_leaves - 1 && r->kd_empty_leaves < r->kd_leaves && r->kd_depth <= 50 &&
                    r->kd_largest_leaf >= 1 && r->kd_largest_leaf <= valid,
                "statistics: %u nodes, %u leaves, %u empty, depth %u, %u of %u in one", r->kd_nodes, r->kd_leaves,
                r->kd_empty_leaves, r->kd_depth, r->kd_largest_leaf, valid);
     FUZZ_CHECK(!r->cells && s->structure_bytes >= (size_t)8 * r->kd_nodes && s->structure_bytes <= s->bytes,
-               "statistics: a tree of %zu bytes", s->structure_bytes);
+               "statistics: a kd-tree of %zu bytes", s->structure_bytes);
 }
 
 static void check_statistics(const fuzz_model *m)
@@ -183,11 +183,12 @@ static void check_statistics(const fuzz_model *m)
     FUZZ_CHECK(!r.levels == (s.structure != CGT_STRUCTURE_LOOSE_GRID || !r.cells), "statistics: levels");
     FUZZ_CHECK(r.overflow_references <= r.references && r.overflow_cells <= r.overflow_references &&
                    r.large_primitives <= s.primitives && s.bytes <= m->memory.bytes,
-               "statistics: the counts do not fit each other");
+               "statistics: the counts are inconsistent");
     for (int a = 0; a < 3; a++)
         FUZZ_CHECK(s.bounds_min[a] <= s.bounds_max[a], "statistics: bounds %a to %a", (double)s.bounds_min[a],
                    (double)s.bounds_max[a]);
-    FUZZ_CHECK(s.reason[0] && memchr(s.reason, 0, sizeof s.reason), "statistics: no reason, or one without an end");
+    FUZZ_CHECK(s.reason[0] && memchr(s.reason, 0, sizeof s.reason),
+               "statistics: no reason, or one without a terminator");
     check_tree(&s, &r);
 }
 
@@ -222,7 +223,7 @@ static void replace_scene(fuzz_model *m)
     create_scene(m);
 }
 
-/* Adding, committing and tracing are most of what there is to do. */
+/* Mostly adding, committing and tracing. */
 static void step(fuzz_model *m)
 {
     switch (fuzz_byte(&m->bytes) % 16) {
@@ -263,10 +264,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             step(&m);
         for (uint32_t id = 0; id < FUZZ_GEOMETRIES; id++)
             fuzz_release_geometry(&m.geometry[id]);
-        cgt_context_release(m.context); /* it stays until its last scene goes */
+        cgt_context_release(m.context); /* the context lives until its last scene is released */
         cgt_scene_release(m.scene);
     }
-    FUZZ_CHECK(!m.memory.blocks && !m.memory.bytes, "%zu blocks of %zu bytes are left", m.memory.blocks,
+    FUZZ_CHECK(!m.memory.blocks && !m.memory.bytes, "%%zu blocks of %zu bytes are not released", m.memory.blocks,
                m.memory.bytes);
     return 0;
 }

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * replay [FILE]...: a fuzz target without libFuzzer, for every compiler and machine. Without a FILE: every file of
- * the target's corpus as it is, and mutations of them by CGT_TEST_SEED, their number scaled by CGT_TEST_SCALE. The
- * mutation that is being tried lies in <target>.input of the working directory, so that it is there after a crash;
- * replay <target>.input does it again. With FILEs: those alone. */
+ * replay [FILE]...: a fuzz target without libFuzzer, for every compiler and machine. Without a FILE: every file of the
+ * target's corpus as it is, and mutations of them by CGT_TEST_SEED, their number scaled by CGT_TEST_SCALE. The current
+ * mutation is stored as <target>.input in the working directory, so that it survives a crash; replay <target>.input
+ * repeats it. With FILEs: only those. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "fuzz/fuzz.h"
 #include "support/test.h"
 
-#define MOST_BYTES 4096u /* of a mutation */
+#define MOST_BYTES 4096u /* bytes of a mutation */
 
 typedef struct input {
     uint8_t *bytes;
@@ -88,7 +88,7 @@ typedef struct buffer {
     uint32_t size;
 } buffer;
 
-/* Opens a gap of at most `length` bytes; returns its length. */
+/* Makes room for at most `length` bytes; returns the number. */
 static uint32_t open_gap(buffer *b, uint32_t at, uint32_t length)
 {
     if (length > MOST_BYTES - b->size)
@@ -106,7 +106,7 @@ static void cut(buffer *b, uint32_t at, uint32_t length)
     b->size -= length;
 }
 
-/* A piece of another input, in place of what is there or between. */
+/* Overwrites or inserts a piece of another input. */
 static void splice(buffer *b, test_random *r, const input *from, uint32_t at)
 {
     if (!from->size)
@@ -161,7 +161,7 @@ static void try_mutations(const corpus *c, uint32_t count, const char *path)
         for (uint32_t edits = 1 + random_below(&r, 8); edits > 0; edits--)
             mutate_once(&b, &r, c);
         save(path, &b);
-        /* a copy of its own size, so that a sanitizer sees reads behind it */
+        /* an exact-size copy, so that a sanitizer sees reads past its end */
         uint8_t *bytes = memcpy(fuzz_allocate(b.size), b.bytes, b.size);
         LLVMFuzzerTestOneInput(bytes, b.size);
         free(bytes);

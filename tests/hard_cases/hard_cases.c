@@ -26,7 +26,7 @@ const hard_case *hard_case_at(size_t i)
     return NULL;
 }
 
-/* A number for the case's stream of random numbers: by its name, so that a new case leaves the others as they were. */
+/* The number of the case's random stream, a hash of its name: a new case does not change the others. */
 static uint64_t stream_of(const hard_case *c)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);

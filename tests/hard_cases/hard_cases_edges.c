@@ -9,7 +9,7 @@
 
 #define ROW "shared edge / vertex"
 
-/* From outside or, one time of two, from inside, to a point of a random edge, to a vertex every third time. */
+/* From outside or, half of the time, from inside, to a point of a random edge; to a vertex a third of the time. */
 static void aim_at_edges(hard_scene *s, closed_kind kind, bool exactly)
 {
     const closed_mesh mesh = {.kind = kind};
@@ -104,7 +104,7 @@ static void add_field(hard_scene *s, double depth, bool perspective)
         }
 }
 
-/* Pixels of half the fields' spacing, in packets of 4x4 as a camera has them: every fourth meets a vertex. */
+/* Pixels at half the fields' spacing, in 4x4 packets like a camera's: every fourth one hits a vertex. */
 static void aim_at_fields(hard_scene *s, bool perspective)
 {
     for (uint32_t n = 0; hard_wants_ray(s); n++) {

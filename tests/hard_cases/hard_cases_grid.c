@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes and rays on which a grid loses primitives or its way: rim of the bounds, faces, edges and corners of cells,
- * long walks, primitives in many cells, on planes between cells, in one cell all together. */
+ * Scenes and rays on which a grid may lose primitives or its way: the boundary of the bounds; faces, edges and corners
+ * of cells; long walks; primitives in many cells, on planes between cells, or all in one cell. */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ static void set_resolution(hard_scene *s, uint32_t x, uint32_t y, uint32_t z)
     s->resolution[2] = z;
 }
 
-/* From one point to another, as placed. */
+/* From one point to another, both placed. */
 static void aim(hard_scene *s, const double from[3], const double to[3])
 {
     float org[3], target[3];
@@ -24,9 +24,9 @@ static void aim(hard_scene *s, const double from[3], const double to[3])
     hard_aim(s, org, target, 1);
 }
 
-/* ---- the rim of the bounds ---- */
+/* ---- the boundary of the bounds ---- */
 
-/* A cube, which is its own bounds, and points on its corners, met at edges and corners, from far and from near. */
+/* A cube, which equals its bounds, with points on its corners; hit at edges and corners, from far and near. */
 static void rim(hard_scene *s)
 {
     hard_closed_mesh(s, CLOSED_CUBE, 1);
@@ -48,7 +48,7 @@ static void rim(hard_scene *s)
 
 /* ---- faces, edges and corners of cells ---- */
 
-/* Bounds from 0 to 8 with cells of edge 1, but for what the library rounds outwards. */
+/* Bounds from 0 to 8 with cells of edge 1, except for the library's outward rounding. */
 static void unit_cells(hard_scene *s)
 {
     for (int k = 0; k < 8; k++)
@@ -230,7 +230,7 @@ static void coincident(hard_scene *s)
     }
 }
 
-/* A teapot, or what stands for it, of a millionth of the stadium's size; the eye anywhere in the stadium. */
+/* A stand-in for the teapot, a millionth of the stadium's size; the eye anywhere in the stadium. */
 static void stadium(hard_scene *s)
 {
     const double shift[3] = {0.3, 0.2, -0.1};

@@ -1,15 +1,15 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Input that nobody intends: NaN, infinities, the largest and the smallest floats; copies; both kinds of primitives
- * in several geometries at equal distances. */
+ * Degenerate input: NaN, infinities, the largest and the smallest floats; copies; both kinds of primitives in several
+ * geometries at equal distances. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "hard_cases/hard_cases.h"
 
-/* ---- garbage ---- */
+/* ---- invalid numbers ---- */
 
 static float garbage(hard_scene *s)
 {
@@ -25,7 +25,7 @@ static void spoil(hard_scene *s, float (*bad)(hard_scene *s), float *number, uin
     number[which] = bad(s);
 }
 
-/* Good primitives among bad ones: the bad must not spoil the bounds. */
+/* Valid primitives among invalid ones, which must not affect the bounds. */
 static void add_garbage(hard_scene *s, float (*bad)(hard_scene *s))
 {
     for (int i = 0; i < 60; i++) {
@@ -71,14 +71,14 @@ static void add_garbage_rays(hard_scene *s, float (*bad)(hard_scene *s))
 static void spoilt(hard_scene *s)
 {
     add_garbage(s, garbage);
-    /* one of each kind that is skipped, whatever the numbers above are */
+    /* one primitive for each reason to skip, independent of the numbers above */
     hard_raw_triangle(s, (const float[3][3]){{0, 0, 0}, {1, NAN, 0}, {0, 1, 0}});
     hard_raw_sphere(s, (const float[4]){0, 0, -INFINITY, 1});
     hard_raw_sphere(s, (const float[4]){0, 0, 0, -1});
     add_garbage_rays(s, garbage);
 }
 
-/* Finite numbers of any size: no primitive is skipped, and all are beyond what float can multiply. */
+/* Finite numbers of any size: no primitive is skipped, and their products overflow float. */
 static float any_finite(hard_scene *s)
 {
     for (;;) {
@@ -96,7 +96,7 @@ static void any_numbers(hard_scene *s)
     add_garbage_rays(s, any_size);
 }
 
-/* All coordinates denormal, the directions too half of the time. */
+/* All coordinates are denormal; half of the time so are the directions. */
 static float denormal(hard_scene *s) { return (float)((int)random_below(&s->random, 2001) - 1000) * 0x1p-149f; }
 
 static void denormals(hard_scene *s)
@@ -128,7 +128,7 @@ static void denormals(hard_scene *s)
     }
 }
 
-/* Two huge coordinates and one small in each point: the main axis is chosen by rounding. */
+/* Two huge coordinates and a small one in each point: rounding chooses the main axis. */
 static void huge(hard_scene *s)
 {
     for (int i = 0; i < 60; i++) {
@@ -181,7 +181,7 @@ static void copied_spheres(hard_scene *s)
     }
 }
 
-/* Triangles, spheres, triangles, spheres: lattice planes that touch lattice spheres, met where they touch. */
+/* Triangles, spheres, triangles, spheres: lattice planes tangent to lattice spheres, hit where they touch. */
 static void mixed(hard_scene *s)
 {
     for (int part = 0; part < 4; part++) {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays that are hard in themselves: along axes with zeros of either sign, from surfaces, with ends at hits, of any
+ * Rays that are hard on any scene: along axes with zeros of either sign, from surfaces, with range ends at hits, of any
  * length, in packets of every kind. */
 #include <float.h>
 #include <math.h>
@@ -93,7 +93,7 @@ static void end_at_hit(hard_scene *s, uint32_t i, const hard_found *found)
     }
 }
 
-/* From the hit, rounded to float, back, on, along the surface or anywhere. */
+/* From the hit, rounded to float: backwards, onwards, along the surface or in a random direction. */
 static void leave_hit(hard_scene *s, uint32_t i, const hard_found *found)
 {
     truth_ray *ray = &s->ray[i];
@@ -120,8 +120,9 @@ static void leave_hit(hard_scene *s, uint32_t i, const hard_found *found)
 
 /* ---- packets ---- */
 
-/* As a camera has them: 64 rays of a common origin side by side; openings from a ten-thousandth of a degree to far
- * beyond a half turn, of no width, around the main axes' borders, with the scene before, around and behind. */
+/* Packets like a camera's: 64 adjacent rays of a common origin. Openings range from a ten-thousandth of a degree to far
+ * beyond 180 degrees, include zero width and straddle the borders between main axes; the scene is in front, around or
+ * behind. */
 static void packets(hard_scene *s)
 {
     static const float opening[] = {0, 1e-6f, 1e-2f, 0.5f, 4, 1e3f};
@@ -157,7 +158,7 @@ static void packets(hard_scene *s)
 
 /* ---- estimates ---- */
 
-/* Components from 2^-60 to 2^60 in one ray, their fractions at the ends and at the joints of the tables that
+/* Components from 2^-60 to 2^60 in one ray, their fractions at the ends and at the breakpoints of the tables that
  * reciprocal estimates use. */
 static void lengths(hard_scene *s)
 {

@@ -1,15 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres on which the quadratic loses its digits: far, huge and close, grazed, touched, without extent. Haines et al.,
- * "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, ch. 7. */
+ * Spheres on which the quadratic loses its digits: far away, huge and close, grazed, tangent, of radius 0. Haines et
+ * al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, ch. 7. */
 #include <math.h>
 #include <string.h>
 
 #include "hard_cases/hard_cases.h"
 
-/* A point at `reach` from the line from `org` to the centre, over against the centre: what to aim at. */
-static void beside(hard_scene *s, const double org[3], const double center[3], double reach, double target[3])
+/* A target at distance `reach` from the line through `org` and the centre, in the plane perpendicular to it that
+ * contains the centre. */
+static void offset_target(hard_scene *s, const double org[3], const double center[3], double reach, double target[3])
 {
     double d[3], c[3], cc = 0, dc = 0, dd = 0;
     hard_direction(s, d);
@@ -34,7 +35,8 @@ static void aim_at(hard_scene *s, const double from[3], const double to[3])
     hard_aim(s, org, target, hard_length(s));
 }
 
-/* How far beside the centre a line from `distance` touches a sphere of radius 1, measured at the centre. */
+/* Distance from the centre, measured in the plane through it, at which a line from `distance` is tangent to the unit
+ * sphere. */
 static double outline(double distance) { return distance > 1.0001 ? 1 / sqrt(1 - 1 / (distance * distance)) : 1; }
 
 static void spheres_about(hard_scene *s, int count, double reach, double r)
@@ -46,7 +48,7 @@ static void spheres_about(hard_scene *s, int count, double reach, double r)
     }
 }
 
-/* From 1e1 to 1e6 radii away, within 1.02 r of the centre; or at the outline to rounding. */
+/* From 1e1 to 1e6 radii away, aimed within 1.02 r of the centre or, to within rounding, at the outline. */
 static void from_afar(hard_scene *s, bool tangent)
 {
     spheres_about(s, 24, 20, 1);
@@ -62,7 +64,7 @@ static void from_afar(hard_scene *s, bool tangent)
             org[a] = center[a] + distance * org[a];
         const double low = random_below(&s->random, 2) ? 0.98 : 0;
         const double reach = tangent ? outline(distance) * (1 + 1e-7 * hard_real(s, -1, 1)) : hard_real(s, low, 1.02);
-        beside(s, org, center, reach, target);
+        offset_target(s, org, center, reach, target);
         aim_at(s, org, target);
     }
 }
@@ -91,7 +93,7 @@ static void huge_spheres(hard_scene *s)
     }
 }
 
-/* Grazing rays: the outline of middling spheres to some parts in 1e7. */
+/* Grazing rays: at the outline of medium-sized spheres, to within a few parts in 1e7. */
 static void grazing(hard_scene *s)
 {
     spheres_about(s, 48, 2, 0.3);
@@ -105,7 +107,7 @@ static void grazing(hard_scene *s)
             center[a] = (sphere[a] - s->place.offset[a]) / s->place.scale;
             org[a] = center[a] + 0.3 * distance * org[a];
         }
-        beside(s, org, center, 0.3 * outline(distance) * (1 + 3e-7 * hard_real(s, -1, 1)), target);
+        offset_target(s, org, center, 0.3 * outline(distance) * (1 + 3e-7 * hard_real(s, -1, 1)), target);
         aim_at(s, org, target);
     }
 }
@@ -130,12 +132,13 @@ static void touched(hard_scene *s)
         memcpy(target, org, sizeof target);
         org[axis] += steps;
         if (random_below(&s->random, 4) == 0)
-            target[3 - axis - other] += steps; /* still in the tangent plane */
+            target[3 - axis - other] += steps; /* displaced within the tangent plane */
         hard_aim(s, org, target, 1);
     }
 }
 
-/* Points: spheres of radius 0, hit by rays that pass exactly through, at lattice points; missed by all else. */
+/* Points: spheres of radius 0 at lattice points, hit by rays that pass exactly through them and missed by all
+ * others. */
 static void points(hard_scene *s)
 {
     for (int i = 0; i < 256; i++) {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Triangles that are hard one by one: seen from far along one axis, from the side, thin, without area, in one plane. */
+ * Triangles that are hard individually: far away along one axis, seen edge-on, thin, of zero area, coplanar. */
 #include <math.h>
 #include <string.h>
 
@@ -36,7 +36,7 @@ static void sheared(hard_scene *s)
 
 /* ---- rays in the plane, or nearly ---- */
 
-/* Planes through lattice points: every edge is a short vector, so that sums of edges lie in the plane exactly. */
+/* Planes through lattice points: every edge is a short vector, so sums of edges lie exactly in the plane. */
 static void lattice_triangles(hard_scene *s, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -120,7 +120,7 @@ static void aim_at_triangles(hard_scene *s)
     }
 }
 
-/* Fans of needles about as long as the scene, aspect from 1 to 1e7: neighbours share their long edges. */
+/* Fans of needles about as long as the scene, aspect ratio from 1 to 1e7; neighbours share their long edges. */
 static void needles(hard_scene *s)
 {
     for (int fan = 0; fan < 24; fan++) {
@@ -142,7 +142,7 @@ static void needles(hard_scene *s)
     aim_at_triangles(s);
 }
 
-/* Half of the triangles have no area: three equal vertices, two, or three on a line. */
+/* Half of the triangles have no area: three equal vertices, two equal vertices, or three collinear ones. */
 static void without_area(hard_scene *s)
 {
     for (int i = 0; i < 96; i++) {
@@ -161,10 +161,10 @@ static void without_area(hard_scene *s)
     aim_at_triangles(s);
 }
 
-/* ---- the same place more than once ---- */
+/* ---- overlapping triangles ---- */
 
-/* Triangles in three lattice planes, over each other; some given again, with other first vertices, turned over, and in
- * another geometry. */
+/* Overlapping triangles in three lattice planes. Some are repeated with another first vertex, flipped, or in another
+ * geometry. */
 static void coplanar(hard_scene *s)
 {
     for (int part = 0; part < 2; part++) {
@@ -196,7 +196,7 @@ static void coplanar(hard_scene *s)
     }
 }
 
-/* A height field of which every second triangle is a copy of the one before it, bit by bit. */
+/* A height field in which every second triangle is a bitwise copy of the one before it. */
 static void copied_triangles(hard_scene *s)
 {
     for (int i = 0; i < 96; i++) {

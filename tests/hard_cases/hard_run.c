@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Hard cases through the library and before the oracle. */
+ * Traces hard cases and judges the hits by the oracle. */
 #include "hard_cases/hard_run.h"
 
 #include <math.h>

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes with hard rays through the library, and what the oracle says of the answers; for tests and for cgt-bench. */
+ * Traces scenes with hard rays through the library and has the oracle judge the answers; for tests and for
+ * cgt-bench. */
 #ifndef HARD_RUN_H
 #define HARD_RUN_H
 
@@ -16,7 +17,7 @@ cgt_result hard_commit(cgt_context *context, const hard_scene *s, const uint32_t
 cgt_result hard_commit_with(cgt_context *context, const hard_scene *s, const cgt_scene_options *options,
                             cgt_scene **scene);
 
-/* Traces the rays of a case that is traced twice with default options, and rewrites them by what was found. */
+/* For a case that is traced twice: traces its rays with default options, and rewrites them from their hits. */
 cgt_result hard_follow(cgt_context *context, const hard_case *c, hard_scene *s);
 
 /* The exact hit of every ray. */
@@ -29,13 +30,13 @@ typedef struct hard_truth {
 bool hard_truth_make(const hard_scene *s, hard_truth *truth);
 void hard_truth_free(hard_truth *truth);
 
-/* Judges the answer to ray i; *exact gets what its values are to be measured by. */
+/* Judges the answer to ray i; *exact gets the hit to measure its values against. */
 oracle_verdict hard_judge(const hard_scene *s, const hard_truth *truth, uint32_t i, const full_hit *answer,
                           oracle_hit *exact);
 
 typedef struct hard_tally {
-    uint64_t rays, hits;              /* hits: by the truth */
-    uint64_t missed, invented, wrong; /* decisions that are not the truth's */
+    uint64_t rays, hits;              /* hits by exact arithmetic */
+    uint64_t missed, invented, wrong; /* wrong decisions */
 } hard_tally;
 
 hard_tally hard_judge_all(const hard_scene *s, const hard_truth *truth, const full_hit *answers);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Scenes with hard rays, piece by piece. */
+ * Builds scenes with hard rays piece by piece. */
 #include "hard_cases/hard_scene.h"
 
 #include <math.h>
@@ -33,7 +33,7 @@ void hard_put(const hard_scene *s, const double point[3], float placed[3])
         placed[a] = (float)(point[a] * s->place.scale + s->place.offset[a]);
 }
 
-/* The array with room for `count` elements, or NULL, the old one untouched. */
+/* Grows an array to `count` elements. Returns NULL on failure; the old array is then untouched. */
 static void *grow(hard_scene *s, void *array, size_t *room, size_t count, size_t size)
 {
     if (s->failed)
@@ -58,7 +58,7 @@ void hard_new_geometry(hard_scene *s)
         s->geometries++;
 }
 
-/* The last geometry, if it holds no triangles (or no spheres); else a new one. */
+/* The last geometry if it holds no primitives of the other kind; else a new one. */
 static hard_geometry *last_geometry(hard_scene *s, bool of_spheres)
 {
     const hard_geometry *last = s->geometries ? &s->geometry[s->geometries - 1] : NULL;

@@ -14,7 +14,7 @@
 #include "hard_cases/hard_run.h"
 #include "support/scenes.h"
 
-/* A case gets the first number of rays, where it is slow fewer, and more of them until it shows its traits. */
+/* Rays of a case at first, fewer where it is slow; then more until the case shows its traits. */
 #define FIRST_RAYS 800u
 #define FEW_RAYS 100u
 #define SOME_RAYS 400u
@@ -31,8 +31,8 @@ typedef struct subject {
     truth_ray *shuffled;
     full_hit *robust, *exact; /* of the first variant: the others give the same bits */
     full_hit *answer;
-    hard_tally fast; /* errors of FAST, over variants and triangle tests */
-    bool is_easy;    /* in its few rays a trait does not show */
+    hard_tally fast; /* errors of FAST, summed over variants and triangle tests */
+    bool is_easy;    /* too few rays to show a trait */
     const char *variant;
 } subject;
 
@@ -138,11 +138,11 @@ static void check_orders(subject *s, const cgt_scene *scene)
     const uint32_t rays = s->scene.rays;
     trace(s, scene, s->shuffled, rays, s->answer, NULL);
     for (uint32_t i = 0; i < rays; i++)
-        check_same_bits(s, s->order[i], &s->answer[i], &s->robust[s->order[i]], "other bits in another order");
+        check_same_bits(s, s->order[i], &s->answer[i], &s->robust[s->order[i]], "different bits in another order");
     for (uint32_t k = 0; k < test_between(10, ALONE) && k < rays; k++) {
         const uint32_t i = s->order[k];
         trace(s, scene, &s->scene.ray[i], 1, s->answer, NULL);
-        check_same_bits(s, i, s->answer, &s->robust[i], "other bits alone");
+        check_same_bits(s, i, s->answer, &s->robust[i], "different bits for a single ray");
     }
     uint8_t *occluded = array(rays, 1);
     const cgt_rays arrays = ray_array(s->scene.ray, rays);
@@ -157,7 +157,7 @@ static void check_orders(subject *s, const cgt_scene *scene)
 
 static truth_real square(truth_real a) { return a * a; }
 
-/* The bound of ROBUST for u and v, as cgt.h has it. */
+/* The bound of ROBUST for u and v that cgt.h states. */
 static double uv_bound(const oracle_primitive *p, const truth_ray *ray)
 {
     const float *v = p->data;
@@ -244,7 +244,7 @@ static void check_values(const subject *s)
 
 /* ---- traits: the case is as hard as it claims ---- */
 
-/* trait: 0 for what every case has. */
+/* trait: 0 for counts that every case must have. */
 static void expect(subject *s, hard_trait trait, bool there, const char *what)
 {
     if (there || (trait && !(s->hard->traits & trait)))
@@ -324,7 +324,7 @@ static void check_structure(subject *s, cgt_context *context, const other_struct
         fail_msg("%s: %s", name, context_message(context));
     trace(s, scene, s->scene.ray, rays, s->answer, &options);
     for (uint32_t i = 0; i < rays; i++)
-        check_same_bits(s, i, &s->answer[i], &s->robust[i], "other bits than through the grid");
+        check_same_bits(s, i, &s->answer[i], &s->robust[i], "different bits than through the grid");
     assert_int_equal(statistics.rope_loops, 0);
     uint8_t *occluded = array(rays, 1);
     const cgt_rays arrays = ray_array(s->scene.ray, rays);
@@ -337,7 +337,7 @@ static void check_structure(subject *s, cgt_context *context, const other_struct
     s->variant = variant;
 }
 
-/* All of them; where it is slow a sample, of each case another. */
+/* All structures; where it is slow a sample that differs from case to case. */
 static void check_structures(subject *s, cgt_context *context)
 {
     uint32_t number = 0;
@@ -358,7 +358,7 @@ static void check_threads(subject *s)
         fail_msg("%s: %s", s->variant, context_message(threaded));
     trace(s, scene, s->scene.ray, s->scene.rays, s->answer, NULL);
     for (uint32_t i = 0; i < s->scene.rays; i++)
-        check_same_bits(s, i, &s->answer[i], &s->robust[i], "other bits with three threads");
+        check_same_bits(s, i, &s->answer[i], &s->robust[i], "different bits with three threads");
     cgt_scene_release(scene);
     cgt_context_release(threaded);
 }
@@ -382,7 +382,7 @@ static void check_variant(subject *s, bool first)
     trace(s, scene, s->scene.ray, rays, first ? s->robust : s->answer, &options);
     check_traits(s, scene, &statistics, &research);
     for (uint32_t i = 0; !first && i < rays; i++)
-        check_same_bits(s, i, &s->answer[i], &s->robust[i], "other bits than the first variant's");
+        check_same_bits(s, i, &s->answer[i], &s->robust[i], "different bits than the first variant's");
     if (first)
         judge(s, s->robust);
 
@@ -391,7 +391,7 @@ static void check_variant(subject *s, bool first)
     options.precision = CGT_PRECISION_EXACT;
     trace(s, scene, s->scene.ray, rays, first ? s->exact : s->answer, &options);
     for (uint32_t i = 0; !first && i < rays; i++)
-        check_same_bits(s, i, &s->answer[i], &s->exact[i], "EXACT: other bits than the first variant's");
+        check_same_bits(s, i, &s->answer[i], &s->exact[i], "EXACT: different bits than the first variant's");
     if (first)
         check_values(s);
 
@@ -406,7 +406,7 @@ static void check_variant(subject *s, bool first)
     cgt_context_release(context);
 }
 
-/* Returns whether the case is as hard as it says. */
+/* Returns whether the case shows the traits that it claims. */
 static bool check_case(const hard_case *hard, uint32_t rays)
 {
     subject s = subject_make(hard, rays);
@@ -495,7 +495,7 @@ static void test_rows_have_cases(void **state)
     assert_null(hard_case_at(hard_case_count()));
 }
 
-/* The same case twice: the same floats. */
+/* Making a case twice gives the same floats. */
 static void test_cases_are_deterministic(void **state)
 {
     (void)state;
@@ -520,7 +520,7 @@ static void test_cases_are_deterministic(void **state)
     }
 }
 
-/* ---- ends of the range, ray by ray: the returned t decides what the oracle leaves open ---- */
+/* ---- ends of the range, ray by ray: the returned t decides where the oracle accepts both ---- */
 
 static void test_range_ends_at_found_t(void **state)
 {

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Closed meshes do not leak: rays at points of their edges and at their vertices, from inside and from outside
- * towards an inner point; near 0, far from it, tiny and huge. Every such ray meets the surface, so that a miss is a
- * leak; no reference is needed. The oracle judges every hundredth answer as well. Structures take turns. */
+ * Closed meshes do not leak: rays at points of their edges and at their vertices, from inside and from outside towards
+ * an inner point; near 0, far from it, tiny and huge. Every such ray hits the surface, so a miss is a leak and no
+ * reference is needed. The oracle also judges every hundredth answer. Structures take turns. */
 #include "support/test.h"
 
 #include <math.h>
@@ -14,9 +14,9 @@
 #include "support/scenes.h"
 
 #define ALL_RAYS 4000000u
-#define CHUNK 1024u      /* rays that are traced at once, */
-#define LEAST_CHUNK 128u /* and where it is slow */
-#define JUDGED 100u      /* the oracle judges one ray of this many */
+#define CHUNK 1024u      /* rays per call, and */
+#define LEAST_CHUNK 128u /* the same where it is slow */
+#define JUDGED 100u      /* the oracle judges one ray per interval */
 #define BUNDLE 32u       /* rays of a common origin */
 #define MOST_VARIANTS 8
 
@@ -113,7 +113,7 @@ static void edge_point(hard_scene *s, float point[3])
         point[a] = (float)(v[k][a] + share * ((double)v[l][a] - v[k][a]));
 }
 
-/* Bundles of rays, one of two from inside, the others from outside past a point of an edge to a point inside. */
+/* Bundles of rays: half of them from inside, the others from outside through a point of an edge to a point inside. */
 static void make_rays(subject *w)
 {
     hard_scene *s = &w->s;
@@ -162,7 +162,7 @@ static void check_answers(const subject *w, size_t v, const uint32_t *primitive,
         oracle_hit exact;
         sum->judged++;
         if (oracle_judge(&w->oracle, &w->s.ray[i], 0, primitive[i], &exact) != ORACLE_RIGHT)
-            fail_ray(w, v, i, "not the nearest triangle");
+            fail_ray(w, v, i, "not the closest triangle");
     }
 }
 
@@ -182,7 +182,7 @@ static void trace(const subject *w, const cgt_scene *scene, uint32_t *primitive,
     assert_int_equal(cgt_trace_rays(scene, &rays, &hits, options ? TRACE_OPTIONS(options) : NULL), CGT_OK);
 }
 
-/* Traces this many rays at one mesh in one place, chunk by chunk, with the variants in turn. */
+/* Traces rays at one mesh in one place, chunk by chunk, with the variants taking turns. */
 static void check_mesh(closed_kind kind, const location *at, uint32_t rays, leaks *sum)
 {
     subject w;
@@ -199,7 +199,7 @@ static void check_mesh(closed_kind kind, const location *at, uint32_t rays, leak
         make_rays(&w);
         trace(&w, w.scene[v], primitive, NULL);
         check_answers(&w, v, primitive, sum);
-        if (at == locations) { /* where single precision has all its range */
+        if (at == locations) { /* where single precision has its full range */
             trace(&w, w.fast[v], primitive, &fast);
             sum->fast_leaked += count_misses(primitive, w.s.rays);
         }
@@ -219,7 +219,7 @@ static void check_kind(closed_kind kind)
                   closed_mesh_name(kind), (unsigned long long)sum.rays, (unsigned long long)sum.judged,
                   (unsigned long long)sum.fast_leaked);
     assert_true(sum.judged >= sum.rays / JUDGED);
-    if (!sum.fast_leaked) /* the rays are where single precision leaks */
+    if (!sum.fast_leaked) /* the rays are those on which single precision leaks */
         fail_msg("%s: even single precision does not leak: the rays are not hard", closed_mesh_name(kind));
 }
 
@@ -269,7 +269,7 @@ static void test_meshes_are_closed(void **state)
         }
 }
 
-/* A mesh without one of its triangles leaks, and this test would see it. */
+/* A mesh that lacks a triangle leaks, and this test detects it. */
 static void test_open_mesh_leaks(void **state)
 {
     (void)state;

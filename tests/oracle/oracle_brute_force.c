@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The shipped trajectory against brute force: every pixel of frames of a real simulation has the nearest hit among
- * all spheres, and its t. The brute force (support/truth.c) rejects clear misses in double with a margin and decides
- * the rest in wide arithmetic; it shares no code with the library. */
+ * The shipped trajectory against brute force: in frames of a real simulation every pixel gets the closest hit among all
+ * spheres, and its t. The brute force (support/truth.c) rejects clear misses in double with a margin and decides the
+ * rest in wide arithmetic; it shares no code with the library. */
 #include "support/scenes.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ static trajectory_frame read_frame(uint64_t number)
     return frame;
 }
 
-/* Around the box, from above, and from among the spheres. */
+/* Views from around the box, from above, and from among the spheres. */
 static cgt_camera place_camera(const trajectory_frame *f, int place)
 {
     cgt_camera camera;
@@ -58,7 +58,7 @@ static cgt_camera place_camera(const trajectory_frame *f, int place)
         middle[a] = 0.5f * (f->box_min[a] + f->box_max[a]);
         size = fmaxf(size, f->box_max[a] - f->box_min[a]);
     }
-    middle[2] = f->box_min[2] + 0.2f * size; /* they fall to the bottom */
+    middle[2] = f->box_min[2] + 0.2f * size; /* the spheres fall to the bottom */
     const float angle = 0.7f + 2.1f * (float)place;
     memcpy(camera.target, middle, sizeof middle);
     memcpy(camera.up, (float[3]){0, 0, 1}, sizeof camera.up);
@@ -132,7 +132,7 @@ static void rays_through_the_trajectory(void **state)
         ray[i] = ray_random(&r, &c);
     cgt_context *context = context_make(2, NULL);
     const cgt_rays rays = ray_array(ray, count);
-    for (uint32_t k = 0; k < TEST_STRUCTURES; k++) { /* hits are the same bits through each */
+    for (uint32_t k = 0; k < TEST_STRUCTURES; k++) { /* every structure gives the same bits */
         const cgt_scene_options made = structure_in_turn(k);
         cgt_scene *scene = scene_of(context, &made, sphere, f.count);
         rays_trace(scene, ray, count, again, NULL);

@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Primitives and rays for the tests of the exact oracle: made by hand, or random and aimed at what is hard to
- * decide. */
+ * Primitives and rays for the tests of the exact oracle: made by hand, or random and aimed to be hard to decide. */
 #ifndef ORACLE_INPUT_H
 #define ORACLE_INPUT_H
 
@@ -26,7 +25,7 @@ static inline oracle_primitive triangle_of(uint32_t geometry, const float (*v)[3
     return p;
 }
 
-/* A right-angled triangle in the plane of that z, around the z axis. */
+/* A right-angled triangle at height z that surrounds the z axis. */
 static inline oracle_primitive plane_at(uint32_t geometry, float z)
 {
     const float v[3][3] = {{-4, -4, z}, {12, -4, z}, {-4, 12, z}};
@@ -47,7 +46,7 @@ static inline bool is_hit(oracle_primitive p, truth_ray ray)
 /* ---- at random ---- */
 
 typedef struct box {
-    float middle, reach; /* coordinates are about there */
+    float middle, reach; /* typical magnitude of coordinates */
 } box;
 
 static inline void random_point(test_random *r, box b, float p[3])
@@ -66,7 +65,7 @@ static inline truth_ray ray_to(const float org[3], const double target[3])
     return ray;
 }
 
-/* From a random point to one of the triangle's plane: on an edge, at a vertex, anywhere. */
+/* From a random point to a point of the triangle's plane: on an edge, at a vertex, or anywhere. */
 static inline truth_ray ray_index(test_random *r, box b, const float (*v)[3])
 {
     float org[3];

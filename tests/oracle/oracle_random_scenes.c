@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Random scenes of triangles and spheres against the exact oracle. In a grid of one cell every ray tests every
- * primitive, so that an error there is the kernel's; a difference from it in another grid, tree, packet, tile, loop
- * or cull is the structure's or the traversal's. */
+ * primitive, so an error there is the kernel's. A difference between it and another grid, kd-tree, packet, tile, loop
+ * or cull setting is an error of the structure or the traversal. */
 #include "support/test.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "structures/random_soup.h"
 #include "hard_cases/hard_run.h"
 
-#define WIDTH test_between(31, 61) /* of frames; less where it is slow, and never whole tiles */
+#define WIDTH test_between(31, 61) /* size of frames; smaller where it is slow, and never a multiple of the tile size */
 #define HEIGHT test_between(21, 43)
 #define PIXELS (WIDTH * HEIGHT)
 #define ROUNDS 8u
@@ -46,7 +46,7 @@ typedef struct subject {
     hard_scene scene;
     hard_truth truth;
     const char *variant;
-    bool is_outer; /* the narrowest or the widest variant: those between get a sample */
+    bool is_outer; /* the narrowest and the widest variant run all; the others a sample */
 } subject;
 
 static void set_variant(subject *s, const char *variant)
@@ -96,8 +96,8 @@ static void check_same(const subject *s, const full_hit *expected, const full_hi
                      (int)expected[i].geometry, (int)expected[i].primitive, (double)expected[i].t);
 }
 
-/* All ways to trace a frame: 4, 8, 16 in squares and 4 in strips; loops; culls. Where it is slow, evenly spread
- * ones. In one cell the shapes of packets matter, and nothing else does. */
+/* All ways to trace a frame: packets of 4, 8 and 16 in squares, of 4 in strips; loops; culls. Where it is slow, an
+ * evenly distributed sample. In one cell only the packets' shapes matter. */
 #define WAYS (4u * 2 * 3)
 
 static test_trace_options way(uint32_t number)
@@ -126,7 +126,7 @@ static void sweep(const subject *s, const cgt_scene *scene, const cgt_camera *ca
     }
 }
 
-/* One scene, one camera, one variant. answers: of the one cell; to be compared from variant to variant. */
+/* One scene, one camera, one variant. answers: hits of the one-cell grid, for comparison between variants. */
 static void check_frame(const subject *s, const cgt_camera *camera, bool all_options, full_hit *answers)
 {
     test_trace_options robust, exact;
@@ -164,7 +164,7 @@ static void check_frame(const subject *s, const cgt_camera *camera, bool all_opt
 
 /* ---- frames ---- */
 
-/* Inside, orthographic, wide, and what comes: of four rounds each has its own way. */
+/* Cameras: inside, orthographic, wide, and random, one of each per four rounds. */
 static cgt_camera camera_of_round(hard_scene *s, uint32_t round)
 {
     cgt_camera camera = soup_camera(s);
@@ -255,7 +255,7 @@ static void check_rays(const subject *s, full_hit *expected, full_hit *got, uint
     cgt_context_release(context);
 }
 
-/* Anywhere; and one of two at an edge or a vertex, where single precision cannot tell. */
+/* Rays from anywhere; half of them at an edge or a vertex, where single precision cannot decide. */
 static void make_rays(hard_scene *s)
 {
     const cloud where = {.middle = {0, 0, 0}, .reach = 1};

@@ -139,17 +139,18 @@ static void triangle_in_closed_form(void **state)
             assert_true(hit.normal[0] == 0 && hit.normal[1] == 0 && hit.normal[2] == 1);
             assert_true(misses(p, (truth_ray){{one, 2 * one, side * one}, {0, 0, side * one}, 0, INFINITY}));
         }
-        assert_true(t_of(p, (truth_ray){{one, one, 0}, {0, 0, one}, 0, INFINITY}) == 0); /* an origin in it */
-        assert_true(misses(p, (truth_ray){{-one, one, 0}, {one, 0, 0}, 0, INFINITY}));   /* in its plane */
-        assert_true(misses(p, (truth_ray){{-one, one, one}, {one, 0, 0}, 0, INFINITY})); /* beside its plane */
+        assert_true(t_of(p, (truth_ray){{one, one, 0}, {0, 0, one}, 0, INFINITY}) == 0); /* origin in the triangle */
+        assert_true(misses(p, (truth_ray){{-one, one, 0}, {one, 0, 0}, 0, INFINITY}));   /* ray in its plane */
+        assert_true(misses(p, (truth_ray){{-one, one, one}, {one, 0, 0}, 0, INFINITY})); /* ray parallel to its plane */
         assert_true(is_hit(p, (truth_ray){{-one, one, one}, {one, 0, -0.5f * one}, 0, INFINITY}));
     }
-    /* as nearly parallel as float has it */
+    /* as nearly parallel as float allows */
     assert_true(t_of(triangle_of(0, v), ray_of(-1, 1, 0x1p-149f, 1, 0, -0x1p-149f)) == 1);
-    assert_true(misses(triangle_of(0, v), ray_of(-1, 1, 0x1p-149f, 1, 0, -0x1p-148f))); /* before the edge */
+    assert_true(
+        misses(triangle_of(0, v), ray_of(-1, 1, 0x1p-149f, 1, 0, -0x1p-148f))); /* crosses the plane before the edge */
 }
 
-/* Edges and vertices belong to it; a point off by the smallest float does not. */
+/* Edges and vertices belong to the triangle; a point off by the smallest float does not. */
 static void edges_and_vertices(void **state)
 {
     (void)state;
@@ -166,12 +167,12 @@ static void edges_and_vertices(void **state)
             assert_true(oracle_hits(&p, &ray, &hit) && hit.t == 2 * (z + 1));
             const truth_real weight[3] = {1 - hit.uv[0] - hit.uv[1], hit.uv[0], hit.uv[1]};
             assert_true(fabs((double)(weight[i] - (1 - k))) < 0x1p-50 && weight[(i + 2) % 3] == 0);
-            ray.dir[0] = x < middle[0] ? -tiny : tiny; /* leans outwards by next to nothing */
+            ray.dir[0] = x < middle[0] ? -tiny : tiny; /* leans outwards by a tiny amount */
             ray.dir[1] = y < middle[1] ? -tiny : tiny;
             assert_true(misses(p, ray));
         }
     }
-    for (int i = 0; i < 3; i++) /* from the origin exactly through a vertex, and beside it on the outside */
+    for (int i = 0; i < 3; i++) /* from the origin exactly through a vertex, and just outside of it */
         assert_true(t_of(p, ray_of(0, 0, 0, v[i][0], v[i][1], v[i][2])) == 1);
     assert_true(misses(p, ray_of(0, 0, 0, 1, -tiny, 5)));
     assert_true(misses(p, ray_of(0, 0, 0, nextafterf(7, 8), 2, 3)));
@@ -232,13 +233,13 @@ static void ties_go_to_the_lowest_ids(void **state)
         {sphere_of(1, -1, 0, 8, 1.5f), sphere_of(2, 0.6f, -0.8f, 8, 1.5f)},
     };
     for (size_t i = 0; i < TEST_COUNT(pairs); i++) {
-        const bool tie = i + 1 < TEST_COUNT(pairs); /* the last: 0.6f and 0.8f are not exact, and it is farther */
+        const bool tie = i + 1 < TEST_COUNT(pairs); /* last: 0.6f and 0.8f are not exact, so it is farther */
         assert_int_equal(nearest_of_two(pairs[i][0], pairs[i][1], ray), 0);
         assert_int_equal(nearest_of_two(pairs[i][1], pairs[i][0], ray), 1);
         oracle_primitive renamed[2] = {pairs[i][0], pairs[i][1]};
         renamed[0].geometry = 3;
         assert_int_equal(nearest_of_two(renamed[0], renamed[1], ray), tie ? 1 : 0);
-        renamed[0].geometry = renamed[1].geometry = 1; /* then the primitive's id decides */
+        renamed[0].geometry = renamed[1].geometry = 1; /* the primitive id decides */
         renamed[0].primitive = 5;
         renamed[1].primitive = 4;
         assert_int_equal(nearest_of_two(renamed[0], renamed[1], ray), tie ? 1 : 0);
@@ -263,7 +264,7 @@ static void near_ties(void **state)
             continue;
         assert_int_equal(nearest_of_two(s, plane_at(1, before), ray), 1);
         assert_int_equal(nearest_of_two(s, plane_at(1, after), ray), 0);
-        /* and spheres whose roots differ by 2^-52 or so of t */
+        /* and spheres whose roots differ by about 2^-52 t */
         assert_int_equal(nearest_of_two(s, sphere_of(1, x, 0x1p-26f, 8, 1.5f), ray), 0);
         assert_int_equal(nearest_of_two(sphere_of(0, x, 0x1p-80f, 8, 1.5f), sphere_of(1, x, 0, 8, 1.5f), ray), 1);
     }
@@ -283,7 +284,7 @@ static void range_is_by_rounded_t(void **state)
     ray.org[2] = -3; /* t = 2^24 + 3, which rounds to 2^24 + 4 */
     assert_true(in_range(p, ray, more, more) && !in_range(p, ray, 0, next));
     assert_true(in_range(s, ray, more, more) && !in_range(s, ray, 0, next));
-    ray.org[0] = 0x1p-60f; /* the sphere is now farther by next to nothing, and still rounds up */
+    ray.org[0] = 0x1p-60f; /* the sphere is now farther by a tiny amount, and t still rounds up */
     ray.org[2] = -1;
     assert_true(in_range(s, ray, next, next) && !in_range(s, ray, 0, at));
     /* below a power of two floats are twice as close */

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact oracle on random input: laws of its arithmetic, textbook formulas in binary128, and changes that must
- * not affect a verdict. */
+ * The exact oracle on random input: laws of its arithmetic, textbook formulas in binary128, and transformations that
+ * must not affect a verdict. */
 #include "support/test.h"
 
 #include <math.h>
@@ -54,7 +54,7 @@ static void arithmetic_is_exact(void **state)
     }
 }
 
-/* Numbers of 31 and 62 bits against those of the compiler, and floats against themselves. */
+/* Numbers of 31 and 62 bits against the compiler's integers, and floats after a round trip. */
 static void arithmetic_of_small_numbers(void **state)
 {
     (void)state;
@@ -133,7 +133,8 @@ static void triangles_as_by_textbook(void **state)
         hits++;
         assert_true(absolute(hit.t / tuv[0] - 1) < 0x1p-40);
         assert_true(absolute(hit.uv[0] - tuv[1]) < 0x1p-40 && absolute(hit.uv[1] - tuv[2]) < 0x1p-40);
-        for (int a = 0; a < 3; a++) { /* the point of the ray is that of the triangle, and the normal is upright */
+        /* the ray's point equals the triangle's point, and the normal has unit length */
+        for (int a = 0; a < 3; a++) {
             const truth_real u = hit.uv[0], w = hit.uv[1], along = (truth_real)ray.org[a] + hit.t * ray.dir[a];
             const truth_real at = (1 - u - w) * v[0][a] + u * v[1][a] + w * v[2][a];
             assert_true(absolute(along - at) < 0x1p-40 * (fabs((double)b.middle) + b.reach));
@@ -182,7 +183,7 @@ static void spheres_as_by_textbook(void **state)
     assert_true(hits > rounds / 4 && misses > rounds / 16 && far > rounds / 64);
 }
 
-/* ---- what must not change the answer ---- */
+/* ---- transformations that must not change the answer ---- */
 
 static oracle_primitive renamed(const oracle_primitive *p, int shift, int vertices)
 {
@@ -191,7 +192,7 @@ static oracle_primitive renamed(const oracle_primitive *p, int shift, int vertic
         for (int a = 0; a < 3; a++)
             q.data[3 * i + (a + shift) % 3] = p->data[3 * i + a];
     for (int i = 0; i < 3 && p->kind == ORACLE_TRIANGLE;
-         i++) { /* rotated by `vertices`; the other way round from 3 on */
+         i++) { /* rotated by `vertices`; orientation reversed from 3 on */
         const int from = ((vertices < 3 ? i : 2 - i) + vertices) % 3;
         for (int a = 0; a < 3; a++)
             q.data[3 * i + (a + shift) % 3] = p->data[3 * from + a];
@@ -213,7 +214,7 @@ static void expect_same(const oracle_primitive *p, const truth_ray *ray, bool ex
     assert_true(!expected || absolute(hit.t - t) <= 0x1p-45 * absolute(t));
 }
 
-/* Axes and vertices in another order, and all lengths times powers of two. Rays aim at edges and outlines. */
+/* Permutes axes and vertices, and scales all lengths by powers of two. Rays aim at edges and outlines. */
 static void names_and_scales_do_not_matter(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact oracle in whole scenes: closed meshes have no holes, its filter in double changes no result, and it
- * agrees with the oracle that reports doubt. */
+ * The exact oracle in whole scenes: closed meshes have no holes, the filter in double changes no result, and it agrees
+ * with the binary128 oracle that reports doubts. */
 #include "support/test.h"
 
 #include <float.h>
@@ -16,7 +16,7 @@
 
 /* ---- meshes without a hole ---- */
 
-/* Whether p lies strictly inside of the tetrahedron: it sees all faces from the same side. */
+/* Whether p lies strictly inside the tetrahedron: on the same side of all faces. */
 static bool is_inside(const float (*v)[3], const uint32_t (*face)[3], const float p[3])
 {
     int sign = 0;
@@ -52,7 +52,7 @@ static void closed_meshes_have_no_holes(void **state)
         for (int a = 0; a < 3; a++)
             inside[a] = (float)(weight * v[0][a] + 0.1 * v[1][a] + 0.2 * v[2][a] + (0.7 - weight) * v[3][a]);
         if (!is_inside((const float(*)[3])v, face, inside))
-            continue; /* flat, and lost by rounding */
+            continue; /* flat, degenerate after rounding */
         oracle_scene scene = {0};
         oracle_scene_add_triangles(&scene, 7, (const float(*)[3])v, 4, face, 4);
         for (int i = 0; i < 24; i++) {
@@ -79,7 +79,7 @@ static void closed_meshes_have_no_holes(void **state)
 
 /* ---- scenes ---- */
 
-/* Spheres and triangles at one place, many equal or touching, some of them unusable; more than fill a block. */
+/* Spheres and triangles in one place, many equal or touching, a few of them invalid; more than fill a block. */
 static oracle_scene random_scene(test_random *r, box b)
 {
     enum { MOST = 100 };
@@ -97,7 +97,7 @@ static oracle_scene random_scene(test_random *r, box b)
                 sphere[i][random_below(r, 4)] = random_below(r, 2) ? NAN : -INFINITY;
             random_point(r, b, vertex[i]);
             for (int k = 0; k < 3; k++)
-                index[i][k] = random_below(r, count); /* at times twice the same: no area */
+                index[i][k] = random_below(r, count); /* sometimes two equal vertices: no area */
         }
         if (g == 1)
             oracle_scene_add_triangles(&scene, g, (const float(*)[3])vertex, count, (const uint32_t(*)[3])index, count);
@@ -127,7 +127,7 @@ static truth_ray random_ray(test_random *r, box b, const oracle_scene *scene)
     return ray;
 }
 
-/* The nearest hit by exact arithmetic, without the filter. */
+/* The closest hit by exact arithmetic, without the filter. */
 static uint32_t nearest_unfiltered(const oracle_scene *scene, const truth_ray *ray)
 {
     oracle_line line;
@@ -183,7 +183,7 @@ static float extreme(test_random *r)
     return random_below(r, 2) ? end[random_below(r, TEST_COUNT(end))] : f;
 }
 
-/* Around the z axis, with corners and slopes of any size. */
+/* A triangle around the z axis, with corners and slopes of any size. */
 static oracle_primitive extreme_primitive(test_random *r)
 {
     oracle_primitive p = {.kind = random_below(r, 2) ? ORACLE_SPHERE : ORACLE_TRIANGLE};
@@ -202,7 +202,7 @@ static oracle_primitive extreme_primitive(test_random *r)
     return p;
 }
 
-/* Input over all that float has: numbers are wide enough, and the order of roots is an order. */
+/* Input over the full range of float: the numbers are wide enough, and the order of roots is a total order. */
 static void any_float_will_do(void **state)
 {
     (void)state;
@@ -240,7 +240,7 @@ static void any_float_will_do(void **state)
     assert_true(pairs > 10 * rounds && mixed > rounds);
 }
 
-/* The oracle in binary128 that knows doubts finds nothing wrong with the answers of this one. */
+/* The binary128 oracle that reports doubts finds no wrong answer in this oracle's. */
 static void both_oracles_agree(void **state)
 {
     (void)state;

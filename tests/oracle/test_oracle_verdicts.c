@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Verdicts of the exact oracle: every kind of wrong answer is detected, doubt ends where it should, errors are
- * measured. */
+ * Verdicts of the exact oracle: every kind of wrong answer is detected, the interval of doubt has the right width, and
+ * errors are measured. */
 #include "support/test.h"
 
 #include <float.h>
@@ -32,9 +32,9 @@ static void wrong_answers_are_told(void **state)
     assert_int_equal(judge_id(&scene, hit, ORACLE_NONE, &truth), ORACLE_MISSED);
     assert_true(truth.index == 1 && truth.t == 7);
     assert_int_equal(judge_id(&scene, hit, 0, &truth), ORACLE_WRONG); /* farther */
-    assert_int_equal(judge_id(&scene, hit, 2, &truth), ORACLE_WRONG); /* as near, of a higher id */
-    assert_int_equal(judge_id(&scene, hit, 3, &truth), ORACLE_WRONG); /* not hit at all */
-    assert_int_equal(judge_id(&scene, hit, 9, &truth), ORACLE_WRONG); /* does not exist */
+    assert_int_equal(judge_id(&scene, hit, 2, &truth), ORACLE_WRONG); /* at the same t, with a higher id */
+    assert_int_equal(judge_id(&scene, hit, 3, &truth), ORACLE_WRONG); /* not hit */
+    assert_int_equal(judge_id(&scene, hit, 9, &truth), ORACLE_WRONG); /* no such primitive */
     assert_int_equal(oracle_judge(&scene, &hit, 1, 1, &truth), ORACLE_WRONG);
     assert_int_equal(judge_id(&scene, miss, ORACLE_NONE, &truth), ORACLE_RIGHT);
     for (uint32_t id = 0; id < 5; id++)
@@ -44,7 +44,7 @@ static void wrong_answers_are_told(void **state)
     assert_int_equal(judge_id(&scene, ray_of(0, 0, 0, 0, NAN, 1), ORACLE_NONE, &truth), ORACLE_RIGHT);
 }
 
-/* Either answer is right within 2^-6 ulp of where the end of the range rounds, and not a little further away. */
+/* Both answers are right within 2^-6 ulp of the point where the end of the range rounds, but no further away. */
 static void doubt_at_the_ends(void **state)
 {
     (void)state;
@@ -64,7 +64,7 @@ static void doubt_at_the_ends(void **state)
             assert_int_equal(judge_id(&scene, ray, ORACLE_NONE, &truth),
                              !inside || doubt ? ORACLE_RIGHT : ORACLE_MISSED);
             assert_int_equal(judge_id(&scene, ray, 1, &truth), inside ? ORACLE_WRONG : ORACLE_INVENTED);
-            ray.t_max = INFINITY; /* the same where a range begins, with a second hit in it */
+            ray.t_max = INFINITY; /* the same at the beginning of a range that contains a second hit */
             ray.t_min = nextafterf(1, 2);
             assert_int_equal(judge_id(&scene, ray, 0, &truth), !inside || doubt ? ORACLE_RIGHT : ORACLE_WRONG);
             assert_int_equal(judge_id(&scene, ray, 1, &truth), inside || doubt ? ORACLE_RIGHT : ORACLE_WRONG);

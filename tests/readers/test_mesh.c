@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Meshes without motion: small files whose vertices are known, real ones whose counts are, and damaged ones. */
+ * Static meshes: small files with known vertices, real ones with known counts, and damaged ones. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,9 +19,8 @@
 
 #ifdef CGT_HAVE_MESHES
 
-/* assimp 5.2 loses the half-read mesh of an .obj or .stl that it refuses. What comes from C++'s operator new is
- * assimp's: the code under test is C, and its own leaks are still seen. Asked for by the leak sanitizer; else never
- * called. */
+/* assimp 5.2 leaks the half-read mesh of an .obj or .stl that it refuses. Memory from C++'s operator new is assimp's:
+ * the code under test is C, and its own leaks are still seen. Called by the leak sanitizer only. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) { return "leak:libassimp.so\nleak:libstdc++.so\n"; }
 
@@ -44,7 +43,7 @@ static trajectory_frame read_mesh(const char *path)
 
 static const trajectory_mesh *facts(void) { return trajectory_get_mesh(scratch_open_one); }
 
-/* Six times the volume that closed triangles enclose, positive where their outside is outside. */
+/* Six times the volume that closed triangles enclose; positive if they face outwards. */
 static double six_volumes(const trajectory_frame *f)
 {
     double sum = 0.0;
@@ -66,7 +65,7 @@ static void quads_become_triangles(void **state)
     (void)state;
     const trajectory_frame f = read_mesh(scratch_text(".obj", CUBE_VERTICES CUBE_QUADS));
     assert_int_equal(f.triangles, 12);
-    assert_int_equal(f.count, 8); /* each corner once, though three faces have it */
+    assert_int_equal(f.count, 8); /* each corner once, although three faces share it */
     assert_null(f.vertex_normal);
     assert_true(six_volumes(&f) == 6.0);
     const trajectory_mesh *m = facts();
@@ -75,7 +74,7 @@ static void quads_become_triangles(void **state)
     assert_true(m->points == 0 && m->lines == 0 && m->lost_triangles == 0 && m->degenerate == 0 && m->unused == 0);
 }
 
-/* An L of six corners: a fan from its first corner would leave it. */
+/* An L of six corners: a fan from its first corner would extend outside. */
 static void polygons_may_be_concave(void **state)
 {
     (void)state;
@@ -94,7 +93,8 @@ static void polygons_may_be_concave(void **state)
     assert_true(area == 3.0);
 }
 
-/* The bits of the file: nothing is multiplied where no node moves anything, and near vertices stay apart. */
+/* The file's bits are preserved: nothing is multiplied if no node has a transformation, and close vertices stay
+ * distinct. */
 static void values_pass_as_they_are(void **state)
 {
     (void)state;
@@ -124,7 +124,7 @@ static void values_that_are_not_finite_stay(void **state)
         infinite += isinf(f.position[i]) != 0;
     }
     assert_int_equal(infinite, 1);
-    assert_int_equal(nans, f.count - 3); /* of the same bits: one vertex, or two */
+    assert_int_equal(nans, f.count - 3); /* the same bits: one vertex, or two */
     assert_true(nans == 1 || nans == 2);
 }
 
@@ -134,7 +134,7 @@ static void normals_where_the_file_has_them(void **state)
     const trajectory_frame f = read_mesh(scratch_text(
         ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 2\nvn 0 1 0\nf 1//1 2//1 3//1\nf 1//2 4//2 2//2\n"));
     assert_int_equal(f.triangles, 2);
-    assert_int_equal(f.count, 6); /* two normals part a vertex */
+    assert_int_equal(f.count, 6); /* two normals split a vertex */
     assert_non_null(f.vertex_normal);
     for (uint32_t k = 0; k < 6; k++) {
         const float *n = f.vertex_normal + 3 * f.index[k];
@@ -285,7 +285,7 @@ static void put(unsigned char *bytes, size_t *at, const void *value, size_t size
     *at += size;
 }
 
-/* A square of two triangles; returns its size. */
+/* Writes a square of two triangles; returns its size. */
 static size_t binary_ply(unsigned char bytes[512], int big)
 {
     const char *head = big ? PLY_HEAD_OF("binary_big_endian", "4", "2", "ushort")
@@ -303,7 +303,7 @@ static size_t binary_ply(unsigned char bytes[512], int big)
     return at;
 }
 
-/* A file cut anywhere is refused: assimp would read a part of it, or nothing for ever. */
+/* A file truncated anywhere is refused: assimp would read a part of it, or loop for ever. */
 static void every_truncation_of_a_binary_file_is_noticed(void **state)
 {
     (void)state;
@@ -328,7 +328,7 @@ static void every_truncation_of_a_text_is_noticed(void **state)
     static const char text[] = PLY_HEAD("ascii", "3", "1") TRIANGLE "3 0 1 2\n";
     const char *path = scratch_path(".ply");
     char error[1024];
-    for (size_t cut = 0; cut + 2 < sizeof text; cut++) { /* whole with or without its last line feed */
+    for (size_t cut = 0; cut + 2 < sizeof text; cut++) { /* complete with or without its last line feed */
         scratch_fill(path, text, cut);
         assert_null(trajectory_open(path, NULL, error, sizeof error));
     }
@@ -348,7 +348,7 @@ static void cannot_be_opened(void **state)
     const char *path = scratch_path(".obj");
     assert_int_equal(unlink(path), 0);
     assert_int_equal(mkfifo(path, 0600), 0);
-    const int both = open(path, O_RDWR); /* so that opening does not wait */
+    const int both = open(path, O_RDWR); /* so that opening does not block */
     assert_true(both >= 0);
     scratch_expect_error(path, NULL, 0, "has to be a regular file");
     assert_int_equal(close(both), 0);
@@ -376,7 +376,7 @@ int main(void)
 
 #else
 
-/* Without assimp a mesh is refused with the reason. */
+/* Without assimp a mesh is refused, and the message says why. */
 static void meshes_are_refused(void **state)
 {
     (void)state;

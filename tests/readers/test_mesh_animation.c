@@ -1,8 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Meshes that move: a glTF file written here, whose vertices are worked out by hand, and characters that others
- * made. */
+ * Animated meshes: a glTF file written here, whose vertices are computed by hand, and characters made by others. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,10 +19,10 @@
 
 /* ---- The file ----------------------------------------------------------------------------------------------- */
 
-/* Mesh 0, a triangle in z = 0, is shown by two nodes below a parent at (10, 0, 0) that scales x by 2: `turned` turns it
- * by 90 degrees about x, `mirrored` has scale (-1, 1, 1). Mesh 1 is a strip along y on two bones: `hips`, and `tip` one
+/* Mesh 0, a triangle in z = 0, is instanced by two nodes below a parent at (10, 0, 0) that scales x by 2: `turned`
+ * rotates it by 90 degrees about x, `mirrored` has scale (-1, 1, 1). Mesh 1 is a strip along y on two bones: `hips`, and `tip` one
  * unit above it; its node stands at z = 7.
- *   clip "bend"   0 to 2 s: hips go from 0 to 4 along x in 2 s; tip turns by 90 degrees about z in the first second
+ *   clip "bend"   0 to 2 s: hips move from 0 to 4 along x in 2 s; tip rotates by 90 degrees about z in the first second
  *   clip "still"  one key at 0 s: mirrored has scale (-3, 3, 3) */
 static const char gltf_scene[] =
     "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 3, 5]}],\n"
@@ -48,7 +47,7 @@ static const float triangle_normals[9] = {0.6f, 0, 0.8f, 0.6f, 0, 0.8f, 0.6f, 0,
 static const float strip[15] = {0, 0, 0, 1, 1, 0, 0, 2, 0, 5, 5, 5, 0, 2, 0};
 static const uint16_t strip_index[9] = {0, 1, 2, 0, 2, 3, 0, 1, 4};
 static const uint8_t joints[20] = {0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-/* of the first bone; half of each, in weights that are no shares; of the second; of none; of the first */
+/* the first bone; half of each, in unnormalised weights; the second; none; the first */
 static const float weights[20] = {1, 0, 0, 0, 0.25f, 0.25f, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
 static const float inverse_binds[32] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
                                         1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1};
@@ -61,9 +60,9 @@ static const float still_scale[3] = {-3, 3, 3};
 
 typedef struct buffer_part {
     const void *data;
-    uint32_t bytes, number_bytes; /* all of them; one number */
+    uint32_t bytes, number_bytes; /* whole array; one component */
     uint32_t count;               /* elements */
-    const char *accessor;         /* what else the accessor says */
+    const char *accessor;         /* further members of the accessor */
 } buffer_part;
 
 #define FLOATS(array, count, type, more)                                                                               \
@@ -87,7 +86,7 @@ static const buffer_part buffer_parts[] = {
 };
 #define BUFFER_PARTS (sizeof buffer_parts / sizeof buffer_parts[0])
 
-/* Copies a part as little-endian bytes; each begins at a multiple of 4. */
+/* Copies a part as little-endian bytes; parts begin at multiples of 4. */
 static void put_part(unsigned char *buffer, const buffer_part *part)
 {
     const unsigned char *const data = part->data;
@@ -112,7 +111,7 @@ static void print_base64(FILE *file, const unsigned char *bytes, size_t size)
     }
 }
 
-/* Writes the file, the strip's last triangle with this vertex at its end, and returns its path. */
+/* Writes the file and returns its path. The strip's last triangle ends with the given vertex. */
 static const char *write_gltf_ending_with(uint16_t vertex)
 {
     uint16_t index[9];
@@ -180,19 +179,19 @@ static void expect_vector(const float *v, double x, double y, double z)
     }
 }
 
-#define STRIP 2 /* the first triangle of the strip: the tree's order */
+#define STRIP 2 /* the first triangle of the strip, in the order of the nodes */
 
-/* Where the hips and the tip's turn put the strip. */
+/* Positions of the strip, given the hips' translation and the tip's rotation. */
 static void expect_strip(const trajectory_frame *f, double hips, double degrees)
 {
     const double angle = degrees * acos(-1.0) / 180.0;
     const double c = cos(angle), s = sin(angle);
-    /* the tip turns what it carries about (0, 1), then all goes with the hips */
+    /* the tip rotates its vertices about (0, 1), then everything moves with the hips */
     expect_vector(corner(f, f->position, STRIP, 0), hips, 0, 0);
     expect_vector(corner(f, f->position, STRIP, 1), hips + 0.5 * (1 + c), 1 + 0.5 * s, 0);
     expect_vector(corner(f, f->position, STRIP, 2), hips - s, 1 + c, 0);
     expect_vector(corner(f, f->position, STRIP + 1, 2), 5, 5, 12);   /* no bone: it follows its node */
-    expect_vector(corner(f, f->position, STRIP + 2, 2), hips, 2, 0); /* equal to another vertex but for its bone */
+    expect_vector(corner(f, f->position, STRIP + 2, 2), hips, 2, 0); /* equal to another vertex except for its bone */
 }
 
 static void nodes_move_their_meshes(void **state)
@@ -206,15 +205,15 @@ static void nodes_move_their_meshes(void **state)
     expect_vector(corner(&f, f.position, 0, 0), 10, 0, 0);
     expect_vector(corner(&f, f.position, 0, 1), 12, 0, 0);
     expect_vector(corner(&f, f.position, 0, 2), 10, 0, 1);
-    /* normals go by the inverse transpose: (0.6, -0.8, 0) under a scale of 2 along x */
+    /* normals transform by the inverse transpose: (0.6, -0.8, 0) under a scale of 2 along x */
     const double length = sqrt(0.3 * 0.3 + 0.8 * 0.8);
     expect_vector(corner(&f, f.vertex_normal, 0, 1), 0.3 / length, -0.8 / length, 0);
-    /* mirrored: the corners go round the other way, so that the outside stays where the normal is */
+    /* mirrored: the order of the corners is reversed, so that the triangle still faces along its normal */
     expect_vector(corner(&f, f.position, 1, 0), 10, 0, 0);
     expect_vector(corner(&f, f.position, 1, 1), 10, 1, 0);
     expect_vector(corner(&f, f.position, 1, 2), 8, 0, 0);
     expect_vector(corner(&f, f.vertex_normal, 1, 1), -0.3 / length, 0, 0.8 / length);
-    /* the strip has none */
+    /* the strip has no normals */
     expect_vector(corner(&f, f.vertex_normal, STRIP, 1), 0, 0, 0);
 }
 
@@ -240,7 +239,7 @@ static void bones_bend_the_strip(void **state)
     }
 }
 
-/* Frames do not depend on the ones before them. */
+/* Frames do not depend on earlier frames. */
 static void frames_by_skipping(void **state)
 {
     (void)state;
@@ -295,7 +294,7 @@ static void unknown_clips_are_refused(void **state)
     scratch_expect_error(path, &options, 0, "the clip lasts 2 s: more than 1000000 frames");
 }
 
-/* assimp leaves such a triangle out and says so in its log alone. */
+/* assimp drops such a triangle and only reports it in its log. */
 static void lost_triangles_are_an_error(void **state)
 {
     (void)state;
@@ -304,7 +303,7 @@ static void lost_triangles_are_an_error(void **state)
     assert_int_equal(scratch_read(open_clip(write_gltf_ending_with(0), NULL, 0.0)).triangles, 5);
 }
 
-/* A skin may do without matrices. assimp 5.2 dies of it, and must not take the program with it. */
+/* A skin need not have matrices. assimp 5.2 crashes on that, and must not take the program down. */
 static void files_that_assimp_does_not_survive(void **state)
 {
     (void)state;
@@ -316,7 +315,7 @@ static void files_that_assimp_does_not_survive(void **state)
     text[size] = '\0';
     char *matrices = strstr(text, "inverseBindMatrices");
     assert_non_null(matrices);
-    *matrices = 'I'; /* a word that glTF does not have */
+    *matrices = 'I'; /* a key that glTF does not define */
     rewind(file);
     assert_int_equal(fwrite(text, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
@@ -334,7 +333,7 @@ static void files_that_assimp_does_not_survive(void **state)
 
 /* ---- Characters ---------------------------------------------------------------------------------------------- */
 
-/* A character that walks stays in one piece: no edge of its surface grows beyond a third of it. */
+/* A walking character stays in one piece: no edge of its surface grows by more than a third. */
 static void characters_stay_in_one_piece(void **state)
 {
     (void)state;
@@ -371,7 +370,7 @@ static void characters_stay_in_one_piece(void **state)
     }
 }
 
-/* Where a file does not say how long a tick is, 25 are a second. */
+/* If a file does not give the length of a tick, a second has 25. */
 static void ticks_have_a_length(void **state)
 {
     (void)state;

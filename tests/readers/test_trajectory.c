@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trajectories: opening, LAMMPS dumps, and the one in examples/data. */
+ * Trajectories: opening files, LAMMPS dumps, and the dump in examples/data. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
@@ -80,7 +80,7 @@ static void shipped_file_counts_and_rewinds(void **state)
     free(copy);
 }
 
-/* The texts of files below have one line of the file per literal where that reads best. */
+/* File texts below have one line of the file per literal where that is more readable. */
 /* clang-format off */
 
 /* ---- Columns and boxes -------------------------------------------------------------------------------------- */
@@ -262,14 +262,14 @@ static void counts_grow_and_shrink(void **state)
 
 /* ---- Damage ------------------------------------------------------------------------------------------------- */
 
-/* Cut after each byte in turn: whole frames come, then either the end, where nothing is missing, or an error. */
+/* Truncated after each byte in turn: complete frames are read, then the end if nothing is missing, else an error. */
 static void every_truncation_is_noticed(void **state)
 {
     (void)state;
     static const char text[] = HEAD("0", "0") BOX "ITEM: ATOMS type x y z\n"
                                HEAD("1", "2") BOX "ITEM: ATOMS type x y z\n1 2 3 4\n5 6 7 8\n"
                                HEAD("2", "1") BOX "ITEM: ATOMS type x y z\n1 2 3 4\n";
-    /* The last word of each frame is one character: with a longer one, a cut inside it could not be told. */
+    /* The last word of each frame is one character: a cut inside a longer word could not be detected. */
     size_t ends[3];
     const char *p = text;
     for (int i = 0; i < 3; i++) {
@@ -279,7 +279,7 @@ static void every_truncation_is_noticed(void **state)
     }
     const char *path = scratch_path(DUMP);
     for (size_t size = 0; size < sizeof text; size++) {
-        /* A frame is whole with or without its last line feed. */
+        /* A frame is complete with or without its last line feed. */
         unsigned whole = 0;
         while (whole < 3 && size + 1 >= ends[whole]) {
             whole++;
@@ -300,7 +300,7 @@ static void every_truncation_is_noticed(void **state)
 
 typedef struct damaged {
     const char *text;
-    unsigned frames; /* whole ones before the damage */
+    unsigned frames; /* complete frames before the damage */
     const char *what;
 } damaged;
 
@@ -375,7 +375,7 @@ static void limits_hold(void **state)
     scratch_expect_error(scratch_text(DUMP, text), &options, 1, ":11: 3 spheres are more than the limit of 2");
 }
 
-/* Long lines of blanks are read, endless ones are refused before they fill the memory. */
+/* Long lines of blanks are read; endless lines are refused before they fill the memory. */
 static void long_lines(void **state)
 {
     (void)state;
@@ -424,14 +424,14 @@ static void endings_of_any_case(void **state)
     scratch_expect_end(scratch_open(scratch_text(".extxyz", ""), NULL));
 }
 
-/* A pipe is read like a file, but not twice. */
+/* A pipe is read like a file, but cannot be rewound. */
 static void pipes_are_read_once(void **state)
 {
     (void)state;
     const char *path = scratch_path(DUMP);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(mkfifo(path, 0600), 0);
-    const int both = open(path, O_RDWR); /* a writer and a reader, so that neither side waits */
+    const int both = open(path, O_RDWR); /* opened for reading and writing, so that neither side blocks */
     assert_true(both >= 0);
     const char *text = HEAD("0", "1") ROWS "1 1 2 3\n" HEAD("1", "1") ROWS "1 4 5 6\n";
     assert_int_equal(write(both, text, strlen(text)), strlen(text));
@@ -450,7 +450,7 @@ static void pipes_are_read_once(void **state)
     scratch_expect_end(t);
 }
 
-/* Rewinding heals an error: the frames before it can be read again. */
+/* Rewinding clears an error: the frames before it can be read again. */
 static void rewinding_after_an_error(void **state)
 {
     (void)state;

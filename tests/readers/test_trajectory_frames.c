@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .frames of spheres: the bytes, reading back what was written, damaged files. The bytes are spelt out, so that a
- * machine of the other byte order must agree. */
+ * .frames files of spheres: the bytes, round trips, damaged files. The bytes are spelt out, so that machines of both
+ * byte orders must agree. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@
 
 static const char FRAMES[] = ".frames";
 
-/* Two frames: none, and one sphere at (1, -2, 0.5) with radius 3. */
+/* Two frames: an empty one, and one sphere at (1, -2, 0.5) with radius 3. */
 static const unsigned char two_frames[] = {
     'C', 'G', 'T', 'F', 'R', 'A', 'M',  '1',  1, 0, 0, 0,    2, 0, 0, 0,    0, 0, 0,    0,    0, 0, 0, 0, /* header */
     0,   0,   0,   0,                                                                                     /* none */
@@ -56,7 +56,7 @@ static void bytes_are_little_endian(void **state)
     assert_memory_equal(written, two_frames, sizeof two_frames);
 }
 
-/* The bits of float number i of a frame: all kinds, NaN with a payload among them. */
+/* The bits of float i of a frame: all kinds, including a NaN with a payload. */
 static uint32_t bits_of(uint32_t frame, uint32_t i)
 {
     const uint32_t bits = (i + 1) * 2654435761u ^ frame * 40503u;
@@ -124,7 +124,7 @@ static void headers_are_checked(void **state)
     (void)state;
     static const scratch_change changes[] = {
         {4, 0x324d4152, 0, "not a .frames file"},
-        {8, 2, 2, "data follow the 2 frames"}, /* a sphere has a number more than a vertex */
+        {8, 2, 2, "data follow the 2 frames"}, /* a sphere has one number more than a vertex */
         {8, 0x01000000, 0, "kind 16777216 is neither"},
         {12, 0, 0, "the header says 0 frames, but data follow"},
         {12, 1, 1, "data follow the 1 frames"},
@@ -132,7 +132,7 @@ static void headers_are_checked(void **state)
         {12, 0xffffffff, 0, "4294967295 frames cannot lie in 24 bytes"},
         {16, 1, 0, "a file of spheres says 1 triangles"},
         {20, 1, 0, "the header must end in zeros"},
-        {24, 1, 1, "frame 1: the file ends before the last of 1077936128 spheres"}, /* 3.0f is taken for a count */
+        {24, 1, 1, "frame 1: the file ends before the last of 1077936128 spheres"}, /* 3.0f is read as a count */
         {28, 2, 1, "frame 1: the file ends before the last of 2 spheres"},
         {28, 0x7fffffff, 1, "frame 1: the file ends before the last of 2147483647 spheres"},
         {28, 0xffffffff, 1, "frame 1: 4294967295 spheres are more than the limit of 2147483648"},
@@ -147,7 +147,7 @@ static void every_truncation_is_noticed(void **state)
     const char *path = scratch_path(FRAMES);
     for (size_t size = 0; size < sizeof two_frames; size++) {
         scratch_fill(path, two_frames, size);
-        /* Below 32 bytes even two empty frames would not fit, which is seen when opening. */
+        /* Two empty frames do not fit in less than 32 bytes, which opening detects. */
         scratch_expect_error(path, NULL, size >= 32, size < 8 ? "not a .frames file" : "cut off");
     }
 }
@@ -160,7 +160,7 @@ static void skipping_notices_damage(void **state)
     assert_int_equal(trajectory_skip(t, error, sizeof error), 1);
     assert_int_equal(trajectory_skip(t, error, sizeof error), -1);
     assert_non_null(strstr(error, "frame 1: the file ends before"));
-    /* The other way round: a frame with something in it is skipped, and the next one is short by a byte. */
+    /* Conversely: a frame with content is skipped, and the next one is short by a byte. */
     unsigned char bytes[24 + 20 + 20 - 1] = {0};
     memcpy(bytes, two_frames, 24);
     memcpy(bytes + 24, two_frames + 28, 20);
@@ -181,7 +181,7 @@ static void limit_of_the_options(void **state)
     scratch_expect_error(path, &options, 1, "frame 1: 5 spheres are more than the limit of 4");
 }
 
-/* A pipe has no size that a count could be checked against: memory grows with what comes. */
+/* A pipe has no size to check a count against: memory grows as data arrive. */
 static void pipes_are_read(void **state)
 {
     (void)state;
@@ -220,7 +220,7 @@ static void files_left_half_written_are_refused(void **state)
     assert_non_null(w);
     static const float spheres[4 * 8192];
     assert_int_equal(frames_writer_add(w, spheres, 8192, error, sizeof error), 0);
-    /* Part of the 128 KiB is in the file already, the header's count is not. */
+    /* Part of the 128 KiB has been written to the file, the header's count has not. */
     scratch_expect_error(path, NULL, 0, "the header says 0 frames, but data follow");
     assert_int_equal(frames_writer_close(w, error, sizeof error), 0);
     assert_int_equal(scratch_read(scratch_open(path, NULL)).count, 8192);
@@ -245,7 +245,7 @@ static void writing_that_fails(void **state)
     error[0] = '\0';
     assert_int_equal(frames_writer_close(w, error, sizeof error), -1);
     assert_non_null(strstr(error, strerror(ENOSPC)));
-    /* So little that it is only written by close. */
+    /* So little that only close writes it. */
     w = frames_writer_open("/dev/full", error, sizeof error);
     assert_non_null(w);
     assert_int_equal(frames_writer_add(w, spheres, 1, error, sizeof error), 0);

@@ -81,7 +81,7 @@ static void random_numbers_have_the_right_bits(void **state)
     }
 }
 
-/* Half-way between two floats, and next to it: where rounding twice goes wrong. */
+/* Half-way between two floats, and next to it: where double rounding fails. */
 static void numbers_between_two_floats(void **state)
 {
     (void)state;

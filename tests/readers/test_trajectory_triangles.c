@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * .frames of triangles: the bytes, reading back what was written, damaged files. */
+ * .frames files of triangles: the bytes, round trips, damaged files. */
 #define _GNU_SOURCE
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 
 static const char FRAMES[] = ".frames";
 
-/* Two triangles; a frame of four vertices, all numbers 1 to 12, and one of five, whose last is left over. */
+/* Two triangles; a frame of four vertices, all numbers 1 to 12, and one of five, the last of which is unused. */
 #define MESH_BYTES (24 + 24 + 4 + 48 + 4 + 60)
 static const uint32_t mesh_index[6] = {0, 1, 2, 0, 2, 3};
 
@@ -88,7 +88,7 @@ static void triangles_are_read_and_written(void **state)
     assert_memory_equal(written, bytes, sizeof bytes);
 }
 
-/* The frames stay those of the index: no other kind, and no vertex missing. */
+/* Frames must fit the index: no other kind of primitive, and no vertex missing. */
 static void writing_refuses_what_does_not_fit(void **state)
 {
     (void)state;
@@ -119,7 +119,7 @@ static void triangles_are_checked(void **state)
     (void)state;
     static const scratch_change changes[] = {
         {8, 1, 0, "a file of spheres says 2 triangles"},
-        {16, 3, 0, "4294967295"}, /* the first frame taken for a triangle: see below */
+        {16, 3, 0, "4294967295"}, /* the first frame is read as a triangle: see below */
         {16, 13, 0, "the file ends before the last of 13 triangles"},
         {16, 0x80000001, 0, "2147483649 triangles are more than the limit of 2147483648"},
         {20, 1, 0, "the header must end in zeros"},

@@ -105,7 +105,7 @@ static void extended_columns(void **state)
     scratch_expect_end(t);
 }
 
-/* Types are numbered by the whole file, whether its frames are read, skipped or read again. */
+/* Types are numbered over the whole file, whether its frames are read, skipped or read again. */
 static void types_stay_the_same(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void empty_frames(void **state)
     scratch_expect_end(scratch_open(scratch_text(XYZ, ""), NULL));
 }
 
-/* A comment may look like anything. */
+/* A comment may contain anything. */
 static void odd_comments(void **state)
 {
     (void)state;

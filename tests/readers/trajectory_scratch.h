@@ -30,7 +30,7 @@ static int scratch_teardown(void **state)
     return 0;
 }
 
-/* Makes an empty file with this ending and returns its path. Files of a test that has many are reused in turn. */
+/* Makes an empty file with the given ending and returns its path. Tests that need many reuse files in turn. */
 static inline const char *scratch_path(const char *ending)
 {
     if (scratch_count == SCRATCH_MOST) {
@@ -66,7 +66,7 @@ static inline const char *scratch_text(const char *ending, const char *text)
     return scratch_bytes(ending, text, strlen(text));
 }
 
-/* Opens a file that must open. */
+/* Opens a file; fails the test on an error. */
 static inline trajectory *scratch_open(const char *path, const trajectory_options *options)
 {
     char error[1024] = "";
@@ -78,7 +78,7 @@ static inline trajectory *scratch_open(const char *path, const trajectory_option
     return scratch_open_one;
 }
 
-/* Reads a frame that must be there. */
+/* Reads a frame; fails the test without one. */
 static inline trajectory_frame scratch_read(trajectory *t)
 {
     char error[1024] = "";
@@ -110,8 +110,8 @@ static inline void scratch_expect_sphere(const trajectory_frame *frame, uint32_t
     }
 }
 
-/* After `frames` whole frames, or at once when opening, the file is refused with a text that begins with its path and
- * holds `what`; asked again, with the same text. */
+/* After `frames` complete frames, or already when opened, the file is refused with a message that begins with its path
+ * and contains `what`; a repeated call gives the same message. */
 static inline void scratch_expect_error(const char *path, const trajectory_options *options, unsigned frames,
                                         const char *what)
 {
@@ -145,7 +145,7 @@ static inline void scratch_put_u32(unsigned char *bytes, size_t at, uint32_t val
     }
 }
 
-/* A number that makes a file bad at this place, and the error after this many frames. */
+/* A value that makes a file invalid at this offset, and the error after `frames` frames. */
 typedef struct scratch_change {
     size_t at;
     uint32_t value;
@@ -153,7 +153,7 @@ typedef struct scratch_change {
     const char *what;
 } scratch_change;
 
-/* Each change alone makes a good .frames file a bad one. */
+/* Each change by itself makes a valid .frames file invalid. */
 static inline void scratch_expect_errors(const unsigned char *good, size_t size, const scratch_change *changes,
                                          size_t count)
 {

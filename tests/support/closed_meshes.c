@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Closed meshes: faces are grids of shared vertices, found again by their place. */
+ * Closed meshes: faces are grids of shared vertices, identified by position. */
 #include "support/closed_meshes.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@ static void add_triangle(closed_mesh *mesh, uint32_t a, uint32_t b, uint32_t c)
     index[2] = c;
 }
 
-/* The vertex at a place; faces compute the places that they share with the same operations. */
+/* The vertex at a position; faces compute shared positions by the same operations, so that they match exactly. */
 static uint32_t vertex_at(closed_mesh *mesh, const double p[3])
 {
     for (uint32_t i = 0; i < mesh->vertices; i++)
@@ -185,7 +185,7 @@ bool closed_mesh_make(closed_mesh *mesh, closed_kind kind, uint32_t detail)
 
 void closed_mesh_inside(const closed_mesh *mesh, test_random *r, double point[3])
 {
-    /* half the width of a box about the middle that lies well inside */
+    /* half the width of a box around the centre that lies well inside */
     static const double half[CLOSED_KINDS][3] = {
         {0.75, 0.75, 0.75}, {0.25, 0.25, 0.25}, {0.4, 0.4, 0.4}, {0, 0, 0.1}, {0.12, 0.12, 0.75}};
     const double turn = 2 * PI * (double)random_float(r, 0, 1);

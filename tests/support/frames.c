@@ -84,7 +84,7 @@ void frame_trace(const cgt_scene *scene, const cgt_camera *camera, const planes 
     assert_int_equal(cgt_trace_camera(scene, camera, &frame, options), CGT_OK);
 }
 
-/* camera.h says how a ray comes from these; a test compares them with the public formula in wide arithmetic. */
+/* camera.h defines how a ray follows from these; a test compares them with the public formula in wide arithmetic. */
 truth_ray *frame_rays(const cgt_camera *camera, uint32_t width, uint32_t height)
 {
     cgt_camera_rays c;

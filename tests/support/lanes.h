@@ -94,7 +94,7 @@ static inline void check_bits(const char *word, const lanes *got, const lanes *e
         if (got->eu[i] != expected->eu[i])
             fail_msg("%s, lane %d: 0x%08x, expected 0x%08x", word, i, got->eu[i], expected->eu[i]);
 }
-/* As results of arithmetic: any NaN is as good as another. */
+/* As results of arithmetic: all NaN are equal. */
 static inline void check_floats(const char *word, const lanes *got, const lanes *expected)
 {
     for (int i = 0; i < CGT_LANES; i++)

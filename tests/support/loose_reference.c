@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Loose grids built the plain way. */
+ * Loose grids built by the direct method. */
 #include "exact/valid_primitive.h"
 #include "support/loose_reference.h"
 
@@ -12,18 +12,18 @@ typedef struct box {
     double low[3], high[3];
 } box;
 
-static box box_of(const cgt_primitive *shape)
+static box box_of(const cgt_primitive *primitive)
 {
     box b;
     for (int a = 0; a < 3; a++) {
-        if (shape->kind == CGT_KIND_SPHERES) {
-            const double c[3] = {(double)shape->sphere.x, (double)shape->sphere.y, (double)shape->sphere.z};
-            b.low[a] = c[a] - (double)shape->sphere.r;
-            b.high[a] = c[a] + (double)shape->sphere.r;
+        if (primitive->kind == CGT_KIND_SPHERES) {
+            const double c[3] = {(double)primitive->sphere.x, (double)primitive->sphere.y, (double)primitive->sphere.z};
+            b.low[a] = c[a] - (double)primitive->sphere.r;
+            b.high[a] = c[a] + (double)primitive->sphere.r;
             continue;
         }
-        const double x = (double)shape->triangle.v[0][a], y = (double)shape->triangle.v[1][a],
-                     z = (double)shape->triangle.v[2][a];
+        const double x = (double)primitive->triangle.v[0][a], y = (double)primitive->triangle.v[1][a],
+                     z = (double)primitive->triangle.v[2][a];
         b.low[a] = fmin(x, fmin(y, z));
         b.high[a] = fmax(x, fmax(y, z));
     }
@@ -38,16 +38,16 @@ static double size_of(const box *b)
     return size;
 }
 
-/* Visits the valid objects, ascending. */
+/* Visits the valid primitives, ascending. */
 typedef void visit(void *user, uint32_t prim, const box *b);
 
 static void visit_all(const cgt_primitives *prims, visit *each, void *user)
 {
     for (uint32_t i = 0; i < prims->count; i++) {
-        const cgt_primitive shape = cgt_primitives_get(prims, i);
-        if (cgt_primitive_check(&shape) != CGT_PRIMITIVE_VALID)
+        const cgt_primitive primitive = cgt_primitives_get(prims, i);
+        if (cgt_primitive_check(&primitive) != CGT_PRIMITIVE_VALID)
             continue;
-        const box b = box_of(&shape);
+        const box b = box_of(&primitive);
         each(user, i, &b);
     }
 }
@@ -56,7 +56,7 @@ static void visit_all(const cgt_primitives *prims, visit *each, void *user)
 typedef struct plan {
     loose_reference *r;
     double largest;
-    double low[CGT_LOOSE_LEVELS][3], high[CGT_LOOSE_LEVELS][3]; /* of the objects' middles */
+    double low[CGT_LOOSE_LEVELS][3], high[CGT_LOOSE_LEVELS][3]; /* of the primitives' centres */
     double reach[CGT_LOOSE_LEVELS][3];
     uint32_t prims[CGT_LOOSE_LEVELS];
     uint32_t number[CGT_LOOSE_LEVELS]; /* of a class of sizes: its level */
@@ -162,7 +162,7 @@ bool loose_reference_make(const cgt_primitives *prims, double per_cell, loose_re
         p.at = at;
         visit_all(prims, count_one, &p);
         for (uint32_t k = 0; k < r->grid.levels; k++)
-            for (int a = 0; a < 3; a++) /* what rounding adds, too */
+            for (int a = 0; a < 3; a++) /* including what rounding adds */
                 r->grid.level[k].reach[a] =
                     (float)((p.reach[k][a] + fabs((double)r->grid.level[k].low[a]) * 0x1p-40) * (1 + 0x1p-20));
     }

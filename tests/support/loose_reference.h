@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Loose grids built the plain way: one object after the other, in double, the reach of each level measured. */
+ * Loose grids built by the direct method: one primitive after the other, in double, with the reach of each level
+ * measured. */
 #ifndef LOOSE_REFERENCE_H
 #define LOOSE_REFERENCE_H
 
@@ -12,8 +13,8 @@ typedef struct loose_reference {
     uint32_t *start, *prim;
 } loose_reference;
 
-/* Of the valid objects. per_cell: how many of a level's objects share a cell on average. False where memory is refused.
- * Release with loose_reference_free. */
+/* A grid of the valid primitives. per_cell: average number of a level's primitives per cell. False where memory is
+ * refused. Release with loose_reference_free. */
 bool loose_reference_make(const cgt_primitives *prims, double per_cell, loose_reference *r);
 void loose_reference_free(loose_reference *r);
 

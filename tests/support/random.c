@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random numbers and the floats between floats. */
+ * Random numbers, and distances between floats. */
 #include "support/random.h"
 
 #include <math.h>
@@ -59,7 +59,7 @@ void random_direction(test_random *r, float d[3])
         d[a] = (float)(d[a] / sqrt(length));
 }
 
-/* Floats in their order as integers. */
+/* Maps floats to integers in the same order. */
 static int64_t ordered(float a)
 {
     int32_t bits;

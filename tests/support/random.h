@@ -1,19 +1,19 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random numbers by streams, and distances between floats; for the tests and for cgt-bench. */
+ * Streams of random numbers, and distances between floats; for the tests and for cgt-bench. */
 #ifndef RANDOM_H
 #define RANDOM_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Random numbers: one stream per use, so that the numbers of a test do not depend on other tests. */
+/* Random numbers: one stream per purpose, so that the numbers of a test do not depend on other tests. */
 typedef struct test_random {
     uint64_t state;
 } test_random;
 
-/* Sets the seed of all streams made later; RANDOM_DEFAULT_SEED without a call. */
+/* Sets the seed of all streams made later; the default is RANDOM_DEFAULT_SEED. */
 #define RANDOM_DEFAULT_SEED UINT64_C(20260117)
 void random_seed(uint64_t of_all);
 
@@ -28,7 +28,7 @@ void random_direction(test_random *r, float d[3]);       /* about unit length, n
 /* Steps of float from a to b, 0 for equal values (+0 and -0 are equal); UINT32_MAX where one is NaN. */
 uint32_t ulp_distance(float a, float b);
 
-/* The same bits, so that NaN equals itself. */
+/* Whether the bits are equal, so that a NaN equals itself. */
 bool same_bits(float a, float b);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays and hits as arrays of structs, and a camera's rays as the library makes them; for tests and for cgt-bench. */
+ * Rays and hits as arrays of structs, and a camera's rays as the library generates them; for tests and for
+ * cgt-bench. */
 #ifndef RAY_ARRAYS_H
 #define RAY_ARRAYS_H
 

@@ -18,7 +18,7 @@ typedef struct test_scene_options {
     uint32_t kd_break_level;
 } test_scene_options;
 
-/* The same as the library takes them: a pointer that is valid in the enclosing block. */
+/* The same in the library's own types: a pointer that is valid in the enclosing block. */
 #define SCENE_OPTIONS(o)                                                                                               \
     (&(cgt_scene_options){.structure = (o)->structure,                                                                 \
                           .rays = (o)->rays,                                                                           \

@@ -104,7 +104,7 @@ static void place_sphere(test_random *r, const cloud *c, cloud_kind kind, const 
         for (int a = 0; a < 3; a++)
             q[a] = a == flat ? q[a] : c->middle[a];
     if (kind == CLOUD_MIXED) {
-        const float factor = random_log(r, 1e-3f, 1e3f); /* the largest would hide all else: few of them */
+        const float factor = random_log(r, 1e-3f, 1e3f); /* the largest would hide everything else: few of them */
         q[3] *= factor > 10 && random_below(r, 20) ? 1 : factor;
     }
     if (kind == CLOUD_LATTICE) {

@@ -20,12 +20,13 @@
 #include "support/research_options.h"
 
 #define TEST_COUNT(a) (sizeof(a) / sizeof((a)[0]))
-#define TEST_SKIPPED 77 /* exit code: not possible on this machine */
+#define TEST_SKIPPED 77 /* exit code: cannot run on this machine */
 
 /* Prints the program's name, seed and scale. Call it first in main. */
 void test_begin(const char *name);
 
-/* Whether this CPU runs a variant; prints a message if not. CGT_VARIANT_NAME is the variant of the file's own row. */
+/* Whether this CPU runs a variant; prints a message if not. CGT_VARIANT_NAME is the variant that the file is compiled
+ * for. */
 bool test_variant_runs(const char *name);
 #define TEST_TEXT_(x) #x
 #define TEST_TEXT(x) TEST_TEXT_(x)
@@ -40,8 +41,8 @@ uint32_t test_between(uint32_t least, uint32_t n);
 /* Whether to run a sample of the cases instead of all: below a scale of 0.1. */
 bool test_samples(void);
 
-/* Where a sample of every step-th case begins, below step. number: which of many such samples it is; they begin
- * differently, and all begin elsewhere with another seed, so that runs with other seeds see the other cases. */
+/* First case, below `step`, of a sample of every step-th case. number: distinguishes samples, which begin at different
+ * cases. All begin elsewhere with another seed, so that other seeds run the other cases. */
 uint32_t test_sample_start(uint32_t number, uint32_t step);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Bounds made tighter until they fail: a bound that never fails however tight says nothing, and one that fails only
- * when it is far tighter is wasteful. */
+ * Bounds tightened until they fail: a test whose bound never fails proves nothing, and a bound that fails only when far
+ * tighter is wasteful. */
 #ifndef TIGHTENED_H
 #define TIGHTENED_H
 
@@ -14,7 +14,7 @@
 #define STEPS 24
 
 /* tallies: STEPS structures of `size` bytes, with a uint64_t that counts failures at byte `offset`. The bounds must
- * hold as they are, and fail before they are as tight as `least`. */
+ * hold unchanged, and fail before they are as tight as `least`. */
 static inline void check_break(const char *what, const void *tallies, size_t size, size_t offset, double least)
 {
     double at = 0, scale = 1;

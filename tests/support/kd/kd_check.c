@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The checker of kd-trees: one walk over all nodes with their boxes and the objects whose bounds touch those. */
+ * The checker of kd-trees: one walk over all nodes with their boxes and the primitives whose bounds touch those. */
 #include "exact/valid_primitive.h"
 #include "support/kd/kd_check.h"
 
@@ -40,7 +40,7 @@ static const uint32_t *references(kd_walk *w, uint32_t node)
             return NULL;
         }
         if (tree->leaf[n->word[1]].count != count)
-            kd_fault(w, "leaf %u has %u objects, its entry says %u", node, count, tree->leaf[n->word[1]].count);
+            kd_fault(w, "leaf %u has %u primitives, its entry says %u", node, count, tree->leaf[n->word[1]].count);
         first = tree->leaf[n->word[1]].first;
     } else if (count < 2) {
         if (count == 0 && n->word[1])
@@ -53,13 +53,13 @@ static const uint32_t *references(kd_walk *w, uint32_t node)
     }
     for (uint32_t i = 0; i < count; i++)
         if (w->used[first + i]++)
-            kd_fault(w, "leaf %u: reference %llu is another's", node, (unsigned long long)first + i);
+            kd_fault(w, "leaf %u: reference %llu belongs to another leaf", node, (unsigned long long)first + i);
     if (cgt_kd_references(tree, n) != tree->reference + first)
         kd_fault(w, "leaf %u: cgt_kd_references leads elsewhere", node);
     return tree->reference + first;
 }
 
-/* candidate: objects whose bounds touch the leaf, ascending. */
+/* candidate: primitives whose bounds touch the leaf, ascending. */
 static void check_leaf(kd_walk *w, uint32_t node, const uint32_t *candidate, size_t candidates)
 {
     const uint32_t count = cgt_kd_count(w->tree->node[node]), *prim = references(w, node);
@@ -67,18 +67,18 @@ static void check_leaf(kd_walk *w, uint32_t node, const uint32_t *candidate, siz
     w->empty_leaves += count == 0;
     for (uint32_t i = 0; prim && i < count; i++) {
         if (prim[i] >= w->committed_scene->prims.count || !w->valid[prim[i]])
-            kd_fault(w, "leaf %u lists object %u, which does not take part", node, prim[i]);
+            kd_fault(w, "leaf %u lists primitive %u, which is invalid", node, prim[i]);
         if (i && prim[i] <= prim[i - 1])
-            kd_fault(w, "leaf %u: object %u after %u", node, prim[i], prim[i - 1]);
+            kd_fault(w, "leaf %u: primitive %u after %u", node, prim[i], prim[i - 1]);
     }
     for (size_t i = 0, at = 0; prim && i < candidates && !w->faulty; i++) {
         while (at < count && prim[at] < candidate[i])
             at++;
         if (at < count && prim[at] == candidate[i])
             continue;
-        const cgt_primitive shape = cgt_primitives_get(&w->committed_scene->prims, candidate[i]);
-        if (kd_touches(&shape, &w->box[node]))
-            kd_fault(w, "leaf %u does not list object %u, which touches it", node, candidate[i]);
+        const cgt_primitive primitive = cgt_primitives_get(&w->committed_scene->prims, candidate[i]);
+        if (kd_touches(&primitive, &w->box[node]))
+            kd_fault(w, "leaf %u does not list primitive %u, which touches it", node, candidate[i]);
     }
 }
 
@@ -148,9 +148,9 @@ static size_t list_objects(kd_walk *w)
             continue;
         object_bounds(&w->committed_scene->prims, i, w->low[i], w->high[i]);
         w->list[listed++] = i;
-        for (int a = 0; a < 3; a++) /* bounds of spheres are a step of double outside */
+        for (int a = 0; a < 3; a++) /* bounds of spheres lie one step of double outside */
             if (nextafter(w->low[i][a], INFINITY) < tree->low[a] || nextafter(w->high[i][a], -INFINITY) > tree->high[a])
-                kd_fault(w, "object %u reaches beyond the root", i);
+                kd_fault(w, "primitive %u reaches beyond the root", i);
     }
     return listed;
 }

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Leaves and their ropes, from the definitions: what is here knows the parents and the boxes of all nodes, and follows
- * nothing that the library computed. */
+ * Checks leaves and their ropes by the definitions: from the parents and boxes of all nodes, without relying on
+ * anything that the library computed. */
 #include "support/kd/kd_walk.h"
 
 /* The sibling at the lowest ancestor that is split across the face; CGT_INVALID_ID beyond the root. */

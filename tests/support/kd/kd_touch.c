@@ -1,15 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shapes and boxes: double where it is sure, dyadic numbers where it is not. A triangle is apart from a box where one
- * of 13 axes separates them: those of the box, its normal, and the products of its edges with those of the box. */
+ * Primitives and boxes: double where it decides, dyadic numbers elsewhere. A triangle and a box are disjoint if one of
+ * 13 axes separates them: the axes of the box, the triangle's normal, and the cross products of its edges with those
+ * axes. */
 #include "support/kd/kd_touch.h"
 
 #include <math.h>
 
 #include "support/oracle/dyadic.h"
 
-/* Each sum below has less than 32 roundings. */
+/* Each sum below has fewer than 32 roundings. */
 #define SURE 0x1p-47
 
 static dyadic difference(float a, float b)
@@ -22,7 +23,7 @@ static int sign_of_difference(const dyadic *a, const dyadic *b) { return dyadic_
 
 /* ---- spheres ---- */
 
-/* What of the box is nearest to the centre along an axis, or furthest from it. */
+/* The coordinate of the box nearest to the centre along an axis, or furthest from it. */
 static float extreme(float center, float low, float high, bool furthest)
 {
     if (furthest)
@@ -30,8 +31,9 @@ static float extreme(float center, float low, float high, bool furthest)
     return center < low ? low : center > high ? high : center;
 }
 
-/* Sign of the squared distance from the centre to the nearest or furthest point of the box, less that of the surface.
- * Where the furthest is a matter of rounding, both ends are as far but for that rounding, far below what is sure. */
+/* Sign of the squared distance from the centre to the nearest or furthest point of the box, minus the squared radius.
+ * Where rounding decides which end is furthest, both are equally far to within that rounding, which is far below the
+ * error bound. */
 static int sphere_sign(const cgt_sphere *q, const kd_box *box, bool furthest)
 {
     const float center[3] = {q->x, q->y, q->z};
@@ -52,10 +54,10 @@ static int sphere_sign(const cgt_sphere *q, const kd_box *box, bool furthest)
 
 /* ---- triangles ---- */
 
-/* The direction of edge k, and the axis of it and axis a of the box; of doubles and of dyadic numbers. */
+/* The direction of edge k, and its cross product with axis a of the box; for doubles and for dyadic numbers. */
 static const int edge_ends[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 
-/* By doubles, seen from vertex 0: 1 the axis separates, -1 it does not, 0 not sure. size bounds the axis. */
+/* In double, relative to vertex 0: 1 if the axis separates, -1 if it does not, 0 if undecided. size bounds the axis. */
 static int axis_sure(const double axis[3], const double edge[3][3], const double low[3], const double high[3],
                      double size)
 {
@@ -106,7 +108,7 @@ static bool axis_separates(const dyadic axis[3], const cgt_triangle *q, const kd
     return sign_of_difference(&triangle_low, &box_high) > 0 || sign_of_difference(&box_low, &triangle_high) > 0;
 }
 
-/* The exact axis: that of the normal for k = 3, else of edge k and axis a of the box. */
+/* The exact axis: the normal for k = 3, else the cross product of edge k and axis a of the box. */
 static void exact_axis(const cgt_triangle *q, int k, int a, dyadic axis[3])
 {
     dyadic edge[3][3];
@@ -163,9 +165,9 @@ static bool triangle_touches(const cgt_triangle *q, const kd_box *box)
     return !apart(q, box, (const double(*)[3])edge, 3, 0);
 }
 
-bool kd_touches(const cgt_primitive *shape, const kd_box *box)
+bool kd_touches(const cgt_primitive *primitive, const kd_box *box)
 {
-    if (shape->kind == CGT_KIND_TRIANGLES)
-        return triangle_touches(&shape->triangle, box);
-    return sphere_sign(&shape->sphere, box, false) <= 0 && sphere_sign(&shape->sphere, box, true) >= 0;
+    if (primitive->kind == CGT_KIND_TRIANGLES)
+        return triangle_touches(&primitive->triangle, box);
+    return sphere_sign(&primitive->sphere, box, false) <= 0 && sphere_sign(&primitive->sphere, box, true) >= 0;
 }

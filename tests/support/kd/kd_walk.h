@@ -14,9 +14,9 @@ typedef struct kd_walk {
     kd_box *box;      /* by node */
     uint32_t *parent; /* by node; CGT_INVALID_ID for the root and for nodes that are not reached */
     bool *reached;    /* by node */
-    double (*low)[3]; /* bounds of valid objects, by object */
+    double (*low)[3]; /* bounds of valid primitives, by primitive */
     double (*high)[3];
-    bool *valid;    /* by object */
+    bool *valid;    /* by primitive */
     uint8_t *used;  /* by reference */
     uint32_t *list; /* primitives that may touch the nodes on the path from the root, one list after the other */
     uint32_t depth, leaves, empty_leaves;

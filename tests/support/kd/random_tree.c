@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Random kd-trees. Nodes that wait to be split are taken from the end or from anywhere, so that some trees are deep and
- * some are broad; then the pairs of children get random places. */
+ * Random kd-trees. Nodes to be split are taken from the end of the list or from a random position, so that some trees
+ * are deep and some broad; then the pairs of children get random positions. */
 #include "exact/valid_primitive.h"
 #include "support/kd/random_tree.h"
 
@@ -15,7 +15,7 @@ typedef struct box {
     float low[3], high[3];
 } box;
 
-/* A node that may be split; its objects lie in the list. */
+/* A node that may be split; its primitives are in the list. */
 typedef struct waiting {
     uint32_t node, depth;
     size_t first, count;
@@ -25,10 +25,10 @@ typedef struct waiting {
 typedef struct growth {
     test_random *random;
     const cgt_primitives *prims;
-    double (*low)[3], (*high)[3]; /* bounds, by object */
+    double (*low)[3], (*high)[3]; /* bounds, by primitive */
     cgt_kd_node *node;
     uint32_t nodes, node_room;
-    uint32_t *list; /* objects of each node made so far, inner ones too: gaps in the final references */
+    uint32_t *list; /* primitives of each node made so far, inner nodes included: gaps in the final references */
     size_t listed, list_room;
     waiting *open;
     uint32_t opened;
@@ -95,7 +95,7 @@ static float any_position(growth *g, const waiting *w, uint32_t axis)
     }
 }
 
-/* To a float that a node holds, within the box; false where there is none next to it. */
+/* Rounds the split to a float that a node can hold, within the box; false if no neighbouring float qualifies. */
 static bool fit_split(const box *b, uint32_t axis, float *split)
 {
     const float nearer = cgt_kd_round_split(*split);
@@ -121,7 +121,7 @@ static bool choose(growth *g, const waiting *w, uint32_t *axis, float *split)
 
 /* ---- growing ---- */
 
-/* Opens a child with those objects of the parent that touch its side of the split. */
+/* Opens a child with the primitives of the parent that touch its side of the split. */
 static void open_child(growth *g, const waiting *parent, uint32_t node, uint32_t axis, float split, bool upper)
 {
     waiting child = {node, parent->depth + 1, g->listed, 0, parent->box};
@@ -155,7 +155,7 @@ static void grow(growth *g)
     }
 }
 
-/* Gives each pair of children a place of twice as many; what is between holds nothing valid. */
+/* Gives each pair of children one of twice as many positions; the entries between hold nothing valid. */
 static cgt_kd_node *scatter(growth *g, uint32_t *nodes)
 {
     const uint32_t pairs = (g->nodes - 2) / 2, places = 2 * pairs, start = 1 + random_below(g->random, 2);

@@ -1,23 +1,23 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Exact arithmetic on dyadic rationals: the schoolbook's sums and products. */
+ * Exact arithmetic on dyadic rationals: schoolbook sums and products. */
 #include "support/oracle/dyadic.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Ends the program where a number would not fit: a wrong truth would be worse. */
+/* Ends the program where a number would not fit: a wrong reference would be worse. */
 static void check_capacity(int limbs)
 {
     if (limbs > DYADIC_LIMBS) {
-        fprintf(stderr, "dyadic: a number of %d limbs is beyond the %d there are\n", limbs, DYADIC_LIMBS);
+        fprintf(stderr, "dyadic: a number of %d limbs exceeds the capacity of %d\n", limbs, DYADIC_LIMBS);
         abort();
     }
 }
 
-/* Drops limbs that are 0 at both ends. */
+/* Trims zero limbs at both ends. */
 static void trim(dyadic *a)
 {
     int zeros = 0;

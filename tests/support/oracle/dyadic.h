@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * Exact arithmetic on dyadic rationals, whole numbers times powers of two: sums and products of floats, without any
- * rounding. A number is a row of 32-bit limbs, trimmed at both ends, so that everyday input stays short whatever its
- * scale. The capacity covers ten factors of any finite floats: each spans 288 bits, from 2^-160 to 2^128, and what the
- * oracle adds up to a number of that degree takes less than 200 bits more. */
+ * rounding. A number is a row of 32-bit limbs, trimmed at both ends, so that ordinary input stays short at any scale.
+ * The capacity covers ten factors of any finite floats: each spans 288 bits, from 2^-160 to 2^128, and the sums of such
+ * products that the oracle forms take less than 200 bits more. */
 #ifndef DYADIC_H
 #define DYADIC_H
 
@@ -34,7 +34,7 @@ dyadic dyadic_mul(const dyadic *a, const dyadic *b);
 /* times: -1, 0 or 1 */
 dyadic dyadic_signed(const dyadic *a, int times);
 
-/* The nearest values of truth_real, but for some units in its last place. */
+/* The nearest values of truth_real, to within a few units in the last place. */
 truth_real dyadic_real(const dyadic *a);
 
 /* ---- vectors ---- */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The truth about a ray in a scene, and verdicts by it: brute force, a first look in double and then whole numbers. */
+ * The exact hit of a ray in a scene, and verdicts by it: brute force, first filtered in double, then in integers. */
 #include "support/oracle/oracle.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ typedef struct nearest {
 
 static truth_real magnitude(truth_real a) { return a < 0 ? -a : a; }
 
-/* Order of two roots: by their values where these are surely apart. */
+/* Order of two roots: by their values where these are certainly apart. */
 static int order_of(const oracle_root *a, const oracle_root *b)
 {
     const truth_real difference = a->t - b->t;
@@ -29,7 +29,7 @@ static int order_of(const oracle_root *a, const oracle_root *b)
     return oracle_compare(a, b);
 }
 
-/* Nearer, or as near and of lower ids. */
+/* Closer, or at the same t with lower ids. */
 static bool precedes(const oracle_scene *scene, const nearest *a, const nearest *b)
 {
     const int order = order_of(&a->root, &b->root);
@@ -44,17 +44,17 @@ static nearest find_nearest(const oracle_scene *scene, const truth_ray *ray, con
 {
     oracle_filter filter = oracle_filter_make(ray);
     nearest best = {.index = ORACLE_NONE}, other;
-    double slack[ORACLE_BLOCK];
+    double margin[ORACLE_BLOCK];
     for (uint32_t first = 0; first < scene->count; first += ORACLE_BLOCK) {
         const uint32_t left = scene->count - first, count = left < ORACLE_BLOCK ? left : ORACLE_BLOCK;
         oracle_bounds made;
         const oracle_bounds *bounds = scene->bounds ? scene->bounds + first / ORACLE_BLOCK : &made;
         if (!scene->bounds)
             oracle_bound(scene->primitive + first, count, &made);
-        oracle_filter_line(&filter, bounds, slack);
+        oracle_filter_line(&filter, bounds, margin);
         for (uint32_t i = 0; i < count; i++) {
             const oracle_primitive *primitive = &scene->primitive[first + i];
-            if (slack[i] < 0 || !oracle_filter_keeps(&filter, bounds, i, primitive))
+            if (margin[i] < 0 || !oracle_filter_keeps(&filter, bounds, i, primitive))
                 continue;
             other.index = first + i;
             other.number = oracle_first_root(line, primitive, range, &other.root);
@@ -103,8 +103,8 @@ static uint32_t find_named(const oracle_scene *scene, uint32_t geometry, uint32_
     return ORACLE_NONE;
 }
 
-/* Whether an answer that is not the exact one is right for a t at the range's end that is rounded the other way: the
- * named primitive is hit in the wider range, and nothing in the narrower one comes before it. */
+/* Whether an answer other than the exact one is right because t at the end of the range may round the other way: the
+ * named primitive is hit in the wider range, and nothing in the narrower range comes before it. */
 static bool is_right_in_doubt(const oracle_scene *scene, const truth_ray *ray, uint32_t named, oracle_hit *hit)
 {
     oracle_line line;

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The truth about rays, spheres and triangles: hit or miss and the order of hits are decided exactly on the float
- * input, in whole numbers as wide as it takes; t, u, v and the normal are computed from those in binary128. It shares
- * nothing with the library: not its formulas, not its arithmetic, not its structures. */
+ * input, in integers of any width; t, u, v and the normal are computed from those in binary128. It shares nothing with
+ * the library: neither formulas nor arithmetic nor structures. */
 #ifndef ORACLE_H
 #define ORACLE_H
 
@@ -22,8 +22,8 @@ typedef struct oracle_primitive {
     float data[9];                /* x, y, z, r; or three vertices */
 } oracle_primitive;
 
-/* The primitives may be the caller's own array. Without bounds all is right, too, but large scenes take ten times as
- * long. */
+/* The primitives may be the caller's own array. Results are right without bounds too, but large scenes take ten times
+ * as long. */
 typedef struct oracle_scene {
     const oracle_primitive *primitive;
     uint32_t count;
@@ -46,13 +46,13 @@ void oracle_scene_free(oracle_scene *scene);
 typedef struct oracle_hit {
     uint32_t index;       /* in the scene; ORACLE_NONE: no hit */
     bool far;             /* a sphere's second root */
-    truth_real t;         /* within some units in the last place of truth_real, as u, v and a triangle's normal are */
+    truth_real t;         /* to within a few units in the last place of truth_real, like u, v and a triangle's normal */
     truth_real uv[2];     /* 0 on spheres */
-    truth_real normal[3]; /* of unit length; of a point, which has none, against the ray */
+    truth_real normal[3]; /* of unit length; opposite to the ray for a point, which has none */
 } oracle_hit;
 
-/* The nearest hit by the contract of cgt.h, by brute force over the scene. Primitives that are not finite, spheres
- * of negative radius and triangles without area take no part. A ray that is not finite or has no direction hits
+/* The closest hit by the contract of cgt.h, by brute force over the scene. Primitives that are not finite, spheres of
+ * negative radius and triangles without area take no part. A ray that is not finite or has no direction hits
  * nothing. */
 oracle_hit oracle_trace(const oracle_scene *scene, const truth_ray *ray);
 
@@ -64,12 +64,12 @@ typedef enum oracle_verdict {
     ORACLE_RIGHT = 0,
     ORACLE_MISSED,   /* there is a hit, and none was given */
     ORACLE_INVENTED, /* a hit was given, and there is none */
-    ORACLE_WRONG     /* another primitive is the nearest, or wins the tie */
+    ORACLE_WRONG     /* another primitive is closer, or wins the tie */
 } oracle_verdict;
 
-/* Judges the primitive that an answer names (geometry ORACLE_NONE: no hit). Where t lies within 2^-6 ulp of where the
- * range's end rounds, hit and miss are both right; nothing else is in doubt. *truth: the exact hit; where such a doubt
- * makes another answer right, that answer's. */
+/* Judges the primitive that an answer names (geometry ORACLE_NONE: no hit). Where t lies within 2^-6 ulp of the point
+ * where the end of the range rounds, hit and miss are both right; nothing else is in doubt. *truth: the exact hit;
+ * where such a doubt makes another answer right, that answer's hit. */
 oracle_verdict oracle_judge(const oracle_scene *scene, const truth_ray *ray, uint32_t geometry, uint32_t primitive,
                             oracle_hit *truth);
 
@@ -77,7 +77,7 @@ oracle_verdict oracle_judge(const oracle_scene *scene, const truth_ray *ray, uin
  * where the float is not finite. */
 double oracle_ulp(truth_real exact, float got);
 
-/* Angle in radians between an exact normal and a given one; infinity where that is no direction. */
+/* Angle in radians between an exact normal and a given one; infinity if the given one is no direction. */
 double oracle_angle(const truth_real exact[3], const float got[3]);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A first look in double precision, u = 2^-53. */
+ * The filter in double precision, u = 2^-53. */
 #include "support/oracle/oracle_filter.h"
 
 #include <math.h>
@@ -85,7 +85,7 @@ void oracle_bound(const oracle_primitive *primitive, uint32_t count, oracle_boun
 
 /* ---- rays ---- */
 
-/* Values of t that round to one inside the range are at most an ulp outside of it: 2^-22 of the end, or 2^-148. */
+/* Values of t that round into the range are at most an ulp outside of it: 2^-22 of the end, or 2^-148. */
 oracle_filter oracle_filter_make(const truth_ray *ray)
 {
     oracle_filter f;
@@ -109,21 +109,21 @@ void oracle_filter_cut(oracle_filter *filter, truth_real t)
     filter->t_max = fmin(filter->t_max, d + MARGIN * fabs(d));
 }
 
-/* The line misses the ball where |c x d|^2 > r^2 d.d. Each difference is off by u of it, each component of the product
- * by 3 u |c| |d|, so |c x d| by less than e |c| |d|, e = 8 u. Of a line that meets the ball the computed square is at
- * most (r + e |c|)^2 d.d <= (r^2 (1 + e) + (e + e^2) c.c) d.d: 2^-40 is 2^10 times that e. */
-void oracle_filter_line(const oracle_filter *filter, const oracle_bounds *bounds, double slack[ORACLE_BLOCK])
+/* The line misses the ball where |c x d|^2 > r^2 d.d. Each difference has a relative error of u, each component of the
+ * product an error of 3 u |c| |d|, so |c x d| an error below e |c| |d|, e = 8 u. For a line that meets the ball, the
+ * computed square is at most (r + e |c|)^2 d.d <= (r^2 (1 + e) + (e + e^2) c.c) d.d: 2^-40 is 2^10 times that e. */
+void oracle_filter_line(const oracle_filter *filter, const oracle_bounds *bounds, double margin[ORACLE_BLOCK])
 {
     const double *o = filter->org, *d = filter->dir;
     for (int i = 0; i < ORACLE_BLOCK; i++) {
         const double cx = bounds->x[i] - o[0], cy = bounds->y[i] - o[1], cz = bounds->z[i] - o[2];
         const double x = cy * d[2] - cz * d[1], y = cz * d[0] - cx * d[2], z = cx * d[1] - cy * d[0];
         const double cc = cx * cx + cy * cy + cz * cz;
-        slack[i] = (bounds->rr[i] + MARGIN * cc) * filter->dd - (x * x + y * y + z * z);
+        margin[i] = (bounds->rr[i] + MARGIN * cc) * filter->dd - (x * x + y * y + z * z);
     }
 }
 
-/* d . (p x q), and a bound of its error: 2^-48 is 32 u, three times what the roundings of three products add up to. */
+/* d . (p x q), and a bound of its error: 2^-48 is 32 u, three times the accumulated rounding of three products. */
 static double edge(const double d[3], const double p[3], const double q[3], double *error)
 {
     const double x = p[1] * q[2] - p[2] * q[1], y = p[2] * q[0] - p[0] * q[2], z = p[0] * q[1] - p[1] * q[0];
@@ -132,7 +132,7 @@ static double edge(const double d[3], const double p[3], const double q[3], doub
     return d[0] * x + d[1] * y + d[2] * z;
 }
 
-/* Weights of two vertices have surely opposite signs. */
+/* The weights of two vertices certainly have opposite signs. */
 static bool passes_beside(const oracle_filter *filter, const float vertex[9])
 {
     double p[3][3], error;

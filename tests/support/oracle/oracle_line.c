@@ -25,7 +25,7 @@ static int sign_of_surd(const dyadic *x, int sigma, const dyadic *d)
     return x->sign * difference.sign;
 }
 
-/* Sign of x + s1 sqrt(d1) + s2 sqrt(d2). The roots' sum S has the sign of s1 d1 + s2 d2; where x has the other one,
+/* Sign of x + s1 sqrt(d1) + s2 sqrt(d2). The roots' sum S has the sign of s1 d1 + s2 d2; where x has the opposite sign,
  * x^2 - S^2 = x^2 - d1 - d2 - 2 s1 s2 sqrt(d1 d2) decides. */
 static int sign_of_two_surds(const dyadic *x, int s1, const dyadic *d1, int s2, const dyadic *d2)
 {
@@ -72,7 +72,7 @@ static oracle_root rational(dyadic p, dyadic q)
     return root;
 }
 
-/* Where rounding to nearest comes down to f, rather than to the float below; above that by up to 31/64 of their
+/* The point from which rounding to nearest gives f rather than the float below, moved up by at most 31/64 of their
  * distance. A tie goes to an even f. */
 static dyadic lower_end(float f, int above, bool *inside)
 {
@@ -170,7 +170,7 @@ static int roots_of_sphere(const oracle_line *line, const float sphere[4], oracl
         roots[i].sigma = 2 * i - 1;
     }
     values_of_roots(&dc, &power, roots);
-    return disc.sign > 0 ? 2 : 1; /* a tangent meets it once */
+    return disc.sign > 0 ? 2 : 1; /* a tangent line meets it once */
 }
 
 typedef struct barycentric {
@@ -228,7 +228,7 @@ int oracle_first_root(const oracle_line *line, const oracle_primitive *primitive
 
 /* ---- what a hit carries ---- */
 
-/* Over the largest component first: squares of what comes in could leave the range of truth_real. */
+/* Divides by the largest component first: squares of the input could leave the range of truth_real. */
 static void make_unit(truth_real v[3])
 {
     truth_real largest = 0;
@@ -242,8 +242,8 @@ static void make_unit(truth_real v[3])
         v[a] /= length;
 }
 
-/* With s = sqrt(disc), the point less the centre is (dc d - dd c + sigma s d) / dd; the first two terms cancel, and are
- * exact. */
+/* With s = sqrt(disc), the point minus the centre is (dc d - dd c + sigma s d) / dd; the first two terms cancel, and
+ * are exact. */
 static void describe_sphere(const oracle_line *line, const float sphere[4], const oracle_root *root, oracle_hit *hit)
 {
     dyadic c[3];

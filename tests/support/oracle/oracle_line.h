@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * One line and one primitive, exactly. Where they meet is a root t = (p + sigma sqrt(disc)) / q of dyadic p, q, disc:
- * spheres need the square root, triangles and the ends of a range do not. Roots are compared without computing them. */
+ * One line and one primitive, exactly. They meet at a root t = (p + sigma sqrt(disc)) / q of dyadic p, q, disc: spheres
+ * need the square root, triangles and the ends of a range do not. Roots are compared without computing them. */
 #ifndef ORACLE_LINE_H
 #define ORACLE_LINE_H
 
@@ -15,25 +15,25 @@ typedef struct oracle_line {
 } oracle_line;
 
 typedef struct oracle_root {
-    dyadic p, q, disc; /* q > 0, disc >= 0; spheres on the same line have the same q */
+    dyadic p, q, disc; /* q > 0, disc >= 0; spheres on one line have the same q */
     int sigma;         /* -1, 1; 0 and disc = 0 for a rational root */
     truth_real t;      /* relative error of a few units in the last place */
 } oracle_root;
 
-/* The ends of a range: values of t, or between which values of t, round to the floats. */
+/* The ends of a range, as values of t or as the interval of t that rounds to the floats. */
 typedef struct oracle_range {
     oracle_root low, high;
     bool low_inside, high_inside; /* whether the end itself belongs to it */
 } oracle_range;
 
-/* False where the ray is not finite, has no direction, or a NaN in its range: it hits nothing. */
+/* False if the ray is not finite, has no direction, or has a NaN in its range: it hits nothing. */
 bool oracle_line_make(const truth_ray *ray, oracle_line *line);
 
-/* The exact t that round to a finite float from t_min to t_max. Ends move inwards by `inwards` times 2^-6 ulp, from -31
+/* The exact t that round to a finite float from t_min to t_max. Moves the ends inwards by `inwards` times 2^-6 ulp, -31
  * to 31. The floats must not be NaN. */
 oracle_range oracle_range_make(float t_min, float t_max, int inwards);
 
-/* Where the line meets a primitive that is valid: 0, 1 or 2 roots, ascending. */
+/* Where the line meets a valid primitive: 0, 1 or 2 roots, ascending. */
 int oracle_roots(const oracle_line *line, const oracle_primitive *primitive, oracle_root roots[2]);
 
 /* The order of two roots on the same line: -1, 0, 1. */

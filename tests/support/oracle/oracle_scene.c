@@ -32,7 +32,7 @@ static oracle_primitive *grow(oracle_scene *scene, uint32_t more)
     return primitive + scene->count;
 }
 
-/* Counts the primitives that grow made room for, and bounds them, from the last block on that was not full. */
+/* Counts the primitives that grow made room for, and bounds them, starting at the last block that was not full. */
 static void finish(oracle_scene *scene, uint32_t more)
 {
     uint32_t block = scene->count / ORACLE_BLOCK;

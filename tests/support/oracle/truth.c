@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The truth, and verdicts by it. */
+ * Exact hits of rays and spheres, and verdicts by them. */
 #include "support/oracle/truth.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ truth_roots truth_sphere(const float org[3], const float dir[3], const float sph
     const truth_real large = sum / q.dd, small = sum != 0 ? (q.cc - q.rr) / sum : 0;
     roots.near = q.dc >= 0 ? small : large;
     roots.far = q.dc >= 0 ? large : small;
-    /* near the silhouette an error of h moves the roots by its half over sqrt(h), at most by its root */
+    /* near the silhouette an error e of h moves the roots by e / (2 sqrt(h)), at most by sqrt(e) */
     const double grazing = roots.doubt_h / fmax(sqrt(roots.h), sqrt(roots.doubt_h));
     const double from_product = 0x1p-51 * (distance * distance + r * r) / fmax(magnitude(sum) / length, 1e-300);
     roots.doubt_t = (0x1p-50 * distance + grazing + fmin(from_product, 0x1p-24 * (distance + r))) / length;
@@ -105,7 +105,7 @@ static bool is_valid(const float sphere[4])
     return isfinite(sphere[0]) && isfinite(sphere[1]) && isfinite(sphere[2]) && isfinite(sphere[3]) && sphere[3] >= 0;
 }
 
-/* The contract for one sphere: the first root at or after t_min, if it is not beyond t_max, all as float sees it. */
+/* The contract for one sphere: the first root at or after t_min, if it is not beyond t_max, all compared as floats. */
 static judgement judge_sphere(const truth_ray *ray, const float sphere[4])
 {
     judgement j = {.hit = NO, .t = 0};
@@ -114,7 +114,7 @@ static judgement judge_sphere(const truth_ray *ray, const float sphere[4])
     j.roots = truth_sphere(ray->org, ray->dir, sphere);
     const bool doubt = truth_in_doubt(&j.roots);
     if (!j.roots.hit) {
-        /* if double sees a hit, it sees a double root where the line is nearest */
+        /* if double finds a hit, it finds a double root at the closest point of the line */
         const quadratic q = make_quadratic(ray->org, ray->dir, sphere);
         j.t = q.dc / q.dd;
         j.roots.doubt_t = sqrt((j.roots.doubt_h + fabs(j.roots.h)) / (double)q.dd) + 0x1p-48 * magnitude(j.t);
@@ -166,7 +166,7 @@ const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t
             const truth_real nearer = mine.t - other.t;
             if (nearer > 0 && magnitude(nearer) > other.roots.doubt_t + mine.roots.doubt_t) {
                 if (other.hit == YES && mine.hit == YES)
-                    return "another sphere is nearer";
+                    return "another sphere is closer";
                 ++*doubts;
             }
         }

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The truth about rays and spheres: the textbook quadratic, which shares nothing with the library's form, in the widest
- * arithmetic of the machine. On binary128 the discriminant of float input of like exponents is exact: products of four
- * 25-bit differences fit 113 bits but for the last sums. */
+ * Exact hits of rays and spheres: the textbook quadratic, unrelated to the library's form, in the widest arithmetic of
+ * the machine. In binary128 the discriminant of float input with similar exponents is exact: products of four 25-bit
+ * differences fit 113 bits except for the last sums. */
 #ifndef TRUTH_H
 #define TRUTH_H
 
@@ -23,8 +23,8 @@ typedef struct truth_roots {
     bool hit;             /* the line meets the closed ball */
     truth_real near, far; /* its parameters, near <= far */
     double h;             /* r^2 - (distance of centre and line)^2, negative for a miss */
-    double doubt_h;       /* what double precision may err in h */
-    double doubt_t;       /* and in t: 2^-50 of the distance to the centre, more where the ray grazes */
+    double doubt_h;       /* error that double precision may have in h */
+    double doubt_t;       /* and in t: 2^-50 of the distance to the centre, more for grazing rays */
 } truth_roots;
 
 truth_roots truth_sphere(const float org[3], const float dir[3], const float sphere[4]);
@@ -32,11 +32,11 @@ truth_roots truth_sphere(const float org[3], const float dir[3], const float sph
 /* True where hit or miss is beyond the reach of double precision. */
 bool truth_in_doubt(const truth_roots *roots);
 
-/* True where t is within 1 ulp of the exact parameter, or within what double precision may err. */
+/* True where t is within 1 ulp of the exact parameter, or within the error of double precision. */
 bool truth_accepts(const truth_roots *roots, truth_real exact, float t);
 
-/* True where t is within 1 ulp, or 2^-50 of the distance to the centre: the public header's words, grazing rays or
- * not. */
+/* True where t is within 1 ulp, or 2^-50 of the distance to the centre: the public header's promise, for grazing rays
+ * too. */
 bool truth_accepts_strictly(const float org[3], const float dir[3], const float sphere[4], truth_real exact, float t);
 
 /* ---- A whole scene, by brute force ---- */
@@ -53,8 +53,9 @@ typedef struct truth_scene {
 
 #define TRUTH_NONE UINT32_MAX
 
-/* Judges an answer: the number of the sphere (TRUTH_NONE: none) and its t. Returns NULL, or what is wrong. Where double
- * precision cannot tell, either answer is right; *doubts counts those. Equal spheres: the lower number is right. */
+/* Judges an answer: the number of the sphere (TRUTH_NONE: none) and its t. Returns NULL, or a description of the error.
+ * Where double precision cannot decide, both answers are right; *doubts counts those. Equal spheres: the lower number
+ * is right. */
 const char *truth_judge(const truth_scene *scene, const truth_ray *ray, uint32_t prim, float t, uint64_t *doubts);
 
 #endif
