@@ -139,9 +139,9 @@ void cache_set_release(cache_set *set)
 
 static void miss(const cache_set *set, cache_count *count, uint32_t first, uint32_t nodes)
 {
-    const uint32_t left = set->nodes - first;
+    const uint32_t remaining = set->nodes - first;
     count->misses++;
-    count->bytes_transfer += (uint64_t)CACHE_NODE_BYTES * (left < nodes ? left : nodes);
+    count->bytes_transfer += (uint64_t)CACHE_NODE_BYTES * (remaining < nodes ? remaining : nodes);
 }
 
 /* Moves a block to the head of the list and returns its former position; MOST_BLOCKS if it was not in the list. */
