@@ -4,11 +4,11 @@
  * cgt-bench: measures the library on moving spheres and triangles.
  *   cgt-bench accuracy  time against error, of rays, whole frames and intersection tests
  *   cgt-bench floor     what the machine allows, and how close frames come to it
- *   cgt-bench frame     one frame at a time, as a renderer would: build, primary, shadow, ambient-occlusion rays
- *   cgt-bench loops     the ways to traverse, against each other
+ *   cgt-bench frame     one frame at a time, like a renderer: build, primary, shadow and ambient-occlusion rays
+ *   cgt-bench loops     the ways to traverse a grid, compared with each other
  *   cgt-bench make      procedural scenes to measure on
  *   cgt-bench scaling   time and memory against primitives, pixels and threads
- *   cgt-bench simd      the vector words against native instructions
+ *   cgt-bench simd      the vector words compared with native instructions
  *   cgt-bench structures  structures by kind of rays, their order and their number in a call */
 #include <string.h>
 
@@ -18,7 +18,7 @@
 
 typedef struct command {
     const char *name;
-    char *full_name; /* what argp shows as the program's name */
+    char *full_name; /* the program's name as argp shows it */
     int (*run)(int argc, char **argv);
 } command;
 

@@ -16,7 +16,7 @@
 include(CheckCCompilerFlag)
 include(CheckCSourceCompiles)
 
-set(CGT_ONLY_VARIANTS "" CACHE STRING "Rows of the variant table to build beside portable; empty: all that the compiler can")
+set(CGT_ONLY_VARIANTS "" CACHE STRING "Rows of the variant table to build in addition to portable; empty: all that the compiler can")
 set(CGT_VARIANTS "") # the rows that are built
 set(cgt_known_variants "")
 

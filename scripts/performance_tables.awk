@@ -89,7 +89,7 @@ function print_rays(file, scene, rays,   ours, theirs, nearest) {
     ours = file SUBSEP scene SUBSEP rays SUBSEP "cgt"
     theirs = file SUBSEP scene SUBSEP rays SUBSEP "embree"
     if (!(ours in rays_ms) || !(theirs in rays_ms)) return
-    nearest = name_of(file) ~ /^nearest/ # the same rays, asked for more; shadows are in another table
+    nearest = name_of(file) ~ /^nearest/ # the same rays with more fields requested; shadows are in another table
     if (nearest && rays != "ao") return
     printf "| %s | %s | %d | %s | %s | **%.2f** |\n", scene, nearest ? "nearest" : rays == "ao" ? "ambient occlusion" : rays,
         rays_threads[file], rays_text[theirs], rays_text[ours], rays_ms[theirs] / rays_ms[ours]

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Rays of one subject in one configuration: time, errors, and how many tests needed more than single precision. */
+ * Rays of one subject in one configuration: time, errors, and the number of tests that needed more than single
+ * precision. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -78,7 +79,7 @@ int accuracy_each_choice(const accuracy_job *job, const accuracy_subject *subjec
 
 /* ---- errors ---- */
 
-/* Values of one kind, for their spread. */
+/* Values of one kind, for their quantiles. */
 typedef struct sample {
     double *value;
     size_t count;
@@ -150,7 +151,7 @@ static int measure(const accuracy_job *job, const accuracy_subject *subject, con
                    full_hit *hits, errors *e, double *ms)
 {
     cgt_trace_statistics statistics;
-    int code = accuracy_trace(scene, subject, hits, &statistics); /* warms up, too */
+    int code = accuracy_trace(scene, subject, hits, &statistics); /* also warms up */
     if (code != PROGRAM_OK)
         return code;
     judge(subject, hits, e);

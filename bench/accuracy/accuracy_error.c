@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Whole numbers in the order of the floats. */
+/* Maps floats to integers in the same order. */
 static int64_t order_of(float x)
 {
     uint32_t bits;

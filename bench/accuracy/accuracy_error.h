@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Errors of hits, relative to hits that are taken for the truth: rays with another primitive, and the distance of t in
- * units in the last place where the primitive is the same. */
+ * Errors of hits, relative to reference hits ("the truth"): rays with another primitive, and the distance of t in units
+ * in the last place where the primitive is the same. */
 #ifndef ACCURACY_ERROR_H
 #define ACCURACY_ERROR_H
 
@@ -22,8 +22,8 @@ enum {
 typedef struct accuracy_error {
     uint64_t rays;
     uint64_t hits;     /* of the truth */
-    uint64_t missed;   /* the truth hits, and nothing is hit */
-    uint64_t invented; /* something is hit where the truth hits nothing */
+    uint64_t missed;   /* missed: the truth hits */
+    uint64_t invented; /* invented: the truth hits nothing */
     uint64_t wrong;    /* both hit, but not the same primitive */
     uint64_t same;     /* both hit the same primitive: their t are compared */
     uint32_t t_worst;  /* ulp, of those */

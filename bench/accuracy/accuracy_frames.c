@@ -69,7 +69,7 @@ static cgt_result trace_way(frames_job *job, const runner *r, size_t way, const 
     cgt_frame frame;
     bench_planes_frame(planes, &frame);
     bench_choice_options(&choice, NULL, &options, &research);
-    /* The hits of the run before must not pass for this one's: no primitive has this number. */
+    /* Hits left from the previous run must not count for this one: no primitive has this number. */
     memset(planes->primitive, 0xfe, (size_t)planes->width * planes->height * sizeof *planes->primitive);
     const double start = bench_now_ms();
     const cgt_result result = cgt_trace_camera(r->scene.scene, &job->settings->camera, &frame, &options);
@@ -136,7 +136,7 @@ static double median_of(frames_job *job, const double *a, const double *b)
     return bench_median(job->scratch, job->measured);
 }
 
-/* Median over the frames of how many per cent (a + base) exceeds (b + base). */
+/* Median over the frames of the percentage by which (a + base) exceeds (b + base). */
 static double median_cost(frames_job *job, const double *a, const double *b, const double *base)
 {
     for (size_t i = 0; i < job->measured; i++) {

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The tests of FAST in one variant. With CGT_SPU_EXACT all of it runs in the SPU's arithmetic, including what is
- * computed once per primitive. */
+ * The tests of FAST in one variant. With CGT_SPU_EXACT everything runs in the SPU's arithmetic, including the setup of
+ * each primitive. */
 #include "accuracy/accuracy_kernel.h"
 
 #include <math.h>

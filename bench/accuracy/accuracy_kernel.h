@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The intersection tests of FAST without a structure and without picking the nearest hit: every primitive against every
- * ray of a packet. One function per variant, and one more in the SPU's own arithmetic for a variant of four lanes. */
+ * The intersection tests of FAST without a structure and without choosing the closest hit: every primitive against
+ * every ray of a packet. One function per variant, and one more in the SPU's own arithmetic for a variant of four
+ * lanes. */
 #ifndef ACCURACY_KERNEL_H
 #define ACCURACY_KERNEL_H
 

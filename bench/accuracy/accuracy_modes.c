@@ -31,7 +31,7 @@ typedef struct mode {
     uint32_t threads;
 } mode;
 
-/* The first one, in the first variant and ROBUST, is what the others are compared with. */
+/* The first one, in the first variant and ROBUST, is the reference for the others. */
 static const mode modes[] = {{"camera,packet=16", MODE_CAMERA, 16, CGT_TILE_SHAPE_SQUARE, 1},
                              {"camera,packet=8", MODE_CAMERA, 8, CGT_TILE_SHAPE_SQUARE, 1},
                              {"camera,packet=4", MODE_CAMERA, 4, CGT_TILE_SHAPE_SQUARE, 1},
@@ -42,7 +42,7 @@ static const mode modes[] = {{"camera,packet=16", MODE_CAMERA, 16, CGT_TILE_SHAP
                              {"single rays", MODE_SINGLE, 0, CGT_TILE_SHAPE_AUTO, 1}};
 #define MODES (sizeof modes / sizeof modes[0])
 
-/* What a mode finds: the scene's hits, and t of the probes of three axes. */
+/* The results of a mode: the scene's hits, and t of the probes of three axes. */
 typedef struct finding {
     full_hit hit[PIXELS];
     float probe[3][PIXELS];
@@ -114,7 +114,7 @@ static int make_picture(modes_job *job)
         if (!strcmp(hard_case_at(i)->row, "scalar = SIMD"))
             hard = hard_case_at(i);
     cgt_camera_init(&job->camera);
-    job->camera.eye[0] = 0.75f; /* short numbers: planes at one unit from the eye are exact */
+    job->camera.eye[0] = 0.75f; /* short fractions: planes at one unit from the eye are exact */
     job->camera.eye[1] = 0.5f;
     job->camera.eye[2] = 3.0f;
     if (!hard || cgt_camera_prepare(&job->camera, job->edge, job->edge, &rays, message) != CGT_OK) {

@@ -2,19 +2,20 @@
  * SPDX-License-Identifier: MIT
  *
  * Tells errors of the structure from errors of the kernel: the same rays through a grid, and through a grid of one
- * cell, where the same kernel tests every ray against every primitive. In ROBUST, what only the grid gets wrong is the
- * structure's fault. In FAST the order of the tests decides between hits of equal t, so either may be wrong alone. */
+ * cell, where the same kernel tests every ray against every primitive. In ROBUST, an error of the grid only is the
+ * structure's fault. In FAST the order of the tests decides between hits of equal t, so each may be wrong where the
+ * other is right. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "accuracy/bench_accuracy.h"
 
-#define MOST_TESTS 2e9 /* of brute force: with more than these, rays are left out */
+#define MOST_TESTS 2e9 /* limit of brute force: beyond it, rays are dropped */
 
 typedef struct pair {
     hard_tally grid, brute;
-    uint64_t grid_only, brute_only; /* rays that only one of them gets wrong */
+    uint64_t grid_only, brute_only; /* rays wrong in only one of them */
 } pair;
 
 static void add_verdict(hard_tally *tally, oracle_verdict verdict)

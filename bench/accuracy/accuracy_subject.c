@@ -56,7 +56,7 @@ int accuracy_subject_case(accuracy_subject *subject, const hard_case *hard, uint
 
 /* ---- files ---- */
 
-/* A copy of `bytes` bytes, and one more, so that none is not nothing; NULL where memory is refused. */
+/* A copy of `bytes` bytes plus one, so that an empty copy is not NULL; NULL if memory is refused. */
 static void *copy_of(const void *from, size_t bytes)
 {
     void *copy = malloc(bytes + 1);

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The intersection tests of FAST alone, without a structure, in every variant, and once more in the SPU's own
- * arithmetic, for which there is no whole frame: nanoseconds per test, and errors relative to exact arithmetic on the
- * same float input. */
+ * The bare intersection tests of FAST, without a structure, in every variant, and once more in the SPU's arithmetic,
+ * which renders no whole frame: nanoseconds per test, and errors relative to exact arithmetic on the same float
+ * input. */
 #include "accuracy/bench_accuracy.h"
 
 #include <math.h>
@@ -57,7 +57,7 @@ static const char *const test_names[ACCURACY_TESTS] = {"sphere", "watertight", "
 
 /* ---- Cases --------------------------------------------------------------------------------------------------- */
 
-/* A packet of camera rays, and primitives in its way: from a tenth of the packet's width to twice that. */
+/* A packet of camera rays, and primitives in its path: from a tenth of the packet's width to twice that. */
 typedef struct test_case {
     float org[3];
     float dir[ACCURACY_RAYS][3];
@@ -69,7 +69,7 @@ static float uniform(uint64_t *state, float low, float high) { return low + (hig
 
 static void make_rays(test_case *c, uint64_t *state)
 {
-    const float step = 0.002f; /* of a picture of some thousand pixels */
+    const float step = 0.002f; /* of a picture of about a thousand pixels */
     float forward[3], right[3], up[3];
     for (int a = 0; a < 3; a++) {
         c->org[a] = uniform(state, -2.0f, 2.0f);
@@ -101,7 +101,8 @@ static void make_primitives(test_case *c, uint64_t *state)
     }
 }
 
-/* t of the exact hit, rounded; +infinity for a miss, and for what lies behind the origin. None is around it. */
+/* t of the exact hit, rounded; +infinity for a miss and for primitives behind the origin. No primitive contains the
+ * origin. */
 static float exact_t(const cgt_exact_ray *ray, const cgt_primitive *primitive)
 {
     const cgt_exact_root root = {.primitive = primitive};
@@ -142,7 +143,7 @@ typedef struct tests_job {
     test_row rows[KERNELS * ACCURACY_TESTS];
     size_t count;
     test_case current;
-    float *t; /* what a kernel finds */
+    float *t; /* a kernel's results */
 } tests_job;
 
 static accuracy_work work_of(const test_case *c, accuracy_test test, float *t)
@@ -190,7 +191,7 @@ static int is_wanted(const accuracy_job *job, const kernel_row *kernel)
     return 0;
 }
 
-/* The rows of all tests by all kernels that are asked for, timed on the current case. */
+/* The rows of all requested tests and kernels, timed on the current case. */
 static void add_rows(tests_job *job, const accuracy_job *accuracy)
 {
     for (size_t k = 0; k < KERNELS; k++)

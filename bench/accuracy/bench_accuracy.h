@@ -6,7 +6,7 @@
  *   structure  the same rays through a grid and by brute force             accuracy_structure.c
  *   modes      one picture in all modes of execution                       accuracy_modes.c
  *   frames     whole frames of files, relative to EXACT                    accuracy_frames.c
- *   tests      the intersection tests of FAST alone                        accuracy_tests.c */
+ *   tests      the bare intersection tests of FAST                     accuracy_tests.c */
 #ifndef BENCH_ACCURACY_H
 #define BENCH_ACCURACY_H
 
@@ -70,7 +70,7 @@ void accuracy_scene_free(accuracy_scene *scene);
 int accuracy_trace(const accuracy_scene *scene, const accuracy_subject *subject, full_hit *hits,
                    cgt_trace_statistics *statistics);
 
-/* Calls visit for every configuration that makes sense for the subject, until one does not return PROGRAM_OK. */
+/* Calls visit for every configuration that applies to the subject, until one does not return PROGRAM_OK. */
 int accuracy_each_choice(const accuracy_job *job, const accuracy_subject *subject,
                          int (*visit)(const accuracy_job *job, const accuracy_subject *subject,
                                       const accuracy_choice *choice));

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the sub-commands of cgt-bench share: settings, and the parsers of their command-line options. Each sub-command
+ * Code shared by the sub-commands of cgt-bench: settings, and the parsers of command-line options. Each sub-command
  * has a folder of its own; common/ has
  *
  *   input      the frames of a file, in memory             bench_input.h
  *   scene      a scene of the library over a frame         bench_scene.h
- *   planes     what camera rays found                      bench_planes.h
+ *   planes     the hits of camera rays                    bench_planes.h
  *   rays       shadow, ambient-occlusion and bounce rays   bench_rays.h
- *   threads    which make those rays                       bench_threads.h
+ *   threads    the threads that make those rays           bench_threads.h
  *   timing     clock, medians, quartiles                   bench_timing.h
  *   table      rows as text and JSON                       bench_table.h */
 #ifndef BENCH_H
@@ -34,11 +34,11 @@
 typedef struct bench_settings {
     const char *paths[BENCH_MOST_FILES];
     size_t files;
-    size_t least_files, most_files; /* how many a sub-command takes; set before parsing (default: 1, 1) */
+    size_t least_files, most_files; /* number of FILEs a sub-command takes; set before parsing (default: 1, 1) */
     cgt_camera camera;
     uint32_t width, height;
     uint32_t threads;
-    uint64_t frames; /* that are read of a file; 0: all */
+    uint64_t frames; /* frames read of a file; 0: all */
     uint32_t repeat;
     const char *variant;    /* NULL: the widest that the CPU runs, or all where variants are compared */
     uint32_t packet;        /* 0: the library's choice, or all where packets are compared */
@@ -77,7 +77,7 @@ int bench_is_chosen(const int *chosen, int count, int which);
 /* Options of the structure. */
 typedef struct bench_structure_settings {
     size_t most; /* structures that may be named; set before parsing */
-    cgt_structure asked[6];
+    cgt_structure requested[6];
     size_t count; /* 0: none was named */
     bench_kd_choice kd;
 } bench_structure_settings;
@@ -96,7 +96,7 @@ typedef struct bench_secondary_settings {
     uint32_t ao; /* ambient-occlusion rays from every hit */
 } bench_secondary_settings;
 
-/* What these options say of a trace. structure and precision may be NULL. */
+/* The trace settings given by these options. structure and precision may be NULL. */
 bench_choice bench_choice_of(const bench_settings *settings, const bench_structure_settings *structure,
                              const bench_precision_settings *precision);
 

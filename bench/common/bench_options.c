@@ -263,12 +263,12 @@ static void add_structure(bench_structure_settings *settings, struct argp_state 
     if (bench_structure_find(name, &structure))
         argp_error(state, "--structure: " STRUCTURES ", not %s", name);
     for (size_t i = 0; i < settings->count; i++)
-        if (settings->asked[i] == structure)
+        if (settings->requested[i] == structure)
             return;
     if (settings->count == settings->most)
         argp_error(state, "--structure: %s: at most %zu can be named", name, settings->most);
     else
-        settings->asked[settings->count++] = structure;
+        settings->requested[settings->count++] = structure;
 }
 
 static void add_structures(bench_structure_settings *settings, struct argp_state *state, const char *list)

@@ -17,7 +17,7 @@ typedef struct bench_planes {
     float *t;
     uint32_t *primitive;
     float *normal[3];
-    float *uv[2]; /* NULL where they were not asked for */
+    float *uv[2]; /* NULL if not requested */
     void *memory; /* of all of them */
 } bench_planes;
 

@@ -18,7 +18,7 @@ enum {
     GROUPS_PER_PIECE = 64, /* groups that one call of a task makes */
     GROUPS_AHEAD = 8,      /* whose hits are on their way */
     SHADOW_RUN = 256,      /* shadow rays made at once */
-    /* Hits are listed a round of tiles at a time, rays are made and traced a batch at a time: as many as stay in a
+    /* Hits are listed a round of tiles at a time, rays are made and traced a batch at a time: as many as fit in a
      * cache. With several threads each gets twice as many, since waking them takes as long as tracing some thousand
      * rays; more gain nothing. MOST_SHARES limits the memory of many threads. */
     TILES_PER_ROUND = 8,
@@ -45,7 +45,7 @@ struct bench_rays {
     float *ones; /* the far end of all shadow rays */
     uint8_t *occluded;
     int nearest;
-    float *t; /* of nearest hits */
+    float *t; /* of closest hits */
     uint32_t *primitive;
     /* the batch in work */
     uint64_t batch_first; /* first hit pixel */
@@ -176,7 +176,7 @@ static uint64_t piece_end(const bench_rays *rays, uint32_t piece)
     return end < rays->batch_hits ? end : rays->batch_hits;
 }
 
-/* Makes shadow rays from some hits. Plain loops, which the compiler vectorises. dir: NULL where only origins are
+/* Makes shadow rays from a range of hits. Plain loops, which the compiler vectorises. dir: NULL if only origins are
  * needed. */
 BENCH_CLONES
 static void make_shadow_run(const bench_camera_axes *axes, const float light[3], const uint32_t *hit, const float *t,
@@ -461,7 +461,7 @@ typedef struct shadow_pass {
     atomic_int failed; /* the last failure; 0: none */
 } shadow_pass;
 
-/* What a thread needs for a tile. */
+/* A thread's memory for a tile. */
 typedef struct shadow_tile {
     uint32_t pixel[BENCH_TILE_PIXELS + 1];
     float t[BENCH_TILE_PIXELS + 1];

@@ -39,13 +39,13 @@ typedef struct bench_rays bench_rays;
 bench_rays *bench_rays_create(bench_threads *threads, const bench_camera_axes *axes, const bench_planes *planes,
                               uint32_t most_ao);
 
-/* NULL is ignored. */
+/* NULL: does nothing. */
 void bench_rays_release(bench_rays *rays);
 
 /* Gets each batch instead of the library, and sets occluded[i] to 0 or 1 for each ray. */
 typedef cgt_result bench_rays_sink(void *user, const cgt_rays *batch, uint8_t *occluded);
 
-/* Sends the batches of later passes to a sink, which ignores scene and options; NULL: to the library. */
+/* Sends the batches of later passes to a sink, which does not use scene and options; NULL: to the library. */
 void bench_rays_set_sink(bench_rays *rays, bench_rays_sink *sink, void *user);
 
 /* Until the next bench_rays_set_sink, shadow rays go to this sink with the same user: a tile per call, from all threads
@@ -57,7 +57,7 @@ void bench_rays_set_tile_sink(bench_rays *rays, bench_rays_sink *sink);
 cgt_result bench_rays_shadow(bench_rays *rays, const cgt_scene *scene, const cgt_trace_options *options,
                              const float light[3], uint64_t *hidden);
 
-/* 1: ambient-occlusion rays of later passes search for the nearest hit, t and primitive; 0 (default): for any hit. */
+/* 1: ambient-occlusion rays of later passes search for the closest hit, t and primitive; 0 (default): for any hit. */
 void bench_rays_nearest(bench_rays *rays, int nearest);
 
 /* Traces `samples` ambient-occlusion rays per hit pixel; open gets the number of those that hit nothing. */

@@ -112,7 +112,7 @@ cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t co
     if (result == CGT_OK)
         result = cgt_research_get_scene_statistics(scene->scene, &build->research);
     const cgt_structure built = build->built.structure;
-    /* a scene without a valid primitive has no structure, and that is right for all of them */
+    /* a scene without a valid primitive correctly has no structure */
     const int other = result == CGT_OK && build->structure != CGT_STRUCTURE_AUTO && built != build->structure &&
                       built != CGT_STRUCTURE_AUTO;
     if (result == CGT_ERROR_UNSUPPORTED || other) {

@@ -44,7 +44,7 @@ cgt_result bench_scene_commit(bench_scene *scene, uint32_t count);
 /* Prints what failed and the library's message. Returns PROGRAM_FAILED. */
 int bench_scene_failed(const cgt_context *context, const char *what, cgt_result result);
 
-/* What can be set of a kd-tree and of its traversal; zero is the library's choice. */
+/* The settings of a kd-tree and its traversal; zero is the library's choice. */
 typedef struct bench_kd_choice {
     cgt_kd_traversal traversal;
     cgt_kd_layout layout;
@@ -52,7 +52,7 @@ typedef struct bench_kd_choice {
     cgt_kd_builder builder;
 } bench_kd_choice;
 
-/* What can be set of a trace. Zero and NULL are the library's choices. */
+/* The settings of a trace. Zero and NULL are the library's choices. */
 typedef struct bench_choice {
     const char *variant;
     uint32_t packet;
@@ -64,7 +64,7 @@ typedef struct bench_choice {
     int precision_named; /* 1: the name contains the default precision, too */
     cgt_triangle_test test;
     const char *grid;   /* resolution in words: "16x16x16", "auto*2" */
-    bench_kd_choice kd; /* said of kd-trees only */
+    bench_kd_choice kd; /* named for kd-trees only */
 } bench_choice;
 
 #define BENCH_NAME_SIZE 160
@@ -97,7 +97,7 @@ void bench_file_name(const char *path, char name[BENCH_NAME_SIZE]);
 /* The structure's name, then ",key=value" for each setting that is not the library's default, in a fixed order. */
 void bench_choice_name(const bench_choice *choice, cgt_structure structure, char name[BENCH_NAME_SIZE]);
 
-/* What a trace counts. */
+/* The counts of a trace. */
 typedef struct bench_counts {
     cgt_trace_statistics trace;
     cgt_research_trace_statistics research;
@@ -121,7 +121,7 @@ typedef struct bench_build {
     cgt_research_scene_statistics research;
 } bench_build;
 
-/* Builds it over `count` spheres or vertices, and measures the time. Where the library has no such structure, prints a
+/* Builds it over `count` spheres or vertices, and measures the time. If the library has no such structure, prints a
  * message that names the file, and sets left_out. */
 cgt_result bench_scene_build(bench_scene *scene, bench_build *build, uint32_t count, const uint32_t resolution[3],
                              const char *path, double *ms);

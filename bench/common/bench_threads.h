@@ -18,7 +18,7 @@ typedef void bench_task(void *argument, uint32_t index);
  * are refused. */
 bench_threads *bench_threads_create(uint32_t count);
 
-/* NULL is ignored. */
+/* NULL: does nothing. */
 void bench_threads_release(bench_threads *threads);
 
 /* The caller counts too. */

@@ -1,14 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The clock of cgt-bench, and what it makes of many measurements: medians and quartiles, because a shared machine
- * has outliers in one direction only. */
+ * The clock of cgt-bench, and its statistics: medians and quartiles, because a shared machine has outliers in one
+ * direction only. */
 #ifndef BENCH_TIMING_H
 #define BENCH_TIMING_H
 
 #include <stddef.h>
 
-/* Milliseconds of a clock that never goes back. */
+/* Milliseconds of a monotonic clock. */
 double bench_now_ms(void);
 
 typedef struct bench_spread {

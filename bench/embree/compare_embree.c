@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: MIT
  *
  * compare-embree: times Embree 3 as cgt-bench frame times the library. For each frame of a trajectory the spheres or
- * vertices move, the scene is committed and all primary rays are traced; on request shadow and ambient-occlusion rays,
- * too, the latter one by one and in packets, of which the faster way counts. One row of medians per configuration, in
- * the columns of cgt-bench frame. The first frame warms up. Spheres run as Embree's own type and as user geometry, which
- * is faster: compare with the best row. scripts/compare_embree.sh runs both programs. */
+ * vertices move, the scene is committed and all primary rays are traced; on request shadow and ambient-occlusion rays
+ * as well, the latter one by one and in packets, of which the faster way counts. One row of medians per configuration,
+ * in the columns of cgt-bench frame. The first frame warms up. Spheres run as Embree's own type and as user geometry,
+ * which is faster: compare with the best row. scripts/compare_embree.sh runs both programs. */
 #include "embree/compare_embree.h"
 
 #include <errno.h>
@@ -20,7 +20,7 @@ enum { OPTION_PACKETS = 0x700, OPTION_NEAREST };
 
 typedef struct embree_settings {
     bench_settings shared;
-    int quality[EMBREE_QUALITIES]; /* 1: asked for; none: all */
+    int quality[EMBREE_QUALITIES]; /* 1: requested; none: all */
     int builtin, user;             /* kinds of spheres; none: both */
     int robust;
     bench_secondary_settings secondary;

@@ -80,7 +80,7 @@ BENCH_INLINE void trace_packets(const embree_arrays *a, uint64_t first, uint64_t
         else
             occlude_packet(a, &context, &p);
         for (uint32_t k = 0; k < count;
-             k++) /* nearer than its far end, which Embree sets to -infinity for an occluded ray */
+             k++) /* closer than its far end, which Embree sets to -infinity for an occluded ray */
             a->occluded[i + k] = p.word[EMBREE_FAR * n + k] < (rays->t_max ? rays->t_max[i + k] : INFINITY);
     }
 }
@@ -116,7 +116,7 @@ cgt_result embree_arrays_trace(void *arrays, const cgt_rays *batch, uint8_t *occ
 
 cgt_result embree_arrays_trace_tile(void *arrays, const cgt_rays *batch, uint8_t *occluded)
 {
-    embree_arrays own = *(const embree_arrays *)arrays; /* others are at work */
+    embree_arrays own = *(const embree_arrays *)arrays; /* other threads are still working */
     const unsigned int callers = native_flush_begin();
     own.batch = batch;
     own.occluded = occluded;

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Spheres as Embree's user geometry, as fast as they come: the rays of a packet by vectors. Nearest point of the line
- * to the centre first, then half the chord (Haines, Guenther, Akenine-Moeller, "Precision improvements for ray/sphere
+ * Spheres as Embree's user geometry, as fast as possible: the rays of a packet by vectors. Point of the line closest to
+ * the centre first, then half the chord (Haines, Guenther, Akenine-Moeller, "Precision improvements for ray/sphere
  * intersection", 2019), as Embree's own spheres do. */
 #include "embree/compare_embree.h"
 #include "vector.h"
@@ -12,7 +12,7 @@
 #define NAME(name, variant) NAME_(name, variant)
 #define NAME_(name, variant) name##_##variant
 
-/* What Embree passes to both callbacks: words of N rays, and of their hits in nearest-hit queries. */
+/* What Embree passes to both callbacks: words of N rays, and of their hits in closest-hit queries. */
 typedef struct call {
     float *words;
     const int *valid;

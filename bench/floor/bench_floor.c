@@ -61,7 +61,7 @@ cgt_result floor_open_scene(floor_job *job, bench_scene *scene, cgt_context *con
     const floor_settings *settings = job->settings;
     cgt_result result = bench_scene_create(scene, context, moving, settings->shared.resolution);
     if (result == CGT_OK)
-        result = bench_scene_structure(scene, settings->structure.asked[0], CGT_RAY_KIND_COHERENT, &job->choice.kd,
+        result = bench_scene_structure(scene, settings->structure.requested[0], CGT_RAY_KIND_COHERENT, &job->choice.kd,
                                        settings->shared.resolution);
     bench_scene_set_triangles(scene, index, triangles);
     return result;
@@ -129,7 +129,7 @@ int bench_floor(int argc, char **argv)
         .children = children,
         .doc =
             "Measures what a frame cannot do without on this machine: bandwidth of memory, the empty frame by what it "
-            "is asked for, tests whose data lie in the first cache; and for each FILE, or for scenes made in memory, "
+            "is requested, tests whose data lie in the first cache; and for each FILE, or for scenes made in memory, "
             "how far its frame is from the sum of these, term by term. -r is the number of rounds (default 9); the "
             "shortest times are printed, and medians."};
     floor_settings settings = {.megabytes = 256, .spheres = 20000, .triangles = 20000};

@@ -3,18 +3,18 @@
  *
  * cgt-bench floor: what the machine allows, and how close frames come to it.
  *   machine  bandwidth of memory                                       bench_floor_machine.c
- *   scatter  sorting a scene's objects into cells                      bench_floor_scatter.c
+ *   scatter  sorting a scene's primitives into cells                   bench_floor_scatter.c
  *   planes   the empty frame, and a scene's, by requested fields       bench_floor_planes.c
- *   tests    nanoseconds per test, object, resolved pixel, in L1      bench_floor_tests.c
+ *   tests    nanoseconds per test, primitive, resolved pixel, in L1    bench_floor_tests.c
  *   limit    the terms of a scene's limit                              bench_floor_limit.c
  *
  * The model: no frame of a scene takes less than
  *     empty     the frame of a scene that no ray hits: tiles set up, resolved and stored
  *   + read      the input's bytes once from memory
- *   + scatter   each object's number once into its cell
- *   + tests     the ray tests that remain where the scene holds only the visible objects
- *   + objects   setting those objects up, once for each tile in which they are drawn
- * all of them measured here, with the library's own code where it has some. Not part of the limit, but reported:
+ *   + scatter   each primitive's number once into its cell
+ *   + tests     the ray tests that remain where the scene holds only the visible primitives
+ *   + objects   setting those primitives up, once for each tile in which they are drawn
+ * all of them measured here, with the library's own code where it exists. Not part of the limit, but reported:
  *     resolve   exact t and the normal of each pixel that is hit, as the library computes them. */
 #ifndef BENCH_FLOOR_H
 #define BENCH_FLOOR_H
@@ -27,7 +27,7 @@
 #include "common/bench_planes.h"
 #include "common/bench_threads.h"
 
-/* What a frame asks for. */
+/* The fields that a frame requests. */
 typedef enum floor_fields {
     FLOOR_T,
     FLOOR_T_ID,
@@ -47,9 +47,9 @@ typedef struct floor_settings {
 
 /* Nanoseconds in one thread; see bench_floor_tests.c. */
 typedef struct floor_tests {
-    double lane;    /* a ray against an object that is set up */
-    double object;  /* setting up and drawing an object, without its ray tests */
-    double resolve; /* t, id and normal of a pixel */
+    double lane;      /* a ray against a primitive that is set up */
+    double primitive; /* setting up and drawing a primitive, without its ray tests */
+    double resolve;   /* t, id and normal of a pixel */
 } floor_tests;
 
 typedef struct floor_job {
@@ -70,7 +70,7 @@ typedef struct floor_time {
     double low, median;
 } floor_time;
 
-/* Where frames of a committed scene go. */
+/* The destination of a committed scene's frames. */
 typedef enum floor_target { FLOOR_PLANES, FLOOR_VISITOR, FLOOR_TARGETS } floor_target;
 
 /* The functions below return an exit code unless they say otherwise, and print what failed. */
@@ -78,8 +78,8 @@ typedef enum floor_target { FLOOR_PLANES, FLOOR_VISITOR, FLOOR_TARGETS } floor_t
 /* Memory bandwidth with all threads of the job. */
 int floor_measure_memory(floor_job *job);
 
-/* Nanoseconds per object of sorting objects into cells of about eight. Positions are x, y, z, `width` floats apart.
- * Negative where memory is refused. */
+/* Nanoseconds per primitive of sorting primitives into cells of about eight. Positions are x, y, z, `width` floats
+ * apart. Negative where memory is refused. */
 double floor_measure_scatter(const floor_job *job, const float *position, uint32_t width, uint32_t count);
 
 /* Times frames of a committed scene by the fields that they request, in turns; prints rows of `part`. low: NULL, or

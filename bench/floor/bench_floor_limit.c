@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: MIT
  *
  * The limit of a scene's last frame, term by term, and how far the measured frame is from it; see bench_floor.h. The
- * tests and objects that cannot be avoided are counted: the visible objects make a scene of their own, and the
- * library's statistics say what its frame takes. That frame is timed, too: it is the time of a frame that knew
- * beforehand what is visible. */
+ * unavoidable tests and primitives are counted: the visible primitives make a scene of their own, and the library's
+ * statistics give the work of its frame. That frame is timed as well: it is the time of a frame that knows in advance
+ * which primitives are visible. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +26,7 @@ typedef struct limit_scene {
 } limit_scene;
 
 typedef struct limit_counts {
-    uint64_t objects, seen, hits, lanes, drawn;
+    uint64_t primitives, seen, hits, lanes, drawn;
     double bytes;
 } limit_counts;
 
@@ -69,32 +69,32 @@ typedef struct seen_part {
     uint32_t count;
 } seen_part;
 
-/* Marks the objects that are visible in the frame; returns how many. */
-static uint32_t mark_seen(const bench_planes *planes, uint8_t *seen, uint32_t objects)
+/* Marks the primitives that are visible in the frame; returns their number. */
+static uint32_t mark_seen(const bench_planes *planes, uint8_t *seen, uint32_t primitives)
 {
     const size_t pixels = (size_t)planes->width * planes->height;
     uint32_t count = 0;
     for (size_t i = 0; i < pixels; i++)
-        if (planes->primitive[i] < objects && !seen[planes->primitive[i]]) {
+        if (planes->primitive[i] < primitives && !seen[planes->primitive[i]]) {
             seen[planes->primitive[i]] = 1;
             count++;
         }
     return count;
 }
 
-/* Copies the visible objects. Returns 0, or -1 where memory is refused. */
-static int take_seen(const limit_scene *s, const bench_planes *planes, uint32_t objects, seen_part *part)
+/* Copies the visible primitives. Returns 0, or -1 where memory is refused. */
+static int take_seen(const limit_scene *s, const bench_planes *planes, uint32_t primitives, seen_part *part)
 {
-    uint8_t *seen = calloc((size_t)objects + 1, 1);
+    uint8_t *seen = calloc((size_t)primitives + 1, 1);
     if (!seen)
         return -1;
-    part->count = mark_seen(planes, seen, objects);
+    part->count = mark_seen(planes, seen, primitives);
     if (s->index)
         part->index = calloc((size_t)part->count + 1, 3 * sizeof *part->index);
     else
         part->moving = calloc((size_t)part->count + 1, 4 * sizeof *part->moving);
     uint32_t at = 0;
-    for (uint32_t i = 0; (part->index || part->moving) && i < objects; i++) {
+    for (uint32_t i = 0; (part->index || part->moving) && i < primitives; i++) {
         if (!seen[i])
             continue;
         if (s->index)
@@ -106,7 +106,7 @@ static int take_seen(const limit_scene *s, const bench_planes *planes, uint32_t 
     return part->index || part->moving ? 0 : -1;
 }
 
-/* Traces the scene of the visible objects: counts, and the shortest time. */
+/* Traces the scene of the visible primitives: counts, and the shortest time. */
 static cgt_result trace_seen(floor_job *job, const limit_scene *s, const seen_part *part, uint32_t elements,
                              limit_counts *counts, double *low)
 {
@@ -155,14 +155,14 @@ static void print_terms(floor_job *job, const limit_scene *s, const limit_counts
         double ms;
     } terms[] = {{"limit:empty", job->empty_ms[FLOOR_T_ID_NORMAL]},
                  {"limit:read", 1e-6 * counts->bytes / job->read},
-                 {"limit:scatter", 1e-6 * scatter_ns * (double)counts->objects},
+                 {"limit:scatter", 1e-6 * scatter_ns * (double)counts->primitives},
                  {"limit:tests", 1e-6 * positive(tests->lane) * (double)counts->lanes / threads},
-                 {"limit:objects", 1e-6 * positive(tests->object) * (double)counts->drawn / threads}};
+                 {"limit:objects", 1e-6 * positive(tests->primitive) * (double)counts->drawn / threads}};
     const double resolve = 1e-6 * positive(tests->resolve) * (double)counts->hits / threads;
     const struct {
         const char *name;
         uint64_t count;
-    } rows[] = {{"objects", counts->objects},
+    } rows[] = {{"objects", counts->primitives},
                 {"objects seen", counts->seen},
                 {"pixels hit", counts->hits},
                 {"ray tests of what is seen", counts->lanes},
@@ -187,14 +187,14 @@ static void print_terms(floor_job *job, const limit_scene *s, const limit_counts
 /* The planes hold the last frame. */
 static int measure_limit(floor_job *job, const limit_scene *s, uint32_t elements, const double low[3])
 {
-    limit_counts counts = {.objects = s->index ? s->triangles : elements};
+    limit_counts counts = {.primitives = s->index ? s->triangles : elements};
     seen_part part = {.count = 0};
     double seen_ms = 0.0;
     int code = PROGRAM_OK;
     counts.bytes = (double)elements * width_of(s) * sizeof(float) + (double)s->triangles * 3 * sizeof *s->index;
     const double scatter =
-        floor_measure_scatter(job, s->moving, width_of(s), s->index ? elements : (uint32_t)counts.objects);
-    if (scatter < 0.0 || take_seen(s, &job->planes, (uint32_t)counts.objects, &part)) {
+        floor_measure_scatter(job, s->moving, width_of(s), s->index ? elements : (uint32_t)counts.primitives);
+    if (scatter < 0.0 || take_seen(s, &job->planes, (uint32_t)counts.primitives, &part)) {
         program_error("%s: out of memory", s->name);
         code = PROGRAM_FAILED;
     } else {

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The last step of any sort of objects into cells, by itself: keys and the cells' offsets are known, each object's
- * number is stored. Either directly into the cells, or first into slabs of cells that fit in a cache; the faster one
- * counts. The order of keys is the scene's own: neighbours of a mesh are close in memory, those of a cloud are not. For
- * meshes, vertices stand for triangles. */
+ * The last step of any sort of primitives into cells, in isolation: keys and the cells' offsets are known, each
+ * primitive's number is stored. Either directly into the cells, or first into slabs of cells that fit in a cache; the
+ * faster one counts. The order of keys is the scene's own: neighbours of a mesh are close in memory, those of a cloud
+ * are not. For meshes, vertices stand for triangles. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +17,12 @@ enum { ROUNDS = 5, OBJECTS_A_CELL = 8, SLABS = 256 };
 typedef struct scatter_job {
     uint32_t count, cells, parts;
     uint32_t slab_cells; /* of a slab; the last one may have fewer */
-    uint32_t *key;       /* cell of each object */
-    uint32_t *start;     /* of each part, of each cell: where its next object goes */
-    uint32_t *first;     /* of each cell, and one behind the last: its first object */
+    uint32_t *key;       /* cell of each primitive */
+    uint32_t *start;     /* of each part, of each cell: where its next primitive goes */
+    uint32_t *first;     /* of each cell, and one past the last: its first primitive */
     uint32_t *slab;      /* of each part, of each slab: where its next pair goes */
     uint64_t *pair;      /* key and number, slab by slab */
-    uint32_t *object;
+    uint32_t *primitive;
 } scatter_job;
 
 static uint32_t first_of(const scatter_job *job, uint32_t part)
@@ -36,7 +36,7 @@ static void scatter_part(void *argument, uint32_t part)
     uint32_t *start = job->start + (size_t)part * job->cells;
     const uint32_t end = first_of(job, part + 1);
     for (uint32_t i = first_of(job, part); i < end; i++)
-        job->object[start[job->key[i]]++] = i;
+        job->primitive[start[job->key[i]]++] = i;
 }
 
 static void pair_part(void *argument, uint32_t part)
@@ -55,7 +55,7 @@ static void scatter_slab(void *argument, uint32_t slab)
     const uint64_t low = (uint64_t)slab * job->slab_cells, high = low + job->slab_cells;
     const uint32_t end = job->first[high < job->cells ? high : job->cells];
     for (uint32_t i = job->first[low < job->cells ? low : job->cells]; i < end; i++)
-        job->object[job->start[job->pair[i] >> 32]++] = (uint32_t)job->pair[i];
+        job->primitive[job->start[job->pair[i] >> 32]++] = (uint32_t)job->pair[i];
 }
 
 /* Counts, then prefix sums: cells in order, within each the parts in order; the same for slabs. */
@@ -70,9 +70,9 @@ static void find_starts(const scatter_job *job)
         job->first[cell] = at;
         for (uint32_t part = 0; part < job->parts; part++) {
             uint32_t *start = &job->start[(size_t)part * job->cells + cell];
-            const uint32_t objects = *start;
+            const uint32_t primitives = *start;
             *start = at;
-            at += objects;
+            at += primitives;
         }
     }
     job->first[job->cells] = at;
@@ -88,13 +88,13 @@ static void find_slabs(const scatter_job *job)
     for (uint32_t slab = 0; slab < SLABS; slab++)
         for (uint32_t part = 0; part < job->parts; part++) {
             uint32_t *start = &job->slab[(size_t)part * SLABS + slab];
-            const uint32_t objects = *start;
+            const uint32_t primitives = *start;
             *start = at;
-            at += objects;
+            at += primitives;
         }
 }
 
-/* At most as many cubes over the bounds as there are cells. Values that are not finite go to the first or the last. */
+/* At most `cells` cubes over the bounds. Values that are not finite go to the first or the last. */
 static void find_keys(scatter_job *job, const float *position, uint32_t width)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -155,17 +155,17 @@ double floor_measure_scatter(const floor_job *job, const float *position, uint32
         return 0.0;
     scatter.slab_cells = (scatter.cells - 1) / SLABS + 1;
     scatter.key = calloc(count, sizeof *scatter.key);
-    scatter.object = calloc(count, sizeof *scatter.object);
+    scatter.primitive = calloc(count, sizeof *scatter.primitive);
     scatter.pair = calloc(count, sizeof *scatter.pair);
     scatter.start = calloc((size_t)scatter.parts * scatter.cells, sizeof *scatter.start);
     scatter.first = calloc((size_t)scatter.cells + 1, sizeof *scatter.first);
     scatter.slab = calloc((size_t)scatter.parts * SLABS, sizeof *scatter.slab);
-    if (scatter.key && scatter.object && scatter.pair && scatter.start && scatter.first && scatter.slab) {
+    if (scatter.key && scatter.primitive && scatter.pair && scatter.start && scatter.first && scatter.slab) {
         find_keys(&scatter, position, width);
         ns = 1e6 * time_rounds(job, &scatter) / count;
     }
     free(scatter.key);
-    free(scatter.object);
+    free(scatter.primitive);
     free(scatter.pair);
     free(scatter.start);
     free(scatter.first);

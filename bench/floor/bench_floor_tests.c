@@ -1,13 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a test costs where everything is in the first cache, by the library's own path: frames of one tile of 64x64
- * pixels over a grid of one cell. A backdrop of objects fills the picture; before it stands a stack of others, each
- * nearer than all before it, so that none is hidden and all are tested, and every pixel is hit in all of these frames.
- * What small and what large objects add to the backdrop's frame tells the two apart:
- *     stack - backdrop = object * (drawn in one - in the other) + lane * (ray tests in one - in the other)
+ * The cost of a test with everything in the first-level cache, by the library's own path: frames of one tile of 64x64
+ * pixels over a grid of one cell. A backdrop of primitives fills the picture. In front of it stands a stack of
+ * others, each closer than all earlier ones, so that none is occluded and all are tested; every pixel is hit in all
+ * of these frames.
+ * The times that small and large primitives add to the backdrop's frame separate the two costs:
+ *     stack - backdrop = primitive * (drawn in one - in the other) + lane * (ray tests in one - in the other)
  * The library's statistics count what is drawn and tested. What the backdrop's frame takes beyond the empty tile, and
- * beyond its own objects and tests, is the resolve of its pixels. */
+ * beyond its own primitives and tests, is the resolve of its pixels. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +32,7 @@ typedef struct tests_frame {
     bench_scene scene;
     float moving[MOST * 9];
     uint32_t index[MOST * 3];
-    uint32_t count; /* objects */
+    uint32_t count; /* primitives */
     uint32_t passes;
     double ns; /* the shortest round's mean */
     double drawn, lanes, hits;
@@ -51,7 +52,7 @@ typedef struct tests_bench {
 /* Half the width of a pixel at distance 1. */
 static float half_pixel(void) { return tanf(0.5f * FOV * 3.14159265f / 180.0f) / EDGE; }
 
-/* Adds an object with a radius in pixels around the ray of a point of the picture, -1 to 1 in both directions. */
+/* Adds a primitive with a radius in pixels around the ray of a point of the picture, -1 to 1 in both directions. */
 static void put(const tests_bench *bench, tests_frame *f, float x, float y, float depth, float pixels)
 {
     static const float corner[3][2] = {{0.0f, 1.0f}, {-0.866f, -0.5f}, {0.866f, -0.5f}};
@@ -72,7 +73,7 @@ static void put(const tests_bench *bench, tests_frame *f, float x, float y, floa
     }
 }
 
-/* Every object has its own depth, and covers a square of the picture. */
+/* Every primitive has its own depth, and covers a square of the picture. */
 static void put_backdrop(const tests_bench *bench, tests_frame *f)
 {
     const float pixels = (bench->triangles ? 1.5f : 0.82f) * EDGE / BACK_EDGE;
@@ -83,7 +84,7 @@ static void put_backdrop(const tests_bench *bench, tests_frame *f)
     }
 }
 
-/* Each object is a twentieth nearer than the one before, so that no two have the same depth anywhere. Places are
+/* Each primitive is a twentieth closer than the one before, so that no two have the same depth anywhere. Positions are
  * random, within the picture. */
 static void put_stack(const tests_bench *bench, tests_frame *f, float pixels)
 {
@@ -125,9 +126,9 @@ static cgt_result trace(tests_bench *bench, tests_frame *f, bench_counts *counts
 static cgt_result open_frame(tests_bench *bench, int which)
 {
     static const uint32_t one_cell[3] = {1, 1, 1};
-    const cgt_structure asked = bench->job->settings->structure.asked[0];
+    const cgt_structure requested = bench->job->settings->structure.requested[0];
     /* with a resolution AUTO would take the queue grid */
-    const cgt_structure structure = asked == CGT_STRUCTURE_AUTO ? CGT_STRUCTURE_LOOSE_GRID : asked;
+    const cgt_structure structure = requested == CGT_STRUCTURE_AUTO ? CGT_STRUCTURE_LOOSE_GRID : requested;
     tests_frame *f = &bench->frame[which];
     bench_counts counted;
     double ms = 0.0;
@@ -170,17 +171,17 @@ static cgt_result time_frames(tests_bench *bench)
     return result;
 }
 
-/* Solves the two differences for the two unknowns, and finds the rest. NaN where the counts are not independent. A cost
- * below the noise may be negative. */
+/* Solves the two differences for the two unknowns, and derives the rest. NaN where the counts are not independent. A
+ * cost below the noise may be negative. */
 static void solve(const tests_frame *f, floor_tests *tests)
 {
     const tests_frame *back = &f[BACKDROP], *small = &f[SMALL_STACK], *large = &f[LARGE_STACK];
     const double a = small->drawn - back->drawn, b = small->lanes - back->lanes, e = small->ns - back->ns;
     const double c = large->drawn - back->drawn, d = large->lanes - back->lanes, g = large->ns - back->ns;
     const double determinant = a * d - b * c;
-    tests->object = determinant != 0.0 ? (e * d - b * g) / determinant : NAN;
+    tests->primitive = determinant != 0.0 ? (e * d - b * g) / determinant : NAN;
     tests->lane = determinant != 0.0 ? (a * g - e * c) / determinant : NAN;
-    const double drawing = back->drawn * tests->object + back->lanes * tests->lane;
+    const double drawing = back->drawn * tests->primitive + back->lanes * tests->lane;
     tests->resolve = (back->ns - f[EMPTY].ns - drawing) / back->hits;
 }
 
@@ -211,7 +212,7 @@ static int measure_kinds(tests_bench *bench)
         if (code != PROGRAM_OK)
             break;
         floor_row(job, "tests", name, "ray test", 1, tests->lane, "ns");
-        floor_row(job, "tests", name, "object drawn", 1, tests->object, "ns");
+        floor_row(job, "tests", name, "object drawn", 1, tests->primitive, "ns");
         floor_row(job, "tests", name, "pixel resolved", 1, tests->resolve, "ns");
     }
     return code;

@@ -110,7 +110,7 @@ static void make_orthographic(cgt_camera *c)
  * theirs are the library's choice. */
 typedef struct row_options {
     cgt_trace_options primary, secondary;
-    cgt_research_trace_options research[2]; /* of these */
+    cgt_research_trace_options research[2]; /* number of values */
 } row_options;
 
 static void make_options(const bench_choice *choice, row_options *made)
@@ -219,8 +219,8 @@ static int run_row(frame_job *job, const bench_choice *choice)
 
     cgt_result result = bench_scene_create(&scene, job->context, job->input.moving, shared->resolution);
     if (result == CGT_OK)
-        result = bench_scene_structure(&scene, job->settings->structure.asked[0], CGT_RAY_KIND_COHERENT, &choice->kd,
-                                       shared->resolution);
+        result = bench_scene_structure(&scene, job->settings->structure.requested[0], CGT_RAY_KIND_COHERENT,
+                                       &choice->kd, shared->resolution);
     if (result == CGT_OK) {
         bench_scene_set_triangles(&scene, job->input.index, job->input.triangles);
         make_options(choice, &trace);

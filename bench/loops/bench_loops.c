@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench loops: the ways to traverse a grid against each other, interleaved frame by frame in one process, so that
- * a slow moment of the machine meets all of them alike. Every run's hits are compared bit by bit with the first one's.
+ * cgt-bench loops: the ways to traverse a grid against each other, interleaved frame by frame in one process, so that a
+ * slow moment of the machine affects all of them alike. Every run's hits are compared bit by bit with the first one's.
  *
  * First every configuration counts its steps in runs that are not timed; then the timed runs, which count nothing. */
 #include "loops/bench_loops.h"
@@ -16,7 +16,7 @@
 #include "common/bench_scene.h"
 #include "common/bench_timing.h"
 
-enum { MOST_MESSAGES = 10 }; /* about other hits; the last line has the count of all */
+enum { MOST_MESSAGES = 10 }; /* about differing hits; the last line has the total */
 
 typedef struct loops_job {
     const bench_settings *settings;
@@ -25,12 +25,12 @@ typedef struct loops_job {
     bench_planes planes;
     uint64_t *hash;     /* of each frame's hits, as the first run of the first configuration found them */
     uint64_t compared;  /* runs whose hits were compared with that */
-    uint64_t different; /* of those, the ones with other bits */
+    uint64_t different; /* of those, runs with different bits */
 } loops_job;
 
 /* ---- Runs ---------------------------------------------------------------------------------------------------- */
 
-/* Adds a run's counts. Fields that are no counts are those of the last run. */
+/* Adds a run's counts. Fields that are not counts keep the last run's values. */
 static void add_counts(bench_counts *total, const bench_counts *run)
 {
     const bench_counts before = *total;
@@ -67,7 +67,7 @@ static cgt_result trace_row(loops_job *job, bench_row *row, bench_counts *counts
     cgt_frame frame;
     bench_choice_options(&row->choice, counts, &options, &research);
     bench_planes_frame(&job->planes, &frame);
-    /* The hits of the run before must not pass for this one's: no primitive has this number. */
+    /* Hits left from the previous run must not count for this one: no primitive has this number. */
     memset(job->planes.primitive, 0xfe, (size_t)job->planes.width * job->planes.height * sizeof *job->planes.primitive);
     const double start = bench_now_ms();
     const cgt_result result =

@@ -20,7 +20,7 @@ typedef struct bench_group {
     const char *variant;
     cgt_context *context; /* not owned; shared by the groups of a variant */
     bench_scene scene;
-    uint32_t asked[3]; /* cells; 0, 0, 0: what the library chooses, times scale */
+    uint32_t requested[3]; /* cells; 0, 0, 0: the library's choice, times scale */
     double scale;
     char label[32];         /* "16x16x16", "auto", "auto*2" */
     uint32_t resolution[3]; /* of the last commit */
@@ -53,9 +53,9 @@ void bench_plan_release(bench_plan *plan);
 /* Commits a group's scene; ms gets the milliseconds of the commit. */
 cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms);
 
-/* The table, a row per configuration. frames: how many the statistics were summed over. table: for it and for the
- * ratios: nested over flattened loop, how many ray tests culling saves, mailbox on over off. Ratios of times are taken
- * within a frame, then median and quartiles over the frames. Both return 0, or -1 where memory is refused. */
+/* Prints the table, a row per configuration. frames: number of frames that the statistics sum over. table: of this one
+ * and the ratios: nested over flattened loop, ray tests saved by culling, mailbox on over off. Ratios of times are
+ * taken within a frame, then median and quartiles over the frames. Both return 0, or -1 where memory is refused. */
 int bench_report_table(const bench_plan *plan, size_t frames, bench_table *table);
 int bench_report_ratios(const bench_plan *plan, bench_table *table);
 

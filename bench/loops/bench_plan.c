@@ -13,7 +13,7 @@
 
 enum { AXIS_LIMIT = 1024, CELL_LIMIT = 16777216 }; /* of cgt_research_scene_options.resolution */
 
-/* What a plan tries without -g. */
+/* The grids of a plan without -g. */
 static const struct grid {
     uint32_t edge;
     double scale;
@@ -33,7 +33,7 @@ static const cgt_loop loops[LOOPS] = {CGT_LOOP_NESTED, CGT_LOOP_FLATTENED};
 
 static void label_group(bench_group *group)
 {
-    const uint32_t *cells = group->asked;
+    const uint32_t *cells = group->requested;
     if (cells[0])
         snprintf(group->label, sizeof group->label, "%ux%ux%u", (unsigned)cells[0], (unsigned)cells[1],
                  (unsigned)cells[2]);
@@ -73,7 +73,7 @@ static void add_groups(bench_plan *plan, const bench_settings *settings, const c
         group->context = context;
         group->scale = grid_given ? 1.0 : grids[g].scale;
         for (int axis = 0; axis < 3; axis++)
-            group->asked[axis] = grid_given ? settings->resolution[axis] : grids[g].edge;
+            group->requested[axis] = grid_given ? settings->resolution[axis] : grids[g].edge;
         label_group(group);
         add_rows(plan, settings, g == 0);
     }
@@ -116,7 +116,7 @@ int bench_plan_create(bench_plan *plan, const bench_settings *settings, const fl
     for (size_t i = 0; complete && i < plan->group_count; i++) {
         bench_group *group = &plan->groups[i];
         complete = (group->build_ms = calloc(values, sizeof(double))) != NULL;
-        const cgt_result result = bench_scene_create(&group->scene, group->context, moving, group->asked);
+        const cgt_result result = bench_scene_create(&group->scene, group->context, moving, group->requested);
         if (result != CGT_OK)
             return bench_scene_failed(group->context, group->label, result);
     }
@@ -172,7 +172,7 @@ static cgt_result scale_resolution(bench_group *group, uint32_t count)
 cgt_result bench_group_commit(bench_group *group, uint32_t count, double *ms)
 {
     cgt_result result = CGT_OK;
-    if (!group->asked[0] && (group->scale > 1.0 || group->scale < 1.0))
+    if (!group->requested[0] && (group->scale > 1.0 || group->scale < 1.0))
         result = scale_resolution(group, count);
     if (result != CGT_OK)
         return result;

@@ -15,7 +15,7 @@
 static const char *resolution_text(const bench_group *group, char text[80])
 {
     const unsigned x = group->resolution[0], y = group->resolution[1], z = group->resolution[2];
-    if (group->asked[0])
+    if (group->requested[0])
         snprintf(text, 80, "%s", group->label);
     else
         snprintf(text, 80, "%s=%ux%ux%u", group->label, x, y, z);
@@ -24,7 +24,7 @@ static const char *resolution_text(const bench_group *group, char text[80])
 
 static double per(uint64_t total, uint64_t count) { return (double)total / (double)(count ? count : 1); }
 
-/* The columns that the table and the ratios share: what the row is. */
+/* The columns that the table and the ratios share: the row's configuration. */
 static void write_choice(bench_table *table, const bench_group *group, const bench_row *row, const char *resolution)
 {
     bench_table_text(table, "variant", group->variant);
@@ -124,7 +124,7 @@ static void print_spread(const char *what, double *ratios, size_t pairs)
                all.median, all.low, all.high, ratios[0], ratios[pairs - 1]);
 }
 
-/* One row per pair that differs in the loop, then the spread of the pairs. */
+/* One row per pair that differs in the loop, then the quartiles over the pairs. */
 static void report_loops(const bench_plan *plan, bench_table *table, double *scratch, double *ratios)
 {
     size_t pairs = 0;
@@ -148,7 +148,7 @@ static void report_loops(const bench_plan *plan, bench_table *table, double *scr
     print_spread("nested/flattened", ratios, pairs);
 }
 
-/* How many times fewer rays are tested against primitives with one way of culling than with another. */
+/* The factor by which one way of culling saves ray-primitive tests compared with another. */
 static void report_culling(const bench_plan *plan, bench_table *table, cgt_cull with, cgt_cull without, double *scratch,
                            double *ratios)
 {
@@ -173,7 +173,7 @@ static void report_culling(const bench_plan *plan, bench_table *table, cgt_cull 
     print_spread(what, ratios, pairs);
 }
 
-/* What the mailbox costs, and how many tests it saves. */
+/* The cost of the mailbox, and the number of tests that it saves. */
 static void report_mailbox(const bench_plan *plan, bench_table *table, double *scratch, double *ratios)
 {
     size_t pairs = 0;

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench make: procedural scenes as .frames, so that every figure can be made again without a simulator.
- *   cloudN   N spheres spread evenly over a box of 3.56 x 2 x 2, their radii 0.3 to 0.5 of the mean spacing, each on a
- *            small closed path of its own
+ * cgt-bench make: procedural scenes as .frames, so that every figure can be reproduced without a simulator.
+ *   cloudN   N spheres evenly distributed over a box of 3.56 x 2 x 2, their radii 0.3 to 0.5 of the mean spacing,
+ *            each on a small closed path of its own
  *   clustersN  such spheres, smaller, in 64 clusters of different sizes, dense in their middles
  *   blobsN   N triangles in one or several bumpy balls of meridians and parallels, every vertex on the path of its
  *            parallel; at the poles lie triangles without an area
@@ -73,7 +73,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     }
 }
 
-/* Closes a file. Where anything failed, error has the text, and the incomplete file is removed. writer may be NULL. */
+/* Closes a file. After a failure, error has the text, and the incomplete file is removed. writer may be NULL. */
 static int finish(frames_writer *writer, const char *path, int failed, char error[PROGRAM_ERROR_SIZE])
 {
     char ignored[PROGRAM_ERROR_SIZE];
@@ -88,7 +88,7 @@ static int finish(frames_writer *writer, const char *path, int failed, char erro
     return PROGRAM_FAILED;
 }
 
-/* Writes the frames of a scene, and gives its memory back. */
+/* Writes the frames of a scene, and frees its memory. */
 static int write_scene(const make_settings *settings, bench_procedural *scene)
 {
     char error[PROGRAM_ERROR_SIZE] = "";

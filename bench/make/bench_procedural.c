@@ -163,7 +163,7 @@ int bench_procedural_balls(bench_procedural *scene, const bench_balls *balls)
     for (uint32_t k = 0; k < balls->balls; k++) {
         float centre[3];
         for (int c = 0; c < 3; c++)
-            centre[c] = (bench_random(&state) * 2 - 1) * balls->spread[c];
+            centre[c] = (bench_random(&state) * 2 - 1) * balls->extent[c];
         const uint32_t first = scene->count;
         add_points(scene, balls, centre);
         add_triangles(scene, balls->meridians, balls->parallels, first);
@@ -176,7 +176,7 @@ int bench_procedural_balls(bench_procedural *scene, const bench_balls *balls)
 
 int bench_procedural_mesh(bench_procedural *scene, uint32_t triangles)
 {
-    bench_balls balls = {.balls = 16, .radius = 0.5f, .spread = {1.4f, 0.7f, 0.8f}};
+    bench_balls balls = {.balls = 16, .radius = 0.5f, .extent = {1.4f, 0.7f, 0.8f}};
     while (balls.balls > 1 && triangles / balls.balls < 64)
         balls.balls /= 2;
     /* 2 meridians parallels triangles, twice as many meridians as parallels */

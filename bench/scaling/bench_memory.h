@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Memory hooks that count what the library asks for. */
+ * Memory hooks that count the library's allocations. */
 #ifndef BENCH_MEMORY_H
 #define BENCH_MEMORY_H
 
@@ -12,7 +12,7 @@
 
 typedef struct bench_memory {
     uint64_t allocations; /* so far */
-    size_t held, most;    /* bytes: now, and at the worst moment */
+    size_t held, most;    /* bytes: current, and the peak */
 } bench_memory;
 
 /* memory starts at zero and outlives the context that gets the hooks. */

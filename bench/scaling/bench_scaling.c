@@ -22,7 +22,7 @@ static const struct argp_option options[] = {
     {"sweep", 'w', "NAME", 0, "primitives, pixels or threads; may be given several times (default: all)", 4},
     {"kind", 'o', "NAME", 0, "spheres or triangles; may be given twice (default: both)", 4},
     {"primitives", OPTION_PRIMITIVES, "FROM,TO", 0, "default 1000,10000000", 4},
-    {"pixels", OPTION_PIXELS, "FROM,TO", 0, "default 100000,33000000, in the shape that -s has", 4},
+    {"pixels", OPTION_PIXELS, "FROM,TO", 0, "default 100000,33000000, in the aspect ratio of -s", 4},
     {"most-threads", OPTION_MOST_THREADS, "COUNT", 0, "from 1 to COUNT; 0 (default): to one per CPU", 4},
     {"steps", OPTION_STEPS, "COUNT", 0, "points for each factor of ten, 1 to 100 (default 2)", 4},
     {"at", OPTION_AT, "PRIMITIVES", 0, "where they do not grow (default 200000)", 4},
@@ -91,13 +91,13 @@ static uint32_t cpus(void)
     return threads ? threads : 1;
 }
 
-/* Sets width and height: `pixels` pixels in the shape of the settings' picture. */
+/* Sets width and height: `pixels` pixels in the aspect ratio of the settings' picture. */
 static void set_pixels(const scaling_settings *settings, uint64_t pixels, scaling_point *point)
 {
-    const double shape = (double)settings->shared.width / settings->shared.height;
-    const double height = sqrt((double)pixels / shape);
+    const double aspect = (double)settings->shared.width / settings->shared.height;
+    const double height = sqrt((double)pixels / aspect);
     point->height = height < 1.0 ? 1 : (uint32_t)lround(height);
-    point->width = height * shape < 1.0 ? 1 : (uint32_t)lround(height * shape);
+    point->width = height * aspect < 1.0 ? 1 : (uint32_t)lround(height * aspect);
 }
 
 /* The size after `size`: 0 after the last one. */

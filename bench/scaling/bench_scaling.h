@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench scaling: time and memory of a frame as one thing grows and all else stays.
+ * cgt-bench scaling: time and memory of a frame as one quantity grows and the others stay.
  *   measure  one point: some frames of a scene made in memory   bench_scaling_measure.c
  *   table    rows, and exponents of growth                      bench_scaling_table.c */
 #ifndef BENCH_SCALING_H
@@ -13,7 +13,7 @@
 #include "common/bench.h"
 #include "common/bench_table.h"
 
-/* What grows. */
+/* The quantity that grows. */
 typedef enum scaling_sweep { SCALING_PRIMITIVES, SCALING_PIXELS, SCALING_THREADS, SCALING_SWEEPS } scaling_sweep;
 typedef enum scaling_kind { SCALING_SPHERES, SCALING_TRIANGLES, SCALING_KINDS } scaling_kind;
 
@@ -23,7 +23,7 @@ typedef struct scaling_settings {
     bench_settings shared;
     bench_structure_settings structure;
     bench_precision_settings precision;
-    int sweep[SCALING_SWEEPS], kind[SCALING_KINDS]; /* 1: asked for; none of them: all */
+    int sweep[SCALING_SWEEPS], kind[SCALING_KINDS]; /* 1: requested; none of them: all */
     uint64_t range[SCALING_SWEEPS][2];              /* smallest and largest; 0 threads: one per CPU */
     uint32_t at;                                    /* primitives where they do not grow */
     uint32_t steps;                                 /* points for each factor of ten; threads: each number */
@@ -45,7 +45,7 @@ typedef struct scaling_point {
 /* Returns an exit code; prints what failed. */
 int scaling_measure(const scaling_settings *settings, scaling_point *point);
 
-/* What grows in the point's sweep. */
+/* The quantity that grows in the point's sweep. */
 double scaling_size(const scaling_point *point);
 
 /* before: the smaller point of the same sweep and kind; NULL: this is the first. */

@@ -54,7 +54,7 @@ static cgt_result open_scene(point_job *job, const bench_choice *choice)
     if (result == CGT_OK)
         result = bench_scene_create(&job->scene, job->context, job->moving.now, shared->resolution);
     if (result == CGT_OK)
-        result = bench_scene_structure(&job->scene, job->settings->structure.asked[0], CGT_RAY_KIND_COHERENT,
+        result = bench_scene_structure(&job->scene, job->settings->structure.requested[0], CGT_RAY_KIND_COHERENT,
                                        &choice->kd, shared->resolution);
     if (result == CGT_OK)
         bench_scene_set_triangles(&job->scene, job->moving.index, job->moving.triangles);

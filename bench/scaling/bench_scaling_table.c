@@ -21,7 +21,7 @@ double scaling_size(const scaling_point *point)
     return point->sweep == SCALING_THREADS ? (double)point->threads : (double)point->built.primitives;
 }
 
-/* Of y ~ x^exponent; NaN where two points do not tell. */
+/* Of y ~ x^exponent; NaN if two points do not determine it. */
 static double exponent_of(double x0, double y0, double x1, double y1)
 {
     return x0 > 0.0 && x1 > 0.0 && x0 != x1 && y0 > 0.0 && y1 > 0.0 ? log(y1 / y0) / log(x1 / x0) : NAN;
@@ -51,7 +51,7 @@ void scaling_table_row(bench_table *table, const scaling_point *point, const sca
         bench_table_real(table, exponents[c],
                          before ? exponent_of(scaling_size(before), before->low[c], size, point->low[c]) : NAN);
     bench_table_count(table, "hit_pixels", point->hits);
-    bench_table_count(table, "bytes", point->built.bytes); /* of the scene; of its structure alone */
+    bench_table_count(table, "bytes", point->built.bytes); /* of the scene; of its structure */
     bench_table_real(table, "bytes_per_primitive", (double)point->built.bytes / primitives);
     bench_table_count(table, "structure_bytes", point->built.structure_bytes);
     bench_table_real(table, "structure_bytes_per_primitive", (double)point->built.structure_bytes / primitives);

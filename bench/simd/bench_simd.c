@@ -64,7 +64,7 @@ static const part_tables *const all_tables[] = {
 
 /* ---- job ---- */
 
-/* What the summary says of a variant. */
+/* The summary of a variant. */
 typedef struct tally {
     size_t rows, compared, within, with_reason, without_reason, different;
 } tally;
@@ -171,7 +171,7 @@ static void do_table(simd_job *job, const char *variant, const simd_table *table
     }
 }
 
-/* Each native form is there for a word. */
+/* Each native form belongs to a word. */
 static size_t count_orphans(const part_tables *t)
 {
     size_t orphans = 0;

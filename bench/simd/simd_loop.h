@@ -1,19 +1,16 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: the loop that every row runs, mapped or native. To be
- * included by a file that has defined
+ * cgt-bench simd: the loop that every row runs, mapped or native. The including file defines
  *
  *   SIMD_TYPE_<token>   the C type of each kind of operand and result
- *   SIMD_CLASS_vm       how masks are held, see below: VECTOR, or MASK with
- * SIMD_HOLD_MASK and SIMD_USE_MASK SIMD_VECTORS        in an array SIMD_ENTER,
- * SIMD_LEAVE   around the loop; may be empty
+ *   SIMD_CLASS_vm       how masks are held, see below: VECTOR, or MASK with SIMD_HOLD_MASK and SIMD_USE_MASK
+ *   SIMD_VECTORS        in an array
+ *   SIMD_ENTER, SIMD_LEAVE   around the loop; may be empty
  *
- * For each element of the arrays: the operands are loaded, then the word is
- * applied SIMD_APPLIED times, then the last result is stored. Empty asms hold
- * operands, which tells the compiler that they change, and use results: so
- * nothing is folded into a load, moved out of the loop, merged with its
- * neighbours or left out. The compiler unrolls neither form. */
+ * For each element of the arrays: the operands are loaded, the word is applied SIMD_APPLIED times, and the last result
+ * is stored. Empty asms hold operands, which tells the compiler that they change, and use results. So nothing is folded
+ * into a load, moved out of the loop, merged with its neighbours or removed. The compiler unrolls neither form. */
 #ifndef SIMD_LOOP_H
 #define SIMD_LOOP_H
 

@@ -92,7 +92,7 @@ simd_times simd_measure(simd_memory *memory, const simd_pair *pair, uint32_t rep
             }
         times.mapped_ns = bench_spread_of(samples[0], count).low;
         times.native_ns = form[1] ? bench_spread_of(samples[1], count).low : 0;
-        /* what seems slow is looked at longer */
+        /* rows that seem slow are measured longer */
     } while (form[1] && count < most && times.mapped_ns > SIMD_TOLERANCE * times.native_ns);
     return times;
 }

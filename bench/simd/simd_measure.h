@@ -27,7 +27,7 @@ typedef struct simd_times {
 /* The row with the same word, operands and count; NULL where there is none. */
 const simd_row *simd_find(const simd_table *table, const simd_row *row);
 
-/* Whether both forms give the same bits, where the native one is meant to. */
+/* Whether both forms give the same bits, if the native one is supposed to. */
 bool simd_agrees(simd_memory *memory, const simd_pair *pair);
 
 /* Runs a row for as long as a processor may take to reach its speed. */

@@ -6,18 +6,16 @@
  * portable variant has none; it is compared with those of the machine's
  * narrowest variant.
  *
- * The forms are in simd/native, as all that names an instruction set is in
- * simd: native_sse.h, native_neon.h and native_wide.h, each included twice:
- * lines of
+ * The forms are in simd/native, since all code that names an instruction set is in simd: native_sse.h, native_neon.h
+ * and native_wide.h, each included twice: lines of
  *
  *   N1(same, word, result, a, expression)                with operands a, b, c
  *   N2(same, word, result, a, b, expression), N3(...)
  *   V2, V3   the last operand is a count, a position or a pattern
  *   K2, K3   likewise, and a literal: the expression does without it
  *
- * same: SAME where the result has the bits of the word's, OTHER where the
- * native form does less or in another order, as code that was written for it
- * alone would. */
+ * same: SAME where the result has the bits of the word's, OTHER where the native form does less or works in another
+ * order, as code written for it only would. */
 #include "vector.h"
 
 #define SIMD_VECTORS (SIMD_BYTES / 16)

@@ -14,8 +14,7 @@
 typedef struct kind {
     const char *name;
     int bytes;    /* of an element */
-    int elements; /* 0: as many as the variant has lanes; 1 and scalar: none
-                   beside it */
+    int elements; /* 0: as many as the variant has lanes; 1 and scalar: a single number */
     bool is_float;
 } kind;
 

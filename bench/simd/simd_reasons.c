@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: which mapped words take more time than their native forms, and why. */
+ * cgt-bench simd: mapped words that take more time than their native forms, and the reasons. */
 #include "simd/simd_rows.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ typedef struct reason {
 #define ANY_COUNT (-1)
 #define EXACT "sse+exact neon+exact avx2+exact avx512+exact"
 
-/* The first that fits is taken. */
+/* The first match is used. */
 static const reason reasons[] = {
     {"portable", "*", "*", ANY_COUNT, "plain C"},
     {"portable+exact", "*", "*", ANY_COUNT, "the SPU's arithmetic in integers, element by element"},

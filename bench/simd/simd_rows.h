@@ -1,16 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench simd: what the parts that are compiled once per variant hand to the
- * part that is compiled once.
+ * cgt-bench simd: the interface between the parts compiled once per variant and the part compiled once.
  *
- *   row      one word on operands of certain types, and the function that
- * executes it again and again table    the rows of one file mapped   the word
- * of the vocabulary; native: the same, written by hand for one
- * instruction set
+ *   row      one word on operands of certain types, and the function that executes it repeatedly
+ *   table    the rows of one file
+ *   mapped   the word of the vocabulary; native: the same, written by hand for one instruction set
  *
- * A mapped row and its native one are found together by word, operands and
- * count. */
+ * A mapped row is matched with its native one by word, operands and count. */
 #ifndef SIMD_ROWS_H
 #define SIMD_ROWS_H
 
@@ -96,7 +93,7 @@ void simd_fill(simd_memory *memory, const simd_row *row, int lanes);
 
 /* ---- simd_reasons.c ---- */
 
-/* Why a mapped word takes more time than its native form; NULL where no reason is known. */
+/* The reason why a mapped word takes more time than its native form; NULL if none is known. */
 const char *simd_reason(const char *variant, const simd_row *row);
 
 #endif

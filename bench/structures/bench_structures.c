@@ -89,9 +89,9 @@ static void finish_settings(structures_settings *settings, struct argp_state *st
     if (!settings->random)
         settings->random = settings->rays;
     if (settings->fetch)
-        structure->asked[structure->count++] = CGT_STRUCTURE_KD;
+        structure->requested[structure->count++] = CGT_STRUCTURE_KD;
     if (!structure->count) {
-        memcpy(structure->asked, everything, sizeof everything);
+        memcpy(structure->requested, everything, sizeof everything);
         structure->count = sizeof everything / sizeof everything[0];
     }
 }
@@ -121,7 +121,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* Inner nodes and leaves are those of trees. */
+/* Only trees have inner nodes and leaves. */
 static void write_visits(const structures_row *row, bench_table *table)
 {
     const cgt_trace_statistics *traced = &row->count.trace;
@@ -180,7 +180,7 @@ static void write_row(const structures_job *job, const structures_row *row, size
 
 /* ---- Sets ---------------------------------------------------------------------------------------------------- */
 
-/* The batches that are smaller than the set, then the whole set where that or more is asked for. */
+/* The batches that are smaller than the set, then the whole set if that or more is requested. */
 static void set_batches(structures_job *job)
 {
     const structures_settings *settings = job->settings;
@@ -201,7 +201,7 @@ static cgt_result run_set(structures_job *job, structures_query query, bench_tab
     return result;
 }
 
-/* A frame comes in the camera's order alone; random rays come shuffled alone. */
+/* A frame only comes in the camera's order, random rays only shuffled. */
 static int has_order(const structures_settings *settings, structures_kind kind, int order)
 {
     if (kind == STRUCTURES_FRAME)
@@ -317,7 +317,7 @@ static int compare_structures(structures_job *job, bench_table *table)
     return structures_first(job) ? PROGRAM_OK : PROGRAM_FAILED;
 }
 
-/* Other hits are a failure, but leave the table whole: *different is set. */
+/* Differing hits are a failure, but the table is completed: *different is set. */
 static int run_file(const structures_settings *settings, const char *path, bench_table *table, int *different)
 {
     structures_job *job = calloc(1, sizeof *job);
@@ -370,7 +370,7 @@ int bench_structures(int argc, char **argv)
     settings.shared.height = 360;
     settings.shared.frames = 1;
     settings.shared.repeat = DEFAULT_ROUNDS;
-    settings.structure.most = sizeof settings.structure.asked / sizeof settings.structure.asked[0];
+    settings.structure.most = sizeof settings.structure.requested / sizeof settings.structure.requested[0];
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
         return PROGRAM_USAGE;
     bench_table *table = bench_table_open(settings.shared.json_path);

@@ -1,12 +1,12 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench structures: which structure for which rays. One frame of a file in all structures; sets of rays of a kind,
- * in an order, for a query, traced in calls of a given size.
- *   plan      what is built, and the ways to trace it          structures_plan.c
+ * cgt-bench structures: the best structure for each kind of rays. One frame of a file in all structures; sets of rays
+ * of a kind, in an order, for a query, traced in calls of a given size.
+ *   plan      the structures, and the ways to trace them       structures_plan.c
  *   sets      rays of a kind, in an order                      structures_sets.c
  *   measure   structures built and traced in turns             structures_measure.c
- *   found     what rays found, and whether it is the same      structures_found.h
+ *   found     the hits of rays, and their comparison           structures_found.h
  *   fetch     transfers of nodes into a small memory           structures_fetch.c */
 #ifndef BENCH_STRUCTURES_H
 #define BENCH_STRUCTURES_H
@@ -50,7 +50,7 @@ typedef struct structures_settings {
     int kind[STRUCTURES_KINDS], order[STRUCTURES_ORDERS], query[STRUCTURES_QUERIES]; /* 1: named; none: the default */
     uint64_t batch[STRUCTURES_MOST_BATCHES]; /* rays in a call, ascending; UINT64_MAX: all of the set */
     size_t batches;
-    uint32_t rays;   /* of a set, at most */
+    uint32_t rays;   /* of a set, upper limit */
     uint32_t random; /* random rays */
     int traversals, layouts, fetch;
 } structures_settings;
@@ -69,7 +69,7 @@ typedef struct structures_row {
     char config[BENCH_NAME_SIZE];
     double *trace_ms[STRUCTURES_MOST_BATCHES]; /* of each round, all calls of the current set */
     bench_counts count;                        /* of the current set */
-    uint64_t different; /* rays of the current set that found something else than the first row */
+    uint64_t different;                        /* rays of the current set whose hit differs from the first row's */
 } structures_row;
 
 /* The current set of rays. */
@@ -81,8 +81,8 @@ typedef struct structures_set {
     bench_ray_array made;    /* in the order of blocks */
     uint64_t first;          /* the set is `count` rays of `made` from here on: those of the picture's middle */
     uint32_t *tile;          /* of each ray of the set */
-    uint32_t *turn;          /* the ray that is traced at each place of the order */
-    bench_ray_array ordered; /* what is traced */
+    uint32_t *turn;          /* the ray at each position of the order */
+    bench_ray_array ordered; /* the rays in that order */
 } structures_set;
 
 typedef struct structures_job {
@@ -104,20 +104,20 @@ typedef struct structures_job {
     uint64_t batch[STRUCTURES_MOST_BATCHES]; /* rays in a call, for the current set */
     size_t batches;
     structures_found expected, found; /* by the first row; by the current one */
-    int messages;                     /* about other hits, so far */
+    int messages;                     /* about differing hits, so far */
     int expecting;                    /* 1: `expected` is of the current set */
     uint64_t hits;                    /* of the current set */
     uint64_t compared, different;     /* rays, of all sets */
 } structures_job;
 
-/* The list of groups and rows that the settings ask for, with their scenes and room for their times. */
+/* The list of groups and rows that the settings request, with their scenes and room for their times. */
 cgt_result structures_plan(structures_job *job);
 void structures_plan_release(structures_job *job);
 
 /* The row's structure was built: names the configuration. */
 void structures_name_row(structures_row *row);
 
-/* Builds all groups in turns, round by round. Groups that the library does not have are left out. */
+/* Builds all groups in turns, round by round. Groups that the library does not have are marked left_out. */
 cgt_result structures_build(structures_job *job);
 
 /* The first group that is not left out; NULL where all are. */
@@ -128,7 +128,7 @@ cgt_result structures_make_set(structures_job *job, structures_kind kind);
 cgt_result structures_order_set(structures_job *job, structures_order order);
 void structures_release_set(structures_set *set);
 
-/* Traces the current set in calls of each of the job's batches, all rows in turns, and compares what they find. */
+/* Traces the current set in calls of each of the job's batches, all rows in turns, and compares their hits. */
 cgt_result structures_trace_set(structures_job *job, structures_query query);
 
 /* The rows of the table that counts transfers. Returns an exit code. */

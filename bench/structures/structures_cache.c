@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * All memories see the same sequence of nodes in one pass. Of LRU memories with blocks of one size the larger always
- * holds what the smaller does (Mattson et al. 1970), so that one list of blocks, the latest first, tells the misses
- * of all: a block that stands behind the n-th place misses in the memories of at most n blocks. */
+ * holds what the smaller does (Mattson et al. 1970), so that one list of blocks, the latest first, gives the misses of
+ * all: a block past position n misses in the memories of at most n blocks. */
 #include "structures/structures_cache.h"
 
 #include <stdlib.h>
@@ -35,7 +35,7 @@ typedef struct block_size {
 typedef struct window {
     uint32_t first; /* node; NOTHING: empty */
     uint32_t nodes;
-    uint32_t top; /* nodes that stay */
+    uint32_t top; /* nodes held permanently */
     cache_count *count;
 } window;
 
@@ -139,12 +139,12 @@ void cache_set_release(cache_set *set)
 
 static void miss(const cache_set *set, cache_count *count, uint32_t first, uint32_t nodes)
 {
-    const uint32_t left = set->nodes - first;
+    const uint32_t remaining = set->nodes - first;
     count->misses++;
-    count->bytes_transfer += (uint64_t)CACHE_NODE_BYTES * (left < nodes ? left : nodes);
+    count->bytes_transfer += (uint64_t)CACHE_NODE_BYTES * (remaining < nodes ? remaining : nodes);
 }
 
-/* Place of a block in the list, whose head it becomes; MOST_BLOCKS where it is not in it. */
+/* Moves a block to the head of the list and returns its former position; MOST_BLOCKS if it was not in the list. */
 static uint32_t use_block(block_size *size, uint32_t block)
 {
     uint32_t at = 0;

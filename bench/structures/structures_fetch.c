@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * cgt-bench structures --fetch: which layout of a kd-tree's nodes makes the fewest transfers (thesis, chapter 7,
- * figure 7.4). The same rays walk the same tree in each layout, one at a time in the order of their arrays, and all
- * memories of structures_cache.h see the nodes that they read. A ray walks to its nearest hit; where any hit would do,
- * a traversal ends there at the latest. */
+ * cgt-bench structures --fetch: which layout of a kd-tree's nodes makes the fewest transfers (thesis, chapter 7, figure
+ * 7.4). The same rays walk the same tree in each layout, one at a time in the order of their arrays, and all memories
+ * of structures_cache.h see the nodes that they read. A ray walks to its closest hit; an any-hit traversal ends there
+ * at the latest. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ enum { KINDS = 4 };
 
 /* ---- Rays ---------------------------------------------------------------------------------------------------- */
 
-/* Rays end at their nearest hits; a shadow ray without a hit ends at the light. */
+/* Rays end at their closest hits; a shadow ray without a hit ends at the light. */
 static cgt_result find_ends(const structures_job *job, walkers *w)
 {
     const cgt_rays array = bench_ray_array_view(&w->rays);

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* No trace writes this byte: answers that a trace left alone must not pass for its own. */
+/* No trace writes this byte, so that answers left unwritten do not pass for a trace's own. */
 enum { UNTOUCHED = 0xfe };
 
 int structures_found_create(structures_found *found, uint32_t width, uint32_t height)
@@ -85,7 +85,7 @@ uint64_t structures_found_hits(const structures_found *found, found_form form, u
 
 /* ---- Comparison ---------------------------------------------------------------------------------------------- */
 
-/* The words of a ray's answer: t, primitive, normal. Returns how many there are. */
+/* The words of a ray's answer: t, primitive, normal. Returns their number. */
 static int words_of(const structures_found *found, found_form form, uint64_t i, uint32_t word[5])
 {
     if (form == FOUND_OCCLUDED) {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the rays of a set found, and whether others found the same bits. */
+ * The hits of a set's rays, and their bitwise comparison. */
 #ifndef STRUCTURES_FOUND_H
 #define STRUCTURES_FOUND_H
 
@@ -24,17 +24,18 @@ typedef struct structures_found {
     uint8_t *occluded;
 } structures_found;
 
-/* Makes planes, without arrays: 0, or -1 where memory is refused. release: also after a failure. */
+/* Makes planes, without arrays: 0, or -1 where memory is refused. Release them after a failure as well. */
 int structures_found_create(structures_found *found, uint32_t width, uint32_t height);
 void structures_found_release(structures_found *found);
 
-/* Makes room for `count` answers and overwrites old ones by what no trace writes: 0, or -1 where memory is refused. */
+/* Makes room for `count` answers and overwrites old ones with a pattern that no trace writes: 0, or -1 where memory is
+ * refused. */
 int structures_found_reset(structures_found *found, found_form form, uint64_t count);
 
 /* Rays that hit. */
 uint64_t structures_found_hits(const structures_found *found, found_form form, uint64_t count);
 
-/* Returns how many rays differ in any bit. Where some do, text gets the first of them in words: "ray 7: t 1 (3f800000),
+/* Returns how many rays differ in any bit. If any does, text describes the first of them: "ray 7: t 1 (3f800000),
  * primitive 3, not t ...". */
 uint64_t structures_found_differ(const structures_found *expected, const structures_found *found, found_form form,
                                  uint64_t count, char *text, size_t size);

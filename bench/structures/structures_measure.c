@@ -3,13 +3,13 @@
  *
  * Structures built and rows traced in turns, so that a slow moment of the machine affects all alike; backwards in every
  * other round, so that none always follows the same one. The first round of each is not timed: it warms up, counts what
- * rays visit, and its first row gives the hits that all others are to find. */
+ * rays visit, and its first row gives the hits that all others must find. */
 #include <string.h>
 
 #include "common/bench_timing.h"
 #include "structures/bench_structures.h"
 
-enum { MOST_MESSAGES = 10 }; /* about other hits; the last line has the count of all */
+enum { MOST_MESSAGES = 10 }; /* about differing hits; the last line has the total */
 
 const structures_group *structures_first(const structures_job *job)
 {
@@ -113,7 +113,7 @@ static cgt_result trace_all(structures_job *job, const structures_row *row, uint
     return result;
 }
 
-/* Compares what a row found with what the first row did. */
+/* Compares a row's hits with the first row's. */
 static void compare(structures_job *job, structures_row *row)
 {
     const found_form form = form_of(&job->set);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The list of what cgt-bench structures compares. */
+ * The list of configurations that cgt-bench structures compares. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -107,7 +107,7 @@ cgt_result structures_plan(structures_job *job)
     const bench_structure_settings *named = &job->settings->structure;
     cgt_result result = CGT_OK;
     for (size_t i = 0; i < named->count; i++)
-        add_structure(job, named->asked[i]);
+        add_structure(job, named->requested[i]);
     for (size_t g = 0; g < job->group_count && result == CGT_OK; g++)
         result = prepare_group(job, &job->groups[g]);
     for (size_t r = 0; r < job->row_count && result == CGT_OK; r++)
@@ -129,7 +129,7 @@ void structures_plan_release(structures_job *job)
 
 /* ---- Names --------------------------------------------------------------------------------------------------- */
 
-/* AUTO is "auto", whatever the library takes, with the kind of rays that it was told of. */
+/* AUTO is "auto" for any choice of the library, with the kind of rays that it was given. */
 void structures_name_row(structures_row *row)
 {
     const bench_build *build = &row->group->build;

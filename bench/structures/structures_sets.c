@@ -15,7 +15,7 @@ static uint32_t tile_columns(const structures_job *job)
     return (job->axes.width + BENCH_TILE_EDGE - 1) / BENCH_TILE_EDGE;
 }
 
-/* The tile of the pixel at a place of the order tile by tile. Tiles of the lowest row may be cut. */
+/* The tile of the pixel at a position of the tile-by-tile order. Tiles of the lowest row may be cut. */
 static uint32_t tile_at(const structures_job *job, uint64_t place)
 {
     const uint64_t row = (uint64_t)BENCH_TILE_EDGE * job->axes.width; /* pixels of a row of tiles that is not cut */

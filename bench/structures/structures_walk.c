@@ -29,8 +29,8 @@ static span clip(const cgt_kd_tree *tree, const float org[3], const float dir[3]
     return s;
 }
 
-/* Steps from an inner node to the child that the ray enters first. Where it enters the other one, too, *later gets that
- * and the result is 1. */
+/* Steps from an inner node to the child that the ray enters first. If it also enters the other one, *later gets that
+ * one and the result is 1. */
 static int step(cgt_kd_node node, const float org[3], const float dir[3], span *now, span *later)
 {
     const uint32_t axis = cgt_kd_axis(node), lower = node.word[1];

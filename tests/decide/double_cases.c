@@ -104,12 +104,12 @@ void double_case_make(test_random *r, double_family f, bool sphere, oracle_primi
 
 cgt_primitive double_case_shape_of(const oracle_primitive *q)
 {
-    cgt_primitive shape = {.kind = q->kind == ORACLE_SPHERE ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES};
+    cgt_primitive primitive = {.kind = q->kind == ORACLE_SPHERE ? CGT_KIND_SPHERES : CGT_KIND_TRIANGLES};
     if (q->kind == ORACLE_SPHERE)
-        shape.sphere = (cgt_sphere){q->data[0], q->data[1], q->data[2], q->data[3]};
+        primitive.sphere = (cgt_sphere){q->data[0], q->data[1], q->data[2], q->data[3]};
     else
-        memcpy(shape.triangle.v, q->data, sizeof shape.triangle.v);
-    return shape;
+        memcpy(primitive.triangle.v, q->data, sizeof primitive.triangle.v);
+    return primitive;
 }
 
 cgt_ray double_case_ray_of(const truth_ray *ray)

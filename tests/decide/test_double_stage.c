@@ -65,8 +65,8 @@ static void expect_near(const char *what, const nearness *n, double least)
 static void judge_triangle(const oracle_primitive *q, const truth_ray *ray, nearness *sides, nearness *num,
                            nearness *den)
 {
-    const cgt_primitive shape = double_case_shape_of(q);
-    const cgt_triangle *t = &shape.triangle;
+    const cgt_primitive primitive = double_case_shape_of(q);
+    const cgt_triangle *t = &primitive.triangle;
     const cgt_triangle_sides s = cgt_triangle_double_sides(ray->org, ray->dir, t);
     const cgt_triangle_plane p = cgt_triangle_double_plane(ray->org, ray->dir, t);
     const dyadic one = dyadic_make(1, 0);
@@ -171,9 +171,9 @@ static void safe_values_are(void **state)
             double_case_make(&r, (double_family)f, sphere, &q, &ray);
             if (!oracle_line_make(&ray, &line) || !oracle_roots(&line, &q, roots))
                 continue;
-            const cgt_primitive shape = double_case_shape_of(&q);
-            const cgt_sphere_terms e = cgt_sphere_double_terms(ray.org, ray.dir, shape.sphere);
-            const cgt_triangle_plane p = cgt_triangle_double_plane(ray.org, ray.dir, &shape.triangle);
+            const cgt_primitive primitive = double_case_shape_of(&q);
+            const cgt_sphere_terms e = cgt_sphere_double_terms(ray.org, ray.dir, primitive.sphere);
+            const cgt_triangle_plane p = cgt_triangle_double_plane(ray.org, ray.dir, &primitive.triangle);
             const bool is_safe = sphere ? !cgt_sphere_double_unsafe(e, sqrt(e.disc)) : cgt_triangle_double_t_safe(&p);
             ordinary += f == ANYWHERE;
             unsafe += f == ANYWHERE && !is_safe;

@@ -50,58 +50,58 @@ static void subject_free(subject *w)
     embree_scene_free(&w->embree);
 }
 
-static void fail_ray(const truth_ray *ray, const full_hit *ours, const full_hit *theirs, const char *what)
+static void fail_ray(const truth_ray *ray, const full_hit *cgt_hit, const full_hit *embree_hit, const char *what)
 {
     fail_msg("%s: geometry %d, primitive %d at %a; Embree: geometry %d, primitive %d at %a; org %a %a %a dir %a %a %a",
-             what, (int)ours->geometry, (int)ours->primitive, (double)ours->t, (int)theirs->geometry,
-             (int)theirs->primitive, (double)theirs->t, (double)ray->org[0], (double)ray->org[1], (double)ray->org[2],
-             (double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]);
+             what, (int)cgt_hit->geometry, (int)cgt_hit->primitive, (double)cgt_hit->t, (int)embree_hit->geometry,
+             (int)embree_hit->primitive, (double)embree_hit->t, (double)ray->org[0], (double)ray->org[1],
+             (double)ray->org[2], (double)ray->dir[0], (double)ray->dir[1], (double)ray->dir[2]);
 }
 
 /* libcgt must give the hit of exact arithmetic; classifies Embree's answer. */
-static void judge_difference(const subject *w, const truth_ray *ray, const full_hit *ours, const full_hit *theirs,
-                             tally *sum)
+static void judge_difference(const subject *w, const truth_ray *ray, const full_hit *cgt_hit,
+                             const full_hit *embree_hit, tally *sum)
 {
     static const char *const name[] = {"right", "missed", "invented", "wrong"};
     oracle_hit exact;
-    const oracle_verdict verdict = oracle_judge(&w->truth.scene, ray, ours->geometry, ours->primitive, &exact);
+    const oracle_verdict verdict = oracle_judge(&w->truth.scene, ray, cgt_hit->geometry, cgt_hit->primitive, &exact);
     if (verdict != ORACLE_RIGHT)
-        fail_ray(ray, ours, theirs, name[verdict]);
-    if (exact.index != ORACLE_NONE && oracle_ulp(exact.t, ours->t) > 0.51)
-        fail_ray(ray, ours, theirs, "t is off");
-    sum->missed += theirs->geometry == CGT_INVALID_ID;
-    sum->invented += ours->geometry == CGT_INVALID_ID;
-    sum->other += ours->geometry != CGT_INVALID_ID && theirs->geometry != CGT_INVALID_ID;
+        fail_ray(ray, cgt_hit, embree_hit, name[verdict]);
+    if (exact.index != ORACLE_NONE && oracle_ulp(exact.t, cgt_hit->t) > 0.51)
+        fail_ray(ray, cgt_hit, embree_hit, "t is off");
+    sum->missed += embree_hit->geometry == CGT_INVALID_ID;
+    sum->invented += cgt_hit->geometry == CGT_INVALID_ID;
+    sum->other += cgt_hit->geometry != CGT_INVALID_ID && embree_hit->geometry != CGT_INVALID_ID;
 }
 
 /* The same primitive with other numbers: libcgt must be within the bounds of cgt.h. In ROBUST, u and v are off by one
  * rounding plus what double loses on a triangle that is far away or seen edge-on: here less than another rounding. */
-static void judge_values(const subject *w, const truth_ray *ray, const full_hit *ours, const full_hit *theirs,
+static void judge_values(const subject *w, const truth_ray *ray, const full_hit *cgt_hit, const full_hit *embree_hit,
                          tally *sum)
 {
     oracle_hit exact = {.index = ORACLE_NONE};
-    const oracle_primitive *named = opinion_named(&w->truth.scene, ours);
+    const oracle_primitive *named = opinion_named(&w->truth.scene, cgt_hit);
     if (!named || !oracle_hits(named, ray, &exact))
-        fail_ray(ray, ours, theirs, "both are wrong");
-    if (!(oracle_ulp(exact.t, ours->t) <= 0.51))
-        fail_ray(ray, ours, theirs, "t is off");
+        fail_ray(ray, cgt_hit, embree_hit, "both are wrong");
+    if (!(oracle_ulp(exact.t, cgt_hit->t) <= 0.51))
+        fail_ray(ray, cgt_hit, embree_hit, "t is off");
     for (int k = 0; k < 2; k++)
-        if (!(fabs((double)(exact.uv[k] - (truth_real)ours->uv[k])) <= 0x1p-23))
-            fail_ray(ray, ours, theirs, "u or v is off");
-    sum->t_off += oracle_ulp(exact.t, theirs->t) > 1;
+        if (!(fabs((double)(exact.uv[k] - (truth_real)cgt_hit->uv[k])) <= 0x1p-23))
+            fail_ray(ray, cgt_hit, embree_hit, "u or v is off");
+    sum->t_off += oracle_ulp(exact.t, embree_hit->t) > 1;
 }
 
-static void judge(const subject *w, const truth_ray *ray, const full_hit *ours, tally *sum)
+static void judge(const subject *w, const truth_ray *ray, const full_hit *cgt_hit, tally *sum)
 {
-    const full_hit theirs = embree_trace(&w->embree, ray);
-    const bool same = ours->geometry == theirs.geometry && ours->primitive == theirs.primitive;
+    const full_hit embree_hit = embree_trace(&w->embree, ray);
+    const bool same = cgt_hit->geometry == embree_hit.geometry && cgt_hit->primitive == embree_hit.primitive;
     sum->rays++;
-    sum->hits += ours->geometry != CGT_INVALID_ID;
+    sum->hits += cgt_hit->geometry != CGT_INVALID_ID;
     sum->same += same;
     if (!same)
-        judge_difference(w, ray, ours, &theirs, sum);
-    else if (ours->t != theirs.t || ours->uv[0] != theirs.uv[0] || ours->uv[1] != theirs.uv[1])
-        judge_values(w, ray, ours, &theirs, sum);
+        judge_difference(w, ray, cgt_hit, &embree_hit, sum);
+    else if (cgt_hit->t != embree_hit.t || cgt_hit->uv[0] != embree_hit.uv[0] || cgt_hit->uv[1] != embree_hit.uv[1])
+        judge_values(w, ray, cgt_hit, &embree_hit, sum);
 }
 
 /* Structures take turns from scene to scene. */
@@ -337,7 +337,7 @@ static void compare_trees(cgt_context *context, hard_scene *s, const cgt_camera 
 static void real_meshes(void **state)
 {
     (void)state;
-    uint32_t here = 0;
+    uint32_t available = 0;
     cgt_context *context = context_make(2, NULL);
     for (size_t i = 0; i < TEST_COUNT(meshes); i++) {
         tally sum = {0};
@@ -351,10 +351,10 @@ static void real_meshes(void **state)
         compare_trees(context, &s, &camera, &sum);
         print_tally(meshes[i].name, &sum, 20);
         hard_scene_free(&s);
-        here++;
+        available++;
     }
     cgt_context_release(context);
-    if (!here)
+    if (!available)
         skip();
 }
 

@@ -90,24 +90,24 @@ static bool is_same_hit(const opinion *a, const opinion *b, uint32_t i)
 
 /* No error in the table is larger than Embree's: t ray by ray; for u and v, the median, 99th percentile and maximum
  * over the rays where both found the same triangle. */
-static void check_not_worse(const opinion *ours, const opinion *theirs, uint32_t rays)
+static void check_not_worse(const opinion *cgt, const opinion *embree, uint32_t rays)
 {
-    uint8_t *both = calloc((size_t)rays + 1, 1);
+    uint8_t *matching = calloc((size_t)rays + 1, 1);
     opinion_quantiles a, b;
-    assert_non_null(both);
+    assert_non_null(matching);
     for (uint32_t i = 0; i < rays; i++) {
-        if (is_same_hit(ours, theirs, i) && ours->t_error[i] > theirs->t_error[i] + ALLOWANCE)
-            fail_msg("ray %u: t is %g ulp off in %s, %g in %s", i, ours->t_error[i], ours->config, theirs->t_error[i],
-                     theirs->config);
-        both[i] = is_same_hit(ours, theirs, i) && ours->hit[i].geometry == theirs->hit[i].geometry &&
-                  ours->hit[i].primitive == theirs->hit[i].primitive;
+        if (is_same_hit(cgt, embree, i) && cgt->t_error[i] > embree->t_error[i] + ALLOWANCE)
+            fail_msg("ray %u: t is %g ulp off in %s, %g in %s", i, cgt->t_error[i], cgt->config, embree->t_error[i],
+                     embree->config);
+        matching[i] = is_same_hit(cgt, embree, i) && cgt->hit[i].geometry == embree->hit[i].geometry &&
+                      cgt->hit[i].primitive == embree->hit[i].primitive;
     }
-    assert_true(opinion_quantiles_of(ours->uv_error, both, rays, &a));
-    assert_true(opinion_quantiles_of(theirs->uv_error, both, rays, &b));
+    assert_true(opinion_quantiles_of(cgt->uv_error, matching, rays, &a));
+    assert_true(opinion_quantiles_of(embree->uv_error, matching, rays, &b));
     if (a.median > b.median + ALLOWANCE || a.p99 > b.p99 + ALLOWANCE || a.worst > b.worst + ALLOWANCE)
         fail_msg("u, v in 2^-24 where both hit the same: %g, %g, %g in %s, %g, %g, %g in %s", a.median, a.p99, a.worst,
-                 ours->config, b.median, b.p99, b.worst, theirs->config);
-    free(both);
+                 cgt->config, b.median, b.p99, b.worst, embree->config);
+    free(matching);
 }
 
 /* ---- one scene ---- */
@@ -138,10 +138,10 @@ static void compare(const char *row, const char *name, const hard_scene *s, int 
         tied[i] += o[i].tied;
     }
     fflush(stdout);
-    for (int ours = CGT_ROBUST; ours < CONFIGS; ours++) {
-        check_right(&o[ours], s->rays);
-        for (int theirs = first; theirs < CGT_ROBUST; theirs++)
-            check_not_worse(&o[ours], &o[theirs], s->rays);
+    for (int cgt = CGT_ROBUST; cgt < CONFIGS; cgt++) {
+        check_right(&o[cgt], s->rays);
+        for (int embree = first; embree < CGT_ROBUST; embree++)
+            check_not_worse(&o[cgt], &o[embree], s->rays);
     }
     for (int i = first; i < CONFIGS; i++)
         opinion_free(&o[i]);

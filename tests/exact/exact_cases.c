@@ -14,10 +14,10 @@ const char *exact_family_name(exact_family family)
     return name[family];
 }
 
-bool exact_meets(const cgt_exact_ray *ray, const cgt_primitive *shape)
+bool exact_meets(const cgt_exact_ray *ray, const cgt_primitive *primitive)
 {
-    return shape->kind == CGT_KIND_SPHERES ? cgt_exact_line_hits_sphere(ray, shape->sphere)
-                                           : cgt_exact_line_hits_triangle(ray, &shape->triangle);
+    return primitive->kind == CGT_KIND_SPHERES ? cgt_exact_line_hits_sphere(ray, primitive->sphere)
+                                               : cgt_exact_line_hits_triangle(ray, &primitive->triangle);
 }
 
 /* ---- Numbers ---- */
@@ -95,10 +95,10 @@ static void make_ray(test_random *r, exact_family family, exact_case *c)
             c->ray.org[a] *= 1e5f;
     }
     fill(r, family, c->ray.dir, 3);
-    point_of(r, &c->shape[0].triangle, p);
+    point_of(r, &c->primitive[0].triangle, p);
     if (quarters && random_below(r, 2))
         for (int a = 0; a < 3; a++) /* exactly at a vertex: the difference is a float */
-            p[a] = c->shape[0].triangle.v[0][a];
+            p[a] = c->primitive[0].triangle.v[0][a];
     if (quarters && !random_below(r, 3)) { /* along an axis */
         memset(c->ray.dir, 0, sizeof c->ray.dir);
         c->ray.dir[random_below(r, 3)] = random_below(r, 2) ? -2 : 1;
@@ -128,17 +128,17 @@ static float one_ulp_off(test_random *r, float f) { return nextafterf(f, random_
 
 static void make_alike(test_random *r, exact_case *c)
 {
-    c->shape[1] = c->shape[0];
-    c->shape[3] = c->shape[2];
-    float(*v)[3] = c->shape[1].triangle.v;
+    c->primitive[1] = c->primitive[0];
+    c->primitive[3] = c->primitive[2];
+    float(*v)[3] = c->primitive[1].triangle.v;
     const uint32_t turn = random_below(r, 3);
     for (uint32_t k = 0; k < 3; k++)
-        memcpy(v[k], c->shape[0].triangle.v[(k + turn) % 3], sizeof v[k]);
+        memcpy(v[k], c->primitive[0].triangle.v[(k + turn) % 3], sizeof v[k]);
     if (random_below(r, 2)) {
         const uint32_t k = random_below(r, 3), a = random_below(r, 3);
         v[k][a] = one_ulp_off(r, v[k][a]);
     }
-    cgt_sphere *q = &c->shape[3].sphere;
+    cgt_sphere *q = &c->primitive[3].sphere;
     float *const field[4] = {&q->x, &q->y, &q->z, &q->r};
     float *const f = field[random_below(r, 4)];
     if (random_below(r, 4))
@@ -149,26 +149,26 @@ static void make_alike(test_random *r, exact_case *c)
 static void make_close(test_random *r, exact_case *c)
 {
     for (int i = 0; i < 2; i++) {
-        const double t = cgt_exact_t(&c->ray, &(cgt_exact_root){&c->shape[2], i > 0});
+        const double t = cgt_exact_t(&c->ray, &(cgt_exact_root){&c->primitive[2], i > 0});
         const bool vertex = !random_below(r, 4);
-        float(*v)[3] = c->shape[i].triangle.v;
+        float(*v)[3] = c->primitive[i].triangle.v;
         for (int a = 0; a < 3; a++) {
             const double at = vertex ? v[0][a] : ((double)v[0][a] + v[1][a] + v[2][a]) / 3;
             for (int k = 0; k < 3; k++)
                 v[k][a] = narrow(v[k][a] + c->ray.org[a] + t * c->ray.dir[a] - at);
         }
     }
-    c->shape[3] = c->shape[2];
+    c->primitive[3] = c->primitive[2];
     if (random_below(r, 2))
-        c->shape[3].sphere.r = one_ulp_off(r, c->shape[3].sphere.r);
+        c->primitive[3].sphere.r = one_ulp_off(r, c->primitive[3].sphere.r);
 }
 
-static void make_sphere(test_random *r, exact_family family, cgt_primitive *shape)
+static void make_sphere(test_random *r, exact_family family, cgt_primitive *primitive)
 {
     float f[4];
-    shape->kind = CGT_KIND_SPHERES;
+    primitive->kind = CGT_KIND_SPHERES;
     fill(r, family, f, 4);
-    shape->sphere = (cgt_sphere){f[0], f[1], f[2], fabsf(f[3])};
+    primitive->sphere = (cgt_sphere){f[0], f[1], f[2], fabsf(f[3])};
 }
 
 /* Touches the line exactly where the line is parallel to an axis: the centre is displaced along another axis. */
@@ -184,13 +184,14 @@ static void make_tangent(test_random *r, const cgt_exact_ray *ray, cgt_sphere *q
 /* A triangle spanning many orders of magnitude, and a second triangle in the same place. */
 static void make_places(test_random *r, exact_case *c)
 {
-    float *const vertex = c->shape[0].triangle.v[2];
+    float *const vertex = c->primitive[0].triangle.v[2];
     const int power = random_below(r, 2) ? -32 : -70;
     for (int a = 0; a < 3; a++)
         vertex[a] = ldexpf(vertex[a], power);
     const int step = random_below(r, 2) ? 1 : 2; /* vertices rotated, or flipped */
     for (int k = 0; k < 3; k++)
-        memcpy(c->shape[1].triangle.v[k], c->shape[0].triangle.v[(step * k + 1) % 3], sizeof c->shape[1].triangle.v[k]);
+        memcpy(c->primitive[1].triangle.v[k], c->primitive[0].triangle.v[(step * k + 1) % 3],
+               sizeof c->primitive[1].triangle.v[k]);
 }
 
 exact_case exact_case_make(test_random *r, exact_family family)
@@ -198,21 +199,21 @@ exact_case exact_case_make(test_random *r, exact_family family)
     exact_case c;
     memset(&c, 0, sizeof c);
     for (int i = 0; i < 2; i++) {
-        c.shape[i].kind = CGT_KIND_TRIANGLES;
+        c.primitive[i].kind = CGT_KIND_TRIANGLES;
         for (int k = 0; k < 3; k++)
-            fill(r, family, c.shape[i].triangle.v[k], 3);
-        make_sphere(r, family, &c.shape[i + 2]);
+            fill(r, family, c.primitive[i].triangle.v[k], 3);
+        make_sphere(r, family, &c.primitive[i + 2]);
     }
     make_ray(r, family, &c);
     for (int i = 2; i < 4; i++)
         if (family == EXACT_AIMED || (family == EXACT_GRID && random_below(r, 2)))
-            make_tangent(r, &c.ray, &c.shape[i].sphere);
+            make_tangent(r, &c.ray, &c.primitive[i].sphere);
     if (family == EXACT_PLACES)
         make_places(r, &c);
     if (family == EXACT_ALIKE)
         make_alike(r, &c);
     if (family == EXACT_CLOSE) {
-        c.shape[2].sphere.r = touching(&c.ray, c.shape[2].sphere) * random_float(r, 1.1f, 3) + 0.125f;
+        c.primitive[2].sphere.r = touching(&c.ray, c.primitive[2].sphere) * random_float(r, 1.1f, 3) + 0.125f;
         make_close(r, &c);
     }
     return c;

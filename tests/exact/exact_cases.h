@@ -27,13 +27,13 @@ typedef enum exact_family {
 
 typedef struct exact_case {
     cgt_exact_ray ray;
-    cgt_primitive shape[4]; /* two triangles, two spheres */
+    cgt_primitive primitive[4]; /* two triangles, two spheres */
 } exact_case;
 
 const char *exact_family_name(exact_family family);
 
 /* Whether the line of the ray meets the primitive. */
-bool exact_meets(const cgt_exact_ray *ray, const cgt_primitive *shape);
+bool exact_meets(const cgt_exact_ray *ray, const cgt_primitive *primitive);
 
 exact_case exact_case_make(test_random *r, exact_family family);
 

@@ -11,9 +11,9 @@
 
 static cgt_primitive triangle_of(const float v[9])
 {
-    cgt_primitive shape = {.kind = CGT_KIND_TRIANGLES};
-    memcpy(&shape.triangle, v, sizeof shape.triangle);
-    return shape;
+    cgt_primitive primitive = {.kind = CGT_KIND_TRIANGLES};
+    memcpy(&primitive.triangle, v, sizeof primitive.triangle);
+    return primitive;
 }
 
 static cgt_primitive sphere_of(float x, float y, float z, float r)
@@ -29,9 +29,9 @@ static int compare(const cgt_exact_ray *ray, const cgt_primitive *a, bool far_a,
     return order;
 }
 
-static double t_of(const cgt_exact_ray *ray, const cgt_primitive *shape, bool far)
+static double t_of(const cgt_exact_ray *ray, const cgt_primitive *primitive, bool far)
 {
-    return cgt_exact_t(ray, &(cgt_exact_root){shape, far});
+    return cgt_exact_t(ray, &(cgt_exact_root){primitive, far});
 }
 
 /* ---- Triangles ---- */
@@ -43,7 +43,7 @@ static cgt_exact_ray upwards(float x, float y) { return (cgt_exact_ray){{x, y, -
 static void edges_and_vertices_belong(void **state)
 {
     (void)state;
-    const cgt_primitive shape = triangle_of(corner);
+    const cgt_primitive primitive = triangle_of(corner);
     static const float inside[][2] = {{0, 0},
                                       {4, 0},
                                       {0, 4},
@@ -61,31 +61,31 @@ static void edges_and_vertices_belong(void **state)
     for (size_t i = 0; i < TEST_COUNT(inside); i++) {
         const cgt_exact_ray ray = upwards(inside[i][0], inside[i][1]);
         double uv[2];
-        assert_true(exact_meets(&ray, &shape));
-        assert_true(t_of(&ray, &shape, false) == 1);
-        cgt_exact_uv(&ray, &shape.triangle, uv);
+        assert_true(exact_meets(&ray, &primitive));
+        assert_true(t_of(&ray, &primitive, false) == 1);
+        cgt_exact_uv(&ray, &primitive.triangle, uv);
         assert_true(uv[0] == inside[i][0] / 4.0 && uv[1] == inside[i][1] / 4.0);
     }
     for (size_t i = 0; i < TEST_COUNT(outside); i++) {
         const cgt_exact_ray ray = upwards(outside[i][0], outside[i][1]);
-        assert_false(exact_meets(&ray, &shape));
+        assert_false(exact_meets(&ray, &primitive));
     }
 }
 
 static void parallel_lines_and_no_area(void **state)
 {
     (void)state;
-    const cgt_primitive shape = triangle_of(corner);
+    const cgt_primitive primitive = triangle_of(corner);
     static const float flat[][9] = {{0, 0, 1, 2, 0, 1, 4, 0, 1},  /* three collinear vertices */
                                     {1, 1, 1, 1, 1, 1, 4, 0, 1},  /* two equal vertices */
                                     {1, 1, 1, 1, 1, 1, 1, 1, 1}}; /* all three equal */
     const cgt_exact_ray in_plane = {{-1, 1, 1}, {1, 0, 0}}, above = {{-1, 1, 2}, {1, 0, 0}};
-    assert_false(exact_meets(&in_plane, &shape));
-    assert_false(exact_meets(&above, &shape));
+    assert_false(exact_meets(&in_plane, &primitive));
+    assert_false(exact_meets(&above, &primitive));
     const cgt_exact_ray hardly = {{-1, 1, 1}, {1, 0, 0x1p-149f}}; /* meets the plane at its origin */
-    assert_false(exact_meets(&hardly, &shape));
+    assert_false(exact_meets(&hardly, &primitive));
     const cgt_exact_ray within = {{1, 1, 1}, {1, 0, 0x1p-149f}};
-    assert_true(exact_meets(&within, &shape) && t_of(&within, &shape, false) == 0);
+    assert_true(exact_meets(&within, &primitive) && t_of(&within, &primitive, false) == 0);
     for (size_t i = 0; i < TEST_COUNT(flat); i++) {
         const cgt_primitive degenerate = triangle_of(flat[i]);
         const cgt_exact_ray through = upwards(1, i ? 1 : 0);
@@ -101,18 +101,18 @@ static void needles(void **state)
 {
     (void)state;
     const float long_edge[9] = {0, 0, 1, 0x1p20f, 0x1p20f, 1, 0x1p20f, 0x1.000002p20f, 1};
-    cgt_primitive shape = triangle_of(long_edge);
+    cgt_primitive primitive = triangle_of(long_edge);
     const float next = nextafterf(3, 4); /* 3 + 2^-22; the upper edge is at 3 + 1.5 2^-22 */
     const cgt_exact_ray ray = upwards(3, 3), inside = upwards(3, next), over = upwards(3, nextafterf(next, 4)),
                         under = upwards(3, nextafterf(3, 2));
-    assert_true(exact_meets(&ray, &shape));
-    assert_true(exact_meets(&inside, &shape));
-    assert_false(exact_meets(&over, &shape));
-    assert_false(exact_meets(&under, &shape));
-    shape.triangle.v[1][0] = nextafterf(0x1p20f, 0);
-    assert_false(exact_meets(&ray, &shape));
+    assert_true(exact_meets(&ray, &primitive));
+    assert_true(exact_meets(&inside, &primitive));
+    assert_false(exact_meets(&over, &primitive));
+    assert_false(exact_meets(&under, &primitive));
+    primitive.triangle.v[1][0] = nextafterf(0x1p20f, 0);
+    assert_false(exact_meets(&ray, &primitive));
     double normal[3];
-    cgt_exact_normal(&shape.triangle, normal);
+    cgt_exact_normal(&primitive.triangle, normal);
     assert_true(normal[0] == 0 && normal[1] == 0 && normal[2] >= 0.5 && normal[2] <= 4);
 }
 
@@ -203,7 +203,7 @@ static void equal_by_construction(void **state)
     const cgt_exact_ray ray = {{0, 0, 0}, {0, 0, 1}};
     const float plane[9] = {-9, -9, 6, 9, -9, 6, 0, 9, 6}, tilted[9] = {-1, -1, 5, 1, -1, 6, 0, 2, 7};
     const struct {
-        cgt_primitive shape;
+        cgt_primitive primitive;
         bool far;
     } six[] = {{triangle_of(plane), false},    {triangle_of(tilted), false},     {sphere_of(3, 0, 10, 5), false},
                {sphere_of(0, 4, 9, 5), false}, {sphere_of(0, 0, 11, 5), false},  {sphere_of(3, 4, 6, 5), false},
@@ -214,17 +214,17 @@ static void equal_by_construction(void **state)
                  {sphere_of(5, 6, 10, 8), false},
                  {sphere_of(1, 1, 10, 0x1.1e377ap1f), false}}; /* a little above sqrt(5) */
     for (size_t i = 0; i < TEST_COUNT(six); i++) {
-        assert_true(exact_meets(&ray, &six[i].shape) && t_of(&ray, &six[i].shape, six[i].far) == 6);
+        assert_true(exact_meets(&ray, &six[i].primitive) && t_of(&ray, &six[i].primitive, six[i].far) == 6);
         for (size_t j = 0; j < TEST_COUNT(six); j++)
-            assert_int_equal(compare(&ray, &six[i].shape, six[i].far, &six[j].shape, six[j].far), 0);
+            assert_int_equal(compare(&ray, &six[i].primitive, six[i].far, &six[j].primitive, six[j].far), 0);
     }
     for (size_t i = 0; i < 3; i++) { /* 10 -+ sqrt(3) */
         for (size_t j = 0; j < 3; j++) {
-            assert_int_equal(compare(&ray, &root3[i].shape, false, &root3[j].shape, false), 0);
-            assert_int_equal(compare(&ray, &root3[i].shape, true, &root3[j].shape, true), 0);
-            assert_int_equal(compare(&ray, &root3[i].shape, false, &root3[j].shape, true), -1);
+            assert_int_equal(compare(&ray, &root3[i].primitive, false, &root3[j].primitive, false), 0);
+            assert_int_equal(compare(&ray, &root3[i].primitive, true, &root3[j].primitive, true), 0);
+            assert_int_equal(compare(&ray, &root3[i].primitive, false, &root3[j].primitive, true), -1);
         }
-        assert_int_equal(compare(&ray, &root3[i].shape, false, &root3[3].shape, false), 1);
+        assert_int_equal(compare(&ray, &root3[i].primitive, false, &root3[3].primitive, false), 1);
     }
 }
 

@@ -199,7 +199,7 @@ static void check_case(const exact_case *c, tally *sum)
     const truth_ray ray = whole_line(&c->ray);
     assert_true(oracle_line_make(&ray, &line));
     for (int i = 0; i < 4; i++)
-        add_roots(&c->ray, &c->shape[i], &line, &all, sum);
+        add_roots(&c->ray, &c->primitive[i], &line, &all, sum);
     for (int i = 0; i < all.count; i++)
         for (int j = 0; j < all.count; j++)
             compare_pair(&c->ray, &all, i, j, sum);

@@ -45,11 +45,11 @@ static exact_case changed(const exact_case *in, const change *h)
     change_vector(h, in->ray.dir, out.ray.dir, false);
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < 3; k++)
-            change_vector(h, in->shape[i].triangle.v[(k + h->turn) % 3], out.shape[i].triangle.v[k], true);
-        const cgt_sphere *q = &in->shape[i + 2].sphere;
+            change_vector(h, in->primitive[i].triangle.v[(k + h->turn) % 3], out.primitive[i].triangle.v[k], true);
+        const cgt_sphere *q = &in->primitive[i + 2].sphere;
         float at[3];
         change_vector(h, (const float[3]){q->x, q->y, q->z}, at, true);
-        out.shape[i + 2].sphere = (cgt_sphere){at[0], at[1], at[2], scaled(q->r, h->length)};
+        out.primitive[i + 2].sphere = (cgt_sphere){at[0], at[1], at[2], scaled(q->r, h->length)};
     }
     return out;
 }
@@ -68,8 +68,8 @@ static answers ask(const exact_case *c, const change *h)
     memset(&a, 0, sizeof a);
     cgt_exact_root root[4];
     for (int i = 0; i < 4; i++) {
-        root[i] = (cgt_exact_root){&c->shape[i], i == 3};
-        a.meets[i] = exact_meets(&c->ray, &c->shape[i]);
+        root[i] = (cgt_exact_root){&c->primitive[i], i == 3};
+        a.meets[i] = exact_meets(&c->ray, &c->primitive[i]);
     }
     for (int i = 0; i < 4; i++) {
         a.t[i] = a.meets[i] ? ldexp(cgt_exact_t(&c->ray, &root[i]), h->direction - h->length) : 0;
@@ -105,7 +105,7 @@ static void no_change_matters(void **state)
         for (int a = 0; a < 3; a++)
             h.by[a] = (float)random_below(&r, 33) / 4 - 4;
         /* computed values have more digits */
-        if (!are_quarters(&c.shape[2].sphere.r, 1) || !are_quarters(&c.shape[3].sphere.r, 1))
+        if (!are_quarters(&c.primitive[2].sphere.r, 1) || !are_quarters(&c.primitive[3].sphere.r, 1))
             h.length = (int)random_below(&r, 100);
         if (!are_quarters(c.ray.dir, 3))
             h.direction = (int)random_below(&r, 100);

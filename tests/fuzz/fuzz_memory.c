@@ -20,7 +20,7 @@ static void *allocate(void *user, size_t bytes, size_t alignment)
     void *block = NULL;
     FUZZ_CHECK(pthread_equal(pthread_self(), m->caller), "allocate is called from a worker");
     FUZZ_CHECK(alignment && !(alignment & (alignment - 1)) && alignment <= FRONT, "alignment %zu", alignment);
-    FUZZ_CHECK(bytes && bytes < SIZE_MAX / 2, "%%zu bytes are requested", bytes);
+    FUZZ_CHECK(bytes && bytes < SIZE_MAX / 2, "%zu bytes are requested", bytes);
     if (m->fail_after && --m->fail_after == 0) {
         m->failed = true;
         return NULL;

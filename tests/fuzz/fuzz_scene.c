@@ -267,7 +267,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         cgt_context_release(m.context); /* the context lives until its last scene is released */
         cgt_scene_release(m.scene);
     }
-    FUZZ_CHECK(!m.memory.blocks && !m.memory.bytes, "%%zu blocks of %zu bytes are not released", m.memory.blocks,
+    FUZZ_CHECK(!m.memory.blocks && !m.memory.bytes, "%zu blocks of %zu bytes are not released", m.memory.blocks,
                m.memory.bytes);
     return 0;
 }

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # ambient-occlusion: its picture is bright where nothing hides the sky and dark in the corners, by the numbers in its
-# source; and the same twice.
+# source; and a second run repeats it.
 #   ambient_cli.sh AMBIENT_OCCLUSION DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/cli.sh"
 
@@ -13,9 +13,9 @@ run 0 "$tmp/sky.ppm" $samples
 says out '^[0-9]* pixels see [0-9.]* % of the sky$'
 [ "$(head -n 3 "$tmp/sky.ppm" | tr '\n' ' ')" = 'P6 640 384 255 ' ] || fail 'the head of the picture'
 [ "$(wc -c <"$tmp/sky.ppm")" -eq $((15 + 640 * 384 * 3)) ] || fail 'the size of the picture'
-if [ -z "$slow" ]; then # says nothing new where it is
+if [ -z "$slow" ]; then # adds nothing where it is
     run 0 "$tmp/again.ppm" $samples
-    cmp "$tmp/sky.ppm" "$tmp/again.ppm" || fail 'another picture the second time'
+    cmp "$tmp/sky.ppm" "$tmp/again.ppm" || fail 'a different picture the second time'
 fi
 
 # Seen from (5, 9, 14) towards (0, 2, 0), 38 degrees. Red of the top of the pile, where the sky is whole; of the sky

@@ -14,7 +14,7 @@ refuses() {
     run "$refused_code" "$@"
     says err "$refused_text"
     says err '^cgt-bench'
-    [ "$(grep -c -v '^config' "$tmp/stdout")" -eq 0 ] || fail "output beside an error: cgt-bench $*"
+    [ "$(grep -c -v '^config' "$tmp/stdout")" -eq 0 ] || fail "output in addition to an error: cgt-bench $*"
 }
 
 # cell COLUMN [ROW]: a cell of the table in $tmp/stdout; rows count from 1 below the head.
@@ -130,7 +130,7 @@ run 0 frame "$tmp/unit.frames" $front -o "$tmp/reference.bin"
 for options in '-t 2' '-k 4' '-k 8' '-k 16' '--tile strip' '--loop nested' '--loop flattened' '--cull off' '--cull frustum' \
     '--no-mailbox' '-g 3,4,5' '-r 2'; do
     run 0 frame "$tmp/unit.frames" $front $options -o "$tmp/hits.bin"
-    cmp -s "$tmp/reference.bin" "$tmp/hits.bin" || fail "other hits with $options"
+    cmp -s "$tmp/reference.bin" "$tmp/hits.bin" || fail "different hits with $options"
 done
 is config "$(cell config)" loose-grid
 run 0 frame "$tmp/unit.frames" $front -k 8 -g 3,4,5 --loop nested --cull off --no-mailbox
@@ -152,7 +152,7 @@ run 0 frame "$tmp/empty_first.frames" $front -n 1 -a 1 -l 0,9,0
 is hit_pixels "$(cell hit_pixels)" 0
 
 # Triangles: the square hides the pixels whose rays pass the plane within it, edges and the diagonal included; from one
-# side as from the other. Nothing is beside it: no ambient-occlusion ray meets anything.
+# side as from the other. Nothing is next to it: no ambient-occlusion ray hits anything.
 in_square=$(awk 'BEGIN {
     width = 63; height = 47; slope = sin(atan2(0, -1) / 8) / cos(atan2(0, -1) / 8)
     for (y = 0; y < height; y++) for (x = 0; x < width; x++) {
@@ -173,7 +173,7 @@ done
 for options in '-t 2' '-k 4' '-k 16' '--tile strip' '--loop flattened' '--cull off' '--no-mailbox' '-g 3,4,5' '-p robust' \
     '-p exact'; do
     run 0 frame "$tmp/square.frames" -c $camera -s 63x47 $options -o "$tmp/hits.bin"
-    cmp -s "$tmp/square.bin" "$tmp/hits.bin" || fail "other hits of triangles with $options"
+    cmp -s "$tmp/square.bin" "$tmp/hits.bin" || fail "different hits of triangles with $options"
 done
 run 0 frame "$tmp/square.frames" $front -p robust
 is config "$(cell config)" 'loose-grid,precision=robust'

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# What the tests of command lines share. To be read by a script with the arguments PROGRAM DATA_DIR [EMULATOR...]:
+# Shared by the tests of command lines. Sourced by a script with the arguments PROGRAM DATA_DIR [EMULATOR...]:
 #   . "$(dirname "$0")/cli.sh"
-# Sets program, data, emulator, tmp, a folder that goes with the script, and slow: "yes" where CGT_TEST_SCALE is below
+# Sets program, data, emulator, tmp, a folder removed with the script, and slow: "yes" where CGT_TEST_SCALE is below
 # 0.1, else nothing; there pictures are smaller and frames fewer.
 set -u
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")

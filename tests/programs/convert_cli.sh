@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The command line of cgt-convert: what it writes, what it refuses, and that a run that fails leaves nothing behind.
+# The command line of cgt-convert: what it writes, what it refuses, and that a failed run leaves nothing behind.
 #   convert_cli.sh CGT_CONVERT DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/cli.sh"
 out=$tmp/out # the folder that the program writes to
@@ -54,7 +54,7 @@ run 0 --first=1 --last=2 "$tmp/five.xyz" "$out/five.frames"
 says out '2 frames, 2 to 3 spheres'
 holds "$out/five.frames" $((24 + 4 * 2 + 16 * 5))
 
-# The radius, as bytes: 1.7 of carbon, and 0.25 as asked for.
+# The radius, as bytes: 1.7 of carbon, and 0.25 as requested.
 radius() { od -A n -t x1 -j 40 -N 4 "$1" | tr -d ' \n'; }
 run 0 --last=0 "$tmp/five.xyz" "$out/radius.frames"
 [ "$(radius "$out/radius.frames")" = 9a99d93f ] || fail "radius of carbon: $(radius "$out/radius.frames")"

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The command line of compare-embree, and scripts/compare_embree.sh: rows, hits beside the library's, errors.
+# The command line of compare-embree, and scripts/compare_embree.sh: rows, hits compared with the library's, errors.
 #   embree_cli.sh COMPARE_EMBREE CGT_BENCH [EMULATOR...]
 bench=$2
 tests=$(cd "$(dirname "$0")" && pwd)
@@ -24,7 +24,7 @@ others() {
 run 0 --help
 says out 'Usage: compare-embree'
 
-# The same columns as cgt-bench frame, the same hits but for some at silhouettes.
+# The same columns as cgt-bench frame, and the same hits except for a few at silhouettes.
 run 0 "$tmp/cloud.frames" $view -o "$tmp/embree.hits"
 is head "$(head -n 1 "$tmp/stdout")" "$(head -n 1 "$tmp/cloud.tsv")"
 is spheres "$(column config)" 'embree-low-builtin embree-medium-builtin embree-refit-builtin '\
@@ -42,7 +42,7 @@ run 0 "$tmp/blobs.frames" $view -R -o "$tmp/embree.hits"
 is triangles "$(column config)" 'embree-low,robust embree-medium,robust embree-refit,robust'
 [ "$(others "$tmp/embree.hits" "$tmp/blobs.hits")" -le 3 ] || fail 'Embree sees other triangles'
 
-# Shadow and ambient-occlusion rays are the same rays as the library's: as many meet nothing.
+# Shadow and ambient-occlusion rays are the same rays as the library's: equally many hit nothing.
 for ways in '-a 2' '-a 2 --nearest'; do
     "$bench" frame "$tmp/blobs.frames" $view -l 2,3,-2.5 $ways >"$tmp/lit.tsv" || fail 'no rays of the library'
     run 0 "$tmp/blobs.frames" $view -m low -l 2,3,-2.5 $ways

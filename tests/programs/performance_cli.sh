@@ -2,14 +2,14 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The command lines of cgt-bench scaling and floor: rows, columns, sums that can be worked out again, errors and exit
+# The command lines of cgt-bench scaling and floor: rows, columns, sums that can be recomputed, errors and exit
 # codes.
 #   performance_cli.sh CGT_BENCH DATA_DIR [EMULATOR...]
 . "$(dirname "$0")/table_cli.sh"
 
 camera='-c 0.7,0.5,-3.1,0.05,-0.02,0,0.1,1,0.05,46'
 
-# comments: what stands behind "# " in $tmp/stdout, as a table of its own
+# comments: the text after "# " in $tmp/stdout, as a table of its own
 comments() {
     sed -n 's/^# //p' "$tmp/stdout" | awk -F '\t' 'NF > 1' >"$tmp/comments"
     mv "$tmp/comments" "$tmp/stdout"

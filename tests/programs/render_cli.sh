@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# The command line of cgt-render: pictures, their contents where tools to read them are there, errors, exit codes.
+# The command line of cgt-render: pictures, their contents where tools to read them exist, errors, exit codes.
 #   render_cli.sh CGT_RENDER WITHOUT_IMAGES DATA_DIR [EMULATOR...]
 # WITHOUT_IMAGES is the same program without the image library, whose start takes 0.3 s: errors are tested with it.
 render=$1
@@ -24,8 +24,8 @@ refuses() {
     program=$render
     says err "$refused_text"
     says err 'cgt-render: '
-    [ ! -s "$tmp/stdout" ] || fail "output beside an error: cgt-render $*"
-    [ -z "$(ls "$tmp/no" 2>/dev/null)" ] || fail "pictures beside an error: cgt-render $*"
+    [ ! -s "$tmp/stdout" ] || fail "output in addition to an error: cgt-render $*"
+    [ -z "$(ls "$tmp/no" 2>/dev/null)" ] || fail "pictures in addition to an error: cgt-render $*"
 }
 
 # is_png FILE: begins and ends as a PNG does.
@@ -45,7 +45,7 @@ no_parts() {
 
 # ---- Inputs ---------------------------------------------------------------------------------------------------------
 
-# A sphere of radius 1 at the origin beside one that moves.
+# A sphere of radius 1 at the origin next to one that moves.
 for i in 0 1 2 3 4 5; do
     printf '2\nframe %s\nC 0 0 0\nO %s 2 0\n' $i $i
 done >"$tmp/small.xyz"
@@ -216,7 +216,7 @@ run 0 -s 64x36 -c $camera -k speed --range 0,1 -o every/%d.png small.xyz
 cmp -s "$tmp/speed/0.png" "$tmp/every/3.png" || fail "the speeds of a chosen frame are others"
 cmp -s "$tmp/every/0.png" "$tmp/all/0.png" && fail "speeds and types have the same colours"
 
-# Nothing to see is something to render; what cannot be drawn is counted; odd shapes and the smallest picture.
+# Empty frames are rendered; what cannot be drawn is counted; odd aspect ratios and the smallest picture.
 run 0 -s 64x36 -o nothing/%d.png nothing.xyz
 count nothing 2
 cmp -s "$tmp/nothing/0.png" "$tmp/nothing/1.png" || fail "two empty frames differ"
@@ -258,7 +258,7 @@ run 0 -s 64x36 -o high/%d.png -k height --up y small.xyz
 # Both sides look alike; the normals of vertices bend the light, where the build reads meshes.
 run 0 -s 65x65 -o front.png --last 0 -c 0,0,5,0,0,0,0,1,0,45 square.frames
 run 0 -s 65x65 -o back.png --last 0 -c 0,0,-5,0,0,0,0,1,0,45 square.frames
-cmp -s "$tmp/front.png" "$tmp/back.png" || fail "the back of a square is not as its front"
+cmp -s "$tmp/front.png" "$tmp/back.png" || fail "the back of a square differs from its front"
 if (cd "$tmp" && $emulator "$program" -q -s 65x65 -o flat.png -c 0,0,5,0,0,0,0,1,0,45 flat.obj) >/dev/null 2>"$tmp/stderr"
 then
     cmp -s "$tmp/front.png" "$tmp/flat.png" || fail "the mesh and the .frames of one square differ"

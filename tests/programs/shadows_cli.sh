@@ -12,7 +12,7 @@ says out '^[0-9]* of [0-9]* points do not see the lamp$'
 [ "$(wc -c <"$tmp/shadows.ppm")" -eq $((15 + 640 * 384 * 3)) ] || fail 'the size of the picture'
 
 # The floor is grey, balls are not. Under the lamp's ray through a ball's centre the floor has the light that is
-# everywhere; at places that no ball hides from the lamp, that of the lamp too; beside the floor there is nothing.
+# everywhere; at points that no ball hides from the lamp, that of the lamp too; off the floor there is nothing.
 od -A n -v -t u1 -w3 -j 15 "$tmp/shadows.ppm" | awk '
 function level(light) { return 255 * sqrt(light) }
 function pixel_of(x, y, z,   d, v, n) { # seen from (0, 4, 8) towards the origin; 38 degrees
@@ -43,7 +43,7 @@ END {
         shadows++
     }
     lit(3, 2.5); lit(-3.5, 3); lit(4, -3); lit(-4, -4)
-    is("beside the floor", 0, 0.05 * 0.9)
+    is("off the floor", 0, 0.05 * 0.9)
     if (shadows < 14) { print shadows + 0 " shadows to be seen"; wrong++ }
     exit wrong != 0
 }' >"$tmp/wrong" || fail "$(cat "$tmp/wrong")"

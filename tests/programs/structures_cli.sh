@@ -31,7 +31,7 @@ done
 # ---- Rays -----------------------------------------------------------------------------------------------------------
 
 # All structures, kinds, orders and queries find the same hits, or the exit code would tell: as many in any order, by
-# calls of any size, and to any hit as to the nearest.
+# calls of any size, and for any hit as for the closest.
 for scene in cloud blobs; do
     [ $scene = cloud ] && of_scene=$of_cloud || of_scene=$of_blobs
     run 0 structures "$tmp/$scene.frames" -s $size -S $of_scene -O camera,tile -O shuffled -Q nearest,any -B $batches \
@@ -113,7 +113,7 @@ queue-grid,variant=portable queue-grid,variant=portable,loop=flattened"
 run 0 structures "$tmp/cloud.frames" $small -S loose-grid -k 8 --variant portable --traversals
 is 'packets of a size' "$(column config)" 'loose-grid,variant=portable,packet=8'
 
-# All layouts by both builders: one tree per builder, whatever the layout. All structures have room.
+# All layouts by both builders: one tree per builder in every layout. All structures fit.
 run 0 structures "$tmp/blobs.frames" -s 16x9 -K frame -r 1 --layouts --traversals
 is 'rows of all layouts' "$(sed 1d "$tmp/stdout" | grep -c '^kd,')" 12
 is 'rows of all' "$(sed 1d "$tmp/stdout" | wc -l | tr -d ' ')" $((2 + 2 + 12 + 12 + 1 + 2))
@@ -154,7 +154,7 @@ holds 'a memory of one block' 'c["memory_bytes"] != c["block_bytes"] || c["memor
 for structure in kd kd-ropes queue-grid loose-grid; do
     run 0 frame "$tmp/cloud.frames" $camera -s 40x22 -a 1 -S $structure -o "$tmp/$structure.hits"
     says out "^$structure	"
-    cmp -s "$tmp/$structure.hits" "$tmp/kd.hits" || fail "$structure: other hits than kd"
+    cmp -s "$tmp/$structure.hits" "$tmp/kd.hits" || fail "$structure: different hits than kd"
 done
 run 0 frame "$tmp/cloud.frames" $camera -s 40x22 -S kd --kd-builder sweep --kd-layout breadth-first \
     --kd-traversal single

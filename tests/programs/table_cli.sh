@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# What the tests of command lines share where the program is cgt-bench and its output is a table. To be read as cli.sh,
-# which it reads itself.
+# Shared by the tests of cgt-bench's command lines, whose output is a table. Sourced like cli.sh, which it sources
+# itself.
 . "$(dirname "$0")/cli.sh"
 
 is() {
@@ -16,7 +16,7 @@ refuses() {
     shift 2
     run "$refused_code" "$@"
     says err "$refused_text"
-    [ ! -s "$tmp/stdout" ] || fail "output beside an error: cgt-bench $*"
+    [ ! -s "$tmp/stdout" ] || fail "output in addition to an error: cgt-bench $*"
 }
 
 # holds NAME CONDITION: every row of the table in $tmp/stdout meets an awk condition on its columns, c["name"].

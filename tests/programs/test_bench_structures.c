@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Parts of cgt-bench structures: the memories that count transfers, against plain implementations; the walk through a tree
- * that can be followed by hand; and the comparison, which must find every bit that differs. */
+ * Parts of cgt-bench structures: the memories that count transfers, against plain implementations; the walk through a
+ * kd-tree small enough to follow by hand; and the comparison, which must find every differing bit. */
 #include "support/test.h"
 
 #include <math.h>
@@ -116,7 +116,7 @@ static const cache_count *find_count(const cache_set *set, cache_kind kind, uint
     return NULL;
 }
 
-/* By hand: windows of 16 nodes, from the pair of the node that was missing; the end of the tree cuts one short. */
+/* By hand: windows of 16 nodes, starting at the pair of the missing node; the end of the tree truncates one. */
 static void test_windows(void **state)
 {
     (void)state;
@@ -176,7 +176,7 @@ static void test_walk(void **state)
     /* the hit lies in the lower half, at its plane, or behind it */
     expect_path(&tree, (const float[]){-1, 3, 1}, (const float[]){1, 0, 0}, 2.5, (const uint32_t[]){0, 2}, 2);
     expect_path(&tree, (const float[]){-1, 3, 1}, (const float[]){1, 0, 0}, 4, (const uint32_t[]){0, 2, 3, 5}, 4);
-    /* up through the upper half; from a point in it, away from the others */
+    /* up through the upper half; from a point in it, away from the other leaves */
     expect_path(&tree, (const float[]){3, 0, 1}, (const float[]){0, 1, 0}, INFINITY, (const uint32_t[]){0, 3, 4, 5}, 4);
     expect_path(&tree, (const float[]){3, 2, 1}, (const float[]){1, 1, 0}, INFINITY, (const uint32_t[]){0, 3, 5}, 3);
     /* past the box */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the programs read from their command lines: numbers, sizes, cameras. */
+ * The programs' command-line parsers: numbers, sizes, cameras. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What moves in cgt-render: the speeds of spheres, found by their ids, and the camera. */
+ * Motion in cgt-render: the speeds of spheres, found by their ids, and the camera. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -76,7 +76,7 @@ static void speeds_go_the_short_way_round_the_box(void **state)
     take(&s, 0, 1, first, id, 10.0f);
     take(&s, 1, 1, then, id, 10.0f);
     assert_near(s.speeds[0], sqrt(0.5), 1e-6);
-    take(&s, 2, 1, first, id, 0.0f); /* no box: the long way */
+    take(&s, 2, 1, first, id, 0.0f); /* no box: the unwrapped distance */
     assert_near(s.speeds[0], sqrt(2.0 * 9.5 * 9.5), 1e-5);
     speed_release(s.tracker);
 }
@@ -93,7 +93,7 @@ static void speeds_without_ids_keep_places(void **state)
     assert_near(s.speeds[1], 0.0, 0.0);
     assert_true(isnan(s.speeds[2]));
     take(&s, 3, 2, a, NULL, 0.0f);
-    assert_true(isnan(s.speeds[0])); /* fewer: nobody can tell which */
+    assert_true(isnan(s.speeds[0])); /* fewer: their identity is unknown */
     take(&s, 4, 2, a, id, 0.0f);
     assert_true(isnan(s.speeds[0])); /* ids from here on say nothing of the frame before */
     speed_release(s.tracker);
@@ -112,7 +112,7 @@ static void speeds_take_velocities(void **state)
     speed_release(s.tracker);
 }
 
-/* Vertices keep their positions, whatever the ids of the triangles. */
+/* Vertices keep their positions for any ids of the triangles. */
 static void speeds_of_vertices(void **state)
 {
     const float a[6] = {0, 0, 0, 1, 1, 1}, b[6] = {3, 4, 0, 1, 1, 1};
@@ -137,7 +137,7 @@ static void speeds_of_vertices(void **state)
     speed_release(s.tracker);
 }
 
-/* Many ids in another order each frame: every one is found, by the distance that only it has moved. */
+/* Many ids in another order each frame: each is found, identified by the distance that only it moves. */
 static void speeds_of_many_shuffled_ids(void **state)
 {
     enum { COUNT = 5000 };
@@ -191,7 +191,7 @@ static void quantiles_are_close(void **state)
 
 /* ---- Cameras ------------------------------------------------------------------------------------------------ */
 
-/* Where a point is in the picture: -1 to 1 each way. */
+/* The position of a point in the picture: -1 to 1 each way. */
 static void project(const cgt_camera *camera, const double point[3], double aspect, double at[2])
 {
     double f[3], r[3], u[3], d[3], length = 0.0, depth = 0.0;
@@ -219,7 +219,8 @@ static void project(const cgt_camera *camera, const double point[3], double aspe
     at[1] = (d[0] * u[0] + d[1] * u[1] + d[2] * u[2]) / (depth * h);
 }
 
-/* All corners are inside, and at some place of the orbit one is near the edge: the box is whole, and not tiny. */
+/* All corners are inside, and at one position of the orbit a corner is near the edge: the box is entirely visible, and
+ * not tiny. */
 static void check_framing(const float min[3], const float max[3], const float up[3], double aspect, double orbit)
 {
     const float view[3] = {0.4f, -0.9f, 0.5f};
@@ -263,7 +264,7 @@ static void automatic_cameras_of_odd_boxes(void **state)
     camera_path path;
     (void)state;
     assert_int_equal(camera_path_frame(&path, point, point, view, up, 30.0f, 1.0, 0.0), 0);
-    assert_true(path.start.eye[0] > path.start.target[0]); /* a point has no size, and still can be looked at */
+    assert_true(path.start.eye[0] > path.start.target[0]); /* a point has no size, but a camera can still look at it */
     assert_int_equal(camera_path_frame(&path, zero, zero, view, up, 30.0f, 1.0, 0.0), 0);
     assert_int_equal(camera_path_frame(&path, zero, huge, view, up, 30.0f, 1.0, 0.0), -1);
     assert_int_equal(camera_path_frame(&path, zero, inverse, view, up, 30.0f, 1.0, 0.0), -1);

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The parts that cgt-render is made of: colours, names, contact sheets, progress. */
+ * Parts of cgt-render: colours, names, contact sheets, progress. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdarg.h>
 #include <stddef.h>
@@ -47,7 +47,7 @@ static void srgb_tables_follow_the_curve(void **state)
     (void)state;
     srgb_tables_init(&tables);
     for (int i = 0; i < 256; i++)
-        assert_int_equal(srgb_encode(&tables, tables.decode[i]), i); /* every code survives the way there and back */
+        assert_int_equal(srgb_encode(&tables, tables.decode[i]), i); /* every code survives the round trip */
     for (int i = -10; i <= 100010; i++) {
         const float x = (float)i / 100000.0f;
         assert_near(srgb_encode(&tables, x), srgb_from_linear(x) * 255.0f, 1.0);
@@ -286,7 +286,7 @@ static void sheets_refuse_nonsense(void **state)
     contact_sheet_release(thin);
 }
 
-/* Columns of black and white in turn: scaled down to a mean of light, which is not the mean of codes. */
+/* Alternating columns of black and white: scaled down to the mean of light, which is not the mean of codes. */
 static void sheets_scale_in_linear_light(void **state)
 {
     enum { W = 642, H = 10 };
@@ -299,7 +299,7 @@ static void sheets_scale_in_linear_light(void **state)
     contact_sheet *sheet = contact_sheet_create(1, 1, 1, W, H);
     assert_non_null(sheet);
     contact_sheet_add(sheet, 0, 0, &rgb[0][0][0]);
-    contact_sheet_add(sheet, 1, 1, &rgb[0][0][0]); /* not on the sheet: ignored */
+    contact_sheet_add(sheet, 1, 1, &rgb[0][0][0]); /* not on the sheet: skipped */
     const uint8_t *pixels = contact_sheet_pixels(sheet, &width, &height);
     assert_int_equal(width, 320 + 16);
     assert_near(pixels[((size_t)10 * width + 8 + 160) * 3], 188, 1); /* half the light, in sRGB */

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * How cgt-render shades: tiles made by hand, and the light and colours that their pixels must have. */
+ * Shading in cgt-render: tiles made by hand, and the light and colours that their pixels must have. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -83,7 +83,7 @@ static void shading_lights_what_faces_it(void **state)
     hit(&c, 1, 1, 2.0f, 0.8f, 0.6f);
     hit(&c, 2, 1, 2.0f, 1.0f, 0.0f);
     hit(&c, 3, 0, 2.0f, 0.0f, 1.0f);
-    hit(&c, 5, 1, 2.0f, 0.0f, -1.0f); /* from inside: the headlight alone reaches it */
+    hit(&c, 5, 1, 2.0f, 0.0f, -1.0f); /* from inside: only the headlight reaches it */
     assert_int_equal(shade_tile(&c.job, &c.tile), 0);
     assert_int_equal(atomic_load(&c.job.hits), 5);
     assert_true(c.pixels[5].r > c.pixels[2].r && c.pixels[5].r < c.pixels[1].r);
@@ -99,7 +99,7 @@ static void shading_lights_what_faces_it(void **state)
     assert_near(c.rgb[0], srgb_from_linear(c.pixels[0].r) * 255.0f, 1.0);
 }
 
-/* Both sides of a triangle are lit alike, by the normals of its vertices where there are some. */
+/* Both sides of a triangle are lit alike, by the normals of its vertices if it has them. */
 static void shading_of_triangles(void **state)
 {
     static const uint32_t vertices[6] = {0, 1, 2, 0, 1, 3};
@@ -136,7 +136,7 @@ static void shading_of_triangles(void **state)
     assert_near(c.pixels[4].r, flat, 1e-6);
 }
 
-/* Colours of vertices are mixed along the palette; one that is not known stays so. */
+/* Colours of vertices are interpolated along the palette; an unknown one stays unknown. */
 static void shading_mixes_colours(void **state)
 {
     static const uint32_t vertices[3] = {0, 1, 2};

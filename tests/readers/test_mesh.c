@@ -348,10 +348,10 @@ static void cannot_be_opened(void **state)
     const char *path = scratch_path(".obj");
     assert_int_equal(unlink(path), 0);
     assert_int_equal(mkfifo(path, 0600), 0);
-    const int both = open(path, O_RDWR); /* so that opening does not block */
-    assert_true(both >= 0);
+    const int pipe_end = open(path, O_RDWR); /* so that opening does not block */
+    assert_true(pipe_end >= 0);
     scratch_expect_error(path, NULL, 0, "has to be a regular file");
-    assert_int_equal(close(both), 0);
+    assert_int_equal(close(pipe_end), 0);
 }
 
 int main(void)

@@ -20,8 +20,8 @@
 /* ---- The file ----------------------------------------------------------------------------------------------- */
 
 /* Mesh 0, a triangle in z = 0, is instanced by two nodes below a parent at (10, 0, 0) that scales x by 2: `turned`
- * rotates it by 90 degrees about x, `mirrored` has scale (-1, 1, 1). Mesh 1 is a strip along y on two bones: `hips`, and `tip` one
- * unit above it; its node stands at z = 7.
+ * rotates it by 90 degrees about x, `mirrored` has scale (-1, 1, 1). Mesh 1 is a strip along y on two bones: `hips`,
+ * and `tip` one unit above it; its node stands at z = 7.
  *   clip "bend"   0 to 2 s: hips move from 0 to 4 along x in 2 s; tip rotates by 90 degrees about z in the first second
  *   clip "still"  one key at 0 s: mirrored has scale (-3, 3, 3) */
 static const char gltf_scene[] =
@@ -333,7 +333,7 @@ static void files_that_assimp_does_not_survive(void **state)
 
 /* ---- Characters ---------------------------------------------------------------------------------------------- */
 
-/* A walking character stays in one piece: no edge of its surface grows by more than a third. */
+/* A walking character stays in one piece: no edge of its surface is ever longer than a third of it. */
 static void characters_stay_in_one_piece(void **state)
 {
     (void)state;

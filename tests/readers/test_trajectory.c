@@ -431,12 +431,12 @@ static void pipes_are_read_once(void **state)
     const char *path = scratch_path(DUMP);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(mkfifo(path, 0600), 0);
-    const int both = open(path, O_RDWR); /* opened for reading and writing, so that neither side blocks */
-    assert_true(both >= 0);
+    const int pipe_end = open(path, O_RDWR); /* opened for reading and writing, so that neither side blocks */
+    assert_true(pipe_end >= 0);
     const char *text = HEAD("0", "1") ROWS "1 1 2 3\n" HEAD("1", "1") ROWS "1 4 5 6\n";
-    assert_int_equal(write(both, text, strlen(text)), strlen(text));
+    assert_int_equal(write(pipe_end, text, strlen(text)), strlen(text));
     trajectory *t = scratch_open(path, NULL);
-    assert_int_equal(close(both), 0);
+    assert_int_equal(close(pipe_end), 0);
     trajectory_frame f = scratch_read(t);
     scratch_expect_sphere(&f, 0, 1, 2, 3, 0.5f);
     assert_true(trajectory_progress(t) < 0);

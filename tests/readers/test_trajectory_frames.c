@@ -192,11 +192,11 @@ static void pipes_are_read(void **state)
         const char *path = scratch_path(FRAMES);
         assert_int_equal(unlink(path), 0);
         assert_int_equal(mkfifo(path, 0600), 0);
-        const int both = open(path, O_RDWR);
-        assert_true(both >= 0);
-        assert_int_equal(write(both, bytes, sizeof bytes), sizeof bytes);
+        const int pipe_end = open(path, O_RDWR);
+        assert_true(pipe_end >= 0);
+        assert_int_equal(write(pipe_end, bytes, sizeof bytes), sizeof bytes);
         trajectory *t = scratch_open(path, NULL);
-        assert_int_equal(close(both), 0);
+        assert_int_equal(close(pipe_end), 0);
         assert_int_equal(scratch_read(t).count, 0);
         if (damage) {
             char error[1024] = "";

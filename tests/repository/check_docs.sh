@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # check_docs.sh SOURCE_DIR
-# What the texts refer to exists: the targets of links, their headings, and source files named in `backticks`, by path
-# from the root or by name alone. Files that an instruction tells to create are excepted below.
+# Everything that the texts refer to exists: the targets of links, their headings, and source files named in
+# `backticks`, by path from the root or by name alone. Files that an instruction tells to create are excepted below.
 set -eu
 cd "$1"
 work=$(mktemp -d)

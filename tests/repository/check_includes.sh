@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: MIT
 #
 # check_includes.sh SOURCE_DIR
-# Who may include whom: include <- simd <- src <- backends. Programs see the public API and each other's common parts;
-# cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests, and compare-embree beside it
-# sees Embree; tests see all. The library includes nothing of others but C and POSIX. Within src, a table says which
-# folders a folder may include; no two include each other.
+# Allowed includes between folders: include <- simd <- src <- backends. Programs see the public API and each other's
+# common parts; cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests;
+# compare-embree also sees Embree; tests see all. The library includes only C and POSIX headers from outside. Within
+# src, a table lists the folders that a folder may include; no two include each other.
 set -eu
 cd "$1"
 bad=$(mktemp)
@@ -71,7 +71,7 @@ check examples "examples" \
 check bench "bench src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
-# The layers of src, the calls first: each folder with the folders that it may include besides its own.
+# The layers of src, the calls first: each folder, and the other folders that it may include.
 layers='
 trace: builders/bvh core dispatch query scene
 builders: core dispatch model scene
@@ -137,7 +137,7 @@ find src -name '*.[ch]' | LC_ALL=C sort | xargs awk -v layers="$layers" '
         }
     }' >>"$bad"
 
-# What names an instruction set is in simd alone.
+# Only simd names an instruction set.
 grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends examples bench \
     --include='*.[ch]' | sed 's/$/  <- an intrinsic outside simd/' >>"$bad" || true
 

@@ -6,10 +6,10 @@
 # The list has a line for each object: the row of the variant table that it belongs to, or "common", then its path.
 #   1. every symbol that the static library offers begins with cgt_
 #   2. the shared library exports exactly what the public headers declare
-#   3. the library has no variable that can change: there is no global state
-#   4. an object of a row offers names of its own row alone, and nothing that a linker may merge with another's (weak,
-#      common, COMDAT): else a CPU could meet an inline function that was compiled for a wider one
-#   5. x86-64: no instruction in a row's objects that its flags do not ask for
+#   3. the library has no mutable variable: there is no global state
+#   4. an object of a row defines names of its own row only, and nothing that a linker may merge with another object's
+#      (weak, common, COMDAT): else a CPU could meet an inline function that was compiled for a wider one
+#   5. x86-64: no instruction in a row's objects that its flags do not enable
 set -eu
 source=$1 static=$2 shared=$3 nm=$4 objdump=$5 objects=$6 cflags=${7#cflags=}
 work=$(mktemp -d)

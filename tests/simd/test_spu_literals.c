@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The words whose result depends on the order of elements, bytes or bits, and the ends of the conversions, on literal
- * operands. The results are worked out by hand from the definition of the SPU's instruction, which stands beside each,
- * so that this text and no second program is the witness. */
+ * operands. The results are worked out by hand from the definition of the SPU's instruction, given next to each, so
+ * that this text and no second program is the witness. */
 #include "support/test.h"
 
 #include <math.h>
@@ -13,14 +13,14 @@
 
 #include "simd/spu_quad.h"
 
-/* The value of a word must be the literal in braces. The literal lies in memory and, beside the word, among the values
+/* The value of a word must be the literal in braces. The literal is in memory and, next to the word, among the values
  * that the compiler handles: one that is wrong about what a word gives may take the word's register for it. */
 #define EXPECT(token, type, text, call, ...)                                                                           \
     do {                                                                                                               \
         static const type expected_ = __VA_ARGS__;                                                                     \
-        const type got_ = (call), beside_ = __VA_ARGS__;                                                               \
+        const type got_ = (call), adjacent_ = __VA_ARGS__;                                                             \
         check_literal(text, SPU_##token, &got_, &expected_);                                                           \
-        check_literal("the literal beside " text, SPU_##token, &beside_, &expected_);                                  \
+        check_literal("the literal next to " text, SPU_##token, &adjacent_, &expected_);                               \
     } while (0)
 #define EXPECT_U8(call, ...) EXPECT(u8, vec_uchar16, #call, call, __VA_ARGS__)
 #define EXPECT_U16(call, ...) EXPECT(u16, vec_ushort8, #call, call, __VA_ARGS__)
@@ -373,7 +373,7 @@ static void fused_is_what_the_mapping_says(void **state)
     EXPECT_F64(spu_nmadd(b, b, spu_splats(-0x1.0000000000002p0)), {-FUSED_REST_DOUBLE, -FUSED_REST_DOUBLE});
 }
 
-/* ---- scalars as SPU code writes them: plain int constants, whatever the element ---- */
+/* ---- scalars as SPU code writes them: plain int constants for any element ---- */
 
 static void plain_constants_are_scalars(void **state)
 {

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The words of vector.h that touch memory, for the variant that this is compiled for, beside pages that cannot be
+ * The words of vector.h that touch memory, for the variant that this is compiled for, next to pages that cannot be
  * touched; and those that move records and matrices. */
 #define _GNU_SOURCE
 #include "support/lanes.h"

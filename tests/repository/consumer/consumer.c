@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What a user's first program may look like: one sphere, one ray, one hit. Nothing but the public header. */
+ * A user's first program: one sphere, one ray, one hit. Only the public header. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@ static int cast(cgt_scene *scene)
 {
     const float center[3] = {0.f, 0.f, 0.f};
     const cgt_spheres spheres = {.count = 1, .centers = center, .radius = 1.f};
-    const float org[3][2] = {{0.f, 3.f}, {0.f, 0.f}, {5.f, 5.f}}; /* two rays along -z, the second beside the sphere */
+    const float org[3][2] = {{0.f, 3.f}, {0.f, 0.f}, {5.f, 5.f}}; /* two rays along -z, the second misses the sphere */
     const float dir[3][2] = {{0.f, 0.f}, {0.f, 0.f}, {-1.f, -1.f}};
     const cgt_rays rays = {.count = 2, .org = {org[0], org[1], org[2]}, .dir = {dir[0], dir[1], dir[2]}};
     float t[2] = {0.f, 0.f};

@@ -28,7 +28,7 @@ count=0
 for header in "$prefix"/include/cgt/*.h; do
     name=cgt/${header##*/}
     case $name in
-    # of one machine, and parts of others: spu_intrinsics.h includes what fits
+    # machine-specific or partial headers: spu_intrinsics.h includes the right ones
     cgt/spu_sse.h|cgt/spu_neon.h|cgt/spu_avx*|cgt/spu_wide_*|cgt/spu_portable_*|cgt/spu_exact_*) continue ;;
     esac
     printf '#include <%s>\n#include <%s>\nextern int cgt_header_alone;\n' "$name" "$name" >"$work/alone.c"

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A program as one writes it for an SPU: nothing here is ours but the header behind the name. It compiles with an SPU's
- * own compiler as it stands. */
+ * A program as written for an SPU: of the library it uses only the header behind the name. It compiles unchanged with
+ * an SPU's own compiler. */
 #include <spu_intrinsics.h>
 #include <stdio.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the parts of test_spu_arithmetic share: the exact words as a table beside the integer model, operands, and the
- * truth in arithmetic that neither of them uses. Numbers are bits, uint32_t, throughout. */
+ * Shared by the parts of test_spu_arithmetic: a table of the exact words and their integer model, operands, and a
+ * reference in arithmetic that neither of them uses. Numbers are bits, uint32_t, throughout. */
 #ifndef SPU_ARITHMETIC_H
 #define SPU_ARITHMETIC_H
 

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The SPU's estimates for all 2^23 fractions: the words against the model, and what the architecture promises of the
- * estimate and of one step of Newton-Raphson after it. At a scale below 1 some of the fractions are left out. */
+ * The SPU's estimates for all 2^23 fractions: the words against the model, and the architecture's guarantees for the
+ * estimate and for one step of Newton-Raphson after it. A scale below 1 skips fractions. */
 #include "simd/arithmetic/spu_arithmetic.h"
 
 #include <math.h>
@@ -139,7 +139,7 @@ void root_after_one_step(void **state)
         for (uint32_t exponent = 127; exponent < 129; exponent++) {
             const uint32_t bits = exponent << 23 | fraction, got = reciprocal_root(bits);
             const uint64_t x = (UINT64_C(0x800000) | fraction) << (exponent - 127);
-            uint64_t y = (uint64_t)(0x1p24 / sqrt(true_value(bits))); /* the double is near enough to start from */
+            uint64_t y = (uint64_t)(0x1p24 / sqrt(true_value(bits))); /* the double is close enough to start from */
             while (is_below_root(x, y + 1))
                 y++;
             while (!is_below_root(x, y))

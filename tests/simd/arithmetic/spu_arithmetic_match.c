@@ -16,8 +16,8 @@ static void check_batch(batch *x)
 {
     static const word2 *const two[] = {&add, &sub, &mul, &cmpgt, &cmpeq, &cmpabsgt, &cmpabseq};
     static const word3 *const three[] = {&madd, &msub, &nmsub};
-    const uint32_t vectors = (x->numbers + 3) / 4; /* the rest of the last one is of an earlier batch, or zero */
-    x->numbers = 0;                                /* now: a failing check does not come back */
+    const uint32_t vectors = (x->numbers + 3) / 4; /* the rest of the last vector is from an earlier batch, or zero */
+    x->numbers = 0;                                /* now: a failing check does not return */
     for (size_t i = 0; i < TEST_COUNT(two); i++)
         check2(two[i], x->a, x->b, vectors);
     for (size_t i = 0; i < TEST_COUNT(three); i++)

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Operands for the test of the SPU's arithmetic: where its format ends, and random ones that cancel, underflow and
+ * Operands for the test of the SPU's arithmetic: the limits of its format, and random ones that cancel, underflow and
  * overflow far more often than random bits do. */
 #include "simd/arithmetic/spu_arithmetic.h"
 
@@ -52,7 +52,7 @@ static void product_of_exponent(test_random *r, int exponent, uint32_t bits[3])
     bits[1] = number(r, sum - ea);
 }
 
-/* some units in the last place up or down, mostly none */
+/* a few units in the last place up or down, mostly none */
 static uint32_t near(test_random *r, uint32_t a) { return random_below(r, 2) ? a : a + random_below(r, 5) - 2; }
 
 void random_operands(test_random *r, uint32_t bits[3])

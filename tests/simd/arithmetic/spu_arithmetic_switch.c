@@ -8,7 +8,7 @@
 #include <fenv.h>
 #include <string.h>
 
-/* not a part of its caller in any way */
+/* never inlined into its caller */
 #if defined(__clang__)
 #define APART static __attribute__((noinline))
 #else
@@ -29,7 +29,7 @@ static void expect_all(const char *what, vec_uint4 got, uint32_t expected)
             fail_msg("%s: %08x, expected %08x", what, got[i], expected);
 }
 
-/* The words see literals, not values that a function got; and they are those of the door, for all the world to use. */
+/* The words get literals, not parameters of a function; they are the public header's words. */
 #define F(x) spu_splats(x)
 #define B(f) bits_of(f)
 
@@ -81,8 +81,8 @@ APART vec_float4 product_elsewhere(vec_float4 a, vec_float4 b) { return cgt_spu_
 #define TRUNCATED 0x3e999999u
 #define ROUNDED 0x3e99999au
 
-/* The same product before, between and after: it may be computed once for none of them, nor moved. Outside of the mode
- * the fast forms round, which shows where an operation was done; the portable form has no mode. */
+/* The same product before, between and after: it may be computed once for none of them, nor moved. Outside the mode the
+ * fast forms round, which shows where an operation was performed; the portable form has no mode. */
 void operations_stay_on_their_side_of_the_switch(void **state)
 {
     (void)state;
@@ -118,8 +118,8 @@ void operations_stay_on_their_side_of_the_switch(void **state)
     expect_all("sum", (vec_uint4)sum, expected);
 }
 
-/* What the host makes of a rounded product and of a denormal one. Plain arithmetic, which the compiler may move across
- * the switch: so it is a function apart. */
+/* The host's results for a rounded product and a denormal one. Plain arithmetic, which the compiler may move across the
+ * switch: hence a separate function. */
 APART uint64_t host_products(void)
 {
     volatile float tenth = 0.1f, three = 3.f, tiny = 0x1p-140f;

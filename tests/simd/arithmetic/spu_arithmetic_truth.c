@@ -1,9 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The truth that the SPU's model is measured by. Sums and fused operations: fixed point with room for every product of
- * two numbers and every sum with a third, so that nothing is aligned, rounded or lost. All else: doubles, where they
- * are exact. */
+ * The reference for the SPU's model. Sums and fused operations: fixed point with room for every product of two numbers
+ * and every sum with a third, so that nothing is aligned, rounded or lost. All else: doubles, where they are exact. */
 #include "simd/arithmetic/spu_arithmetic.h"
 
 #include <math.h>

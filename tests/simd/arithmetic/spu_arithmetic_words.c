@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The exact words as functions of bits, and how they are compared with the model. A word's results are collected in
- * the SPU's mode and looked at outside: a failing test jumps away, and the mode must not stay on. */
+ * The exact words as functions of bits, and their comparison with the model. A word's results are collected in the
+ * SPU's mode and checked outside it: a failing test jumps away, and the mode must not stay on. */
 #include "simd/arithmetic/spu_arithmetic.h"
 
 #define WORD1(name)                                                                                                    \

@@ -4,8 +4,8 @@
 #
 # spu_bad_use.sh SOURCE_DIR CC [own]
 # Wrong uses of the vocabulary (spu_bad_use/cases.txt) do not compile, and the message speaks of the word or of types;
-# the right use beside each compiles without a warning, so that it was the wrong type and no slip of the pen. Of the
-# machine's own mapping and of the portable one; own: of that alone, which is what another machine has to add.
+# the right use next to each compiles without a warning, so the error is the wrong type and not a typo. Checks the
+# machine's own mapping and the portable one; own: only the former, which is all that another machine adds.
 set -eu
 source=$1 cc=$2 portable=-DCGT_SPU_PORTABLE least=100 # cases, of all mappings
 [ "${3:-}" != own ] || portable='' least=50

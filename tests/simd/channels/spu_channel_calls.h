@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Every constant and every function macro of spu_mfcio.h beside what it must be, by literal values: the numbers of the
- * Cell's channels and MFC commands as the SPU compiler's headers of GCC 9 define them. It includes nothing and uses the
- * names alone, so that the SPU's own compiler reads it, too. */
+ * Every constant and every function macro of spu_mfcio.h with its required result, in literal values: the numbers of
+ * the Cell's channels and MFC commands as the SPU compiler's headers of GCC 9 define them. It includes nothing and uses
+ * only the names, so that the SPU's own compiler reads it too. */
 #ifndef SPU_CHANNEL_CALLS_H
 #define SPU_CHANNEL_CALLS_H
 
@@ -82,8 +82,8 @@
     X(s0, mfc_read_tag_status_immediate(), 0u) X(s1, mfc_read_tag_status_any(), 1u)                                    \
     X(s2, mfc_read_tag_status_all(), 2u) X(s3, spu_mfcstat(MFC_TAG_UPDATE_ALL), 2u) X(s4, spu_mfcstat(5), 5u)
 
-/* X(name, call, lsa, eah, eal, size, tag, command): one MFC command. The calls use LS, EA and LIST, which who includes
- * this defines: two local addresses, of which NONE is neither, and an effective address of 64 bits. */
+/* X(name, call, lsa, eah, eal, size, tag, command): one MFC command. The calls use LS, EA and LIST, which the including
+ * file defines: two local addresses, of which NONE is neither, and an effective address of 64 bits. */
 #define SPU_MFC_CALLS(X, LS, EA, LIST, NONE, EAH, EAL, LISTL)                                                          \
     X(d0, mfc_put(LS, EA, 128, 3, 1, 2), LS, EAH, EAL, 128, 3, 0x01020020)                                             \
     X(d1, mfc_putf(LS, EA, 16, 31, 0, 0), LS, EAH, EAL, 16, 31, 0x22)                                                  \

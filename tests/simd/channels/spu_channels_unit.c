@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A second source file of test_spu_channels: SPU code that finds the host which the first installed, and whose critical
+ * A second source file of test_spu_channels: SPU code that finds the host installed by the first, and whose critical
  * sections are safe from interrupts. */
 #define SPU_MFCIO_INTERRUPT_SAFE
 #include "spu_mfcio.h"

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The channel, control and DMA words against a host that records what reaches it, the tag manager against a plain list,
- * and what the words say where no host is. */
+ * and the words' messages without a host. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <pthread.h>
@@ -48,7 +48,7 @@ typedef struct recorder {
     unsigned count;
     cgt_spu_dma dma;
     unsigned dma_count;
-    uint32_t answer; /* what reads and counts give */
+    uint32_t answer; /* results of reads and counts */
     uint32_t quadword[4];
 } recorder;
 
@@ -158,7 +158,7 @@ static int stop_recording(void **state)
     return 0;
 }
 
-/* fails the test that called unless exactly these events were recorded */
+/* fails the calling test unless exactly these events were recorded */
 static void expect(const char *call, const event *events, unsigned count)
 {
     if (record.count != count)
@@ -282,7 +282,7 @@ static void expect_dma(const char *call, const volatile void *ls, const volatile
     record.dma_count = 0;
 }
 
-/* whole pointers, whatever their upper bits */
+/* whole pointers, for any upper bits */
 static void mfc_commands(void **state)
 {
     (void)state;
@@ -388,7 +388,7 @@ static void critical_sections(void **state)
 {
     (void)state;
     start(&full_host);
-    mfc_end_critical_section(mfc_begin_critical_section()); /* not asked to be safe: nothing */
+    mfc_end_critical_section(mfc_begin_critical_section()); /* not declared safe: nothing */
     assert_int_equal(record.count, 0);
     record.answer = 1; /* interrupts are on */
     unit_end_critical_section(unit_begin_critical_section());
@@ -715,7 +715,7 @@ static void control_words_fail_loudly(void **state)
     EXPECT_ABORT(spu_stop(1), "spu_stop(): this processor is no SPU");
     EXPECT_ABORT(spu_hcmpeq(1, 1), "spu_hcmpeq: the comparison holds");
     EXPECT_ABORT(spu_hcmpgt(2u, 1u), "spu_hcmpgt: the comparison holds");
-    spu_hcmpeq(1, 2); /* these do not hold */
+    spu_hcmpeq(1, 2); /* conditions that do not hold */
     spu_hcmpgt(1u, 1u);
     EXPECT_ABORT(unit_begin_critical_section(), "spu_readch(SPU_RdMachStat): this processor is no SPU");
 }
@@ -736,7 +736,7 @@ static void missing_members_fail_loudly(void **state)
     assert_int_equal(fpscr[0], 7);
     spu_mtfpscr(((vec_uint4){0, 0, 0, 0}));
 #if UINTPTR_MAX > 0xffffffff
-    /* no bit of an address is lost in silence */
+    /* no bit of an address is lost silently */
     start(&channel_host);
     volatile void *const high = (volatile void *)(UINTPTR_MAX - 0xffff);
     EXPECT_ABORT(mfc_get(high, 0, 16, 0, 0, 0), "mfc_get(MFC_LSA): the cgt_spu_host of this thread has no member dma, "

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * casts.awk turns vector casts into these, which do on any host what a cast does on an SPU. */
+ * casts.awk turns vector casts into these macros, which act on any host as a cast does on an SPU. */
 #ifndef CASTS_H
 #define CASTS_H
 

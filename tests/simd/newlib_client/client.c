@@ -120,7 +120,7 @@ static void run_in_mode(const client_function *function, size_t vectors)
     cgt_spu_leave_arithmetic(saved);
 }
 
-/* the error in ulp; infinite where the result is no number */
+/* the error in ulp; infinite if the result is not a number */
 static double error_in_ulp(long double truth, long double got, double floor, size_t element)
 {
     const int digits = element == 4 ? 24 : 53, lowest = element == 4 ? -125 : -1021;
@@ -184,7 +184,7 @@ static double bound_of(const client_function *function, size_t element)
 #endif
 }
 
-/* why a function is not held to its bound here, or NULL */
+/* the reason why a function is not held to its bound here, or NULL */
 static const char *left_out(const client_function *function)
 {
 #if __BYTE_ORDER__ != __ORDER_BIG_ENDIAN__ && !defined(CLIENT_CASTS_DONE)

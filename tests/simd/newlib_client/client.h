@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * newlib's math functions for the SPU, compiled by this machine's compiler against simd/spu_intrinsics.h, and how far
- * they may be from the truth. */
+ * newlib's math functions for the SPU, compiled by this machine's compiler against simd/spu_intrinsics.h, and the
+ * bounds of their errors. */
 #ifndef CLIENT_H
 #define CLIENT_H
 
@@ -24,13 +24,13 @@ typedef struct client_range {
     double low, high;
 } client_range;
 
-/* What one function must do on a range of operands. Errors count in ulp (units in the last place) of the larger of the
- * true value and `floor`, which is 0 but for functions that lose relative precision where they cross zero.
+/* The requirements on one function for a range of operands. Errors count in ulp (units in the last place) of the larger
+ * of the true value and `floor`, which is 0 except for functions that lose relative precision where they cross zero.
  *
- * The headers document few bounds in numbers. `says` has in quotation marks what a header does say; a bound that does
- * not follow from that is one and a half times the largest error met in eight builds, with 400,000 random operands a
- * function on x86-64 and fewer on AArch64 and big-endian POWER under emulation: wide enough for another seed, narrow
- * enough that a wrong element, sign, bit or rounding shows. */
+ * The headers document few bounds in numbers. `says` quotes what a header does say; a bound that does not follow from
+ * that is one and a half times the largest error met in eight builds, with 400,000 random operands a function on x86-64
+ * and fewer on AArch64 and big-endian POWER under emulation: wide enough for another seed, narrow enough that a wrong
+ * element, sign, bit or rounding shows. */
 typedef struct client_function {
     const char *name;
     client_run run;

@@ -30,7 +30,7 @@
 #define OF_X_N(name, value) FUNCTION(name, CLIENT_FLOATS, _##name(x[i], n[i]), value)
 #define MASK_OF_X(name, value) FUNCTION(name, CLIENT_MASKS, _##name(x[i]), value)
 
-/* What a row of the table begins with, and a function of one operand. */
+/* The beginning of a row of the table, and a function of one operand. */
 #define NAMED(text, name) text, run_##name, true_##name
 #define F(name) NAMED(#name, name)
 #define NO_Y                                                                                                           \

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * What the headers promise at single points. Floats are given as bits, as the SPU's know no infinities and no NaN.
+ * The headers' promises at single points. Floats are given as bits, as the SPU's know no infinities and no NaN.
  *
  * Promises that the sources do not keep on any machine are not here: acoshd2 of an infinity or NaN and atanhd2(1) go
  * through log2d2, which takes infinities and zero for ordinary numbers; tgammad2 compares x with the truncated |x| when
@@ -87,7 +87,7 @@ static __attribute__((noinline)) vec_uint4 call_float(float_function call, vec_u
     return got;
 }
 
-/* exponent 0 is zero, whatever the fraction: corrections by an ulp leave one there */
+/* exponent 0 is zero for any fraction: corrections by an ulp leave one there */
 static bool same_float(uint32_t got, uint32_t want)
 {
     return got == want || ((want & 0x7fffffff) == 0 && (got & 0xff800000) == want);
@@ -98,7 +98,7 @@ static unsigned check_floats(void)
     unsigned bad = 0;
     for (size_t i = 0; i < sizeof float_cases / sizeof float_cases[0]; i++) {
         const uint32_t x = float_cases[i].x, y = float_cases[i].y, want = float_cases[i].want;
-        /* the neighbours have other operands, so that a word that mixes elements shows */
+        /* the neighbours have other operands, so that a word that mixes elements is detected */
         const vec_uint4 got = call_float(float_cases[i].call, (vec_uint4){0x40a00000, x, 0x3f000000, x},
                                          (vec_uint4){0x3f800000, y, 0x40000000, y});
         if (!same_float(got[1], want) || !same_float(got[3], want)) {

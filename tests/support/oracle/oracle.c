@@ -46,7 +46,7 @@ static nearest find_nearest(const oracle_scene *scene, const truth_ray *ray, con
     nearest best = {.index = ORACLE_NONE}, other;
     double margin[ORACLE_BLOCK];
     for (uint32_t first = 0; first < scene->count; first += ORACLE_BLOCK) {
-        const uint32_t left = scene->count - first, count = left < ORACLE_BLOCK ? left : ORACLE_BLOCK;
+        const uint32_t remaining = scene->count - first, count = remaining < ORACLE_BLOCK ? remaining : ORACLE_BLOCK;
         oracle_bounds made;
         const oracle_bounds *bounds = scene->bounds ? scene->bounds + first / ORACLE_BLOCK : &made;
         if (!scene->bounds)
