@@ -596,7 +596,7 @@ static void origins_may_lie_on_one_side(void **state)
         const cgt_rays rays = array_of(given, RAYS, false);
         set_interleaved(turn / 2);
         trace(&s, &rays, 0, NULL);
-        assert_int_equal(wrong_answers(&s, RAYS, true), 0);
+        assert_int_equal(wrong_hits(&s, RAYS, true), 0);
         subject_free(&s);
     }
 }

@@ -47,7 +47,7 @@ typedef spu_quad spu_call(const spu_quad operand[3], int evaluated[3]);
         return store_##r(spu_##word((evaluated[0]++, x), (evaluated[1]++, y), (evaluated[2]++, z)));                   \
     }
 #if defined(__clang__)
-#pragma clang diagnostic skip_prim "-Wunevaluated-expression"
+#pragma clang diagnostic ignored "-Wunevaluated-expression"
 #endif
 CGT_SPU_WORDS(CALL1, CALL2, CALL3)
 
