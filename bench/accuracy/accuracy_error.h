@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 #include "common/bench_table.h"
 
 /* Bins of distances: one each below ACCURACY_SINGLE, then ACCURACY_PER_OCTAVE to each power of two. */

@@ -11,7 +11,7 @@
 
 #include "accuracy/accuracy_error.h"
 #include "common/bench_input.h"
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 #include "common/bench_timing.h"
 
 enum { MOST_WAYS = 5, SPHERE_WAYS = 3, FAST_WAY = 1 };

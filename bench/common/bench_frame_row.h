@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 #include "common/bench_table.h"
 #include "common/bench_timing.h"
 

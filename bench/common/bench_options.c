@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "common/bench.h"
-#include "common/bench_rays.h"
+#include "rays/bench_rays.h"
 
 enum { OPTION_VARIANT = 0x100, OPTION_RADIUS, OPTION_WRAPPED };
 enum { OPTION_BUILDER = 0x180, OPTION_LAYOUT, OPTION_BREAK, OPTION_TRAVERSAL };

@@ -13,8 +13,8 @@
 
 #include "common/bench.h"
 #include "common/bench_input.h"
-#include "common/bench_planes.h"
-#include "common/bench_rays.h"
+#include "rays/bench_planes.h"
+#include "rays/bench_rays.h"
 #include "common/bench_threads.h"
 
 /* Where the fields of N rays and their hits lie in Embree's structures: field * N + ray. */

@@ -24,7 +24,7 @@
 
 #include "common/bench.h"
 #include "common/bench_table.h"
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 #include "common/bench_threads.h"
 
 /* The fields that a frame requests. */

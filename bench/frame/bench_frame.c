@@ -12,8 +12,8 @@
 #include "common/bench.h"
 #include "common/bench_frame_row.h"
 #include "common/bench_input.h"
-#include "common/bench_planes.h"
-#include "common/bench_rays.h"
+#include "rays/bench_planes.h"
+#include "rays/bench_rays.h"
 #include "common/bench_scene.h"
 #include "common/bench_timing.h"
 

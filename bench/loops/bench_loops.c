@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "common/bench_input.h"
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 #include "common/bench_scene.h"
 #include "common/bench_timing.h"
 

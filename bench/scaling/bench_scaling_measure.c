@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "scaling/bench_memory.h"
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 #include "make/bench_procedural.h"
 #include "scaling/bench_scaling.h"
 #include "common/bench_timing.h"

@@ -16,8 +16,8 @@
 
 #include "common/bench.h"
 #include "common/bench_input.h"
-#include "common/bench_ray_arrays.h"
-#include "common/bench_rays.h"
+#include "rays/bench_ray_arrays.h"
+#include "rays/bench_rays.h"
 #include "common/bench_scene.h"
 #include "common/bench_table.h"
 #include "structures/structures_found.h"

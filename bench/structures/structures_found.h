@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 
 typedef enum found_form {
     FOUND_FRAME,   /* t, primitive and normal, in planes */

@@ -26,9 +26,9 @@
 
 #include <cgt/cgt.h>
 
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 #include "common/bench_threads.h"
-#include "common/bench_tiles.h"
+#include "rays/bench_tiles.h"
 
 #define BENCH_MOST_AO_RAYS 1024u
 

@@ -9,7 +9,7 @@
 
 #include <cgt/cgt.h>
 
-#include "common/bench_rays.h"
+#include "rays/bench_rays.h"
 
 typedef struct bench_ray_array {
     uint64_t count, room;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Memory, comparison and file format of the planes. */
-#include "common/bench_planes.h"
+#include "rays/bench_planes.h"
 
 #include <errno.h>
 #include <math.h>

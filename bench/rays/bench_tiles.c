@@ -3,7 +3,7 @@
  *
  * The camera's rays, and the pixels of tiles. Lists hits with vectors and few branches: making rays must cost little
  * compared with tracing them. */
-#include "common/bench_tiles.h"
+#include "rays/bench_tiles.h"
 
 #include <math.h>
 #include <string.h>

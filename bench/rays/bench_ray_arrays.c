@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Keeps rays: bench_rays.c makes them batch by batch, and hands each batch to a sink, which here appends it. */
-#include "common/bench_ray_arrays.h"
+#include "rays/bench_ray_arrays.h"
 
 #include <stdlib.h>
 #include <string.h>

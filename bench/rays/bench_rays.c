@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Makes secondary rays in batches or tile by tile, and has them traced. bench_rays.h has the definitions. */
-#include "common/bench_rays.h"
+#include "rays/bench_rays.h"
 
 #include "common/bench_clones.h"
 
