@@ -98,11 +98,12 @@ static const char *check_leaf(walk *w, uint32_t code, const float low[3], const 
     const cgt_kind kind = code & CGT_BVH_TRIANGLE_LEAF ? CGT_KIND_TRIANGLES : CGT_KIND_SPHERES;
     const uint32_t number = code & CGT_BVH_INDEX_MASK, count = bvh_leaf_count(code);
     const uint32_t blocks = kind == CGT_KIND_SPHERES ? w->tree->sphere_blocks : w->tree->triangle_blocks;
-    const sphere_block *spheres = (const sphere_block *)w->tree->sphere + number;
-    const triangle_block *triangles = (const triangle_block *)w->tree->triangle + number;
+    const bool is_sphere = kind == CGT_KIND_SPHERES;
     if (number >= blocks || count > CGT_LANES)
         return fault("leaf %08x: number or count", code);
-    const uint32_t *prim = kind == CGT_KIND_SPHERES ? spheres->prim : triangles->prim;
+    const sphere_block *spheres = is_sphere ? (const sphere_block *)w->tree->sphere + number : NULL;
+    const triangle_block *triangles = is_sphere ? NULL : (const triangle_block *)w->tree->triangle + number;
+    const uint32_t *prim = is_sphere ? spheres->prim : triangles->prim;
     w->blocks[kind]++;
     w->prims += count;
     for (uint32_t k = 0; k < CGT_LANES; k++) {

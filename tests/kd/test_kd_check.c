@@ -394,8 +394,8 @@ static const struct {
 } faults[] = {
     {swap_references, " after ", false},
     {repeat_reference, " after ", false},
-    {list_skipped_primitive, "take part", false},
-    {list_missing_primitive, "take part", false},
+    {list_skipped_primitive, "invalid", false},
+    {list_missing_primitive, "invalid", false},
     {refer_beyond, "out of range", false},
     {share_references, NULL, false},
     {odd_children, "children", false},
