@@ -590,7 +590,7 @@ static void origins_may_lie_on_one_side(void **state)
         for (uint32_t i = 0; i < RAYS; i++) {
             float dir[3];
             for (uint32_t a = 0; a < 3; a++)
-                dir[a] = (float)(32 + random_below(&r, 32)) / (turn % 2 ? 64 : -64);
+                dir[a] = (float)(32 + random_below(&r, 32)) / (turn % 2 ? 64.f : -64.f);
             aim_at_speck(&r, &s, i, 6 + random_below(&r, 6), dir);
         }
         const cgt_rays rays = array_of(given, RAYS, false);
