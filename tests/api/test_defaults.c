@@ -70,8 +70,9 @@ static void contexts(void **state)
     for (int k = 0; k < 3; k++) {
         assert_string_equal(cgt_context_get_variant(made[k]), cgt_context_get_variant(made[0]));
         assert_int_equal(cgt_context_get_threads(made[k]), cgt_context_get_threads(made[0]));
-        cgt_context_release(made[k]);
     }
+    for (int k = 0; k < 3; k++)
+        cgt_context_release(made[k]);
 }
 
 static void scene_options(void **state)
