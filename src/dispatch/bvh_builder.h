@@ -11,7 +11,7 @@
 
 /* ---- parts ---- */
 
-#define CGT_BVH_PARTS (2 * CGT_LOOSE_LEVELS) /* of each level the spheres and the triangles */
+#define CGT_BVH_PARTS (2 * CGT_LOOSE_SIZE_LEVELS) /* of each level the spheres and the triangles */
 #define CGT_BVH_PART_DEPTH 5u                /* binary nodes over the parts' roots, at most */
 #define CGT_BVH_KEY_BITS CGT_MORTON_BITS     /* of a part's cells */
 

@@ -59,6 +59,13 @@ typedef void cgt_prim_keys_fn(const cgt_cell_keys *keys, const cgt_primitive_arr
 typedef void cgt_cluster_keys_fn(const cgt_cell_keys *keys, const struct cgt_cluster *cluster, uint32_t count,
                                  uint32_t *key);
 
+/* The sizes of a loose grid's levels over the same primitives, or clusters; keys->plan: the grid, whose levels need no
+ * cells yet. Half extents are sizes. key: scratch, as long. */
+typedef void cgt_measure_levels_fn(const cgt_cell_keys *keys, const cgt_primitive_array *array, uint32_t first,
+                                   uint32_t end, uint32_t *key, cgt_size_class *class);
+typedef void cgt_measure_clusters_fn(const cgt_cell_keys *keys, const struct cgt_cluster *cluster, uint32_t count,
+                                     uint32_t *key, cgt_size_class *class);
+
 /* ---- tracing ---- */
 
 /* Traces the pixels of a region of a camera's frame. */
@@ -92,6 +99,8 @@ typedef struct cgt_kernel {
     cgt_compute_cluster_bounds_fn *compute_cluster_bounds;
     cgt_prim_keys_fn *loose_grid_keys;
     cgt_cluster_keys_fn *loose_grid_cluster_keys;
+    cgt_measure_levels_fn *loose_grid_measure;
+    cgt_measure_clusters_fn *loose_grid_measure_clusters;
     cgt_trace_region_fn *trace_region; /* packet by packet */
     cgt_trace_region_fn *trace_tile;   /* tile by tile, for frames that cgt_tile_supports (query/tile_limits.h) */
     cgt_trace_rays_fn *trace_rays;

@@ -11,6 +11,11 @@
  * also smaller ones where those are few, since a grid for them would cost more than it saves; the sixteenth takes all
  * smaller ones. A level without primitives is omitted.
  *
+ * A level may be confined to a region: a box that holds the middles of its primitives. Where a grid over everything
+ * would crowd its primitives into few cells, since a few of them lie far away or all lie in clusters, each crowded
+ * region gets a level of its own, with cells of a size that suits it (loose_grid_regions.c). So cells follow where the
+ * primitives are, not the bounds of all.
+ *
  * Memory per primitive: 4 bytes of `prim` and at most 2 of `start`; 4 per cell where a resolution is requested. The
  * scene keeps what a commit works in: 4 bytes (20 for a triangle) of keys and middles, 1.8 of sizes and bins. Small
  * scenes take 13 KB more.
@@ -20,9 +25,11 @@
 #ifndef CGT_LOOSE_GRID_H
 #define CGT_LOOSE_GRID_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
-#define CGT_LOOSE_LEVELS 16u
+#define CGT_LOOSE_SIZE_LEVELS 16u /* by size alone */
+#define CGT_LOOSE_LEVELS 32u      /* with regions */
 
 typedef struct cgt_loose_level {
     float low[3];     /* corner of the first cell */
@@ -31,7 +38,9 @@ typedef struct cgt_loose_level {
     uint32_t size[3]; /* cells along x, y, z, 1 to 1024 each, 2^24 in all */
     uint32_t first;   /* cell (0, 0, 0) in `start`; x runs fastest, then y, then z */
     uint32_t prims;
-    float least; /* sizes from here on belong to this level or one before it */
+    float least; /* sizes from here on belong to this level or one before it, but for those outside its region */
+    bool has_region;
+    float region_low[3], region_high[3]; /* where has_region is set: least and largest middles of the level */
     /* Along each axis, a primitive's bounds in cell i lie within low + i cell - reach and low + (i + 1) cell + reach,
      * in exact arithmetic of these numbers: the rounding of keys is included. */
     float reach[3];
@@ -40,6 +49,7 @@ typedef struct cgt_loose_level {
 typedef struct cgt_loose_grid {
     cgt_loose_level level[CGT_LOOSE_LEVELS];
     uint32_t levels;
+    uint32_t regions; /* levels with a region */
     const uint32_t *start; /* cell c holds primitive[start[c]] to primitive[start[c + 1] - 1]; cells + 1 of them */
     const uint32_t
         *prim; /* all valid primitives, or with committed_scene.cluster all clusters that have some, ascending in each

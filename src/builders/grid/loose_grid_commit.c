@@ -5,8 +5,11 @@
 #include <stdio.h>
 
 #include "builders/commit.h"
+#include "builders/grid/loose_grid_regions.h"
 #include "builders/order/cell_sort.h"
 #include "builders/order/size_levels.h"
+
+#define MAX_ROUNDS 4 /* of finding regions */
 
 static void report(cgt_scene *scene, uint32_t valid_prims)
 {
@@ -25,10 +28,37 @@ static void report(cgt_scene *scene, uint32_t valid_prims)
     cgt_report_local_store(scene, sizeof(cgt_sphere), sizeof(cgt_triangle));
     if (scene->options.research->resolution[0])
         snprintf(st->reason, sizeof st->reason, "loose grid: resolution asked for");
+    else if (g->regions)
+        snprintf(st->reason, sizeof st->reason, "loose grid: %u levels, %u of crowded regions, %.3g %s a cell",
+                 g->levels, g->regions, (double)valid_prims / g->cells,
+                 clusters ? "runs of 8 neighbouring triangles" : "primitives");
     else
         snprintf(st->reason, sizeof st->reason, "loose grid: %u levels, %.3g %s a cell, reach %.3g to %.3g", g->levels,
-                 (double)valid_prims / g->cells, clusters ? "runs of 8 neighbouring triangles" : "objects",
+                 (double)valid_prims / g->cells, clusters ? "runs of 8 neighbouring triangles" : "primitives",
                  (double)g->level[0].reach[0], (double)finest->reach[0]);
+}
+
+/* Sorts the primitives by cell, again as long as crowded regions get levels of their own. */
+static cgt_result sort_prims(cgt_scene *scene, cgt_cell_sort *sort)
+{
+    const cgt_committed_scene *committed_scene = &scene->committed_scene;
+    cgt_loose_grid *g = &scene->committed_scene.loose;
+    bool failed = false;
+    for (uint32_t round = 0;; round++) {
+        cgt_cell_sort_plan(sort, scene, committed_scene->cluster, g, g->cells);
+        /* room for any arrangement of as many primitives or clusters, or for more cells where they are requested */
+        const uint64_t max_cells = cgt_loose_grid_max_cells(sort->count);
+        const cgt_result result = cgt_cell_sort_reserve(
+            sort, scene, CGT_BUFFER_LOOSE_START, max_cells > g->cells ? max_cells : g->cells, CGT_BUFFER_LOOSE_PRIM);
+        if (result != CGT_OK)
+            return result;
+        cgt_cell_sort_run(sort, scene->context);
+        g->start = sort->start;
+        g->prim = sort->prim;
+        if (!sort->is_crowded || scene->options.research->resolution[0] || round == MAX_ROUNDS ||
+            !cgt_loose_grid_add_regions(scene, sort, g, &failed))
+            return failed ? CGT_ERROR_OUT_OF_MEMORY : CGT_OK;
+    }
 }
 
 cgt_result cgt_loose_grid_commit(cgt_scene *scene)
@@ -38,18 +68,10 @@ cgt_result cgt_loose_grid_commit(cgt_scene *scene)
     const cgt_kernel *kernel = scene->context->kernel;
     cgt_cell_sort sort = {.prim_keys = kernel->loose_grid_keys, .cluster_keys = kernel->loose_grid_cluster_keys};
     cgt_loose_grid_plan(g, scene->buffer[CGT_BUFFER_SIZE_CLASSES].data, scene->options.research->resolution);
-    cgt_cell_sort_plan(&sort, scene, committed_scene->cluster, g, g->cells);
-
-    /* room for any arrangement of as many primitives or clusters, or for more cells where they are requested */
-    const uint64_t max_cells = cgt_loose_grid_max_cells(sort.count);
-    const cgt_result result = cgt_cell_sort_reserve(&sort, scene, CGT_BUFFER_LOOSE_START,
-                                                    max_cells > g->cells ? max_cells : g->cells, CGT_BUFFER_LOOSE_PRIM);
+    const cgt_result result = sort_prims(scene, &sort);
     if (result != CGT_OK)
         return cgt_fail(scene->context, result, "commit: out of memory for a loose grid of %u primitives",
                         committed_scene->prims.count);
-    cgt_cell_sort_run(&sort, scene->context);
-    g->start = sort.start;
-    g->prim = sort.prim;
     report(scene, sort.valid);
     return CGT_OK;
 }

@@ -106,15 +106,18 @@ static void find_chunk_keys(const cgt_cell_sort *s, uint32_t first, uint32_t cou
 
 /* ---- chunks ---- */
 
-/* Replaces counts by starts. As entries are placed, each start moves to its end, which is the next one's start. */
+/* Replaces counts by starts. As entries are placed, each start moves to its end, which is the next one's start. Returns
+ * the largest count. */
 static uint32_t prefix_sum(uint32_t *count, size_t counts, uint32_t first)
 {
+    uint32_t most = 0;
     for (size_t k = 0; k < counts; k++) {
         const uint32_t entries = count[k];
+        most = entries > most ? entries : most;
         count[k] = first;
         first += entries;
     }
-    return first;
+    return most;
 }
 
 static inline void scatter(uint32_t *bin_end, uint32_t key, unsigned shift, uint32_t number, uint32_t *entry)
@@ -218,7 +221,7 @@ static void restore_starts(uint32_t *start, uint32_t cells, uint32_t first)
 /* Gathers a bin, and sorts it by cell. */
 static void sort_bin(void *argument, uint32_t bin)
 {
-    const cgt_cell_sort *s = argument;
+    cgt_cell_sort *s = argument;
     const uint32_t chunks = count_chunks(s->count), begin = chunk_row(s, chunks)[bin];
     const uint32_t first = bin << s->shift, remaining = s->cells - first, bin_cells = UINT32_C(1) << s->shift;
     const uint32_t cells = remaining < bin_cells ? remaining : bin_cells;
@@ -235,7 +238,8 @@ static void sort_bin(void *argument, uint32_t bin)
             start[part.entry[i] >> CHUNK_BITS]++;
     }
     /* place them */
-    prefix_sum(start, cells, begin);
+    if (prefix_sum(start, cells, begin) > CGT_CELL_SORT_CROWD)
+        atomic_store_explicit(&s->is_crowded, true, memory_order_relaxed);
     for (uint32_t chunk = 0; chunk < chunks; chunk++) {
         const bin_part part = bin_part_of(s, chunk, bin);
         const uint32_t base = chunk * CHUNK;
@@ -248,14 +252,18 @@ static void sort_bin(void *argument, uint32_t bin)
 /* ---- the whole ---- */
 
 /* Sorts by whole keys. One cell more takes the skipped ones. */
-static void sort_direct(const cgt_cell_sort *s)
+static void sort_direct(cgt_cell_sort *s)
 {
     const uint32_t *key = s->key;
     uint32_t *start = s->start;
     memset(start, 0, ((size_t)s->cells + 1) * sizeof *start);
     for (uint32_t i = 0; i < s->count; i++)
         start[key[i]]++;
-    prefix_sum(start, (size_t)s->cells + 1, 0);
+    const uint32_t skipped = start[s->cells];
+    start[s->cells] = 0;
+    if (prefix_sum(start, s->cells, 0) > CGT_CELL_SORT_CROWD)
+        atomic_store_explicit(&s->is_crowded, true, memory_order_relaxed);
+    start[s->cells] = s->count - skipped;
     for (uint32_t i = 0; i < s->count; i++)
         s->prim[start[key[i]]++] = i;
     restore_starts(start, s->cells + 1, 0);
@@ -263,6 +271,7 @@ static void sort_direct(const cgt_cell_sort *s)
 
 void cgt_cell_sort_run(cgt_cell_sort *sort, const cgt_context *context)
 {
+    atomic_init(&sort->is_crowded, false);
     cgt_run_tasks(context, sort_chunk_task, sort, count_chunks(sort->count));
     if (sort->direct) {
         sort_direct(sort);

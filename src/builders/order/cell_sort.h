@@ -10,11 +10,15 @@
 #ifndef CGT_CELL_SORT_H
 #define CGT_CELL_SORT_H
 
+#include <stdatomic.h>
+
 #include "dispatch/kernel.h"
 #include "model/triangle_cluster.h"
 #include "scene/scene.h"
 
 #define CGT_CELL_SORT_DIRECT_SERIAL 131072u /* by whole keys up to as many, where there is one thread */
+
+#define CGT_CELL_SORT_CROWD 256u /* primitives: more of them crowd a cell */
 
 typedef struct cgt_cell_sort {
     /* what is sorted, and the functions that find its cells: set by the caller */
@@ -35,8 +39,9 @@ typedef struct cgt_cell_sort {
     uint32_t *entry;   /* of each primitive, by chunks, in each by bin: the lower digit, then the number in the chunk */
     uint32_t *bin_end; /* bins + 1 for each subchunk: where its part of a bin ends; then where bins begin */
     /* results */
-    uint32_t *start; /* cell c holds prim[start[c]] to prim[start[c + 1] - 1]; cells + 1 of them */
-    uint32_t *prim;  /* all valid ones, ascending in each cell */
+    uint32_t *start;        /* cell c holds prim[start[c]] to prim[start[c + 1] - 1]; cells + 1 of them */
+    uint32_t *prim;         /* all valid ones, ascending in each cell */
+    atomic_bool is_crowded; /* some cell is */
 } cgt_cell_sort;
 
 /* Plans the sort of a scene's primitives, or of its clusters where `cluster` is not NULL, into cells. plan: where those

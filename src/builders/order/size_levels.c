@@ -155,9 +155,8 @@ static float cell_edge(double extent, uint32_t n, double least)
     return cell;
 }
 
-static void init_level(const size_range *range, const uint32_t requested[3], cgt_loose_level *level)
+void cgt_loose_level_init(const cgt_size_class *c, const uint32_t requested[3], cgt_loose_level *level)
 {
-    const cgt_size_class *c = &range->all;
     double extent[3], least[3], most[3];
     min_cell_edges(c, least);
     for (int a = 0; a < 3; a++) {
@@ -192,13 +191,12 @@ static float class_size(uint32_t k)
 void cgt_loose_grid_plan(cgt_loose_grid *grid, const cgt_size_classes *classes, const uint32_t requested[3])
 {
     int k = next_class(classes, CGT_SIZE_CLASSES - 1);
-    grid->levels = 0;
-    grid->cells = 0;
+    *grid = (cgt_loose_grid){0};
     while (k >= 0) {
         cgt_loose_level *level = &grid->level[grid->levels++];
         size_range range;
-        k = collect_level(classes, k, requested[0] || grid->levels == CGT_LOOSE_LEVELS, &range);
-        init_level(&range, requested, level);
+        k = collect_level(classes, k, requested[0] || grid->levels == CGT_LOOSE_SIZE_LEVELS, &range);
+        cgt_loose_level_init(&range.all, requested, level);
         level->least = k < 0 ? 0 : class_size(range.least);
         level->first = grid->cells;
         grid->cells += level->size[0] * level->size[1] * level->size[2];

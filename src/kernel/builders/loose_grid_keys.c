@@ -9,7 +9,11 @@
  * so g is within 4 u n of it, and not below 0. The cell is i = the integer part of g, or n - 1. So
  *     i - 4 u n <= G <= i + 1 + 4 u n,
  * and a primitive, which lies within its half extent of its middle, lies within that plus 4 u n cells of cell i: that
- * is `reach`. Sums and products of cell numbers are integers below 2^24: exact in float. */
+ * is `reach`. Sums and products of cell numbers are integers below 2^24: exact in float.
+ *
+ * Measuring assigns levels by the same rule, before their cells are laid out. */
+#include <math.h>
+
 #include "kernel/builders/array_keys.h"
 
 /* Cells of a vector of middles, in a level. */
@@ -27,6 +31,25 @@ CGT_SPU_INLINE vuint find_cells(const cgt_loose_level *level, const vfloat middl
     return spu_add((vuint)spu_convts(cell, 0), spux_vuint(level->first));
 }
 
+/* Which middles lie in a level's region. */
+CGT_SPU_INLINE vmask find_region(const cgt_loose_level *level, const vfloat middle[3])
+{
+    vmask in = spux_mask_all();
+    for (int a = 0; a < 3; a++) {
+        in = spu_and(in, spux_cmpge(middle[a], spux_vfloat(level->region_low[a])));
+        in = spu_and(in, spux_cmpge(spux_vfloat(level->region_high[a]), middle[a]));
+    }
+    return in;
+}
+
+/* Those of `remaining` that belong to level k, where no level before takes them. */
+CGT_SPU_INLINE vmask find_level(const cgt_loose_grid *g, uint32_t k, const vfloat middle[3], vfloat size,
+                                vmask remaining)
+{
+    const vmask in = spu_and(remaining, spux_cmpge(size, spux_vfloat(g->level[k].least)));
+    return g->level[k].has_region ? spu_and(in, find_region(&g->level[k], middle)) : in;
+}
+
 /* A find_keys_fn; space: cgt_loose_grid. */
 CGT_SPU_INLINE vuint find_keys(const void *space, uint32_t skipped, const vfloat middle[3], vfloat size, vmask valid)
 {
@@ -36,7 +59,7 @@ CGT_SPU_INLINE vuint find_keys(const void *space, uint32_t skipped, const vfloat
     if (g->levels == 1)
         return spux_select(key, find_cells(&g->level[0], middle), valid);
     for (uint32_t k = 0; k < g->levels && spux_any(remaining); k++) {
-        const vmask in = spu_and(remaining, spux_cmpge(size, spux_vfloat(g->level[k].least)));
+        const vmask in = find_level(g, k, middle, size, remaining);
         if (!spux_any(in))
             continue;
         key = spux_select(key, find_cells(&g->level[k], middle), in);
@@ -55,4 +78,78 @@ void CGT_KERNEL(cgt_loose_grid_cluster_keys)(const cgt_cell_keys *keys, const cg
                                              uint32_t *key)
 {
     cluster_keys(keys, cluster, count, find_keys, keys->plan, key);
+}
+
+/* ---- measuring ---- */
+
+/* The sizes of a grid's levels, a vector of each bound. */
+typedef struct level_gather {
+    const cgt_loose_grid *grid;
+    uint32_t count[CGT_LOOSE_LEVELS];
+    vfloat low[CGT_LOOSE_LEVELS][3], high[CGT_LOOSE_LEVELS][3], size[CGT_LOOSE_LEVELS];
+} level_gather;
+
+static void level_gather_init(const cgt_loose_grid *grid, level_gather *g)
+{
+    g->grid = grid;
+    for (uint32_t k = 0; k < grid->levels; k++) {
+        g->count[k] = 0;
+        g->size[k] = spux_vfloat(0);
+        for (int a = 0; a < 3; a++) {
+            g->low[k][a] = spux_vfloat(INFINITY);
+            g->high[k][a] = spux_vfloat(-INFINITY);
+        }
+    }
+}
+
+static void level_gather_store(const level_gather *g, cgt_size_class *class)
+{
+    for (uint32_t k = 0; k < g->grid->levels; k++) {
+        class[k].count = g->count[k];
+        for (int a = 0; a < 3; a++) {
+            class[k].low[a] = spux_hmin(g->low[k][a]);
+            class[k].high[a] = spux_hmax(g->high[k][a]);
+            class[k].half[a] = spux_hmax(g->size[k]);
+        }
+    }
+}
+
+/* A find_keys_fn that adds to a level_gather; the keys are the levels. */
+CGT_SPU_INLINE vuint gather_levels(const void *space, uint32_t skipped, const vfloat middle[3], vfloat size,
+                                   vmask valid)
+{
+    level_gather *g = (level_gather *)space;
+    vmask remaining = valid;
+    (void)skipped;
+    for (uint32_t k = 0; k < g->grid->levels && spux_any(remaining); k++) {
+        const vmask in = find_level(g->grid, k, middle, size, remaining);
+        if (!spux_any(in))
+            continue;
+        remaining = spu_andc(remaining, in);
+        g->count[k] += spux_count_bits(spux_mask_bits(in));
+        g->size[k] = spux_select(g->size[k], spux_max(g->size[k], spux_abs(size)), in);
+        for (int a = 0; a < 3; a++) {
+            g->low[k][a] = spux_select(g->low[k][a], spux_min(g->low[k][a], middle[a]), in);
+            g->high[k][a] = spux_select(g->high[k][a], spux_max(g->high[k][a], middle[a]), in);
+        }
+    }
+    return spux_vuint(0);
+}
+
+void CGT_KERNEL(cgt_loose_grid_measure)(const cgt_cell_keys *keys, const cgt_primitive_array *array, uint32_t first,
+                                        uint32_t end, uint32_t *key, cgt_size_class *class)
+{
+    level_gather g;
+    level_gather_init(keys->plan, &g);
+    array_keys(keys, array, first, end, gather_levels, &g, key);
+    level_gather_store(&g, class);
+}
+
+void CGT_KERNEL(cgt_loose_grid_measure_clusters)(const cgt_cell_keys *keys, const cgt_cluster *cluster, uint32_t count,
+                                                 uint32_t *key, cgt_size_class *class)
+{
+    level_gather g;
+    level_gather_init(keys->plan, &g);
+    cluster_keys(keys, cluster, count, gather_levels, &g, key);
+    level_gather_store(&g, class);
 }

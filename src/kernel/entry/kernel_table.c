@@ -9,6 +9,8 @@ cgt_compute_bounds_fn CGT_KERNEL(cgt_compute_array_bounds);
 cgt_compute_cluster_bounds_fn CGT_KERNEL(cgt_compute_cluster_bounds);
 cgt_prim_keys_fn CGT_KERNEL(cgt_loose_grid_keys);
 cgt_cluster_keys_fn CGT_KERNEL(cgt_loose_grid_cluster_keys);
+cgt_measure_levels_fn CGT_KERNEL(cgt_loose_grid_measure);
+cgt_measure_clusters_fn CGT_KERNEL(cgt_loose_grid_measure_clusters);
 cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 cgt_trace_rays_fn CGT_KERNEL(cgt_trace_rays);
 cgt_trace_light_fn CGT_KERNEL(cgt_trace_light);
@@ -28,6 +30,8 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .compute_cluster_bounds = CGT_KERNEL(cgt_compute_cluster_bounds),
     .loose_grid_keys = CGT_KERNEL(cgt_loose_grid_keys),
     .loose_grid_cluster_keys = CGT_KERNEL(cgt_loose_grid_cluster_keys),
+    .loose_grid_measure = CGT_KERNEL(cgt_loose_grid_measure),
+    .loose_grid_measure_clusters = CGT_KERNEL(cgt_loose_grid_measure_clusters),
     .trace_region = CGT_KERNEL(cgt_trace_region),
     .trace_tile = CGT_KERNEL(cgt_trace_tile),
     .trace_rays = CGT_KERNEL(cgt_trace_rays),
