@@ -146,16 +146,81 @@ CGT_SPU_INLINE void tile_init_cone(tile *t)
 
 /* ---- the tile ---- */
 
-/* The distance from the eye to the farthest corner of the scene's bounds, rounded up. */
-CGT_SPU_INLINE float tile_max_corner_distance(const cgt_committed_scene *committed_scene, const float eye[3])
+/* A box, seen from the eye. */
+typedef struct tile_box {
+    double low[3], high[3];
+} tile_box;
+
+/* The distance from the eye to the farthest corner of a box, rounded up. */
+CGT_SPU_INLINE float tile_max_corner_distance(const tile_box *b)
 {
     double square = 0;
     for (int a = 0; a < 3; a++) {
-        const double low = fabs((double)committed_scene->low[a] - (double)eye[a]);
-        const double high = fabs((double)committed_scene->high[a] - (double)eye[a]), distance = low > high ? low : high;
+        const double low = fabs(b->low[a]), high = fabs(b->high[a]), distance = low > high ? low : high;
         square += distance * distance;
     }
     return (float)(sqrt(square) * (1 + 0x1p-20));
+}
+
+/* The box of all primitives of a level. */
+CGT_SPU_INLINE tile_box tile_level_box(const cgt_loose_level *l, const float eye[3])
+{
+    tile_box b;
+    for (int a = 0; a < 3; a++) {
+        const double low = (double)l->low[a] - (double)eye[a], reach = (double)l->reach[a] * (1 + 0x1p-40);
+        b.low[a] = low - reach;
+        b.high[a] = low + (double)l->cell[a] * l->size[a] + reach;
+    }
+    return b;
+}
+
+/* Whether some ray of the tile may meet the box: false where all its corners lie beyond one side of the tile. In camera
+ * space a ray of pixel (px, py) passes x = px rho z, or x = px rho where rays are parallel. The axes and the canonical
+ * directions and origins are off by less than 2^-20 of what they are multiplied with. */
+static bool tile_sees_box(const tile *t, const tile_box *b)
+{
+    const double column[2] = {(double)t->column[0], (double)t->column[TILE_EDGE - 1]};
+    const double row[2] = {(double)t->row[TILE_EDGE - 1], (double)t->row[0]};
+    const double right = (double)t->camera.right, up = (double)t->camera.up;
+    bool in[5] = {false, false, false, false, false};
+    for (int k = 0; k < 8; k++) {
+        const double p[3] = {k & 1 ? b->high[0] : b->low[0], k & 2 ? b->high[1] : b->low[1],
+                             k & 4 ? b->high[2] : b->low[2]};
+        const double size = fabs(p[0]) + fabs(p[1]) + fabs(p[2]);
+        double v[3];
+        for (int i = 0; i < 3; i++)
+            v[i] = p[0] * (double)t->camera.dual[i][0] + p[1] * (double)t->camera.dual[i][1] +
+                   p[2] * (double)t->camera.dual[i][2];
+        const double z = t->parallel ? 1 : v[0];
+        const double error = (size * (1 + right + up) + (double)t->length_error) * 0x1p-18 + (double)t->length_error;
+        in[0] = in[0] || v[0] >= -error;
+        in[1] = in[1] || v[1] >= column[0] * right * z - error;
+        in[2] = in[2] || v[1] <= column[1] * right * z + error;
+        in[3] = in[3] || v[2] >= row[0] * up * z - error;
+        in[4] = in[4] || v[2] <= row[1] * up * z + error;
+    }
+    return in[0] && in[1] && in[2] && in[3] && in[4];
+}
+
+/* The largest distance from the eye of a primitive that the tile may hit: of the levels that it sees, so that a
+ * primitive far away, or a huge one, counts only where it is in view. */
+CGT_SPU_INLINE float tile_max_distance(const tile *t, const cgt_committed_scene *committed_scene)
+{
+    const float *eye = t->rays->eye;
+    const cgt_loose_grid *g = &committed_scene->loose;
+    float most = 0;
+    tile_box all;
+    for (int a = 0; a < 3; a++) {
+        all.low[a] = (double)committed_scene->low[a] - (double)eye[a];
+        all.high[a] = (double)committed_scene->high[a] - (double)eye[a];
+    }
+    for (uint32_t k = 0; k < g->levels && g->levels > 1; k++) {
+        const tile_box b = tile_level_box(&g->level[k], eye);
+        const float distance = tile_max_corner_distance(&b);
+        most = distance > most && tile_sees_box(t, &b) ? distance : most;
+    }
+    const float whole = tile_max_corner_distance(&all);
+    return most > 0 && most < whole ? most : whole;
 }
 
 /* The radius that the tile's depth error is made for. Larger spheres are slow (tile_double.c); smaller ones are
@@ -174,7 +239,7 @@ CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_sc
     return fminf(largest->reach[0], fminf(largest->reach[1], largest->reach[2]));
 }
 
-/* c: the largest distance of a primitive from the eye. far_t: no hit has a larger t. */
+/* c: the largest distance from the eye of a primitive that may be hit. far_t: no hit has a larger t. */
 CGT_SPU_INLINE void tile_init_depth_errors(tile *t, const cgt_committed_scene *committed_scene, float c, float far_t)
 {
     const float r = committed_scene->prims.spheres ? tile_typical_radius(committed_scene, c) : 0;
@@ -192,7 +257,6 @@ CGT_SPU_INLINE void tile_init_depth_errors(tile *t, const cgt_committed_scene *c
 void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                const cgt_region *r)
 {
-    const float c = tile_max_corner_distance(committed_scene, camera->eye);
     t->rays = camera;
     t->linear = !committed_scene->prims.spheres && !camera->orthographic;
     t->columns = r->width;
@@ -203,6 +267,7 @@ void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_sce
     tile_init_norms(t);
     tile_init_parts(t);
     tile_init_cone(t);
+    const float c = tile_max_distance(t, committed_scene);
     tile_init_depth_errors(t, committed_scene, c, c * (1 + 0x1p-18f) + t->length_error);
     tile_init_pixels(t, c * (1 + 0x1p-18f) + t->length_error);
 }
