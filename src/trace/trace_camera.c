@@ -5,6 +5,7 @@
  * on the stack that goes to the visitor and from there, row by row, to the planes. */
 #include <string.h>
 
+#include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
 #include "dispatch/kernel.h"
 #include "query/tile_limits.h"
@@ -157,6 +158,10 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     if (result != CGT_OK)
         return result;
     plan_frame(&job, options);
+    if (!job.by_tiles && scene->committed_scene.loose.regions) /* see bvh_on_demand.c */
+        result = cgt_bvh_build_on_demand(scene, (uint64_t)frame->width * frame->height, &job.settings.use_bvh);
+    if (result != CGT_OK)
+        return result;
     cgt_float_environment_enter(&job.callers); /* keeps it for the visitor */
     cgt_float_environment_leave(&job.callers);
     atomic_init(&job.stopped, false);

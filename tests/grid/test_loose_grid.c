@@ -140,6 +140,7 @@ static void check_grid(const cgt_scene *scene)
     uint8_t *seen = calloc(w->prims.count + 1, 1);
     level_found found[CGT_LOOSE_LEVELS];
     uint32_t cells = 0;
+    double most = INFINITY;
     assert_non_null(seen);
     assert_int_equal(w->structure, CGT_STRUCTURE_LOOSE_GRID);
     assert_true(g->levels >= 1 && g->levels <= CGT_LOOSE_LEVELS);
@@ -152,7 +153,8 @@ static void check_grid(const cgt_scene *scene)
         find_level(w, level, seen, &found[k]);
         check_level(level, &found[k], k + 1 == g->levels, rounding_of(w));
         assert_true(k + 1 < g->levels || level->least == 0);
-        assert_true(!k || found[k].largest <= g->level[k - 1].least * (1 + 0x1p-20) + rounding_of(w));
+        assert_true(found[k].largest <= most * (1 + 0x1p-20) + rounding_of(w));
+        most = level->has_region ? most : level->least; /* others take what a region's level leaves */
     }
     assert_int_equal(cells, g->cells);
     assert_true(cells <= w->valid / 2 + 64);
@@ -403,7 +405,70 @@ static void sizes_share_levels(void **state)
     for (int i = 0; i < COUNT; i++)
         sphere[i][3] = ldexpf(1, -4 * (i % 30)); /* more sizes than levels */
     scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
-    assert_int_equal(scene->committed_scene.loose.levels, CGT_LOOSE_LEVELS);
+    assert_int_equal(scene->committed_scene.loose.levels, CGT_LOOSE_SIZE_LEVELS);
+    check_grid(scene);
+    cgt_scene_release(scene);
+    cgt_context_release(context);
+}
+
+/* How many primitives share a cell, as the mean over all of them. */
+static double mean_crowd(const cgt_loose_grid *g, uint32_t valid)
+{
+    double squares = 0;
+    for (uint32_t c = 0; c < g->cells; c++)
+        squares += pow((double)g->start[c + 1] - g->start[c], 2);
+    return squares / valid;
+}
+
+/* Moves spheres of an even cloud far away. */
+typedef struct crowded_case {
+    const char *name;
+    uint32_t clusters; /* which stand apart */
+    uint32_t strays;
+    float distance;
+} crowded_case;
+
+static void move_spheres(const crowded_case *c, test_random *r, float (*sphere)[4], uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        for (int a = 0; a < 3; a++) {
+            sphere[i][a] = random_float(r, -1, 1);
+            sphere[i][a] += c->clusters && i % c->clusters >> a & 1 ? c->distance : 0;
+            sphere[i][a] *= i < c->strays ? c->distance : 1;
+        }
+    for (uint32_t i = 0; i < count; i++)
+        sphere[i][3] = 0.02f;
+}
+
+/* A scene whose cells would be crowded, had its grid one size of cells: each crowd gets a level of its own. */
+static void crowded_regions_get_levels(void **state)
+{
+    (void)state;
+    enum { COUNT = 3000 };
+    static const crowded_case cases[] = {
+        {"one stray", 0, 1, 1e3f},
+        {"one stray, farther", 0, 1, 1e9f},
+        {"one stray, farthest", 0, 1, 1e16f},
+        {"many strays", 0, COUNT / 50, 1e5f},
+        {"two clusters", 2, 0, 1e4f},
+        {"eight clusters", 8, 0, 1e6f},
+        {"clusters and strays", 4, 9, 1e5f},
+    };
+    static float sphere[COUNT][4];
+    cgt_context *context = context_make(2, NULL);
+    test_random r = random_make(7);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        move_spheres(&cases[i], &r, sphere, COUNT);
+        cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
+        const cgt_loose_grid *g = &scene->committed_scene.loose;
+        check_grid(scene);
+        if (!g->regions || mean_crowd(g, COUNT) > 100)
+            fail_msg("%s: %u regions, %g primitives share a cell", cases[i].name, g->regions, mean_crowd(g, COUNT));
+        cgt_scene_release(scene);
+    }
+    memset(sphere, 0, sizeof sphere); /* cells cannot tell these apart */
+    cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
+    assert_int_equal(scene->committed_scene.loose.levels, 1);
     check_grid(scene);
     cgt_scene_release(scene);
     cgt_context_release(context);
@@ -494,6 +559,7 @@ int main(void)
         cmocka_unit_test(cells_follow_the_axes),
         cmocka_unit_test(a_full_axis_leaves_cells_to_the_others),
         cmocka_unit_test(sizes_share_levels),
+        cmocka_unit_test(crowded_regions_get_levels),
         cmocka_unit_test(a_requested_resolution_is_used),
         cmocka_unit_test(frames_match_other_structures),
         cmocka_unit_test(it_is_used_when_requested),

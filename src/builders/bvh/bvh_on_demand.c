@@ -8,8 +8,9 @@
 #include "core/float_environment.h"
 
 /* Rays that came without a tree before one is built. Building takes as long as about 1/60 as many rays as primitives
- * take through the grid if they share nothing, by estimate; whether they do share nothing is not known. */
-static uint64_t min_rays_for_build(uint32_t valid) { return valid / 32; }
+ * take through the grid if they share nothing, by estimate; whether they do share nothing is not known. Where a grid has
+ * regions, packets bound their rays with the rounding of the whole world, which exceeds the cells of a region. */
+static uint64_t min_rays_for_build(const cgt_committed_scene *s) { return s->loose.regions ? 0 : s->valid / 32; }
 
 /* Several threads may need the tree: one builds it, and the others trace without it. */
 static cgt_result build_for_rays(cgt_scene *scene, bool *is_built)
@@ -44,7 +45,7 @@ cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *
         return CGT_OK;
     }
     const uint64_t earlier_rays = atomic_fetch_add_explicit(&mutable_scene->bvh_rays, rays, memory_order_relaxed);
-    if (!rays || earlier_rays + rays < min_rays_for_build(committed_scene->valid))
+    if (!rays || earlier_rays + rays < min_rays_for_build(committed_scene))
         return CGT_OK;
     return build_for_rays(mutable_scene, is_built);
 }

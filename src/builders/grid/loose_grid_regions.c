@@ -18,6 +18,7 @@
 /* The mean, over all primitives, of how many share their cell: a grid below is left as it is. 10 in an even scene,
  * 400 in one whose primitives lie in 1,000 clusters, which is traced as fast. */
 #define MAX_MEAN 512.0
+#define MAX_MEAN_SHARE 0x1p-5             /* of the primitives, where those are few */
 #define CROWDED (CGT_CELL_SORT_CROWD / 2) /* primitives of a cell that joins a region */
 #define MIN_SHARE 256u                    /* a region has at least this part of the primitives that are crowded */
 #define SAMPLES 256u                      /* of a part's primitives, to estimate its level */
@@ -355,7 +356,8 @@ static bool measure_levels(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loos
 bool cgt_loose_grid_add_regions(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *grid, bool *failed)
 {
     part_list list = {.grid = grid, .cell = sort->entry, .max_parts = CGT_LOOSE_LEVELS - grid->levels};
-    if (!list.max_parts || mean_of_cells(grid, sort->valid) < MAX_MEAN)
+    const double max_mean = fmin(MAX_MEAN, sort->valid * MAX_MEAN_SHARE);
+    if (!list.max_parts || mean_of_cells(grid, sort->valid) < max_mean)
         return false;
     list_crowded(&list);
     divide_parts(&list);

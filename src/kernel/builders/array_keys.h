@@ -21,7 +21,7 @@ CGT_SPU_INLINE vuint sphere_keys(const cgt_primitive_array *a, uint32_t i, uint3
     const vfloat infinity = spux_vfloat(INFINITY);
     vfloat d[4];
     load_spheres(a, i, count, d);
-    vmask valid = spux_cmpge(d[3], spux_vfloat(0));
+    vmask valid = spu_and(spux_cmpge(d[3], spux_vfloat(0)), spux_mask_first(count));
     for (int k = 0; k < 4; k++)
         valid = spu_and(valid, spu_cmpgt(infinity, spux_abs(d[k])));
     return find(space, skipped, d, d[3], valid);
@@ -37,7 +37,7 @@ CGT_SPU_INLINE vuint triangle_keys(const cgt_cell_keys *keys, uint32_t i, uint32
         const float *from = keys->middle + (size_t)k * keys->triangles + i;
         d[k] = count == CGT_LANES ? spux_load_unaligned(from) : spux_load_mask(from, present);
     }
-    return find(space, keys->skipped, d, d[3], spux_cmpge(d[3], spux_vfloat(0)));
+    return find(space, keys->skipped, d, d[3], spu_and(spux_cmpge(d[3], spux_vfloat(0)), present));
 }
 
 /* As cgt_prim_keys_fn. */
@@ -61,7 +61,8 @@ CGT_SPU_INLINE void cluster_keys(const cgt_cell_keys *keys, const cgt_cluster *c
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vfloat d[8];
         load_clusters(cluster + k, count - k, d);
-        store_keys(key + k, find(space, keys->skipped, d, d[7], spux_cmpge(d[7], spux_vfloat(0))), count - k);
+        const vmask valid = spu_and(spux_cmpge(d[7], spux_vfloat(0)), spux_mask_first(count - k));
+        store_keys(key + k, find(space, keys->skipped, d, d[7], valid), count - k);
     }
 }
 

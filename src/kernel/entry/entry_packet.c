@@ -24,10 +24,10 @@ void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, pa
         return;
     if (p->extreme || committed_scene->brute_force)
         trace_extreme(committed_scene, p, counts);
+    else if (committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh)
+        CGT_KERNEL(cgt_bvh_trace)(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
         CGT_KERNEL(cgt_loose_grid_trace)(committed_scene, p, settings, counts);
-    else if (committed_scene->structure == CGT_STRUCTURE_BVH)
-        CGT_KERNEL(cgt_bvh_trace)(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_KD)
         CGT_KERNEL(cgt_kd_trace)(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_KD_ROPES)

@@ -158,16 +158,13 @@ static void build(task *t, node n);
 /* Builds the smaller child, with its share of the room that is left. */
 static void build_smaller(task *t, const node *child, uint32_t larger)
 {
-    cgt_kd_output *out = t->out;
-    const uint32_t end_node = out->end_node, end_reference = out->end_reference;
-    cgt_kd_share_room(out, child->count, larger);
+    const cgt_kd_ends ends = cgt_kd_share_room(t->out, child->count, larger);
     t->stack += child->count;
     t->room -= child->count;
     build(t, *child);
     t->stack -= child->count;
     t->room += child->count;
-    out->end_node = end_node;
-    out->end_reference = end_reference;
+    cgt_kd_restore_room(t->out, ends);
 }
 
 /* Splits where items are on both sides; *n becomes the larger child. Returns false where both children have all of

@@ -154,8 +154,19 @@ static inline bool cgt_kd_has_room(const cgt_kd_output *out, uint32_t items, siz
            out->end_reference - out->next_reference >= 2 * (uint64_t)items;
 }
 
-/* Leaves a child with as much of the room as it has of the items; the caller sets the ends back. */
-void cgt_kd_share_room(cgt_kd_output *out, uint32_t items, uint32_t sibling_items);
+/* Ends of an output's room. */
+typedef struct cgt_kd_ends {
+    uint32_t node, reference;
+} cgt_kd_ends;
+
+/* Leaves a child with as much of the room as it has of the items. Returns the ends to be restored after it. */
+cgt_kd_ends cgt_kd_share_room(cgt_kd_output *out, uint32_t items, uint32_t sibling_items);
+
+static inline void cgt_kd_restore_room(cgt_kd_output *out, cgt_kd_ends ends)
+{
+    out->end_node = ends.node;
+    out->end_reference = ends.reference;
+}
 
 /* Whether any split could be cheaper than a leaf. */
 static inline bool cgt_kd_may_split(const cgt_kd_rules *rules, float weight)

@@ -34,15 +34,17 @@ uint32_t cgt_kd_add_inner(const cgt_kd_rules *rules, cgt_kd_output *out, uint32_
     return lower;
 }
 
-void cgt_kd_share_room(cgt_kd_output *out, uint32_t items, uint32_t sibling_items)
+cgt_kd_ends cgt_kd_share_room(cgt_kd_output *out, uint32_t items, uint32_t sibling_items)
 {
     const uint64_t item_sum = (uint64_t)items + sibling_items;
+    const cgt_kd_ends ends = {out->end_node, out->end_reference};
     if (!item_sum)
-        return;
+        return ends;
     const uint32_t pairs = (out->end_node - out->next_node) / 2;
     const uint64_t spare_references = out->end_reference - out->next_reference - item_sum;
     out->end_node = out->next_node + 2 * (uint32_t)(pairs * (uint64_t)items / item_sum);
     out->end_reference = out->next_reference + items + (uint32_t)(spare_references * items / item_sum);
+    return ends;
 }
 
 uint32_t cgt_kd_cut_off(const cgt_kd_rules *rules, cgt_kd_output *out, uint32_t node, cgt_kd_box *box,
