@@ -15,10 +15,12 @@
 
 #include "builders/order/size_levels.h"
 
-/* The mean, over all primitives, of how many share their cell: a grid below is left as it is. 10 in an even scene,
+/* The mean, over all primitives, of how many share their cell: a grid below is left as it is, the sooner the fewer
+ * primitives there are. 10 in an even scene,
  * 400 in one whose primitives lie in 1,000 clusters, which is traced as fast. */
 #define MAX_MEAN 512.0
-#define MAX_MEAN_SHARE 0x1p-5             /* of the primitives, where those are few */
+#define MIN_MEAN 256.0
+#define MEAN_SHARE 0x1p-12                /* of the primitives */
 #define CROWDED (CGT_CELL_SORT_CROWD / 2) /* primitives of a cell that joins a region */
 #define MIN_SHARE 256u                    /* a region has at least this part of the primitives that are crowded */
 #define SAMPLES 256u                      /* of a part's primitives, to estimate its level */
@@ -75,12 +77,10 @@ static uint32_t count_cell(const cgt_loose_grid *g, uint32_t cell) { return g->s
 
 static double mean_of_cells(const cgt_loose_grid *g, uint32_t valid)
 {
-    double squares = 0;
-    for (uint32_t c = 0; c < g->cells; c++) {
-        const double count = count_cell(g, c);
-        squares += count * count;
-    }
-    return squares / valid;
+    uint64_t squares = 0; /* at most that of all primitives */
+    for (uint32_t c = 0; c < g->cells; c++)
+        squares += (uint64_t)count_cell(g, c) * count_cell(g, c);
+    return (double)squares / valid;
 }
 
 /* Crowded cells of a level, and the box of cells around them. */
@@ -356,7 +356,7 @@ static bool measure_levels(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loos
 bool cgt_loose_grid_add_regions(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *grid, bool *failed)
 {
     part_list list = {.grid = grid, .cell = sort->entry, .max_parts = CGT_LOOSE_LEVELS - grid->levels};
-    const double max_mean = fmin(MAX_MEAN, sort->valid * MAX_MEAN_SHARE);
+    const double max_mean = fmin(MAX_MEAN, MIN_MEAN + sort->valid * MEAN_SHARE);
     if (!list.max_parts || mean_of_cells(grid, sort->valid) < max_mean)
         return false;
     list_crowded(&list);
