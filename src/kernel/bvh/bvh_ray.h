@@ -14,15 +14,17 @@
  * 2^-18 of them and 2^-84 further in, t is certainly inside.
  *
  * Slabs, for each axis a, with o and d of the ray, p of a plane, P the largest |p| of the root's box, and u = 2^-24. A
- * component of d below 2^-40 is replaced by 2^-40 of the same sign, also that of a zero, and r = 1 / d within 2^-21.
- * Planes are moved outwards by
- *   E = 2^-20 (|o| + P) + 2^-37 M + 2^-85,   M the largest |o| + P of the axes
- * and t = (p +- E) r - o r, fused or not.
+ * component of d below 2^-60 is replaced by 2^-60 of the same sign, also that of a zero, and r = 1 / d within 2^-21.
+ * Planes lie outside of what they bound by 2^-20 |p|: nodes are built so (bvh_nodes.c), and so a large primitive widens
+ * its own box alone. For a ray they are moved outwards by
+ *   E = 2^-20 |o| + 2^-57 M + 2^-85,   M the largest |o| + P of the axes
+ * more, and t = (p +- E) r - o r, fused or not.
  *   Rounding: r loses 2^-21 (|p| + |o|) |r|, the products and sums at most 5 u of it: together less than 0.82 times
- * 2^-20 (|p| + |o|) |r|. The remainder covers the roundings of E itself, and 2^-85 covers underflow, also in the boxes.
+ * 2^-20 (|p| + |o|) |r|. The remainder covers the roundings of E itself and of the nodes' planes, and 2^-85 covers
+ * underflow, also in the boxes.
  *   Components that were enlarged: a ray that counts is inside the root's box at t, and along the axis of its largest
  * component |t| |d| <= |o| + P, so |t| <= M. With d' for the original component, the ray is at p = o + t d', where the
- * slab's t is t d' / d, at most |t| away from 0, so at most 2 M from t; the planes' move is worth 2^-37 M |r| > 7 M.
+ * slab's t is t d' / d, at most |t| away from 0, so at most 2 M from t; the planes' move is worth 2^-57 M |r| > 7 M.
  * A test shrinks E until hits are lost.
  *
  * Many rays may share one E: that of the largest |o|. */
@@ -36,7 +38,7 @@
 
 #define BVH_MAX_ORG 0x1p60f
 #define BVH_MAX_T 0x1p100f
-#define BVH_MIN_DIR 0x1p-40f
+#define BVH_MIN_DIR 0x1p-60f
 
 /* The state of a call, common to its rays, which are those of arrays or of a packet. */
 typedef struct bvh_call {
@@ -72,13 +74,11 @@ CGT_SPU_INLINE bool bvh_call_init(const cgt_committed_scene *committed_scene, cg
 /* Computes E of a ray; of several, org holds the largest components. */
 CGT_SPU_INLINE void bvh_slab_error(const bvh_call *c, const float org[3], float slab_error[3])
 {
-    float max_plane = 0;
-    for (int a = 0; a < 3; a++) {
-        slab_error[a] = org[a] + c->max_plane[a];
-        max_plane = slab_error[a] > max_plane ? slab_error[a] : max_plane;
-    }
+    float most = 0;
     for (int a = 0; a < 3; a++)
-        slab_error[a] = (slab_error[a] * 0x1p-20f + (max_plane * 0x1p-37f + 0x1p-85f)) * BVH_ERROR_SCALE;
+        most = org[a] + c->max_plane[a] > most ? org[a] + c->max_plane[a] : most;
+    for (int a = 0; a < 3; a++)
+        slab_error[a] = (org[a] * 0x1p-20f + (most * 0x1p-57f + 0x1p-85f)) * BVH_ERROR_SCALE;
 }
 
 /* Whether ray i skips a primitive: the one that it names, or one of a geometry that its mask excludes. */

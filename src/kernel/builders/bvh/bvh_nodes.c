@@ -209,6 +209,9 @@ CGT_SPU_INLINE uint32_t child_code(const cgt_bvh_build *b, const cgt_bvh_range *
     return b->range[find_range(b, child)].first_node + bvh_inner_records(b)[child].number;
 }
 
+/* Planes lie outside by what single precision loses of them: see kernel/bvh/bvh_ray.h. */
+#define PLANE_MARGIN 0x1p-20f
+
 static void build_node(const cgt_bvh_build *b, const cgt_bvh_range *range, const uint32_t *child, uint32_t children,
                        uint32_t *next, bvh_node *node)
 {
@@ -221,8 +224,11 @@ static void build_node(const cgt_bvh_build *b, const cgt_bvh_range *range, const
     }
     load_boxes(b, reference, low, high);
     for (int a = 0; a < 3; a++) {
-        spux_store(node->low[a], spux_select(spux_vfloat(INFINITY), low[a], present));
-        spux_store(node->high[a], spux_select(spux_vfloat(-INFINITY), high[a], present));
+        const vfloat margin = spux_vfloat(PLANE_MARGIN);
+        const vfloat lower = spu_nmsub(spux_abs(low[a]), margin, low[a]);
+        const vfloat upper = spu_madd(spux_abs(high[a]), margin, high[a]);
+        spux_store(node->low[a], spux_select(spux_vfloat(INFINITY), lower, present));
+        spux_store(node->high[a], spux_select(spux_vfloat(-INFINITY), upper, present));
     }
     order_children(low, high, present, node);
     node->children = children;
