@@ -181,9 +181,11 @@ CGT_SPU_INLINE void tile_rasterise_double_run(const cgt_primitives *prims, tile 
     for (uint32_t k = first; k < end; k++) {
         const uint32_t i = pair * TILE_ROW_PAIR + k;
         const double z = (double)t->z[i];
-        if (depth[k] == INFINITY || depth[k] > tile_depth_bound(t, z) || z == -INFINITY)
+        const double rounding =
+            t->linear || z == INFINITY ? 0 : fabs(z) * 0x1p-22; /* of a hit beyond usual distances */
+        if (depth[k] == INFINITY || depth[k] > tile_depth_bound(t, z) + rounding || z == -INFINITY)
             continue;
-        if (depth[k] + fabs(depth[k]) * 0x1p-28 < z) {
+        if (depth[k] + fabs(depth[k]) * 0x1p-28 < z - rounding) {
             t->z[i] =
                 (float)(t->linear ? depth[k] * (1 + 0.5 * TILE_LINEAR_ERROR) : depth[k] - 0.5 * (double)t->depth_error);
             tile_set_closest(t, i, prim);

@@ -202,9 +202,12 @@ static bool tile_sees_box(const tile *t, const tile_box *b)
     return in[0] && in[1] && in[2] && in[3] && in[4];
 }
 
+#define USUAL_SHARE 64u /* of the primitives: a level with less does not make the depth error */
+
 /* The largest distance from the eye of a primitive that the tile may hit: of the levels that it sees, so that a
- * primitive far away, or a huge one, counts only where it is in view. */
-CGT_SPU_INLINE float tile_max_distance(const tile *t, const cgt_committed_scene *committed_scene)
+ * primitive far away, or a huge one, counts only where it is in view. usual: the same of the levels with a good share
+ * of the primitives, for the depth error; spheres beyond are slow (tile_double.c). */
+CGT_SPU_INLINE float tile_max_distance(const tile *t, const cgt_committed_scene *committed_scene, float *usual)
 {
     const float *eye = t->rays->eye;
     const cgt_loose_grid *g = &committed_scene->loose;
@@ -214,13 +217,21 @@ CGT_SPU_INLINE float tile_max_distance(const tile *t, const cgt_committed_scene 
         all.low[a] = (double)committed_scene->low[a] - (double)eye[a];
         all.high[a] = (double)committed_scene->high[a] - (double)eye[a];
     }
+    const float whole = tile_max_corner_distance(&all);
+    *usual = 0;
     for (uint32_t k = 0; k < g->levels && g->levels > 1; k++) {
         const tile_box b = tile_level_box(&g->level[k], eye);
         const float distance = tile_max_corner_distance(&b);
-        most = distance > most && tile_sees_box(t, &b) ? distance : most;
+        if (!(distance > most || distance > *usual) || !tile_sees_box(t, &b))
+            continue;
+        most = distance > most ? distance : most;
+        if (g->level[k].prims >= committed_scene->valid / USUAL_SHARE)
+            *usual = distance > *usual ? distance : *usual;
     }
-    const float whole = tile_max_corner_distance(&all);
-    return most > 0 && most < whole ? most : whole;
+    most = most > 0 && most < whole ? most : whole;
+    if (!(*usual > 0 && *usual < most) || t->parallel || committed_scene->prims.triangles)
+        *usual = most;
+    return most;
 }
 
 /* The radius that the tile's depth error is made for. Larger spheres are slow (tile_double.c); smaller ones are
@@ -239,7 +250,7 @@ CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_sc
     return fminf(largest->reach[0], fminf(largest->reach[1], largest->reach[2]));
 }
 
-/* c: the largest distance from the eye of a primitive that may be hit. far_t: no hit has a larger t. */
+/* c: the largest usual distance from the eye. far_t: no hit has a larger t. */
 CGT_SPU_INLINE void tile_init_depth_errors(tile *t, const cgt_committed_scene *committed_scene, float c, float far_t)
 {
     const float r = committed_scene->prims.spheres ? tile_typical_radius(committed_scene, c) : 0;
@@ -267,7 +278,8 @@ void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_sce
     tile_init_norms(t);
     tile_init_parts(t);
     tile_init_cone(t);
-    const float c = tile_max_distance(t, committed_scene);
-    tile_init_depth_errors(t, committed_scene, c, c * (1 + 0x1p-18f) + t->length_error);
+    float usual;
+    const float c = tile_max_distance(t, committed_scene, &usual);
+    tile_init_depth_errors(t, committed_scene, usual, c * (1 + 0x1p-18f) + t->length_error);
     tile_init_pixels(t, c * (1 + 0x1p-18f) + t->length_error);
 }
