@@ -133,7 +133,15 @@ CGT_SPU_INLINE unsigned light_visible_children(const light_packet *l, const bvh_
     const vfloat below = spu_sub(spux_load(node->low[main]), main_origin),
                  above = spu_sub(spux_load(node->high[main]), main_origin);
     const vfloat minus = spux_vfloat(-0.f);
-    const vfloat w0 = reversed ? spu_xor(above, minus) : below, w1 = reversed ? spu_xor(below, minus) : above;
+    vfloat w0 = reversed ? spu_xor(above, minus) : below, w1 = reversed ? spu_xor(below, minus) : above;
+    vfloat own = spux_vfloat(0);
+    if (l->is_wide) {
+        for (int a = 0; a < 3; a++)
+            own = spux_max(own, spux_max(spux_abs(spux_load(node->low[a])), spux_abs(spux_load(node->high[a]))));
+        own = light_own_margin(own); /* infinite in lanes without a child */
+        w0 = spu_sub(w0, own);
+        w1 = spu_add(w1, own);
+    }
     vmask out = spu_or(spu_cmpgt(spux_vfloat(f->w[0]), w1), spu_cmpgt(w0, spux_vfloat(f->w[1])));
     for (int k = 0; k < 2; k++) {
         const int a = l->axis[k + 1];
@@ -141,8 +149,8 @@ CGT_SPU_INLINE unsigned light_visible_children(const light_packet *l, const bvh_
         const vfloat low = spu_sub(spux_load(node->low[a]), origin);
         const vfloat high = spu_sub(spux_load(node->high[a]), origin);
         const vfloat s0 = spux_vfloat(f->slope[k][0]), s1 = spux_vfloat(f->slope[k][1]);
-        const vfloat upper = spu_sub(high, spux_min(spu_mul(s0, w0), spu_mul(s0, w1)));
-        const vfloat lower = spu_sub(low, spux_max(spu_mul(s1, w0), spu_mul(s1, w1)));
+        const vfloat upper = spu_add(spu_sub(high, spux_min(spu_mul(s0, w0), spu_mul(s0, w1))), own);
+        const vfloat lower = spu_sub(spu_sub(low, spux_max(spu_mul(s1, w0), spu_mul(s1, w1))), own);
         out = spu_or(out, spu_or(spu_cmpgt(spux_vfloat(f->offset[k][0]), upper),
                                  spu_cmpgt(lower, spux_vfloat(f->offset[k][1]))));
     }
@@ -175,6 +183,12 @@ CGT_SPU_INLINE void light_transform_spheres(const light_packet *l, const sphere_
         q->v[1][k] = v[1];
     }
     q->radius = spux_load(s->radius);
+    if (l->is_wide) {
+        vfloat magnitude = spux_vfloat(0);
+        for (int a = 0; a < 3; a++)
+            magnitude = spux_max(magnitude, spux_abs(spux_load(s->center[a])));
+        q->radius = spu_add(q->radius, light_own_margin(spu_add(magnitude, q->radius)));
+    }
     q->scale = 1;
 }
 
@@ -190,6 +204,14 @@ CGT_SPU_INLINE void light_transform_triangles(const light_packet *l, const trian
             q->v[a][k] = k ? spu_add(spux_load(s->edge[k - 1][l->axis[a + 1]]), v[a]) : v[a];
     }
     q->radius = spux_vfloat(0);
+    if (l->is_wide) {
+        vfloat magnitude = spux_vfloat(0);
+        for (int a = 0; a < 3; a++) {
+            const vfloat edges = spux_max(spux_abs(spux_load(s->edge[0][a])), spux_abs(spux_load(s->edge[1][a])));
+            magnitude = spux_max(magnitude, spu_add(spux_abs(spux_load(s->vertex[a])), edges));
+        }
+        q->radius = light_own_margin(magnitude);
+    }
     q->scale = scale;
 }
 

@@ -161,6 +161,19 @@ static void light_march_set_slopes(const light_tile *t, tile_march *m)
     }
 }
 
+/* The margin of a level's own coordinates, in its cells. */
+static void light_march_add_margin(const cgt_loose_level *grid_level, tile_march_level *l)
+{
+    double magnitude = 0;
+    for (int a = 0; a < 3; a++) {
+        const double reach = (double)grid_level->reach[a], low = (double)grid_level->low[a];
+        const double high = low + (double)grid_level->cell[a] * grid_level->size[a];
+        magnitude = tile_max(magnitude, tile_max(fabs(low), fabs(high)) + reach);
+    }
+    for (int k = 0; k < 2; k++)
+        l->cell_error[k] += magnitude * ((double)LIGHT_MARGIN * (1 + (double)LIGHT_MAX_SLOPE)) * l->rcell[k];
+}
+
 static void light_march_init(const light_tile *t, tile_march *m)
 {
     const light_packet *l = &t->packet[0];
@@ -175,8 +188,11 @@ static void light_march_init(const light_tile *t, tile_march *m)
         (t->is_point ? 0 : -(double)t->far_w) - (double)t->margin; /* rays may end slightly behind the light */
     m->start_high = 0;
     light_march_set_slopes(t, m);
-    for (uint32_t i = 0; i < m->grid->levels; i++)
+    for (uint32_t i = 0; i < m->grid->levels; i++) {
         tile_march_init_level(l->origin, m, &m->grid->level[i], &m->level[i]);
+        if (t->is_wide)
+            light_march_add_margin(&m->grid->level[i], &m->level[i]);
+    }
 }
 
 /* ---- the tile ---- */
@@ -187,9 +203,11 @@ static void light_tile_finish(light_tile *t)
     light_packet *first = &t->packet[0];
     float margin = 0;
     t->undecided = 0;
+    t->is_wide = false;
     for (uint32_t k = 0; k < t->packets; k++) {
         const light_packet *l = &t->packet[k];
         margin = light_max(margin, l->margin);
+        t->is_wide = t->is_wide || l->is_wide;
         first->max_component = light_max(first->max_component, l->max_component);
         first->max_sum = light_max(first->max_sum, l->max_sum);
         first->default_ranges = first->default_ranges && l->default_ranges;

@@ -4,8 +4,8 @@
  * A tile of points against one light: 64 groups, a vector of rays each, with the range of slopes of each group's rays
  * as seen from the light; and the windows of primitives, which tell the groups that they may occlude.
  *
- * Windows are conservative: all numbers are widened by the packet's margin, 2^-17 of the largest number, and divisions
- * here are within 2^-20. A primitive that reaches behind the light has no bounded slopes: its window is unbounded.
+ * Windows are conservative: all numbers are widened by the packet's margin, 2^-17 of the largest number (in wide scenes,
+ * of that of the rays and the primitive: light_packet.h), and divisions here are within 2^-20. A primitive that reaches behind the light has no bounded slopes: its window is unbounded.
  * Apart from light_grid.c and light_read.c, which inline it. */
 #ifndef CGT_LIGHT_GROUPS_H
 #define CGT_LIGHT_GROUPS_H
@@ -32,6 +32,7 @@ typedef struct light_tile {
     uint32_t group_tests;            /* since all ranges were computed */
     float slope[2];                  /* of parallel rays */
     float margin;                    /* of lines along any axis */
+    bool is_wide;                    /* some packet is */
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
@@ -116,10 +117,16 @@ CGT_SPU_INLINE unsigned light_project_boxes(const light_tile *t, const vfloat mi
                                             light_windows *windows)
 {
     const light_packet *l = &t->packet[0];
-    vfloat w, v[2], low[2], high[2], half_size[3];
+    vfloat w, v[2], low[2], high[2], half_size[3], margin = spux_vfloat(t->margin);
+    if (t->is_wide) {
+        vfloat magnitude = spu_add(spux_abs(middle[0]), half[0]);
+        for (int a = 1; a < 3; a++)
+            magnitude = spux_max(magnitude, spu_add(spux_abs(middle[a]), half[a]));
+        margin = spu_add(margin, light_own_margin(magnitude));
+    }
     light_project_point(l, middle, &w, v);
     for (int k = 0; k < 3; k++)
-        half_size[k] = spu_madd(half[l->axis[k]], spux_vfloat(1 + 0x1p-20f), spux_vfloat(t->margin));
+        half_size[k] = spu_madd(half[l->axis[k]], spux_vfloat(1 + 0x1p-20f), margin);
     const vfloat near_w = spu_sub(w, half_size[0]), far_w = spu_add(w, half_size[0]), one = spux_vfloat(1);
     const vfloat rnear = spux_div(one, near_w), rfar = spux_div(one, far_w);
     for (int a = 0; a < 2; a++) {
@@ -146,8 +153,13 @@ CGT_SPU_INLINE unsigned light_project_spheres(const light_tile *t, const sphere_
 
 CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vertex[3][3], light_windows *windows)
 {
-    const vfloat margin = spux_vfloat(t->margin);
-    vfloat w[3], v[3][2], low[2], high[2];
+    vfloat w[3], v[3][2], low[2], high[2], margin = spux_vfloat(t->margin);
+    if (t->is_wide) {
+        vfloat magnitude = spux_vfloat(0);
+        for (int k = 0; k < 9; k++)
+            magnitude = spux_max(magnitude, spux_abs(vertex[k / 3][k % 3]));
+        margin = spu_add(margin, light_own_margin(magnitude));
+    }
     for (int k = 0; k < 3; k++)
         light_project_point(&t->packet[0], vertex[k], &w[k], v[k]);
     const vfloat near_w = spu_sub(spux_min(w[0], spux_min(w[1], w[2])), margin);
@@ -156,7 +168,7 @@ CGT_SPU_INLINE unsigned light_project_triangles(const light_tile *t, vfloat vert
     for (int k = 0; k < 3; k++)
         scale[k] = t->is_point ? spux_div(spux_vfloat(1), w[k]) : spux_vfloat(1);
     if (t->is_point)
-        margin_slope = spux_div(spux_vfloat(2 * t->margin), near_w);
+        margin_slope = spux_div(spu_add(margin, margin), near_w);
     for (int a = 0; a < 2; a++) {
         vfloat coord[3];
         for (int k = 0; k < 3; k++)

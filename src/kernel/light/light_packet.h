@@ -14,7 +14,10 @@
  * most 8 u M between a point and the light, and by 16 u M beyond a parallel ray's point as far as the primitives, for
  * slopes of at most 2. A canonical ray misses the light by u of its length, and t is rounded before it is compared with
  * the range. The three operations of v - a w round numbers below 8 M. The margin is 2^-17 M (1 + |a|), more than the
- * sum of these. */
+ * sum of these.
+ * Wide scenes. Where the scene reaches far beyond light and points, a margin for all of it would exceed what most
+ * primitives need. M is then split: the packet's margin has the coordinates of light and points alone, and each
+ * primitive, box or level adds 2^-17 (1 + |a|) of its own largest coordinate. */
 #ifndef CGT_LIGHT_PACKET_H
 #define CGT_LIGHT_PACKET_H
 
@@ -22,6 +25,7 @@
 #include "kernel/tunables.h"
 
 #define LIGHT_MAX_SLOPE 2.f
+#define LIGHT_MIN_WIDE 4.f /* a scene that reaches as many times as far as light and points is wide */
 
 /* Rays lie between the planes v - slope[a][0] w >= offset[a][0] and v - slope[a][1] w <= offset[a][1], for both axes a,
  * and between two w. Margins are included. */
@@ -43,6 +47,7 @@ typedef struct light_packet {
     float sign;                   /* of the rays' origins along it, seen from `origin` */
     float origin[3];
     float margin;       /* without the factor 1 + |a| */
+    bool is_wide;       /* primitives add margins of their own */
     uint32_t last_leaf; /* the leaf that occluded the last rays of the previous packet; 0: none */
     uint64_t work;
 } light_packet;
@@ -73,11 +78,22 @@ static inline bool light_init_axes(const packet *p, const float org[3], const fl
 CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene, const vfloat max_org[3],
                                      light_packet *l)
 {
-    float magnitude = 0;
-    for (int a = 0; a < 3; a++)
-        magnitude = light_max(magnitude, light_max(fabsf(committed_scene->low[a]), fabsf(committed_scene->high[a])) +
-                                             spux_hmax(max_org[a]) + fabsf(l->origin[a]));
+    float magnitude = 0, of_rays = 0;
+    for (int a = 0; a < 3; a++) {
+        const float rays = spux_hmax(max_org[a]) + fabsf(l->origin[a]);
+        of_rays = light_max(of_rays, rays);
+        magnitude =
+            light_max(magnitude, light_max(fabsf(committed_scene->low[a]), fabsf(committed_scene->high[a])) + rays);
+    }
+    l->is_wide = magnitude > of_rays * LIGHT_MIN_WIDE;
+    magnitude = l->is_wide ? of_rays : magnitude;
     l->margin = magnitude * LIGHT_MARGIN;
+}
+
+/* The margin that a primitive or box adds in a wide scene, by its largest coordinate, for any slope. */
+CGT_SPU_INLINE vfloat light_own_margin(vfloat magnitude)
+{
+    return spu_mul(magnitude, spux_vfloat(LIGHT_MARGIN * (1 + LIGHT_MAX_SLOPE)));
 }
 
 static inline void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
