@@ -40,8 +40,9 @@ typedef void cgt_compute_bounds_fn(const cgt_primitive_array *array, uint32_t fi
                                    const cgt_bounds_request *request, cgt_primitive_bounds *bounds);
 
 /* Converts the corners of clusters, to which a chunk's primitives were all added, to middles and sizes, and adds these
- * to classes. Writes whole vectors. */
-typedef void cgt_compute_cluster_bounds_fn(struct cgt_cluster *cluster, uint32_t count, cgt_size_classes *classes);
+ * to classes. Writes whole vectors. Returns how many have more half area than max_half_area. */
+typedef uint32_t cgt_compute_cluster_bounds_fn(struct cgt_cluster *cluster, uint32_t count, float max_half_area,
+                                               cgt_size_classes *classes);
 
 /* How cells are found: each of a structure's cells has a key; skipped primitives get one beyond all cells. */
 typedef struct cgt_cell_keys {

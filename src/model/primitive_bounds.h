@@ -69,10 +69,11 @@ typedef struct cgt_primitive_bounds {
     uint32_t skipped_not_finite;
     uint32_t skipped_radius;
     uint32_t skipped_degenerate;
-    uint32_t bad_index;   /* the first primitive with an index out of range; CGT_INVALID_ID: none */
-    float min[3], max[3]; /* outwards rounded */
-    double diameter[4];   /* sums of the powers 0 to 3 of the diameters; 0 where not requested */
-    float magnitude;      /* largest coordinate of any bound */
+    uint32_t large_clusters; /* clusters that are larger than their sample promised */
+    uint32_t bad_index;      /* the first primitive with an index out of range; CGT_INVALID_ID: none */
+    float min[3], max[3];    /* outwards rounded */
+    double diameter[4];      /* sums of the powers 0 to 3 of the diameters; 0 where not requested */
+    float magnitude;         /* largest coordinate of any bound */
 } cgt_primitive_bounds;
 
 #endif

@@ -28,8 +28,12 @@ typedef struct cgt_cluster {
 /* Which structures are built from clusters instead of triangles. */
 typedef enum cgt_cluster_use { CGT_CLUSTERS_NONE = 0, CGT_CLUSTERS_GRID, CGT_CLUSTERS_ALL } cgt_cluster_use;
 
-/* Chooses it for these primitives. */
-cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims);
+/* Chooses it for these primitives, by a sample. *max_half_area: clusters with more half area than that are not what the
+ * sample promised. */
+cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims, float *max_half_area);
+
+/* Whether so many clusters break the sample's promise that triangles serve better. */
+static inline bool cgt_clusters_are_loose(uint32_t large, uint32_t clusters) { return large > clusters / 16; }
 
 static inline uint32_t cgt_clusters(uint32_t prims) { return prims / CGT_CLUSTER + (prims % CGT_CLUSTER > 0); }
 

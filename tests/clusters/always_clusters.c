@@ -5,7 +5,10 @@
  * they are. */
 #include "model/triangle_cluster.h"
 
-cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims)
+#include <math.h>
+
+cgt_cluster_use cgt_choose_clusters(const cgt_primitives *prims, float *max_half_area)
 {
+    *max_half_area = INFINITY;
     return prims->spheres ? CGT_CLUSTERS_NONE : CGT_CLUSTERS_ALL;
 }

@@ -118,6 +118,29 @@ static void loose_clusters_serve_grids(void **state)
     cgt_context_release(context);
 }
 
+/* Triangles in random order but for those that the sample takes: the areas of all clusters tell. */
+static void a_lucky_sample_is_found_out(void **state)
+{
+    (void)state;
+    enum { COUNT = 8 * LEAST };
+    test_random r = random_make(2);
+    cgt_context *context = context_make(2, NULL);
+    mesh m = mesh_of(COUNT, 0), ordered = mesh_of(COUNT, 0);
+    mesh_shuffle(&m, &r);
+    for (uint32_t k = 1; k <= 64; k++) { /* as choose_clusters.c does */
+        const uint32_t c = (uint32_t)((uint64_t)(k * 0x9e3779b9u) * (COUNT / CGT_CLUSTER) >> 32);
+        memcpy(m.triangle[c * CGT_CLUSTER], ordered.triangle[c * CGT_CLUSTER], CGT_CLUSTER * sizeof *m.triangle);
+    }
+    mesh_store(&m);
+    mesh_store(&ordered);
+    assert_true(gets_clusters(context, &automatic, &ordered));
+    assert_int_equal(use_of(context, &automatic, &m), CGT_CLUSTERS_NONE);
+    assert_int_equal(use_of(context, &bvh, &m), CGT_CLUSTERS_NONE);
+    mesh_free(&m);
+    mesh_free(&ordered);
+    cgt_context_release(context);
+}
+
 /* One scene whose order is lost and restored, with a sphere for a while: each commit decides anew. */
 static void each_commit_decides(void **state)
 {
@@ -340,6 +363,7 @@ int main(void)
         cmocka_unit_test(neighbours_get_clusters),
         cmocka_unit_test(others_get_no_clusters),
         cmocka_unit_test(loose_clusters_serve_grids),
+        cmocka_unit_test(a_lucky_sample_is_found_out),
         cmocka_unit_test(each_commit_decides),
         cmocka_unit_test(an_index_out_of_range_is_reported),
         cmocka_unit_test(boxes_bound_valid_triangles),

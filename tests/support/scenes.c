@@ -36,7 +36,8 @@ bool variant_is_outer(const char *name)
 bool clusters_always(void)
 {
     const cgt_primitives nothing = {0};
-    return cgt_choose_clusters(&nothing) == CGT_CLUSTERS_ALL;
+    float area;
+    return cgt_choose_clusters(&nothing, &area) == CGT_CLUSTERS_ALL;
 }
 
 cgt_context *context_make(uint32_t threads, const char *variant)

@@ -20,6 +20,7 @@ typedef struct bounds_job {
     const cgt_kernel *kernel;
     cgt_bounds_request request; /* classes: one for each chunk, or NULL */
     cgt_primitive_bounds *chunk_bounds;
+    float max_half_area; /* of clusters */
 } bounds_job;
 
 static void bounds_clear(cgt_primitive_bounds *s)
@@ -28,11 +29,11 @@ static void bounds_clear(cgt_primitive_bounds *s)
         .min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}, .bad_index = CGT_INVALID_ID};
 }
 
-/* Completes the clusters of a chunk's triangles: chunks have whole ones, except the last. */
-static void compute_cluster_bounds(const bounds_job *job, uint32_t first, uint32_t end, cgt_size_classes *classes)
+/* Completes the clusters of a chunk's triangles: chunks have whole ones, except the last. Returns the large ones. */
+static uint32_t compute_cluster_bounds(const bounds_job *job, uint32_t first, uint32_t end, cgt_size_classes *classes)
 {
     cgt_cluster *cluster = job->request.cluster + first / CGT_CLUSTER;
-    job->kernel->compute_cluster_bounds(cluster, cgt_clusters(end - first), classes);
+    return job->kernel->compute_cluster_bounds(cluster, cgt_clusters(end - first), job->max_half_area, classes);
 }
 
 static void compute_chunk_bounds(void *argument, uint32_t index)
@@ -54,13 +55,14 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
         prim = stop;
     }
     if (request.cluster && s.bad_index == CGT_INVALID_ID)
-        compute_cluster_bounds(job, first, end, request.classes);
+        s.large_clusters = compute_cluster_bounds(job, first, end, request.classes);
     job->chunk_bounds[index] = s;
 }
 
 static void bounds_merge(cgt_primitive_bounds *s, const cgt_primitive_bounds *chunk_bounds)
 {
     s->valid += chunk_bounds->valid;
+    s->large_clusters += chunk_bounds->large_clusters;
     s->skipped_not_finite += chunk_bounds->skipped_not_finite;
     s->skipped_radius += chunk_bounds->skipped_radius;
     s->skipped_degenerate += chunk_bounds->skipped_degenerate;
@@ -132,13 +134,15 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, bool clusters, boun
     return CGT_OK;
 }
 
-static cgt_result compute_bounds(cgt_scene *scene, bool clusters, cgt_primitive_bounds *s)
+/* max_half_area: of clusters that are not large. */
+static cgt_result compute_bounds(cgt_scene *scene, bool clusters, float max_half_area, cgt_primitive_bounds *s)
 {
     const uint32_t chunks = (uint32_t)(((uint64_t)scene->committed_scene.prims.count + CHUNK - 1) / CHUNK);
     bounds_job job;
     const cgt_result result = reserve(scene, chunks, clusters, &job);
     if (result != CGT_OK)
         return result;
+    job.max_half_area = max_half_area;
     cgt_run_tasks(scene->context, compute_chunk_bounds, &job, chunks);
     bounds_clear(s);
     for (uint32_t i = 0; i < chunks; i++)
@@ -162,9 +166,16 @@ cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
     const cgt_structure structure = scene->committed_scene.structure;
     const bool loose = structure == CGT_STRUCTURE_LOOSE_GRID && !scene->options.research->resolution[0];
     const bool tree = structure == CGT_STRUCTURE_BVH;
-    const cgt_cluster_use use = loose || tree ? cgt_choose_clusters(&scene->committed_scene.prims) : CGT_CLUSTERS_NONE;
-    const bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);
-    const cgt_result result = compute_bounds(scene, clusters, s);
+    const cgt_primitives *prims = &scene->committed_scene.prims;
+    float max_half_area = INFINITY;
+    cgt_cluster_use use = loose || tree ? cgt_choose_clusters(prims, &max_half_area) : CGT_CLUSTERS_NONE;
+    bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);
+    cgt_result result = compute_bounds(scene, clusters, max_half_area, s);
+    if (result == CGT_OK && clusters && cgt_clusters_are_loose(s->large_clusters, cgt_clusters(prims->count))) {
+        clusters = false;
+        use = CGT_CLUSTERS_NONE;
+        result = compute_bounds(scene, false, INFINITY, s);
+    }
     scene->committed_scene.cluster = clusters ? scene->buffer[CGT_BUFFER_CLUSTERS].data : NULL;
     scene->committed_scene.bvh_of_clusters = use == CGT_CLUSTERS_ALL;
     return result;
@@ -173,5 +184,5 @@ cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
 cgt_result cgt_compute_size_classes(cgt_scene *scene)
 {
     cgt_primitive_bounds s;
-    return compute_bounds(scene, false, &s);
+    return compute_bounds(scene, false, INFINITY, &s);
 }

@@ -331,10 +331,12 @@ void CGT_KERNEL(cgt_compute_array_bounds)(const cgt_primitive_array *array, uint
     bounds_pass_store(&p, array->kind);
 }
 
-void CGT_KERNEL(cgt_compute_cluster_bounds)(cgt_cluster *cluster, uint32_t count, cgt_size_classes *classes)
+uint32_t CGT_KERNEL(cgt_compute_cluster_bounds)(cgt_cluster *cluster, uint32_t count, float max_half_area,
+                                                cgt_size_classes *classes)
 {
     size_gather sizes;
     size_gather_clear(&sizes);
-    clusters_compute_size(cluster, count, &sizes);
+    const uint32_t large = clusters_compute_size(cluster, count, max_half_area, &sizes);
     size_gather_store(&sizes, 3, classes);
+    return large;
 }

@@ -143,9 +143,12 @@ CGT_SPU_INLINE void cluster_gather_store(const cluster_gather *g, cgt_cluster *c
         memcpy(cluster, padded, count * sizeof *padded);
 }
 
-/* Middles and extents of clusters whose corners are gathered, and their sizes. */
-CGT_SPU_INLINE void clusters_compute_size(cgt_cluster *cluster, uint32_t count, size_gather *sizes)
+/* Middles and extents of clusters whose corners are gathered, and their sizes. Returns how many have more half area than
+ * max_half_area. */
+CGT_SPU_INLINE uint32_t clusters_compute_size(cgt_cluster *cluster, uint32_t count, float max_half_area,
+                                              size_gather *sizes)
 {
+    uint32_t large = 0;
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vfloat d[8], middle[3], half[3], size = spux_vfloat(0);
         const uint32_t remaining = count - k;
@@ -159,13 +162,17 @@ CGT_SPU_INLINE void clusters_compute_size(cgt_cluster *cluster, uint32_t count, 
             size = spux_max(size, half[a]);
         }
         size = spux_select(spux_vfloat(-1), size, has_valid);
-        size_gather_add(sizes, middle, half, 3, size,
-                        spu_and(has_valid, spux_mask_first(remaining < CGT_LANES ? remaining : CGT_LANES)));
+        const vmask present = spu_and(has_valid, spux_mask_first(remaining < CGT_LANES ? remaining : CGT_LANES));
+        const vfloat sides = spu_madd(half[0], spu_add(half[1], half[2]), spu_mul(half[1], half[2]));
+        const vmask is_large = spu_cmpgt(sides, spux_vfloat(max_half_area * 0.25f)); /* extents are twice the halves */
+        large += spux_count_bits(spux_mask_bits(spu_and(present, is_large)));
+        size_gather_add(sizes, middle, half, 3, size, present);
         const size_t stride = sizeof *cluster / sizeof(float);
         const vfloat first[4] = {middle[0], middle[1], middle[2], d[3]}, second[4] = {half[0], half[1], half[2], size};
         spux_store_records4(cluster[k].middle, stride, first); /* there is room for whole vectors */
         spux_store_records4(cluster[k].half, stride, second);
     }
+    return large;
 }
 
 #endif
