@@ -79,8 +79,10 @@ typedef void cgt_trace_rays_fn(const cgt_committed_scene *committed_scene, const
                                uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
                                uint8_t *occluded, cgt_counts *counts);
 
-/* Finds any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`. */
-typedef void cgt_trace_light_fn(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+/* Finds any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`.
+ * Returns false if it would take more than settings->max_light_work: then the work is counted, the points are not, and
+ * what `occluded` has of them is undefined. */
+typedef bool cgt_trace_light_fn(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                 const cgt_light *light, uint64_t first, uint64_t end,
                                 const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts);
 

@@ -14,6 +14,15 @@
 #define SAMPLED_CHUNKS 8u
 #define PRIMS_PER_POINT 16u
 
+/* Where a BVH may take over: the work for each point, in references and tests of groups, after which tiles give a chunk
+ * up. The estimate takes primitives for evenly spread over the bounds of the scene; one far away makes it too small. The
+ * work is bounded by a few times what the BVH takes. */
+#define MAX_LIGHT_WORK 128u
+#define SCATTERED_POINTS                                                                                               \
+    4u /* points of such a chunk share little: each counts as so many rays for the BVH's building */
+
+#define CHUNK_GIVEN_UP 0xffu /* the first result of a chunk that tiles gave up, until it is traced otherwise */
+
 #define FEW_POINTS 256u /* fewer go through a BVH where there is one */
 
 typedef struct light_job {
@@ -23,6 +32,7 @@ typedef struct light_job {
     uint8_t *occluded;
     cgt_trace_settings settings;
     cgt_trace_counter *counter;
+    _Atomic uint64_t given_up; /* points of chunks that tiles gave up */
 } light_job;
 
 static uint64_t chunk_end(const light_job *job, uint64_t first)
@@ -33,13 +43,45 @@ static uint64_t chunk_end(const light_job *job, uint64_t first)
 
 static void trace_chunk(void *argument, uint32_t index)
 {
-    const light_job *job = argument;
+    light_job *job = argument;
     const cgt_scene *s = job->scene;
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
     cgt_counts counts = {0};
-    s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
-                                    job->occluded, &counts);
+    if (!s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
+                                         job->occluded, &counts)) {
+        job->occluded[first] = CHUNK_GIVEN_UP;
+        atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
+    }
     cgt_trace_counter_add(job->counter, &counts);
+}
+
+static void trace_given_up_chunk(void *argument, uint32_t index)
+{
+    const light_job *job = argument;
+    if (job->occluded[(uint64_t)index * CGT_RAYS_CHUNK] == CHUNK_GIVEN_UP)
+        trace_chunk(argument, index);
+}
+
+/* Traces all chunks, and those that tiles gave up once more: through the BVH, or by tiles with any work where there is
+ * none yet. */
+static cgt_result trace_chunks(light_job *job)
+{
+    const cgt_scene *s = job->scene;
+    const uint32_t chunks = (uint32_t)((job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK);
+    cgt_trace_settings *settings = &job->settings;
+    if (settings->light_tiles && s->options.structure == CGT_STRUCTURE_AUTO)
+        settings->max_light_work = MAX_LIGHT_WORK;
+    cgt_run_tasks(s->context, trace_chunk, job, chunks);
+    const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
+    if (!given_up)
+        return CGT_OK;
+    const cgt_result result = cgt_bvh_build_on_demand(s, given_up * SCATTERED_POINTS, &settings->use_bvh);
+    if (result != CGT_OK)
+        return result;
+    settings->light_tiles = !settings->use_bvh;
+    settings->max_light_work = 0;
+    cgt_run_tasks(s->context, trace_given_up_chunk, job, chunks);
+    return CGT_OK;
 }
 
 /* Whether, in most chunks, neighbouring points are near enough to each other for tiles, as the light sees them. */
@@ -115,7 +157,9 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
     if (result != CGT_OK)
         return result;
     job.settings.light_tiles = tiles && !(job.settings.use_bvh && points->count < FEW_POINTS);
-    cgt_run_tasks(c, trace_chunk, &job, (uint32_t)((points->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    result = trace_chunks(&job);
+    if (result != CGT_OK)
+        return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);
     return CGT_OK;
 }

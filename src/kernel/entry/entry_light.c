@@ -7,19 +7,15 @@
 
 #define LIGHT_PACKET_RAYS 128u /* rays; measured: larger ones share more of spheres, smaller ones of fine meshes */
 
-void CGT_KERNEL(cgt_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+bool CGT_KERNEL(cgt_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                  const cgt_light *light, uint64_t first, uint64_t end,
                                  const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
     packet p;
-    if (settings->light_tiles) {
-        CGT_KERNEL(cgt_tile_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
-        return;
-    }
-    if (settings->use_bvh) {
-        CGT_KERNEL(cgt_bvh_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
-        return;
-    }
+    if (settings->light_tiles)
+        return CGT_KERNEL(cgt_tile_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
+    if (settings->use_bvh)
+        return CGT_KERNEL(cgt_bvh_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
     const light_call c = {.committed_scene = committed_scene,
                           .source = ray_source_init(points, light),
                           .light = *light,
@@ -35,4 +31,5 @@ void CGT_KERNEL(cgt_trace_light)(const cgt_committed_scene *committed_scene, con
     for (uint32_t i = 0; i < count; i += LIGHT_PACKET_RAYS)
         light_trace_packet(&c, i, count - i < LIGHT_PACKET_RAYS ? count - i : LIGHT_PACKET_RAYS, &p);
     light_count_hits(&c, count);
+    return true;
 }

@@ -388,7 +388,7 @@ static bool light_trace_points(const light_call *c, light_packet *l, uint32_t fi
     return true;
 }
 
-void CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+bool CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                      const cgt_light *light, uint64_t first, uint64_t end,
                                      const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
@@ -418,4 +418,5 @@ void CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene,
     light_count_hits(&c, done);
     if (done < count)
         light_trace_single_rays(&c, first + done, end);
+    return true;
 }

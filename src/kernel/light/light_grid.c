@@ -5,7 +5,8 @@
  * the arrays become a tile of 64 groups, a vector of rays each. Primitives come slice by slice along the frustum of the
  * tile's rays (light_packet.h). A vector of primitives at a time is projected as seen from the light: each gets a
  * window of slopes (of offsets for parallel rays), which tells the groups that it may occlude. Those are tested
- * (light_leaf.h). A group is done when all its rays have hit something. */
+ * (light_leaf.h). A group is done when all its rays have hit something. A chunk that takes too much work is given up:
+ * its points or the primitives are too scattered for tiles. */
 #include "kernel/light/light_groups.h"
 #include "kernel/light/light_points.h"
 #include "kernel/tile/tile_march.h"
@@ -136,10 +137,16 @@ static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference,
     return visible;
 }
 
+/* What a chunk has taken: references, and tests of groups. */
+CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
+{
+    return counts->references + counts->ray_tests / CGT_LANES;
+}
+
 static bool light_tile_is_done(const void *owner)
 {
     const light_tile *t = owner;
-    return !t->undecided;
+    return !t->undecided || light_work(t->counts) > t->max_work;
 }
 
 static const prefetch_tests light_tests = {CGT_LANES, light_tile_test_spheres, light_tile_test_triangles,
@@ -242,7 +249,7 @@ static void light_march_grid(light_tile *t)
     tile_slice s;
     light_march_init(t, &m);
     t->group_tests = 0;
-    while (t->undecided && tile_march_next_slice(&m, &s)) {
+    while (!light_tile_is_done(t) && tile_march_next_slice(&m, &s)) {
         /* beyond all points? */
         if (t->is_point && s.near_t > (double)(t->far_w + t->margin)) {
             t->counts->early_exits++;
@@ -256,7 +263,7 @@ static void light_march_grid(light_tile *t)
         }
         /* queue the slice's references */
         const uint32_t runs = tile_slice_run_count(&m, &s);
-        for (uint32_t k = 0; k < runs && t->undecided; k++) {
+        for (uint32_t k = 0; k < runs && !light_tile_is_done(t); k++) {
             uint32_t count;
             const uint32_t *reference = tile_slice_get_run(&m, &s, k, &count);
             prefetch_append_run(&t->prefetch, &light_tests, reference, count);
@@ -274,7 +281,8 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
     t->packets = 0;
     t->prefetch = (prefetch_owner){t->committed_scene, &t->pending, t};
     prefetch_queues_clear(&t->pending);
-    for (uint32_t done = 0; done < count && t->packets < LIGHT_TILE_PACKETS; done += PACKET_MAX_RAYS) {
+    for (uint32_t done = 0; done < count && t->packets < LIGHT_TILE_PACKETS && light_work(c->counts) <= t->max_work;
+         done += PACKET_MAX_RAYS) {
         const uint32_t rays_left = count - done, ray_count = rays_left < PACKET_MAX_RAYS ? rays_left : PACKET_MAX_RAYS;
         const uint64_t invalid = c->counts->invalid_rays;
         light_packet *l = &t->packet[t->packets];
@@ -311,7 +319,7 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
         light_store_occluded(c, &t->packet[k].rays, from[k], rays[k]);
 }
 
-void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
+bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                       const cgt_light *light, uint64_t first, uint64_t end,
                                       const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
@@ -325,15 +333,24 @@ void CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
                     .occluded = occluded,
                     .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
+    const uint64_t invalid = counts->invalid_rays;
     t.committed_scene = committed_scene;
     t.counts = counts;
     t.is_point = light->kind == CGT_LIGHT_POINT;
-    counts->rays += count;
+    t.max_work =
+        settings->max_light_work ? light_work(counts) + (uint64_t)settings->max_light_work * count : UINT64_MAX;
     if (committed_scene->valid >= LIGHT_SORT_MIN_PRIMS || CGT_KERNEL(cgt_light_is_scattered)(&c, count)) {
         c.order.from = from;
         CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
     }
-    for (uint32_t i = 0; i < count; i += LIGHT_TILE_RAYS)
+    for (uint32_t i = 0; i < count; i += LIGHT_TILE_RAYS) {
         light_trace_tile(&c, &t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
+        if (light_work(counts) > t.max_work) {
+            counts->invalid_rays = invalid;
+            return false;
+        }
+    }
+    counts->rays += count;
     light_count_hits(&c, count);
+    return true;
 }

@@ -36,6 +36,7 @@ typedef struct light_tile {
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
+    uint64_t max_work; /* the light_work at which the chunk is given up */
     bool is_point;
     prefetch_queues pending;
     prefetch_owner prefetch; /* of `pending` */
