@@ -3,8 +3,9 @@
  *
  * The bounds of points against a light, tile by tile. Points whose rays pass corners, edges and silhouettes to within
  * rounding, or that lie on surfaces, get the same result as by exact decisions. Then the bounds are tightened until one
- * does not: the unit roundoff of the tests, and the margin of tiles. The kernel's sources are compiled into the test,
- * where they take the place of the library's. For the variant that this is compiled for. */
+ * does not: the unit roundoff of the tests, and the margin of tiles. Half of the scenes are wide: one primitive lies far
+ * beyond the others. The kernel's sources are compiled into the test, where they take the place of the library's. For
+ * the variant that this is compiled for. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +27,7 @@ typedef enum content { SPHERES, SPECKS, TRIANGLES, CONTENTS } content;
 
 typedef struct subject {
     cgt_context *context;
-    cgt_scene *tiles, *exact; /* the same scene in another structure */
+    cgt_scene *tiles, *bvh, *exact; /* the same scene in three structures */
     cloud spheres;
     float (*corner)[9];
     content what;
@@ -56,7 +57,7 @@ static cgt_scene *commit(const subject *s, cgt_structure structure)
     return scene;
 }
 
-static void subject_make(test_random *r, content what, subject *s)
+static void subject_make(test_random *r, content what, bool wide, subject *s)
 {
     static const cloud_kind kinds[] = {CLOUD_UNIFORM, CLOUD_FAR, CLOUD_LATTICE};
     memset(s, 0, sizeof *s);
@@ -73,13 +74,21 @@ static void subject_make(test_random *r, content what, subject *s)
         if (what == SPECKS) /* nearly points: their windows are mostly margin */
             sphere[3] = s->spheres.reach * 0x1p-23f;
     }
+    if (wide) {
+        const float far = ldexpf(s->spheres.reach + fabsf(s->spheres.middle[0]), 3 + (int)random_below(r, 20));
+        s->spheres.sphere[0][0] += far;
+        for (int k = 0; k < 9; k += 3)
+            s->corner[0][k] += far;
+    }
     s->tiles = commit(s, CGT_STRUCTURE_LOOSE_GRID);
+    s->bvh = commit(s, CGT_STRUCTURE_BVH);
     s->exact = commit(s, CGT_STRUCTURE_QUEUE_GRID);
 }
 
 static void subject_free(subject *s)
 {
     cgt_scene_release(s->tiles);
+    cgt_scene_release(s->bvh);
     cgt_scene_release(s->exact);
     cgt_context_release(s->context);
     cloud_free(&s->spheres);
@@ -186,7 +195,7 @@ typedef struct tally {
     uint64_t lost, invented;
 } tally;
 
-static void add_wrong(const subject *s, tally *sum)
+static void add_wrong(const subject *s, const cgt_scene *scene, tally *sum)
 {
     static uint8_t got[POINTS];
     const cgt_points points = {.count = POINTS, .position = {s->at[0], s->at[1], s->at[2]}};
@@ -196,8 +205,8 @@ static void add_wrong(const subject *s, tally *sum)
     cgt_trace_options_init(&options);
     options.statistics = &statistics;
     memset(got, 7, sizeof got);
-    assert_int_equal(cgt_occluded_points(s->tiles, &s->light, &points, got, &options), CGT_OK);
-    assert_true(statistics.tiles > 0);
+    assert_int_equal(cgt_occluded_points(scene, &s->light, &points, got, &options), CGT_OK);
+    assert_true(scene == s->tiles ? statistics.tiles > 0 : statistics.bvh_rays > 0);
     for (uint32_t i = 0; i < POINTS; i++) {
         assert_true(got[i] < 2);
         sum->lost += s->expected[i] > got[i];
@@ -211,21 +220,22 @@ static void add_wrong(const subject *s, tally *sum)
 }
 
 /* Tightens each bound separately: tallies of the roundoff (0) and of the margin (1), for each step. */
-static void tighten(test_random *r, content what, bool shrink, tally sum[2][SHRUNK + 2], uint64_t *hidden)
+static void tighten(test_random *r, content what, bool wide, bool shrink, tally sum[2][SHRUNK + 2], uint64_t *hidden)
 {
     static subject s;
     const uint32_t stride = test_samples() ? 3 : 1; /* reaches the last step, too */
-    subject_make(r, what, &s);
+    subject_make(r, what, wide, &s);
     for (uint32_t k = 0; k < 4; k++) {
         place_light(r, &s);
         place_points(r, &s);
         find_truth(&s);
         *hidden += s.hidden;
+        add_wrong(&s, s.bvh, &sum[0][0]);
         for (uint32_t bound = 0; bound < 2; bound++)
             for (uint32_t step = 0; step < (shrink ? SHRUNK + 2 : 1 - bound); step += stride) {
                 const float factor = step > SHRUNK ? 0 : ldexpf(1, -2 * (int)step);
                 *(bound ? &margin_used : &filter_u) *= factor;
-                add_wrong(&s, &sum[bound][step]);
+                add_wrong(&s, s.tiles, &sum[bound][step]);
                 filter_u = 0x1p-24f;
                 margin_used = 0x1p-17f;
             }
@@ -242,7 +252,7 @@ static void bounds_hold(void **state)
         tally sum[2][SHRUNK + 2] = {{{0}}};
         uint64_t hidden = 0;
         for (uint32_t turn = 0; turn < turns; turn++)
-            tighten(&r, (content)what, false, sum, &hidden);
+            tighten(&r, (content)what, turn % 2, false, sum, &hidden);
         print_message("content %d: %llu of %llu in shadow\n", what, (unsigned long long)hidden, 4ull * turns * POINTS);
         assert_true(hidden > turns && hidden < 4ull * turns * POINTS);
         assert_int_equal(sum[0][0].lost, 0);
@@ -259,20 +269,19 @@ static uint32_t first_wrong(const tally *sum, bool invented)
     return step;
 }
 
-static void bounds_break_where_they_are_tightened(void **state)
+static void break_bounds(bool wide)
 {
-    (void)state;
     uint32_t of_margin = SHRUNK + 2;
     for (int what = 0; what < CONTENTS; what++) {
         test_random r = random_make(850 + (uint64_t)what);
         tally sum[2][SHRUNK + 2] = {{{0}}};
         uint64_t hidden = 0;
         for (uint32_t turn = 2 + test_scaled(4); turn; turn--)
-            tighten(&r, (content)what, true, sum, &hidden);
+            tighten(&r, (content)what, wide, true, sum, &hidden);
         const uint32_t lost = first_wrong(sum[0], false), invented = first_wrong(sum[0], true);
         const uint32_t missed = first_wrong(sum[1], false);
-        print_message("content %d: the roundoff loses at 4^-%u and invents at 4^-%u, the margin loses at 4^-%u\n", what,
-                      lost, invented, missed);
+        print_message("content %d%s: the roundoff loses at 4^-%u and invents at 4^-%u, the margin loses at 4^-%u\n",
+                      what, wide ? ", wide" : "", lost, invented, missed);
         of_margin = missed < of_margin ? missed : of_margin;
         for (int bound = 0; bound < 2; bound++)
             assert_true(sum[bound][0].lost + sum[bound][0].invented == 0);
@@ -280,6 +289,13 @@ static void bounds_break_where_they_are_tightened(void **state)
         assert_true(lost < SHRUNK + 2 && (what == SPECKS || invented < SHRUNK + 2));
     }
     assert_true(of_margin > 0 && of_margin < SHRUNK + 2);
+}
+
+static void bounds_break_where_they_are_tightened(void **state)
+{
+    (void)state;
+    break_bounds(false);
+    break_bounds(true);
 }
 
 int main(void)
