@@ -31,6 +31,8 @@ typedef struct subject {
     cloud spheres;
     float (*corner)[9];
     content what;
+    bool wide;  /* the first primitive is far away */
+    bool aimed; /* the rays are parallel, from near the others to the first */
     cgt_light light;
     float at[3][POINTS];
     uint8_t expected[POINTS];
@@ -74,11 +76,14 @@ static void subject_make(test_random *r, content what, bool wide, subject *s)
         if (what == SPECKS) /* nearly points: their windows are mostly margin */
             sphere[3] = s->spheres.reach * 0x1p-23f;
     }
+    s->wide = wide;
     if (wide) {
+        static const float away[3] = {1, -0.75f, 0.5f};
         const float far = ldexpf(s->spheres.reach + fabsf(s->spheres.middle[0]), 3 + (int)random_below(r, 20));
-        s->spheres.sphere[0][0] += far;
-        for (int k = 0; k < 9; k += 3)
-            s->corner[0][k] += far;
+        for (int a = 0; a < 3; a++)
+            s->spheres.sphere[0][a] += away[a] * far;
+        for (int k = 0; k < 9; k++)
+            s->corner[0][k] += away[k % 3] * far;
     }
     s->tiles = commit(s, CGT_STRUCTURE_LOOSE_GRID);
     s->bvh = commit(s, CGT_STRUCTURE_BVH);
@@ -109,6 +114,10 @@ static void place_light(test_random *r, subject *s)
         s->light.position[a] =
             s->light.kind == CGT_LIGHT_POINT ? s->spheres.middle[a] + share * far : rintf(share * 64) / 64;
     }
+    s->aimed = s->wide && s->light.kind == CGT_LIGHT_DIRECTIONAL && random_below(r, 2);
+    for (int a = 0; a < 3 && s->aimed; a++)
+        s->light.position[a] =
+            (s->what == TRIANGLES ? s->corner[0][a] : s->spheres.sphere[0][a]) - s->spheres.middle[a];
 }
 
 /* The direction from a point to the light. */
@@ -121,7 +130,7 @@ static void direction_to_light(const subject *s, const float at[3], float d[3])
 /* A corner, a point of an edge, or one of a silhouette as seen from the light. */
 static void hard_point(test_random *r, const subject *s, float e[3])
 {
-    const uint32_t i = random_below(r, PRIMITIVES);
+    const uint32_t i = s->aimed ? 0 : random_below(r, PRIMITIVES);
     const float *sphere = s->spheres.sphere[i], share = random_below(r, 2) ? random_float(r, 0, 1) : 0;
     const uint32_t k = random_below(r, 3);
     float d[3], side[3], across[3], length = 0, dd = 0, along = 0;
@@ -156,7 +165,9 @@ static void place_points(test_random *r, subject *s)
         hard_point(r, s, e);
         direction_to_light(s, e, d);
         float away = (float[]){0, 0.25f, 0.5f, 1}[random_below(r, 4)];
-        if (s->light.kind == CGT_LIGHT_DIRECTIONAL)
+        if (s->aimed)
+            away = 1;
+        else if (s->light.kind == CGT_LIGHT_DIRECTIONAL)
             away *= s->spheres.reach;
         for (uint32_t k = 0; k < COPIES; k++)
             for (int a = 0; a < 3; a++) {
@@ -212,9 +223,10 @@ static void add_wrong(const subject *s, const cgt_scene *scene, tally *sum)
         sum->lost += s->expected[i] > got[i];
         sum->invented += s->expected[i] < got[i];
         if (report && s->expected[i] != got[i] && sum->lost + sum->invented < 4)
-            print_message("content %d, light %a %a %a, kind %d: point %a %a %a is %s\n", (int)s->what,
-                          (double)s->light.position[0], (double)s->light.position[1], (double)s->light.position[2],
-                          (int)s->light.kind, (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
+            print_message("%s, content %d, light %a %a %a, kind %d: point %a %a %a is %s\n",
+                          scene == s->tiles ? "tiles" : "BVH", (int)s->what, (double)s->light.position[0],
+                          (double)s->light.position[1], (double)s->light.position[2], (int)s->light.kind,
+                          (double)s->at[0][i], (double)s->at[1][i], (double)s->at[2][i],
                           got[i] ? "in the light" : "in shadow");
     }
 }

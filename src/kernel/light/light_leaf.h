@@ -27,7 +27,9 @@
  * this suffices: from inside, C < 0, there is one root ahead; from outside there are two if B > 0, and they are before
  * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). Other spheres and
  * uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added to r^2 in bounds, and
- * 2^-118 where A is a factor. */
+ * 2^-118 where A is a factor. B^2 and A C may overflow, to an infinite difference of either sign. 2 A (c.c + r^2) exceeds
+ * both by more than their rounding, so it overflows first. It is a factor of the bound, which is infinite then: no
+ * comparison with it holds, and the ray is undecided. */
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
 
@@ -255,9 +257,9 @@ CGT_SPU_INLINE void light_compute_roots(const light_packet *l, const sphere_bloc
     f->distance = lane_dot(c, c);
     f->middle = lane_dot(d, c);
     f->inner = spu_sub(f->distance, spux_vfloat(square));
-    const vfloat size = spu_add(f->distance, spux_vfloat(square + 0x1p-97f));
-    f->inner_error = spu_mul(size, spux_vfloat(LIGHT_EPS_INNER));
-    f->error = spu_madd(spu_mul(f->dd, spux_vfloat(LIGHT_EPS_DISC)), size, spux_vfloat(0x1p-118f));
+    const vfloat twice = spu_madd(f->distance, spux_vfloat(2), spux_vfloat(2 * (square + 0x1p-97f)));
+    f->inner_error = spu_mul(twice, spux_vfloat(0.5f * LIGHT_EPS_INNER));
+    f->error = spu_madd(spu_mul(f->dd, twice), spux_vfloat(0.5f * LIGHT_EPS_DISC), spux_vfloat(0x1p-118f));
     f->disc = spu_msub(f->middle, f->middle, spu_mul(f->dd, f->inner));
     f->middle_certain = spu_cmpgt(spu_mul(f->middle, f->middle), spu_mul(f->error, spux_vfloat(2 * FILTER_ROUNDOFF)));
     f->outside = spu_cmpgt(f->inner, f->inner_error);
