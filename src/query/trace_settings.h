@@ -25,7 +25,7 @@ typedef struct cgt_trace_settings {
     cgt_precision precision;
     cgt_triangle_test triangle_test;
     bool light_tiles;        /* points against a light go through the loose grid, tile by tile */
-    uint32_t max_light_work; /* for each point, in references and tests of groups, that tiles may take; 0: any */
+    uint32_t max_light_work; /* for each point, in references and tests of groups of 16, that tiles may take; 0: any */
     bool use_bvh;    /* rays go through committed_scene->bvh. Where it is false, another thread may be building that:
                          it must not be read then */
     uint32_t fields; /* cgt_field values that somebody asked for */

@@ -337,8 +337,9 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     t.committed_scene = committed_scene;
     t.counts = counts;
     t.is_point = light->kind == CGT_LIGHT_POINT;
-    t.max_work =
-        settings->max_light_work ? light_work(counts) + (uint64_t)settings->max_light_work * count : UINT64_MAX;
+    /* tiles of fewer lanes share less */
+    const uint64_t max_work = (uint64_t)settings->max_light_work * count * 16 / CGT_LANES;
+    t.max_work = max_work ? light_work(counts) + max_work : UINT64_MAX;
     if (committed_scene->valid >= LIGHT_SORT_MIN_PRIMS || CGT_KERNEL(cgt_light_is_scattered)(&c, count)) {
         c.order.from = from;
         CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
