@@ -22,9 +22,10 @@ _Static_assert(LIGHT_GROUPS == LIGHT_TILE_PACKETS * LIGHT_PACKET_GROUPS, "groups
 /* ---- primitives ---- */
 
 /* Counts a vector of references, of which some are visible. */
-CGT_SPU_INLINE void light_count_references(const light_tile *t, uint32_t count, unsigned visible)
+CGT_SPU_INLINE void light_count_references(light_tile *t, uint32_t count, unsigned visible)
 {
     const uint32_t visible_count = spux_count_bits(visible);
+    t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - visible_count;
@@ -36,6 +37,7 @@ CGT_SPU_INLINE void light_count_tests(light_tile *t, uint64_t overlaps)
     const uint32_t groups = (uint32_t)__builtin_popcountll(overlaps);
     t->counts->ray_tests += groups * CGT_LANES;
     t->group_tests += groups;
+    t->work += groups;
 }
 
 /* The visible primitives of a leaf against the groups that overlap their windows. Groups that a primitive may hit are
@@ -131,6 +133,7 @@ static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference,
     vfloat d[8];
     gather_cluster_list(t->committed_scene->cluster, reference, count, d);
     const unsigned visible = light_project_boxes(t, d, d + 4, &windows) & first_lanes(count);
+    t->work += count;
     t->counts->references += count;
     t->counts->cull_tests += count;
     t->counts->culled += count - spux_count_bits(visible);
@@ -146,7 +149,7 @@ CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 static bool light_tile_is_done(const void *owner)
 {
     const light_tile *t = owner;
-    return !t->undecided || light_work(t->counts) > t->max_work;
+    return !t->undecided || t->work > t->work_left;
 }
 
 static const prefetch_tests light_tests = {CGT_LANES, light_tile_test_spheres, light_tile_test_triangles,
@@ -249,6 +252,8 @@ static void light_march_grid(light_tile *t)
     tile_slice s;
     light_march_init(t, &m);
     t->group_tests = 0;
+    t->work = 0;
+    t->work_left = t->max_work - light_work(t->counts);
     while (!light_tile_is_done(t) && tile_march_next_slice(&m, &s)) {
         /* beyond all points? */
         if (t->is_point && s.near_t > (double)(t->far_w + t->margin)) {
@@ -270,6 +275,7 @@ static void light_march_grid(light_tile *t)
         }
     }
     prefetch_drain_all(&t->prefetch, &light_tests);
+    t->given_up = t->undecided && t->work > t->work_left;
 }
 
 /* Traces points first to first + count - 1 of the order. */
@@ -310,7 +316,8 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
         c->counts->invalid_rays = invalid;
         light_trace_packet(c, first + done, ray_count, p);
     }
-    if (!t->packets)
+    t->given_up = light_work(c->counts) > t->max_work;
+    if (t->given_up || !t->packets)
         return;
     light_tile_finish(t);
     c->counts->tiles++;
@@ -346,7 +353,7 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     }
     for (uint32_t i = 0; i < count; i += LIGHT_TILE_RAYS) {
         light_trace_tile(&c, &t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
-        if (light_work(counts) > t.max_work) {
+        if (t.given_up) {
             counts->invalid_rays = invalid;
             return false;
         }

@@ -36,7 +36,9 @@ typedef struct light_tile {
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
-    uint64_t max_work; /* the light_work at which the chunk is given up */
+    uint64_t max_work;        /* the light_work at which the chunk is given up */
+    uint64_t work, work_left; /* of the tile: taken, and what it may take */
+    bool given_up;
     bool is_point;
     prefetch_queues pending;
     prefetch_owner prefetch; /* of `pending` */
