@@ -120,6 +120,7 @@ static bool light_packet_init(const cgt_committed_scene *committed_scene, light_
     else if (!light_frustum_init_point(p, l, &l->frustum))
         return false;
     light_compute_terms(p, committed_scene->scale, l);
+    light_compute_size_offset(committed_scene, l);
     return true;
 }
 

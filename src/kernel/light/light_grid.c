@@ -223,6 +223,7 @@ static void light_tile_finish(light_tile *t)
         first->default_ranges = first->default_ranges && l->default_ranges;
         t->undecided |= l->undecided << k * (LIGHT_PACKET_GROUPS % LIGHT_GROUPS);
     }
+    light_compute_size_offset(t->committed_scene, first);
     t->margin = margin * (1 + LIGHT_MAX_SLOPE);
     t->changed = 0;
     for (uint32_t group = 0; group < LIGHT_GROUPS; group++)

@@ -27,9 +27,8 @@
  * this suffices: from inside, C < 0, there is one root ahead; from outside there are two if B > 0, and they are before
  * the light if B < A (the middle of the roots is certainly there if B / A < 1 - 16 u and c.c < 4 A). Other spheres and
  * uncertain rays go to the test of lane_tests.h. Squares lose 2^-124 to underflow: 2^-97 is added to r^2 in bounds, and
- * 2^-118 where A is a factor. B^2 and A C may overflow, to an infinite difference of either sign. 2 A (c.c + r^2) exceeds
- * both by more than their rounding, so it overflows first. It is a factor of the bound, which is infinite then: no
- * comparison with it holds, and the ray is undecided. */
+ * 2^-118 where A is a factor. B^2 and A C may overflow, to an infinite difference of either sign. Where those of any
+ * primitive of the scene may, infinity is added to r^2 in bounds: no comparison holds, and the rays are undecided. */
 #ifndef CGT_LIGHT_LEAF_H
 #define CGT_LIGHT_LEAF_H
 
@@ -245,7 +244,7 @@ typedef struct light_roots {
 } light_roots;
 
 CGT_SPU_INLINE void light_compute_roots(const light_packet *l, const sphere_block *leaf, uint32_t k, float square,
-                                        uint32_t i, light_roots *f)
+                                        float size_offset, uint32_t i, light_roots *f)
 {
     const vfloat zero = spux_vfloat(0);
     vfloat c[3], d[3];
@@ -257,9 +256,9 @@ CGT_SPU_INLINE void light_compute_roots(const light_packet *l, const sphere_bloc
     f->distance = lane_dot(c, c);
     f->middle = lane_dot(d, c);
     f->inner = spu_sub(f->distance, spux_vfloat(square));
-    const vfloat twice = spu_madd(f->distance, spux_vfloat(2), spux_vfloat(2 * (square + 0x1p-97f)));
-    f->inner_error = spu_mul(twice, spux_vfloat(0.5f * LIGHT_EPS_INNER));
-    f->error = spu_madd(spu_mul(f->dd, twice), spux_vfloat(0.5f * LIGHT_EPS_DISC), spux_vfloat(0x1p-118f));
+    const vfloat size = spu_add(f->distance, spux_vfloat(square + size_offset));
+    f->inner_error = spu_mul(size, spux_vfloat(LIGHT_EPS_INNER));
+    f->error = spu_madd(spu_mul(f->dd, spux_vfloat(LIGHT_EPS_DISC)), size, spux_vfloat(0x1p-118f));
     f->disc = spu_msub(f->middle, f->middle, spu_mul(f->dd, f->inner));
     f->middle_certain = spu_cmpgt(spu_mul(f->middle, f->middle), spu_mul(f->error, spux_vfloat(2 * FILTER_ROUNDOFF)));
     f->outside = spu_cmpgt(f->inner, f->inner_error);
@@ -270,6 +269,7 @@ CGT_SPU_INLINE void light_compute_roots(const light_packet *l, const sphere_bloc
 /* What does not depend on the ray, for all spheres of a leaf. */
 typedef struct light_spheres {
     _Alignas(CGT_VECTOR_BYTES) float square[CGT_LANES]; /* r^2 */
+    float size_offset;                                  /* of the packet */
     unsigned plain_rule;                                /* spheres for which the rule above suffices, as bits */
 } light_spheres;
 
@@ -277,6 +277,7 @@ CGT_SPU_INLINE void light_init_spheres(const light_packet *l, const sphere_block
 {
     const vfloat radius = spux_load(leaf->radius);
     spux_store(q->square, spu_mul(radius, radius));
+    q->size_offset = l->size_offset;
     q->plain_rule = l->default_ranges ? light_outside_spheres(l, leaf, scale) : 0;
 }
 
@@ -285,7 +286,7 @@ CGT_SPU_INLINE bool light_sphere_may_hit(const light_packet *l, const light_sphe
                                          uint32_t k, uint32_t i)
 {
     light_roots f;
-    light_compute_roots(l, leaf, k, q->square[k], i, &f);
+    light_compute_roots(l, leaf, k, q->square[k], q->size_offset, i, &f);
     return !spux_all(f.missed);
 }
 
@@ -312,14 +313,14 @@ __attribute__((noinline)) static void light_test_undecided_sphere(const cgt_comm
 }
 
 CGT_SPU_INLINE void light_test_sphere(const cgt_committed_scene *committed_scene, light_packet *l,
-                                      const sphere_block *leaf, uint32_t k, float square, bool plain_rule, uint32_t i,
+                                      const sphere_block *leaf, uint32_t k, const light_spheres *q, uint32_t i,
                                       cgt_counts *counts)
 {
     light_roots f;
-    light_compute_roots(l, leaf, k, square, i, &f);
+    light_compute_roots(l, leaf, k, q->square[k], q->size_offset, i, &f);
     vmask undecided = spu_andc(spu_cmpgt(spux_load(l->rays.high + i), spux_vfloat(-INFINITY)), f.missed);
     vmask certain_hit = spux_mask_none();
-    if (plain_rule) {
+    if (q->plain_rule >> k & 1) {
         const vfloat zero = spux_vfloat(0);
         const vmask inside = spu_cmpgt(spu_sub(zero, f.inner_error), f.inner);
         vmask ahead = spu_and(f.middle_certain, spu_cmpgt(f.middle, zero));
@@ -371,8 +372,7 @@ CGT_SPU_INLINE void light_test_primitive(const cgt_committed_scene *committed_sc
                                          cgt_counts *counts)
 {
     if (kind == LIGHT_SPHERES)
-        light_test_sphere(committed_scene, l, leaf->sphere, k, leaf->spheres.square[k],
-                          leaf->spheres.plain_rule >> k & 1, i, counts);
+        light_test_sphere(committed_scene, l, leaf->sphere, k, &leaf->spheres, i, counts);
     else
         light_test_triangle(&committed_scene->prims, l, &leaf->triangles, k, i, leaf->triangle->prim[k],
                             kind == LIGHT_TRIANGLES_TO_POINT, counts);

@@ -47,6 +47,7 @@ typedef struct light_packet {
     float sign;                   /* of the rays' origins along it, seen from `origin` */
     float origin[3];
     float margin;       /* without the factor 1 + |a| */
+    float size_offset;  /* added to r^2 of spheres in bounds: infinite where products of any sphere may overflow */
     bool is_wide;       /* primitives add margins of their own */
     uint32_t last_leaf; /* the leaf that occluded the last rays of the previous packet; 0: none */
     uint64_t work;
@@ -94,6 +95,20 @@ CGT_SPU_INLINE void light_set_margin(const cgt_committed_scene *committed_scene,
 CGT_SPU_INLINE vfloat light_own_margin(vfloat magnitude)
 {
     return spu_mul(magnitude, spux_vfloat(LIGHT_MARGIN * (1 + LIGHT_MAX_SLOPE)));
+}
+
+/* Sets size_offset, after the terms. A sphere's centre is seen from a ray's origin within S along each axis, and r <= S.
+ * So |d|^2 (c.c + r^2) is below 12 (S max |d_a|)^2, here below 2^124. */
+static inline void light_compute_size_offset(const cgt_committed_scene *committed_scene, light_packet *l)
+{
+    const float of_terms = l->max_component / committed_scene->scale;
+    float max_dir = of_terms, reach = 0;
+    for (int a = 0; a < 3; a++) {
+        reach = light_max(reach, light_max(fabsf(committed_scene->low[a]), fabsf(committed_scene->high[a])) +
+                                     fabsf(l->origin[a]));
+        max_dir = light_max(max_dir, fabsf(l->rays.dir[a][0])); /* of parallel rays */
+    }
+    l->size_offset = (reach + of_terms) * max_dir < 0x1p60f ? 0x1p-97f : INFINITY;
 }
 
 static inline void light_compute_margin(const cgt_committed_scene *committed_scene, const packet *p, light_packet *l)
