@@ -162,6 +162,10 @@ static int copy_frame(conversion *c)
     if (result <= 0) {
         return result;
     }
+    const char *warning = trajectory_take_warning(c->from);
+    if (warning != NULL) {
+        program_error("warning: %s", warning);
+    }
     if (write_frame(c, &frame)) {
         return -1;
     }

@@ -128,7 +128,9 @@ refuses 2 '--output: ' -o 'f%04d.gif' small.xyz
 # ---- Bad input ------------------------------------------------------------------------------------------------------
 
 refuses 1 'missing.xyz' missing.xyz
-refuses 1 'truncated.xyz:14' truncated.xyz
+run 1 -s 32x18 -o whole/%d.png truncated.xyz # its three whole frames come out
+says err 'truncated.xyz:14'
+count whole 3
 refuses 1 'malformed.xyz:4' malformed.xyz
 refuses 1 'empty.xyz' empty.xyz
 refuses 1 'there is no frame' --first 6 small.xyz
