@@ -56,7 +56,8 @@ void out_file_catch_signals(volatile sig_atomic_t *stop)
     signal(SIGXFSZ, SIG_IGN);
 }
 
-/* Creates the file of the template in `temporary`. Signals wait meanwhile: the handler must know the name of what exists. */
+/* Creates the file of the template in `temporary`. Signals wait meanwhile: the handler must know the name of what
+ * exists. */
 static int create_temporary(void)
 {
     sigset_t blocked, before;

@@ -22,8 +22,8 @@ typedef struct out_file {
 } out_file;
 
 /* Takes over signals. INT, TERM, HUP and QUIT remove the temporary file and end the program as they would without;
- * with stop, the first INT, TERM or HUP sets *stop to 1 instead. Signals that are ignored stay so. A file at the limit of
- * its size is an error of the call that writes (XFSZ is ignored). */
+ * with stop, the first INT, TERM or HUP sets *stop to 1 instead. Signals that are ignored stay so. A file at the limit
+ * of its size is an error of the call that writes (XFSZ is ignored). */
 void out_file_catch_signals(volatile sig_atomic_t *stop);
 
 /* Creates the temporary file, empty. Returns its name, valid until out_file_end; or NULL with a sentence in error: the
