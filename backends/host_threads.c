@@ -38,6 +38,7 @@ typedef struct pool {
     bool stop;
     uint32_t workers;  /* started, the caller not counted */
     uint32_t capacity; /* length of thread */
+    pid_t process;     /* that has the workers: a forked child has a copy of the pool without them */
     pthread_t thread[];
 } pool;
 
@@ -124,6 +125,10 @@ static void *worker(void *state)
     return NULL;
 }
 
+/* Whether this process has the workers. After fork the child has the caller's thread alone, and a lock or a condition
+ * variable may be as a worker left it at that moment: the child must touch none of them. */
+static bool has_workers(const pool *p) { return getpid() == p->process; }
+
 static void remove_job(pool *p, const job *j)
 {
     job **link_at = &p->jobs;
@@ -138,6 +143,10 @@ static void host_run(void *state, cgt_task *task, void *argument, uint32_t count
     job j = {.task = task, .argument = argument, .count = count};
     atomic_init(&j.next, 0);
     atomic_init(&j.active_workers, 0);
+    if (!has_workers(p)) {
+        run_tasks(&j);
+        return;
+    }
     pthread_mutex_lock(&p->lock);
     j.link = p->jobs;
     p->jobs = &j;
@@ -159,11 +168,8 @@ static void host_run(void *state, cgt_task *task, void *argument, uint32_t count
     pthread_mutex_unlock(&p->lock);
 }
 
-static void host_destroy(const cgt_memory_hooks *memory, void *state)
+static void stop_workers(pool *p)
 {
-    pool *p = state;
-    if (!p)
-        return;
     pthread_mutex_lock(&p->lock);
     p->stop = true;
     pthread_cond_broadcast(&p->job_posted);
@@ -173,6 +179,15 @@ static void host_destroy(const cgt_memory_hooks *memory, void *state)
     pthread_cond_destroy(&p->worker_left);
     pthread_cond_destroy(&p->job_posted);
     pthread_mutex_destroy(&p->lock);
+}
+
+static void host_destroy(const cgt_memory_hooks *memory, void *state)
+{
+    pool *p = state;
+    if (!p)
+        return;
+    if (has_workers(p))
+        stop_workers(p);
     cgt_free(memory, p, pool_bytes(p->capacity));
 }
 
@@ -220,6 +235,7 @@ static cgt_result host_create(const cgt_memory_hooks *memory, uint32_t threads, 
     p->stop = false;
     p->workers = 0;
     p->capacity = capacity;
+    p->process = getpid();
     if (!init_locks(p)) {
         cgt_free(memory, p, pool_bytes(capacity));
         return CGT_ERROR_THREADS;

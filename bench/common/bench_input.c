@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/program.h"
+
 /* Bytes of a sphere or a vertex. */
 static size_t element_bytes(const bench_input *input)
 {
@@ -72,6 +74,9 @@ static int load_frames(bench_input *input, trajectory *source, uint64_t frames, 
             return -1;
         if (got == 0)
             break;
+        const char *warning = trajectory_take_warning(source);
+        if (warning)
+            program_error("warning: %s", warning);
         if ((input->frames == 0 && take_kind(input, &frame)) || add_frame(input, &frame, &room)) {
             snprintf(error, error_size, "out of memory at frame %zu: %u %s", input->frames, (unsigned)frame.count,
                      frame.kind == TRAJECTORY_TRIANGLES ? "vertices" : "spheres");

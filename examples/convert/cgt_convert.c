@@ -4,20 +4,17 @@
  * cgt-convert: converts any trajectory or mesh that the readers know to .frames. The output goes to a temporary file
  * that is renamed when it is complete, so a failed run leaves the previous file alone. */
 #define _GNU_SOURCE /* argp */
+#include "common/out_file.h"
 #include "common/program.h"
 #include "trajectory/trajectory.h"
 
 #include <argp.h>
-#include <errno.h>
 #include <float.h>
 #include <inttypes.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 typedef struct convert_options {
     const char *input;
@@ -132,107 +129,6 @@ static void check_options(const convert_options *o)
     }
 }
 
-/* ---- The output's two names --------------------------------------------------------------------------------- */
-
-typedef struct output_file {
-    char *target;    /* final name, links resolved so that a link stays one */
-    char *temporary; /* in the same folder, so that it can be moved in one step */
-    mode_t mode;
-    int created; /* the temporary file exists */
-} output_file;
-
-/* The temporary file that an interrupt has to remove; NULL while there is none. */
-static const char *volatile unfinished;
-
-static void on_interrupt(int number)
-{
-    const char *name = unfinished;
-    if (name != NULL) {
-        unlink(name);
-    }
-    signal(number, SIG_DFL);
-    raise(number);
-}
-
-static void catch_interrupts(void)
-{
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        struct sigaction action;
-        if (sigaction(numbers[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN) {
-            memset(&action, 0, sizeof action);
-            action.sa_handler = on_interrupt;
-            sigaction(numbers[i], &action, NULL);
-        }
-    }
-}
-
-/* Finds the target and its mode. Returns 0 or -1 with a message. */
-static int find_target(const char *name, output_file *file)
-{
-    struct stat status;
-    if (stat(name, &status) == 0) {
-        if (!S_ISREG(status.st_mode)) {
-            program_error("%s: not a regular file", name);
-            return -1;
-        }
-        file->mode = status.st_mode & 07777;
-        file->target = realpath(name, NULL);
-    } else {
-        const mode_t mask = umask(0);
-        umask(mask);
-        file->mode = 0666 & ~mask;
-        file->target = strdup(name);
-    }
-    if (file->target == NULL) {
-        program_error("%s: %s", name, strerror(errno));
-        return -1;
-    }
-    return 0;
-}
-
-/* Creates the temporary file. Returns 0 or -1 with a message. */
-static int output_begin(const char *name, output_file *file)
-{
-    if (find_target(name, file)) {
-        return -1;
-    }
-    const size_t size = strlen(file->target) + sizeof ".XXXXXX";
-    file->temporary = malloc(size);
-    if (file->temporary == NULL) {
-        program_error("%s: not enough memory", name);
-        return -1;
-    }
-    snprintf(file->temporary, size, "%s.XXXXXX", file->target);
-    const int descriptor = mkstemp(file->temporary);
-    if (descriptor < 0) {
-        program_error("%s: %s", name, strerror(errno));
-        return -1;
-    }
-    close(descriptor);
-    file->created = 1;
-    unfinished = file->temporary;
-    return 0;
-}
-
-/* Moves the file to its name, or removes it. Returns the exit code. */
-static int output_end(output_file *file, int code)
-{
-    if (file->created && code == PROGRAM_OK) {
-        if (chmod(file->temporary, file->mode) != 0 || rename(file->temporary, file->target) != 0) {
-            program_error("%s: %s", file->target, strerror(errno));
-            code = PROGRAM_FAILED;
-        }
-    }
-    if (file->created && code != PROGRAM_OK) {
-        unlink(file->temporary);
-    }
-    unfinished = NULL;
-    free(file->temporary);
-    free(file->target);
-    return code;
-}
-
 /* ---- Converting --------------------------------------------------------------------------------------------- */
 
 typedef struct conversion {
@@ -265,6 +161,10 @@ static int copy_frame(conversion *c)
     const int result = trajectory_read(c->from, &frame, c->error, sizeof c->error);
     if (result <= 0) {
         return result;
+    }
+    const char *warning = trajectory_take_warning(c->from);
+    if (warning != NULL) {
+        program_error("warning: %s", warning);
     }
     if (write_frame(c, &frame)) {
         return -1;
@@ -368,7 +268,7 @@ static void report(const conversion *c, double seconds)
 static int run(const convert_options *o)
 {
     conversion c = {.options = o};
-    output_file file = {0};
+    out_file file;
     const double start = program_seconds();
     c.from = trajectory_open(o->input, &o->reading, c.error, sizeof c.error);
     if (c.from == NULL) {
@@ -376,11 +276,16 @@ static int run(const convert_options *o)
         return PROGRAM_FAILED;
     }
     int code = PROGRAM_FAILED;
-    if (output_begin(o->output, &file) == 0) {
-        c.name = file.temporary;
+    c.name = out_file_begin(&file, o->output, c.error, sizeof c.error);
+    if (c.name == NULL) {
+        program_error("%s", c.error);
+    } else {
         code = convert(&c);
+        if (out_file_end(&file, code == PROGRAM_OK, c.error, sizeof c.error)) {
+            program_error("%s", c.error);
+            code = PROGRAM_FAILED;
+        }
     }
-    code = output_end(&file, code);
     if (code == PROGRAM_OK && !o->quiet) {
         report(&c, program_seconds() - start);
     }
@@ -395,6 +300,6 @@ int main(int argc, char **argv)
     program_init("cgt-convert");
     argp_parse(&parser, argc, argv, 0, NULL, &options);
     check_options(&options);
-    catch_interrupts();
+    out_file_catch_signals(NULL);
     return program_exit(run(&options));
 }

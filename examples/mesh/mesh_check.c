@@ -66,6 +66,33 @@ static int check_ifc(trajectory *t, text_reader *r)
     return trajectory_fail(t, 0, "the file does not end in %s it is cut off", last);
 }
 
+/* ---- Text --------------------------------------------------------------------------------------------------- */
+
+/* Notes a text that ends inside a line. Formats whose last line closes something, with } or > or ;, are whole where it is
+ * there. A file with control characters near its end is no text. */
+static int check_last_line(trajectory *t)
+{
+    unsigned char tail[4096];
+    const off_t offset = t->file_size > sizeof tail ? (off_t)(t->file_size - sizeof tail) : 0;
+    if (fseeko(t->file, offset, SEEK_SET) != 0) {
+        return trajectory_fail(t, 0, "%s", strerror(errno));
+    }
+    const size_t size = fread(tail, 1, sizeof tail, t->file);
+    for (size_t i = 0; i < size; i++) {
+        if (tail[i] < ' ' && !(tail[i] >= '\t' && tail[i] <= '\r')) {
+            return 1;
+        }
+    }
+    size_t end = size;
+    while (end > 0 && tail[end - 1] != '\n' && (tail[end - 1] == ' ' || tail[end - 1] < ' ')) {
+        end--;
+    }
+    if (end > 0 && tail[end - 1] != '\n' && strchr("}])>;", tail[end - 1]) == NULL) {
+        trajectory_warn_open(t, 0);
+    }
+    return 1;
+}
+
 /* ---- By ending ---------------------------------------------------------------------------------------------- */
 
 int mesh_check_file(trajectory *t)
@@ -75,7 +102,10 @@ int mesh_check_file(trajectory *t)
         int (*check)(trajectory *t, text_reader *r);
     } checks[] = {{".ply", mesh_check_ply}, {".off", check_off}, {".ifc", check_ifc}};
     const char *const ending = strrchr(t->path, '.');
-    int result = 1;
+    int result = t->regular ? check_last_line(t) : 1;
+    if (result < 0 || (t->regular && fseeko(t->file, 0, SEEK_SET) != 0)) {
+        return result < 0 ? -1 : trajectory_fail(t, 0, "%s", strerror(errno));
+    }
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) {
         if (strcasecmp(ending, checks[i].ending) == 0) {
             text_reader reader;

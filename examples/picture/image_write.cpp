@@ -17,6 +17,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "common/out_file.h"
+
 namespace
 {
 
@@ -26,10 +28,10 @@ void set_error(char *error, size_t size, const char *path, const char *problem, 
         std::snprintf(error, size, "%s: %s%s%s", path, problem, *reason ? ": " : "", reason);
 }
 
-/* Writes all bytes to a new file; on a failure the file is removed and *reason tells the cause. */
-bool write_bytes(const std::string &path, const std::vector<unsigned char> &bytes, std::string *reason)
+/* Writes all bytes to a file; on a failure *reason tells the cause. */
+bool write_bytes(const char *path, const std::vector<unsigned char> &bytes, std::string *reason)
 {
-    std::FILE *file = std::fopen(path.c_str(), "wb");
+    std::FILE *file = std::fopen(path, "wb");
     if (!file) {
         *reason = std::strerror(errno);
         return false;
@@ -41,8 +43,21 @@ bool write_bytes(const std::string &path, const std::vector<unsigned char> &byte
     if (written && closed)
         return true;
     *reason = std::strerror(written ? errno : write_errno);
-    std::remove(path.c_str());
     return false;
+}
+
+/* Makes the bytes the file's: all of them, or the file stays as it was. Returns 0 or -1 with a text. */
+int replace_file(const char *path, const std::vector<unsigned char> &bytes, char *error, size_t error_size)
+{
+    out_file file;
+    const char *temporary = out_file_begin(&file, path, error, error_size);
+    if (!temporary)
+        return -1;
+    std::string reason;
+    const bool written = write_bytes(temporary, bytes, &reason);
+    if (!written)
+        set_error(error, error_size, path, "cannot write", reason.c_str());
+    return out_file_end(&file, written, error, error_size) || !written ? -1 : 0;
 }
 
 int encode_and_write(const char *path, const char *format, const OIIO::ImageSpec &spec, const void *pixels,
@@ -61,18 +76,7 @@ int encode_and_write(const char *path, const char *format, const OIIO::ImageSpec
         set_error(error, error_size, path, "cannot encode the picture", reason.c_str());
         return -1;
     }
-    const std::string partial = std::string(path) + ".part";
-    std::string reason;
-    if (!write_bytes(partial, bytes, &reason)) {
-        set_error(error, error_size, path, "cannot write", reason.c_str());
-        return -1;
-    }
-    if (std::rename(partial.c_str(), path) != 0) {
-        set_error(error, error_size, path, "cannot write", std::strerror(errno));
-        std::remove(partial.c_str());
-        return -1;
-    }
-    return 0;
+    return replace_file(path, bytes, error, error_size);
 }
 
 /* C callers cannot catch exceptions, and memory may run out anywhere inside. */

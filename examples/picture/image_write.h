@@ -3,7 +3,7 @@
  *
  * Writes pictures to files through OpenImageIO: the C interface of image_write.cpp (OpenImageIO needs C++).
  *
- * A picture is encoded in memory, written to PATH.part and renamed: PATH is either the whole picture or the
+ * A picture is encoded in memory, written by common/out_file.h: PATH is either the whole picture or the
  * previous file, and a full disk is an error, not half a file. No function here is safe to call for the same path
  * from two threads at once. */
 #ifndef IMAGE_WRITE_H

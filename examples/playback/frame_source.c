@@ -54,6 +54,9 @@ static int is_selected(const frame_range *range, uint64_t number)
 static int read_frame(frame_source *source, char *error, size_t error_size)
 {
     const int result = trajectory_read(source->file, &source->frame, error, error_size);
+    const char *warning = trajectory_take_warning(source->file);
+    if (warning)
+        program_error("warning: %s", warning);
     source->speed = NULL;
     if (result != 1 || !source->tracker)
         return result;
@@ -165,9 +168,10 @@ int survey_run(frame_source *source, survey *result, int quiet, const volatile s
     program_progress_end(&progress);
     if (state == 1) {
         snprintf(error, error_size, "interrupted");
-        state = -1;
+        return -1;
     }
-    return state < 0 ? -1 : frame_source_rewind(source, error, error_size);
+    /* A file that is cut off, or still being written, is good for its whole frames: the error comes again after them. */
+    return state < 0 && result->frames == 0 ? -1 : frame_source_rewind(source, error, error_size);
 }
 
 float survey_speed_quantile(const survey *s, double share)

@@ -68,7 +68,8 @@ typedef struct survey {
     uint64_t speed_bins[SURVEY_BINS];
 } survey;
 
-/* Reads all selected frames and goes back to the start. quiet: no progress on the terminal. stop: not 0 ends the survey
+/* Reads all selected frames and goes back to the start. Where an error follows some whole frames it surveys those, and
+ * reading them again ends in the error. quiet: no progress on the terminal. stop: not 0 ends the survey
  * with an error. Returns 0, or -1 with a text. */
 int survey_run(frame_source *source, survey *result, int quiet, const volatile sig_atomic_t *stop, char *error,
                size_t error_size);

@@ -12,28 +12,11 @@
 
 #include <cgt/cgt.h>
 
+#include "common/out_file.h"
 #include "common/program.h"
 #include "render/render_setup.h"
 
-static volatile sig_atomic_t stop;
-
-static void on_signal(int number)
-{
-    (void)number;
-    stop = 1;
-}
-
-/* The first signal ends the run after the current frame; a second one ends the program as usual. */
-static void install_signals(void)
-{
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_signal;
-    action.sa_flags = (int)SA_RESETHAND;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
+static volatile sig_atomic_t stop; /* set by the first signal: the run ends after the current frame */
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
@@ -282,7 +265,7 @@ int main(int argc, char **argv)
     program_init("cgt-render");
     render_options_parse(&r.options, argc, argv);
     r.stop = &stop;
-    install_signals();
+    out_file_catch_signals(&stop);
     int result = run(&r);
     if (render_report_close(&r.report, r.error, sizeof r.error))
         result = render_fail(&r);

@@ -49,6 +49,24 @@ int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...)
     return -1;
 }
 
+void trajectory_warn_open(trajectory *t, uint64_t line)
+{
+    const int used = write_place(t->warning, sizeof t->warning, t->path, line);
+    if (used >= 0 && (size_t)used < sizeof t->warning) {
+        snprintf(t->warning + used, sizeof t->warning - (size_t)used,
+                 "the last line has no line feed: if the file is cut off there, its last value is wrong");
+    }
+}
+
+const char *trajectory_take_warning(trajectory *t)
+{
+    if (t->warning[0] == '\0' || t->warned) {
+        return NULL;
+    }
+    t->warned = 1;
+    return t->warning;
+}
+
 static void copy_message(const trajectory *t, char *error, size_t error_size)
 {
     if (error != NULL && error_size > 0) {
@@ -319,6 +337,9 @@ int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t 
     const int status = t->failed ? -1 : t->format->read(t, frame);
     if (status < 0) {
         copy_message(t, error, error_size);
+    }
+    if (status > 0 && t->text.is_open) {
+        trajectory_warn_open(t, t->text.line);
     }
     t->next += status > 0;
     return status;

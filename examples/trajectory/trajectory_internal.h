@@ -46,7 +46,9 @@ struct trajectory {
     uint64_t next; /* number of the next frame */
     int failed;    /* every call repeats the error in message */
     char message[1024];
-    void *state; /* state_size bytes, zero at first */
+    char warning[1024]; /* "": none so far */
+    int warned;         /* trajectory_take_warning has returned it */
+    void *state;        /* state_size bytes, zero at first */
 };
 
 extern const trajectory_format trajectory_format_lammps;
@@ -56,6 +58,9 @@ extern const trajectory_format trajectory_format_mesh; /* without assimp: refuse
 
 /* Notes an error, "path:line: text" or "path: text" where line is 0. Returns -1. */
 int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Notes that the file ends without a line feed; line: as above. */
+void trajectory_warn_open(trajectory *t, uint64_t line);
 
 /* The next line: 1, 0 at the end, -1 error noted. */
 int trajectory_line(trajectory *t, text_span *line);

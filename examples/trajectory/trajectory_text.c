@@ -32,6 +32,7 @@ void text_reader_restart(text_reader *r)
     r->begin = r->end = 0;
     r->line = 0;
     r->at_end = 0;
+    r->is_open = 0;
 }
 
 /* Makes room after the buffered bytes: moves them to the front, or grows the buffer. */
@@ -104,6 +105,7 @@ int text_reader_next(text_reader *r, text_span *line, const char **reason)
     char *begin = r->data + r->begin;
     char *end = begin + length;
     r->begin += length + (feed != NULL);
+    r->is_open = feed == NULL && end[-1] != ' ' && !(end[-1] >= '\t' && end[-1] <= '\r');
     if (end > begin && end[-1] == '\r') {
         end--;
     }

@@ -26,6 +26,7 @@ typedef struct text_reader {
     size_t end;    /* bytes in data */
     uint64_t line; /* number of the last line, from 1 */
     int at_end;    /* the file has no more bytes than those in data */
+    int is_open;   /* the last line has neither a line feed nor a blank at its end: its last word may go on */
 } text_reader;
 
 #define TEXT_LONGEST_LINE ((size_t)1 << 20) /* bytes; longer lines are not text and must not exhaust memory */

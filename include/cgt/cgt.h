@@ -16,6 +16,12 @@
  *   NULL      is allowed only where a text below says so.
  *   Threads   One thread at a time changes and commits a scene, while no thread traces it. Any number of threads may
  *             trace a committed scene at once. There is no global state.
+ *   Callbacks No lock is held over the caller's code. A hook, or other work that a task runner does between tasks, may
+ *             ask for messages and statistics at any time, and trace a scene that is not being committed.
+ *   Processes fork while no other thread is inside a call. A child has no workers: its calls, commits and traces
+ *             included, work on the calling thread alone, with the same hits, and it may release what it inherited.
+ *   Unloading The shared library stays loaded after dlclose where the linker knows -z nodelete, since workers run its
+ *             code. A plugin that links the static library releases its contexts before it is closed.
  *   Floats    IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *             tracing work in the default environment and restore the caller's.
  *   Stack     A tracing call or a task takes up to 1.25 MB of the stack of the thread that runs it.
@@ -172,7 +178,7 @@ typedef struct cgt_triangles {
 
 /* Acceleration structures. Hits are the same bits through each. Where AUTO has chosen the grid, a BVH is built beside it
  * once a commit, when enough rays come to pay for it: by cgt_trace_rays, cgt_occluded_rays, cgt_occluded_points or
- * cgt_ambient_occlusion. */
+ * cgt_ambient_occlusion. cgt_trace_rays tells when, in how much memory, and how to avoid it. */
 typedef enum cgt_structure {
     CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID for coherent rays, BVH for incoherent ones: cgt_scene_options.rays */
     CGT_STRUCTURE_LOOSE_GRID, /* hierarchical loose grid: a uniform grid per class of sizes, each primitive in the one
@@ -256,7 +262,8 @@ typedef struct cgt_scene_statistics {
     double commit_ms;       /* the whole call */
 } cgt_scene_statistics;
 
-/* Copies the statistics of the last commit. */
+/* Copies the statistics of the last commit that has ended, and of a BVH built since. Any thread may call it, callbacks
+ * included. */
 CGT_API cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics);
 
 /* ---- Tracing ------------------------------------------------------------------------------------------------ */
@@ -420,7 +427,10 @@ typedef struct cgt_hits {
  * Where AUTO has built a loose grid, the calls since a commit that bring 1/32 as many rays as there are primitives make
  * the library build a BVH, by the context's threads, in memory that the scene keeps; other threads may trace meanwhile.
  * Only then is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was traced, and the call may be
- * repeated. Other errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride). */
+ * repeated. The BVH and what its build needs take 70 to 100 bytes a sphere and 110 to 140 a triangle (measured with
+ * evenly spread primitives; cgt_scene_statistics.bytes tells), until the scene is released. CGT_STRUCTURE_LOOSE_GRID
+ * avoids it, and traces such rays slower; with CGT_RAY_KIND_INCOHERENT the BVH is built at the commit, in place of the
+ * grid. Other errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE (count times stride). */
 CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, const cgt_hits *hits,
                                   const cgt_trace_options *options);
 

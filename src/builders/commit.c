@@ -197,11 +197,12 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     scene->statistics = (cgt_scene_statistics){0};
     scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};
-    atomic_store_explicit(&scene->bvh_is_built, false, memory_order_relaxed);
+    atomic_store_explicit(&scene->bvh_state, CGT_BVH_STATE_NONE, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);
     cgt_float_environment_enter(&callers);
     const cgt_result result = build_scene(scene);
     cgt_float_environment_leave(&callers);
+    cgt_publish_statistics(scene);
     if (result != CGT_OK)
         return result;
     scene->is_committed = true;

@@ -83,9 +83,9 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     s->context = context;
     set_options(s, o);
     s->mutable_scene = s;
-    atomic_init(&s->bvh_is_built, false);
+    atomic_init(&s->bvh_state, CGT_BVH_STATE_NONE);
     atomic_init(&s->bvh_rays, 0);
-    if (pthread_mutex_init(&s->bvh_lock, NULL)) {
+    if (pthread_mutex_init(&s->reports_lock, NULL)) {
         cgt_free(&context->memory, s, sizeof *s);
         return cgt_fail(context, CGT_ERROR_THREADS, "the system refused a lock");
     }
@@ -101,7 +101,7 @@ void cgt_scene_release(cgt_scene *scene)
     cgt_context *context = scene->context;
     for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
         cgt_buffer_release(&context->memory, &scene->buffer[i]);
-    pthread_mutex_destroy(&scene->bvh_lock);
+    pthread_mutex_destroy(&scene->reports_lock);
     cgt_free(&context->memory, scene, sizeof *scene);
     cgt_context_release(context);
 }
@@ -277,13 +277,20 @@ cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry)
     return CGT_OK;
 }
 
+void cgt_publish_statistics(cgt_scene *scene)
+{
+    pthread_mutex_lock(&scene->reports_lock);
+    scene->reports = (cgt_scene_reports){scene->statistics, scene->research_statistics};
+    pthread_mutex_unlock(&scene->reports_lock);
+}
+
 cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics)
 {
     if (!scene || !statistics)
         return CGT_ERROR_INVALID_ARGUMENT;
-    pthread_mutex_lock(&scene->mutable_scene->bvh_lock);
-    *statistics = scene->statistics;
-    pthread_mutex_unlock(&scene->mutable_scene->bvh_lock);
+    pthread_mutex_lock(&scene->mutable_scene->reports_lock);
+    *statistics = scene->reports.statistics;
+    pthread_mutex_unlock(&scene->mutable_scene->reports_lock);
     return CGT_OK;
 }
 
@@ -291,9 +298,9 @@ cgt_result cgt_research_get_scene_statistics(const cgt_scene *scene, cgt_researc
 {
     if (!scene || !statistics)
         return CGT_ERROR_INVALID_ARGUMENT;
-    pthread_mutex_lock(&scene->mutable_scene->bvh_lock);
-    *statistics = scene->research_statistics;
-    pthread_mutex_unlock(&scene->mutable_scene->bvh_lock);
+    pthread_mutex_lock(&scene->mutable_scene->reports_lock);
+    *statistics = scene->reports.research;
+    pthread_mutex_unlock(&scene->mutable_scene->reports_lock);
     return CGT_OK;
 }
 

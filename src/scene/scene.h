@@ -50,6 +50,16 @@ typedef enum cgt_scene_buffer {
     CGT_SCENE_BUFFERS
 } cgt_scene_buffer;
 
+/* The BVH that tracing builds beside a loose grid. A thread that turns NONE into BUILDING builds it. That is no lock:
+ * the caller's hooks and task runner run meanwhile, and may call the library for the same scene. */
+typedef enum cgt_bvh_state { CGT_BVH_STATE_NONE = 0, CGT_BVH_STATE_BUILDING, CGT_BVH_STATE_BUILT } cgt_bvh_state;
+
+/* Statistics as the caller gets them. */
+typedef struct cgt_scene_reports {
+    cgt_scene_statistics statistics;
+    cgt_research_scene_statistics research;
+} cgt_scene_reports;
+
 struct cgt_scene {
     cgt_context *context;
     cgt_scene_options options; /* research: those below */
@@ -58,13 +68,17 @@ struct cgt_scene {
     uint32_t geometries; /* in CGT_BUFFER_GEOMETRY, free ones included */
     bool is_committed;   /* nothing changed since the last commit */
     cgt_committed_scene committed_scene;
-    cgt_scene_statistics statistics;
-    cgt_research_scene_statistics research_statistics;
+    cgt_scene_statistics statistics;                   /* of the build, which fills them in bit by bit */
+    cgt_research_scene_statistics research_statistics; /* likewise */
+    cgt_scene_reports reports;                         /* of the last build that has ended */
     struct cgt_scene *mutable_scene; /* the scene itself: tracing has a const one and may build a BVH in it */
-    pthread_mutex_t bvh_lock;        /* of that BVH, and of the statistics with it */
-    atomic_bool bvh_is_built;        /* by tracing */
+    pthread_mutex_t reports_lock;    /* held while reports are copied, and never over the caller's code: hooks, tasks */
+    atomic_uint bvh_state;           /* cgt_bvh_state */
     _Atomic uint64_t bvh_rays;       /* since the commit, that would have gone through it */
 };
+
+/* Makes the statistics of a build that has ended those that the caller gets. */
+void cgt_publish_statistics(cgt_scene *scene);
 
 /* Memory that a scene holds. */
 size_t cgt_scene_bytes(const cgt_scene *scene);

@@ -64,6 +64,17 @@ run 0 -r 0.25 --last=0 "$tmp/five.xyz" "$out/radius.frames"
 # A link stays a link, a mode stays as it was, and a new file gets the usual one.
 ln -s five.frames "$out/link.frames"
 chmod 640 "$out/five.frames"
+ln -s link.frames "$out/chain.frames"
+ln -s "$out/later.frames" "$out/early.frames"
+ln -s loop.frames "$out/loop.frames"
+run 0 "$tmp/five.xyz" "$out/chain.frames"
+[ -h "$out/chain.frames" ] && [ -h "$out/link.frames" ] || fail "a link to a link was replaced"
+holds "$out/five.frames" $((24 + 4 * 5 + 16 * 15))
+run 0 "$tmp/five.xyz" "$out/early.frames"
+[ -h "$out/early.frames" ] && [ ! -h "$out/later.frames" ] || fail "the link to a new file was replaced"
+holds "$out/later.frames" $((24 + 4 * 5 + 16 * 15))
+run 1 "$tmp/five.xyz" "$out/loop.frames"
+says err 'symbolic links'
 run 0 "$tmp/five.xyz" "$out/link.frames"
 [ -h "$out/link.frames" ] || fail "the link was replaced"
 holds "$out/five.frames" $((24 + 4 * 5 + 16 * 15))
@@ -136,11 +147,31 @@ refuses 2 'unrecognized option' --nonsense "$tmp/five.xyz" "$out/a.frames"
 
 # No room: a limit on the size of files, at which writing fails.
 (
-    trap '' XFSZ
     ulimit -f 8 2>/dev/null || exit 0
     refuses 1 'File too large' "$shipped" "$out/big.frames"
     exit "$failures"
 ) || fail "a file that cannot grow"
+
+# Signals leave nothing behind. The input is a pipe that stays open, so that the output is unfinished when they come.
+for signal in HUP TERM; do
+    mkfifo "$tmp/slow.xyz" || break
+    $emulator "$program" "$tmp/slow.xyz" "$out/slow.frames" >"$tmp/stdout" 2>"$tmp/stderr" &
+    running=$!
+    exec 3>"$tmp/slow.xyz"
+    head -c 100 "$tmp/five.xyz" >&3
+    tries=0
+    while ! ls "$out"/slow.frames.part.* >/dev/null 2>&1 && [ $tries -lt 100 ]; do
+        sleep 0.1
+        tries=$((tries + 1))
+    done
+    [ $tries -lt 100 ] || fail "no temporary file appeared"
+    kill -$signal $running
+    wait $running
+    [ $? -gt 128 ] || fail "SIG$signal does not end the program"
+    exec 3>&-
+    rm -f "$tmp/slow.xyz"
+    ls "$out"/slow.frames* >/dev/null 2>&1 && fail "SIG$signal leaves $(ls "$out"/slow.frames*)"
+done
 
 run 0 --help
 says out 'Usage: '

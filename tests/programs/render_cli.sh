@@ -40,7 +40,7 @@ count() {
 
 # no_parts: nothing half-written is left.
 no_parts() {
-    [ -z "$(find "$tmp" -name '*.part')" ] || fail "left behind: $(find "$tmp" -name '*.part')"
+    [ -z "$(find "$tmp" -name '*.part*')" ] || fail "left behind: $(find "$tmp" -name '*.part*')"
 }
 
 # ---- Inputs ---------------------------------------------------------------------------------------------------------
@@ -128,7 +128,9 @@ refuses 2 '--output: ' -o 'f%04d.gif' small.xyz
 # ---- Bad input ------------------------------------------------------------------------------------------------------
 
 refuses 1 'missing.xyz' missing.xyz
-refuses 1 'truncated.xyz:14' truncated.xyz
+run 1 -s 32x18 -o whole/%d.png truncated.xyz # its three whole frames come out
+says err 'truncated.xyz:14'
+count whole 3
 refuses 1 'malformed.xyz:4' malformed.xyz
 refuses 1 'empty.xyz' empty.xyz
 refuses 1 'there is no frame' --first 6 small.xyz
@@ -270,6 +272,28 @@ else
 fi
 no_parts
 
+# ---- A link stays one, what is no file is refused, a full disk leaves nothing ----------------------------------------
+
+mkdir "$tmp/linked"
+ln -s linked/target.png "$tmp/link.png"
+run 0 -s 64x36 -o link.png one.xyz
+[ -h "$tmp/link.png" ] && [ ! -h "$tmp/linked/target.png" ] || fail "a link to a picture was replaced"
+is_png linked/target.png
+chmod 640 "$tmp/linked/target.png"
+run 0 -s 64x36 -o link.png one.xyz
+[ "$(ls -l "$tmp/linked/target.png" | cut -c 1-10)" = -rw-r----- ] || fail "the mode of a picture changed"
+ln -s /dev/null "$tmp/null.png"
+run 1 -s 64x36 -o null.png one.xyz
+says err 'null.png: cannot write: not a regular file'
+(
+    ulimit -f 8 2>/dev/null || exit 0
+    run 1 -s 640x360 -o full/%d.exr one.xyz
+    says err 'full/0.exr: cannot write: File too large'
+    exit "$failures"
+) || fail "a picture that cannot grow"
+count full 0
+no_parts
+
 # ---- A signal ends the run after the frame that it is in ------------------------------------------------------------
 
 i=0
@@ -277,18 +301,27 @@ while [ $i -lt 2000 ]; do
     printf '2\n\nC 0 0 0\nO 1 2 0\n'
     i=$((i + 1))
 done >"$tmp/long.xyz"
-(cd "$tmp" && exec $emulator "$program" -q -s 320x180 -o long/%d.png long.xyz) >"$tmp/stdout" 2>"$tmp/stderr" \
-    </dev/null &
-running=$!
-while [ ! -f "$tmp/long/0.png" ] && kill -0 $running 2>/dev/null; do
-    sleep 0.1
+
+# interrupt SIGNAL: sends it once the first picture is there; sets got to the exit code.
+interrupt() {
+    rm -rf "$tmp/long"
+    (cd "$tmp" && exec $emulator "$program" -q -s 320x180 -o long/%d.png long.xyz) >"$tmp/stdout" \
+        2>"$tmp/stderr" </dev/null &
+    running=$!
+    while [ ! -f "$tmp/long/0.png" ] && kill -0 $running 2>/dev/null; do
+        sleep 0.1
+    done
+    kill -"$1" $running
+    wait $running
+    got=$?
+    no_parts
+}
+
+for signal in HUP TERM; do
+    interrupt $signal
+    [ $got -eq 1 ] || fail "exit code $got, not 1, after SIG$signal"
+    says err 'interrupted after [0-9]* frames'
 done
-kill -TERM $running
-wait $running
-got=$?
-[ $got -eq 1 ] || fail "exit code $got, not 1, after a signal"
-says err 'interrupted after [0-9]* frames'
-no_parts
 last=$(find "$tmp/long" -type f | wc -l)
 is_png "long/$((last - 1)).png"
 

@@ -6,6 +6,7 @@
 # The list has a line for each object: the row of the variant table that it belongs to, or "common", then its path.
 #   1. every symbol that the static library offers begins with cgt_
 #   2. the shared library exports exactly what the public headers declare
+#      and the static library's functions are hidden: what links them does not export them
 #   3. the library has no mutable variable: there is no global state
 #   4. an object of a row defines names of its own row only, and nothing that a linker may merge with another object's
 #      (weak, common, COMDAT): else a CPU could meet an inline function that was compiled for a wider one
@@ -34,6 +35,9 @@ cmp -s "$work/exported" "$work/declared" || {
     diff "$work/declared" "$work/exported" >"$work/difference" || true
     fail "the public headers (<) and the exports of $shared (>) differ" "$work/difference"
 }
+
+"$objdump" -t "$static" | awk '$2 == "g" && !/\.hidden/ && !/\*UND\*/' >"$work/visible"
+[ -s "$work/visible" ] && fail "symbols of $static that are not hidden" "$work/visible"
 
 # Constants that hold addresses lie in .data.rel.ro, which the loader locks: only the sections below can change.
 "$objdump" -t "$static" | awk -F '\t' 'NF == 2 {

@@ -12,21 +12,27 @@
  * regions, packets bound their rays with the rounding of the whole world, which exceeds the cells of a region. */
 static uint64_t min_rays_for_build(const cgt_committed_scene *s) { return s->loose.regions ? 0 : s->valid / 32; }
 
-/* Several threads may need the tree: one builds it, and the others trace without it. */
+/* Several threads may need the tree: one builds it, and the others trace without it. So does what this thread itself
+ * traces meanwhile, in a hook or in another task of the caller's runner. */
 static cgt_result build_for_rays(cgt_scene *scene, bool *is_built)
 {
     cgt_result result = CGT_OK;
     cgt_float_environment callers;
-    if (pthread_mutex_trylock(&scene->bvh_lock))
+    unsigned state = CGT_BVH_STATE_NONE;
+    /* acquire: a build that failed before on another thread has left its buffers */
+    if (!atomic_compare_exchange_strong_explicit(&scene->bvh_state, &state, CGT_BVH_STATE_BUILDING,
+                                                 memory_order_acquire, memory_order_acquire)) {
+        *is_built = state == CGT_BVH_STATE_BUILT;
         return CGT_OK;
-    if (!atomic_load_explicit(&scene->bvh_is_built, memory_order_relaxed)) {
-        cgt_float_environment_enter(&callers);
-        result = cgt_bvh_build_tree(scene);
-        cgt_float_environment_leave(&callers);
-        atomic_store_explicit(&scene->bvh_is_built, result == CGT_OK, memory_order_release);
     }
-    pthread_mutex_unlock(&scene->bvh_lock);
+    cgt_float_environment_enter(&callers);
+    result = cgt_bvh_build_tree(scene);
+    cgt_float_environment_leave(&callers);
     *is_built = result == CGT_OK;
+    if (*is_built)
+        cgt_publish_statistics(scene);
+    atomic_store_explicit(&scene->bvh_state, *is_built ? CGT_BVH_STATE_BUILT : CGT_BVH_STATE_NONE,
+                          memory_order_release);
     return result;
 }
 
@@ -40,7 +46,7 @@ cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *
         *is_built = committed_scene->structure == CGT_STRUCTURE_BVH && committed_scene->bvh.node;
         return CGT_OK;
     }
-    if (atomic_load_explicit(&mutable_scene->bvh_is_built, memory_order_acquire)) {
+    if (atomic_load_explicit(&mutable_scene->bvh_state, memory_order_acquire) == CGT_BVH_STATE_BUILT) {
         *is_built = true;
         return CGT_OK;
     }

@@ -1,0 +1,155 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Contexts and the process: a forked child has no workers, and a program may close the shared library while workers
+ * run. */
+#define _GNU_SOURCE
+#include "support/scenes.h"
+
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define PATIENCE 60u
+
+/* Runs action in a child; the test fails where it does not return 0 in time. */
+static void expect_in_child(int (*action)(void *), void *argument)
+{
+    int status = -1;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        alarm(PATIENCE);
+        _exit(action(argument));
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+/* ---- fork ---- */
+
+typedef struct family {
+    cgt_context *context;
+    cgt_scene *scene;
+    cloud spheres;
+    cgt_camera camera;
+    planes expected;
+} family;
+
+#define WIDTH 200u
+#define HEIGHT 130u
+
+/* Commits and traces as the parent did, then releases everything. */
+static int use_in_child(void *argument)
+{
+    family *f = argument;
+    planes p = planes_make(WIDTH, HEIGHT);
+    const cgt_frame frame = frame_of(&p);
+    if (cgt_trace_camera(f->scene, &f->camera, &frame, NULL) != CGT_OK || !planes_equal(&p, &f->expected))
+        return 1;
+    if (cgt_scene_commit(f->scene) != CGT_OK || cgt_trace_camera(f->scene, &f->camera, &frame, NULL) != CGT_OK ||
+        !planes_equal(&p, &f->expected))
+        return 2;
+    if (cgt_scene_add_spheres(f->scene, NULL, NULL) == CGT_OK)
+        return 3;
+    cgt_scene_release(f->scene);
+    cgt_context_release(f->context);
+    planes_free(&p);
+    return 0;
+}
+
+/* A child's own contexts have workers. */
+static int create_in_child(void *argument)
+{
+    family *f = argument;
+    family own = *f;
+    cgt_context_options options;
+    cgt_context_options_init(&options);
+    options.threads = 3;
+    if (cgt_context_create(&options, &own.context) != CGT_OK)
+        return 1;
+    const cgt_spheres spheres = spheres_of((const float(*)[4])f->spheres.sphere, f->spheres.count);
+    if (cgt_scene_create(own.context, NULL, &own.scene) != CGT_OK ||
+        cgt_scene_add_spheres(own.scene, &spheres, NULL) != CGT_OK || cgt_scene_commit(own.scene) != CGT_OK)
+        return 2;
+    return use_in_child(&own);
+}
+
+static void a_child_needs_no_workers(void **state)
+{
+    (void)state;
+    test_random r = random_make(1);
+    family f = {.spheres = cloud_make(&r, CLOUD_UNIFORM, 5000), .expected = planes_make(WIDTH, HEIGHT)};
+    f.camera = camera_before(&f.spheres);
+    f.context = context_make(4, NULL);
+    f.scene = scene_of(f.context, NULL, (const float(*)[4])f.spheres.sphere, f.spheres.count);
+    for (int i = 0; i < 10; i++) { /* workers spin for a while after a frame, then they sleep */
+        frame_trace(f.scene, &f.camera, &f.expected, NULL);
+        if (i % 2)
+            usleep(2000);
+        expect_in_child(use_in_child, &f);
+    }
+    expect_in_child(create_in_child, &f);
+    planes again = planes_make(WIDTH, HEIGHT);
+    frame_trace(f.scene, &f.camera, &again, NULL);
+    assert_true(planes_equal(&again, &f.expected));
+    planes_free(&again);
+    planes_free(&f.expected);
+    cgt_scene_release(f.scene);
+    cgt_context_release(f.context);
+    cloud_free(&f.spheres);
+}
+
+/* ---- dlclose ---- */
+
+#ifdef CGT_SHARED_LIBRARY
+typedef cgt_result create_function(const cgt_context_options *, cgt_context **);
+typedef void release_function(cgt_context *);
+
+/* Closes the library while workers sleep in it, and while they spin; then uses it again. */
+static int close_in_child(void *argument)
+{
+    (void)argument;
+    for (int i = 0; i < 4; i++) {
+        create_function *create;
+        release_function *release;
+        cgt_context *context = NULL;
+        cgt_context_options options = {.threads = 4};
+        void *library = dlopen(CGT_SHARED_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+        if (!library)
+            return 1;
+        *(void **)(void *)&create = dlsym(library, "cgt_context_create");
+        *(void **)(void *)&release = dlsym(library, "cgt_context_release");
+        if (!create || !release || create(&options, &context) != CGT_OK)
+            return 2;
+        if (i % 2)
+            usleep(20000);
+        if (dlclose(library) != 0)
+            return 3;
+        usleep(20000);
+        release(context);
+    }
+    return 0;
+}
+
+static void the_library_stays_while_workers_run(void **state)
+{
+    (void)state;
+    expect_in_child(close_in_child, NULL);
+}
+#endif
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_child_needs_no_workers),
+#ifdef CGT_SHARED_LIBRARY
+        cmocka_unit_test(the_library_stays_while_workers_run),
+#endif
+    };
+    test_begin("test_process");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
