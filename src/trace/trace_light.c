@@ -18,8 +18,8 @@
  * up. The estimate takes primitives for evenly spread over the bounds of the scene; one far away makes it too small. The
  * work is bounded by a few times what the BVH takes. */
 #define MAX_LIGHT_WORK 128u
-#define SCATTERED_POINTS                                                                                               \
-    4u /* points of such a chunk share little: each counts as so many rays for the BVH's building */
+/* Points of such a chunk share little: each counts as so many rays for the BVH's building. */
+#define SCATTERED_POINTS 4u
 
 #define CHUNK_GIVEN_UP 0xffu /* the first result of a chunk that tiles gave up, until it is traced otherwise */
 
