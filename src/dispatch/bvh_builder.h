@@ -12,8 +12,8 @@
 /* ---- parts ---- */
 
 #define CGT_BVH_PARTS (2 * CGT_LOOSE_SIZE_LEVELS) /* of each level the spheres and the triangles */
-#define CGT_BVH_PART_DEPTH 5u                /* binary nodes over the parts' roots, at most */
-#define CGT_BVH_KEY_BITS CGT_MORTON_BITS     /* of a part's cells */
+#define CGT_BVH_PART_DEPTH 5u                     /* binary nodes over the parts' roots, at most */
+#define CGT_BVH_KEY_BITS CGT_MORTON_BITS          /* of a part's cells */
 
 /* Primitives of one kind and one size level (builders/order/size_levels.h). */
 typedef struct cgt_bvh_part {

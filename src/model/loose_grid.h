@@ -49,7 +49,7 @@ typedef struct cgt_loose_level {
 typedef struct cgt_loose_grid {
     cgt_loose_level level[CGT_LOOSE_LEVELS];
     uint32_t levels;
-    uint32_t regions; /* levels with a region */
+    uint32_t regions;      /* levels with a region */
     const uint32_t *start; /* cell c holds primitive[start[c]] to primitive[start[c + 1] - 1]; cells + 1 of them */
     const uint32_t
         *prim; /* all valid primitives, or with committed_scene.cluster all clusters that have some, ascending in each

@@ -37,7 +37,7 @@ typedef enum cgt_scene_buffer {
     CGT_BUFFER_LOOSE_PRIM,
     CGT_BUFFER_CELL_SORT_WORK, /* centres of triangles; keys of all primitives, or the primitives sorted by them */
     CGT_BUFFER_CELL_SORT_BINS, /* ends of bins in chunks of primitives */
-    CGT_BUFFER_REGIONS, /* sizes of a loose grid's levels by chunk, where regions are crowded */
+    CGT_BUFFER_REGIONS,        /* sizes of a loose grid's levels by chunk, where regions are crowded */
     CGT_BUFFER_CLUSTERS,
     CGT_BUFFER_BVH_START,
     CGT_BUFFER_BVH_PRIM,   /* all primitives by cell and leaf */

@@ -54,12 +54,11 @@ static unsigned expect_cut(const whole_file *w, const char *path, size_t size)
     char error[1024];
     trajectory_frame frame;
     unsigned whole = 0, read = 0, warnings = 0;
-    int status;
     while (whole < w->frames && w->end[whole] <= size) {
         whole++;
     }
     trajectory *t = scratch_open(path, NULL);
-    while ((status = trajectory_read(t, &frame, error, sizeof error)) == 1) {
+    while (trajectory_read(t, &frame, error, sizeof error) == 1) {
         const char *warning = trajectory_take_warning(t);
         assert_null(trajectory_take_warning(t)); /* once */
         warnings += warning != NULL;
