@@ -425,7 +425,8 @@ typedef struct cgt_hits {
  *   hits      gets the hits, of the same values as cgt_trace_camera's
  *   options   NULL: the defaults
  * Where AUTO has built a loose grid, the calls since a commit that bring 1/32 as many rays as there are primitives (the
- * first call, where the grid has levels for crowded regions) make the library build a BVH, by the context's threads, in memory that the scene keeps; other threads may trace meanwhile.
+ * first call, where the grid has levels for crowded regions) make the library build a BVH, by the context's threads, in
+ * memory that the scene keeps; other threads may trace meanwhile.
  * Only then is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was traced, and the call may be
  * repeated. The BVH and what its build needs take 70 to 100 bytes a sphere and 110 to 140 a triangle (measured with
  * evenly spread primitives; cgt_scene_statistics.bytes tells), until the scene is released. CGT_STRUCTURE_LOOSE_GRID

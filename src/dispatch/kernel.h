@@ -60,12 +60,12 @@ typedef void cgt_prim_keys_fn(const cgt_cell_keys *keys, const cgt_primitive_arr
 typedef void cgt_cluster_keys_fn(const cgt_cell_keys *keys, const struct cgt_cluster *cluster, uint32_t count,
                                  uint32_t *key);
 
-/* The sizes of a loose grid's levels over the same primitives, or clusters; keys->plan: the grid, whose levels need no
- * cells yet. Half extents are sizes. key: scratch, as long. */
+/* Adds the same primitives, or clusters, to the sizes of a loose grid's levels: class k stands for level k. keys->plan:
+ * the grid, whose levels need no cells yet. Half extents are sizes. key: scratch, as long. */
 typedef void cgt_measure_levels_fn(const cgt_cell_keys *keys, const cgt_primitive_array *array, uint32_t first,
-                                   uint32_t end, uint32_t *key, cgt_size_class *class);
+                                   uint32_t end, uint32_t *key, cgt_size_classes *levels);
 typedef void cgt_measure_clusters_fn(const cgt_cell_keys *keys, const struct cgt_cluster *cluster, uint32_t count,
-                                     uint32_t *key, cgt_size_class *class);
+                                     uint32_t *key, cgt_size_classes *levels);
 
 /* ---- tracing ---- */
 

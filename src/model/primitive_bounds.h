@@ -24,21 +24,34 @@ typedef struct cgt_size_classes {
     cgt_size_class of[CGT_SIZE_CLASSES];
 } cgt_size_classes;
 
-/* Adds a class; sums and extremes do not depend on the order. */
-static inline void cgt_size_classes_add(cgt_size_classes *to, uint32_t k, const cgt_size_class *c)
+static inline bool cgt_size_class_is_used(const cgt_size_classes *c, uint32_t k)
 {
-    cgt_size_class *t = &to->of[k];
-    if (!(to->used_classes[k / 32] >> k % 32 & 1)) {
-        to->used_classes[k / 32] |= UINT32_C(1) << k % 32;
-        *t = *c;
+    return c->used_classes[k / 32] >> k % 32 & 1;
+}
+
+/* Adds the primitives of one class to another, which may have none; sums and extremes do not depend on the order. */
+static inline void cgt_size_class_add(cgt_size_class *to, const cgt_size_class *c)
+{
+    if (!to->count) {
+        *to = *c;
         return;
     }
-    t->count += c->count;
+    to->count += c->count;
     for (int a = 0; a < 3; a++) {
-        t->low[a] = c->low[a] < t->low[a] ? c->low[a] : t->low[a];
-        t->high[a] = c->high[a] > t->high[a] ? c->high[a] : t->high[a];
-        t->half[a] = c->half[a] > t->half[a] ? c->half[a] : t->half[a];
+        to->low[a] = c->low[a] < to->low[a] ? c->low[a] : to->low[a];
+        to->high[a] = c->high[a] > to->high[a] ? c->high[a] : to->high[a];
+        to->half[a] = c->half[a] > to->half[a] ? c->half[a] : to->half[a];
     }
+}
+
+/* Adds primitives, of which there is at least one, to class k. */
+static inline void cgt_size_classes_add(cgt_size_classes *to, uint32_t k, const cgt_size_class *c)
+{
+    if (!cgt_size_class_is_used(to, k)) {
+        to->used_classes[k / 32] |= UINT32_C(1) << k % 32;
+        to->of[k].count = 0;
+    }
+    cgt_size_class_add(&to->of[k], c);
 }
 
 /* Returns how many primitives were added. */
@@ -46,7 +59,7 @@ static inline uint32_t cgt_size_classes_count(const cgt_size_classes *c)
 {
     uint32_t count = 0;
     for (uint32_t k = 0; k < CGT_SIZE_CLASSES; k++)
-        count += c->used_classes[k / 32] >> k % 32 & 1 ? c->of[k].count : 0;
+        count += cgt_size_class_is_used(c, k) ? c->of[k].count : 0;
     return count;
 }
 

@@ -43,22 +43,24 @@ static cgt_result sort_prims(cgt_scene *scene, cgt_cell_sort *sort)
 {
     const cgt_committed_scene *committed_scene = &scene->committed_scene;
     cgt_loose_grid *g = &scene->committed_scene.loose;
-    bool failed = false;
-    for (uint32_t round = 0;; round++) {
+    cgt_result result = CGT_OK;
+    bool again = true;
+    for (uint32_t round = 0; again && result == CGT_OK; round++) {
         cgt_cell_sort_plan(sort, scene, committed_scene->cluster, g, g->cells);
         /* room for any arrangement of as many primitives or clusters, or for more cells where they are requested */
         const uint64_t max_cells = cgt_loose_grid_max_cells(sort->count);
-        const cgt_result result = cgt_cell_sort_reserve(
-            sort, scene, CGT_BUFFER_LOOSE_START, max_cells > g->cells ? max_cells : g->cells, CGT_BUFFER_LOOSE_PRIM);
+        result = cgt_cell_sort_reserve(sort, scene, CGT_BUFFER_LOOSE_START, max_cells > g->cells ? max_cells : g->cells,
+                                       CGT_BUFFER_LOOSE_PRIM);
         if (result != CGT_OK)
-            return result;
+            break;
         cgt_cell_sort_run(sort, scene->context);
         g->start = sort->start;
         g->prim = sort->prim;
-        if (!sort->is_crowded || scene->options.research->resolution[0] || round == MAX_ROUNDS ||
-            !cgt_loose_grid_add_regions(scene, sort, g, &failed))
-            return failed ? CGT_ERROR_OUT_OF_MEMORY : CGT_OK;
+        again = sort->is_crowded && !scene->options.research->resolution[0] && round < MAX_ROUNDS;
+        if (again)
+            result = cgt_loose_grid_add_regions(scene, sort, g, &again);
     }
+    return result;
 }
 
 cgt_result cgt_loose_grid_commit(cgt_scene *scene)

@@ -12,12 +12,13 @@
 #include "builders/grid/loose_grid_regions.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "builders/order/size_levels.h"
 
 /* The mean, over all primitives, of how many share their cell: a grid below is left as it is, the sooner the fewer
- * primitives there are. 10 in an even scene,
- * 400 in one whose primitives lie in 1,000 clusters, which is traced as fast. */
+ * primitives there are. It is 10 in an even scene, and 400 in one of a million primitives in 1,000 clusters, which is
+ * traced as fast. */
 #define MAX_MEAN 512.0
 #define MIN_MEAN 256.0
 #define MEAN_SHARE 0x1p-12                /* of the primitives */
@@ -49,18 +50,6 @@ static item get_item(const cgt_cell_sort *s, uint32_t i)
     return (item){{plane[0], plane[stride], plane[2 * stride]}, plane[3 * stride]};
 }
 
-static void add_class(cgt_size_class *to, const cgt_size_class *c)
-{
-    if (!c->count)
-        return;
-    for (int a = 0; a < 3; a++) {
-        to->low[a] = to->count ? fminf(to->low[a], c->low[a]) : c->low[a];
-        to->high[a] = to->count ? fmaxf(to->high[a], c->high[a]) : c->high[a];
-        to->half[a] = to->count ? fmaxf(to->half[a], c->half[a]) : c->half[a];
-    }
-    to->count += c->count;
-}
-
 static void add_item(cgt_size_class *c, const item *q)
 {
     cgt_size_class one = {.count = 1};
@@ -68,7 +57,7 @@ static void add_item(cgt_size_class *c, const item *q)
         one.low[a] = one.high[a] = q->middle[a];
         one.half[a] = q->size;
     }
-    add_class(c, &one);
+    cgt_size_class_add(c, &one);
 }
 
 /* ---- crowded cells ---- */
@@ -89,7 +78,6 @@ typedef struct part {
     uint32_t begin, end; /* in the list of crowded cells */
     uint32_t low[3], high[3];
     uint64_t prims;
-    bool divided_up; /* cannot be divided further */
 } part;
 
 typedef struct part_list {
@@ -248,7 +236,6 @@ static void insert_level(cgt_loose_grid *g, uint32_t at, const cgt_loose_level *
         g->level[i] = g->level[i - 1];
     g->level[at] = *level;
     g->levels++;
-    g->regions++;
 }
 
 /* Appends the regions of the parts to the levels. Parts are in the order of their levels but for divided ones. Returns
@@ -284,20 +271,16 @@ static bool insert_regions(const part_list *list, const cgt_cell_sort *sort, cgt
 typedef struct measure_job {
     const cgt_kernel *kernel;
     const cgt_cell_sort *sort;
-    cgt_size_class *class; /* CGT_LOOSE_LEVELS for each chunk */
-    uint32_t levels;
+    cgt_size_classes *levels; /* of each chunk: class k stands for level k */
 } measure_job;
 
-static void measure_prims(const measure_job *job, uint32_t first, uint32_t end, cgt_size_class *class)
+static void measure_prims(const measure_job *job, uint32_t first, uint32_t end, cgt_size_classes *levels)
 {
     const cgt_cell_sort *s = job->sort;
     const cgt_primitive_array *a = cgt_primitives_array(s->prims, first);
     for (uint32_t prim = first; prim < end; a++) {
-        cgt_size_class of_array[CGT_LOOSE_LEVELS];
         const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
-        job->kernel->loose_grid_measure(&s->keys, a, prim, stop, s->key + prim, of_array);
-        for (uint32_t k = 0; k < job->levels; k++)
-            add_class(&class[k], &of_array[k]);
+        job->kernel->loose_grid_measure(&s->keys, a, prim, stop, s->key + prim, levels);
         prim = stop;
     }
 }
@@ -308,27 +291,26 @@ static void measure_chunk(void *argument, uint32_t chunk)
     const cgt_cell_sort *s = job->sort;
     const uint32_t first = chunk * MEASURE_CHUNK, rest = s->count - first;
     const uint32_t count = rest < MEASURE_CHUNK ? rest : MEASURE_CHUNK;
-    cgt_size_class *class = job->class + (size_t)chunk * CGT_LOOSE_LEVELS;
-    for (uint32_t k = 0; k < CGT_LOOSE_LEVELS; k++)
-        class[k].count = 0;
+    cgt_size_classes *levels = &job->levels[chunk];
+    memset(levels->used_classes, 0, sizeof levels->used_classes);
     if (s->cluster)
-        job->kernel->loose_grid_measure_clusters(&s->keys, s->cluster + first, count, s->key + first, class);
+        job->kernel->loose_grid_measure_clusters(&s->keys, s->cluster + first, count, s->key + first, levels);
     else
-        measure_prims(job, first, first + count, class);
+        measure_prims(job, first, first + count, levels);
 }
 
 /* Lays out all levels anew: a region takes what the cells around its parts hold too, and leaves its outer level with
  * less. Levels without primitives go. */
-static void place_levels(cgt_loose_grid *g, const cgt_size_class class[CGT_LOOSE_LEVELS])
+static void place_levels(cgt_loose_grid *g, const cgt_size_classes *sizes)
 {
     uint32_t levels = 0;
     g->cells = g->regions = 0;
     for (uint32_t k = 0; k < g->levels; k++) {
-        if (!class[k].count)
+        if (!cgt_size_class_is_used(sizes, k))
             continue;
         cgt_loose_level *l = &g->level[levels++];
         *l = g->level[k];
-        cgt_loose_level_init(&class[k], no_resolution, l);
+        cgt_loose_level_init(&sizes->of[k], no_resolution, l);
         l->first = g->cells;
         g->cells += l->size[0] * l->size[1] * l->size[2];
         g->regions += l->has_region;
@@ -337,32 +319,29 @@ static void place_levels(cgt_loose_grid *g, const cgt_size_class class[CGT_LOOSE
 }
 
 /* The keys of the sort are overwritten. */
-static bool measure_levels(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *g)
+static cgt_result measure_levels(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *g)
 {
     const uint32_t chunks = (uint32_t)(((uint64_t)sort->count + MEASURE_CHUNK - 1) / MEASURE_CHUNK);
     cgt_buffer *buffer = &scene->buffer[CGT_BUFFER_REGIONS];
-    cgt_size_class class[CGT_LOOSE_LEVELS] = {{0}};
-    if (cgt_buffer_reserve(&scene->context->memory, buffer, chunks, sizeof class) != CGT_OK)
-        return false;
-    measure_job job = {scene->context->kernel, sort, buffer->data, g->levels};
+    const cgt_result result = cgt_buffer_reserve(&scene->context->memory, buffer, chunks, sizeof(cgt_size_classes));
+    if (result != CGT_OK)
+        return result;
+    measure_job job = {scene->context->kernel, sort, buffer->data};
     cgt_run_tasks(scene->context, measure_chunk, &job, chunks);
-    for (uint32_t chunk = 0; chunk < chunks; chunk++)
-        for (uint32_t k = 0; k < g->levels; k++)
-            add_class(&class[k], &job.class[(size_t)chunk * CGT_LOOSE_LEVELS + k]);
-    place_levels(g, class);
-    return true;
+    cgt_size_classes_merge(job.levels, chunks);
+    place_levels(g, job.levels);
+    return CGT_OK;
 }
 
-bool cgt_loose_grid_add_regions(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *grid, bool *failed)
+cgt_result cgt_loose_grid_add_regions(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *grid, bool *added)
 {
     part_list list = {.grid = grid, .cell = sort->entry, .max_parts = CGT_LOOSE_LEVELS - grid->levels};
     const double max_mean = fmin(MAX_MEAN, MIN_MEAN + sort->valid * MEAN_SHARE);
+    *added = false;
     if (!list.max_parts || mean_of_cells(grid, sort->valid) < max_mean)
-        return false;
+        return CGT_OK;
     list_crowded(&list);
     divide_parts(&list);
-    if (!insert_regions(&list, sort, grid))
-        return false;
-    *failed = !measure_levels(scene, sort, grid);
-    return !*failed;
+    *added = insert_regions(&list, sort, grid);
+    return *added ? measure_levels(scene, sort, grid) : CGT_OK;
 }

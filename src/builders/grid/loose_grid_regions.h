@@ -7,9 +7,8 @@
 
 #include "builders/order/cell_sort.h"
 
-/* Looks at a sorted grid with a crowded cell, and gives crowded regions levels of their own. Returns whether it did:
- * then the primitives must be sorted once more. The sort's `entry` is used as memory. Sets *failed where memory for
- * that is missing. */
-bool cgt_loose_grid_add_regions(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *grid, bool *failed);
+/* Looks at a sorted grid with a crowded cell, and gives crowded regions levels of their own. *added: whether it did;
+ * then the primitives must be sorted once more. The sort's `entry` and keys are used as memory. OUT_OF_MEMORY. */
+cgt_result cgt_loose_grid_add_regions(cgt_scene *scene, const cgt_cell_sort *sort, cgt_loose_grid *grid, bool *added);
 
 #endif

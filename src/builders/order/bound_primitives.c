@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "builders/order/cell_sort.h"
+#include "builders/order/size_levels.h"
 
 #define CHUNK 8192u
 #define MAX_VECTOR 16u /* clusters are written by whole vectors */
@@ -87,17 +88,6 @@ static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
                     prim - a->first, corner[k], a->points);
 }
 
-/* Adds all classes to those of the first chunk. */
-static void merge_classes(cgt_size_classes *classes, uint32_t chunks)
-{
-    for (uint32_t i = 1; i < chunks; i++)
-        for (uint32_t word = 0; word < CGT_SIZE_CLASSES / 32; word++)
-            for (uint32_t remaining = classes[i].used_classes[word]; remaining; remaining &= remaining - 1) {
-                const uint32_t k = 32 * word + (uint32_t)__builtin_ctz(remaining);
-                cgt_size_classes_add(classes, k, &classes[i].of[k]);
-            }
-}
-
 static cgt_result reserve_clusters(cgt_scene *scene, bounds_job *job)
 {
     cgt_buffer *buffer = &scene->buffer[CGT_BUFFER_CLUSTERS];
@@ -150,7 +140,7 @@ static cgt_result compute_bounds(cgt_scene *scene, bool clusters, float max_half
     if (s->bad_index != CGT_INVALID_ID)
         return bad_index(scene, s->bad_index);
     if (job.request.classes)
-        merge_classes(job.request.classes, chunks);
+        cgt_size_classes_merge(job.request.classes, chunks);
     s->diameter[0] = s->valid;
     for (int a = 0; a < 3; a++) {
         /* the sums were rounded to nearest, which one step outwards covers */

@@ -19,34 +19,20 @@
 typedef struct size_range {
     cgt_size_class all;
     uint32_t least; /* class */
-    bool nonempty;
 } size_range;
-
-static bool class_is_used(const cgt_size_classes *c, uint32_t k) { return c->used_classes[k / 32] >> k % 32 & 1; }
 
 static void add_class(size_range *range, const cgt_size_classes *classes, uint32_t k)
 {
-    const cgt_size_class *c = &classes->of[k];
-    if (!class_is_used(classes, k))
+    if (!cgt_size_class_is_used(classes, k))
         return;
     range->least = k;
-    if (!range->nonempty) {
-        range->all = *c;
-        range->nonempty = true;
-        return;
-    }
-    range->all.count += c->count;
-    for (int a = 0; a < 3; a++) {
-        range->all.low[a] = fminf(range->all.low[a], c->low[a]);
-        range->all.high[a] = fmaxf(range->all.high[a], c->high[a]);
-        range->all.half[a] = fmaxf(range->all.half[a], c->half[a]);
-    }
+    cgt_size_class_add(&range->all, &classes->of[k]);
 }
 
 /* The largest class at `from` or below that has primitives, or -1. */
 static int next_class(const cgt_size_classes *classes, int from)
 {
-    while (from >= 0 && !class_is_used(classes, (uint32_t)from))
+    while (from >= 0 && !cgt_size_class_is_used(classes, (uint32_t)from))
         from--;
     return from;
 }
@@ -55,7 +41,7 @@ static int next_class(const cgt_size_classes *classes, int from)
 static uint32_t count_pair(const cgt_size_classes *classes, int k)
 {
     uint32_t count = classes->of[k].count;
-    if (k > 0 && class_is_used(classes, (uint32_t)k - 1))
+    if (k > 0 && cgt_size_class_is_used(classes, (uint32_t)k - 1))
         count += classes->of[k - 1].count;
     return count;
 }
@@ -72,7 +58,7 @@ static void add_pair(size_range *range, const cgt_size_classes *classes, int k)
 static int collect_level(const cgt_size_classes *classes, int k, bool last, size_range *range)
 {
     uint32_t joined_count = 0;
-    *range = (size_range){.nonempty = false};
+    *range = (size_range){.least = 0};
     add_pair(range, classes, k);
     const uint32_t most = range->all.count / 8 + CGT_LOOSE_PRIMS_PER_CELL;
     while ((k = next_class(classes, k - 2)) >= 0) {
@@ -206,3 +192,13 @@ void cgt_loose_grid_plan(cgt_loose_grid *grid, const cgt_size_classes *classes, 
 /* An axis has at most half as many again as its share, so a level 3.375 times its primitives over 8, or that of one
  * cell. */
 uint64_t cgt_loose_grid_max_cells(uint32_t prims) { return (uint64_t)prims / 2 + 4 * CGT_LOOSE_LEVELS; }
+
+void cgt_size_classes_merge(cgt_size_classes *classes, uint32_t chunks)
+{
+    for (uint32_t i = 1; i < chunks; i++)
+        for (uint32_t word = 0; word < CGT_SIZE_CLASSES / 32; word++)
+            for (uint32_t remaining = classes[i].used_classes[word]; remaining; remaining &= remaining - 1) {
+                const uint32_t k = 32 * word + (uint32_t)__builtin_ctz(remaining);
+                cgt_size_classes_add(classes, k, &classes[i].of[k]);
+            }
+}

@@ -16,6 +16,9 @@ void cgt_loose_grid_plan(cgt_loose_grid *grid, const cgt_size_classes *classes, 
 /* Sets a level's cells, for the primitives of c, of which there is at least one. requested: as above. */
 void cgt_loose_level_init(const cgt_size_class *c, const uint32_t requested[3], cgt_loose_level *level);
 
+/* Adds the classes of all chunks to those of the first. */
+void cgt_size_classes_merge(cgt_size_classes *classes, uint32_t chunks);
+
 /* Returns the most cells that any arrangement of as many primitives gets, without a requested resolution. */
 uint64_t cgt_loose_grid_max_cells(uint32_t prims);
 

@@ -12,9 +12,8 @@
  * is `reach`. Sums and products of cell numbers are integers below 2^24: exact in float.
  *
  * Measuring assigns levels by the same rule, before their cells are laid out. */
-#include <math.h>
-
 #include "kernel/builders/array_keys.h"
+#include "kernel/builders/size_gather.h"
 
 /* Cells of a vector of middles, in a level. */
 CGT_SPU_INLINE vuint find_cells(const cgt_loose_level *level, const vfloat middle[3])
@@ -82,74 +81,45 @@ void CGT_KERNEL(cgt_loose_grid_cluster_keys)(const cgt_cell_keys *keys, const cg
 
 /* ---- measuring ---- */
 
-/* The sizes of a grid's levels, a vector of each bound. */
 typedef struct level_gather {
     const cgt_loose_grid *grid;
-    uint32_t count[CGT_LOOSE_LEVELS];
-    vfloat low[CGT_LOOSE_LEVELS][3], high[CGT_LOOSE_LEVELS][3], size[CGT_LOOSE_LEVELS];
+    size_gather *sizes; /* of levels, in place of classes */
 } level_gather;
 
-static void level_gather_init(const cgt_loose_grid *grid, level_gather *g)
-{
-    g->grid = grid;
-    for (uint32_t k = 0; k < grid->levels; k++) {
-        g->count[k] = 0;
-        g->size[k] = spux_vfloat(0);
-        for (int a = 0; a < 3; a++) {
-            g->low[k][a] = spux_vfloat(INFINITY);
-            g->high[k][a] = spux_vfloat(-INFINITY);
-        }
-    }
-}
-
-static void level_gather_store(const level_gather *g, cgt_size_class *class)
-{
-    for (uint32_t k = 0; k < g->grid->levels; k++) {
-        class[k].count = g->count[k];
-        for (int a = 0; a < 3; a++) {
-            class[k].low[a] = spux_hmin(g->low[k][a]);
-            class[k].high[a] = spux_hmax(g->high[k][a]);
-            class[k].half[a] = spux_hmax(g->size[k]);
-        }
-    }
-}
-
-/* A find_keys_fn that adds to a level_gather; the keys are the levels. */
+/* A find_keys_fn that adds to a level_gather; space: that. Its keys are not used. */
 CGT_SPU_INLINE vuint gather_levels(const void *space, uint32_t skipped, const vfloat middle[3], vfloat size,
                                    vmask valid)
 {
-    level_gather *g = (level_gather *)space;
+    const level_gather *g = space;
+    const vfloat half = spux_abs(size); /* -0 is a radius too */
     vmask remaining = valid;
-    (void)skipped;
     for (uint32_t k = 0; k < g->grid->levels && spux_any(remaining); k++) {
         const vmask in = find_level(g->grid, k, middle, size, remaining);
         if (!spux_any(in))
             continue;
         remaining = spu_andc(remaining, in);
-        g->count[k] += spux_count_bits(spux_mask_bits(in));
-        g->size[k] = spux_select(g->size[k], spux_max(g->size[k], spux_abs(size)), in);
-        for (int a = 0; a < 3; a++) {
-            g->low[k][a] = spux_select(g->low[k][a], spux_min(g->low[k][a], middle[a]), in);
-            g->high[k][a] = spux_select(g->high[k][a], spux_max(g->high[k][a], middle[a]), in);
-        }
+        size_gather_open_class(g->sizes, k);
+        size_gather_class(g->sizes, k, middle, &half, 1, in);
     }
-    return spux_vuint(0);
+    return spux_vuint(skipped);
 }
 
 void CGT_KERNEL(cgt_loose_grid_measure)(const cgt_cell_keys *keys, const cgt_primitive_array *array, uint32_t first,
-                                        uint32_t end, uint32_t *key, cgt_size_class *class)
+                                        uint32_t end, uint32_t *key, cgt_size_classes *levels)
 {
-    level_gather g;
-    level_gather_init(keys->plan, &g);
+    size_gather sizes;
+    const level_gather g = {keys->plan, &sizes};
+    size_gather_clear(&sizes);
     array_keys(keys, array, first, end, gather_levels, &g, key);
-    level_gather_store(&g, class);
+    size_gather_store(&sizes, 1, levels);
 }
 
 void CGT_KERNEL(cgt_loose_grid_measure_clusters)(const cgt_cell_keys *keys, const cgt_cluster *cluster, uint32_t count,
-                                                 uint32_t *key, cgt_size_class *class)
+                                                 uint32_t *key, cgt_size_classes *levels)
 {
-    level_gather g;
-    level_gather_init(keys->plan, &g);
+    size_gather sizes;
+    const level_gather g = {keys->plan, &sizes};
+    size_gather_clear(&sizes);
     cluster_keys(keys, cluster, count, gather_levels, &g, key);
-    level_gather_store(&g, class);
+    size_gather_store(&sizes, 1, levels);
 }

@@ -146,6 +146,8 @@ CGT_SPU_INLINE void tile_init_cone(tile *t)
 
 /* ---- the tile ---- */
 
+#define USUAL_SHARE 64u /* of the primitives: a level with less does not make the depth error */
+
 /* A box, seen from the eye. */
 typedef struct tile_box {
     double low[3], high[3];
@@ -202,8 +204,6 @@ static bool tile_sees_box(const tile *t, const tile_box *b)
     return in[0] && in[1] && in[2] && in[3] && in[4];
 }
 
-#define USUAL_SHARE 64u /* of the primitives: a level with less does not make the depth error */
-
 /* The largest distance from the eye of a primitive that the tile may hit: of the levels that it sees, so that a
  * primitive far away, or a huge one, counts only where it is in view. usual: the same of the levels with a good share
  * of the primitives, for the depth error; spheres beyond are slow (tile_double.c). */
@@ -243,7 +243,7 @@ CGT_SPU_INLINE float tile_typical_radius(const cgt_committed_scene *committed_sc
     const cgt_loose_level *level = committed_scene->loose.level, *largest = level;
     for (const cgt_loose_level *l = level; l < level + committed_scene->loose.levels; l++) {
         const float reach = fminf(l->reach[0], fminf(l->reach[1], l->reach[2]));
-        if (l->prims >= committed_scene->valid / 64 && reach < farthest * 0.125f)
+        if (l->prims >= committed_scene->valid / USUAL_SHARE && reach < farthest * 0.125f)
             return reach;
         largest = l->prims > largest->prims ? l : largest;
     }
