@@ -159,13 +159,15 @@ static const char *check_order(const bvh_node *n, uint32_t number, uint32_t octa
     return lanes == CGT_ALL_LANES ? NULL : fault("node %u: a lane is missing in the order", number);
 }
 
-/* Planes lie outside by 2^-20 of their size, of which rounding takes a sixteenth: see kernel/bvh/bvh_ray.h. */
+/* Planes lie outside by 2^-20 of their size: see kernel/bvh/bvh_ray.h. Rounding takes a sixteenth of that where the
+ * box itself was exact, as those of triangles are. Those of spheres have 2^-23 of their own, more than rounding. */
 static const char *check_margined_leaf(walk *w, const visit *v)
 {
+    const float margin = v->node & CGT_BVH_TRIANGLE_LEAF ? 0x1.cp-21f : 0x1.fcp-21f;
     float low[3], high[3];
     for (int a = 0; a < 3; a++) {
-        low[a] = v->low[a] + fabsf(v->low[a]) * 0x1.cp-21f;
-        high[a] = v->high[a] - fabsf(v->high[a]) * 0x1.cp-21f;
+        low[a] = v->low[a] + fabsf(v->low[a]) * margin;
+        high[a] = v->high[a] - fabsf(v->high[a]) * margin;
     }
     return check_leaf(w, v->node, low, high);
 }
