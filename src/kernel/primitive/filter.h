@@ -6,6 +6,7 @@
 #ifndef CGT_FILTER_H
 #define CGT_FILTER_H
 
+#include <float.h>
 #include <math.h>
 
 #include "exact/decide.h"
@@ -113,6 +114,19 @@ typedef struct filter_result {
     vmask certain_hit; /* a hit, certainly in the range and nearer than the best */
     vmask undecided;   /* neither a certain hit nor a certain miss */
 } filter_result;
+
+/* Lanes whose first root of a sphere certainly lies before the range take the second one, whose interval ends at `end`
+ * and is t_width long (sphere_filter.h). inside: lanes that certainly have both roots. Returns those that took it. */
+CGT_SPU_INLINE vmask filter_second_root(vmask inside, vfloat t_min, vfloat end, vfloat t_width, vfloat *low,
+                                        vfloat *high)
+{
+    /* an end of minus infinity is that of an overflow */
+    const vmask before = spu_and(spu_cmpgt(t_min, *high), spux_cmpge(*high, spux_vfloat(-FLT_MAX)));
+    const vmask second = spu_and(inside, before);
+    *low = spux_select(*low, spu_sub(end, t_width), second);
+    *high = spux_select(*high, end, second);
+    return second;
+}
 
 /* Decides whether the ray hits `prim` before its closest hit so far (CGT_INVALID_ID: none yet), and where. */
 CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t best_prim, uint32_t prim,

@@ -106,9 +106,16 @@ CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3],
     q->low = spu_sub(spu_sub(mid, half), t_error);
     q->high = spu_add(q->low, t_width);
     /* both roots lie before the range */
-    const vmask behind = spu_cmpgt(r->t_min, spu_add(spu_add(mid, half), t_error));
-    q->certain_hit = spu_and(spu_cmpgt(h, spu_mul(eps, spux_vfloat(17))), spu_cmpgt(q->low, r->t_min));
+    const vfloat end = spu_add(spu_add(mid, half), t_error);
+    const vmask behind = spu_cmpgt(r->t_min, end), inside = spu_cmpgt(h, spu_mul(eps, spux_vfloat(17)));
+    q->certain_hit = spu_and(inside, spu_cmpgt(q->low, r->t_min));
     q->undecided = spux_not(spu_or(spu_or(missed, behind), q->certain_hit));
+    if (__builtin_expect(spux_any(q->undecided), 0)) {
+        const vmask second =
+            filter_second_root(spu_and(inside, q->undecided), r->t_min, end, t_width, &q->low, &q->high);
+        q->certain_hit = spu_or(q->certain_hit, spu_and(second, spu_cmpgt(q->low, r->t_min)));
+        q->undecided = spu_andc(q->undecided, q->certain_hit);
+    }
     return true;
 }
 

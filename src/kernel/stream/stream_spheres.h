@@ -6,7 +6,10 @@
  * Spheres. With A at least the sum of the sizes of the components of c, for each centre of the leaf, and r the largest
  * radius: eps and e0 of sphere_filter.h with A for |c|, and 1 for 1 / |d|. Any hit needs less than the closest: where h
  * is more than 2 eps the line certainly hits, and the first root is between s - sqrt(h) / |d| - e0 and s + e0, whatever
- * the root's error; so it is certainly in the range where both of these are.
+ * the root's error; so it is certainly in the range where both of these are. Where h is more than 17 eps the second root
+ * is between s + 0.93 sqrt(h) / |d| - e0, since the exact h is at least 15/17 of it, and s + sqrt(h) / |d| + e0. Where
+ * these are in the range either root is the hit. Closest hits take the second root as in sphere_filter.h; what lies
+ * before the outer end of the range is out of it.
  *
  * Before that, spheres that a vector of rays cannot meet are culled. With m the middle of the leaf's box, x = o + t d -
  * m for a t near the foot of m, p = c - m, and X = [x] + half >= |x| + |p|, X >= r, the ray's part within the range is
@@ -32,6 +35,8 @@
 
 #include "kernel/primitive/vector_math.h"
 #include "kernel/stream/stream_leaf.h"
+
+#define LEAF_LEAST_HALF 0.93f
 
 /* The bounds that all spheres of a leaf share, for a vector of rays. */
 typedef struct leaf_sphere_bounds {
@@ -80,12 +85,28 @@ CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bound
         const vfloat low = spu_sub(mid, half);
         f->possible = spu_and(line_hits, spux_cmpge(b->last_out, low));
         f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(low, b->first_in), spu_cmpgt(b->last_in, mid)));
+        if (__builtin_expect(spux_any(spu_andc(f->possible, f->certain_hit)), 0)) {
+            const vfloat least = spu_madd(half, spux_vfloat(LEAF_LEAST_HALF), mid), most = spu_add(mid, half);
+            const vmask two_roots = spu_cmpgt(h, spu_mul(b->certain_hit, spux_vfloat(8.5f)));
+            f->certain_hit =
+                spu_or(f->certain_hit,
+                       spu_and(two_roots, spu_and(spu_cmpgt(least, b->first_in), spu_cmpgt(b->last_in, most))));
+        }
         return;
     }
     f->low = spu_sub(spu_sub(mid, half), b->t_error);
     f->high = spu_add(f->low, b->t_width);
     f->possible = spu_and(line_hits, spux_cmpge(r->far, f->low));
     f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
+    const vmask undecided = spu_andc(f->possible, f->certain_hit);
+    if (__builtin_expect(spux_any(undecided), 0)) {
+        const vfloat end = spu_add(spu_add(mid, half), b->t_error);
+        const vmask second =
+            filter_second_root(spu_and(above_certain, undecided), r->near, end, b->t_width, &f->low, &f->high);
+        const vmask counts = spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high));
+        f->certain_hit = spu_or(f->certain_hit, spu_and(second, counts));
+        f->possible = spu_andc(f->possible, spu_and(second, spu_cmpgt(f->low, r->far)));
+    }
 }
 
 /* Coordinates are at most 2, and off by a few roundings. */
