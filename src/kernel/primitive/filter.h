@@ -147,14 +147,20 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
     return order < 0 || (order == 0 && prim < best_prim);
 }
 
+/* Ray i of a packet as the caller described it. */
+CGT_SPU_INLINE cgt_ray filter_ray(const packet *p, uint32_t i)
+{
+    return (cgt_ray){
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
+        .t_min = p->t_min[i],
+        .t_max = p->t_max[i]};
+}
+
 /* Decides whether `prim` is the closest hit of ray i, and stores it. */
 __attribute__((noinline, unused)) static void filter_decide(const cgt_primitives *prims, packet *p, uint32_t i,
                                                             uint32_t prim, cgt_counts *counts)
 {
-    const cgt_ray ray = {
-        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
-        .t_min = p->t_min[i],
-        .t_max = p->t_max[i]};
+    const cgt_ray ray = filter_ray(p, i);
     const uint32_t best_prim = p->prim[i];
     double t;
     if (best_prim == prim || p->high[i] == -INFINITY)
