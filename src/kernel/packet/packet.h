@@ -52,12 +52,13 @@ typedef struct packet {
     bool any_hit;                    /* the first hit found closes a ray */
     bool fast;                       /* FAST precision */
     cgt_triangle_test triangle_test; /* in FAST precision */
-    bool extreme; /* some number is beyond 2^55 or some direction is shorter than 2^-55: rays one by one */
+    bool extreme;                    /* some number is beyond these limits: rays one by one */
 } packet;
 
 /* Largest coordinate and the range of direction lengths for which the bounds of the filter hold. */
 #define PACKET_MAX_COORDINATE 0x1p55f
 #define PACKET_MIN_DIR 0x1p-55f
+#define PACKET_MAX_DISTANCE 0x1p12f /* of origins, where the scene's coordinates are at most 2 */
 
 /* The entries of cgt_kernel that kernels call, too. */
 cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);

@@ -69,16 +69,19 @@ static void unusual_decide(unusual_ray *u, uint32_t prim, float low, float high)
     u->done = u->any_hit;
 }
 
-/* Updates the best hit by what the test found about the first `count` lanes. */
-static void unusual_update(unusual_ray *u, const lane_hits *q, const uint32_t *prim, uint32_t count)
+/* Updates the best hit by what the test found about the first `count` lanes. beyond: how far after the interval the hit
+ * may be if it is decided: whether a sphere's first root is in the range is not known then, and the second one is at most
+ * the diameter away, since |d| is at least 1. */
+static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, const uint32_t *prim, uint32_t count)
 {
     const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
     const vmask certain_lanes = spu_and(q->certain_hit, spu_cmpgt(q->low, spux_vfloat(u->moved.near_in)));
     const unsigned certain_hit = spux_mask_bits(certain_lanes), inside = spux_mask_bits(q->certain_hit);
     unsigned remaining = spux_mask_bits(spu_or(q->certain_hit, q->undecided)) & used_lanes;
-    _Alignas(CGT_VECTOR_BYTES) float low[CGT_LANES], high[CGT_LANES];
+    _Alignas(CGT_VECTOR_BYTES) float low[CGT_LANES], high[CGT_LANES], end[CGT_LANES];
     spux_store(low, q->low);
     spux_store(high, q->high);
+    spux_store(end, spu_add(q->high, beyond));
     for (; remaining && !u->done; remaining &= remaining - 1) {
         const uint32_t k = (uint32_t)__builtin_ctz(remaining);
         if (low[k] > u->high || unusual_skips(u, prim[k]))
@@ -89,7 +92,7 @@ static void unusual_update(unusual_ray *u, const lane_hits *q, const uint32_t *p
             u->high = high[k];
             u->done = u->any_hit;
         } else
-            unusual_decide(u, prim[k], low[k], inside >> k & 1 ? high[k] : INFINITY);
+            unusual_decide(u, prim[k], low[k], inside >> k & 1 ? end[k] : INFINITY);
     }
 }
 
@@ -108,8 +111,9 @@ static void unusual_test_spheres(unusual_ray *u, const uint32_t *prim, uint32_t 
     const vfloat scale = spux_vfloat(u->committed_scene->scale);
     for (int a = 0; a < 3; a++)
         center[a] = spu_mul(spux_load(row[a]), scale);
-    if (lane_test_sphere_from(&u->ray, center, spu_mul(spux_load(row[3]), scale), true, &q))
-        unusual_update(u, &q, prim, count);
+    const vfloat radius = spu_mul(spux_load(row[3]), scale);
+    if (lane_test_sphere_from(&u->ray, center, radius, true, &q))
+        unusual_update(u, &q, spu_mul(radius, spux_vfloat(2.0625f)), prim, count);
 }
 
 static void unusual_test_triangles(unusual_ray *u, const uint32_t *prim, uint32_t count)
@@ -132,7 +136,7 @@ static void unusual_test_triangles(unusual_ray *u, const uint32_t *prim, uint32_
     t.sum[0] = lane_sum(t.edge[0]);
     t.sum[1] = lane_sum(t.edge[1]);
     if (lane_test_triangle_from(&u->ray, &t, true, &q))
-        unusual_update(u, &q, prim, count);
+        unusual_update(u, &q, spux_vfloat(0), prim, count);
 }
 
 /* Tests a list of valid primitives. */
