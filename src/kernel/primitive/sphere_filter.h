@@ -97,9 +97,10 @@ CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_sph
     return q;
 }
 
-/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided. */
-CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
-                                       filter_result *f)
+/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided. second: looks
+ * at second roots, too. */
+CGT_SPU_INLINE bool filter_sphere_roots(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                        bool second, filter_result *f)
 {
     const filter_sphere *q = primitive;
     const vfloat zero = spux_vfloat(0), rdd = spux_load(p->rdd + i);
@@ -130,15 +131,28 @@ CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, u
     f->high = high;
     f->certain_hit = spu_and(inside, nearer);
     f->undecided = spux_not(spu_or(spu_or(spu_or(missed, beyond), spu_or(behind, already_hit)), f->certain_hit));
-    if (__builtin_expect(spux_any(f->undecided), 0)) {
-        const vmask second =
+    if (second) {
+        const vmask later =
             filter_second_root(spu_and(inside, f->undecided), t_min, end, q->t_width, &f->low, &f->high);
         const vmask counts = spu_and(spu_cmpgt(spux_load(p->low + i), f->high), spu_cmpgt(f->low, t_min));
         const vmask out = spu_cmpgt(f->low, spux_load(p->high + i));
-        f->certain_hit = spu_or(f->certain_hit, spu_and(second, counts));
-        f->undecided = spu_andc(f->undecided, spu_and(second, spu_or(counts, out)));
+        f->certain_hit = spu_or(f->certain_hit, spu_and(later, counts));
+        f->undecided = spu_andc(f->undecided, spu_and(later, spu_or(counts, out)));
     }
     return true;
+}
+
+CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                       filter_result *f)
+{
+    return filter_sphere_roots(p, primitive, i, common_origin, false, f);
+}
+
+/* The test of rays that the first one leaves undecided. */
+__attribute__((noinline, unused)) static bool filter_sphere_rays_again(const packet *p, const void *primitive,
+                                                                       uint32_t i, bool common_origin, filter_result *f)
+{
+    return filter_sphere_roots(p, primitive, i, common_origin, true, f);
 }
 
 /* The same for FAST precision, without bounds: hits of single precision are certain. */
@@ -176,11 +190,13 @@ CGT_SPU_INLINE void filter_test_sphere(const cgt_primitives *prims, packet *p, c
     const float center[3] = {s->center[0][k], s->center[1][k], s->center[2][k]};
     const uint32_t reached = block_cones_test_sphere(blocks, center, s->radius[k], s->min_t[k]);
     if (mode.decides) {
-        filter_blocks(prims, p, filter_sphere_rays, &q, s->prim[k], reached, blocks, mode, counts);
+        filter_blocks(prims, p, filter_sphere_rays, filter_sphere_rays_again, &q, s->prim[k], reached, blocks, mode,
+                      counts);
         return;
     }
     q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);
-    filter_blocks(prims, p, filter_sphere_rays_fast, &q, s->prim[k], reached, blocks, mode, counts);
+    filter_blocks(prims, p, filter_sphere_rays_fast, filter_sphere_rays_fast, &q, s->prim[k], reached, blocks, mode,
+                  counts);
 }
 
 #endif
