@@ -155,7 +155,8 @@ typedef struct found {
     uint32_t primitive, geometry;
 } found;
 
-static found find_truth(const cgt_primitives *prims, const truth_ray *ray)
+/* skip: a hit whose primitive does not count. */
+static found find_truth(const cgt_primitives *prims, const truth_ray *ray, const found *skip)
 {
     cgt_ray line = {.t_min = ray->t_min < -FLT_MAX ? -FLT_MAX : ray->t_min, .t_max = ray->t_max};
     cgt_decided_hit best = {0};
@@ -166,6 +167,8 @@ static found find_truth(const cgt_primitives *prims, const truth_ray *ray)
     for (uint32_t i = 0; i < prims->count; i++) {
         const cgt_primitive_array *a = cgt_primitives_array(prims, i);
         cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, i)};
+        if (i - a->first == skip->primitive && a->geometry == skip->geometry)
+            continue;
         if (cgt_primitive_check(&hit.primitive) != CGT_PRIMITIVE_VALID || !cgt_decide_hit(&line, &hit, &exact))
             continue;
         if (f.primitive != CGT_INVALID_ID && cgt_decide_order(&line, &hit, &best, &exact) >= 0)
@@ -178,46 +181,74 @@ static found find_truth(const cgt_primitives *prims, const truth_ray *ray)
 
 /* ---- comparing ---- */
 
+/* All rays first as they are, then so that they skip what they hit. */
 typedef struct subject {
     hard_scene scene;
     truth_ray ray[RAYS];
-    found truth[RAYS];
-    full_hit first[RAYS]; /* of the first structure and variant */
+    found truth[2][RAYS];
+    full_hit first[2][RAYS]; /* of the first structure and variant */
     uint32_t hits;
     bool traced;
 } subject;
 
-static void fail_ray(const subject *s, uint32_t i, const char *variant, uint32_t turn, const full_hit *h)
+static void fail_ray(const subject *s, uint32_t i, const found *truth, const char *variant, uint32_t turn,
+                     const full_hit *h)
 {
     const truth_ray *q = &s->ray[i];
     fail_msg("%s, structure %u, ray %u of family %u: primitive %d t %a instead of %d t %a: org %a %a %a dir %a %a %a "
              "range %a %a",
-             variant, turn, i, i % RAY_FAMILIES, (int)h->primitive, (double)h->t, (int)s->truth[i].primitive,
-             (double)s->truth[i].t, (double)q->org[0], (double)q->org[1], (double)q->org[2], (double)q->dir[0],
+             variant, turn, i, i % RAY_FAMILIES, (int)h->primitive, (double)h->t, (int)truth->primitive,
+             (double)truth->t, (double)q->org[0], (double)q->org[1], (double)q->org[2], (double)q->dir[0],
              (double)q->dir[1], (double)q->dir[2], (double)q->t_min, (double)q->t_max);
+}
+
+/* A ray and what it skips. */
+typedef struct skipping_ray {
+    truth_ray ray;
+    uint32_t primitive, geometry;
+} skipping_ray;
+
+static cgt_rays make_arrays(const subject *s, bool skips)
+{
+    static skipping_ray array[RAYS];
+    for (uint32_t i = 0; i < RAYS; i++)
+        array[i] = (skipping_ray){s->ray[i], s->truth[0][i].primitive, s->truth[0][i].geometry};
+    cgt_rays rays = ray_array(&array->ray, RAYS);
+    rays.stride = sizeof *array;
+    rays.skip_primitive = skips ? &array->primitive : NULL;
+    rays.skip_geometry = skips ? &array->geometry : NULL;
+    return rays;
+}
+
+static void check_hits(subject *s, const cgt_scene *scene, bool skips, const char *variant, uint32_t turn)
+{
+    static full_hit hit[RAYS];
+    static uint8_t occluded[RAYS];
+    const cgt_rays rays = make_arrays(s, skips);
+    const cgt_hits hits = hit_array(hit);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+    if (!s->traced)
+        memcpy(s->first[skips], hit, sizeof hit);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const found *t = &s->truth[skips][i];
+        const bool has_hit = t->primitive != CGT_INVALID_ID;
+        if (hit[i].primitive != t->primitive || hit[i].geometry != t->geometry ||
+            (has_hit && !same_bits(hit[i].t, t->t)) || memcmp(&hit[i], &s->first[skips][i], sizeof hit[i]) != 0 ||
+            occluded[i] != has_hit)
+            fail_ray(s, i, t, variant, turn, &hit[i]);
+    }
 }
 
 static void check_structure(subject *s, cgt_context *context, const char *variant, uint32_t turn)
 {
-    static full_hit hit[RAYS];
-    static uint8_t occluded[RAYS];
     const cgt_scene_options options = structure_in_turn(turn);
-    const cgt_rays rays = ray_array(s->ray, RAYS);
     cgt_scene *scene;
     if (hard_commit_with(context, &s->scene, &options, &scene) != CGT_OK)
         fail_msg("%s", context_message(context));
-    assert_int_equal(trace_array(scene, s->ray, RAYS, hit, NULL), CGT_OK);
-    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
-    if (!s->traced)
-        memcpy(s->first, hit, sizeof hit);
+    check_hits(s, scene, false, variant, turn);
+    check_hits(s, scene, true, variant, turn);
     s->traced = true;
-    for (uint32_t i = 0; i < RAYS; i++) {
-        const found *t = &s->truth[i];
-        if (hit[i].primitive != t->primitive || hit[i].geometry != t->geometry ||
-            (t->primitive != CGT_INVALID_ID && !same_bits(hit[i].t, t->t)) ||
-            memcmp(&hit[i], &s->first[i], sizeof hit[i]) != 0 || occluded[i] != (t->primitive != CGT_INVALID_ID))
-            fail_ray(s, i, variant, turn, &hit[i]);
-    }
     cgt_scene_release(scene);
 }
 
@@ -230,18 +261,19 @@ static void make_rays(subject *s, cgt_context *context, uint32_t round)
     if (hard_commit_with(context, &s->scene, &options, &scene) != CGT_OK)
         fail_msg("%s", context_message(context));
     const cgt_primitives *prims = &scene->committed_scene.prims;
+    const found none = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
     for (uint32_t i = 0; i < RAYS; i++) {
         truth_ray *ray = &s->ray[i];
         *ray = make_ray(&r, &s->scene, (ray_family)(i % RAY_FAMILIES));
-        s->truth[i] = find_truth(prims, ray);
-        s->hits += s->truth[i].primitive != CGT_INVALID_ID;
-        if (s->truth[i].primitive == CGT_INVALID_ID || random_below(&r, 3))
-            continue;
-        const float t = s->truth[i].t;
-        const float end[3] = {t, nextafterf(t, INFINITY), nextafterf(t, -INFINITY)};
-        *(random_below(&r, 2) ? &ray->t_max : &ray->t_min) = end[random_below(&r, 3)];
-        s->truth[i] =
-            ray->t_min <= ray->t_max ? find_truth(prims, ray) : (found){INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
+        found *truth = &s->truth[0][i];
+        *truth = find_truth(prims, ray, &none);
+        s->hits += truth->primitive != CGT_INVALID_ID;
+        if (truth->primitive != CGT_INVALID_ID && random_below(&r, 3) == 0) {
+            const float t = truth->t, end[3] = {t, nextafterf(t, INFINITY), nextafterf(t, -INFINITY)};
+            *(random_below(&r, 2) ? &ray->t_max : &ray->t_min) = end[random_below(&r, 3)];
+            *truth = ray->t_min <= ray->t_max ? find_truth(prims, ray, &none) : none;
+        }
+        s->truth[1][i] = ray->t_min <= ray->t_max ? find_truth(prims, ray, truth) : none;
     }
     cgt_scene_release(scene);
 }
