@@ -42,9 +42,9 @@ CGT_SPU_INLINE bool bvh_ray_from_packet(const bvh_call *c, uint32_t i, bvh_ray *
 __attribute__((noinline, cold)) static void bvh_packet_ray_unusual(const bvh_call *c, packet *p, uint32_t i)
 {
     const cgt_ray ray = filter_ray(p, i);
-    p->prim[i] =
-        CGT_KERNEL(cgt_trace_unusual)(c->committed_scene, &ray, c->skip_prim ? c->skip_prim[i] : CGT_INVALID_ID,
-                                      c->mask ? c->mask[i] : UINT32_MAX, p->any_hit, c->counts);
+    const uint32_t skip_prim = c->skip_prim ? c->skip_prim[i] : CGT_INVALID_ID;
+    const uint32_t mask = c->mask ? c->mask[i] : UINT32_MAX;
+    p->prim[i] = CGT_KERNEL(cgt_trace_unusual)(c->committed_scene, &ray, true, skip_prim, mask, p->any_hit, c->counts);
     if (p->prim[i] != CGT_INVALID_ID)
         p->low[i] = p->high[i] = -INFINITY; /* settled */
 }

@@ -6,15 +6,17 @@
 #include "kernel/primitive/filter.h"
 
 /* Numbers too large or too small for the bounds of packets. */
-static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
+static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
+                          cgt_counts *counts)
 {
+    const bool use_bvh = committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh;
     for (uint32_t i = 0; i < p->lanes; i++) {
-        const cgt_ray ray = filter_ray(p, i);
         if (p->high[i] == -INFINITY)
             continue; /* takes no part */
-        p->prim[i] =
-            CGT_KERNEL(cgt_trace_unusual)(committed_scene, &ray, p->skips_prims ? p->skip_prim[i] : CGT_INVALID_ID,
-                                          p->has_masks ? p->mask[i] : UINT32_MAX, p->any_hit, counts);
+        const cgt_ray ray = filter_ray(p, i);
+        const uint32_t skip_prim = p->skips_prims ? p->skip_prim[i] : CGT_INVALID_ID;
+        const uint32_t mask = p->has_masks ? p->mask[i] : UINT32_MAX;
+        p->prim[i] = CGT_KERNEL(cgt_trace_unusual)(committed_scene, &ray, use_bvh, skip_prim, mask, p->any_hit, counts);
         if (p->prim[i] != CGT_INVALID_ID)
             p->low[i] = p->high[i] = -INFINITY; /* settled */
     }
@@ -40,7 +42,7 @@ void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, pa
     if (committed_scene->brute_force)
         trace_brute_force(committed_scene, p, counts);
     else if (p->extreme)
-        trace_extreme(committed_scene, p, counts);
+        trace_extreme(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh)
         CGT_KERNEL(cgt_bvh_trace)(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)

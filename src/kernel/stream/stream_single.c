@@ -57,9 +57,10 @@ __attribute__((cold)) void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t number = list[i] / STREAM_RECORD;
         const cgt_ray ray = bvh_input_ray(c, number);
-        const uint32_t prim = CGT_KERNEL(cgt_trace_unusual)(
-            c->committed_scene, &ray, c->skip_prim ? c->skip_prim[number] : CGT_INVALID_ID,
-            c->mask ? c->mask[number] : UINT32_MAX, c->any_hit, c->counts);
+        const uint32_t skip_prim = c->skip_prim ? c->skip_prim[number] : CGT_INVALID_ID;
+        const uint32_t mask = c->mask ? c->mask[number] : UINT32_MAX;
+        const uint32_t prim =
+            CGT_KERNEL(cgt_trace_unusual)(c->committed_scene, &ray, true, skip_prim, mask, c->any_hit, c->counts);
         if (prim == CGT_INVALID_ID)
             continue;
         if (c->any_hit)

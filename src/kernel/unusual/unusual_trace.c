@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays that the bounds of packets and streams do not cover, one at a time: moved (moved_ray.h), through whatever
- * structure the scene has, the BVH where there is one. Boxes are missed for certain, hits decided on the ray as it was
+ * structure the rays of the call go through. Boxes are missed for certain, hits decided on the ray as it was
  * given; so they are those of every primitive tested exactly. */
 #include "exact/valid_primitive.h"
 #include "kernel/bvh/bvh_single.h"
@@ -129,22 +129,23 @@ static void unusual_trace_kd(unusual_ray *u)
 
 /* ---- any ---- */
 
-static void unusual_trace_structure(unusual_ray *u)
+/* The BVH is not looked at but where the caller says that it is there: another thread may be building it. */
+static void unusual_trace_structure(unusual_ray *u, bool use_bvh)
 {
-    const cgt_committed_scene *committed_scene = u->committed_scene;
-    if (committed_scene->bvh.node)
+    const cgt_structure structure = u->committed_scene->structure;
+    if (use_bvh)
         unusual_trace_bvh(u);
-    else if (committed_scene->structure == CGT_STRUCTURE_KD || committed_scene->structure == CGT_STRUCTURE_KD_ROPES)
+    else if (structure == CGT_STRUCTURE_KD || structure == CGT_STRUCTURE_KD_ROPES)
         unusual_trace_kd(u);
-    else if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)
+    else if (structure == CGT_STRUCTURE_LOOSE_GRID)
         unusual_trace_loose_grid(u);
     else
         unusual_trace_queue_grid(u);
 }
 
 __attribute__((cold)) uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene,
-                                                             const cgt_ray *ray, uint32_t skip_prim, uint32_t mask,
-                                                             bool any_hit, cgt_counts *counts)
+                                                             const cgt_ray *ray, bool use_bvh, uint32_t skip_prim,
+                                                             uint32_t mask, bool any_hit, cgt_counts *counts)
 {
     unusual_ray u = {.committed_scene = committed_scene,
                      .given = ray,
@@ -162,7 +163,7 @@ __attribute__((cold)) uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed
         unusual_trace_all(&u);
     else {
         unusual_prims_init(&u);
-        unusual_trace_structure(&u);
+        unusual_trace_structure(&u, use_bvh);
     }
     return u.prim;
 }
