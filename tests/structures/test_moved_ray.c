@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Moved rays against wide arithmetic: the moved origin lies on the line but for its error, near the scene where the line
- * passes it; ends of the range stay on their sides. Then the error is made smaller until it does not hold. */
+ * Moved rays against wide arithmetic: the moved origin lies on the line but for its error, near the scene where the
+ * line passes it; ends of the range stay on their sides. Then the error is made smaller until it does not hold. */
 #include <float.h>
 #include <math.h>
 

@@ -97,8 +97,8 @@ CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_sph
     return q;
 }
 
-/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided. second: looks
- * at second roots, too. */
+/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided.
+ * second: looks at second roots, too. */
 CGT_SPU_INLINE bool filter_sphere_roots(const packet *p, const void *primitive, uint32_t i, bool common_origin,
                                         bool second, filter_result *f)
 {

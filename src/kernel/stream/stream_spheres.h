@@ -6,10 +6,10 @@
  * Spheres. With A at least the sum of the sizes of the components of c, for each centre of the leaf, and r the largest
  * radius: eps and e0 of sphere_filter.h with A for |c|, and 1 for 1 / |d|. Any hit needs less than the closest: where h
  * is more than 2 eps the line certainly hits, and the first root is between s - sqrt(h) / |d| - e0 and s + e0, whatever
- * the root's error; so it is certainly in the range where both of these are. Where h is more than 17 eps the second root
- * is between s + 0.93 sqrt(h) / |d| - e0, since the exact h is at least 15/17 of it, and s + sqrt(h) / |d| + e0. Where
- * these are in the range either root is the hit. Closest hits take the second root as in sphere_filter.h; what lies
- * before the outer end of the range is out of it.
+ * the root's error; so it is certainly in the range where both of these are. Where h is more than 17 eps the second
+ * root is between s + 0.93 sqrt(h) / |d| - e0, since the exact h is at least 15/17 of it, and s + sqrt(h) / |d| + e0.
+ * Where these are in the range either root is the hit. Closest hits take the second root as in sphere_filter.h; what
+ * lies before the outer end of the range is out of it.
  *
  * Before that, spheres that a vector of rays cannot meet are culled. With m the middle of the leaf's box, x = o + t d -
  * m for a t near the foot of m, p = c - m, and X = [x] + half >= |x| + |p|, X >= r, the ray's part within the range is

@@ -5,8 +5,8 @@
  * length. With o and d the ray's, S the scene's scale, a power of two that brings coordinates to at most 2, and 2^k <=
  * the largest |d_a| < 2^(k+1),
  *   O = S o   D = 2^-k d   T = s t, s = 2^k S   and then   O' = O + M D   T' = T - M
- * the same line, its origin moved to where it passes the middle of the scene's bounds. Hits are decided on the ray as it
- * was given; this one finds what there is to decide.
+ * the same line, its origin moved to where it passes the middle of the scene's bounds. Hits are decided on the ray as
+ * it was given; this one finds what there is to decide.
  *
  * Exactness. O, D and s are exact in double: exponents are within -277 and 189. M is a sum of numbers of 24 bits: each
  * times D is exact, 48 bits, and so is the sum of two doubles as a pair of them (Knuth, "The Art of Computer
@@ -19,8 +19,8 @@
  * the range of float lose 2^-126 |T'| of it, which 2^-90 covers, with |T'| below 2^8 where there is anything.
  *
  * Ranges. t is rounded to float before it is compared: by 2^-24 |t| and 2^-149, and by 2^-30 |t| before. So t counts
- * surely from t_min + m on and surely not before t_min - m, m = 2^-21 |t_min| + 2^-147; likewise t_max, which is at most
- * the largest float. Sums of M lose 2^-49 |M| at most. Ends are rounded outwards, or inwards, to float. */
+ * surely from t_min + m on and surely not before t_min - m, m = 2^-21 |t_min| + 2^-147; likewise t_max, which is at
+ * most the largest float. Sums of M lose 2^-49 |M| at most. Ends are rounded outwards, or inwards, to float. */
 #ifndef CGT_MOVED_RAY_H
 #define CGT_MOVED_RAY_H
 

@@ -10,8 +10,8 @@
 #include "kernel/unusual/unusual_prims.h"
 #include "model/triangle_cluster.h"
 
-/* A grid in the space of the scene's scale. What cell i of an axis holds lies within low + i cell - reach and low + (i +
- * 1) cell + reach. */
+/* A grid in the space of the scene's scale. What cell i of an axis holds lies from low + i cell - reach to
+ * low + (i + 1) cell + reach. */
 typedef struct unusual_grid {
     double low[3], cell[3], reach[3];
     uint32_t size[3];

@@ -1,9 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A moved ray (moved_ray.h) against lists of primitives, a vector of them at a time, by the tests of lane_tests.h in the
- * space of the scene's scale. What these leave undecided, and what lies at an end of the range, is decided on the ray
- * as it was given. */
+ * A moved ray (moved_ray.h) against lists of primitives, a vector of them at a time, by the tests of lane_tests.h in
+ * the space of the scene's scale. What these leave undecided, and what lies at an end of the range, is decided on the
+ * ray as it was given. */
 #ifndef CGT_UNUSUAL_PRIMS_H
 #define CGT_UNUSUAL_PRIMS_H
 
@@ -70,8 +70,8 @@ static void unusual_decide(unusual_ray *u, uint32_t prim, float low, float high)
 }
 
 /* Updates the best hit by what the test found about the first `count` lanes. beyond: how far after the interval the hit
- * may be if it is decided: whether a sphere's first root is in the range is not known then, and the second one is at most
- * the diameter away, since |d| is at least 1. */
+ * may be if it is decided: whether a sphere's first root is in the range is not known then, and the second one is at
+ * most the diameter away, since |d| is at least 1. */
 static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, const uint32_t *prim, uint32_t count)
 {
     const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
