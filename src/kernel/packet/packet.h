@@ -71,8 +71,8 @@ cgt_trace_packet_fn CGT_KERNEL(cgt_queue_grid_trace), CGT_KERNEL(cgt_loose_grid_
     CGT_KERNEL(cgt_kd_ropes_trace), CGT_KERNEL(cgt_bvh_trace);
 
 /* Finds the hit of one ray of any finite numbers, as the caller described it: one that the bounds of packets and
- * streams do not cover. Returns its primitive; CGT_INVALID_ID: none. use_bvh: through the BVH, else the structure of the
- * commit. skip_prim: a primitive that it ignores, or CGT_INVALID_ID. mask: all bits hide nothing. */
+ * streams do not cover. Returns its primitive; CGT_INVALID_ID: none. use_bvh: through the BVH, else the commit's
+ * structure. skip_prim: a primitive that it ignores, or CGT_INVALID_ID. mask: all bits hide nothing. */
 typedef struct cgt_ray cgt_ray;
 uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
                                        uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
