@@ -59,7 +59,7 @@ static void moved_rays_stay_on_their_lines(void **state)
     for (uint32_t i = 0; i < rays; i++) {
         cgt_committed_scene committed_scene = {0};
         const cgt_ray ray = make_ray(&r, (int)random_below(&r, 60) - 30, &committed_scene);
-        moved_ray m;
+        moved_ray m = {{0}};
         const moved_state moved = moved_ray_init(&m, &committed_scene, &ray);
         assert_true(moved != MOVED_TOO_FAR);
         if (moved == MOVED_MISS)
@@ -89,7 +89,7 @@ static void ends_of_float(void **state)
     for (size_t i = 0; i < TEST_COUNT(size); i++)
         for (size_t k = 0; k < TEST_COUNT(size); k++) {
             cgt_ray ray = {.line = {.org = {0.5f, -size[i], 0.25f}, .dir = {0, size[k], 0}}, .t_max = INFINITY};
-            moved_ray m;
+            moved_ray m = {{0}};
             assert_int_equal(moved_ray_init(&m, &committed_scene, &ray), MOVED_READY);
             assert_true(m.start[0] == 0.5f && m.start[2] == 0.25f && m.dir[1] >= 1 && m.dir[1] < 2);
             assert_true(m.start_error < 0x1p-19f);
