@@ -44,7 +44,7 @@ static void check_range(const moved_ray *m, const cgt_ray *ray)
         const double width = (double)m->near_in - (double)m->near_out;
         assert_true(width <= (fabs(ray->t_min * m->speed) + fabs(m->way)) * 0x1p-18 + 0x1p-80 * (1 + m->speed));
     }
-    assert_true(m->far_in > 0x1p90f && m->far_out >= m->far_in && m->near_out <= m->near_in);
+    assert_true(m->far_out >= m->far_in && m->near_out <= m->near_in);
     for (int a = 0; a < 3; a++)
         assert_true(fabs(m->org[a]) < 16.5);
 }
@@ -59,7 +59,7 @@ static void moved_rays_stay_on_their_lines(void **state)
     for (uint32_t i = 0; i < rays; i++) {
         cgt_committed_scene committed_scene = {0};
         const cgt_ray ray = make_ray(&r, (int)random_below(&r, 60) - 30, &committed_scene);
-        moved_ray m = {{0}};
+        moved_ray m = {.way = 0};
         const moved_state moved = moved_ray_init(&m, &committed_scene, &ray);
         assert_true(moved != MOVED_TOO_FAR);
         if (moved == MOVED_MISS)
@@ -89,11 +89,18 @@ static void ends_of_float(void **state)
     for (size_t i = 0; i < TEST_COUNT(size); i++)
         for (size_t k = 0; k < TEST_COUNT(size); k++) {
             cgt_ray ray = {.line = {.org = {0.5f, -size[i], 0.25f}, .dir = {0, size[k], 0}}, .t_max = INFINITY};
-            moved_ray m = {{0}};
-            assert_int_equal(moved_ray_init(&m, &committed_scene, &ray), MOVED_READY);
+            moved_ray m = {.way = 0};
+            const double t = ((double)size[i] - 1) / (double)size[k]; /* beyond the largest float there is no hit */
+            const moved_state moved = moved_ray_init(&m, &committed_scene, &ray);
+            if (t > 0x1p130)
+                assert_int_equal(moved, MOVED_MISS);
+            else if (t < 0x1p127)
+                assert_int_equal(moved, MOVED_READY);
+            if (moved != MOVED_READY)
+                continue;
             assert_true(m.start[0] == 0.5f && m.start[2] == 0.25f && m.dir[1] >= 1 && m.dir[1] < 2);
             assert_true(m.start_error < 0x1p-19f);
-            ray.line.org[1] = 2 * size[2];
+            ray.line.org[1] = 2;
             assert_int_equal(moved_ray_init(&m, &committed_scene, &ray), MOVED_MISS);
             ray.line.org[1] = -size[i];
             ray.line.org[2] = FLT_MAX;
