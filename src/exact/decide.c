@@ -28,11 +28,11 @@ double cgt_canonical_sphere_t(const cgt_ray *ray, cgt_sphere sphere, bool *far)
     const bool unsafe = cgt_sphere_double_unsafe(e, half) != 0;
     const cgt_primitive primitive = {.kind = CGT_KIND_SPHERES, .sphere = sphere};
     cgt_sphere_roots root = cgt_sphere_double_roots(e, half);
-    if (unsafe) {
+    if (unsafe)
         root.near = exact_root(ray, &primitive, false);
-        root.far = exact_root(ray, &primitive, true);
-    }
     *far = !((float)root.near >= ray->t_min);
+    if (unsafe && *far)
+        root.far = exact_root(ray, &primitive, true);
     return *far ? root.far : root.near;
 }
 

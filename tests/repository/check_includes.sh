@@ -90,6 +90,7 @@ core:
 kernel/entry: dispatch exact kernel/light kernel/packet kernel/primitive
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
+kernel/unusual: exact kernel/bvh kernel/primitive model
 kernel/light: kernel kernel/bvh kernel/packet kernel/primitive kernel/tile kernel/tile_draw
 kernel/tile: kernel/primitive
 kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive

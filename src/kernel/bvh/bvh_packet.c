@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT
  *
  * Rays of a packet through the BVH, one at a time. Hits are decided exactly in FAST precision, too. */
-#include "exact/valid_primitive.h"
 #include "kernel/bvh/bvh_single.h"
 
 /* Ray i, normalised. Returns false where the bounds do not cover it. */
@@ -39,13 +38,15 @@ CGT_SPU_INLINE bool bvh_ray_from_packet(const bvh_call *c, uint32_t i, bvh_ray *
     return farthest <= BVH_MAX_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
 }
 
-/* A ray that takes part, against every primitive. */
-__attribute__((noinline, cold)) static void bvh_packet_ray_extreme(const bvh_call *c, packet *p, uint32_t i)
+/* A ray that takes part and that the bounds do not cover. */
+__attribute__((noinline, cold)) static void bvh_packet_ray_unusual(const bvh_call *c, packet *p, uint32_t i)
 {
-    const cgt_primitives *prims = &c->committed_scene->prims;
-    for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1))
-        if (!bvh_ray_skips(c, i, prim))
-            filter_decide(prims, p, i, prim, c->counts);
+    const cgt_ray ray = filter_ray(p, i);
+    const uint32_t skip_prim = c->skip_prim ? c->skip_prim[i] : CGT_INVALID_ID;
+    const uint32_t mask = c->mask ? c->mask[i] : UINT32_MAX;
+    p->prim[i] = CGT_KERNEL(cgt_trace_unusual)(c->committed_scene, &ray, true, skip_prim, mask, p->any_hit, c->counts);
+    if (p->prim[i] != CGT_INVALID_ID)
+        p->low[i] = p->high[i] = -INFINITY; /* settled */
 }
 
 CGT_SPU_INLINE void bvh_packet_trace_rays(const bvh_call *c, packet *p, bool any_hit)
@@ -56,7 +57,7 @@ CGT_SPU_INLINE void bvh_packet_trace_rays(const bvh_call *c, packet *p, bool any
             continue; /* takes no part, or no t is in its range */
         c->counts->packets++;
         if (c->scale > 0x1p60f || c->scale < 0x1p-60f || !bvh_ray_from_packet(c, i, &r)) {
-            bvh_packet_ray_extreme(c, p, i);
+            bvh_packet_ray_unusual(c, p, i);
             continue;
         }
         bvh_single_trace(c, &r, 0, any_hit);

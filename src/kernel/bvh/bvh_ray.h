@@ -7,7 +7,8 @@
  * Normalised rays. Origins are times the scene's scale, a power of two that brings the scene's coordinates to at most
  * 2; directions are times 2^-k, so that their largest component is at least 1 and less than 2; and t is times s = 2^k
  * scale. All three are exact except for underflow, which is below 2^-149 and vanishes in the bounds below. Rays with
- * origins beyond 2^60 or s outside 2^-100 to 2^60 are extreme: they take another way.
+ * origins beyond 2^8 or s outside 2^-100 to 2^60 are unusual: they take another way (kernel/unusual), and so do rays
+ * from afar because E grows with |o|.
  *
  * Which t count: t is rounded to float before it is compared with the range. So the range is widened, by 2^-20 of its
  * ends and by 2^-86, which is more than 2^-149 s; beyond 2^100 no ray meets anything. `near` and `far` are these ends;
@@ -36,7 +37,7 @@
 #include "kernel/bvh/bvh_node.h"
 #include "kernel/tunables.h"
 
-#define BVH_MAX_ORG 0x1p60f
+#define BVH_MAX_ORG 0x1p8f
 #define BVH_MAX_T 0x1p100f
 #define BVH_MIN_DIR 0x1p-60f
 

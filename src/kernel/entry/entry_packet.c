@@ -5,8 +5,25 @@
 #include "exact/valid_primitive.h"
 #include "kernel/primitive/filter.h"
 
-/* Numbers too large or too small for the bounds of single precision: every ray against every primitive in double. */
-static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
+/* Numbers too large or too small for the bounds of packets. */
+static void trace_extreme(const cgt_committed_scene *committed_scene, packet *p, const cgt_trace_settings *settings,
+                          cgt_counts *counts)
+{
+    const bool use_bvh = committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh;
+    for (uint32_t i = 0; i < p->lanes; i++) {
+        if (p->high[i] == -INFINITY)
+            continue; /* takes no part */
+        const cgt_ray ray = filter_ray(p, i);
+        const uint32_t skip_prim = p->skips_prims ? p->skip_prim[i] : CGT_INVALID_ID;
+        const uint32_t mask = p->has_masks ? p->mask[i] : UINT32_MAX;
+        p->prim[i] = CGT_KERNEL(cgt_trace_unusual)(committed_scene, &ray, use_bvh, skip_prim, mask, p->any_hit, counts);
+        if (p->prim[i] != CGT_INVALID_ID)
+            p->low[i] = p->high[i] = -INFINITY; /* settled */
+    }
+}
+
+/* Coordinates too large for any structure: every ray against every primitive in double. */
+static void trace_brute_force(const cgt_committed_scene *committed_scene, packet *p, cgt_counts *counts)
 {
     const cgt_primitives *prims = &committed_scene->prims;
     for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
@@ -22,8 +39,10 @@ void CGT_KERNEL(cgt_packet_trace)(const cgt_committed_scene *committed_scene, pa
 {
     if (!p->rays || !committed_scene->valid)
         return;
-    if (p->extreme || committed_scene->brute_force)
-        trace_extreme(committed_scene, p, counts);
+    if (committed_scene->brute_force)
+        trace_brute_force(committed_scene, p, counts);
+    else if (p->extreme)
+        trace_extreme(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_BVH || settings->use_bvh)
         CGT_KERNEL(cgt_bvh_trace)(committed_scene, p, settings, counts);
     else if (committed_scene->structure == CGT_STRUCTURE_LOOSE_GRID)

@@ -17,12 +17,29 @@ typedef struct rays_call {
     cgt_counts *counts;
 } rays_call;
 
+static void trace_packet(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p);
+
+/* Rays of which some are extreme: those apart, one by one, and the others as a packet. */
+__attribute__((noinline, cold)) static void trace_mixed(const rays_call *c, const ray_order *order, uint32_t first,
+                                                        uint32_t count, packet *p)
+{
+    const float max_origin = ray_max_origin(c->committed_scene, &c->source);
+    uint32_t from[RAY_PACKET], others = 0;
+    const ray_order of_others = {order->first, from};
+    for (uint32_t k = 0; k < count; k++)
+        if (read_ray(&c->source, ray_index(order, first + k), max_origin, p, 0) == RAY_EXTREME)
+            trace_packet(c, order, first + k, 1, p);
+        else
+            from[others++] = (uint32_t)(ray_index(order, first + k) - order->first);
+    if (others)
+        trace_packet(c, &of_others, 0, others, p);
+}
+
 static void trace_packet(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p)
 {
     packet_hits h;
     if (!ray_packet_init(c->committed_scene, &c->source, order, first, count, p, c->counts)) {
-        for (uint32_t k = 0; k < count; k++)
-            trace_packet(c, order, first + k, 1, p);
+        trace_mixed(c, order, first, count, p);
         return;
     }
     CGT_KERNEL(cgt_packet_trace)(c->committed_scene, p, c->settings, c->counts);

@@ -124,7 +124,8 @@ static void leaf_fast_spheres(leaf_tests *l, const uint32_t *reference, uint32_t
     {                                                                                                                  \
         filter_sphere q = filter_sphere_get(l->p, s, (int)k, (mode).common_origin);                                    \
         q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);                                                               \
-        filter_vector(l->prims, l->p, filter_sphere_rays_fast, &q, s->prim[k], i, mode, l->counts);                    \
+        filter_vector(l->prims, l->p, filter_sphere_rays_fast, filter_sphere_rays_fast, &q, s->prim[k], i, mode,       \
+                      l->counts);                                                                                      \
     }
         FILTER_FOR_MODE(l->p, false, CALL)
 #undef CALL
@@ -137,7 +138,7 @@ static void leaf_fast_triangles(leaf_tests *l, const uint32_t *reference, uint32
     filter_gather_triangles(l->prims, reference, count, count, s);
     filter_triangles_prepare_fast(&l->filter, s);
     for (uint32_t k = 0; k < count; k++) {
-#define TEST(test, q) filter_vector(l->prims, l->p, test, q, s->prim[k], i, chosen, l->counts)
+#define TEST(test, q) filter_vector(l->prims, l->p, test, test, q, s->prim[k], i, chosen, l->counts)
 #define CALL(mode)                                                                                                     \
     {                                                                                                                  \
         const filter_mode chosen = mode;                                                                               \

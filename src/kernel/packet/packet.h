@@ -52,12 +52,13 @@ typedef struct packet {
     bool any_hit;                    /* the first hit found closes a ray */
     bool fast;                       /* FAST precision */
     cgt_triangle_test triangle_test; /* in FAST precision */
-    bool extreme; /* some number is beyond 2^55 or some direction is shorter than 2^-55: all in double */
+    bool extreme;                    /* some number is beyond these limits: rays one by one */
 } packet;
 
 /* Largest coordinate and the range of direction lengths for which the bounds of the filter hold. */
 #define PACKET_MAX_COORDINATE 0x1p55f
 #define PACKET_MIN_DIR 0x1p-55f
+#define PACKET_MAX_DISTANCE 0x1p12f /* of origins, where the scene's coordinates are at most 2 */
 
 /* The entries of cgt_kernel that kernels call, too. */
 cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
@@ -68,6 +69,13 @@ typedef void cgt_trace_packet_fn(const cgt_committed_scene *committed_scene, pac
 cgt_trace_packet_fn CGT_KERNEL(cgt_packet_trace);
 cgt_trace_packet_fn CGT_KERNEL(cgt_queue_grid_trace), CGT_KERNEL(cgt_loose_grid_trace), CGT_KERNEL(cgt_kd_trace),
     CGT_KERNEL(cgt_kd_ropes_trace), CGT_KERNEL(cgt_bvh_trace);
+
+/* Finds the hit of one ray of any finite numbers, as the caller described it: one that the bounds of packets and
+ * streams do not cover. Returns its primitive; CGT_INVALID_ID: none. use_bvh: through the BVH, else the commit's
+ * structure. skip_prim: a primitive that it ignores, or CGT_INVALID_ID. mask: all bits hide nothing. */
+typedef struct cgt_ray cgt_ray;
+uint32_t CGT_KERNEL(cgt_trace_unusual)(const cgt_committed_scene *committed_scene, const cgt_ray *ray, bool use_bvh,
+                                       uint32_t skip_prim, uint32_t mask, bool any_hit, cgt_counts *counts);
 
 /* Points against a light, through a loose grid and through the BVH; the light_prims of cgt_kernel. */
 cgt_trace_light_fn CGT_KERNEL(cgt_tile_trace_light), CGT_KERNEL(cgt_bvh_trace_light);

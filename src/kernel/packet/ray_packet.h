@@ -48,7 +48,16 @@ CGT_SPU_INLINE float ray_direction(const ray_source *s, uint64_t i, int a, float
     return s->light->kind == CGT_LIGHT_POINT ? s->light->position[a] - o : s->light->position[a];
 }
 
-static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k)
+/* The largest coordinate of an origin in packets. Errors of filters grow with the distance: rays from afar are extreme,
+ * where that is not a light's. */
+CGT_SPU_INLINE float ray_max_origin(const cgt_committed_scene *committed_scene, const ray_source *s)
+{
+    const float far = PACKET_MAX_DISTANCE / committed_scene->scale;
+    return s->light || far > PACKET_MAX_COORDINATE ? PACKET_MAX_COORDINATE : far;
+}
+
+/* Reads ray i of the arrays to k of the packet. */
+static ray_state read_ray(const ray_source *s, uint64_t i, float max_origin, packet *p, uint32_t k)
 {
     const cgt_rays *r = s->rays;
     float zero = 0, largest = 0, longest = 0, dd = 0;
@@ -72,8 +81,7 @@ static ray_state read_ray(const ray_source *s, uint64_t i, packet *p, uint32_t k
         return RAY_INVALID;
     if (t_min > t_max)
         return RAY_EMPTY_RANGE;
-    return largest > PACKET_MAX_COORDINATE || longest > PACKET_MAX_COORDINATE || longest < PACKET_MIN_DIR ? RAY_EXTREME
-                                                                                                          : RAY_OPEN;
+    return largest > max_origin || longest > PACKET_MAX_COORDINATE || longest < PACKET_MIN_DIR ? RAY_EXTREME : RAY_OPEN;
 }
 
 CGT_SPU_INLINE uint32_t ray_number(const ray_source *s, const uint32_t *array, uint64_t i)
@@ -170,6 +178,7 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
                                                     const ray_order *order, uint32_t first, uint32_t count, packet *p,
                                                     cgt_counts *counts)
 {
+    const float max_origin = ray_max_origin(committed_scene, s);
     ray_state state[PACKET_MAX_RAYS];
     uint32_t invalid = 0;
     p->lanes = (count + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
@@ -179,7 +188,7 @@ __attribute__((unused)) static bool ray_packet_init(const cgt_committed_scene *c
         p->light[a] = s->light->position[a];
     p->extreme = false;
     for (uint32_t k = 0; k < count; k++) {
-        state[k] = read_ray(s, ray_index(order, first + k), p, k);
+        state[k] = read_ray(s, ray_index(order, first + k), max_origin, p, k);
         if (state[k] == RAY_EXTREME && count > 1)
             return false;
         if (state[k] == RAY_EXTREME)

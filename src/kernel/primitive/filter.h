@@ -6,6 +6,7 @@
 #ifndef CGT_FILTER_H
 #define CGT_FILTER_H
 
+#include <float.h>
 #include <math.h>
 
 #include "exact/decide.h"
@@ -114,6 +115,19 @@ typedef struct filter_result {
     vmask undecided;   /* neither a certain hit nor a certain miss */
 } filter_result;
 
+/* Lanes whose first root of a sphere certainly lies before the range take the second one, whose interval ends at `end`
+ * and is t_width long (sphere_filter.h). inside: lanes that certainly have both roots. Returns those that took it. */
+CGT_SPU_INLINE vmask filter_second_root(vmask inside, vfloat t_min, vfloat end, vfloat t_width, vfloat *low,
+                                        vfloat *high)
+{
+    /* an end of minus infinity is that of an overflow */
+    const vmask before = spu_and(spu_cmpgt(t_min, *high), spux_cmpge(*high, spux_vfloat(-FLT_MAX)));
+    const vmask second = spu_and(inside, before);
+    *low = spux_select(*low, spu_sub(end, t_width), second);
+    *high = spux_select(*high, end, second);
+    return second;
+}
+
 /* Decides whether the ray hits `prim` before its closest hit so far (CGT_INVALID_ID: none yet), and where. */
 CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t best_prim, uint32_t prim,
                                      double *t, cgt_counts *counts)
@@ -133,14 +147,20 @@ CGT_SPU_INLINE bool filter_is_closer(const cgt_primitives *prims, const cgt_ray 
     return order < 0 || (order == 0 && prim < best_prim);
 }
 
+/* Ray i of a packet as the caller described it. */
+CGT_SPU_INLINE cgt_ray filter_ray(const packet *p, uint32_t i)
+{
+    return (cgt_ray){
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
+        .t_min = p->t_min[i],
+        .t_max = p->t_max[i]};
+}
+
 /* Decides whether `prim` is the closest hit of ray i, and stores it. */
 __attribute__((noinline, unused)) static void filter_decide(const cgt_primitives *prims, packet *p, uint32_t i,
                                                             uint32_t prim, cgt_counts *counts)
 {
-    const cgt_ray ray = {
-        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
-        .t_min = p->t_min[i],
-        .t_max = p->t_max[i]};
+    const cgt_ray ray = filter_ray(p, i);
     const uint32_t best_prim = p->prim[i];
     double t;
     if (best_prim == prim || p->high[i] == -INFINITY)
@@ -161,20 +181,6 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_primitives
 
 /* Tests rays i to i + CGT_LANES - 1 against one primitive. Returns false if all certainly miss. */
 typedef bool filter_test(const packet *p, const void *primitive, uint32_t i, bool common_origin, filter_result *f);
-
-/* Decides the undecided rays of a block. They are rare: the test is repeated to find them. */
-CGT_SPU_INLINE void filter_decide_block(const cgt_primitives *prims, packet *p, filter_test *test,
-                                        const void *primitive, uint32_t prim, uint32_t first, uint32_t end,
-                                        bool common_origin, cgt_counts *counts)
-{
-    filter_result f;
-    for (uint32_t i = first; i < end; i += CGT_LANES) {
-        if (!test(p, primitive, i, common_origin, &f))
-            continue;
-        for (unsigned remaining = spux_mask_bits(f.undecided); remaining; remaining &= remaining - 1)
-            filter_decide(prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, counts);
-    }
-}
 
 /* How a packet is tested: constants where the loop below is instantiated. */
 typedef struct filter_mode {
@@ -210,9 +216,33 @@ CGT_SPU_INLINE void filter_store(packet *p, uint32_t i, const filter_result *f, 
     }
 }
 
-/* Tests a vector of rays against a primitive; i is the first. */
-CGT_SPU_INLINE void filter_vector(const cgt_primitives *prims, packet *p, filter_test *test, const void *primitive,
-                                  uint32_t prim, uint32_t i, filter_mode mode, cgt_counts *counts)
+/* Decides the undecided rays of a block. They are rare: the test is repeated to find them, by one that looks closer, so
+ * that the first test stays short. Returns whether any has become a certain hit. */
+__attribute__((noinline, unused)) static bool filter_decide_block(const cgt_primitives *prims, packet *p,
+                                                                  filter_test *again, const void *primitive,
+                                                                  uint32_t prim, uint32_t first, uint32_t end,
+                                                                  filter_mode mode, cgt_counts *counts)
+{
+    const filter_mode decides = {mode.common_origin, mode.any_hit, true, false};
+    bool updated = false;
+    filter_result f;
+    for (uint32_t i = first; i < end; i += CGT_LANES) {
+        if (!again(p, primitive, i, mode.common_origin, &f))
+            continue;
+        if (p->skips_prims)
+            f.certain_hit = spu_andc(f.certain_hit, rays_skipping_one(prims, p, i, prim));
+        filter_store(p, i, &f, spux_vuint(prim), decides);
+        updated |= spux_any(f.certain_hit);
+        for (unsigned remaining = spux_mask_bits(f.undecided); remaining; remaining &= remaining - 1)
+            filter_decide(prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, counts);
+    }
+    return updated;
+}
+
+/* Tests a vector of rays against a primitive; i is the first. again: the test of those that are undecided. */
+CGT_SPU_INLINE void filter_vector(const cgt_primitives *prims, packet *p, filter_test *test, filter_test *again,
+                                  const void *primitive, uint32_t prim, uint32_t i, filter_mode mode,
+                                  cgt_counts *counts)
 {
     filter_result f;
     counts->ray_tests += CGT_LANES;
@@ -221,15 +251,14 @@ CGT_SPU_INLINE void filter_vector(const cgt_primitives *prims, packet *p, filter
     if (p->skips_prims)
         f.certain_hit = spu_andc(f.certain_hit, rays_skipping_one(prims, p, i, prim));
     filter_store(p, i, &f, spux_vuint(prim), mode);
-    if (mode.decides)
-        for (unsigned remaining = spux_mask_bits(f.undecided); remaining; remaining &= remaining - 1)
-            filter_decide(prims, p, i + (uint32_t)__builtin_ctz(remaining), prim, counts);
+    if (mode.decides && spux_any(f.undecided))
+        filter_decide_block(prims, p, again, primitive, prim, i, i + CGT_LANES, mode, counts);
 }
 
 /* Tests the rays of the reached blocks (as bits) against a primitive. */
-CGT_SPU_INLINE void filter_blocks(const cgt_primitives *prims, packet *p, filter_test *test, const void *primitive,
-                                  uint32_t prim, uint32_t reached, block_cones *blocks, filter_mode mode,
-                                  cgt_counts *counts)
+CGT_SPU_INLINE void filter_blocks(const cgt_primitives *prims, packet *p, filter_test *test, filter_test *again,
+                                  const void *primitive, uint32_t prim, uint32_t reached, block_cones *blocks,
+                                  filter_mode mode, cgt_counts *counts)
 {
     const vuint number = spux_vuint(prim);
     const bool skips_prims = p->skips_prims;
@@ -248,9 +277,10 @@ CGT_SPU_INLINE void filter_blocks(const cgt_primitives *prims, packet *p, filter
             undecided = spu_or(undecided, f.undecided);
             updated = spu_or(updated, f.certain_hit);
         }
+        bool nearer = spux_any(updated);
         if (mode.decides && spux_any(undecided))
-            filter_decide_block(prims, p, test, primitive, prim, first, end, mode.common_origin, counts);
-        if (spux_any(updated))
+            nearer |= filter_decide_block(prims, p, again, primitive, prim, first, end, mode, counts);
+        if (nearer)
             block_update_far_t(p, blocks, block);
     }
 }

@@ -30,7 +30,9 @@
 #define LANE_EPS_W (11 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 #define LANE_EPS_PLANE (10 * FILTER_ROUNDOFF * (1 + 0x1p-7f))
 
-/* The rays of the lanes, all the same or different ones. */
+/* The rays of the lanes, all the same or different ones. Of moved rays (kernel/unusual/moved_ray.h) the origin is off,
+ * by u org_error at most in the 1-norm. All errors above grow with the distance from the origin to the primitive, and
+ * have u of it for the origin's rounding alone: so org_error is added to that distance. */
 typedef struct lane_rays {
     vfloat org[3], dir[3];
     vfloat t_min;
@@ -38,7 +40,8 @@ typedef struct lane_rays {
     vfloat rlength;            /* 1 / |d|, rounded up */
     vfloat max_dir, underflow; /* these and the next ones only for triangles */
     vfloat scaled_org[3];
-    vfloat unscale; /* 1 over the scene's scale */
+    vfloat unscale;   /* 1 over the scene's scale */
+    vfloat org_error; /* of moved rays alone */
 } lane_rays;
 
 /* The result of a test: certain hits, with an interval of t; and undecided lanes, which do not hit before `low`. */
@@ -81,13 +84,20 @@ CGT_SPU_INLINE void lane_rays_of_one(const packet *p, uint32_t i, float scale, l
     lane_rays_derive(r, scale);
 }
 
+/* How far away primitives are, p seen from the origins. */
+CGT_SPU_INLINE vfloat lane_distance(const lane_rays *r, const vfloat p[3], bool moved)
+{
+    return moved ? spu_add(lane_sum(p), r->org_error) : lane_sum(p);
+}
+
 /* Returns false if all certainly miss. */
-CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, lane_hits *q)
+CGT_SPU_INLINE bool lane_test_sphere_from(const lane_rays *r, const vfloat center[3], vfloat radius, bool moved,
+                                          lane_hits *q)
 {
     vfloat c[3], l[3];
     for (int a = 0; a < 3; a++)
         c[a] = spu_sub(center[a], r->org[a]);
-    const vfloat distance = lane_sum(c), reach = spu_add(distance, radius), zero = spux_vfloat(0);
+    const vfloat distance = lane_distance(r, c, moved), reach = spu_add(distance, radius), zero = spux_vfloat(0);
     const vfloat eps_c = spu_mul(distance, spux_vfloat(26 * FILTER_ROUNDOFF));
     const vfloat eps = spu_madd(spu_mul(radius, spux_vfloat(9 * FILTER_ROUNDOFF)), reach,
                                 spu_madd(eps_c, eps_c, spux_vfloat(0x1p-120f)));
@@ -106,10 +116,22 @@ CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3],
     q->low = spu_sub(spu_sub(mid, half), t_error);
     q->high = spu_add(q->low, t_width);
     /* both roots lie before the range */
-    const vmask behind = spu_cmpgt(r->t_min, spu_add(spu_add(mid, half), t_error));
-    q->certain_hit = spu_and(spu_cmpgt(h, spu_mul(eps, spux_vfloat(17))), spu_cmpgt(q->low, r->t_min));
+    const vfloat end = spu_add(spu_add(mid, half), t_error);
+    const vmask behind = spu_cmpgt(r->t_min, end), inside = spu_cmpgt(h, spu_mul(eps, spux_vfloat(17)));
+    q->certain_hit = spu_and(inside, spu_cmpgt(q->low, r->t_min));
     q->undecided = spux_not(spu_or(spu_or(missed, behind), q->certain_hit));
+    if (__builtin_expect(spux_any(q->undecided), 0)) {
+        const vmask second =
+            filter_second_root(spu_and(inside, q->undecided), r->t_min, end, t_width, &q->low, &q->high);
+        q->certain_hit = spu_or(q->certain_hit, spu_and(second, spu_cmpgt(q->low, r->t_min)));
+        q->undecided = spu_andc(q->undecided, q->certain_hit);
+    }
     return true;
+}
+
+CGT_SPU_INLINE bool lane_test_sphere(const lane_rays *r, const vfloat center[3], vfloat radius, lane_hits *q)
+{
+    return lane_test_sphere_from(r, center, radius, false, q);
 }
 
 /* Triangles in the form of leaf_triangle.h. */
@@ -140,7 +162,8 @@ CGT_SPU_INLINE void lane_test_side(vfloat w, vfloat eps, vmask inside_sides[2], 
 }
 
 /* Returns false if all certainly miss. */
-CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles *triangle, lane_hits *q)
+CGT_SPU_INLINE bool lane_test_triangle_from(const lane_rays *r, const lane_triangles *triangle, bool moved,
+                                            lane_hits *q)
 {
     const vfloat *e1 = triangle->edge[0], *e2 = triangle->edge[1];
     vmask inside_sides[2] = {spux_mask_all(), spux_mask_all()}, outside_sides[2] = {spux_mask_none(), spux_mask_none()};
@@ -150,7 +173,7 @@ CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles 
     lane_cross(r->dir, e2, pvec);
     lane_cross(tvec, e1, qvec);
     const vfloat u = lane_dot(tvec, pvec), v = lane_dot(r->dir, qvec), den = lane_dot(e1, pvec);
-    const vfloat distance = lane_sum(tvec), size = spu_mul(r->max_dir, distance),
+    const vfloat distance = lane_distance(r, tvec, moved), size = spu_mul(r->max_dir, distance),
                  edges = spu_mul(triangle->sum[0], triangle->sum[1]);
     const vfloat eps_u = spu_mul(size, triangle->sum[1]), eps_v = spu_mul(size, triangle->sum[0]);
     const vfloat eps_den = spu_mul(r->max_dir, edges);
@@ -181,6 +204,11 @@ CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles 
     q->certain_hit = spu_and(spu_and(inside, steep), spu_cmpgt(q->low, r->t_min));
     q->undecided = spux_not(spu_or(spu_or(outside, behind), q->certain_hit));
     return true;
+}
+
+CGT_SPU_INLINE bool lane_test_triangle(const lane_rays *r, const lane_triangles *triangle, lane_hits *q)
+{
+    return lane_test_triangle_from(r, triangle, false, q);
 }
 
 /* ---- one ray and a list ---- */

@@ -19,6 +19,11 @@
  * 2 eps / (sqrt(17 eps) + sqrt(15 eps)) < 0.26 sqrt(eps), over |d|. The rest of the interval is
  *   e0       13 u |c| (s) + 13 u sqrt(h) (root) + u |t|: 18 u (|c| + r), over |d|
  * and, for underflow (also of flushed denormals), 2^-62 for h / d.d and 2^-122 / d.d for d.c.
+ *
+ * Rays that start inside a sphere, or behind it in their range, hit it at the second root, s + sqrt(h / d.d). It has
+ * the same errors, turned around: the computed h is too large, if anything, so the interval ends at s + sqrt(h / d.d) +
+ * e0 and is as long. It is the one that counts where the first root's interval ends before the range begins, which h
+ * must be above 17 eps for. Where h / d.d overflows nothing is known of either root.
  * A test checks the bounds against double, and tightens them until it sees them break. */
 #ifndef CGT_SPHERE_FILTER_H
 #define CGT_SPHERE_FILTER_H
@@ -92,9 +97,10 @@ CGT_SPU_INLINE filter_sphere filter_sphere_get(const packet *p, const filter_sph
     return q;
 }
 
-/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided. */
-CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
-                                       filter_result *f)
+/* Returns false if all rays of the vector certainly miss. Comparisons are written so that NaN is undecided.
+ * second: looks at second roots, too. */
+CGT_SPU_INLINE bool filter_sphere_roots(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                        bool second, filter_result *f)
 {
     const filter_sphere *q = primitive;
     const vfloat zero = spux_vfloat(0), rdd = spux_load(p->rdd + i);
@@ -114,17 +120,39 @@ CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, u
         return false;
     const vfloat half = spux_sqrt(spu_mul(h, rdd)), t_min = spux_load(p->t_min + i);
     const vfloat low = spu_sub(spu_sub(mid, half), q->t_error), high = spu_add(low, q->t_width);
+    const vfloat end = spu_add(spu_add(mid, half), q->t_error);
     /* beyond the closest hit; both roots before the range; or the closest hit already */
     const vmask beyond = spu_cmpgt(low, spux_load(p->high + i));
-    const vmask behind = spu_cmpgt(t_min, spu_add(spu_add(mid, half), q->t_error));
+    const vmask behind = spu_cmpgt(t_min, end), inside = spu_cmpgt(h, q->certain_hit);
     const vmask already_hit = spu_cmpeq(spux_load_uint(p->prim + i), q->prim);
     /* greater, not equal: if h / d.d overflows, low is -infinity, and so may t_min be */
     const vmask nearer = spu_and(spu_cmpgt(spux_load(p->low + i), high), spu_cmpgt(low, t_min));
     f->low = low;
     f->high = high;
-    f->certain_hit = spu_and(spu_cmpgt(h, q->certain_hit), nearer);
+    f->certain_hit = spu_and(inside, nearer);
     f->undecided = spux_not(spu_or(spu_or(spu_or(missed, beyond), spu_or(behind, already_hit)), f->certain_hit));
+    if (second) {
+        const vmask later =
+            filter_second_root(spu_and(inside, f->undecided), t_min, end, q->t_width, &f->low, &f->high);
+        const vmask counts = spu_and(spu_cmpgt(spux_load(p->low + i), f->high), spu_cmpgt(f->low, t_min));
+        const vmask out = spu_cmpgt(f->low, spux_load(p->high + i));
+        f->certain_hit = spu_or(f->certain_hit, spu_and(later, counts));
+        f->undecided = spu_andc(f->undecided, spu_and(later, spu_or(counts, out)));
+    }
     return true;
+}
+
+CGT_SPU_INLINE bool filter_sphere_rays(const packet *p, const void *primitive, uint32_t i, bool common_origin,
+                                       filter_result *f)
+{
+    return filter_sphere_roots(p, primitive, i, common_origin, false, f);
+}
+
+/* The test of rays that the first one leaves undecided. */
+__attribute__((noinline, unused)) static bool filter_sphere_rays_again(const packet *p, const void *primitive,
+                                                                       uint32_t i, bool common_origin, filter_result *f)
+{
+    return filter_sphere_roots(p, primitive, i, common_origin, true, f);
 }
 
 /* The same for FAST precision, without bounds: hits of single precision are certain. */
@@ -162,11 +190,13 @@ CGT_SPU_INLINE void filter_test_sphere(const cgt_primitives *prims, packet *p, c
     const float center[3] = {s->center[0][k], s->center[1][k], s->center[2][k]};
     const uint32_t reached = block_cones_test_sphere(blocks, center, s->radius[k], s->min_t[k]);
     if (mode.decides) {
-        filter_blocks(prims, p, filter_sphere_rays, &q, s->prim[k], reached, blocks, mode, counts);
+        filter_blocks(prims, p, filter_sphere_rays, filter_sphere_rays_again, &q, s->prim[k], reached, blocks, mode,
+                      counts);
         return;
     }
     q.r2 = spux_vfloat(s->radius[k] * s->radius[k]);
-    filter_blocks(prims, p, filter_sphere_rays_fast, &q, s->prim[k], reached, blocks, mode, counts);
+    filter_blocks(prims, p, filter_sphere_rays_fast, filter_sphere_rays_fast, &q, s->prim[k], reached, blocks, mode,
+                  counts);
 }
 
 #endif

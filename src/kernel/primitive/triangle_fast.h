@@ -124,7 +124,7 @@ CGT_SPU_INLINE void filter_test_triangle(const cgt_primitives *prims, packet *p,
     const uint32_t reached = block_cones_test_sphere(blocks, center, s->radius[k], s->min_t[k]);
     if (!reached)
         return;
-#define CALL(test, q) filter_blocks(prims, p, test, q, prim, reached, blocks, mode, counts)
+#define CALL(test, q) filter_blocks(prims, p, test, test, q, prim, reached, blocks, mode, counts)
     FILTER_WITH_TRIANGLE(p, of_packet, s, k, mode, CALL)
 #undef CALL
 }

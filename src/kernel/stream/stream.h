@@ -19,11 +19,13 @@
 
 #define STREAM_RECORD 16u                                   /* floats: one line of the cache */
 #define STREAM_DUMMY_RAY (CGT_STREAM_CHUNK * STREAM_RECORD) /* a record that hits nothing: what fills up lists */
+#define STREAM_MIN_DIR 0x1p-120f                            /* shorter directions are unusual */
+#define STREAM_MAX_DIR 0x1p120f                             /* and so are longer ones */
 #define STREAM_MAX_ORG 16.f                                 /* normalised origins beyond: traced one by one */
 #define STREAM_LIST_WORDS(count) ((count) + 2u * CGT_LANES) /* words for a list of `count` rays, padded */
 
 /* The keys that rays are sorted by: octants, then the rays that streams do not take. */
-enum { STREAM_SINGLE = 8, STREAM_EXTREME, STREAM_SKIPPED, STREAM_KEYS };
+enum { STREAM_SINGLE = 8, STREAM_UNUSUAL, STREAM_SKIPPED, STREAM_KEYS };
 
 /* Indices of a record's floats. The range of t is in both halves: for nodes and for leaves. */
 enum {
@@ -130,11 +132,10 @@ CGT_SPU_INLINE void stream_ray_store(stream *s, uint32_t offset, const bvh_ray *
 }
 
 /* Rays of a stream as single rays: the listed ones through the subtree of a code; those from far away, each with an E
- * of its own; those that single precision does not cover, against every primitive; and rays of all octants,
- * interleaved. */
+ * of its own; those that these bounds do not cover (kernel/unusual); and rays of all octants, interleaved. */
 void CGT_KERNEL(cgt_stream_trace_few)(stream *s, const uint32_t *list, uint32_t count, uint32_t code);
 void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t count);
-void CGT_KERNEL(cgt_stream_trace_extreme)(stream *s, const uint32_t *list, uint32_t count);
+void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const uint32_t *list, uint32_t count);
 void CGT_KERNEL(cgt_stream_interleave)(stream *s, const uint32_t *list, uint32_t count);
 
 /* Resolves the best hits of all `count` rays and stores them in the caller's arrays. */

@@ -150,9 +150,9 @@ leaf_decide_closest(stream *s, const uint32_t *offset, unsigned undecided, uint3
     return updates;
 }
 
-/* Updates the rays by the result of a test. */
-CGT_SPU_INLINE void leaf_update_hits(stream *s, leaf_rays *r, const leaf_result *f, uint32_t prim, bool any_hit,
-                                     bool skips_prims)
+/* Updates the rays by the certain hits of a test. Returns the lanes that are undecided. */
+CGT_SPU_INLINE vmask leaf_update_certain(const stream *s, leaf_rays *r, const leaf_result *f, uint32_t prim,
+                                         bool any_hit, bool skips_prims)
 {
     vmask certain_hit = f->certain_hit, possible = f->possible;
     if (skips_prims) {
@@ -163,27 +163,40 @@ CGT_SPU_INLINE void leaf_update_hits(stream *s, leaf_rays *r, const leaf_result 
     if (any_hit) {
         const vmask undecided = spu_andc(possible, spu_or(certain_hit, r->hit));
         r->hit = spu_or(r->hit, certain_hit);
-        if (__builtin_expect(spux_any(undecided), 0))
-            r->hit =
-                spu_or(r->hit, spux_mask_from_bits(leaf_decide_any(s, r->offset, spux_mask_bits(undecided), prim)));
-        return;
+        return undecided;
     }
-    const vmask undecided = spu_andc(possible, certain_hit);
     r->hit = spu_or(r->hit, certain_hit);
     r->far_in = spux_select(r->far_in, f->low, certain_hit);
     r->far = spux_select(r->far, f->high, certain_hit);
     r->prim = spux_select(r->prim, spux_vuint(prim), certain_hit);
-    if (__builtin_expect(spux_any(undecided), 0)) {
-        leaf_best b;
-        spux_store(b.low, r->far_in);
-        spux_store(b.high, r->far);
-        spux_store_uint(b.prim, r->prim);
-        r->hit =
-            spu_or(r->hit, spux_mask_from_bits(leaf_decide_closest(s, r->offset, spux_mask_bits(undecided), prim, &b)));
-        r->far_in = spux_load(b.low);
-        r->far = spux_load(b.high);
-        r->prim = spux_load_uint(b.prim);
+    return spu_andc(possible, certain_hit);
+}
+
+/* Decides the undecided lanes and updates their rays. */
+CGT_SPU_INLINE void leaf_decide_lanes(stream *s, leaf_rays *r, vmask undecided, uint32_t prim, bool any_hit)
+{
+    leaf_best b;
+    if (any_hit) {
+        r->hit = spu_or(r->hit, spux_mask_from_bits(leaf_decide_any(s, r->offset, spux_mask_bits(undecided), prim)));
+        return;
     }
+    spux_store(b.low, r->far_in);
+    spux_store(b.high, r->far);
+    spux_store_uint(b.prim, r->prim);
+    r->hit =
+        spu_or(r->hit, spux_mask_from_bits(leaf_decide_closest(s, r->offset, spux_mask_bits(undecided), prim, &b)));
+    r->far_in = spux_load(b.low);
+    r->far = spux_load(b.high);
+    r->prim = spux_load_uint(b.prim);
+}
+
+/* Updates the rays by the result of a test. */
+CGT_SPU_INLINE void leaf_update_hits(stream *s, leaf_rays *r, const leaf_result *f, uint32_t prim, bool any_hit,
+                                     bool skips_prims)
+{
+    const vmask undecided = leaf_update_certain(s, r, f, prim, any_hit, skips_prims);
+    if (__builtin_expect(spux_any(undecided), 0))
+        leaf_decide_lanes(s, r, undecided, prim, any_hit);
 }
 
 /* Any hit: adds a primitive's bit in the lanes where it is undecided. */

@@ -57,14 +57,14 @@ CGT_SPU_INLINE vmask stream_empty(const stream_lanes *q)
                   spu_or(spu_cmpgt(q->t_min, spux_vfloat(FLT_MAX)), spu_cmpgt(spux_vfloat(-FLT_MAX), q->t_max)));
 }
 
-/* Numbers that bounds of single precision do not cover. */
-CGT_SPU_INLINE vmask stream_extreme(const stream_lanes *q, vfloat longest, vfloat farthest, vfloat speed)
+/* Numbers that the bounds of streams do not cover: see bvh_ray.h. Directions are of any length of which both the power
+ * of two and its inverse are floats. */
+CGT_SPU_INLINE vmask stream_unusual(vfloat longest, vfloat farthest, vfloat speed)
 {
-    const vfloat most = spux_vfloat(PACKET_MAX_COORDINATE), least = spux_vfloat(PACKET_MIN_DIR);
-    const vmask bad_input =
-        spu_or(spu_cmpgt(stream_largest(q->org), most), spu_or(spu_cmpgt(longest, most), spu_cmpgt(least, longest)));
+    const vmask long_dir =
+        spu_or(spu_cmpgt(longest, spux_vfloat(STREAM_MAX_DIR)), spu_cmpgt(spux_vfloat(STREAM_MIN_DIR), longest));
     const vmask fast = spu_or(spu_cmpgt(speed, spux_vfloat(0x1p60f)), spu_cmpgt(spux_vfloat(0x1p-100f), speed));
-    return spu_or(bad_input, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(BVH_MAX_ORG))));
+    return spu_or(long_dir, spu_or(fast, spu_cmpgt(farthest, spux_vfloat(BVH_MAX_ORG))));
 }
 
 /* 1 / d with components made large enough, see bvh_ray.h: estimates have 11 bits at least, and a Newton step
@@ -121,10 +121,10 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     }
     const vfloat farthest = stream_largest(org);
     const vmask invalid = stream_invalid(&q, longest), none = spu_or(invalid, stream_empty(&q));
-    const vmask extreme = stream_extreme(&q, longest, farthest, speed);
+    const vmask unusual = stream_unusual(longest, farthest, speed);
     const vmask single = spu_cmpgt(farthest, spux_vfloat(STREAM_MAX_ORG));
     vuint keys = spux_select(octant, spux_vuint(STREAM_SINGLE), single);
-    keys = spux_select(keys, spux_vuint(STREAM_EXTREME), extreme);
+    keys = spux_select(keys, spux_vuint(STREAM_UNUSUAL), unusual);
     keys = spux_select(keys, spux_vuint(STREAM_SKIPPED), none);
     const vmask streams = spu_cmpgt(spux_vuint(STREAM_SINGLE), keys);
     spux_store_uint(key + i, keys);
@@ -135,7 +135,7 @@ CGT_SPU_INLINE void stream_store_records(stream *s, uint32_t i, uint32_t count, 
     const vfloat far = spu_madd(spu_madd(spux_abs(q.t_max), margin, q.t_max), speed, outside);
     const vfloat first = spux_max(near, spux_vfloat(-BVH_MAX_T));
     /* rays that are not traced must not look as if they had hit */
-    const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, extreme));
+    const vfloat last = spux_select(spux_min(far, end), end, spu_or(none, unusual));
     stream_bounds_add(bounds, org, dir, first, last, streams);
     vfloat row[STREAM_RECORD] = {rdir[0], rdir[1], rdir[2], first, shift[0], shift[1], shift[2], last,
                                  org[0],  org[1],  org[2],  first, dir[0],   dir[1],   dir[2],   last};

@@ -8,7 +8,6 @@
  * leaf. The steps of one ray wait for each other, and its branches are mispredicted; steps of different rays overlap,
  * and the list that a ray joins next is chosen without a branch. Each ray has a small stack; a ray that needs more is
  * traced to its end alone. */
-#include "exact/valid_primitive.h"
 #include "kernel/stream/stream.h"
 
 /* ---- one after the other ---- */
@@ -52,31 +51,22 @@ void CGT_KERNEL(cgt_stream_trace_far)(stream *s, const uint32_t *list, uint32_t 
     }
 }
 
-__attribute__((cold)) void CGT_KERNEL(cgt_stream_trace_extreme)(stream *s, const uint32_t *list, uint32_t count)
+__attribute__((cold)) void CGT_KERNEL(cgt_stream_trace_unusual)(stream *s, const uint32_t *list, uint32_t count)
 {
-    const cgt_primitives *prims = &s->call.committed_scene->prims;
+    const bvh_call *c = &s->call;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t best = CGT_INVALID_ID;
         const uint32_t number = list[i] / STREAM_RECORD;
-        const cgt_ray ray = bvh_input_ray(&s->call, number);
-        for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
-            double t;
-            if (bvh_ray_skips(&s->call, number, prim))
-                continue;
-            s->call.counts->packet_tests++;
-            s->call.counts->ray_tests++;
-            if (!filter_is_closer(prims, &ray, best, prim, &t, s->call.counts))
-                continue;
-            best = prim;
-            if (s->call.any_hit)
-                break;
-        }
-        if (best == CGT_INVALID_ID)
+        const cgt_ray ray = bvh_input_ray(c, number);
+        const uint32_t skip_prim = c->skip_prim ? c->skip_prim[number] : CGT_INVALID_ID;
+        const uint32_t mask = c->mask ? c->mask[number] : UINT32_MAX;
+        const uint32_t prim =
+            CGT_KERNEL(cgt_trace_unusual)(c->committed_scene, &ray, true, skip_prim, mask, c->any_hit, c->counts);
+        if (prim == CGT_INVALID_ID)
             continue;
-        if (s->call.any_hit)
+        if (c->any_hit)
             stream_set_occluded(s, list[i]);
         else
-            stream_set_best(s, list[i], -INFINITY, -INFINITY, best);
+            stream_set_best(s, list[i], -INFINITY, -INFINITY, prim);
     }
 }
 

@@ -6,7 +6,10 @@
  * Spheres. With A at least the sum of the sizes of the components of c, for each centre of the leaf, and r the largest
  * radius: eps and e0 of sphere_filter.h with A for |c|, and 1 for 1 / |d|. Any hit needs less than the closest: where h
  * is more than 2 eps the line certainly hits, and the first root is between s - sqrt(h) / |d| - e0 and s + e0, whatever
- * the root's error; so it is certainly in the range where both of these are.
+ * the root's error; so it is certainly in the range where both of these are. Where h is more than 17 eps the second
+ * root is between s + 0.93 sqrt(h) / |d| - e0, since the exact h is at least 15/17 of it, and s + sqrt(h) / |d| + e0.
+ * Where these are in the range either root is the hit. Closest hits take the second root as in sphere_filter.h; what
+ * lies before the outer end of the range is out of it.
  *
  * Before that, spheres that a vector of rays cannot meet are culled. With m the middle of the leaf's box, x = o + t d -
  * m for a t near the foot of m, p = c - m, and X = [x] + half >= |x| + |p|, X >= r, the ray's part within the range is
@@ -32,6 +35,8 @@
 
 #include "kernel/primitive/vector_math.h"
 #include "kernel/stream/stream_leaf.h"
+
+#define LEAF_LEAST_HALF 0.93f
 
 /* The bounds that all spheres of a leaf share, for a vector of rays. */
 typedef struct leaf_sphere_bounds {
@@ -63,8 +68,9 @@ CGT_SPU_INLINE void leaf_sphere_bounds_init(const leaf_rays *r, float scale, flo
     b->t_width = spu_madd(b->t_error, spux_vfloat(2), spu_mul(spux_sqrt(b->eps), spux_vfloat(0.27f)));
 }
 
-CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bounds *b, const sphere_block *leaf,
-                                     uint32_t k, float square, bool any_hit, leaf_result *f)
+/* second: looks at second roots, too. */
+CGT_SPU_INLINE void leaf_sphere_roots(const leaf_rays *r, const leaf_sphere_bounds *b, const sphere_block *leaf,
+                                      uint32_t k, float square, bool any_hit, bool second, leaf_result *f)
 {
     vfloat c[3], l[3];
     for (int a = 0; a < 3; a++)
@@ -80,12 +86,56 @@ CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bound
         const vfloat low = spu_sub(mid, half);
         f->possible = spu_and(line_hits, spux_cmpge(b->last_out, low));
         f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(low, b->first_in), spu_cmpgt(b->last_in, mid)));
+        if (second) {
+            const vfloat least = spu_madd(half, spux_vfloat(LEAF_LEAST_HALF), mid), most = spu_add(mid, half);
+            const vmask two_roots = spu_cmpgt(h, spu_mul(b->certain_hit, spux_vfloat(8.5f)));
+            f->certain_hit =
+                spu_or(f->certain_hit,
+                       spu_and(two_roots, spu_and(spu_cmpgt(least, b->first_in), spu_cmpgt(b->last_in, most))));
+        }
         return;
     }
     f->low = spu_sub(spu_sub(mid, half), b->t_error);
     f->high = spu_add(f->low, b->t_width);
     f->possible = spu_and(line_hits, spux_cmpge(r->far, f->low));
     f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
+    if (second) {
+        const vmask undecided = spu_andc(f->possible, f->certain_hit);
+        const vfloat end = spu_add(spu_add(mid, half), b->t_error);
+        const vmask later =
+            filter_second_root(spu_and(above_certain, undecided), r->near, end, b->t_width, &f->low, &f->high);
+        const vmask counts = spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high));
+        f->certain_hit = spu_or(f->certain_hit, spu_and(later, counts));
+        f->possible = spu_andc(f->possible, spu_and(later, spu_cmpgt(f->low, r->far)));
+    }
+}
+
+/* Lanes that the first root leaves undecided: by the second one, then exactly. */
+__attribute__((noinline, cold)) static void leaf_sphere_again(stream *s, leaf_rays *r, const leaf_sphere_bounds *b,
+                                                              const sphere_block *leaf, uint32_t k, float square,
+                                                              const vmask *undecided, bool any_hit, bool skips_prims)
+{
+    leaf_result f;
+    leaf_sphere_roots(r, b, leaf, k, square, any_hit, true, &f);
+    f.possible = spu_and(f.possible, *undecided);
+    f.certain_hit = spu_and(f.certain_hit, *undecided);
+    leaf_update_hits(s, r, &f, leaf->prim[k], any_hit, skips_prims);
+}
+
+/* Tests sphere k of a leaf and updates the rays. */
+CGT_SPU_INLINE void leaf_sphere_test(stream *s, leaf_rays *r, const leaf_sphere_bounds *b, const sphere_block *leaf,
+                                     uint32_t k, float square, bool any_hit, bool skips_prims)
+{
+    leaf_result f;
+    leaf_sphere_roots(r, b, leaf, k, square, any_hit, false, &f);
+    const vmask undecided = leaf_update_certain(s, r, &f, leaf->prim[k], any_hit, skips_prims);
+    if (__builtin_expect(spux_any(undecided), 0)) {
+        /* copies, so that the originals may stay in registers */
+        leaf_rays rays = *r;
+        const leaf_sphere_bounds bounds = *b;
+        leaf_sphere_again(s, &rays, &bounds, leaf, k, square, &undecided, any_hit, skips_prims);
+        *r = rays;
+    }
 }
 
 /* Bounds are moved outwards by more than their roundings. */
@@ -256,9 +306,7 @@ CGT_SPU_INLINE void leaf_stream_spheres(stream *s, const sphere_block *leaf, con
             leaf_sphere_bounds_init(&r, scale, q.most, spux_div(spux_vfloat(1), n.dd), any_hit, &b);
             for (; reached; reached &= reached - 1) {
                 const uint32_t k = (uint32_t)__builtin_ctz(reached);
-                leaf_result f;
-                leaf_sphere_test(&r, &b, leaf, k, q.square[k], any_hit, &f);
-                leaf_update_hits(s, &r, &f, leaf->prim[k], any_hit, skips_prims);
+                leaf_sphere_test(s, &r, &b, leaf, k, q.square[k], any_hit, skips_prims);
             }
         }
         leaf_rays_store(s, &r, any_hit);

@@ -170,7 +170,7 @@ static void stream_trace_all(stream *s, const uint32_t start[STREAM_KEYS], const
     else
         stream_trace_octants(s, start, number);
     CGT_KERNEL(cgt_stream_trace_far)(s, s->ray_list + start[STREAM_SINGLE], number[STREAM_SINGLE]);
-    CGT_KERNEL(cgt_stream_trace_extreme)(s, s->ray_list + start[STREAM_EXTREME], number[STREAM_EXTREME]);
+    CGT_KERNEL(cgt_stream_trace_unusual)(s, s->ray_list + start[STREAM_UNUSUAL], number[STREAM_UNUSUAL]);
 }
 
 void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
@@ -199,8 +199,8 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
     if (committed_scene->valid && fits)
         stream_trace_all(&s, start, number);
     else if (committed_scene->valid)
-        for (uint32_t k = 0; k <= STREAM_EXTREME; k++)
-            CGT_KERNEL(cgt_stream_trace_extreme)(&s, s.ray_list + start[k], number[k]);
+        for (uint32_t k = 0; k <= STREAM_UNUSUAL; k++)
+            CGT_KERNEL(cgt_stream_trace_unusual)(&s, s.ray_list + start[k], number[k]);
     if (!hits)
         counts->hits += s.updates;
     else

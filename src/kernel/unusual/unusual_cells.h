@@ -1,0 +1,175 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A moved ray (moved_ray.h) through the cells of a grid, in double: slice by slice along the largest component of its
+ * direction, whatever that is. In each slice, a box of cells and their reach, the part of the ray is a box again, whose
+ * cells are visited. Cells are computed within 2^-40 of their number and of the ray's error, and widened by that. */
+#ifndef CGT_UNUSUAL_CELLS_H
+#define CGT_UNUSUAL_CELLS_H
+
+#include "kernel/unusual/unusual_prims.h"
+#include "model/triangle_cluster.h"
+
+/* A grid in the space of the scene's scale. What cell i of an axis holds lies from low + i cell - reach to
+ * low + (i + 1) cell + reach. */
+typedef struct unusual_grid {
+    double low[3], cell[3], reach[3];
+    uint32_t size[3];
+} unusual_grid;
+
+/* Tests what cell (x, y, z) holds. */
+typedef void unusual_visit(unusual_ray *u, const void *of, const uint32_t cell[3]);
+
+/* Cells of axis a, from the first to the last, that hold anything between two coordinates; false: none. */
+static bool unusual_cells(const unusual_grid *g, int a, double low, double high, uint32_t cells[2])
+{
+    const double first = (low - g->reach[a] - g->low[a]) / g->cell[a],
+                 last = (high + g->reach[a] - g->low[a]) / g->cell[a];
+    const double pad = (fabs(low) + fabs(high) + fabs(g->low[a]) + g->reach[a]) / g->cell[a] * 0x1p-40 + 0x1p-40;
+    const double most = g->size[a] - 1, begin = floor(first - pad), end = floor(last + pad);
+    if (begin > most || end < 0)
+        return false;
+    cells[0] = begin > 0 ? (uint32_t)begin : 0;
+    cells[1] = end < most ? (uint32_t)end : (uint32_t)most;
+    return true;
+}
+
+/* The same of what the ray may meet between two T'. */
+static bool unusual_cells_between(const unusual_ray *u, const unusual_grid *g, int a, double near, double far,
+                                  uint32_t cells[2])
+{
+    const moved_ray *m = &u->moved;
+    const double p = m->org[a] + near * m->dir[a], q = m->org[a] + far * m->dir[a];
+    const double error = m->org_error[a] + (fabs(m->org[a]) + (fabs(near) + fabs(far)) * fabs(m->dir[a])) * 0x1p-50;
+    return unusual_cells(g, a, (p < q ? p : q) - error, (p < q ? q : p) + error, cells);
+}
+
+/* Visits the cells of slice k of the main axis w that the ray may need; false: no later slice has any. */
+static bool unusual_visit_slice(unusual_ray *u, const unusual_grid *g, int w, uint32_t k, unusual_visit *visit,
+                                const void *of)
+{
+    const int v[2] = {(w + 1) % 3, (w + 2) % 3};
+    const double low = g->low[w] + k * g->cell[w] - g->reach[w], high = g->low[w] + (k + 1) * g->cell[w] + g->reach[w];
+    const double pad = (fabs(g->low[w]) + high - low + k * g->cell[w]) * 0x1p-48;
+    double near = u->moved.near, far = u->moved.far;
+    uint32_t box[2][2], cell[3];
+    if (!moved_ray_clip(&u->moved, w, low - pad, high + pad, &near, &far))
+        return true;
+    if (near > (double)u->high)
+        return false;
+    for (int i = 0; i < 2; i++)
+        if (!unusual_cells_between(u, g, v[i], near, far, box[i]))
+            return true;
+    cell[w] = k;
+    for (uint32_t i = box[0][0]; i <= box[0][1]; i++)
+        for (uint32_t j = box[1][0]; j <= box[1][1] && !u->done; j++) {
+            cell[v[0]] = i;
+            cell[v[1]] = j;
+            visit(u, of, cell);
+        }
+    return !u->done;
+}
+
+/* Visits all cells that the ray may need. */
+static void unusual_visit_cells(unusual_ray *u, const unusual_grid *g, unusual_visit *visit, const void *of)
+{
+    const double *d = u->moved.dir;
+    const int larger = fabs(d[1]) > fabs(d[0]), w = fabs(d[2]) > fabs(d[larger]) ? 2 : larger;
+    uint32_t slices[2];
+    if (!unusual_cells_between(u, g, w, u->moved.near, u->moved.far, slices))
+        return;
+    for (uint32_t i = slices[0]; i <= slices[1]; i++)
+        if (!unusual_visit_slice(u, g, w, d[w] > 0 ? i : slices[1] - (i - slices[0]), visit, of))
+            return;
+}
+
+/* ---- loose grid ---- */
+
+/* The valid triangles of a cluster that the ray may meet. */
+static void unusual_test_cluster(unusual_ray *u, uint32_t number)
+{
+    const cgt_cluster *c = &u->committed_scene->cluster[number];
+    const double scale = (double)u->committed_scene->scale;
+    double near = u->moved.near, far = u->high;
+    uint32_t prim[CGT_CLUSTER], count = 0;
+    for (int a = 0; a < 3; a++) {
+        const double middle = (double)c->middle[a], half = (double)c->half[a];
+        if (!moved_ray_clip(&u->moved, a, (middle - half) * scale, (middle + half) * scale, &near, &far))
+            return;
+    }
+    for (uint32_t valid = c->valid; valid; valid &= valid - 1)
+        prim[count++] = number * CGT_CLUSTER + (uint32_t)__builtin_ctz(valid);
+    unusual_test_prims(u, prim, count);
+}
+
+static void unusual_visit_loose(unusual_ray *u, const void *of, const uint32_t cell[3])
+{
+    const cgt_loose_grid *grid = &u->committed_scene->loose;
+    const cgt_loose_level *l = of;
+    const uint32_t number = l->first + (cell[2] * l->size[1] + cell[1]) * l->size[0] + cell[0];
+    const uint32_t first = grid->start[number], end = grid->start[number + 1];
+    u->counts->cells++;
+    u->counts->references += end - first;
+    if (!u->committed_scene->cluster) {
+        unusual_test_prims(u, grid->prim + first, end - first);
+        return;
+    }
+    for (uint32_t i = first; i < end && !u->done; i++)
+        unusual_test_cluster(u, grid->prim[i]);
+}
+
+static void unusual_trace_loose_grid(unusual_ray *u)
+{
+    const double scale = (double)u->committed_scene->scale;
+    for (uint32_t i = 0; i < u->committed_scene->loose.levels && !u->done; i++) {
+        const cgt_loose_level *l = &u->committed_scene->loose.level[i];
+        unusual_grid g;
+        for (int a = 0; a < 3; a++) {
+            g.low[a] = (double)l->low[a] * scale;
+            g.cell[a] = (double)l->cell[a] * scale;
+            g.reach[a] = (double)l->reach[a] * scale;
+            g.size[a] = l->size[a];
+        }
+        unusual_visit_cells(u, &g, unusual_visit_loose, l);
+    }
+}
+
+/* ---- queue grid ---- */
+
+static void unusual_visit_queue(unusual_ray *u, const void *of, const uint32_t cell[3])
+{
+    const cgt_queue_grid *grid = of;
+    const uint32_t number = cell[0] * grid->stride[0] + cell[1] * grid->stride[1] + cell[2] * grid->stride[2];
+    uint32_t prim[CGT_QUEUE_LENGTH], count = 0;
+    for (; count < CGT_QUEUE_LENGTH; count++) {
+        prim[count] =
+            grid->refs_are_32_bits ? grid->voxel32[number].reference[count] : grid->voxel[number].reference[count];
+        if (prim[count] == (grid->refs_are_32_bits ? CGT_INVALID_ID : CGT_QUEUE_NONE))
+            break;
+    }
+    u->counts->cells++;
+    u->counts->references += count;
+    unusual_test_prims(u, prim, count);
+    if (count < CGT_QUEUE_LENGTH || !grid->overflows)
+        return;
+    for (uint32_t i = cgt_queue_grid_overflow(grid, number); i < grid->overflows && grid->overflow[i].cell == number;
+         i++)
+        unusual_test_prims(u, &grid->overflow[i].reference, 1);
+}
+
+/* Points beyond the grid count as in its outermost cells: by rounding, which is in cell_error. */
+static void unusual_trace_queue_grid(unusual_ray *u)
+{
+    const cgt_queue_grid *grid = &u->committed_scene->grid;
+    const double scale = (double)u->committed_scene->scale;
+    unusual_grid g;
+    for (int a = 0; a < 3; a++) {
+        g.low[a] = (double)grid->org[a] * scale;
+        g.cell[a] = scale / (double)grid->rcell[a];
+        g.reach[a] = (double)grid->cell_error[a] * g.cell[a];
+        g.size[a] = grid->resolution[a];
+    }
+    unusual_visit_cells(u, &g, unusual_visit_queue, grid);
+}
+
+#endif

@@ -1,0 +1,159 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A moved ray (moved_ray.h) against lists of primitives, a vector of them at a time, by the tests of lane_tests.h in
+ * the space of the scene's scale. What these leave undecided, and what lies at an end of the range, is decided on the
+ * ray as it was given. */
+#ifndef CGT_UNUSUAL_PRIMS_H
+#define CGT_UNUSUAL_PRIMS_H
+
+#include "kernel/primitive/lane_tests.h"
+#include "kernel/unusual/moved_ray.h"
+
+typedef struct unusual_ray {
+    const cgt_committed_scene *committed_scene;
+    const cgt_ray *given;
+    cgt_counts *counts;
+    uint32_t skip_prim; /* CGT_INVALID_ID: none */
+    uint32_t mask;
+    bool any_hit;
+    bool done; /* any hit: it has one */
+    moved_ray moved;
+    uint32_t prim;   /* of the best hit; CGT_INVALID_ID: none yet */
+    float low, high; /* interval of its T', or of the range's end */
+    lane_rays ray;   /* the moved ray in every lane */
+} unusual_ray;
+
+/* What tests need of a ray that was moved. */
+static void unusual_prims_init(unusual_ray *u)
+{
+    const moved_ray *m = &u->moved;
+    float square = 0;
+    for (int a = 0; a < 3; a++) {
+        const float d = (float)m->dir[a];
+        u->ray.org[a] = u->ray.scaled_org[a] = spux_vfloat(m->start[a]);
+        u->ray.dir[a] = spux_vfloat(d);
+        square += d * d;
+    }
+    u->ray.rdd = spux_vfloat(1 / square);
+    /* |d| is from 1 to 2 sqrt(3), its largest component below 2: bounds of all directions will do */
+    u->ray.rlength = spux_vfloat(1);
+    u->ray.max_dir = spux_vfloat(2);
+    u->ray.underflow = spux_vfloat(0x1.8p-117f);
+    u->ray.unscale = spux_vfloat(1);
+    u->ray.t_min = spux_vfloat(m->near_out);
+    u->ray.org_error = spux_vfloat(m->start_error / FILTER_ROUNDOFF);
+    u->low = m->far_in;
+    u->high = m->far_out;
+}
+
+/* Whether the ray skips a primitive. */
+static bool unusual_skips(const unusual_ray *u, uint32_t prim)
+{
+    return prim == u->skip_prim || !(cgt_primitives_array(&u->committed_scene->prims, prim)->mask & u->mask);
+}
+
+/* Decides whether a primitive beats the best hit, which it then is; [low, high] holds its T' if it is hit. */
+static void unusual_decide(unusual_ray *u, uint32_t prim, float low, float high)
+{
+    double t;
+    if (prim == u->prim || !filter_is_closer(&u->committed_scene->prims, u->given,
+                                             u->any_hit ? CGT_INVALID_ID : u->prim, prim, &t, u->counts))
+        return;
+    /* canonical values are within 2^-30, and the way within 2^-49 of itself */
+    const double place = t * u->moved.speed, error = fabs(place) * 0x1p-29 + fabs(u->moved.way) * 0x1p-48;
+    const float first = moved_end(place - u->moved.way, error, -1), last = moved_end(place - u->moved.way, error, 1);
+    u->prim = prim;
+    u->low = low > first ? low : first;
+    u->high = high < last ? high : last;
+    u->done = u->any_hit;
+}
+
+/* Updates the best hit by what the test found about the first `count` lanes. beyond: how far after the interval the hit
+ * may be if it is decided: whether a sphere's first root is in the range is not known then, and the second one is at
+ * most the diameter away, since |d| is at least 1. */
+static void unusual_update(unusual_ray *u, const lane_hits *q, vfloat beyond, const uint32_t *prim, uint32_t count)
+{
+    const unsigned used_lanes = CGT_ALL_LANES >> (CGT_LANES - count);
+    const vmask certain_lanes = spu_and(q->certain_hit, spu_cmpgt(q->low, spux_vfloat(u->moved.near_in)));
+    const unsigned certain_hit = spux_mask_bits(certain_lanes), inside = spux_mask_bits(q->certain_hit);
+    unsigned remaining = spux_mask_bits(spu_or(q->certain_hit, q->undecided)) & used_lanes;
+    _Alignas(CGT_VECTOR_BYTES) float low[CGT_LANES], high[CGT_LANES], end[CGT_LANES];
+    spux_store(low, q->low);
+    spux_store(high, q->high);
+    spux_store(end, spu_add(q->high, beyond));
+    for (; remaining && !u->done; remaining &= remaining - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(remaining);
+        if (low[k] > u->high || unusual_skips(u, prim[k]))
+            continue;
+        if (certain_hit >> k & 1 && high[k] < u->low) {
+            u->prim = prim[k];
+            u->low = low[k];
+            u->high = high[k];
+            u->done = u->any_hit;
+        } else
+            unusual_decide(u, prim[k], low[k], inside >> k & 1 ? end[k] : INFINITY);
+    }
+}
+
+static void unusual_test_spheres(unusual_ray *u, const uint32_t *prim, uint32_t count)
+{
+    _Alignas(CGT_VECTOR_BYTES) float row[4][CGT_LANES] = {{0}};
+    lane_hits q;
+    vfloat center[3];
+    for (uint32_t k = 0; k < count; k++) {
+        const cgt_sphere s = cgt_primitives_sphere(&u->committed_scene->prims, prim[k]);
+        row[0][k] = s.x;
+        row[1][k] = s.y;
+        row[2][k] = s.z;
+        row[3][k] = s.r;
+    }
+    const vfloat scale = spux_vfloat(u->committed_scene->scale);
+    for (int a = 0; a < 3; a++)
+        center[a] = spu_mul(spux_load(row[a]), scale);
+    const vfloat radius = spu_mul(spux_load(row[3]), scale);
+    if (lane_test_sphere_from(&u->ray, center, radius, true, &q))
+        unusual_update(u, &q, spu_mul(radius, spux_vfloat(2.0625f)), prim, count);
+}
+
+static void unusual_test_triangles(unusual_ray *u, const uint32_t *prim, uint32_t count)
+{
+    _Alignas(CGT_VECTOR_BYTES) float row[3][3][CGT_LANES] = {{{0}}};
+    const vfloat scale = spux_vfloat(u->committed_scene->scale);
+    lane_triangles t;
+    lane_hits q;
+    for (uint32_t k = 0; k < count; k++) {
+        const cgt_triangle triangle = cgt_primitives_triangle(&u->committed_scene->prims, prim[k]);
+        for (int i = 0; i < 3; i++)
+            for (int a = 0; a < 3; a++)
+                row[i][a][k] = triangle.v[i][a];
+    }
+    for (int a = 0; a < 3; a++) {
+        t.vertex[a] = spu_mul(spux_load(row[0][a]), scale);
+        for (int i = 0; i < 2; i++)
+            t.edge[i][a] = spu_sub(spu_mul(spux_load(row[i + 1][a]), scale), t.vertex[a]);
+    }
+    t.sum[0] = lane_sum(t.edge[0]);
+    t.sum[1] = lane_sum(t.edge[1]);
+    if (lane_test_triangle_from(&u->ray, &t, true, &q))
+        unusual_update(u, &q, spux_vfloat(0), prim, count);
+}
+
+/* Tests a list of valid primitives. */
+static void unusual_test_prims(unusual_ray *u, const uint32_t *prim, uint32_t count)
+{
+    u->counts->packet_tests += count;
+    u->counts->ray_tests += count;
+    while (count && !u->done) {
+        cgt_kind kind;
+        const uint32_t run = leaf_same_kind_run(&u->committed_scene->prims, prim, count, &kind);
+        if (kind == CGT_KIND_SPHERES)
+            unusual_test_spheres(u, prim, run);
+        else
+            unusual_test_triangles(u, prim, run);
+        prim += run;
+        count -= run;
+    }
+}
+
+#endif

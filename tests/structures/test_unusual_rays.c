@@ -1,0 +1,431 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays of any finite numbers: directions of any length, origins from afar, and rays that start inside many spheres.
+ * Through every structure and variant, hits are those of every primitive decided exactly; and such rays test about as
+ * many primitives as others do. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact/decide.h"
+#include "exact/valid_primitive.h"
+#include "hard_cases/hard_run.h"
+#include "scene/scene.h"
+#include "structures/random_soup.h"
+
+#define STRUCTURES 5u
+#define PRIMITIVES 240u
+#define RAYS 420u
+
+/* ---- scenes ---- */
+
+typedef enum scene_kind { SCENE_MIXED, SCENE_TRIANGLES, SCENE_OVERLAPPING, SCENE_FLAT, SCENE_KINDS } scene_kind;
+
+static const char *const scene_name[SCENE_KINDS] = {"mixed", "triangles", "overlapping spheres", "flat"};
+
+/* Spheres most of which overlap most others. */
+static void add_overlapping(hard_scene *s, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        double center[3];
+        hard_point(s, -1, 1, center);
+        hard_sphere(s, center, hard_real(s, 0.4, 1.2));
+    }
+}
+
+static hard_scene make_scene(scene_kind kind, uint32_t round)
+{
+    static const float scales[] = {1, 1e-3f, 1e4f, 0x1p-30f, 0x1p40f};
+    hard_scene s;
+    if (kind == SCENE_OVERLAPPING) {
+        s = (hard_scene){.place = HARD_HERE, .random = random_make(round)};
+        add_overlapping(&s, PRIMITIVES);
+    } else
+        s = soup_make(kind == SCENE_MIXED       ? SOUP_MIXED
+                      : kind == SCENE_TRIANGLES ? SOUP_SIX_ORDERS
+                                                : SOUP_AXIS_ALIGNED,
+                      round, PRIMITIVES);
+    const float scale = scales[round % TEST_COUNT(scales)];
+    for (uint32_t i = 0; i < s.geometries; i++) {
+        hard_geometry *g = &s.geometry[i];
+        for (uint32_t k = 0; k < 4 * g->spheres; k++)
+            g->sphere[0][k] *= scale;
+        for (uint32_t k = 0; k < 3 * g->vertices; k++)
+            g->vertex[0][k] *= scale;
+    }
+    assert_false(s.failed);
+    return s;
+}
+
+/* ---- rays ---- */
+
+typedef enum ray_family {
+    RAY_LENGTH,   /* ordinary but for the length of the direction */
+    RAY_PARALLEL, /* along an axis, from anywhere */
+    RAY_EXACT,    /* from afar, through a point exactly */
+    RAY_AIMED,    /* from afar, as near to a point as floats allow */
+    RAY_AWAY,     /* from afar, turned away or anywhere */
+    RAY_INSIDE,   /* from within the scene */
+    RAY_FAMILIES
+} ray_family;
+
+/* A vertex or a centre of the scene, or a point near it. */
+static void pick_point(test_random *r, const hard_scene *s, float point[3])
+{
+    const hard_geometry *g = &s->geometry[random_below(r, s->geometries)];
+    const bool spheres = g->spheres > 0;
+    const uint32_t count = spheres ? g->spheres : g->vertices;
+    memset(point, 0, 3 * sizeof *point);
+    if (!count)
+        return;
+    const float *from = spheres ? g->sphere[random_below(r, count)] : g->vertex[random_below(r, count)];
+    for (int a = 0; a < 3; a++) {
+        const float q = from[a] + (spheres ? from[3] * random_float(r, -0.9f, 0.9f) : 0);
+        point[a] = q * 0 == 0 && fabsf(q) < 0x1p50f ? q : 0;
+    }
+}
+
+static float power(test_random *r, int low, int high)
+{
+    return ldexpf(1, low + (int)random_below(r, (uint32_t)(high - low + 1)));
+}
+
+/* A direction of few bits, so that multiples of it are exact. */
+static void short_direction(test_random *r, float d[3])
+{
+    do
+        for (int a = 0; a < 3; a++)
+            d[a] = (float)random_below(r, 65) - 32;
+    while (d[0] == 0 && d[1] == 0 && d[2] == 0);
+}
+
+static void make_line(test_random *r, const hard_scene *s, ray_family f, truth_ray *ray)
+{
+    float point[3], d[3];
+    const float far = power(r, 4, 121);
+    pick_point(r, s, point);
+    if (f == RAY_EXACT)
+        short_direction(r, d);
+    else
+        random_direction(r, d);
+    if (f == RAY_PARALLEL)
+        for (uint32_t a = 0, along = random_below(r, 3); a < 3; a++)
+            d[a] = a == along ? 1 : 0;
+    for (int a = 0; a < 3; a++) {
+        const float side = random_float(r, -2, 2);
+        ray->dir[a] = f == RAY_AWAY && random_below(r, 2) ? -d[a] : d[a];
+        ray->org[a] = point[a];
+        if (f == RAY_LENGTH)
+            ray->org[a] += d[a] * -4 * (fabsf(point[0]) + fabsf(point[1]) + fabsf(point[2]));
+        else if (f != RAY_INSIDE)
+            ray->org[a] = point[a] - d[a] * far + (f == RAY_AWAY ? side * far : 0);
+    }
+}
+
+/* Lengths of directions from the least float to the largest. */
+static void scale_direction(test_random *r, float dir[3])
+{
+    const float longest = fmaxf(fabsf(dir[0]), fmaxf(fabsf(dir[1]), fabsf(dir[2])));
+    const int room = 127 - ilogbf(longest);
+    const float scale = power(r, random_below(r, 4) ? -126 : -140, room < 127 ? room : 127);
+    float scaled[3];
+    for (int a = 0; a < 3; a++)
+        scaled[a] = dir[a] * scale;
+    if (scaled[0] != 0 || scaled[1] != 0 || scaled[2] != 0)
+        memcpy(dir, scaled, sizeof scaled);
+}
+
+static truth_ray make_ray(test_random *r, const hard_scene *s, ray_family f)
+{
+    truth_ray ray = {.t_min = 0, .t_max = INFINITY};
+    make_line(r, s, f, &ray);
+    if (f == RAY_LENGTH || random_below(r, 2))
+        scale_direction(r, ray.dir);
+    if (random_below(r, 4) == 0)
+        ray.t_min = -INFINITY;
+    return ray;
+}
+
+/* ---- truth ---- */
+
+typedef struct found {
+    float t;
+    uint32_t primitive, geometry;
+} found;
+
+/* skip: a hit whose primitive does not count. */
+static found find_truth(const cgt_primitives *prims, const truth_ray *ray, const found *skip)
+{
+    cgt_ray line = {.t_min = ray->t_min < -FLT_MAX ? -FLT_MAX : ray->t_min, .t_max = ray->t_max};
+    cgt_decided_hit best = {0};
+    found f = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
+    uint64_t exact = 0;
+    memcpy(line.line.org, ray->org, sizeof ray->org);
+    memcpy(line.line.dir, ray->dir, sizeof ray->dir);
+    for (uint32_t i = 0; i < prims->count; i++) {
+        const cgt_primitive_array *a = cgt_primitives_array(prims, i);
+        cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, i)};
+        if (i - a->first == skip->primitive && a->geometry == skip->geometry)
+            continue;
+        if (cgt_primitive_check(&hit.primitive) != CGT_PRIMITIVE_VALID || !cgt_decide_hit(&line, &hit, &exact))
+            continue;
+        if (f.primitive != CGT_INVALID_ID && cgt_decide_order(&line, &hit, &best, &exact) >= 0)
+            continue;
+        best = hit;
+        f = (found){(float)hit.t, i - a->first, a->geometry};
+    }
+    return f;
+}
+
+/* ---- comparing ---- */
+
+/* All rays first as they are, then so that they skip what they hit. */
+typedef struct subject {
+    hard_scene scene;
+    truth_ray ray[RAYS];
+    found truth[2][RAYS];
+    full_hit first[2][RAYS]; /* of the first structure and variant */
+    uint32_t hits;
+    bool traced;
+} subject;
+
+static void fail_ray(const subject *s, uint32_t i, const found *truth, const char *variant, uint32_t turn,
+                     const full_hit *h)
+{
+    const truth_ray *q = &s->ray[i];
+    fail_msg("%s, structure %u, ray %u of family %u: primitive %d t %a instead of %d t %a: org %a %a %a dir %a %a %a "
+             "range %a %a",
+             variant, turn, i, i % RAY_FAMILIES, (int)h->primitive, (double)h->t, (int)truth->primitive,
+             (double)truth->t, (double)q->org[0], (double)q->org[1], (double)q->org[2], (double)q->dir[0],
+             (double)q->dir[1], (double)q->dir[2], (double)q->t_min, (double)q->t_max);
+}
+
+/* A ray and what it skips. */
+typedef struct skipping_ray {
+    truth_ray ray;
+    uint32_t primitive, geometry;
+} skipping_ray;
+
+static cgt_rays make_arrays(const subject *s, bool skips)
+{
+    static skipping_ray array[RAYS];
+    for (uint32_t i = 0; i < RAYS; i++)
+        array[i] = (skipping_ray){s->ray[i], s->truth[0][i].primitive, s->truth[0][i].geometry};
+    cgt_rays rays = ray_array(&array->ray, RAYS);
+    rays.stride = sizeof *array;
+    rays.skip_primitive = skips ? &array->primitive : NULL;
+    rays.skip_geometry = skips ? &array->geometry : NULL;
+    return rays;
+}
+
+static void check_hits(subject *s, const cgt_scene *scene, bool skips, const char *variant, uint32_t turn)
+{
+    static full_hit hit[RAYS];
+    static uint8_t occluded[RAYS];
+    const cgt_rays rays = make_arrays(s, skips);
+    const cgt_hits hits = hit_array(hit);
+    assert_int_equal(cgt_trace_rays(scene, &rays, &hits, NULL), CGT_OK);
+    assert_int_equal(cgt_occluded_rays(scene, &rays, occluded, NULL), CGT_OK);
+    if (!s->traced)
+        memcpy(s->first[skips], hit, sizeof hit);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const found *t = &s->truth[skips][i];
+        const bool has_hit = t->primitive != CGT_INVALID_ID;
+        if (hit[i].primitive != t->primitive || hit[i].geometry != t->geometry ||
+            (has_hit && !same_bits(hit[i].t, t->t)) || memcmp(&hit[i], &s->first[skips][i], sizeof hit[i]) != 0 ||
+            occluded[i] != has_hit)
+            fail_ray(s, i, t, variant, turn, &hit[i]);
+    }
+}
+
+static void check_structure(subject *s, cgt_context *context, const char *variant, uint32_t turn)
+{
+    const cgt_scene_options options = structure_in_turn(turn);
+    cgt_scene *scene;
+    if (hard_commit_with(context, &s->scene, &options, &scene) != CGT_OK)
+        fail_msg("%s", context_message(context));
+    check_hits(s, scene, false, variant, turn);
+    check_hits(s, scene, true, variant, turn);
+    s->traced = true;
+    cgt_scene_release(scene);
+}
+
+/* Makes rays and their truth; some ranges begin or end at the hit, or the float next to it. */
+static void make_rays(subject *s, cgt_context *context, uint32_t round)
+{
+    test_random r = random_make(1000 + round);
+    const cgt_scene_options options = structure_in_turn(0);
+    cgt_scene *scene;
+    if (hard_commit_with(context, &s->scene, &options, &scene) != CGT_OK)
+        fail_msg("%s", context_message(context));
+    const cgt_primitives *prims = &scene->committed_scene.prims;
+    const found none = {INFINITY, CGT_INVALID_ID, CGT_INVALID_ID};
+    for (uint32_t i = 0; i < RAYS; i++) {
+        truth_ray *ray = &s->ray[i];
+        *ray = make_ray(&r, &s->scene, (ray_family)(i % RAY_FAMILIES));
+        found *truth = &s->truth[0][i];
+        *truth = find_truth(prims, ray, &none);
+        s->hits += truth->primitive != CGT_INVALID_ID;
+        if (truth->primitive != CGT_INVALID_ID && random_below(&r, 3) == 0) {
+            const float t = truth->t, end[3] = {t, nextafterf(t, INFINITY), nextafterf(t, -INFINITY)};
+            *(random_below(&r, 2) ? &ray->t_max : &ray->t_min) = end[random_below(&r, 3)];
+            *truth = ray->t_min <= ray->t_max ? find_truth(prims, ray, &none) : none;
+        }
+        s->truth[1][i] = ray->t_min <= ray->t_max ? find_truth(prims, ray, truth) : none;
+    }
+    cgt_scene_release(scene);
+}
+
+static void hits_are_exact(void **state)
+{
+    (void)state;
+    const uint32_t rounds = SCENE_KINDS * (1 + test_scaled(4));
+    for (uint32_t round = 0; round < rounds; round++) {
+        subject *s = calloc(1, sizeof *s);
+        const scene_kind kind = (scene_kind)(round % SCENE_KINDS);
+        assert_non_null(s);
+        if (clusters_always() && kind != SCENE_TRIANGLES && kind != SCENE_FLAT) {
+            free(s);
+            continue;
+        }
+        s->scene = make_scene(kind, round);
+        FOR_EACH_VARIANT(variant)
+        {
+            cgt_context *context = context_make(1, variant);
+            if (!s->traced)
+                make_rays(s, context, round);
+            for (uint32_t turn = 0; turn < STRUCTURES; turn++)
+                check_structure(s, context, variant, turn);
+            cgt_context_release(context);
+        }
+        print_message("round %u: %s, %u of %u rays hit\n", round, scene_name[kind], s->hits, RAYS);
+        assert_true(s->hits > RAYS / 8);
+        hard_scene_free(&s->scene);
+        free(s);
+    }
+}
+
+/* ---- work ---- */
+
+#define CLOUD 20000u
+#define WORK_RAYS 256u
+
+/* Work for each ray. */
+typedef struct work {
+    double tests, doubles, exact, hits;
+} work;
+
+static work measure(const cgt_scene *scene, const truth_ray *ray)
+{
+    static full_hit hit[WORK_RAYS];
+    cgt_trace_statistics traced;
+    const cgt_trace_options options = {.statistics = &traced};
+    assert_int_equal(trace_array(scene, ray, WORK_RAYS, hit, &options), CGT_OK);
+    return (work){(double)traced.ray_tests / WORK_RAYS, (double)traced.double_tests / WORK_RAYS,
+                  (double)traced.exact_tests / WORK_RAYS, (double)traced.hits / WORK_RAYS};
+}
+
+static void check_work(const char *what, uint32_t turn, const work *w, double tests, double doubles, double exact)
+{
+    print_message("structure %u, %s: %.1f tests, %.2f in double, %.2f exact, %.2f hits a ray\n", turn, what, w->tests,
+                  w->doubles, w->exact, w->hits);
+    assert_true(w->tests <= tests && w->doubles <= doubles && w->exact <= exact);
+}
+
+/* Rays along axes through a cloud of size 2 about the origin, from `far` away, with directions of a length. */
+static void make_work_rays(test_random *r, truth_ray *ray, float far, float length, bool back)
+{
+    for (uint32_t i = 0; i < WORK_RAYS; i++) {
+        ray[i] = (truth_ray){.t_max = INFINITY};
+        for (uint32_t a = 0; a < 3; a++) {
+            ray[i].org[a] = a == i % 3 ? -far : random_float(r, -0.9f, 0.9f);
+            ray[i].dir[a] = a == i % 3  ? (back ? -length : length)
+                            : far < 100 ? length * random_float(r, -0.2f, 0.2f)
+                                        : 0;
+        }
+    }
+}
+
+static void unusual_rays_test_few(void **state)
+{
+    (void)state;
+    static truth_ray ray[WORK_RAYS];
+    if (clusters_always())
+        skip();
+    cgt_context *context = context_make(1, NULL);
+    test_random r = random_make(7);
+    float(*sphere)[4] = calloc(CLOUD, sizeof *sphere);
+    assert_non_null(sphere);
+    for (uint32_t i = 0; i < CLOUD; i++) {
+        for (int a = 0; a < 3; a++)
+            sphere[i][a] = random_float(&r, -1, 1);
+        sphere[i][3] = 0.02f;
+    }
+    for (uint32_t turn = 0; turn < STRUCTURES; turn++) {
+        const cgt_scene_options options = structure_in_turn(turn);
+        cgt_scene *scene = scene_of(context, &options, (const float(*)[4])sphere, CLOUD);
+        make_work_rays(&r, ray, 3, 1, false);
+        const work usual = measure(scene, ray);
+        const double most = 4 * usual.tests + 100;
+        check_work("ordinary", turn, &usual, INFINITY, 0.1, 0.1);
+        for (int exponent = -148; exponent <= 126; exponent += 137) {
+            make_work_rays(&r, ray, 3, ldexpf(1, exponent), false);
+            const work w = measure(scene, ray);
+            check_work("odd lengths", turn, &w, most, 0.1, 0.1);
+            assert_true(exponent != -11 || w.hits > 0.5);
+        }
+        for (int exponent = 10; exponent <= 126; exponent += 29) {
+            make_work_rays(&r, ray, ldexpf(1, exponent), 1, false);
+            const work w = measure(scene, ray);
+            check_work("from afar", turn, &w, most, 3, 3);
+            assert_true(w.hits > 0.5);
+            make_work_rays(&r, ray, ldexpf(1, exponent), 1, true);
+            const work back = measure(scene, ray);
+            check_work("turned away", turn, &back, most, 0.1, 0.1);
+        }
+        cgt_scene_release(scene);
+    }
+    free(sphere);
+    cgt_context_release(context);
+}
+
+/* Each ray starts in hundreds of spheres: their second roots are certain. */
+static void rays_inside_spheres_are_certain(void **state)
+{
+    (void)state;
+    static truth_ray ray[WORK_RAYS];
+    if (clusters_always())
+        skip();
+    cgt_context *context = context_make(1, NULL);
+    hard_scene s = {.place = HARD_HERE, .random = random_make(8)};
+    add_overlapping(&s, 2000);
+    assert_false(s.failed);
+    for (uint32_t i = 0; i < WORK_RAYS; i++) {
+        ray[i] = (truth_ray){.t_max = i % 2 ? INFINITY : 10};
+        random_direction(&s.random, ray[i].dir);
+        for (int a = 0; a < 3; a++)
+            ray[i].org[a] = random_float(&s.random, -0.5f, 0.5f);
+    }
+    for (uint32_t turn = 0; turn < STRUCTURES; turn++) {
+        const cgt_scene_options options = structure_in_turn(turn);
+        cgt_scene *scene;
+        if (hard_commit_with(context, &s, &options, &scene) != CGT_OK)
+            fail_msg("%s", context_message(context));
+        const work w = measure(scene, ray);
+        check_work("inside spheres", turn, &w, INFINITY, 4, 0.1);
+        assert_true(w.hits == 1);
+        cgt_scene_release(scene);
+    }
+    hard_scene_free(&s);
+    cgt_context_release(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_are_exact), cmocka_unit_test(unusual_rays_test_few),
+                                       cmocka_unit_test(rays_inside_spheres_are_certain)};
+    test_begin("test_unusual_rays");
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
