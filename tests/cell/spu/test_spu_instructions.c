@@ -11,7 +11,7 @@
 
 #include "cell/spu/execute/execute.h"
 #include "cell/spu/isa/assemble.h"
-#include "cell/spu_definitions.h"
+#include "cell/spu/spu_definitions.h"
 #include "core/memory.h"
 
 enum { REGISTERS = 6, CASES = 1500 }; /* few registers, so that operands coincide */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The definitions of instructions, see spu_definitions.h. */
-#include "cell/spu_definitions.h"
+#include "cell/spu/spu_definitions.h"
 
 #include <string.h>
 
