@@ -5,7 +5,7 @@
 # check_includes.sh SOURCE_DIR
 # Allowed includes between folders: include <- simd <- src <- backends. Programs see the public API and each other's
 # common parts; cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests;
-# compare-embree also sees Embree; tests see all. The library includes only C and POSIX headers from outside. Within
+# compare-embree also sees Embree; tests see all. backends/cell has layers of its own. The library includes only C and POSIX headers from outside. Within
 # src, a table lists the folders that a folder may include; no two include each other.
 set -eu
 cd "$1"
@@ -68,7 +68,7 @@ check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples" \
     "cgt/(cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h"
-check bench "bench src simd examples tests" \
+check bench "bench backends src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.
