@@ -116,7 +116,8 @@ cgt_result cgt_cell_prepare(cgt_cell *cell, const cgt_local_store *store, cgt_pp
         memset(&spe->result, 0, sizeof spe->result);
         const cgt_result result = add_spe(cell, i, &store[i]);
         if (result != CGT_OK) {
-            cgt_cell_fail(cell, "SPE %u: no MFC: no memory, or a local store or a timing out of range", i);
+            cgt_cell_fail(cell, "SPE %u: no MFC: no memory, too many regions, or a local store or timing out of range",
+                          i);
             return result;
         }
     }
