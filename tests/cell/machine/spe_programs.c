@@ -75,5 +75,7 @@ CGT_SPE_MAIN(ring)
         mfc_sndsigf(signal, CGT_SPE_SIGNAL_EA(next, 1), 2, 0, 0);
         wait_for(2);
     }
+    if (spe == 0)
+        (void)spu_read_signal1(); /* the token comes home */
     return (int)token[0];
 }

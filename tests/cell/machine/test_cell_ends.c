@@ -74,13 +74,14 @@ CGT_SPE_MAIN(ask)
     spu_write_out_mbox(5);
     const unsigned seen = spu_read_in_mbox();
     spu_write_out_intr_mbox(3);
-    const unsigned last = spu_read_signal1(), second = spu_read_signal2();
+    const unsigned second = spu_read_signal2(); /* is sent last: both values of the other are there then */
+    const unsigned gathered = spu_read_signal1();
     mfc_putllc(s()->line, argument + 128, 0, 0);
     if (mfc_read_atomic_status() != MFC_PUTLLC_STATUS)
         return 2;
     s()->line[0] = seen;
-    s()->line[1] = last;
-    s()->line[2] = second;
+    s()->line[1] = second;
+    s()->line[2] = gathered;
     s()->line[3] = 0;
     mfc_put(s()->line, argument + 256, 16, 0, 0, 0);
     spu_stop(0x123); /* the put ends all the same */
@@ -103,8 +104,8 @@ static void questions_to_the_ppe(void **state)
         {FAKE_WRITE, SPU_WrOutMbox, 5, NULL},
         {FAKE_READ, SPU_RdInMbox, 0, NULL},
         {FAKE_WRITE, SPU_WrOutIntrMbox, 3, NULL},
-        {FAKE_READ, SPU_RdSigNotify1, 0, NULL},
         {FAKE_READ, SPU_RdSigNotify2, 0, NULL},
+        {FAKE_READ, SPU_RdSigNotify1, 0, NULL},
         FAKE_DMA(0x1000, MEMORY_EA + 128, 128, 0, MFC_PUTLLC_CMD),
         {FAKE_READ, MFC_RdAtomicStat, 0, NULL},
         {FAKE_CALL, 0, 0, gather_answers},
@@ -127,8 +128,8 @@ static void questions_to_the_ppe(void **state)
         assert_int_equal(cgt_cell_get_result(cell, 0).counts.lost_lines, 1);
         assert_int_equal(memory[32], 41);
         assert_int_equal(memory[64], 55);
-        assert_int_equal(memory[65], 0x33);
-        assert_int_equal(memory[66], 0x300);
+        assert_int_equal(memory[65], 0x300);
+        assert_int_equal(memory[66], 0x33);
         cgt_cell_destroy(cell);
     }
 }

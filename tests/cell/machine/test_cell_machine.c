@@ -268,7 +268,7 @@ static void token_in_a_ring(void **state)
             assert_int_equal(native.spe[i].counts.signals, RING_ROUNDS);
             assert_int_equal(native.spe[i].counts.bytes_out, 16 * RING_ROUNDS);
         }
-        assert_int_equal(native.spe[spes - 1].code, 0x2000 + spes * RING_ROUNDS);
+        assert_int_equal(native.spe[0].code, 0x2000 + spes * RING_ROUNDS);
         cgt_mfc_trace_free(&native.trace);
     }
 }
