@@ -239,3 +239,33 @@ bool micro_program_run(cgt_spu *spu, const micro_program *program, uint64_t slic
     *result = (micro_result){spu->cycle, cgt_spu_timing_total(spu->timing)};
     return end.reason == CGT_SPU_STOPPED;
 }
+
+/* ---- speed ---- */
+
+static void kernel_body(cgt_spu_assembler *p)
+{
+    for (unsigned i = 0; i < 3; i++) {
+        CGT_SPU_ASM(p, lqd, .rt = 10 + i, .ra = 4, .imm = 1024 + 16 * (int32_t)i);
+        CGT_SPU_ASM(p, fma, .rt = 20 + i, .ra = 10 + i, .rb = 11, .rc = 20 + i);
+        CGT_SPU_ASM(p, fcgt, .rt = 30 + i, .ra = 20 + i, .rb = 12);
+        CGT_SPU_ASM(p, selb, .rt = 40 + i, .ra = 20 + i, .rb = 11, .rc = 30 + i);
+        CGT_SPU_ASM(p, shufb, .rt = 50 + i, .ra = 40 + i, .rb = 10, .rc = 5);
+        CGT_SPU_ASM(p, a, .rt = 60 + i, .ra = 50 + i, .rb = 40);
+        CGT_SPU_ASM(p, stqd, .rt = 60 + i, .ra = 4, .imm = 2048 + 16 * (int32_t)i);
+    }
+    CGT_SPU_ASM(p, nop, 0);
+    CGT_SPU_ASM(p, ai, .rt = 3, .ra = 3, .imm = -1);
+}
+
+bool micro_kernel_run(cgt_spu *spu)
+{
+    uint32_t word[64];
+    cgt_spu_assembler p = {.word = word, .capacity = 64};
+    CGT_SPU_ASM(&p, ilhu, .rt = 3, .imm = 20); /* 20 * 65536 rounds */
+    CGT_SPU_ASM(&p, hbrr, .branch = 24 * 4, .imm = 4);
+    const uint32_t loop = cgt_spu_here(&p);
+    kernel_body(&p);
+    CGT_SPU_ASM(&p, brnz, .rt = 3, .imm = cgt_spu_distance(&p, loop));
+    stop(&p);
+    return cgt_spu_assembler_load(&p, spu) && cgt_spu_run(spu, NULL, UINT64_MAX).reason == CGT_SPU_STOPPED;
+}

@@ -28,4 +28,8 @@ typedef struct micro_result {
 #define MICRO_CHANNEL_READY 100
 bool micro_program_run(cgt_spu *spu, const micro_program *program, uint64_t slice, micro_result *result);
 
+/* A loop of 24 instructions as kernels have them, run some million times: for the simulator's own speed. Returns false
+ * where it does not stop. */
+bool micro_kernel_run(cgt_spu *spu);
+
 #endif

@@ -114,31 +114,31 @@ struct cgt_mfc {
     uint32_t srr0;
 };
 
-/* mfc_rules.c: each check fails the MFC and returns false where a rule is broken. */
+/* dma/rules.c: each check fails the MFC and returns false where a rule is broken. */
 bool cgt_mfc_check_command(cgt_mfc *mfc, const cgt_mfc_command *c);
 bool cgt_mfc_check_element(cgt_mfc *mfc, const cgt_mfc_command *c, const cgt_mfc_element *e, uint32_t lsa);
 void cgt_mfc_fail_command(cgt_mfc *mfc, const cgt_mfc_command *c, cgt_mfc_rule rule, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* mfc_move.c: bytes, once checked */
+/* dma/move.c: bytes, once checked */
 void cgt_mfc_move(cgt_mfc *mfc, bool to_memory, uint32_t lsa, uint64_t ea, uint32_t size);
 void cgt_mfc_zero(cgt_mfc *mfc, uint64_t ea, uint32_t size);
 uint32_t cgt_mfc_load32(const cgt_mfc *mfc, uint32_t lsa);
 
-/* mfc_list.c: begins and ends the part of a list up to the next stall. begin gives the bytes that the bus carries;
+/* dma/list.c: begins and ends the part of a list up to the next stall. begin gives the bytes that the bus carries;
  * false where an element breaks a rule. end returns whether the list stalls. */
 bool cgt_mfc_begin_list(cgt_mfc *mfc, cgt_mfc_command *c, uint64_t *bus_bytes);
 bool cgt_mfc_end_list(cgt_mfc *mfc, cgt_mfc_command *c, cgt_mfc_record *record);
 cgt_channel_status cgt_mfc_acknowledge_list(cgt_mfc *mfc, uint32_t tag);
 
-/* mfc_queue.c */
+/* dma/queue.c */
 void cgt_mfc_enqueue(cgt_mfc *mfc, const cgt_mfc_command *c);
 void cgt_mfc_start_commands(cgt_mfc *mfc);
 uint64_t cgt_mfc_delay(const cgt_mfc *mfc, uint64_t number);
 uint32_t cgt_mfc_busy_tags(const cgt_mfc *mfc);
 void cgt_mfc_update_tags(cgt_mfc *mfc);
 
-/* mfc_atomic.c */
+/* dma/atomic.c */
 void cgt_mfc_begin_atomic(cgt_mfc *mfc, const cgt_mfc_command *c);
 void cgt_mfc_end_atomic(cgt_mfc *mfc);
 void cgt_mfc_lose_reservation(cgt_mfc *mfc);

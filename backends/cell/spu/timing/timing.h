@@ -6,7 +6,7 @@
 #ifndef CGT_CELL_TIMING_H
 #define CGT_CELL_TIMING_H
 
-#include "cell/spu/execute/decoded.h"
+#include "cell/spu/isa/decoded.h"
 #include "cell/spu/spu.h"
 
 /* Each cycle has one cause, so their sum is the number of cycles. */
