@@ -178,6 +178,27 @@ static void polling(void **state)
     cgt_cell_destroy(cell);
 }
 
+/* An SPE that computes first gives its command later than the other, though it has the lower number: the memory's port is
+ * free for the other until then. */
+static void order_of_time(void **state)
+{
+    (void)state;
+    static const fake_step late[] = {
+        {FAKE_WORK, 0, 3000, NULL}, FAKE_DMA(0, MEMORY_EA, 128, 0, MFC_PUT_CMD), {FAKE_STOP, 0, 0, NULL}};
+    static const fake_step early[] = {FAKE_DMA(0, MEMORY_EA, 128, 0, MFC_PUT_CMD), {FAKE_STOP, 0, 0, NULL}};
+    cgt_mfc_trace trace;
+    cgt_cell *cell;
+    cgt_mfc_trace_init(&trace);
+    assert_int_equal(cgt_cell_create(&(cgt_cell_options){.spes = 2, .trace = &trace}, &cell), CGT_OK);
+    assert_int_equal(cgt_cell_add_memory(cell, MEMORY_EA, memory, 1024, 4, true), CGT_OK);
+    assert_int_equal(run_fakes(cell, 2, (const fake_step *const[]){late, early}, NULL, NULL), CGT_OK);
+    assert_int_equal(trace.count, 2);
+    assert_true(trace.record[0].spe == 1 && trace.record[0].issued == 5 && trace.record[0].finished == 5 + 16 + 300);
+    assert_true(trace.record[1].spe == 0 && trace.record[1].issued == 3005 && trace.record[1].finished == 3321);
+    cgt_cell_destroy(cell);
+    cgt_mfc_trace_free(&trace);
+}
+
 /* ---- ends ---- */
 
 CGT_SPE_MAIN(wait_for_mail)
