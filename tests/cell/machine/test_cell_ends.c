@@ -335,9 +335,16 @@ int main(void)
 {
     test_begin("test_cell_ends");
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(questions_to_the_ppe),  cmocka_unit_test(time_of_the_ppe),    cmocka_unit_test(polling),
-        cmocka_unit_test(one_breaks_a_rule),     cmocka_unit_test(some_wait_for_ever), cmocka_unit_test(endless),
-        cmocka_unit_test(forgotten_decrementer), cmocka_unit_test(native_time),        cmocka_unit_test(bad_arguments),
+        cmocka_unit_test(questions_to_the_ppe),
+        cmocka_unit_test(time_of_the_ppe),
+        cmocka_unit_test(polling),
+        cmocka_unit_test(order_of_time),
+        cmocka_unit_test(one_breaks_a_rule),
+        cmocka_unit_test(some_wait_for_ever),
+        cmocka_unit_test(endless),
+        cmocka_unit_test(forgotten_decrementer),
+        cmocka_unit_test(native_time),
+        cmocka_unit_test(bad_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -163,7 +163,13 @@ static void atomic_lines(void **state)
     must_give(1600, 0x1000, MEMORY_EA, 128, 4, MFC_PUTQLLUC_CMD); /* through the queue: a tag, no atomic status */
     assert_int_equal(count(MFC_RdAtomicStat, 2000), 0);
     assert_int_equal(world.memory[0], 8);
-    assert_int_equal(cgt_mfc_get_counts(world.mfc)->lost_lines, 1);
+    /* a reservation is of one line */
+    must_give(2000, 0x1000, MEMORY_EA, 128, 0, MFC_GETLLAR_CMD);
+    expect(MFC_RdAtomicStat, 2300, MFC_GETLLAR_STATUS);
+    must_give(2400, 0x1000, MEMORY_EA + 128, 128, 0, MFC_PUTLLC_CMD);
+    expect(MFC_RdAtomicStat, 2700, MFC_PUTLLC_STATUS);
+    assert_int_equal(world.memory[32], 0);
+    assert_int_equal(cgt_mfc_get_counts(world.mfc)->lost_lines, 2);
 }
 
 /* writes of others to the line, and to its neighbours */
