@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "cell/cell_tables.h"
 #include "cell/micro_programs.h"
@@ -50,6 +51,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     }
 }
 
+/* Of the processor: other programs on the machine do not count. */
+static double cpu_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
 static int create(cgt_spu *spu, cgt_spu_mode mode)
 {
     const cgt_memory_hooks memory = cgt_memory_default();
@@ -89,9 +93,9 @@ static int measure_speed(bench_table *table)
         cgt_spu spu;
         if (create(&spu, (cgt_spu_mode)mode))
             return PROGRAM_FAILED;
-        const double start = program_seconds();
+        const double start = cpu_seconds();
         const bool stopped = micro_kernel_run(&spu);
-        cell_speed_row(table, mode ? "timed" : "untimed", &spu, program_seconds() - start);
+        cell_speed_row(table, mode ? "timed" : "untimed", &spu, cpu_seconds() - start);
         cgt_spu_destroy(&spu);
         if (!stopped) {
             program_error("the loop does not stop: %s", spu.message);
@@ -165,9 +169,9 @@ static int run_file(bench_table *table, const cell_settings *settings)
     if (cgt_spu_load_elf(&spu, bytes, size, settings->path)) {
         program_error("%s", spu.message);
     } else {
-        const double start = program_seconds();
+        const double start = cpu_seconds();
         const cgt_spu_end end = cgt_spu_run(&spu, NULL, settings->cycles);
-        const double seconds = program_seconds() - start;
+        const double seconds = cpu_seconds() - start;
         code = explain_end(settings->path, &spu, end);
         bench_table_section(table, "functions");
         cell_function_rows(table, spu.timing);

@@ -4,6 +4,8 @@
  * The rows of cgt-bench cell, see cell_tables.h. */
 #include "cell/cell_tables.h"
 
+#include <math.h>
+
 #include "cell/spu/timing/model.h"
 
 /* ---- programs ---- */
@@ -80,8 +82,8 @@ void cell_speed_row(bench_table *table, const char *mode, const cgt_spu *spu, do
     bench_table_text(table, "mode", mode);
     bench_table_count(table, "instructions", spu->instructions);
     bench_table_count(table, "cycles", spu->cycle);
-    bench_table_real(table, "seconds", seconds);
-    bench_table_real(table, "million_instructions_s", (double)spu->instructions / seconds / 1e6);
+    bench_table_real(table, "cpu_seconds", seconds);
+    bench_table_real(table, "million_instructions_s", seconds > 0 ? (double)spu->instructions / seconds / 1e6 : NAN);
     bench_table_end_row(table);
 }
 

@@ -13,7 +13,7 @@ void cell_program_row(bench_table *table, const micro_program *program, const mi
 /* Functions that ran, the one with most cycles first, then "(other)" for code without a symbol, and "(all)". */
 void cell_function_rows(bench_table *table, const cgt_spu_timing *timing);
 
-/* Instructions a second of the simulator. */
+/* Instructions a second of the simulator; seconds are the processor's. */
 void cell_speed_row(bench_table *table, const char *mode, const cgt_spu *spu, double seconds);
 
 /* The sections "pipes" and "constants": the numbers of the model and their sources. */
