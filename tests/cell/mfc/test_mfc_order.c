@@ -108,19 +108,18 @@ static bool must_precede(const given *g, unsigned i, unsigned j)
     return false;
 }
 
-/* the record of each command: the trace is in the order of ends, commands are told apart by the cycle of issue */
+/* The record of each command. The trace is in the order of ends; each command was issued in a cycle of its own. */
 static void find_records(const world *w, const given *g, unsigned count, const cgt_mfc_record **record)
 {
     assert_int_equal(w->trace.count, count);
-    for (unsigned i = 0; i < count; i++) {
-        record[i] = NULL;
-        for (unsigned k = 0; k < count; k++)
-            if (i == 0 || w->trace.record[k].issued > record[i - 1]->issued)
-                if (!record[i] || w->trace.record[k].issued < record[i]->issued)
-                    record[i] = &w->trace.record[k];
-        assert_non_null(record[i]);
-        assert_int_equal(record[i]->tag, g[i].tag);
-        assert_int_equal(record[i]->bytes, g[i].size);
+    for (unsigned k = 0; k < count; k++) {
+        const cgt_mfc_record *const r = &w->trace.record[k];
+        unsigned earlier = 0;
+        for (unsigned i = 0; i < count; i++)
+            earlier += w->trace.record[i].issued < r->issued;
+        record[earlier] = r;
+        assert_int_equal(r->tag, g[earlier].tag);
+        assert_int_equal(r->bytes, g[earlier].size);
     }
 }
 
