@@ -20,6 +20,7 @@
 #ifndef CGT_MACHINE_H
 #define CGT_MACHINE_H
 
+#include "cell/machine/spe_addresses.h"
 #include "cell/mfc/mfc.h"
 #include "cell/spu/spu.h"
 
@@ -38,11 +39,6 @@ typedef struct cgt_cell_options {
 
 /* What a PPE takes to serve a mailbox interrupt: a guess of the order of its interrupt latency. */
 #define CGT_PPE_CYCLES 2000
-
-/* Effective addresses of an SPE: its local store, and in its problem state the signal registers (Cell Broadband Engine
- * Architecture: offsets 0x1400c and 0x1c00c there). Memory of the program lies elsewhere. */
-#define CGT_SPE_EA(spe) (UINT64_C(0xe0000000) + (uint64_t)(spe)*0x80000)
-#define CGT_SPE_SIGNAL_EA(spe, number) (CGT_SPE_EA(spe) + 0x40000 + ((number) == 1 ? 0x1400c : 0x1c00c))
 
 /* INVALID_ARGUMENT, OUT_OF_MEMORY. */
 cgt_result cgt_cell_create(const cgt_cell_options *options, cgt_cell **cell);

@@ -25,6 +25,7 @@
 #ifndef CGT_SPE_PROGRAM_H
 #define CGT_SPE_PROGRAM_H
 
+#include "cell/machine/spe_addresses.h"
 #include "spu_intrinsics.h"
 #include "spu_mfcio.h"
 
@@ -51,6 +52,9 @@
 
 #define CGT_SPE_MAIN(name) int main(CGT_SPE_ARGUMENTS)
 
+/* What another SPE adds to CGT_SPE_EA to reach the same place. */
+static inline uint32_t cgt_spe_local_address(const volatile void *p) { return (uint32_t)p; }
+
 #else
 
 /* The arena of this thread: cgt_cell_run_native's host begins with its address. */
@@ -60,6 +64,11 @@ static inline void *cgt_spe_arena(void)
     if (!host)
         cgt_spu_fail("cgt_spe_arena", CGT_SPU_NO_CHANNEL, "self");
     return *(void *const *)host->self;
+}
+
+static inline uint32_t cgt_spe_local_address(const volatile void *p)
+{
+    return (uint32_t)((uintptr_t)p - (uintptr_t)cgt_spe_arena());
 }
 
 #define CGT_SPE_STORE(type, name)                                                                                      \
