@@ -255,11 +255,10 @@ static __attribute__((noinline)) bool access_channel(const loop *l, const cgt_sp
     l->spu->cycle = at;
     const answer got = use_channel(l, kind, d->ra, at, l->spu->reg[d->rt].word[0]);
     *value = got.value;
-    if (got.status == CGT_CHANNEL_ERROR)
-        *end = fail(l->spu, pc, bad_channel(l));
-    if (got.status == CGT_CHANNEL_STALL)
-        *end = (cgt_spu_end){CGT_SPU_STALLED, d->ra};
-    return got.status == CGT_CHANNEL_DONE;
+    if (got.status == CGT_CHANNEL_DONE)
+        return true;
+    *end = got.status == CGT_CHANNEL_STALL ? (cgt_spu_end){CGT_SPU_STALLED, d->ra} : fail(l->spu, pc, bad_channel(l));
+    return false;
 }
 
 /* ---- the loop ---- */
