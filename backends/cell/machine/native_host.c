@@ -27,8 +27,8 @@ static uint32_t channel_count(void *self, unsigned channel) { return cgt_native_
 
 /* ---- DMA ---- */
 
-/* Commands for caches and orders of commands have no local address. */
-static bool has_local_address(uint32_t command)
+/* Commands for caches and orders of commands use no local address: any pointer will do, mostly NULL. */
+static bool uses_local_address(uint32_t command)
 {
     const uint32_t group = command & 0xf0;
     return group != 0x80 && group != 0xc0;
@@ -38,12 +38,14 @@ static bool has_local_address(uint32_t command)
 static uint32_t local_address(cgt_native *native, const cgt_spu_dma *dma, const volatile void *pointer)
 {
     const uintptr_t offset = (uintptr_t)pointer - (uintptr_t)native->arena;
-    if (offset > 2 * (uintptr_t)CGT_LOCAL_STORE_BYTES)
-        cgt_native_fail(native, CGT_RULE_LOCAL_STORE,
-                        "command 0x%" PRIx32 "(ea 0x%" PRIx64 ", size %" PRIu32 ", tag %" PRIu32
-                        "): the address is none of the local store (cgt_spe_arena)",
-                        dma->command & 0xffff, (uint64_t)dma->eah << 32 | dma->eal, dma->size, dma->tag);
-    return (uint32_t)offset;
+    if (offset <= 2 * (uintptr_t)CGT_LOCAL_STORE_BYTES)
+        return (uint32_t)offset;
+    if (!uses_local_address(dma->command))
+        return 0;
+    cgt_native_fail(native, CGT_RULE_LOCAL_STORE,
+                    "command 0x%" PRIx32 "(ea 0x%" PRIx64 ", size %" PRIu32 ", tag %" PRIu32
+                    "): the address is none of the local store (cgt_spe_arena)",
+                    dma->command & 0xffff, (uint64_t)dma->eah << 32 | dma->eal, dma->size, dma->tag);
 }
 
 /* A list command of spu_mfcdma64 has the lower half of the list's address alone. */
@@ -58,7 +60,7 @@ static uint32_t lower_address(cgt_native *native, const cgt_spu_dma *dma)
 static void start_dma(void *self, const cgt_spu_dma *dma)
 {
     cgt_native *const native = self;
-    const uint32_t lsa = has_local_address(dma->command) ? local_address(native, dma, dma->ls) : 0;
+    const uint32_t lsa = local_address(native, dma, dma->ls);
     const uint32_t low = lower_address(native, dma);
     write_channel(native, MFC_LSA, lsa);
     if (dma->has_eah)
