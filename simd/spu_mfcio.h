@@ -18,6 +18,7 @@
 
 #include <stdint.h>
 
+#include "spu_channels.h" /* kernels, which have no channels, get it here alone */
 #include "spu_intrinsics.h"
 
 /* ---- list elements ---- */
@@ -137,8 +138,8 @@ __extension__ typedef struct mfc_list_element {
 
 /* ---- DMA ---- */
 
-CGT_SPU_CONTROL void cgt_mfc(const char *word, volatile void *ls, unsigned long long ea, unsigned size, unsigned tag,
-                             unsigned command)
+CGT_SPU_CONTROL void cgt_mfc_transfer(const char *word, volatile void *ls, unsigned long long ea, unsigned size,
+                                      unsigned tag, unsigned command)
 {
     cgt_spu_dma dma = {0};
     dma.ls = ls;
@@ -177,7 +178,7 @@ CGT_SPU_CONTROL void cgt_mfc_order(const char *word, unsigned tag, unsigned comm
 }
 
 #define CGT_MFC(word, ls, ea, size, tag, tid, rid, cmd)                                                                \
-    cgt_mfc(word, ls, (unsigned long long)(ea), size, tag, MFC_CMD_WORD(tid, rid, cmd))
+    cgt_mfc_transfer(word, ls, (unsigned long long)(ea), size, tag, MFC_CMD_WORD(tid, rid, cmd))
 #define CGT_MFC_LIST(word, ls, ea, lsa, size, tag, tid, rid, cmd)                                                      \
     cgt_mfc_list(word, ls, (unsigned long long)(ea), (uintptr_t)(lsa), size, tag, MFC_CMD_WORD(tid, rid, cmd))
 

@@ -106,6 +106,9 @@ kernel:
 '
 # The same for the simulated Cell, as its files write their includes: from backends on.
 cell_layers='
+cell/machine: cell/mfc cell/spu
+cell/mfc/dma: cell/mfc
+cell/mfc: cell/spu
 cell/spu/execute: cell/spu cell/spu/isa cell/spu/timing
 cell/spu/store: cell/spu cell/spu/isa cell/spu/timing
 cell/spu/timing: cell/spu cell/spu/isa

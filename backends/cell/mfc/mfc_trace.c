@@ -1,0 +1,56 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The record of DMA, in memory and as text. */
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include "cell/mfc/mfc_internal.h"
+
+void cgt_mfc_trace_init(cgt_mfc_trace *trace) { *trace = (cgt_mfc_trace){0}; }
+
+void cgt_mfc_trace_free(cgt_mfc_trace *trace)
+{
+    free(trace->record);
+    cgt_mfc_trace_init(trace);
+}
+
+static bool make_room(cgt_mfc_trace *trace)
+{
+    if (trace->count < trace->capacity)
+        return true;
+    const size_t capacity = trace->capacity ? 2 * trace->capacity : 256;
+    if (capacity > SIZE_MAX / sizeof trace->record[0])
+        return false;
+    cgt_mfc_record *const grown = realloc(trace->record, capacity * sizeof trace->record[0]);
+    if (!grown)
+        return false;
+    trace->record = grown;
+    trace->capacity = capacity;
+    return true;
+}
+
+void cgt_mfc_trace_add(cgt_mfc *mfc, const cgt_mfc_record *record)
+{
+    cgt_mfc_trace *const trace = mfc->trace;
+    if (!trace)
+        return;
+    if (make_room(trace))
+        trace->record[trace->count++] = *record;
+    else
+        trace->lost++;
+}
+
+bool cgt_mfc_trace_write(const cgt_mfc_trace *trace, FILE *file)
+{
+    bool written = fputs("issued\tstarted\tfinished\tspe\tcommand\ttag\tlsa\tea\tbytes\telements\n", file) >= 0;
+    for (size_t i = 0; i < trace->count && written; i++) {
+        const cgt_mfc_record *const r = &trace->record[i];
+        written = fprintf(file,
+                          "%" PRIu64 "\t%" PRIu64 "\t%" PRIu64 "\t%u\t%s\t%" PRIu32 "\t0x%" PRIx32 "\t0x%" PRIx64
+                          "\t%" PRIu32 "\t%" PRIu32 "\n",
+                          r->issued, r->started, r->finished, r->spe, r->command, r->tag, r->lsa, r->ea, r->bytes,
+                          r->elements) > 0;
+    }
+    return written && !ferror(file) && trace->lost == 0;
+}

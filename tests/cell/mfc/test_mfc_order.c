@@ -1,0 +1,252 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Random DMA against a reference: a list of the commands given, from which the definitions of fence, barrier and tag say
+ * which must have ended before which begins; and main memory and local store as they become when the commands' bytes
+ * move in the order in which the trace says that they ended. A jitter lets commands overtake each other where they may.
+ * That they do is checked, too: a queue that keeps everything in order would pass the rest. */
+#include <string.h>
+
+#include "cell/mfc/mfc.h"
+#include "spu_mfcio.h"
+#include "support/test.h"
+
+#define MEMORY_EA 0x10000u
+#define WORDS 64u /* of main memory, and of the part of local store that takes part */
+#define MAX_COMMANDS 400
+
+typedef struct given {
+    uint32_t command, tag, lsa, ea, size;
+} given;
+
+typedef struct world {
+    uint8_t store[4096];
+    uint32_t memory[WORDS];
+    cgt_ea_map map;
+    cgt_mfc_trace trace;
+    cgt_mfc *mfc;
+    cgt_spu_channels channels;
+    uint64_t cycle;
+} world;
+
+/* ---- a run ---- */
+
+static void create(world *w, uint32_t jitter, uint32_t seed)
+{
+    cgt_mfc_timing timing = cgt_mfc_default_timing;
+    const cgt_local_store store = {.bytes = w->store, .size = sizeof w->store, .order = CGT_STORE_BIG_ENDIAN};
+    timing.jitter = jitter;
+    timing.jitter_seed = seed;
+    w->cycle = 0;
+    cgt_ea_map_init(&w->map);
+    cgt_mfc_trace_init(&w->trace);
+    assert_int_equal(cgt_ea_map_add_memory(&w->map, MEMORY_EA, w->memory, WORDS, 4, true), CGT_OK);
+    assert_int_equal(cgt_mfc_create(&w->map, 0, &store, &timing, &w->trace, &w->mfc), CGT_OK);
+    w->channels = cgt_mfc_get_channels(w->mfc);
+}
+
+static void destroy(world *w)
+{
+    cgt_mfc_free(w->mfc);
+    cgt_mfc_trace_free(&w->trace);
+}
+
+static void write_channel(world *w, unsigned channel, uint32_t value)
+{
+    cgt_channel_status status;
+    while ((status = w->channels.write(w->mfc, channel, w->cycle++, value)) == CGT_CHANNEL_STALL)
+        w->cycle = cgt_mfc_next_event(w->mfc);
+    assert_int_equal(status, CGT_CHANNEL_DONE);
+}
+
+static void give(world *w, const given *g)
+{
+    write_channel(w, MFC_LSA, g->lsa);
+    write_channel(w, MFC_EAL, g->ea);
+    write_channel(w, MFC_Size, g->size);
+    write_channel(w, MFC_TagID, g->tag);
+    write_channel(w, MFC_Cmd, g->command);
+}
+
+static given random_command(test_random *r)
+{
+    static const uint32_t commands[] = {
+        MFC_GET_CMD,  MFC_GET_CMD,  MFC_GET_CMD,  MFC_PUT_CMD,  MFC_PUT_CMD,   MFC_PUT_CMD,     MFC_GETF_CMD,
+        MFC_GETB_CMD, MFC_PUTF_CMD, MFC_PUTB_CMD, MFC_SYNC_CMD, MFC_EIEIO_CMD, MFC_BARRIER_CMD,
+    };
+    static const uint32_t sizes[] = {4, 8, 16, 16, 32, 48, 128};
+    given g = {.command = commands[random_below(r, TEST_COUNT(commands))], .tag = random_below(r, 3)};
+    if (g.command >= MFC_BARRIER_CMD)
+        return g;
+    g.size = sizes[random_below(r, TEST_COUNT(sizes))];
+    const uint32_t step = g.size < 16 ? g.size : 16;
+    g.ea = random_below(r, (4 * WORDS - g.size) / step + 1) * step;
+    /* the same low four bits on both sides */
+    g.lsa = random_below(r, (4 * WORDS - g.size - g.ea % 16) / 16 + 1) * 16 + g.ea % 16;
+    g.ea += MEMORY_EA;
+    return g;
+}
+
+/* ---- the reference ---- */
+
+static bool is_fenced(uint32_t command) { return command == MFC_GETF_CMD || command == MFC_PUTF_CMD; }
+static bool is_barrier(uint32_t command) { return command == MFC_GETB_CMD || command == MFC_PUTB_CMD; }
+static bool is_sync(uint32_t command) { return command == MFC_SYNC_CMD || command == MFC_EIEIO_CMD; }
+
+/* whether command i must end before command j > i begins */
+static bool must_precede(const given *g, unsigned i, unsigned j)
+{
+    if (g[i].command == MFC_BARRIER_CMD || g[j].command == MFC_BARRIER_CMD)
+        return true;
+    if (g[i].tag != g[j].tag)
+        return false;
+    if (is_fenced(g[j].command) || is_sync(g[i].command) || is_sync(g[j].command))
+        return true;
+    for (unsigned k = i + 1; k <= j; k++)
+        if (g[k].tag == g[j].tag && is_barrier(g[k].command))
+            return true;
+    return false;
+}
+
+/* The record of each command. The trace is in the order of ends; each command was issued in a cycle of its own. */
+static void find_records(const world *w, const given *g, unsigned count, const cgt_mfc_record **record)
+{
+    assert_int_equal(w->trace.count, count);
+    for (unsigned k = 0; k < count; k++) {
+        const cgt_mfc_record *const r = &w->trace.record[k];
+        unsigned earlier = 0;
+        for (unsigned i = 0; i < count; i++)
+            earlier += w->trace.record[i].issued < r->issued;
+        record[earlier] = r;
+        assert_int_equal(r->tag, g[earlier].tag);
+        assert_int_equal(r->bytes, g[earlier].size);
+    }
+}
+
+/* checks the order; returns how many pairs, free to do so, ended in the other order */
+static unsigned check_order(const given *g, unsigned count, const cgt_mfc_record *const *record)
+{
+    unsigned overtakes = 0;
+    for (unsigned j = 0; j < count; j++)
+        for (unsigned i = 0; i < j; i++) {
+            if (must_precede(g, i, j) && record[i]->finished > record[j]->started)
+                fail_msg("command %u (0x%x, tag %u) begins in %llu, before command %u (0x%x, tag %u) ends in %llu", j,
+                         g[j].command, g[j].tag, (unsigned long long)record[j]->started, i, g[i].command, g[i].tag,
+                         (unsigned long long)record[i]->finished);
+            overtakes += record[i]->finished > record[j]->finished;
+        }
+    return overtakes;
+}
+
+static uint32_t load(const uint8_t *b)
+{
+    return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
+}
+
+static void store(uint8_t *b, uint32_t value)
+{
+    for (unsigned i = 0; i < 4; i++)
+        b[i] = (uint8_t)(value >> (24 - 8 * i));
+}
+
+/* the same moves, word by word, in the order of the trace */
+static void replay(const cgt_mfc_trace *trace, uint8_t *local, uint32_t *memory)
+{
+    for (size_t i = 0; i < trace->count; i++) {
+        const cgt_mfc_record *const r = &trace->record[i];
+        for (uint32_t k = 0; k < r->bytes; k += 4) {
+            uint32_t *const word = &memory[(r->ea - MEMORY_EA + k) / 4];
+            if (strncmp(r->command, "mfc_get", 7) == 0)
+                store(local + r->lsa + k, *word);
+            else
+                *word = load(local + r->lsa + k);
+        }
+    }
+}
+
+static unsigned run_random(test_random *r, unsigned count, uint32_t jitter)
+{
+    static world w;
+    static given g[MAX_COMMANDS];
+    static const cgt_mfc_record *record[MAX_COMMANDS];
+    static uint8_t local[sizeof w.store];
+    uint32_t memory[WORDS];
+    create(&w, jitter, (uint32_t)random_bits(r));
+    for (unsigned i = 0; i < WORDS; i++) {
+        memory[i] = w.memory[i] = (uint32_t)random_bits(r);
+        store(w.store + 4 * (size_t)i, (uint32_t)random_bits(r));
+    }
+    memcpy(local, w.store, sizeof local);
+    for (unsigned i = 0; i < count; i++) {
+        g[i] = random_command(r);
+        give(&w, &g[i]);
+        w.cycle += random_below(r, 4) == 0 ? random_below(r, 1000) : 0;
+    }
+    while (cgt_mfc_is_busy(w.mfc))
+        cgt_mfc_advance(w.mfc, cgt_mfc_next_event(w.mfc));
+    assert_int_equal(cgt_mfc_get_error(w.mfc, NULL), CGT_RULE_NONE);
+    find_records(&w, g, count, record);
+    const unsigned overtakes = check_order(g, count, record);
+    replay(&w.trace, local, memory);
+    assert_memory_equal(memory, w.memory, sizeof memory);
+    assert_memory_equal(local, w.store, sizeof local);
+    destroy(&w);
+    return overtakes;
+}
+
+static void random_orders(void **state)
+{
+    (void)state;
+    test_random r = random_make(7001);
+    unsigned overtakes = 0;
+    const uint32_t runs = test_scaled(200);
+    for (uint32_t i = 0; i < runs; i++)
+        overtakes += run_random(&r, 1 + random_below(&r, MAX_COMMANDS), random_below(&r, 2000));
+    print_message("%u overtakes in %u runs\n", overtakes, runs);
+    assert_true(overtakes > 10 * runs);
+}
+
+/* without jitter, too */
+static void orders_without_jitter(void **state)
+{
+    (void)state;
+    test_random r = random_make(7002);
+    for (uint32_t i = 0; i < test_scaled(20); i++)
+        (void)run_random(&r, 100, 0);
+}
+
+/* the same seed gives the same trace; another one another */
+static void jitter_repeats(void **state)
+{
+    (void)state;
+    static world w[3];
+    for (unsigned k = 0; k < 3; k++) {
+        test_random r = random_make(7003);
+        create(&w[k], 500, k == 2);
+        for (unsigned i = 0; i < 50; i++) {
+            const given g = random_command(&r);
+            give(&w[k], &g);
+        }
+        cgt_mfc_advance(w[k].mfc, 1000000);
+        assert_int_equal(w[k].trace.count, 50);
+    }
+    bool same = true;
+    for (unsigned i = 0; i < 50; i++) {
+        assert_true(w[0].trace.record[i].finished == w[1].trace.record[i].finished);
+        same = same && w[0].trace.record[i].finished == w[2].trace.record[i].finished;
+    }
+    assert_false(same);
+    for (unsigned k = 0; k < 3; k++)
+        destroy(&w[k]);
+}
+
+int main(void)
+{
+    test_begin("test_mfc_order");
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_orders),
+        cmocka_unit_test(orders_without_jitter),
+        cmocka_unit_test(jitter_repeats),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
