@@ -195,6 +195,7 @@ CGT_SPU_INLINE void spux_store_records4(float *base, size_t stride, const vfloat
         for (size_t k = 0; k < 4; k++)
             memcpy(base + (four + k) * stride, (const char *)&row[k] + four * sizeof(float), 4 * sizeof(float));
 }
+#ifndef CGT_SPUX_OWN_LOAD_BYTES
 CGT_SPU_INLINE vuint spux_load_bytes(const uint8_t *p)
 {
     typedef uint8_t bytes __attribute__((vector_size(CGT_LANES)));
@@ -202,6 +203,7 @@ CGT_SPU_INLINE vuint spux_load_bytes(const uint8_t *p)
     memcpy(&b, p, sizeof b);
     return __builtin_convertvector(b, vuint);
 }
+#endif
 
 /* A larger matrix by squares of CGT_LANES. */
 CGT_SPU_INLINE void cgt_spux_transpose_blocks(const float *from, size_t from_stride, float *to, size_t to_stride,
