@@ -14,6 +14,10 @@
 #ifndef CGT_SPUX_SPU_H
 #define CGT_SPUX_SPU_H
 
+#ifndef spux_cast /* of spu_intrinsics.h, which an SPU does without: there a cast is what it says */
+#define spux_cast(type, a) ((type)(a))
+#endif
+
 #define SPUX_WORD_(n) 4 * (n), 4 * (n) + 1, 4 * (n) + 2, 4 * (n) + 3 /* of a pattern: word n of both operands */
 #define SPUX_NONE_ 0x80, 0x80, 0x80, 0x80
 #define SPUX_WORDS_(a, b, c, d) {SPUX_WORD_(a), SPUX_WORD_(b), SPUX_WORD_(c), SPUX_WORD_(d)}
@@ -38,7 +42,7 @@ CGT_SPU_INLINE vmask spux_mask_from_bits(unsigned bits)
 CGT_SPU_INLINE uint32_t spux_count_bits(unsigned bits)
 {
     const vec_uint4 word = spu_promote(bits & 15, 0); /* its lowest byte has all */
-    return spu_extract((vec_uint4)spu_cntb((vec_uchar16)word), 0);
+    return spu_extract(spux_cast(vec_uint4, spu_cntb(spux_cast(vec_uchar16, word))), 0);
 }
 #define CGT_SPUX_OWN_ANY_ALL
 CGT_SPU_INLINE bool spux_any(vmask m) { return spu_extract(spu_gather(m), 0) != 0; }
@@ -52,7 +56,7 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
 {
     const vec_uchar16 last_byte = {3, 3, 3, 3, 7, 7, 7, 7, 11, 11, 11, 11, 15, 15, 15, 15};
     const vec_uchar16 in_word = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-    const vec_uchar16 first = (vec_uchar16)spu_sl(spu_and(index, 3), 2);
+    const vec_uchar16 first = spux_cast(vec_uchar16, spu_sl(spu_and(index, 3), 2));
     return spu_shuffle(a, a, spu_or(spu_shuffle(first, first, last_byte), in_word));
 }
 

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * Every overload of simd/spu_words.h three times over: the SPU's own compiler and header make a program of it
- * (words_program.c), the simulator runs that, and the mapping of this row, in exact mode, has to give the same bits, on
- * edges, on pairs of them and on random operands. Argument: the program.
+ * (words_program.c, SPU_PROGRAM), the simulator runs that, and the mapping of this row, in exact mode, has to give the same bits, on
+ * edges, on pairs of them and on random operands.
  *
  * What may differ:
  *   promote           only one element is defined
@@ -22,8 +22,6 @@
 #define LONG_LIST 64 /* of edges: a longer one meets random partners, not all the edges of its partner */
 #define RECORD 4     /* quads: three operands, the result */
 #define BATCH (EXCHANGE_QUADS / RECORD)
-
-static const char *program_path;
 
 /* ---- the mapping: one function per overload ---- */
 
@@ -200,7 +198,7 @@ static void every_overload(void **state)
     uint64_t called = 0, excused = 0;
     uint32_t failed = 0;
     (void)state;
-    spu_program_begin(&program, program_path);
+    spu_program_begin(&program, SPU_PROGRAM);
     for (uint32_t i = 0; i < TEST_COUNT(rows); i++) {
         overload_begin(&o, i, &program);
         check_overload(&o);
@@ -219,13 +217,10 @@ static void every_overload(void **state)
     assert_int_equal(failed, 0);
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_overload)};
     test_begin("test_spu_compiled_words");
-    if (argc != 2)
-        return 2;
-    program_path = argv[1];
     if (!test_variant_runs(CGT_VARIANT_NAME))
         return TEST_SKIPPED;
     return cmocka_run_group_tests(tests, NULL, NULL);
