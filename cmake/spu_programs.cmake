@@ -4,9 +4,10 @@
 # Objects and programs for an SPU, by its own compiler, in a build for this machine: tests run them in the simulator.
 #   CGT_SPU_TOOLCHAIN   folder of spu-elf-gcc, as scripts/spu_toolchain.sh prints it; empty: nothing is built for an SPU
 #
-#   cgt_add_spu_objects(<target> <level> <sources>...)   compiles each with the row `spu` of the variant table and an
-#                                                        optimisation level; objects lie in spu/<target>/
-#   cgt_add_spu_program(<name> <sources>...)             the same at -O2, linked to spu/<name>.elf
+#   cgt_add_spu_objects(<target> <level> [ALL] <sources>...)
+#       compiles each with the row `spu` of the variant table and an optimisation level; objects lie in spu/<target>/
+#   cgt_add_spu_program(<name> <sources>...)
+#       the same at -O2, linked to spu/<name>.elf
 # Sources are relative to the folder that calls. Warnings are errors, whatever CGT_WERROR says: the compiler is known.
 set(CGT_SPU_TOOLCHAIN "" CACHE PATH "Folder of spu-elf-gcc (scripts/spu_toolchain.sh); empty: nothing is built for an SPU")
 if(NOT CGT_SPU_TOOLCHAIN)
@@ -31,10 +32,10 @@ endforeach()
 
 # cgt_spu_object(<variable> <folder> <level> <source>): the object's path goes to the variable.
 function(cgt_spu_object variable folder level source)
-    string(REPLACE "/" "_" name "${source}")
-    set(object "${PROJECT_BINARY_DIR}/spu/${folder}/${name}.o")
+    set(object "${PROJECT_BINARY_DIR}/spu/${folder}/${source}.o")
     get_filename_component(path "${source}" ABSOLUTE)
-    file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/spu/${folder}")
+    get_filename_component(parent "${object}" DIRECTORY)
+    file(MAKE_DIRECTORY "${parent}")
     add_custom_command(OUTPUT "${object}"
         COMMAND "${CGT_SPU_COMPILER}" ${cgt_spu_flags} ${level} -MMD -MF "${object}.d" -c "${path}" -o "${object}"
         DEPENDS "${path}" DEPFILE "${object}.d" COMMENT "SPU object ${source} ${level}" VERBATIM)
@@ -42,12 +43,17 @@ function(cgt_spu_object variable folder level source)
 endfunction()
 
 function(cgt_add_spu_objects target level)
+    cmake_parse_arguments(row "ALL" "" "" ${ARGN})
+    set(all "")
+    if(row_ALL)
+        set(all ALL)
+    endif()
     set(objects "")
-    foreach(source IN LISTS ARGN)
+    foreach(source IN LISTS row_UNPARSED_ARGUMENTS)
         cgt_spu_object(object "${target}" "${level}" "${source}")
         list(APPEND objects "${object}")
     endforeach()
-    add_custom_target(${target} ALL DEPENDS ${objects})
+    add_custom_target(${target} ${all} DEPENDS ${objects})
 endfunction()
 
 function(cgt_add_spu_program name)

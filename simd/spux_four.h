@@ -65,6 +65,9 @@ CGT_SPU_INLINE vuint cgt_spux_min_u32w(vuint a, vuint b) { return spu_sel(b, a, 
 CGT_SPU_INLINE vuint cgt_spux_max_u32w(vuint a, vuint b) { return spu_sel(b, a, spu_cmpgt(a, b)); }
 #endif
 #if defined(__SPU__) || defined(CGT_SPU_EXACT)
+/* An SPU truncates: of a result from 2^e up to 2^(e + 1) it loses less than a unit in the last place, 2^(e - 23), which
+ * is at most 2^-23 of the exact result and of what is left of it. Rounding to nearest loses half a unit. */
+#define SPUX_ROUNDOFF 0x1p-23f
 /* on an SPU, and in its arithmetic elsewhere: one Newton step after the estimates, which are good to 12 bits; the root
  * of 0 is 0 */
 CGT_SPU_INLINE vfloat spux_div(vfloat a, vfloat b)

@@ -36,6 +36,7 @@
  *   spux_min, max(a, b)           T; b where a and b are unordered; which of two zeros is undefined
  *   spux_abs(a)                   float, sign bit cleared
  *   spux_div(a, b), sqrt(a)       float, relative error at most 2^-21
+ *   SPUX_ROUNDOFF                 the relative error of a float sum, difference, product or conversion is at most this
  *   spux_cmpge(a, b)              float, a >= b, false for NaN
  *   spux_rsqrte(a)                float; as spu_rsqrte where a > 0, NaN where a < 0 (undefined on an SPU), undefined
  *                                 for 0 and denormals
@@ -87,6 +88,9 @@
 #error "CGT_LANES: no mapping has this width"
 #endif
 
+#ifndef SPUX_ROUNDOFF
+#define SPUX_ROUNDOFF 0x1p-24f
+#endif
 #define CGT_VECTOR_BYTES (4 * CGT_LANES)
 #define CGT_ALL_LANES ((1u << CGT_LANES) - 1)
 
