@@ -42,6 +42,7 @@ typedef enum cgt_spu_mode {
 
 struct cgt_spu_decoded; /* one instruction of the local store, decoded */
 struct cgt_spu_timing;  /* pipelines and counts: timing/timing.h */
+struct cgt_spu_row;     /* a form of the interpreter: execute/execute.h */
 
 typedef struct cgt_spu {
     cgt_spu_register reg[CGT_SPU_REGISTERS];
@@ -55,6 +56,7 @@ typedef struct cgt_spu {
     struct cgt_spu_decoded *decoded;
     uint32_t code_low, code_high;  /* what is decoded lies within these addresses */
     struct cgt_spu_timing *timing; /* NULL: untimed */
+    const struct cgt_spu_row *row; /* NULL: the fastest that this CPU runs */
     cgt_memory_hooks memory;
     char message[CGT_SPU_MESSAGE_BYTES]; /* of the last error, or "" */
 } cgt_spu;
