@@ -182,6 +182,19 @@ CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
 #endif
 
 #ifndef CGT_SPUX_OWN_HORIZONTAL
+#if defined(CGT_SPU_EXACT)
+/* by a word: C's comparison is not the SPU's */
+CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)
+{
+    const vfloat b = {a[2], a[3], a[0], a[1]}, two = spu_sel(a, b, spu_cmpgt(a, b)), c = {two[1], two[0]};
+    return spu_sel(two, c, spu_cmpgt(two, c))[0];
+}
+CGT_SPU_INLINE float cgt_spux_hmax_f32w(vfloat a)
+{
+    const vfloat b = {a[2], a[3], a[0], a[1]}, two = spu_sel(a, b, spu_cmpgt(b, a)), c = {two[1], two[0]};
+    return spu_sel(two, c, spu_cmpgt(c, two))[0];
+}
+#else
 CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)
 {
     const float x = a[1] < a[0] ? a[1] : a[0], y = a[3] < a[2] ? a[3] : a[2];
@@ -192,6 +205,7 @@ CGT_SPU_INLINE float cgt_spux_hmax_f32w(vfloat a)
     const float x = a[1] > a[0] ? a[1] : a[0], y = a[3] > a[2] ? a[3] : a[2];
     return y > x ? y : x;
 }
+#endif
 CGT_SPU_INLINE uint32_t cgt_spux_hmin_u32w(vuint a)
 {
     const uint32_t x = a[1] < a[0] ? a[1] : a[0], y = a[3] < a[2] ? a[3] : a[2];
