@@ -8,7 +8,7 @@
  * What may differ:
  *   promote           only one element is defined
  *   NaN               of doubles, and of spu_roundtf: one is as good as another, as among hosts
- *   denormal operands of double arithmetic and comparison, of spu_extend and spu_roundtf: an SPU takes them for zeros, a
+ *   denormal operands of double arithmetic, of spu_extend and spu_roundtf: an SPU takes them for zeros, a
  *                     host computes with them
  * madd, msub, nmsub and nmadd of doubles round once on an SPU. Where the mapping rounds twice, the C library's fma takes
  * its place here. */
@@ -111,11 +111,11 @@ static bool is_excused(const overload *o, const spu_quad *operand, int i, uint64
 static spu_quad fused_result(const overload *o, const spu_quad operand[3])
 {
     const vec_double2 a = load_f64(&operand[0]), b = load_f64(&operand[1]), c = load_f64(&operand[2]);
-    const bool negates = !strcmp(o->form.word, "nmsub"), subtracts = !strcmp(o->form.word, "msub");
-    const bool is_negated = !strcmp(o->form.word, "nmadd");
+    const bool subtracts = spu_is_word_of(o->form.word, " msub nmsub ");
+    const bool is_negated = spu_is_word_of(o->form.word, " nmsub nmadd ");
     vec_double2 result;
     for (int i = 0; i < 2; i++) {
-        const double sum = fma(negates ? -a[i] : a[i], b[i], subtracts ? -c[i] : c[i]);
+        const double sum = fma(a[i], b[i], subtracts ? -c[i] : c[i]);
         result[i] = is_negated ? -sum : sum;
     }
     return store_f64(result);
