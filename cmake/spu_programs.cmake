@@ -5,7 +5,8 @@
 #   CGT_SPU_TOOLCHAIN   folder of spu-elf-gcc, as scripts/spu_toolchain.sh prints it; empty: nothing is built for an SPU
 #
 #   cgt_add_spu_objects(<target> <level> [ALL] <sources>...)
-#       compiles each with the row `spu` of the variant table and an optimisation level; objects lie in spu/<target>/
+#       compiles each with the row `spu` of the variant table and an optimisation level, or a list of that and further
+#       flags; objects lie in spu/<target>/
 #   cgt_add_spu_program(<name> <sources>...)
 #       the same at -O2, linked to spu/<name>.elf
 # Sources are relative to the folder that calls. Warnings are errors, whatever CGT_WERROR says: the compiler is known.

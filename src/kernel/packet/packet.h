@@ -21,7 +21,7 @@
 #include "dispatch/kernel.h"
 #include "vector.h"
 
-/* A packet of 256 rays takes 34 KB: programs for a small local store define less, in multiples of 16, a block of rays. */
+/* A packet of 256 rays takes 24 KB: programs for a small local store define less, in multiples of 16, a block of rays. */
 #ifndef PACKET_MAX_RAYS
 #define PACKET_MAX_RAYS 256
 #endif
