@@ -110,6 +110,7 @@ int bench_frame(int argc, char **argv);
 int bench_loops(int argc, char **argv);
 int bench_make(int argc, char **argv);
 int bench_scaling(int argc, char **argv);
+int bench_cell(int argc, char **argv);
 int bench_simd(int argc, char **argv);
 int bench_structures(int argc, char **argv);
 

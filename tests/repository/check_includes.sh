@@ -6,7 +6,7 @@
 # Allowed includes between folders: include <- simd <- src <- backends. Programs see the public API and each other's
 # common parts; cgt-bench also sees the library's inside, and the hard cases and the oracle of the tests;
 # compare-embree also sees Embree; tests see all. The library includes only C and POSIX headers from outside. Within
-# src, a table lists the folders that a folder may include; no two include each other.
+# src and in backends/cell, a table lists the folders that a folder may include; no two include each other.
 set -eu
 cd "$1"
 bad=$(mktemp)
@@ -68,7 +68,7 @@ check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples" \
     "cgt/(cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h"
-check bench "bench src simd examples tests" \
+check bench "bench backends src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.
@@ -103,39 +103,54 @@ kernel/primitive: dispatch exact kernel kernel/packet model
 kernel/packet: dispatch
 kernel:
 '
-find src -name '*.[ch]' | LC_ALL=C sort | xargs awk -v layers="$layers" '
-    function exists(path,   line, there) {
-        there = (getline line <path) >= 0
-        close(path)
-        return there
-    }
-    BEGIN {
-        n = split(layers, line, "\n")
-        for (i = 1; i <= n; i++) {
-            m = split(line[i], word, "[: ]+")
-            known[word[1]]
-            for (k = 2; k <= m; k++) if (word[k] != "") allowed[word[1], word[k]]
+# The same for the simulated Cell, as its files write their includes: from backends on.
+cell_layers='
+cell/spu/execute: cell/spu cell/spu/isa cell/spu/timing
+cell/spu/store: cell/spu cell/spu/isa cell/spu/timing
+cell/spu/timing: cell/spu cell/spu/isa
+cell/spu/isa: cell/spu cell/spu/isa/rows
+cell/spu/isa/rows:
+cell/spu:
+'
+
+# check_layers FOLDER TABLE
+check_layers() {
+    find "$1" -name '*.[ch]' | LC_ALL=C sort | xargs awk -v top="$1" -v layers="$2" '
+        function exists(path,   line, there) {
+            there = (getline line <path) >= 0
+            close(path)
+            return there
         }
-    }
-    /^[ \t]*#[ \t]*include "/ {
-        split($0, quoted, "\"")
-        if (!exists("src/" quoted[2])) next # of simd
-        from = FILENAME
-        sub(/^src\//, "", from)
-        sub(/\/[^\/]*$/, "", from)
-        to = quoted[2]
-        sub(/\/[^\/]*$/, "", to)
-        if (from == to) next
-        if (!((from, to) in allowed)) print FILENAME ":" FNR ": " from "/ may not include " to "/"
-        pair[from, to] = FILENAME
-    }
-    END {
-        for (p in pair) {
-            split(p, folder, SUBSEP)
-            if ((folder[2], folder[1]) in pair && folder[1] < folder[2])
-                print folder[1] "/ and " folder[2] "/ include each other: " pair[p] ", " pair[folder[2], folder[1]]
+        BEGIN {
+            n = split(layers, line, "\n")
+            for (i = 1; i <= n; i++) {
+                m = split(line[i], word, "[: ]+")
+                known[word[1]]
+                for (k = 2; k <= m; k++) if (word[k] != "") allowed[word[1], word[k]]
+            }
         }
-    }' >>"$bad"
+        /^[ \t]*#[ \t]*include "/ {
+            split($0, quoted, "\"")
+            if (!exists(top "/" quoted[2])) next # of a layer below
+            from = FILENAME
+            from = substr(from, length(top) + 2)
+            sub(/\/[^\/]*$/, "", from)
+            to = quoted[2]
+            sub(/\/[^\/]*$/, "", to)
+            if (from == to) next
+            if (!((from, to) in allowed)) print FILENAME ":" FNR ": " from "/ may not include " to "/"
+            pair[from, to] = FILENAME
+        }
+        END {
+            for (p in pair) {
+                split(p, folder, SUBSEP)
+                if ((folder[2], folder[1]) in pair && folder[1] < folder[2])
+                    print folder[1] "/ and " folder[2] "/ include each other: " pair[p] ", " pair[folder[2], folder[1]]
+            }
+        }' >>"$bad"
+}
+check_layers src "$layers"
+check_layers backends "$cell_layers"
 
 # Only simd names an instruction set.
 grep -rnE '\b(_mm(256|512)?_[a-z0-9]+_|v[a-z0-9]+q_(lane_|n_)?[fsu](8|16|32|64)\b)' include src backends examples bench \

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Registers as vectors, and what isa/rows_element.h and rows_shift.h need beyond the compiler's operators.
+ * Registers as vectors, and what isa/rows/element.h and shift.h need beyond the compiler's operators.
  *
  * A register has its words in the host's order, so bytes and halfwords of a word are reversed on a little-endian host.
  * Operations element by element do not mind. */

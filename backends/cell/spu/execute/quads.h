@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Whole quadwords: what isa/rows_quad.h needs. Byte 0 of an SPU is the most significant one of word 0. */
+ * Whole quadwords: what isa/rows/quad.h needs. Byte 0 of an SPU is the most significant one of word 0. */
 #ifndef CGT_CELL_QUADS_H
 #define CGT_CELL_QUADS_H
 

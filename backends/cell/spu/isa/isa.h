@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * The SPU's instructions: one row of rows_*.h each. A row is
+ * The SPU's instructions: one row each, in the folder rows. A row is
  *
  *   CGT_SPU_ROW(name, format, opcode, class, registers, meaning)
  *

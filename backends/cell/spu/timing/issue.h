@@ -41,7 +41,7 @@ CGT_SPU_ISSUE cgt_spu_issue cgt_spu_issue_find(cgt_spu_timing *t, const cgt_spu_
     cgt_spu_issue issue = {.ready = ready};
     uint64_t earliest = ready;
     if (__builtin_expect(pc == t->hint_branch, 0)) {
-        issue.hinted = instructions - t->hint_instruction > CGT_SPU_MODEL_HINT_NEAREST;
+        issue.hinted = instructions - t->hint_instruction >= CGT_SPU_MODEL_HINT_NEAREST;
         if (issue.hinted)
             earliest = cgt_spu_later(ready, t->hint_cycle + CGT_SPU_MODEL_HINT_READY);
     }

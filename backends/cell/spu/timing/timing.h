@@ -6,7 +6,7 @@
 #ifndef CGT_CELL_TIMING_H
 #define CGT_CELL_TIMING_H
 
-#include "cell/spu/execute/decoded.h"
+#include "cell/spu/isa/decoded.h"
 #include "cell/spu/spu.h"
 
 /* Each cycle has one cause, so their sum is the number of cycles. */
@@ -42,7 +42,7 @@ typedef struct cgt_spu_timing {
     uint64_t ready[CGT_SPU_REGISTERS + 2]; /* first cycle in which a reader may issue */
     bool pair_open;                        /* the next instruction may issue in the same cycle as the last one */
     uint32_t hint_branch, hint_target;     /* addresses; no hint: hint_branch is 1 */
-    uint64_t hint_cycle, hint_instruction; /* when it issued: in which cycle, as which instruction */
+    uint64_t hint_cycle, hint_instruction; /* its cycle; the number of the instruction behind it */
     uint64_t next_cycle;                   /* cgt_spu.cycle as the last run left it */
     uint32_t low, size;                    /* the addresses that `counts` is for */
     cgt_spu_counts *counts, *last;         /* of the function that runs; of the last instruction */

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "cell/spu/execute/decoded.h"
+#include "cell/spu/isa/decoded.h"
 #include "cell/spu/timing/timing.h"
 #include "core/memory.h"
 

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * The cache of decoded instructions, see decoded.h. */
-#include "cell/spu/execute/decoded.h"
+#include "cell/spu/isa/decoded.h"
 
 void cgt_spu_decode(cgt_spu *spu, uint32_t address)
 {

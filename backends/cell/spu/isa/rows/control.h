@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Branches, channels, control. A part of rows.h. */
+ * Branches, control, channels. A part of rows.h, and its last: the interpreter knows the three that
+ * access channels by their place behind all others. */
 /* clang-format off */
 CGT_SPU_ROW(br,     RI16W, 0x190, BR, NONE,      GO(pc + (uint32_t)imm))
 CGT_SPU_ROW(bra,    RI16W, 0x180, BR, NONE,      GO((uint32_t)imm))
