@@ -18,9 +18,12 @@
 #define spux_cast(type, a) ((type)(a))
 #endif
 
-#define SPUX_WORD_(n) 4 * (n), 4 * (n) + 1, 4 * (n) + 2, 4 * (n) + 3 /* of a pattern: word n of both operands */
-#define SPUX_NONE_ 0x80, 0x80, 0x80, 0x80
-#define SPUX_WORDS_(a, b, c, d) {SPUX_WORD_(a), SPUX_WORD_(b), SPUX_WORD_(c), SPUX_WORD_(d)}
+#define CGT_SPUX_LANE(n) 4 * (n), 4 * (n) + 1, 4 * (n) + 2, 4 * (n) + 3 /* of a pattern: word n of both operands */
+#define CGT_SPUX_NONE 0x80, 0x80, 0x80, 0x80
+#define CGT_SPUX_LANES(a, b, c, d)                                                                                     \
+    {                                                                                                                  \
+        CGT_SPUX_LANE(a), CGT_SPUX_LANE(b), CGT_SPUX_LANE(c), CGT_SPUX_LANE(d)                                         \
+    }
 
 /* ---- masks ---- */
 
@@ -28,13 +31,13 @@
 #define CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m)
 {
-    const vec_uchar16 reverse = SPUX_WORDS_(3, 2, 1, 0);
+    const vec_uchar16 reverse = CGT_SPUX_LANES(3, 2, 1, 0);
     return spu_extract(spu_gather(spu_shuffle(m, m, reverse)), 0);
 }
 #define CGT_SPUX_OWN_MASK_FROM_BITS
 CGT_SPU_INLINE vmask spux_mask_from_bits(unsigned bits)
 {
-    const vec_uchar16 reverse = SPUX_WORDS_(3, 2, 1, 0);
+    const vec_uchar16 reverse = CGT_SPUX_LANES(3, 2, 1, 0);
     const vec_uint4 m = spu_maskw(bits);
     return spu_shuffle(m, m, reverse);
 }
@@ -64,16 +67,13 @@ CGT_SPU_INLINE vuint cgt_spux_permute_w(vuint a, vuint index)
 #define CGT_SPUX_OWN_COMPRESS
 CGT_SPU_INLINE vuint cgt_spux_compress_w(vuint a, vmask m)
 {
-#define W_ SPUX_WORD_
-#define N_ SPUX_NONE_
-    static const vec_uchar16 packed[16] = {{N_, N_, N_, N_},          {W_(3), N_, N_, N_},
-                                           {W_(2), N_, N_, N_},       {W_(2), W_(3), N_, N_},
-                                           {W_(1), N_, N_, N_},       {W_(1), W_(3), N_, N_},
-                                           {W_(1), W_(2), N_, N_},    {W_(1), W_(2), W_(3), N_},
-                                           {W_(0), N_, N_, N_},       {W_(0), W_(3), N_, N_},
-                                           {W_(0), W_(2), N_, N_},    {W_(0), W_(2), W_(3), N_},
-                                           {W_(0), W_(1), N_, N_},    {W_(0), W_(1), W_(3), N_},
-                                           {W_(0), W_(1), W_(2), N_}, {W_(0), W_(1), W_(2), W_(3)}};
+#define W_ CGT_SPUX_LANE
+#define N_ CGT_SPUX_NONE
+    static const vec_uchar16 packed[16] = {
+        {N_, N_, N_, N_},       {W_(3), N_, N_, N_},       {W_(2), N_, N_, N_},       {W_(2), W_(3), N_, N_},
+        {W_(1), N_, N_, N_},    {W_(1), W_(3), N_, N_},    {W_(1), W_(2), N_, N_},    {W_(1), W_(2), W_(3), N_},
+        {W_(0), N_, N_, N_},    {W_(0), W_(3), N_, N_},    {W_(0), W_(2), N_, N_},    {W_(0), W_(2), W_(3), N_},
+        {W_(0), W_(1), N_, N_}, {W_(0), W_(1), W_(3), N_}, {W_(0), W_(1), W_(2), N_}, {W_(0), W_(1), W_(2), W_(3)}};
 #undef W_
 #undef N_
     return spu_shuffle(a, a, packed[spu_extract(spu_gather(m), 0)]);
@@ -104,7 +104,7 @@ CGT_SPU_INLINE uint32_t cgt_spux_hmax_u32w(vuint a)
 #define CGT_SPUX_OWN_TRANSPOSE
 CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
 {
-    const vec_uchar16 low = SPUX_WORDS_(0, 4, 1, 5), high = SPUX_WORDS_(2, 6, 3, 7);
+    const vec_uchar16 low = CGT_SPUX_LANES(0, 4, 1, 5), high = CGT_SPUX_LANES(2, 6, 3, 7);
     const vfloat low02 = spu_shuffle(r[0], r[2], low), low13 = spu_shuffle(r[1], r[3], low);
     const vfloat high02 = spu_shuffle(r[0], r[2], high), high13 = spu_shuffle(r[1], r[3], high);
     d[0] = spu_shuffle(low02, low13, low);
@@ -115,7 +115,7 @@ CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
 #define CGT_SPUX_OWN_UNZIP
 CGT_SPU_INLINE void spux_unzip(vuint v[2])
 {
-    const vec_uchar16 even = SPUX_WORDS_(0, 2, 4, 6), odd = SPUX_WORDS_(1, 3, 5, 7);
+    const vec_uchar16 even = CGT_SPUX_LANES(0, 2, 4, 6), odd = CGT_SPUX_LANES(1, 3, 5, 7);
     const vuint a = v[0], b = v[1];
     v[0] = spu_shuffle(a, b, even);
     v[1] = spu_shuffle(a, b, odd);
@@ -127,7 +127,10 @@ CGT_SPU_INLINE void spux_unzip(vuint v[2])
 
 typedef vec_uchar16 cgt_spux_quadword __attribute__((may_alias));
 
-CGT_SPU_INLINE cgt_spux_quadword *cgt_spux_quadword_at(uintptr_t p) { return (cgt_spux_quadword *)(p & ~(uintptr_t)15); }
+CGT_SPU_INLINE cgt_spux_quadword *cgt_spux_quadword_at(uintptr_t p)
+{
+    return (cgt_spux_quadword *)(p & ~(uintptr_t)15);
+}
 
 /* 16 bytes at any address: the end of the quadword that holds the first one, and the beginning of the one that holds
  * the last. At a multiple of 16 that is one quadword, and nothing is taken of it the second time. */
@@ -176,7 +179,7 @@ CGT_SPU_INLINE vuint cgt_spux_load_mask_w(const void *p, vmask m) { return spu_a
 #define CGT_SPUX_OWN_GATHER
 CGT_SPU_INLINE vuint cgt_spux_gather_w(const void *base, vint index)
 {
-    const vec_uchar16 low = SPUX_WORDS_(0, 4, 0, 4), pairs = SPUX_WORDS_(0, 1, 4, 5);
+    const vec_uchar16 low = CGT_SPUX_LANES(0, 4, 0, 4), pairs = CGT_SPUX_LANES(0, 1, 4, 5);
     vuint word[4];
     for (int i = 0; i < 4; i++) {
         const uintptr_t at = (uintptr_t)base + 4 * (uintptr_t)spu_extract(index, i);

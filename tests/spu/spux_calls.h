@@ -19,8 +19,8 @@ typedef struct spux_record {
         uint16_t half[64];
         uint8_t byte[128];
     } memory;
-    vuint a, b, m;      /* operands; the sign bits of m are a mask */
-    vuint at;           /* elements of an address, 0 to 15 in each lane */
+    vuint a, b, m; /* operands; the sign bits of m are a mask */
+    vuint at;      /* elements of an address, 0 to 15 in each lane */
     vuint result[4];
 } spux_record;
 
@@ -59,7 +59,7 @@ SPUX_CALL(count_bits) { spux_put(r, spux_vuint(spux_count_bits(r->at[0]))); }
 SPUX_CALL(any) { spux_put(r, spux_vuint(spux_any(spux_m(r)))); }
 SPUX_CALL(all) { spux_put(r, spux_vuint(spux_all(spux_m(r)))); }
 SPUX_CALL(none) { spux_put(r, spux_vuint(spux_none(spux_m(r)))); }
-SPUX_CALL(not) { spux_put(r, spux_not(spux_m(r))); }
+SPUX_CALL(complement) { spux_put(r, spux_not(spux_m(r))); }
 
 /* ---- arithmetic ---- */
 
@@ -158,10 +158,7 @@ SPUX_CALL(store_records4)
     const vfloat d[4] = {spux_a(r), spux_b(r), (vfloat)r->m, (vfloat)r->at};
     spux_store_records4(&r->memory.number[r->at[0] & 3], 4 + (r->at[1] & 3), d);
 }
-SPUX_CALL(transpose_memory)
-{
-    spux_transpose4(&r->memory.number[r->at[0] & 3], 4, &r->memory.number[r->at[1]], 4);
-}
+SPUX_CALL(transpose_memory) { spux_transpose4(&r->memory.number[r->at[0] & 3], 4, &r->memory.number[r->at[1]], 4); }
 
 /* ---- doubles ---- */
 
@@ -203,7 +200,7 @@ SPUX_CALL(double_divide)
 /* clang-format off */
 #define SPUX_CALLS(X)                                                                                                  \
     X(mask_bits, 32) X(mask_from_bits, 32) X(mask_first, 32) X(count_bits, 32) X(any, 32) X(all, 32) X(none, 32)       \
-    X(not, 32) X(div, 32) X(sqrt, 32) X(rsqrte, 32) X(cmpge, 32) X(abs, 32) X(truncate, 32) X(min, 32) X(max, 32)      \
+    X(complement, 32) X(div, 32) X(sqrt, 32) X(rsqrte, 32) X(cmpge, 32) X(abs, 32) X(truncate, 32) X(min, 32) X(max, 32)      \
     X(hmin, 32) X(hmax, 32) X(select, 32) X(permute, 32) X(compress, 32) X(unzip, 32) X(transpose, 32)                 \
     X(load_unaligned, 32) X(store_unaligned, 32) X(load_mask, 32) X(store_mask, 32) X(compress_store, 32)              \
     X(gather, 32) X(load_bytes, 8) X(find16, 16) X(load_records4, 32) X(load_records4_at, 32)                          \

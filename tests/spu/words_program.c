@@ -50,6 +50,7 @@ TOKEN(f64, vec_double2, double)
 
 /* ---- an operand that has to be a constant: one case for each ---- */
 
+/* clang-format off */
 #define EACH_OF_8(M, n) M(n) M((n) + 1) M((n) + 2) M((n) + 3) M((n) + 4) M((n) + 5) M((n) + 6) M((n) + 7)
 #define EACH_OF_128(M)                                                                                                 \
     EACH_OF_8(M, 0) EACH_OF_8(M, 8) EACH_OF_8(M, 16) EACH_OF_8(M, 24) EACH_OF_8(M, 32) EACH_OF_8(M, 40)                \
@@ -66,6 +67,7 @@ TOKEN(f64, vec_double2, double)
 #define CASE_convts(n) case n: z = spu_convts(x, n); break;
 #define CASE_convtu(n) case n: z = spu_convtu(x, n); break;
 #define CASE_testsv(n) case n: z = spu_testsv(x, n); break;
+/* clang-format on */
 
 #define SECOND_n_scale CONSTANT
 #define SECOND_n_special CONSTANT
@@ -89,10 +91,7 @@ TOKEN(f64, vec_double2, double)
 /* ---- one function per overload ---- */
 
 #define CALL1(word, r, a)                                                                                              \
-    static void call_##word##_##r##_##a(vec_uint4 *record)                                                             \
-    {                                                                                                                  \
-        record[3] = STORE_##r(spu_##word(LOAD_##a(&record[0])));                                                       \
-    }
+    static void call_##word##_##r##_##a(vec_uint4 *record) { record[3] = STORE_##r(spu_##word(LOAD_##a(&record[0]))); }
 #define CALL2(word, r, a, b)                                                                                           \
     static void call_##word##_##r##_##a##_##b(vec_uint4 *record)                                                       \
     {                                                                                                                  \
