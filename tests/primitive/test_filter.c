@@ -207,7 +207,10 @@ static void bounds_hold(void **state)
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
-        assert_true(t.hits > t.lanes / 5 && t.undecided < t.lanes); /* the filter decided many of them */
+        assert_true(t.hits > t.lanes / 5);
+#ifndef CGT_SPU_EXACT                       /* there hardly any from inside */
+        assert_true(t.undecided < t.lanes); /* the filter decided many of them */
+#endif
         if (f == CROSSING)
             assert_true(t.undecided < t.lanes / 2);
     }
