@@ -20,6 +20,7 @@
 #   isa           another instruction set can break it: vector words, kernels, filters
 #   endian        the byte order can break it: readers, packed words, integers of several limbs
 #   programs      runs cgt-bench, an example, or the files that they share
+#   spu           runs what the SPU's compiler made
 #   repository    checks the sources, the build and the installed package
 set(CGT_TEST_LABELS "" CACHE STRING "Build and define only tests with one of these labels; empty: all")
 
@@ -36,7 +37,7 @@ set(cgt_test_environment
 function(cgt_test_selected variable)
     set(selected OFF)
     foreach(label IN LISTS ARGN)
-        if(NOT label MATCHES "^(threads|isa|endian|programs|repository)$")
+        if(NOT label MATCHES "^(threads|isa|endian|programs|spu|repository)$")
             message(FATAL_ERROR "cmake/add_test.cmake: no test label is named ${label}")
         endif()
         if(label IN_LIST CGT_TEST_LABELS)

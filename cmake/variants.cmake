@@ -12,6 +12,9 @@
 #   FLAGS    of the compiler; they come after CFLAGS, so a -march there does not take them away
 #   DEFINES  further definitions
 #
+# The row `spu` is no machine's that runs the library: its kernels are compiled by the SPU's own compiler alone
+# (spu_programs.cmake), for programs of an SPE, and no host has it.
+#
 # CGT_ONLY_VARIANTS leaves rows out that a build does not want, but never the portable one: any machine runs that.
 include(CheckCCompilerFlag)
 include(CheckCSourceCompiles)
@@ -26,10 +29,14 @@ function(cgt_variant)
         message(FATAL_ERROR "cmake/variants.cmake: bad row: ${ARGN}")
     endif()
     set(cgt_known_variants ${cgt_known_variants} ${row_NAME} PARENT_SCOPE)
+    string(TOUPPER "${row_NAME}" upper)
+    set(CGT_VARIANT_${row_NAME}_FLAGS ${row_FLAGS} PARENT_SCOPE)
+    set(CGT_VARIANT_${row_NAME}_DEFINES ${row_DEFINES} CGT_VARIANT=${row_NAME} CGT_VARIANT_${upper}=1
+                                        CGT_LANES=${row_LANES} PARENT_SCOPE)
+    set(CGT_VARIANT_${row_NAME}_HAVE CGT_HAVE_${upper}=1 PARENT_SCOPE)
     if(CGT_ONLY_VARIANTS AND NOT row_NAME STREQUAL portable AND NOT row_NAME IN_LIST CGT_ONLY_VARIANTS)
         return()
     endif()
-    string(TOUPPER "${row_NAME}" upper)
     set(CMAKE_REQUIRED_QUIET ON) # a row that is not for this machine is no failure
     if(row_WHERE)
         check_c_source_compiles("#if !(${row_WHERE})\n#error not this machine\n#endif\nint main(void) { return 0; }"
@@ -47,10 +54,6 @@ function(cgt_variant)
         endif()
     endif()
     set(CGT_VARIANTS ${CGT_VARIANTS} ${row_NAME} PARENT_SCOPE)
-    set(CGT_VARIANT_${row_NAME}_FLAGS ${row_FLAGS} PARENT_SCOPE)
-    set(CGT_VARIANT_${row_NAME}_DEFINES ${row_DEFINES} CGT_VARIANT=${row_NAME} CGT_VARIANT_${upper}=1
-                                        CGT_LANES=${row_LANES} PARENT_SCOPE)
-    set(CGT_VARIANT_${row_NAME}_HAVE CGT_HAVE_${upper}=1 PARENT_SCOPE)
 endfunction()
 
 # ---- The table --------------------------------------------------------------------------------------------------
@@ -58,6 +61,7 @@ endfunction()
 cgt_variant(NAME portable LANES 4 DEFINES CGT_SPU_PORTABLE)
 cgt_variant(NAME sse      LANES 4 WHERE "defined(__x86_64__)"  FLAGS -msse4.1)
 cgt_variant(NAME neon     LANES 4 WHERE "defined(__aarch64__)")
+cgt_variant(NAME spu      LANES 4 WHERE "defined(__SPU__)")
 cgt_variant(NAME avx2     LANES 8 WHERE "defined(__x86_64__)"  FLAGS -mavx2 -mfma -mbmi)
 cgt_variant(NAME avx512   LANES 16 WHERE "defined(__x86_64__)" FLAGS -mavx2 -mfma -mbmi -mavx512f -mavx512bw -mavx512dq
                                                                      -mavx512vl -mprefer-vector-width=512)

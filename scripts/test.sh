@@ -12,7 +12,9 @@
 #   ppc64     cross-built for big-endian POWER, run by qemu: what byte order can break
 #   clang     every test, built by clang -march=native
 #   native    every test, built by gcc -march=native
-#   all       the first five: what .ci/run runs
+#   spu       the kernels, and programs of an SPU, by the SPU's own compiler, run by the simulator; builds the compiler
+#             where it is missing (scripts/spu_toolchain.sh)
+#   all       the first five: what .ci/run runs; and spu where its compiler is there already
 #   everything  the whole matrix, before a release; the cross builds then run all that can run there
 # Compiler results come from ccache where it is installed. Test durations are kept between runs in
 # ${XDG_CACHE_HOME:-~/.cache}/libcgt, so that ctest starts the longest tests first.
@@ -22,9 +24,16 @@ cd "$(dirname "$0")/.."
 suites=() whole_matrix=no
 for name in "${@:-release}"; do
     case $name in
-    all) suites+=(release sanitize tsan aarch64 ppc64) ;;
-    everything) suites+=(release clang native sanitize tsan aarch64 ppc64) whole_matrix=yes ;;
-    release|clang|native|sanitize|tsan|aarch64|ppc64) suites+=("$name") ;;
+    all)
+        suites+=(release sanitize tsan aarch64 ppc64)
+        if scripts/spu_toolchain.sh --find >/dev/null; then
+            suites+=(spu)
+        else
+            echo "test.sh: the suite spu is left out, since the SPU's compiler is missing: scripts/test.sh spu builds it"
+        fi
+        ;;
+    everything) suites+=(release clang native sanitize tsan aarch64 ppc64 spu) whole_matrix=yes ;;
+    release|clang|native|sanitize|tsan|aarch64|ppc64|spu) suites+=("$name") ;;
     *) echo "test.sh: unknown suite '$name': $(sed -nE 's/^#   ([a-z0-9]+) .*/\1/p' "$0" | paste -sd' ')" >&2; exit 2 ;;
     esac
 done
@@ -37,6 +46,9 @@ for suite in "${suites[@]}"; do
     esac
 done
 scripts/dependencies.sh "${purposes[@]}"
+if [[ " ${suites[*]} " == *" spu "* ]]; then
+    scripts/spu_toolchain.sh
+fi
 
 jobs=$(nproc)
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/libcgt
@@ -57,8 +69,9 @@ settings_of() {
     tsan) oracle=OFF meshes=OFF labels=threads ;; # assimp and Embree bring threads that the sanitizer cannot see into
     aarch64) oracle=OFF meshes=OFF labels=isa ;; # Debian has neither for a cross build
     ppc64) oracle=OFF meshes=OFF labels=endian ;;
+    spu) oracle=OFF meshes=OFF labels=spu ;;
     esac
-    [ $whole_matrix = no ] || [ "$1" = tsan ] || labels=""
+    [ $whole_matrix = no ] || [ "$1" = tsan ] || [ "$1" = spu ] || labels=""
     echo -DCGT_WERROR=ON -DCGT_BUILD_TESTS=ON -DCGT_BUILD_ORACLE=$oracle -DCGT_BUILD_MESHES=$meshes \
         -DCGT_BUILD_RENDER=$render -DCGT_TEST_LABELS=$labels
     [ -z "$labels" ] || echo -DCGT_BUILD_BENCH=OFF
@@ -84,6 +97,7 @@ build_suite() {
     case $1 in aarch64|ppc64) scripts/cross_cmocka.sh "$1" ;; esac
     local settings
     read -ra settings <<<"$(settings_of "$1" | paste -sd' ')"
+    [ "$1" != spu ] || settings+=("-DCGT_SPU_TOOLCHAIN=$(scripts/spu_toolchain.sh --find)")
     cmake --preset "$1" "${settings[@]}"
     cmake --build --preset "$1" -j "$jobs"
 }

@@ -76,7 +76,27 @@ CGT_SPU_INLINE vfloat spux_float_of(vdouble low, vdouble high)
 {
     return (vfloat){(float)low[0], (float)low[1], (float)high[0], (float)high[1]};
 }
+#if defined(__SPU__) && !defined(CGT_SPU_HOST)
+/* The root of newlib is a unit off now and then. In units of the last place let s be the computed root, m as an integer.
+ * The exact root rounds to m + 1 where a is above (m + 1/2)^2, and since a is an integer of those units squared that is
+ * where r = a - m^2 is above m; likewise it rounds to m - 1 where r is at most -m. Below a power of two the unit is
+ * half, and the same holds in it. r is exact, since it is rounded once; so are the products, by powers of two, as long
+ * as nothing underflows: for a of at least 2^-900. */
+CGT_SPU_INLINE double cgt_spux_round_root(double a, double s)
+{
+    const vec_double2 root = spu_promote(s, 0);
+    const double r = spu_extract(spu_nmsub(root, root, spu_promote(a, 0)), 0);
+    const vec_ullong2 bits = (vec_ullong2)root;
+    const double above = spu_extract((vec_double2)(bits + 1), 0), below = spu_extract((vec_double2)(bits - 1), 0);
+    return !(s > 0) ? s : r > s * (above - s) ? above : r <= s * (below - s) ? below : s;
+}
+CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a)
+{
+    return (vdouble){cgt_spux_round_root(a[0], __builtin_sqrt(a[0])), cgt_spux_round_root(a[1], __builtin_sqrt(a[1]))};
+}
+#else
 CGT_SPU_INLINE vdouble spux_double_sqrt(vdouble a) { return (vdouble){__builtin_sqrt(a[0]), __builtin_sqrt(a[1])}; }
+#endif
 #endif
 
 #if CGT_LANES != 16

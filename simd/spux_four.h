@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The words of vector.h that the SPU lacks, on four lanes: from the SPU's own words, or in plain C where those are no
- * better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1 and NEON replace single words
- * for which they have an instruction. Words that move data are written for vuint; vector.h wraps them for the other
+ * better, so that they run on an SPU, on the portable mapping and on any other. SSE4.1, NEON and the SPU itself replace
+ * single words for which they have better. Words that move data are written for vuint; vector.h wraps them for the other
  * types. */
 #ifndef CGT_SPUX_FOUR_H
 #define CGT_SPUX_FOUR_H
@@ -15,7 +15,9 @@ typedef vec_int4 vint;
 typedef vec_uint4 vuint;
 typedef vec_uint4 vmask;
 
-#if defined(__SPU__) || defined(CGT_SPU_PORTABLE) || defined(CGT_SPU_EXACT)
+#if (defined(__SPU__) && !defined(CGT_SPU_HOST)) || defined(CGT_SPUX_SPU)
+#include "spux_spu.h"
+#elif defined(__SPU__) || defined(CGT_SPU_PORTABLE) || defined(CGT_SPU_EXACT)
 #elif defined(__SSE4_1__)
 #include "spux_sse.h"
 #elif defined(__aarch64__) && !defined(__AARCH64EB__)
@@ -32,18 +34,22 @@ CGT_SPU_INLINE vuint spux_lane_index(void) { return (vuint){0, 1, 2, 3}; }
 #ifndef CGT_SPUX_OWN_MASK_BITS
 CGT_SPU_INLINE unsigned spux_mask_bits(vmask m) { return (m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8); }
 #endif
+#ifndef CGT_SPUX_OWN_MASK_FROM_BITS
 CGT_SPU_INLINE vmask spux_mask_from_bits(unsigned bits)
 {
     return (vmask){0 - (bits & 1), 0 - (bits >> 1 & 1), 0 - (bits >> 2 & 1), 0 - (bits >> 3 & 1)};
 }
+#endif
 CGT_SPU_INLINE vmask spux_mask_first(unsigned n) { return (vmask)spu_cmpgt(spux_vuint(n), spux_lane_index()); }
 CGT_SPU_INLINE vmask spux_mask_none(void) { return spux_vuint(0); }
 CGT_SPU_INLINE vmask spux_mask_all(void) { return spux_vuint(UINT32_MAX); }
 CGT_SPU_INLINE vmask spux_not(vmask m) { return ~m; }
+#ifndef CGT_SPUX_OWN_COUNT_BITS
 CGT_SPU_INLINE uint32_t spux_count_bits(unsigned bits)
 {
     return (uint32_t)(UINT64_C(0x4332322132212110) >> (4 * bits) & 7);
 }
+#endif
 #ifndef CGT_SPUX_OWN_ANY_ALL
 CGT_SPU_INLINE bool spux_any(vmask m) { return spux_mask_bits(m) != 0; }
 CGT_SPU_INLINE bool spux_all(vmask m) { return spux_mask_bits(m) == 15; }
@@ -59,6 +65,9 @@ CGT_SPU_INLINE vuint cgt_spux_min_u32w(vuint a, vuint b) { return spu_sel(b, a, 
 CGT_SPU_INLINE vuint cgt_spux_max_u32w(vuint a, vuint b) { return spu_sel(b, a, spu_cmpgt(a, b)); }
 #endif
 #if defined(__SPU__) || defined(CGT_SPU_EXACT)
+/* An SPU truncates: of a result from 2^e up to 2^(e + 1) it loses less than a unit in the last place, 2^(e - 23), which
+ * is at most 2^-23 of the exact result and of what is left of it. Rounding to nearest loses half a unit. */
+#define SPUX_ROUNDOFF 0x1p-23f
 /* on an SPU, and in its arithmetic elsewhere: one Newton step after the estimates, which are good to 12 bits; the root
  * of 0 is 0 */
 CGT_SPU_INLINE vfloat spux_div(vfloat a, vfloat b)
@@ -104,6 +113,7 @@ CGT_SPU_INLINE vuint cgt_spux_load_w(const void *p)
 }
 CGT_SPU_INLINE void cgt_spux_store_w(void *p, vuint v) { memcpy(__builtin_assume_aligned(p, 16), &v, sizeof v); }
 CGT_SPU_INLINE void cgt_spux_stream_w(void *p, vuint v) { cgt_spux_store_w(p, v); }
+#ifndef CGT_SPUX_OWN_UNALIGNED
 CGT_SPU_INLINE vuint cgt_spux_load_unaligned_w(const void *p)
 {
     vuint v;
@@ -111,6 +121,8 @@ CGT_SPU_INLINE vuint cgt_spux_load_unaligned_w(const void *p)
     return v;
 }
 CGT_SPU_INLINE void cgt_spux_store_unaligned_w(void *p, vuint v) { memcpy(p, &v, sizeof v); }
+#endif
+#ifndef CGT_SPUX_OWN_LOAD_STORE_MASK
 CGT_SPU_INLINE vuint cgt_spux_load_mask_w(const void *p, vmask m)
 {
     uint32_t lane[4] = {0, 0, 0, 0};
@@ -128,6 +140,8 @@ CGT_SPU_INLINE void cgt_spux_store_mask_w(void *p, vuint v, vmask m)
         memcpy((char *)p + i * sizeof lane[i], &lane[i], sizeof lane[i]);
     }
 }
+#endif
+#ifndef CGT_SPUX_OWN_GATHER
 CGT_SPU_INLINE vuint cgt_spux_gather_w(const void *base, vint index)
 {
     uint32_t lane[4];
@@ -135,6 +149,7 @@ CGT_SPU_INLINE vuint cgt_spux_gather_w(const void *base, vint index)
         memcpy(&lane[i], (const char *)base + (ptrdiff_t)index[i] * 4, sizeof lane[i]);
     return (vuint){lane[0], lane[1], lane[2], lane[3]};
 }
+#endif
 
 /* ---- between lanes ---- */
 #ifndef CGT_SPUX_OWN_PERMUTE
@@ -167,6 +182,19 @@ CGT_SPU_INLINE uint32_t spux_find16(const uint16_t *p, uint16_t x)
 #endif
 
 #ifndef CGT_SPUX_OWN_HORIZONTAL
+#if defined(CGT_SPU_EXACT)
+/* by a word: C's comparison is not the SPU's */
+CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)
+{
+    const vfloat b = {a[2], a[3], a[0], a[1]}, two = spu_sel(a, b, spu_cmpgt(a, b)), c = {two[1], two[0]};
+    return spu_sel(two, c, spu_cmpgt(two, c))[0];
+}
+CGT_SPU_INLINE float cgt_spux_hmax_f32w(vfloat a)
+{
+    const vfloat b = {a[2], a[3], a[0], a[1]}, two = spu_sel(a, b, spu_cmpgt(b, a)), c = {two[1], two[0]};
+    return spu_sel(two, c, spu_cmpgt(c, two))[0];
+}
+#else
 CGT_SPU_INLINE float cgt_spux_hmin_f32w(vfloat a)
 {
     const float x = a[1] < a[0] ? a[1] : a[0], y = a[3] < a[2] ? a[3] : a[2];
@@ -177,6 +205,7 @@ CGT_SPU_INLINE float cgt_spux_hmax_f32w(vfloat a)
     const float x = a[1] > a[0] ? a[1] : a[0], y = a[3] > a[2] ? a[3] : a[2];
     return y > x ? y : x;
 }
+#endif
 CGT_SPU_INLINE uint32_t cgt_spux_hmin_u32w(vuint a)
 {
     const uint32_t x = a[1] < a[0] ? a[1] : a[0], y = a[3] < a[2] ? a[3] : a[2];
@@ -198,12 +227,14 @@ CGT_SPU_INLINE void cgt_spux_transpose4_w(const vfloat r[4], vfloat d[4])
 }
 #endif
 CGT_SPU_INLINE void spux_transpose_fours(vuint v[1]) { (void)v; }
+#ifndef CGT_SPUX_OWN_UNZIP
 CGT_SPU_INLINE void spux_unzip(vuint v[2])
 {
     const vuint even = {v[0][0], v[0][2], v[1][0], v[1][2]}, odd = {v[0][1], v[0][3], v[1][1], v[1][3]};
     v[0] = even;
     v[1] = odd;
 }
+#endif
 CGT_SPU_INLINE void spux_transpose(vfloat row[4])
 {
     vfloat t[4];
@@ -212,6 +243,7 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[4])
         row[j] = t[j];
 }
 /* Lane k's record at AT(k). */
+#ifndef CGT_SPUX_OWN_LOAD_RECORDS4
 #define CGT_SPUX_LOAD_RECORDS4(AT, d)                                                                                  \
     do {                                                                                                               \
         vfloat r_[4];                                                                                                  \
@@ -219,5 +251,6 @@ CGT_SPU_INLINE void spux_transpose(vfloat row[4])
             memcpy(&r_[k_], AT(k_), sizeof r_[k_]);                                                                    \
         cgt_spux_transpose4_w(r_, d);                                                                                  \
     } while (0)
+#endif
 
 #endif

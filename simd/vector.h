@@ -36,6 +36,7 @@
  *   spux_min, max(a, b)           T; b where a and b are unordered; which of two zeros is undefined
  *   spux_abs(a)                   float, sign bit cleared
  *   spux_div(a, b), sqrt(a)       float, relative error at most 2^-21
+ *   SPUX_ROUNDOFF                 the relative error of a float sum, difference, product or conversion is at most this
  *   spux_cmpge(a, b)              float, a >= b, false for NaN
  *   spux_rsqrte(a)                float; as spu_rsqrte where a > 0, NaN where a < 0 (undefined on an SPU), undefined
  *                                 for 0 and denormals
@@ -87,6 +88,9 @@
 #error "CGT_LANES: no mapping has this width"
 #endif
 
+#ifndef SPUX_ROUNDOFF
+#define SPUX_ROUNDOFF 0x1p-24f
+#endif
 #define CGT_VECTOR_BYTES (4 * CGT_LANES)
 #define CGT_ALL_LANES ((1u << CGT_LANES) - 1)
 
@@ -195,6 +199,7 @@ CGT_SPU_INLINE void spux_store_records4(float *base, size_t stride, const vfloat
         for (size_t k = 0; k < 4; k++)
             memcpy(base + (four + k) * stride, (const char *)&row[k] + four * sizeof(float), 4 * sizeof(float));
 }
+#ifndef CGT_SPUX_OWN_LOAD_BYTES
 CGT_SPU_INLINE vuint spux_load_bytes(const uint8_t *p)
 {
     typedef uint8_t bytes __attribute__((vector_size(CGT_LANES)));
@@ -202,6 +207,7 @@ CGT_SPU_INLINE vuint spux_load_bytes(const uint8_t *p)
     memcpy(&b, p, sizeof b);
     return __builtin_convertvector(b, vuint);
 }
+#endif
 
 /* A larger matrix by squares of CGT_LANES. */
 CGT_SPU_INLINE void cgt_spux_transpose_blocks(const float *from, size_t from_stride, float *to, size_t to_stride,

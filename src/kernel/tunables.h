@@ -10,9 +10,10 @@
 
 /* ---- bounds ---- */
 
-/* The unit roundoff u of single precision, in every bound of a filter. */
+/* The unit roundoff u of single precision, in every bound of a filter. The bounds are derived with 2^-24; they are of
+ * first order in u, hold for reciprocals and roots within 2^-21, which is 8 u or 4 u, and so hold for either value. */
 #ifndef FILTER_ROUNDOFF
-#define FILTER_ROUNDOFF 0x1p-24f
+#define FILTER_ROUNDOFF SPUX_ROUNDOFF
 #endif
 
 /* The relative error of spu_rsqrte. */

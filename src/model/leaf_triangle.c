@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "core/context.h"
+
 #define CHUNK 4096u /* primitives of one task */
 
 typedef struct triangles_job {

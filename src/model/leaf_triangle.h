@@ -6,7 +6,7 @@
 #ifndef CGT_LEAF_TRIANGLE_H
 #define CGT_LEAF_TRIANGLE_H
 
-#include "core/context.h"
+#include "core/memory.h"
 #include "model/committed_scene.h"
 
 /* All times the scene's scale. */

@@ -26,8 +26,12 @@
 
 #define CGT_QUEUE_LENGTH 16
 #define CGT_QUEUE_NONE 0xffffu
-#define CGT_QUEUE_MAX_REFS16 65535u   /* primitives for references of 16 bits: 0 to 65,534 */
-#define CGT_GRID_MAX_RESOLUTION 1024u /* per axis: a packet keeps the bounds of that many slices */
+#define CGT_QUEUE_MAX_REFS16 65535u /* primitives for references of 16 bits: 0 to 65,534 */
+/* Per axis: a packet keeps the bounds of that many slices on its stack, 24 KB. Programs for a small local store, whose
+ * grids are coarser, define less. */
+#ifndef CGT_GRID_MAX_RESOLUTION
+#define CGT_GRID_MAX_RESOLUTION 1024u
+#endif
 #define CGT_GRID_MAX_CELLS (1u << 24) /* 512 MB of voxels, or 1 GB of BVH nodes */
 
 typedef struct cgt_voxel {

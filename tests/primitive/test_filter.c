@@ -12,11 +12,19 @@
 
 #include "vector.h"
 
-static float filter_u = 0x1p-24f;
+static float filter_u = SPUX_ROUNDOFF;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/sphere_filter.h"
 
 #define LANES 16 /* rays per packet: whole vectors of any width */
+
+/* Powers of two of what has any size. An SPU's numbers end at 2^129 where those of IEEE become infinite, and its
+ * comparisons then decide: its programs keep to less. */
+#ifdef CGT_SPU_EXACT
+enum { SMALLEST_SIZE = -30, SIZES = 40, SMALLEST_LENGTH = -20, LENGTHS = 40 };
+#else
+enum { SMALLEST_SIZE = -80, SIZES = 100, SMALLEST_LENGTH = -50, LENGTHS = 100 };
+#endif
 
 typedef enum family {
     GRAZING,
@@ -78,8 +86,8 @@ static void make_packet(test_random *r, family f, packet *p, float sphere[4])
     memset(p, 0, sizeof *p);
     sphere[3] = random_log(r, 1e-3f, 1e3f);
     if (f == ANY_SIZE) { /* products leave float's range; coordinates stay below 2^55, directions above 2^-55 */
-        sphere[3] = ldexpf(sphere[3], (int)random_below(r, 100) - 80);
-        length = ldexpf(1, (int)random_below(r, 100) - 50);
+        sphere[3] = ldexpf(sphere[3], SMALLEST_SIZE + (int)random_below(r, SIZES));
+        length = ldexpf(1, SMALLEST_LENGTH + (int)random_below(r, LENGTHS));
         offset *= sphere[3];
     }
     for (int a = 0; a < 3; a++)
@@ -123,6 +131,10 @@ static void judge_lane(const packet *p, int i, const float sphere[4], bool certa
 {
     const float org[3] = {p->org[0][i], p->org[1][i], p->org[2][i]},
                 dir[3] = {p->dir[0][i], p->dir[1][i], p->dir[2][i]};
+#ifdef CGT_SPU_EXACT
+    if (isnan(dir[0])) /* aimed from the centre: an SPU takes it for a number */
+        return;
+#endif
     const truth_roots roots = truth_sphere(org, dir, sphere);
     const truth_real t = (float)roots.near >= p->t_min[i] ? roots.near : roots.far;
     const bool hit = roots.hit && (float)t >= p->t_min[i];
@@ -171,14 +183,14 @@ static tally judge_family(family f, uint32_t packets, bool again, float scale)
 {
     tally sum = {0};
     test_random r = random_make(f);
-    filter_u = 0x1p-24f * scale;
+    filter_u = SPUX_ROUNDOFF * scale;
     for (uint32_t k = 0; k < packets; k++) {
         packet p;
         float sphere[4];
         make_packet(&r, f, &p, sphere);
         judge_packet(&r, &p, sphere, again, &sum);
     }
-    filter_u = 0x1p-24f;
+    filter_u = SPUX_ROUNDOFF;
     return sum;
 }
 
@@ -198,7 +210,10 @@ static void bounds_hold(void **state)
         assert_int_equal(t.lost, 0);
         assert_int_equal(t.invented, 0);
         assert_int_equal(t.outside, 0);
-        assert_true(t.hits > t.lanes / 5 && t.undecided < t.lanes); /* the filter decided many of them */
+        assert_true(t.hits > t.lanes / 5);
+#ifndef CGT_SPU_EXACT                       /* there hardly any from inside */
+        assert_true(t.undecided < t.lanes); /* the filter decided many of them */
+#endif
         if (f == CROSSING)
             assert_true(t.undecided < t.lanes / 2);
         if (f == INSIDE && again) /* by the second root */

@@ -13,9 +13,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/context.h"
 #include "vector.h"
 
-static float filter_u = 0x1p-24f;
+static float filter_u = SPUX_ROUNDOFF;
 #define FILTER_ROUNDOFF filter_u
 #include "kernel/primitive/lane_tests.h"
 
@@ -128,13 +129,34 @@ static void print_lane(const subject *s, int form, int i, const char *what, cons
     print_message("\n");
 }
 
+/* An SPU's numbers end at 2^129 where those of IEEE become infinite, and its comparisons then decide. Its programs keep
+ * coordinates and directions within such limits that no number of a test comes there, or vanishes. */
+static bool is_in_range(const subject *s, const truth_ray *ray)
+{
+#ifdef CGT_SPU_EXACT
+    float org = 0, dir = 0;
+    for (int a = 0; a < 3; a++) {
+        org = fmaxf(org, fabsf((float)ray->org[a]));
+        dir = fmaxf(dir, fabsf((float)ray->dir[a]));
+    }
+    return s->of.magnitude >= 0x1p-40f && s->of.magnitude <= 0x1p40f && org <= 0x1p40f && dir >= 0x1p-20f &&
+           dir <= 0x1p20f;
+#else
+    (void)s;
+    (void)ray;
+    return true;
+#endif
+}
+
 /* Of an undecided lane's interval the traversal uses only the begin. */
 static void judge_lane(const subject *s, const case_truth *truth, int form, int i, bool certain_hit, bool undecided,
                        float low, float high, tally *sum)
 {
     const truth_real *t = &truth->t[form][i];
-    const bool hit = truth->hit[form][i], report = filter_u == 0x1p-24f;
+    const bool hit = truth->hit[form][i], report = filter_u == SPUX_ROUNDOFF;
     const char *wrong = NULL;
+    if (!is_in_range(s, &s->of.ray[form ? 0 : i]))
+        return;
     sum->lanes++;
     sum->hits += hit;
     sum->certain_hit += certain_hit;
@@ -194,9 +216,11 @@ static void print_and_check(case_family f, const char *form, const tally *t)
     assert_int_equal(t->lost, 0);
     assert_int_equal(t->invented, 0);
     assert_int_equal(t->outside, 0);
+#ifndef CGT_SPU_EXACT /* where few cases of some families are in range */
     /* each kind of result occurs; for rays in the plane nothing is certain, and inside almost no lane is undecided */
     assert_true(t->hits >= 3 && (f == CASE_INTERIOR || t->undecided >= 3));
     assert_true(f == CASE_FLAT || (t->certain_hit >= 3 && t->lanes - t->certain_hit - t->undecided >= 3));
+#endif
 }
 
 static void bounds_hold(void **state)
@@ -246,6 +270,9 @@ static const struct {
 static void known_cases(void **state)
 {
     (void)state;
+#ifdef CGT_SPU_EXACT
+    skip(); /* the last two are not in range */
+#endif
     static subject s;
     tally sum[2] = {{0}};
     for (size_t i = 0; i < TEST_COUNT(known); i++) {
@@ -277,7 +304,7 @@ static void bounds_break_where_they_are_tightened(void **state)
         for (uint32_t k = 100 + test_scaled(100); k; k--) {
             lane_case c;
             case_truth truth;
-            float scale = 0x1p-24f;
+            float scale = SPUX_ROUNDOFF;
             case_make(&r, kind, hard[f], &c);
             case_judge(&c, &truth);
             subject_make(&c, &s);
@@ -289,7 +316,7 @@ static void bounds_break_where_they_are_tightened(void **state)
                 sum[step].invented += both[0].invented + both[1].invented;
                 sum[step].outside += both[0].outside + both[1].outside;
             }
-            filter_u = 0x1p-24f;
+            filter_u = SPUX_ROUNDOFF;
         }
     }
     /* the bounds are worst cases: random rays come within a few orders of magnitude */

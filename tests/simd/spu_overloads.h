@@ -17,7 +17,7 @@
 #include "spu_intrinsics.h"
 #include "spu_words.h"
 
-#include "simd/spu_reference.h"
+#include "simd/spu_operands.h"
 
 #define SPU_OVERLOADS 455
 #define SPU_WORDS 72 /* 74 with the halting comparisons, which compute nothing */
@@ -101,6 +101,18 @@ static inline bool spu_is_word_of(const char *word, const char *list)
         if (at[-1] == ' ' && at[strlen(word)] == ' ')
             return true;
     return false;
+}
+
+/* The role of an operand: shifts and rotations have their count second, the words of one element their index last. */
+static inline spu_role spu_role_of(const spu_row *row, int operand)
+{
+    if (row->operand[operand] >= TOKEN_n_scale)
+        return SPU_0_TO_127;
+    const bool shifts = spu_is_word_of(row->word, " sl sr sra rl rlmask rlmaska slqw slqwbyte slqwbytebc srqw srqwbyte "
+                                                  "srqwbytebc rlqw rlqwbyte rlqwbytebc rlmaskqw rlmaskqwbyte "
+                                                  "rlmaskqwbytebc ");
+    const bool has_index = spu_is_word_of(row->word, " extract insert promote ");
+    return (shifts && operand == 1) || (has_index && operand == row->operands - 1) ? SPU_COUNT : SPU_DATA;
 }
 
 /* Whether the reference, whose floats are IEEE, does not speak of this overload: with CGT_SPU_EXACT single precision

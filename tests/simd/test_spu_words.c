@@ -68,23 +68,11 @@ typedef struct overload {
     bool has_failed;
 } overload;
 
-/* Shifts and rotations have their count second, the words of one element their index last. */
-static spu_role role_of(const spu_row *r, int operand)
-{
-    if (r->operand[operand] >= TOKEN_n_scale)
-        return SPU_0_TO_127;
-    const bool shifts = spu_is_word_of(r->word, " sl sr sra rl rlmask rlmaska slqw slqwbyte slqwbytebc srqw srqwbyte "
-                                                "srqwbytebc rlqw rlqwbyte rlqwbytebc rlmaskqw rlmaskqwbyte "
-                                                "rlmaskqwbytebc ");
-    const bool has_index = spu_is_word_of(r->word, " extract insert promote ");
-    return (shifts && operand == 1) || (has_index && operand == r->operands - 1) ? SPU_COUNT : SPU_DATA;
-}
-
 static overload overload_of(size_t i)
 {
     overload o = {.form = spu_form_of(&rows[i]), .call = calls[i], .random = random_make(i + 1)};
     for (int k = 0; k < o.form.operands; k++)
-        o.role[k] = role_of(&rows[i], k);
+        o.role[k] = spu_role_of(&rows[i], k);
     o.reference = spu_reference_find(o.form.word);
     return o;
 }

@@ -12,8 +12,9 @@
  * counts. With r = 1 / dir, within 2^-21, the t of a plane is
  *   one ray:   (split - org) * r, within 2^-20 of its size and 2^-126
  *   a vector:  split * r - org * r, within 2^-20 of (|split| + |org|) |r| and 2^-120, fused or not, since products and
- *              sums lose four times 2^-24 of that. Of the root's largest split this is one number for a ray and an
- *              axis, so that both ends of the interval cost one operation, and depend on the split alone
+ *              sums lose four times 2^-24 of that; on an SPU, which loses four times 2^-23, within 2^-19. Of the
+ *              root's largest split this is one number for a ray and an axis, so that both ends of the interval cost
+ *              one operation, and depend on the split alone
  * and intervals are widened by that on both sides. A component of the direction that is 0 leaves a ray on the side of
  * its origin, on both where the origin lies in the plane; below 2^-70, where reciprocals leave the range, a ray counts
  * as on both. */
@@ -22,7 +23,7 @@
 #include "kernel/kd/kd_rope_single.h"
 #include "kernel/packet/ray_box.h"
 
-#define PLANE_REL_ERROR 0x1p-20f
+#define PLANE_REL_ERROR (16 * SPUX_ROUNDOFF)
 #define PLANE_MIN_DIR 0x1p-70f
 
 /* ---- a vector of rays ---- */

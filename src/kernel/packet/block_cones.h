@@ -19,7 +19,8 @@
 #include "kernel/packet/packet.h"
 
 #define BLOCK_RAYS 16u
-#define PACKET_MAX_BLOCKS (PACKET_MAX_RAYS / BLOCK_RAYS)
+#define PACKET_MAX_BLOCKS ((PACKET_MAX_RAYS / BLOCK_RAYS + CGT_LANES - 1) / CGT_LANES * CGT_LANES) /* whole vectors */
+_Static_assert(PACKET_MAX_RAYS % BLOCK_RAYS == 0 && PACKET_MAX_RAYS <= 256, "a packet has whole blocks, at most 16");
 
 typedef struct block_cones {
     _Alignas(64) float axis[3][PACKET_MAX_BLOCKS];

@@ -7,7 +7,7 @@
 
 #include "kernel/packet/packet.h"
 
-#define PACKET_MAX_EDGE 16
+#define PACKET_MAX_EDGE (PACKET_MAX_RAYS >= 256 ? 16 : PACKET_MAX_RAYS >= 64 ? 8 : 4)
 
 /* Where lane i of a packet lies: blocks of 4x4 pixels in row order, and row by row in each (block_cones.h). */
 CGT_SPU_INLINE uint32_t lane_column(uint32_t i, uint32_t edge) { return (i / 16 * 4 & (edge - 1)) + (i & 3); }

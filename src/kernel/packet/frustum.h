@@ -237,8 +237,8 @@ CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w,
     }
     const frustum_span u = span[0], v = span[1];
     /* 9 roundings to a line's value at a plane, 4 more on the way to a slice */
-    const float error_u = u.magnitude * 0x1p-20f + g->cell_error[f->u],
-                error_v = v.magnitude * 0x1p-20f + g->cell_error[f->v];
+    const float error_u = u.magnitude * (16 * SPUX_ROUNDOFF) + g->cell_error[f->u],
+                error_v = v.magnitude * (16 * SPUX_ROUNDOFF) + g->cell_error[f->v];
     f->bound = (vec_float4){u.low[0] - error_u, -u.high[0] - error_u, v.low[0] - error_v, -v.high[0] - error_v};
     const vec_float4 at_end = {u.low[1] - error_u, -u.high[1] - error_u, v.low[1] - error_v, -v.high[1] - error_v};
     f->step = spu_mul(spu_sub(at_end, f->bound), spu_splats(rlength));
@@ -248,7 +248,7 @@ CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w,
         f->radius_scale[k] = frustum_radius_scale(g, f, k < 2 ? f->u : f->v, step);
         steepest = step > steepest ? step : -step > steepest ? -step : steepest;
     }
-    f->plane_error = (u.magnitude + v.magnitude + (steepest + 1) * (w1 + 1)) * 0x1p-19f;
+    f->plane_error = (u.magnitude + v.magnitude + (steepest + 1) * (w1 + 1)) * (32 * SPUX_ROUNDOFF);
     frustum_clip(f);
     return f->first < f->end;
 }

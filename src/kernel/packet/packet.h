@@ -21,7 +21,10 @@
 #include "dispatch/kernel.h"
 #include "vector.h"
 
+/* A packet of 256 rays takes 24 KB: programs for a small local store define less, in multiples of 16, a block of rays. */
+#ifndef PACKET_MAX_RAYS
 #define PACKET_MAX_RAYS 256
+#endif
 
 typedef struct packet {
     _Alignas(64) float org[3][PACKET_MAX_RAYS];
