@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The commit: from the caller's arrays to a structure, from scratch.
- *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure
+ *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure, or
+ *   bands of magnitudes with a structure each (bands/bands_commit.c) where the bounds reach far out or far in
  *
  * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times
  * as fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell.
@@ -11,6 +12,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "builders/bands/bands_commit.h"
+#include "builders/bands/bands_plan.h"
 #include "builders/commit.h"
 #include "core/float_environment.h"
 
@@ -110,7 +113,7 @@ static void log_commit(const cgt_scene *scene)
     const uint32_t *resolution = scene->research_statistics.resolution;
     const cgt_log_hook *log = &scene->context->log;
     char text[CGT_MESSAGE_BYTES];
-    if (!log->write)
+    if (!log->write || scene->band_of)
         return;
     if (st->skipped_not_finite || st->skipped_radius || st->skipped_degenerate) {
         snprintf(text, sizeof text,
@@ -177,7 +180,11 @@ static cgt_result build_scene(cgt_scene *scene)
         return result;
     const double bounded = cgt_now_ms();
     set_scene_bounds(&scene->committed_scene, &bounds);
-    result = build_structure(scene, &bounds, reason);
+    if (bounds.valid && !scene->is_band && cgt_bands_needed(bounds.magnitude)) {
+        scene->committed_scene.brute_force = true; /* for what is asked past the bands */
+        result = cgt_bands_commit(scene);
+    } else
+        result = build_structure(scene, &bounds, reason);
     if (result != CGT_OK)
         return result;
     store_statistics(scene, &bounds);
@@ -193,7 +200,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     cgt_float_environment callers;
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
-    scene->is_committed = false;
+    scene->is_committed = scene->in_bands = false;
     scene->statistics = (cgt_scene_statistics){0};
     scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};

@@ -8,6 +8,7 @@
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
+#include "trace/bands/band_trace.h"
 
 /* How tiles or a tree are chosen: the chunks of a call that are sampled, and the primitives that a tile may test for each
  * point; with more of them a tree is faster. Measured. */
@@ -32,6 +33,7 @@ typedef struct light_job {
     uint8_t *occluded;
     cgt_trace_settings settings;
     cgt_trace_counter *counter;
+    const cgt_band_call *bands; /* NULL: the scene has none */
     _Atomic uint64_t given_up; /* points of chunks that tiles gave up */
 } light_job;
 
@@ -84,6 +86,30 @@ static cgt_result trace_chunks(light_job *job)
     return CGT_OK;
 }
 
+static void trace_chunk_in_bands(void *argument, uint32_t index)
+{
+    const light_job *job = argument;
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK;
+    cgt_counts counts = {0};
+    cgt_bands_trace(job->bands, index % job->bands->slots, &job->points, job->light, first, chunk_end(job, first), NULL,
+                    job->occluded, &counts);
+    cgt_trace_counter_add(job->counter, &counts);
+}
+
+static cgt_result trace_bands(light_job *job)
+{
+    cgt_band_call call;
+    const cgt_result result =
+        cgt_bands_begin(job->scene, &job->settings, job->points.count, CGT_RAYS_CHUNK, true, &call);
+    if (result != CGT_OK)
+        return result;
+    job->bands = &call;
+    cgt_bands_run(&call, trace_chunk_in_bands, job,
+                  (uint32_t)((job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    cgt_bands_end(&call);
+    return CGT_OK;
+}
+
 /* Whether, in most chunks, neighbouring points are near enough to each other for tiles, as the light sees them. */
 static bool choose_tiles(const light_job *job)
 {
@@ -104,6 +130,17 @@ static bool choose_tiles(const light_job *job)
     }
     cgt_float_environment_leave(&callers);
     return 2 * coherent > sampled;
+}
+
+static cgt_result trace_structure(light_job *job)
+{
+    const bool tiles = choose_tiles(job);
+    const cgt_result result =
+        cgt_bvh_build_on_demand(job->scene, tiles ? 0 : job->points.count, &job->settings.use_bvh);
+    if (result != CGT_OK)
+        return result;
+    job->settings.light_tiles = tiles && !(job->settings.use_bvh && job->points.count < FEW_POINTS);
+    return trace_chunks(job);
 }
 
 static cgt_result check_light(cgt_context *c, const cgt_light *light)
@@ -152,12 +189,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
                             .mask = points->mask,
                             .skip_primitive = points->skip_primitive,
                             .skip_geometry = points->skip_geometry};
-    const bool tiles = choose_tiles(&job);
-    result = cgt_bvh_build_on_demand(scene, tiles ? 0 : points->count, &job.settings.use_bvh);
-    if (result != CGT_OK)
-        return result;
-    job.settings.light_tiles = tiles && !(job.settings.use_bvh && points->count < FEW_POINTS);
-    result = trace_chunks(&job);
+    result = scene->in_bands ? trace_bands(&job) : trace_structure(&job);
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);

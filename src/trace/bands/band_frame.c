@@ -1,0 +1,255 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Cameras in a band's units, regions of frames, and how the bands' hits become one picture. */
+#include "trace/bands/band_frame.h"
+
+#include <math.h>
+
+#include "core/float_environment.h"
+#include "exact/triangle_double.h"
+#include "query/tile_limits.h"
+
+/* ---- cameras ---- */
+
+/* Whether the products and sums that make an orthographic camera's origins round alike in both units: no product of a
+ * component and a pixel's coordinate, which is 0 or at least 2^-24 and at most 1, leaves the normal floats. Sums of floats
+ * are exact where they are small. */
+static bool component_commutes(float v) { return v == 0 || (fabsf(v) >= 0x1p-100f && fabsf(v) <= 0x1p100f); }
+
+static bool scale_axis(const float v[3], int exponent, float scaled[3])
+{
+    bool fits = cgt_band_scale(v, exponent, scaled);
+    for (int a = 0; a < 3; a++)
+        fits &= component_commutes(v[a]) && component_commutes(scaled[a]);
+    return fits;
+}
+
+/* Whether no surface of the band is so near to the eye that a t below 0, which the band would not report, might still
+ * round to 0 in the caller's units: -2^-150 and more, times 2^k. zone: that distance. Surfaces are bounded in double, by
+ * far less than the 2^-40 of lengths that are left for it here. */
+static bool eye_is_clear(const cgt_band *band, const float eye[3], double zone)
+{
+    static const float axes[3] = {1, 1, 1};
+    const cgt_committed_scene *c = &band->scene->committed_scene;
+    bool outside = false;
+    for (int a = 0; a < 3; a++)
+        outside |= (double)eye[a] + zone < (double)c->low[a] || (double)eye[a] - zone > (double)c->high[a];
+    for (uint32_t i = 0; !outside && i < c->prims.arrays; i++) {
+        const cgt_primitive_array *array = &c->prims.array[i];
+        for (uint32_t k = 0; k < array->count; k++) {
+            const cgt_primitive q = cgt_array_primitive(array, k);
+            if (q.kind == CGT_KIND_SPHERES) {
+                const double x = (double)q.sphere.x - (double)eye[0], y = (double)q.sphere.y - (double)eye[1],
+                             z = (double)q.sphere.z - (double)eye[2], r = (double)q.sphere.r;
+                const double distance = sqrt(x * x + y * y + z * z);
+                if (!(fabs(distance - r) > zone + (distance + r) * 0x1p-40))
+                    return false;
+            } else {
+                const cgt_triangle_plane p = cgt_triangle_double_plane(eye, axes, &q.triangle);
+                const double normal = fabs(p.n[0]) + fabs(p.n[1]) + fabs(p.n[2]) + p.den_error;
+                if (!(fabs(p.num) - p.num_error > zone * normal))
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* The same for the origins of an orthographic camera: whether all lie outside the band's bounds. */
+static bool origins_are_clear(const cgt_band *band, const cgt_camera_rays *c, double zone)
+{
+    const cgt_committed_scene *scene = &band->scene->committed_scene;
+    for (int a = 0; a < 3; a++) {
+        const double reach = (fabs((double)c->right[a]) + fabs((double)c->up[a])) * (1 + 0x1p-20) + zone +
+                             fabs((double)c->eye[a]) * 0x1p-20;
+        if ((double)c->eye[a] + reach < (double)scene->low[a] || (double)c->eye[a] - reach > (double)scene->high[a])
+            return true;
+    }
+    return false;
+}
+
+static bool range_is_clear(const cgt_band *band, const cgt_camera_rays *c)
+{
+    double length = 0;
+    if (c->t_min != 0 || band->exponent <= 0)
+        return true;
+    for (int a = 0; a < 3; a++)
+        length += fabs((double)c->fwd[a]) + (c->orthographic ? 0 : fabs((double)c->right[a]) + fabs((double)c->up[a]));
+    const double zone = cgt_power_of_two(band->exponent - 149) * length;
+    return c->orthographic ? origins_are_clear(band, c, zone) : eye_is_clear(band, c->eye, zone);
+}
+
+/* Scales a camera; returns whether its rays are exactly the scaled ones. */
+static bool scale_camera(const cgt_band *band, const cgt_camera_rays *from, cgt_camera_rays *c)
+{
+    *c = *from;
+    bool fits = cgt_band_scale(from->eye, band->exponent, c->eye);
+    if (from->orthographic)
+        fits = fits && scale_axis(from->right, band->exponent, c->right) &&
+               scale_axis(from->up, band->exponent, c->up);
+    for (int a = 0; a < 3; a++)
+        fits = fits && fabsf(c->eye[a]) <= CGT_BAND_MAX_ORG;
+    cgt_band_scale_range(from->t_min, from->t_max, band->exponent, &c->t_min, &c->t_max);
+    if (from->t_min == 0)
+        c->t_min = 0;
+    return fits && range_is_clear(band, c);
+}
+
+static void scale_cameras(cgt_band_frame *f, bool packets)
+{
+    const struct cgt_bands *bands = f->call.scene->bands;
+    for (uint32_t b = 0; b < bands->count; b++) {
+        const cgt_committed_scene *scene = &bands->band[b].scene->committed_scene;
+        cgt_band_camera *c = &f->band[b];
+        c->is_scaled = scene->valid && scale_camera(&bands->band[b], f->camera, &c->camera);
+        c->by_tiles = c->is_scaled && !packets && cgt_tile_supports(scene, &c->camera);
+    }
+}
+
+cgt_result cgt_band_frame_begin(const cgt_scene *scene, const cgt_camera_rays *camera,
+                                const cgt_trace_settings *settings, bool packets, uint32_t regions,
+                                uint32_t max_pixels, cgt_band_frame *frame)
+{
+    cgt_float_environment callers;
+    const cgt_result result =
+        cgt_bands_begin(scene, settings, (uint64_t)regions * max_pixels, max_pixels, false, &frame->call);
+    if (result != CGT_OK)
+        return result;
+    frame->camera = camera;
+    cgt_float_environment_enter(&callers);
+    scale_cameras(frame, packets);
+    cgt_float_environment_leave(&callers);
+    return CGT_OK;
+}
+
+/* ---- regions ---- */
+
+static cgt_band_ray pixel_ray(const cgt_camera_rays *c, uint32_t x, uint32_t y)
+{
+    cgt_band_ray ray = {.ray = {.t_min = c->t_min, .t_max = c->t_max}, .mask = c->mask, .skip = CGT_INVALID_ID};
+    cgt_camera_pixel(c, x, y, ray.ray.line.org, ray.ray.line.dir);
+    return ray;
+}
+
+/* A band's hits against the best ones, pixel by pixel. */
+static void take_hits(const cgt_band_frame *f, uint32_t b, const cgt_region *region, const cgt_band_scratch *s,
+                      cgt_counts *counts)
+{
+    const cgt_scene *scene = f->call.scene;
+    const cgt_band *band = &scene->bands->band[b];
+    const cgt_camera_rays *c = f->camera;
+    const double factor = cgt_power_of_two(-band->exponent);
+    for (uint32_t i = 0; i < region->width * region->height; i++) {
+        if (s->primitive[i] == CGT_INVALID_ID)
+            continue;
+        const uint32_t prim = cgt_band_primitive(band, s->geometry[i], s->primitive[i]);
+        const double t = (double)s->t[i] * factor;
+        if (s->best[i].prim == CGT_INVALID_ID && cgt_band_t_is_plain((double)s->t[i], t, c->t_min, c->t_max)) {
+            s->best[i] = (cgt_band_best){prim, t};
+            continue;
+        }
+        const cgt_band_ray ray = pixel_ray(c, region->x + i % region->width, region->y + i / region->width);
+        cgt_band_accept(&scene->committed_scene.prims, band, &ray, prim, s->t[i], band->exponent, &s->best[i], counts);
+    }
+}
+
+static void trace_scaled(const cgt_band_frame *f, uint32_t b, const cgt_region *region, const cgt_band_scratch *s,
+                         cgt_counts *counts)
+{
+    const cgt_committed_scene *scene = &f->call.scene->bands->band[b].scene->committed_scene;
+    const cgt_kernel *kernel = f->call.scene->context->kernel;
+    const cgt_trace_settings settings = cgt_band_settings(f->call.settings);
+    cgt_counts own = {0};
+    const cgt_region to = {.x = region->x,
+                           .y = region->y,
+                           .width = region->width,
+                           .height = region->height,
+                           .row_stride = region->width,
+                           .t = s->t,
+                           .primitive = s->primitive,
+                           .geometry = s->geometry};
+    (f->band[b].by_tiles ? kernel->trace_tile : kernel->trace_region)(scene, &f->band[b].camera, &settings, &to, &own);
+    cgt_band_add_counts(counts, &own);
+    take_hits(f, b, region, s, counts);
+}
+
+/* Rays of pixels as arrays of the caller's would hold them. */
+#define BLOCK_EDGE 8u
+#define BLOCK (BLOCK_EDGE * BLOCK_EDGE)
+
+typedef struct pixel_block {
+    float org[3][BLOCK], dir[3][BLOCK], t_min[BLOCK], t_max[BLOCK];
+    uint32_t mask[BLOCK], pixel[BLOCK];
+    cgt_band_best best[BLOCK];
+} pixel_block;
+
+static uint32_t read_block(const cgt_camera_rays *c, const cgt_region *region, uint32_t x0, uint32_t y0, pixel_block *p)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < BLOCK; i++) {
+        const uint32_t x = x0 + i % BLOCK_EDGE, y = y0 + i / BLOCK_EDGE;
+        if (x >= region->width || y >= region->height)
+            continue;
+        const cgt_band_ray ray = pixel_ray(c, region->x + x, region->y + y);
+        for (int a = 0; a < 3; a++) {
+            p->org[a][count] = ray.ray.line.org[a];
+            p->dir[a][count] = ray.ray.line.dir[a];
+        }
+        p->t_min[count] = c->t_min;
+        p->t_max[count] = c->t_max;
+        p->mask[count] = c->mask;
+        p->pixel[count++] = y * region->width + x;
+    }
+    return count;
+}
+
+/* The pixels' rays through band b, one by one; past all bands: through the rest. */
+static void trace_rays(const cgt_band_frame *f, uint32_t b, const cgt_region *region, const cgt_band_scratch *s,
+                       cgt_counts *counts)
+{
+    pixel_block p;
+    cgt_band_scratch block = *s;
+    block.best = p.best;
+    for (uint32_t y = 0; y < region->height; y += BLOCK_EDGE)
+        for (uint32_t x = 0; x < region->width; x += BLOCK_EDGE) {
+            const uint32_t count = read_block(f->camera, region, x, y, &p);
+            const cgt_rays rays = {.count = count,
+                                   .org = {p.org[0], p.org[1], p.org[2]},
+                                   .dir = {p.dir[0], p.dir[1], p.dir[2]},
+                                   .t_min = p.t_min,
+                                   .t_max = p.t_max,
+                                   .mask = p.mask};
+            const cgt_band_chunk chunk = {
+                .call = &f->call, .scratch = &block, .rays = &rays, .count = count, .counts = counts};
+            for (uint32_t i = 0; i < count; i++)
+                p.best[i] = s->best[p.pixel[i]];
+            if (b < f->call.scene->bands->count)
+                cgt_band_trace_chunk(&chunk, b);
+            else
+                cgt_band_trace_rest(&chunk);
+            for (uint32_t i = 0; i < count; i++)
+                s->best[p.pixel[i]] = p.best[i];
+        }
+}
+
+void cgt_band_trace_region(const cgt_band_frame *f, uint32_t slot, const cgt_region *region, cgt_counts *counts)
+{
+    const cgt_scene *scene = f->call.scene;
+    const struct cgt_bands *bands = scene->bands;
+    const cgt_band_scratch s = cgt_band_slot(&f->call, slot);
+    const uint32_t pixels = region->width * region->height;
+    for (uint32_t i = 0; i < pixels; i++)
+        s.best[i] = (cgt_band_best){CGT_INVALID_ID, INFINITY};
+    for (uint32_t b = 0; b < bands->count; b++)
+        if (f->band[b].is_scaled)
+            trace_scaled(f, b, region, &s, counts);
+        else
+            trace_rays(f, b, region, &s, counts);
+    if (bands->rest)
+        trace_rays(f, bands->count, region, &s, counts);
+    for (uint32_t i = 0; i < pixels; i++)
+        s.ray[i] = s.best[i].prim;
+    counts->rays += pixels;
+    scene->context->kernel->resolve_region(&scene->committed_scene, f->camera, s.ray, f->call.settings, region, counts);
+}
