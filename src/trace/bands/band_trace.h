@@ -21,8 +21,8 @@ typedef struct cgt_band_scratch {
     cgt_band_best *best; /* of each ray of the chunk */
 } cgt_band_scratch;
 
-/* 15 planes of four bytes, one of one byte and one of best hits, for each ray. */
-#define CGT_BAND_SCRATCH_BYTES(rays) ((rays) * (15 * sizeof(uint32_t) + sizeof(cgt_band_best) + 1))
+/* 16 planes of four bytes, one of one byte and one of best hits, for each ray. */
+#define CGT_BAND_SCRATCH_BYTES(rays) ((rays) * (16 * sizeof(uint32_t) + sizeof(cgt_band_best) + 1))
 
 /* The state of a call, common to its tasks. */
 typedef struct cgt_band_call {
