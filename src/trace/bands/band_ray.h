@@ -40,7 +40,7 @@ typedef struct cgt_band_ray {
     uint32_t skip; /* a primitive of the scene that it does not find; CGT_INVALID_ID: none */
 } cgt_band_ray;
 
-/* The best hit so far. t: canonical, or within 2^-20 of itself and a normal float. */
+/* The best hit so far. t: canonical, or within 2^-20 of itself. */
 typedef struct cgt_band_best {
     uint32_t prim; /* CGT_INVALID_ID: none */
     double t;
@@ -78,11 +78,12 @@ void cgt_band_decide(const cgt_primitives *prims, const uint32_t *number, uint32
 void cgt_band_accept(const cgt_primitives *prims, const cgt_band *band, const cgt_band_ray *ray, uint32_t prim,
                      float scaled_t, int exponent, cgt_band_best *best, cgt_counts *counts);
 
-/* Whether t', a float, tells t within 2^-20, and that it lies in the range. */
+/* Whether t', a float, tells t within 2^-20, and that t, rounded to float, lies in the range. */
 static inline bool cgt_band_t_is_plain(double scaled_t, double t, float t_min, float t_max)
 {
-    const double a = scaled_t < 0 ? -scaled_t : scaled_t, b = t < 0 ? -t : t, margin = b * 0x1p-20;
-    return a >= 0x1p-120 && b >= 0x1p-120 && b <= 0x1p120 && t - margin > (double)t_min && t + margin < (double)t_max;
+    const double margin = (t < 0 ? -t : t) * 0x1p-20 + 0x1p-148;
+    return (scaled_t >= 0x1p-120 || scaled_t <= -0x1p-120) && t - margin > (double)t_min &&
+           t + margin < (double)t_max && t + margin < 0x1p127 && t - margin > -0x1p127;
 }
 
 /* 2^exponent, of which no result leaves the range of normal doubles here. */
