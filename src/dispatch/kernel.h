@@ -99,11 +99,6 @@ typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, con
                                  uint64_t end, const uint32_t *prim, const cgt_trace_settings *settings,
                                  const cgt_hits *hits, cgt_counts *counts);
 
-/* The same for the pixels of a region, row after row of region->width. */
-typedef void cgt_resolve_region_fn(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                                   const uint32_t *prim, const cgt_trace_settings *settings, const cgt_region *region,
-                                   cgt_counts *counts);
-
 /* ---- the table ---- */
 
 typedef struct cgt_kernel {
@@ -123,7 +118,6 @@ typedef struct cgt_kernel {
     cgt_trace_light_fn *trace_light;
     cgt_light_prims_fn *light_prims;
     cgt_resolve_rays_fn *resolve_rays;
-    cgt_resolve_region_fn *resolve_region;
 } cgt_kernel;
 
 #define CGT_KERNEL_JOIN_(name, variant) name##_##variant

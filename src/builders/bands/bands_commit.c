@@ -55,6 +55,8 @@ static void plan_bands(cgt_scene *scene, cgt_bands_job *job)
         count[job->class_of[i]]++;
     cgt_plan_bands(count, &job->plan);
     job->bands->count = job->plan.bands;
+    for (uint32_t b = 0; b < job->plan.bands; b++)
+        job->factor[b] = ldexp(1, job->plan.exponent[b]);
 }
 
 /* Counts to offsets; reserves memory for the copies. */

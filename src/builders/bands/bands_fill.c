@@ -32,14 +32,14 @@ static uint16_t magnitude_class(const cgt_primitive *q)
     const float *v = numbers_of(q);
     const uint32_t count = q->kind == CGT_KIND_SPHERES ? 3 : TRIANGLE_FLOATS;
     double most = 0;
-    int exponent;
+    uint64_t bits;
     for (uint32_t k = 0; k < count; k++)
         most = fabs((double)v[k]) > most ? fabs((double)v[k]) : most;
     most += q->kind == CGT_KIND_SPHERES ? (double)q->sphere.r : 0;
     if (most == 0)
         return 0;
-    frexp(most, &exponent);
-    return (uint16_t)(exponent + CGT_MAGNITUDE_ZERO);
+    memcpy(&bits, &most, sizeof bits); /* a normal double: frexp's exponent is its own less 1022 */
+    return (uint16_t)((int)(bits >> 52) - 1022 + CGT_MAGNITUDE_ZERO);
 }
 
 void cgt_bands_classify(void *argument, uint32_t index)
@@ -69,11 +69,12 @@ static bool scale_numbers(const cgt_primitive *q, double factor, float *to)
     return exact;
 }
 
-/* The band of a valid primitive, and its numbers there. */
-static uint32_t choose_band(const cgt_bands_job *job, const cgt_primitive *q, uint32_t class, float *scaled)
+/* The band of a valid primitive. Powers of at least 1 lose nothing: a band's coordinates stay below 2^47. */
+static uint32_t choose_band(const cgt_bands_job *job, const cgt_primitive *q, uint32_t class)
 {
+    float scaled[TRIANGLE_FLOATS];
     const uint32_t band = job->plan.band_of[class];
-    return scale_numbers(q, ldexp(1, job->plan.exponent[band]), scaled) ? band : CGT_BAND_OF_REST;
+    return job->factor[band] >= 1 || scale_numbers(q, job->factor[band], scaled) ? band : CGT_BAND_OF_REST;
 }
 
 void cgt_bands_count(void *argument, uint32_t index)
@@ -82,16 +83,16 @@ void cgt_bands_count(void *argument, uint32_t index)
     const uint32_t first = index * CGT_BANDS_CHUNK, end = chunk_end(job, first);
     const cgt_primitive_array *a = cgt_primitives_array(job->prims, first);
     cgt_band_offset count[CGT_MAX_BANDS + 1] = {0};
-    float scaled[TRIANGLE_FLOATS];
     for (uint32_t prim = first; prim < end; prim++) {
         while (prim - a->first >= a->count)
             a++;
         if (job->class_of[prim] == CGT_MAGNITUDES)
             continue;
         const cgt_primitive q = cgt_array_primitive(a, prim - a->first);
-        cgt_band_offset *to = &count[choose_band(job, &q, job->class_of[prim], scaled)];
-        to->prims++;
-        to->floats += floats_of(a->kind);
+        const uint32_t b = choose_band(job, &q, job->class_of[prim]);
+        job->class_of[prim] = (uint16_t)b;
+        count[b].prims++;
+        count[b].floats += floats_of(a->kind);
     }
     for (uint32_t b = 0; b <= CGT_MAX_BANDS; b++)
         job->offset[index][b] = count[b];
@@ -102,20 +103,19 @@ void cgt_bands_copy(void *argument, uint32_t index)
     const cgt_bands_job *job = argument;
     const uint32_t first = index * CGT_BANDS_CHUNK, end = chunk_end(job, first);
     const cgt_primitive_array *a = cgt_primitives_array(job->prims, first);
-    float scaled[TRIANGLE_FLOATS];
     for (uint32_t prim = first; prim < end; prim++) {
+        const uint32_t b = job->class_of[prim];
         while (prim - a->first >= a->count)
             a++;
-        if (job->class_of[prim] == CGT_MAGNITUDES)
+        if (b == CGT_MAGNITUDES)
             continue;
-        const cgt_primitive q = cgt_array_primitive(a, prim - a->first);
-        const uint32_t b = choose_band(job, &q, job->class_of[prim], scaled);
         cgt_band_offset *to = &job->offset[index][b];
         if (b == CGT_BAND_OF_REST) {
             ((uint32_t *)job->bands->rest_number.data)[to->prims++] = prim;
             continue;
         }
-        memcpy((float *)job->bands->band[b].points.data + to->floats, scaled, floats_of(a->kind) * sizeof(float));
+        const cgt_primitive q = cgt_array_primitive(a, prim - a->first);
+        scale_numbers(&q, job->factor[b], (float *)job->bands->band[b].points.data + to->floats);
         ((uint32_t *)job->bands->band[b].number.data)[to->prims++] = prim;
         to->floats += floats_of(a->kind);
     }

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: MIT
  *
  * The values of hits that are known by their primitives: those that the bands of a scene have found (scene/bands.h). */
-#include "kernel/packet/camera_packet.h"
 #include "kernel/packet/ray_packet.h"
 
 /* A ray with its hit. Without one it may hold anything: a harmless ray replaces it. */
@@ -45,28 +44,4 @@ void CGT_KERNEL(cgt_resolve_rays)(const cgt_committed_scene *committed_scene, co
         CGT_KERNEL(cgt_packet_resolve)(committed_scene, &p, settings, &h, counts);
         ray_store_hits(&h, &order, i, lanes, hits);
     }
-}
-
-void CGT_KERNEL(cgt_resolve_region)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                                    const uint32_t *prim, const cgt_trace_settings *settings, const cgt_region *region,
-                                    cgt_counts *counts)
-{
-    packet p;
-    packet_hits hits;
-    const uint32_t edge = PACKET_MAX_EDGE;
-    camera_packet_init(camera, settings, edge, false, &p);
-    packet_of_hits(&p);
-    for (uint32_t y = 0; y < region->height; y += edge)
-        for (uint32_t x = 0; x < region->width; x += edge) {
-            const uint32_t columns = region->width - x < edge ? region->width - x : edge;
-            const uint32_t rows = region->height - y < edge ? region->height - y : edge;
-            camera_packet_rays(camera, region->x + x, region->y + y, edge, columns, rows, &p);
-            for (uint32_t i = 0; i < p.lanes; i++) {
-                const uint32_t column = lane_column(i, edge), row = lane_row(i, edge);
-                if (column < columns && row < rows)
-                    p.prim[i] = prim[(size_t)(y + row) * region->width + x + column];
-            }
-            CGT_KERNEL(cgt_packet_resolve)(committed_scene, &p, settings, &hits, counts);
-            camera_packet_store(&hits, edge, columns, rows, region, y * region->row_stride + x);
-        }
 }

@@ -16,7 +16,6 @@ cgt_trace_rays_fn CGT_KERNEL(cgt_trace_rays);
 cgt_trace_light_fn CGT_KERNEL(cgt_trace_light);
 cgt_light_prims_fn CGT_KERNEL(cgt_tile_light_prims);
 cgt_resolve_rays_fn CGT_KERNEL(cgt_resolve_rays);
-cgt_resolve_region_fn CGT_KERNEL(cgt_resolve_region);
 
 extern const struct cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder);
 
@@ -40,5 +39,4 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .trace_light = CGT_KERNEL(cgt_trace_light),
     .light_prims = CGT_KERNEL(cgt_tile_light_prims),
     .resolve_rays = CGT_KERNEL(cgt_resolve_rays),
-    .resolve_region = CGT_KERNEL(cgt_resolve_region),
 };

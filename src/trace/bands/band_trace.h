@@ -17,7 +17,7 @@ typedef struct cgt_band_scratch {
     int32_t *exponent;
     float *t; /* of hits */
     uint32_t *primitive, *geometry;
-    uint8_t *occluded;
+    uint8_t *occluded;   /* of frames: pixels that are marked (band_frame.c) */
     cgt_band_best *best; /* of each ray of the chunk */
 } cgt_band_scratch;
 
