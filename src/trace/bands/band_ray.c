@@ -93,10 +93,15 @@ cgt_band_state cgt_band_scale_ray(const cgt_band *band, const cgt_ray *ray, doub
                                   cgt_scaled_ray *s)
 {
     int q;
-    bool fits = cgt_band_scale(ray->line.org, band->exponent, s->org);
+    bool near = true;
+    const bool fits = cgt_band_scale(ray->line.org, band->exponent, s->org) &&
+                      scale_direction(ray->line.dir, band->exponent, dir_exponent, s->dir, &q);
     for (int a = 0; a < 3; a++)
-        fits &= fabsf(s->org[a]) <= CGT_BAND_MAX_ORG;
-    if (!fits || !scale_direction(ray->line.dir, band->exponent, dir_exponent, s->dir, &q))
+        near &= fabsf(s->org[a]) <= CGT_BAND_MAX_ORG;
+    /* what is slow is worth a test in double before */
+    if (!(fits && near) && cgt_band_misses_box(band, ray, t_end))
+        return CGT_BAND_MISSED;
+    if (!fits)
         return CGT_BAND_AS_GIVEN;
     s->exponent = band->exponent - q;
     cgt_band_scale_range(ray->t_min, ray->t_max, s->exponent, &s->t_min, &s->t_max);

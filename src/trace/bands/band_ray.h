@@ -16,8 +16,9 @@
  * nearest there, too. If not, which takes a t within an ulp of an end, the band's primitives are decided one by one.
  * Any hit would not tell its t, and is asked for only where x is 0.
  *
- * Rays as given. Where a product is not exact, or the origin is too far from the band for its structure, the ray is
- * tested against the band's box in double, and where it may meet that, decided against each of its primitives. */
+ * Rays as given. Where a product is not exact, the ray is tested against the band's box in double, and where it may meet
+ * that, decided against each of its primitives. So are rays whose origins lie so far from the band that its structure
+ * would do no better, before they go there. */
 #ifndef CGT_BAND_RAY_H
 #define CGT_BAND_RAY_H
 
@@ -25,7 +26,7 @@
 #include "query/trace_settings.h"
 #include "scene/bands.h"
 
-/* Origins in a band's units are at most this; farther ones are beyond what a structure serves. */
+/* Origins in a band's units up to this are within what all kernels take for ordinary. */
 #define CGT_BAND_MAX_ORG 0x1p54f
 
 /* The largest exponent of a scaled direction, and the smallest one's negative. Any hit through a BVH takes more: the

@@ -347,12 +347,12 @@ void cgt_band_trace_chunk(const cgt_band_chunk *c, uint32_t b)
         const double t_end = cgt_band_end(&ray.ray, best);
         if (bands->count + bands->rest > 1 && cgt_band_misses_box(band, &ray.ray, t_end))
             continue;
-        cgt_band_state state = CGT_BAND_SCALED;
-        if (!points || !scale_point(band, &ray.ray, &r))
-            state = points ? CGT_BAND_AS_GIVEN : cgt_band_scale_ray(band, &ray.ray, t_end, dir_exponent, &r);
-        if (state == CGT_BAND_SCALED) {
+        const cgt_band_state state = points && scale_point(band, &ray.ray, &r)
+                                         ? CGT_BAND_SCALED
+                                         : cgt_band_scale_ray(band, &ray.ray, t_end, dir_exponent, &r);
+        if (state == CGT_BAND_SCALED)
             store_ray(c, band, &ray, &r, i, c->any_hit && !r.exponent ? any.end++ : --closest.first);
-        } else if (state == CGT_BAND_AS_GIVEN && !cgt_band_misses_box(band, &ray.ray, t_end))
+        else if (state == CGT_BAND_AS_GIVEN)
             cgt_band_decide(&c->call->scene->committed_scene.prims, band->number.data, band->count, &ray, c->any_hit,
                             best, c->counts);
     }
