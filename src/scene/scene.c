@@ -340,8 +340,7 @@ cgt_result cgt_research_get_scene_statistics(const cgt_scene *scene, cgt_researc
 
 static size_t bands_bytes(const struct cgt_bands *bands)
 {
-    size_t bytes =
-        sizeof *bands + bands->rest_number.bytes + bands->work_exponents.bytes + bands->work_offsets.bytes;
+    size_t bytes = sizeof *bands + bands->rest_number.bytes + bands->work_exponents.bytes + bands->work_offsets.bytes;
     for (uint32_t i = 0; i < CGT_MAX_BANDS; i++) {
         const cgt_band *band = &bands->band[i];
         bytes += (band->scene ? cgt_scene_bytes(band->scene) : 0) + band->points.bytes + band->number.bytes;

@@ -22,8 +22,8 @@ typedef struct frame_job {
     const cgt_frame *frame;
     cgt_camera_rays camera;
     cgt_trace_settings settings;
-    bool by_tiles;     /* whole tiles go through a loose grid, no packets */
-    cgt_region planes; /* the whole frame */
+    bool by_tiles;               /* whole tiles go through a loose grid, no packets */
+    cgt_region planes;           /* the whole frame */
     const cgt_band_frame *bands; /* NULL: the scene has none */
     uint32_t tile_width, tile_height, tiles_across;
     bool buffered; /* tiles go through a buffer */
@@ -90,7 +90,7 @@ static void trace_region(const frame_job *job, uint32_t index, const cgt_region 
 
 /* A function of its own: its stack is taken only where it is needed. */
 __attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, uint32_t index,
-                                                           const cgt_region *planes)
+                                                          const cgt_region *planes)
 {
     uint32_t buffer[CGT_PLANES][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);

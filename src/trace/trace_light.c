@@ -34,7 +34,7 @@ typedef struct light_job {
     cgt_trace_settings settings;
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
-    _Atomic uint64_t given_up; /* points of chunks that tiles gave up */
+    _Atomic uint64_t given_up;  /* points of chunks that tiles gave up */
 } light_job;
 
 static uint64_t chunk_end(const light_job *job, uint64_t first)

@@ -57,8 +57,8 @@ band_scene band_scene_make(test_random *r, band_kind kind, uint32_t spheres, uin
         make_point(r, kind, size, s.vertex[3 * i]);
         for (int k = 1; k < 3; k++)
             for (int a = 0; a < 3; a++)
-                s.vertex[3 * i + k][a] = clamp((double)s.vertex[3 * i][a] +
-                                               (double)size * radius * (double)random_float(r, -2, 2));
+                s.vertex[3 * i + k][a] =
+                    clamp((double)s.vertex[3 * i][a] + (double)size * radius * (double)random_float(r, -2, 2));
     }
     return s;
 }

@@ -22,10 +22,10 @@ typedef struct cgt_bands_job {
     const cgt_primitives *prims;
     struct cgt_bands *bands;
     cgt_bands_plan plan;
-    double factor[CGT_MAX_BANDS];                   /* of each band */
+    double factor[CGT_MAX_BANDS]; /* of each band */
     uint16_t *class_of; /* of each primitive: its magnitude, or CGT_MAGNITUDES: skipped. Counting makes that its band,
                            CGT_BAND_OF_REST, or CGT_MAGNITUDES */
-    cgt_band_offset (*offset)[CGT_MAX_BANDS + 1];   /* of each chunk; the last one is that of the rest */
+    cgt_band_offset (*offset)[CGT_MAX_BANDS + 1]; /* of each chunk; the last one is that of the rest */
 } cgt_bands_job;
 
 /* Tasks for each chunk. */

@@ -31,8 +31,8 @@
 
 typedef struct cgt_bands_plan {
     uint32_t bands;
-    int exponent[CGT_MAGNITUDES];      /* of each band: what its coordinates are multiplied by, as a power of two */
-    uint8_t band_of[CGT_MAGNITUDES];   /* the band of each class, CGT_NO_BAND where there are no primitives */
+    int exponent[CGT_MAGNITUDES];    /* of each band: what its coordinates are multiplied by, as a power of two */
+    uint8_t band_of[CGT_MAGNITUDES]; /* the band of each class, CGT_NO_BAND where there are no primitives */
 } cgt_bands_plan;
 
 /* Whether a scene with this largest coordinate, maybe infinite, is cut into bands. */

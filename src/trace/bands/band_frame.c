@@ -88,8 +88,7 @@ static bool scale_camera(const cgt_band *band, const cgt_camera_rays *from, cgt_
     *c = *from;
     bool fits = cgt_band_scale(from->eye, band->exponent, c->eye);
     if (from->orthographic)
-        fits = fits && scale_axis(from->right, band->exponent, c->right) &&
-               scale_axis(from->up, band->exponent, c->up);
+        fits = fits && scale_axis(from->right, band->exponent, c->right) && scale_axis(from->up, band->exponent, c->up);
     for (int a = 0; a < 3; a++)
         fits = fits && fabsf(c->eye[a]) <= CGT_BAND_MAX_ORG;
     cgt_band_scale_range(from->t_min, from->t_max, band->exponent, &c->t_min, &c->t_max);
@@ -110,8 +109,8 @@ static void scale_cameras(cgt_band_frame *f, bool packets)
 }
 
 cgt_result cgt_band_frame_begin(const cgt_scene *scene, const cgt_camera_rays *camera,
-                                const cgt_trace_settings *settings, bool packets, uint32_t regions,
-                                uint32_t max_pixels, cgt_band_frame *frame)
+                                const cgt_trace_settings *settings, bool packets, uint32_t regions, uint32_t max_pixels,
+                                cgt_band_frame *frame)
 {
     cgt_float_environment callers;
     const cgt_result result =
@@ -160,7 +159,8 @@ static void rename_hits(const cgt_band_frame *f, const cgt_region *r, const cgt_
         if (r->primitive[at] == CGT_INVALID_ID)
             continue;
         const uint32_t j = r->geometry[at];
-        const uint32_t prim = own->arrays == 1 ? number[r->primitive[at]] : cgt_band_primitive(band, j, r->primitive[at]);
+        const uint32_t prim =
+            own->arrays == 1 ? number[r->primitive[at]] : cgt_band_primitive(band, j, r->primitive[at]);
         if (t_scales(scaled_t, t, f->camera)) {
             s->best[i] = (cgt_band_best){prim, t};
             r->t[at] = (float)t;

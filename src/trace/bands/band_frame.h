@@ -27,8 +27,8 @@ typedef struct cgt_band_frame {
  * has asked for packets. Settings, camera and scene stay in use. Fails with a message; else release with
  * cgt_bands_end. */
 cgt_result cgt_band_frame_begin(const cgt_scene *scene, const cgt_camera_rays *camera,
-                                const cgt_trace_settings *settings, bool packets, uint32_t regions,
-                                uint32_t max_pixels, cgt_band_frame *frame);
+                                const cgt_trace_settings *settings, bool packets, uint32_t regions, uint32_t max_pixels,
+                                cgt_band_frame *frame);
 
 /* Traces a region of the frame as cgt_trace_region_fn does. */
 void cgt_band_trace_region(const cgt_band_frame *frame, uint32_t slot, const cgt_region *region, cgt_counts *counts);

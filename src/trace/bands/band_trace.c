@@ -27,7 +27,8 @@ cgt_band_scratch cgt_band_slot(const cgt_band_call *call, uint32_t slot)
     void *memory = (char *)call->memory + slot * CGT_BAND_SCRATCH_BYTES((size_t)rays);
     cgt_band_scratch s = {.capacity = rays, .best = memory};
     uint32_t *plane = (uint32_t *)(void *)(s.best + rays);
-    float **const floats[] = {&s.org[0], &s.org[1], &s.org[2], &s.dir[0], &s.dir[1], &s.dir[2], &s.t_min, &s.t_max, &s.t};
+    float **const floats[] = {&s.org[0], &s.org[1], &s.org[2], &s.dir[0], &s.dir[1],
+                              &s.dir[2], &s.t_min,  &s.t_max,  &s.t};
     uint32_t **const integers[] = {&s.mask, &s.skip_primitive, &s.skip_geometry, &s.ray, &s.primitive, &s.geometry};
     for (size_t i = 0; i < sizeof floats / sizeof floats[0]; i++, plane += rays)
         *floats[i] = (float *)(void *)plane;
@@ -49,7 +50,8 @@ cgt_result cgt_bands_begin(const cgt_scene *scene, const cgt_trace_settings *set
         if (result != CGT_OK)
             return result;
     }
-    const uint64_t chunks = (rays + max_chunk - 1) / max_chunk, slots = c->threads ? 2 * (uint64_t)c->threads : RUNNER_SLOTS;
+    const uint64_t chunks = (rays + max_chunk - 1) / max_chunk,
+                   slots = c->threads ? 2 * (uint64_t)c->threads : RUNNER_SLOTS;
     const uint64_t chunk = rays < max_chunk ? rays : max_chunk;
     call->slots = (uint32_t)(chunks < 1 ? 1 : chunks < slots ? chunks : slots);
     call->slot_rays = (uint32_t)(chunk + 15) / 16 * 16 + 16;
@@ -287,8 +289,9 @@ static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, con
     if (!points.count)
         return;
     settings.use_bvh = c->call->use_bvh[b];
-    settings.light_tiles = scene->valid && scene->loose.levels &&
-                           kernel->light_prims(scene, &points, light, 0, points.count) <= PRIMS_PER_POINT * points.count;
+    settings.light_tiles =
+        scene->valid && scene->loose.levels &&
+        kernel->light_prims(scene, &points, light, 0, points.count) <= PRIMS_PER_POINT * points.count;
     settings.max_light_work = settings.light_tiles ? MAX_LIGHT_WORK : 0;
     if (!kernel->trace_light(scene, &points, light, 0, points.count, &settings, c->scratch->occluded, &counts)) {
         settings.light_tiles = false;
