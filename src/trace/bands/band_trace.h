@@ -5,45 +5,7 @@
 #ifndef CGT_BAND_TRACE_H
 #define CGT_BAND_TRACE_H
 
-#include "dispatch/kernel.h"
-#include "trace/bands/band_ray.h"
-
-/* What one task needs for its rays: planes of `capacity` elements. */
-typedef struct cgt_band_scratch {
-    uint32_t capacity;
-    float *org[3], *dir[3], *t_min, *t_max; /* of scaled rays */
-    uint32_t *mask, *skip_primitive, *skip_geometry;
-    uint32_t *ray; /* of the chunk, for each scaled ray */
-    int32_t *exponent;
-    float *t; /* of hits */
-    uint32_t *primitive, *geometry;
-    uint8_t *occluded;   /* of frames: pixels that are marked (band_frame.c) */
-    cgt_band_best *best; /* of each ray of the chunk */
-} cgt_band_scratch;
-
-/* 16 planes of four bytes, one of one byte and one of best hits, for each ray. */
-#define CGT_BAND_SCRATCH_BYTES(rays) ((rays) * (16 * sizeof(uint32_t) + sizeof(cgt_band_best) + 1))
-
-/* The state of a call, common to its tasks. */
-typedef struct cgt_band_call {
-    const cgt_scene *scene;
-    const cgt_trace_settings *settings;
-    bool use_bvh[CGT_MAX_BANDS]; /* rays go through the band's bvh, and it may be read */
-    uint32_t slots;              /* tasks that may run at once */
-    uint32_t slot_rays;
-    void *memory; /* scratch of each slot */
-    size_t bytes;
-} cgt_band_call;
-
-/* Builds the BVHs that so many rays pay for, where build_bvh is set, and allocates scratch for chunks of at most
- * max_chunk rays. Fails with a message. */
-cgt_result cgt_bands_begin(const cgt_scene *scene, const cgt_trace_settings *settings, uint64_t rays,
-                           uint32_t max_chunk, bool build_bvh, cgt_band_call *call);
-void cgt_bands_end(cgt_band_call *call);
-cgt_band_scratch cgt_band_slot(const cgt_band_call *call, uint32_t slot);
-
-/* Runs tasks as cgt_run_tasks does, at most call->slots at once: task i may use slot i % call->slots. */
-void cgt_bands_run(const cgt_band_call *call, cgt_task *task, void *argument, uint32_t count);
+#include "trace/bands/band_call.h"
 
 /* Traces rays first to end - 1 as cgt_trace_rays_fn does, or, with a light, points against it as cgt_trace_light_fn
  * does, whatever the work. */
@@ -67,11 +29,5 @@ void cgt_band_trace_chunk(const cgt_band_chunk *chunk, uint32_t b);
 
 /* Tests the primitives of no band. */
 void cgt_band_trace_rest(const cgt_band_chunk *chunk);
-
-/* Adds what a band's kernel has counted, without rays and hits: these are the call's. */
-void cgt_band_add_counts(cgt_counts *to, const cgt_counts *counts);
-
-/* What the call asks of a band's kernel: exact hits, by number and t. */
-cgt_trace_settings cgt_band_settings(const cgt_trace_settings *settings);
 
 #endif
