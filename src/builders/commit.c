@@ -17,6 +17,9 @@
 #include "builders/commit.h"
 #include "core/float_environment.h"
 
+/* Sizes below 2^-50, by the bits of a float's exponent. */
+#define TINY_SIZE_CLASS 77u
+
 /* Chooses the structure, for all scenes alike, since the pass over the primitives depends on it. reason: gets AUTO's
  * reason, except for grids, whose plan has one of its own. */
 static cgt_structure choose_structure(const cgt_scene_options *options, const char **reason)
@@ -167,6 +170,24 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *
     return cgt_kd_commit(scene, committed_scene->structure == CGT_STRUCTURE_KD_ROPES);
 }
 
+/* Whether some primitives are so much smaller than the scene, and so near to the origin, that single precision has no
+ * bounds for them at the scene's scale. Told by classes of sizes, which loose grids and BVHs have. */
+static bool has_tiny_parts(const cgt_scene *scene)
+{
+    const cgt_size_classes *classes = scene->buffer[CGT_BUFFER_SIZE_CLASSES].data;
+    const cgt_structure structure = scene->committed_scene.structure;
+    if (structure != CGT_STRUCTURE_LOOSE_GRID && structure != CGT_STRUCTURE_BVH)
+        return false;
+    for (uint32_t k = 1; k < TINY_SIZE_CLASS; k++) {
+        float most = 0;
+        for (int a = 0; a < 3 && cgt_size_class_is_used(classes, k); a++)
+            most = fmaxf(most, fmaxf(-classes->of[k].low[a], classes->of[k].high[a]));
+        if (cgt_size_class_is_used(classes, k) && most < CGT_COMFORTABLE_MIN)
+            return true;
+    }
+    return false;
+}
+
 static cgt_result build_scene(cgt_scene *scene)
 {
     cgt_primitive_bounds bounds = {0};
@@ -180,7 +201,7 @@ static cgt_result build_scene(cgt_scene *scene)
         return result;
     const double bounded = cgt_now_ms();
     set_scene_bounds(&scene->committed_scene, &bounds);
-    if (bounds.valid && !scene->is_band && cgt_bands_needed(bounds.magnitude)) {
+    if (bounds.valid && !scene->is_band && (cgt_bands_needed(bounds.magnitude) || has_tiny_parts(scene))) {
         scene->committed_scene.brute_force = true; /* for what is asked past the bands */
         result = cgt_bands_commit(scene);
     } else

@@ -197,9 +197,11 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
         return result;
     const uint64_t rays = (uint64_t)frame->width * frame->height * job.ambient.samples;
     cgt_band_call bands;
-    if (scene->in_bands)
-        result = cgt_bands_begin(scene, &job.settings, rays, CGT_RAYS_CHUNK, true, &bands);
-    else
+    if (scene->in_bands) {
+        result = cgt_bands_begin(scene, &job.settings, rays, CGT_RAYS_CHUNK, &bands);
+        if (result == CGT_OK && (result = cgt_bands_build_bvh(&bands, rays)) != CGT_OK)
+            cgt_bands_end(&bands);
+    } else
         result = cgt_bvh_build_on_demand(scene, rays, &job.settings.use_bvh);
     if (result != CGT_OK)
         return result;

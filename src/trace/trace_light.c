@@ -88,26 +88,48 @@ static cgt_result trace_chunks(light_job *job)
 
 static void trace_chunk_in_bands(void *argument, uint32_t index)
 {
-    const light_job *job = argument;
-    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK;
+    light_job *job = argument;
+    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
     cgt_counts counts = {0};
-    cgt_bands_trace(job->bands, index % job->bands->slots, &job->points, job->light, first, chunk_end(job, first), NULL,
-                    job->occluded, &counts);
+    if (!cgt_bands_trace(job->bands, index % job->bands->slots, &job->points, job->light, first, end, NULL,
+                         job->occluded, &counts)) {
+        job->occluded[first] = CHUNK_GIVEN_UP;
+        atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
+    }
     cgt_trace_counter_add(job->counter, &counts);
 }
 
+static void trace_given_up_chunk_in_bands(void *argument, uint32_t index)
+{
+    const light_job *job = argument;
+    if (job->occluded[(uint64_t)index * CGT_RAYS_CHUNK] == CHUNK_GIVEN_UP)
+        trace_chunk_in_bands(argument, index);
+}
+
+/* As trace_chunks: by tiles, then what they gave up through BVHs, which are built for that. Rays of one direction go
+ * through BVHs at once. */
 static cgt_result trace_bands(light_job *job)
 {
     cgt_band_call call;
-    const cgt_result result =
-        cgt_bands_begin(job->scene, &job->settings, job->points.count, CGT_RAYS_CHUNK, true, &call);
-    if (result != CGT_OK)
-        return result;
+    const uint64_t count = job->points.count;
+    const uint32_t chunks = (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK);
+    const bool by_tiles = job->light->kind == CGT_LIGHT_POINT && job->scene->options.structure == CGT_STRUCTURE_AUTO;
+    cgt_result result = cgt_bands_begin(job->scene, &job->settings, count, CGT_RAYS_CHUNK, &call);
+    if (result == CGT_OK)
+        result = cgt_bands_build_bvh(&call, by_tiles ? 0 : count);
+    call.by_tiles = by_tiles;
     job->bands = &call;
-    cgt_bands_run(&call, trace_chunk_in_bands, job,
-                  (uint32_t)((job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    if (result == CGT_OK)
+        cgt_bands_run(&call, trace_chunk_in_bands, job, chunks);
+    const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
+    if (result == CGT_OK && given_up) {
+        call.by_tiles = false;
+        result = cgt_bands_build_bvh(&call, given_up * SCATTERED_POINTS);
+        if (result == CGT_OK)
+            cgt_bands_run(&call, trace_given_up_chunk_in_bands, job, chunks);
+    }
     cgt_bands_end(&call);
-    return CGT_OK;
+    return result;
 }
 
 /* Whether, in most chunks, neighbouring points are near enough to each other for tiles, as the light sees them. */

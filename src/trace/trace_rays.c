@@ -68,15 +68,16 @@ static cgt_result prepare_hits(rays_job *job)
 static cgt_result trace_bands(rays_job *job)
 {
     cgt_band_call call;
-    const cgt_result result =
-        cgt_bands_begin(job->scene, &job->settings, job->rays->count, CGT_RAYS_CHUNK, true, &call);
-    if (result != CGT_OK)
-        return result;
+    const uint64_t count = job->rays->count;
+    cgt_result result = cgt_bands_begin(job->scene, &job->settings, count, CGT_RAYS_CHUNK, &call);
+    if (result == CGT_OK)
+        result = cgt_bands_build_bvh(&call, count);
     job->bands = &call;
     job->chunk = CGT_RAYS_CHUNK;
-    cgt_bands_run(&call, trace_chunk, job, (uint32_t)((job->rays->count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    if (result == CGT_OK)
+        cgt_bands_run(&call, trace_chunk, job, (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
     cgt_bands_end(&call);
-    return CGT_OK;
+    return result;
 }
 
 static cgt_result trace_structure(rays_job *job)

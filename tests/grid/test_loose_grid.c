@@ -475,6 +475,8 @@ static void crowded_regions_get_levels(void **state)
     }
     memset(sphere, 0, sizeof sphere); /* cells cannot tell these apart */
     cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
+    scene->is_band = true; /* as small as it is */
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(scene->committed_scene.loose.levels, 1);
     check_grid(scene);
     cgt_scene_release(scene);

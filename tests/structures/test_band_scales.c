@@ -65,7 +65,7 @@ static void scaled_make(cgt_context *context, bool triangles, float unit, float 
         for (int a = 0; a < 3; a++) {
             s->sphere[i][a] = size * random_float(&r, -1, 1);
             for (int k = 0; k < 3; k++)
-                s->vertex[3 * i + k][a] = s->sphere[i][a] + unit * random_float(&r, -0.05f, 0.05f);
+                s->vertex[3 * i + k][a] = s->sphere[i][a] + 0.05f * size * random_float(&r, -1, 1);
         }
         s->sphere[i][3] = 0.04f * unit;
     }

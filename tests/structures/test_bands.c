@@ -56,6 +56,22 @@ static uint32_t compare_rays(const cgt_scene *want_of, const cgt_scene *got_of, 
                          (double)want[i].t);
         }
     }
+    /* ranges that end at the hits, and beside them */
+    band_rays ends = *q;
+    for (uint32_t i = 0; i < BAND_RAYS; i++) {
+        const float t = want[i].t;
+        float *end = i & 1 ? &ends.t_min[i] : &ends.t_max[i];
+        if (fabsf(t) < INFINITY)
+            *end = i & 4 ? t : nextafterf(t, i & 2 ? INFINITY : -INFINITY);
+    }
+    const cgt_rays at_ends = band_rays_all(&ends);
+    const cgt_hits to_want = hit_array(want), to_got = hit_array(got);
+    assert_int_equal(cgt_trace_rays(want_of, &at_ends, &to_want, &options), CGT_OK);
+    assert_int_equal(cgt_trace_rays(got_of, &at_ends, &to_got, &options), CGT_OK);
+    same_hits(want, got, &ends, "ends");
+    assert_int_equal(cgt_occluded_rays(got_of, &at_ends, occluded, &options), CGT_OK);
+    for (uint32_t i = 0; i < BAND_RAYS; i++)
+        assert_int_equal(occluded[i], want[i].primitive != CGT_INVALID_ID);
     return hits;
 }
 
@@ -102,6 +118,17 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
                      (double)camera->eye[0], (double)camera->eye[1], (double)camera->eye[2]);
     }
     assert_true(planes_equal(&want, &got));
+    /* ranges that end at hits, and beside them */
+    cgt_camera ends = *camera;
+    for (size_t i = 0; i < want.elements; i++)
+        if (want.primitive[i] != CGT_INVALID_ID && want.t[i] > 0) {
+            ends.t_min = i & 1 ? want.t[i] : nextafterf(want.t[i], INFINITY);
+            break;
+        }
+    frame_trace(want_of, &ends, &want, NULL);
+    frame_trace(got_of, &ends, &got, TRACE_OPTIONS(options));
+    assert_true(planes_equal(&want, &got));
+    frame_trace(want_of, camera, &want, NULL);
     const cgt_frame frame = frame_of(&want);
     const cgt_ambient_options ambient = {.samples = 2};
     assert_int_equal(cgt_ambient_occlusion(want_of, camera, &frame, &ambient, visible[0], NULL), CGT_OK);

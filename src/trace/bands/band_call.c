@@ -28,16 +28,10 @@ cgt_band_scratch cgt_band_slot(const cgt_band_call *call, uint32_t slot)
 }
 
 cgt_result cgt_bands_begin(const cgt_scene *scene, const cgt_trace_settings *settings, uint64_t rays,
-                           uint32_t max_chunk, bool build_bvh, cgt_band_call *call)
+                           uint32_t max_chunk, cgt_band_call *call)
 {
     const cgt_context *c = scene->context;
-    const struct cgt_bands *bands = scene->bands;
     *call = (cgt_band_call){.scene = scene, .settings = settings};
-    for (uint32_t b = 0; build_bvh && b < bands->count; b++) {
-        const cgt_result result = cgt_bvh_build_on_demand(bands->band[b].scene, rays, &call->use_bvh[b]);
-        if (result != CGT_OK)
-            return result;
-    }
     const uint64_t chunks = (rays + max_chunk - 1) / max_chunk,
                    slots = c->threads ? 2 * (uint64_t)c->threads : RUNNER_SLOTS;
     const uint64_t chunk = rays < max_chunk ? rays : max_chunk;
@@ -48,6 +42,15 @@ cgt_result cgt_bands_begin(const cgt_scene *scene, const cgt_trace_settings *set
     return call->memory ? CGT_OK
                         : cgt_fail(scene->context, CGT_ERROR_OUT_OF_MEMORY,
                                    "trace: out of memory for rays through bands of magnitudes");
+}
+
+cgt_result cgt_bands_build_bvh(cgt_band_call *call, uint64_t rays)
+{
+    const struct cgt_bands *bands = call->scene->bands;
+    cgt_result result = CGT_OK;
+    for (uint32_t b = 0; b < bands->count && result == CGT_OK; b++)
+        result = cgt_bvh_build_on_demand(bands->band[b].scene, rays, &call->use_bvh[b]);
+    return result;
 }
 
 void cgt_bands_end(cgt_band_call *call)

@@ -29,16 +29,19 @@ typedef struct cgt_band_call {
     const cgt_scene *scene;
     const cgt_trace_settings *settings;
     bool use_bvh[CGT_MAX_BANDS]; /* rays go through the band's bvh, and it may be read */
+    bool by_tiles;               /* points against a light that tiles of a loose grid do not serve wait for a BVH */
     uint32_t slots;              /* tasks that may run at once */
     uint32_t slot_rays;
     void *memory; /* scratch of each slot */
     size_t bytes;
 } cgt_band_call;
 
-/* Builds the BVHs that so many rays pay for, where build_bvh is set, and allocates scratch for chunks of at most
- * max_chunk rays. Fails with a message. */
+/* Allocates scratch for so many rays, in chunks of at most max_chunk. Fails with a message. */
 cgt_result cgt_bands_begin(const cgt_scene *scene, const cgt_trace_settings *settings, uint64_t rays,
-                           uint32_t max_chunk, bool build_bvh, cgt_band_call *call);
+                           uint32_t max_chunk, cgt_band_call *call);
+
+/* Builds the BVHs that so many rays pay for. Fails with a message. */
+cgt_result cgt_bands_build_bvh(cgt_band_call *call, uint64_t rays);
 void cgt_bands_end(cgt_band_call *call);
 cgt_band_scratch cgt_band_slot(const cgt_band_call *call, uint32_t slot);
 

@@ -31,7 +31,7 @@ cgt_result cgt_band_frame_begin(const cgt_scene *scene, const cgt_camera_rays *c
 {
     cgt_float_environment callers;
     const cgt_result result =
-        cgt_bands_begin(scene, settings, (uint64_t)regions * max_pixels, max_pixels, false, &frame->call);
+        cgt_bands_begin(scene, settings, (uint64_t)regions * max_pixels, max_pixels, &frame->call);
     if (result != CGT_OK)
         return result;
     frame->camera = camera;

@@ -171,7 +171,8 @@ void cgt_band_accept(const cgt_primitives *prims, const cgt_band *band, const cg
         cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)};
         cgt_decide_t(&ray->ray, &hit);
         const float rounded = (float)hit.t;
-        if (!(rounded >= ray->ray.t_min && rounded <= ray->ray.t_max && fabsf(rounded) < INFINITY)) {
+        /* where it is a sphere's second root, the band may have found the first one, before another hit */
+        if (hit.far || !(rounded >= ray->ray.t_min && rounded <= ray->ray.t_max && fabsf(rounded) < INFINITY)) {
             cgt_band_decide(prims, band->number.data, band->count, ray, false, best, counts);
             return;
         }

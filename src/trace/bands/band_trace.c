@@ -13,6 +13,7 @@
  * takes no more work for each point. As in trace_light.c. */
 #define PRIMS_PER_POINT 16u
 #define MAX_LIGHT_WORK 128u
+#define FEW_POINTS 256u
 
 /* ---- the caller's rays ---- */
 
@@ -193,10 +194,20 @@ static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, con
         return;
     settings.use_bvh = c->call->use_bvh[b];
     settings.light_tiles =
-        scene->valid && scene->loose.levels &&
+        scene->valid && scene->loose.levels && !(settings.use_bvh && points.count < FEW_POINTS) &&
         kernel->light_prims(scene, &points, light, 0, points.count) <= PRIMS_PER_POINT * points.count;
     settings.max_light_work = settings.light_tiles ? MAX_LIGHT_WORK : 0;
+    const bool may_wait = c->waits && scene->structure == CGT_STRUCTURE_LOOSE_GRID && !settings.use_bvh;
+    if (may_wait && !settings.light_tiles) {
+        *c->waits = true;
+        return;
+    }
     if (!kernel->trace_light(scene, &points, light, 0, points.count, &settings, c->scratch->occluded, &counts)) {
+        if (may_wait) {
+            cgt_band_add_counts(c->counts, &counts);
+            *c->waits = true;
+            return;
+        }
         settings.light_tiles = false;
         settings.max_light_work = 0;
         kernel->trace_light(scene, &points, light, 0, points.count, &settings, c->scratch->occluded, &counts);
@@ -302,10 +313,11 @@ static void store_hits(const cgt_band_chunk *c, const cgt_hits *hits)
                                          c->call->settings, hits, c->counts);
 }
 
-void cgt_bands_trace(const cgt_band_call *call, uint32_t slot, const cgt_rays *rays, const cgt_light *light,
+bool cgt_bands_trace(const cgt_band_call *call, uint32_t slot, const cgt_rays *rays, const cgt_light *light,
                      uint64_t first, uint64_t end, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts)
 {
     const cgt_band_scratch scratch = cgt_band_slot(call, slot);
+    bool waits = false;
     const cgt_band_chunk c = {.call = call,
                               .scratch = &scratch,
                               .rays = rays,
@@ -313,17 +325,23 @@ void cgt_bands_trace(const cgt_band_call *call, uint32_t slot, const cgt_rays *r
                               .first = first,
                               .count = (uint32_t)(end - first),
                               .any_hit = hits == NULL,
+                              .waits = call->by_tiles ? &waits : NULL,
                               .counts = counts};
     count_rays(&c);
-    for (uint32_t b = 0; b < call->scene->bands->count; b++)
+    for (uint32_t b = 0; b < call->scene->bands->count && !waits; b++)
         cgt_band_trace_chunk(&c, b);
+    if (waits) {
+        counts->rays = counts->invalid_rays = 0; /* they are counted when they are traced */
+        return false;
+    }
     cgt_band_trace_rest(&c);
     if (hits) {
         store_hits(&c, hits);
-        return;
+        return true;
     }
     for (uint32_t i = 0; i < c.count; i++) {
         occluded[first + i] = scratch.best[i].prim != CGT_INVALID_ID;
         counts->hits += occluded[first + i];
     }
+    return true;
 }

@@ -8,8 +8,8 @@
 #include "trace/bands/band_call.h"
 
 /* Traces rays first to end - 1 as cgt_trace_rays_fn does, or, with a light, points against it as cgt_trace_light_fn
- * does, whatever the work. */
-void cgt_bands_trace(const cgt_band_call *call, uint32_t slot, const cgt_rays *rays, const cgt_light *light,
+ * does. Returns false where points wait for a BVH (call->by_tiles): then what `occluded` has of them is undefined. */
+bool cgt_bands_trace(const cgt_band_call *call, uint32_t slot, const cgt_rays *rays, const cgt_light *light,
                      uint64_t first, uint64_t end, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts);
 
 /* Rays of one band of the call: those of a chunk as the caller gave them. */
@@ -21,6 +21,7 @@ typedef struct cgt_band_chunk {
     uint64_t first;
     uint32_t count;
     bool any_hit;
+    bool *waits; /* set where points wait for a BVH; NULL: they do not */
     cgt_counts *counts;
 } cgt_band_chunk;
 
