@@ -187,7 +187,7 @@ cgt_camera band_camera(test_random *r, const band_scene *s)
         near_point(r, s, 0.5f, c.target);
         if (random_below(r, 2)) /* towards the middle of the whole */
             c.target[0] = c.target[1] = c.target[2] = 0;
-        c.height = fmaxf(size, FLT_MIN);
+        c.height = fmaxf(size, 0x1p-147f);
         const double x = (double)c.target[0] - (double)c.eye[0], y = (double)c.target[1] - (double)c.eye[1],
                      z = (double)c.target[2] - (double)c.eye[2];
         /* not straight up, and a picture that a float holds */

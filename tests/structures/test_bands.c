@@ -143,7 +143,7 @@ static void hits_are_exact_at_any_magnitude(void **state)
 {
     (void)state;
     const uint32_t rounds = 1 + test_scaled(24);
-    uint32_t rays = 0, pixels = 0, banded = 0, turn = 0;
+    uint32_t rays = 0, pixels = 0, banded = 0, apart = 0, turn = 0;
     cgt_context *reference_context = context_make(1, NULL);
     FOR_EACH_VARIANT(variant)
     {
@@ -165,6 +165,7 @@ static void hits_are_exact_at_any_magnitude(void **state)
                           variant, (int)kind, s.spheres, s.triangles, (double)s.size[0], (int)options->structure,
                           got->in_bands ? got->bands->count : 0);
             banded += got->in_bands;
+            apart += got->in_bands && got->bands->rest;
             rays += compare_rays(want, got, &q, random_below(&r, 2) ? CGT_PRECISION_ROBUST : CGT_PRECISION_EXACT);
             compare_lights(want, got, &q, &r);
             pixels += compare_frames(want, got, &camera, &trace);
@@ -175,10 +176,33 @@ static void hits_are_exact_at_any_magnitude(void **state)
         cgt_context_release(context);
     }
     cgt_context_release(reference_context);
-    print_message("%u hits of rays, %u of pixels, %u of %u scenes in bands\n", rays, pixels, banded, turn);
+    print_message("%u hits of rays, %u of pixels, %u of %u scenes in bands, %u with primitives apart\n", rays, pixels,
+                  banded, turn, apart);
     assert_true(rays > turn * BAND_RAYS / 10);
     assert_true(pixels > turn * WIDTH * HEIGHT / 20);
-    assert_true(banded > turn / 2);
+    assert_true(banded > turn / 2 && apart > turn / 100);
+}
+
+/* An eye that is inside a sphere by a fifth of the least float: t of the near root is negative, rounds to -0, and counts.
+ * The band, which has room for it, must not take it for a miss. */
+static void an_eye_near_a_surface_sees_it(void **state)
+{
+    (void)state;
+    float sphere[1][4] = {{300 * 0x1p-149f, 401 * 0x1p-149f, 0, 501 * 0x1p-149f}};
+    float vertex[3][3] = {{0x1p-140f, 0, 0}, {0x1p-140f, 0x1p-141f, 0}, {0x1p-140f, 0, 0x1p-141f}};
+    const band_scene s = {.spheres = 1, .triangles = 1, .sphere = sphere, .vertex = vertex};
+    const test_scene_options automatic = {.structure = CGT_STRUCTURE_AUTO};
+    const cgt_camera camera = {.target = {-0x1p-100f, 0, 0}, .up = {0, 1, 0}};
+    cgt_context *context = context_make(1, NULL);
+    cgt_scene *want = band_reference_commit(context, &s), *got = band_scene_commit(context, &automatic, &s);
+    planes p = planes_make(WIDTH, HEIGHT);
+    frame_trace(want, &camera, &p, NULL);
+    assert_true(same_bits(p.t[0], -0.f));
+    compare_frames(want, got, &camera, &(test_trace_options){0});
+    planes_free(&p);
+    cgt_scene_release(want);
+    cgt_scene_release(got);
+    cgt_context_release(context);
 }
 
 /* ---- plans and memory ---- */
@@ -288,9 +312,9 @@ static void failed_allocations_lose_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(hits_are_exact_at_any_magnitude),
-                                       cmocka_unit_test(plans_hold_every_class),
-                                       cmocka_unit_test(failed_allocations_lose_nothing)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_are_exact_at_any_magnitude), cmocka_unit_test(an_eye_near_a_surface_sees_it),
+        cmocka_unit_test(plans_hold_every_class), cmocka_unit_test(failed_allocations_lose_nothing)};
     test_begin("test_bands");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
