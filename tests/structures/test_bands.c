@@ -192,7 +192,7 @@ static void an_eye_near_a_surface_sees_it(void **state)
     float vertex[3][3] = {{0x1p-140f, 0, 0}, {0x1p-140f, 0x1p-141f, 0}, {0x1p-140f, 0, 0x1p-141f}};
     const band_scene s = {.spheres = 1, .triangles = 1, .sphere = sphere, .vertex = vertex};
     const test_scene_options automatic = {.structure = CGT_STRUCTURE_AUTO};
-    const cgt_camera camera = {.target = {-0x1p-100f, 0, 0}, .up = {0, 1, 0}};
+    const cgt_camera camera = {.target = {300 * 0x1p-100f, 401 * 0x1p-100f, 0}, .up = {0, 0, 1}, .fov = 20};
     cgt_context *context = context_make(1, NULL);
     cgt_scene *want = band_reference_commit(context, &s), *got = band_scene_commit(context, &automatic, &s);
     planes p = planes_make(WIDTH, HEIGHT);
