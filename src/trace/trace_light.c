@@ -43,14 +43,23 @@ static uint64_t chunk_end(const light_job *job, uint64_t first)
     return first + (remaining < CGT_RAYS_CHUNK ? remaining : CGT_RAYS_CHUNK);
 }
 
+/* Returns false where tiles gave the points up. */
+static bool trace_points(const light_job *job, uint32_t index, uint64_t first, uint64_t end, cgt_counts *counts)
+{
+    const cgt_scene *s = job->scene;
+    if (job->bands)
+        return cgt_bands_trace(job->bands, index % job->bands->slots, &job->points, job->light, first, end, NULL,
+                               job->occluded, counts);
+    return s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
+                                           job->occluded, counts);
+}
+
 static void trace_chunk(void *argument, uint32_t index)
 {
     light_job *job = argument;
-    const cgt_scene *s = job->scene;
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
     cgt_counts counts = {0};
-    if (!s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
-                                         job->occluded, &counts)) {
+    if (!trace_points(job, index, first, end, &counts)) {
         job->occluded[first] = CHUNK_GIVEN_UP;
         atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
     }
@@ -86,26 +95,6 @@ static cgt_result trace_chunks(light_job *job)
     return CGT_OK;
 }
 
-static void trace_chunk_in_bands(void *argument, uint32_t index)
-{
-    light_job *job = argument;
-    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
-    cgt_counts counts = {0};
-    if (!cgt_bands_trace(job->bands, index % job->bands->slots, &job->points, job->light, first, end, NULL,
-                         job->occluded, &counts)) {
-        job->occluded[first] = CHUNK_GIVEN_UP;
-        atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
-    }
-    cgt_trace_counter_add(job->counter, &counts);
-}
-
-static void trace_given_up_chunk_in_bands(void *argument, uint32_t index)
-{
-    const light_job *job = argument;
-    if (job->occluded[(uint64_t)index * CGT_RAYS_CHUNK] == CHUNK_GIVEN_UP)
-        trace_chunk_in_bands(argument, index);
-}
-
 /* As trace_chunks: by tiles, then what they gave up through BVHs, which are built for that. Rays of one direction go
  * through BVHs at once. */
 static cgt_result trace_bands(light_job *job)
@@ -120,13 +109,13 @@ static cgt_result trace_bands(light_job *job)
     call.by_tiles = by_tiles;
     job->bands = &call;
     if (result == CGT_OK)
-        cgt_bands_run(&call, trace_chunk_in_bands, job, chunks);
+        cgt_bands_run(&call, trace_chunk, job, chunks);
     const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
     if (result == CGT_OK && given_up) {
         call.by_tiles = false;
         result = cgt_bands_build_bvh(&call, given_up * SCATTERED_POINTS);
         if (result == CGT_OK)
-            cgt_bands_run(&call, trace_given_up_chunk_in_bands, job, chunks);
+            cgt_bands_run(&call, trace_given_up_chunk, job, chunks);
     }
     cgt_bands_end(&call);
     return result;
