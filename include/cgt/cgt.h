@@ -146,7 +146,7 @@ typedef struct cgt_scene cgt_scene;
 
 #define CGT_INVALID_ID UINT32_MAX /* no primitive, no geometry */
 
-/* Spheres in the caller's arrays. The library copies nothing: the arrays stay readable and unchanged from
+/* Spheres in the caller's arrays. The library copies nothing, but for BVHs and bands (cgt_scene_commit): the arrays stay readable and unchanged from
  * cgt_scene_commit to the last trace before the next commit. Pointers are aligned as floats are.
  * A sphere with a NaN, an infinity or a negative radius is skipped and counted. A radius of zero is a point, hit by
  * the rays that pass exactly through it. */
@@ -235,14 +235,18 @@ CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry
 
 /* Builds the acceleration structure from the arrays as they are now, by the context's threads. Memory is kept from one
  * commit to the next and grows by half: once it has found its size, a scene whose count does not grow allocates nothing.
- * An empty scene is valid; no ray hits it. After an error the scene counts as not committed.
+ * An empty scene is valid; no ray hits it. Coordinates may be of any size that a float holds. Where the largest one of a
+ * scene is beyond 2^40 or below 2^-36, the primitives are cut into bands of similar magnitude, and copied, times a power
+ * of two, for a structure of each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere and
+ * 42 a triangle more, and calls that trace such a scene allocate scratch while they run: they may return OUT_OF_MEMORY.
+ * Precision FAST is ROBUST there. After an error the scene counts as not committed.
  * Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
  * 2^26 - 1 leaves). */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
 /* What the last commit found, chose and spent; all 0 before the first. */
 typedef struct cgt_scene_statistics {
-    cgt_structure structure;     /* that was built */
+    cgt_structure structure;     /* that was built; of bands of magnitudes, in the most populous one */
     char reason[128];            /* why, in words */
     uint32_t geometries;         /* in the scene */
     uint32_t primitives;         /* given, skipped ones included */
@@ -389,7 +393,9 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  *           of a sphere is within 2^-23 + 2^-48 c / r, c the distance to its centre, in both precisions
  *   EXACT   u and v are within 1 ulp, and so are the components of a triangle's normal
  *   FAST    t, u, v and the normal are what single precision gives; docs/reports/accuracy.md measures how far they are off
- * Allocates nothing. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED. */
+ * Allocates nothing, except for scenes in bands (cgt_scene_commit), and for a BVH where a grid has levels for crowded
+ * regions and the frame goes by packets. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED, and OUT_OF_MEMORY
+ * where it allocates. */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);
 
@@ -427,7 +433,7 @@ typedef struct cgt_hits {
  * Where AUTO has built a loose grid, the calls since a commit that bring 1/32 as many rays as there are primitives (the
  * first call, where the grid has levels for crowded regions) make the library build a BVH, by the context's threads, in
  * memory that the scene keeps; other threads may trace meanwhile.
- * Only then is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was traced, and the call may be
+ * Only then, and for scenes in bands, is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was traced, and the call may be
  * repeated. The BVH and what its build needs take 70 to 100 bytes a sphere and 110 to 140 a triangle (measured with
  * evenly spread primitives; cgt_scene_statistics.bytes tells), until the scene is released. CGT_STRUCTURE_LOOSE_GRID
  * avoids it, and traces such rays slower; with CGT_RAY_KIND_INCOHERENT the BVH is built at the commit, in place of the

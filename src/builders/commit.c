@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The commit: from the caller's arrays to a structure, from scratch.
- *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure
+ *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure, or
+ *   bands of magnitudes with a structure each (bands/bands_commit.c) where the bounds reach far out or far in
  *
  * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times
  * as fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell.
@@ -11,8 +12,13 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "builders/bands/bands_commit.h"
+#include "builders/bands/bands_plan.h"
 #include "builders/commit.h"
 #include "core/float_environment.h"
+
+/* Sizes below 2^-50, by the bits of a float's exponent. */
+#define TINY_SIZE_CLASS 77u
 
 /* Chooses the structure, for all scenes alike, since the pass over the primitives depends on it. reason: gets AUTO's
  * reason, except for grids, whose plan has one of its own. */
@@ -110,7 +116,7 @@ static void log_commit(const cgt_scene *scene)
     const uint32_t *resolution = scene->research_statistics.resolution;
     const cgt_log_hook *log = &scene->context->log;
     char text[CGT_MESSAGE_BYTES];
-    if (!log->write)
+    if (!log->write || scene->band_of)
         return;
     if (st->skipped_not_finite || st->skipped_radius || st->skipped_degenerate) {
         snprintf(text, sizeof text,
@@ -164,6 +170,24 @@ static cgt_result build_structure(cgt_scene *scene, const cgt_primitive_bounds *
     return cgt_kd_commit(scene, committed_scene->structure == CGT_STRUCTURE_KD_ROPES);
 }
 
+/* Whether some primitives are so much smaller than the scene, and so near to the origin, that single precision has no
+ * bounds for them at the scene's scale. Told by classes of sizes, which loose grids and BVHs have. */
+static bool has_tiny_parts(const cgt_scene *scene)
+{
+    const cgt_size_classes *classes = scene->buffer[CGT_BUFFER_SIZE_CLASSES].data;
+    const cgt_structure structure = scene->committed_scene.structure;
+    if (structure != CGT_STRUCTURE_LOOSE_GRID && structure != CGT_STRUCTURE_BVH)
+        return false;
+    for (uint32_t k = 1; k < TINY_SIZE_CLASS; k++) {
+        float most = 0;
+        for (int a = 0; a < 3 && cgt_size_class_is_used(classes, k); a++)
+            most = fmaxf(most, fmaxf(-classes->of[k].low[a], classes->of[k].high[a]));
+        if (cgt_size_class_is_used(classes, k) && most < CGT_COMFORTABLE_MIN)
+            return true;
+    }
+    return false;
+}
+
 static cgt_result build_scene(cgt_scene *scene)
 {
     cgt_primitive_bounds bounds = {0};
@@ -177,7 +201,11 @@ static cgt_result build_scene(cgt_scene *scene)
         return result;
     const double bounded = cgt_now_ms();
     set_scene_bounds(&scene->committed_scene, &bounds);
-    result = build_structure(scene, &bounds, reason);
+    if (bounds.valid && !scene->is_band && (cgt_bands_needed(bounds.magnitude) || has_tiny_parts(scene))) {
+        scene->committed_scene.brute_force = true; /* for what is asked past the bands */
+        result = cgt_bands_commit(scene);
+    } else
+        result = build_structure(scene, &bounds, reason);
     if (result != CGT_OK)
         return result;
     store_statistics(scene, &bounds);
@@ -193,7 +221,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     cgt_float_environment callers;
     if (!scene)
         return CGT_ERROR_INVALID_ARGUMENT;
-    scene->is_committed = false;
+    scene->is_committed = scene->in_bands = false;
     scene->statistics = (cgt_scene_statistics){0};
     scene->research_statistics = (cgt_research_scene_statistics){0};
     scene->committed_scene = (cgt_committed_scene){0};

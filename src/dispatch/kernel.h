@@ -91,6 +91,14 @@ typedef bool cgt_trace_light_fn(const cgt_committed_scene *committed_scene, cons
 typedef uint64_t cgt_light_prims_fn(const cgt_committed_scene *committed_scene, const cgt_rays *points,
                                     const cgt_light *light, uint64_t first, uint64_t end);
 
+/* ---- values of hits ---- */
+
+/* Computes and stores the hits of rays first to end - 1, in double and exactly: prim[i] is the primitive that ray
+ * first + i hits, CGT_INVALID_ID for none. Counts hits and what their values took. */
+typedef void cgt_resolve_rays_fn(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
+                                 uint64_t end, const uint32_t *prim, const cgt_trace_settings *settings,
+                                 const cgt_hits *hits, cgt_counts *counts);
+
 /* ---- the table ---- */
 
 typedef struct cgt_kernel {
@@ -109,6 +117,7 @@ typedef struct cgt_kernel {
     cgt_trace_rays_fn *trace_rays;
     cgt_trace_light_fn *trace_light;
     cgt_light_prims_fn *light_prims;
+    cgt_resolve_rays_fn *resolve_rays;
 } cgt_kernel;
 
 #define CGT_KERNEL_JOIN_(name, variant) name##_##variant

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/bands.h"
+
 static cgt_geometry *geometry_at(const cgt_scene *scene, uint32_t id)
 {
     cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
@@ -94,6 +96,21 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     return CGT_OK;
 }
 
+static void release_bands(const cgt_memory_hooks *memory, struct cgt_bands *bands)
+{
+    if (!bands)
+        return;
+    for (uint32_t i = 0; i < CGT_MAX_BANDS; i++) {
+        cgt_scene_release(bands->band[i].scene);
+        cgt_buffer_release(memory, &bands->band[i].points);
+        cgt_buffer_release(memory, &bands->band[i].number);
+    }
+    cgt_buffer_release(memory, &bands->rest_number);
+    cgt_buffer_release(memory, &bands->work_exponents);
+    cgt_buffer_release(memory, &bands->work_offsets);
+    cgt_free(memory, bands, sizeof *bands);
+}
+
 void cgt_scene_release(cgt_scene *scene)
 {
     if (!scene)
@@ -101,6 +118,7 @@ void cgt_scene_release(cgt_scene *scene)
     cgt_context *context = scene->context;
     for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
         cgt_buffer_release(&context->memory, &scene->buffer[i]);
+    release_bands(&context->memory, scene->bands);
     pthread_mutex_destroy(&scene->reports_lock);
     cgt_free(&context->memory, scene, sizeof *scene);
     cgt_context_release(context);
@@ -284,6 +302,22 @@ void cgt_publish_statistics(cgt_scene *scene)
     pthread_mutex_unlock(&scene->reports_lock);
 }
 
+void cgt_publish_built_bvh(cgt_scene *scene)
+{
+    const cgt_scene_statistics before = scene->reports.statistics; /* only this thread changes them now */
+    cgt_publish_statistics(scene);
+    if (!scene->band_of)
+        return;
+    const cgt_scene_statistics *after = &scene->statistics;
+    pthread_mutex_lock(&scene->band_of->reports_lock);
+    cgt_scene_statistics *whole = &scene->band_of->reports.statistics;
+    whole->structure_bytes += after->structure_bytes - before.structure_bytes;
+    whole->bvh_bytes += after->bvh_bytes - before.bvh_bytes;
+    whole->bytes += after->bytes - before.bytes;
+    whole->bvh_build_ms += after->bvh_build_ms - before.bvh_build_ms;
+    pthread_mutex_unlock(&scene->band_of->reports_lock);
+}
+
 cgt_result cgt_scene_get_statistics(const cgt_scene *scene, cgt_scene_statistics *statistics)
 {
     if (!scene || !statistics)
@@ -304,10 +338,20 @@ cgt_result cgt_research_get_scene_statistics(const cgt_scene *scene, cgt_researc
     return CGT_OK;
 }
 
+static size_t bands_bytes(const struct cgt_bands *bands)
+{
+    size_t bytes = sizeof *bands + bands->rest_number.bytes + bands->work_exponents.bytes + bands->work_offsets.bytes;
+    for (uint32_t i = 0; i < CGT_MAX_BANDS; i++) {
+        const cgt_band *band = &bands->band[i];
+        bytes += (band->scene ? cgt_scene_bytes(band->scene) : 0) + band->points.bytes + band->number.bytes;
+    }
+    return bytes;
+}
+
 size_t cgt_scene_bytes(const cgt_scene *scene)
 {
     size_t bytes = sizeof *scene;
     for (size_t i = 0; i < CGT_SCENE_BUFFERS; i++)
         bytes += scene->buffer[i].bytes;
-    return bytes;
+    return bytes + (scene->bands ? bands_bytes(scene->bands) : 0);
 }

@@ -60,6 +60,8 @@ typedef struct cgt_scene_reports {
     cgt_research_scene_statistics research;
 } cgt_scene_reports;
 
+struct cgt_bands;
+
 struct cgt_scene {
     cgt_context *context;
     cgt_scene_options options; /* research: those below */
@@ -75,12 +77,19 @@ struct cgt_scene {
     pthread_mutex_t reports_lock;    /* held while reports are copied, and never over the caller's code: hooks, tasks */
     atomic_uint bvh_state;           /* cgt_bvh_state */
     _Atomic uint64_t bvh_rays;       /* since the commit, that would have gone through it */
+    struct cgt_bands *bands;         /* scene/bands.h; NULL until a commit needs them, and kept from then on */
+    bool in_bands;                   /* the last commit has made bands, and no structure of its own */
+    bool is_band;                    /* this is a band of another scene, or must not be cut into bands */
+    struct cgt_scene *band_of;       /* the scene that this is a band of; NULL: none */
 };
 
 /* Makes the statistics of a build that has ended those that the caller gets. */
 void cgt_publish_statistics(cgt_scene *scene);
 
-/* Memory that a scene holds. */
+/* The same after a BVH was built on demand, which the scene that this is a band of reports, too. */
+void cgt_publish_built_bvh(cgt_scene *scene);
+
+/* Memory that a scene holds, bands included. */
 size_t cgt_scene_bytes(const cgt_scene *scene);
 
 #endif

@@ -10,6 +10,7 @@
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
+#include "trace/bands/band_trace.h"
 
 #define TILE_BITS 5u
 #define TILE_EDGE (1u << TILE_BITS)
@@ -26,6 +27,7 @@ typedef struct ambient_job {
     size_t row_stride;
     uint32_t tiles_across;
     cgt_trace_counter *counter;
+    const cgt_band_call *bands; /* NULL: the scene has none */
 } ambient_job;
 
 /* A task's state, on its stack. */
@@ -41,7 +43,7 @@ typedef struct ray_batch {
 
 /* ---- batches ---- */
 
-static void trace_batch(const ambient_job *job, ray_batch *b)
+static void trace_batch(const ambient_job *job, uint32_t tile, ray_batch *b)
 {
     const cgt_scene *s = job->scene;
     const uint32_t samples = job->ambient.samples;
@@ -54,8 +56,11 @@ static void trace_batch(const ambient_job *job, ray_batch *b)
                            .skip_geometry = b->geometry};
     if (!b->rays)
         return;
-    s->context->kernel->trace_rays(&s->committed_scene, &rays, 0, b->rays, &job->settings, NULL, b->occluded,
-                                   &b->counts);
+    if (job->bands)
+        cgt_bands_trace(job->bands, tile % job->bands->slots, &rays, NULL, 0, b->rays, NULL, b->occluded, &b->counts);
+    else
+        s->context->kernel->trace_rays(&s->committed_scene, &rays, 0, b->rays, &job->settings, NULL, b->occluded,
+                                       &b->counts);
     for (uint32_t i = 0; i < b->pixels; i++) {
         uint32_t unoccluded = samples;
         for (uint32_t k = 0; k < samples; k++)
@@ -123,10 +128,10 @@ static void trace_ambient_tile(void *argument, uint32_t index)
             continue;
         }
         if (b.rays + job->ambient.samples > BATCH)
-            trace_batch(job, &b);
+            trace_batch(job, index, &b);
         append_pixel(job, x, y, element, &b);
     }
-    trace_batch(job, &b);
+    trace_batch(job, index, &b);
     cgt_trace_counter_add(job->counter, &b.counts);
 }
 
@@ -188,16 +193,28 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
                        .visibility = visibility,
                        .counter = &counter};
     cgt_result result = prepare_job(&job, camera, options, &counter);
-    if (result == CGT_OK)
-        result = cgt_bvh_build_on_demand(scene, (uint64_t)frame->width * frame->height * job.ambient.samples,
-                                         &job.settings.use_bvh);
+    if (result != CGT_OK)
+        return result;
+    const uint64_t rays = (uint64_t)frame->width * frame->height * job.ambient.samples;
+    cgt_band_call bands;
+    if (scene->in_bands) {
+        result = cgt_bands_begin(scene, &job.settings, rays, CGT_RAYS_CHUNK, &bands);
+        if (result == CGT_OK && (result = cgt_bands_build_bvh(&bands, rays)) != CGT_OK)
+            cgt_bands_end(&bands);
+    } else
+        result = cgt_bvh_build_on_demand(scene, rays, &job.settings.use_bvh);
     if (result != CGT_OK)
         return result;
     job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
     job.row_stride = frame->row_stride ? frame->row_stride : frame->width;
     job.tiles_across = (frame->width + TILE_EDGE - 1) / TILE_EDGE;
-    cgt_run_tasks(scene->context, trace_ambient_tile, &job,
-                  job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE));
+    const uint32_t tiles = job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE);
+    if (scene->in_bands) {
+        job.bands = &bands;
+        cgt_bands_run(&bands, trace_ambient_tile, &job, tiles);
+        cgt_bands_end(&bands);
+    } else
+        cgt_run_tasks(scene->context, trace_ambient_tile, &job, tiles);
     cgt_trace_store_statistics(options, &job.settings, &counter);
     return CGT_OK;
 }

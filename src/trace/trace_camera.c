@@ -9,6 +9,7 @@
 #include "core/float_environment.h"
 #include "dispatch/kernel.h"
 #include "query/tile_limits.h"
+#include "trace/bands/band_frame.h"
 #include "trace/trace_call.h"
 
 #define SQUARE_EDGE 64u
@@ -21,8 +22,9 @@ typedef struct frame_job {
     const cgt_frame *frame;
     cgt_camera_rays camera;
     cgt_trace_settings settings;
-    bool by_tiles;     /* whole tiles go through a loose grid, no packets */
-    cgt_region planes; /* the whole frame */
+    bool by_tiles;               /* whole tiles go through a loose grid, no packets */
+    cgt_region planes;           /* the whole frame */
+    const cgt_band_frame *bands; /* NULL: the scene has none */
     uint32_t tile_width, tile_height, tiles_across;
     bool buffered; /* tiles go through a buffer */
     atomic_bool stopped;
@@ -73,22 +75,26 @@ static cgt_visit call_visitor(const frame_job *job, const cgt_region *r)
     return visit;
 }
 
-static void trace_region(const frame_job *job, const cgt_region *r)
+static void trace_region(const frame_job *job, uint32_t index, const cgt_region *r)
 {
     const cgt_scene *s = job->scene;
     const cgt_kernel *kernel = s->context->kernel;
     cgt_counts counts = {0};
-    (job->by_tiles ? kernel->trace_tile : kernel->trace_region)(&s->committed_scene, &job->camera, &job->settings, r,
-                                                                &counts);
+    if (job->bands)
+        cgt_band_trace_region(job->bands, index % job->bands->call.slots, r, &counts);
+    else
+        (job->by_tiles ? kernel->trace_tile : kernel->trace_region)(&s->committed_scene, &job->camera, &job->settings,
+                                                                    r, &counts);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
 /* A function of its own: its stack is taken only where it is needed. */
-__attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, const cgt_region *planes)
+__attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, uint32_t index,
+                                                          const cgt_region *planes)
 {
     uint32_t buffer[CGT_PLANES][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
-    trace_region(job, &tile);
+    trace_region(job, index, &tile);
     const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile) : CGT_VISIT_CONTINUE;
     copy_to_planes(planes, &tile);
     return visit;
@@ -103,9 +109,9 @@ static void trace_frame_tile(void *argument, uint32_t index)
         return;
     const cgt_region part = cgt_region_part(&job->planes, x, y, job->tile_width, job->tile_height);
     if (job->buffered)
-        visit = trace_buffered(job, &part);
+        visit = trace_buffered(job, index, &part);
     else {
-        trace_region(job, &part);
+        trace_region(job, index, &part);
         if (job->frame->visitor)
             visit = call_visitor(job, &part);
     }
@@ -142,6 +148,21 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     job->tiles_across = (f->width + job->tile_width - 1) / job->tile_width;
 }
 
+/* Traces all tiles of a scene in bands. */
+static cgt_result trace_bands(frame_job *job, const cgt_trace_options *options, uint32_t tiles)
+{
+    cgt_band_frame frame;
+    const cgt_result result =
+        cgt_band_frame_begin(job->scene, &job->camera, &job->settings, cgt_requires_packets(options), tiles,
+                             job->tile_width * job->tile_height, &frame);
+    if (result != CGT_OK)
+        return result;
+    job->bands = &frame;
+    cgt_bands_run(&frame.call, trace_frame_tile, job, tiles);
+    cgt_bands_end(&frame.call);
+    return CGT_OK;
+}
+
 cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                             const cgt_trace_options *options)
 {
@@ -165,8 +186,13 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     cgt_float_environment_enter(&job.callers); /* keeps it for the visitor */
     cgt_float_environment_leave(&job.callers);
     atomic_init(&job.stopped, false);
-    cgt_run_tasks(c, trace_frame_tile, &job,
-                  job.tiles_across * ((frame->height + job.tile_height - 1) / job.tile_height));
+    const uint32_t tiles = job.tiles_across * ((frame->height + job.tile_height - 1) / job.tile_height);
+    if (scene->in_bands)
+        result = trace_bands(&job, options, tiles);
+    else
+        cgt_run_tasks(c, trace_frame_tile, &job, tiles);
+    if (result != CGT_OK)
+        return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);
     return atomic_load(&job.stopped) ? cgt_fail(c, CGT_ERROR_STOPPED, "the visitor stopped the frame") : CGT_OK;
 }

@@ -8,6 +8,7 @@
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
+#include "trace/bands/band_trace.h"
 
 /* How tiles or a tree are chosen: the chunks of a call that are sampled, and the primitives that a tile may test for each
  * point; with more of them a tree is faster. Measured. */
@@ -32,7 +33,8 @@ typedef struct light_job {
     uint8_t *occluded;
     cgt_trace_settings settings;
     cgt_trace_counter *counter;
-    _Atomic uint64_t given_up; /* points of chunks that tiles gave up */
+    const cgt_band_call *bands; /* NULL: the scene has none */
+    _Atomic uint64_t given_up;  /* points of chunks that tiles gave up */
 } light_job;
 
 static uint64_t chunk_end(const light_job *job, uint64_t first)
@@ -41,14 +43,23 @@ static uint64_t chunk_end(const light_job *job, uint64_t first)
     return first + (remaining < CGT_RAYS_CHUNK ? remaining : CGT_RAYS_CHUNK);
 }
 
+/* Returns false where tiles gave the points up. */
+static bool trace_points(const light_job *job, uint32_t index, uint64_t first, uint64_t end, cgt_counts *counts)
+{
+    const cgt_scene *s = job->scene;
+    if (job->bands)
+        return cgt_bands_trace(job->bands, index % job->bands->slots, &job->points, job->light, first, end, NULL,
+                               job->occluded, counts);
+    return s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
+                                           job->occluded, counts);
+}
+
 static void trace_chunk(void *argument, uint32_t index)
 {
     light_job *job = argument;
-    const cgt_scene *s = job->scene;
     const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
     cgt_counts counts = {0};
-    if (!s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
-                                         job->occluded, &counts)) {
+    if (!trace_points(job, index, first, end, &counts)) {
         job->occluded[first] = CHUNK_GIVEN_UP;
         atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
     }
@@ -84,6 +95,32 @@ static cgt_result trace_chunks(light_job *job)
     return CGT_OK;
 }
 
+/* As trace_chunks: by tiles, then what they gave up through BVHs, which are built for that. Rays of one direction go
+ * through BVHs at once. */
+static cgt_result trace_bands(light_job *job)
+{
+    cgt_band_call call;
+    const uint64_t count = job->points.count;
+    const uint32_t chunks = (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK);
+    const bool by_tiles = job->light->kind == CGT_LIGHT_POINT && job->scene->options.structure == CGT_STRUCTURE_AUTO;
+    cgt_result result = cgt_bands_begin(job->scene, &job->settings, count, CGT_RAYS_CHUNK, &call);
+    if (result == CGT_OK)
+        result = cgt_bands_build_bvh(&call, by_tiles ? 0 : count);
+    call.by_tiles = by_tiles;
+    job->bands = &call;
+    if (result == CGT_OK)
+        cgt_bands_run(&call, trace_chunk, job, chunks);
+    const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
+    if (result == CGT_OK && given_up) {
+        call.by_tiles = false;
+        result = cgt_bands_build_bvh(&call, given_up * SCATTERED_POINTS);
+        if (result == CGT_OK)
+            cgt_bands_run(&call, trace_given_up_chunk, job, chunks);
+    }
+    cgt_bands_end(&call);
+    return result;
+}
+
 /* Whether, in most chunks, neighbouring points are near enough to each other for tiles, as the light sees them. */
 static bool choose_tiles(const light_job *job)
 {
@@ -104,6 +141,17 @@ static bool choose_tiles(const light_job *job)
     }
     cgt_float_environment_leave(&callers);
     return 2 * coherent > sampled;
+}
+
+static cgt_result trace_structure(light_job *job)
+{
+    const bool tiles = choose_tiles(job);
+    const cgt_result result =
+        cgt_bvh_build_on_demand(job->scene, tiles ? 0 : job->points.count, &job->settings.use_bvh);
+    if (result != CGT_OK)
+        return result;
+    job->settings.light_tiles = tiles && !(job->settings.use_bvh && job->points.count < FEW_POINTS);
+    return trace_chunks(job);
 }
 
 static cgt_result check_light(cgt_context *c, const cgt_light *light)
@@ -152,12 +200,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
                             .mask = points->mask,
                             .skip_primitive = points->skip_primitive,
                             .skip_geometry = points->skip_geometry};
-    const bool tiles = choose_tiles(&job);
-    result = cgt_bvh_build_on_demand(scene, tiles ? 0 : points->count, &job.settings.use_bvh);
-    if (result != CGT_OK)
-        return result;
-    job.settings.light_tiles = tiles && !(job.settings.use_bvh && points->count < FEW_POINTS);
-    result = trace_chunks(&job);
+    result = scene->in_bands ? trace_bands(&job) : trace_structure(&job);
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);

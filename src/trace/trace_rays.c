@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
+#include "trace/bands/band_trace.h"
 
 typedef struct rays_job {
     const cgt_scene *scene;
@@ -13,7 +14,8 @@ typedef struct rays_job {
     const cgt_hits *hits; /* NULL: any hit */
     uint8_t *occluded;
     cgt_trace_settings settings;
-    uint32_t chunk; /* rays of a task */
+    const cgt_band_call *bands; /* NULL: the scene has none */
+    uint32_t chunk;             /* rays of a task */
     cgt_trace_counter *counter;
 } rays_job;
 
@@ -24,8 +26,12 @@ static void trace_chunk(void *argument, uint32_t index)
     const uint64_t first = (uint64_t)index * job->chunk, remaining = job->rays->count - first,
                    end = first + (remaining < job->chunk ? remaining : job->chunk);
     cgt_counts counts = {0};
-    s->context->kernel->trace_rays(&s->committed_scene, job->rays, first, end, &job->settings, job->hits, job->occluded,
-                                   &counts);
+    if (job->bands)
+        cgt_bands_trace(job->bands, index % job->bands->slots, job->rays, NULL, first, end, job->hits, job->occluded,
+                        &counts);
+    else
+        s->context->kernel->trace_rays(&s->committed_scene, job->rays, first, end, &job->settings, job->hits,
+                                       job->occluded, &counts);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
@@ -59,6 +65,31 @@ static cgt_result prepare_hits(rays_job *job)
     return result == CGT_OK ? cgt_check_stride(c, "hits", h->stride, job->rays->count) : result;
 }
 
+static cgt_result trace_bands(rays_job *job)
+{
+    cgt_band_call call;
+    const uint64_t count = job->rays->count;
+    cgt_result result = cgt_bands_begin(job->scene, &job->settings, count, CGT_RAYS_CHUNK, &call);
+    if (result == CGT_OK)
+        result = cgt_bands_build_bvh(&call, count);
+    job->bands = &call;
+    job->chunk = CGT_RAYS_CHUNK;
+    if (result == CGT_OK)
+        cgt_bands_run(&call, trace_chunk, job, (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+    cgt_bands_end(&call);
+    return result;
+}
+
+static cgt_result trace_structure(rays_job *job)
+{
+    const cgt_result result = cgt_bvh_build_on_demand(job->scene, job->rays->count, &job->settings.use_bvh);
+    if (result != CGT_OK)
+        return result;
+    job->chunk = choose_chunk(job);
+    cgt_run_tasks(job->scene->context, trace_chunk, job, (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
+    return CGT_OK;
+}
+
 static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
 {
     cgt_context *c = job->scene->context;
@@ -70,11 +101,9 @@ static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)
     if (result == CGT_OK)
         result = prepare_hits(job);
     if (result == CGT_OK)
-        result = cgt_bvh_build_on_demand(job->scene, job->rays->count, &job->settings.use_bvh);
+        result = job->scene->in_bands ? trace_bands(job) : trace_structure(job);
     if (result != CGT_OK)
         return result;
-    job->chunk = choose_chunk(job);
-    cgt_run_tasks(c, trace_chunk, job, (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
     cgt_trace_store_statistics(options, &job->settings, &counter);
     return CGT_OK;
 }

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/scene.h"
+
 const char *loose_name(loose_kind kind)
 {
     static const char *const name[LOOSE_KINDS] = {"uniform", "clustered",  "flat",    "line", "orders",
@@ -169,5 +171,6 @@ cgt_scene *loose_add(const loose_scene *s, cgt_context *context, const cgt_scene
         assert_int_equal(s->sphere[i] ? cgt_scene_add_spheres(scene, &s->spheres[i], &id)
                                       : cgt_scene_add_triangles(scene, &s->triangles[i], &id),
                          CGT_OK);
+    scene->is_band = true; /* structures are looked at as they are, whatever their scale */
     return scene;
 }

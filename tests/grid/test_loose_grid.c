@@ -466,6 +466,8 @@ static void crowded_regions_get_levels(void **state)
         move_spheres(&cases[i], &r, sphere, COUNT);
         cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
         const cgt_loose_grid *g = &scene->committed_scene.loose;
+        scene->is_band = true; /* the farthest would be put apart */
+        assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         check_grid(scene);
         if (!g->regions || mean_crowd(g, COUNT) > 100)
             fail_msg("%s: %u regions, %g primitives share a cell", cases[i].name, g->regions, mean_crowd(g, COUNT));
@@ -473,6 +475,8 @@ static void crowded_regions_get_levels(void **state)
     }
     memset(sphere, 0, sizeof sphere); /* cells cannot tell these apart */
     cgt_scene *scene = scene_of(context, SCENE_OPTIONS(&loose_options), (const float(*)[4])sphere, COUNT);
+    scene->is_band = true; /* as small as it is */
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_int_equal(scene->committed_scene.loose.levels, 1);
     check_grid(scene);
     cgt_scene_release(scene);

@@ -288,6 +288,7 @@ cgt_scene *degenerate_commit(cgt_context *context, const degenerate_scene *d)
         assert_int_equal(cgt_scene_add_spheres(scene, &spheres, &id), CGT_OK);
     if (d->triangles)
         assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
+    scene->is_band = true; /* trees are built over it, whatever its scale */
     assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     assert_true(scene->committed_scene.valid > 0);
     assert_false(scene->committed_scene.brute_force);

@@ -12,6 +12,7 @@
 
 #include "support/closed_meshes.h"
 #include "primitive/triangle_scenes.h"
+#include "scene/scene.h"
 
 /* The primitives of a scene; a primitive with a NAN is skipped. */
 typedef struct primitive_set {
@@ -310,6 +311,7 @@ static void scenes_of_all_kinds(void **state)
                 scene_add_spheres(scene, (const float(*)[4])t.sphere, t.spheres);
             if (t.triangles)
                 scene_add_triangles(scene, (const triangle *)t.triangle, t.triangles);
+            scene->is_band = true; /* trees are built over it, whatever its scale */
             scene_commit(w.context[0], scene);
             assert_true(committed_of(scene)->valid > 0 && !committed_of(scene)->brute_force);
             for (size_t b = 0; b < TEST_COUNT(builders); b++)

@@ -73,8 +73,10 @@ check bench "bench backends src simd examples tests" \
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.
 layers='
-trace: builders/bvh core dispatch query scene
-builders: core dispatch model scene
+trace: builders/bvh core dispatch query scene trace/bands
+trace/bands: builders/bvh core dispatch exact query scene
+builders: builders/bands core dispatch model scene
+builders/bands: core exact scene
 builders/bvh: builders builders/order core dispatch scene
 builders/grid: builders builders/order dispatch model
 builders/kd: builders core model

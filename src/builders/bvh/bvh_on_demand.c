@@ -39,7 +39,7 @@ static cgt_result build_for_rays(cgt_scene *scene, bool *is_built)
     cgt_float_environment_leave(&callers);
     *is_built = result == CGT_OK;
     if (*is_built)
-        cgt_publish_statistics(scene);
+        cgt_publish_built_bvh(scene);
     atomic_store_explicit(&scene->bvh_state, *is_built ? CGT_BVH_STATE_BUILT : CGT_BVH_STATE_NONE,
                           memory_order_release);
     return result;

@@ -15,6 +15,7 @@ cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 cgt_trace_rays_fn CGT_KERNEL(cgt_trace_rays);
 cgt_trace_light_fn CGT_KERNEL(cgt_trace_light);
 cgt_light_prims_fn CGT_KERNEL(cgt_tile_light_prims);
+cgt_resolve_rays_fn CGT_KERNEL(cgt_resolve_rays);
 
 extern const struct cgt_bvh_builder CGT_KERNEL(cgt_bvh_builder);
 
@@ -37,4 +38,5 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .trace_rays = CGT_KERNEL(cgt_trace_rays),
     .trace_light = CGT_KERNEL(cgt_trace_light),
     .light_prims = CGT_KERNEL(cgt_tile_light_prims),
+    .resolve_rays = CGT_KERNEL(cgt_resolve_rays),
 };

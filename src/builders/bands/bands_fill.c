@@ -1,0 +1,122 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Magnitudes, and copies times a power of two. Such a product is exact unless bits fall below 2^-149, the last one of
+ * float: that can happen to coordinates near 0 of primitives far out. Primitives that would lose a bit stay as they are:
+ * they are the rest. */
+#include "builders/bands/bands_fill.h"
+
+#include <math.h>
+
+#include "exact/valid_primitive.h"
+
+#define SPHERE_FLOATS 4u
+#define TRIANGLE_FLOATS 9u
+
+static uint32_t floats_of(cgt_kind kind) { return kind == CGT_KIND_SPHERES ? SPHERE_FLOATS : TRIANGLE_FLOATS; }
+
+static uint32_t chunk_end(const cgt_bands_job *job, uint32_t first)
+{
+    return job->prims->count - first < CGT_BANDS_CHUNK ? job->prims->count : first + CGT_BANDS_CHUNK;
+}
+
+/* The numbers of a primitive: x, y, z, r, or three vertices. */
+static const float *numbers_of(const cgt_primitive *q)
+{
+    return q->kind == CGT_KIND_SPHERES ? &q->sphere.x : q->triangle.v[0];
+}
+
+/* The class of a primitive's largest coordinate, its radius included. */
+static uint16_t magnitude_class(const cgt_primitive *q)
+{
+    const float *v = numbers_of(q);
+    const uint32_t count = q->kind == CGT_KIND_SPHERES ? 3 : TRIANGLE_FLOATS;
+    double most = 0;
+    uint64_t bits;
+    for (uint32_t k = 0; k < count; k++)
+        most = fabs((double)v[k]) > most ? fabs((double)v[k]) : most;
+    most += q->kind == CGT_KIND_SPHERES ? (double)q->sphere.r : 0;
+    if (most == 0)
+        return 0;
+    memcpy(&bits, &most, sizeof bits); /* a normal double: frexp's exponent is its own less 1022 */
+    return (uint16_t)((int)(bits >> 52) - 1022 + CGT_MAGNITUDE_ZERO);
+}
+
+void cgt_bands_classify(void *argument, uint32_t index)
+{
+    const cgt_bands_job *job = argument;
+    const uint32_t first = index * CGT_BANDS_CHUNK, end = chunk_end(job, first);
+    const cgt_primitive_array *a = cgt_primitives_array(job->prims, first);
+    for (uint32_t prim = first; prim < end; prim++) {
+        while (prim - a->first >= a->count)
+            a++;
+        const cgt_primitive q = cgt_array_primitive(a, prim - a->first);
+        job->class_of[prim] =
+            cgt_primitive_check(&q) == CGT_PRIMITIVE_VALID ? magnitude_class(&q) : (uint16_t)CGT_MAGNITUDES;
+    }
+}
+
+/* Multiplies all numbers of a primitive. Returns whether none has lost a bit. */
+static bool scale_numbers(const cgt_primitive *q, double factor, float *to)
+{
+    const float *v = numbers_of(q);
+    bool exact = true;
+    for (uint32_t k = 0; k < floats_of(q->kind); k++) {
+        const double product = (double)v[k] * factor;
+        to[k] = (float)product;
+        exact &= (double)to[k] == product;
+    }
+    return exact;
+}
+
+/* The band of a valid primitive. Powers of at least 1 lose nothing: a band's coordinates stay below 2^47. */
+static uint32_t choose_band(const cgt_bands_job *job, const cgt_primitive *q, uint32_t class)
+{
+    float scaled[TRIANGLE_FLOATS];
+    const uint32_t band = job->plan.band_of[class];
+    return job->factor[band] >= 1 || scale_numbers(q, job->factor[band], scaled) ? band : CGT_BAND_OF_REST;
+}
+
+void cgt_bands_count(void *argument, uint32_t index)
+{
+    const cgt_bands_job *job = argument;
+    const uint32_t first = index * CGT_BANDS_CHUNK, end = chunk_end(job, first);
+    const cgt_primitive_array *a = cgt_primitives_array(job->prims, first);
+    cgt_band_offset count[CGT_MAX_BANDS + 1] = {0};
+    for (uint32_t prim = first; prim < end; prim++) {
+        while (prim - a->first >= a->count)
+            a++;
+        if (job->class_of[prim] == CGT_MAGNITUDES)
+            continue;
+        const cgt_primitive q = cgt_array_primitive(a, prim - a->first);
+        const uint32_t b = choose_band(job, &q, job->class_of[prim]);
+        job->class_of[prim] = (uint16_t)b;
+        count[b].prims++;
+        count[b].floats += floats_of(a->kind);
+    }
+    for (uint32_t b = 0; b <= CGT_MAX_BANDS; b++)
+        job->offset[index][b] = count[b];
+}
+
+void cgt_bands_copy(void *argument, uint32_t index)
+{
+    const cgt_bands_job *job = argument;
+    const uint32_t first = index * CGT_BANDS_CHUNK, end = chunk_end(job, first);
+    const cgt_primitive_array *a = cgt_primitives_array(job->prims, first);
+    for (uint32_t prim = first; prim < end; prim++) {
+        const uint32_t b = job->class_of[prim];
+        while (prim - a->first >= a->count)
+            a++;
+        if (b == CGT_MAGNITUDES)
+            continue;
+        cgt_band_offset *to = &job->offset[index][b];
+        if (b == CGT_BAND_OF_REST) {
+            ((uint32_t *)job->bands->rest_number.data)[to->prims++] = prim;
+            continue;
+        }
+        const cgt_primitive q = cgt_array_primitive(a, prim - a->first);
+        scale_numbers(&q, job->factor[b], (float *)job->bands->band[b].points.data + to->floats);
+        ((uint32_t *)job->bands->band[b].number.data)[to->prims++] = prim;
+        to->floats += floats_of(a->kind);
+    }
+}

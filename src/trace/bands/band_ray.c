@@ -1,0 +1,183 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Rays to a band's units and back, and decisions for rays as given. */
+#include "trace/bands/band_ray.h"
+
+#include <float.h>
+#include <math.h>
+
+/* ---- the box ---- */
+
+/* Slabs in double. Differences of doubles that are floats times powers of two are below 2^131 and err by 2^-53 of
+ * themselves; a quotient by as much again: 2^-51 covers both. Quotients are at most 2^280. t is rounded to float before
+ * it counts, which the margins of the range cover: half an ulp, at least 2^-150. */
+bool cgt_band_misses_box(const cgt_band *band, const cgt_ray *ray, double t_end)
+{
+    const double begin = (double)ray->t_min;
+    double near = begin - fabs(begin) * 0x1p-20 - 0x1p-149, far = t_end + fabs(t_end) * 0x1p-20 + 0x1p-149;
+    for (int a = 0; a < 3; a++) {
+        const double o = (double)ray->line.org[a], d = (double)ray->line.dir[a];
+        const double low = band->low[a], high = band->high[a];
+        if (d == 0) {
+            if (o < low || o > high)
+                return true;
+            continue;
+        }
+        const double first = (d > 0 ? low - o : high - o) / d, last = (d > 0 ? high - o : low - o) / d;
+        near = fmax(near, first - fabs(first) * 0x1p-51);
+        far = fmin(far, last + fabs(last) * 0x1p-51);
+    }
+    return near > far;
+}
+
+/* ---- scaling ---- */
+
+bool cgt_band_scale(const float v[3], int exponent, float scaled[3])
+{
+    const double factor = cgt_power_of_two(exponent);
+    bool exact = true;
+    for (int a = 0; a < 3; a++) {
+        const double product = (double)v[a] * factor;
+        scaled[a] = (float)product; /* infinite where it leaves the range: not exact then */
+        exact &= (double)scaled[a] == product;
+    }
+    return exact;
+}
+
+static float round_down(double v)
+{
+    const float f = v < -(double)FLT_MAX ? -FLT_MAX : v > (double)FLT_MAX ? FLT_MAX : (float)v;
+    return (double)f > v ? nextafterf(f, -INFINITY) : f;
+}
+
+static float round_up(double v) { return -round_down(-v); }
+
+void cgt_band_scale_range(float t_min, float t_max, int x, float *scaled_min, float *scaled_max)
+{
+    const double factor = cgt_power_of_two(x);
+    *scaled_min = t_min;
+    *scaled_max = t_max;
+    if (!x)
+        return;
+    /* t that rounds to an end is within half an ulp of it, or 2^-150. Larger powers take 0 with them: below, a t' that
+     * rounds to 0 does so although its t does not, which only widens the range. */
+    const double low = (double)t_min, high = t_max > FLT_MAX ? (double)FLT_MAX : (double)t_max;
+    if (x > 0 || t_min != 0)
+        *scaled_min = round_down((low - fabs(low) * 0x1p-24 - 0x1p-150) * factor);
+    if (x < 0 || t_max <= FLT_MAX)
+        *scaled_max = round_up((high + fabs(high) * 0x1p-24 + 0x1p-150) * factor);
+}
+
+static int exponent_of(const float v[3])
+{
+    float longest = 0;
+    int exponent;
+    for (int a = 0; a < 3; a++)
+        longest = fabsf(v[a]) > longest ? fabsf(v[a]) : longest;
+    frexpf(longest, &exponent);
+    return exponent;
+}
+
+static bool scale_direction(const float dir[3], int k, int dir_exponent, float scaled[3], int *q)
+{
+    const int length = exponent_of(dir), least = -dir_exponent - length, most = dir_exponent - length;
+    *q = k < least ? least : k > most ? most : k;
+    if (cgt_band_scale(dir, *q, scaled))
+        return true;
+    *q = most; /* components far smaller than the longest may fit if all are larger */
+    return cgt_band_scale(dir, *q, scaled);
+}
+
+cgt_band_state cgt_band_scale_ray(const cgt_band *band, const cgt_ray *ray, double t_end, int dir_exponent,
+                                  cgt_scaled_ray *s)
+{
+    int q;
+    bool near = true;
+    const bool fits = cgt_band_scale(ray->line.org, band->exponent, s->org) &&
+                      scale_direction(ray->line.dir, band->exponent, dir_exponent, s->dir, &q);
+    for (int a = 0; a < 3; a++)
+        near &= fabsf(s->org[a]) <= CGT_BAND_MAX_ORG;
+    /* what is slow is worth a test in double before */
+    if (!(fits && near) && cgt_band_misses_box(band, ray, t_end))
+        return CGT_BAND_MISSED;
+    if (!fits)
+        return CGT_BAND_AS_GIVEN;
+    s->exponent = band->exponent - q;
+    cgt_band_scale_range(ray->t_min, ray->t_max, s->exponent, &s->t_min, &s->t_max);
+    if (t_end < (double)ray->t_max) {
+        const float end = round_up(t_end * cgt_power_of_two(s->exponent));
+        s->t_max = end < s->t_max ? end : s->t_max;
+    }
+    return s->t_min <= s->t_max ? CGT_BAND_SCALED : CGT_BAND_MISSED;
+}
+
+/* ---- deciding ---- */
+
+double cgt_band_end(const cgt_ray *ray, const cgt_band_best *best)
+{
+    const double end = (double)ray->t_max;
+    if (best->prim == CGT_INVALID_ID)
+        return end;
+    const double t = best->t + fabs(best->t) * 0x1p-18 + 0x1p-148;
+    return t < end ? t : end;
+}
+
+/* Whether a ray must not find a primitive. */
+static bool skips(const cgt_primitives *prims, const cgt_band_ray *ray, uint32_t prim)
+{
+    return prim == ray->skip || (ray->mask != UINT32_MAX && !(ray->mask & cgt_primitives_array(prims, prim)->mask));
+}
+
+/* Whether a hit, canonical or within 2^-20, beats the best one: by its t, then by the lower number. */
+static bool is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t prim, double t,
+                      const cgt_band_best *best, cgt_counts *counts)
+{
+    if (best->prim == CGT_INVALID_ID)
+        return true;
+    if (fabs(t - best->t) > 0x1p-19 * (fabs(t) + fabs(best->t)))
+        return t < best->t;
+    cgt_decided_hit a = {.primitive = cgt_primitives_get(prims, prim)},
+                    b = {.primitive = cgt_primitives_get(prims, best->prim)};
+    cgt_decide_t(ray, &a);
+    cgt_decide_t(ray, &b);
+    const int order = cgt_decide_order(ray, &a, &b, &counts->exact_tests);
+    return order ? order < 0 : prim < best->prim;
+}
+
+void cgt_band_decide(const cgt_primitives *prims, const uint32_t *number, uint32_t count, const cgt_band_ray *ray,
+                     bool any_hit, cgt_band_best *best, cgt_counts *counts)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (skips(prims, ray, number[i]))
+            continue;
+        cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, number[i])};
+        counts->ray_tests++;
+        counts->double_tests++;
+        if (!cgt_decide_hit(&ray->ray, &hit, &counts->exact_tests) ||
+            !is_closer(prims, &ray->ray, number[i], hit.t, best, counts))
+            continue;
+        *best = (cgt_band_best){number[i], hit.t};
+        if (any_hit)
+            return;
+    }
+}
+
+void cgt_band_accept(const cgt_primitives *prims, const cgt_band *band, const cgt_band_ray *ray, uint32_t prim,
+                     float scaled_t, int exponent, cgt_band_best *best, cgt_counts *counts)
+{
+    double t = (double)scaled_t * cgt_power_of_two(-exponent);
+    if (!cgt_band_t_is_plain((double)scaled_t, t, ray->ray.t_min, ray->ray.t_max)) {
+        cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, prim)};
+        cgt_decide_t(&ray->ray, &hit);
+        const float rounded = (float)hit.t;
+        /* where it is a sphere's second root, the band may have found the first one, before another hit */
+        if (hit.far || !(rounded >= ray->ray.t_min && rounded <= ray->ray.t_max && fabsf(rounded) < INFINITY)) {
+            cgt_band_decide(prims, band->number.data, band->count, ray, false, best, counts);
+            return;
+        }
+        t = hit.t;
+    }
+    if (is_closer(prims, &ray->ray, prim, t, best, counts))
+        *best = (cgt_band_best){prim, t};
+}

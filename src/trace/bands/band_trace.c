@@ -1,0 +1,347 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * A chunk of rays: for each band the rays that may meet it are scaled and go through its structure together; what they
+ * find is compared in the caller's units. The values of the hits are computed at the end, from the caller's numbers.
+ * Precision FAST is ROBUST here. */
+#include "trace/bands/band_trace.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Points against a light go through a loose grid by tiles where a point meets so many primitives at most, and where that
+ * takes no more work for each point. As in trace_light.c. */
+#define PRIMS_PER_POINT 16u
+#define MAX_LIGHT_WORK 128u
+#define FEW_POINTS 256u
+
+/* ---- the caller's rays ---- */
+
+static float element(const cgt_rays *r, const float *array, uint64_t i)
+{
+    return *(const float *)(const void *)((const char *)array + i * (r->stride ? r->stride : sizeof(float)));
+}
+
+static uint32_t number(const cgt_rays *r, const uint32_t *array, uint64_t i)
+{
+    return *(const uint32_t *)(const void *)((const char *)array + i * (r->stride ? r->stride : sizeof(float)));
+}
+
+typedef enum ray_state { RAY_TAKES_PART, RAY_OFF, RAY_INVALID } ray_state;
+
+/* As kernel/packet/ray_packet.h reads them. */
+static ray_state read_line(const cgt_rays *r, const cgt_light *light, uint64_t i, cgt_ray *ray)
+{
+    const bool point = light && light->kind == CGT_LIGHT_POINT;
+    float zero = 0, longest = 0;
+    for (int a = 0; a < 3; a++) {
+        const float o = element(r, r->org[a], i), d = !light  ? element(r, r->dir[a], i)
+                                                      : point ? light->position[a] - o
+                                                              : light->position[a];
+        ray->line.org[a] = o;
+        ray->line.dir[a] = d;
+        zero += o * 0 + d * 0; /* not a number where o or d is not finite */
+        longest = fabsf(d) > longest ? fabsf(d) : longest;
+    }
+    const float t_min = r->t_min ? element(r, r->t_min, i) : 0;
+    ray->t_max = r->t_max ? element(r, r->t_max, i) : point ? 1 : INFINITY;
+    ray->t_min = t_min < -FLT_MAX ? -FLT_MAX : t_min;
+    if (zero != 0 || longest == 0 || t_min != t_min || ray->t_max != ray->t_max)
+        return RAY_INVALID;
+    return t_min > ray->t_max ? RAY_OFF : RAY_TAKES_PART;
+}
+
+static void read_selection(const cgt_primitives *prims, const cgt_rays *r, uint64_t i, cgt_band_ray *ray)
+{
+    const uint32_t mask = r->mask ? number(r, r->mask, i) : 0,
+                   skip = r->skip_primitive ? number(r, r->skip_primitive, i) : CGT_INVALID_ID;
+    ray->mask = mask ? mask : UINT32_MAX;
+    ray->skip = CGT_INVALID_ID;
+    if (skip != CGT_INVALID_ID)
+        ray->skip = cgt_primitives_number(prims, r->skip_geometry ? number(r, r->skip_geometry, i) : 0, skip);
+}
+
+static bool read_ray(const cgt_band_chunk *c, uint32_t i, cgt_band_ray *ray)
+{
+    if (read_line(c->rays, c->light, c->first + i, &ray->ray) != RAY_TAKES_PART)
+        return false;
+    read_selection(&c->call->scene->committed_scene.prims, c->rays, c->first + i, ray);
+    return true;
+}
+
+/* ---- one band ---- */
+
+/* Scaled rays of the chunk, from `first` to end - 1 in the scratch. */
+typedef struct ray_list {
+    uint32_t first, end;
+} ray_list;
+
+/* The band's names of the primitive that a ray skips. */
+static void scale_skip(const cgt_band *band, uint32_t skip, uint32_t *primitive, uint32_t *geometry)
+{
+    const cgt_primitives *prims = &band->scene->committed_scene.prims;
+    const uint32_t *from = band->number.data;
+    uint32_t low = 0, high = band->count;
+    *primitive = *geometry = CGT_INVALID_ID;
+    while (skip != CGT_INVALID_ID && low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (from[middle] < skip)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (skip == CGT_INVALID_ID || low == band->count || from[low] != skip)
+        return;
+    const cgt_primitive_array *a = cgt_primitives_array(prims, low);
+    *primitive = low - a->first;
+    *geometry = a->geometry;
+}
+
+static void store_ray(const cgt_band_chunk *c, const cgt_band *band, const cgt_band_ray *ray, const cgt_scaled_ray *r,
+                      uint32_t i, uint32_t to)
+{
+    const cgt_band_scratch *s = c->scratch;
+    for (int a = 0; a < 3; a++) {
+        s->org[a][to] = r->org[a];
+        s->dir[a][to] = r->dir[a];
+    }
+    s->t_min[to] = r->t_min;
+    s->t_max[to] = r->t_max;
+    s->exponent[to] = r->exponent;
+    s->ray[to] = i;
+    s->mask[to] = ray->mask;
+    if (c->rays->skip_primitive)
+        scale_skip(band, ray->skip, &s->skip_primitive[to], &s->skip_geometry[to]);
+}
+
+static cgt_rays list_rays(const cgt_band_chunk *c, ray_list list)
+{
+    const cgt_band_scratch *s = c->scratch;
+    const uint32_t k = list.first;
+    return (cgt_rays){.count = list.end - k,
+                      .org = {s->org[0] + k, s->org[1] + k, s->org[2] + k},
+                      .dir = {s->dir[0] + k, s->dir[1] + k, s->dir[2] + k},
+                      .t_min = s->t_min + k,
+                      .t_max = s->t_max + k,
+                      .mask = c->rays->mask ? s->mask + k : NULL,
+                      .skip_primitive = c->rays->skip_primitive ? s->skip_primitive + k : NULL,
+                      .skip_geometry = c->rays->skip_primitive ? s->skip_geometry + k : NULL};
+}
+
+/* A point's ray to a scaled light: the band computes the direction, the same difference times 2^exponent, rounded to the
+ * same bits: a difference of floats that is below the normal ones is exact. So t is the caller's. */
+static bool scale_point(const cgt_band *band, const cgt_ray *ray, cgt_scaled_ray *r)
+{
+    if (!cgt_band_scale(ray->line.org, band->exponent, r->org))
+        return false;
+    for (int a = 0; a < 3; a++) {
+        if (fabsf(r->org[a]) > CGT_BAND_MAX_ORG)
+            return false;
+        r->dir[a] = 0;
+    }
+    r->t_min = ray->t_min;
+    r->t_max = ray->t_max;
+    r->exponent = 0;
+    return true;
+}
+
+/* Returns whether a light that has a place has one in the band's units. */
+static bool scale_light(const cgt_band *band, const cgt_light *light, cgt_light *scaled)
+{
+    if (!light || light->kind != CGT_LIGHT_POINT)
+        return false;
+    *scaled = *light;
+    bool fits = cgt_band_scale(light->position, band->exponent, scaled->position);
+    for (int a = 0; a < 3; a++)
+        fits &= fabsf(scaled->position[a]) <= CGT_BAND_MAX_ORG;
+    return fits;
+}
+
+/* Hits of any-hit rays. */
+static void take_occluded(const cgt_band_chunk *c, const cgt_band *band, ray_list list)
+{
+    const cgt_band_scratch *s = c->scratch;
+    for (uint32_t k = list.first; k < list.end; k++)
+        if (s->occluded[k])
+            s->best[s->ray[k]].prim = ((const uint32_t *)band->number.data)[0]; /* some primitive */
+}
+
+static void trace_any(const cgt_band_chunk *c, uint32_t b, ray_list list)
+{
+    const cgt_band *band = &c->call->scene->bands->band[b];
+    const cgt_rays rays = list_rays(c, list);
+    cgt_trace_settings settings = cgt_band_settings(c->call->settings);
+    cgt_counts counts = {0};
+    if (!rays.count)
+        return;
+    settings.use_bvh = c->call->use_bvh[b];
+    c->call->scene->context->kernel->trace_rays(&band->scene->committed_scene, &rays, 0, rays.count, &settings, NULL,
+                                                c->scratch->occluded + list.first, &counts);
+    cgt_band_add_counts(c->counts, &counts);
+    take_occluded(c, band, list);
+}
+
+/* Points against a light: by tiles where these are few primitives for each point, else as other rays. */
+static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, const cgt_light *light)
+{
+    const cgt_band *band = &c->call->scene->bands->band[b];
+    const cgt_kernel *kernel = c->call->scene->context->kernel;
+    const cgt_committed_scene *scene = &band->scene->committed_scene;
+    const cgt_rays points = list_rays(c, list);
+    cgt_trace_settings settings = cgt_band_settings(c->call->settings);
+    cgt_counts counts = {0};
+    if (!points.count)
+        return;
+    settings.use_bvh = c->call->use_bvh[b];
+    settings.light_tiles =
+        scene->valid && scene->loose.levels && !(settings.use_bvh && points.count < FEW_POINTS) &&
+        kernel->light_prims(scene, &points, light, 0, points.count) <= PRIMS_PER_POINT * points.count;
+    settings.max_light_work = settings.light_tiles ? MAX_LIGHT_WORK : 0;
+    const bool may_wait = c->waits && scene->structure == CGT_STRUCTURE_LOOSE_GRID && !settings.use_bvh;
+    if (may_wait && !settings.light_tiles) {
+        *c->waits = true;
+        return;
+    }
+    if (!kernel->trace_light(scene, &points, light, 0, points.count, &settings, c->scratch->occluded, &counts)) {
+        if (may_wait) {
+            cgt_band_add_counts(c->counts, &counts);
+            *c->waits = true;
+            return;
+        }
+        settings.light_tiles = false;
+        settings.max_light_work = 0;
+        kernel->trace_light(scene, &points, light, 0, points.count, &settings, c->scratch->occluded, &counts);
+    }
+    cgt_band_add_counts(c->counts, &counts);
+    take_occluded(c, band, list);
+}
+
+static void trace_closest(const cgt_band_chunk *c, uint32_t b, ray_list list)
+{
+    const cgt_primitives *prims = &c->call->scene->committed_scene.prims;
+    const cgt_band *band = &c->call->scene->bands->band[b];
+    const cgt_band_scratch *s = c->scratch;
+    const cgt_rays rays = list_rays(c, list);
+    const cgt_hits hits = {
+        .t = s->t + list.first, .primitive = s->primitive + list.first, .geometry = s->geometry + list.first};
+    cgt_trace_settings settings = cgt_band_settings(c->call->settings);
+    cgt_counts counts = {0};
+    if (!rays.count)
+        return;
+    settings.use_bvh = c->call->use_bvh[b];
+    c->call->scene->context->kernel->trace_rays(&band->scene->committed_scene, &rays, 0, rays.count, &settings, &hits,
+                                                NULL, &counts);
+    cgt_band_add_counts(c->counts, &counts);
+    for (uint32_t k = list.first; k < list.end; k++) {
+        cgt_band_ray ray;
+        if (s->primitive[k] == CGT_INVALID_ID)
+            continue;
+        read_ray(c, s->ray[k], &ray);
+        cgt_band_accept(prims, band, &ray, cgt_band_primitive(band, s->geometry[k], s->primitive[k]), s->t[k],
+                        s->exponent[k], &s->best[s->ray[k]], c->counts);
+    }
+}
+
+void cgt_band_trace_chunk(const cgt_band_chunk *c, uint32_t b)
+{
+    const struct cgt_bands *bands = c->call->scene->bands;
+    const cgt_band *band = &bands->band[b];
+    const cgt_committed_scene *scene = &band->scene->committed_scene;
+    const bool bvh = c->call->use_bvh[b] || scene->structure == CGT_STRUCTURE_BVH;
+    const int dir_exponent = c->any_hit && bvh ? CGT_BAND_ANY_DIR_EXPONENT : CGT_BAND_DIR_EXPONENT;
+    /* rays whose t is the band's, for any hit, from the start; others from the end */
+    ray_list any = {0, 0}, closest = {c->scratch->capacity, c->scratch->capacity};
+    cgt_light light;
+    const bool points = scale_light(band, c->light, &light);
+    if (!scene->valid)
+        return;
+    for (uint32_t i = 0; i < c->count; i++) {
+        cgt_band_ray ray;
+        cgt_scaled_ray r;
+        cgt_band_best *best = &c->scratch->best[i];
+        if ((c->any_hit && best->prim != CGT_INVALID_ID) || !read_ray(c, i, &ray))
+            continue;
+        const double t_end = cgt_band_end(&ray.ray, best);
+        if (bands->count + bands->rest > 1 && cgt_band_misses_box(band, &ray.ray, t_end))
+            continue;
+        const cgt_band_state state = points && scale_point(band, &ray.ray, &r)
+                                         ? CGT_BAND_SCALED
+                                         : cgt_band_scale_ray(band, &ray.ray, t_end, dir_exponent, &r);
+        if (state == CGT_BAND_SCALED)
+            store_ray(c, band, &ray, &r, i, c->any_hit && !r.exponent ? any.end++ : --closest.first);
+        else if (state == CGT_BAND_AS_GIVEN)
+            cgt_band_decide(&c->call->scene->committed_scene.prims, band->number.data, band->count, &ray, c->any_hit,
+                            best, c->counts);
+    }
+    if (points)
+        trace_points(c, b, any, &light);
+    else
+        trace_any(c, b, any);
+    trace_closest(c, b, closest);
+}
+
+void cgt_band_trace_rest(const cgt_band_chunk *c)
+{
+    const cgt_scene *scene = c->call->scene;
+    const struct cgt_bands *bands = scene->bands;
+    cgt_band_ray ray;
+    for (uint32_t i = 0; bands->rest && i < c->count; i++)
+        if (!(c->any_hit && c->scratch->best[i].prim != CGT_INVALID_ID) && read_ray(c, i, &ray))
+            cgt_band_decide(&scene->committed_scene.prims, bands->rest_number.data, bands->rest, &ray, c->any_hit,
+                            &c->scratch->best[i], c->counts);
+}
+
+/* ---- a chunk ---- */
+
+static void count_rays(const cgt_band_chunk *c)
+{
+    cgt_ray line;
+    c->counts->rays += c->count;
+    for (uint32_t i = 0; i < c->count; i++) {
+        c->scratch->best[i] = (cgt_band_best){CGT_INVALID_ID, INFINITY};
+        c->counts->invalid_rays += read_line(c->rays, c->light, c->first + i, &line) == RAY_INVALID;
+    }
+}
+
+static void store_hits(const cgt_band_chunk *c, const cgt_hits *hits)
+{
+    const cgt_scene *scene = c->call->scene;
+    uint32_t *prim = c->scratch->ray;
+    for (uint32_t i = 0; i < c->count; i++)
+        prim[i] = c->scratch->best[i].prim;
+    scene->context->kernel->resolve_rays(&scene->committed_scene, c->rays, c->first, c->first + c->count, prim,
+                                         c->call->settings, hits, c->counts);
+}
+
+bool cgt_bands_trace(const cgt_band_call *call, uint32_t slot, const cgt_rays *rays, const cgt_light *light,
+                     uint64_t first, uint64_t end, const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts)
+{
+    const cgt_band_scratch scratch = cgt_band_slot(call, slot);
+    bool waits = false;
+    const cgt_band_chunk c = {.call = call,
+                              .scratch = &scratch,
+                              .rays = rays,
+                              .light = light,
+                              .first = first,
+                              .count = (uint32_t)(end - first),
+                              .any_hit = hits == NULL,
+                              .waits = call->by_tiles ? &waits : NULL,
+                              .counts = counts};
+    count_rays(&c);
+    for (uint32_t b = 0; b < call->scene->bands->count && !waits; b++)
+        cgt_band_trace_chunk(&c, b);
+    if (waits) {
+        counts->rays = counts->invalid_rays = 0; /* they are counted when they are traced */
+        return false;
+    }
+    cgt_band_trace_rest(&c);
+    if (hits) {
+        store_hits(&c, hits);
+        return true;
+    }
+    for (uint32_t i = 0; i < c.count; i++) {
+        occluded[first + i] = scratch.best[i].prim != CGT_INVALID_ID;
+        counts->hits += occluded[first + i];
+    }
+    return true;
+}
