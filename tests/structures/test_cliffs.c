@@ -1,0 +1,180 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Time cliffs, by counted work: what one trouble in a scene or in its rays may cost, compared with the same scene
+ * without it, for each call and each structure that AUTO may choose. The goal is GOAL_FACTOR, the limit MOST_FACTOR;
+ * cliff_known.c lists the rows that exceed it today. All structures must find the same hits meanwhile, and those that
+ * exact arithmetic finds. Times are what cgt-bench cliffs measures. */
+#include "structures/cliff_counts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/oracle/oracle.h"
+
+#define GOAL_FACTOR 3.0
+#define MOST_FACTOR 10.0
+
+/* Twins that need less than this for a ray are taken to need it: a few nodes and blocks. */
+#define LEAST_WORK 8.0
+
+/* Of the scenes that exact arithmetic judges ray by ray. */
+#define JUDGED_PRIMITIVES 150u
+#define JUDGED_RAYS 24u
+
+static const char *const call_word[CLIFF_CALLS] = {"CLIFF_COMMIT", "CLIFF_CAMERA", "CLIFF_LIGHT",
+                                                   "CLIFF_SINGLE", "CLIFF_RAYS",   "CLIFF_OCCLUDED"};
+static const char *const structure_word[CLIFF_STRUCTURES] = {"CLIFF_AUTO", "CLIFF_GRID", "CLIFF_BVH"};
+
+/* ---- work ---- */
+
+typedef struct tally {
+    uint32_t rows, above_goal, known, bad;
+} tally;
+
+/* A line as cliff_known.c has it. */
+static void print_row(const char *why, const cliff *c, cliff_call call, cliff_structure structure, double factor)
+{
+    print_message("%s: {\"%s\", %s, %s, %.0f}, now %.3g\n", why, c->name, call_word[call], structure_word[structure],
+                  factor * 1.5 + 1, factor);
+}
+
+static void judge_row(const cliff *c, cliff_call call, cliff_structure structure, double factor, tally *t)
+{
+    const double bound = cliff_known_bound(c->name, call, structure);
+    t->rows++;
+    t->above_goal += factor > GOAL_FACTOR;
+    t->known += bound > 0;
+    if (factor > (bound > 0 ? bound : MOST_FACTOR)) {
+        print_row(bound > 0 ? "worse than known" : "above the limit", c, call, structure, factor);
+        t->bad++;
+    } else if (bound > 0 && factor <= MOST_FACTOR) {
+        print_row("known, may leave the table", c, call, structure, factor);
+    }
+}
+
+static void count_cliff(cgt_context *context, const cliff *c, double twin[CLIFF_STRUCTURES][CLIFF_CALLS], tally *t)
+{
+    cliff_counts first, other;
+    for (int s = 0; s < CLIFF_STRUCTURES; s++) {
+        cliff_counts *counts = s ? &other : &first;
+        cliff_counts_make(counts, context, c, true, (cliff_structure)s);
+        for (int call = 0; call < CLIFF_CALLS; call++)
+            if (cliff_concerns(c, (cliff_call)call)) {
+                const double least = twin[s][call] > LEAST_WORK ? twin[s][call] : LEAST_WORK;
+                judge_row(c, (cliff_call)call, (cliff_structure)s, counts->work[call] / least, t);
+            }
+        if (s) {
+            cliff_counts_compare(c, &first, &other);
+            cliff_counts_free(&other);
+        }
+    }
+    cliff_counts_free(&first);
+}
+
+static void count_twin(cgt_context *context, cliff_base base, double work[CLIFF_STRUCTURES][CLIFF_CALLS])
+{
+    const cliff twin = {.name = "twin", .base = base};
+    for (int s = 0; s < CLIFF_STRUCTURES; s++) {
+        cliff_counts counts;
+        cliff_counts_make(&counts, context, &twin, false, (cliff_structure)s);
+        memcpy(work[s], counts.work, sizeof counts.work);
+        cliff_counts_free(&counts);
+        print_message("%s, %s: commit %.1f bytes, camera %.1f, light %.1f, single %.1f, rays %.1f, occluded %.1f\n",
+                      base == CLIFF_CLOUD  ? "cloud"
+                      : base == CLIFF_SOUP ? "soup"
+                                           : "mesh",
+                      cliff_structure_name((cliff_structure)s), work[s][CLIFF_COMMIT], work[s][CLIFF_CAMERA],
+                      work[s][CLIFF_LIGHT], work[s][CLIFF_SINGLE], work[s][CLIFF_RAYS], work[s][CLIFF_OCCLUDED]);
+    }
+}
+
+static void work_stays_in_proportion(void **state)
+{
+    static double twin[CLIFF_BASES][CLIFF_STRUCTURES][CLIFF_CALLS];
+    tally t = {0};
+    (void)state;
+    cgt_context *context = context_make(1, NULL);
+    for (int base = 0; base < CLIFF_BASES; base++)
+        count_twin(context, (cliff_base)base, twin[base]);
+    const uint32_t step = test_samples() ? 10 : 1;
+    for (uint32_t i = test_sample_start(0, step); i < cliff_count(); i += step)
+        count_cliff(context, cliff_at(i), twin[cliff_at(i)->base], &t);
+    print_message("%u rows: %u above the goal of %g, %u known to be above %g\n", t.rows, t.above_goal, GOAL_FACTOR,
+                  t.known, MOST_FACTOR);
+    cgt_context_release(context);
+    if (t.bad)
+        fail_msg("%u rows take too much work", t.bad);
+}
+
+static void the_table_of_known_rows_is_sound(void **state)
+{
+    (void)state;
+    cliff_known_check();
+}
+
+/* ---- exactness ---- */
+
+static void judge_rays(const cliff *c, const oracle_scene *truth, const truth_ray *rays, const full_hit *hit)
+{
+    for (uint32_t i = 0; i < JUDGED_RAYS; i++) {
+        oracle_hit exact;
+        const oracle_verdict verdict = oracle_judge(truth, &rays[i], hit[i].geometry, hit[i].primitive, &exact);
+        if (verdict != ORACLE_RIGHT)
+            fail_msg("%s, ray %u: %s: primitive %d at %a", c->name, i,
+                     verdict == ORACLE_MISSED     ? "missed"
+                     : verdict == ORACLE_INVENTED ? "invented"
+                                                  : "another one is closer",
+                     (int)hit[i].primitive, (double)hit[i].t);
+        if (hit[i].geometry != CGT_INVALID_ID && !(oracle_ulp(exact.t, hit[i].t) <= 1))
+            fail_msg("%s, ray %u: t is %a", c->name, i, (double)hit[i].t);
+    }
+}
+
+static void judge_cliff(cgt_context *context, const cliff *c)
+{
+    cliff_scene scene;
+    oracle_scene truth = {0};
+    truth_ray rays[JUDGED_RAYS];
+    full_hit hit[JUDGED_RAYS];
+    assert_true(cliff_make(&scene, c, true, JUDGED_PRIMITIVES));
+    cliff_make_rays(&scene, c, true, rays, JUDGED_RAYS);
+    if (scene.base == CLIFF_CLOUD)
+        oracle_scene_add_spheres(&truth, 0, (const float(*)[4])(const void *)scene.data, scene.count);
+    else
+        oracle_scene_add_triangles(&truth, 0, (const float(*)[3])(const void *)scene.data, 3 * scene.count, NULL,
+                                   scene.count);
+    for (int s = 0; s < CLIFF_STRUCTURES; s++) {
+        const cgt_scene_options options = cliff_structure_options((cliff_structure)s);
+        cgt_scene *committed = NULL;
+        assert_int_equal(cgt_scene_create(context, &options, &committed), CGT_OK);
+        assert_int_equal(cliff_add(&scene, committed), CGT_OK);
+        assert_int_equal(cgt_scene_commit(committed), CGT_OK);
+        assert_int_equal(trace_array(committed, rays, JUDGED_RAYS, hit, NULL), CGT_OK);
+        judge_rays(c, &truth, rays, hit);
+        cgt_scene_release(committed);
+    }
+    oracle_scene_free(&truth);
+    cliff_free(&scene);
+}
+
+static void hits_are_exact(void **state)
+{
+    (void)state;
+    const uint32_t step = test_samples() ? 10 : 1;
+    cgt_context *context = context_make(1, NULL);
+    for (uint32_t i = test_sample_start(1, step); i < cliff_count(); i += step)
+        judge_cliff(context, cliff_at(i));
+    cgt_context_release(context);
+}
+
+int main(void)
+{
+    test_begin("test_cliffs");
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_table_of_known_rows_is_sound),
+        cmocka_unit_test(hits_are_exact),
+        cmocka_unit_test(work_stays_in_proportion),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
