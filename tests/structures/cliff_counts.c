@@ -91,7 +91,7 @@ void cliff_counts_make(cliff_counts *counts, cgt_context *context, const cliff *
     counting all = {.scene = &scene, .counts = counts, .rays = rays};
     const cgt_scene_options options = cliff_structure_options(structure);
     memset(counts, 0, sizeof *counts);
-    assert_true(cliff_make(&scene, c, disturbed, CLIFF_PRIMITIVES));
+    assert_true(cliff_make(&scene, c, disturbed, c->base == CLIFF_MESH ? CLIFF_MESH_PRIMITIVES : CLIFF_PRIMITIVES));
     cliff_make_rays(&scene, c, disturbed, rays, CLIFF_RAYS_COUNTED);
     all.research_options.statistics = &all.research;
     all.options.statistics = &all.trace;

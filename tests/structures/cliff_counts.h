@@ -9,12 +9,13 @@
 #include "support/cliffs/cliffs.h"
 #include "support/scenes.h"
 
-/* Size of what is counted: large enough for clusters of triangles and several levels, small enough for seconds. */
-#define CLIFF_PRIMITIVES 10000u
-#define CLIFF_WIDTH 40u
-#define CLIFF_HEIGHT 30u
-#define CLIFF_RAYS_COUNTED 512u
-#define CLIFF_SINGLE_RAYS 16u
+/* Size of what is counted: meshes are large enough for clusters, all are small enough for seconds. */
+#define CLIFF_PRIMITIVES 4000u
+#define CLIFF_MESH_PRIMITIVES 8200u
+#define CLIFF_WIDTH 32u
+#define CLIFF_HEIGHT 24u
+#define CLIFF_RAYS_COUNTED 256u
+#define CLIFF_SINGLE_RAYS 8u
 
 typedef struct cliff_counts {
     double work[CLIFF_CALLS]; /* of a ray or point; of the commit: bytes of structures for a primitive */

@@ -18,7 +18,8 @@ void cliff_middle(const cliff_scene *scene, uint32_t i, float middle[3])
 {
     const float *p = scene->data + (size_t)i * cliff_floats(scene);
     for (int a = 0; a < 3; a++)
-        middle[a] = scene->base == CLIFF_CLOUD ? p[a] : (float)(((double)p[a] + (double)p[3 + a] + (double)p[6 + a]) / 3);
+        middle[a] =
+            scene->base == CLIFF_CLOUD ? p[a] : (float)(((double)p[a] + (double)p[3 + a] + (double)p[6 + a]) / 3);
 }
 
 void cliff_place(cliff_scene *scene, uint32_t i, const float middle[3], float factor)
@@ -104,7 +105,8 @@ bool cliff_make(cliff_scene *scene, const cliff *c, bool disturbed, uint32_t cou
     memset(scene, 0, sizeof *scene);
     scene->base = c->base;
     scene->count = count;
-    scene->data = calloc((size_t)count * cliff_floats(scene) + 1, sizeof(float)); /* a float may be read past a sphere */
+    scene->data =
+        calloc((size_t)count * cliff_floats(scene) + 1, sizeof(float)); /* a float may be read past a sphere */
     if (!scene->data)
         return false;
     switch (c->base) {
@@ -135,6 +137,5 @@ cgt_result cliff_add(const cliff_scene *scene, cgt_scene *to)
                                                     .radius_stride = 16},
                                      NULL);
     return cgt_scene_add_triangles(
-        to,
-        &(cgt_triangles){.count = scene->count, .vertex_count = 3 * scene->count, .vertices = scene->data}, NULL);
+        to, &(cgt_triangles){.count = scene->count, .vertex_count = 3 * scene->count, .vertices = scene->data}, NULL);
 }

@@ -7,13 +7,25 @@
 
 /* the same trouble for spheres and for triangles in random order */
 #define BOTH(name, disturb, amount)                                                                                    \
-    {name ", spheres", CLIFF_CLOUD, disturb, amount, NULL, 0}, {name ", triangles", CLIFF_SOUP, disturb, amount, NULL, 0}
-#define SPHERES(name, disturb, amount) {name ", spheres", CLIFF_CLOUD, disturb, amount, NULL, 0}
-#define TRIANGLES(name, disturb, amount) {name ", triangles", CLIFF_SOUP, disturb, amount, NULL, 0}
-#define MESH(name, disturb, amount) {name ", mesh", CLIFF_MESH, disturb, amount, NULL, 0}
+    {name ", spheres", CLIFF_CLOUD, disturb, amount, NULL, 0},                                                         \
+    {                                                                                                                  \
+        name ", triangles", CLIFF_SOUP, disturb, amount, NULL, 0                                                       \
+    }
+#define SPHERES(name, disturb, amount)                                                                                 \
+    {                                                                                                                  \
+        name ", spheres", CLIFF_CLOUD, disturb, amount, NULL, 0                                                        \
+    }
+#define TRIANGLES(name, disturb, amount)                                                                               \
+    {                                                                                                                  \
+        name ", triangles", CLIFF_SOUP, disturb, amount, NULL, 0                                                       \
+    }
+#define MESH(name, disturb, amount)                                                                                    \
+    {                                                                                                                  \
+        name ", mesh", CLIFF_MESH, disturb, amount, NULL, 0                                                            \
+    }
 /* rays through undisturbed scenes */
 #define RAYS(name, bend, amount)                                                                                       \
-    {name ", spheres", CLIFF_CLOUD, NULL, 0, bend, amount}, {name ", triangles", CLIFF_SOUP, NULL, 0, bend, amount}
+    {name ", spheres", CLIFF_CLOUD, NULL, 0, bend, amount}, { name ", triangles", CLIFF_SOUP, NULL, 0, bend, amount }
 
 static const cliff catalogue[] = {
     /* far away */

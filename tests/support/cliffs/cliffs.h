@@ -31,9 +31,9 @@ typedef enum cliff_base {
 
 typedef struct cliff_scene {
     cliff_base base;
-    uint32_t count; /* primitives */
-    float *data;    /* of each sphere x, y, z and radius; of each triangle x, y, z of its three vertices */
-    float size;     /* about the radius of an undisturbed sphere, or half the extent of a triangle */
+    uint32_t count;         /* primitives */
+    float *data;            /* of each sphere x, y, z and radius; of each triangle x, y, z of its three vertices */
+    float size;             /* about the radius of an undisturbed sphere, or half the extent of a triangle */
     float middle[3], reach; /* the ball that camera and rays look at */
     cgt_camera camera;
     float light[3];
