@@ -47,8 +47,7 @@ static double count_light(counting *c)
     assert_true(cliff_make_points(c->scene, c->committed, CLIFF_WIDTH, CLIFF_HEIGHT, &points));
     uint8_t *occluded = malloc(points.count + 1);
     assert_non_null(occluded);
-    const float *p = points.position[0];
-    const cgt_points to = {.count = points.count, .stride = 12, .position = {p, p + 1, p + 2}};
+    const cgt_points to = cliff_points_array(&points);
     assert_int_equal(cgt_occluded_points(c->committed, &light, &to, occluded, &c->options), CGT_OK);
     const double count = points.count > LEAST_POINTS ? points.count : LEAST_POINTS;
     free(occluded);

@@ -55,7 +55,7 @@ static void judge_row(const cliff *c, cliff_call call, cliff_structure structure
         print_row(bound > 0 ? "worse than known" : "above the limit", c, call, structure, factor);
         t->bad++;
     } else if (bound > 0 && factor <= MOST_FACTOR) {
-        print_row("known, may leave the table", c, call, structure, factor);
+        print_row("known, may leave the table if so in all variants", c, call, structure, factor);
     }
 }
 

@@ -191,7 +191,7 @@ void cliff_big(cliff_scene *s, test_random *r, float amount)
 /* ---- crowds ---- */
 
 /* Copies of one primitive. */
-void cliff_point(cliff_scene *s, test_random *r, float amount)
+void cliff_copies(cliff_scene *s, test_random *r, float amount)
 {
     const uint32_t floats = cliff_floats(s);
     const float place[3] = {0.1f, 0.2f, -0.3f};

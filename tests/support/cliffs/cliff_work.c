@@ -49,9 +49,17 @@ double cliff_work(const cgt_trace_statistics *trace, const cgt_research_trace_st
 
 void cliff_points_free(cliff_points *points)
 {
-    free(points->position);
-    free(points->primitive);
+    free(points->point);
     memset(points, 0, sizeof *points);
+}
+
+cgt_points cliff_points_array(const cliff_points *points)
+{
+    const cliff_point *p = points->point;
+    return (cgt_points){.count = points->count,
+                        .stride = sizeof *p,
+                        .position = {&p->position[0], &p->position[1], &p->position[2]},
+                        .skip_primitive = &p->primitive};
 }
 
 static void keep_points(const cliff_scene *scene, uint32_t width, uint32_t height, const float *t,
@@ -62,13 +70,13 @@ static void keep_points(const cliff_scene *scene, uint32_t width, uint32_t heigh
     if (cgt_camera_prepare(&scene->camera, width, height, &rays, message) != CGT_OK)
         return;
     for (uint32_t k = 0; k < width * height; k++) {
-        float org[3], dir[3], *p = points->position[points->count];
+        float org[3], dir[3], *p = points->point[points->count].position;
         if (primitive[k] == CGT_INVALID_ID)
             continue;
         cgt_camera_pixel(&rays, k % width, k / width, org, dir);
         for (int a = 0; a < 3; a++)
             p[a] = org[a] + t[k] * dir[a];
-        points->primitive[points->count] = primitive[k];
+        points->point[points->count].primitive = primitive[k];
         points->count += isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
     }
 }
@@ -81,9 +89,8 @@ bool cliff_make_points(const cliff_scene *scene, const cgt_scene *committed, uin
     cgt_frame_init(&frame, width, height);
     frame.t = malloc(pixels * sizeof(float));
     frame.primitive = malloc(pixels * sizeof(uint32_t));
-    *points = (cliff_points){.position = malloc((pixels + 1) * sizeof *points->position), /* one that is not kept */
-                             .primitive = malloc((pixels + 1) * sizeof(uint32_t))};
-    const bool good = frame.t && frame.primitive && points->position && points->primitive &&
+    *points = (cliff_points){.point = malloc((pixels + 1) * sizeof *points->point)}; /* one that is not kept */
+    const bool good = frame.t && frame.primitive && points->point &&
                       cgt_trace_camera(committed, &scene->camera, &frame, NULL) == CGT_OK;
     if (good)
         keep_points(scene, width, height, frame.t, frame.primitive, points);

@@ -61,8 +61,8 @@ static const cliff catalogue[] = {
     BOTH("all big", cliff_big, 0.5f),
     SPHERES("all big, eye inside", cliff_eye_inside, 0.5f),
     /* crowds */
-    BOTH("at one point", cliff_point, 0.5f),
-    SPHERES("points at one point", cliff_point, 0),
+    BOTH("at one point", cliff_copies, 0.5f),
+    SPHERES("points at one point", cliff_copies, 0),
     BOTH("nearly at one point", cliff_nearly_point, 1e-6f),
     BOTH("concentric", cliff_concentric, 0.8f),
     BOTH("line", cliff_line, 0),

@@ -59,7 +59,7 @@ typedef struct cliff {
 uint32_t cliff_count(void);
 const cliff *cliff_at(uint32_t number);
 
-/* Makes the scene of a cliff, or its twin's. count: primitives, 64 or more. The same on every machine. False where
+/* Makes the scene of a cliff, or its twin's. count: primitives, 64 or more. The same with every seed. False where
  * memory is refused. Release with cliff_free. */
 bool cliff_make(cliff_scene *scene, const cliff *c, bool disturbed, uint32_t count);
 void cliff_free(cliff_scene *scene);
@@ -96,12 +96,15 @@ cgt_scene_options cliff_structure_options(cliff_structure structure);
  * precision is one. */
 double cliff_work(const cgt_trace_statistics *trace, const cgt_research_trace_statistics *research);
 
-/* ---- Shared by the files of this folder ---- */
+/* A point that a camera sees, and the primitive that it lies on. */
+typedef struct cliff_point {
+    float position[3];
+    uint32_t primitive;
+} cliff_point;
 
 typedef struct cliff_points {
     uint32_t count;
-    float (*position)[3];
-    uint32_t *primitive; /* that each lies on */
+    cliff_point *point;
 } cliff_points;
 
 /* The points that a camera sees of a committed scene, in the order of its pixels. False where memory is refused or a
@@ -110,6 +113,12 @@ bool cliff_make_points(const cliff_scene *scene, const cgt_scene *committed, uin
                        cliff_points *points);
 void cliff_points_free(cliff_points *points);
 
+/* They as the library takes them. */
+cgt_points cliff_points_array(const cliff_points *points);
+
+/* ---- Shared by the files of this folder ---- */
+
+test_random cliff_random(uint32_t stream);
 uint32_t cliff_floats(const cliff_scene *scene); /* of a primitive: 4 or 9 */
 
 /* The centre of a sphere, the mean of a triangle's vertices. */
@@ -122,7 +131,7 @@ void cliff_place(cliff_scene *scene, uint32_t i, const float middle[3], float fa
 void cliff_look(cliff_scene *scene, const float middle[3], float reach);
 
 cliff_disturb cliff_one_stray, cliff_strays, cliff_giant, cliff_far_clusters, cliff_dense_near, cliff_dense_whole,
-    cliff_octaves, cliff_nested_octaves, cliff_levels, cliff_log_sizes, cliff_self_similar, cliff_stadium, cliff_point,
+    cliff_octaves, cliff_nested_octaves, cliff_levels, cliff_log_sizes, cliff_self_similar, cliff_stadium, cliff_copies,
     cliff_nearly_point, cliff_concentric, cliff_line, cliff_axis_line, cliff_plane, cliff_tilted_plane, cliff_big,
     cliff_scale, cliff_translate, cliff_eye_inside, cliff_far_light, cliff_light_inside;
 cliff_disturb cliff_fan, cliff_slivers, cliff_lying_sample, cliff_no_area, cliff_invalid, cliff_shuffled;
