@@ -92,8 +92,8 @@ typedef enum cliff_structure { CLIFF_AUTO, CLIFF_GRID, CLIFF_BVH, CLIFF_STRUCTUR
 const char *cliff_structure_name(cliff_structure structure);
 cgt_scene_options cliff_structure_options(cliff_structure structure);
 
-/* What tracing calls counted, as the statistics have it, in steps that cost about the same: a test of a ray in single
- * precision is one. */
+/* What tracing calls counted, as the statistics have it, in steps that cost about the same: a test of a vector of
+ * rays in single precision is one. */
 double cliff_work(const cgt_trace_statistics *trace, const cgt_research_trace_statistics *research);
 
 /* A point that a camera sees, and the primitive that it lies on. */
