@@ -146,8 +146,7 @@ static int measure_cliff(job *j, const cliff *c)
     for (int s = 0; s < CLIFF_STRUCTURES && !code; s++) {
         const cliffs_row name = {.scene = c->name, .primitives = j->primitives, .structure = (cliff_structure)s};
         if (bench_is_chosen(j->settings->structure, CLIFF_STRUCTURES, s))
-            code = cliffs_add_rows(&j->rows, j->table, &name, &result[s], &j->twin[c->base][s],
-                                   has_embree(j->settings) ? &embree : NULL);
+            code = cliffs_add_rows(&j->rows, j->table, &name, &result[s], &j->twin[c->base][s], &embree);
     }
     cliffs_input_free(&input);
     return code;

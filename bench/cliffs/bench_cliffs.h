@@ -39,7 +39,7 @@ typedef struct cliffs_times {
     uint32_t steps; /* that were measured; 0: the call was not */
     double ms[CLIFFS_STEPS];
     uint64_t rays[CLIFFS_STEPS]; /* or points */
-    uint64_t hits;               /* of the last step */
+    uint64_t hits[CLIFFS_STEPS];
 } cliffs_times;
 
 /* All that is measured of a scene by one program. */
@@ -61,7 +61,8 @@ typedef struct cliffs_input {
 int cliffs_input_make(cliffs_input *input, const cliff *c, bool disturbed, uint32_t count, uint32_t steps);
 void cliffs_input_free(cliffs_input *input);
 
-/* A program that is measured. The first two return 0, or -1 after a message. */
+/* A program that is measured. The first two return 0, or -1 after a message; prepare returns 1 where the program does not
+ * support the call's rays. */
 typedef struct cliffs_program {
     int (*prepare)(void *self, cliff_call call);                        /* not timed */
     int (*run)(void *self, cliff_call call, uint32_t step);             /* timed */
@@ -93,7 +94,7 @@ typedef struct cliffs_row {
     uint64_t rays, hits;
     double ms;
     double twin_ratio;   /* NaN: no twin */
-    double embree_ms;    /* for as many rays; NaN: no Embree */
+    double embree_ms;    /* for as many rays; NaN: no Embree, or it misses most hits */
     double embree_ratio; /* the library's time over Embree's */
 } cliffs_row;
 

@@ -16,6 +16,8 @@
 
 enum { PACKET = 16, EDGE = 4 }; /* a camera's packets are squares */
 
+#define MOST_COORDINATE 1.844e18f /* of origins and directions: Embree's documented range */
+
 #define LIGHT_T_MIN 1e-4f /* of shadow rays, of the way to the light: Embree cannot skip a primitive */
 
 typedef struct embree {
@@ -33,6 +35,23 @@ typedef struct embree {
 bool cliffs_embree_is_here(void) { return true; }
 
 /* ---- rays ---- */
+
+/* Whether Embree takes a ray; the others are left out. */
+static bool is_valid(const truth_ray *ray)
+{
+    for (int a = 0; a < 3; a++)
+        if (!(fabsf(ray->org[a]) <= MOST_COORDINATE && fabsf(ray->dir[a]) <= MOST_COORDINATE))
+            return false;
+    return ray->t_min >= 0 && !isnan(ray->t_max);
+}
+
+static bool most_are_valid(const truth_ray *rays, uint64_t count)
+{
+    uint64_t valid = 0;
+    for (uint64_t i = 0; i < count; i++)
+        valid += is_valid(&rays[i]);
+    return 2 * valid > count;
+}
 
 static void make_camera_rays(embree *e, uint32_t step)
 {
@@ -72,7 +91,7 @@ static void fill(const truth_ray *rays, uint64_t count, struct RTCRayHit16 *p, i
     memset(p, 0, sizeof *p);
     for (uint64_t k = 0; k < PACKET; k++) {
         const truth_ray *ray = &rays[k < count ? k : 0];
-        valid[k] = k < count ? -1 : 0;
+        valid[k] = k < count && is_valid(ray) ? -1 : 0;
         p->ray.org_x[k] = ray->org[0];
         p->ray.org_y[k] = ray->org[1];
         p->ray.org_z[k] = ray->org[2];
@@ -114,6 +133,8 @@ static uint64_t trace_rays(const embree *e, uint64_t count, bool nearest)
     for (uint64_t i = 0; i < count; i++) {
         const truth_ray *ray = &e->input->rays[i];
         struct RTCRayHit h;
+        if (!is_valid(ray))
+            continue;
         memset(&h, 0, sizeof h);
         h.ray.org_x = ray->org[0];
         h.ray.org_y = ray->org[1];
@@ -142,13 +163,6 @@ static int commit(const embree *e)
     return 0;
 }
 
-static int prepare(void *self, cliff_call call)
-{
-    ((embree *)self)->step = UINT32_MAX;
-    (void)call;
-    return 0;
-}
-
 /* Makes the rays of a step once, in its first run, which is not the shortest. */
 static void make_rays(embree *e, cliff_call call, uint32_t step)
 {
@@ -159,6 +173,19 @@ static void make_rays(embree *e, cliff_call call, uint32_t step)
         make_camera_rays(e, step);
     else
         make_light_rays(e, step);
+}
+
+/* Leaves calls out whose rays are mostly beyond Embree's range. */
+static int prepare(void *self, cliff_call call)
+{
+    embree *e = self;
+    e->step = UINT32_MAX;
+    if (call == CLIFF_COMMIT || (call == CLIFF_LIGHT && !e->input->points[0].point))
+        return 0;
+    if (call != CLIFF_CAMERA && call != CLIFF_LIGHT)
+        return !most_are_valid(e->input->rays, CLIFFS_RAYS);
+    make_rays(e, call, 0);
+    return !most_are_valid(e->rays, e->count);
 }
 
 static int run(void *self, cliff_call call, uint32_t step)

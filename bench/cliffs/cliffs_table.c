@@ -25,6 +25,13 @@ static double ratio_of(const cliffs_times *a, const cliffs_times *b, cliff_call 
     return b && steps ? ms_of_ray(a, call, steps - 1) / ms_of_ray(b, call, steps - 1) : NAN;
 }
 
+/* Whether Embree, of whose answers nothing is asked, finds at least half the hits. */
+static bool finds_most(const cliffs_times *library, const cliffs_times *embree)
+{
+    const uint32_t steps = library->steps < embree->steps ? library->steps : embree->steps;
+    return steps && 2 * embree->hits[steps - 1] >= library->hits[steps - 1];
+}
+
 static void print_row(bench_table *table, const char *section, const cliffs_row *row)
 {
     bench_table_section(table, section);
@@ -70,10 +77,10 @@ int cliffs_add_rows(cliffs_rows *rows, bench_table *table, const cliffs_row *nam
         *row = *name;
         row->call = call;
         row->rays = times->rays[times->steps - 1];
-        row->hits = times->hits;
+        row->hits = times->hits[times->steps - 1];
         row->ms = times->ms[times->steps - 1];
         row->twin_ratio = ratio_of(times, twin ? &twin->call[c] : NULL, call);
-        row->embree_ratio = ratio_of(times, embree ? &embree->call[c] : NULL, call);
+        row->embree_ratio = finds_most(times, &embree->call[c]) ? ratio_of(times, &embree->call[c], call) : NAN;
         row->embree_ms = row->ms / row->embree_ratio;
         print_row(table, "cliffs", row);
     }
