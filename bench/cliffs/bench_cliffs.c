@@ -63,6 +63,14 @@ static void be_quick(cliffs_settings *settings)
     settings->limit_ms = 40;
 }
 
+static int is_any_scene(const char *text)
+{
+    for (uint32_t i = 0; i < cliff_count(); i++)
+        if (strstr(cliff_at(i)->name, text))
+            return 1;
+    return 0;
+}
+
 static void list_scenes(void)
 {
     for (uint32_t i = 0; i < cliff_count(); i++)
@@ -79,7 +87,11 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case OPTION_PRIMITIVES: parse_counts(state, argument, settings); return 0;
     case 'S': bench_choose(state, "-S", argument, structures, CLIFF_STRUCTURES, settings->structure); return 0;
     case OPTION_CALL: bench_choose(state, "--call", argument, calls, CLIFF_CALLS, settings->call); return 0;
-    case OPTION_SCENE: settings->text = argument; return 0;
+    case OPTION_SCENE:
+        settings->text = argument;
+        if (!is_any_scene(argument))
+            argp_error(state, "--scene: no scene has a name with \"%s\": --list prints them", argument);
+        return 0;
     case OPTION_LIMIT:
         bench_parse_u32(state, "--limit", argument, 1, 1000000, &number);
         settings->limit_ms = number;
