@@ -61,10 +61,10 @@ typedef struct cliffs_input {
 int cliffs_input_make(cliffs_input *input, const cliff *c, bool disturbed, uint32_t count, uint32_t steps);
 void cliffs_input_free(cliffs_input *input);
 
-/* A program that is measured. The first two return 0, or -1 after a message; prepare returns 1 where the program does not
- * support the call's rays. */
+/* A program that is measured. The first two return 0, or -1 after a message; prepare, which comes before every run,
+ * returns 1 where the program does not support the call's rays. */
 typedef struct cliffs_program {
-    int (*prepare)(void *self, cliff_call call);                        /* not timed */
+    int (*prepare)(void *self, cliff_call call, uint32_t step);         /* not timed */
     int (*run)(void *self, cliff_call call, uint32_t step);             /* timed */
     uint64_t (*hits)(const void *self, cliff_call call, uint32_t step); /* of the last run */
     void *self;

@@ -28,7 +28,6 @@ typedef struct embree {
     uint32_t *index;
     truth_ray *rays; /* of the step's camera or light, in the order of packets */
     uint64_t count;
-    uint32_t step;
     uint64_t hits;
 } embree;
 
@@ -163,29 +162,21 @@ static int commit(const embree *e)
     return 0;
 }
 
-/* Makes the rays of a step once, in its first run, which is not the shortest. */
-static void make_rays(embree *e, cliff_call call, uint32_t step)
+/* Makes the rays of a picture or a light. Leaves calls out whose rays are mostly beyond Embree's range. */
+static int prepare(void *self, cliff_call call, uint32_t step)
 {
-    if (e->step == step)
-        return;
-    e->step = step;
+    embree *e = self;
+    if (call == CLIFF_COMMIT)
+        return 0;
+    if (call == CLIFF_LIGHT && !e->input->points[step].point)
+        return 1;
+    if (call != CLIFF_CAMERA && call != CLIFF_LIGHT)
+        return !most_are_valid(e->input->rays, CLIFFS_RAYS);
     if (call == CLIFF_CAMERA)
         make_camera_rays(e, step);
     else
         make_light_rays(e, step);
-}
-
-/* Leaves calls out whose rays are mostly beyond Embree's range. */
-static int prepare(void *self, cliff_call call)
-{
-    embree *e = self;
-    e->step = UINT32_MAX;
-    if (call == CLIFF_COMMIT || (call == CLIFF_LIGHT && !e->input->points[0].point))
-        return 0;
-    if (call != CLIFF_CAMERA && call != CLIFF_LIGHT)
-        return !most_are_valid(e->input->rays, CLIFFS_RAYS);
-    make_rays(e, call, 0);
-    return !most_are_valid(e->rays, e->count);
+    return e->count && !most_are_valid(e->rays, e->count);
 }
 
 static int run(void *self, cliff_call call, uint32_t step)
@@ -194,8 +185,6 @@ static int run(void *self, cliff_call call, uint32_t step)
     const uint64_t count = (uint64_t)CLIFFS_RAYS << 2 * step;
     if (call == CLIFF_COMMIT)
         return commit(e);
-    if (call == CLIFF_CAMERA || call == CLIFF_LIGHT)
-        make_rays(e, call, step);
     const unsigned int callers = native_flush_begin();
     e->hits = call == CLIFF_CAMERA || call == CLIFF_LIGHT ? trace_packets(e, call == CLIFF_CAMERA)
                                                           : trace_rays(e, count, call != CLIFF_OCCLUDED);

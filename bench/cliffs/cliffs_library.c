@@ -80,11 +80,11 @@ static int failed(const library *l, const char *what, cgt_result result)
 }
 
 /* Single rays come first after a commit; AUTO may have a BVH for what follows. */
-static int prepare(void *self, cliff_call call)
+static int prepare(void *self, cliff_call call, uint32_t step)
 {
     library *l = self;
-    if (call == CLIFF_LIGHT && make_points(l))
-        return -1;
+    if (call == CLIFF_LIGHT)
+        return make_points(l) ? -1 : !l->input->points[step].point;
     if (call == CLIFF_SINGLE)
         return failed(l, "commit", cgt_scene_commit(l->scene));
     if (call == CLIFF_RAYS || call == CLIFF_OCCLUDED)

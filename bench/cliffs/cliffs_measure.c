@@ -48,12 +48,15 @@ static double now_ms(const cliffs_settings *settings)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
-/* The shortest of a few runs that together stay within the limit. */
+/* The shortest of a few runs that together stay within the limit. Returns what prepare does. */
 static int measure_step(const cliffs_settings *settings, const cliffs_program *program, cliff_call call, uint32_t step,
                         cliffs_times *times)
 {
     double spent = 0, least = 0;
     for (int run = 0; run < MOST_RUNS && (run == 0 || spent + least < settings->limit_ms); run++) {
+        const int prepared = program->prepare(program->self, call, step);
+        if (prepared)
+            return prepared;
         const double begin = now_ms(settings);
         if (program->run(program->self, call, step))
             return -1;
@@ -74,23 +77,22 @@ static uint32_t steps_of(const cliffs_settings *settings, cliff_call call)
     return call == CLIFF_SINGLE && settings->steps > SINGLE_STEPS ? SINGLE_STEPS : settings->steps;
 }
 
+static uint64_t rays_of(const cliffs_input *input, cliff_call call, uint32_t step)
+{
+    if (call == CLIFF_COMMIT)
+        return 0;
+    return call == CLIFF_LIGHT ? input->points[step].count : (uint64_t)CLIFFS_RAYS << 2 * step;
+}
+
 static int measure_call(const cliffs_settings *settings, const cliffs_input *input, const cliffs_program *program,
                         cliff_call call, cliffs_times *times)
 {
     const uint32_t steps = steps_of(settings, call);
-    const int prepared = program->prepare(program->self, call);
-    if (prepared)
-        return prepared < 0 ? -1 : 0;
-    for (uint32_t k = 0; k < steps; k++) {
-        if (call == CLIFF_LIGHT && !input->points[k].point)
-            break;
-        if (measure_step(settings, program, call, k, times))
-            return -1;
-        times->rays[k] = call == CLIFF_COMMIT  ? 0
-                         : call == CLIFF_LIGHT ? input->points[k].count
-                                               : (uint64_t)CLIFFS_RAYS << 2 * k;
-        if (4 * times->ms[k] > settings->limit_ms)
-            break;
+    for (uint32_t k = 0; k < steps && (k == 0 || 4 * times->ms[k - 1] <= settings->limit_ms); k++) {
+        const int code = measure_step(settings, program, call, k, times);
+        if (code)
+            return code < 0 ? -1 : 0;
+        times->rays[k] = rays_of(input, call, k);
     }
     return 0;
 }
