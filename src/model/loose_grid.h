@@ -55,6 +55,7 @@ typedef struct cgt_loose_grid {
         *prim; /* all valid primitives, or with committed_scene.cluster all clusters that have some, ascending in each
                                cell */
     uint32_t cells; /* of all levels */
+    float crowding; /* mean, over the primitives or clusters, of how many share their cell; 0: no cell is crowded */
 } cgt_loose_grid;
 
 #endif

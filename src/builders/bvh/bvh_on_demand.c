@@ -7,10 +7,19 @@
 #include "builders/bvh/bvh_build.h"
 #include "core/float_environment.h"
 
-/* Rays that came without a tree before one is built. Building takes as long as about 1/60 as many rays as primitives
- * take through the grid if they share nothing, by estimate; whether they do share nothing is not known. Where a grid has
- * regions, packets bound their rays with the rounding of the whole world, which exceeds the cells of a region. */
-static uint64_t min_rays_for_build(const cgt_committed_scene *s) { return s->loose.regions ? 0 : s->valid / 32; }
+#define PRIMS_PER_RAY 32u   /* building takes about 1/60 as long as a ray for each primitive through an even grid */
+#define EVEN_CROWDING 32.0f /* where this many primitives share a cell, rays cost more by their share */
+
+/* Rays that came without a tree before one is built, by the estimate that they share nothing, which is not known. Where
+ * a grid has regions, packets bound their rays with the rounding of the whole world, which exceeds the cells of a
+ * region. */
+static uint64_t min_rays_for_build(const cgt_committed_scene *s)
+{
+    if (s->loose.regions)
+        return 0;
+    const uint64_t rays = s->valid / PRIMS_PER_RAY;
+    return s->loose.crowding > EVEN_CROWDING ? (uint64_t)((float)rays * (EVEN_CROWDING / s->loose.crowding)) : rays;
+}
 
 /* Several threads may need the tree: one builds it, and the others trace without it. So does what this thread itself
  * traces meanwhile, in a hook or in another task of the caller's runner. */

@@ -54,6 +54,7 @@ static cgt_result sort_prims(cgt_scene *scene, cgt_cell_sort *sort)
         if (result != CGT_OK)
             break;
         cgt_cell_sort_run(sort, scene->context);
+        g->crowding = 0;
         g->start = sort->start;
         g->prim = sort->prim;
         again = sort->is_crowded && !scene->options.research->resolution[0] && round < MAX_ROUNDS;

@@ -338,7 +338,8 @@ cgt_result cgt_loose_grid_add_regions(cgt_scene *scene, const cgt_cell_sort *sor
     part_list list = {.grid = grid, .cell = sort->entry, .max_parts = CGT_LOOSE_LEVELS - grid->levels};
     const double max_mean = fmin(MAX_MEAN, MIN_MEAN + sort->valid * MEAN_SHARE);
     *added = false;
-    if (!list.max_parts || mean_of_cells(grid, sort->valid) < max_mean)
+    grid->crowding = (float)mean_of_cells(grid, sort->valid);
+    if (!list.max_parts || grid->crowding < max_mean)
         return CGT_OK;
     list_crowded(&list);
     divide_parts(&list);

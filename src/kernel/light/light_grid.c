@@ -140,6 +140,8 @@ static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference,
     return visible;
 }
 
+#define LIGHT_APART_COST 32u /* of work outside of tiles: 4 for each point are what a BVH takes */
+
 /* What a chunk has taken: references, and tests of groups. */
 CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
 {
@@ -279,6 +281,24 @@ static void light_march_grid(light_tile *t)
     t->given_up = t->undecided && t->work > t->work_left;
 }
 
+/* Traces a packet that the tile cannot take, one ray at a time if need be, which is slower for as much work. Where the
+ * grid has regions, packets meet far too many cells: a BVH takes the chunk if it may. */
+static void light_trace_apart(const light_call *c, light_tile *t, uint32_t first, uint32_t count, packet *p)
+{
+    const uint64_t before = light_work(c->counts);
+    if (t->max_work == UINT64_MAX) {
+        light_trace_packet(c, first, count, p);
+        return;
+    }
+    if (c->committed_scene->loose.regions) {
+        t->given_up = true;
+        return;
+    }
+    light_trace_packet(c, first, count, p);
+    const uint64_t extra = (LIGHT_APART_COST - 1) * (light_work(c->counts) - before);
+    t->max_work -= extra < t->max_work ? extra : t->max_work;
+}
+
 /* Traces points first to first + count - 1 of the order. */
 static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
 {
@@ -286,9 +306,11 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
     const bool default_ranges = light_points_are_dense(c) && !points->t_min && !points->t_max;
     uint32_t from[LIGHT_TILE_PACKETS] = {0}, rays[LIGHT_TILE_PACKETS] = {0};
     t->packets = 0;
+    t->given_up = false;
     t->prefetch = (prefetch_owner){t->committed_scene, &t->pending, t};
     prefetch_queues_clear(&t->pending);
-    for (uint32_t done = 0; done < count && t->packets < LIGHT_TILE_PACKETS && light_work(c->counts) <= t->max_work;
+    for (uint32_t done = 0;
+         done < count && t->packets < LIGHT_TILE_PACKETS && !t->given_up && light_work(c->counts) <= t->max_work;
          done += PACKET_MAX_RAYS) {
         const uint32_t rays_left = count - done, ray_count = rays_left < PACKET_MAX_RAYS ? rays_left : PACKET_MAX_RAYS;
         const uint64_t invalid = c->counts->invalid_rays;
@@ -315,9 +337,9 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
             }
         }
         c->counts->invalid_rays = invalid;
-        light_trace_packet(c, first + done, ray_count, p);
+        light_trace_apart(c, t, first + done, ray_count, p);
     }
-    t->given_up = light_work(c->counts) > t->max_work;
+    t->given_up = t->given_up || light_work(c->counts) > t->max_work;
     if (t->given_up || !t->packets)
         return;
     light_tile_finish(t);

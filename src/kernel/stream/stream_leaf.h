@@ -19,13 +19,15 @@ typedef struct leaf_box {
 CGT_SPU_INLINE leaf_box leaf_box_init(const bvh_node *n, uint32_t child, float scale)
 {
     leaf_box p;
+    float magnitude = 0x1p-100f; /* denormal products */
     p.half = 0;
     for (int a = 0; a < 3; a++) {
         const float low = n->low[a][child] * scale, high = n->high[a][child] * scale;
         p.middle[a] = 0.5f * (low + high);
         p.half += 0.5f * (high - low);
+        magnitude += fabsf(low) + fabsf(high);
     }
-    p.half += 0x1p-18f; /* of coordinates up to 2, and of the sums below */
+    p.half += magnitude * 0x1p-20f; /* five roundings of it at most, by 2^-24 */
     return p;
 }
 

@@ -82,14 +82,14 @@ typedef struct stream_bounds {
     vfloat org_low[3], org_high[3], end_low[3], end_high[3], first;
 } stream_bounds;
 
-/* Adds rays. Ends err by less than their margin, or by less than 2^-22: where an origin is farther away than the scene
- * is large, so is an end near it. */
+/* Adds rays. Their ends are moved outwards by more than their roundings. */
 CGT_SPU_INLINE void stream_bounds_add(stream_bounds *b, const vfloat org[3], const vfloat dir[3], vfloat first,
                                       vfloat last, vmask lanes)
 {
     b->first = spux_select(b->first, spux_min(b->first, first), lanes);
     for (int a = 0; a < 3; a++) {
-        const vfloat way = spu_mul(dir[a], last), margin = spu_mul(spux_abs(way), spux_vfloat(0x1p-20f));
+        const vfloat way = spu_mul(dir[a], last);
+        const vfloat margin = spu_mul(spu_add(spux_abs(way), spux_abs(org[a])), spux_vfloat(0x1p-20f));
         const vfloat end = spu_add(org[a], way);
         b->org_low[a] = spux_select(b->org_low[a], spux_min(b->org_low[a], org[a]), lanes);
         b->org_high[a] = spux_select(b->org_high[a], spux_max(b->org_high[a], org[a]), lanes);

@@ -88,14 +88,15 @@ CGT_SPU_INLINE void leaf_sphere_test(const leaf_rays *r, const leaf_sphere_bound
     f->certain_hit = spu_and(above_certain, spu_and(spu_cmpgt(f->low, r->near_in), spu_cmpgt(r->far_in, f->high)));
 }
 
-/* Coordinates are at most 2, and off by a few roundings. */
+/* Bounds are moved outwards by more than their roundings. */
 CGT_SPU_INLINE unsigned leaf_reachable_spheres(const stream *s, const sphere_block *leaf)
 {
-    const vfloat scale = spux_vfloat(s->call.scale);
-    const vfloat reach = spu_madd(spux_load(leaf->radius), scale, spux_vfloat(0x1p-20f));
+    const vfloat scale = spux_vfloat(s->call.scale), grow = spux_vfloat(0x1p-20f);
+    const vfloat radius = spu_mul(spux_load(leaf->radius), scale);
     vfloat low[3], high[3];
     for (int a = 0; a < 3; a++) {
         const vfloat c = spu_mul(spux_load(leaf->center[a]), scale);
+        const vfloat reach = spu_madd(spu_add(spux_abs(c), radius), grow, radius);
         low[a] = spu_sub(c, reach);
         high[a] = spu_add(c, reach);
     }

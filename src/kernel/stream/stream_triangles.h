@@ -55,15 +55,17 @@ CGT_SPU_INLINE void leaf_normals_init(const triangle_block *leaf, leaf_normals *
     p->sum[1] = spux_hmax(spux_load(leaf->sum[1]));
 }
 
-/* Coordinates are at most 2, and off by a few roundings. */
+/* Bounds are moved outwards by more than their roundings, which are of the vertex and of the edges. */
 CGT_SPU_INLINE unsigned leaf_reachable_triangles(const stream *s, const triangle_block *leaf)
 {
-    const vfloat zeros = spux_vfloat(0), margin = spux_vfloat(0x1p-20f);
+    const vfloat zeros = spux_vfloat(0), grow = spux_vfloat(0x1p-20f);
     vfloat low[3], high[3];
     for (int a = 0; a < 3; a++) {
         const vfloat v = spux_load(leaf->vertex[a]), e = spux_load(leaf->edge[0][a]), f = spux_load(leaf->edge[1][a]);
-        low[a] = spu_add(spu_sub(v, margin), spux_min(zeros, spux_min(e, f)));
-        high[a] = spu_add(spu_add(v, margin), spux_max(zeros, spux_max(e, f)));
+        const vfloat below = spux_min(zeros, spux_min(e, f)), above = spux_max(zeros, spux_max(e, f));
+        const vfloat margin = spu_mul(spu_add(spux_abs(v), spu_sub(above, below)), grow);
+        low[a] = spu_add(spu_sub(v, margin), below);
+        high[a] = spu_add(spu_add(v, margin), above);
     }
     return stream_reachable(s, low, high);
 }
