@@ -4,6 +4,7 @@
  * cgt-bench: measures the library on moving spheres and triangles.
  *   cgt-bench accuracy  time against error, of rays, whole frames and intersection tests
  *   cgt-bench cell      where the cycles of a program of an SPU go, by simulation
+ *   cgt-bench cliffs    scenes with one trouble, against their twins and Embree
  *   cgt-bench floor     what the machine allows, and how close frames come to it
  *   cgt-bench frame     one frame at a time, like a renderer: build, primary, shadow and ambient-occlusion rays
  *   cgt-bench loops     the ways to traverse a grid, compared with each other
@@ -15,7 +16,7 @@
 
 #include "common/bench.h"
 
-#define SUB_COMMANDS "accuracy, cell, floor, frame, loops, make, scaling, simd or structures"
+#define SUB_COMMANDS "accuracy, cell, cliffs, floor, frame, loops, make, scaling, simd or structures"
 
 typedef struct command {
     const char *name;
@@ -24,11 +25,13 @@ typedef struct command {
 } command;
 
 static char accuracy_name[] = "cgt-bench accuracy", cell_name[] = "cgt-bench cell";
+static char cliffs_name[] = "cgt-bench cliffs";
 static char floor_name[] = "cgt-bench floor", scaling_name[] = "cgt-bench scaling";
 static char frame_name[] = "cgt-bench frame", loops_name[] = "cgt-bench loops", make_name[] = "cgt-bench make";
 static char simd_name[] = "cgt-bench simd", structures_name[] = "cgt-bench structures";
 static const command commands[] = {{"accuracy", accuracy_name, bench_accuracy},
                                    {"cell", cell_name, bench_cell},
+                                   {"cliffs", cliffs_name, bench_cliffs},
                                    {"floor", floor_name, bench_floor},
                                    {"frame", frame_name, bench_frame},
                                    {"loops", loops_name, bench_loops},
@@ -64,7 +67,8 @@ int main(int argc, char **argv)
 {
     static const struct argp parser = {
         .parser = parse,
-        .args_doc = "accuracy [FILE...] [OPTION...]\ncell [FILE] [OPTION...]\nfloor [FILE...] [OPTION...]\nframe FILE "
+        .args_doc = "accuracy [FILE...] [OPTION...]\ncell [FILE] [OPTION...]\ncliffs [OPTION...]\n"
+                    "floor [FILE...] [OPTION...]\nframe FILE "
                     "[OPTION...]\nloops FILE "
                     "[OPTION...]\n"
                     "make SCENE FILE [OPTION...]\n"
@@ -74,6 +78,7 @@ int main(int argc, char **argv)
                "tab-separated values."
                "\v  accuracy  sets time against error: of rays, whole frames and intersection tests\n"
                "  cell      simulates a program of an SPU and counts its cycles\n"
+               "  cliffs    times scenes with one trouble against the same scenes without it, and Embree\n"
                "  floor     measures what the machine allows, and how close frames come to it\n"
                "  frame     times building and tracing, as a renderer spends it\n"
                "  loops     compares the ways to traverse the structure\n"
