@@ -146,34 +146,60 @@ typedef struct cgt_scene cgt_scene;
 
 #define CGT_INVALID_ID UINT32_MAX /* no primitive, no geometry */
 
-/* Spheres in the caller's arrays. The library copies nothing: the arrays stay readable and unchanged from
- * cgt_scene_commit to the last trace before the next commit. Pointers are aligned as floats are.
- * A sphere with a NaN, an infinity or a negative radius is skipped and counted. A radius of zero is a point, hit by
- * the rays that pass exactly through it. */
+/* Geometries are arrays of the caller's. Plain ones are read in place: floats and 32-bit indices at addresses and strides
+ * that are multiples of 4, without an origin. They stay readable and unchanged from cgt_scene_commit to the last trace
+ * before the next commit.
+ * All others are copied by the commit, as it reads them, into memory that the scene keeps, and are needed during the
+ * commit only: doubles, an origin, packed structs, 16-bit indices, radii by type. The copy takes 16 bytes a sphere, 12 a
+ * vertex, and 12 a triangle whose indices are copied; cgt_scene_statistics.copied_bytes tells.
+ * What counts is the float: a coordinate is (float)(given - origin), the subtraction in double, a radius (float)given,
+ * both rounded to nearest. Hits are exact for these numbers, and their positions are relative to the origin, as are
+ * cameras, rays and lights. With an origin near the scene, places that are 1e9 away keep their digits.
+ * A stride is in bytes and not less than an element. Where a type has a choice of pointers, at most one is set. */
+
+/* Spheres. One with a NaN, an infinity (as a float) or a negative radius is skipped and counted. A radius of zero is a
+ * point, hit by the rays that pass exactly through it. */
 typedef struct cgt_spheres {
     uint32_t count;       /* spheres; 0 is valid */
-    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL only where count is 0 */
-    size_t center_stride; /* bytes, a multiple of 4; 0 (default): 12 */
-    const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL: all have `radius` */
-    size_t radius_stride; /* bytes, a multiple of 4; 0 (default): 4 */
-    float radius;         /* world units, 0 or more; used where radii is NULL */
+    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL where centers_double is set, or count
+                             is 0 */
+    size_t center_stride; /* bytes; 0 (default): 12, of doubles 24 */
+    const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL, and radii_double, too: all have
+                             `radius` */
+    size_t radius_stride; /* bytes; 0 (default): 4, of doubles 8 */
+    float radius;         /* world units, 0 or more; used where there are no radii */
     uint32_t mask;        /* a ray sees the geometry where this and the ray's mask share a bit; 0 (default): all bits
                              set. It takes effect at the next commit, as all fields do */
+    const double *centers_double; /* in place of centers */
+    const double *radii_double;   /* in place of radii */
+    double origin[3];             /* subtracted from the centres; finite */
+    /* Radii by type: sphere i has radius number types[i], type i at byte i * type_stride; radii then has one radius for
+     * each type. NULL, all three: sphere i has radius i */
+    const uint8_t *types8;
+    const uint16_t *types16;
+    const uint32_t *types32; /* or what has its bits: int of 0 or more */
+    size_t type_stride;      /* bytes; 0 (default): 1, 2 or 4 */
+    uint32_t type_count;     /* radii of types; a type of type_count or more fails the commit. Where types count from 1,
+                                radius 0 is there and not used */
 } cgt_spheres;
 
-/* Triangles in the caller's arrays, which the library does not copy: as with spheres they stay readable and unchanged
- * from commit to the last trace. Both sides of a triangle are hit. Edges and vertices belong to it. A ray in its plane
- * misses it. A triangle with a NaN or an infinity in a vertex is skipped and counted; so is one without area, which no
- * ray can hit. An index of vertex_count or more fails the commit. Large scenes of triangles alone are built and traced
- * faster where consecutive triangles are neighbours in space, as in most meshes: they are grouped by eight. */
+/* Triangles. Both sides are hit. Edges and vertices belong to a triangle. A ray in its plane misses it. One with a NaN or
+ * an infinity (as a float) in a vertex is skipped and counted; so is one without area, which no ray can hit. An index of
+ * vertex_count or more fails the commit. Large scenes of triangles alone are built and traced faster where consecutive
+ * triangles are neighbours in space, as in most meshes: they are grouped by eight. */
 typedef struct cgt_triangles {
-    uint32_t count;          /* triangles; 0 is valid */
-    const uint32_t *indices; /* the three vertices of triangle i at byte i * index_stride; NULL: 3i, 3i + 1, 3i + 2 */
-    size_t index_stride;     /* bytes, a multiple of 4; 0 (default): 12 */
-    uint32_t vertex_count;   /* vertices */
-    const float *vertices;   /* x, y, z of vertex j at byte j * vertex_stride; NULL only where vertex_count is 0 */
-    size_t vertex_stride;    /* bytes, a multiple of 4; 0 (default): 12 */
-    uint32_t mask;           /* as of cgt_spheres */
+    uint32_t count;            /* triangles; 0 is valid */
+    const uint32_t *indices;   /* the three vertices of triangle i at byte i * index_stride; NULL, and indices16, too:
+                                3i, 3i + 1, 3i + 2 */
+    size_t index_stride;       /* bytes; 0 (default): 12, of 16-bit ones 6 */
+    uint32_t vertex_count;     /* vertices */
+    const float *vertices;     /* x, y, z of vertex j at byte j * vertex_stride; NULL where vertices_double is set, or
+                                vertex_count is 0 */
+    size_t vertex_stride;      /* bytes; 0 (default): 12, of doubles 24 */
+    uint32_t mask;             /* as of cgt_spheres */
+    const uint16_t *indices16; /* in place of indices */
+    const double *vertices_double; /* in place of vertices */
+    double origin[3];              /* subtracted from the vertices; finite */
 } cgt_triangles;
 
 /* Acceleration structures. Hits are the same bits through each. Where AUTO has chosen the grid, a BVH is built beside it
@@ -217,7 +243,7 @@ CGT_API void cgt_scene_release(cgt_scene *scene);
 CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options);
 
 /* Adds spheres as a geometry.
- *   spheres    needed during the call only; the arrays that it points to stay in use
+ *   spheres    needed during the call only; the arrays that it points to are read by each commit
  *   geometry   gets the id, the lowest that is free; NULL: not wanted
  * Errors: INVALID_ARGUMENT, TOO_LARGE (the counts of all geometries reach 2^32 - 1), OUT_OF_MEMORY. */
 CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry);
@@ -236,8 +262,8 @@ CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry
 /* Builds the acceleration structure from the arrays as they are now, by the context's threads. Memory is kept from one
  * commit to the next and grows by half: once it has found its size, a scene whose count does not grow allocates nothing.
  * An empty scene is valid; no ray hits it. After an error the scene counts as not committed.
- * Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
- * 2^26 - 1 leaves). */
+ * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a
+ * BVH of more than 2^26 - 1 leaves). */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
 
 /* What the last commit found, chose and spent; all 0 before the first. */
@@ -255,6 +281,7 @@ typedef struct cgt_scene_statistics {
     size_t structure_bytes; /* that traversal reads: cells and references, or nodes and leaves; without the caller's
                                arrays */
     size_t bvh_bytes;       /* of the BVH that was built, or that AUTO built beside a grid; 0: none */
+    size_t copied_bytes;    /* of arrays that the commit has copied; 0: all are read in place */
     size_t bytes;           /* memory that the scene holds now */
     double bounds_ms;       /* reading, checking and bounding the primitives */
     double build_ms;        /* filling the structure */

@@ -3,6 +3,7 @@
  *
  * The commit: from the caller's arrays to a structure, from scratch.
  *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure
+ * The second step also copies the arrays that cannot be read in place.
  *
  * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times
  * as fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell.
@@ -27,6 +28,7 @@ static cgt_structure choose_structure(const cgt_scene_options *options, const ch
     return options->rays == CGT_RAY_KIND_INCOHERENT ? CGT_STRUCTURE_BVH : CGT_STRUCTURE_LOOSE_GRID;
 }
 
+/* As the caller gives it; cgt_reserve_copies replaces what cannot be read in place. */
 static cgt_primitive_array describe_array(const cgt_geometry *g)
 {
     const cgt_spheres *s = &g->spheres;
@@ -78,7 +80,7 @@ static cgt_result list_arrays(cgt_scene *scene)
     scene->statistics.primitives = prims.count;
     scene->statistics.spheres = prims.spheres;
     scene->statistics.triangles = prims.triangles;
-    return CGT_OK;
+    return cgt_reserve_copies(scene);
 }
 
 static void store_statistics(cgt_scene *scene, const cgt_primitive_bounds *s)

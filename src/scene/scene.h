@@ -23,6 +23,7 @@ typedef struct cgt_geometry {
 typedef enum cgt_scene_buffer {
     CGT_BUFFER_GEOMETRY = 0, /* cgt_geometry, by id */
     CGT_BUFFER_ARRAYS,       /* cgt_primitive_array of the commit */
+    CGT_BUFFER_COPIES,       /* floats and indices that cannot be read in the caller's arrays: copy_arrays.h */
     CGT_BUFFER_BOUNDS,       /* cgt_primitive_bounds, one per chunk of primitives */
     CGT_BUFFER_VOXELS,       /* cgt_voxel or cgt_voxel32 */
     CGT_BUFFER_OVERFLOW,     /* cgt_overflow, in the order of their pushes */
