@@ -8,7 +8,7 @@
 
 #include "fuzz/fuzz_model.h"
 
-/* The last five are no multiples of 4, or so large that no address space holds two elements. */
+/* Some are below an element, some no multiples of 4, the last so large that no address space holds two elements. */
 static const size_t strides[] = {0,  0,  0,  4, 8,  12,       16,           20,
                                  24, 36, 64, 3, 13, SIZE_MAX, SIZE_MAX - 3, (SIZE_MAX / 2 & ~(size_t)3) - 16};
 #define STRIDES (sizeof strides / sizeof strides[0])
@@ -23,14 +23,15 @@ typedef struct array {
 
 static size_t step_of(size_t stride, size_t element) { return stride ? stride : element; }
 
-/* An array of count elements of `words` numbers. An invalid array has one element. */
-static array make_array(fuzz_model *m, uint32_t count, uint32_t words)
+/* An array of count elements of `words` numbers of `number` bytes. An invalid array has one element. */
+static array make_array(fuzz_model *m, uint32_t count, uint32_t words, size_t number)
 {
     const uint8_t how = fuzz_byte(&m->bytes);
-    const size_t element = 4 * (size_t)words, shift = 4 * (size_t)(how / STRIDES % 3);
+    const size_t element = number * (size_t)words;
+    const size_t shift = 4 * (size_t)(how / STRIDES % 3) + (how / STRIDES / 3 == 4); /* some are aligned to nothing */
     array a = {.stride = strides[how % STRIDES]};
     const size_t step = step_of(a.stride, element);
-    a.bad = step % 4 || (step > GOOD_STRIDE_MOST && count > 1) || (step > SIZE_MAX / 2 - element && count > 0);
+    a.bad = step < element || (step > GOOD_STRIDE_MOST && count > 1) || (step > SIZE_MAX / 2 - element && count > 0);
     const size_t bytes = shift + element + (a.bad || !count ? 0 : step * (count - 1));
     a.block = fuzz_allocate(bytes);
     memset(a.block, 0xff, bytes);
@@ -38,33 +39,51 @@ static array make_array(fuzz_model *m, uint32_t count, uint32_t words)
     return a;
 }
 
-/* Address of word k of element i. */
-static char *word_at(const array *a, uint32_t words, uint32_t i, uint32_t k)
+/* Address of number k of element i. */
+static char *number_at(const array *a, uint32_t words, size_t number, uint32_t i, uint32_t k)
 {
-    return a->at + i * step_of(a->stride, 4 * (size_t)words) + 4 * (size_t)k;
+    return a->at + i * step_of(a->stride, number * words) + number * k;
 }
 
-static array float_array(fuzz_model *m, uint32_t count, uint32_t words)
+/* Floats, or doubles that are floats and half a unit in the last place more. */
+static array float_array(fuzz_model *m, uint32_t count, uint32_t words, bool doubles)
 {
-    array a = make_array(m, count, words);
+    const size_t number = doubles ? sizeof(double) : sizeof(float);
+    array a = make_array(m, count, words, number);
     for (uint32_t i = 0; i < count && !a.bad; i++)
         for (uint32_t k = 0; k < words; k++) {
             const float value = fuzz_float(&m->bytes);
-            memcpy(word_at(&a, words, i, k), &value, sizeof value);
+            const double between = (double)value * (1 + 0x1p-24);
+            memcpy(number_at(&a, words, number, i, k), doubles ? (const void *)&between : &value, number);
         }
     return a;
 }
 
+/* Number k of element i as the library takes it. */
+static float float_at(const void *from, size_t stride, uint32_t words, bool doubles, uint32_t i, uint32_t k,
+                      double origin)
+{
+    const array a = {.at = (char *)(uintptr_t)from, .stride = stride};
+    double d;
+    float f;
+    if (doubles) {
+        memcpy(&d, number_at(&a, words, sizeof d, i, k), sizeof d);
+        return (float)(d - origin);
+    }
+    memcpy(&f, number_at(&a, words, sizeof f, i, k), sizeof f);
+    return (float)((double)f - origin);
+}
+
 static array index_array(fuzz_model *m, uint32_t count, uint32_t vertices)
 {
-    array a = make_array(m, count, 3);
+    array a = make_array(m, count, 3, sizeof(uint32_t));
     for (uint32_t i = 0; i < count && !a.bad; i++)
         for (uint32_t k = 0; k < 3; k++) {
             const uint8_t byte = fuzz_byte(&m->bytes);
             const uint32_t index = byte == 255   ? fuzz_word(&m->bytes)
                                    : byte == 254 ? vertices
                                                  : byte % (vertices ? vertices : 1);
-            memcpy(word_at(&a, 3, i, k), &index, sizeof index);
+            memcpy(number_at(&a, 3, sizeof index, i, k), &index, sizeof index);
         }
     return a;
 }
@@ -77,7 +96,7 @@ static uint32_t small_count(fuzz_model *m)
 }
 
 /* Flaws for which a description must be refused. */
-typedef enum flaw { FLAW_NONE, FLAW_NULL, FLAW_MISALIGNED, FLAW_COUNT } flaw;
+typedef enum flaw { FLAW_NONE, FLAW_NULL, FLAW_TWICE, FLAW_COUNT } flaw;
 
 static flaw any_flaw(fuzz_model *m)
 {
@@ -85,8 +104,25 @@ static flaw any_flaw(fuzz_model *m)
     return byte < 250 ? FLAW_NONE : (flaw)(1 + byte % 3);
 }
 
-/* A pointer with the flaw applied. */
-static void *flawed(void *at, flaw f) { return f == FLAW_NULL ? NULL : f == FLAW_MISALIGNED ? (char *)at + 1 : at; }
+/* Sets the pointer of the right type, with the flaw applied. */
+static void set_points(const array *a, bool doubles, flaw f, const float **floats, const double **numbers)
+{
+    if (f != FLAW_NULL && (!doubles || f == FLAW_TWICE))
+        *floats = (const float *)(const void *)a->at;
+    if (f != FLAW_NULL && (doubles || f == FLAW_TWICE))
+        *numbers = (const double *)(const void *)a->at;
+}
+
+/* Returns false where the origin is to be refused. */
+static bool make_origin(fuzz_model *m, uint8_t how, double origin[3])
+{
+    bool good = true;
+    for (int a = 0; a < 3 && how >> 6 == 3; a++) {
+        origin[a] = (double)fuzz_float(&m->bytes) / 3;
+        good &= isfinite(origin[a]);
+    }
+    return good;
+}
 
 /* Chosen by the bits of a byte that nothing else reads. */
 static uint32_t any_mask(uint8_t how)
@@ -101,16 +137,17 @@ static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
     const uint32_t count = small_count(m);
     const flaw f = any_flaw(m);
     const uint8_t how = fuzz_byte(&m->bytes);
-    const bool radii = how % 4 != 0;
-    const array center = float_array(m, count, 3);
+    const bool radii = how % 4 != 0, doubles = how >> 5 & 1;
+    const array center = float_array(m, count, 3, doubles);
     cgt_spheres *s = &g->spheres;
     *g = (fuzz_geometry){.used = true, .block = {center.block}};
     *s = (cgt_spheres){.count = f == FLAW_COUNT ? UINT32_MAX : count, .center_stride = center.stride};
-    s->centers = flawed(center.at, f);
+    set_points(&center, doubles, f, &s->centers, &s->centers_double);
     s->mask = any_mask(how);
-    bool bad = center.bad || f == FLAW_MISALIGNED || f == FLAW_COUNT || (f == FLAW_NULL && count);
+    bool bad = center.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && count);
+    bad |= !make_origin(m, how, s->origin);
     if (radii) {
-        const array radius = float_array(m, count, 1);
+        const array radius = float_array(m, count, 1, false);
         g->block[1] = radius.block;
         s->radii = (const float *)(const void *)radius.at;
         s->radius_stride = radius.stride;
@@ -127,15 +164,16 @@ static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
     const uint32_t count = small_count(m), vertices = small_count(m);
     const flaw f = any_flaw(m);
     const uint8_t how = fuzz_byte(&m->bytes);
-    const bool indexed = how % 4 != 0;
-    const array vertex = float_array(m, vertices, 3);
+    const bool indexed = how % 4 != 0, doubles = how >> 5 & 1;
+    const array vertex = float_array(m, vertices, 3, doubles);
     cgt_triangles *t = &g->triangles;
     *g = (fuzz_geometry){.used = true, .triangular = true, .block = {vertex.block}};
     *t = (cgt_triangles){.count = f == FLAW_COUNT ? UINT32_MAX : count, .vertex_count = vertices};
     t->vertex_stride = vertex.stride;
-    t->vertices = flawed(vertex.at, f);
+    set_points(&vertex, doubles, f, &t->vertices, &t->vertices_double);
     t->mask = any_mask(how);
-    bool bad = vertex.bad || f == FLAW_MISALIGNED || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
+    bool bad = vertex.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
+    bad |= !make_origin(m, how, t->origin);
     if (indexed) {
         const array index = index_array(m, count, vertices);
         g->block[1] = index.block;
@@ -162,7 +200,9 @@ uint32_t fuzz_count(const fuzz_geometry *g) { return g->triangular ? g->triangle
 void fuzz_sphere_at(const fuzz_geometry *g, uint32_t i, float sphere[4])
 {
     const cgt_spheres *s = &g->spheres;
-    memcpy(sphere, (const char *)s->centers + i * step_of(s->center_stride, 12), 12);
+    const void *centers = s->centers_double ? (const void *)s->centers_double : s->centers;
+    for (uint32_t k = 0; k < 3; k++)
+        sphere[k] = float_at(centers, s->center_stride, 3, s->centers_double, i, k, s->origin[k]);
     sphere[3] = s->radius;
     if (s->radii)
         memcpy(&sphere[3], (const char *)s->radii + i * step_of(s->radius_stride, 4), 4);
@@ -181,8 +221,10 @@ void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3])
     const cgt_triangles *t = &g->triangles;
     uint32_t corner[3];
     corners_at(t, i, corner);
-    for (int k = 0; k < 3; k++)
-        memcpy(vertex[k], (const char *)t->vertices + corner[k] * step_of(t->vertex_stride, 12), 12);
+    const void *vertices = t->vertices_double ? (const void *)t->vertices_double : t->vertices;
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t a = 0; a < 3; a++)
+            vertex[k][a] = float_at(vertices, t->vertex_stride, 3, t->vertices_double, corner[k], a, t->origin[a]);
 }
 
 bool fuzz_indices_are_good(const fuzz_geometry *g)
@@ -283,11 +325,15 @@ void fuzz_move(fuzz_model *m)
     const uint32_t points = g->triangular ? g->triangles.vertex_count : g->spheres.count;
     if (!g->used || !points)
         return;
-    const size_t step = step_of(g->triangular ? g->triangles.vertex_stride : g->spheres.center_stride, 12);
+    const void *const from[] = {g->spheres.centers, g->spheres.centers_double, g->triangles.vertices,
+                                g->triangles.vertices_double};
+    const bool doubles = from[g->triangular ? 3 : 1];
+    const size_t number = doubles ? sizeof(double) : sizeof(float);
+    const array a = {.at = (char *)(uintptr_t)from[2 * g->triangular + doubles],
+                     .stride = g->triangular ? g->triangles.vertex_stride : g->spheres.center_stride};
     const uint32_t i = fuzz_below(&m->bytes, points), k = fuzz_below(&m->bytes, 3);
     const float value = fuzz_float(&m->bytes);
-    const size_t offset =
-        (size_t)((const char *)(g->triangular ? g->triangles.vertices : g->spheres.centers) - (char *)g->block[0]);
-    memcpy((char *)g->block[0] + offset + i * step + 4 * (size_t)k, &value, sizeof value);
+    const double wide = (double)value;
+    memcpy(number_at(&a, 3, number, i, k), doubles ? (const void *)&wide : &value, number);
     fuzz_commit(m);
 }
