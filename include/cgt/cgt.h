@@ -203,10 +203,14 @@ typedef struct cgt_triangles {
 } cgt_triangles;
 
 /* Acceleration structures. Hits are the same bits through each. Where AUTO has chosen the grid, a BVH is built beside it
- * once a commit, when enough rays come to pay for it: by cgt_trace_rays, cgt_occluded_rays, cgt_occluded_points or
- * cgt_ambient_occlusion. cgt_trace_rays tells when, in how much memory, and how to avoid it. */
+ * once a commit: by cgt_scene_prepare, or when enough rays come to pay for it by cgt_trace_rays, cgt_occluded_rays,
+ * cgt_occluded_points or cgt_ambient_occlusion. cgt_trace_rays tells when, in how much memory, and how to avoid it. Where
+ * such rays alone came after each of the last two commits, AUTO takes the next frame for one of them, too, and builds the
+ * BVH in place of the grid; a camera's frame goes through it slower, and the next commit builds the grid again.
+ * cgt_scene_statistics.reason says so. */
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID for coherent rays, BVH for incoherent ones: cgt_scene_options.rays */
+    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID for coherent rays, BVH for incoherent ones, as cgt_scene_options.rays says
+                                 and as they come */
     CGT_STRUCTURE_LOOSE_GRID, /* hierarchical loose grid: a uniform grid per class of sizes, each primitive in the one
                                  cell of its centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame
                                  goes through it by tiles of 64x64 pixels */
@@ -265,6 +269,15 @@ CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry
  * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a
  * BVH of more than 2^26 - 1 leaves). */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
+
+/* Builds, in a committed scene, what rays of a kind need: else the first call that brings enough of them builds it.
+ *   rays   INCOHERENT: the BVH that AUTO has beside a grid, whether or not enough rays will come; COHERENT: nothing, the
+ *          commit has built it
+ * Nothing happens where it is there, or the scene's structure is not AUTO's. The BVH is built by the context's threads
+ * and stays until the next commit. Threads: other threads may trace the scene meanwhile; where one of them is building
+ * already, the call returns at once.
+ * Errors: INVALID_ARGUMENT, NOT_COMMITTED, OUT_OF_MEMORY, TOO_LARGE: the scene can be traced as before. */
+CGT_API cgt_result cgt_scene_prepare(cgt_scene *scene, cgt_ray_kind rays);
 
 /* What the last commit found, chose and spent; all 0 before the first. */
 typedef struct cgt_scene_statistics {
@@ -416,7 +429,9 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  *           of a sphere is within 2^-23 + 2^-48 c / r, c the distance to its centre, in both precisions
  *   EXACT   u and v are within 1 ulp, and so are the components of a triangle's normal
  *   FAST    t, u, v and the normal are what single precision gives; docs/reports/accuracy.md measures how far they are off
- * Allocates nothing. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED. */
+ * Allocates nothing, and builds nothing where the frame goes by tiles. A frame that does not (masks, an extreme camera,
+ * packets asked for) builds a BVH, as cgt_trace_rays does, where AUTO's grid has levels for crowded regions.
+ * Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED; with a BVH those of cgt_trace_rays. */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);
 
@@ -453,7 +468,7 @@ typedef struct cgt_hits {
  *   options   NULL: the defaults
  * Where AUTO has built a loose grid, the calls since a commit that bring 1/32 as many rays as there are primitives (the
  * first call, where the grid has levels for crowded regions) make the library build a BVH, by the context's threads, in
- * memory that the scene keeps; other threads may trace meanwhile.
+ * memory that the scene keeps; other threads may trace meanwhile. cgt_scene_prepare builds it at a time of your choice.
  * Only then is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was traced, and the call may be
  * repeated. The BVH and what its build needs take 70 to 100 bytes a sphere and 110 to 140 a triangle (measured with
  * evenly spread primitives; cgt_scene_statistics.bytes tells), until the scene is released. CGT_STRUCTURE_LOOSE_GRID

@@ -76,7 +76,17 @@ struct cgt_scene {
     pthread_mutex_t reports_lock;    /* held while reports are copied, and never over the caller's code: hooks, tasks */
     atomic_uint bvh_state;           /* cgt_bvh_state */
     _Atomic uint64_t bvh_rays;       /* since the commit, that would have gone through it */
+    /* What came since the commit, from which AUTO learns: rays that were worth a BVH, frames and lights that are not. */
+    atomic_bool had_rays, had_frames;
+    uint32_t frames_of_rays; /* commits in succession that only such rays came after */
 };
+
+/* Sets a flag that many threads set: they share it as long as it is not written. */
+static inline void cgt_set_flag(atomic_bool *flag)
+{
+    if (!atomic_load_explicit(flag, memory_order_relaxed))
+        atomic_store_explicit(flag, true, memory_order_relaxed);
+}
 
 /* Makes the statistics of a build that has ended those that the caller gets. */
 void cgt_publish_statistics(cgt_scene *scene);

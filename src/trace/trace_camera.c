@@ -158,6 +158,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     if (result != CGT_OK)
         return result;
     plan_frame(&job, options);
+    cgt_set_flag(&scene->mutable_scene->had_frames);
     if (!job.by_tiles && scene->committed_scene.loose.regions) /* see bvh_on_demand.c */
         result = cgt_bvh_build_on_demand(scene, (uint64_t)frame->width * frame->height, &job.settings.use_bvh);
     if (result != CGT_OK)

@@ -153,6 +153,8 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
                             .skip_primitive = points->skip_primitive,
                             .skip_geometry = points->skip_geometry};
     const bool tiles = choose_tiles(&job);
+    if (points->count >= FEW_POINTS) /* by tiles, where there is a grid */
+        cgt_set_flag(&scene->mutable_scene->had_frames);
     result = cgt_bvh_build_on_demand(scene, tiles ? 0 : points->count, &job.settings.use_bvh);
     if (result != CGT_OK)
         return result;
