@@ -8,11 +8,25 @@
  *   commit    builds the acceleration structure from scratch, from the arrays as they are now
  *   trace     casts a camera's frame, or any array of rays, against the committed scene
  *
- * A frame is: move your data, cgt_scene_commit, cgt_trace_camera.
+ * A frame is: move your data, cgt_scene_commit, cgt_trace_camera. In outline, for particles that are doubles
+ * (examples/simulate.c is the whole program, with shadows, rays of its own and errors handled):
+ *
+ *   static cgt_spheres s;                          zeros: the defaults
+ *   s.count = n, s.centers_double = x, s.radius = 0.1f;
+ *   cgt_context_create(NULL, &context);
+ *   cgt_scene_create(context, NULL, &scene);
+ *   cgt_scene_add_spheres(scene, &s, NULL);
+ *   cgt_camera_init(&camera);                      at (0, 0, 5), looks at the origin
+ *   cgt_frame_init(&frame, width, height);
+ *   frame.t = t, frame.primitive = primitive;      planes of width * height elements
+ *   while (simulate(x)) {
+ *       cgt_scene_commit(scene);                   reads x as it is now
+ *       cgt_trace_camera(scene, &camera, &frame, NULL);
+ *   }
  *
  * Conventions of every call
  *   Result    cgt_result. A call that fails changes nothing but the text of cgt_context_get_error_message.
- *   Defaults  0 is the right default of every field: {0} and the init function of a struct mean the same.
+ *   Defaults  0 is the right default of every field: {0} (in C++ {}) and the init function of a struct mean the same.
  *   NULL      is allowed only where a text below says so.
  *   Threads   One thread at a time changes and commits a scene, while no thread traces it. Any number of threads may
  *             trace a committed scene at once. There is no global state.
@@ -20,6 +34,7 @@
  *             ask for messages and statistics at any time, and trace a scene that is not being committed.
  *   Processes fork while no other thread is inside a call. A child has no workers: its calls, commits and traces
  *             included, work on the calling thread alone, with the same hits, and it may release what it inherited.
+ *   Building  A call that takes a const scene may build a BVH in it where its first line says so.
  *   Unloading The shared library stays loaded after dlclose where the linker knows -z nodelete, since workers run its
  *             code. A plugin that links the static library releases its contexts before it is closed.
  *   Floats    IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and

@@ -8,8 +8,8 @@
  * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times
  * as fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell.
  * Incoherent rays share no cells: a BVH suits them, and it is built in a few times the grid's time. Where a scene is
- * said to be traced by a camera, arrays of rays get a BVH when they come (bvh_on_demand.h). Where nothing else comes, frame
- * after frame, the grid would be built for nothing: then the commit builds the BVH in its place. */
+ * said to be traced by a camera, arrays of rays get a BVH when they come (bvh_on_demand.h). Where nothing else
+ * comes, frame after frame, the grid would be built for nothing: then the commit builds the BVH in its place. */
 #include <math.h>
 #include <stdio.h>
 
