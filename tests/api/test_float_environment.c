@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Programs may flush denormals, use any rounding mode, and trap exceptions: every task of every structure computes the same bits, on the
- * library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
+ * Programs may flush denormals, use any rounding mode, and trap exceptions: every task of every structure computes the
+ * same bits, on the library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
 #define _GNU_SOURCE /* feenableexcept */
 #include "support/test.h"
 
