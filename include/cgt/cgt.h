@@ -430,7 +430,7 @@ typedef struct cgt_frame {
 /* Sets the size, and all else to 0: ask for what you want. */
 CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
 
-/* Traces one ray per pixel to its nearest hit.
+/* Traces one ray per pixel to its nearest hit; may build a BVH in the scene first, where it cannot go by tiles.
  *   camera    its rays
  *   frame     gets the hits
  *   options   NULL: the defaults
