@@ -74,18 +74,39 @@ static float float_at(const void *from, size_t stride, uint32_t words, bool doub
     return (float)((double)f - origin);
 }
 
-static array index_array(fuzz_model *m, uint32_t count, uint32_t vertices)
+/* Whole numbers of 1, 2 or 4 bytes, mostly below a limit. */
+static array index_array(fuzz_model *m, uint32_t count, uint32_t words, size_t number, uint32_t limit)
 {
-    array a = make_array(m, count, 3, sizeof(uint32_t));
+    array a = make_array(m, count, words, number);
     for (uint32_t i = 0; i < count && !a.bad; i++)
-        for (uint32_t k = 0; k < 3; k++) {
+        for (uint32_t k = 0; k < words; k++) {
             const uint8_t byte = fuzz_byte(&m->bytes);
             const uint32_t index = byte == 255   ? fuzz_word(&m->bytes)
-                                   : byte == 254 ? vertices
-                                                 : byte % (vertices ? vertices : 1);
-            memcpy(number_at(&a, 3, sizeof index, i, k), &index, sizeof index);
+                                   : byte == 254 ? limit
+                                                 : byte % (limit ? limit : 1);
+            const uint8_t index8 = (uint8_t)index;
+            const uint16_t index16 = (uint16_t)index;
+            const void *const from = number == 1   ? (const void *)&index8
+                                     : number == 2 ? (const void *)&index16
+                                                   : &index;
+            memcpy(number_at(&a, words, number, i, k), from, number);
         }
     return a;
+}
+
+static uint32_t index_at(const void *from, size_t stride, uint32_t words, size_t number, uint32_t i, uint32_t k)
+{
+    const array a = {.at = (char *)(uintptr_t)from, .stride = stride};
+    const void *at = number_at(&a, words, number, i, k);
+    uint16_t index16;
+    uint32_t index;
+    if (number == 1)
+        return *(const uint8_t *)at;
+    memcpy(&index16, at, sizeof index16);
+    if (number == 2)
+        return index16;
+    memcpy(&index, at, sizeof index);
+    return index;
 }
 
 /* 0 .. 47, mostly fewer */
@@ -152,6 +173,14 @@ static bool make_spheres(fuzz_model *m, fuzz_geometry *g)
         s->radii = (const float *)(const void *)radius.at;
         s->radius_stride = radius.stride;
         bad |= radius.bad;
+        if (how >> 6 == 1) {
+            const array type = index_array(m, count, 1, sizeof(uint8_t), count);
+            g->block[2] = type.block;
+            s->types8 = (const uint8_t *)type.at;
+            s->type_stride = type.stride;
+            s->type_count = count;
+            bad |= type.bad;
+        }
     } else {
         s->radius = fuzz_float(&m->bytes);
         bad |= !(s->radius >= 0) || !isfinite(s->radius);
@@ -175,9 +204,13 @@ static bool make_triangles(fuzz_model *m, fuzz_geometry *g)
     bool bad = vertex.bad || f == FLAW_TWICE || f == FLAW_COUNT || (f == FLAW_NULL && vertices);
     bad |= !make_origin(m, how, t->origin);
     if (indexed) {
-        const array index = index_array(m, count, vertices);
+        const bool small = how >> 6 == 1;
+        const array index = index_array(m, count, 3, small ? sizeof(uint16_t) : sizeof(uint32_t), vertices);
         g->block[1] = index.block;
-        t->indices = (const uint32_t *)(const void *)index.at;
+        if (small)
+            t->indices16 = (const uint16_t *)(const void *)index.at;
+        else
+            t->indices = (const uint32_t *)(const void *)index.at;
         t->index_stride = index.stride;
         bad |= index.bad;
     } else {
@@ -190,6 +223,7 @@ void fuzz_release_geometry(fuzz_geometry *g)
 {
     free(g->block[0]);
     free(g->block[1]);
+    free(g->block[2]);
     *g = (fuzz_geometry){0};
 }
 
@@ -204,16 +238,17 @@ void fuzz_sphere_at(const fuzz_geometry *g, uint32_t i, float sphere[4])
     for (uint32_t k = 0; k < 3; k++)
         sphere[k] = float_at(centers, s->center_stride, 3, s->centers_double, i, k, s->origin[k]);
     sphere[3] = s->radius;
+    const uint32_t radius = s->types8 ? index_at(s->types8, s->type_stride, 1, sizeof(uint8_t), i, 0) : i;
     if (s->radii)
-        memcpy(&sphere[3], (const char *)s->radii + i * step_of(s->radius_stride, 4), 4);
+        memcpy(&sphere[3], (const char *)s->radii + radius * step_of(s->radius_stride, 4), 4);
 }
 
 static void corners_at(const cgt_triangles *t, uint32_t i, uint32_t corner[3])
 {
     for (uint32_t k = 0; k < 3; k++)
-        corner[k] = 3 * i + k;
-    if (t->indices)
-        memcpy(corner, (const char *)t->indices + i * step_of(t->index_stride, 12), 12);
+        corner[k] = t->indices     ? index_at(t->indices, t->index_stride, 3, sizeof(uint32_t), i, k)
+                    : t->indices16 ? index_at(t->indices16, t->index_stride, 3, sizeof(uint16_t), i, k)
+                                   : 3 * i + k;
 }
 
 void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3])
@@ -230,6 +265,9 @@ void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3])
 bool fuzz_indices_are_good(const fuzz_geometry *g)
 {
     uint32_t corner[3];
+    for (uint32_t i = 0; g->spheres.types8 && i < g->spheres.count; i++)
+        if (index_at(g->spheres.types8, g->spheres.type_stride, 1, sizeof(uint8_t), i, 0) >= g->spheres.type_count)
+            return false;
     for (uint32_t i = 0; g->triangular && i < g->triangles.count; i++) {
         corners_at(&g->triangles, i, corner);
         for (int k = 0; k < 3; k++)
