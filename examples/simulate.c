@@ -91,9 +91,9 @@ static void draw(void)
         points.position[a] = position[a];
     check(cgt_trace_camera(scene, &camera, &frame, NULL), "picture");
     for (int i = 0; i < PIXELS; i++) {
-        const float x = 2 * ((float)(i % WIDTH) + 0.5f) - WIDTH, y = HEIGHT - 2 * ((float)(i / WIDTH) + 0.5f);
-        position[0][i] = t[i] * x * tanf(0.3926991f) / HEIGHT; /* half of 45 degrees */
-        position[1][i] = t[i] * y * tanf(0.3926991f) / HEIGHT;
+        const int column = i % WIDTH, row = i / WIDTH;
+        position[0][i] = t[i] * tanf(0.3926991f) * (float)(2 * column + 1 - WIDTH) / (float)HEIGHT; /* of 45 degrees */
+        position[1][i] = t[i] * tanf(0.3926991f) * (float)(HEIGHT - 2 * row - 1) / (float)HEIGHT;
         position[2][i] = camera.eye[2] - t[i];
     }
     check(cgt_occluded_points(scene, &lamp, &points, shadow, NULL), "shadows");

@@ -120,7 +120,7 @@ static test_scene_options options_of(const choice *c)
 #define SIDE test_between(16, MOST_SIDE)
 #define TRIANGLES 120
 
-static cloud spheres; /* grows from frame to frame: the first quarter of each geometry, then all */
+static cloud spheres;       /* grows from frame to frame: the first quarter of each geometry, then all */
 static double pile[300][3]; /* the commit copies it */
 static float pile_radius;
 static float mesh[TRIANGLES][3][3];

@@ -51,7 +51,7 @@ static answers ask(const cgt_scene *scene)
 
 static void expect_equal(const answers *a, const answers *b, const char *what)
 {
-    if (!planes_equal(&a->frame, &b->frame) || memcmp(a->hits, b->hits, sizeof a->hits))
+    if (!planes_equal(&a->frame, &b->frame) || memcmp(a->hits, b->hits, sizeof a->hits) != 0)
         fail_msg("%s: other hits", what);
 }
 
