@@ -133,7 +133,7 @@ compile() {
     name=$1
     shift
     "$cc" -std=c11 "$source/tests/repository/consumer/consumer.c" -o "$work/$name" "$@"
-    "$cc" -std=c11 "$source/examples/simulate.c" -o "$work/simulate_$name" "$@" -lm
+    "$cc" -std=c11 -ffp-contract=off "$source/examples/simulate.c" -o "$work/simulate_$name" "$@" -lm
 }
 # shellcheck disable=SC2046 # flags are several words
 compile shared $(pkg-config --cflags --libs cgt) -Wl,-rpath,"$libdir"
