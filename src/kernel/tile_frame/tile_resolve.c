@@ -73,11 +73,15 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
 {
     const bool by_lines = mode.nontemporal && CGT_LANES < TILE_CACHE_LINE;
     const cgt_region r = *region; /* a copy: nothing that is stored changes it */
+    const bool by_rows = !mode.nontemporal && tile_needs_rows(&r);
     tile_cache_lines lines;
-    const cgt_region q = by_lines ? tile_cache_lines_region(&r, &lines) : r;
-    for (uint32_t y = 0; y < r.height; y += 2)
+    tile_rows rows;
+    const cgt_region q = by_lines ? tile_cache_lines_region(&r, &lines) : by_rows ? tile_rows_region(&r, &rows) : r;
+    for (uint32_t y = 0; y < r.height; y += 2) {
         for (uint32_t x = 0; x < r.width; x += CGT_LANES) {
-            const size_t offset = by_lines ? x % TILE_CACHE_LINE : (size_t)y * r.row_stride + x;
+            const size_t offset = by_lines  ? x % TILE_CACHE_LINE
+                                  : by_rows ? x
+                                            : (size_t)y * r.row_stride + x;
             const tile_store_target to = {&q, mode.nontemporal && !by_lines, x, offset};
             const tile_store_target next_row = {&q, mode.nontemporal && !by_lines, x, offset + q.row_stride};
             vuint prim[2];
@@ -88,6 +92,9 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
             if (by_lines && (x + CGT_LANES) % TILE_CACHE_LINE == 0)
                 tile_stream_lines(&r, &lines, x + CGT_LANES - TILE_CACHE_LINE, y);
         }
+        if (by_rows)
+            tile_stream_rows(&r, &rows, y);
+    }
 }
 
 /* ---- loops for constant modes ---- */
@@ -109,6 +116,8 @@ CGT_SPU_INLINE void tile_resolve_streamed(const cgt_committed_scene *committed_s
     }
     mode.nontemporal = false;
     tile_resolve_region(committed_scene, t, r, mode, cache, counts);
+    if (tile_needs_rows(r))
+        spux_stream_end();
 }
 
 __attribute__((noinline)) static void tile_resolve_sphere_array(const cgt_committed_scene *committed_scene,
@@ -187,19 +196,18 @@ static void tile_resolve_array(const cgt_committed_scene *committed_scene, const
 static void tile_resolve_empty(const cgt_region *r)
 {
     const tile_hits none = tile_no_hits();
-    if (!tile_can_stream(r)) {
+    if (!tile_needs_rows(r)) {
         for (uint32_t y = 0; y < r->height; y++)
             for (uint32_t x = 0; x < r->width; x += CGT_LANES)
                 tile_store_hits((tile_store_target){r, false, x, (size_t)y * r->row_stride + x}, CGT_INVALID_ID, &none);
         return;
     }
-    tile_cache_lines lines;
-    const cgt_region q = tile_cache_lines_region(r, &lines);
-    for (uint32_t k = 0; k < 2 * TILE_CACHE_LINE; k += CGT_LANES)
+    tile_rows rows;
+    const cgt_region q = tile_rows_region(r, &rows);
+    for (uint32_t k = 0; k < 2 * TILE_EDGE; k += CGT_LANES)
         tile_store_hits((tile_store_target){&q, false, 0, k}, CGT_INVALID_ID, &none);
     for (uint32_t y = 0; y < r->height; y += 2)
-        for (uint32_t x = 0; x < r->width; x += TILE_CACHE_LINE)
-            tile_stream_lines(r, &lines, x, y);
+        tile_stream_rows(r, &rows, y);
     spux_stream_end();
 }
 
