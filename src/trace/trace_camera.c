@@ -13,7 +13,9 @@
 
 #define SQUARE_EDGE 64u
 #define STRIP_HEIGHT 4u
-#define STRIP_WIDTH 1280u /* Chapman's 720p line; wider frames take several side by side */
+#define STRIP_WIDTH 1280u   /* Chapman's 720p line; wider frames take several side by side */
+#define MAX_TASK_TILES 8u   /* side by side, so that they share the lines of planes that do not begin at lines */
+#define TASKS_PER_THREAD 8u /* at least, where a task takes several tiles */
 #define TILE_PIXELS (STRIP_WIDTH * STRIP_HEIGHT)
 
 typedef struct frame_job {
@@ -118,6 +120,29 @@ void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
     *frame = (cgt_frame){.width = width, .height = height};
 }
 
+/* Whether all rows of all planes begin at cache lines. */
+static bool planes_are_aligned(const cgt_region *planes)
+{
+    bool aligned = planes->row_stride % 16 == 0;
+    for (int k = 0; k < CGT_PLANES; k++)
+        aligned = aligned && (uintptr_t)planes->plane[k] % 64 == 0;
+    return aligned;
+}
+
+/* Several tiles where lines are shared, as long as there are enough tasks. A caller's runner counts as 64 threads. */
+static uint32_t choose_task_tiles(const frame_job *job)
+{
+    const uint32_t threads = job->scene->context->threads ? job->scene->context->threads : 64;
+    const uint64_t across = (job->frame->width + SQUARE_EDGE - 1) / SQUARE_EDGE;
+    const uint64_t down = (job->frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE;
+    uint32_t tiles = MAX_TASK_TILES;
+    if (!job->by_tiles || !job->planes.nontemporal || planes_are_aligned(&job->planes))
+        return 1;
+    while (tiles > 1 && (across + tiles - 1) / tiles * down < (uint64_t)threads * TASKS_PER_THREAD)
+        tiles /= 2;
+    return tiles;
+}
+
 /* Chooses tiles and whether they are traced as a whole. */
 static void plan_frame(frame_job *job, const cgt_trace_options *options)
 {
@@ -137,7 +162,7 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     const uint32_t plane_fields = cgt_planes_fields(plane);
     job->settings.fields = plane_fields | visitor_fields;
     job->buffered = job->settings.strip || (visitor_fields & ~plane_fields);
-    job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE;
+    job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE * choose_task_tiles(job);
     job->tile_height = job->settings.strip ? STRIP_HEIGHT : SQUARE_EDGE;
     job->tiles_across = (f->width + job->tile_width - 1) / job->tile_width;
 }

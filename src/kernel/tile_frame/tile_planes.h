@@ -13,11 +13,19 @@
 void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                const cgt_region *r);
 
+/* Lines of the planes that two tiles side by side share: the left one leaves its words here, the right one sends the whole
+ * line. `words` are those of each row's last line, from its begin on. */
+typedef struct tile_seam {
+    _Alignas(4 * TILE_CACHE_LINE) uint32_t words[CGT_PLANES][TILE_EDGE][TILE_CACHE_LINE];
+    bool left, right; /* whether the tile has such a neighbour; the one to the left comes first */
+} tile_seam;
+
 /* Writes the fields of a tile's closest hits to the region. */
 void CGT_KERNEL(cgt_tile_resolve)(const cgt_committed_scene *committed_scene, const tile *t,
-                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+                                  const cgt_trace_settings *settings, const cgt_region *region, tile_seam *seam,
+                                  cgt_counts *counts);
 
-/* The same for scenes of several arrays, a strip of rows at a time (tile_resolve_strips.c). */
+/* The same for scenes of several arrays, a strip of rows at a time, without a seam (tile_resolve_strips.c). */
 void CGT_KERNEL(cgt_tile_resolve_strips)(const cgt_committed_scene *committed_scene, const tile *t,
                                          const cgt_trace_settings *settings, const cgt_region *region,
                                          cgt_counts *counts);
@@ -108,78 +116,6 @@ CGT_SPU_INLINE void tile_stream_lines(const cgt_region *r, const tile_cache_line
         spux_stream_line(r->plane[k] + offset, lines->plane[k]);
         spux_stream_line(r->plane[k] + offset + r->row_stride, lines->plane[k] + TILE_CACHE_LINE);
     }
-}
-
-/* ---- planes at any address ---- */
-
-#define TILE_PREFETCH_ROWS 8u /* ahead of those that are stored */
-
-/* Two rows of a tile and of each plane, filled before they go to planes that do not begin at lines. */
-typedef struct tile_rows {
-    _Alignas(4 * TILE_CACHE_LINE) uint32_t plane[CGT_PLANES][2 * TILE_EDGE];
-} tile_rows;
-
-/* Whether rows go to the planes by way of tile_rows. */
-CGT_SPU_INLINE bool tile_needs_rows(const cgt_region *r) { return SPUX_STREAMS && r->nontemporal; }
-
-/* The region with the rows in place of its planes, whole vectors wide. */
-CGT_SPU_INLINE cgt_region tile_rows_region(const cgt_region *r, tile_rows *rows)
-{
-    cgt_region q = *r;
-    for (int k = 0; k < CGT_PLANES; k++)
-        q.plane[k] = r->plane[k] ? rows->plane[k] : NULL;
-    q.row_stride = q.width = TILE_EDGE;
-    return q;
-}
-
-/* Copies less than a line. Moves of constant size, which may overlap each other: no call and no loop of single ones. */
-CGT_SPU_INLINE void tile_store_part(uint32_t *to, const uint32_t *from, uint32_t count)
-{
-    if (count >= 8) {
-        memcpy(to, from, 8 * sizeof *to);
-        memcpy(to + count - 8, from + count - 8, 8 * sizeof *to);
-    } else if (count >= 4) {
-        memcpy(to, from, 4 * sizeof *to);
-        memcpy(to + count - 4, from + count - 4, 4 * sizeof *to);
-    } else if (count >= 2) {
-        memcpy(to, from, 2 * sizeof *to);
-        memcpy(to + count - 2, from + count - 2, 2 * sizeof *to);
-    } else if (count)
-        *to = *from;
-}
-
-/* Sends a row to wherever it begins: the whole lines in its middle past the caches. Its ends are parts of lines that
- * other tiles share, so they take the caches: storing parts past them is several times slower. */
-CGT_SPU_INLINE void tile_stream_row(uint32_t *to, const uint32_t *from, uint32_t count)
-{
-    const uint32_t unaligned = (uint32_t)(-(uintptr_t)to % (4 * TILE_CACHE_LINE) / sizeof *to);
-    uint32_t x = unaligned < count ? unaligned : count;
-    tile_store_part(to, from, x);
-    for (; x + TILE_CACHE_LINE <= count; x += TILE_CACHE_LINE)
-        spux_stream_line_unaligned(to + x, from + x);
-    tile_store_part(to + x, from + x, count - x);
-}
-
-/* Fetches the lines that the ends of rows y and y + 1 share with other tiles. Stores leave in order: one that waits for
- * memory would hold up all that are streamed after it. */
-CGT_SPU_INLINE void tile_prefetch_ends(const cgt_region *r, uint32_t y)
-{
-    for (int k = 0; k < CGT_PLANES; k++)
-        for (uint32_t row = y; r->plane[k] && row < y + 2 && row < r->height; row++) {
-            const uint32_t *to = r->plane[k] + (size_t)row * r->row_stride;
-            __builtin_prefetch(to, 1);
-            __builtin_prefetch(to + r->width - 1, 1);
-        }
-}
-
-/* Sends rows y and y + 1, as far as the region has them. */
-CGT_SPU_INLINE void tile_stream_rows(const cgt_region *r, const tile_rows *rows, uint32_t y)
-{
-    tile_prefetch_ends(r, y + TILE_PREFETCH_ROWS);
-    for (int k = 0; k < CGT_PLANES; k++)
-        for (uint32_t row = 0; r->plane[k] && row < 2 && y + row < r->height; row++)
-            tile_stream_row(r->plane[k] + (size_t)(y + row) * r->row_stride, rows->plane[k] + row * TILE_EDGE,
-                            r->width);
 }
 
 #endif

@@ -291,7 +291,8 @@ static void tile_march_grid(tile_work *w)
 /* ---- the tile ---- */
 
 static void tile_trace_region(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                              const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
+                              const cgt_trace_settings *settings, const cgt_region *region, tile_seam *seam,
+                              cgt_counts *counts)
 {
     tile t;
     tile_work w; /* large: set field by field */
@@ -306,15 +307,19 @@ static void tile_trace_region(const cgt_committed_scene *committed_scene, const 
     tile_march_grid(&w);
     counts->tiles++;
     counts->rays += (uint64_t)region->width * region->height;
-    CGT_KERNEL(cgt_tile_resolve)(committed_scene, &t, settings, region, counts);
+    CGT_KERNEL(cgt_tile_resolve)(committed_scene, &t, settings, region, seam, counts);
 }
 
 void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                 const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
+    tile_seam seam; /* large: set field by field */
     for (uint32_t y = 0; y < region->height; y += TILE_EDGE)
         for (uint32_t x = 0; x < region->width; x += TILE_EDGE) {
             const cgt_region part = cgt_region_part(region, x, y, TILE_EDGE, TILE_EDGE);
-            tile_trace_region(committed_scene, camera, settings, &part, counts);
+            seam.left = x > 0;
+            seam.right = x + TILE_EDGE < region->width;
+            tile_trace_region(committed_scene, camera, settings, &part,
+                              committed_scene->prims.arrays == 1 ? &seam : NULL, counts);
         }
 }
