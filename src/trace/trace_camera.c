@@ -26,7 +26,8 @@ typedef struct frame_job {
     bool by_tiles;     /* whole tiles go through a loose grid, no packets */
     cgt_region planes; /* the whole frame */
     uint32_t tile_width, tile_height, tiles_across;
-    bool buffered; /* tiles go through a buffer */
+    uint32_t first_width; /* of the tiles in the first column */
+    bool buffered;        /* tiles go through a buffer */
     atomic_bool stopped;
     cgt_trace_counter *counter;
     cgt_float_environment callers; /* the visitor's, too */
@@ -99,11 +100,13 @@ __attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, 
 static void trace_frame_tile(void *argument, uint32_t index)
 {
     frame_job *job = argument;
-    const uint32_t x = index % job->tiles_across * job->tile_width, y = index / job->tiles_across * job->tile_height;
+    const uint32_t column = index % job->tiles_across, y = index / job->tiles_across * job->tile_height;
+    const uint32_t x = column ? job->first_width + (column - 1) * job->tile_width : 0;
     cgt_visit visit = CGT_VISIT_CONTINUE;
     if (atomic_load_explicit(&job->stopped, memory_order_relaxed))
         return;
-    const cgt_region part = cgt_region_part(&job->planes, x, y, job->tile_width, job->tile_height);
+    const cgt_region part =
+        cgt_region_part(&job->planes, x, y, column ? job->tile_width : job->first_width, job->tile_height);
     if (job->buffered)
         visit = trace_buffered(job, &part);
     else {
@@ -120,13 +123,19 @@ void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
     *frame = (cgt_frame){.width = width, .height = height};
 }
 
-/* Whether all rows of all planes begin at cache lines. */
-static bool planes_are_aligned(const cgt_region *planes)
+#define LINE_WORDS 16u /* of a cache line */
+
+/* Words from each row's begin to the first cache line, LINE_WORDS or more where planes or rows differ. */
+static uint32_t words_before_lines(const cgt_region *planes)
 {
-    bool aligned = planes->row_stride % 16 == 0;
-    for (int k = 0; k < CGT_PLANES; k++)
-        aligned = aligned && (uintptr_t)planes->plane[k] % 64 == 0;
-    return aligned;
+    uint32_t words = LINE_WORDS;
+    for (int k = 0; k < CGT_PLANES; k++) {
+        const uint32_t own = (uint32_t)(-(uintptr_t)planes->plane[k] / sizeof(uint32_t) % LINE_WORDS);
+        if (planes->plane[k] && words != LINE_WORDS && words != own)
+            return LINE_WORDS;
+        words = planes->plane[k] ? own : words;
+    }
+    return planes->row_stride % LINE_WORDS ? LINE_WORDS : words;
 }
 
 /* Several tiles where lines are shared, as long as there are enough tasks. A caller's runner counts as 64 threads. */
@@ -136,11 +145,23 @@ static uint32_t choose_task_tiles(const frame_job *job)
     const uint64_t across = (job->frame->width + SQUARE_EDGE - 1) / SQUARE_EDGE;
     const uint64_t down = (job->frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE;
     uint32_t tiles = MAX_TASK_TILES;
-    if (!job->by_tiles || !job->planes.nontemporal || planes_are_aligned(&job->planes))
-        return 1;
     while (tiles > 1 && (across + tiles - 1) / tiles * down < (uint64_t)threads * TASKS_PER_THREAD)
         tiles /= 2;
     return tiles;
+}
+
+/* Makes tiles begin at cache lines: the first column of them is narrower. Where planes or rows begin at different places
+ * in their lines, a task takes several tiles side by side, which share lines. */
+static void align_tiles(frame_job *job)
+{
+    job->first_width = job->tile_width;
+    if (!job->by_tiles || !job->planes.nontemporal)
+        return;
+    const uint32_t words = words_before_lines(&job->planes);
+    if (words == LINE_WORDS)
+        job->first_width = job->tile_width = SQUARE_EDGE * choose_task_tiles(job);
+    else if (words)
+        job->first_width = SQUARE_EDGE - LINE_WORDS + words;
 }
 
 /* Chooses tiles and whether they are traced as a whole. */
@@ -162,9 +183,12 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     const uint32_t plane_fields = cgt_planes_fields(plane);
     job->settings.fields = plane_fields | visitor_fields;
     job->buffered = job->settings.strip || (visitor_fields & ~plane_fields);
-    job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE * choose_task_tiles(job);
+    job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE;
     job->tile_height = job->settings.strip ? STRIP_HEIGHT : SQUARE_EDGE;
-    job->tiles_across = (f->width + job->tile_width - 1) / job->tile_width;
+    align_tiles(job);
+    job->tiles_across = 1;
+    if (f->width > job->first_width)
+        job->tiles_across += (f->width - job->first_width + job->tile_width - 1) / job->tile_width;
 }
 
 cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
