@@ -191,6 +191,15 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
         job->tiles_across += (f->width - job->first_width + job->tile_width - 1) / job->tile_width;
 }
 
+/* A frame that asks for nothing is a mistake, and not a fast frame. */
+static cgt_result check_asks_for_something(cgt_context *c, const cgt_frame *f)
+{
+    void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
+    return f->visitor || cgt_planes_fields(plane)
+               ? CGT_OK
+               : cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: neither a plane nor a visitor: it asks for nothing");
+}
+
 cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                             const cgt_trace_options *options)
 {
@@ -202,6 +211,8 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     cgt_result result = cgt_trace_prepare(scene, options, true, &job.settings, &counter);
     if (result == CGT_OK)
         result = cgt_check_frame(c, frame);
+    if (result == CGT_OK)
+        result = check_asks_for_something(c, frame);
     if (result == CGT_OK)
         result = cgt_prepare_camera(c, camera, frame, &job.camera);
     if (result != CGT_OK)
