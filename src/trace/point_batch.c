@@ -5,7 +5,6 @@
  * ordered along a Morton curve as the light sees them: a counting sort by 32 x 32 cells. */
 #include "trace/point_batch.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -36,22 +35,6 @@ static uint32_t number_at(const uint32_t *array, size_t stride, uint64_t i)
 
 /* ---- live points ---- */
 
-typedef enum point_state { POINT_LIVE, POINT_OFF, POINT_INVALID } point_state;
-
-/* Without a branch on any point: they would be mispredicted at every edge of a picture. */
-static point_state state_of(const float position[3], float t_min, float t_max, const cgt_light *light)
-{
-    const bool is_point = light->kind == CGT_LIGHT_POINT;
-    unsigned finite = 1, at_light = is_point;
-    for (int a = 0; a < 3; a++) {
-        const float d = is_point ? light->position[a] - position[a] : light->position[a];
-        finite &= (unsigned)(fabsf(position[a]) <= FLT_MAX) & (unsigned)(fabsf(d) <= FLT_MAX);
-        at_light &= (unsigned)(d == 0);
-    }
-    const unsigned invalid = (finite ^ 1) | at_light | (unsigned)(t_min != t_min) | (unsigned)(t_max != t_max);
-    return invalid ? POINT_INVALID : t_min > t_max ? POINT_OFF : POINT_LIVE;
-}
-
 /* Lists the live ones of points first to end - 1, and finds the middle of their bounds. */
 static void list_points(cgt_point_order *o, const cgt_rays *points, const cgt_light *light, uint64_t first,
                         uint64_t end, double middle[3])
@@ -63,11 +46,11 @@ static void list_points(cgt_point_order *o, const cgt_rays *points, const cgt_li
                                    float_at(points->org[2], stride, i)};
         const float t_min = points->t_min ? float_at(points->t_min, stride, i) : 0;
         const float t_max = points->t_max ? float_at(points->t_max, stride, i) : INFINITY;
-        const point_state state = state_of(position, t_min, t_max, light);
-        const bool live = state == POINT_LIVE;
+        const cgt_point_state state = cgt_find_point_state(position, t_min, t_max, light);
+        const bool live = state == CGT_POINT_LIVE;
         o->listed[o->live] = (uint16_t)(i - first); /* the next one overwrites a point that is not live */
         o->live += live;
-        o->invalid += state == POINT_INVALID;
+        o->invalid += state == CGT_POINT_INVALID;
         for (int a = 0; a < 3; a++) {
             low[a] = live && position[a] < low[a] ? position[a] : low[a];
             high[a] = live && position[a] > high[a] ? position[a] : high[a];

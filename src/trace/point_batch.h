@@ -7,6 +7,9 @@
 #ifndef CGT_POINT_BATCH_H
 #define CGT_POINT_BATCH_H
 
+#include <float.h>
+#include <math.h>
+
 #include "dispatch/kernel.h"
 
 #define CGT_MAX_TASK_POINTS (8u * CGT_RAYS_CHUNK) /* that are ordered together */
@@ -24,6 +27,23 @@ typedef struct cgt_point_batch {
     uint8_t occluded[CGT_RAYS_CHUNK];
     cgt_rays rays; /* the arrays above, as far as they are in use */
 } cgt_point_batch;
+
+typedef enum cgt_point_state { CGT_POINT_LIVE, CGT_POINT_OFF, CGT_POINT_INVALID } cgt_point_state;
+
+/* Without a branch on any point: they would be mispredicted at every edge of a picture. */
+static inline cgt_point_state cgt_find_point_state(const float position[3], float t_min, float t_max,
+                                                   const cgt_light *light)
+{
+    const bool is_point = light->kind == CGT_LIGHT_POINT;
+    unsigned finite = 1, at_light = is_point;
+    for (int a = 0; a < 3; a++) {
+        const float d = is_point ? light->position[a] - position[a] : light->position[a];
+        finite &= (unsigned)(fabsf(position[a]) <= FLT_MAX) & (unsigned)(fabsf(d) <= FLT_MAX);
+        at_light &= (unsigned)(d == 0);
+    }
+    const unsigned invalid = (finite ^ 1) | at_light | (unsigned)(t_min != t_min) | (unsigned)(t_max != t_max);
+    return invalid ? CGT_POINT_INVALID : t_min > t_max ? CGT_POINT_OFF : CGT_POINT_LIVE;
+}
 
 /* Finds which of points first to end - 1, at most CGT_MAX_TASK_POINTS, are live, and orders them. */
 void cgt_point_order_init(cgt_point_order *o, const cgt_rays *points, const cgt_light *light, uint64_t first,

@@ -3,6 +3,7 @@
  *
  * A camera's frame: cut into tiles, each a task. A tile is traced straight into the caller's planes, or into a buffer
  * on the stack that goes to the visitor and from there, row by row, to the planes. */
+#include <math.h>
 #include <string.h>
 
 #include "builders/bvh/bvh_on_demand.h"
@@ -28,6 +29,7 @@ typedef struct frame_job {
     uint32_t tile_width, tile_height, tiles_across;
     uint32_t first_width; /* of the tiles in the first column */
     bool buffered;        /* tiles go through a buffer */
+    bool positions;       /* somebody asked for them */
     atomic_bool stopped;
     cgt_trace_counter *counter;
     cgt_float_environment callers; /* the visitor's, too */
@@ -51,8 +53,35 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
                    tile->width * sizeof(uint32_t));
 }
 
+/* Where a tile's positions go: to the frame's planes, or to a buffer for the visitor alone. */
+typedef struct tile_positions {
+    float *plane[3];
+    size_t row_stride;
+} tile_positions;
+
+static tile_positions positions_in_planes(const frame_job *job, const cgt_region *r)
+{
+    tile_positions p = {.row_stride = job->planes.row_stride};
+    for (int a = 0; a < 3; a++)
+        p.plane[a] = job->frame->position[a] ? job->frame->position[a] + r->y * p.row_stride + r->x : NULL;
+    return p;
+}
+
+/* Computes the positions of a tile's hits, from their t. */
+static void compute_positions(const frame_job *job, const cgt_region *r, const tile_positions *p)
+{
+    for (uint32_t y = 0; y < r->height; y++)
+        for (uint32_t x = 0; x < r->width; x++) {
+            const float t = r->t[y * r->row_stride + x];
+            float org[3], dir[3];
+            cgt_camera_pixel(&job->camera, r->x + x, r->y + y, org, dir);
+            for (int a = 0; a < 3; a++)
+                p->plane[a][y * p->row_stride + x] = isinf(t) ? INFINITY : org[a] + t * dir[a];
+        }
+}
+
 /* Tasks run in the library's floating-point environment, the visitor in that of the call. */
-static cgt_visit call_visitor(const frame_job *job, const cgt_region *r)
+static cgt_visit call_visitor(const frame_job *job, const cgt_region *r, const tile_positions *p)
 {
     const cgt_frame *f = job->frame;
     cgt_float_environment visitors;
@@ -69,7 +98,8 @@ static cgt_visit call_visitor(const frame_job *job, const cgt_region *r)
                            .geometry = q.geometry,
                            .normal = {q.normal[0], q.normal[1], q.normal[2]},
                            .u = q.u,
-                           .v = q.v};
+                           .v = q.v,
+                           .position = {p->plane[0], p->plane[1], p->plane[2]}};
     cgt_float_environment_leave(&job->callers);
     const cgt_visit visit = f->visitor(f->visitor_user, &tile);
     cgt_float_environment_enter(&visitors);
@@ -86,15 +116,33 @@ static void trace_region(const frame_job *job, const cgt_region *r)
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-/* A function of its own: its stack is taken only where it is needed. */
-__attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, const cgt_region *planes)
+/* Functions of their own: their stack is taken only where it is needed. */
+__attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, const cgt_region *planes,
+                                                          const tile_positions *positions)
 {
     uint32_t buffer[CGT_PLANES][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
     trace_region(job, &tile);
-    const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile) : CGT_VISIT_CONTINUE;
+    if (job->positions)
+        compute_positions(job, &tile, positions);
+    const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile, positions) : CGT_VISIT_CONTINUE;
     copy_to_planes(planes, &tile);
     return visit;
+}
+
+__attribute__((noinline)) static cgt_visit trace_for_visitor(const frame_job *job, const cgt_region *planes)
+{
+    float buffer[3][TILE_PIXELS];
+    const tile_positions positions = {{buffer[0], buffer[1], buffer[2]}, planes->width};
+    return trace_buffered(job, planes, &positions);
+}
+
+static cgt_visit trace_to_planes(const frame_job *job, const cgt_region *planes, const tile_positions *positions)
+{
+    trace_region(job, planes);
+    if (job->positions)
+        compute_positions(job, planes, positions);
+    return job->frame->visitor ? call_visitor(job, planes, positions) : CGT_VISIT_CONTINUE;
 }
 
 static void trace_frame_tile(void *argument, uint32_t index)
@@ -107,13 +155,11 @@ static void trace_frame_tile(void *argument, uint32_t index)
         return;
     const cgt_region part =
         cgt_region_part(&job->planes, x, y, column ? job->tile_width : job->first_width, job->tile_height);
-    if (job->buffered)
-        visit = trace_buffered(job, &part);
-    else {
-        trace_region(job, &part);
-        if (job->frame->visitor)
-            visit = call_visitor(job, &part);
-    }
+    const tile_positions positions = positions_in_planes(job, &part);
+    if (job->positions && !positions.plane[0])
+        visit = trace_for_visitor(job, &part);
+    else
+        visit = job->buffered ? trace_buffered(job, &part, &positions) : trace_to_planes(job, &part, &positions);
     if (visit != CGT_VISIT_CONTINUE)
         atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
 }
@@ -171,18 +217,20 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     const cgt_committed_scene *committed_scene = &job->scene->committed_scene;
     const uint32_t visitor_fields = f->visitor ? f->visitor_fields : 0;
     void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
+    job->positions = f->position[0] || (visitor_fields & CGT_FIELD_POSITION);
     if (!cgt_primitives_masked_out(&committed_scene->prims, job->camera.mask))
         job->camera.mask = UINT32_MAX;
     job->by_tiles = !cgt_requires_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
     job->planes = (cgt_region){.width = f->width,
                                .height = f->height,
                                .row_stride = f->row_stride ? f->row_stride : f->width,
-                               .nontemporal = !f->visitor};
+                               .nontemporal = !f->visitor && !job->positions}; /* t is read again */
     for (int k = 0; k < CGT_PLANES; k++)
         job->planes.plane[k] = plane[k];
     const uint32_t plane_fields = cgt_planes_fields(plane);
-    job->settings.fields = plane_fields | visitor_fields;
-    job->buffered = job->settings.strip || (visitor_fields & ~plane_fields);
+    job->settings.fields =
+        (plane_fields | visitor_fields | (job->positions ? CGT_FIELD_T : 0u)) & ~(uint32_t)CGT_FIELD_POSITION;
+    job->buffered = job->settings.strip || (job->settings.fields & ~plane_fields);
     job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE;
     job->tile_height = job->settings.strip ? STRIP_HEIGHT : SQUARE_EDGE;
     align_tiles(job);
@@ -195,7 +243,7 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
 static cgt_result check_asks_for_something(cgt_context *c, const cgt_frame *f)
 {
     void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
-    return f->visitor || cgt_planes_fields(plane)
+    return f->visitor || f->position[0] || cgt_planes_fields(plane)
                ? CGT_OK
                : cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: neither a plane nor a visitor: it asks for nothing");
 }

@@ -7,23 +7,13 @@
 
 #include "core/float_environment.h"
 #include "dispatch/kernel.h"
-#include "trace/point_batch.h"
-#include "trace/trace_call.h"
+#include "trace/trace_light.h"
 #include "builders/bvh/bvh_on_demand.h"
 
-/* How tiles or a tree are chosen: the tasks of a call that are sampled, and the primitives that a tile may test for each
- * point; with more of them a tree is faster. Measured. */
-#define SAMPLED_TASKS 4u
+/* The primitives that a tile may test for each point; with more of them a tree is faster. Measured. */
 #define PRIMS_PER_POINT 16u
 
-/* Where a BVH may take over: the work for each point, in references and tests of groups, after which tiles give a chunk
- * up. The estimate takes primitives for evenly spread over the bounds of the scene; one far away makes it too small. The
- * work is bounded by a few times what the BVH takes. */
-#define MAX_LIGHT_WORK 128u
-/* Points of such a chunk share little: each counts as so many rays for the BVH's building. */
-#define SCATTERED_POINTS 4u
-
-#define TASK_GIVEN_UP 0xffu /* the first result of a task that tiles gave up, until it is traced otherwise */
+#define SAMPLED_TASKS 4u /* that are looked at before tiles or a tree are chosen */
 
 #define TASKS_PER_THREAD 4u /* at least, where a task takes several chunks */
 
@@ -103,7 +93,7 @@ static void trace_task(void *argument, uint32_t index)
     cgt_counts counts = {0};
     if (!trace_task_points(job, first, end, &counts)) { /* the work was done, the points were not */
         counts.rays = counts.hits = counts.invalid_rays = 0;
-        job->occluded[first] = TASK_GIVEN_UP;
+        job->occluded[first] = CGT_LIGHT_GIVEN_UP;
         atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
     }
     cgt_trace_counter_add(job->counter, &counts);
@@ -112,7 +102,7 @@ static void trace_task(void *argument, uint32_t index)
 static void trace_given_up_task(void *argument, uint32_t index)
 {
     const light_job *job = argument;
-    if (job->occluded[index * job->task_points] == TASK_GIVEN_UP)
+    if (job->occluded[index * job->task_points] == CGT_LIGHT_GIVEN_UP)
         trace_task(argument, index);
 }
 
@@ -134,12 +124,12 @@ static cgt_result trace_tasks(light_job *job)
     const uint32_t tasks = (uint32_t)((job->points.count + job->task_points - 1) / job->task_points);
     cgt_trace_settings *settings = &job->settings;
     if (settings->light_tiles && s->options.structure == CGT_STRUCTURE_AUTO)
-        settings->max_light_work = MAX_LIGHT_WORK;
+        settings->max_light_work = CGT_MAX_LIGHT_WORK;
     cgt_run_tasks(s->context, trace_task, job, tasks);
     const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
     if (!given_up)
         return CGT_OK;
-    const cgt_result result = cgt_bvh_build_on_demand(s, given_up * SCATTERED_POINTS, &settings->use_bvh);
+    const cgt_result result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
     if (result != CGT_OK)
         return result;
     settings->light_tiles = !settings->use_bvh;
@@ -148,17 +138,20 @@ static cgt_result trace_tasks(light_job *job)
     return CGT_OK;
 }
 
-/* Whether the structure and the scene's size allow for tiles at all. */
-static bool tiles_are_possible(const cgt_committed_scene *s)
+bool cgt_light_allows_tiles(const cgt_committed_scene *s)
 {
     return s->loose.levels && s->valid && !s->brute_force && s->scale <= 0x1p60f && s->scale >= 0x1p-60f;
 }
 
-/* Whether neighbouring points are near enough to each other for tiles, as the light sees them: in the middle batch of a
- * task's points, unless none is live. */
+bool cgt_light_batch_is_coherent(const cgt_scene *s, const cgt_light *light, const cgt_point_batch *b)
+{
+    return s->context->kernel->light_prims(&s->committed_scene, &b->rays, light, 0, b->rays.count) <=
+           PRIMS_PER_POINT * b->rays.count;
+}
+
+/* Whether the middle batch of a task's points is coherent, unless none of them is live. */
 static bool task_is_coherent(const light_job *job, uint64_t first, uint64_t end, bool *any_live)
 {
-    const cgt_scene *s = job->scene;
     cgt_point_order order;
     cgt_point_batch batch;
     cgt_point_order_init(&order, &job->points, job->light, first, end);
@@ -168,8 +161,7 @@ static bool task_is_coherent(const light_job *job, uint64_t first, uint64_t end,
     const uint32_t from = order.live / 2 / CGT_RAYS_CHUNK * CGT_RAYS_CHUNK;
     const uint32_t count = (uint32_t)chunk_end(from, order.live) - from;
     cgt_point_batch_fill(&batch, &job->points, first, order.number + from, count);
-    return s->context->kernel->light_prims(&s->committed_scene, &batch.rays, job->light, 0, count) <=
-           (uint64_t)PRIMS_PER_POINT * count;
+    return cgt_light_batch_is_coherent(job->scene, job->light, &batch);
 }
 
 /* Whether the points of most tasks are. */
@@ -179,7 +171,7 @@ static bool choose_tiles(const light_job *job)
     const uint64_t sampled = tasks < SAMPLED_TASKS ? tasks : SAMPLED_TASKS;
     uint64_t coherent = 0, live = 0;
     cgt_float_environment callers;
-    if (!tiles_are_possible(&job->scene->committed_scene))
+    if (!cgt_light_allows_tiles(&job->scene->committed_scene))
         return false;
     cgt_float_environment_enter(&callers);
     for (uint64_t k = 0; k < sampled; k++) {
@@ -192,7 +184,7 @@ static bool choose_tiles(const light_job *job)
     return 2 * coherent > live;
 }
 
-static cgt_result check_light(cgt_context *c, const cgt_light *light)
+cgt_result cgt_check_light(cgt_context *c, const cgt_light *light)
 {
     bool zero = true;
     for (int a = 0; a < 3; a++) {
@@ -225,7 +217,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
     light_job job = {.scene = scene, .light = light, .occluded = occluded, .counter = &counter};
     cgt_result result = cgt_trace_prepare(scene, options, false, &job.settings, &counter);
     if (result == CGT_OK)
-        result = check_light(c, light);
+        result = cgt_check_light(c, light);
     if (result == CGT_OK)
         result = check_points(c, points);
     if (result != CGT_OK)
