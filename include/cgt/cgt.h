@@ -453,6 +453,38 @@ CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, 
 CGT_API cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
                                      const cgt_trace_options *options);
 
+/* One ray, for callers that must see one hit before they know the next ray. */
+typedef struct cgt_single_ray {
+    float org[3], dir[3]; /* dir: of any length but zero */
+    float t_min, t_max;   /* t_max: 0 (default): +infinity. Below t_min: the ray is off and hits nothing */
+    uint32_t mask;        /* as of cgt_rays; 0 (default): all bits set */
+    bool skips;           /* whether it does not find the primitive that follows */
+    uint32_t skip_primitive, skip_geometry; /* as of cgt_rays */
+} cgt_single_ray;
+
+/* Its hit: see cgt_field. */
+typedef struct cgt_single_hit {
+    float t;
+    uint32_t primitive, geometry;
+    float normal[3];
+    float u, v;
+} cgt_single_hit;
+
+/* Traces one ray to its nearest hit, on the calling thread; may build a BVH in the scene first, as cgt_trace_rays does.
+ *   ray       any
+ *   hit       gets the hit, of the same values as cgt_trace_rays'
+ *   options   NULL: the defaults
+ * Fastest in scenes of CGT_RAY_KIND_INCOHERENT, whose BVH is there from the commit on; arrays of rays are faster still.
+ * With a BVH the call takes less than 16 KB of stack, through another structure up to 128 KB; a call that builds a BVH
+ * takes as much as a commit. Errors and memory: as cgt_trace_rays. */
+CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_single_hit *hit,
+                                 const cgt_trace_options *options);
+
+/* Finds whether one ray hits anything in its range: as cgt_trace_ray, but faster.
+ *   occluded   gets whether it does */
+CGT_API cgt_result cgt_occluded_ray(const cgt_scene *scene, const cgt_single_ray *ray, bool *occluded,
+                                    const cgt_trace_options *options);
+
 typedef enum cgt_light_kind {
     CGT_LIGHT_POINT = 0,  /* at a place */
     CGT_LIGHT_DIRECTIONAL /* so far away that it lies in one direction from everywhere */

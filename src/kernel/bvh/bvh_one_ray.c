@@ -1,0 +1,155 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * One ray of a call through the BVH, without packets and streams: less than 16 KB of stack, of which the traversal's own
+ * stack takes 8. The hit and its values are those of arrays of rays. */
+#include "exact/valid_primitive.h"
+#include "kernel/bvh/bvh_single.h"
+#include "kernel/resolve/resolve_spheres.h"
+#include "kernel/resolve/resolve_triangles.h"
+
+/* ---- the ray ---- */
+
+static cgt_ray one_ray_input(const cgt_single_ray *from)
+{
+    cgt_ray ray = {.t_min = from->t_min < -FLT_MAX ? -FLT_MAX : from->t_min,
+                   .t_max = from->t_max == 0 ? INFINITY : from->t_max};
+    for (int a = 0; a < 3; a++) {
+        ray.line.org[a] = from->org[a];
+        ray.line.dir[a] = from->dir[a];
+    }
+    return ray;
+}
+
+/* As ray_packet.h and stream_read.h have it: OUTSIDE is not looked for. */
+static ray_state one_ray_state(const cgt_ray *ray)
+{
+    float zero = 0, largest = 0, longest = 0;
+    for (int a = 0; a < 3; a++) {
+        const float o = fabsf(ray->line.org[a]), d = fabsf(ray->line.dir[a]);
+        zero += o * 0 + d * 0; /* not a number where o or d is not finite */
+        largest = o > largest ? o : largest;
+        longest = d > longest ? d : longest;
+    }
+    if (zero != 0 || longest == 0 || ray->t_min != ray->t_min || ray->t_max != ray->t_max)
+        return RAY_INVALID;
+    if (ray->t_min > ray->t_max || ray->t_min > FLT_MAX || ray->t_max < -FLT_MAX)
+        return RAY_EMPTY_RANGE;
+    return largest > PACKET_MAX_COORDINATE || longest > PACKET_MAX_COORDINATE || longest < PACKET_MIN_DIR ? RAY_EXTREME
+                                                                                                          : RAY_OPEN;
+}
+
+/* The call of one ray, in the form that the shared parts read. */
+typedef struct one_ray_call {
+    bvh_call call;
+    cgt_rays rays;
+    ray_source source;
+    uint32_t mask, skip_prim;
+} one_ray_call;
+
+/* Returns whether the tree serves the call. */
+static bool one_ray_init(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, const cgt_ray *ray,
+                         bool any_hit, cgt_counts *counts, one_ray_call *c)
+{
+    const bool fits = bvh_call_init(committed_scene, counts, &c->call);
+    c->rays = (cgt_rays){.count = 1,
+                         .org = {ray->line.org, ray->line.org + 1, ray->line.org + 2},
+                         .dir = {ray->line.dir, ray->line.dir + 1, ray->line.dir + 2},
+                         .t_min = &ray->t_min,
+                         .t_max = &ray->t_max};
+    c->source = ray_source_init(&c->rays, NULL);
+    c->call.source = &c->source;
+    c->call.any_hit = any_hit;
+    c->mask = from->mask ? from->mask : UINT32_MAX;
+    c->skip_prim = CGT_INVALID_ID;
+    if (from->skips && from->skip_primitive != CGT_INVALID_ID)
+        c->skip_prim = cgt_primitives_number(&committed_scene->prims, from->skip_geometry, from->skip_primitive);
+    c->call.skip_prim = c->skip_prim == CGT_INVALID_ID ? NULL : &c->skip_prim;
+    c->call.mask = committed_scene->has_masks && c->mask != UINT32_MAX ? &c->mask : NULL;
+    c->call.skips_prims = c->call.skip_prim || c->call.mask;
+    return fits;
+}
+
+/* ---- tracing ---- */
+
+/* Numbers that single precision does not cover: against every primitive. */
+__attribute__((noinline, cold)) static uint32_t one_ray_trace_extreme(const bvh_call *c, const cgt_ray *ray)
+{
+    const cgt_primitives *prims = &c->committed_scene->prims;
+    uint32_t best = CGT_INVALID_ID;
+    for (uint32_t prim = cgt_next_valid(prims, 0); prim < prims->count; prim = cgt_next_valid(prims, prim + 1)) {
+        double t;
+        if (bvh_ray_skips(c, 0, prim))
+            continue;
+        c->counts->packet_tests++;
+        c->counts->ray_tests++;
+        if (!filter_is_closer(prims, ray, best, prim, &t, c->counts))
+            continue;
+        best = prim;
+        if (c->any_hit)
+            break;
+    }
+    return best;
+}
+
+/* Returns the primitive that is hit, CGT_INVALID_ID for none. */
+CGT_SPU_INLINE uint32_t one_ray_trace(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                      const cgt_ray *ray, bool any_hit, cgt_counts *counts)
+{
+    one_ray_call c;
+    bvh_ray r;
+    const ray_state state = one_ray_state(ray);
+    counts->rays++;
+    counts->invalid_rays += state == RAY_INVALID;
+    if (state > RAY_EXTREME || !committed_scene->valid)
+        return CGT_INVALID_ID;
+    const bool fits = one_ray_init(committed_scene, from, ray, any_hit, counts, &c);
+    counts->bvh_rays++;
+    if (!fits || state == RAY_EXTREME || committed_scene->brute_force || !bvh_ray_normalise(&c.call, ray, 0, &r))
+        return one_ray_trace_extreme(&c.call, ray);
+    bvh_single_trace(&c.call, &r, 0, any_hit);
+    return r.best.prim;
+}
+
+/* ---- the hit ---- */
+
+static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_ray *ray, uint32_t prim, bool exact,
+                          cgt_single_hit *hit, cgt_counts *counts)
+{
+    const cgt_primitives *prims = &committed_scene->prims;
+    const cgt_primitive_array *array = cgt_primitives_array(prims, prim);
+    *hit = (cgt_single_hit){.primitive = prim - array->first, .geometry = array->geometry};
+    if (array->kind != CGT_KIND_SPHERES) {
+        const cgt_triangle q = cgt_array_triangle(array, prim - array->first);
+        const uint32_t fields = CGT_FIELD_T | CGT_FIELD_NORMAL | CGT_FIELD_UV;
+        const resolved_triangle s = resolve_triangle_ray(ray, &q, fields, exact, counts);
+        hit->t = s.t;
+        hit->u = s.u;
+        hit->v = s.v;
+        memcpy(hit->normal, s.normal, sizeof hit->normal);
+    } else {
+        const resolved_sphere s = resolve_sphere_ray(ray, cgt_array_sphere(array, prim - array->first), counts);
+        hit->t = s.t;
+        memcpy(hit->normal, s.normal, sizeof hit->normal);
+    }
+}
+
+void CGT_KERNEL(cgt_bvh_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                       bool exact, cgt_single_hit *hit, cgt_counts *counts)
+{
+    const cgt_ray ray = one_ray_input(from);
+    const uint32_t prim = one_ray_trace(committed_scene, from, &ray, false, counts);
+    if (prim == CGT_INVALID_ID)
+        return;
+    counts->hits++;
+    one_ray_store(committed_scene, &ray, prim, exact, hit, counts);
+}
+
+bool CGT_KERNEL(cgt_bvh_occluded_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                          cgt_counts *counts)
+{
+    const cgt_ray ray = one_ray_input(from);
+    const bool occluded = one_ray_trace(committed_scene, from, &ray, true, counts) != CGT_INVALID_ID;
+    counts->hits += occluded;
+    return occluded;
+}
