@@ -36,35 +36,56 @@ __attribute__((noinline)) static void trace_as_array(const cgt_scene *s, const c
     s->context->kernel->trace_rays(&s->committed_scene, &rays, 0, 1, settings, hit ? &hits : NULL, occluded, counts);
 }
 
-/* hit or occluded is NULL. */
-static cgt_result trace_one_ray(const cgt_scene *s, const cgt_single_ray *ray, cgt_single_hit *hit, bool *occluded,
-                                const cgt_trace_options *options)
+/* Through the BVH, or as an array. hit or occluded is NULL. */
+static void trace_any_way(const cgt_scene *s, const cgt_single_ray *ray, cgt_trace_settings *settings,
+                          cgt_single_hit *hit, bool *occluded, cgt_counts *counts)
+{
+    const cgt_kernel *kernel = s->context->kernel;
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    if (hit)
+        *hit = (cgt_single_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
+    if (!settings->use_bvh) {
+        uint8_t found = 0;
+        trace_as_array(s, ray, settings, hit, hit ? NULL : &found, counts);
+        if (occluded)
+            *occluded = found;
+    } else if (hit)
+        kernel->trace_one_ray(&s->committed_scene, ray, settings->precision == CGT_PRECISION_EXACT, hit, counts);
+    else
+        *occluded = kernel->occluded_one_ray(&s->committed_scene, ray, counts);
+    cgt_float_environment_leave(&callers);
+}
+
+static cgt_result trace_with_options(const cgt_scene *s, const cgt_single_ray *ray, cgt_single_hit *hit, bool *occluded,
+                                     const cgt_trace_options *options)
 {
     cgt_trace_counter counter;
     cgt_trace_settings settings;
     cgt_counts counts = {0};
-    cgt_float_environment callers;
-    const cgt_kernel *kernel = s->context->kernel;
     cgt_result result = cgt_trace_prepare(s, options, false, &settings, &counter);
     if (result == CGT_OK)
         result = cgt_bvh_build_on_demand(s, 1, &settings.use_bvh);
     if (result != CGT_OK)
         return result;
-    cgt_float_environment_enter(&callers);
-    if (hit)
-        *hit = (cgt_single_hit){.t = INFINITY, .primitive = CGT_INVALID_ID, .geometry = CGT_INVALID_ID};
-    if (!settings.use_bvh) {
-        uint8_t found = 0;
-        trace_as_array(s, ray, &settings, hit, hit ? NULL : &found, &counts);
-        if (occluded)
-            *occluded = found;
-    } else if (hit)
-        kernel->trace_one_ray(&s->committed_scene, ray, settings.precision == CGT_PRECISION_EXACT, hit, &counts);
-    else
-        *occluded = kernel->occluded_one_ray(&s->committed_scene, ray, &counts);
-    cgt_float_environment_leave(&callers);
+    trace_any_way(s, ray, &settings, hit, occluded, &counts);
     cgt_trace_counter_add(&counter, &counts);
     cgt_trace_store_statistics(options, &settings, &counter);
+    return CGT_OK;
+}
+
+/* Without options and with a BVH that is there already there is nothing to prepare. */
+static cgt_result trace_one_ray(const cgt_scene *s, const cgt_single_ray *ray, cgt_single_hit *hit, bool *occluded,
+                                const cgt_trace_options *options)
+{
+    cgt_trace_settings settings;
+    cgt_counts counts = {0}; /* nobody reads them */
+    if (options || !s->is_committed || s->committed_scene.structure != CGT_STRUCTURE_BVH ||
+        !s->committed_scene.bvh.node)
+        return trace_with_options(s, ray, hit, occluded, options);
+    settings.use_bvh = true;
+    settings.precision = CGT_PRECISION_ROBUST;
+    trace_any_way(s, ray, &settings, hit, occluded, &counts);
     return CGT_OK;
 }
 

@@ -22,7 +22,7 @@ static cgt_ray one_ray_input(const cgt_single_ray *from)
 }
 
 /* As ray_packet.h and stream_read.h have it: OUTSIDE is not looked for. */
-static ray_state one_ray_state(const cgt_ray *ray)
+CGT_SPU_INLINE ray_state one_ray_state(const cgt_ray *ray)
 {
     float zero = 0, largest = 0, longest = 0;
     for (int a = 0; a < 3; a++) {
@@ -48,8 +48,8 @@ typedef struct one_ray_call {
 } one_ray_call;
 
 /* Returns whether the tree serves the call. */
-static bool one_ray_init(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, const cgt_ray *ray,
-                         bool any_hit, cgt_counts *counts, one_ray_call *c)
+CGT_SPU_INLINE bool one_ray_init(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                 const cgt_ray *ray, bool any_hit, cgt_counts *counts, one_ray_call *c)
 {
     const bool fits = bvh_call_init(committed_scene, counts, &c->call);
     c->rays = (cgt_rays){.count = 1,
@@ -68,6 +68,101 @@ static bool one_ray_init(const cgt_committed_scene *committed_scene, const cgt_s
     c->call.mask = committed_scene->has_masks && c->mask != UINT32_MAX ? &c->mask : NULL;
     c->call.skips_prims = c->call.skip_prim || c->call.mask;
     return fits;
+}
+
+/* ---- the way through the tree ---- */
+
+/* The ray's slabs in every lane, and where its planes are in a node. */
+typedef struct one_ray_slabs {
+    vfloat rdir[3], first[3], last[3];
+    uint32_t enter[3], leave[3]; /* bytes from a node to the planes that the ray meets first along an axis, and last */
+} one_ray_slabs;
+
+CGT_SPU_INLINE void one_ray_set_slabs(const bvh_ray *r, one_ray_slabs *q)
+{
+    for (uint32_t a = 0; a < 3; a++) {
+        const uint32_t low = offsetof(bvh_node, low) + a * CGT_VECTOR_BYTES;
+        const uint32_t high = offsetof(bvh_node, high) + a * CGT_VECTOR_BYTES;
+        const bool from_above = r->octant >> a & 1;
+        q->enter[a] = from_above ? high : low;
+        q->leave[a] = from_above ? low : high;
+        q->rdir[a] = spux_vfloat(r->rdir[a]);
+        q->first[a] = spux_vfloat(r->first[a]);
+        q->last[a] = spux_vfloat(r->last[a]);
+    }
+}
+
+/* The child at lane `lane` of bvh_push_order. */
+CGT_SPU_INLINE uint32_t one_ray_child_in_order(const bvh_node *n, uint32_t octant, uint32_t lane)
+{
+    return octant > 3 ? n->child[n->order[7 - octant][lane]] : n->child[n->order[octant][n->children - 1 - lane]];
+}
+
+/* Returns the child that the ray passes first, CGT_BVH_NO_CHILD for none, and pushes the others. The first one does not
+ * take the way over the stack: reading back part of a vector that was just stored takes as long as half the step. */
+CGT_SPU_INLINE uint32_t one_ray_step(const bvh_ray *r, const one_ray_slabs *q, const bvh_node *n, bvh_stack *s,
+                                     bool any_hit)
+{
+    vfloat enter = spux_vfloat(r->near), leave = spux_vfloat(r->far);
+    for (int a = 0; a < 3; a++) {
+        const float *near = (const float *)(const void *)((const char *)n + q->enter[a]);
+        const float *far = (const float *)(const void *)((const char *)n + q->leave[a]);
+        enter = spux_max(spu_madd(spux_load(near), q->rdir[a], q->first[a]), enter);
+        leave = spux_min(spu_madd(spux_load(far), q->rdir[a], q->last[a]), leave);
+    }
+    const unsigned children = CGT_ALL_LANES >> (CGT_LANES - n->children);
+    unsigned passed = spux_mask_bits(spux_cmpge(leave, enter)) & children;
+    if (!(passed & (passed - 1)))
+        return passed ? n->child[__builtin_ctz(passed)] : CGT_BVH_NO_CHILD;
+    vuint code = spux_load_uint(n->child);
+    uint32_t first;
+    if (any_hit) {
+        first = n->child[__builtin_ctz(passed)];
+        passed &= passed - 1;
+    } else {
+        const vuint order = bvh_push_order(n, r->octant);
+        enter = spux_permute(enter, order);
+        code = spux_permute(code, order);
+        passed = spux_mask_bits(spux_cmpge(spux_permute(leave, order), enter)) & children;
+        const uint32_t lane = 31 - (uint32_t)__builtin_clz(passed);
+        first = one_ray_child_in_order(n, r->octant, lane);
+        passed ^= 1u << lane;
+    }
+    const vmask others = spux_mask_from_bits(passed);
+    spux_store_unaligned_uint(s->code + s->top, spux_compress(code, others));
+    if (!any_hit)
+        spux_store_unaligned(s->near + s->top, spux_compress(enter, others));
+    s->top += spux_count_bits(passed);
+    return first;
+}
+
+/* As bvh_single_trace from the root on. */
+CGT_SPU_INLINE void one_ray_traverse(const bvh_call *c, bvh_ray *r, bool any_hit)
+{
+    bvh_stack s;
+    bvh_leaf_ray l;
+    one_ray_slabs q;
+    uint32_t code = 0;
+    one_ray_set_slabs(r, &q);
+    bvh_leaf_ray_init(c, r, &l);
+    s.top = 0;
+    for (;;) {
+        if (code & CGT_BVH_LEAF) {
+            bvh_single_leaf(c, r, &l, code, any_hit);
+            if (any_hit && r->far == -INFINITY)
+                return;
+            code = CGT_BVH_NO_CHILD;
+        } else {
+            c->counts->nodes++;
+            code = one_ray_step(r, &q, (const bvh_node *)c->tree->node + code, &s, any_hit);
+        }
+        while (code == CGT_BVH_NO_CHILD) {
+            if (!s.top)
+                return;
+            s.top--;
+            code = any_hit || s.near[s.top] <= r->far ? s.code[s.top] : CGT_BVH_NO_CHILD;
+        }
+    }
 }
 
 /* ---- tracing ---- */
@@ -107,7 +202,7 @@ CGT_SPU_INLINE uint32_t one_ray_trace(const cgt_committed_scene *committed_scene
     counts->bvh_rays++;
     if (!fits || state == RAY_EXTREME || committed_scene->brute_force || !bvh_ray_normalise(&c.call, ray, 0, &r))
         return one_ray_trace_extreme(&c.call, ray);
-    bvh_single_trace(&c.call, &r, 0, any_hit);
+    one_ray_traverse(&c.call, &r, any_hit);
     return r.best.prim;
 }
 
