@@ -42,8 +42,6 @@ CGT_SPU_INLINE ray_state one_ray_state(const cgt_ray *ray)
 /* The call of one ray, in the form that the shared parts read. */
 typedef struct one_ray_call {
     bvh_call call;
-    cgt_rays rays;
-    ray_source source;
     uint32_t mask, skip_prim;
 } one_ray_call;
 
@@ -52,13 +50,7 @@ CGT_SPU_INLINE bool one_ray_init(const cgt_committed_scene *committed_scene, con
                                  const cgt_ray *ray, bool any_hit, cgt_counts *counts, one_ray_call *c)
 {
     const bool fits = bvh_call_init(committed_scene, counts, &c->call);
-    c->rays = (cgt_rays){.count = 1,
-                         .org = {ray->line.org, ray->line.org + 1, ray->line.org + 2},
-                         .dir = {ray->line.dir, ray->line.dir + 1, ray->line.dir + 2},
-                         .t_min = &ray->t_min,
-                         .t_max = &ray->t_max};
-    c->source = ray_source_init(&c->rays, NULL);
-    c->call.source = &c->source;
+    c->call.ray = ray;
     c->call.any_hit = any_hit;
     c->mask = from->mask ? from->mask : UINT32_MAX;
     c->skip_prim = CGT_INVALID_ID;
