@@ -24,7 +24,8 @@
  *             code. A plugin that links the static library releases its contexts before it is closed.
  *   Floats    IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *             tracing work in the default environment and restore the caller's.
- *   Stack     A tracing call or a task takes up to 1.25 MB of the stack of the thread that runs it.
+ *   Stack     A tracing call or a task takes up to 1.5 MB of the stack of the thread that runs it; one
+ *             of cgt_trace_ray less than 16 KB where there is a BVH.
  *
  * <cgt/research.h> adds what is there to study published algorithms: other structures, traversals, and their counters. */
 #ifndef CGT_CGT_H
