@@ -72,31 +72,20 @@ static void look_ahead(void)
     fprintf(stderr, "%d of %d particles see another one\n", seen, LOOKS);
 }
 
-/* A pixel is bright where the lamp shines. One without a hit has an infinite t: such points are not occluded. */
+/* A pixel is bright where the lamp shines. */
 static void draw(void)
 {
-    static float t[PIXELS], position[3][PIXELS];
-    static uint32_t primitive[PIXELS];
+    static float t[PIXELS];
+    static uint32_t primitive[PIXELS], geometry[PIXELS];
     static uint8_t shadow[PIXELS];
-    const cgt_light lamp = {CGT_LIGHT_DIRECTIONAL, {0.36f, 0.8f, 0.48f}};
-    static cgt_points points;
-    static cgt_camera camera;
+    static const cgt_light lamp = {CGT_LIGHT_DIRECTIONAL, {0.36f, 0.8f, 0.48f}};
+    static cgt_camera camera; /* zeros: it looks at the origin */
     cgt_frame frame;
     cgt_frame_init(&frame, WIDTH, HEIGHT);
     camera.eye[2] = 20;
-    frame.t = t, frame.primitive = primitive;
-    points.count = PIXELS;
-    points.skip_primitive = primitive; /* a point does not find the particle that it lies on: it needs no offset */
-    for (int a = 0; a < 3; a++)
-        points.position[a] = position[a];
+    frame.t = t, frame.primitive = primitive, frame.geometry = geometry;
     check(cgt_trace_camera(scene, &camera, &frame, NULL), "picture");
-    for (int i = 0; i < PIXELS; i++) {
-        const int column = i % WIDTH, row = i / WIDTH;
-        position[0][i] = t[i] * tanf(0.3926991f) * (float)(2 * column + 1 - WIDTH) / (float)HEIGHT; /* of 45 degrees */
-        position[1][i] = t[i] * tanf(0.3926991f) * (float)(HEIGHT - 2 * row - 1) / (float)HEIGHT;
-        position[2][i] = camera.eye[2] - t[i];
-    }
-    check(cgt_occluded_points(scene, &lamp, &points, shadow, NULL), "shadows");
+    check(cgt_occluded_frame(scene, &camera, &frame, &lamp, 1, NULL, shadow, NULL), "shadows");
     printf("P5 %d %d 255\n", WIDTH, HEIGHT);
     for (int i = 0; i < PIXELS; i++)
         putchar(!(t[i] < INFINITY) ? 10 : shadow[i] ? 70 : 230);

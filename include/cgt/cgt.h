@@ -39,7 +39,8 @@
  *             code. A plugin that links the static library releases its contexts before it is closed.
  *   Floats    IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *             tracing work in the default environment and restore the caller's.
- *   Stack     A tracing call or a task takes up to 1.25 MB of the stack of the thread that runs it.
+ *   Stack     A tracing call or a task takes up to 1.5 MB of the stack of the thread that runs it; one
+ *             of cgt_trace_ray less than 16 KB where there is a BVH.
  *
  * <cgt/research.h> adds what is there to study published algorithms: other structures, traversals, and their counters. */
 #ifndef CGT_CGT_H
@@ -330,7 +331,8 @@ typedef enum cgt_field {
     CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_INVALID_ID for none */
     CGT_FIELD_NORMAL = 8,    /* 3 floats: unit normal, outward on a sphere, on a triangle along
                                 (v1 - v0) x (v2 - v0); 0, 0, 0 for none */
-    CGT_FIELD_UV = 16 /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; 0, 0 on a sphere and for none */
+    CGT_FIELD_UV = 16, /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; 0, 0 on a sphere and for none */
+    CGT_FIELD_POSITION = 32 /* 3 floats: org + t dir of the ray, in float as written; +infinity for none. Of a frame */
 } cgt_field;
 
 /* How exact hits are: which ray hits which primitive, and the values of t, u, v and the normal.
@@ -392,6 +394,14 @@ typedef struct cgt_camera {
 /* Fills in the defaults: perspective, from (0, 0, 5) to the origin, up (0, 1, 0). */
 CGT_API void cgt_camera_init(cgt_camera *camera);
 
+/* Computes the ray of a pixel: the bits that cgt_trace_camera traces.
+ *   width, height   of the frame, each 1 to 65,536 pixels
+ *   x, y            the pixel: column from the left, row from the top
+ *   org, dir        get the ray; a hit is at org + t dir
+ * Any thread may call it. Errors: INVALID_ARGUMENT (the camera, or a pixel outside the frame), TOO_LARGE. */
+CGT_API cgt_result cgt_camera_get_ray(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                                      float org[3], float dir[3]);
+
 /* A finished tile, valid during the visitor's call. Pixel (i, j), i < width, j < height, is element j * row_stride + i.
  * Fields that the visitor did not ask for are NULL. */
 typedef struct cgt_tile {
@@ -403,6 +413,7 @@ typedef struct cgt_tile {
     const uint32_t *geometry;
     const float *normal[3];
     const float *u, *v;
+    const float *position[3];
 } cgt_tile;
 
 typedef enum cgt_visit { CGT_VISIT_CONTINUE = 0, CGT_VISIT_STOP } cgt_visit;
@@ -411,9 +422,8 @@ typedef enum cgt_visit { CGT_VISIT_CONTINUE = 0, CGT_VISIT_STOP } cgt_visit;
  * environment of the call. Returning CGT_VISIT_STOP ends the frame: cgt_trace_camera returns CGT_ERROR_STOPPED. */
 typedef cgt_visit cgt_tile_visitor(void *user, const cgt_tile *tile);
 
-/* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both. Any planes will do.
- * Fastest are planes that all begin at multiples of 64 bytes, each 64 bytes further into a page of memory than the one
- * before, with a row_stride of whole 16 elements: without a visitor, tiles are then stored past the caches. */
+/* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both; one of them at least.
+ * Any planes will do: addresses and strides matter by some per cent. Without a visitor tiles are stored past the caches. */
 typedef struct cgt_frame {
     uint32_t width, height; /* pixels, each 1 to 65,536 */
     size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */
@@ -422,6 +432,7 @@ typedef struct cgt_frame {
     uint32_t *geometry;
     float *normal[3];          /* all three or none */
     float *u, *v;              /* both or none */
+    float *position[3];        /* all three or none */
     cgt_tile_visitor *visitor; /* NULL: none */
     void *visitor_user;        /* passed to the visitor */
     uint32_t visitor_fields;   /* cgt_field values that the visitor gets, combined */
@@ -500,6 +511,38 @@ CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, 
 CGT_API cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
                                      const cgt_trace_options *options);
 
+/* One ray, for callers that must see one hit before they know the next ray. */
+typedef struct cgt_single_ray {
+    float org[3], dir[3]; /* dir: of any length but zero */
+    float t_min, t_max;   /* t_max: 0 (default): +infinity. Below t_min: the ray is off and hits nothing */
+    uint32_t mask;        /* as of cgt_rays; 0 (default): all bits set */
+    bool skips;           /* whether it does not find the primitive that follows */
+    uint32_t skip_primitive, skip_geometry; /* as of cgt_rays */
+} cgt_single_ray;
+
+/* Its hit: see cgt_field. */
+typedef struct cgt_single_hit {
+    float t;
+    uint32_t primitive, geometry;
+    float normal[3];
+    float u, v;
+} cgt_single_hit;
+
+/* Traces one ray to its nearest hit, on the calling thread; may build a BVH in the scene first, as cgt_trace_rays does.
+ *   ray       any
+ *   hit       gets the hit, of the same values as cgt_trace_rays'
+ *   options   NULL: the defaults
+ * Fastest in scenes of CGT_RAY_KIND_INCOHERENT, whose BVH is there from the commit on; arrays of rays are faster still.
+ * With a BVH the call takes less than 16 KB of stack, through another structure up to 128 KB; a call that builds a BVH
+ * takes as much as a commit. Errors and memory: as cgt_trace_rays. */
+CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_single_hit *hit,
+                                 const cgt_trace_options *options);
+
+/* Finds whether one ray hits anything in its range: as cgt_trace_ray, but faster.
+ *   occluded   gets whether it does */
+CGT_API cgt_result cgt_occluded_ray(const cgt_scene *scene, const cgt_single_ray *ray, bool *occluded,
+                                    const cgt_trace_options *options);
+
 typedef enum cgt_light_kind {
     CGT_LIGHT_POINT = 0,  /* at a place */
     CGT_LIGHT_DIRECTIONAL /* so far away that it lies in one direction from everywhere */
@@ -538,12 +581,37 @@ typedef struct cgt_points {
  * and a hit with t_min <= t <= t_max counts: t is 0 at the point, and 1 at a light that has a place. The ray begins
  * exactly where the caller says, however far away the light is. The answer is that of cgt_occluded_rays to these rays,
  * but faster, and there is no array of directions to fill. A point is invalid and not occluded where it has a NaN or an
- * infinity, has a NaN in its range, or lies at the very place of the light.
- * The points are cut into chunks of 4,096, each a task. Fastest is a call for that many points that belong together,
- * such as a picture's tile, by the thread of the caller's that has made them: it uses no other thread.
+ * infinity, has a NaN in its range, or lies at the very place of the light. Points that are off or invalid cost next to nothing.
+ * Large calls are cut into tasks of 4,096 to 32,768 points, whose neighbours are sought out. A call of up to 4,096 points
+ * uses no other thread. For the shadows of a frame, cgt_occluded_frame is faster and less work.
  * Errors and memory: as cgt_trace_rays. */
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);
+
+/* Shadows of a frame. */
+typedef struct cgt_shadow_options {
+    float t_min; /* of the rays to the lights, as of cgt_points; 0 (default) or more */
+} cgt_shadow_options;
+
+/* Fills in the defaults. */
+CGT_API void cgt_shadow_options_init(cgt_shadow_options *shadows);
+
+/* Finds which pixels of a frame lights do not reach; may build a BVH in the scene first, as cgt_trace_rays does.
+ *   camera     the frame's; its mask is that of these rays, too, its t_min and t_max are not used
+ *   frame      its plane t as cgt_trace_camera filled it, of this scene; read only. Where it has both primitive and
+ *              geometry, rays skip the primitive that their pixel hits, so that no offset is needed; a sphere then
+ *              casts no shadow on itself. The other planes are not read, and the visitor is not called
+ *   lights     `count` lights; 0 is valid
+ *   shadows    NULL: the defaults
+ *   occluded   `count` planes of row_stride * height bytes, one behind the other: 1 where anything lies between the hit
+ *              of the pixel and the light, else 0; elements outside the picture stay
+ *   options    NULL: the defaults; the statistics count the rays of pixels with a hit
+ * The answer for each light is that of cgt_occluded_points for the points org + t dir of the pixels' rays, in float
+ * (CGT_FIELD_POSITION), with t_min and skip planes as above. The frame is cut into tiles, each a task of the context's
+ * threads. Errors and memory: as cgt_trace_rays; INVALID_ARGUMENT where the plane t is missing, too. */
+CGT_API cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                                      const cgt_light *lights, uint32_t count, const cgt_shadow_options *shadows,
+                                      uint8_t *occluded, const cgt_trace_options *options);
 
 /* Ambient occlusion of a frame's pixels. */
 typedef struct cgt_ambient_options {

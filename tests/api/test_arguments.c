@@ -146,7 +146,7 @@ static const row rows[] = {
     NONE(FRAMES, frame.normal[2], "normal"),
     NONE(FRAMES, frame.u, "u and v"),
     NONE(FRAMES, frame.v, "u and v"),
-    BAD(FRAMES, frame.visitor_fields, uint32_t, 32, "visitor_fields"),
+    BAD(FRAMES, frame.visitor_fields, uint32_t, 64, "visitor_fields"),
     NONE(AMBIENT, frame.t, "planes"),
     NONE(AMBIENT, frame.primitive, "planes"),
     NONE(AMBIENT, frame.geometry, "planes"),
