@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The libcgt authors
 # SPDX-License-Identifier: MIT
 #
-# Headers, both libraries, the CMake package and the pkg-config file: component "library". All of it is relocatable.
-# Programs are in component "programs", by the CMakeLists.txt of their folders.
+# Headers, both libraries, the CMake package, the pkg-config files and the licence: component "library". All of it is
+# relocatable. Texts and the example: "documentation". Programs are in component "programs", by the CMakeLists.txt of their
+# folders.
 set(cgt_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/cgt")
 
 # The headers of the vocabulary (simd/), usable without the library: as <cgt/spu_intrinsics.h>, and with the folder cgt
@@ -67,5 +68,15 @@ else()
     set(cgt_pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
     set(cgt_pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
-configure_file(cmake/cgt.pc.in "${PROJECT_BINARY_DIR}/cgt.pc" @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/cgt.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT library)
+# The linker prefers the shared library wherever both are installed, with pkg-config's --static, too. So the archive has a
+# file of its own, which names it by its path.
+foreach(name IN ITEMS cgt cgt-static)
+    configure_file(cmake/${name}.pc.in "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
+    install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT library)
+endforeach()
+
+# As in the source tree, so that links between the texts hold.
+install(FILES LICENSE NEWS DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT library)
+install(FILES README.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT documentation)
+install(FILES examples/simulate.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT documentation)

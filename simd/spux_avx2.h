@@ -68,6 +68,12 @@ CGT_SPU_INLINE void spux_stream_line(void *to, const void *from)
     _mm256_stream_si256((__m256i *)to, _mm256_load_si256(line));
     _mm256_stream_si256((__m256i *)to + 1, _mm256_load_si256(line + 1));
 }
+CGT_SPU_INLINE void spux_stream_line_unaligned(void *to, const void *from)
+{
+    const __m256i *line = from;
+    _mm256_stream_si256((__m256i *)to, _mm256_loadu_si256(line));
+    _mm256_stream_si256((__m256i *)to + 1, _mm256_loadu_si256(line + 1));
+}
 CGT_SPU_INLINE void spux_stream_end(void) { _mm_sfence(); }
 CGT_SPU_INLINE vuint cgt_spux_load_unaligned_w(const void *p) { return (vuint)_mm256_loadu_si256(p); }
 CGT_SPU_INLINE void cgt_spux_store_unaligned_w(void *p, vuint v) { _mm256_storeu_si256(p, (__m256i)v); }

@@ -63,6 +63,10 @@ CGT_SPU_INLINE void cgt_spux_store_w(void *p, vuint v) { _mm512_store_si512(p, (
 CGT_SPU_INLINE void cgt_spux_stream_w(void *p, vuint v) { _mm512_stream_si512(p, (__m512i)v); }
 #define CGT_SPUX_OWN_STREAM
 CGT_SPU_INLINE void spux_stream_line(void *to, const void *from) { _mm512_stream_si512(to, _mm512_load_si512(from)); }
+CGT_SPU_INLINE void spux_stream_line_unaligned(void *to, const void *from)
+{
+    _mm512_stream_si512(to, _mm512_loadu_si512(from));
+}
 CGT_SPU_INLINE void spux_stream_end(void) { _mm_sfence(); }
 CGT_SPU_INLINE vuint cgt_spux_load_unaligned_w(const void *p) { return (vuint)_mm512_loadu_si512(p); }
 CGT_SPU_INLINE void cgt_spux_store_unaligned_w(void *p, vuint v) { _mm512_storeu_si512(p, (__m512i)v); }

@@ -16,6 +16,11 @@ CGT_SPU_INLINE void spux_stream_line(void *to, const void *from)
     for (int i = 0; i < 4; i++)
         _mm_stream_si128((__m128i *)to + i, _mm_load_si128((const __m128i *)from + i));
 }
+CGT_SPU_INLINE void spux_stream_line_unaligned(void *to, const void *from)
+{
+    for (int i = 0; i < 4; i++)
+        _mm_stream_si128((__m128i *)to + i, _mm_loadu_si128((const __m128i *)from + i));
+}
 CGT_SPU_INLINE void spux_stream_end(void) { _mm_sfence(); }
 
 #define CGT_SPUX_OWN_ANY_ALL

@@ -21,6 +21,7 @@
  *   spux_stream(p, v)             W, aligned to the vector: a store past the caches where a vector fills a cache line;
  *                                 storing parts of lines so is several times slower on some processors
  *   spux_stream_line(to, from)    64 bytes, aligned to 64: streaming stores where SPUX_STREAMS is 1, otherwise a copy
+ *   spux_stream_line_unaligned(to, from)   the same, `from` aligned to the element
  *   spux_stream_end()             call it before another thread reads streamed data
  *   spux_load_mask(p, m)          W, aligned to the element; 0 where m is false; memory there is not accessed
  *   spux_store_mask(p, v, m)      likewise; memory where m is false keeps its content, and need not exist
@@ -136,6 +137,7 @@ CGT_SPU_INLINE void spux_stream_uint(uint32_t *p, vuint v) { cgt_spux_stream_w(p
 #else
 #define SPUX_STREAMS 0
 CGT_SPU_INLINE void spux_stream_line(void *to, const void *from) { memcpy(to, from, 64); }
+CGT_SPU_INLINE void spux_stream_line_unaligned(void *to, const void *from) { memcpy(to, from, 64); }
 CGT_SPU_INLINE void spux_stream_end(void) {}
 #endif
 CGT_SPU_INLINE vfloat spux_load_unaligned(const float *p) { return (vfloat)cgt_spux_load_unaligned_w(p); }

@@ -54,6 +54,29 @@ static cgt_result trace_frame(const structures_job *job, const cgt_scene *scene,
     return cgt_trace_camera(scene, &job->settings->shared.camera, &frame, options);
 }
 
+/* A call of one ray, for programs that have no more at a time. */
+static cgt_result trace_single(const structures_job *job, const cgt_scene *scene, const cgt_rays *call, uint64_t i,
+                               const cgt_trace_options *options)
+{
+    const structures_found *found = &job->found;
+    const cgt_single_ray ray = {.org = {call->org[0][0], call->org[1][0], call->org[2][0]},
+                                .dir = {call->dir[0][0], call->dir[1][0], call->dir[2][0]},
+                                .t_max = call->t_max ? call->t_max[0] : 0};
+    cgt_single_hit hit;
+    bool occluded = false;
+    if (job->set.query == STRUCTURES_ANY) {
+        const cgt_result result = cgt_occluded_ray(scene, &ray, &occluded, options);
+        found->occluded[i] = occluded;
+        return result;
+    }
+    const cgt_result result = cgt_trace_ray(scene, &ray, &hit, options);
+    if (result == CGT_OK) {
+        found->t[i] = hit.t;
+        found->primitive[i] = hit.primitive;
+    }
+    return result;
+}
+
 /* One call for `count` rays of the set from `first` on. */
 static cgt_result trace_call(const structures_job *job, const cgt_scene *scene, uint64_t first, uint64_t count,
                              const cgt_trace_options *options)
@@ -66,6 +89,8 @@ static cgt_result trace_call(const structures_job *job, const cgt_scene *scene, 
         call.dir[a] += first;
     }
     call.t_max = call.t_max ? call.t_max + first : NULL;
+    if (count == 1)
+        return trace_single(job, scene, &call, first, options);
     if (job->set.query == STRUCTURES_ANY)
         return cgt_occluded_rays(scene, &call, found->occluded + first, options);
     const cgt_hits hits = {.t = found->t + first, .primitive = found->primitive + first};

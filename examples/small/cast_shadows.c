@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Shadows in a C program: a spiral of balls on a floor under a lamp. A camera frame gives the visible points; one call
- * tells which of them the lamp does not reach. The picture becomes a PPM file.
+ * Shadows in a C program: a spiral of balls on a floor under a lamp. A camera frame gives what each pixel sees; one call
+ * tells which of it the lamp does not reach. The picture becomes a PPM file.
  *   cast-shadows PICTURE.ppm */
 #include <math.h>
 #include <stdio.h>
@@ -12,13 +12,10 @@
 
 enum { BALLS = 28, FLOOR = 1, WIDTH = 640, HEIGHT = 384, PIXELS = WIDTH * HEIGHT };
 
-/* Planes begin at cache lines and rows are whole lines: the library stores these fastest. */
 typedef struct picture {
-    _Alignas(64) float t[PIXELS];
-    _Alignas(64) float normal[3][PIXELS];
-    _Alignas(64) uint32_t primitive[PIXELS], geometry[PIXELS];
+    float t[PIXELS], normal[3][PIXELS];
     float position[3][PIXELS]; /* where a pixel's ray hits */
-    float t_min[PIXELS], t_max[PIXELS];
+    uint32_t primitive[PIXELS], geometry[PIXELS];
     uint8_t occluded[PIXELS];
     uint8_t rgb[PIXELS][3];
 } picture;
@@ -51,46 +48,21 @@ static cgt_result add_geometries(cgt_scene *scene, ball *balls)
     return result ? result : cgt_scene_add_triangles(scene, &triangles, &id); /* geometry 1: FLOOR */
 }
 
-static cgt_result trace_frame(const cgt_scene *scene, const cgt_camera *camera, picture *p)
+/* The rays to the lamp skip the primitive that their pixel sees: they need no offset. */
+static cgt_result trace(const cgt_scene *scene, const cgt_camera *camera, picture *p)
 {
+    const cgt_light light = {.position = {lamp[0], lamp[1], lamp[2]}, .kind = CGT_LIGHT_POINT};
     cgt_frame frame;
     cgt_frame_init(&frame, WIDTH, HEIGHT);
     frame.t = p->t;
     frame.primitive = p->primitive;
     frame.geometry = p->geometry;
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 3; a++) {
         frame.normal[a] = p->normal[a];
-    return cgt_trace_camera(scene, camera, &frame, NULL);
-}
-
-/* Turns t back into positions, by the formula of cgt_camera. A pixel without a hit gets an empty range, which costs
- * nothing. */
-static void find_positions(const cgt_camera *camera, picture *p)
-{
-    const float length = sqrtf(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]);
-    const float fwd[3] = {-eye[0] / length, -eye[1] / length, -eye[2] / length};
-    const float right[3] = {1, 0, 0}, up[3] = {0, -fwd[2], fwd[1]};
-    const float h = tanf(camera->fov * 3.14159265f / 360), a = (float)WIDTH / HEIGHT;
-    for (int i = 0; i < PIXELS; i++) {
-        const int column = i % WIDTH, row = i / WIDTH;
-        const float x = (2 * ((float)column + 0.5f) / WIDTH - 1) * h * a;
-        const float y = (1 - 2 * ((float)row + 0.5f) / HEIGHT) * h;
-        const int hit = p->primitive[i] != CGT_INVALID_ID;
-        for (int k = 0; k < 3; k++)
-            p->position[k][i] = hit ? eye[k] + p->t[i] * (fwd[k] + x * right[k] + y * up[k]) : 0;
-        p->t_min[i] = 0.001f; /* share of the way to the lamp: beyond the surface that the point lies on */
-        p->t_max[i] = hit ? 1 : 0;
+        frame.position[a] = p->position[a];
     }
-}
-
-static cgt_result trace_shadows(const cgt_scene *scene, picture *p)
-{
-    const cgt_light light = {.position = {lamp[0], lamp[1], lamp[2]}, .kind = CGT_LIGHT_POINT};
-    const cgt_points points = {.count = PIXELS,
-                               .position = {p->position[0], p->position[1], p->position[2]},
-                               .t_min = p->t_min,
-                               .t_max = p->t_max};
-    return cgt_occluded_points(scene, &light, &points, p->occluded, NULL);
+    const cgt_result result = cgt_trace_camera(scene, camera, &frame, NULL);
+    return result ? result : cgt_occluded_frame(scene, camera, &frame, &light, 1, NULL, p->occluded, NULL);
 }
 
 /* Lambert's law where the lamp is visible, a little light everywhere. */
@@ -102,7 +74,8 @@ static float brightness(const picture *p, int i)
         dot += to_lamp[k] * p->normal[k][i];
         square += to_lamp[k] * to_lamp[k];
     }
-    return 0.12f + (p->occluded[i] ? 0 : 0.85f * fabsf(dot) / sqrtf(square)); /* a floor has two sides */
+    const int away = p->geometry[i] != FLOOR && dot < 0; /* a ball's own other side; a floor has two sides */
+    return 0.12f + (p->occluded[i] || away ? 0 : 0.85f * fabsf(dot) / sqrtf(square));
 }
 
 static void draw(picture *p)
@@ -164,11 +137,7 @@ int main(int argc, char **argv)
     if (!result)
         result = cgt_scene_commit(scene);
     if (!result)
-        result = trace_frame(scene, &camera, &p);
-    if (!result) {
-        find_positions(&camera, &p);
-        result = trace_shadows(scene, &p);
-    }
+        result = trace(scene, &camera, &p);
     if (result) {
         char message[256] = "";
         if (context)

@@ -8,11 +8,25 @@
  *   commit    builds the acceleration structure from scratch, from the arrays as they are now
  *   trace     casts a camera's frame, or any array of rays, against the committed scene
  *
- * A frame is: move your data, cgt_scene_commit, cgt_trace_camera.
+ * A frame is: move your data, cgt_scene_commit, cgt_trace_camera. In outline, for particles that are doubles
+ * (examples/simulate.c is the whole program, with shadows, rays of its own and errors handled):
+ *
+ *   static cgt_spheres s;                          zeros: the defaults
+ *   s.count = n, s.centers_double = x, s.radius = 0.1f;
+ *   cgt_context_create(NULL, &context);
+ *   cgt_scene_create(context, NULL, &scene);
+ *   cgt_scene_add_spheres(scene, &s, NULL);
+ *   cgt_camera_init(&camera);                      at (0, 0, 5), looks at the origin
+ *   cgt_frame_init(&frame, width, height);
+ *   frame.t = t, frame.primitive = primitive;      planes of width * height elements
+ *   while (simulate(x)) {
+ *       cgt_scene_commit(scene);                   reads x as it is now
+ *       cgt_trace_camera(scene, &camera, &frame, NULL);
+ *   }
  *
  * Conventions of every call
  *   Result    cgt_result. A call that fails changes nothing but the text of cgt_context_get_error_message.
- *   Defaults  0 is the right default of every field: {0} and the init function of a struct mean the same.
+ *   Defaults  0 is the right default of every field: {0} (in C++ {}) and the init function of a struct mean the same.
  *   NULL      is allowed only where a text below says so.
  *   Threads   One thread at a time changes and commits a scene, while no thread traces it. Any number of threads may
  *             trace a committed scene at once. There is no global state.
@@ -20,11 +34,13 @@
  *             ask for messages and statistics at any time, and trace a scene that is not being committed.
  *   Processes fork while no other thread is inside a call. A child has no workers: its calls, commits and traces
  *             included, work on the calling thread alone, with the same hits, and it may release what it inherited.
+ *   Building  A call that takes a const scene may build a BVH in it where its first line says so.
  *   Unloading The shared library stays loaded after dlclose where the linker knows -z nodelete, since workers run its
  *             code. A plugin that links the static library releases its contexts before it is closed.
  *   Floats    IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *             tracing work in the default environment and restore the caller's.
- *   Stack     A tracing call or a task takes up to 1.25 MB of the stack of the thread that runs it.
+ *   Stack     A tracing call or a task takes up to 1.5 MB of the stack of the thread that runs it; one
+ *             of cgt_trace_ray less than 16 KB where there is a BVH.
  *
  * <cgt/research.h> adds what is there to study published algorithms: other structures, traversals, and their counters. */
 #ifndef CGT_CGT_H
@@ -146,41 +162,71 @@ typedef struct cgt_scene cgt_scene;
 
 #define CGT_INVALID_ID UINT32_MAX /* no primitive, no geometry */
 
-/* Spheres in the caller's arrays. The library copies nothing, but for BVHs and bands (cgt_scene_commit): the arrays stay readable and unchanged from
- * cgt_scene_commit to the last trace before the next commit. Pointers are aligned as floats are.
- * A sphere with a NaN, an infinity or a negative radius is skipped and counted. A radius of zero is a point, hit by
- * the rays that pass exactly through it. */
+/* Geometries are arrays of the caller's. Plain ones are read in place: floats and 32-bit indices at addresses and strides
+ * that are multiples of 4, without an origin. They stay readable and unchanged from cgt_scene_commit to the last trace
+ * before the next commit.
+ * All others are copied by the commit, as it reads them, into memory that the scene keeps, and are needed during the
+ * commit only: doubles, an origin, packed structs, 16-bit indices, radii by type. The copy takes 16 bytes a sphere, 12 a
+ * vertex, and 12 a triangle whose indices are copied; cgt_scene_statistics.copied_bytes tells.
+ * What counts is the float: a coordinate is (float)(given - origin), the subtraction in double, a radius (float)given,
+ * both rounded to nearest. Hits are exact for these numbers, and their positions are relative to the origin, as are
+ * cameras, rays and lights. With an origin near the scene, places that are 1e9 away keep their digits.
+ * A stride is in bytes and not less than an element. Where a type has a choice of pointers, at most one is set. */
+
+/* Spheres. One with a NaN, an infinity (as a float) or a negative radius is skipped and counted. A radius of zero is a
+ * point, hit by the rays that pass exactly through it. */
 typedef struct cgt_spheres {
     uint32_t count;       /* spheres; 0 is valid */
-    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL only where count is 0 */
-    size_t center_stride; /* bytes, a multiple of 4; 0 (default): 12 */
-    const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL: all have `radius` */
-    size_t radius_stride; /* bytes, a multiple of 4; 0 (default): 4 */
-    float radius;         /* world units, 0 or more; used where radii is NULL */
+    const float *centers; /* x, y, z of sphere i at byte i * center_stride; NULL where centers_double is set, or count
+                             is 0 */
+    size_t center_stride; /* bytes; 0 (default): 12, of doubles 24 */
+    const float *radii;   /* radius of sphere i at byte i * radius_stride; NULL, and radii_double, too: all have
+                             `radius` */
+    size_t radius_stride; /* bytes; 0 (default): 4, of doubles 8 */
+    float radius;         /* world units, 0 or more; used where there are no radii */
     uint32_t mask;        /* a ray sees the geometry where this and the ray's mask share a bit; 0 (default): all bits
                              set. It takes effect at the next commit, as all fields do */
+    const double *centers_double; /* in place of centers */
+    const double *radii_double;   /* in place of radii */
+    double origin[3];             /* subtracted from the centres; finite */
+    /* Radii by type: sphere i has radius number types[i], type i at byte i * type_stride; radii then has one radius for
+     * each type. NULL, all three: sphere i has radius i */
+    const uint8_t *types8;
+    const uint16_t *types16;
+    const uint32_t *types32; /* or what has its bits: int of 0 or more */
+    size_t type_stride;      /* bytes; 0 (default): 1, 2 or 4 */
+    uint32_t type_count;     /* radii of types; a type of type_count or more fails the commit. Where types count from 1,
+                                radius 0 is there and not used */
 } cgt_spheres;
 
-/* Triangles in the caller's arrays, which the library does not copy: as with spheres they stay readable and unchanged
- * from commit to the last trace. Both sides of a triangle are hit. Edges and vertices belong to it. A ray in its plane
- * misses it. A triangle with a NaN or an infinity in a vertex is skipped and counted; so is one without area, which no
- * ray can hit. An index of vertex_count or more fails the commit. Large scenes of triangles alone are built and traced
- * faster where consecutive triangles are neighbours in space, as in most meshes: they are grouped by eight. */
+/* Triangles. Both sides are hit. Edges and vertices belong to a triangle. A ray in its plane misses it. One with a NaN or
+ * an infinity (as a float) in a vertex is skipped and counted; so is one without area, which no ray can hit. An index of
+ * vertex_count or more fails the commit. Large scenes of triangles alone are built and traced faster where consecutive
+ * triangles are neighbours in space, as in most meshes: they are grouped by eight. */
 typedef struct cgt_triangles {
-    uint32_t count;          /* triangles; 0 is valid */
-    const uint32_t *indices; /* the three vertices of triangle i at byte i * index_stride; NULL: 3i, 3i + 1, 3i + 2 */
-    size_t index_stride;     /* bytes, a multiple of 4; 0 (default): 12 */
-    uint32_t vertex_count;   /* vertices */
-    const float *vertices;   /* x, y, z of vertex j at byte j * vertex_stride; NULL only where vertex_count is 0 */
-    size_t vertex_stride;    /* bytes, a multiple of 4; 0 (default): 12 */
-    uint32_t mask;           /* as of cgt_spheres */
+    uint32_t count;            /* triangles; 0 is valid */
+    const uint32_t *indices;   /* the three vertices of triangle i at byte i * index_stride; NULL, and indices16, too:
+                                3i, 3i + 1, 3i + 2 */
+    size_t index_stride;       /* bytes; 0 (default): 12, of 16-bit ones 6 */
+    uint32_t vertex_count;     /* vertices */
+    const float *vertices;     /* x, y, z of vertex j at byte j * vertex_stride; NULL where vertices_double is set, or
+                                vertex_count is 0 */
+    size_t vertex_stride;      /* bytes; 0 (default): 12, of doubles 24 */
+    uint32_t mask;             /* as of cgt_spheres */
+    const uint16_t *indices16; /* in place of indices */
+    const double *vertices_double; /* in place of vertices */
+    double origin[3];              /* subtracted from the vertices; finite */
 } cgt_triangles;
 
 /* Acceleration structures. Hits are the same bits through each. Where AUTO has chosen the grid, a BVH is built beside it
- * once a commit, when enough rays come to pay for it: by cgt_trace_rays, cgt_occluded_rays, cgt_occluded_points or
- * cgt_ambient_occlusion. cgt_trace_rays tells when, in how much memory, and how to avoid it. */
+ * once a commit: by cgt_scene_prepare, or when enough rays come to pay for it by cgt_trace_rays, cgt_occluded_rays,
+ * cgt_occluded_points or cgt_ambient_occlusion. cgt_trace_rays tells when, in how much memory, and how to avoid it. Where
+ * such rays alone came after each of the last two commits, AUTO takes the next frame for one of them, too, and builds the
+ * BVH in place of the grid; a camera's frame goes through it slower, and the next commit builds the grid again.
+ * cgt_scene_statistics.reason says so. */
 typedef enum cgt_structure {
-    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID for coherent rays, BVH for incoherent ones: cgt_scene_options.rays */
+    CGT_STRUCTURE_AUTO = 0,   /* LOOSE_GRID for coherent rays, BVH for incoherent ones, as cgt_scene_options.rays says
+                                 and as they come */
     CGT_STRUCTURE_LOOSE_GRID, /* hierarchical loose grid: a uniform grid per class of sizes, each primitive in the one
                                  cell of its centre. 4 to 6 bytes a primitive, built in linear time. A camera's frame
                                  goes through it by tiles of 64x64 pixels */
@@ -217,7 +263,7 @@ CGT_API void cgt_scene_release(cgt_scene *scene);
 CGT_API cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *options);
 
 /* Adds spheres as a geometry.
- *   spheres    needed during the call only; the arrays that it points to stay in use
+ *   spheres    needed during the call only; the arrays that it points to are read by each commit
  *   geometry   gets the id, the lowest that is free; NULL: not wanted
  * Errors: INVALID_ARGUMENT, TOO_LARGE (the counts of all geometries reach 2^32 - 1), OUT_OF_MEMORY. */
 CGT_API cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, uint32_t *geometry);
@@ -240,9 +286,18 @@ CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry
  * of two, for a structure of each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere and
  * 42 a triangle more, and calls that trace such a scene allocate scratch while they run: they may return OUT_OF_MEMORY.
  * Precision FAST is ROBUST there. After an error the scene counts as not committed.
- * Errors: INVALID_ARGUMENT (a triangle's index is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
+ * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
  * 2^26 - 1 leaves). */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
+
+/* Builds, in a committed scene, what rays of a kind need: else the first call that brings enough of them builds it.
+ *   rays   INCOHERENT: the BVH that AUTO has beside a grid, whether or not enough rays will come; COHERENT: nothing, the
+ *          commit has built it
+ * Nothing happens where it is there, or the scene's structure is not AUTO's. The BVH is built by the context's threads
+ * and stays until the next commit. Threads: other threads may trace the scene meanwhile; where one of them is building
+ * already, the call returns at once.
+ * Errors: INVALID_ARGUMENT, NOT_COMMITTED, OUT_OF_MEMORY, TOO_LARGE: the scene can be traced as before. */
+CGT_API cgt_result cgt_scene_prepare(cgt_scene *scene, cgt_ray_kind rays);
 
 /* What the last commit found, chose and spent; all 0 before the first. */
 typedef struct cgt_scene_statistics {
@@ -259,6 +314,7 @@ typedef struct cgt_scene_statistics {
     size_t structure_bytes; /* that traversal reads: cells and references, or nodes and leaves; without the caller's
                                arrays */
     size_t bvh_bytes;       /* of the BVH that was built, or that AUTO built beside a grid; 0: none */
+    size_t copied_bytes;    /* of arrays that the commit has copied; 0: all are read in place */
     size_t bytes;           /* memory that the scene holds now */
     double bounds_ms;       /* reading, checking and bounding the primitives */
     double build_ms;        /* filling the structure */
@@ -279,7 +335,8 @@ typedef enum cgt_field {
     CGT_FIELD_GEOMETRY = 4,  /* uint32: id of the geometry; CGT_INVALID_ID for none */
     CGT_FIELD_NORMAL = 8,    /* 3 floats: unit normal, outward on a sphere, on a triangle along
                                 (v1 - v0) x (v2 - v0); 0, 0, 0 for none */
-    CGT_FIELD_UV = 16 /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; 0, 0 on a sphere and for none */
+    CGT_FIELD_UV = 16, /* 2 floats, u and v: the hit is (1 - u - v) v0 + u v1 + v v2; 0, 0 on a sphere and for none */
+    CGT_FIELD_POSITION = 32 /* 3 floats: org + t dir of the ray, in float as written; +infinity for none. Of a frame */
 } cgt_field;
 
 /* How exact hits are: which ray hits which primitive, and the values of t, u, v and the normal.
@@ -341,6 +398,14 @@ typedef struct cgt_camera {
 /* Fills in the defaults: perspective, from (0, 0, 5) to the origin, up (0, 1, 0). */
 CGT_API void cgt_camera_init(cgt_camera *camera);
 
+/* Computes the ray of a pixel: the bits that cgt_trace_camera traces.
+ *   width, height   of the frame, each 1 to 65,536 pixels
+ *   x, y            the pixel: column from the left, row from the top
+ *   org, dir        get the ray; a hit is at org + t dir
+ * Any thread may call it. Errors: INVALID_ARGUMENT (the camera, or a pixel outside the frame), TOO_LARGE. */
+CGT_API cgt_result cgt_camera_get_ray(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                                      float org[3], float dir[3]);
+
 /* A finished tile, valid during the visitor's call. Pixel (i, j), i < width, j < height, is element j * row_stride + i.
  * Fields that the visitor did not ask for are NULL. */
 typedef struct cgt_tile {
@@ -352,6 +417,7 @@ typedef struct cgt_tile {
     const uint32_t *geometry;
     const float *normal[3];
     const float *u, *v;
+    const float *position[3];
 } cgt_tile;
 
 typedef enum cgt_visit { CGT_VISIT_CONTINUE = 0, CGT_VISIT_STOP } cgt_visit;
@@ -360,9 +426,8 @@ typedef enum cgt_visit { CGT_VISIT_CONTINUE = 0, CGT_VISIT_STOP } cgt_visit;
  * environment of the call. Returning CGT_VISIT_STOP ends the frame: cgt_trace_camera returns CGT_ERROR_STOPPED. */
 typedef cgt_visit cgt_tile_visitor(void *user, const cgt_tile *tile);
 
-/* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both. Any planes will do.
- * Fastest are planes that all begin at multiples of 64 bytes, each 64 bytes further into a page of memory than the one
- * before, with a row_stride of whole 16 elements: without a visitor, tiles are then stored past the caches. */
+/* Where a camera's frame goes: to planes, to a visitor while the tile is in cache, or to both; one of them at least.
+ * Any planes will do: addresses and strides matter by some per cent. Without a visitor tiles are stored past the caches. */
 typedef struct cgt_frame {
     uint32_t width, height; /* pixels, each 1 to 65,536 */
     size_t row_stride;      /* elements from one row of the planes to the next; 0 (default): width */
@@ -371,6 +436,7 @@ typedef struct cgt_frame {
     uint32_t *geometry;
     float *normal[3];          /* all three or none */
     float *u, *v;              /* both or none */
+    float *position[3];        /* all three or none */
     cgt_tile_visitor *visitor; /* NULL: none */
     void *visitor_user;        /* passed to the visitor */
     uint32_t visitor_fields;   /* cgt_field values that the visitor gets, combined */
@@ -379,7 +445,7 @@ typedef struct cgt_frame {
 /* Sets the size, and all else to 0: ask for what you want. */
 CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
 
-/* Traces one ray per pixel to its nearest hit.
+/* Traces one ray per pixel to its nearest hit; may build a BVH in the scene first, where it cannot go by tiles.
  *   camera    its rays
  *   frame     gets the hits
  *   options   NULL: the defaults
@@ -393,9 +459,10 @@ CGT_API void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height);
  *           of a sphere is within 2^-23 + 2^-48 c / r, c the distance to its centre, in both precisions
  *   EXACT   u and v are within 1 ulp, and so are the components of a triangle's normal
  *   FAST    t, u, v and the normal are what single precision gives; docs/reports/accuracy.md measures how far they are off
- * Allocates nothing, except for scenes in bands (cgt_scene_commit), and for a BVH where a grid has levels for crowded
- * regions and the frame goes by packets. Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED, and OUT_OF_MEMORY
- * where it allocates. */
+ * Allocates nothing, and builds nothing where the frame goes by tiles, except for scenes in bands (cgt_scene_commit). A
+ * frame that does not (masks, an extreme camera, packets asked for) builds a BVH, as cgt_trace_rays does, where AUTO's
+ * grid has levels for crowded regions.
+ * Errors: INVALID_ARGUMENT, NOT_COMMITTED, TOO_LARGE, STOPPED; with a BVH or bands those of cgt_trace_rays. */
 CGT_API cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
                                     const cgt_trace_options *options);
 
@@ -432,8 +499,9 @@ typedef struct cgt_hits {
  *   options   NULL: the defaults
  * Where AUTO has built a loose grid, the calls since a commit that bring 1/32 as many rays as there are primitives (the
  * first call, where the grid has levels for crowded regions) make the library build a BVH, by the context's threads, in
- * memory that the scene keeps; other threads may trace meanwhile.
- * Only then, and for scenes in bands, is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was traced, and the call may be
+ * memory that the scene keeps; other threads may trace meanwhile. cgt_scene_prepare builds it at a time of your choice.
+ * Only then, and for scenes in bands, is memory allocated, and OUT_OF_MEMORY or TOO_LARGE may be returned: no ray was
+ * traced, and the call may be
  * repeated. The BVH and what its build needs take 70 to 100 bytes a sphere and 110 to 140 a triangle (measured with
  * evenly spread primitives; cgt_scene_statistics.bytes tells), until the scene is released. CGT_STRUCTURE_LOOSE_GRID
  * avoids it, and traces such rays slower; with CGT_RAY_KIND_INCOHERENT the BVH is built at the commit, in place of the
@@ -448,6 +516,38 @@ CGT_API cgt_result cgt_trace_rays(const cgt_scene *scene, const cgt_rays *rays, 
  * It is faster than cgt_trace_rays. Errors and memory: as there. */
 CGT_API cgt_result cgt_occluded_rays(const cgt_scene *scene, const cgt_rays *rays, uint8_t *occluded,
                                      const cgt_trace_options *options);
+
+/* One ray, for callers that must see one hit before they know the next ray. */
+typedef struct cgt_single_ray {
+    float org[3], dir[3]; /* dir: of any length but zero */
+    float t_min, t_max;   /* t_max: 0 (default): +infinity. Below t_min: the ray is off and hits nothing */
+    uint32_t mask;        /* as of cgt_rays; 0 (default): all bits set */
+    bool skips;           /* whether it does not find the primitive that follows */
+    uint32_t skip_primitive, skip_geometry; /* as of cgt_rays */
+} cgt_single_ray;
+
+/* Its hit: see cgt_field. */
+typedef struct cgt_single_hit {
+    float t;
+    uint32_t primitive, geometry;
+    float normal[3];
+    float u, v;
+} cgt_single_hit;
+
+/* Traces one ray to its nearest hit, on the calling thread; may build a BVH in the scene first, as cgt_trace_rays does.
+ *   ray       any
+ *   hit       gets the hit, of the same values as cgt_trace_rays'
+ *   options   NULL: the defaults
+ * Fastest in scenes of CGT_RAY_KIND_INCOHERENT, whose BVH is there from the commit on; arrays of rays are faster still.
+ * With a BVH the call takes less than 16 KB of stack, through another structure up to 128 KB; a call that builds a BVH
+ * takes as much as a commit. Errors and memory: as cgt_trace_rays. */
+CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_single_hit *hit,
+                                 const cgt_trace_options *options);
+
+/* Finds whether one ray hits anything in its range: as cgt_trace_ray, but faster.
+ *   occluded   gets whether it does */
+CGT_API cgt_result cgt_occluded_ray(const cgt_scene *scene, const cgt_single_ray *ray, bool *occluded,
+                                    const cgt_trace_options *options);
 
 typedef enum cgt_light_kind {
     CGT_LIGHT_POINT = 0,  /* at a place */
@@ -487,12 +587,37 @@ typedef struct cgt_points {
  * and a hit with t_min <= t <= t_max counts: t is 0 at the point, and 1 at a light that has a place. The ray begins
  * exactly where the caller says, however far away the light is. The answer is that of cgt_occluded_rays to these rays,
  * but faster, and there is no array of directions to fill. A point is invalid and not occluded where it has a NaN or an
- * infinity, has a NaN in its range, or lies at the very place of the light.
- * The points are cut into chunks of 4,096, each a task. Fastest is a call for that many points that belong together,
- * such as a picture's tile, by the thread of the caller's that has made them: it uses no other thread.
+ * infinity, has a NaN in its range, or lies at the very place of the light. Points that are off or invalid cost next to nothing.
+ * Large calls are cut into tasks of 4,096 to 32,768 points, whose neighbours are sought out. A call of up to 4,096 points
+ * uses no other thread. For the shadows of a frame, cgt_occluded_frame is faster and less work.
  * Errors and memory: as cgt_trace_rays. */
 CGT_API cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, const cgt_points *points,
                                        uint8_t *occluded, const cgt_trace_options *options);
+
+/* Shadows of a frame. */
+typedef struct cgt_shadow_options {
+    float t_min; /* of the rays to the lights, as of cgt_points; 0 (default) or more */
+} cgt_shadow_options;
+
+/* Fills in the defaults. */
+CGT_API void cgt_shadow_options_init(cgt_shadow_options *shadows);
+
+/* Finds which pixels of a frame lights do not reach; may build a BVH in the scene first, as cgt_trace_rays does.
+ *   camera     the frame's; its mask is that of these rays, too, its t_min and t_max are not used
+ *   frame      its plane t as cgt_trace_camera filled it, of this scene; read only. Where it has both primitive and
+ *              geometry, rays skip the primitive that their pixel hits, so that no offset is needed; a sphere then
+ *              casts no shadow on itself. The other planes are not read, and the visitor is not called
+ *   lights     `count` lights; 0 is valid
+ *   shadows    NULL: the defaults
+ *   occluded   `count` planes of row_stride * height bytes, one behind the other: 1 where anything lies between the hit
+ *              of the pixel and the light, else 0; elements outside the picture stay
+ *   options    NULL: the defaults; the statistics count the rays of pixels with a hit
+ * The answer for each light is that of cgt_occluded_points for the points org + t dir of the pixels' rays, in float
+ * (CGT_FIELD_POSITION), with t_min and skip planes as above. The frame is cut into tiles, each a task of the context's
+ * threads. Errors and memory: as cgt_trace_rays; INVALID_ARGUMENT where the plane t is missing, too. */
+CGT_API cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                                      const cgt_light *lights, uint32_t count, const cgt_shadow_options *shadows,
+                                      uint8_t *occluded, const cgt_trace_options *options);
 
 /* Ambient occlusion of a frame's pixels. */
 typedef struct cgt_ambient_options {

@@ -4,11 +4,13 @@
  * The commit: from the caller's arrays to a structure, from scratch.
  *   1 list the arrays   2 bounds and validity of every primitive (bound_primitives.c)   3 build the structure, or
  *   bands of magnitudes with a structure each (bands/bands_commit.c) where the bounds reach far out or far in
+ * The second step also copies the arrays that cannot be read in place.
  *
  * Grid or tree. A loose grid is built in a hundredth of a kd-tree's time, and camera frames traverse it several times
  * as fast. Each class of sizes has a level of its own, so that a teapot in a stadium does not crowd one cell.
  * Incoherent rays share no cells: a BVH suits them, and it is built in a few times the grid's time. Where a scene is
- * said to be traced by a camera, arrays of rays get a BVH when they come (bvh_on_demand.h). */
+ * said to be traced by a camera, arrays of rays get a BVH when they come (bvh_on_demand.h). Where nothing else
+ * comes, frame after frame, the grid would be built for nothing: then the commit builds the BVH in its place. */
 #include <math.h>
 #include <stdio.h>
 
@@ -20,19 +22,43 @@
 /* Sizes below 2^-50, by the bits of a float's exponent. */
 #define TINY_SIZE_CLASS 77u
 
+/* After so many frames of incoherent rays alone the next is taken for one, too: two, so that a program whose frames are
+ * for a camera and for rays by turns is never taken wrongly. */
+#define FRAMES_OF_RAYS 2u
+
+/* Counts the frames of incoherent rays alone, of which that since the last commit may be one. */
+static void learn_from_frame(cgt_scene *scene)
+{
+    if (scene->band_of) {
+        scene->frames_of_rays = scene->band_of->frames_of_rays;
+        return;
+    }
+    const bool rays = atomic_exchange_explicit(&scene->had_rays, false, memory_order_relaxed);
+    const bool frames = atomic_exchange_explicit(&scene->had_frames, false, memory_order_relaxed);
+    if (!rays || frames)
+        scene->frames_of_rays = 0;
+    else if (scene->frames_of_rays < FRAMES_OF_RAYS)
+        scene->frames_of_rays++;
+}
+
 /* Chooses the structure, for all scenes alike, since the pass over the primitives depends on it. reason: gets AUTO's
  * reason, except for grids, whose plan has one of its own. */
-static cgt_structure choose_structure(const cgt_scene_options *options, const char **reason)
+static cgt_structure choose_structure(const cgt_scene *scene, const char **reason)
 {
+    const cgt_scene_options *options = &scene->options;
     *reason = options->structure == CGT_STRUCTURE_BVH ? "BVH: requested" : "kd-tree: requested";
     if (options->structure != CGT_STRUCTURE_AUTO)
         return options->structure;
     if (options->research->resolution[0]) /* a resolution only makes sense for the queue grid */
         return CGT_STRUCTURE_QUEUE_GRID;
-    *reason = "BVH: incoherent rays share no cells of a grid";
-    return options->rays == CGT_RAY_KIND_INCOHERENT ? CGT_STRUCTURE_BVH : CGT_STRUCTURE_LOOSE_GRID;
+    if (options->rays == CGT_RAY_KIND_COHERENT && scene->frames_of_rays < FRAMES_OF_RAYS)
+        return CGT_STRUCTURE_LOOSE_GRID;
+    *reason = options->rays == CGT_RAY_KIND_COHERENT ? "BVH: nothing but incoherent rays came in the last frames"
+                                                     : "BVH: incoherent rays share no cells of a grid";
+    return CGT_STRUCTURE_BVH;
 }
 
+/* As the caller gives it; cgt_reserve_copies replaces what cannot be read in place. */
 static cgt_primitive_array describe_array(const cgt_geometry *g)
 {
     const cgt_spheres *s = &g->spheres;
@@ -84,7 +110,7 @@ static cgt_result list_arrays(cgt_scene *scene)
     scene->statistics.primitives = prims.count;
     scene->statistics.spheres = prims.spheres;
     scene->statistics.triangles = prims.triangles;
-    return CGT_OK;
+    return cgt_reserve_copies(scene);
 }
 
 static void store_statistics(cgt_scene *scene, const cgt_primitive_bounds *s)
@@ -193,7 +219,7 @@ static cgt_result build_scene(cgt_scene *scene)
     cgt_primitive_bounds bounds = {0};
     const char *reason;
     const double start = cgt_now_ms();
-    scene->committed_scene.structure = choose_structure(&scene->options, &reason);
+    scene->committed_scene.structure = choose_structure(scene, &reason);
     cgt_result result = list_arrays(scene);
     if (result == CGT_OK)
         result = cgt_compute_bounds(scene, &bounds);
@@ -227,6 +253,7 @@ cgt_result cgt_scene_commit(cgt_scene *scene)
     scene->committed_scene = (cgt_committed_scene){0};
     atomic_store_explicit(&scene->bvh_state, CGT_BVH_STATE_NONE, memory_order_relaxed);
     atomic_store_explicit(&scene->bvh_rays, 0, memory_order_relaxed);
+    learn_from_frame(scene);
     cgt_float_environment_enter(&callers);
     const cgt_result result = build_scene(scene);
     cgt_float_environment_leave(&callers);

@@ -79,6 +79,13 @@ typedef void cgt_trace_rays_fn(const cgt_committed_scene *committed_scene, const
                                uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
                                uint8_t *occluded, cgt_counts *counts);
 
+/* Traces one ray through the BVH, or through all primitives where that does not serve the scene. hit: is set where there
+ * is one. */
+typedef void cgt_trace_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool exact,
+                                  cgt_single_hit *hit, cgt_counts *counts);
+typedef bool cgt_occluded_one_ray_fn(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                     cgt_counts *counts);
+
 /* Finds any hit between a light and points first to end - 1, at most CGT_RAYS_CHUNK: origins and ranges of `points`.
  * Returns false if it would take more than settings->max_light_work: then the work is counted, the points are not, and
  * what `occluded` has of them is undefined. */
@@ -115,6 +122,8 @@ typedef struct cgt_kernel {
     cgt_trace_region_fn *trace_region; /* packet by packet */
     cgt_trace_region_fn *trace_tile;   /* tile by tile, for frames that cgt_tile_supports (query/tile_limits.h) */
     cgt_trace_rays_fn *trace_rays;
+    cgt_trace_one_ray_fn *trace_one_ray;
+    cgt_occluded_one_ray_fn *occluded_one_ray;
     cgt_trace_light_fn *trace_light;
     cgt_light_prims_fn *light_prims;
     cgt_resolve_rays_fn *resolve_rays;

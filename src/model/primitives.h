@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The primitives of a committed scene: the primitives of all its geometries, numbered consecutively by geometry and
- * primitive id, so that the lower number wins a tie. Nothing is copied from the caller's arrays. */
+ * primitive id, so that the lower number wins a tie. They lie in the caller's arrays, or in float copies of those that
+ * cannot be read in place (builders/order/copy_arrays.h). */
 #ifndef CGT_PRIMITIVES_H
 #define CGT_PRIMITIVES_H
 
@@ -22,8 +23,10 @@ typedef struct cgt_primitive_array {
     size_t radius_stride;
     const char *index; /* of triangles, three at index + i * index_stride; NULL: 3i, 3i + 1, 3i + 2 */
     size_t index_stride;
-    uint32_t count;  /* primitives */
-    uint32_t points; /* vertices of triangles */
+    uint32_t count;       /* primitives */
+    uint32_t points;      /* vertices of triangles */
+    float *copy;          /* what point and radius point to, where the commit copies them; else NULL */
+    uint32_t *index_copy; /* what index points to, likewise */
 } cgt_primitive_array;
 
 typedef struct cgt_primitives {

@@ -4,10 +4,10 @@
  * Scenes: options and geometries. Nothing is read from the caller's arrays here. */
 #include "scene/scene.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "scene/bands.h"
+#include "scene/check_geometry.h"
 
 static cgt_geometry *geometry_at(const cgt_scene *scene, uint32_t id)
 {
@@ -66,6 +66,7 @@ static void set_options(cgt_scene *scene, const cgt_scene_options *o)
     scene->research_options = *research_options(o);
     scene->options = *o;
     scene->options.research = &scene->research_options;
+    scene->frames_of_rays = 0;
 }
 
 cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *options, cgt_scene **scene)
@@ -87,6 +88,8 @@ cgt_result cgt_scene_create(cgt_context *context, const cgt_scene_options *optio
     s->mutable_scene = s;
     atomic_init(&s->bvh_state, CGT_BVH_STATE_NONE);
     atomic_init(&s->bvh_rays, 0);
+    atomic_init(&s->had_rays, false);
+    atomic_init(&s->had_frames, false);
     if (pthread_mutex_init(&s->reports_lock, NULL)) {
         cgt_free(&context->memory, s, sizeof *s);
         return cgt_fail(context, CGT_ERROR_THREADS, "the system refused a lock");
@@ -133,49 +136,6 @@ cgt_result cgt_scene_set_options(cgt_scene *scene, const cgt_scene_options *opti
         return result;
     set_options(scene, options);
     scene->is_committed = false;
-    return CGT_OK;
-}
-
-/* Whether the elements of an array fit into the address space. */
-static bool stride_fits(uint32_t count, size_t stride, size_t element)
-{
-    return stride % sizeof(float) == 0 && (!count || stride <= (SIZE_MAX / 2 - element) / count);
-}
-
-static cgt_result check_spheres(cgt_context *c, cgt_spheres *s)
-{
-    if (!s->center_stride)
-        s->center_stride = 3 * sizeof(float);
-    if (!s->radius_stride)
-        s->radius_stride = sizeof(float);
-    if (s->count && !s->centers)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: centers is NULL");
-    if ((uintptr_t)s->centers % sizeof(float) || (uintptr_t)s->radii % sizeof(float))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: an array is not aligned as floats are");
-    if (!stride_fits(s->count, s->center_stride, 3 * sizeof(float)) ||
-        !stride_fits(s->count, s->radius_stride, sizeof(float)))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: a stride is not a multiple of 4, or too large");
-    if (!s->radii && !(s->radius >= 0 && isfinite(s->radius)))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "spheres: radius %g: 0 or more, and finite", (double)s->radius);
-    return CGT_OK;
-}
-
-static cgt_result check_triangles(cgt_context *c, cgt_triangles *t)
-{
-    if (!t->index_stride)
-        t->index_stride = 3 * sizeof(uint32_t);
-    if (!t->vertex_stride)
-        t->vertex_stride = 3 * sizeof(float);
-    if (t->vertex_count && !t->vertices)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: vertices is NULL");
-    if ((uintptr_t)t->vertices % sizeof(float) || (uintptr_t)t->indices % sizeof(uint32_t))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: an array is not aligned as its elements are");
-    if (!stride_fits(t->vertex_count, t->vertex_stride, 3 * sizeof(float)) ||
-        !stride_fits(t->count, t->index_stride, 3 * sizeof(uint32_t)))
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "triangles: a stride is not a multiple of 4, or too large");
-    if (!t->indices && t->vertex_count / 3 < t->count)
-        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
-                        "triangles: %u of them without indices need more than %u vertices", t->count, t->vertex_count);
     return CGT_OK;
 }
 
@@ -240,7 +200,7 @@ cgt_result cgt_scene_add_spheres(cgt_scene *scene, const cgt_spheres *spheres, u
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
     const uint32_t id = free_id(scene);
-    cgt_result result = check_spheres(scene->context, &g.spheres);
+    cgt_result result = cgt_check_spheres(scene->context, &g.spheres);
     if (result == CGT_OK)
         result = set_geometry(scene, id, &g);
     if (result == CGT_OK && geometry)
@@ -255,7 +215,7 @@ cgt_result cgt_scene_update_spheres(cgt_scene *scene, uint32_t geometry, const c
     cgt_geometry g = {.used = true, .kind = CGT_KIND_SPHERES, .spheres = *spheres};
     cgt_result result = check_update(scene, geometry, CGT_KIND_SPHERES);
     if (result == CGT_OK)
-        result = check_spheres(scene->context, &g.spheres);
+        result = cgt_check_spheres(scene->context, &g.spheres);
     return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
 }
 
@@ -265,7 +225,7 @@ cgt_result cgt_scene_add_triangles(cgt_scene *scene, const cgt_triangles *triang
         return CGT_ERROR_INVALID_ARGUMENT;
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
     const uint32_t id = free_id(scene);
-    cgt_result result = check_triangles(scene->context, &g.triangles);
+    cgt_result result = cgt_check_triangles(scene->context, &g.triangles);
     if (result == CGT_OK)
         result = set_geometry(scene, id, &g);
     if (result == CGT_OK && geometry)
@@ -280,7 +240,7 @@ cgt_result cgt_scene_update_triangles(cgt_scene *scene, uint32_t geometry, const
     cgt_geometry g = {.used = true, .kind = CGT_KIND_TRIANGLES, .triangles = *triangles};
     cgt_result result = check_update(scene, geometry, CGT_KIND_TRIANGLES);
     if (result == CGT_OK)
-        result = check_triangles(scene->context, &g.triangles);
+        result = cgt_check_triangles(scene->context, &g.triangles);
     return result == CGT_OK ? set_geometry(scene, geometry, &g) : result;
 }
 

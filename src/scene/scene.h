@@ -23,6 +23,7 @@ typedef struct cgt_geometry {
 typedef enum cgt_scene_buffer {
     CGT_BUFFER_GEOMETRY = 0, /* cgt_geometry, by id */
     CGT_BUFFER_ARRAYS,       /* cgt_primitive_array of the commit */
+    CGT_BUFFER_COPIES,       /* floats and indices that cannot be read in the caller's arrays: copy_arrays.h */
     CGT_BUFFER_BOUNDS,       /* cgt_primitive_bounds, one per chunk of primitives */
     CGT_BUFFER_VOXELS,       /* cgt_voxel or cgt_voxel32 */
     CGT_BUFFER_OVERFLOW,     /* cgt_overflow, in the order of their pushes */
@@ -81,7 +82,20 @@ struct cgt_scene {
     bool in_bands;                   /* the last commit has made bands, and no structure of its own */
     bool is_band;                    /* this is a band of another scene, or must not be cut into bands */
     struct cgt_scene *band_of;       /* the scene that this is a band of; NULL: none */
+    /* What came since the commit, from which AUTO learns: rays that were worth a BVH, frames and lights that are not. */
+    atomic_bool had_rays, had_frames;
+    uint32_t frames_of_rays; /* commits in succession that only such rays came after */
 };
+
+/* The scene of which this is a band, or the scene itself. */
+static inline cgt_scene *cgt_whole_scene(cgt_scene *scene) { return scene->band_of ? scene->band_of : scene; }
+
+/* Sets a flag that many threads set: they share it as long as it is not written. */
+static inline void cgt_set_flag(atomic_bool *flag)
+{
+    if (!atomic_load_explicit(flag, memory_order_relaxed))
+        atomic_store_explicit(flag, true, memory_order_relaxed);
+}
 
 /* Makes the statistics of a build that has ended those that the caller gets. */
 void cgt_publish_statistics(cgt_scene *scene);

@@ -120,7 +120,7 @@ cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
 {
     void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
     const uint32_t all_fields =
-        CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV;
+        CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY | CGT_FIELD_NORMAL | CGT_FIELD_UV | CGT_FIELD_POSITION;
     if (!f->width || !f->height)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: %u x %u pixels: at least 1 x 1", f->width, f->height);
     if (f->width > 65536 || f->height > 65536)
@@ -131,6 +131,8 @@ cgt_result cgt_check_frame(cgt_context *c, const cgt_frame *f)
         return cgt_fail(c, CGT_ERROR_TOO_LARGE, "frame: row_stride times height leaves the address space");
     if (f->visitor_fields & ~all_fields)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: visitor_fields has unknown bits");
+    if (!f->position[0] != !f->position[1] || !f->position[0] != !f->position[2])
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: position: all three or none");
     return cgt_check_planes(c, "frame", plane);
 }
 

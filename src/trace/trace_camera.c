@@ -3,6 +3,7 @@
  *
  * A camera's frame: cut into tiles, each a task. A tile is traced straight into the caller's planes, or into a buffer
  * on the stack that goes to the visitor and from there, row by row, to the planes. */
+#include <math.h>
 #include <string.h>
 
 #include "builders/bvh/bvh_on_demand.h"
@@ -14,7 +15,9 @@
 
 #define SQUARE_EDGE 64u
 #define STRIP_HEIGHT 4u
-#define STRIP_WIDTH 1280u /* Chapman's 720p line; wider frames take several side by side */
+#define STRIP_WIDTH 1280u   /* Chapman's 720p line; wider frames take several side by side */
+#define MAX_TASK_TILES 8u   /* side by side, so that they share the lines of planes that do not begin at lines */
+#define TASKS_PER_THREAD 8u /* at least, where a task takes several tiles */
 #define TILE_PIXELS (STRIP_WIDTH * STRIP_HEIGHT)
 
 typedef struct frame_job {
@@ -26,7 +29,9 @@ typedef struct frame_job {
     cgt_region planes;           /* the whole frame */
     const cgt_band_frame *bands; /* NULL: the scene has none */
     uint32_t tile_width, tile_height, tiles_across;
-    bool buffered; /* tiles go through a buffer */
+    uint32_t first_width; /* of the tiles in the first column */
+    bool buffered;        /* tiles go through a buffer */
+    bool positions;       /* somebody asked for them */
     atomic_bool stopped;
     cgt_trace_counter *counter;
     cgt_float_environment callers; /* the visitor's, too */
@@ -50,8 +55,35 @@ static void copy_to_planes(const cgt_region *planes, const cgt_region *tile)
                    tile->width * sizeof(uint32_t));
 }
 
+/* Where a tile's positions go: to the frame's planes, or to a buffer for the visitor alone. */
+typedef struct tile_positions {
+    float *plane[3];
+    size_t row_stride;
+} tile_positions;
+
+static tile_positions positions_in_planes(const frame_job *job, const cgt_region *r)
+{
+    tile_positions p = {.row_stride = job->planes.row_stride};
+    for (int a = 0; a < 3; a++)
+        p.plane[a] = job->frame->position[a] ? job->frame->position[a] + r->y * p.row_stride + r->x : NULL;
+    return p;
+}
+
+/* Computes the positions of a tile's hits, from their t. */
+static void compute_positions(const frame_job *job, const cgt_region *r, const tile_positions *p)
+{
+    for (uint32_t y = 0; y < r->height; y++)
+        for (uint32_t x = 0; x < r->width; x++) {
+            const float t = r->t[y * r->row_stride + x];
+            float org[3], dir[3];
+            cgt_camera_pixel(&job->camera, r->x + x, r->y + y, org, dir);
+            for (int a = 0; a < 3; a++)
+                p->plane[a][y * p->row_stride + x] = isinf(t) ? INFINITY : org[a] + t * dir[a];
+        }
+}
+
 /* Tasks run in the library's floating-point environment, the visitor in that of the call. */
-static cgt_visit call_visitor(const frame_job *job, const cgt_region *r)
+static cgt_visit call_visitor(const frame_job *job, const cgt_region *r, const tile_positions *p)
 {
     const cgt_frame *f = job->frame;
     cgt_float_environment visitors;
@@ -68,7 +100,8 @@ static cgt_visit call_visitor(const frame_job *job, const cgt_region *r)
                            .geometry = q.geometry,
                            .normal = {q.normal[0], q.normal[1], q.normal[2]},
                            .u = q.u,
-                           .v = q.v};
+                           .v = q.v,
+                           .position = {p->plane[0], p->plane[1], p->plane[2]}};
     cgt_float_environment_leave(&job->callers);
     const cgt_visit visit = f->visitor(f->visitor_user, &tile);
     cgt_float_environment_enter(&visitors);
@@ -88,33 +121,54 @@ static void trace_region(const frame_job *job, uint32_t index, const cgt_region 
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-/* A function of its own: its stack is taken only where it is needed. */
+/* Functions of their own: their stack is taken only where it is needed. */
 __attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, uint32_t index,
-                                                          const cgt_region *planes)
+                                                          const cgt_region *planes, const tile_positions *positions)
 {
     uint32_t buffer[CGT_PLANES][TILE_PIXELS];
     const cgt_region tile = region_in_buffer(job, planes, buffer);
     trace_region(job, index, &tile);
-    const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile) : CGT_VISIT_CONTINUE;
+    if (job->positions)
+        compute_positions(job, &tile, positions);
+    const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile, positions) : CGT_VISIT_CONTINUE;
     copy_to_planes(planes, &tile);
     return visit;
+}
+
+__attribute__((noinline)) static cgt_visit trace_for_visitor(const frame_job *job, uint32_t index,
+                                                             const cgt_region *planes)
+{
+    float buffer[3][TILE_PIXELS];
+    const tile_positions positions = {{buffer[0], buffer[1], buffer[2]}, planes->width};
+    return trace_buffered(job, index, planes, &positions);
+}
+
+static cgt_visit trace_to_planes(const frame_job *job, uint32_t index, const cgt_region *planes,
+                                 const tile_positions *positions)
+{
+    trace_region(job, index, planes);
+    if (job->positions)
+        compute_positions(job, planes, positions);
+    return job->frame->visitor ? call_visitor(job, planes, positions) : CGT_VISIT_CONTINUE;
 }
 
 static void trace_frame_tile(void *argument, uint32_t index)
 {
     frame_job *job = argument;
-    const uint32_t x = index % job->tiles_across * job->tile_width, y = index / job->tiles_across * job->tile_height;
+    const uint32_t column = index % job->tiles_across, y = index / job->tiles_across * job->tile_height;
+    const uint32_t x = column ? job->first_width + (column - 1) * job->tile_width : 0;
     cgt_visit visit = CGT_VISIT_CONTINUE;
     if (atomic_load_explicit(&job->stopped, memory_order_relaxed))
         return;
-    const cgt_region part = cgt_region_part(&job->planes, x, y, job->tile_width, job->tile_height);
-    if (job->buffered)
-        visit = trace_buffered(job, index, &part);
-    else {
-        trace_region(job, index, &part);
-        if (job->frame->visitor)
-            visit = call_visitor(job, &part);
-    }
+    const cgt_region part =
+        cgt_region_part(&job->planes, x, y, column ? job->tile_width : job->first_width, job->tile_height);
+    const tile_positions positions = positions_in_planes(job, &part);
+    if (job->positions && !positions.plane[0])
+        visit = trace_for_visitor(job, index, &part);
+    else if (job->buffered)
+        visit = trace_buffered(job, index, &part, &positions);
+    else
+        visit = trace_to_planes(job, index, &part, &positions);
     if (visit != CGT_VISIT_CONTINUE)
         atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
 }
@@ -124,6 +178,47 @@ void cgt_frame_init(cgt_frame *frame, uint32_t width, uint32_t height)
     *frame = (cgt_frame){.width = width, .height = height};
 }
 
+#define LINE_WORDS 16u /* of a cache line */
+
+/* Words from each row's begin to the first cache line, LINE_WORDS or more where planes or rows differ. */
+static uint32_t words_before_lines(const cgt_region *planes)
+{
+    uint32_t words = LINE_WORDS;
+    for (int k = 0; k < CGT_PLANES; k++) {
+        const uint32_t own = (uint32_t)(-(uintptr_t)planes->plane[k] / sizeof(uint32_t) % LINE_WORDS);
+        if (planes->plane[k] && words != LINE_WORDS && words != own)
+            return LINE_WORDS;
+        words = planes->plane[k] ? own : words;
+    }
+    return planes->row_stride % LINE_WORDS ? LINE_WORDS : words;
+}
+
+/* Several tiles where lines are shared, as long as there are enough tasks. A caller's runner counts as 64 threads. */
+static uint32_t choose_task_tiles(const frame_job *job)
+{
+    const uint32_t threads = job->scene->context->threads ? job->scene->context->threads : 64;
+    const uint64_t across = (job->frame->width + SQUARE_EDGE - 1) / SQUARE_EDGE;
+    const uint64_t down = (job->frame->height + SQUARE_EDGE - 1) / SQUARE_EDGE;
+    uint32_t tiles = MAX_TASK_TILES;
+    while (tiles > 1 && (across + tiles - 1) / tiles * down < (uint64_t)threads * TASKS_PER_THREAD)
+        tiles /= 2;
+    return tiles;
+}
+
+/* Makes tiles begin at cache lines: the first column of them is narrower. Where planes or rows begin at different places
+ * in their lines, a task takes several tiles side by side, which share lines. */
+static void align_tiles(frame_job *job)
+{
+    job->first_width = job->tile_width;
+    if (!job->by_tiles || !job->planes.nontemporal)
+        return;
+    const uint32_t words = words_before_lines(&job->planes);
+    if (words == LINE_WORDS)
+        job->first_width = job->tile_width = SQUARE_EDGE * choose_task_tiles(job);
+    else if (words)
+        job->first_width = SQUARE_EDGE - LINE_WORDS + words;
+}
+
 /* Chooses tiles and whether they are traced as a whole. */
 static void plan_frame(frame_job *job, const cgt_trace_options *options)
 {
@@ -131,21 +226,35 @@ static void plan_frame(frame_job *job, const cgt_trace_options *options)
     const cgt_committed_scene *committed_scene = &job->scene->committed_scene;
     const uint32_t visitor_fields = f->visitor ? f->visitor_fields : 0;
     void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
+    job->positions = f->position[0] || (visitor_fields & CGT_FIELD_POSITION);
     if (!cgt_primitives_masked_out(&committed_scene->prims, job->camera.mask))
         job->camera.mask = UINT32_MAX;
     job->by_tiles = !cgt_requires_packets(options) && cgt_tile_supports(committed_scene, &job->camera);
     job->planes = (cgt_region){.width = f->width,
                                .height = f->height,
                                .row_stride = f->row_stride ? f->row_stride : f->width,
-                               .nontemporal = !f->visitor};
+                               .nontemporal = !f->visitor && !job->positions}; /* t is read again */
     for (int k = 0; k < CGT_PLANES; k++)
         job->planes.plane[k] = plane[k];
     const uint32_t plane_fields = cgt_planes_fields(plane);
-    job->settings.fields = plane_fields | visitor_fields;
-    job->buffered = job->settings.strip || (visitor_fields & ~plane_fields);
+    job->settings.fields =
+        (plane_fields | visitor_fields | (job->positions ? CGT_FIELD_T : 0u)) & ~(uint32_t)CGT_FIELD_POSITION;
+    job->buffered = job->settings.strip || (job->settings.fields & ~plane_fields);
     job->tile_width = job->settings.strip ? STRIP_WIDTH : SQUARE_EDGE;
     job->tile_height = job->settings.strip ? STRIP_HEIGHT : SQUARE_EDGE;
-    job->tiles_across = (f->width + job->tile_width - 1) / job->tile_width;
+    align_tiles(job);
+    job->tiles_across = 1;
+    if (f->width > job->first_width)
+        job->tiles_across += (f->width - job->first_width + job->tile_width - 1) / job->tile_width;
+}
+
+/* A frame that asks for nothing is a mistake, and not a fast frame. */
+static cgt_result check_asks_for_something(cgt_context *c, const cgt_frame *f)
+{
+    void *const plane[CGT_PLANES] = CGT_PLANES_OF(f);
+    return f->visitor || f->position[0] || cgt_planes_fields(plane)
+               ? CGT_OK
+               : cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "frame: neither a plane nor a visitor: it asks for nothing");
 }
 
 /* Traces all tiles of a scene in bands. */
@@ -175,10 +284,13 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     if (result == CGT_OK)
         result = cgt_check_frame(c, frame);
     if (result == CGT_OK)
+        result = check_asks_for_something(c, frame);
+    if (result == CGT_OK)
         result = cgt_prepare_camera(c, camera, frame, &job.camera);
     if (result != CGT_OK)
         return result;
     plan_frame(&job, options);
+    cgt_set_flag(&scene->mutable_scene->had_frames);
     if (!job.by_tiles && scene->committed_scene.loose.regions) /* see bvh_on_demand.c */
         result = cgt_bvh_build_on_demand(scene, (uint64_t)frame->width * frame->height, &job.settings.use_bvh);
     if (result != CGT_OK)

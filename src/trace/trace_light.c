@@ -3,26 +3,20 @@
  *
  * Points against one light: cut into chunks, each a task. */
 #include <math.h>
+#include <string.h>
 
 #include "core/float_environment.h"
 #include "dispatch/kernel.h"
-#include "trace/trace_call.h"
+#include "trace/trace_light.h"
 #include "builders/bvh/bvh_on_demand.h"
 #include "trace/bands/band_trace.h"
 
-/* How tiles or a tree are chosen: the chunks of a call that are sampled, and the primitives that a tile may test for each
- * point; with more of them a tree is faster. Measured. */
-#define SAMPLED_CHUNKS 8u
+/* The primitives that a tile may test for each point; with more of them a tree is faster. Measured. */
 #define PRIMS_PER_POINT 16u
 
-/* Where a BVH may take over: the work for each point, in references and tests of groups, after which tiles give a chunk
- * up. The estimate takes primitives for evenly spread over the bounds of the scene; one far away makes it too small. The
- * work is bounded by a few times what the BVH takes. */
-#define MAX_LIGHT_WORK 128u
-/* Points of such a chunk share little: each counts as so many rays for the BVH's building. */
-#define SCATTERED_POINTS 4u
+#define SAMPLED_TASKS 4u /* that are looked at before tiles or a tree are chosen */
 
-#define CHUNK_GIVEN_UP 0xffu /* the first result of a chunk that tiles gave up, until it is traced otherwise */
+#define TASKS_PER_THREAD 4u /* at least, where a task takes several chunks */
 
 #define FEW_POINTS 256u /* fewer go through a BVH where there is one */
 
@@ -34,127 +28,222 @@ typedef struct light_job {
     cgt_trace_settings settings;
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
-    _Atomic uint64_t given_up;  /* points of chunks that tiles gave up */
+    uint64_t task_points;
+    _Atomic uint64_t given_up; /* points of tasks that tiles gave up */
 } light_job;
 
-static uint64_t chunk_end(const light_job *job, uint64_t first)
+/* The end of the chunk that begins at `first`. */
+static uint64_t chunk_end(uint64_t first, uint64_t end)
 {
-    const uint64_t remaining = job->points.count - first;
-    return first + (remaining < CGT_RAYS_CHUNK ? remaining : CGT_RAYS_CHUNK);
+    return first + (end - first < CGT_RAYS_CHUNK ? end - first : CGT_RAYS_CHUNK);
 }
 
-/* Returns false where tiles gave the points up. */
-static bool trace_points(const light_job *job, uint32_t index, uint64_t first, uint64_t end, cgt_counts *counts)
+static uint64_t task_end(const light_job *job, uint64_t first)
+{
+    const uint64_t remaining = job->points.count - first;
+    return first + (remaining < job->task_points ? remaining : job->task_points);
+}
+
+/* Traces points first to end - 1 of an array, at most a chunk. Returns whether tiles did not give them up. */
+static bool trace_points(const light_job *job, const cgt_rays *points, uint64_t first, uint64_t end, uint8_t *occluded,
+                         cgt_counts *counts)
 {
     const cgt_scene *s = job->scene;
+    return s->context->kernel->trace_light(&s->committed_scene, points, job->light, first, end, &job->settings,
+                                           occluded, counts);
+}
+
+/* Traces the points of a task, from `first` on, batch by batch. Not inlined: its stack is taken only where it is
+ * needed. */
+__attribute__((noinline)) static bool trace_batches(const light_job *job, const cgt_point_order *order, uint64_t first,
+                                                    cgt_counts *counts)
+{
+    cgt_point_batch batch;
+    for (uint32_t i = 0; i < order->live; i += CGT_RAYS_CHUNK) {
+        const uint32_t count = (uint32_t)chunk_end(i, order->live) - i;
+        cgt_point_batch_fill(&batch, &job->points, first, order->number + i, count);
+        if (!trace_points(job, &batch.rays, 0, count, batch.occluded, counts))
+            return false;
+        for (uint32_t k = 0; k < count; k++)
+            job->occluded[first + order->number[i + k]] = batch.occluded[k];
+    }
+    return true;
+}
+
+/* Traces points first to end - 1, a task. */
+__attribute__((noinline)) static bool trace_structure_points(const light_job *job, uint64_t first, uint64_t end,
+                                                             cgt_counts *counts)
+{
+    cgt_point_order order;
+    cgt_point_order_init(&order, &job->points, job->light, first, end);
+    if (order.as_given) {
+        for (uint64_t i = first; i < end; i += CGT_RAYS_CHUNK)
+            if (!trace_points(job, &job->points, i, chunk_end(i, end), job->occluded, counts))
+                return false;
+        return true;
+    }
+    memset(job->occluded + first, 0, end - first);
+    counts->rays += end - first - order.live;
+    counts->invalid_rays += order.invalid;
+    return trace_batches(job, &order, first, counts);
+}
+
+/* Bands sort out what is not live themselves. */
+static bool trace_task_points(const light_job *job, uint32_t index, uint64_t first, uint64_t end, cgt_counts *counts)
+{
     if (job->bands)
         return cgt_bands_trace(job->bands, index % job->bands->slots, &job->points, job->light, first, end, NULL,
                                job->occluded, counts);
-    return s->context->kernel->trace_light(&s->committed_scene, &job->points, job->light, first, end, &job->settings,
-                                           job->occluded, counts);
+    return trace_structure_points(job, first, end, counts);
 }
 
-static void trace_chunk(void *argument, uint32_t index)
+static void trace_task(void *argument, uint32_t index)
 {
     light_job *job = argument;
-    const uint64_t first = (uint64_t)index * CGT_RAYS_CHUNK, end = chunk_end(job, first);
+    const uint64_t first = index * job->task_points, end = task_end(job, first);
     cgt_counts counts = {0};
-    if (!trace_points(job, index, first, end, &counts)) {
-        job->occluded[first] = CHUNK_GIVEN_UP;
+    if (!trace_task_points(job, index, first, end, &counts)) { /* the work was done, the points were not */
+        counts.rays = counts.hits = counts.invalid_rays = 0;
+        job->occluded[first] = CGT_LIGHT_GIVEN_UP;
         atomic_fetch_add_explicit(&job->given_up, end - first, memory_order_relaxed);
     }
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-static void trace_given_up_chunk(void *argument, uint32_t index)
+static void trace_given_up_task(void *argument, uint32_t index)
 {
     const light_job *job = argument;
-    if (job->occluded[(uint64_t)index * CGT_RAYS_CHUNK] == CHUNK_GIVEN_UP)
-        trace_chunk(argument, index);
+    if (job->occluded[index * job->task_points] == CGT_LIGHT_GIVEN_UP)
+        trace_task(argument, index);
 }
 
-/* Traces all chunks, and those that tiles gave up once more: through the BVH, or by tiles with any work where there is
+/* Several chunks where each thread gets some of them; a caller's runner counts as 64 threads. */
+static uint64_t choose_task_points(const light_job *job)
+{
+    const uint32_t threads = job->scene->context->threads ? job->scene->context->threads : 64;
+    uint64_t points = CGT_MAX_TASK_POINTS;
+    while (points > CGT_RAYS_CHUNK && job->points.count < points * threads * TASKS_PER_THREAD)
+        points /= 2;
+    return points;
+}
+
+/* Traces all points, and those that tiles gave up once more: through the BVH, or by tiles with any work where there is
  * none yet. */
-static cgt_result trace_chunks(light_job *job)
+static cgt_result trace_tasks(light_job *job)
 {
     const cgt_scene *s = job->scene;
-    const uint32_t chunks = (uint32_t)((job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK);
+    const uint32_t tasks = (uint32_t)((job->points.count + job->task_points - 1) / job->task_points);
     cgt_trace_settings *settings = &job->settings;
     if (settings->light_tiles && s->options.structure == CGT_STRUCTURE_AUTO)
-        settings->max_light_work = MAX_LIGHT_WORK;
-    cgt_run_tasks(s->context, trace_chunk, job, chunks);
+        settings->max_light_work = CGT_MAX_LIGHT_WORK;
+    cgt_run_tasks(s->context, trace_task, job, tasks);
     const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
     if (!given_up)
         return CGT_OK;
-    const cgt_result result = cgt_bvh_build_on_demand(s, given_up * SCATTERED_POINTS, &settings->use_bvh);
+    const cgt_result result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
     if (result != CGT_OK)
         return result;
     settings->light_tiles = !settings->use_bvh;
     settings->max_light_work = 0;
-    cgt_run_tasks(s->context, trace_given_up_chunk, job, chunks);
+    cgt_run_tasks(s->context, trace_given_up_task, job, tasks);
     return CGT_OK;
 }
 
-/* As trace_chunks: by tiles, then what they gave up through BVHs, which are built for that. Rays of one direction go
- * through BVHs at once. */
-static cgt_result trace_bands(light_job *job)
+cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *settings, uint64_t points, uint32_t chunk)
 {
     cgt_band_call call;
-    const uint64_t count = job->points.count;
-    const uint32_t chunks = (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK);
-    const bool by_tiles = job->light->kind == CGT_LIGHT_POINT && job->scene->options.structure == CGT_STRUCTURE_AUTO;
-    cgt_result result = cgt_bands_begin(job->scene, &job->settings, count, CGT_RAYS_CHUNK, &call);
+    const bool by_tiles = t->light->kind == CGT_LIGHT_POINT && t->scene->options.structure == CGT_STRUCTURE_AUTO;
+    cgt_result result = cgt_bands_begin(t->scene, settings, points, chunk, &call);
     if (result == CGT_OK)
-        result = cgt_bands_build_bvh(&call, by_tiles ? 0 : count);
+        result = cgt_bands_build_bvh(&call, by_tiles ? 0 : points);
     call.by_tiles = by_tiles;
-    job->bands = &call;
+    *t->bands = &call;
     if (result == CGT_OK)
-        cgt_bands_run(&call, trace_chunk, job, chunks);
-    const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
+        cgt_bands_run(&call, t->trace, t->argument, t->tasks);
+    const uint64_t given_up = atomic_load_explicit(t->given_up, memory_order_relaxed);
     if (result == CGT_OK && given_up) {
         call.by_tiles = false;
-        result = cgt_bands_build_bvh(&call, given_up * SCATTERED_POINTS);
+        result = cgt_bands_build_bvh(&call, given_up * CGT_SCATTERED_POINTS);
         if (result == CGT_OK)
-            cgt_bands_run(&call, trace_given_up_chunk, job, chunks);
+            cgt_bands_run(&call, t->trace_given_up, t->argument, t->tasks);
     }
     cgt_bands_end(&call);
     return result;
 }
 
-/* Whether, in most chunks, neighbouring points are near enough to each other for tiles, as the light sees them. */
+static cgt_result trace_bands(light_job *job)
+{
+    job->task_points = CGT_RAYS_CHUNK;
+    const cgt_light_tasks tasks = {.scene = job->scene,
+                                   .light = job->light,
+                                   .trace = trace_task,
+                                   .trace_given_up = trace_given_up_task,
+                                   .argument = job,
+                                   .tasks = (uint32_t)((job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK),
+                                   .given_up = &job->given_up,
+                                   .bands = &job->bands};
+    return cgt_light_run_bands(&tasks, &job->settings, job->points.count, CGT_RAYS_CHUNK);
+}
+
+bool cgt_light_allows_tiles(const cgt_committed_scene *s)
+{
+    return s->loose.levels && s->valid && !s->brute_force && s->scale <= 0x1p60f && s->scale >= 0x1p-60f;
+}
+
+bool cgt_light_batch_is_coherent(const cgt_scene *s, const cgt_light *light, const cgt_point_batch *b)
+{
+    return s->context->kernel->light_prims(&s->committed_scene, &b->rays, light, 0, b->rays.count) <=
+           PRIMS_PER_POINT * b->rays.count;
+}
+
+/* Whether the middle batch of a task's points is coherent, unless none of them is live. */
+static bool task_is_coherent(const light_job *job, uint64_t first, uint64_t end, bool *any_live)
+{
+    cgt_point_order order;
+    cgt_point_batch batch;
+    cgt_point_order_init(&order, &job->points, job->light, first, end);
+    *any_live = order.live > 0;
+    if (!order.live)
+        return false;
+    const uint32_t from = order.live / 2 / CGT_RAYS_CHUNK * CGT_RAYS_CHUNK;
+    const uint32_t count = (uint32_t)chunk_end(from, order.live) - from;
+    cgt_point_batch_fill(&batch, &job->points, first, order.number + from, count);
+    return cgt_light_batch_is_coherent(job->scene, job->light, &batch);
+}
+
+/* Whether the points of most tasks are. */
 static bool choose_tiles(const light_job *job)
 {
-    const cgt_scene *s = job->scene;
-    const cgt_committed_scene *committed_scene = &s->committed_scene;
-    const uint64_t chunks = (job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK;
-    const uint64_t sampled = chunks < SAMPLED_CHUNKS ? chunks : SAMPLED_CHUNKS;
-    uint64_t coherent = 0;
+    const uint64_t tasks = (job->points.count + job->task_points - 1) / job->task_points;
+    const uint64_t sampled = tasks < SAMPLED_TASKS ? tasks : SAMPLED_TASKS;
+    uint64_t coherent = 0, live = 0;
     cgt_float_environment callers;
-    if (!committed_scene->loose.levels || !committed_scene->valid || committed_scene->brute_force ||
-        committed_scene->scale > 0x1p60f || committed_scene->scale < 0x1p-60f)
+    if (!cgt_light_allows_tiles(&job->scene->committed_scene))
         return false;
     cgt_float_environment_enter(&callers);
     for (uint64_t k = 0; k < sampled; k++) {
-        const uint64_t first = chunks * k / sampled * CGT_RAYS_CHUNK, end = chunk_end(job, first);
-        coherent += s->context->kernel->light_prims(committed_scene, &job->points, job->light, first, end) <=
-                    PRIMS_PER_POINT * (end - first);
+        const uint64_t first = tasks * k / sampled * job->task_points;
+        bool any_live;
+        coherent += task_is_coherent(job, first, task_end(job, first), &any_live);
+        live += any_live;
     }
     cgt_float_environment_leave(&callers);
-    return 2 * coherent > sampled;
+    return 2 * coherent > live;
 }
 
 static cgt_result trace_structure(light_job *job)
 {
+    job->task_points = choose_task_points(job);
     const bool tiles = choose_tiles(job);
     const cgt_result result =
         cgt_bvh_build_on_demand(job->scene, tiles ? 0 : job->points.count, &job->settings.use_bvh);
     if (result != CGT_OK)
         return result;
     job->settings.light_tiles = tiles && !(job->settings.use_bvh && job->points.count < FEW_POINTS);
-    return trace_chunks(job);
+    return trace_tasks(job);
 }
 
-static cgt_result check_light(cgt_context *c, const cgt_light *light)
+cgt_result cgt_check_light(cgt_context *c, const cgt_light *light)
 {
     bool zero = true;
     for (int a = 0; a < 3; a++) {
@@ -187,7 +276,7 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
     light_job job = {.scene = scene, .light = light, .occluded = occluded, .counter = &counter};
     cgt_result result = cgt_trace_prepare(scene, options, false, &job.settings, &counter);
     if (result == CGT_OK)
-        result = check_light(c, light);
+        result = cgt_check_light(c, light);
     if (result == CGT_OK)
         result = check_points(c, points);
     if (result != CGT_OK)
@@ -200,6 +289,8 @@ cgt_result cgt_occluded_points(const cgt_scene *scene, const cgt_light *light, c
                             .mask = points->mask,
                             .skip_primitive = points->skip_primitive,
                             .skip_geometry = points->skip_geometry};
+    if (points->count >= FEW_POINTS) /* by tiles, where there is a grid */
+        cgt_set_flag(&scene->mutable_scene->had_frames);
     result = scene->in_bands ? trace_bands(&job) : trace_structure(&job);
     if (result != CGT_OK)
         return result;

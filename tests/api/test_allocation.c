@@ -120,11 +120,17 @@ static test_scene_options options_of(const choice *c)
 #define SIDE test_between(16, MOST_SIDE)
 #define TRIANGLES 120
 
-static cloud spheres; /* grows from frame to frame: the first quarter of each geometry, then all */
-static float pile[300][4];
+static cloud spheres;       /* grows from frame to frame: the first quarter of each geometry, then all */
+static double pile[300][3]; /* the commit copies it */
+static float pile_radius;
 static float mesh[TRIANGLES][3][3];
 static planes expected[2], got;
 static cgt_camera camera;
+
+static cgt_spheres piled(uint32_t count)
+{
+    return (cgt_spheres){.count = count, .centers_double = pile[0], .radius = pile_radius};
+}
 
 /* A call that may fail. If the hook failed, the call must report it, and must succeed when repeated. */
 #define TRY(m, call)                                                                                                   \
@@ -200,7 +206,7 @@ static void session(memory *m, const choice *c, uint32_t threads, const planes w
         const bool add = frame == 0;
         for (uint32_t g = 0; g < GEOMETRIES; g++)
             set_spheres(m, scene, g, add, spheres_of((const float(*)[4])spheres.sphere + g * each, count));
-        set_spheres(m, scene, GEOMETRIES, add, spheres_of((const float(*)[4])pile, frame ? 300 : 30));
+        set_spheres(m, scene, GEOMETRIES, add, piled(frame ? 300 : 30));
         set_triangles(m, scene, GEOMETRIES + 1, add, frame ? TRIANGLES : 20);
         commit(m, context, scene);
         cgt_scene_statistics st;
@@ -224,11 +230,10 @@ static int make_session(void **state)
     (void)state;
     test_random r = random_make(1);
     spheres = cloud_make(&r, CLOUD_UNIFORM, 900);
-    for (int i = 0; i < 300; i++) {
+    for (int i = 0; i < 300; i++)
         for (int a = 0; a < 3; a++)
-            pile[i][a] = spheres.middle[a] + random_float(&r, -0.01f, 0.01f);
-        pile[i][3] = 0.02f * spheres.reach;
-    }
+            pile[i][a] = (double)spheres.middle[a] + (double)random_float(&r, -0.01f, 0.01f);
+    pile_radius = 0.02f * spheres.reach;
     for (int i = 0; i < TRIANGLES; i++)
         for (int a = 0; a < 3; a++) {
             const float at = spheres.middle[a] + random_float(&r, -spheres.reach, spheres.reach);
@@ -350,18 +355,18 @@ static void keep_steady(const choice *c, uint32_t threads)
     assert_int_equal(create(&m, threads, &context), CGT_OK);
     assert_int_equal(cgt_scene_create(context, SCENE_OPTIONS(&options), &scene), CGT_OK);
     const cgt_spheres cloud_spheres = spheres_of((const float(*)[4])spheres.sphere, spheres.count);
-    const cgt_spheres pile_spheres = spheres_of((const float(*)[4])pile, 300);
+    const cgt_spheres pile_spheres = piled(300);
     const cgt_triangles triangles = {.count = TRIANGLES, .vertex_count = 3 * TRIANGLES, .vertices = mesh[0][0]};
     assert_int_equal(cgt_scene_add_spheres(scene, &cloud_spheres, &id), CGT_OK);
     assert_int_equal(cgt_scene_add_spheres(scene, &pile_spheres, &id), CGT_OK);
     assert_int_equal(cgt_scene_add_triangles(scene, &triangles, &id), CGT_OK);
     size_t calls = 0, bytes = 0;
-    float start[300];
+    double start[300];
     for (int k = 0; k < 300; k++)
         start[k] = pile[k][0];
     for (int i = 0; i < (test_samples() ? 8 : 12); i++) {
         for (int k = 0; k < 300; k++)
-            pile[k][0] = start[k] + 0.001f * (float)(i % 4);
+            pile[k][0] = start[k] + 0.001 * (i % 4);
         const cgt_spheres spheres_now =
             spheres_of((const float(*)[4])spheres.sphere, spheres.count - 100 * (uint32_t)(i % 4));
         assert_int_equal(cgt_scene_update_spheres(scene, 0, &spheres_now), CGT_OK);

@@ -77,7 +77,9 @@ typedef struct row {
         BAD(calls, field[2], float, -INFINITY, word)
 
 static const float data[64] = {0};
-#define MISALIGNED ((const float *)(const void *)((const char *)data + 2))
+static const double doubles[16] = {0};
+static const uint16_t shorts[8] = {0};
+static const uint8_t small_types[8] = {0};
 
 static const row rows[] = {
     /* missing arguments */
@@ -144,7 +146,7 @@ static const row rows[] = {
     NONE(FRAMES, frame.normal[2], "normal"),
     NONE(FRAMES, frame.u, "u and v"),
     NONE(FRAMES, frame.v, "u and v"),
-    BAD(FRAMES, frame.visitor_fields, uint32_t, 32, "visitor_fields"),
+    BAD(FRAMES, frame.visitor_fields, uint32_t, 64, "visitor_fields"),
     NONE(AMBIENT, frame.t, "planes"),
     NONE(AMBIENT, frame.primitive, "planes"),
     NONE(AMBIENT, frame.geometry, "planes"),
@@ -177,12 +179,20 @@ static const row rows[] = {
     BAD(POINTS, light.kind, cgt_light_kind, CGT_LIGHT_DIRECTIONAL, "length zero"), /* its position is the origin */
     /* geometries; together with the existing one, the sum of counts reaches 2^32 - 1 */
     NONE(SPHERES, spheres.centers, "centers"),
-    BAD(SPHERES, spheres.centers, const float *, MISALIGNED, "aligned"),
-    BAD(SPHERES, spheres.radii, const float *, MISALIGNED, "aligned"),
-    BAD(SPHERES, spheres.center_stride, size_t, 13, "stride"),
+    BAD(SPHERES, spheres.centers_double, const double *, doubles, "centers are given twice"),
+    BAD(SPHERES, spheres.radii_double, const double *, doubles, "radii are given twice"),
+    BAD(SPHERES, spheres.origin[0], double, NAN, "origin"),
+    BAD(SPHERES, spheres.origin[1], double, INFINITY, "origin"),
+    BAD(SPHERES, spheres.origin[2], double, -INFINITY, "origin"),
+    BAD(SPHERES, spheres.types8, const uint8_t *, small_types, "types without radii"),
+    BAD(SPHERES, spheres.types16, const uint16_t *, shorts, "types are given twice"),
+    BAD(SPHERES, spheres.type_stride, size_t, 3, "stride"),
+    BAD(SPHERES, spheres.type_stride, size_t, SIZE_MAX / 3, "stride"),
+    BAD(SPHERES, spheres.center_stride, size_t, 3, "stride"),
+    BAD(SPHERES, spheres.center_stride, size_t, 11, "stride"),
     BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(SPHERES, spheres.center_stride, size_t, SIZE_MAX / 8 * 4, "stride"),
-    BAD(SPHERES, spheres.radius_stride, size_t, 6, "stride"),
+    BAD(SPHERES, spheres.radius_stride, size_t, 3, "stride"),
     BAD(SPHERES, spheres.radius_stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(SPHERES, spheres.radius, float, -1, "radius"),
     BAD(SPHERES, spheres.radius, float, NAN, "radius"),
@@ -190,9 +200,12 @@ static const row rows[] = {
     BAD(SPHERES, spheres.radius, float, -INFINITY, "radius"),
     LARGE(SPHERES, spheres.count, uint32_t, UINT32_MAX, "2^32"),
     NONE(TRIANGLES, triangles.vertices, "vertices"),
-    BAD(TRIANGLES, triangles.vertices, const float *, MISALIGNED, "aligned"),
-    BAD(TRIANGLES, triangles.indices, const uint32_t *, (const uint32_t *)(const void *)MISALIGNED, "aligned"),
-    BAD(TRIANGLES, triangles.vertex_stride, size_t, 13, "stride"),
+    BAD(TRIANGLES, triangles.vertices_double, const double *, doubles, "vertices are given twice"),
+    BAD(TRIANGLES, triangles.indices16, const uint16_t *, shorts, "indices are given twice"),
+    BAD(TRIANGLES, triangles.origin[2], double, NAN, "origin"),
+    BAD(TRIANGLES, triangles.vertex_stride, size_t, 3, "stride"),
+    BAD(TRIANGLES, triangles.vertex_stride, size_t, SIZE_MAX / 2, "stride"),
+    BAD(TRIANGLES, triangles.index_stride, size_t, 8, "stride"),
     BAD(TRIANGLES, triangles.index_stride, size_t, SIZE_MAX - 3, "stride"),
     BAD(TRIANGLES, triangles.count, uint32_t, 2, "indices"),
     /* scene options */
@@ -264,12 +277,16 @@ static void init_arguments(arguments *a, cgt_context *context, cgt_scene *scene)
     cgt_camera_init(&a->camera);
 }
 
-/* The radius is read only without an array of radii, and their stride only with one. */
+/* Some fields are read only beside others: strides with arrays, types with other types. */
 static void adapt(arguments *a, size_t offset)
 {
-    if (offset == offsetof(arguments, spheres.radius_stride))
+    if (offset == offsetof(arguments, spheres.radius_stride) || offset == offsetof(arguments, spheres.radii_double))
         a->spheres.radii = data;
-    if (offset == offsetof(arguments, triangles.index_stride))
+    if (offset == offsetof(arguments, spheres.type_stride) || offset == offsetof(arguments, spheres.types16)) {
+        a->spheres.radii = data;
+        a->spheres.types32 = ids[0];
+    }
+    if (offset == offsetof(arguments, triangles.index_stride) || offset == offsetof(arguments, triangles.indices16))
         a->triangles.indices = ids[0];
 }
 

@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Programs may flush denormals and use any rounding mode: every task of every structure computes the same bits, on the
- * library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
+ * Programs may flush denormals, use any rounding mode, and trap exceptions: every task of every structure computes the
+ * same bits, on the library's threads and on those of a caller's runner, and the caller's environment is left unchanged. */
+#define _GNU_SOURCE /* feenableexcept */
 #include "support/test.h"
 
 #include <fenv.h>
@@ -20,19 +21,23 @@ typedef struct environment {
     const char *name;
     int rounding;
     bool flushed; /* denormal operands and results are zero */
+    bool traps;   /* a division by zero, an overflow or an invalid operation ends the program */
 } environment;
 
 static const environment environments[] = {
-    {"flushed denormals", FE_TONEAREST, true},
+    {"flushed denormals", FE_TONEAREST, true, false},
+#ifdef __GLIBC__
+    {"traps", FE_TONEAREST, false, true},
+#endif
 #ifdef FE_UPWARD
-    {"upwards", FE_UPWARD, false},
-    {"upwards, flushed denormals", FE_UPWARD, true},
+    {"upwards", FE_UPWARD, false, false},
+    {"upwards, flushed denormals", FE_UPWARD, true, false},
 #endif
 #ifdef FE_DOWNWARD
-    {"downwards", FE_DOWNWARD, false},
+    {"downwards", FE_DOWNWARD, false, false},
 #endif
 #ifdef FE_TOWARDZERO
-    {"towards zero", FE_TOWARDZERO, false},
+    {"towards zero", FE_TOWARDZERO, false, false},
 #endif
 };
 
@@ -67,6 +72,10 @@ static void enter(const environment *e, fenv_t *before)
     assert_int_equal(fesetround(e->rounding), 0);
     if (e->flushed)
         flush_denormals();
+#ifdef __GLIBC__
+    if (e->traps)
+        feenableexcept(FE_DIVBYZERO | FE_OVERFLOW | FE_INVALID); /* -1 where the machine has none: nothing to test */
+#endif
 }
 
 /* Runs the tasks in reverse on the calling thread, each in the runner's own environment. */

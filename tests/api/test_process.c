@@ -1,12 +1,13 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Contexts and the process: a forked child has no workers, and a program may close the shared library while workers
- * run. */
+ * Contexts and the process: a forked child has no workers, a program may close the shared library while workers run, and
+ * several copies of the library live in one process. */
 #define _GNU_SOURCE
 #include "support/scenes.h"
 
 #include <dlfcn.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -140,6 +141,73 @@ static void the_library_stays_while_workers_run(void **state)
     (void)state;
     expect_in_child(close_in_child, NULL);
 }
+
+/* ---- copies ---- */
+
+typedef double trace_function(uint32_t threads, create_function **create);
+
+/* The plugin's function, and whether the plugin calls its own library. */
+typedef struct loaded_plugin {
+    trace_function *trace;
+    create_function *shared;
+    double sum[4];
+} loaded_plugin;
+
+static void *trace_in_plugin(void *argument)
+{
+    loaded_plugin *p = argument;
+    create_function *create = NULL;
+    for (uint32_t i = 0; i < 4; i++) {
+        p->sum[i] = p->trace(1 + i % 3, &create);
+        if (create == p->shared || create == cgt_context_create)
+            p->sum[i] = -1;
+    }
+    return NULL;
+}
+
+/* This program has the archive, the plugin has another copy of it, and the shared library is open to all. */
+static int load_copies(void *argument)
+{
+    loaded_plugin p[3] = {0};
+    pthread_t thread[3];
+    cgt_context *contexts[2] = {NULL};
+    (void)argument;
+    for (int round = 0; round < 3; round++) {
+        void *library = dlopen(CGT_SHARED_LIBRARY, RTLD_NOW | RTLD_GLOBAL), *plugin = dlopen(CGT_PLUGIN, RTLD_NOW);
+        if (!library || !plugin)
+            return 1;
+        for (int i = 0; i < 3; i++) {
+            *(void **)(void *)&p[i].trace = dlsym(plugin, "plugin_trace");
+            *(void **)(void *)&p[i].shared = dlsym(library, "cgt_context_create");
+            if (!p[i].trace || !p[i].shared || dlsym(plugin, "cgt_context_create"))
+                return 2; /* the plugin shows no function of the library */
+        }
+        if (p[0].shared(&(cgt_context_options){.threads = 2}, &contexts[0]) != CGT_OK ||
+            cgt_context_create(&(cgt_context_options){.threads = 2}, &contexts[1]) != CGT_OK)
+            return 3;
+        for (int i = 0; i < 3; i++)
+            if (pthread_create(&thread[i], NULL, trace_in_plugin, &p[i]))
+                return 4;
+        for (int i = 0; i < 3; i++)
+            pthread_join(thread[i], NULL);
+        for (int i = 0; i < 12; i++)
+            if (!(p[i / 4].sum[i % 4] > 0) || p[i / 4].sum[i % 4] != p[0].sum[0])
+                return 5;
+        release_function *release;
+        *(void **)(void *)&release = dlsym(library, "cgt_context_release");
+        release(contexts[0]);
+        cgt_context_release(contexts[1]);
+        if (dlclose(plugin) != 0 || dlclose(library) != 0) /* the plugin has released its contexts */
+            return 6;
+    }
+    return 0;
+}
+
+static void copies_do_not_meet(void **state)
+{
+    (void)state;
+    expect_in_child(load_copies, NULL);
+}
 #endif
 
 int main(void)
@@ -148,6 +216,7 @@ int main(void)
         cmocka_unit_test(a_child_needs_no_workers),
 #ifdef CGT_SHARED_LIBRARY
         cmocka_unit_test(the_library_stays_while_workers_run),
+        cmocka_unit_test(copies_do_not_meet),
 #endif
     };
     test_begin("test_process");

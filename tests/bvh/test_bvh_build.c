@@ -231,6 +231,7 @@ static void test_threshold(void **state)
         assert_int_equal(trace_invalid_rays(scene, 150), CGT_OK);
         assert_non_null(scene->committed_scene.bvh.node);
         check_tree(scene, "threshold");
+        assert_int_equal(cgt_scene_set_options(scene, &o), CGT_OK); /* forgets that rays alone came */
         assert_int_equal(cgt_scene_commit(scene), CGT_OK);
         assert_null(scene->committed_scene.bvh.node);
     }

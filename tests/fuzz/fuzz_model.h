@@ -15,7 +15,7 @@ typedef struct fuzz_geometry {
     bool used, triangular;
     cgt_spheres spheres;
     cgt_triangles triangles;
-    void *block[2]; /* centres and radii, or vertices and indices */
+    void *block[3]; /* centres, radii and types, or vertices and indices */
 } fuzz_geometry;
 
 typedef struct fuzz_model {
@@ -45,7 +45,7 @@ uint32_t fuzz_count(const fuzz_geometry *g);
 void fuzz_sphere_at(const fuzz_geometry *g, uint32_t i, float sphere[4]);
 void fuzz_triangle_at(const fuzz_geometry *g, uint32_t i, float vertex[3][3]);
 
-/* Whether all indices are below the number of vertices. */
+/* Whether all indices are below the number of vertices, and all types below that of radii. */
 bool fuzz_indices_are_good(const fuzz_geometry *g);
 
 /* ---- fuzz_scene.c ---- */

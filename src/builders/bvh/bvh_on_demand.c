@@ -6,6 +6,7 @@
 
 #include "builders/bvh/bvh_build.h"
 #include "core/float_environment.h"
+#include "scene/bands.h"
 
 #define PRIMS_PER_RAY 32u   /* building takes about 1/60 as long as a ray for each primitive through an even grid */
 #define EVEN_CROWDING 32.0f /* where this many primitives share a cell, rays cost more by their share */
@@ -38,11 +39,47 @@ static cgt_result build_for_rays(cgt_scene *scene, bool *is_built)
     result = cgt_bvh_build_tree(scene);
     cgt_float_environment_leave(&callers);
     *is_built = result == CGT_OK;
-    if (*is_built)
+    if (*is_built) {
+        cgt_set_flag(&cgt_whole_scene(scene)->had_rays);
         cgt_publish_built_bvh(scene);
+    }
     atomic_store_explicit(&scene->bvh_state, *is_built ? CGT_BVH_STATE_BUILT : CGT_BVH_STATE_NONE,
                           memory_order_release);
     return result;
+}
+
+/* Whether AUTO has built a grid over something: then there may be a BVH, too. */
+static bool may_have_bvh_beside_grid(const cgt_scene *scene)
+{
+    const cgt_committed_scene *s = &scene->committed_scene;
+    return scene->options.structure == CGT_STRUCTURE_AUTO && s->structure == CGT_STRUCTURE_LOOSE_GRID && s->valid &&
+           !s->brute_force;
+}
+
+static cgt_result build_for_bands(const struct cgt_bands *bands)
+{
+    cgt_result result = CGT_OK;
+    bool is_built;
+    for (uint32_t b = 0; b < bands->count && result == CGT_OK; b++)
+        if (may_have_bvh_beside_grid(bands->band[b].scene))
+            result = build_for_rays(bands->band[b].scene, &is_built);
+    return result;
+}
+
+cgt_result cgt_scene_prepare(cgt_scene *scene, cgt_ray_kind rays)
+{
+    bool is_built;
+    if (!scene)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    if ((unsigned)rays > CGT_RAY_KIND_INCOHERENT)
+        return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT, "prepare: rays %d is unknown", (int)rays);
+    if (!scene->is_committed)
+        return cgt_fail(scene->context, CGT_ERROR_NOT_COMMITTED, "prepare: the scene is not committed");
+    if (rays == CGT_RAY_KIND_INCOHERENT && scene->in_bands)
+        return build_for_bands(scene->bands);
+    if (rays == CGT_RAY_KIND_COHERENT || !may_have_bvh_beside_grid(scene))
+        return CGT_OK;
+    return build_for_rays(scene, &is_built);
 }
 
 cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *is_built)
@@ -50,9 +87,10 @@ cgt_result cgt_bvh_build_on_demand(const cgt_scene *scene, uint64_t rays, bool *
     const cgt_committed_scene *committed_scene = &scene->committed_scene;
     cgt_scene *mutable_scene = scene->mutable_scene;
     *is_built = false;
-    if (scene->options.structure != CGT_STRUCTURE_AUTO || committed_scene->structure != CGT_STRUCTURE_LOOSE_GRID ||
-        !committed_scene->valid || committed_scene->brute_force) {
+    if (!may_have_bvh_beside_grid(scene)) {
         *is_built = committed_scene->structure == CGT_STRUCTURE_BVH && committed_scene->bvh.node;
+        if (rays)
+            cgt_set_flag(&cgt_whole_scene(mutable_scene)->had_rays);
         return CGT_OK;
     }
     if (atomic_load_explicit(&mutable_scene->bvh_state, memory_order_acquire) == CGT_BVH_STATE_BUILT) {

@@ -2,13 +2,14 @@
  * SPDX-License-Identifier: MIT
  *
  * Bounds and validity of every primitive: by chunks of fixed size, merged in order, so that the sums do not depend on
- * the threads. */
+ * the threads. Spheres that need a copy are copied here, chunk by chunk. */
 #include "builders/commit.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "builders/order/cell_sort.h"
+#include "builders/order/copy_arrays.h"
 #include "builders/order/size_levels.h"
 
 #define CHUNK 8192u
@@ -18,6 +19,7 @@ _Static_assert(CHUNK % (MAX_VECTOR * CGT_CLUSTER) == 0, "chunks have whole vecto
 
 typedef struct bounds_job {
     const cgt_primitives *prims;
+    const cgt_geometry *geometry; /* from which spheres are copied that need it; NULL: they have been */
     const cgt_kernel *kernel;
     cgt_bounds_request request; /* classes: one for each chunk, or NULL */
     cgt_primitive_bounds *chunk_bounds;
@@ -37,6 +39,17 @@ static uint32_t compute_cluster_bounds(const bounds_job *job, uint32_t first, ui
     return job->kernel->compute_cluster_bounds(cluster, cgt_clusters(end - first), job->max_half_area, classes);
 }
 
+/* Returns false at a type out of range. */
+static bool copy_spheres(const bounds_job *job, const cgt_primitive_array *a, uint32_t prim, uint32_t stop,
+                         cgt_primitive_bounds *s)
+{
+    if (!job->geometry || !a->copy || a->kind != CGT_KIND_SPHERES)
+        return true;
+    const uint32_t bad = cgt_copy_spheres(a, &job->geometry[a->geometry], prim - a->first, stop - prim);
+    s->bad_index = bad == CGT_INVALID_ID ? CGT_INVALID_ID : a->first + bad;
+    return bad == CGT_INVALID_ID;
+}
+
 static void compute_chunk_bounds(void *argument, uint32_t index)
 {
     const bounds_job *job = argument;
@@ -52,7 +65,8 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
     }
     for (uint32_t prim = first; prim < end && s.bad_index == CGT_INVALID_ID; a++) {
         const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
-        job->kernel->compute_bounds(a, prim, stop, &request, &s);
+        if (copy_spheres(job, a, prim, stop, &s))
+            job->kernel->compute_bounds(a, prim, stop, &request, &s);
         prim = stop;
     }
     if (request.cluster && s.bad_index == CGT_INVALID_ID)
@@ -76,9 +90,20 @@ static void bounds_merge(cgt_primitive_bounds *s, const cgt_primitive_bounds *ch
         s->diameter[k] += chunk_bounds->diameter[k];
 }
 
+static cgt_result bad_type(const cgt_scene *scene, const cgt_primitive_array *a, uint32_t sphere)
+{
+    const cgt_geometry *geometry = scene->buffer[CGT_BUFFER_GEOMETRY].data;
+    const cgt_spheres *s = &geometry[a->geometry].spheres;
+    return cgt_fail(scene->context, CGT_ERROR_INVALID_ARGUMENT,
+                    "commit: geometry %u: sphere %u has type %u, but there are %u types", a->geometry, sphere,
+                    cgt_sphere_type(s, sphere), s->type_count);
+}
+
 static cgt_result bad_index(const cgt_scene *scene, uint32_t prim)
 {
     const cgt_primitive_array *a = cgt_primitives_array(&scene->committed_scene.prims, prim);
+    if (a->kind == CGT_KIND_SPHERES)
+        return bad_type(scene, a, prim - a->first);
     uint32_t corner[3], k = 0;
     cgt_array_corners(a, prim - a->first, corner);
     while (k < 2 && corner[k] < a->points)
@@ -124,8 +149,12 @@ static cgt_result reserve(cgt_scene *scene, uint32_t chunks, bool clusters, boun
     return CGT_OK;
 }
 
+/* Arrays that need it are copied, too, where a commit has not done so yet. */
+typedef enum copies { COPIES_MISSING, COPIES_MADE } copies;
+
 /* max_half_area: of clusters that are not large. */
-static cgt_result compute_bounds(cgt_scene *scene, bool clusters, float max_half_area, cgt_primitive_bounds *s)
+static cgt_result compute_bounds(cgt_scene *scene, copies made, bool clusters, float max_half_area,
+                                 cgt_primitive_bounds *s)
 {
     const uint32_t chunks = (uint32_t)(((uint64_t)scene->committed_scene.prims.count + CHUNK - 1) / CHUNK);
     bounds_job job;
@@ -133,6 +162,7 @@ static cgt_result compute_bounds(cgt_scene *scene, bool clusters, float max_half
     if (result != CGT_OK)
         return result;
     job.max_half_area = max_half_area;
+    job.geometry = made == COPIES_MADE ? NULL : scene->buffer[CGT_BUFFER_GEOMETRY].data;
     cgt_run_tasks(scene->context, compute_chunk_bounds, &job, chunks);
     bounds_clear(s);
     for (uint32_t i = 0; i < chunks; i++)
@@ -158,13 +188,14 @@ cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
     const bool tree = structure == CGT_STRUCTURE_BVH;
     const cgt_primitives *prims = &scene->committed_scene.prims;
     float max_half_area = INFINITY;
+    cgt_copy_triangles(scene);
     cgt_cluster_use use = loose || tree ? cgt_choose_clusters(prims, &max_half_area) : CGT_CLUSTERS_NONE;
     bool clusters = use == CGT_CLUSTERS_ALL || (use == CGT_CLUSTERS_GRID && loose);
-    cgt_result result = compute_bounds(scene, clusters, max_half_area, s);
+    cgt_result result = compute_bounds(scene, COPIES_MISSING, clusters, max_half_area, s);
     if (result == CGT_OK && clusters && cgt_clusters_are_loose(s->large_clusters, cgt_clusters(prims->count))) {
         clusters = false;
         use = CGT_CLUSTERS_NONE;
-        result = compute_bounds(scene, false, INFINITY, s);
+        result = compute_bounds(scene, COPIES_MADE, false, INFINITY, s);
     }
     scene->committed_scene.cluster = clusters ? scene->buffer[CGT_BUFFER_CLUSTERS].data : NULL;
     scene->committed_scene.bvh_of_clusters = use == CGT_CLUSTERS_ALL;
@@ -174,5 +205,5 @@ cgt_result cgt_compute_bounds(cgt_scene *scene, cgt_primitive_bounds *s)
 cgt_result cgt_compute_size_classes(cgt_scene *scene)
 {
     cgt_primitive_bounds s;
-    return compute_bounds(scene, false, INFINITY, &s);
+    return compute_bounds(scene, COPIES_MADE, false, INFINITY, &s);
 }

@@ -8,34 +8,11 @@
 CGT_SPU_INLINE bool bvh_ray_from_packet(const bvh_call *c, uint32_t i, bvh_ray *r)
 {
     const packet *p = c->p;
-    float longest = 0, farthest = 0, org[3], slab_error[3], rdir[3];
-    uint32_t bits, inverse_bits;
-    float power, inverse; /* 2^k and 2^-k */
-    for (int a = 0; a < 3; a++)
-        longest = fabsf(p->dir[a][i]) > longest ? fabsf(p->dir[a][i]) : longest;
-    memcpy(&bits, &longest, sizeof bits);
-    bits &= 0x7f800000; /* of a normal number: packets of others are extreme */
-    inverse_bits = 0x7f000000 - bits;
-    memcpy(&power, &bits, sizeof power);
-    memcpy(&inverse, &inverse_bits, sizeof inverse);
-    const float speed = power * c->scale;
-    for (int a = 0; a < 3; a++) {
-        r->org[a] = p->org[a][i] * c->scale;
-        r->dir[a] = p->dir[a][i] * inverse;
-        org[a] = fabsf(r->org[a]);
-        farthest = org[a] > farthest ? org[a] : farthest;
-        rdir[a] = 1 / (fabsf(r->dir[a]) < BVH_MIN_DIR ? copysignf(BVH_MIN_DIR, r->dir[a]) : r->dir[a]);
-    }
-    const float t_min = p->t_min[i], t_max = p->t_max[i];
-    r->near = (t_min - fabsf(t_min) * 0x1p-20f) * speed - 0x1p-86f;
-    r->far = (t_max + fabsf(t_max) * 0x1p-20f) * speed + 0x1p-86f;
-    r->near = r->near > -BVH_MAX_T ? r->near : -BVH_MAX_T;
-    r->far = r->far < BVH_MAX_T ? r->far : BVH_MAX_T;
-    r->number = i;
-    r->best = (best_hit){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
-    bvh_slab_error(c, org, slab_error);
-    bvh_ray_set_slabs(c, rdir, slab_error, r);
-    return farthest <= BVH_MAX_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
+    const cgt_ray ray = {
+        .line = {.org = {p->org[0][i], p->org[1][i], p->org[2][i]}, .dir = {p->dir[0][i], p->dir[1][i], p->dir[2][i]}},
+        .t_min = p->t_min[i],
+        .t_max = p->t_max[i]};
+    return bvh_ray_normalise(c, &ray, i, r);
 }
 
 /* A ray that takes part and that the bounds do not cover. */

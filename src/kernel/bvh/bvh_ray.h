@@ -41,13 +41,14 @@
 #define BVH_MAX_T 0x1p100f
 #define BVH_MIN_DIR 0x1p-60f
 
-/* The state of a call, common to its rays, which are those of arrays or of a packet. */
+/* The state of a call, common to its rays, which are those of arrays, or of a packet, or one. */
 typedef struct bvh_call {
     const cgt_committed_scene *committed_scene;
     const cgt_bvh *tree;
     const ray_source *source;
     uint64_t first; /* ray 0 of the array */
     const packet *p;
+    const cgt_ray *ray; /* the only one of the call; NULL: see above */
     cgt_counts *counts;
     float scale;
     float max_plane[3]; /* P */
@@ -96,6 +97,8 @@ CGT_SPU_INLINE bool bvh_ray_skips(const bvh_call *c, uint32_t i, uint32_t prim)
 CGT_SPU_INLINE cgt_ray bvh_input_ray(const bvh_call *c, uint32_t i)
 {
     cgt_ray ray;
+    if (c->ray)
+        return *c->ray;
     if (c->p) {
         for (int a = 0; a < 3; a++) {
             ray.line.org[a] = c->p->org[a][i];

@@ -30,6 +30,38 @@ CGT_SPU_INLINE void bvh_ray_set_slabs(const bvh_call *c, const float rdir[3], co
     }
 }
 
+/* Sets ray `number` of the call, whose numbers are finite. Returns false where the bounds do not cover it. */
+CGT_SPU_INLINE bool bvh_ray_normalise(const bvh_call *c, const cgt_ray *ray, uint32_t number, bvh_ray *r)
+{
+    float longest = 0, farthest = 0, org[3], slab_error[3], rdir[3];
+    uint32_t bits, inverse_bits;
+    float power, inverse; /* 2^k and 2^-k */
+    for (int a = 0; a < 3; a++)
+        longest = fabsf(ray->line.dir[a]) > longest ? fabsf(ray->line.dir[a]) : longest;
+    memcpy(&bits, &longest, sizeof bits);
+    bits &= 0x7f800000; /* of a normal number: others are extreme */
+    inverse_bits = 0x7f000000 - bits;
+    memcpy(&power, &bits, sizeof power);
+    memcpy(&inverse, &inverse_bits, sizeof inverse);
+    const float speed = power * c->scale;
+    for (int a = 0; a < 3; a++) {
+        r->org[a] = ray->line.org[a] * c->scale;
+        r->dir[a] = ray->line.dir[a] * inverse;
+        org[a] = fabsf(r->org[a]);
+        farthest = org[a] > farthest ? org[a] : farthest;
+        rdir[a] = 1 / (fabsf(r->dir[a]) < BVH_MIN_DIR ? copysignf(BVH_MIN_DIR, r->dir[a]) : r->dir[a]);
+    }
+    r->near = (ray->t_min - fabsf(ray->t_min) * 0x1p-20f) * speed - 0x1p-86f;
+    r->far = (ray->t_max + fabsf(ray->t_max) * 0x1p-20f) * speed + 0x1p-86f;
+    r->near = r->near > -BVH_MAX_T ? r->near : -BVH_MAX_T;
+    r->far = r->far < BVH_MAX_T ? r->far : BVH_MAX_T;
+    r->number = number;
+    r->best = (best_hit){r->far - fabsf(r->far) * 0x1p-18f - 0x1p-84f, r->far, CGT_INVALID_ID, 0};
+    bvh_slab_error(c, org, slab_error);
+    bvh_ray_set_slabs(c, rdir, slab_error, r);
+    return farthest <= BVH_MAX_ORG && speed <= 0x1p60f && speed >= 0x1p-100f;
+}
+
 /* ---- a leaf ---- */
 
 typedef struct bvh_leaf_ray {

@@ -53,8 +53,9 @@ CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint3
     const bool is_point = c->light.kind == CGT_LIGHT_POINT;
     vmask valid = spux_mask_all();
     p->lanes = p->rays = count;
-    p->common_origin = p->from_origin = p->extreme = p->skips_prims = p->has_masks = false;
+    p->common_origin = p->from_origin = p->extreme = false;
     p->to_light = is_point;
+    ray_packet_select(c->committed_scene, &c->source, order, first, count, p);
     for (uint32_t i = 0; i < count; i += CGT_LANES) {
         vfloat zero = spux_vfloat(0), largest = zero, max_component = zero, dd = zero;
         for (int a = 0; a < 3; a++) {
@@ -87,12 +88,8 @@ CGT_SPU_INLINE bool light_load_packet(const light_call *c, uint32_t first, uint3
     return spux_all(valid);
 }
 
-/* Whether the points are dense arrays without masks and skipped primitives. */
-CGT_SPU_INLINE bool light_points_are_dense(const light_call *c)
-{
-    const cgt_rays *points = c->source.rays;
-    return c->source.stride == sizeof(float) && !points->mask && !points->skip_primitive;
-}
+/* Whether the points are dense arrays. */
+CGT_SPU_INLINE bool light_points_are_dense(const light_call *c) { return c->source.stride == sizeof(float); }
 
 /* Reads points first to first + count - 1 of the order, at most a packet. Returns false if one of several is extreme:
  * then they must be read one by one. */

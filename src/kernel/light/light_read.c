@@ -109,7 +109,8 @@ CGT_SPU_INLINE bool light_tile_read_rays(const light_call *c, light_tile *t, lig
     if (!spux_all(valid))
         return false;
     p->lanes = p->rays = count;
-    p->common_origin = p->from_origin = p->extreme = p->skips_prims = p->has_masks = false;
+    p->common_origin = p->from_origin = p->extreme = false;
+    ray_packet_select(committed_scene, &c->source, &c->order, first, count, p);
     l->default_ranges = true;
     /* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): count is whole vectors, at least one */
     l->undecided = UINT64_MAX >> (64 - count / CGT_LANES);

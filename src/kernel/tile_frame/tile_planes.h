@@ -13,11 +13,19 @@
 void CGT_KERNEL(cgt_tile_init)(tile *t, const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                const cgt_region *r);
 
+/* Lines of the planes that two tiles side by side share: the left one leaves its words here, the right one sends the whole
+ * line. `words` are those of each row's last line, from its begin on. */
+typedef struct tile_seam {
+    _Alignas(4 * TILE_CACHE_LINE) uint32_t words[CGT_PLANES][TILE_EDGE][TILE_CACHE_LINE];
+    bool left, right; /* whether the tile has such a neighbour; the one to the left comes first */
+} tile_seam;
+
 /* Writes the fields of a tile's closest hits to the region. */
 void CGT_KERNEL(cgt_tile_resolve)(const cgt_committed_scene *committed_scene, const tile *t,
-                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts);
+                                  const cgt_trace_settings *settings, const cgt_region *region, tile_seam *seam,
+                                  cgt_counts *counts);
 
-/* The same for scenes of several arrays, a strip of rows at a time (tile_resolve_strips.c). */
+/* The same for scenes of several arrays, a strip of rows at a time, without a seam (tile_resolve_strips.c). */
 void CGT_KERNEL(cgt_tile_resolve_strips)(const cgt_committed_scene *committed_scene, const tile *t,
                                          const cgt_trace_settings *settings, const cgt_region *region,
                                          cgt_counts *counts);
@@ -108,17 +116,6 @@ CGT_SPU_INLINE void tile_stream_lines(const cgt_region *r, const tile_cache_line
         spux_stream_line(r->plane[k] + offset, lines->plane[k]);
         spux_stream_line(r->plane[k] + offset + r->row_stride, lines->plane[k] + TILE_CACHE_LINE);
     }
-}
-
-/* Sends a row past the caches: whole vectors between its ends, wherever it begins. */
-CGT_SPU_INLINE void tile_stream_row(uint32_t *to, const uint32_t *from, uint32_t count)
-{
-    const uint32_t unaligned = (uint32_t)(-(uintptr_t)to % CGT_VECTOR_BYTES / sizeof *to);
-    uint32_t x = unaligned < count ? unaligned : count;
-    memcpy(to, from, x * sizeof *to);
-    for (; x + CGT_LANES <= count; x += CGT_LANES)
-        spux_stream_uint(to + x, spux_load_unaligned_uint(from + x));
-    memcpy(to + x, from + x, (count - x) * sizeof *to);
 }
 
 #endif

@@ -4,6 +4,7 @@
  * The fields of a tile's hits. Primitives of one array go from a vector of pixels straight to the caller's planes; all
  * else by strips (tile_resolve_strips.c). */
 #include "kernel/tile_frame/tile_resolve_vector.h"
+#include "kernel/tile_frame/tile_rows.h"
 
 /* Resolves the remaining lanes: spheres by the long formula, a vector at a time, then all ray by ray. */
 CGT_SPU_INLINE void tile_resolve_remaining(const cgt_committed_scene *committed_scene, const tile *t,
@@ -73,11 +74,15 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
 {
     const bool by_lines = mode.nontemporal && CGT_LANES < TILE_CACHE_LINE;
     const cgt_region r = *region; /* a copy: nothing that is stored changes it */
+    const bool by_rows = !mode.nontemporal && tile_needs_rows(&r);
     tile_cache_lines lines;
-    const cgt_region q = by_lines ? tile_cache_lines_region(&r, &lines) : r;
-    for (uint32_t y = 0; y < r.height; y += 2)
+    tile_rows rows;
+    const cgt_region q = by_lines ? tile_cache_lines_region(&r, &lines) : by_rows ? tile_rows_region(&r, &rows) : r;
+    for (uint32_t y = 0; y < r.height; y += 2) {
+        if (by_rows)
+            tile_begin_rows(&r, cache.seam, &rows, y);
         for (uint32_t x = 0; x < r.width; x += CGT_LANES) {
-            const size_t offset = by_lines ? x % TILE_CACHE_LINE : (size_t)y * r.row_stride + x;
+            const size_t offset = by_lines ? x % TILE_CACHE_LINE : by_rows ? x : (size_t)y * r.row_stride + x;
             const tile_store_target to = {&q, mode.nontemporal && !by_lines, x, offset};
             const tile_store_target next_row = {&q, mode.nontemporal && !by_lines, x, offset + q.row_stride};
             vuint prim[2];
@@ -88,6 +93,9 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
             if (by_lines && (x + CGT_LANES) % TILE_CACHE_LINE == 0)
                 tile_stream_lines(&r, &lines, x + CGT_LANES - TILE_CACHE_LINE, y);
         }
+        if (by_rows)
+            tile_stream_rows(&r, cache.seam, &rows, y);
+    }
 }
 
 /* ---- loops for constant modes ---- */
@@ -109,6 +117,8 @@ CGT_SPU_INLINE void tile_resolve_streamed(const cgt_committed_scene *committed_s
     }
     mode.nontemporal = false;
     tile_resolve_region(committed_scene, t, r, mode, cache, counts);
+    if (tile_needs_rows(r))
+        spux_stream_end();
 }
 
 __attribute__((noinline)) static void tile_resolve_sphere_array(const cgt_committed_scene *committed_scene,
@@ -159,7 +169,8 @@ __attribute__((noinline)) static void tile_resolve_parallel_array(const cgt_comm
 }
 
 static void tile_resolve_array(const cgt_committed_scene *committed_scene, const tile *t,
-                               const cgt_trace_settings *settings, const cgt_region *r, cgt_counts *counts)
+                               const cgt_trace_settings *settings, const cgt_region *r, tile_seam *seam,
+                               cgt_counts *counts)
 {
     const bool uv = r->plane[CGT_PLANE_U] && committed_scene->prims.triangles;
     const tile_resolve_mode mode = {.triangles = committed_scene->prims.triangles != 0,
@@ -170,7 +181,7 @@ static void tile_resolve_array(const cgt_committed_scene *committed_scene, const
                                               (uv ? CGT_FIELD_UV : 0u)};
     tile_pixel_runs pixel_runs;
     tile_ray_table ray_table;
-    const tile_resolve_cache cache = {.pixel_runs = &pixel_runs, .ray_table = &ray_table};
+    const tile_resolve_cache cache = {.pixel_runs = &pixel_runs, .ray_table = &ray_table, .seam = seam};
     if (tile_compute_pixel_runs(t, r, &pixel_runs, counts) && mode.fields) /* else no vector needs the table */
         tile_init_ray_table(t, &ray_table);
     if (t->parallel)
@@ -184,32 +195,35 @@ static void tile_resolve_array(const cgt_committed_scene *committed_scene, const
 /* ---- the tile ---- */
 
 /* A region that no primitive has reached. */
-static void tile_resolve_empty(const cgt_region *r)
+static void tile_resolve_empty(const cgt_region *r, tile_seam *seam)
 {
     const tile_hits none = tile_no_hits();
-    if (!tile_can_stream(r)) {
+    if (!tile_needs_rows(r)) {
         for (uint32_t y = 0; y < r->height; y++)
             for (uint32_t x = 0; x < r->width; x += CGT_LANES)
                 tile_store_hits((tile_store_target){r, false, x, (size_t)y * r->row_stride + x}, CGT_INVALID_ID, &none);
         return;
     }
-    tile_cache_lines lines;
-    const cgt_region q = tile_cache_lines_region(r, &lines);
-    for (uint32_t k = 0; k < 2 * TILE_CACHE_LINE; k += CGT_LANES)
-        tile_store_hits((tile_store_target){&q, false, 0, k}, CGT_INVALID_ID, &none);
-    for (uint32_t y = 0; y < r->height; y += 2)
-        for (uint32_t x = 0; x < r->width; x += TILE_CACHE_LINE)
-            tile_stream_lines(r, &lines, x, y);
+    tile_rows rows;
+    const cgt_region q = tile_rows_region(r, &rows);
+    for (uint32_t k = 0; k < 2 * TILE_EDGE; k += CGT_LANES)
+        tile_store_hits((tile_store_target){&q, false, 0, k < TILE_EDGE ? k : k - TILE_EDGE + TILE_ROW_WORDS},
+                        CGT_INVALID_ID, &none);
+    for (uint32_t y = 0; y < r->height; y += 2) {
+        tile_begin_rows(r, seam, &rows, y);
+        tile_stream_rows(r, seam, &rows, y);
+    }
     spux_stream_end();
 }
 
 void CGT_KERNEL(cgt_tile_resolve)(const cgt_committed_scene *committed_scene, const tile *t,
-                                  const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
+                                  const cgt_trace_settings *settings, const cgt_region *region, tile_seam *seam,
+                                  cgt_counts *counts)
 {
     if (!t->initialised)
-        tile_resolve_empty(region);
+        tile_resolve_empty(region, seam);
     else if (committed_scene->prims.arrays == 1)
-        tile_resolve_array(committed_scene, t, settings, region, counts);
+        tile_resolve_array(committed_scene, t, settings, region, seam, counts);
     else
         CGT_KERNEL(cgt_tile_resolve_strips)(committed_scene, t, settings, region, counts);
 }

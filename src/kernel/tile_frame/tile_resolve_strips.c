@@ -4,7 +4,7 @@
  * The hits of a tile in a scene of several arrays: some whole rows at a time become a packet of rays, which lie in it
  * as their pixels do in the planes, and cgt_packet_resolve computes their fields. */
 #include "kernel/packet/camera_packet.h"
-#include "kernel/tile_frame/tile_planes.h"
+#include "kernel/tile_frame/tile_rows.h"
 
 #define TILE_STRIP_ROWS (PACKET_MAX_RAYS / TILE_EDGE) /* even */
 
@@ -35,8 +35,8 @@ CGT_SPU_INLINE void tile_store_strip(const packet_hits *h, const cgt_region *r, 
     for (int k = 0; k < CGT_PLANES; k++)
         for (uint32_t row = 0; r->plane[k] && row < rows; row++) {
             uint32_t *to = r->plane[k] + (y + row) * r->row_stride;
-            if (r->nontemporal)
-                tile_stream_row(to, h->plane[k] + row * TILE_EDGE, r->width);
+            if (tile_needs_rows(r))
+                tile_stream_row(to, h->plane[k] + row * TILE_EDGE, r->width, false, NULL);
             else
                 memcpy(to, h->plane[k] + row * TILE_EDGE, r->width * sizeof *to);
         }

@@ -157,6 +157,7 @@ typedef struct tile_resolve_mode {
 typedef struct tile_resolve_cache {
     const tile_pixel_runs *pixel_runs;
     const tile_ray_table *ray_table;
+    tile_seam *seam; /* NULL: none */
     tile_prepared_sphere *sphere;
     const tile_prepared_triangles *prepared;
 } tile_resolve_cache;

@@ -290,8 +290,10 @@ static void tile_march_grid(tile_work *w)
 
 /* ---- the tile ---- */
 
-static void tile_trace_region(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
-                              const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
+__attribute__((noinline)) static void tile_trace_region(const cgt_committed_scene *committed_scene,
+                                                        const cgt_camera_rays *camera,
+                                                        const cgt_trace_settings *settings, const cgt_region *region,
+                                                        tile_seam *seam, cgt_counts *counts)
 {
     tile t;
     tile_work w; /* large: set field by field */
@@ -306,15 +308,32 @@ static void tile_trace_region(const cgt_committed_scene *committed_scene, const 
     tile_march_grid(&w);
     counts->tiles++;
     counts->rays += (uint64_t)region->width * region->height;
-    CGT_KERNEL(cgt_tile_resolve)(committed_scene, &t, settings, region, counts);
+    CGT_KERNEL(cgt_tile_resolve)(committed_scene, &t, settings, region, seam, counts);
+}
+
+/* A row of tiles side by side, which share lines of the planes. Not inlined: one tile alone needs no seam. */
+__attribute__((noinline)) static void tile_trace_row(const cgt_committed_scene *committed_scene,
+                                                     const cgt_camera_rays *camera, const cgt_trace_settings *settings,
+                                                     const cgt_region *row, cgt_counts *counts)
+{
+    tile_seam seam; /* large: set field by field */
+    for (uint32_t x = 0; x < row->width; x += TILE_EDGE) {
+        const cgt_region part = cgt_region_part(row, x, 0, TILE_EDGE, TILE_EDGE);
+        seam.left = x > 0;
+        seam.right = x + TILE_EDGE < row->width;
+        tile_trace_region(committed_scene, camera, settings, &part, committed_scene->prims.arrays == 1 ? &seam : NULL,
+                          counts);
+    }
 }
 
 void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
                                 const cgt_trace_settings *settings, const cgt_region *region, cgt_counts *counts)
 {
-    for (uint32_t y = 0; y < region->height; y += TILE_EDGE)
-        for (uint32_t x = 0; x < region->width; x += TILE_EDGE) {
-            const cgt_region part = cgt_region_part(region, x, y, TILE_EDGE, TILE_EDGE);
-            tile_trace_region(committed_scene, camera, settings, &part, counts);
-        }
+    for (uint32_t y = 0; y < region->height; y += TILE_EDGE) {
+        const cgt_region row = cgt_region_part(region, 0, y, region->width, TILE_EDGE);
+        if (row.width <= TILE_EDGE)
+            tile_trace_region(committed_scene, camera, settings, &row, NULL, counts);
+        else
+            tile_trace_row(committed_scene, camera, settings, &row, counts);
+    }
 }

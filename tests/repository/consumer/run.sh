@@ -6,8 +6,11 @@
 # Installs the library, moves it to another place, and there
 #   compiles each installed header alone, as C and, but for the C-only vocabulary, as C++
 #   compiles and runs a program written for an SPU with the vocabulary alone, in each of its forms
-#   builds and runs a project that uses find_package(cgt), with static and shared library
-#   builds and runs the same program through pkg-config, static and shared
+#   looks for licence and texts
+#   builds and runs a project that uses find_package(cgt), with and without components, as C and as C++
+#   builds and runs the same programs through pkg-config, static and shared, though both are installed
+#   configures the library alone
+#   builds and runs them with add_subdirectory, where a project without a build type still gets an optimised library
 set -eu
 source=$1 build=$2 cmake=$3 cc=$4 toolchain=${5#toolchain=}
 shift 5
@@ -58,13 +61,60 @@ for flags in "" -DCGT_SPU_PORTABLE -DCGT_SPU_EXACT "-DCGT_SPU_EXACT -DCGT_SPU_PO
     "$@" "$work/spu_source"
 done
 
+# configure FOLDER ARGUMENTS...: configures the project in $work/FOLDER; prints what CMake said where it failed
+configure() {
+    folder=$1
+    shift
+    "$cmake" -S "$source/tests/repository/consumer" -B "$work/$folder" -DCMAKE_C_COMPILER="$cc" \
+        ${toolchain:+-DCMAKE_TOOLCHAIN_FILE="$toolchain"} "$@" >"$work/log" 2>&1
+}
+build() {
+    "$cmake" --build "$work/$1" -j2 >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+}
+# expect_picture COMMAND...: the example draws the same picture in every build
+expect_picture() {
+    "$@" >"$work/picture" 2>"$work/steps"
+    [ "$(wc -l <"$work/steps")" -eq 10 ]
+    [ "$(wc -c <"$work/picture")" -eq 307215 ]
+    [ -e "$work/first_picture" ] || cp "$work/picture" "$work/first_picture"
+    cmp "$work/picture" "$work/first_picture"
+}
+
+echo "== licence and texts"
+doc=$prefix/share/doc/cgt
+[ -s "$doc/LICENSE" ]
+[ -s "$doc/NEWS" ]
+"$cmake" --install "$build" --component documentation --prefix "$prefix" >"$work/install.log"
+[ -s "$doc/README.md" ]
+[ -s "$doc/docs/guide/api.md" ]
+cmp "$doc/examples/simulate.c" "$source/examples/simulate.c"
+
 echo "== find_package"
-"$cmake" -S "$source/tests/repository/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$cc" \
-    ${toolchain:+-DCMAKE_TOOLCHAIN_FILE="$toolchain"} >"$work/log" 2>&1 &&
-    "$cmake" --build "$work/build" >>"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-for library in cgt static shared; do
-    "$@" "$work/build/consumer_$library"
+# by itself cgt::cgt is the archive; each component makes it the library of that name
+for components in "" static shared; do
+    configure "package$components" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="$components" ||
+        { cat "$work/log"; exit 1; }
+    build "package$components"
+    shared=$(grep -c 'libcgt\.so' "$work/package$components/CMakeFiles/simulate.dir/link.txt" || true)
+    case $components in
+    shared) [ "$shared" -eq 1 ] ;;
+    *)      [ "$shared" -eq 0 ] ;;
+    esac
+    for library in cgt static shared; do
+        "$@" "$work/package$components/consumer_$library"
+    done
 done
+for program in simulate simulate_cxx; do
+    [ "$program" = simulate ] || [ -e "$work/package/$program" ] || continue # no C++ compiler
+    expect_picture "$@" "$work/package/$program"
+    expect_picture "$@" "$work/packageshared/$program"
+done
+if configure refused -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS="shared;fast"; then
+    echo "a component that does not exist was found"
+    exit 1
+fi
+tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF 'cgt has no component "fast": there are "shared" and "static"' ||
+    { cat "$work/log"; exit 1; }
 
 echo "== pkg-config"
 if ! command -v pkg-config >/dev/null; then
@@ -73,15 +123,57 @@ if ! command -v pkg-config >/dev/null; then
 fi
 pc=$(find "$prefix" -name cgt.pc)
 export PKG_CONFIG_LIBDIR="${pc%/*}"
-[ "$(pkg-config --modversion cgt)" = "$(sed -nE 's/.*VERSION_STRING "(.*)"/\1/p' "$prefix/include/cgt/version.h")" ]
+version=$(sed -nE 's/.*VERSION_STRING "(.*)"/\1/p' "$prefix/include/cgt/version.h")
+for name in cgt cgt-static; do
+    [ "$(pkg-config --modversion "$name")" = "$version" ]
+done
 libdir=$(pkg-config --variable=libdir cgt)
+# compile NAME FLAGS...: the consumer and the example
+compile() {
+    name=$1
+    shift
+    "$cc" -std=c11 "$source/tests/repository/consumer/consumer.c" -o "$work/$name" "$@"
+    "$cc" -std=c11 -ffp-contract=off "$source/examples/simulate.c" -o "$work/simulate_$name" "$@" -lm
+}
 # shellcheck disable=SC2046 # flags are several words
-"$cc" -std=c11 "$source/tests/repository/consumer/consumer.c" -o "$work/shared" $(pkg-config --cflags --libs cgt) \
-    -Wl,-rpath,"$libdir"
-"$@" "$work/shared"
+compile shared $(pkg-config --cflags --libs cgt) -Wl,-rpath,"$libdir"
+# the archive, though the shared library lies beside it: without a path to that the program would not start
+# shellcheck disable=SC2046
+compile static $(pkg-config --cflags --libs cgt-static)
 mkdir "$work/archive"
 cp "$libdir/libcgt.a" "$work/archive" # alone, so that the linker cannot take the shared one
 # shellcheck disable=SC2046
-"$cc" -std=c11 "$source/tests/repository/consumer/consumer.c" -o "$work/static" -L"$work/archive" \
-    $(pkg-config --cflags --libs --static cgt | sed "s|-L[^ ]*||")
-"$@" "$work/static"
+compile private -L"$work/archive" $(pkg-config --cflags --libs --static cgt | sed "s|-L[^ ]*||")
+for name in shared static private; do
+    "$@" "$work/$name"
+    expect_picture "$@" "$work/simulate_$name"
+done
+
+echo "== the library alone"
+"$cmake" -S "$source" -B "$work/alone" -DCGT_ONLY_LIBRARY=ON -DCGT_ONLY_VARIANTS=portable -DCMAKE_C_COMPILER="$cc" \
+    ${toolchain:+-DCMAKE_TOOLCHAIN_FILE="$toolchain"} >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+grep -q '"file".*/src/core/memory.c"' "$work/alone/compile_commands.json"
+if grep '"file"' "$work/alone/compile_commands.json" | grep -vE '/(src|backends)/[a-z_/]*\.c"'; then
+    echo "the files above are compiled with CGT_ONLY_LIBRARY"
+    exit 1
+fi
+
+echo "== add_subdirectory"
+# flags_of FOLDER: those that a file of the library gets
+flags_of() { grep -F 'src/core/memory.c' "$work/$1/compile_commands.json" | grep '"command"'; }
+configure below -DCONSUMER_SOURCE="$source" -DCGT_ONLY_VARIANTS=portable || { cat "$work/log"; exit 1; }
+flags_of below | grep -q -e ' -O3 '
+flags_of below | grep -q -e '-DNDEBUG'
+# a choice of the user's stands; it also makes the test shorter
+configure below -DCMAKE_C_FLAGS=-O1 || { cat "$work/log"; exit 1; }
+if flags_of below | grep -q -e ' -O3 '; then
+    echo "-O1 in CFLAGS was overridden"
+    exit 1
+fi
+build below
+"$@" "$work/below/consumer_cgt"
+"$@" "$work/below/consumer_shared"
+for program in simulate simulate_cxx; do
+    [ "$program" = simulate ] || [ -e "$work/below/$program" ] || continue
+    expect_picture "$@" "$work/below/$program"
+done

@@ -1,0 +1,262 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Shadows of a frame, light by light: cut into tiles, each a task. The hits of a tile are packed and go to the light
+ * together, as those of cgt_occluded_points do. */
+#include <math.h>
+#include <string.h>
+
+#include "builders/bvh/bvh_on_demand.h"
+#include "core/float_environment.h"
+#include "query/camera.h"
+#include "trace/bands/band_trace.h"
+#include "trace/trace_light.h"
+
+#define TILE_EDGE 64u
+#define SAMPLED_TILES 8u /* that are looked at before tiles of the grid or a tree are chosen */
+
+_Static_assert(TILE_EDGE *TILE_EDGE <= CGT_RAYS_CHUNK, "a tile is a batch");
+
+typedef struct shadow_job {
+    const cgt_scene *scene;
+    const cgt_frame *frame;
+    const cgt_light *light;
+    cgt_shadow_options shadows;
+    uint8_t *occluded; /* the light's plane */
+    cgt_camera_rays camera;
+    bool has_masks; /* the camera's mask leaves something out */
+    cgt_trace_settings settings;
+    size_t row_stride;
+    uint32_t tiles_across, tiles;
+    cgt_trace_counter *counter;
+    const cgt_band_call *bands; /* NULL: the scene has none */
+    _Atomic uint64_t given_up;  /* points of tiles that the loose grid gave up */
+} shadow_job;
+
+/* A tile's hits. */
+typedef struct tile_batch {
+    cgt_point_batch points;
+    uint32_t live, invalid;
+    uint16_t pixel[TILE_EDGE * TILE_EDGE]; /* of each live point: y * TILE_EDGE + x */
+} tile_batch;
+
+/* ---- the points of a tile ---- */
+
+/* Appends a pixel's hit. What is written counts only where the point is live: the next one overwrites it. */
+static void append_pixel(const shadow_job *job, uint32_t x, uint32_t y, uint32_t pixel, tile_batch *b)
+{
+    const cgt_frame *f = job->frame;
+    const size_t element = (size_t)y * job->row_stride + x;
+    const uint32_t k = b->live;
+    const float t_max = job->light->kind == CGT_LIGHT_POINT ? 1 : INFINITY;
+    float org[3], dir[3], position[3];
+    cgt_camera_pixel(&job->camera, x, y, org, dir);
+    for (int a = 0; a < 3; a++)
+        b->points.position[a][k] = position[a] = org[a] + f->t[element] * dir[a];
+    b->points.t_min[k] = job->shadows.t_min;
+    b->points.mask[k] = job->camera.mask;
+    if (f->primitive && f->geometry) {
+        b->points.primitive[k] = f->primitive[element];
+        b->points.geometry[k] = f->geometry[element];
+    }
+    b->pixel[k] = (uint16_t)pixel;
+    const cgt_point_state state = cgt_find_point_state(position, job->shadows.t_min, t_max, job->light);
+    b->live += state == CGT_POINT_LIVE;
+    b->invalid += state == CGT_POINT_INVALID;
+}
+
+static void fill_batch(const shadow_job *job, uint32_t index, tile_batch *b)
+{
+    const cgt_frame *f = job->frame;
+    const bool skips = f->primitive && f->geometry;
+    const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
+    b->live = b->invalid = 0;
+    for (uint32_t y = 0; y < TILE_EDGE && y0 + y < f->height; y++)
+        for (uint32_t x = 0; x < TILE_EDGE && x0 + x < f->width; x++)
+            if (!isinf(f->t[(size_t)(y0 + y) * job->row_stride + x0 + x]))
+                append_pixel(job, x0 + x, y0 + y, y * TILE_EDGE + x, b);
+    cgt_point_batch *p = &b->points;
+    p->rays = (cgt_rays){.count = b->live,
+                         .org = {p->position[0], p->position[1], p->position[2]},
+                         .t_min = job->shadows.t_min != 0 ? p->t_min : NULL,
+                         .mask = job->has_masks ? p->mask : NULL,
+                         .skip_primitive = skips ? p->primitive : NULL,
+                         .skip_geometry = skips ? p->geometry : NULL};
+}
+
+/* ---- a light ---- */
+
+static uint8_t *tile_results(const shadow_job *job, uint32_t index)
+{
+    const size_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
+    return job->occluded + y0 * job->row_stride + x0;
+}
+
+static void store_batch(const shadow_job *job, uint32_t index, const tile_batch *b)
+{
+    const cgt_frame *f = job->frame;
+    const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
+    const uint32_t width = f->width - x0 < TILE_EDGE ? f->width - x0 : TILE_EDGE;
+    uint8_t *to = tile_results(job, index);
+    for (uint32_t y = 0; y < TILE_EDGE && y0 + y < f->height; y++)
+        memset(to + y * job->row_stride, 0, width);
+    for (uint32_t k = 0; k < b->live; k++)
+        to[b->pixel[k] / TILE_EDGE * job->row_stride + b->pixel[k] % TILE_EDGE] = b->points.occluded[k];
+}
+
+/* Returns whether the loose grid's tiles did not give the points up. */
+static bool trace_batch(const shadow_job *job, uint32_t index, tile_batch *b, cgt_counts *counts)
+{
+    const cgt_scene *s = job->scene;
+    if (job->bands)
+        return cgt_bands_trace(job->bands, index % job->bands->slots, &b->points.rays, job->light, 0, b->live, NULL,
+                               b->points.occluded, counts);
+    return s->context->kernel->trace_light(&s->committed_scene, &b->points.rays, job->light, 0, b->live, &job->settings,
+                                           b->points.occluded, counts);
+}
+
+static void trace_shadow_tile(void *argument, uint32_t index)
+{
+    shadow_job *job = argument;
+    cgt_counts counts = {0};
+    tile_batch b;
+    fill_batch(job, index, &b);
+    if (b.live && !trace_batch(job, index, &b, &counts)) {
+        *tile_results(job, index) = CGT_LIGHT_GIVEN_UP;
+        atomic_fetch_add_explicit(&job->given_up, b.live, memory_order_relaxed);
+    } else {
+        counts.rays += b.invalid;
+        counts.invalid_rays += b.invalid;
+        store_batch(job, index, &b);
+    }
+    cgt_trace_counter_add(job->counter, &counts);
+}
+
+static void trace_given_up_tile(void *argument, uint32_t index)
+{
+    if (*tile_results(argument, index) == CGT_LIGHT_GIVEN_UP)
+        trace_shadow_tile(argument, index);
+}
+
+/* Whether most tiles with hits are coherent. points: gets about how many points the frame has. */
+static bool choose_tiles(const shadow_job *job, uint64_t *points)
+{
+    const uint32_t sampled = job->tiles < SAMPLED_TILES ? job->tiles : SAMPLED_TILES;
+    uint32_t coherent = 0, with_hits = 0;
+    uint64_t live = 0;
+    tile_batch b;
+    cgt_float_environment callers;
+    const bool allowed = cgt_light_allows_tiles(&job->scene->committed_scene);
+    cgt_float_environment_enter(&callers);
+    for (uint32_t k = 0; k < sampled; k++) {
+        fill_batch(job, (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled)), &b);
+        live += b.live;
+        with_hits += b.live > 0;
+        coherent += allowed && b.live && cgt_light_batch_is_coherent(job->scene, job->light, &b.points);
+    }
+    cgt_float_environment_leave(&callers);
+    *points = live * job->tiles / sampled;
+    return 2 * coherent > with_hits;
+}
+
+static cgt_result trace_light_in_bands(shadow_job *job)
+{
+    const cgt_light_tasks tasks = {.scene = job->scene,
+                                   .light = job->light,
+                                   .trace = trace_shadow_tile,
+                                   .trace_given_up = trace_given_up_tile,
+                                   .argument = job,
+                                   .tasks = job->tiles,
+                                   .given_up = &job->given_up,
+                                   .bands = &job->bands};
+    const uint64_t points = (uint64_t)job->tiles * (TILE_EDGE * TILE_EDGE);
+    atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
+    return cgt_light_run_bands(&tasks, &job->settings, points, TILE_EDGE * TILE_EDGE);
+}
+
+/* Traces all tiles to the light; those that the loose grid gave up once more, through the BVH, or with any work where
+ * there is none yet. */
+static cgt_result trace_light(shadow_job *job)
+{
+    const cgt_scene *s = job->scene;
+    cgt_trace_settings *settings = &job->settings;
+    uint64_t points;
+    const bool tiles = choose_tiles(job, &points);
+    cgt_result result = cgt_bvh_build_on_demand(s, tiles ? 0 : points, &settings->use_bvh);
+    if (result != CGT_OK)
+        return result;
+    settings->light_tiles = tiles;
+    settings->max_light_work = tiles && s->options.structure == CGT_STRUCTURE_AUTO ? CGT_MAX_LIGHT_WORK : 0;
+    atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
+    cgt_run_tasks(s->context, trace_shadow_tile, job, job->tiles);
+    const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
+    if (!given_up)
+        return CGT_OK;
+    result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
+    if (result != CGT_OK)
+        return result;
+    settings->light_tiles = !settings->use_bvh;
+    settings->max_light_work = 0;
+    cgt_run_tasks(s->context, trace_given_up_tile, job, job->tiles);
+    return CGT_OK;
+}
+
+/* ---- the call ---- */
+
+void cgt_shadow_options_init(cgt_shadow_options *shadows) { *shadows = (cgt_shadow_options){0}; }
+
+static cgt_result check_shadows(cgt_context *c, const shadow_job *job, const cgt_light *lights, uint32_t count)
+{
+    const cgt_frame *f = job->frame;
+    if (!f->t)
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "shadows: the frame needs its plane t");
+    if (!(job->shadows.t_min >= 0))
+        return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "shadows: t_min %g: 0 or more", (double)job->shadows.t_min);
+    if (count && job->row_stride > SIZE_MAX / f->height / count)
+        return cgt_fail(c, CGT_ERROR_TOO_LARGE, "shadows: the planes of %u lights leave the address space", count);
+    cgt_result result = CGT_OK;
+    for (uint32_t k = 0; k < count && result == CGT_OK; k++)
+        result = cgt_check_light(c, &lights[k]);
+    return result;
+}
+
+/* Checks all arguments and makes the camera's rays. */
+static cgt_result prepare_job(shadow_job *job, const cgt_camera *camera, const cgt_light *lights, uint32_t count,
+                              const cgt_trace_options *options)
+{
+    const cgt_frame *f = job->frame;
+    cgt_context *c = job->scene->context;
+    cgt_result result = cgt_trace_prepare(job->scene, options, false, &job->settings, job->counter);
+    if (result == CGT_OK)
+        result = cgt_check_frame(c, f);
+    if (result != CGT_OK)
+        return result;
+    job->row_stride = f->row_stride ? f->row_stride : f->width;
+    job->tiles_across = (f->width + TILE_EDGE - 1) / TILE_EDGE;
+    job->tiles = job->tiles_across * ((f->height + TILE_EDGE - 1) / TILE_EDGE);
+    result = check_shadows(c, job, lights, count);
+    return result == CGT_OK ? cgt_prepare_camera(c, camera, f, &job->camera) : result;
+}
+
+cgt_result cgt_occluded_frame(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
+                              const cgt_light *lights, uint32_t count, const cgt_shadow_options *shadows,
+                              uint8_t *occluded, const cgt_trace_options *options)
+{
+    cgt_trace_counter counter;
+    if (!scene || !camera || !frame || (count && (!lights || !occluded)))
+        return CGT_ERROR_INVALID_ARGUMENT;
+    shadow_job job = {.scene = scene, .frame = frame, .counter = &counter};
+    job.shadows.t_min = shadows ? shadows->t_min : 0;
+    cgt_result result = prepare_job(&job, camera, lights, count, options);
+    if (result != CGT_OK)
+        return result;
+    job.has_masks = cgt_primitives_masked_out(&scene->committed_scene.prims, job.camera.mask);
+    for (uint32_t k = 0; k < count && result == CGT_OK; k++) {
+        job.light = &lights[k];
+        job.occluded = occluded + k * job.row_stride * frame->height;
+        result = scene->in_bands ? trace_light_in_bands(&job) : trace_light(&job);
+    }
+    if (result == CGT_OK)
+        cgt_trace_store_statistics(options, &job.settings, &counter);
+    return result;
+}
