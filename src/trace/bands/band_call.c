@@ -94,7 +94,7 @@ void cgt_band_add_counts(cgt_counts *to, const cgt_counts *counts)
 {
     uint64_t sum[CGT_COUNTS], value[CGT_COUNTS];
     cgt_counts added = *counts;
-    added.rays = added.invalid_rays = added.hits = 0;
+    added.rays = added.invalid_rays = added.hits = added.exact_values = 0; /* those of the call */
     memcpy(sum, to, sizeof sum);
     memcpy(value, &added, sizeof value);
     for (size_t i = 0; i < CGT_COUNTS; i++)
