@@ -187,11 +187,14 @@ static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, con
     const cgt_band *band = &c->call->scene->bands->band[b];
     const cgt_kernel *kernel = c->call->scene->context->kernel;
     const cgt_committed_scene *scene = &band->scene->committed_scene;
-    const cgt_rays points = list_rays(c, list);
+    cgt_rays points = list_rays(c, list);
     cgt_trace_settings settings = cgt_band_settings(c->call->settings);
     cgt_counts counts = {0};
     if (!points.count)
         return;
+    /* ranges are the caller's here, and none are faster */
+    points.t_min = c->rays->t_min ? points.t_min : NULL;
+    points.t_max = c->rays->t_max ? points.t_max : NULL;
     settings.use_bvh = c->call->use_bvh[b];
     settings.light_tiles =
         scene->valid && scene->loose.levels && !(settings.use_bvh && points.count < FEW_POINTS) &&
