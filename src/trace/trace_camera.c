@@ -308,3 +308,21 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     cgt_trace_store_statistics(options, &job.settings, &counter);
     return atomic_load(&job.stopped) ? cgt_fail(c, CGT_ERROR_STOPPED, "the visitor stopped the frame") : CGT_OK;
 }
+
+cgt_result cgt_camera_get_ray(const cgt_camera *camera, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                              float org[3], float dir[3])
+{
+    char message[CGT_CAMERA_MESSAGE_BYTES];
+    cgt_camera_rays rays;
+    cgt_float_environment callers;
+    if (!camera || !org || !dir || x >= width || y >= height)
+        return CGT_ERROR_INVALID_ARGUMENT;
+    if (width > 65536 || height > 65536)
+        return CGT_ERROR_TOO_LARGE;
+    cgt_float_environment_enter(&callers);
+    const cgt_result result = cgt_camera_prepare(camera, width, height, &rays, message);
+    if (result == CGT_OK)
+        cgt_camera_pixel(&rays, x, y, org, dir);
+    cgt_float_environment_leave(&callers);
+    return result;
+}

@@ -89,7 +89,7 @@ exact: exact/integer model
 exact/integer: model
 model: core
 core:
-kernel/entry: dispatch exact kernel/light kernel/packet kernel/primitive
+kernel/entry: dispatch exact kernel/bvh kernel/light kernel/packet kernel/primitive kernel/resolve
 kernel/tile_frame: kernel/packet kernel/primitive kernel/resolve kernel/tile kernel/tile_draw query
 kernel/tile_draw: exact exact/integer kernel/primitive kernel/resolve kernel/tile
 kernel/unusual: exact kernel/bvh kernel/primitive model

@@ -13,8 +13,8 @@ cgt_measure_levels_fn CGT_KERNEL(cgt_loose_grid_measure);
 cgt_measure_clusters_fn CGT_KERNEL(cgt_loose_grid_measure_clusters);
 cgt_trace_region_fn CGT_KERNEL(cgt_trace_region), CGT_KERNEL(cgt_trace_tile);
 cgt_trace_rays_fn CGT_KERNEL(cgt_trace_rays);
-cgt_trace_one_ray_fn CGT_KERNEL(cgt_bvh_trace_one_ray);
-cgt_occluded_one_ray_fn CGT_KERNEL(cgt_bvh_occluded_one_ray);
+cgt_trace_one_ray_fn CGT_KERNEL(cgt_trace_one_ray);
+cgt_occluded_one_ray_fn CGT_KERNEL(cgt_occluded_one_ray);
 cgt_trace_light_fn CGT_KERNEL(cgt_trace_light);
 cgt_light_prims_fn CGT_KERNEL(cgt_tile_light_prims);
 cgt_resolve_rays_fn CGT_KERNEL(cgt_resolve_rays);
@@ -38,8 +38,8 @@ const cgt_kernel CGT_KERNEL(cgt_kernel) = {
     .trace_region = CGT_KERNEL(cgt_trace_region),
     .trace_tile = CGT_KERNEL(cgt_trace_tile),
     .trace_rays = CGT_KERNEL(cgt_trace_rays),
-    .trace_one_ray = CGT_KERNEL(cgt_bvh_trace_one_ray),
-    .occluded_one_ray = CGT_KERNEL(cgt_bvh_occluded_one_ray),
+    .trace_one_ray = CGT_KERNEL(cgt_trace_one_ray),
+    .occluded_one_ray = CGT_KERNEL(cgt_occluded_one_ray),
     .trace_light = CGT_KERNEL(cgt_trace_light),
     .light_prims = CGT_KERNEL(cgt_tile_light_prims),
     .resolve_rays = CGT_KERNEL(cgt_resolve_rays),

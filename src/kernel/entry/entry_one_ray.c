@@ -221,8 +221,8 @@ static void one_ray_store(const cgt_committed_scene *committed_scene, const cgt_
     }
 }
 
-void CGT_KERNEL(cgt_bvh_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                       bool exact, cgt_single_hit *hit, cgt_counts *counts)
+void CGT_KERNEL(cgt_trace_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from, bool exact,
+                                   cgt_single_hit *hit, cgt_counts *counts)
 {
     const cgt_ray ray = one_ray_input(from);
     const uint32_t prim = one_ray_trace(committed_scene, from, &ray, false, counts);
@@ -232,8 +232,8 @@ void CGT_KERNEL(cgt_bvh_trace_one_ray)(const cgt_committed_scene *committed_scen
     one_ray_store(committed_scene, &ray, prim, exact, hit, counts);
 }
 
-bool CGT_KERNEL(cgt_bvh_occluded_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
-                                          cgt_counts *counts)
+bool CGT_KERNEL(cgt_occluded_one_ray)(const cgt_committed_scene *committed_scene, const cgt_single_ray *from,
+                                      cgt_counts *counts)
 {
     const cgt_ray ray = one_ray_input(from);
     const bool occluded = one_ray_trace(committed_scene, from, &ray, true, counts) != CGT_INVALID_ID;
