@@ -65,7 +65,7 @@ typedef enum cgt_spu_reason {
     CGT_SPU_STOPPED, /* stop or stopd; the program counter is behind it */
     CGT_SPU_HALTED,  /* heq, hgt or the like held; the program counter is behind it */
     CGT_SPU_STALLED, /* a channel stalls; the program counter is at the instruction */
-    CGT_SPU_CYCLES,  /* until_cycle is reached */
+    CGT_SPU_CYCLES,  /* until_cycle is reached: spu->cycle is that or more */
     CGT_SPU_ERROR    /* cgt_spu.message says what; the program counter is at the instruction */
 } cgt_spu_reason;
 
@@ -81,7 +81,7 @@ cgt_result cgt_spu_create(cgt_spu *spu, const cgt_memory_hooks *memory, cgt_spu_
 void cgt_spu_destroy(cgt_spu *spu);
 
 /* Runs from spu->pc until the program stops, halts, stalls or fails, or the next instruction would issue in cycle
- * until_cycle or later. Another call goes on from there.
+ * until_cycle or later. Another call goes on from there; what happens, and when, does not depend on how often.
  *   channels   NULL: rdch, wrch, rchcnt and bisled are errors
  * One thread at a time may run an SPU. */
 cgt_spu_end cgt_spu_run(cgt_spu *spu, const cgt_spu_channels *channels, uint64_t until_cycle);

@@ -66,16 +66,30 @@ cgt_result cgt_spu_timing_set_functions(cgt_spu_timing *timing, const cgt_memory
     return copy || !function ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
 }
 
+/* The last function that begins at or before an address and was not dropped; NULL where there is none. */
+static cgt_spu_function *find_before(cgt_spu_timing *timing, uint32_t address)
+{
+    uint32_t low = 0, high = timing->functions;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (timing->function[middle].address <= address)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    while (low > 0 && timing->function[low - 1].size == 0)
+        low--;
+    return low > 0 ? &timing->function[low - 1] : NULL;
+}
+
 void cgt_spu_timing_enter(cgt_spu_timing *timing, uint32_t address)
 {
-    for (uint32_t i = 0; i < timing->functions; i++) {
-        cgt_spu_function *const f = &timing->function[i];
-        if (address - f->address < f->size) {
-            timing->low = f->address;
-            timing->size = f->size;
-            timing->counts = &f->counts;
-            return;
-        }
+    cgt_spu_function *const f = find_before(timing, address);
+    if (f && address - f->address < f->size) {
+        timing->low = f->address;
+        timing->size = f->size;
+        timing->counts = &f->counts;
+        return;
     }
     timing->low = address;
     timing->size = timing->functions ? 4 : CGT_SPU_LOCAL_STORE - address;
