@@ -9,11 +9,10 @@
 #include <float.h>
 #include <math.h>
 
-/* Points against a light go through a loose grid by tiles where a point meets so many primitives at most, and where that
- * takes no more work for each point. As in trace_light.c. */
+/* Points against a light go through a loose grid by tiles while there is no BVH, where a point meets so many primitives
+ * at most, and where that takes no more work for each point. As in trace_light.c. */
 #define PRIMS_PER_POINT 16u
 #define MAX_LIGHT_WORK 128u
-#define FEW_POINTS 256u
 
 /* ---- the caller's rays ---- */
 
@@ -81,8 +80,14 @@ static void scale_skip(const cgt_band *band, uint32_t skip, uint32_t *primitive,
 {
     const cgt_primitives *prims = &band->scene->committed_scene.prims;
     const uint32_t *from = band->number.data;
-    uint32_t low = 0, high = band->count;
+    /* a primitive's place is at most its number, and near that where few are in other bands */
+    uint32_t low = 0, high = skip < band->count ? skip + 1 : band->count, step = 1;
     *primitive = *geometry = CGT_INVALID_ID;
+    while (high > step && from[high - step] > skip) {
+        high -= step;
+        step *= 2;
+    }
+    low = high > step ? high - step : 0;
     while (skip != CGT_INVALID_ID && low < high) {
         const uint32_t middle = low + (high - low) / 2;
         if (from[middle] < skip)
@@ -197,7 +202,7 @@ static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, con
     points.t_max = c->rays->t_max ? points.t_max : NULL;
     settings.use_bvh = c->call->use_bvh[b];
     settings.light_tiles =
-        scene->valid && scene->loose.levels && !(settings.use_bvh && points.count < FEW_POINTS) &&
+        scene->valid && scene->loose.levels && !settings.use_bvh &&
         kernel->light_prims(scene, &points, light, 0, points.count) <= PRIMS_PER_POINT * points.count;
     settings.max_light_work = settings.light_tiles ? MAX_LIGHT_WORK : 0;
     const bool may_wait = c->waits && scene->structure == CGT_STRUCTURE_LOOSE_GRID && !settings.use_bvh;
