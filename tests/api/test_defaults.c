@@ -199,8 +199,10 @@ static void frames(void **state)
     cgt_frame initialised;
     const cgt_frame expected = {.width = 3, .height = 5};
     memset(&initialised, 0, sizeof initialised); /* padding */
+    float t[15];
     cgt_frame_init(&initialised, 3, 5);
     assert_memory_equal(&initialised, &expected, sizeof expected);
+    initialised.t = t;
     assert_int_equal(cgt_trace_camera(scene, &(cgt_camera){0}, &initialised, NULL), CGT_OK);
 }
 

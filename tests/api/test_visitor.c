@@ -210,7 +210,7 @@ static void fields_without_a_visitor_are_ignored(void **state)
     assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
     check_planes(&p, CGT_FIELD_PRIMITIVE);
     frame.primitive = NULL; /* no field requested */
-    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_OK);
+    assert_int_equal(cgt_trace_camera(scene, &camera, &frame, NULL), CGT_ERROR_INVALID_ARGUMENT);
     planes_free(&p);
 }
 

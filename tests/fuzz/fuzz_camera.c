@@ -125,7 +125,8 @@ static void trace_visited(fuzz_model *m, const cgt_camera *camera, const planes 
     frame.visitor = visitor;
     frame.visitor_user = &v;
     frame.visitor_fields = 31;
-    const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, TRACE_OPTIONS(o));
+    cgt_result result;
+    FUZZ_TRACE(m, result, cgt_trace_camera(m->scene, camera, &frame, TRACE_OPTIONS(o)));
     FUZZ_CHECK(result == (v.stop ? CGT_ERROR_STOPPED : CGT_OK), "frame: %s", cgt_get_result_string(result));
     for (size_t i = 0; i < pixels && !v.stop; i++)
         FUZZ_CHECK(v.seen[i] == 1, "pixel %zu is visited %u times", i, v.seen[i]);
@@ -139,14 +140,13 @@ static void trace_as_array(fuzz_model *m, const fuzz_answers *a)
 {
     cgt_trace_options o;
     cgt_trace_options_init(&o);
-    cgt_result result = trace_array(m->scene, a->ray, a->count, a->robust, &o);
-    if (result == CGT_ERROR_OUT_OF_MEMORY) { /* for a BVH that rays build; the second attempt succeeds */
-        fuzz_check_error(m, result);
-        result = trace_array(m->scene, a->ray, a->count, a->robust, &o);
+    for (int exact = 0; exact < 2; exact++) {
+        full_hit *const hit = exact ? a->exact : a->robust;
+        o.precision = exact ? CGT_PRECISION_EXACT : CGT_PRECISION_ROBUST;
+        cgt_result result;
+        FUZZ_TRACE(m, result, trace_array(m->scene, a->ray, a->count, hit, &o));
+        FUZZ_CHECK(result == CGT_OK, "the rays cannot be traced");
     }
-    FUZZ_CHECK(result == CGT_OK, "the rays cannot be traced");
-    o.precision = CGT_PRECISION_EXACT;
-    FUZZ_CHECK(trace_array(m->scene, a->ray, a->count, a->exact, &o) == CGT_OK, "the rays cannot be traced");
 }
 
 static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camera_rays *prepared, const planes *p,
@@ -162,7 +162,8 @@ static void check_frame(fuzz_model *m, const cgt_camera *camera, const cgt_camer
     o->statistics = &statistics;
     o->research_statistics = &research;
     const cgt_frame frame = frame_into(p);
-    const cgt_result result = cgt_trace_camera(m->scene, camera, &frame, TRACE_OPTIONS(o));
+    cgt_result result;
+    FUZZ_TRACE(m, result, cgt_trace_camera(m->scene, camera, &frame, TRACE_OPTIONS(o)));
     FUZZ_CHECK(result == CGT_OK, "frame: %s", cgt_get_result_string(result));
     take_pixels(p, a.other);
     fuzz_check_hits(m, &a, a.other, o->precision);
@@ -189,7 +190,8 @@ static void trace_ambient(fuzz_model *m, const cgt_camera *camera, const planes 
     cgt_trace_statistics statistics;
     uint64_t hits = 0;
     o->statistics = &statistics;
-    const cgt_result result = cgt_ambient_occlusion(m->scene, camera, &frame, &ambient, open, TRACE_OPTIONS(o));
+    cgt_result result;
+    FUZZ_TRACE(m, result, cgt_ambient_occlusion(m->scene, camera, &frame, &ambient, open, TRACE_OPTIONS(o)));
     FUZZ_CHECK(result == CGT_OK, "ambient: %s", cgt_get_result_string(result));
     o->statistics = NULL;
     for (size_t i = 0; i < elements; i++) {
@@ -216,7 +218,8 @@ void fuzz_trace_camera(fuzz_model *m)
     legal &= cgt_camera_prepare(&camera, width, height, &prepared, message) == CGT_OK;
     const cgt_frame frame = frame_into(&p);
     if (!m->committed || !legal) {
-        const cgt_result result = cgt_trace_camera(m->scene, &camera, &frame, TRACE_OPTIONS(&o));
+        cgt_result result;
+        FUZZ_TRACE(m, result, cgt_trace_camera(m->scene, &camera, &frame, TRACE_OPTIONS(&o)));
         FUZZ_CHECK((!legal && result == CGT_ERROR_INVALID_ARGUMENT) ||
                        (!m->committed && result == CGT_ERROR_NOT_COMMITTED),
                    "frame: %s", cgt_get_result_string(result));

@@ -164,14 +164,10 @@ static void must(fuzz_model *m, cgt_result result, bool legal)
         fuzz_check_error(m, result);
 }
 
-/* Rays may build a BVH, for which memory may run out; the call then succeeds on the second attempt. */
 #define MUST(m, call, legal)                                                                                           \
     do {                                                                                                               \
-        cgt_result result_ = (call);                                                                                   \
-        if (result_ == CGT_ERROR_OUT_OF_MEMORY) {                                                                      \
-            fuzz_check_error(m, result_);                                                                              \
-            result_ = (call);                                                                                          \
-        }                                                                                                              \
+        cgt_result result_;                                                                                            \
+        FUZZ_TRACE(m, result_, call);                                                                                  \
         must(m, result_, legal);                                                                                       \
     } while (0)
 
@@ -307,8 +303,8 @@ static void trace_filtered(fuzz_model *m, const fuzz_answers *a, const cgt_trace
                            .skip_primitive = f.primitive,
                            .skip_geometry = f.geometry};
     const cgt_hits hits = {.t = t, .primitive = primitive, .geometry = geometry};
-    must(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
-    must(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
+    MUST(m, cgt_trace_rays(m->scene, &rays, &hits, o), true);
+    MUST(m, cgt_occluded_rays(m->scene, &rays, occluded, o), true);
     for (uint32_t i = 0; i < a->count; i++) {
         hit[i] = (full_hit){.t = t[i], .primitive = primitive[i], .geometry = geometry[i]};
         FUZZ_CHECK(occluded[i] == (hit[i].primitive != CGT_INVALID_ID), "ray %u, filtered: any hit says %u", i,

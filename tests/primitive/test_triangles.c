@@ -212,25 +212,18 @@ static void bad_descriptions_change_nothing(void **state)
     const cgt_result bad = CGT_ERROR_INVALID_ARGUMENT;
     t.vertices = NULL;
     refuse(context, scene, &t, bad, "vertices is NULL");
-    for (size_t stride = 1; stride < 16; stride++)
-        if (stride % 4) {
-            t = good;
-            t.vertex_stride = stride;
-            refuse(context, scene, &t, bad, "stride");
-            t = good;
-            t.indices = index;
-            t.index_stride = stride;
-            refuse(context, scene, &t, bad, "stride");
-        }
+    for (size_t stride = 1; stride < 12; stride++) { /* less than an element */
+        t = good;
+        t.vertex_stride = stride;
+        refuse(context, scene, &t, bad, "stride");
+        t = good;
+        t.indices = index;
+        t.index_stride = stride;
+        refuse(context, scene, &t, bad, "stride");
+    }
     t = good;
     t.vertex_stride = SIZE_MAX / 8 * 4;
     refuse(context, scene, &t, bad, "stride");
-    t = good;
-    t.vertices = (const float *)(const void *)((const char *)good.vertices + 2);
-    refuse(context, scene, &t, bad, "aligned");
-    t = good;
-    t.indices = (const uint32_t *)(const void *)((const char *)index + 1);
-    refuse(context, scene, &t, bad, "aligned");
     t = good;
     t.vertex_count--;
     refuse(context, scene, &t, bad, "vertices");

@@ -141,7 +141,11 @@ static bool is_closer(const cgt_primitives *prims, const cgt_ray *ray, uint32_t 
                     b = {.primitive = cgt_primitives_get(prims, best->prim)};
     cgt_decide_t(ray, &a);
     cgt_decide_t(ray, &b);
-    const int order = cgt_decide_order(ray, &a, &b, &counts->exact_tests);
+    uint64_t exact = 0;
+    const int order = cgt_decide_order(ray, &a, &b, &exact);
+    counts->ray_tests++; /* the order of two hits counts as a test */
+    counts->double_tests++;
+    counts->exact_tests += exact != 0;
     return order ? order < 0 : prim < best->prim;
 }
 
@@ -152,10 +156,12 @@ void cgt_band_decide(const cgt_primitives *prims, const uint32_t *number, uint32
         if (skips(prims, ray, number[i]))
             continue;
         cgt_decided_hit hit = {.primitive = cgt_primitives_get(prims, number[i])};
+        uint64_t exact = 0;
+        const bool is_hit = cgt_decide_hit(&ray->ray, &hit, &exact);
         counts->ray_tests++;
         counts->double_tests++;
-        if (!cgt_decide_hit(&ray->ray, &hit, &counts->exact_tests) ||
-            !is_closer(prims, &ray->ray, number[i], hit.t, best, counts))
+        counts->exact_tests += exact != 0;
+        if (!is_hit || !is_closer(prims, &ray->ray, number[i], hit.t, best, counts))
             continue;
         *best = (cgt_band_best){number[i], hit.t};
         if (any_hit)
