@@ -78,7 +78,8 @@ static void compute_positions(const frame_job *job, const cgt_region *r, const t
             float org[3], dir[3];
             cgt_camera_pixel(&job->camera, r->x + x, r->y + y, org, dir);
             for (int a = 0; a < 3; a++)
-                p->plane[a][y * p->row_stride + x] = isinf(t) ? INFINITY : org[a] + t * dir[a];
+                if (p->plane[a])
+                    p->plane[a][y * p->row_stride + x] = isinf(t) ? INFINITY : org[a] + t * dir[a];
         }
 }
 
@@ -269,6 +270,7 @@ static cgt_result trace_bands(frame_job *job, const cgt_trace_options *options, 
     job->bands = &frame;
     cgt_bands_run(&frame.call, trace_frame_tile, job, tiles);
     cgt_bands_end(&frame.call);
+    job->bands = NULL;
     return CGT_OK;
 }
 

@@ -168,6 +168,7 @@ cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *set
             cgt_bands_run(&call, t->trace_given_up, t->argument, t->tasks);
     }
     cgt_bands_end(&call);
+    *t->bands = NULL;
     return result;
 }
 

@@ -77,6 +77,7 @@ static cgt_result trace_bands(rays_job *job)
     if (result == CGT_OK)
         cgt_bands_run(&call, trace_chunk, job, (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
     cgt_bands_end(&call);
+    job->bands = NULL;
     return result;
 }
 

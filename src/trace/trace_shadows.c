@@ -155,7 +155,7 @@ static bool choose_tiles(const shadow_job *job, uint64_t *points)
         coherent += allowed && b.live && cgt_light_batch_is_coherent(job->scene, job->light, &b.points);
     }
     cgt_float_environment_leave(&callers);
-    *points = live * job->tiles / sampled;
+    *points = sampled ? live * job->tiles / sampled : 0;
     return 2 * coherent > with_hits;
 }
 

@@ -50,10 +50,12 @@ static hard_scene make_scene(scene_kind kind, uint32_t round)
     const float scale = scales[round % TEST_COUNT(scales)];
     for (uint32_t i = 0; i < s.geometries; i++) {
         hard_geometry *g = &s.geometry[i];
-        for (uint32_t k = 0; k < 4 * g->spheres; k++)
-            g->sphere[0][k] *= scale;
-        for (uint32_t k = 0; k < 3 * g->vertices; k++)
-            g->vertex[0][k] *= scale;
+        for (uint32_t k = 0; k < g->spheres; k++)
+            for (int a = 0; a < 4; a++)
+                g->sphere[k][a] *= scale;
+        for (uint32_t k = 0; k < g->vertices; k++)
+            for (int a = 0; a < 3; a++)
+                g->vertex[k][a] *= scale;
     }
     assert_false(s.failed);
     return s;
