@@ -46,7 +46,9 @@ band_scene band_scene_make(test_random *r, band_kind kind, uint32_t spheres, uin
                     .size = calloc(spheres + triangles + 1, sizeof(float))};
     const float common = size_between(r, -147, 126);
     const double radius = 0.5 / cbrt(1.0 + spheres);
-    assert_true(s.sphere && s.vertex && s.size);
+    assert_non_null(s.sphere);
+    assert_non_null(s.vertex);
+    assert_non_null(s.size);
     for (uint32_t i = 0; i < spheres; i++) {
         const float size = s.size[i] = choose_size(r, kind, common, i);
         make_point(r, kind, size, s.sphere[i]);

@@ -20,7 +20,7 @@ static const test_scene_options every_structure[] = {
 static void same_hits(const full_hit *want, const full_hit *got, const band_rays *q, const char *where)
 {
     for (uint32_t i = 0; i < BAND_RAYS; i++)
-        if (memcmp(&want[i], &got[i], sizeof want[i]))
+        if (memcmp(&want[i], &got[i], sizeof want[i]) != 0)
             fail_msg("%s: ray %u: org %a %a %a dir %a %a %a range %a %a: want %u of %u at %a, got %u of %u at %a",
                      where, i, (double)q->org[0][i], (double)q->org[1][i], (double)q->org[2][i], (double)q->dir[0][i],
                      (double)q->dir[1][i], (double)q->dir[2][i], (double)q->t_min[i], (double)q->t_max[i],

@@ -192,7 +192,7 @@ static void set_statistics(cgt_scene *scene)
     char rest[48] = "";
     if (bands->rest)
         snprintf(rest, sizeof rest, ", %u primitives apart", bands->rest);
-    snprintf(st->reason, sizeof st->reason, "%u band%s of magnitudes%s; %.60s", bands->count,
+    snprintf(st->reason, sizeof st->reason, "%u band%s of magnitudes%s; %.48s", bands->count,
              bands->count == 1 ? "" : "s", rest, main->statistics.reason);
 }
 
