@@ -92,7 +92,7 @@ static bool scale_direction(const float dir[3], int k, int dir_exponent, float s
 cgt_band_state cgt_band_scale_ray(const cgt_band *band, const cgt_ray *ray, double t_end, int dir_exponent,
                                   cgt_scaled_ray *s)
 {
-    int q;
+    int q = 0;
     bool near = true;
     const bool fits = cgt_band_scale(ray->line.org, band->exponent, s->org) &&
                       scale_direction(ray->line.dir, band->exponent, dir_exponent, s->dir, &q);
