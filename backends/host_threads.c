@@ -16,7 +16,7 @@
 #include "core/memory.h"
 #include "core/tasks.h"
 
-#define WORKER_STACK ((size_t)2 << 20)
+#define WORKER_STACK ((size_t)4 << 20)
 #define SPIN_NS 50000
 
 /* One call of run: it lives on the caller's stack while it is in the pool's list. */
