@@ -39,8 +39,10 @@
  *             code. A plugin that links the static library releases its contexts before it is closed.
  *   Floats    IEEE single precision. The caller's rounding mode and flushing of denormals do not matter: commit and
  *             tracing work in the default environment and restore the caller's.
- *   Stack     A tracing call or a task takes up to 1.5 MB of the stack of the thread that runs it; one
- *             of cgt_trace_ray less than 16 KB where there is a BVH.
+ *   Stack     A call takes at most 64 KB of the caller's stack, a task at most 128 KB of the stack of the thread that
+ *             runs it; what hooks and visitors take comes on top. One of cgt_trace_ray takes less than 16 KB where
+ *             there is a BVH. Larger scratch memory, 1.4 MB for each task that runs at once, is allocated by the first
+ *             calls that need it, and the context keeps it until its release.
  *
  * <cgt/research.h> adds what is there to study published algorithms: other structures, traversals, and their counters. */
 #ifndef CGT_CGT_H
@@ -105,7 +107,9 @@ typedef void cgt_task(void *argument, uint32_t index);
 
 /* Tasks. run calls task(argument, index) once for each index below count, in any order, on any threads, and returns
  * when all have returned. With a runner set the library starts no thread of its own. A runner that runs the tasks one
- * after another on the calling thread is valid. Results do not depend on the order. */
+ * after another on the calling thread is valid. Results do not depend on the order. Tasks that need scratch memory are
+ * few, at first at most 8 a call, and each does whatever work is next; where all of them were at work at once, the next
+ * call has twice as many. */
 typedef struct cgt_task_runner {
     void *user;                                                              /* passed to run */
     void (*run)(void *user, cgt_task *task, void *argument, uint32_t count); /* default NULL: own thread pool */
@@ -539,7 +543,7 @@ typedef struct cgt_single_hit {
  *   hit       gets the hit, of the same values as cgt_trace_rays'
  *   options   NULL: the defaults
  * Fastest in scenes of CGT_RAY_KIND_INCOHERENT, whose BVH is there from the commit on; arrays of rays are faster still.
- * With a BVH the call takes less than 16 KB of stack, through another structure up to 128 KB; a call that builds a BVH
+ * With a BVH the call takes less than 16 KB of stack, through another structure up to 64 KB; a call that builds a BVH
  * takes as much as a commit. Errors and memory: as cgt_trace_rays. */
 CGT_API cgt_result cgt_trace_ray(const cgt_scene *scene, const cgt_single_ray *ray, cgt_single_hit *hit,
                                  const cgt_trace_options *options);

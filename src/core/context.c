@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "core/float_environment.h"
+#include "core/scratch.h"
 
 const char *cgt_get_version(void) { return CGT_VERSION_STRING; }
 
@@ -26,8 +27,13 @@ void cgt_context_release(cgt_context *context)
         return;
     if (context->backend)
         context->backend->destroy(&context->memory, context->backend_state);
+    pthread_mutex_destroy(&context->scratch_lock);
     pthread_mutex_destroy(&context->message_lock);
     const cgt_memory_hooks memory = context->memory;
+    for (cgt_scratch *s = context->scratch, *next; s; s = next) {
+        next = s->next;
+        cgt_free(&memory, s, CGT_SCRATCH_BYTES);
+    }
     cgt_free(&memory, context, sizeof *context);
 }
 

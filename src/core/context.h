@@ -23,9 +23,14 @@ struct cgt_context {
     atomic_uint references; /* the caller's and one per scene */
     pthread_mutex_t message_lock;
     char message[CGT_MESSAGE_BYTES];
+    pthread_mutex_t scratch_lock; /* never held over the caller's hooks */
+    struct cgt_scratch *scratch;  /* blocks that no call has (core/scratch_tasks.h) */
+    atomic_uint runner_lanes;     /* tasks with scratch that a caller's runner gets at once */
 };
 
 void cgt_context_retain(cgt_context *context);
+
+#define CGT_FIRST_RUNNER_LANES 8u
 
 /* Runs task(argument, index) once for each index below count, in the default floating-point environment whatever that
  * of the threads; on the calling thread alone where there is one task or one thread. */

@@ -78,6 +78,16 @@ static cgt_result start_threads(cgt_context *c)
     return result;
 }
 
+static bool init_locks(cgt_context *c)
+{
+    if (pthread_mutex_init(&c->message_lock, NULL))
+        return false;
+    if (!pthread_mutex_init(&c->scratch_lock, NULL))
+        return true;
+    pthread_mutex_destroy(&c->message_lock);
+    return false;
+}
+
 cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **context)
 {
     static const cgt_context_options defaults = {0};
@@ -102,12 +112,14 @@ cgt_result cgt_context_create(const cgt_context_options *options, cgt_context **
     c->kernel = kernel;
     c->threads = o->threads;
     atomic_init(&c->references, 1);
-    if (pthread_mutex_init(&c->message_lock, NULL)) {
+    atomic_init(&c->runner_lanes, CGT_FIRST_RUNNER_LANES);
+    if (!init_locks(c)) {
         cgt_free(&memory, c, sizeof *c);
         return fail_create(o, CGT_ERROR_THREADS, "the system refused a lock");
     }
     result = start_threads(c);
     if (result != CGT_OK) {
+        pthread_mutex_destroy(&c->scratch_lock);
         pthread_mutex_destroy(&c->message_lock);
         cgt_free(&memory, c, sizeof *c);
         return fail_create(o, result, "the threads could not be started");

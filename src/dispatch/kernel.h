@@ -7,6 +7,7 @@
 #ifndef CGT_KERNEL_H
 #define CGT_KERNEL_H
 
+#include "core/scratch.h"
 #include "model/committed_scene.h"
 #include "query/camera.h"
 #include "query/region.h"
@@ -42,7 +43,7 @@ typedef void cgt_compute_bounds_fn(const cgt_primitive_array *array, uint32_t fi
 /* Converts the corners of clusters, to which a chunk's primitives were all added, to middles and sizes, and adds these
  * to classes. Writes whole vectors. Returns how many have more half area than max_half_area. */
 typedef uint32_t cgt_compute_cluster_bounds_fn(struct cgt_cluster *cluster, uint32_t count, float max_half_area,
-                                               cgt_size_classes *classes);
+                                               cgt_size_classes *classes, cgt_scratch *scratch);
 
 /* How cells are found: each of a structure's cells has a key; skipped primitives get one beyond all cells. */
 typedef struct cgt_cell_keys {
@@ -61,13 +62,15 @@ typedef void cgt_cluster_keys_fn(const cgt_cell_keys *keys, const struct cgt_clu
                                  uint32_t *key);
 
 /* Adds the same primitives, or clusters, to the sizes of a loose grid's levels: class k stands for level k. keys->plan:
- * the grid, whose levels need no cells yet. Half extents are sizes. key: scratch, as long. */
+ * the grid, whose levels need no cells yet. Half extents are sizes. key: is overwritten, as long. */
 typedef void cgt_measure_levels_fn(const cgt_cell_keys *keys, const cgt_primitive_array *array, uint32_t first,
-                                   uint32_t end, uint32_t *key, cgt_size_classes *levels);
+                                   uint32_t end, uint32_t *key, cgt_size_classes *levels, cgt_scratch *scratch);
 typedef void cgt_measure_clusters_fn(const cgt_cell_keys *keys, const struct cgt_cluster *cluster, uint32_t count,
-                                     uint32_t *key, cgt_size_classes *levels);
+                                     uint32_t *key, cgt_size_classes *levels, cgt_scratch *scratch);
 
-/* ---- tracing ---- */
+/* ---- tracing ----
+ *
+ * counts->scratch: of the task; only kernels of one ray do without. */
 
 /* Traces the pixels of a region of a camera's frame. */
 typedef void cgt_trace_region_fn(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,

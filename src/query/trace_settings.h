@@ -6,6 +6,7 @@
 #define CGT_TRACE_SETTINGS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include <cgt/research.h>
 
@@ -31,14 +32,15 @@ typedef struct cgt_trace_settings {
     uint32_t fields; /* cgt_field values that somebody asked for */
 } cgt_trace_settings;
 
-/* Counts of one task, fields of cgt_trace_statistics and cgt_research_trace_statistics. All are uint64_t, added up as an
- * array. */
+/* What a task has for itself: its counts, fields of cgt_trace_statistics and cgt_research_trace_statistics, which are all
+ * uint64_t and added up as an array; and scratch memory. */
 typedef struct cgt_counts {
     uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,
         double_tests, exact_tests, exact_values, early_exits;
+    struct cgt_scratch *scratch; /* core/scratch.h; of no use to kernels of one ray */
 } cgt_counts;
 
-#define CGT_COUNTS (sizeof(cgt_counts) / sizeof(uint64_t))
+#define CGT_COUNTS (offsetof(cgt_counts, scratch) / sizeof(uint64_t))
 
 #endif

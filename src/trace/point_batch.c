@@ -153,9 +153,11 @@ static uint32_t cell_of(float cell)
 }
 
 /* Sorts what is listed by cells along the curve. */
-static void sort_points(cgt_point_order *o, const point_view *v, uint64_t first, const view_bounds *bounds)
+static void sort_points(cgt_point_order *o, const point_view *v, uint64_t first, const view_bounds *bounds,
+                        cgt_scratch *scratch)
 {
-    uint16_t key[CGT_MAX_TASK_POINTS], start[ORDER_CELLS * ORDER_CELLS] = {0}, sum = 0;
+    uint16_t *key = cgt_scratch_take(scratch, CGT_MAX_TASK_POINTS * sizeof *key),
+             start[ORDER_CELLS * ORDER_CELLS] = {0}, sum = 0;
     float scale[2];
     for (int k = 0; k < 2; k++) { /* bounds beyond the range of float are one cell */
         const float side = bounds->high[k] - bounds->low[k];
@@ -176,10 +178,11 @@ static void sort_points(cgt_point_order *o, const point_view *v, uint64_t first,
     }
     for (uint32_t i = 0; i < o->live; i++)
         o->number[start[key[i]]++] = o->listed[i];
+    cgt_scratch_return(scratch, key);
 }
 
 void cgt_point_order_init(cgt_point_order *o, const cgt_rays *points, const cgt_light *light, uint64_t first,
-                          uint64_t end)
+                          uint64_t end, cgt_scratch *scratch)
 {
     double middle[3];
     view_bounds bounds;
@@ -191,7 +194,7 @@ void cgt_point_order_init(cgt_point_order *o, const cgt_rays *points, const cgt_
     if (coherent)
         memcpy(o->number, o->listed, o->live * sizeof *o->number);
     else
-        sort_points(o, &view, first, &bounds);
+        sort_points(o, &view, first, &bounds, scratch);
 }
 
 /* ---- batches ---- */

@@ -47,7 +47,7 @@ static inline cgt_point_state cgt_find_point_state(const float position[3], floa
 
 /* Finds which of points first to end - 1, at most CGT_MAX_TASK_POINTS, are live, and orders them. */
 void cgt_point_order_init(cgt_point_order *o, const cgt_rays *points, const cgt_light *light, uint64_t first,
-                          uint64_t end);
+                          uint64_t end, cgt_scratch *scratch);
 
 /* Packs `count` points, at most CGT_RAYS_CHUNK, by their numbers from `first` on. */
 void cgt_point_batch_fill(cgt_point_batch *b, const cgt_rays *points, uint64_t first, const uint16_t *number,

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "query/ambient_directions.h"
-#include "core/float_environment.h"
+#include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
@@ -30,7 +30,7 @@ typedef struct ambient_job {
     const cgt_band_call *bands; /* NULL: the scene has none */
 } ambient_job;
 
-/* A task's state, on its stack. */
+/* A task's state, in its scratch. */
 typedef struct ray_batch {
     float org[3][BATCH], dir[3][BATCH], t_max[BATCH];
     uint32_t primitive[BATCH], geometry[BATCH], mask[BATCH];
@@ -109,15 +109,15 @@ static uint32_t even_bits(uint32_t i)
 }
 
 /* Pixels along a Morton curve, so that those of a batch are neighbours. */
-static void trace_ambient_tile(void *argument, uint32_t index)
+static void trace_ambient_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     const ambient_job *job = argument;
     const cgt_frame *f = job->frame;
     const uint32_t x0 = index % job->tiles_across * TILE_EDGE, y0 = index / job->tiles_across * TILE_EDGE;
-    ray_batch b;
-    b.counts = (cgt_counts){0};
-    b.rays = b.pixels = 0;
-    cgt_ambient_points_init(job->ambient.samples, &b.points);
+    ray_batch *b = cgt_scratch_take(scratch, sizeof *b);
+    b->counts = (cgt_counts){.scratch = scratch};
+    b->rays = b->pixels = 0;
+    cgt_ambient_points_init(job->ambient.samples, &b->points);
     for (uint32_t i = 0; i < TILE_EDGE * TILE_EDGE; i++) {
         const uint32_t x = x0 + even_bits(i), y = y0 + even_bits(i >> 1);
         const size_t element = (size_t)y * job->row_stride + x;
@@ -127,12 +127,13 @@ static void trace_ambient_tile(void *argument, uint32_t index)
             job->visibility[element] = 1;
             continue;
         }
-        if (b.rays + job->ambient.samples > BATCH)
-            trace_batch(job, index, &b);
-        append_pixel(job, x, y, element, &b);
+        if (b->rays + job->ambient.samples > BATCH)
+            trace_batch(job, index, b);
+        append_pixel(job, x, y, element, b);
     }
-    trace_batch(job, index, &b);
-    cgt_trace_counter_add(job->counter, &b.counts);
+    trace_batch(job, index, b);
+    cgt_trace_counter_add(job->counter, &b->counts);
+    cgt_scratch_return(scratch, b);
 }
 
 /* ---- the call ---- */
@@ -211,10 +212,12 @@ cgt_result cgt_ambient_occlusion(const cgt_scene *scene, const cgt_camera *camer
     const uint32_t tiles = job.tiles_across * ((frame->height + TILE_EDGE - 1) / TILE_EDGE);
     if (scene->in_bands) {
         job.bands = &bands;
-        cgt_bands_run(&bands, trace_ambient_tile, &job, tiles);
+        result = cgt_bands_run(&bands, trace_ambient_tile, &job, tiles);
         cgt_bands_end(&bands);
     } else
-        cgt_run_tasks(scene->context, trace_ambient_tile, &job, tiles);
+        result = cgt_run_scratch_tasks(scene->context, trace_ambient_tile, &job, tiles);
+    if (result != CGT_OK)
+        return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);
     return CGT_OK;
 }

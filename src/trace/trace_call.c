@@ -162,10 +162,10 @@ void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
 static cgt_counts read_counts(const cgt_trace_counter *counter)
 {
     uint64_t value[CGT_COUNTS];
-    cgt_counts counts;
+    cgt_counts counts = {0};
     for (size_t i = 0; i < CGT_COUNTS; i++)
         value[i] = atomic_load_explicit(&counter->sum[i], memory_order_relaxed);
-    memcpy(&counts, value, sizeof counts);
+    memcpy(&counts, value, sizeof value);
     return counts;
 }
 

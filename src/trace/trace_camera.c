@@ -2,12 +2,13 @@
  * SPDX-License-Identifier: MIT
  *
  * A camera's frame: cut into tiles, each a task. A tile is traced straight into the caller's planes, or into a buffer
- * on the stack that goes to the visitor and from there, row by row, to the planes. */
+ * of the task's that goes to the visitor and from there, row by row, to the planes. */
 #include <math.h>
 #include <string.h>
 
 #include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
+#include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
 #include "query/tile_limits.h"
 #include "trace/bands/band_frame.h"
@@ -109,11 +110,11 @@ static cgt_visit call_visitor(const frame_job *job, const cgt_region *r, const t
     return visit;
 }
 
-static void trace_region(const frame_job *job, uint32_t index, const cgt_region *r)
+static void trace_region(const frame_job *job, uint32_t index, const cgt_region *r, cgt_scratch *scratch)
 {
     const cgt_scene *s = job->scene;
     const cgt_kernel *kernel = s->context->kernel;
-    cgt_counts counts = {0};
+    cgt_counts counts = {.scratch = scratch};
     if (job->bands)
         cgt_band_trace_region(job->bands, index % job->bands->call.slots, r, &counts);
     else
@@ -122,38 +123,39 @@ static void trace_region(const frame_job *job, uint32_t index, const cgt_region 
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-/* Functions of their own: their stack is taken only where it is needed. */
-__attribute__((noinline)) static cgt_visit trace_buffered(const frame_job *job, uint32_t index,
-                                                          const cgt_region *planes, const tile_positions *positions)
+static cgt_visit trace_buffered(const frame_job *job, uint32_t index, const cgt_region *planes,
+                                const tile_positions *positions, cgt_scratch *scratch)
 {
-    uint32_t buffer[CGT_PLANES][TILE_PIXELS];
+    uint32_t(*buffer)[TILE_PIXELS] = cgt_scratch_take(scratch, CGT_PLANES * sizeof *buffer);
     const cgt_region tile = region_in_buffer(job, planes, buffer);
-    trace_region(job, index, &tile);
+    trace_region(job, index, &tile, scratch);
     if (job->positions)
         compute_positions(job, &tile, positions);
     const cgt_visit visit = job->frame->visitor ? call_visitor(job, &tile, positions) : CGT_VISIT_CONTINUE;
     copy_to_planes(planes, &tile);
+    cgt_scratch_return(scratch, buffer);
     return visit;
 }
 
-__attribute__((noinline)) static cgt_visit trace_for_visitor(const frame_job *job, uint32_t index,
-                                                             const cgt_region *planes)
+static cgt_visit trace_for_visitor(const frame_job *job, uint32_t index, const cgt_region *planes, cgt_scratch *scratch)
 {
-    float buffer[3][TILE_PIXELS];
+    float(*buffer)[TILE_PIXELS] = cgt_scratch_take(scratch, 3 * sizeof *buffer);
     const tile_positions positions = {{buffer[0], buffer[1], buffer[2]}, planes->width};
-    return trace_buffered(job, index, planes, &positions);
+    const cgt_visit visit = trace_buffered(job, index, planes, &positions, scratch);
+    cgt_scratch_return(scratch, buffer);
+    return visit;
 }
 
 static cgt_visit trace_to_planes(const frame_job *job, uint32_t index, const cgt_region *planes,
-                                 const tile_positions *positions)
+                                 const tile_positions *positions, cgt_scratch *scratch)
 {
-    trace_region(job, index, planes);
+    trace_region(job, index, planes, scratch);
     if (job->positions)
         compute_positions(job, planes, positions);
     return job->frame->visitor ? call_visitor(job, planes, positions) : CGT_VISIT_CONTINUE;
 }
 
-static void trace_frame_tile(void *argument, uint32_t index)
+static void trace_frame_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     frame_job *job = argument;
     const uint32_t column = index % job->tiles_across, y = index / job->tiles_across * job->tile_height;
@@ -165,11 +167,11 @@ static void trace_frame_tile(void *argument, uint32_t index)
         cgt_region_part(&job->planes, x, y, column ? job->tile_width : job->first_width, job->tile_height);
     const tile_positions positions = positions_in_planes(job, &part);
     if (job->positions && !positions.plane[0])
-        visit = trace_for_visitor(job, index, &part);
+        visit = trace_for_visitor(job, index, &part, scratch);
     else if (job->buffered)
-        visit = trace_buffered(job, index, &part, &positions);
+        visit = trace_buffered(job, index, &part, &positions, scratch);
     else
-        visit = trace_to_planes(job, index, &part, &positions);
+        visit = trace_to_planes(job, index, &part, &positions, scratch);
     if (visit != CGT_VISIT_CONTINUE)
         atomic_store_explicit(&job->stopped, true, memory_order_relaxed);
 }
@@ -262,16 +264,15 @@ static cgt_result check_asks_for_something(cgt_context *c, const cgt_frame *f)
 static cgt_result trace_bands(frame_job *job, const cgt_trace_options *options, uint32_t tiles)
 {
     cgt_band_frame frame;
-    const cgt_result result =
-        cgt_band_frame_begin(job->scene, &job->camera, &job->settings, cgt_requires_packets(options), tiles,
-                             job->tile_width * job->tile_height, &frame);
+    cgt_result result = cgt_band_frame_begin(job->scene, &job->camera, &job->settings, cgt_requires_packets(options),
+                                             tiles, job->tile_width * job->tile_height, &frame);
     if (result != CGT_OK)
         return result;
     job->bands = &frame;
-    cgt_bands_run(&frame.call, trace_frame_tile, job, tiles);
+    result = cgt_bands_run(&frame.call, trace_frame_tile, job, tiles);
     cgt_bands_end(&frame.call);
     job->bands = NULL;
-    return CGT_OK;
+    return result;
 }
 
 cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, const cgt_frame *frame,
@@ -304,7 +305,7 @@ cgt_result cgt_trace_camera(const cgt_scene *scene, const cgt_camera *camera, co
     if (scene->in_bands)
         result = trace_bands(&job, options, tiles);
     else
-        cgt_run_tasks(c, trace_frame_tile, &job, tiles);
+        result = cgt_run_scratch_tasks(c, trace_frame_tile, &job, tiles);
     if (result != CGT_OK)
         return result;
     cgt_trace_store_statistics(options, &job.settings, &counter);

@@ -53,39 +53,39 @@ static bool trace_points(const light_job *job, const cgt_rays *points, uint64_t 
                                            occluded, counts);
 }
 
-/* Traces the points of a task, from `first` on, batch by batch. Not inlined: its stack is taken only where it is
- * needed. */
-__attribute__((noinline)) static bool trace_batches(const light_job *job, const cgt_point_order *order, uint64_t first,
-                                                    cgt_counts *counts)
+/* Traces the points of a task, from `first` on, batch by batch. */
+static bool trace_batches(const light_job *job, const cgt_point_order *order, uint64_t first, cgt_counts *counts)
 {
-    cgt_point_batch batch;
-    for (uint32_t i = 0; i < order->live; i += CGT_RAYS_CHUNK) {
+    cgt_point_batch *batch = cgt_scratch_take(counts->scratch, sizeof *batch);
+    bool done = true;
+    for (uint32_t i = 0; i < order->live && done; i += CGT_RAYS_CHUNK) {
         const uint32_t count = (uint32_t)chunk_end(i, order->live) - i;
-        cgt_point_batch_fill(&batch, &job->points, first, order->number + i, count);
-        if (!trace_points(job, &batch.rays, 0, count, batch.occluded, counts))
-            return false;
-        for (uint32_t k = 0; k < count; k++)
-            job->occluded[first + order->number[i + k]] = batch.occluded[k];
+        cgt_point_batch_fill(batch, &job->points, first, order->number + i, count);
+        done = trace_points(job, &batch->rays, 0, count, batch->occluded, counts);
+        for (uint32_t k = 0; done && k < count; k++)
+            job->occluded[first + order->number[i + k]] = batch->occluded[k];
     }
-    return true;
+    cgt_scratch_return(counts->scratch, batch);
+    return done;
 }
 
 /* Traces points first to end - 1, a task. */
-__attribute__((noinline)) static bool trace_structure_points(const light_job *job, uint64_t first, uint64_t end,
-                                                             cgt_counts *counts)
+static bool trace_structure_points(const light_job *job, uint64_t first, uint64_t end, cgt_counts *counts)
 {
-    cgt_point_order order;
-    cgt_point_order_init(&order, &job->points, job->light, first, end);
-    if (order.as_given) {
-        for (uint64_t i = first; i < end; i += CGT_RAYS_CHUNK)
-            if (!trace_points(job, &job->points, i, chunk_end(i, end), job->occluded, counts))
-                return false;
-        return true;
+    cgt_point_order *order = cgt_scratch_take(counts->scratch, sizeof *order);
+    bool done = true;
+    cgt_point_order_init(order, &job->points, job->light, first, end, counts->scratch);
+    if (order->as_given) {
+        for (uint64_t i = first; i < end && done; i += CGT_RAYS_CHUNK)
+            done = trace_points(job, &job->points, i, chunk_end(i, end), job->occluded, counts);
+    } else {
+        memset(job->occluded + first, 0, end - first);
+        counts->rays += end - first - order->live;
+        counts->invalid_rays += order->invalid;
+        done = trace_batches(job, order, first, counts);
     }
-    memset(job->occluded + first, 0, end - first);
-    counts->rays += end - first - order.live;
-    counts->invalid_rays += order.invalid;
-    return trace_batches(job, &order, first, counts);
+    cgt_scratch_return(counts->scratch, order);
+    return done;
 }
 
 /* Bands sort out what is not live themselves. */
@@ -97,11 +97,11 @@ static bool trace_task_points(const light_job *job, uint32_t index, uint64_t fir
     return trace_structure_points(job, first, end, counts);
 }
 
-static void trace_task(void *argument, uint32_t index)
+static void trace_task(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     light_job *job = argument;
     const uint64_t first = index * job->task_points, end = task_end(job, first);
-    cgt_counts counts = {0};
+    cgt_counts counts = {.scratch = scratch};
     if (!trace_task_points(job, index, first, end, &counts)) { /* the work was done, the points were not */
         counts.rays = counts.hits = counts.invalid_rays = 0;
         job->occluded[first] = CGT_LIGHT_GIVEN_UP;
@@ -110,11 +110,11 @@ static void trace_task(void *argument, uint32_t index)
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-static void trace_given_up_task(void *argument, uint32_t index)
+static void trace_given_up_task(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     const light_job *job = argument;
     if (job->occluded[index * job->task_points] == CGT_LIGHT_GIVEN_UP)
-        trace_task(argument, index);
+        trace_task(argument, index, scratch);
 }
 
 /* Several chunks where each thread gets some of them; a caller's runner counts as 64 threads. */
@@ -136,17 +136,16 @@ static cgt_result trace_tasks(light_job *job)
     cgt_trace_settings *settings = &job->settings;
     if (settings->light_tiles && s->options.structure == CGT_STRUCTURE_AUTO)
         settings->max_light_work = CGT_MAX_LIGHT_WORK;
-    cgt_run_tasks(s->context, trace_task, job, tasks);
+    cgt_result result = cgt_run_scratch_tasks(s->context, trace_task, job, tasks);
     const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
-    if (!given_up)
-        return CGT_OK;
-    const cgt_result result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
+    if (result != CGT_OK || !given_up)
+        return result;
+    result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
     if (result != CGT_OK)
         return result;
     settings->light_tiles = !settings->use_bvh;
     settings->max_light_work = 0;
-    cgt_run_tasks(s->context, trace_given_up_task, job, tasks);
-    return CGT_OK;
+    return cgt_run_scratch_tasks(s->context, trace_given_up_task, job, tasks);
 }
 
 cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *settings, uint64_t points, uint32_t chunk)
@@ -159,13 +158,13 @@ cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *set
     call.by_tiles = by_tiles;
     *t->bands = &call;
     if (result == CGT_OK)
-        cgt_bands_run(&call, t->trace, t->argument, t->tasks);
+        result = cgt_bands_run(&call, t->trace, t->argument, t->tasks);
     const uint64_t given_up = atomic_load_explicit(t->given_up, memory_order_relaxed);
     if (result == CGT_OK && given_up) {
         call.by_tiles = false;
         result = cgt_bands_build_bvh(&call, given_up * CGT_SCATTERED_POINTS);
         if (result == CGT_OK)
-            cgt_bands_run(&call, t->trace_given_up, t->argument, t->tasks);
+            result = cgt_bands_run(&call, t->trace_given_up, t->argument, t->tasks);
     }
     cgt_bands_end(&call);
     *t->bands = NULL;
@@ -198,34 +197,33 @@ bool cgt_light_batch_is_coherent(const cgt_scene *s, const cgt_light *light, con
 }
 
 /* Whether the middle batch of a task's points is coherent, unless none of them is live. */
-static bool task_is_coherent(const light_job *job, uint64_t first, uint64_t end, bool *any_live)
+static bool task_is_coherent(const light_job *job, uint64_t first, uint64_t end, bool *any_live, cgt_scratch *scratch)
 {
-    cgt_point_order order;
-    cgt_point_batch batch;
-    cgt_point_order_init(&order, &job->points, job->light, first, end);
-    *any_live = order.live > 0;
-    if (!order.live)
+    cgt_point_order *order = cgt_scratch_take(scratch, sizeof *order);
+    cgt_point_batch *batch = cgt_scratch_take(scratch, sizeof *batch);
+    cgt_point_order_init(order, &job->points, job->light, first, end, scratch);
+    *any_live = order->live > 0;
+    cgt_scratch_return(scratch, order); /* nobody takes it before the end */
+    if (!order->live)
         return false;
-    const uint32_t from = order.live / 2 / CGT_RAYS_CHUNK * CGT_RAYS_CHUNK;
-    const uint32_t count = (uint32_t)chunk_end(from, order.live) - from;
-    cgt_point_batch_fill(&batch, &job->points, first, order.number + from, count);
-    return cgt_light_batch_is_coherent(job->scene, job->light, &batch);
+    const uint32_t from = order->live / 2 / CGT_RAYS_CHUNK * CGT_RAYS_CHUNK;
+    const uint32_t count = (uint32_t)chunk_end(from, order->live) - from;
+    cgt_point_batch_fill(batch, &job->points, first, order->number + from, count);
+    return cgt_light_batch_is_coherent(job->scene, job->light, batch);
 }
 
-/* Whether the points of most tasks are. */
-static bool choose_tiles(const light_job *job)
+/* Whether the points of most tasks are. scratch: a block. */
+static bool choose_tiles(const light_job *job, cgt_scratch *scratch)
 {
     const uint64_t tasks = (job->points.count + job->task_points - 1) / job->task_points;
     const uint64_t sampled = tasks < SAMPLED_TASKS ? tasks : SAMPLED_TASKS;
     uint64_t coherent = 0, live = 0;
     cgt_float_environment callers;
-    if (!cgt_light_allows_tiles(&job->scene->committed_scene))
-        return false;
     cgt_float_environment_enter(&callers);
     for (uint64_t k = 0; k < sampled; k++) {
         const uint64_t first = tasks * k / sampled * job->task_points;
         bool any_live;
-        coherent += task_is_coherent(job, first, task_end(job, first), &any_live);
+        coherent += task_is_coherent(job, first, task_end(job, first), &any_live, scratch);
         live += any_live;
     }
     cgt_float_environment_leave(&callers);
@@ -235,7 +233,14 @@ static bool choose_tiles(const light_job *job)
 static cgt_result trace_structure(light_job *job)
 {
     job->task_points = choose_task_points(job);
-    const bool tiles = choose_tiles(job);
+    bool tiles = false;
+    if (cgt_light_allows_tiles(&job->scene->committed_scene)) {
+        cgt_scratch *scratch = cgt_scratch_borrow(job->scene->context, 1);
+        if (!scratch)
+            return CGT_ERROR_OUT_OF_MEMORY;
+        tiles = choose_tiles(job, scratch);
+        cgt_scratch_give_back(job->scene->context, scratch);
+    }
     const cgt_result result =
         cgt_bvh_build_on_demand(job->scene, tiles ? 0 : job->points.count, &job->settings.use_bvh);
     if (result != CGT_OK)

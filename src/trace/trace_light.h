@@ -5,6 +5,7 @@
 #ifndef CGT_TRACE_LIGHT_H
 #define CGT_TRACE_LIGHT_H
 
+#include "core/scratch_tasks.h"
 #include "trace/bands/band_call.h"
 #include "trace/point_batch.h"
 #include "trace/trace_call.h"
@@ -32,7 +33,7 @@ bool cgt_light_batch_is_coherent(const cgt_scene *s, const cgt_light *light, con
 typedef struct cgt_light_tasks {
     const cgt_scene *scene;
     const cgt_light *light;
-    cgt_task *trace, *trace_given_up;
+    cgt_scratch_task *trace, *trace_given_up;
     void *argument;
     uint32_t tasks;
     _Atomic uint64_t *given_up;

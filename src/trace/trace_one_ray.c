@@ -7,6 +7,7 @@
 
 #include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
+#include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
 #include "trace/trace_call.h"
 
@@ -97,7 +98,10 @@ static cgt_result trace_with_options(const cgt_scene *s, const cgt_single_ray *r
         result = cgt_bvh_build_on_demand(s, 1, &settings.use_bvh);
     if (result != CGT_OK)
         return result;
+    if (!settings.use_bvh && !(counts.scratch = cgt_scratch_borrow(s->context, 1))) /* packets need it */
+        return CGT_ERROR_OUT_OF_MEMORY;
     trace_any_way(s, ray, &settings, hit, occluded, &counts);
+    cgt_scratch_give_back(s->context, counts.scratch);
     cgt_trace_counter_add(&counter, &counts);
     cgt_trace_store_statistics(options, &settings, &counter);
     return CGT_OK;

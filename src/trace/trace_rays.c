@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * Arrays of rays, nearest hit and any hit: cut into chunks, each a task. */
-#include "core/float_environment.h"
+#include "core/scratch_tasks.h"
 #include "scene/scene.h"
 #include "trace/trace_call.h"
 #include "builders/bvh/bvh_on_demand.h"
@@ -19,13 +19,13 @@ typedef struct rays_job {
     cgt_trace_counter *counter;
 } rays_job;
 
-static void trace_chunk(void *argument, uint32_t index)
+static void trace_chunk(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     const rays_job *job = argument;
     const cgt_scene *s = job->scene;
     const uint64_t first = (uint64_t)index * job->chunk, remaining = job->rays->count - first,
                    end = first + (remaining < job->chunk ? remaining : job->chunk);
-    cgt_counts counts = {0};
+    cgt_counts counts = {.scratch = scratch};
     if (job->bands)
         cgt_bands_trace(job->bands, index % job->bands->slots, job->rays, NULL, first, end, job->hits, job->occluded,
                         &counts);
@@ -75,7 +75,7 @@ static cgt_result trace_bands(rays_job *job)
     job->bands = &call;
     job->chunk = CGT_RAYS_CHUNK;
     if (result == CGT_OK)
-        cgt_bands_run(&call, trace_chunk, job, (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
+        result = cgt_bands_run(&call, trace_chunk, job, (uint32_t)((count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK));
     cgt_bands_end(&call);
     job->bands = NULL;
     return result;
@@ -87,8 +87,8 @@ static cgt_result trace_structure(rays_job *job)
     if (result != CGT_OK)
         return result;
     job->chunk = choose_chunk(job);
-    cgt_run_tasks(job->scene->context, trace_chunk, job, (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
-    return CGT_OK;
+    return cgt_run_scratch_tasks(job->scene->context, trace_chunk, job,
+                                 (uint32_t)((job->rays->count + job->chunk - 1) / job->chunk));
 }
 
 static cgt_result trace_array(rays_job *job, const cgt_trace_options *options)

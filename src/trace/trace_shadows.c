@@ -115,46 +115,48 @@ static bool trace_batch(const shadow_job *job, uint32_t index, tile_batch *b, cg
                                            b->points.occluded, counts);
 }
 
-static void trace_shadow_tile(void *argument, uint32_t index)
+static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     shadow_job *job = argument;
-    cgt_counts counts = {0};
-    tile_batch b;
-    fill_batch(job, index, &b);
-    if (b.live && !trace_batch(job, index, &b, &counts)) {
+    cgt_counts counts = {.scratch = scratch};
+    tile_batch *b = cgt_scratch_take(scratch, sizeof *b);
+    fill_batch(job, index, b);
+    if (b->live && !trace_batch(job, index, b, &counts)) {
         *tile_results(job, index) = CGT_LIGHT_GIVEN_UP;
-        atomic_fetch_add_explicit(&job->given_up, b.live, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->given_up, b->live, memory_order_relaxed);
     } else {
-        counts.rays += b.invalid;
-        counts.invalid_rays += b.invalid;
-        store_batch(job, index, &b);
+        counts.rays += b->invalid;
+        counts.invalid_rays += b->invalid;
+        store_batch(job, index, b);
     }
+    cgt_scratch_return(scratch, b);
     cgt_trace_counter_add(job->counter, &counts);
 }
 
-static void trace_given_up_tile(void *argument, uint32_t index)
+static void trace_given_up_tile(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     if (*tile_results(argument, index) == CGT_LIGHT_GIVEN_UP)
-        trace_shadow_tile(argument, index);
+        trace_shadow_tile(argument, index, scratch);
 }
 
 /* Whether most tiles with hits are coherent. points: gets about how many points the frame has. */
-static bool choose_tiles(const shadow_job *job, uint64_t *points)
+static bool choose_tiles(const shadow_job *job, cgt_scratch *scratch, uint64_t *points)
 {
     const uint32_t sampled = job->tiles < SAMPLED_TILES ? job->tiles : SAMPLED_TILES;
     uint32_t coherent = 0, with_hits = 0;
     uint64_t live = 0;
-    tile_batch b;
+    tile_batch *b = cgt_scratch_take(scratch, sizeof *b);
     cgt_float_environment callers;
     const bool allowed = cgt_light_allows_tiles(&job->scene->committed_scene);
     cgt_float_environment_enter(&callers);
     for (uint32_t k = 0; k < sampled; k++) {
-        fill_batch(job, (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled)), &b);
-        live += b.live;
-        with_hits += b.live > 0;
-        coherent += allowed && b.live && cgt_light_batch_is_coherent(job->scene, job->light, &b.points);
+        fill_batch(job, (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled)), b);
+        live += b->live;
+        with_hits += b->live > 0;
+        coherent += allowed && b->live && cgt_light_batch_is_coherent(job->scene, job->light, &b->points);
     }
     cgt_float_environment_leave(&callers);
+    cgt_scratch_return(scratch, b);
     *points = sampled ? live * job->tiles / sampled : 0;
     return 2 * coherent > with_hits;
 }
@@ -181,24 +183,27 @@ static cgt_result trace_light(shadow_job *job)
     const cgt_scene *s = job->scene;
     cgt_trace_settings *settings = &job->settings;
     uint64_t points;
-    const bool tiles = choose_tiles(job, &points);
+    cgt_scratch *scratch = cgt_scratch_borrow(s->context, 1);
+    if (!scratch)
+        return CGT_ERROR_OUT_OF_MEMORY;
+    const bool tiles = choose_tiles(job, scratch, &points);
+    cgt_scratch_give_back(s->context, scratch);
     cgt_result result = cgt_bvh_build_on_demand(s, tiles ? 0 : points, &settings->use_bvh);
     if (result != CGT_OK)
         return result;
     settings->light_tiles = tiles;
     settings->max_light_work = tiles && s->options.structure == CGT_STRUCTURE_AUTO ? CGT_MAX_LIGHT_WORK : 0;
     atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
-    cgt_run_tasks(s->context, trace_shadow_tile, job, job->tiles);
+    result = cgt_run_scratch_tasks(s->context, trace_shadow_tile, job, job->tiles);
     const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
-    if (!given_up)
-        return CGT_OK;
+    if (result != CGT_OK || !given_up)
+        return result;
     result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
     if (result != CGT_OK)
         return result;
     settings->light_tiles = !settings->use_bvh;
     settings->max_light_work = 0;
-    cgt_run_tasks(s->context, trace_given_up_tile, job, job->tiles);
-    return CGT_OK;
+    return cgt_run_scratch_tasks(s->context, trace_given_up_tile, job, job->tiles);
 }
 
 /* ---- the call ---- */

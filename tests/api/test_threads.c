@@ -314,7 +314,7 @@ static void a_runner_does_all_the_work(void **state)
     watch_frame(scene, &w, &seen);
     assert_int_equal(seen.other_threads, 0);
     assert_int_equal(r.runs, runs + 1);
-    assert_int_equal(r.tasks, tasks + TILES);
+    assert_true(r.tasks > tasks && r.tasks <= tasks + TILES); /* a task may do several tiles */
     assert_int_equal(trace_everything(scene, &w), 0);
     assert_false(r.wrong_thread);
     assert_int_equal(count_threads(), before);

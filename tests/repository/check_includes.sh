@@ -78,10 +78,10 @@ trace/bands: builders/bvh core dispatch exact query scene
 builders: builders/bands core dispatch model scene
 builders/bands: core exact scene
 builders/bvh: builders builders/order core dispatch scene
-builders/grid: builders builders/order dispatch model
+builders/grid: builders builders/order core dispatch model
 builders/kd: builders core model
 builders/kd/split: builders/kd exact
-builders/order: builders dispatch model scene
+builders/order: builders core dispatch model scene
 scene: core model
 dispatch: core model query
 query: model

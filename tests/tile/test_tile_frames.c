@@ -104,12 +104,14 @@ static void trace_lines(const cgt_committed_scene *committed_scene, const cgt_ca
                                          .precision = CGT_PRECISION_ROBUST,
                                          .fields = CGT_FIELD_T | CGT_FIELD_PRIMITIVE | CGT_FIELD_GEOMETRY |
                                                    CGT_FIELD_NORMAL | CGT_FIELD_UV};
-    cgt_counts counts = {0};
+    cgt_scratch *scratch = cgt_scratch_init(aligned_alloc(CGT_ALIGNMENT, CGT_SCRATCH_BYTES));
+    cgt_counts counts = {.scratch = scratch};
     cgt_region r = {.width = width, .height = height, .row_stride = width, .nontemporal = nontemporal};
     memset(to, nontemporal ? 0x55 : 0x77, 8 * pixels * sizeof *to);
     for (size_t k = 0; k < CGT_PLANES; k++)
         r.plane[k] = to + k * pixels;
     CGT_KERNEL(cgt_trace_tile)(committed_scene, rays, &settings, &r, &counts);
+    free(scratch);
 }
 
 static void compare_lines(const cgt_scene *scene, const loose_reference *grid, const cgt_camera *camera)

@@ -119,7 +119,8 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
                                              CGT_FIELD_UV};
     planes expected = planes_make(width, height), got = planes_make(width, height);
     cgt_committed_scene committed_scene = scene->committed_scene;
-    cgt_counts counts = {0}, other = {0};
+    cgt_scratch *scratch = cgt_scratch_init(aligned_alloc(CGT_ALIGNMENT, CGT_SCRATCH_BYTES));
+    cgt_counts counts = {.scratch = scratch}, other = {.scratch = scratch};
     committed_scene.loose = grid->grid;
     memset(expected.memory, 0x77, 6 * expected.elements * sizeof(uint32_t));
     memset(got.memory, 0x55, 6 * got.elements * sizeof(uint32_t));
@@ -144,7 +145,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
     tally->frames++;
     if (served) {
         cgt_trace_settings fast = settings;
-        cgt_counts fast_counts = {0};
+        cgt_counts fast_counts = {.scratch = scratch};
         fast.precision = CGT_PRECISION_FAST;
         CGT_KERNEL(cgt_trace_tile)(&committed_scene, &rays, &fast, &to_got, &fast_counts);
         compare_fast(&committed_scene, &rays, &got, &expected, what);
@@ -158,6 +159,7 @@ static inline void compare_frame(const cgt_scene *scene, const loose_reference *
         for (size_t i = 0; i < CGT_COUNTS; i++)
             to[i] += from[i];
     }
+    free(scratch);
     free(uv);
     planes_free(&expected);
     planes_free(&got);

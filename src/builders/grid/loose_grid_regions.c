@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "builders/order/size_levels.h"
+#include "core/scratch_tasks.h"
 
 /* The mean, over all primitives, of how many share their cell: a grid below is left as it is, the sooner the fewer
  * primitives there are. It is 10 in an even scene, and 400 in one of a million primitives in 1,000 clusters, which is
@@ -274,18 +275,19 @@ typedef struct measure_job {
     cgt_size_classes *levels; /* of each chunk: class k stands for level k */
 } measure_job;
 
-static void measure_prims(const measure_job *job, uint32_t first, uint32_t end, cgt_size_classes *levels)
+static void measure_prims(const measure_job *job, uint32_t first, uint32_t end, cgt_size_classes *levels,
+                          cgt_scratch *scratch)
 {
     const cgt_cell_sort *s = job->sort;
     const cgt_primitive_array *a = cgt_primitives_array(s->prims, first);
     for (uint32_t prim = first; prim < end; a++) {
         const uint32_t stop = end - a->first < a->count ? end : a->first + a->count;
-        job->kernel->loose_grid_measure(&s->keys, a, prim, stop, s->key + prim, levels);
+        job->kernel->loose_grid_measure(&s->keys, a, prim, stop, s->key + prim, levels, scratch);
         prim = stop;
     }
 }
 
-static void measure_chunk(void *argument, uint32_t chunk)
+static void measure_chunk(void *argument, uint32_t chunk, cgt_scratch *scratch)
 {
     const measure_job *job = argument;
     const cgt_cell_sort *s = job->sort;
@@ -294,9 +296,9 @@ static void measure_chunk(void *argument, uint32_t chunk)
     cgt_size_classes *levels = &job->levels[chunk];
     memset(levels->used_classes, 0, sizeof levels->used_classes);
     if (s->cluster)
-        job->kernel->loose_grid_measure_clusters(&s->keys, s->cluster + first, count, s->key + first, levels);
+        job->kernel->loose_grid_measure_clusters(&s->keys, s->cluster + first, count, s->key + first, levels, scratch);
     else
-        measure_prims(job, first, first + count, levels);
+        measure_prims(job, first, first + count, levels, scratch);
 }
 
 /* Lays out all levels anew: a region takes what the cells around its parts hold too, and leaves its outer level with
@@ -323,11 +325,13 @@ static cgt_result measure_levels(cgt_scene *scene, const cgt_cell_sort *sort, cg
 {
     const uint32_t chunks = (uint32_t)(((uint64_t)sort->count + MEASURE_CHUNK - 1) / MEASURE_CHUNK);
     cgt_buffer *buffer = &scene->buffer[CGT_BUFFER_REGIONS];
-    const cgt_result result = cgt_buffer_reserve(&scene->context->memory, buffer, chunks, sizeof(cgt_size_classes));
+    cgt_result result = cgt_buffer_reserve(&scene->context->memory, buffer, chunks, sizeof(cgt_size_classes));
     if (result != CGT_OK)
         return result;
     measure_job job = {scene->context->kernel, sort, buffer->data};
-    cgt_run_tasks(scene->context, measure_chunk, &job, chunks);
+    result = cgt_run_scratch_tasks(scene->context, measure_chunk, &job, chunks);
+    if (result != CGT_OK)
+        return result;
     cgt_size_classes_merge(job.levels, chunks);
     place_levels(g, job.levels);
     return CGT_OK;

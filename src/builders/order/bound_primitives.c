@@ -11,6 +11,7 @@
 #include "builders/order/cell_sort.h"
 #include "builders/order/copy_arrays.h"
 #include "builders/order/size_levels.h"
+#include "core/scratch_tasks.h"
 
 #define CHUNK 8192u
 #define MAX_VECTOR 16u /* clusters are written by whole vectors */
@@ -33,10 +34,12 @@ static void bounds_clear(cgt_primitive_bounds *s)
 }
 
 /* Completes the clusters of a chunk's triangles: chunks have whole ones, except the last. Returns the large ones. */
-static uint32_t compute_cluster_bounds(const bounds_job *job, uint32_t first, uint32_t end, cgt_size_classes *classes)
+static uint32_t compute_cluster_bounds(const bounds_job *job, uint32_t first, uint32_t end, cgt_size_classes *classes,
+                                       cgt_scratch *scratch)
 {
     cgt_cluster *cluster = job->request.cluster + first / CGT_CLUSTER;
-    return job->kernel->compute_cluster_bounds(cluster, cgt_clusters(end - first), job->max_half_area, classes);
+    return job->kernel->compute_cluster_bounds(cluster, cgt_clusters(end - first), job->max_half_area, classes,
+                                               scratch);
 }
 
 /* Returns false at a type out of range. */
@@ -50,7 +53,7 @@ static bool copy_spheres(const bounds_job *job, const cgt_primitive_array *a, ui
     return bad == CGT_INVALID_ID;
 }
 
-static void compute_chunk_bounds(void *argument, uint32_t index)
+static void compute_chunk_bounds(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     const bounds_job *job = argument;
     const cgt_primitives *o = job->prims;
@@ -58,6 +61,7 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
     const cgt_primitive_array *a = cgt_primitives_array(o, first);
     cgt_bounds_request request = job->request;
     cgt_primitive_bounds s;
+    request.scratch = scratch;
     bounds_clear(&s);
     if (request.classes) {
         request.classes += index;
@@ -70,7 +74,7 @@ static void compute_chunk_bounds(void *argument, uint32_t index)
         prim = stop;
     }
     if (request.cluster && s.bad_index == CGT_INVALID_ID)
-        s.large_clusters = compute_cluster_bounds(job, first, end, request.classes);
+        s.large_clusters = compute_cluster_bounds(job, first, end, request.classes, scratch);
     job->chunk_bounds[index] = s;
 }
 
@@ -158,12 +162,14 @@ static cgt_result compute_bounds(cgt_scene *scene, copies made, bool clusters, f
 {
     const uint32_t chunks = (uint32_t)(((uint64_t)scene->committed_scene.prims.count + CHUNK - 1) / CHUNK);
     bounds_job job;
-    const cgt_result result = reserve(scene, chunks, clusters, &job);
+    cgt_result result = reserve(scene, chunks, clusters, &job);
     if (result != CGT_OK)
         return result;
     job.max_half_area = max_half_area;
     job.geometry = made == COPIES_MADE ? NULL : scene->buffer[CGT_BUFFER_GEOMETRY].data;
-    cgt_run_tasks(scene->context, compute_chunk_bounds, &job, chunks);
+    result = cgt_run_scratch_tasks(scene->context, compute_chunk_bounds, &job, chunks);
+    if (result != CGT_OK)
+        return result;
     bounds_clear(s);
     for (uint32_t i = 0; i < chunks; i++)
         bounds_merge(s, &job.chunk_bounds[i]);

@@ -23,7 +23,7 @@ typedef struct bounds_pass {
     cgt_primitive_bounds *bounds;
     const cgt_bounds_request *request;
     vfloat low[3], high[3];
-    size_gather sizes;
+    size_gather *sizes; /* in the scratch; of classes without clusters */
 } bounds_pass;
 
 static void bounds_pass_init(bounds_pass *p, const cgt_bounds_request *request, cgt_primitive_bounds *bounds)
@@ -34,8 +34,11 @@ static void bounds_pass_init(bounds_pass *p, const cgt_bounds_request *request, 
         p->low[a] = spux_vfloat(INFINITY);
         p->high[a] = spux_vfloat(-INFINITY);
     }
-    if (request->classes && !request->cluster)
-        size_gather_clear(&p->sizes);
+    p->sizes = NULL;
+    if (request->classes && !request->cluster) {
+        p->sizes = cgt_scratch_take(request->scratch, sizeof *p->sizes);
+        size_gather_clear(p->sizes);
+    }
 }
 
 static void bounds_pass_store(const bounds_pass *p, cgt_kind kind)
@@ -46,8 +49,8 @@ static void bounds_pass_store(const bounds_pass *p, cgt_kind kind)
         s->min[a] = low < s->min[a] ? low : s->min[a];
         s->max[a] = high > s->max[a] ? high : s->max[a];
     }
-    if (p->request->classes && !p->request->cluster)
-        size_gather_store(&p->sizes, kind == CGT_KIND_SPHERES ? 1 : 3, p->request->classes);
+    if (p->sizes)
+        size_gather_store(p->sizes, kind == CGT_KIND_SPHERES ? 1 : 3, p->request->classes);
 }
 
 CGT_SPU_INLINE void add_bounds(bounds_pass *p, const lane_bounds *b)
@@ -104,7 +107,7 @@ static void add_spheres(bounds_pass *p, const cgt_primitive_array *a, uint32_t i
         add_sphere_diameters(p->bounds, d[3], b.valid);
     if (p->request->classes) {
         const vfloat size = spux_abs(d[3]); /* -0 is a radius too */
-        size_gather_add(&p->sizes, d, &size, 1, size, b.valid);
+        size_gather_add(p->sizes, d, &size, 1, size, b.valid);
     }
 }
 
@@ -197,7 +200,7 @@ CGT_SPU_INLINE void store_triangles(bounds_pass *p, const lane_bounds *b, uint32
         store_plane(to + (size_t)a * plane, middle[a], count);
     }
     store_plane(to + 3 * plane, spux_select(spux_vfloat(-1), size, b->valid), count);
-    size_gather_add(&p->sizes, middle, half, 3, size, b->valid);
+    size_gather_add(p->sizes, middle, half, 3, size, b->valid);
 }
 
 /* Fetches vertices. Returns which lanes have an index out of range: then there are none. */
@@ -308,7 +311,8 @@ void CGT_KERNEL(cgt_compute_array_bounds)(const cgt_primitive_array *array, uint
 {
     bounds_pass p;
     bounds_pass_init(&p, request, bounds);
-    for (uint32_t prim = first; prim < end;) {
+    bool added = true;
+    for (uint32_t prim = first; prim < end && added;) {
         /* an array's part of the cluster that it shares with the last one is visited alone */
         const uint32_t cluster_offset = request->cluster ? prim % CGT_CLUSTER : 0,
                        cluster_rest = CGT_CLUSTER - cluster_offset;
@@ -317,26 +321,27 @@ void CGT_KERNEL(cgt_compute_array_bounds)(const cgt_primitive_array *array, uint
                                    : cluster_offset && cluster_rest < CGT_LANES ? cluster_rest
                                                                                 : CGT_LANES;
         const uint32_t count = end - prim < max_count ? end - prim : max_count, i = prim - array->first;
-        bool added = true;
         if (array->kind == CGT_KIND_SPHERES)
             add_spheres(&p, array, i, count);
         else if (clusters_aligned)
             added = add_clusters(&p, array, i, count);
         else
             added = add_triangles(&p, array, i, count);
-        if (!added)
-            return;
         prim += count;
     }
-    bounds_pass_store(&p, array->kind);
+    if (added)
+        bounds_pass_store(&p, array->kind);
+    if (p.sizes)
+        cgt_scratch_return(request->scratch, p.sizes);
 }
 
 uint32_t CGT_KERNEL(cgt_compute_cluster_bounds)(cgt_cluster *cluster, uint32_t count, float max_half_area,
-                                                cgt_size_classes *classes)
+                                                cgt_size_classes *classes, cgt_scratch *scratch)
 {
-    size_gather sizes;
-    size_gather_clear(&sizes);
-    const uint32_t large = clusters_compute_size(cluster, count, max_half_area, &sizes);
-    size_gather_store(&sizes, 3, classes);
+    size_gather *sizes = cgt_scratch_take(scratch, sizeof *sizes);
+    size_gather_clear(sizes);
+    const uint32_t large = clusters_compute_size(cluster, count, max_half_area, sizes);
+    size_gather_store(sizes, 3, classes);
+    cgt_scratch_return(scratch, sizes);
     return large;
 }

@@ -105,21 +105,23 @@ CGT_SPU_INLINE vuint gather_levels(const void *space, uint32_t skipped, const vf
 }
 
 void CGT_KERNEL(cgt_loose_grid_measure)(const cgt_cell_keys *keys, const cgt_primitive_array *array, uint32_t first,
-                                        uint32_t end, uint32_t *key, cgt_size_classes *levels)
+                                        uint32_t end, uint32_t *key, cgt_size_classes *levels, cgt_scratch *scratch)
 {
-    size_gather sizes;
-    const level_gather g = {keys->plan, &sizes};
-    size_gather_clear(&sizes);
+    size_gather *sizes = cgt_scratch_take(scratch, sizeof *sizes);
+    const level_gather g = {keys->plan, sizes};
+    size_gather_clear(sizes);
     array_keys(keys, array, first, end, gather_levels, &g, key);
-    size_gather_store(&sizes, 1, levels);
+    size_gather_store(sizes, 1, levels);
+    cgt_scratch_return(scratch, sizes);
 }
 
 void CGT_KERNEL(cgt_loose_grid_measure_clusters)(const cgt_cell_keys *keys, const cgt_cluster *cluster, uint32_t count,
-                                                 uint32_t *key, cgt_size_classes *levels)
+                                                 uint32_t *key, cgt_size_classes *levels, cgt_scratch *scratch)
 {
-    size_gather sizes;
-    const level_gather g = {keys->plan, &sizes};
-    size_gather_clear(&sizes);
+    size_gather *sizes = cgt_scratch_take(scratch, sizeof *sizes);
+    const level_gather g = {keys->plan, sizes};
+    size_gather_clear(sizes);
     cluster_keys(keys, cluster, count, gather_levels, &g, key);
-    size_gather_store(&sizes, 1, levels);
+    size_gather_store(sizes, 1, levels);
+    cgt_scratch_return(scratch, sizes);
 }

@@ -30,18 +30,19 @@ void CGT_KERNEL(cgt_resolve_rays)(const cgt_committed_scene *committed_scene, co
                                   uint64_t end, const uint32_t *prim, const cgt_trace_settings *settings,
                                   const cgt_hits *hits, cgt_counts *counts)
 {
-    packet p;
-    packet_hits h;
+    packet *p = cgt_scratch_take(counts->scratch, sizeof *p);
+    packet_hits *h = cgt_scratch_take(counts->scratch, sizeof *h);
     const ray_source source = ray_source_init(rays, NULL);
     const ray_order order = {first, NULL};
     const uint32_t count = (uint32_t)(end - first);
-    packet_of_hits(&p);
+    packet_of_hits(p);
     for (uint32_t i = 0; i < count; i += PACKET_MAX_RAYS) {
         const uint32_t lanes = count - i < PACKET_MAX_RAYS ? count - i : PACKET_MAX_RAYS;
-        p.rays = p.lanes = (lanes + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
-        for (uint32_t k = 0; k < p.lanes; k++)
-            load_ray(&source, first + i + k, k < lanes ? prim[i + k] : CGT_INVALID_ID, &p, k);
-        CGT_KERNEL(cgt_packet_resolve)(committed_scene, &p, settings, &h, counts);
-        ray_store_hits(&h, &order, i, lanes, hits);
+        p->rays = p->lanes = (lanes + CGT_LANES - 1) / CGT_LANES * CGT_LANES;
+        for (uint32_t k = 0; k < p->lanes; k++)
+            load_ray(&source, first + i + k, k < lanes ? prim[i + k] : CGT_INVALID_ID, p, k);
+        CGT_KERNEL(cgt_packet_resolve)(committed_scene, p, settings, h, counts);
+        ray_store_hits(h, &order, i, lanes, hits);
     }
+    cgt_scratch_return(counts->scratch, p);
 }

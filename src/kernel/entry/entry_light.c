@@ -11,11 +11,11 @@ bool CGT_KERNEL(cgt_trace_light)(const cgt_committed_scene *committed_scene, con
                                  const cgt_light *light, uint64_t first, uint64_t end,
                                  const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
-    packet p;
     if (settings->light_tiles)
         return CGT_KERNEL(cgt_tile_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
     if (settings->use_bvh)
         return CGT_KERNEL(cgt_bvh_trace_light)(committed_scene, points, light, first, end, settings, occluded, counts);
+    packet *p = cgt_scratch_take(counts->scratch, sizeof *p);
     const light_call c = {.committed_scene = committed_scene,
                           .source = ray_source_init(points, light),
                           .light = *light,
@@ -24,12 +24,13 @@ bool CGT_KERNEL(cgt_trace_light)(const cgt_committed_scene *committed_scene, con
                           .occluded = occluded,
                           .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
-    p.any_hit = true;
-    p.fast = settings->precision == CGT_PRECISION_FAST;
-    p.triangle_test = settings->triangle_test;
+    p->any_hit = true;
+    p->fast = settings->precision == CGT_PRECISION_FAST;
+    p->triangle_test = settings->triangle_test;
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += LIGHT_PACKET_RAYS)
-        light_trace_packet(&c, i, count - i < LIGHT_PACKET_RAYS ? count - i : LIGHT_PACKET_RAYS, &p);
+        light_trace_packet(&c, i, count - i < LIGHT_PACKET_RAYS ? count - i : LIGHT_PACKET_RAYS, p);
     light_count_hits(&c, count);
+    cgt_scratch_return(counts->scratch, p);
     return true;
 }

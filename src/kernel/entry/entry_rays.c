@@ -14,6 +14,7 @@ typedef struct rays_call {
     const cgt_trace_settings *settings;
     const cgt_hits *hits;
     uint8_t *occluded;
+    packet_hits *packet_hits; /* of the packet that is being traced */
     cgt_counts *counts;
 } rays_call;
 
@@ -37,15 +38,14 @@ __attribute__((noinline, cold)) static void trace_mixed(const rays_call *c, cons
 
 static void trace_packet(const rays_call *c, const ray_order *order, uint32_t first, uint32_t count, packet *p)
 {
-    packet_hits h;
     if (!ray_packet_init(c->committed_scene, &c->source, order, first, count, p, c->counts)) {
         trace_mixed(c, order, first, count, p);
         return;
     }
     CGT_KERNEL(cgt_packet_trace)(c->committed_scene, p, c->settings, c->counts);
     if (c->hits) {
-        CGT_KERNEL(cgt_packet_resolve)(c->committed_scene, p, c->settings, &h, c->counts);
-        ray_store_hits(&h, order, first, count, c->hits);
+        CGT_KERNEL(cgt_packet_resolve)(c->committed_scene, p, c->settings, c->packet_hits, c->counts);
+        ray_store_hits(c->packet_hits, order, first, count, c->hits);
         return;
     }
     for (uint32_t k = 0; k < count; k++) {
@@ -85,30 +85,31 @@ static bool order_rays(const ray_source *s, uint64_t first, uint32_t count, uint
     return true;
 }
 
-/* Traces packets through the committed structure. Not inline, so that its arrays and those of streams do not share a
- * stack frame. */
-__attribute__((noinline)) static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_rays *rays,
-                                                    uint64_t first, uint64_t end, const cgt_trace_settings *settings,
-                                                    const cgt_hits *hits, uint8_t *occluded, cgt_counts *counts)
+/* Traces packets through the committed structure. */
+static void trace_packets(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,
+                          uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits, uint8_t *occluded,
+                          cgt_counts *counts)
 {
-    packet p;
-    uint32_t from[CGT_RAYS_CHUNK];
+    packet *p = cgt_scratch_take(counts->scratch, sizeof *p);
+    uint32_t *from = cgt_scratch_take(counts->scratch, CGT_RAYS_CHUNK * sizeof *from);
     const rays_call c = {.committed_scene = committed_scene,
                          .source = ray_source_init(rays, NULL),
                          .settings = settings,
                          .hits = hits,
                          .occluded = occluded,
+                         .packet_hits = cgt_scratch_take(counts->scratch, sizeof(packet_hits)),
                          .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
     const bool tree =
         committed_scene->structure == CGT_STRUCTURE_KD || committed_scene->structure == CGT_STRUCTURE_KD_ROPES;
     const ray_order order = {first, tree && order_rays(&c.source, first, count, from) ? from : NULL};
-    p.any_hit = hits == NULL;
-    p.fast = settings->precision == CGT_PRECISION_FAST;
-    p.triangle_test = settings->triangle_test;
+    p->any_hit = hits == NULL;
+    p->fast = settings->precision == CGT_PRECISION_FAST;
+    p->triangle_test = settings->triangle_test;
     counts->rays += count;
     for (uint32_t i = 0; i < count; i += RAY_PACKET)
-        trace_packet(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, &p);
+        trace_packet(&c, &order, i, count - i < RAY_PACKET ? count - i : RAY_PACKET, p);
+    cgt_scratch_return(counts->scratch, p);
 }
 
 void CGT_KERNEL(cgt_trace_rays)(const cgt_committed_scene *committed_scene, const cgt_rays *rays, uint64_t first,

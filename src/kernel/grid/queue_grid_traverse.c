@@ -198,41 +198,45 @@ static bool is_incoherent(const traversal *v)
     return v->prims.p->rays > 1 && b[1] >= b[0] && cells > 4 + CELLS_PER_RAY * (float)v->prims.p->rays;
 }
 
-/* Rays with one main axis and sign. */
-static void traverse(const cgt_committed_scene *committed_scene, packet *p, uint32_t class,
+static void traverse_cells(traversal *v, const cgt_trace_settings *settings)
+{
+    v->counts->packets++;
+    packet_prims_init(&v->prims);
+    if (v->mailbox)
+        memset(v->visited, 0xff, sizeof v->visited);
+    if (settings->flattened)
+        traverse_flattened(v);
+    else
+        traverse_nested(v);
+}
+
+/* Traces rays with one main axis and sign. Returns false where they must be split first. */
+static bool traverse(const cgt_committed_scene *committed_scene, packet *p, uint32_t class,
                      const cgt_trace_settings *settings, cgt_counts *counts)
 {
     const cgt_queue_grid *g = &committed_scene->grid;
-    traversal v;
-    v.prims.committed_scene = committed_scene;
-    v.prims.p = p;
-    v.prims.counts = counts;
-    v.prims.cull = settings->cull;
-    v.prims.frustum = (frustum){0};
+    traversal *v = cgt_scratch_take(counts->scratch, sizeof *v);
+    v->prims.committed_scene = committed_scene;
+    v->prims.p = p;
+    v->prims.counts = counts;
+    v->prims.cull = settings->cull;
+    v->prims.frustum = (frustum){0};
     for (int a = 0; a < 3; a++) {
-        v.prims.space.org[a] = g->org[a];
-        v.prims.space.rcell[a] = g->rcell[a];
-        v.prims.space.cell_error[a] = g->cell_error[a];
-        v.prims.space.resolution[a] = g->resolution[a];
+        v->prims.space.org[a] = g->org[a];
+        v->prims.space.rcell[a] = g->rcell[a];
+        v->prims.space.cell_error[a] = g->cell_error[a];
+        v->prims.space.resolution[a] = g->resolution[a];
     }
-    v.grid = g;
-    v.counts = counts;
-    v.mailbox = settings->mailbox;
-    v.pending = 0;
-    if (!frustum_init(&v.prims.space, p, (int)(class >> 1), class & 1, &v.prims.frustum))
-        return;
-    if (is_incoherent(&v)) {
-        packet_trace_split(committed_scene, p, 2, CGT_KERNEL(cgt_queue_grid_trace), settings, counts);
-        return;
-    }
-    counts->packets++;
-    packet_prims_init(&v.prims);
-    if (v.mailbox)
-        memset(v.visited, 0xff, sizeof v.visited);
-    if (settings->flattened)
-        traverse_flattened(&v);
-    else
-        traverse_nested(&v);
+    v->grid = g;
+    v->counts = counts;
+    v->mailbox = settings->mailbox;
+    v->pending = 0;
+    const bool reaches_grid = frustum_init(&v->prims.space, p, (int)(class >> 1), class & 1, &v->prims.frustum);
+    const bool coherent = !reaches_grid || !is_incoherent(v);
+    if (reaches_grid && coherent)
+        traverse_cells(v, settings);
+    cgt_scratch_return(counts->scratch, v);
+    return coherent;
 }
 
 /* Splits by main axis and sign first. */
@@ -242,9 +246,9 @@ void CGT_KERNEL(cgt_queue_grid_trace)(const cgt_committed_scene *committed_scene
     _Alignas(64) uint32_t class[PACKET_MAX_RAYS];
     class[0] = 0; /* there is at least one ray, which the compiler cannot know */
     packet_classify(p, class);
-    if (packet_all_equal(class, p->lanes))
-        traverse(committed_scene, p, class[0], settings, counts);
-    else
+    if (!packet_all_equal(class, p->lanes))
         packet_trace_parts(committed_scene, p, class, PACKET_CLASSES, CGT_KERNEL(cgt_queue_grid_trace), settings,
                            counts);
+    else if (!traverse(committed_scene, p, class[0], settings, counts))
+        packet_trace_split(committed_scene, p, 2, CGT_KERNEL(cgt_queue_grid_trace), settings, counts);
 }

@@ -333,32 +333,33 @@ static const uint32_t *light_copy_ids(const light_call *c, const uint32_t *from,
 }
 
 /* Traces points first to end - 1 as single rays. */
-__attribute__((noinline)) static void light_trace_single_rays(const light_call *c, uint64_t first, uint64_t end)
+static void light_trace_single_rays(const light_call *c, uint64_t first, uint64_t end)
 {
-    light_rays copy;
+    light_rays *copy = cgt_scratch_take(c->counts->scratch, sizeof *copy);
     const cgt_rays *points = c->source.rays;
     const uint32_t count = (uint32_t)(end - first);
     cgt_rays rays = {.count = count,
-                     .t_min = copy.t_min,
-                     .t_max = copy.t_max,
-                     .mask = light_copy_ids(c, points->mask, first, count, copy.mask),
-                     .skip_primitive = light_copy_ids(c, points->skip_primitive, first, count, copy.primitive),
-                     .skip_geometry = light_copy_ids(c, points->skip_geometry, first, count, copy.geometry)};
+                     .t_min = copy->t_min,
+                     .t_max = copy->t_max,
+                     .mask = light_copy_ids(c, points->mask, first, count, copy->mask),
+                     .skip_primitive = light_copy_ids(c, points->skip_primitive, first, count, copy->primitive),
+                     .skip_geometry = light_copy_ids(c, points->skip_geometry, first, count, copy->geometry)};
     for (int a = 0; a < 3; a++) {
         for (uint32_t k = 0; k < count; k++) {
-            copy.org[a][k] = ray_element(&c->source, points->org[a], first + k);
-            copy.dir[a][k] = ray_direction(&c->source, first + k, a, copy.org[a][k]);
+            copy->org[a][k] = ray_element(&c->source, points->org[a], first + k);
+            copy->dir[a][k] = ray_direction(&c->source, first + k, a, copy->org[a][k]);
         }
-        rays.org[a] = copy.org[a];
-        rays.dir[a] = copy.dir[a];
+        rays.org[a] = copy->org[a];
+        rays.dir[a] = copy->dir[a];
     }
     for (uint32_t k = 0; k < count; k++) {
-        copy.t_min[k] = points->t_min ? ray_element(&c->source, points->t_min, first + k) : 0;
-        copy.t_max[k] = points->t_max ? ray_element(&c->source, points->t_max, first + k) : c->source.t_max;
+        copy->t_min[k] = points->t_min ? ray_element(&c->source, points->t_min, first + k) : 0;
+        copy->t_max[k] = points->t_max ? ray_element(&c->source, points->t_max, first + k) : c->source.t_max;
     }
     CGT_KERNEL(cgt_bvh_trace_rays)
     (c->committed_scene, &rays, 0, count, c->settings, NULL, c->occluded + first, c->counts);
     c->counts->rays -= count; /* the call has counted them */
+    cgt_scratch_return(c->counts->scratch, copy);
 }
 
 /* Traces points first to first + count - 1 of the order as a packet and adds the work that it took. Returns false if it
@@ -393,7 +394,7 @@ bool CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene,
                                      const cgt_light *light, uint64_t first, uint64_t end,
                                      const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
-    light_packet l;
+    light_packet *l = cgt_scratch_take(counts->scratch, sizeof *l);
     const light_call c = {.committed_scene = committed_scene,
                           .source = ray_source_init(points, light),
                           .light = *light,
@@ -404,20 +405,21 @@ bool CGT_KERNEL(cgt_bvh_trace_light)(const cgt_committed_scene *committed_scene,
     const uint32_t count = (uint32_t)(end - first);
     uint32_t done = 0;
     uint64_t work = 0;
-    l.rays.any_hit = true;
-    l.rays.fast = false;
-    l.last_leaf = 0;
+    l->rays.any_hit = true;
+    l->rays.fast = false;
+    l->last_leaf = 0;
     counts->rays += count;
     while (light_is_near(&c) && done < count &&
            (done < LIGHT_TRIAL_PACKETS * LIGHT_BVH_PACKET_RAYS ||
             LIGHT_BVH_PACKET_RAYS * work <= (uint64_t)LIGHT_PACKET_WORK * done)) {
         const uint32_t batch = count - done < LIGHT_BVH_PACKET_RAYS ? count - done : LIGHT_BVH_PACKET_RAYS;
-        if (!light_trace_points(&c, &l, done, batch, &work))
+        if (!light_trace_points(&c, l, done, batch, &work))
             break;
         done += batch;
     }
     light_count_hits(&c, done);
     if (done < count)
         light_trace_single_rays(&c, first + done, end);
+    cgt_scratch_return(counts->scratch, l);
     return true;
 }

@@ -353,8 +353,8 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
                                       const cgt_light *light, uint64_t first, uint64_t end,
                                       const cgt_trace_settings *settings, uint8_t *occluded, cgt_counts *counts)
 {
-    light_tile t; /* large: set field by field */
-    _Alignas(64) uint32_t from[CGT_RAYS_CHUNK];
+    light_tile *t = cgt_scratch_take(counts->scratch, sizeof *t); /* large: set field by field */
+    uint32_t *from = cgt_scratch_take(counts->scratch, CGT_RAYS_CHUNK * sizeof *from);
     light_call c = {.committed_scene = committed_scene,
                     .source = ray_source_init(points, light),
                     .light = *light,
@@ -364,24 +364,26 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
                     .counts = counts};
     const uint32_t count = (uint32_t)(end - first);
     const uint64_t invalid = counts->invalid_rays;
-    t.committed_scene = committed_scene;
-    t.counts = counts;
-    t.is_point = light->kind == CGT_LIGHT_POINT;
+    t->committed_scene = committed_scene;
+    t->counts = counts;
+    t->is_point = light->kind == CGT_LIGHT_POINT;
     /* tiles of fewer lanes share less */
     const uint64_t max_work = (uint64_t)settings->max_light_work * count * 16 / CGT_LANES;
-    t.max_work = max_work ? light_work(counts) + max_work : UINT64_MAX;
+    t->max_work = max_work ? light_work(counts) + max_work : UINT64_MAX;
     if (committed_scene->valid >= LIGHT_SORT_MIN_PRIMS || CGT_KERNEL(cgt_light_is_scattered)(&c, count)) {
         c.order.from = from;
         CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
     }
     for (uint32_t i = 0; i < count; i += LIGHT_TILE_RAYS) {
-        light_trace_tile(&c, &t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
-        if (t.given_up) {
+        light_trace_tile(&c, t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
+        if (t->given_up) {
             counts->invalid_rays = invalid;
+            cgt_scratch_return(counts->scratch, t);
             return false;
         }
     }
     counts->rays += count;
     light_count_hits(&c, count);
+    cgt_scratch_return(counts->scratch, t);
     return true;
 }

@@ -70,11 +70,18 @@ CGT_SPU_INLINE void light_load_points(const light_call *c, uint32_t k, uint32_t 
     }
 }
 
-void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
-{
+typedef struct sort_work {
     _Alignas(64) float position[2][CGT_RAYS_CHUNK];
     _Alignas(64) uint32_t key[CGT_RAYS_CHUNK];
-    uint16_t start[SORT_CELLS * SORT_CELLS][SORT_RUNS] = {{0}}, sum = 0;
+    uint16_t start[SORT_CELLS * SORT_CELLS][SORT_RUNS];
+} sort_work;
+
+void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint32_t from[CGT_RAYS_CHUNK])
+{
+    sort_work *w = cgt_scratch_take(c->counts->scratch, sizeof *w);
+    float(*restrict position)[CGT_RAYS_CHUNK] = w->position;
+    uint32_t *restrict key = w->key;
+    uint16_t(*restrict start)[SORT_RUNS] = w->start, sum = 0;
     const uint32_t run = count / SORT_RUNS;
     const light_projection projection = light_init_projection(c, count);
     vfloat lower[2], upper[2], scale[2];
@@ -82,6 +89,7 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
         lower[a] = spux_vfloat(INFINITY);
         upper[a] = spux_vfloat(-INFINITY);
     }
+    memset(w->start, 0, sizeof w->start);
     /* project all points, and find their extent */
     for (uint32_t k = 0; k < count; k += CGT_LANES) {
         vfloat point[3], coord[2];
@@ -125,6 +133,7 @@ void CGT_KERNEL(cgt_light_sort_points)(const light_call *c, uint32_t count, uint
             from[start[key[r * run + i]][r]++] = r * run + i;
     for (uint32_t k = run * SORT_RUNS; k < count; k++)
         from[start[key[k]][SORT_RUNS - 1]++] = k;
+    cgt_scratch_return(c->counts->scratch, w);
 }
 
 bool CGT_KERNEL(cgt_light_is_scattered)(const light_call *c, uint32_t count)

@@ -66,52 +66,61 @@ static void packet_extract(const packet *p, const uint32_t *part, uint32_t part_
     }
 }
 
+/* A part, and its rays in the whole. */
+typedef struct packet_part {
+    packet sub;
+    uint32_t from[PACKET_MAX_RAYS];
+} packet_part;
+
 /* Traces the rays of a packet as several packets; part[i], below `parts`, is the one of ray i. */
 static void packet_trace_parts(const cgt_committed_scene *committed_scene, packet *p, const uint32_t *part,
                                uint32_t parts, packet_tracer *trace, const cgt_trace_settings *settings,
                                cgt_counts *counts)
 {
-    packet sub;
-    uint32_t from[PACKET_MAX_RAYS];
-    sub.common_origin = p->common_origin;
-    sub.from_origin = p->from_origin;
-    sub.to_light = p->to_light;
+    packet_part *work = cgt_scratch_take(counts->scratch, sizeof *work);
+    packet *sub = &work->sub;
+    uint32_t *from = work->from;
+    sub->common_origin = p->common_origin;
+    sub->from_origin = p->from_origin;
+    sub->to_light = p->to_light;
     for (int a = 0; a < 3; a++)
-        sub.light[a] = p->light[a];
-    sub.skips_prims = p->skips_prims;
-    sub.has_masks = p->has_masks;
-    sub.any_hit = p->any_hit;
-    sub.fast = p->fast;
-    sub.triangle_test = p->triangle_test;
-    sub.extreme = false;
+        sub->light[a] = p->light[a];
+    sub->skips_prims = p->skips_prims;
+    sub->has_masks = p->has_masks;
+    sub->any_hit = p->any_hit;
+    sub->fast = p->fast;
+    sub->triangle_test = p->triangle_test;
+    sub->extreme = false;
     counts->split_packets++;
     for (uint32_t k = 0; k < parts; k++) {
-        packet_extract(p, part, k, &sub, from);
-        if (!sub.rays)
+        packet_extract(p, part, k, sub, from);
+        if (!sub->rays)
             continue;
-        trace(committed_scene, &sub, settings, counts);
-        for (uint32_t i = 0; i < sub.rays; i++) {
-            p->low[from[i]] = sub.low[i];
-            p->high[from[i]] = sub.high[i];
-            p->prim[from[i]] = sub.prim[i];
+        trace(committed_scene, sub, settings, counts);
+        for (uint32_t i = 0; i < sub->rays; i++) {
+            p->low[from[i]] = sub->low[i];
+            p->high[from[i]] = sub->high[i];
+            p->prim[from[i]] = sub->prim[i];
             if (p->fast) {
-                p->u[from[i]] = sub.u[i];
-                p->v[from[i]] = sub.v[i];
+                p->u[from[i]] = sub->u[i];
+                p->v[from[i]] = sub->v[i];
             }
         }
     }
+    cgt_scratch_return(counts->scratch, work);
 }
 
 /* The rays in `parts` parts of equal size, at most as many as there are rays, neighbours together. */
 static void packet_trace_split(const cgt_committed_scene *committed_scene, packet *p, uint32_t parts,
                                packet_tracer *trace, const cgt_trace_settings *settings, cgt_counts *counts)
 {
-    uint32_t part[PACKET_MAX_RAYS], active = 0;
+    uint32_t *part = cgt_scratch_take(counts->scratch, PACKET_MAX_RAYS * sizeof *part), active = 0;
     for (uint32_t i = 0; i < p->lanes; i++) {
         part[i] = active * parts / p->rays;
         active += p->high[i] != -INFINITY;
     }
     packet_trace_parts(committed_scene, p, part, parts, trace, settings, counts);
+    cgt_scratch_return(counts->scratch, part);
 }
 
 #endif

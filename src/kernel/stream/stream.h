@@ -4,11 +4,10 @@
  * Streams of rays through the BVH: the rays of a call, normalised (bvh_ray.h), one record each, and lists of rays by
  * number.
  *
- * Stack. A stream takes, with CGT_STREAM_CHUNK = 8192, 512 KB for records, 128 KB for best hits, 33 KB for the list of
- * all rays, 32 KB for keys and later for skipped primitives, 32 KB for masks, and 64 KB for the arena: 805 KB with the
- * call's frame. Besides there are, one at a time, the levels of a list with the stack of a single ray, 20 KB, or
- * interleaved rays, 40 KB, or a packet, its hits and the frame of the resolve, 49 KB: a call stays below 860 KB. Points
- * against a light add 177 KB, their order and batch (point_batch.h) 285 KB, ambient occlusion 181 KB. */
+ * Memory. A stream lies in the task's scratch and takes, with CGT_STREAM_CHUNK = 8192, 512 KB for records, 128 KB for
+ * best hits, 33 KB for the list of all rays, 32 KB for keys and later for skipped primitives, 32 KB for masks, and 64 KB
+ * for the arena: 805 KB. On the stack are, one at a time, the levels of a list with the stack of a single ray, 20 KB, or
+ * interleaved rays, 40 KB, or the frame of the resolve, 15 KB. */
 #ifndef CGT_STREAM_H
 #define CGT_STREAM_H
 

@@ -64,8 +64,9 @@ static void prefetch_hits(const stream *s, uint32_t first, uint32_t rays, uint32
 void CGT_KERNEL(cgt_stream_store_hits)(stream *s, uint32_t count, const cgt_trace_settings *settings,
                                        const cgt_hits *hits)
 {
-    packet p;
-    packet_hits h;
+    cgt_scratch *scratch = s->call.counts->scratch;
+    packet *p = cgt_scratch_take(scratch, sizeof *p);
+    packet_hits *h = cgt_scratch_take(scratch, sizeof *h);
     for (uint32_t i = 0; i < count; i += PACKET_MAX_RAYS) {
         const uint32_t rays = count - i < PACKET_MAX_RAYS ? count - i : PACKET_MAX_RAYS;
         const ray_order order = {s->call.first, NULL};
@@ -73,8 +74,9 @@ void CGT_KERNEL(cgt_stream_store_hits)(stream *s, uint32_t count, const cgt_trac
             prefetch_hits(s, i + 2 * PACKET_MAX_RAYS, PACKET_MAX_RAYS, count, false);
             prefetch_hits(s, i + PACKET_MAX_RAYS, PACKET_MAX_RAYS, count, true);
         }
-        make_hit_packet(s, i, rays, &p);
-        CGT_KERNEL(cgt_packet_resolve)(s->call.committed_scene, &p, settings, &h, s->call.counts);
-        ray_store_hits(&h, &order, i, rays, hits);
+        make_hit_packet(s, i, rays, p);
+        CGT_KERNEL(cgt_packet_resolve)(s->call.committed_scene, p, settings, h, s->call.counts);
+        ray_store_hits(h, &order, i, rays, hits);
     }
+    cgt_scratch_return(scratch, p);
 }

@@ -177,32 +177,33 @@ void CGT_KERNEL(cgt_bvh_trace_rays)(const cgt_committed_scene *committed_scene, 
                                     uint64_t end, const cgt_trace_settings *settings, const cgt_hits *hits,
                                     uint8_t *occluded, cgt_counts *counts)
 {
-    stream s;
+    stream *s = cgt_scratch_take(counts->scratch, sizeof *s);
     uint32_t start[STREAM_KEYS], number[STREAM_KEYS];
     const uint32_t count = (uint32_t)(end - first);
     const ray_source source = ray_source_init(rays, NULL);
-    const bool fits = bvh_call_init(committed_scene, counts, &s.call);
-    s.call.source = &source;
-    s.call.first = first;
-    s.call.any_hit = hits == NULL;
-    s.occluded = hits ? NULL : occluded + first;
+    const bool fits = bvh_call_init(committed_scene, counts, &s->call);
+    s->call.source = &source;
+    s->call.first = first;
+    s->call.any_hit = hits == NULL;
+    s->occluded = hits ? NULL : occluded + first;
     if (!hits)
-        memset(s.occluded, 0, count);
+        memset(s->occluded, 0, count);
     counts->rays += count;
     counts->bvh_rays += count;
-    if (s.call.any_hit)
-        stream_read_rays(&s, count, true, start, number);
+    if (s->call.any_hit)
+        stream_read_rays(s, count, true, start, number);
     else
-        stream_read_rays(&s, count, false, start, number);
+        stream_read_rays(s, count, false, start, number);
     if (rays->skip_primitive || rays->mask)
-        stream_load_masks(&s, count);
+        stream_load_masks(s, count);
     if (committed_scene->valid && fits)
-        stream_trace_all(&s, start, number);
+        stream_trace_all(s, start, number);
     else if (committed_scene->valid)
         for (uint32_t k = 0; k <= STREAM_UNUSUAL; k++)
-            CGT_KERNEL(cgt_stream_trace_unusual)(&s, s.ray_list + start[k], number[k]);
+            CGT_KERNEL(cgt_stream_trace_unusual)(s, s->ray_list + start[k], number[k]);
     if (!hits)
-        counts->hits += s.updates;
+        counts->hits += s->updates;
     else
-        CGT_KERNEL(cgt_stream_store_hits)(&s, count, settings, hits);
+        CGT_KERNEL(cgt_stream_store_hits)(s, count, settings, hits);
+    cgt_scratch_return(counts->scratch, s);
 }

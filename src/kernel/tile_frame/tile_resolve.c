@@ -137,19 +137,20 @@ __attribute__((noinline)) static void tile_resolve_triangle_array(const cgt_comm
                                                                   tile_resolve_mode mode, tile_resolve_cache cache,
                                                                   cgt_counts *counts)
 {
-    tile_prepared_triangles prepared;
-    cache.prepared = &prepared;
+    tile_prepared_triangles *prepared = cgt_scratch_take(counts->scratch, sizeof *prepared);
+    cache.prepared = prepared;
     mode.triangles = true;
     mode.parallel = false;
     mode.prepared = mode.fields && t->triangle_count < TILE_MAX_TRIANGLES;
     if (mode.prepared)
-        tile_prepare_triangles(committed_scene, t, mode.fields, mode.exact, &prepared);
+        tile_prepare_triangles(committed_scene, t, mode.fields, mode.exact, prepared);
     if (mode.fields & CGT_FIELD_UV) {
         tile_resolve_streamed(committed_scene, t, r, mode, cache, counts);
-        return;
+    } else {
+        mode.fields &= CGT_FIELD_T | CGT_FIELD_NORMAL;
+        tile_resolve_streamed(committed_scene, t, r, mode, cache, counts);
     }
-    mode.fields &= CGT_FIELD_T | CGT_FIELD_NORMAL;
-    tile_resolve_streamed(committed_scene, t, r, mode, cache, counts);
+    cgt_scratch_return(counts->scratch, prepared);
 }
 
 __attribute__((noinline)) static void tile_resolve_parallel_array(const cgt_committed_scene *committed_scene,

@@ -295,35 +295,36 @@ __attribute__((noinline)) static void tile_trace_region(const cgt_committed_scen
                                                         const cgt_trace_settings *settings, const cgt_region *region,
                                                         tile_seam *seam, cgt_counts *counts)
 {
-    tile t;
-    tile_work w; /* large: set field by field */
-    w.committed_scene = committed_scene;
-    w.t = &t;
-    w.queue.entries = 0;
-    w.counts = counts;
-    w.rasterised = 0;
-    w.prefetch = (prefetch_owner){committed_scene, &w.pending, &w};
-    prefetch_queues_clear(&w.pending);
-    CGT_KERNEL(cgt_tile_init)(&t, committed_scene, camera, region);
-    tile_march_grid(&w);
+    tile *t = cgt_scratch_take(counts->scratch, sizeof *t);
+    tile_work *w = cgt_scratch_take(counts->scratch, sizeof *w); /* large: set field by field */
+    w->committed_scene = committed_scene;
+    w->t = t;
+    w->queue.entries = 0;
+    w->counts = counts;
+    w->rasterised = 0;
+    w->prefetch = (prefetch_owner){committed_scene, &w->pending, w};
+    prefetch_queues_clear(&w->pending);
+    CGT_KERNEL(cgt_tile_init)(t, committed_scene, camera, region);
+    tile_march_grid(w);
     counts->tiles++;
     counts->rays += (uint64_t)region->width * region->height;
-    CGT_KERNEL(cgt_tile_resolve)(committed_scene, &t, settings, region, seam, counts);
+    CGT_KERNEL(cgt_tile_resolve)(committed_scene, t, settings, region, seam, counts);
+    cgt_scratch_return(counts->scratch, t);
 }
 
-/* A row of tiles side by side, which share lines of the planes. Not inlined: one tile alone needs no seam. */
-__attribute__((noinline)) static void tile_trace_row(const cgt_committed_scene *committed_scene,
-                                                     const cgt_camera_rays *camera, const cgt_trace_settings *settings,
-                                                     const cgt_region *row, cgt_counts *counts)
+/* A row of tiles side by side, which share lines of the planes. */
+static void tile_trace_row(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,
+                           const cgt_trace_settings *settings, const cgt_region *row, cgt_counts *counts)
 {
-    tile_seam seam; /* large: set field by field */
+    tile_seam *seam = cgt_scratch_take(counts->scratch, sizeof *seam); /* large: set field by field */
     for (uint32_t x = 0; x < row->width; x += TILE_EDGE) {
         const cgt_region part = cgt_region_part(row, x, 0, TILE_EDGE, TILE_EDGE);
-        seam.left = x > 0;
-        seam.right = x + TILE_EDGE < row->width;
-        tile_trace_region(committed_scene, camera, settings, &part, committed_scene->prims.arrays == 1 ? &seam : NULL,
+        seam->left = x > 0;
+        seam->right = x + TILE_EDGE < row->width;
+        tile_trace_region(committed_scene, camera, settings, &part, committed_scene->prims.arrays == 1 ? seam : NULL,
                           counts);
     }
+    cgt_scratch_return(counts->scratch, seam);
 }
 
 void CGT_KERNEL(cgt_trace_tile)(const cgt_committed_scene *committed_scene, const cgt_camera_rays *camera,

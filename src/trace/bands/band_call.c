@@ -61,23 +61,26 @@ void cgt_bands_end(cgt_band_call *call)
 }
 
 typedef struct band_wave {
-    cgt_task *task;
+    cgt_scratch_task *task;
     void *argument;
     uint32_t first;
 } band_wave;
 
-static void run_task(void *argument, uint32_t index)
+static void run_task(void *argument, uint32_t index, cgt_scratch *scratch)
 {
     const band_wave *w = argument;
-    w->task(w->argument, w->first + index);
+    w->task(w->argument, w->first + index, scratch);
 }
 
-void cgt_bands_run(const cgt_band_call *call, cgt_task *task, void *argument, uint32_t count)
+cgt_result cgt_bands_run(const cgt_band_call *call, cgt_scratch_task *task, void *argument, uint32_t count)
 {
-    for (uint32_t first = 0; first < count; first += call->slots) {
+    cgt_result result = CGT_OK;
+    for (uint32_t first = 0; first < count && result == CGT_OK; first += call->slots) {
         band_wave w = {task, argument, first};
-        cgt_run_tasks(call->scene->context, run_task, &w, count - first < call->slots ? count - first : call->slots);
+        const uint32_t tasks = count - first < call->slots ? count - first : call->slots;
+        result = cgt_run_scratch_tasks(call->scene->context, run_task, &w, tasks);
     }
+    return result;
 }
 
 cgt_trace_settings cgt_band_settings(const cgt_trace_settings *settings)

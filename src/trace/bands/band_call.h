@@ -5,6 +5,7 @@
 #ifndef CGT_BAND_CALL_H
 #define CGT_BAND_CALL_H
 
+#include "core/scratch_tasks.h"
 #include "dispatch/kernel.h"
 #include "trace/bands/band_ray.h"
 
@@ -45,8 +46,8 @@ cgt_result cgt_bands_build_bvh(cgt_band_call *call, uint64_t rays);
 void cgt_bands_end(cgt_band_call *call);
 cgt_band_scratch cgt_band_slot(const cgt_band_call *call, uint32_t slot);
 
-/* Runs tasks as cgt_run_tasks does, at most call->slots at once: task i may use slot i % call->slots. */
-void cgt_bands_run(const cgt_band_call *call, cgt_task *task, void *argument, uint32_t count);
+/* Runs tasks as cgt_run_scratch_tasks does, at most call->slots at once: task i may use slot i % call->slots. */
+cgt_result cgt_bands_run(const cgt_band_call *call, cgt_scratch_task *task, void *argument, uint32_t count);
 
 /* Adds what a band's kernel has counted, without rays and hits: these are the call's. */
 void cgt_band_add_counts(cgt_counts *to, const cgt_counts *counts);

@@ -114,7 +114,7 @@ static void trace_camera(const cgt_band_frame *f, uint32_t b, const cgt_trace_se
 {
     const cgt_kernel *kernel = f->call.scene->context->kernel;
     const cgt_committed_scene *scene = &f->call.scene->bands->band[b].scene->committed_scene;
-    cgt_counts own = {0};
+    cgt_counts own = {.scratch = counts->scratch};
     (f->band[b].by_tiles ? kernel->trace_tile : kernel->trace_region)(scene, &f->band[b].camera, settings, to, &own);
     cgt_band_add_counts(counts, &own);
 }

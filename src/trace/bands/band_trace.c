@@ -176,7 +176,7 @@ static void trace_any(const cgt_band_chunk *c, uint32_t b, ray_list list)
     const cgt_band *band = &c->call->scene->bands->band[b];
     const cgt_rays rays = list_rays(c, list);
     cgt_trace_settings settings = cgt_band_settings(c->call->settings);
-    cgt_counts counts = {0};
+    cgt_counts counts = {.scratch = c->counts->scratch};
     if (!rays.count)
         return;
     settings.use_bvh = c->call->use_bvh[b];
@@ -194,7 +194,7 @@ static void trace_points(const cgt_band_chunk *c, uint32_t b, ray_list list, con
     const cgt_committed_scene *scene = &band->scene->committed_scene;
     cgt_rays points = list_rays(c, list);
     cgt_trace_settings settings = cgt_band_settings(c->call->settings);
-    cgt_counts counts = {0};
+    cgt_counts counts = {.scratch = c->counts->scratch};
     if (!points.count)
         return;
     /* ranges are the caller's here, and none are faster */
@@ -233,7 +233,7 @@ static void trace_closest(const cgt_band_chunk *c, uint32_t b, ray_list list)
     const cgt_hits hits = {
         .t = s->t + list.first, .primitive = s->primitive + list.first, .geometry = s->geometry + list.first};
     cgt_trace_settings settings = cgt_band_settings(c->call->settings);
-    cgt_counts counts = {0};
+    cgt_counts counts = {.scratch = c->counts->scratch};
     if (!rays.count)
         return;
     settings.use_bvh = c->call->use_bvh[b];
