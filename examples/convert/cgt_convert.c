@@ -162,8 +162,8 @@ static int copy_frame(conversion *c)
     if (result <= 0) {
         return result;
     }
-    const char *warning = trajectory_take_warning(c->from);
-    if (warning != NULL) {
+    const char *warning;
+    while ((warning = trajectory_take_warning(c->from)) != NULL) {
         program_error("warning: %s", warning);
     }
     if (write_frame(c, &frame)) {

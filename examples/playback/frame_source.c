@@ -54,8 +54,8 @@ static int is_selected(const frame_range *range, uint64_t number)
 static int read_frame(frame_source *source, char *error, size_t error_size)
 {
     const int result = trajectory_read(source->file, &source->frame, error, error_size);
-    const char *warning = trajectory_take_warning(source->file);
-    if (warning)
+    const char *warning;
+    while ((warning = trajectory_take_warning(source->file)) != NULL)
         program_error("warning: %s", warning);
     source->speed = NULL;
     if (result != 1 || !source->tracker)

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trajectories: opening by ending, errors, and the arrays of a frame. Each format has a file of its own. */
+ * Trajectories: opening by ending, reading, and the arrays of a frame. Each format has a file of its own. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
@@ -9,7 +9,6 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -20,69 +19,6 @@
 
 static const trajectory_format *const formats[] = {&trajectory_format_lammps, &trajectory_format_xyz,
                                                    &trajectory_format_frames, &trajectory_format_mesh};
-
-/* ---- Errors ------------------------------------------------------------------------------------------------- */
-
-/* A long path loses its front: its end, the line and the sentence tell more. */
-static int write_place(char *text, size_t size, const char *path, uint64_t line)
-{
-    const size_t limit = 600;
-    const size_t length = strlen(path);
-    const char *dots = length > limit ? "..." : "";
-    const char *tail = length > limit ? path + (length - limit) : path;
-    if (line > 0) {
-        return snprintf(text, size, "%s%s:%" PRIu64 ": ", dots, tail, line);
-    }
-    return snprintf(text, size, "%s%s: ", dots, tail);
-}
-
-int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...)
-{
-    const int used = write_place(t->message, sizeof t->message, t->path, line);
-    if (used >= 0 && (size_t)used < sizeof t->message) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(t->message + used, sizeof t->message - (size_t)used, format, arguments);
-        va_end(arguments);
-    }
-    t->failed = 1;
-    return -1;
-}
-
-void trajectory_warn_open(trajectory *t, uint64_t line)
-{
-    const int used = write_place(t->warning, sizeof t->warning, t->path, line);
-    if (used >= 0 && (size_t)used < sizeof t->warning) {
-        snprintf(t->warning + used, sizeof t->warning - (size_t)used,
-                 "the last line has no line feed: if the file is cut off there, its last value is wrong");
-    }
-}
-
-const char *trajectory_take_warning(trajectory *t)
-{
-    if (t->warning[0] == '\0' || t->warned) {
-        return NULL;
-    }
-    t->warned = 1;
-    return t->warning;
-}
-
-static void copy_message(const trajectory *t, char *error, size_t error_size)
-{
-    if (error != NULL && error_size > 0) {
-        snprintf(error, error_size, "%s", t->message);
-    }
-}
-
-/* For errors before a trajectory exists. */
-static void path_error(const char *path, const char *reason, char *error, size_t error_size)
-{
-    char place[1024];
-    if (error != NULL && error_size > 0) {
-        write_place(place, sizeof place, path, 0);
-        snprintf(error, error_size, "%s%s", place, reason);
-    }
-}
 
 /* ---- For the formats ---------------------------------------------------------------------------------------- */
 
@@ -276,27 +212,28 @@ trajectory *trajectory_open(const char *path, const trajectory_options *options,
 {
     const trajectory_format *format = find_format(path);
     if (format == NULL) {
-        path_error(path,
-                   "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that can be "
-                   "read here",
-                   error, error_size);
+        trajectory_path_error(
+            path,
+            "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that can be "
+            "read here",
+            error, error_size);
         return NULL;
     }
     if (options != NULL && !(options->radius >= 0.0f && isfinite(options->radius))) {
-        path_error(path, "the radius for files without one must be 0 or more", error, error_size);
+        trajectory_path_error(path, "the radius for files without one must be 0 or more", error, error_size);
         return NULL;
     }
     if (options != NULL && !(options->fps >= 0.0 && isfinite(options->fps))) {
-        path_error(path, "the frames per second must be 0 or more", error, error_size);
+        trajectory_path_error(path, "the frames per second must be 0 or more", error, error_size);
         return NULL;
     }
     trajectory *t = new_trajectory(path, format, options);
     if (t == NULL) {
-        path_error(path, "not enough memory", error, error_size);
+        trajectory_path_error(path, "not enough memory", error, error_size);
         return NULL;
     }
     if (open_file(t) < 0) {
-        copy_message(t, error, error_size);
+        trajectory_copy_message(t, error, error_size);
         trajectory_close(t);
         return NULL;
     }
@@ -336,7 +273,7 @@ int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t 
 {
     const int status = t->failed ? -1 : t->format->read(t, frame);
     if (status < 0) {
-        copy_message(t, error, error_size);
+        trajectory_copy_message(t, error, error_size);
     }
     if (status > 0 && t->text.is_open) {
         trajectory_warn_open(t, t->text.line);
@@ -349,7 +286,7 @@ int trajectory_skip(trajectory *t, char *error, size_t error_size)
 {
     const int status = t->failed ? -1 : t->format->skip(t);
     if (status < 0) {
-        copy_message(t, error, error_size);
+        trajectory_copy_message(t, error, error_size);
     }
     t->next += status > 0;
     return status;
@@ -372,7 +309,7 @@ int trajectory_rewind(trajectory *t, char *error, size_t error_size)
         done = t->format->begin(t);
     }
     if (done < 0) {
-        copy_message(t, error, error_size);
+        trajectory_copy_message(t, error, error_size);
         return -1;
     }
     return 0;

@@ -64,10 +64,10 @@ trajectory *trajectory_open(const char *path, const trajectory_options *options,
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
 
-/* Returns what is doubtful about the frames read so far, once; NULL where there is nothing, or nothing new. The text names
- * the path (and line) and is valid as long as t. There is one doubt: a text whose last line has no line feed may be whole,
- * since editors and scripts write such files, or cut off inside its last number, which then reads as another one. To
- * refuse it would lose whole files, so programs tell it and go on. */
+/* Returns the next thing that is doubtful about the frames read so far, each kind once for a file; NULL where there is
+ * nothing new. The text names the path (and line) and is valid as long as t. Programs tell it and go on: where two
+ * readings of a file are possible, it says which was taken. A text whose last line has no line feed may be whole, since
+ * editors and scripts write such files, or cut off inside its last number, which then reads as another one. */
 const char *trajectory_take_warning(trajectory *t);
 
 /* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may
