@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt-convert: converts any trajectory or mesh that the readers know to .frames. The output goes to a temporary file
- * that is renamed when it is complete, so a failed run leaves the previous file alone. */
+ * that is renamed when it is complete, so a failed run leaves the previous file alone. Where the input is cut off, the
+ * whole frames before that are written, and the exit code tells. */
 #define _GNU_SOURCE /* argp */
 #include "common/out_file.h"
 #include "common/program.h"
@@ -110,8 +111,8 @@ static const char documentation[] =
     "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
     "INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp reads (.obj, .ply, "
     ".gltf, .dae, .x, .ifc and others) in a build that has it; OUTPUT ends in .frames, which keeps the triangles of a "
-    "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, and left alone "
-    "otherwise.\n\n"
+    "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, or has the "
+    "whole frames before an error in INPUT, and left alone otherwise.\n\n"
     "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.";
 
 static const struct argp parser = {option_table, parse_option, "INPUT OUTPUT.frames", documentation, NULL, NULL, NULL};
@@ -137,6 +138,7 @@ typedef struct conversion {
     const char *name;      /* of the file that is written */
     frames_writer *writer; /* NULL before the first frame, which tells the kind */
     convert_counts counts;
+    int is_cut; /* reading failed after some whole frames, and those are written */
     char error[PROGRAM_ERROR_SIZE];
 } conversion;
 
@@ -160,6 +162,7 @@ static int copy_frame(conversion *c)
     trajectory_frame frame;
     const int result = trajectory_read(c->from, &frame, c->error, sizeof c->error);
     if (result <= 0) {
+        c->is_cut = result < 0 && c->counts.frames > 0;
         return result;
     }
     const char *warning;
@@ -190,6 +193,7 @@ static int copy_frames(conversion *c)
     for (uint64_t number = 0; number <= o->last && result > 0; number++) {
         const int selected = number >= o->first && (number - o->first) % o->every == 0;
         result = selected ? copy_frame(c) : trajectory_skip(c->from, c->error, sizeof c->error);
+        c->is_cut |= !selected && result < 0 && c->counts.frames > 0;
         program_progress_update(&progress, (double)c->counts.frames, trajectory_progress(c->from));
     }
     program_progress_end(&progress);
@@ -203,9 +207,15 @@ static int convert(conversion *c)
     if (failed) {
         program_error("%s", c->error);
     }
-    if (frames_writer_close(c->writer, c->error, sizeof c->error) && !failed) {
-        program_error("%s", c->error);
+    if (frames_writer_close(c->writer, c->error, sizeof c->error)) {
+        if (!failed || c->is_cut) {
+            program_error("%s", c->error);
+        }
+        c->is_cut = 0;
         return PROGRAM_FAILED;
+    }
+    if (c->is_cut) {
+        program_error("the %" PRIu64 " frames before that are written", c->counts.frames);
     }
     if (!failed && c->counts.frames == 0) {
         program_error("%s: no frames to convert: %s", c->options->input,
@@ -281,7 +291,7 @@ static int run(const convert_options *o)
         program_error("%s", c.error);
     } else {
         code = convert(&c);
-        if (out_file_end(&file, code == PROGRAM_OK, c.error, sizeof c.error)) {
+        if (out_file_end(&file, code == PROGRAM_OK || c.is_cut, c.error, sizeof c.error)) {
             program_error("%s", c.error);
             code = PROGRAM_FAILED;
         }
