@@ -9,6 +9,7 @@
 #define TRAJECTORY_INTERNAL_H
 
 #include "trajectory/trajectory.h"
+#include "trajectory/trajectory_input.h"
 #include "trajectory/trajectory_text.h"
 
 #define DEFAULT_RADIUS 0.5f
@@ -49,11 +50,14 @@ typedef struct trajectory_format {
 
 struct trajectory {
     const trajectory_format *format;
-    FILE *file;
-    char *path;
+    trajectory_input input;
+    FILE *file;   /* the input's stream */
+    char **paths; /* of the series, path_count of them */
+    size_t path_count, path_at;
+    const char *path; /* of the open file */
     trajectory_options options;
     uint64_t file_size; /* bytes; 0 where the file is not a regular one */
-    int regular;        /* the file's size is known, and it can be rewound */
+    int regular;        /* the file's size is known, and file can seek */
     text_reader text;
     trajectory_store store;
     uint64_t next; /* number of the next frame */
@@ -69,6 +73,9 @@ extern const trajectory_format trajectory_format_lammps;
 extern const trajectory_format trajectory_format_xyz;
 extern const trajectory_format trajectory_format_frames;
 extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
+
+/* Opens a file of the series in place of the one that is open. Returns 1 or -1. */
+int trajectory_open_file(trajectory *t, size_t number);
 
 /* Notes an error, "path:line: text" or "path: text" where line is 0. Returns -1. */
 int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...) __attribute__((format(printf, 3, 4)));

@@ -71,7 +71,7 @@ static int read_more(text_reader *r, const char **reason)
     const size_t got = fread(r->data + r->end, 1, r->capacity - r->end, r->file);
     if (got == 0) {
         if (ferror(r->file)) {
-            *reason = strerror(errno != 0 ? errno : EIO);
+            *reason = r->why != NULL && *r->why != '\0' ? r->why : strerror(errno != 0 ? errno : EIO);
             return -1;
         }
         r->at_end = 1;

@@ -20,7 +20,8 @@ typedef struct text_span {
 
 typedef struct text_reader {
     FILE *file;
-    char *data; /* capacity + 1 bytes */
+    const char *why; /* where not "" the reason why reading the file failed; may be NULL */
+    char *data;      /* capacity + 1 bytes */
     size_t capacity;
     size_t begin;  /* the next line starts here */
     size_t end;    /* bytes in data */
