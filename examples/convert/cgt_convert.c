@@ -18,7 +18,9 @@
 #include <strings.h>
 
 typedef struct convert_options {
-    const char *input;
+    const char *input; /* the first */
+    const char **inputs;
+    size_t input_count;
     const char *output;
     trajectory_options reading;
     uint64_t first, last, every; /* frames to convert, from 0; last included */
@@ -36,7 +38,16 @@ typedef struct convert_counts {
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
-enum { OPTION_WRAPPED = 256, OPTION_FIRST, OPTION_LAST, OPTION_EVERY, OPTION_FPS, OPTION_CLIP };
+enum {
+    OPTION_WRAPPED = 256,
+    OPTION_FORMAT,
+    OPTION_FOLLOW,
+    OPTION_FIRST,
+    OPTION_LAST,
+    OPTION_EVERY,
+    OPTION_FPS,
+    OPTION_CLIP
+};
 
 static const struct argp_option option_table[] = {
     {"radius", 'r', "R", 0,
@@ -46,6 +57,11 @@ static const struct argp_option option_table[] = {
     {"wrapped", OPTION_WRAPPED, NULL, 0,
      "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones "
      "(xu yu zu) where a file has both",
+     0},
+    {"format", OPTION_FORMAT, "NAME", 0,
+     "Format of INPUT whatever its name: lammps, xyz, frames, or the ending of a mesh (default: by the name's ending)",
+     0},
+    {"follow", OPTION_FOLLOW, "SECONDS", 0, "At the end wait so long for more, of a run that is still being written",
      0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation clip of a mesh, by its name or number from 0 (default: the first)", 0},
     {"fps", OPTION_FPS, "RATE", 0, "Frames per second of the clip (default: 30)", 0},
@@ -61,7 +77,7 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
     convert_options *const o = state->input;
     char error[PROGRAM_ERROR_SIZE];
     int wrong = 0;
-    float fps = 0.0f;
+    float number = 0.0f;
     const char *name = "";
     switch (key) {
     case 'r':
@@ -70,11 +86,17 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
         break;
     case 'q': o->quiet = 1; break;
     case OPTION_WRAPPED: o->reading.wrapped = 1; break;
+    case OPTION_FORMAT: o->reading.format = arg; break;
+    case OPTION_FOLLOW:
+        name = "--follow";
+        wrong = program_parse_float(arg, 0.05f, 1e9f, &number, error, sizeof error);
+        o->reading.follow = (double)number;
+        break;
     case OPTION_CLIP: o->reading.clip = arg; break;
     case OPTION_FPS:
         name = "--fps";
-        wrong = program_parse_float(arg, 1e-3f, 1e6f, &fps, error, sizeof error);
-        o->reading.fps = (double)fps;
+        wrong = program_parse_float(arg, 1e-3f, 1e6f, &number, error, sizeof error);
+        o->reading.fps = (double)number;
         break;
     case OPTION_FIRST:
         name = "--first";
@@ -88,14 +110,14 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
         name = "--every";
         wrong = program_parse_u64(arg, 1, UINT32_MAX, &o->every, error, sizeof error);
         break;
-    case ARGP_KEY_ARG:
-        if (state->arg_num >= 2) {
-            argp_error(state, "'%s': only an input and an output are expected", arg);
-        }
-        *(state->arg_num == 0 ? &o->input : &o->output) = arg;
+    case ARGP_KEY_ARGS:
+        o->inputs = (const char **)(void *)(state->argv + state->next);
+        o->input_count = (size_t)(state->argc - state->next) - 1;
+        o->input = o->inputs[0];
+        o->output = o->inputs[o->input_count];
         break;
     case ARGP_KEY_END:
-        if (state->arg_num < 2) {
+        if (o->input_count < 1) {
             argp_error(state, "an input and an output are needed");
         }
         break;
@@ -109,13 +131,18 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
 
 static const char documentation[] =
     "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
-    "INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp reads (.obj, .ply, "
-    ".gltf, .dae, .x, .ifc and others) in a build that has it; OUTPUT ends in .frames, which keeps the triangles of a "
+    "Several INPUTs, one for each step, are one run, in the order of the numbers in their names; - is standard input, "
+    "and "
+    "needs --format. INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp "
+    "reads (.obj, .ply, "
+    ".gltf, .dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 or "
+    "LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a "
     "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, or has the "
     "whole frames before an error in INPUT, and left alone otherwise.\n\n"
     "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.";
 
-static const struct argp parser = {option_table, parse_option, "INPUT OUTPUT.frames", documentation, NULL, NULL, NULL};
+static const struct argp parser = {option_table, parse_option, "INPUT... OUTPUT.frames", documentation, NULL,
+                                   NULL,         NULL};
 
 static void check_options(const convert_options *o)
 {
@@ -280,7 +307,8 @@ static int run(const convert_options *o)
     conversion c = {.options = o};
     out_file file;
     const double start = program_seconds();
-    c.from = trajectory_open(o->input, &o->reading, c.error, sizeof c.error);
+    trajectory_sort_series(o->inputs, o->input_count);
+    c.from = trajectory_open_series(o->inputs, o->input_count, &o->reading, c.error, sizeof c.error);
     if (c.from == NULL) {
         program_error("%s", c.error);
         return PROGRAM_FAILED;

@@ -6,10 +6,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
 #define DEFAULT_FPS 30.0
@@ -185,10 +187,27 @@ static const char *check_series(const trajectory_format *format, const char *con
     return NULL;
 }
 
+/* Looks for files that are missing, or of another format by their endings, before the first frame is used. */
+static const char *check_paths(const trajectory_format *format, const char *const *paths, size_t count,
+                               const char **wrong)
+{
+    for (size_t i = 1; i < count; i++) {
+        const trajectory_format *const other = find_path_format(paths[i]);
+        *wrong = paths[i];
+        if (other != NULL && other != format) {
+            return "not of the format of the files before it";
+        }
+        if (access(paths[i], R_OK) != 0) {
+            return strerror(errno);
+        }
+    }
+    return NULL;
+}
+
 trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
                                    char *error, size_t error_size)
 {
-    const char *const path = count > 0 ? paths[0] : "";
+    const char *path = count > 0 ? paths[0] : "";
     const char *const named = options != NULL ? options->format : NULL;
     const trajectory_format *format = named != NULL ? find_named_format(named) : find_path_format(path);
     const char *reason = NULL;
@@ -202,6 +221,10 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
     } else {
         reason = check_options(options);
         reason = reason != NULL ? reason : check_series(format, paths, count, options != NULL ? options->follow : 0.0);
+        const char *wrong = path;
+        if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL) {
+            path = wrong;
+        }
     }
     trajectory *t = reason == NULL ? new_trajectory(paths, count, format, options) : NULL;
     if (t == NULL) {
