@@ -59,6 +59,13 @@ macro(cgt_find_MESHES)
     endif()
 endmacro()
 
+macro(cgt_find_ARCHIVE)
+    cgt_import(cgt_libarchive archive.h archive)
+    if(TARGET cgt_libarchive)
+        set(CGT_HAVE_ARCHIVE ON)
+    endif()
+endmacro()
+
 macro(cgt_find_RENDER)
     include(CheckLanguage)
     check_language(CXX)

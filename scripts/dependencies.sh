@@ -10,7 +10,7 @@ set -euo pipefail
 packages_of() {
     case $1 in
     build)  echo gcc libc6-dev make cmake ;;                                       # the library
-    render) echo g++ libopenimageio-dev libassimp-dev ;;                           # cgt-render, meshes
+    render) echo g++ libopenimageio-dev libassimp-dev libarchive-dev ;;                           # cgt-render, meshes
     tests)  echo libcmocka-dev libembree-dev openimageio-tools pkg-config binutils g++ \
                  assimp-testmodels glmark2-data gnuplot-nox ;;                     # native tests
     clang)  echo clang libclang-rt-14-dev ;;                                       # the tests by another compiler

@@ -74,8 +74,8 @@ static int load_frames(bench_input *input, trajectory *source, uint64_t frames, 
             return -1;
         if (got == 0)
             break;
-        const char *warning = trajectory_take_warning(source);
-        if (warning)
+        const char *warning;
+        while ((warning = trajectory_take_warning(source)) != NULL)
             program_error("warning: %s", warning);
         if ((input->frames == 0 && take_kind(input, &frame)) || add_frame(input, &frame, &room)) {
             snprintf(error, error_size, "out of memory at frame %zu: %u %s", input->frames, (unsigned)frame.count,

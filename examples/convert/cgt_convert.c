@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * cgt-convert: converts any trajectory or mesh that the readers know to .frames. The output goes to a temporary file
- * that is renamed when it is complete, so a failed run leaves the previous file alone. */
+ * that is renamed when it is complete, so a failed run leaves the previous file alone. Where the input is cut off, the
+ * whole frames before that are written, and the exit code tells. */
 #define _GNU_SOURCE /* argp */
 #include "common/out_file.h"
 #include "common/program.h"
@@ -17,7 +18,9 @@
 #include <strings.h>
 
 typedef struct convert_options {
-    const char *input;
+    const char *input; /* the first */
+    const char **inputs;
+    size_t input_count;
     const char *output;
     trajectory_options reading;
     uint64_t first, last, every; /* frames to convert, from 0; last included */
@@ -35,7 +38,16 @@ typedef struct convert_counts {
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
-enum { OPTION_WRAPPED = 256, OPTION_FIRST, OPTION_LAST, OPTION_EVERY, OPTION_FPS, OPTION_CLIP };
+enum {
+    OPTION_WRAPPED = 256,
+    OPTION_FORMAT,
+    OPTION_FOLLOW,
+    OPTION_FIRST,
+    OPTION_LAST,
+    OPTION_EVERY,
+    OPTION_FPS,
+    OPTION_CLIP
+};
 
 static const struct argp_option option_table[] = {
     {"radius", 'r', "R", 0,
@@ -45,6 +57,11 @@ static const struct argp_option option_table[] = {
     {"wrapped", OPTION_WRAPPED, NULL, 0,
      "Prefer coordinates wrapped into the periodic box (x y z) to unwrapped ones "
      "(xu yu zu) where a file has both",
+     0},
+    {"format", OPTION_FORMAT, "NAME", 0,
+     "Format of INPUT whatever its name: lammps, xyz, frames, or the ending of a mesh (default: by the name's ending)",
+     0},
+    {"follow", OPTION_FOLLOW, "SECONDS", 0, "At the end wait so long for more, of a run that is still being written",
      0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation clip of a mesh, by its name or number from 0 (default: the first)", 0},
     {"fps", OPTION_FPS, "RATE", 0, "Frames per second of the clip (default: 30)", 0},
@@ -60,7 +77,7 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
     convert_options *const o = state->input;
     char error[PROGRAM_ERROR_SIZE];
     int wrong = 0;
-    float fps = 0.0f;
+    float number = 0.0f;
     const char *name = "";
     switch (key) {
     case 'r':
@@ -69,11 +86,17 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
         break;
     case 'q': o->quiet = 1; break;
     case OPTION_WRAPPED: o->reading.wrapped = 1; break;
+    case OPTION_FORMAT: o->reading.format = arg; break;
+    case OPTION_FOLLOW:
+        name = "--follow";
+        wrong = program_parse_float(arg, 0.05f, 1e9f, &number, error, sizeof error);
+        o->reading.follow = (double)number;
+        break;
     case OPTION_CLIP: o->reading.clip = arg; break;
     case OPTION_FPS:
         name = "--fps";
-        wrong = program_parse_float(arg, 1e-3f, 1e6f, &fps, error, sizeof error);
-        o->reading.fps = (double)fps;
+        wrong = program_parse_float(arg, 1e-3f, 1e6f, &number, error, sizeof error);
+        o->reading.fps = (double)number;
         break;
     case OPTION_FIRST:
         name = "--first";
@@ -87,14 +110,14 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
         name = "--every";
         wrong = program_parse_u64(arg, 1, UINT32_MAX, &o->every, error, sizeof error);
         break;
-    case ARGP_KEY_ARG:
-        if (state->arg_num >= 2) {
-            argp_error(state, "'%s': only an input and an output are expected", arg);
-        }
-        *(state->arg_num == 0 ? &o->input : &o->output) = arg;
+    case ARGP_KEY_ARGS:
+        o->inputs = (const char **)(void *)(state->argv + state->next);
+        o->input_count = (size_t)(state->argc - state->next) - 1;
+        o->input = o->inputs[0];
+        o->output = o->inputs[o->input_count];
         break;
     case ARGP_KEY_END:
-        if (state->arg_num < 2) {
+        if (o->input_count < 1) {
             argp_error(state, "an input and an output are needed");
         }
         break;
@@ -108,13 +131,18 @@ static error_t parse_option(int key, char *arg, struct argp_state *state)
 
 static const char documentation[] =
     "Converts a trajectory of spheres, or a mesh and its animation, to .frames.\v"
-    "INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp reads (.obj, .ply, "
-    ".gltf, .dae, .x, .ifc and others) in a build that has it; OUTPUT ends in .frames, which keeps the triangles of a "
-    "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, and left alone "
-    "otherwise.\n\n"
+    "Several INPUTs, one for each step, are one run, in the order of the numbers in their names; - is standard input, "
+    "and "
+    "needs --format. INPUT is LAMMPS dump text (.lammpstrj, .dump), .xyz (.extxyz), .frames, or a mesh that assimp "
+    "reads (.obj, .ply, "
+    ".gltf, .dae, .x, .ifc and others) in a build that has it, and may be compressed by gzip, Zstandard, xz, bzip2 or "
+    "LZ4 in a build with libarchive; OUTPUT ends in .frames, which keeps the triangles of a "
+    "mesh, but no vertex normals. An existing OUTPUT is replaced when the new one is complete, or has the "
+    "whole frames before an error in INPUT, and left alone otherwise.\n\n"
     "Exit status: 0 done, 1 a file or memory failed, 2 wrong usage.";
 
-static const struct argp parser = {option_table, parse_option, "INPUT OUTPUT.frames", documentation, NULL, NULL, NULL};
+static const struct argp parser = {option_table, parse_option, "INPUT... OUTPUT.frames", documentation, NULL,
+                                   NULL,         NULL};
 
 static void check_options(const convert_options *o)
 {
@@ -137,6 +165,7 @@ typedef struct conversion {
     const char *name;      /* of the file that is written */
     frames_writer *writer; /* NULL before the first frame, which tells the kind */
     convert_counts counts;
+    int is_cut; /* reading failed after some whole frames, and those are written */
     char error[PROGRAM_ERROR_SIZE];
 } conversion;
 
@@ -160,10 +189,11 @@ static int copy_frame(conversion *c)
     trajectory_frame frame;
     const int result = trajectory_read(c->from, &frame, c->error, sizeof c->error);
     if (result <= 0) {
+        c->is_cut = result < 0 && c->counts.frames > 0;
         return result;
     }
-    const char *warning = trajectory_take_warning(c->from);
-    if (warning != NULL) {
+    const char *warning;
+    while ((warning = trajectory_take_warning(c->from)) != NULL) {
         program_error("warning: %s", warning);
     }
     if (write_frame(c, &frame)) {
@@ -190,6 +220,7 @@ static int copy_frames(conversion *c)
     for (uint64_t number = 0; number <= o->last && result > 0; number++) {
         const int selected = number >= o->first && (number - o->first) % o->every == 0;
         result = selected ? copy_frame(c) : trajectory_skip(c->from, c->error, sizeof c->error);
+        c->is_cut |= !selected && result < 0 && c->counts.frames > 0;
         program_progress_update(&progress, (double)c->counts.frames, trajectory_progress(c->from));
     }
     program_progress_end(&progress);
@@ -203,9 +234,15 @@ static int convert(conversion *c)
     if (failed) {
         program_error("%s", c->error);
     }
-    if (frames_writer_close(c->writer, c->error, sizeof c->error) && !failed) {
-        program_error("%s", c->error);
+    if (frames_writer_close(c->writer, c->error, sizeof c->error)) {
+        if (!failed || c->is_cut) {
+            program_error("%s", c->error);
+        }
+        c->is_cut = 0;
         return PROGRAM_FAILED;
+    }
+    if (c->is_cut) {
+        program_error("the %" PRIu64 " frames before that are written", c->counts.frames);
     }
     if (!failed && c->counts.frames == 0) {
         program_error("%s: no frames to convert: %s", c->options->input,
@@ -270,7 +307,8 @@ static int run(const convert_options *o)
     conversion c = {.options = o};
     out_file file;
     const double start = program_seconds();
-    c.from = trajectory_open(o->input, &o->reading, c.error, sizeof c.error);
+    trajectory_sort_series(o->inputs, o->input_count);
+    c.from = trajectory_open_series(o->inputs, o->input_count, &o->reading, c.error, sizeof c.error);
     if (c.from == NULL) {
         program_error("%s", c.error);
         return PROGRAM_FAILED;
@@ -281,7 +319,7 @@ static int run(const convert_options *o)
         program_error("%s", c.error);
     } else {
         code = convert(&c);
-        if (out_file_end(&file, code == PROGRAM_OK, c.error, sizeof c.error)) {
+        if (out_file_end(&file, code == PROGRAM_OK || c.is_cut, c.error, sizeof c.error)) {
             program_error("%s", c.error);
             code = PROGRAM_FAILED;
         }

@@ -11,12 +11,12 @@
 
 #include "common/program.h"
 
-int frame_source_open(frame_source *source, const char *path, const trajectory_options *options,
+int frame_source_open(frame_source *source, const char *const *paths, size_t count, const trajectory_options *options,
                       const frame_range *range, int with_speed, char *error, size_t error_size)
 {
     memset(source, 0, sizeof *source);
     source->range = *range;
-    source->file = trajectory_open(path, options, error, error_size);
+    source->file = trajectory_open_series(paths, count, options, error, error_size);
     if (!source->file)
         return -1;
     if (with_speed) {
@@ -54,8 +54,8 @@ static int is_selected(const frame_range *range, uint64_t number)
 static int read_frame(frame_source *source, char *error, size_t error_size)
 {
     const int result = trajectory_read(source->file, &source->frame, error, error_size);
-    const char *warning = trajectory_take_warning(source->file);
-    if (warning)
+    const char *warning;
+    while ((warning = trajectory_take_warning(source->file)) != NULL)
         program_error("warning: %s", warning);
     source->speed = NULL;
     if (result != 1 || !source->tracker)

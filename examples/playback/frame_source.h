@@ -34,8 +34,8 @@ static inline uint32_t frame_primitives(const trajectory_frame *frame)
     return frame->kind == TRAJECTORY_TRIANGLES ? frame->triangles : frame->count;
 }
 
-/* Opens a file. with_speed: 0 or 1. Returns 0, or -1 with a text. */
-int frame_source_open(frame_source *source, const char *path, const trajectory_options *options,
+/* Opens a file, or the files of a run in their order. with_speed: 0 or 1. Returns 0, or -1 with a text. */
+int frame_source_open(frame_source *source, const char *const *paths, size_t count, const trajectory_options *options,
                       const frame_range *range, int with_speed, char *error, size_t error_size);
 
 /* Reads up to the next selected frame: 1 frame, 0 no more, -1 error with a text. */

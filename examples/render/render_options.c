@@ -33,7 +33,9 @@ enum {
     OPTION_VARIANT,
     OPTION_WRAPPED,
     OPTION_FPS,
-    OPTION_CLIP
+    OPTION_CLIP,
+    OPTION_FORMAT,
+    OPTION_FOLLOW
 };
 
 static const struct argp_option table[] = {
@@ -75,6 +77,15 @@ static const struct argp_option table[] = {
     {"wrapped", OPTION_WRAPPED, NULL, 0, "Prefer coordinates wrapped into the box where a file has both kinds", 0},
     {"fps", OPTION_FPS, "N", 0, "Frames per second of a mesh's animation; default 30", 0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation of a mesh, by its name or its number from 0; default: the first", 0},
+    {"format", OPTION_FORMAT, "NAME", 0,
+     "Format of the input whatever its name: lammps, xyz, frames, or the ending of a mesh; default: by the name's "
+     "ending",
+     0},
+    {"follow", OPTION_FOLLOW, "SECONDS", 0,
+     "At the end wait so long for more, of a run that is still being written; the automatic camera and colours are "
+     "those "
+     "of the frames that are there at the start",
+     0},
     {NULL, 0, NULL, 0, "Running:", 5},
     {"threads", 't', "N", 0, "Threads that build and trace; 0 (default): one per CPU", 0},
     {"variant", OPTION_VARIANT, "NAME", 0, "Kernels to use; default: the widest that this CPU runs", 0},
@@ -257,12 +268,12 @@ static int parse_picture(int key, const char *arg, parse_state *s, char *error, 
     }
 }
 
-static int parse_fps(const char *text, double *fps, char *error, size_t error_size)
+static int parse_double(const char *text, float min, float max, double *number, char *error, size_t error_size)
 {
     float value;
-    if (program_parse_float(text, 1e-3f, 1e6f, &value, error, error_size))
+    if (program_parse_float(text, min, max, &value, error, error_size))
         return -1;
-    *fps = (double)value;
+    *number = (double)value;
     return 0;
 }
 
@@ -276,7 +287,9 @@ static int parse_run(int key, const char *arg, parse_state *s, char *error, size
     case OPTION_EVERY: return program_parse_u64(arg, 1, UINT64_MAX - 1, &o->range.every, error, size);
     case 'r': return program_parse_float(arg, FLT_MIN, 1e30f, &o->reading.radius, error, size);
     case OPTION_WRAPPED: o->reading.wrapped = 1; return 0;
-    case OPTION_FPS: return parse_fps(arg, &o->reading.fps, error, size);
+    case OPTION_FPS: return parse_double(arg, 1e-3f, 1e6f, &o->reading.fps, error, size);
+    case OPTION_FORMAT: o->reading.format = arg; return 0;
+    case OPTION_FOLLOW: return parse_double(arg, 0.05f, 1e9f, &o->reading.follow, error, size);
     case OPTION_CLIP: o->reading.clip = arg; return 0;
     case 't': return program_parse_u32(arg, 0, 1024, &o->threads, error, size);
     case OPTION_VARIANT: o->variant = arg; return 0;
@@ -344,10 +357,10 @@ static error_t parse_key(int key, char *arg, struct argp_state *state)
 {
     parse_state *s = state->input;
     char error[PROGRAM_ERROR_SIZE];
-    if (key == ARGP_KEY_ARG) {
-        if (s->options->input)
-            argp_error(state, "more than one trajectory: %s", arg);
-        s->options->input = arg;
+    if (key == ARGP_KEY_ARGS) {
+        s->options->inputs = (const char **)(void *)(state->argv + state->next);
+        s->options->input_count = (size_t)(state->argc - state->next);
+        s->options->input = s->options->inputs[0];
         return 0;
     }
     if (key == ARGP_KEY_END) {
@@ -367,9 +380,11 @@ void render_options_parse(render_options *options, int argc, char **argv)
     static const struct argp parser = {
         table,
         parse_key,
-        "TRAJECTORY",
+        "TRAJECTORY...",
         "Renders the moving spheres or triangles of a trajectory: LAMMPS dump text (.lammpstrj), .xyz or .frames; or a "
-        "mesh with its animation: .obj, .ply, .gltf, .dae, .x, .ifc and others.\v"
+        "mesh with its animation: .obj, .ply, .gltf, .dae, .x, .ifc and others. Several files, one for each step, are "
+        "one "
+        "run, in the order of the numbers in their names; - is standard input, and needs --format.\v"
         "The structure is built anew for every frame. Exit codes: 0 all frames were rendered, 1 something failed, 2 "
         "the "
         "command line is wrong.\n\n"

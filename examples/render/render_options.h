@@ -19,7 +19,9 @@ enum { RENDER_MAX_OUTPUTS = 4, RENDER_MAX_EDGE = 65536 };
 #define RENDER_MAX_PIXELS ((uint64_t)1 << 28)
 
 typedef struct render_options {
-    const char *input;
+    const char *input; /* the first */
+    const char **inputs;
+    size_t input_count;
     trajectory_options reading; /* fps 0 and clip NULL: not given */
     frame_range range;
 

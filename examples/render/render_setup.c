@@ -81,15 +81,22 @@ static int check_survey(const renderer *r)
 
 static int open_input(renderer *r)
 {
-    const render_options *o = &r->options;
+    render_options *o = &r->options;
     const int with_speed = o->by == COLORING_AUTO || o->by == COLORING_SPEED;
-    if (frame_source_open(&r->source, o->input, &o->reading, &o->range, with_speed, r->error, sizeof r->error))
+    o->reading.keep = needs_survey(o); /* which reads the input twice */
+    o->reading.stop = r->stop;
+    trajectory_sort_series(o->inputs, o->input_count);
+    o->input = o->inputs[0];
+    if (frame_source_open(&r->source, o->inputs, o->input_count, &o->reading, &o->range, with_speed, r->error,
+                          sizeof r->error))
         return render_fail(r);
     if (!needs_survey(o))
         return 0;
+    trajectory_set_follow(r->source.file, 0.0); /* the survey takes what is there */
     if (survey_run(&r->source, &r->survey, o->quiet, r->stop, r->error, sizeof r->error))
         return render_fail(r);
     r->has_survey = 1;
+    trajectory_set_follow(r->source.file, o->reading.follow);
     render_options_axes(&r->options, r->survey.kind);
     return check_survey(r);
 }

@@ -1,88 +1,14 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Trajectories: opening by ending, errors, and the arrays of a frame. Each format has a file of its own. */
+ * Trajectories: reading, and the arrays of a frame. Each format has a file of its own. */
 #define _FILE_OFFSET_BITS 64
 #define _POSIX_C_SOURCE 200809L
 #include "trajectory/trajectory_internal.h"
 
-#include <errno.h>
 #include <inttypes.h>
-#include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-
-#define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
-#define DEFAULT_FPS 30.0
-
-static const trajectory_format *const formats[] = {&trajectory_format_lammps, &trajectory_format_xyz,
-                                                   &trajectory_format_frames, &trajectory_format_mesh};
-
-/* ---- Errors ------------------------------------------------------------------------------------------------- */
-
-/* A long path loses its front: its end, the line and the sentence tell more. */
-static int write_place(char *text, size_t size, const char *path, uint64_t line)
-{
-    const size_t limit = 600;
-    const size_t length = strlen(path);
-    const char *dots = length > limit ? "..." : "";
-    const char *tail = length > limit ? path + (length - limit) : path;
-    if (line > 0) {
-        return snprintf(text, size, "%s%s:%" PRIu64 ": ", dots, tail, line);
-    }
-    return snprintf(text, size, "%s%s: ", dots, tail);
-}
-
-int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...)
-{
-    const int used = write_place(t->message, sizeof t->message, t->path, line);
-    if (used >= 0 && (size_t)used < sizeof t->message) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(t->message + used, sizeof t->message - (size_t)used, format, arguments);
-        va_end(arguments);
-    }
-    t->failed = 1;
-    return -1;
-}
-
-void trajectory_warn_open(trajectory *t, uint64_t line)
-{
-    const int used = write_place(t->warning, sizeof t->warning, t->path, line);
-    if (used >= 0 && (size_t)used < sizeof t->warning) {
-        snprintf(t->warning + used, sizeof t->warning - (size_t)used,
-                 "the last line has no line feed: if the file is cut off there, its last value is wrong");
-    }
-}
-
-const char *trajectory_take_warning(trajectory *t)
-{
-    if (t->warning[0] == '\0' || t->warned) {
-        return NULL;
-    }
-    t->warned = 1;
-    return t->warning;
-}
-
-static void copy_message(const trajectory *t, char *error, size_t error_size)
-{
-    if (error != NULL && error_size > 0) {
-        snprintf(error, error_size, "%s", t->message);
-    }
-}
-
-/* For errors before a trajectory exists. */
-static void path_error(const char *path, const char *reason, char *error, size_t error_size)
-{
-    char place[1024];
-    if (error != NULL && error_size > 0) {
-        write_place(place, sizeof place, path, 0);
-        snprintf(error, error_size, "%s%s", place, reason);
-    }
-}
 
 /* ---- For the formats ---------------------------------------------------------------------------------------- */
 
@@ -174,157 +100,6 @@ void trajectory_frame_fill_triangles(trajectory *t, trajectory_frame *frame, uin
     frame->triangles = triangles;
 }
 
-/* ---- Opening and closing ------------------------------------------------------------------------------------ */
-
-void trajectory_options_init(trajectory_options *options)
-{
-    options->radius = 0.0f;
-    options->wrapped = 0;
-    options->max_count = DEFAULT_MAX_COUNT;
-    options->fps = DEFAULT_FPS;
-    options->clip = NULL;
-}
-
-/* Returns the path's ending with its dot, or NULL: none, or nothing before it. */
-static const char *find_ending(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    const char *name = slash != NULL ? slash + 1 : path;
-    const char *dot = strrchr(name, '.');
-    return dot != NULL && dot > path ? dot : NULL;
-}
-
-static int has_ending(const trajectory_format *format, const char *ending)
-{
-    if (format->knows != NULL) {
-        return format->knows(ending);
-    }
-    for (const char *const *known = format->endings; *known != NULL; known++) {
-        if (strcasecmp(ending, *known) == 0) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
-static const trajectory_format *find_format(const char *path)
-{
-    const char *ending = find_ending(path);
-    for (size_t f = 0; ending != NULL && f < sizeof formats / sizeof formats[0]; f++) {
-        if (has_ending(formats[f], ending)) {
-            return formats[f];
-        }
-    }
-    return NULL;
-}
-
-/* Copies the options and fills in the defaults. Returns 0, or -1: no memory. */
-static int copy_options(trajectory_options *copy, const trajectory_options *options)
-{
-    trajectory_options_init(copy);
-    if (options == NULL) {
-        return 0;
-    }
-    *copy = *options;
-    if (copy->max_count == 0) {
-        copy->max_count = DEFAULT_MAX_COUNT;
-    }
-    if (copy->max_count >= UINT32_MAX) {
-        copy->max_count = UINT32_MAX - 1;
-    }
-    if (copy->fps == 0.0) {
-        copy->fps = DEFAULT_FPS;
-    }
-    copy->clip = options->clip != NULL ? strdup(options->clip) : NULL;
-    return options->clip != NULL && copy->clip == NULL ? -1 : 0;
-}
-
-/* Returns a trajectory without its file, or NULL: no memory. */
-static trajectory *new_trajectory(const char *path, const trajectory_format *format, const trajectory_options *options)
-{
-    trajectory *t = calloc(1, sizeof *t);
-    if (t == NULL) {
-        return NULL;
-    }
-    t->format = format;
-    t->path = strdup(path);
-    t->state = calloc(1, format->state_size);
-    if (copy_options(&t->options, options) || t->path == NULL || t->state == NULL) {
-        trajectory_close(t);
-        return NULL;
-    }
-    return t;
-}
-
-static int open_file(trajectory *t)
-{
-    t->file = fopen(t->path, "rb");
-    struct stat status;
-    if (t->file == NULL || fstat(fileno(t->file), &status) != 0) {
-        return trajectory_fail(t, 0, "%s", strerror(errno));
-    }
-    if (S_ISDIR(status.st_mode)) {
-        return trajectory_fail(t, 0, "%s", strerror(EISDIR));
-    }
-    t->regular = S_ISREG(status.st_mode);
-    t->file_size = t->regular ? (uint64_t)status.st_size : 0;
-    text_reader_init(&t->text, t->file);
-    return t->format->begin(t);
-}
-
-trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size)
-{
-    const trajectory_format *format = find_format(path);
-    if (format == NULL) {
-        path_error(path,
-                   "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that can be "
-                   "read here",
-                   error, error_size);
-        return NULL;
-    }
-    if (options != NULL && !(options->radius >= 0.0f && isfinite(options->radius))) {
-        path_error(path, "the radius for files without one must be 0 or more", error, error_size);
-        return NULL;
-    }
-    if (options != NULL && !(options->fps >= 0.0 && isfinite(options->fps))) {
-        path_error(path, "the frames per second must be 0 or more", error, error_size);
-        return NULL;
-    }
-    trajectory *t = new_trajectory(path, format, options);
-    if (t == NULL) {
-        path_error(path, "not enough memory", error, error_size);
-        return NULL;
-    }
-    if (open_file(t) < 0) {
-        copy_message(t, error, error_size);
-        trajectory_close(t);
-        return NULL;
-    }
-    return t;
-}
-
-void trajectory_close(trajectory *t)
-{
-    if (t == NULL) {
-        return;
-    }
-    if (t->state != NULL) {
-        t->format->end(t);
-    }
-    if (t->file != NULL) {
-        fclose(t->file);
-    }
-    text_reader_free(&t->text);
-    free(t->store.xyzr);
-    free(t->store.id);
-    free(t->store.type);
-    free(t->store.velocity);
-    free(t->state);
-    free((char *)t->options.clip);
-    free(t->path);
-    free(t);
-}
-
 const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
 {
     return t->format->mesh != NULL ? t->format->mesh(t) : NULL;
@@ -332,11 +107,27 @@ const trajectory_mesh *trajectory_get_mesh(const trajectory *t)
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
+/* Reads or skips (frame NULL) in the files of the series, one after the other. */
+static int next_frame(trajectory *t, trajectory_frame *frame)
+{
+    int status = -1;
+    while (!t->failed) {
+        status = frame != NULL ? t->format->read(t, frame) : t->format->skip(t);
+        if (status != 0 || t->path_at + 1 >= t->path_count) {
+            break;
+        }
+        if (trajectory_open_file(t, t->path_at + 1) < 0) {
+            return -1;
+        }
+    }
+    return status;
+}
+
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size)
 {
-    const int status = t->failed ? -1 : t->format->read(t, frame);
+    const int status = next_frame(t, frame);
     if (status < 0) {
-        copy_message(t, error, error_size);
+        trajectory_copy_message(t, error, error_size);
     }
     if (status > 0 && t->text.is_open) {
         trajectory_warn_open(t, t->text.line);
@@ -347,35 +138,48 @@ int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t 
 
 int trajectory_skip(trajectory *t, char *error, size_t error_size)
 {
-    const int status = t->failed ? -1 : t->format->skip(t);
+    const int status = next_frame(t, NULL);
     if (status < 0) {
-        copy_message(t, error, error_size);
+        trajectory_copy_message(t, error, error_size);
     }
     t->next += status > 0;
     return status;
 }
 
-int trajectory_rewind(trajectory *t, char *error, size_t error_size)
+static int rewind_file(trajectory *t)
 {
-    int done = -1;
-    if (!t->regular) { /* reading may continue if it could before */
-        const int failed = t->failed;
-        trajectory_fail(t, 0, "cannot go back to the first frame: not a regular file");
-        t->failed = failed;
-    } else if (fseeko(t->file, 0, SEEK_SET) != 0) {
-        trajectory_fail(t, 0, "%s", strerror(errno));
-    } else {
-        clearerr(t->file);
-        text_reader_restart(&t->text);
+    char reason[256];
+    const int failed = t->failed;
+    if (t->path_at > 0) {
         t->next = 0;
         t->failed = 0;
-        done = t->format->begin(t);
+        return trajectory_open_file(t, 0);
     }
-    if (done < 0) {
-        copy_message(t, error, error_size);
+    if (trajectory_input_rewind(&t->input, reason, sizeof reason)) {
+        trajectory_fail(t, 0, "%s", reason);
+        t->failed = failed; /* reading may continue if it could before */
+        return -1;
+    }
+    t->file = t->text.file = t->input.stream;
+    text_reader_restart(&t->text);
+    t->next = 0;
+    t->failed = 0;
+    return t->format->begin(t);
+}
+
+int trajectory_rewind(trajectory *t, char *error, size_t error_size)
+{
+    if (rewind_file(t) < 0) {
+        trajectory_copy_message(t, error, error_size);
         return -1;
     }
     return 0;
+}
+
+void trajectory_set_follow(trajectory *t, double seconds)
+{
+    t->options.follow = seconds;
+    t->input.follow = t->path_at + 1 == t->path_count ? seconds : 0.0;
 }
 
 int trajectory_count_frames(trajectory *t, uint64_t *frames, char *error, size_t error_size)
@@ -398,14 +202,6 @@ double trajectory_progress(const trajectory *t)
     if (t->format->progress != NULL) {
         return t->format->progress(t);
     }
-    if (!t->regular || t->file_size == 0) {
-        return -1.0;
-    }
-    const off_t offset = ftello(t->file);
-    if (offset < 0) {
-        return -1.0;
-    }
-    /* Bytes in the line buffer are not read yet. */
-    const double done = ((double)offset - (double)(t->text.end - t->text.begin)) / (double)t->file_size;
-    return done > 1.0 ? 1.0 : done;
+    const double share = trajectory_input_progress(&t->input, t->text.end - t->text.begin);
+    return share < 0.0 ? -1.0 : ((double)t->path_at + share) / (double)t->path_count;
 }

@@ -15,6 +15,7 @@
 #ifndef TRAJECTORY_H
 #define TRAJECTORY_H
 
+#include <signal.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,6 +31,12 @@ typedef struct trajectory_options {
     double fps;         /* meshes with animation: frames per second of the clip; default (and 0) 30 */
     const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
                            copied */
+    const char *format; /* "lammps", "xyz", "frames" or a mesh's ending, whatever the file's name; NULL (default): by
+                           the ending; used while opening */
+    double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
+    const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */
+    int keep; /* 1: what a pipe or standard input delivers is kept in a temporary file, so that trajectory_rewind works;
+                 default 0 */
 } trajectory_options;
 
 /* One frame. The arrays belong to the trajectory and are valid until its next read, skip, rewind or
@@ -56,18 +63,31 @@ typedef struct trajectory_frame {
 
 void trajectory_options_init(trajectory_options *options);
 
-/* Opens a file according to its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh. options: NULL
- * for the defaults. Returns NULL on an error; error gets a text that names the path (and line). */
+/* Opens a file according to its ending: .lammpstrj or .dump, .xyz or .extxyz, .frames, or that of a mesh; one more such as
+ * .gz or .zst is left out first. Whether a file is compressed (gzip, Zstandard, xz, bzip2, LZ4) its first bytes tell;
+ * those are read where the build has libarchive. path "-": standard input, which needs options->format. options: NULL for
+ * the defaults. Returns NULL on an error; error gets a text that names the path (and line). */
 trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size);
+
+/* The same for `count` files of text that follow each other in a run, in the order given; each may be compressed. The
+ * format is that of the first. Frames are counted through. */
+trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
+                                   char *error, size_t error_size);
+
+/* Sorts paths as a run has them: numbers in them by their values, dump.9.gz before dump.10.gz. */
+void trajectory_sort_series(const char **paths, size_t count);
+
+/* Changes options->follow of a file that was opened with it above 0; call trajectory_rewind before the next read. */
+void trajectory_set_follow(trajectory *t, double seconds);
 
 /* Reads the next frame: 1 frame read, 0 end of the file, -1 error (text in error: path, line number, what). After an
  * error every call but rewind and close repeats it: a frame is whole, or it is an error. */
 int trajectory_read(trajectory *t, trajectory_frame *frame, char *error, size_t error_size);
 
-/* Returns what is doubtful about the frames read so far, once; NULL where there is nothing, or nothing new. The text names
- * the path (and line) and is valid as long as t. There is one doubt: a text whose last line has no line feed may be whole,
- * since editors and scripts write such files, or cut off inside its last number, which then reads as another one. To
- * refuse it would lose whole files, so programs tell it and go on. */
+/* Returns the next thing that is doubtful about the frames read so far, each kind once for a file; NULL where there is
+ * nothing new. The text names the path (and line) and is valid as long as t. Programs tell it and go on: where two
+ * readings of a file are possible, it says which was taken. A text whose last line has no line feed may be whole, since
+ * editors and scripts write such files, or cut off inside its last number, which then reads as another one. */
 const char *trajectory_take_warning(trajectory *t);
 
 /* Skips the next frame, with the same results. Cheap in .frames; in text the lines are counted, but the numbers may

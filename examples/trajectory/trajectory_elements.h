@@ -9,12 +9,26 @@
 
 #define ELEMENT_DEFAULT_RADIUS 2.0f /* Angstrom: elements missing from the table, and names that are no elements */
 
-/* Van der Waals radius in Angstrom. The symbol's case does not matter, and a label's digits ("C12") are ignored. */
-float element_radius(text_span symbol);
+/* How a name was understood. */
+typedef enum element_reading {
+    ELEMENT_NONE = 0, /* no element */
+    ELEMENT_SYMBOL,   /* a symbol, perhaps with a number: "C", "C12", "cl" */
+    ELEMENT_LABEL,    /* by its first letters: "OW", "HG11", "1HB" */
+    ELEMENT_EITHER    /* read as a symbol, but may be a label: "CA" is calcium, or a carbon atom of a protein */
+} element_reading;
+
+/* The number of the element that a name stands for, from 1 for hydrogen; 0: none. The case does not matter. */
+uint32_t element_find(text_span name, element_reading *reading);
+
+/* The symbol of an element, "" for 0 and beyond the last. */
+const char *element_symbol(uint32_t number);
+
+/* Van der Waals radius in Angstrom of an element by its number. */
+float element_radius(uint32_t number);
 
 /* Names so far, in order of appearance: the first is type 1. */
 #define NAMES_MOST 1024
-#define NAME_LONGEST 15
+#define NAME_LONGEST 63
 typedef struct name_table {
     uint32_t count;
     uint32_t last; /* index of the name found last: neighbours in a file are alike */

@@ -60,7 +60,7 @@ static int read_bytes(trajectory *t, void *bytes, size_t size, const char *secti
     errno = 0;
     if (fread(bytes, 1, size, t->file) != size) {
         if (ferror(t->file)) {
-            return trajectory_fail(t, 0, "%s", strerror(errno != 0 ? errno : EIO));
+            return trajectory_fail(t, 0, "%s", *t->input.error ? t->input.error : strerror(errno != 0 ? errno : EIO));
         }
         return trajectory_fail(t, 0, "frame %" PRIu64 ": the file ends in the %s: it is cut off", t->next, section);
     }
@@ -177,7 +177,7 @@ static int frames_begin(trajectory *t)
     errno = 0;
     const size_t status = fread(header, 1, sizeof header, t->file);
     if (ferror(t->file)) {
-        return trajectory_fail(t, 0, "%s", strerror(errno != 0 ? errno : EIO));
+        return trajectory_fail(t, 0, "%s", *t->input.error ? t->input.error : strerror(errno != 0 ? errno : EIO));
     }
     if (status < 8 || memcmp(header, "CGTFRAM1", 8) != 0) {
         return trajectory_fail(t, 0, "not a .frames file: it does not begin with CGTFRAM1");

@@ -9,6 +9,7 @@
 #define TRAJECTORY_INTERNAL_H
 
 #include "trajectory/trajectory.h"
+#include "trajectory/trajectory_input.h"
 #include "trajectory/trajectory_text.h"
 
 #define DEFAULT_RADIUS 0.5f
@@ -20,6 +21,19 @@ typedef struct trajectory_store {
     uint32_t *type;
     float *velocity;
 } trajectory_store;
+
+/* What may be doubtful about a file; each is told once, with the first line where it shows. */
+typedef enum trajectory_doubt {
+    DOUBT_OPEN_LINE,     /* the last line has no line feed */
+    DOUBT_COUNT_WORDS,   /* .xyz: words after the count */
+    DOUBT_TAIL,          /* .xyz: lines after the rows */
+    DOUBT_LABEL,         /* a name that is no element's symbol is read as an atom's label */
+    DOUBT_SYMBOL,        /* a name may be a symbol or a label */
+    DOUBT_WIDE_IDS,      /* ids of more than 32 bits */
+    DOUBT_FLAT,          /* no column z */
+    DOUBT_MIXED_COLUMNS, /* x, y and z come from different forms of positions */
+    DOUBTS
+} trajectory_doubt;
 
 /* Each of begin, read and skip returns 1 done, 0 end of the file, -1 error through trajectory_fail. */
 typedef struct trajectory_format {
@@ -36,19 +50,23 @@ typedef struct trajectory_format {
 
 struct trajectory {
     const trajectory_format *format;
-    FILE *file;
-    char *path;
+    trajectory_input input;
+    FILE *file;   /* the input's stream */
+    char **paths; /* of the series, path_count of them */
+    size_t path_count, path_at;
+    const char *path; /* of the open file */
     trajectory_options options;
     uint64_t file_size; /* bytes; 0 where the file is not a regular one */
-    int regular;        /* the file's size is known, and it can be rewound */
+    int regular;        /* the file's size is known, and file can seek */
     text_reader text;
     trajectory_store store;
     uint64_t next; /* number of the next frame */
     int failed;    /* every call repeats the error in message */
     char message[1024];
-    char warning[1024]; /* "": none so far */
-    int warned;         /* trajectory_take_warning has returned it */
-    void *state;        /* state_size bytes, zero at first */
+    unsigned doubts; /* 1 << doubt of each that has come up */
+    unsigned told;   /* of each that trajectory_take_warning has returned */
+    char warning[DOUBTS][1024];
+    void *state; /* state_size bytes, zero at first */
 };
 
 extern const trajectory_format trajectory_format_lammps;
@@ -56,8 +74,21 @@ extern const trajectory_format trajectory_format_xyz;
 extern const trajectory_format trajectory_format_frames;
 extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
 
+/* Opens a file of the series in place of the one that is open. Returns 1 or -1. */
+int trajectory_open_file(trajectory *t, size_t number);
+
 /* Notes an error, "path:line: text" or "path: text" where line is 0. Returns -1. */
 int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Notes a doubt, once for each kind; line: as above. */
+void trajectory_warn(trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Copies the error that was noted; error may be NULL. */
+void trajectory_copy_message(const trajectory *t, char *error, size_t error_size);
+
+/* For errors before a trajectory exists. */
+void trajectory_path_error(const char *path, const char *reason, char *error, size_t error_size);
 
 /* Notes that the file ends without a line feed; line: as above. */
 void trajectory_warn_open(trajectory *t, uint64_t line);

@@ -4,20 +4,12 @@
  * LAMMPS dump text: sections that begin with "ITEM:"; the last of a frame has the rows of atoms. Every section is
  * parsed anew: columns, count and box may change from frame to frame. */
 #define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_lammps_box.h"
 #include "trajectory/trajectory_row.h"
 
 #include <float.h>
 #include <inttypes.h>
-#include <math.h>
 #include <string.h>
-
-/* The box in LAMMPS' form: a corner and three edges. */
-typedef struct lammps_box {
-    double origin[3];
-    double edge[3][3]; /* edge[i] is the box vector a, b or c */
-    double low[3];     /* bounds of the parallelepiped */
-    double high[3];
-} lammps_box;
 
 /* Sections of a frame. */
 enum { HAS_STEP = 1, HAS_COUNT = 2, HAS_BOX = 4, HAS_OTHER = 8 };
@@ -28,91 +20,11 @@ typedef struct lammps_state {
     int64_t step;
     uint32_t count;
     lammps_box box;
+    int flat;            /* the frame has no column z: z is 0 */
+    int has_read;        /* rows of some frame were read, so that it is known whether types are words */
+    name_table elements; /* kept when rewinding, as labels are, so that types stay the same */
+    name_table labels;   /* of types */
 } lammps_state;
-
-/* ---- Box ---------------------------------------------------------------------------------------------------- */
-
-/* Reads one line of `count` finite numbers. */
-static int read_numbers(trajectory *t, int count, double *values)
-{
-    text_span line, word;
-    char quote[TEXT_QUOTE_SIZE];
-    if (trajectory_line_inside(t, &line, "in the box bounds") < 0) {
-        return -1;
-    }
-    for (int i = 0; i < count; i++) {
-        if (!text_word(&line, &word)) {
-            return trajectory_fail(t, t->text.line, "%d numbers where the box bounds need %d", i, count);
-        }
-        if (!text_double(word, &values[i]) || !isfinite(values[i])) {
-            return trajectory_fail(t, t->text.line, "'%s' is not a bound of a box", text_quote(word, quote));
-        }
-    }
-    if (!text_is_blank(line)) {
-        return trajectory_fail(t, t->text.line, "more than the %d numbers of the box bounds", count);
-    }
-    return 1;
-}
-
-/* The file has the bounds of the parallelepiped; its corner and lengths follow from them and the tilt. */
-static void box_from_bounds(lammps_box *box, double bounds[3][3])
-{
-    const double xy = bounds[0][2], xz = bounds[1][2], yz = bounds[2][2];
-    const double below[3] = {fmin(fmin(0.0, xy), fmin(xz, xy + xz)), fmin(0.0, yz), 0.0};
-    const double above[3] = {fmax(fmax(0.0, xy), fmax(xz, xy + xz)), fmax(0.0, yz), 0.0};
-    const double tilt[3][3] = {{0, 0, 0}, {xy, 0, 0}, {xz, yz, 0}};
-    memcpy(box->edge, tilt, sizeof tilt);
-    for (int i = 0; i < 3; i++) {
-        box->low[i] = bounds[i][0];
-        box->high[i] = bounds[i][1];
-        box->origin[i] = bounds[i][0] - below[i];
-        box->edge[i][i] = (bounds[i][1] - above[i]) - box->origin[i];
-    }
-}
-
-/* A general box: each line has a box vector and one coordinate of the corner. */
-static void box_from_vectors(lammps_box *box, double lines[3][4])
-{
-    for (int i = 0; i < 3; i++) {
-        memcpy(box->edge[i], lines[i], sizeof box->edge[i]);
-        box->origin[i] = lines[i][3];
-    }
-    for (int axis = 0; axis < 3; axis++) {
-        box->low[axis] = box->high[axis] = box->origin[axis];
-        for (int i = 0; i < 3; i++) {
-            box->low[axis] += fmin(0.0, box->edge[i][axis]);
-            box->high[axis] += fmax(0.0, box->edge[i][axis]);
-        }
-    }
-}
-
-/* flags: what follows "ITEM: BOX BOUNDS", such as "pp pp ff" or "xy xz yz pp pp pp". */
-static int read_box(trajectory *t, text_span flags)
-{
-    lammps_state *const s = t->state;
-    text_span word;
-    text_word(&flags, &word);
-    const int general = text_is(word, "abc");
-    const int tilted = text_is(word, "xy");
-    const int numbers = general ? 4 : tilted ? 3 : 2;
-    double lines[3][4] = {{0}}, bounds[3][3] = {{0}};
-    for (int i = 0; i < 3; i++) {
-        if (read_numbers(t, numbers, lines[i]) < 0) {
-            return -1;
-        }
-        memcpy(bounds[i], lines[i], sizeof bounds[i]);
-        if (!general && lines[i][0] > lines[i][1]) {
-            return trajectory_fail(t, t->text.line, "the lower bound of the box is above the upper one");
-        }
-    }
-    if (general) {
-        box_from_vectors(&s->box, lines);
-    } else {
-        box_from_bounds(&s->box, bounds);
-    }
-    s->seen |= HAS_BOX;
-    return 1;
-}
 
 /* A bound beyond a float's range stays finite. */
 static float clamp_to_float(double value)
@@ -129,7 +41,7 @@ typedef struct lammps_column {
 
 static const lammps_column plain_columns[] = {
     {"id", ROW_ID}, {"type", ROW_TYPE}, {"radius", ROW_RADIUS}, {"diameter", ROW_DIAMETER},
-    {"vx", ROW_VX}, {"vy", ROW_VY},     {"vz", ROW_VZ},
+    {"vx", ROW_VX}, {"vy", ROW_VY},     {"vz", ROW_VZ},         {"element", ROW_NAME},
 };
 
 /* Four forms of a position. */
@@ -148,8 +60,13 @@ static const lammps_position positions[POSITIONS] = {
 static const int unwrapped_first[POSITIONS] = {UNWRAPPED, SCALED_UNWRAPPED, PLAIN, SCALED};
 static const int wrapped_first[POSITIONS] = {PLAIN, SCALED, UNWRAPPED, SCALED_UNWRAPPED};
 
-/* Returns the first position in the preferred order that has all three columns, or NULL. */
-static const lammps_position *choose_position(const trajectory *t, text_span columns)
+/* Where x, y and z are read from: a form of position each, POSITIONS for none. */
+typedef struct position_choice {
+    int form[3];
+} position_choice;
+
+/* All three columns of the first form that has them; else each from the first form that has it: xu yu z. */
+static position_choice choose_position(const trajectory *t, text_span columns)
 {
     unsigned found[POSITIONS] = {0};
     text_span word;
@@ -161,20 +78,29 @@ static const lammps_position *choose_position(const trajectory *t, text_span col
         }
     }
     const int *const order = t->options.wrapped ? wrapped_first : unwrapped_first;
-    for (int i = 0; i < POSITIONS; i++) {
-        if (found[order[i]] == 7) {
-            return &positions[order[i]];
+    position_choice choice = {{POSITIONS, POSITIONS, POSITIONS}};
+    for (int i = POSITIONS - 1; i >= 0; i--) {
+        for (int axis = 0; axis < 3; axis++) {
+            choice.form[axis] = found[order[i]] >> axis & 1 ? order[i] : choice.form[axis];
         }
     }
-    return NULL;
+    for (int i = POSITIONS - 1; i >= 0; i--) {
+        if (found[order[i]] == 7) {
+            choice = (position_choice){{order[i], order[i], order[i]}};
+        }
+    }
+    return choice;
 }
 
-static row_role column_role(text_span word, const lammps_position *position)
+static row_role column_role(text_span word, const position_choice *choice, int has_type)
 {
     for (int axis = 0; axis < 3; axis++) {
-        if (text_is(word, position->name[axis])) {
+        if (choice->form[axis] < POSITIONS && text_is(word, positions[choice->form[axis]].name[axis])) {
             return (row_role)(ROW_X + axis);
         }
+    }
+    if (text_is(word, "typelabel")) {
+        return has_type ? ROW_UNUSED : ROW_TYPE;
     }
     for (size_t i = 0; i < sizeof plain_columns / sizeof plain_columns[0]; i++) {
         if (text_is(word, plain_columns[i].name)) {
@@ -184,22 +110,69 @@ static row_role column_role(text_span word, const lammps_position *position)
     return ROW_UNUSED;
 }
 
-static int plan_columns(trajectory *t, text_span columns)
+/* Scaled coordinates need the box, and all three of them where its edges are not along the axes: the place along one
+ * axis then depends on the fractions along others. */
+static int check_scaled(trajectory *t, unsigned scaled)
+{
+    const lammps_state *const s = t->state;
+    if (scaled != 0 && !(s->seen & HAS_BOX)) {
+        return trajectory_fail(t, t->text.line, "scaled coordinates without BOX BOUNDS before them");
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < 3; i++) {
+            if ((scaled >> axis & 1) && !(scaled >> i & 1) && s->box.edge[i][axis] != 0.0) {
+                return trajectory_fail(t, t->text.line,
+                                       "in a tilted box either all coordinates or none must be scaled");
+            }
+        }
+    }
+    return 1;
+}
+
+/* Notes what else the columns might have meant, and checks them. */
+static int check_position(trajectory *t, const position_choice *choice)
 {
     lammps_state *const s = t->state;
-    const lammps_position *position = choose_position(t, columns);
-    if (position == NULL) {
+    const int *const form = choice->form;
+    if (form[0] == POSITIONS || form[1] == POSITIONS) {
         return trajectory_fail(t, t->text.line,
                                "no columns x y z, xu yu zu, xs ys zs or xsu ysu zsu: the spheres have no place");
     }
-    if (position->scaled && !(s->seen & HAS_BOX)) {
-        return trajectory_fail(t, t->text.line, "scaled coordinates without BOX BOUNDS before them");
+    s->flat = form[2] == POSITIONS;
+    if (s->flat && !t->text.has_feed) {
+        return trajectory_fail(t, t->text.line, "the file ends in the list of columns: it is cut off");
     }
+    if (s->flat) {
+        trajectory_warn(t, DOUBT_FLAT, t->text.line, "there is no column z: z is 0 for all spheres");
+    }
+    if (form[0] != form[1] || (!s->flat && form[0] != form[2])) {
+        trajectory_warn(t, DOUBT_MIXED_COLUMNS, t->text.line, "positions are taken from the columns %s %s %s",
+                        positions[form[0]].name[0], positions[form[1]].name[1],
+                        s->flat ? "" : positions[form[2]].name[2]);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const int scaled = form[axis] < POSITIONS && positions[form[axis]].scaled;
+        s->plan.scaled |= scaled ? 1u << axis : 0u;
+    }
+    return check_scaled(t, s->plan.scaled);
+}
+
+static int plan_columns(trajectory *t, text_span columns)
+{
+    lammps_state *const s = t->state;
+    const position_choice choice = choose_position(t, columns);
     row_plan_clear(&s->plan);
-    s->plan.scaled = position->scaled;
-    text_span word;
+    if (check_position(t, &choice) < 0) {
+        return -1;
+    }
+    s->plan.labels = &s->labels;
+    int has_type = 0;
+    text_span word, rest = columns;
+    while (text_word(&rest, &word)) {
+        has_type |= text_is(word, "type");
+    }
     while (text_word(&columns, &word)) {
-        if (row_plan_add(t, &s->plan, column_role(word, position)) < 0) {
+        if (row_plan_add(t, &s->plan, column_role(word, &choice, has_type)) < 0) {
             return -1;
         }
     }
@@ -281,7 +254,11 @@ static int read_section(trajectory *t, text_span line)
         return check_first(t, HAS_COUNT) < 0 ? -1 : read_count(t);
     }
     if (take_heading(&line, "ITEM: BOX BOUNDS")) {
-        return check_first(t, HAS_BOX) < 0 ? -1 : read_box(t, line);
+        if (check_first(t, HAS_BOX) < 0 || lammps_read_box(t, line, &s->box) < 0) {
+            return -1;
+        }
+        s->seen |= HAS_BOX;
+        return 1;
     }
     if (take_heading(&line, "ITEM: UNITS") || take_heading(&line, "ITEM: TIME")) {
         s->seen |= HAS_OTHER;
@@ -327,20 +304,40 @@ static int read_head(trajectory *t)
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
 
+/* From fractions of the box to places. */
+static void place_row(const lammps_state *s, row *r)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        if (!(s->plan.scaled >> axis & 1)) {
+            continue;
+        }
+        double sum = s->box.origin[axis];
+        for (int i = 0; i < 3; i++) {
+            sum += s->plan.scaled >> i & 1 ? r->fraction[i] * s->box.edge[i][axis] : 0.0;
+        }
+        r->value[ROW_X + axis] = (float)sum;
+    }
+    if (s->flat) {
+        r->value[ROW_Z] = 0.0f;
+    }
+}
+
 static int finish_row(trajectory *t, row *r)
 {
-    const lammps_state *const s = t->state;
-    if (s->plan.scaled) {
-        for (int axis = 0; axis < 3; axis++) {
-            double sum = s->box.origin[axis];
-            for (int i = 0; i < 3; i++) {
-                sum += r->fraction[i] * s->box.edge[i][axis];
-            }
-            r->value[ROW_X + axis] = (float)sum;
+    lammps_state *const s = t->state;
+    float radius = DEFAULT_RADIUS;
+    place_row(s, r);
+    if (s->plan.roles & ROW_BIT(ROW_NAME)) {
+        uint32_t type;
+        if (row_name(t, &s->elements, r->name, &type, &radius) < 0) {
+            return -1;
+        }
+        if (!(s->plan.roles & ROW_BIT(ROW_TYPE))) {
+            r->type = type;
         }
     }
     if (!(s->plan.roles & (ROW_BIT(ROW_RADIUS) | ROW_BIT(ROW_DIAMETER)))) {
-        r->value[ROW_RADIUS] = t->options.radius > 0.0f ? t->options.radius : DEFAULT_RADIUS;
+        r->value[ROW_RADIUS] = t->options.radius > 0.0f ? t->options.radius : radius;
     }
     return 1;
 }
@@ -353,11 +350,12 @@ static int lammps_begin(trajectory *t)
 
 static int lammps_read(trajectory *t, trajectory_frame *frame)
 {
-    const lammps_state *const s = t->state;
+    lammps_state *const s = t->state;
     const int status = read_head(t);
     if (status <= 0) {
         return status;
     }
+    s->has_read |= s->count > 0;
     trajectory_frame_fill(t, frame, s->count);
     frame->step = s->step;
     for (int axis = 0; axis < 3 && (s->seen & HAS_BOX); axis++) {
@@ -369,9 +367,19 @@ static int lammps_read(trajectory *t, trajectory_frame *frame)
 
 static int lammps_skip(trajectory *t)
 {
-    const lammps_state *const s = t->state;
+    lammps_state *const s = t->state;
+    trajectory_frame unused;
     const int status = read_head(t);
-    return status <= 0 ? status : rows_skip(t, s->count);
+    if (status <= 0) {
+        return status;
+    }
+    /* Words are numbered in order of appearance, so that frames with some must be read. */
+    const int has_words = s->labels.count > 0 || s->plan.roles & ROW_BIT(ROW_NAME);
+    if (s->count == 0 || (s->has_read && !has_words)) {
+        return rows_skip(t, s->count);
+    }
+    s->has_read = 1;
+    return rows_read(t, &s->plan, s->count, finish_row, &unused);
 }
 
 static void lammps_end(trajectory *t) { (void)t; }

@@ -6,6 +6,7 @@
 #include "trajectory/trajectory_row.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 void row_plan_clear(row_plan *plan)
@@ -13,6 +14,7 @@ void row_plan_clear(row_plan *plan)
     plan->columns = 0;
     plan->open_ended = 0;
     plan->scaled = 0;
+    plan->labels = NULL;
     plan->roles = 0;
 }
 
@@ -29,25 +31,72 @@ int row_plan_add(trajectory *t, row_plan *plan, row_role role)
 
 /* ---- One row ------------------------------------------------------------------------------------------------ */
 
+/* A whole number; a program that formats all columns alike writes 1.0. */
+static int parse_u64(text_span word, uint64_t max, uint64_t *value)
+{
+    double number;
+    if (text_u64(word, max, value)) {
+        return 1;
+    }
+    const double exact = 9007199254740992.0; /* 2^53: whole numbers below are exact */
+    if (memchr(word.begin, '.', text_length(word)) == NULL || !text_double(word, &number) ||
+        !(number >= 0.0 && number < exact && number == floor(number) && (uint64_t)number <= max)) {
+        return 0;
+    }
+    *value = (uint64_t)number;
+    return 1;
+}
+
 static int parse_u32(text_span word, uint32_t *value)
 {
     uint64_t number;
-    if (!text_u64(word, UINT32_MAX, &number)) {
+    if (!parse_u64(word, UINT32_MAX, &number)) {
         return 0;
     }
     *value = (uint32_t)number;
     return 1;
 }
 
+/* Simulators with ids of 64 bits use them beyond 2^32 only where there are as many atoms, or where atoms are created all
+ * the time; those of one frame rarely differ by a multiple of 2^32. */
+static int parse_id(trajectory *t, text_span word, uint32_t *id)
+{
+    uint64_t number;
+    if (!parse_u64(word, UINT64_MAX, &number)) {
+        return 0;
+    }
+    if (number > UINT32_MAX) {
+        trajectory_warn(t, DOUBT_WIDE_IDS, t->text.line, "ids above 4294967295 are kept modulo 4294967296");
+    }
+    *id = (uint32_t)number;
+    return 1;
+}
+
+/* A type is a number, or a label where the plan allows it. */
+static int parse_type(const row_plan *plan, text_span word, uint32_t *type)
+{
+    const char *reason;
+    double number;
+    if (parse_u32(word, type)) {
+        return 1;
+    }
+    if (plan->labels == NULL || text_double(word, &number)) {
+        return 0;
+    }
+    *type = name_table_find(plan->labels, word, &reason);
+    return *type != 0;
+}
+
 /* Parses a word according to its role. Returns NULL, or what the word should have been. */
-static const char *parse_value(const row_plan *plan, row_role role, text_span word, row *r)
+static const char *parse_value(trajectory *t, const row_plan *plan, row_role role, text_span word, row *r)
 {
     float number;
     switch (role) {
     case ROW_UNUSED: return NULL;
     case ROW_NAME: r->name = word; return NULL;
-    case ROW_ID: return parse_u32(word, &r->id) ? NULL : "an id from 0 to 4294967295";
-    case ROW_TYPE: return parse_u32(word, &r->type) ? NULL : "a type from 0 to 4294967295";
+    case ROW_ID: return parse_id(t, word, &r->id) ? NULL : "an id, a whole number of 64 bits";
+    case ROW_TYPE: return parse_type(plan, word, &r->type) ? NULL : "a type from 0 to 4294967295";
+    case ROW_NUMBER: return parse_u32(word, &r->number) ? NULL : "an atomic number";
     case ROW_DIAMETER:
         if (!text_float(word, &number)) {
             return "a number";
@@ -59,7 +108,7 @@ static const char *parse_value(const row_plan *plan, row_role role, text_span wo
     case ROW_X:
     case ROW_Y:
     case ROW_Z:
-        if (plan->scaled) {
+        if (plan->scaled & (1u << (role - ROW_X))) {
             return text_double(word, &r->fraction[role - ROW_X]) ? NULL : "a number";
         }
         break;
@@ -80,7 +129,7 @@ static int parse_row(trajectory *t, const row_plan *plan, text_span line, row *r
             return trajectory_fail(t, t->text.line, "%" PRIu32 " columns where %" PRIu32 " are expected", column,
                                    plan->columns);
         }
-        const char *expected = parse_value(plan, (row_role)plan->role[column], word, r);
+        const char *expected = parse_value(t, plan, (row_role)plan->role[column], word, r);
         if (expected != NULL) {
             return trajectory_fail(t, t->text.line, "column %" PRIu32 ": '%s' is not %s", column + 1,
                                    text_quote(word, quote), expected);
@@ -99,12 +148,47 @@ static void store_row(trajectory_store *s, size_t i, unsigned roles, const row *
     if (roles & ROW_BIT(ROW_ID)) {
         s->id[i] = r->id;
     }
-    if (roles & (ROW_BIT(ROW_TYPE) | ROW_BIT(ROW_NAME))) {
+    if (roles & ROW_TYPES) {
         s->type[i] = r->type;
     }
     if ((roles & ROW_VELOCITY) == ROW_VELOCITY) {
         memcpy(s->velocity + 3 * i, r->value + ROW_VX, 3 * sizeof *s->velocity);
     }
+}
+
+/* ---- Names -------------------------------------------------------------------------------------------------- */
+
+int row_name(trajectory *t, name_table *names, text_span name, uint32_t *type, float *radius)
+{
+    char quote[TEXT_QUOTE_SIZE];
+    const char *reason = "";
+    const uint32_t known = names->count;
+    *type = name_table_find(names, name, &reason);
+    if (*type == 0) {
+        return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
+    }
+    *radius = names->radius[*type - 1];
+    if (names->count > known) {
+        element_reading reading;
+        const char *symbol = element_symbol(element_find(name, &reading));
+        if (reading == ELEMENT_LABEL) {
+            trajectory_warn(t, DOUBT_LABEL, t->text.line,
+                            "'%s' is no element: such names are read as labels of atoms, this one as %s",
+                            text_quote(name, quote), symbol);
+        } else if (reading == ELEMENT_EITHER) {
+            trajectory_warn(t, DOUBT_SYMBOL, t->text.line,
+                            "'%s' is read as the element %s; as the label of an atom in a molecule it would be %c",
+                            text_quote(name, quote), symbol, symbol[0]);
+        }
+    }
+    return 1;
+}
+
+int row_atomic_number(trajectory *t, name_table *names, uint32_t number, uint32_t *type, float *radius)
+{
+    const char *symbol = element_symbol(number);
+    const char *name = *symbol != '\0' ? symbol : "X";
+    return row_name(t, names, (text_span){name, name + strlen(name)}, type, radius);
 }
 
 /* ---- All rows of a frame ------------------------------------------------------------------------------------ */
@@ -142,7 +226,7 @@ int rows_read(trajectory *t, const row_plan *plan, uint32_t count, row_finish *f
     const unsigned roles = plan->roles;
     frame->xyzr = t->store.xyzr;
     frame->id = roles & ROW_BIT(ROW_ID) ? t->store.id : NULL;
-    frame->type = roles & (ROW_BIT(ROW_TYPE) | ROW_BIT(ROW_NAME)) ? t->store.type : NULL;
+    frame->type = roles & ROW_TYPES ? t->store.type : NULL;
     frame->velocity = (roles & ROW_VELOCITY) == ROW_VELOCITY ? t->store.velocity : NULL;
     return 1;
 }

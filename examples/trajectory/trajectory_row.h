@@ -6,6 +6,7 @@
 #ifndef TRAJECTORY_ROW_H
 #define TRAJECTORY_ROW_H
 
+#include "trajectory/trajectory_elements.h"
 #include "trajectory/trajectory_internal.h"
 
 typedef enum row_role {
@@ -20,20 +21,24 @@ typedef enum row_role {
     ROW_DIAMETER,
     ROW_ID,
     ROW_TYPE,
-    ROW_NAME /* an element's name, or a type's */
+    ROW_NAME,  /* an element's name, or a type's */
+    ROW_NUMBER /* an atomic number */
 } row_role;
 
 #define ROW_BIT(role) (1u << (role))
 #define ROW_POSITION (ROW_BIT(ROW_X) | ROW_BIT(ROW_Y) | ROW_BIT(ROW_Z))
 #define ROW_VELOCITY (ROW_BIT(ROW_VX) | ROW_BIT(ROW_VY) | ROW_BIT(ROW_VZ))
 
+#define ROW_TYPES (ROW_BIT(ROW_TYPE) | ROW_BIT(ROW_NAME) | ROW_BIT(ROW_NUMBER))
+
 #define ROW_MOST_COLUMNS 4096
 
 typedef struct row_plan {
-    uint32_t columns; /* of each row */
-    int open_ended;   /* further columns are allowed and ignored */
-    int scaled;       /* x, y, z are fractions of the box: kept as doubles */
-    unsigned roles;   /* ROW_BIT of each role present */
+    uint32_t columns;   /* of each row */
+    int open_ended;     /* further columns are allowed and ignored */
+    unsigned scaled;    /* 1 << axis: x, y or z is a fraction of the box, kept as a double */
+    name_table *labels; /* types may be words: numbered here; NULL: they may not */
+    unsigned roles;     /* ROW_BIT of each role present */
     uint8_t role[ROW_MOST_COLUMNS];
 } row_plan;
 
@@ -41,6 +46,7 @@ typedef struct row_plan {
 typedef struct row {
     float value[ROW_VZ + 1]; /* by role: x, y, z, radius, velocity */
     double fraction[3];      /* x, y, z where the plan is scaled */
+    uint32_t number;         /* atomic number */
     uint32_t id;
     uint32_t type;
     text_span name;
@@ -50,6 +56,13 @@ void row_plan_clear(row_plan *plan);
 
 /* Adds a column; a repeated role becomes an unused one. Returns 1 or -1: too many columns. */
 int row_plan_add(trajectory *t, row_plan *plan, row_role role);
+
+/* The type number and the radius that a name stands for; names count as elements or as labels of atoms, and a doubt is
+ * noted. Returns 1 or -1. */
+int row_name(trajectory *t, name_table *names, text_span name, uint32_t *type, float *radius);
+
+/* The same for an atomic number: its symbol is the name. 0 and numbers of no element have a name of their own, X. */
+int row_atomic_number(trajectory *t, name_table *names, uint32_t number, uint32_t *type, float *radius);
 
 /* Completes a row before it is stored: box, type, radius. Returns 1 or -1. */
 typedef int row_finish(trajectory *t, row *r);

@@ -71,7 +71,7 @@ static int read_more(text_reader *r, const char **reason)
     const size_t got = fread(r->data + r->end, 1, r->capacity - r->end, r->file);
     if (got == 0) {
         if (ferror(r->file)) {
-            *reason = strerror(errno != 0 ? errno : EIO);
+            *reason = r->why != NULL && *r->why != '\0' ? r->why : strerror(errno != 0 ? errno : EIO);
             return -1;
         }
         r->at_end = 1;
@@ -104,8 +104,12 @@ int text_reader_next(text_reader *r, text_span *line, const char **reason)
     const size_t length = feed != NULL ? (size_t)(feed - (r->data + r->begin)) : searched;
     char *begin = r->data + r->begin;
     char *end = begin + length;
+    if (r->line == 0 && length >= 3 && memcmp(begin, "\xef\xbb\xbf", 3) == 0) {
+        begin += 3; /* the mark of UTF-8 that some editors write */
+    }
     r->begin += length + (feed != NULL);
-    r->is_open = feed == NULL && end[-1] != ' ' && !(end[-1] >= '\t' && end[-1] <= '\r');
+    r->has_feed = feed != NULL;
+    r->is_open = feed == NULL && end > begin && end[-1] != ' ' && !(end[-1] >= '\t' && end[-1] <= '\r');
     if (end > begin && end[-1] == '\r') {
         end--;
     }
@@ -128,6 +132,18 @@ int text_begins(text_span span, const char *text)
 {
     const size_t length = strlen(text);
     return text_length(span) >= length && memcmp(span.begin, text, length) == 0;
+}
+
+static int is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+void text_trim(text_span *span)
+{
+    while (span->begin < span->end && is_blank(*span->begin)) {
+        span->begin++;
+    }
+    while (span->end > span->begin && is_blank(span->end[-1])) {
+        span->end--;
+    }
 }
 
 int text_is_blank(text_span span)
@@ -223,6 +239,41 @@ static int may_be_decimal(text_span word)
     return length > 0 && memchr(word.begin, 'x', length) == NULL && memchr(word.begin, 'X', length) == NULL;
 }
 
+/* Writes a word with another exponent's mark as C does: Fortran's 1.5D+01 and 1.5-101, whose third digit takes the place
+ * of the mark, and Mathematica's 6.3*^-6. Returns 0 where the word is none of these. */
+#define FOREIGN_LONGEST 62
+static int copy_foreign(text_span word, char copy[FOREIGN_LONGEST + 2])
+{
+    const size_t length = text_length(word);
+    if (length == 0 || length > FOREIGN_LONGEST) {
+        return 0;
+    }
+    const char *p = word.begin;
+    p += *p == '-' || *p == '+';
+    while (p < word.end && (is_digit(*p) || *p == '.')) {
+        p++;
+    }
+    const size_t mantissa = (size_t)(p - word.begin);
+    const char *exponent = p;
+    if (p < word.end && (*p == 'd' || *p == 'D')) {
+        exponent = p + 1;
+    } else if (word.end - p > 1 && p[0] == '*' && p[1] == '^') {
+        exponent = p + 2;
+    } else if (p == word.end || (*p != '-' && *p != '+')) {
+        return 0;
+    }
+    int ignored = 0;
+    if (!scan_exponent(exponent, word.end, &ignored)) {
+        return 0;
+    }
+    memcpy(copy, word.begin, mantissa);
+    copy[mantissa] = 'e';
+    const size_t rest = (size_t)(word.end - exponent);
+    memcpy(copy + mantissa + 1, exponent, rest);
+    copy[mantissa + 1 + rest] = '\0';
+    return 1;
+}
+
 int text_double(text_span word, double *value)
 {
     if (fast_double(word, value)) {
@@ -232,9 +283,16 @@ int text_double(text_span word, double *value)
         return 0;
     }
     char *stop;
-    const double number = strtod(word.begin, &stop);
+    char copy[FOREIGN_LONGEST + 2];
+    double number = strtod(word.begin, &stop);
     if (stop != word.end) {
-        return 0;
+        if (!copy_foreign(word, copy)) {
+            return 0;
+        }
+        number = strtod(copy, &stop);
+        if (*stop != '\0') {
+            return 0;
+        }
     }
     *value = number;
     return 1;
@@ -258,9 +316,16 @@ int text_float(text_span word, float *value)
         return 0;
     }
     char *stop;
-    const float exact = strtof(word.begin, &stop);
+    char copy[FOREIGN_LONGEST + 2];
+    float exact = strtof(word.begin, &stop);
     if (stop != word.end) {
-        return 0;
+        if (!copy_foreign(word, copy)) {
+            return 0;
+        }
+        exact = strtof(copy, &stop);
+        if (*stop != '\0') {
+            return 0;
+        }
     }
     *value = exact;
     return 1;

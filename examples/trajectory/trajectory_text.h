@@ -20,12 +20,14 @@ typedef struct text_span {
 
 typedef struct text_reader {
     FILE *file;
-    char *data; /* capacity + 1 bytes */
+    const char *why; /* where not "" the reason why reading the file failed; may be NULL */
+    char *data;      /* capacity + 1 bytes */
     size_t capacity;
     size_t begin;  /* the next line starts here */
     size_t end;    /* bytes in data */
     uint64_t line; /* number of the last line, from 1 */
     int at_end;    /* the file has no more bytes than those in data */
+    int has_feed;  /* the last line ends in a line feed */
     int is_open;   /* the last line has neither a line feed nor a blank at its end: its last word may go on */
 } text_reader;
 
@@ -63,10 +65,13 @@ static inline size_t text_length(text_span span) { return (size_t)(span.end - sp
 int text_is(text_span span, const char *text);
 int text_begins(text_span span, const char *text);
 
+/* Removes blanks from both ends. */
+void text_trim(text_span *span);
+
 /* Whether the span holds only blanks. */
 int text_is_blank(text_span span);
 
-/* Numbers: the whole word, or 0. NaN and infinity are numbers; too large for a float is infinity, as in strtof. Words
+/* Numbers: the whole word, or 0. Exponents may have Fortran's or Mathematica's marks: 1.5D+01, 1.5-101, 6.3*^-6. NaN and infinity are numbers; too large for a float is infinity, as in strtof. Words
  * must lie in a line of a reader, or have a blank or a zero after them. */
 int text_float(text_span word, float *value);
 int text_double(text_span word, double *value);

@@ -3,8 +3,10 @@
  *
  * .xyz: a count, a comment, then the rows. Plain rows are a name or a type and x y z; further columns have no agreed
  * meaning and are ignored. Extended files describe the columns in the comment (Properties=) and may give the box
- * (Lattice=, Origin=). A name that is a whole number is a type. */
+ * (Lattice=, Origin=). A name that is a whole number is a type;
+ * atomic numbers are known by their property, Z or numbers. */
 #define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_comment.h"
 #include "trajectory/trajectory_elements.h"
 #include "trajectory/trajectory_row.h"
 
@@ -18,6 +20,7 @@ typedef struct xyz_state {
     uint32_t count;
     int64_t step;
     int has_step;
+    int is_plain; /* the last frame has no Properties= */
     int has_box;
     float box_min[3];
     float box_max[3];
@@ -25,58 +28,13 @@ typedef struct xyz_state {
 
 /* ---- The comment -------------------------------------------------------------------------------------------- */
 
-/* Finds key=value, the value in quotes or up to a blank. Returns 1 or 0. */
-static int find_value(text_span comment, const char *key, text_span *value)
-{
-    const size_t length = strlen(key);
-    for (const char *p = comment.begin; p + length < comment.end; p++) {
-        const int starts = p == comment.begin || p[-1] == ' ' || p[-1] == '\t';
-        if (!starts || memcmp(p, key, length) != 0 || p[length] != '=') {
-            continue;
-        }
-        const char *begin = p + length + 1;
-        const char *end;
-        if (begin < comment.end && *begin == '"') {
-            begin++;
-            end = memchr(begin, '"', (size_t)(comment.end - begin));
-            end = end == NULL ? comment.end : end;
-        } else {
-            for (end = begin; end < comment.end && *end != ' ' && *end != '\t'; end++) {
-            }
-        }
-        value->begin = begin;
-        value->end = end;
-        return 1;
-    }
-    return 0;
-}
-
-/* Reads `count` finite numbers. Words are copied, since a quote may follow the number. */
-static int parse_vector(text_span text, int count, double *values)
-{
-    for (int i = 0; i < count; i++) {
-        text_span word;
-        char copy[64];
-        if (!text_word(&text, &word) || text_length(word) >= sizeof copy) {
-            return 0;
-        }
-        memcpy(copy, word.begin, text_length(word));
-        copy[text_length(word)] = '\0';
-        const text_span number = {copy, copy + text_length(word)};
-        if (!text_double(number, &values[i]) || !isfinite(values[i])) {
-            return 0;
-        }
-    }
-    return text_is_blank(text);
-}
-
 /* Parses the box from Lattice= and Origin=. The comment is free text: anything unreadable is no box. */
 static void read_lattice(xyz_state *s, text_span comment)
 {
     text_span text;
     double edge[9], origin[3] = {0, 0, 0};
-    s->has_box = find_value(comment, "Lattice", &text) && parse_vector(text, 9, edge) &&
-                 (!find_value(comment, "Origin", &text) || parse_vector(text, 3, origin));
+    s->has_box = comment_find(comment, "Lattice", &text) && comment_numbers(text, 9, edge) &&
+                 (!comment_find(comment, "Origin", &text) || comment_numbers(text, 3, origin));
     for (int axis = 0; axis < 3 && s->has_box; axis++) {
         double low = origin[axis], high = origin[axis];
         for (int i = 0; i < 3; i++) {
@@ -95,13 +53,13 @@ static void read_step(xyz_state *s, text_span comment)
     static const char key[] = "Timestep";
     s->has_step = 0;
     text_span value, word;
-    if (find_value(comment, key, &value)) {
+    if (comment_find(comment, key, &value)) {
         s->has_step = text_i64(value, &s->step);
         return;
     }
-    while (text_word(&comment, &word)) {
+    while (comment_next(&comment, &word, &value)) {
         if (text_is(word, "Timestep:")) {
-            s->has_step = text_word(&comment, &word) && text_i64(word, &s->step);
+            s->has_step = comment_next(&comment, &word, &value) && text_i64(word, &s->step);
             return;
         }
     }
@@ -116,9 +74,21 @@ typedef struct xyz_property {
 } xyz_property;
 
 static const xyz_property properties[] = {
-    {"species", 1, ROW_NAME},      {"element", 1, ROW_NAME}, {"pos", 3, ROW_X},     {"radius", 1, ROW_RADIUS},
-    {"diameter", 1, ROW_DIAMETER}, {"velo", 3, ROW_VX},      {"vel", 3, ROW_VX},    {"velocity", 3, ROW_VX},
-    {"velocities", 3, ROW_VX},     {"id", 1, ROW_ID},        {"type", 1, ROW_TYPE},
+    {"species", 1, ROW_NAME},
+    {"element", 1, ROW_NAME},
+    {"pos", 3, ROW_X},
+    {"radius", 1, ROW_RADIUS},
+    {"diameter", 1, ROW_DIAMETER},
+    {"velo", 3, ROW_VX},
+    {"vel", 3, ROW_VX},
+    {"velocity", 3, ROW_VX},
+    {"velocities", 3, ROW_VX},
+    {"id", 1, ROW_ID},
+    {"type", 1, ROW_TYPE},
+    {"Z", 1, ROW_NUMBER},
+    {"numbers", 1, ROW_NUMBER},
+    {"atomic_number", 1, ROW_NUMBER},
+    {"atomic_numbers", 1, ROW_NUMBER},
 };
 
 /* The role of a property. kind: S text, R number, I whole number, L true or false. */
@@ -132,7 +102,7 @@ static row_role property_role(text_span name, text_span kind, uint64_t columns)
         if (p->role == ROW_TYPE && text_is(kind, "S")) {
             return ROW_NAME;
         }
-        const char *expected = p->role == ROW_NAME ? "S" : p->role == ROW_ID || p->role == ROW_TYPE ? "I" : "R";
+        const char *expected = p->role == ROW_NAME ? "S" : p->role >= ROW_ID ? "I" : "R";
         if (text_is(kind, expected) || (*expected == 'R' && text_is(kind, "I"))) {
             return p->role;
         }
@@ -157,6 +127,7 @@ static int plan_properties(trajectory *t, text_span list)
 {
     xyz_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
+    text_trim(&list);
     while (list.begin < list.end) {
         text_span name, kind, number = {NULL, NULL};
         uint64_t columns = 0;
@@ -191,24 +162,83 @@ static int plan_plain(trajectory *t)
         }
     }
     s->plan.open_ended = 1;
+    s->is_plain = 1;
     return 1;
 }
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
+
+/* Whether the line begins with a number that is no whole one. After the rows of a plain frame that is the list of
+ * frequencies in files of the QM9 set; SMILES and InChI follow on lines of their own. */
+static int begins_tail(text_span line)
+{
+    text_span word;
+    double number;
+    uint64_t whole;
+    return text_word(&line, &word) && !text_u64(word, UINT64_MAX, &whole) && text_double(word, &number);
+}
+
+/* The next line with a word on it, which a frame begins with: 1, 0, -1. */
+static int next_head_line(trajectory *t, text_span *line)
+{
+    const xyz_state *const s = t->state;
+    int in_tail = 0;
+    while (1) {
+        const int status = trajectory_line(t, line);
+        if (status <= 0) {
+            return status;
+        }
+        text_span rest = *line, word;
+        uint64_t count;
+        if (!text_word(&rest, &word)) {
+            continue; /* blank lines between frames */
+        }
+        if (!in_tail && !(s->is_plain && begins_tail(*line))) {
+            return 1;
+        }
+        if (in_tail && text_u64(word, UINT64_MAX, &count) && text_is_blank(rest)) {
+            return 1;
+        }
+        if (!in_tail) {
+            trajectory_warn(
+                t, DOUBT_TAIL, t->text.line,
+                "lines after the rows are taken for remarks, as in files of the QM9 set, up to the next line "
+                "that is a number of spheres");
+        }
+        in_tail = 1;
+    }
+}
+
+/* "2 angstroem": one word after the count, which is no number, is no part of it. */
+static int check_count_line(trajectory *t, text_span rest)
+{
+    char quote[TEXT_QUOTE_SIZE];
+    text_span word;
+    if (!text_word(&rest, &word)) {
+        return 1;
+    }
+    const int is_letter = (*word.begin >= 'a' && *word.begin <= 'z') || (*word.begin >= 'A' && *word.begin <= 'Z');
+    if (!is_letter || !text_is_blank(rest)) {
+        return trajectory_fail(t, t->text.line, "the number of spheres must stand alone on its line");
+    }
+    trajectory_warn(t, DOUBT_COUNT_WORDS, t->text.line,
+                    "'%s' after the number of spheres is taken for a remark: coordinates stay as they are",
+                    text_quote(word, quote));
+    return 1;
+}
 
 /* Reads count and comment: 1, 0 at the end of the file, -1. */
 static int read_head(trajectory *t)
 {
     xyz_state *const s = t->state;
     text_span line, word, list;
-    do { /* blank lines between frames */
-        const int status = trajectory_line(t, &line);
-        if (status <= 0) {
-            return status;
-        }
-    } while (!text_word(&line, &word));
-    if (!text_is_blank(line)) {
-        return trajectory_fail(t, t->text.line, "the number of spheres must stand alone on its line");
+    const int status = next_head_line(t, &line);
+    if (status <= 0) {
+        return status;
+    }
+    text_word(&line, &word);
+    if (check_count_line(t, line) < 0) {
+        return -1;
     }
     if (trajectory_parse_count(t, word, &s->count) < 0 || trajectory_line_inside(t, &line, "before the comment") < 0) {
         return -1;
@@ -216,7 +246,8 @@ static int read_head(trajectory *t)
     read_lattice(s, line);
     read_step(s, line);
     row_plan_clear(&s->plan);
-    return find_value(line, "Properties", &list) ? plan_properties(t, list) : plan_plain(t);
+    s->is_plain = 0;
+    return comment_find(line, "Properties", &list) ? plan_properties(t, list) : plan_plain(t);
 }
 
 /* The type and the radius that a name stands for; *radius stays where the name is a number. */
@@ -224,34 +255,38 @@ static int read_name(trajectory *t, text_span name, uint32_t *type, float *radiu
 {
     xyz_state *const s = t->state;
     char quote[TEXT_QUOTE_SIZE];
-    const char first = *name.begin;
-    if ((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.') {
-        uint64_t number;
-        if (!text_u64(name, UINT32_MAX, &number)) {
-            return trajectory_fail(t, t->text.line, "'%s' is not the name of an element, or a type",
-                                   text_quote(name, quote));
-        }
-        *type = (uint32_t)number;
+    double number;
+    uint64_t whole;
+    if (text_u64(name, UINT32_MAX, &whole)) {
+        *type = (uint32_t)whole;
         return 1;
     }
-    const char *reason = "";
-    const uint32_t found = name_table_find(&s->names, name, &reason);
-    if (found == 0) {
-        return trajectory_fail(t, t->text.line, "'%s': %s", text_quote(name, quote), reason);
+    /* "1HB" is a name, "1.5" and "4294967296" are numbers that are no type */
+    const char first = *name.begin;
+    if (first == '-' || first == '+' || first == '.' || (first >= '0' && first <= '9' && text_double(name, &number))) {
+        return trajectory_fail(t, t->text.line, "'%s' is not the name of an element, or a type",
+                               text_quote(name, quote));
     }
-    *type = found;
-    *radius = s->names.radius[found - 1];
-    return 1;
+    return row_name(t, &s->names, name, type, radius);
 }
 
 static int finish_row(trajectory *t, row *r)
 {
-    const xyz_state *const s = t->state;
+    xyz_state *const s = t->state;
     const unsigned roles = s->plan.roles;
     float radius = DEFAULT_RADIUS;
     if (roles & ROW_BIT(ROW_NAME)) {
         uint32_t type = 0;
         if (read_name(t, r->name, &type, &radius) < 0) {
+            return -1;
+        }
+        if (!(roles & ROW_BIT(ROW_TYPE))) {
+            r->type = type;
+        }
+    }
+    if (!(roles & ROW_BIT(ROW_NAME)) && roles & ROW_BIT(ROW_NUMBER)) {
+        uint32_t type = 0;
+        if (row_atomic_number(t, &s->names, r->number, &type, &radius) < 0) {
             return -1;
         }
         if (!(roles & ROW_BIT(ROW_TYPE))) {
@@ -266,7 +301,8 @@ static int finish_row(trajectory *t, row *r)
 
 static int xyz_begin(trajectory *t)
 {
-    (void)t;
+    xyz_state *const s = t->state;
+    s->is_plain = 0;
     return 1;
 }
 

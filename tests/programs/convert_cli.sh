@@ -126,8 +126,13 @@ fi
 # ---- What it refuses ------------------------------------------------------------------------------------------------
 
 head -n 500 "$shipped" >"$tmp/cut.lammpstrj"
-refuses 1 'cut.lammpstrj:500: the file ends after' "$tmp/cut.lammpstrj" "$out/cut.frames"
-refuses 1 'cut.lammpstrj:500: the file ends after' "$tmp/cut.lammpstrj" "$out/all.frames"
+head -n 6 "$tmp/five.xyz" >"$tmp/cut.xyz"
+head -n 2 "$tmp/five.xyz" >"$tmp/cut_at_once.xyz"
+run 1 "$tmp/cut.xyz" "$out/cut.frames"
+says err 'cut.xyz:6: the file ends after 1 of 2 spheres'
+says err 'the 1 frames before that are written'
+holds "$out/cut.frames" $((24 + 4 + 16))
+refuses 1 'cut_at_once.xyz:2: the file ends after 0 of 1' "$tmp/cut_at_once.xyz" "$out/cut.frames"
 refuses 1 'no frames to convert' --first=5 "$tmp/five.xyz" "$out/none.frames"
 : >"$tmp/empty.xyz"
 refuses 1 'empty.xyz: no frames to convert' "$tmp/empty.xyz" "$out/none.frames"
@@ -138,7 +143,33 @@ mkdir "$out/folder.frames"
 refuses 1 'not a regular file' "$tmp/five.xyz" "$out/folder.frames"
 refuses 2 'must end in .frames' "$tmp/five.xyz" "$out/five.lammpstrj"
 refuses 2 'an input and an output are needed' "$tmp/five.xyz"
-refuses 2 'only an input and an output' "$tmp/five.xyz" "$out/a.frames" "$out/b.frames"
+refuses 2 'an input and an output are needed'
+refuses 1 'a.frames: not of the format of the files before it' "$tmp/five.xyz" "$out/a.frames" "$out/b.frames"
+refuses 1 'missing.xyz: No such file' "$tmp/five.xyz" "$tmp/missing.xyz" "$out/b.frames"
+refuses 1 'the format is not one of lammps, xyz, frames' --format=pdb "$tmp/five.xyz" "$out/b.frames"
+refuses 1 'other names need a format' "$tmp/dump.melt" "$out/b.frames"
+refuses 2 '--follow: .*is not a number' --follow=0 "$tmp/five.xyz" "$out/b.frames"
+
+# ---- Names, series, standard input ----------------------------------------------------------------------------------
+
+cp "$tmp/five.xyz" "$tmp/run.9.txt"
+printf '1\n\nC 9 9 9\n' >"$tmp/run.10.txt"
+run 0 --format=xyz "$tmp/run.10.txt" "$tmp/run.9.txt" "$out/series.frames"
+says out '6 frames, 1 to 5 spheres'
+cp "$tmp/five.xyz" "$tmp/both.xyz"
+cat "$tmp/run.10.txt" >>"$tmp/both.xyz"
+run 0 "$tmp/both.xyz" "$out/both.frames"
+cmp -s "$out/series.frames" "$out/both.frames" || fail "a series differs from one file"
+(cd "$tmp" && exec $emulator "$program" -q --format=xyz - "$out/piped.frames" <both.xyz) || fail "standard input"
+cmp -s "$out/piped.frames" "$out/both.frames" || fail "standard input differs from the file"
+cat "$tmp/both.xyz" | $emulator "$program" -q --format=xyz - "$out/piped.frames" || fail "a pipe"
+cmp -s "$out/piped.frames" "$out/both.frames" || fail "a pipe differs from the file"
+# A run that grows while it is read.
+cp "$tmp/five.xyz" "$tmp/growing.xyz"
+(sleep 0.3 && cat "$tmp/run.10.txt" >>"$tmp/growing.xyz") &
+run 0 --follow=2 "$tmp/growing.xyz" "$out/followed.frames"
+cmp -s "$out/followed.frames" "$out/both.frames" || fail "a growing file differs from the whole one"
+
 refuses 2 '-r: .*is not a number' -r 0 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 '--every: .*is not a whole number' --every=0 "$tmp/five.xyz" "$out/a.frames"
 refuses 2 '--fps: .*is not a number' --fps=0 "$tmp/five.xyz" "$out/a.frames"

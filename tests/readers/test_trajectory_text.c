@@ -131,6 +131,39 @@ static void other_spellings(void **state)
     }
 }
 
+/* Exponents as Fortran and Mathematica write them give the bits of C's own. */
+static void foreign_exponents(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"0.1D+01", "1"},
+        {"2.0D0", "2"},
+        {"3.0d-1", "0.3"},
+        {"6.3*^-6", "6.3e-6"},
+        {"-1.5-101", "-1.5e-101"},
+        {"1.25+002", "125"},
+        {".5D3", "500"},
+        {"1.D+01", "10"},
+        {"1.7D+38", "1.7e38"},
+        {"1.D-45", "1e-45"},
+        {"123456789012345678901D-20", "1.23456789012345678901"},
+    };
+    static const char *const wrong[] = {"D",   "1D",    "1D+", "D5",      "1*5",  "1*^",
+                                        "1^5", "1d5d5", "1-",  "1.5-1-1", "1D5x", "--1D5"};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        float f;
+        double d;
+        assert_true(text_float(span_of(pairs[i][0]), &f) && text_double(span_of(pairs[i][0]), &d));
+        assert_true(f == strtof(pairs[i][1], NULL) && d == strtod(pairs[i][1], NULL));
+    }
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        double d;
+        if (text_double(span_of(wrong[i]), &d)) {
+            fail_msg("'%s' was read as a number", wrong[i]);
+        }
+    }
+}
+
 static void whole_numbers(void **state)
 {
     (void)state;
@@ -172,6 +205,7 @@ int main(void)
         cmocka_unit_test(random_numbers_have_the_right_bits),
         cmocka_unit_test(numbers_between_two_floats),
         cmocka_unit_test(other_spellings),
+        cmocka_unit_test(foreign_exponents),
         cmocka_unit_test(whole_numbers),
         cmocka_unit_test(quotes_are_safe_to_print),
     };

@@ -1,0 +1,57 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Bytes of a file, a pipe or standard input, decompressed where they need it, for readers that know only FILE. */
+#ifndef TRAJECTORY_INPUT_H
+#define TRAJECTORY_INPUT_H
+
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+
+struct archive;
+
+#define INPUT_HEAD 6      /* bytes that tell how a file is compressed */
+#define INPUT_BLOCK 65536 /* bytes given to the decompressor at a time */
+
+typedef struct trajectory_input {
+    FILE *stream;                      /* what readers read; NULL: not open */
+    int plain;                         /* a regular file as it is: stream can seek, and its size is known */
+    int can_rewind;                    /* trajectory_input_rewind works */
+    uint64_t file_size;                /* bytes of a regular file, compressed or not; 0 for others */
+    double follow;                     /* seconds to wait for more at the end; 0: none */
+    const volatile sig_atomic_t *stop; /* not 0: ends the waiting; may be NULL */
+    char error[256];                   /* why the last read failed where errno does not tell; "" for none */
+
+    /* own */
+    int descriptor;
+    int is_regular;
+    int was_read; /* bytes were taken from the descriptor since it was at its start */
+    unsigned char head[INPUT_HEAD];
+    size_t head_size, head_at;
+    struct archive *archive; /* NULL: not compressed, or not begun */
+    int is_compressed;
+    unsigned char *block;
+    FILE *spool;       /* keeps what a pipe delivers; NULL: does not */
+    uint64_t spooled;  /* bytes in it */
+    uint64_t replayed; /* of them, since the last rewinding */
+} trajectory_input;
+
+/* Opens a path, "-" for standard input. follow: at the end wait so many seconds for more, 0: do not. keep: what pipes
+ * deliver goes to a temporary file, too, so that they can be rewound. The input must stay where it is. Returns 0, or -1
+ * with a sentence. */
+int trajectory_input_open(trajectory_input *in, const char *path, double follow, const volatile sig_atomic_t *stop,
+                          int keep, char *error, size_t error_size);
+
+/* Goes back to the first byte: 0, or -1 with a sentence. stream may be another one afterwards. */
+int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size);
+
+/* The share of a regular file that was read, 0 to 1; buffered: bytes that were read and are not used yet. -1: unknown. */
+double trajectory_input_progress(const trajectory_input *in, uint64_t buffered);
+
+void trajectory_input_close(trajectory_input *in);
+
+/* The length of a path without an ending such as .gz that tells of compression. */
+size_t trajectory_input_bare_length(const char *path);
+
+#endif

@@ -1,0 +1,22 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The box of a LAMMPS dump. */
+#ifndef TRAJECTORY_LAMMPS_BOX_H
+#define TRAJECTORY_LAMMPS_BOX_H
+
+#include "trajectory/trajectory_internal.h"
+
+/* The box in LAMMPS' form: a corner and three edges. */
+typedef struct lammps_box {
+    double origin[3];
+    double edge[3][3]; /* edge[i] is the box vector a, b or c */
+    double low[3];     /* bounds of the parallelepiped */
+    double high[3];
+} lammps_box;
+
+/* Reads the three lines after "ITEM: BOX BOUNDS"; flags: what follows that, such as "pp pp ff" or "xy xz yz pp pp pp".
+ * Returns 1 or -1. */
+int lammps_read_box(trajectory *t, text_span flags, lammps_box *box);
+
+#endif

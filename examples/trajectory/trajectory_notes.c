@@ -1,0 +1,87 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * What readers say: errors, which end the reading, and warnings, which tell how a doubtful file was read. */
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_internal.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <string.h>
+
+/* A long path loses its front: its end, the line and the sentence tell more. */
+static int write_place(char *text, size_t size, const char *path, uint64_t line)
+{
+    const size_t limit = 600;
+    const size_t length = strlen(path);
+    const char *dots = length > limit ? "..." : "";
+    const char *tail = length > limit ? path + (length - limit) : path;
+    if (line > 0) {
+        return snprintf(text, size, "%s%s:%" PRIu64 ": ", dots, tail, line);
+    }
+    return snprintf(text, size, "%s%s: ", dots, tail);
+}
+
+int trajectory_fail(trajectory *t, uint64_t line, const char *format, ...)
+{
+    const int used = write_place(t->message, sizeof t->message, t->path, line);
+    if (used >= 0 && (size_t)used < sizeof t->message) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(t->message + used, sizeof t->message - (size_t)used, format, arguments);
+        va_end(arguments);
+    }
+    t->failed = 1;
+    return -1;
+}
+
+void trajectory_warn(trajectory *t, trajectory_doubt doubt, uint64_t line, const char *format, ...)
+{
+    const unsigned bit = 1u << doubt;
+    if (t->doubts & bit) {
+        return;
+    }
+    t->doubts |= bit;
+    char *const text = t->warning[doubt];
+    const int used = write_place(text, sizeof t->warning[doubt], t->path, line);
+    if (used >= 0 && (size_t)used < sizeof t->warning[doubt]) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(text + used, sizeof t->warning[doubt] - (size_t)used, format, arguments);
+        va_end(arguments);
+    }
+}
+
+void trajectory_warn_open(trajectory *t, uint64_t line)
+{
+    trajectory_warn(t, DOUBT_OPEN_LINE, line,
+                    "the last line has no line feed: if the file is cut off there, its last value is wrong");
+}
+
+const char *trajectory_take_warning(trajectory *t)
+{
+    for (unsigned doubt = 0; doubt < DOUBTS; doubt++) {
+        const unsigned bit = 1u << doubt;
+        if ((t->doubts & bit) && !(t->told & bit)) {
+            t->told |= bit;
+            return t->warning[doubt];
+        }
+    }
+    return NULL;
+}
+
+void trajectory_copy_message(const trajectory *t, char *error, size_t error_size)
+{
+    if (error != NULL && error_size > 0) {
+        snprintf(error, error_size, "%s", t->message);
+    }
+}
+
+void trajectory_path_error(const char *path, const char *reason, char *error, size_t error_size)
+{
+    char place[1024];
+    if (error != NULL && error_size > 0) {
+        write_place(place, sizeof place, path, 0);
+        snprintf(error, error_size, "%s%s", place, reason);
+    }
+}

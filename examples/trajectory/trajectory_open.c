@@ -1,0 +1,306 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Opening trajectories: the format by name or ending, one file or a series of them. */
+#define _FILE_OFFSET_BITS 64
+#define _POSIX_C_SOURCE 200809L
+#include "trajectory/trajectory_internal.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
+#define DEFAULT_FPS 30.0
+
+static const trajectory_format *const formats[] = {&trajectory_format_lammps, &trajectory_format_xyz,
+                                                   &trajectory_format_frames, &trajectory_format_mesh};
+
+void trajectory_options_init(trajectory_options *options)
+{
+    options->radius = 0.0f;
+    options->wrapped = 0;
+    options->max_count = DEFAULT_MAX_COUNT;
+    options->fps = DEFAULT_FPS;
+    options->clip = NULL;
+    options->format = NULL;
+    options->follow = 0.0;
+    options->stop = NULL;
+    options->keep = 0;
+}
+
+/* Returns the path's ending with its dot, or NULL: none, or nothing before it. */
+static const char *find_ending(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    return dot != NULL && dot > path ? dot : NULL;
+}
+
+static int has_ending(const trajectory_format *format, const char *ending)
+{
+    if (format->knows != NULL) {
+        return format->knows(ending);
+    }
+    for (const char *const *known = format->endings; *known != NULL; known++) {
+        if (strcasecmp(ending, *known) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static const trajectory_format *find_format(const char *ending)
+{
+    for (size_t f = 0; ending != NULL && f < sizeof formats / sizeof formats[0]; f++) {
+        if (has_ending(formats[f], ending)) {
+            return formats[f];
+        }
+    }
+    return NULL;
+}
+
+/* By the name that the options give, "xyz" for what ends in .xyz. */
+static const trajectory_format *find_named_format(const char *name)
+{
+    char ending[32];
+    const int length = snprintf(ending, sizeof ending, ".%s", strcasecmp(name, "lammps") == 0 ? "dump" : name);
+    return length > 1 && (size_t)length < sizeof ending ? find_format(ending) : NULL;
+}
+
+/* By the ending of a path, which may have one such as .gz after it. */
+static const trajectory_format *find_path_format(const char *path)
+{
+    char *bare = strdup(path);
+    if (bare == NULL) {
+        return NULL;
+    }
+    bare[trajectory_input_bare_length(path)] = '\0';
+    const trajectory_format *found = find_format(find_ending(bare));
+    free(bare);
+    return found;
+}
+
+/* Copies the options and fills in the defaults. Returns 0, or -1: no memory. */
+static int copy_options(trajectory_options *copy, const trajectory_options *options)
+{
+    trajectory_options_init(copy);
+    if (options == NULL) {
+        return 0;
+    }
+    *copy = *options;
+    if (copy->max_count == 0) {
+        copy->max_count = DEFAULT_MAX_COUNT;
+    }
+    if (copy->max_count >= UINT32_MAX) {
+        copy->max_count = UINT32_MAX - 1;
+    }
+    if (copy->fps == 0.0) {
+        copy->fps = DEFAULT_FPS;
+    }
+    copy->format = NULL; /* used while opening */
+    copy->clip = options->clip != NULL ? strdup(options->clip) : NULL;
+    return options->clip != NULL && copy->clip == NULL ? -1 : 0;
+}
+
+/* Returns a trajectory without its file, or NULL: no memory. */
+static trajectory *new_trajectory(const char *const *paths, size_t count, const trajectory_format *format,
+                                  const trajectory_options *options)
+{
+    trajectory *t = calloc(1, sizeof *t);
+    if (t == NULL) {
+        return NULL;
+    }
+    t->format = format;
+    t->input.descriptor = -1;
+    t->state = calloc(1, format->state_size);
+    t->paths = calloc(count, sizeof *t->paths);
+    int missing = copy_options(&t->options, options) || t->state == NULL || t->paths == NULL;
+    for (size_t i = 0; i < count && !missing; i++) {
+        t->paths[i] = strdup(paths[i]);
+        missing = t->paths[i] == NULL;
+        t->path_count++;
+    }
+    if (missing) {
+        trajectory_close(t);
+        return NULL;
+    }
+    t->path = t->paths[0];
+    return t;
+}
+
+int trajectory_open_file(trajectory *t, size_t number)
+{
+    char reason[256];
+    const int is_last = number + 1 == t->path_count;
+    trajectory_input_close(&t->input);
+    t->file = t->text.file = NULL;
+    t->path_at = number;
+    t->path = t->paths[number];
+    if (trajectory_input_open(&t->input, t->path, is_last ? t->options.follow : 0.0, t->options.stop, t->options.keep,
+                              reason, sizeof reason)) {
+        return trajectory_fail(t, 0, "%s", reason);
+    }
+    t->file = t->input.stream;
+    t->regular = t->input.plain;
+    t->file_size = t->input.plain ? t->input.file_size : 0;
+    if (t->text.data == NULL) {
+        text_reader_init(&t->text, t->file);
+    }
+    t->text.file = t->file;
+    t->text.why = t->input.error;
+    text_reader_restart(&t->text);
+    return t->format->begin(t);
+}
+
+/* Returns NULL, or what is wrong with the options. */
+static const char *check_options(const trajectory_options *options)
+{
+    if (options == NULL) {
+        return NULL;
+    }
+    if (!(options->radius >= 0.0f && isfinite(options->radius))) {
+        return "the radius for files without one must be 0 or more";
+    }
+    if (!(options->fps >= 0.0 && isfinite(options->fps))) {
+        return "the frames per second must be 0 or more";
+    }
+    return options->follow >= 0.0 && isfinite(options->follow) ? NULL : "the seconds to wait must be 0 or more";
+}
+
+/* Returns NULL, or why these files are no run of this format. */
+static const char *check_series(const trajectory_format *format, const char *const *paths, size_t count, double follow)
+{
+    const int is_text = format == &trajectory_format_lammps || format == &trajectory_format_xyz;
+    if (!is_text && (count > 1 || follow > 0.0)) {
+        return "only text can be read as a series of files, or while it is written";
+    }
+    for (size_t i = 0; i < count && count > 1; i++) {
+        if (strcmp(paths[i], "-") == 0) {
+            return "standard input cannot be one of several files";
+        }
+    }
+    return NULL;
+}
+
+/* Looks for files that are missing, or of another format by their endings, before the first frame is used. */
+static const char *check_paths(const trajectory_format *format, const char *const *paths, size_t count,
+                               const char **wrong)
+{
+    for (size_t i = 1; i < count; i++) {
+        const trajectory_format *const other = find_path_format(paths[i]);
+        *wrong = paths[i];
+        if (other != NULL && other != format) {
+            return "not of the format of the files before it";
+        }
+        if (access(paths[i], R_OK) != 0) {
+            return strerror(errno);
+        }
+    }
+    return NULL;
+}
+
+trajectory *trajectory_open_series(const char *const *paths, size_t count, const trajectory_options *options,
+                                   char *error, size_t error_size)
+{
+    const char *path = count > 0 ? paths[0] : "";
+    const char *const named = options != NULL ? options->format : NULL;
+    const trajectory_format *format = named != NULL ? find_named_format(named) : find_path_format(path);
+    const char *reason = NULL;
+    if (count == 0) {
+        reason = "no file is given";
+    } else if (format == NULL) {
+        reason = named != NULL
+                     ? "the format is not one of lammps, xyz, frames, nor that of a mesh that can be read here"
+                     : "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that "
+                       "can be read here; other names need a format";
+    } else {
+        reason = check_options(options);
+        reason = reason != NULL ? reason : check_series(format, paths, count, options != NULL ? options->follow : 0.0);
+        const char *wrong = path;
+        if (reason == NULL && (reason = check_paths(format, paths, count, &wrong)) != NULL) {
+            path = wrong;
+        }
+    }
+    trajectory *t = reason == NULL ? new_trajectory(paths, count, format, options) : NULL;
+    if (t == NULL) {
+        trajectory_path_error(path, reason != NULL ? reason : "not enough memory", error, error_size);
+        return NULL;
+    }
+    if (trajectory_open_file(t, 0) < 0) {
+        trajectory_copy_message(t, error, error_size);
+        trajectory_close(t);
+        return NULL;
+    }
+    return t;
+}
+
+trajectory *trajectory_open(const char *path, const trajectory_options *options, char *error, size_t error_size)
+{
+    return trajectory_open_series(&path, 1, options, error, error_size);
+}
+
+/* ---- Order of a series -------------------------------------------------------------------------------------- */
+
+static int is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/* Numbers in the names by their values: dump.9 precedes dump.10. */
+static int compare_names(const char *a, const char *b)
+{
+    while (*a != '\0' && *b != '\0') {
+        if (!is_digit(*a) || !is_digit(*b)) {
+            if (*a != *b) {
+                return (unsigned char)*a < (unsigned char)*b ? -1 : 1;
+            }
+            a++;
+            b++;
+            continue;
+        }
+        a += strspn(a, "0");
+        b += strspn(b, "0");
+        const size_t digits_a = strspn(a, "0123456789"), digits_b = strspn(b, "0123456789");
+        const int order = digits_a == digits_b ? memcmp(a, b, digits_a) : digits_a < digits_b ? -1 : 1;
+        if (order != 0) {
+            return order;
+        }
+        a += digits_a;
+        b += digits_b;
+    }
+    return (*a != '\0') - (*b != '\0');
+}
+
+static int compare_paths(const void *a, const void *b)
+{
+    const char *const left = *(const char *const *)a, *const right = *(const char *const *)b;
+    const int order = compare_names(left, right);
+    return order != 0 ? order : strcmp(left, right);
+}
+
+void trajectory_sort_series(const char **paths, size_t count) { qsort(paths, count, sizeof *paths, compare_paths); }
+
+void trajectory_close(trajectory *t)
+{
+    if (t == NULL) {
+        return;
+    }
+    if (t->state != NULL) {
+        t->format->end(t);
+    }
+    trajectory_input_close(&t->input);
+    text_reader_free(&t->text);
+    free(t->store.xyzr);
+    free(t->store.id);
+    free(t->store.type);
+    free(t->store.velocity);
+    free(t->state);
+    free((char *)t->options.clip);
+    for (size_t i = 0; t->paths != NULL && i < t->path_count; i++) {
+        free(t->paths[i]);
+    }
+    free(t->paths);
+    free(t);
+}

@@ -1,0 +1,313 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Where trajectories come from: names, compressed files, series, pipes, files that grow. */
+#define _GNU_SOURCE
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "readers/trajectory_scratch.h"
+
+static const char plain[] = "1\nfirst\nC 1 2 3\n1\nsecond\nO 4 5 6\n";
+
+static void expect_plain(trajectory *t)
+{
+    trajectory_frame f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 1, 2, 3, 1.7f);
+    f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 4, 5, 6, 1.52f);
+    scratch_expect_end(t);
+}
+
+static trajectory_options named(const char *format)
+{
+    trajectory_options options;
+    trajectory_options_init(&options);
+    options.format = format;
+    return options;
+}
+
+static void any_name_with_a_format(void **state)
+{
+    (void)state;
+    static const char *const formats[] = {"xyz", "XYZ", "extxyz"};
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
+        const trajectory_options options = named(formats[i]);
+        expect_plain(scratch_open(scratch_text(".100.txt", plain), &options));
+    }
+    static const char *const wrong[] = {"", "pdb", "xyz.gz", "a name that is much longer than any of an ending"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        const trajectory_options options = named(wrong[i]);
+        scratch_expect_error(scratch_text(".xyz", plain), &options, 0, "the format is not one of lammps, xyz, frames");
+    }
+    const trajectory_options lammps = named("lammps");
+    scratch_expect_error(scratch_text(".xyz", plain), &lammps, 0, ":1: '1' is not a section");
+}
+
+/* ---- Compressed files --------------------------------------------------------------------------------------- */
+
+/* The text above, by gzip, zstd, xz and bzip2. */
+/* clang-format off */
+static const unsigned char by_gzip[] = {
+    0x1f, 0x8b, 0x08, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x03, 0x33, 0xe4, 0x4a, 0xcb, 0x2c, 0x2a, 0x2e, 0xe1,
+    0x72, 0x56, 0x30, 0x54, 0x30, 0x52, 0x30, 0xe6, 0x32, 0xe4, 0x2a, 0x4e, 0x4d, 0xce, 0xcf, 0x4b, 0xe1, 0xf2,
+    0x57, 0x30, 0x51, 0x30, 0x55, 0x30, 0xe3, 0x02, 0x00, 0x3a, 0x61, 0x83, 0xf4, 0x21, 0x00, 0x00, 0x00,
+};
+static const unsigned char by_zstd[] = {
+    0x28, 0xb5, 0x2f, 0xfd, 0x24, 0x21, 0x09, 0x01, 0x00, 0x31, 0x0a, 0x66, 0x69, 0x72, 0x73, 0x74, 0x0a, 0x43,
+    0x20, 0x31, 0x20, 0x32, 0x20, 0x33, 0x0a, 0x31, 0x0a, 0x73, 0x65, 0x63, 0x6f, 0x6e, 0x64, 0x0a, 0x4f, 0x20,
+    0x34, 0x20, 0x35, 0x20, 0x36, 0x0a, 0x08, 0x03, 0xc7, 0x14,
+};
+static const unsigned char by_xz[] = {
+    0xfd, 0x37, 0x7a, 0x58, 0x5a, 0x00, 0x00, 0x04, 0xe6, 0xd6, 0xb4, 0x46, 0x02, 0x00, 0x21, 0x01, 0x16, 0x00,
+    0x00, 0x00, 0x74, 0x2f, 0xe5, 0xa3, 0x01, 0x00, 0x20, 0x31, 0x0a, 0x66, 0x69, 0x72, 0x73, 0x74, 0x0a, 0x43,
+    0x20, 0x31, 0x20, 0x32, 0x20, 0x33, 0x0a, 0x31, 0x0a, 0x73, 0x65, 0x63, 0x6f, 0x6e, 0x64, 0x0a, 0x4f, 0x20,
+    0x34, 0x20, 0x35, 0x20, 0x36, 0x0a, 0x00, 0x00, 0x00, 0x00, 0x2e, 0xda, 0x04, 0xb5, 0xad, 0x27, 0x8c, 0x0f,
+    0x00, 0x01, 0x39, 0x21, 0xcf, 0x28, 0x6b, 0x62, 0x1f, 0xb6, 0xf3, 0x7d, 0x01, 0x00, 0x00, 0x00, 0x00, 0x04,
+    0x59, 0x5a,
+};
+static const unsigned char by_bzip2[] = {
+    0x42, 0x5a, 0x68, 0x39, 0x31, 0x41, 0x59, 0x26, 0x53, 0x59, 0xbf, 0xae, 0x5a, 0x89, 0x00, 0x00, 0x06, 0x5d,
+    0x80, 0x00, 0x10, 0x40, 0x00, 0x3f, 0x00, 0x08, 0x00, 0x8f, 0x21, 0x9c, 0x00, 0x20, 0x00, 0x31, 0x4c, 0x26,
+    0x9a, 0x03, 0x4c, 0x41, 0xa9, 0xa0, 0xd0, 0xc8, 0x34, 0xc9, 0x7b, 0x46, 0x8c, 0x21, 0x61, 0x51, 0x50, 0x28,
+    0x91, 0x0d, 0xb4, 0x51, 0x9f, 0xcf, 0x58, 0x3f, 0x8b, 0xb9, 0x22, 0x9c, 0x28, 0x48, 0x5f, 0xd7, 0x2d, 0x44,
+    0x80,
+};
+/* clang-format on */
+
+static const struct {
+    const char *ending;
+    const unsigned char *bytes;
+    size_t size;
+} packed[] = {{".xyz.gz", by_gzip, sizeof by_gzip},
+              {".xyz.zst", by_zstd, sizeof by_zstd},
+              {".xyz.xz", by_xz, sizeof by_xz},
+              {".xyz.bz2", by_bzip2, sizeof by_bzip2},
+              {".xyz", by_gzip, sizeof by_gzip}};
+enum { PACKED = sizeof packed / sizeof packed[0] };
+
+#ifdef CGT_HAVE_ARCHIVE
+static void compressed_files(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < PACKED; i++) {
+        char error[1024];
+        trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, packed[i].size), NULL);
+        for (int pass = 0; pass < 3; pass++) {
+            expect_plain(t);
+            assert_true(trajectory_progress(t) == 1.0);
+            assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        }
+    }
+}
+
+/* A cut is an error, after whole frames; never other numbers, never an end of the file. */
+static void compressed_files_that_are_cut(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < PACKED; i++) {
+        for (size_t size = 6; size + 8 < packed[i].size; size++) {
+            char error[1024] = "";
+            trajectory_frame f;
+            unsigned frames = 0;
+            int status;
+            trajectory *t = scratch_open(scratch_bytes(packed[i].ending, packed[i].bytes, size), NULL);
+            while ((status = trajectory_read(t, &f, error, sizeof error)) == 1) {
+                scratch_expect_sphere(&f, 0, frames ? 4 : 1, frames ? 5 : 2, frames ? 6 : 3, frames ? 1.52f : 1.7f);
+                frames++;
+            }
+            if (status == 0 && frames < 2) {
+                fail_msg("%s cut after %zu bytes: the end after %u frames", packed[i].ending, size, frames);
+            }
+        }
+    }
+}
+
+static void compressed_frames(void **state)
+{
+    (void)state;
+    const trajectory_options options = named("frames");
+    scratch_expect_error(scratch_bytes(".gz", by_gzip, sizeof by_gzip), &options, 0, "not a .frames file");
+}
+#else
+static void compressed_files(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < PACKED; i++) {
+        scratch_expect_error(scratch_bytes(packed[i].ending, packed[i].bytes, packed[i].size), NULL, 0,
+                             "which this build cannot read: it has no libarchive");
+    }
+}
+#endif
+
+/* ---- Series ------------------------------------------------------------------------------------------------- */
+
+static void names_in_order(void **state)
+{
+    (void)state;
+    const char *paths[] = {"b2",        "a/dump.10.gz", "a/dump.9.gz", "a/dump.0100", "b",
+                           "a/dump.99", "a/dump.9",     "b02",         "b1x"};
+    static const char *const wanted[] = {"a/dump.9", "a/dump.9.gz", "a/dump.10.gz", "a/dump.99", "a/dump.0100",
+                                         "b",        "b1x",         "b02",          "b2"};
+    const size_t count = sizeof paths / sizeof paths[0];
+    trajectory_sort_series(paths, count);
+    for (size_t i = 0; i < count; i++) {
+        assert_string_equal(paths[i], wanted[i]);
+    }
+}
+
+static void files_in_series(void **state)
+{
+    (void)state;
+    char error[1024];
+    uint64_t frames;
+    const char *paths[3];
+    paths[0] = scratch_text(".xyz", "1\n\nC 1 2 3\n2\nlast\nH 1 2 3\nO 4 5 6\n");
+    paths[1] = scratch_text(".xyz", "");
+    paths[2] = scratch_text(".xyz", "1\n\nO 4 5 6");
+    trajectory_close(scratch_open_one);
+    trajectory *t = scratch_open_one = trajectory_open_series(paths, 3, NULL, error, sizeof error);
+    assert_non_null(t);
+    assert_int_equal(trajectory_count_frames(t, &frames, error, sizeof error), 0);
+    assert_int_equal(frames, 3);
+    for (int pass = 0; pass < 2; pass++) {
+        trajectory_frame f = scratch_read(t);
+        scratch_expect_sphere(&f, 0, 1, 2, 3, 1.7f);
+        assert_int_equal(scratch_read(t).count, 2);
+        f = scratch_read(t);
+        assert_int_equal(f.number, 2);
+        assert_int_equal(f.type[0], 3); /* types are numbered through */
+        scratch_expect_end(t);
+        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+    }
+    scratch_fill(paths[1], "1\n\nC 1 2", 8);
+    trajectory_frame f;
+    scratch_read(t);
+    scratch_read(t);
+    assert_int_equal(trajectory_read(t, &f, error, sizeof error), -1);
+    assert_true(strncmp(error, paths[1], strlen(paths[1])) == 0);
+}
+
+static void series_that_are_refused(void **state)
+{
+    (void)state;
+    char error[1024];
+    const char *text = scratch_text(".xyz", plain);
+    const struct {
+        const char *paths[2];
+        const char *what;
+    } wrong[] = {{{text, "no/such/file.xyz"}, "no/such/file.xyz: No such file"},
+                 {{text, "a.lammpstrj"}, "a.lammpstrj: not of the format"},
+                 {{"a.frames", "b.frames"}, "only text can be read as a series"},
+                 {{text, "-"}, "standard input cannot be one of several"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        assert_null(trajectory_open_series(wrong[i].paths, 2, NULL, error, sizeof error));
+        if (strstr(error, wrong[i].what) == NULL) {
+            fail_msg("\"%s\" lacks \"%s\"", error, wrong[i].what);
+        }
+    }
+    assert_null(trajectory_open_series(NULL, 0, NULL, error, sizeof error));
+    assert_non_null(strstr(error, "no file is given"));
+}
+
+/* ---- Pipes and files that grow ------------------------------------------------------------------------------ */
+
+/* With keep a pipe can be read again, also from the middle. */
+static void pipes_that_are_kept(void **state)
+{
+    (void)state;
+    char error[1024];
+    const char *path = scratch_path(".xyz");
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    const int pipe_end = open(path, O_RDWR);
+    assert_true(pipe_end >= 0);
+    assert_int_equal(write(pipe_end, plain, sizeof plain - 1), sizeof plain - 1);
+    trajectory_options options = named(NULL);
+    options.keep = 1;
+    trajectory *t = scratch_open(path, &options);
+    assert_int_equal(close(pipe_end), 0);
+    scratch_read(t);
+    for (int pass = 0; pass < 3; pass++) {
+        assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+        expect_plain(t);
+    }
+}
+
+static void pause_briefly(void)
+{
+    const struct timespec pause = {0, 150000000};
+    nanosleep(&pause, NULL);
+}
+
+/* Writes the rest of the text in two pieces, the first of which ends inside a number. */
+static void *grow_file(void *argument)
+{
+    const char *const path = argument;
+    static const char *const pieces[] = {"O 4 5 6", "00.5\n"};
+    for (int i = 0; i < 2; i++) {
+        pause_briefly();
+        FILE *file = fopen(path, "a");
+        if (file == NULL) {
+            return NULL;
+        }
+        fputs(pieces[i], file);
+        fclose(file);
+    }
+    return NULL;
+}
+
+static void files_that_grow(void **state)
+{
+    (void)state;
+    static const char start[] = "1\n\nC 1 2 3\n1\n\n";
+    volatile sig_atomic_t stop = 0;
+    char error[1024];
+    const char *path = scratch_text(".xyz", start);
+    trajectory_options options = named(NULL);
+    options.follow = 20.0;
+    options.stop = &stop;
+    trajectory *t = scratch_open(path, &options);
+    pthread_t thread;
+    assert_int_equal(pthread_create(&thread, NULL, grow_file, (void *)path), 0);
+    scratch_read(t);
+    const trajectory_frame f = scratch_read(t);
+    scratch_expect_sphere(&f, 0, 4, 5, 600.5f, 1.52f);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    stop = 1; /* ends the waiting at once */
+    scratch_expect_end(t);
+    assert_int_equal(trajectory_rewind(t, error, sizeof error), 0);
+    scratch_read(t);
+    scratch_read(t);
+    scratch_expect_end(t);
+    options.follow = -1.0;
+    scratch_expect_error(path, &options, 0, "the seconds to wait");
+}
+
+#define TEST(function) cmocka_unit_test_teardown(function, scratch_teardown)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(any_name_with_a_format),
+        TEST(compressed_files),
+#ifdef CGT_HAVE_ARCHIVE
+        TEST(compressed_files_that_are_cut),
+        TEST(compressed_frames),
+#endif
+        TEST(names_in_order),
+        TEST(files_in_series),
+        TEST(series_that_are_refused),
+        TEST(pipes_that_are_kept),
+        TEST(files_that_grow),
+    };
+    return cmocka_run_group_tests_name("trajectory_input", tests, NULL, NULL);
+}
