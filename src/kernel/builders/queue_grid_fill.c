@@ -9,6 +9,7 @@
 
 #include "kernel/builders/triangle_box.h"
 #include "kernel/builders/queue_push.h"
+#include "kernel/tunables.h"
 
 /* Bounds of a vector of primitives, and the cells of their lower and upper corners, per axis. */
 typedef struct corners {
@@ -102,7 +103,7 @@ static float slab_distance(const cgt_queue_grid *grid, int axis, int32_t i, floa
 {
     const float g = (p - grid->org[axis]) * grid->rcell[axis], cell_error = grid->cell_error[axis];
     const float d = g < (float)i ? (float)i - g : g > (float)(i + 1) ? g - (float)(i + 1) : 0;
-    return d > cell_error ? (d - cell_error) / grid->rcell[axis] * (1 - 0x1p-20f) : 0;
+    return d > cell_error ? SCALAR_DIVIDE(d - cell_error, grid->rcell[axis]) * (1 - 0x1p-20f) : 0;
 }
 
 static uint64_t push_large_sphere(const cgt_queue_grid *grid, const corners *c, int lane, uint32_t prim,
@@ -178,7 +179,8 @@ static uint32_t push_vector(const cgt_queue_grid *grid, const corners *c, uint32
         if (small)
             push_corners(grid, c, (int)lane, prim + lane, overflow);
         else {
-            const bool sphere = cgt_primitives_array(grid->prims, prim + lane)->kind == CGT_KIND_SPHERES;
+            const bool sphere =
+                CGT_ONLY_SPHERES || cgt_primitives_array(grid->prims, prim + lane)->kind == CGT_KIND_SPHERES;
             touched_cells = (uint32_t)(sphere ? push_large_sphere(grid, c, (int)lane, prim + lane, overflow)
                                               : push_large_triangle(grid, c, (int)lane, prim + lane, overflow));
             counts->large_primitives++;
@@ -214,7 +216,7 @@ static void bound_vector(const cgt_queue_grid *grid, uint32_t prim, uint32_t cou
     for (uint32_t lane = 0; lane < count; lane++) {
         const cgt_primitive_array *a = cgt_primitives_array(grid->prims, prim + lane);
         const uint32_t i = prim + lane - a->first;
-        if (a->kind == CGT_KIND_SPHERES)
+        if (CGT_ONLY_SPHERES || a->kind == CGT_KIND_SPHERES)
             bound_sphere(c, lane, cgt_array_sphere(a, i));
         else {
             const cgt_triangle q = cgt_array_triangle(a, i);

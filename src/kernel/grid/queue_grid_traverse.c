@@ -186,10 +186,6 @@ static void traverse_flattened(traversal *v)
 
 /* ---- packets ---- */
 
-/* A packet that spreads over more cells of a slice than this many per ray is halved. Measured with shuffled rays; flat
- * from half to twice as many. */
-#define CELLS_PER_RAY 3.f
-
 static bool is_incoherent(const traversal *v)
 {
     const frustum *f = &v->prims.frustum;
