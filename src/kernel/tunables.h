@@ -53,6 +53,16 @@
 #define CGT_ONLY_SPHERES false
 #endif
 
+/* Whether a queue grid's references take 32 bits. Programs of few primitives leave that out. */
+#ifndef GRID_REFS_ARE_32_BITS
+#define GRID_REFS_ARE_32_BITS(grid) ((grid)->refs_are_32_bits)
+#endif
+
+/* References of a packet's list in a grid. */
+#ifndef PACKET_MAX_PRIMS
+#define PACKET_MAX_PRIMS 144u
+#endif
+
 /* A queue grid's packet that spreads over more cells of a slice than this many per ray is halved. Measured with
  * shuffled rays; flat from half to twice as many. */
 #ifndef CELLS_PER_RAY

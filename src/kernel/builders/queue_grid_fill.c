@@ -42,7 +42,7 @@ static void compute_corner_cells(const cgt_queue_grid *grid, corners *c)
 /* CGT_INVALID_ID where the queue is not full. */
 CGT_SPU_INLINE uint32_t oldest_reference(const cgt_queue_grid *grid, uint32_t cell)
 {
-    if (grid->refs_are_32_bits)
+    if (GRID_REFS_ARE_32_BITS(grid))
         return grid->voxel32[cell].reference[CGT_QUEUE_LENGTH - 1];
     const uint16_t oldest = grid->voxel[cell].reference[CGT_QUEUE_LENGTH - 1];
     return oldest == CGT_QUEUE_NONE ? CGT_INVALID_ID : oldest;
@@ -70,7 +70,7 @@ static void save_oldest8(const cgt_queue_grid *grid, const uint32_t cell[8], cgt
 static void push1(const cgt_queue_grid *grid, uint32_t cell, uint32_t prim, cgt_overflow_list *overflow)
 {
     save_oldest(grid, cell, overflow);
-    if (grid->refs_are_32_bits)
+    if (GRID_REFS_ARE_32_BITS(grid))
         queue_push1_32(&grid->voxel32[cell], spu_splats(prim));
     else
         queue_push1(&grid->voxel[cell], spu_splats((uint16_t)prim));
@@ -90,7 +90,7 @@ static void push_corners(const cgt_queue_grid *grid, const corners *c, int lane,
         oldest &= oldest_reference(grid, cell[k]);
     if (oldest != CGT_INVALID_ID)
         save_oldest8(grid, cell, overflow);
-    if (grid->refs_are_32_bits)
+    if (GRID_REFS_ARE_32_BITS(grid))
         queue_push8_32(grid->voxel32, cell, prim);
     else
         queue_push8(grid->voxel, cell, spu_splats((uint16_t)prim));

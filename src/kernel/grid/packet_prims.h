@@ -10,8 +10,6 @@
 #include "kernel/primitive/sphere_filter.h"
 #include "kernel/primitive/triangle_fast.h"
 
-#define PACKET_MAX_PRIMS 144u /* references of a list of both kinds */
-
 typedef struct packet_prims {
     const cgt_committed_scene *committed_scene;
     packet *p;

@@ -106,7 +106,8 @@ CGT_SPU_INLINE frustum_span frustum_bound_axis(const frustum_space *g, const fru
                                                float w1)
 {
     vfloat low[2], high[2], magnitude = spux_vfloat(0);
-    const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)}, ratio = spux_vfloat(SCALAR_DIVIDE(g->rcell[axis], g->rcell[f->w]));
+    const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)},
+                 ratio = spux_vfloat(SCALAR_DIVIDE(g->rcell[axis], g->rcell[f->w]));
     for (int k = 0; k < 2; k++) {
         low[k] = spux_vfloat(INFINITY);
         high[k] = spux_vfloat(-INFINITY);

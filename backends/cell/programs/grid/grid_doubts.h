@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * Undecided pairs of pixel and object on their way to the PPE (cell/ppe/control_block.h): lines of sixteen, two in local
+ * Undecided pairs of pixel and object on their way to the PPE (cell/image/control_block.h): lines of sixteen, two in local
  * store, so that one is filled while the other goes out; a ring of two halves in main memory. */
 #ifndef GRID_DOUBTS_H
 #define GRID_DOUBTS_H

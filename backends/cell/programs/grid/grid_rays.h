@@ -61,6 +61,8 @@ static void grid_init_packet(packet *p)
         spux_store(p->t_min + i, spux_vfloat(c->t_min));
         spux_store(p->t_max + i, spux_vfloat(c->t_max));
     }
+    for (uint32_t i = 0; i < PACKET_MAX_RAYS; i++)
+        p->u[i] = (float)i;
 }
 
 /* Lanes beyond the picture repeat its edge's rays, as the PPE's tables do, and take no part. */

@@ -7,24 +7,28 @@
 #define GRID_STORE_H
 
 #define CGT_SPU_EXACT
-#define CGT_SPE_TEXT_BYTES 38000
-#define CGT_SPE_STACK_BYTES 10000
+#define CGT_SPE_TEXT_BYTES 37000
+#define CGT_SPE_STACK_BYTES 16000
 #define PACKET_MAX_RAYS 16
-#define CGT_GRID_MAX_RESOLUTION 64u
+#define CGT_LOOSE_LEVELS 1u
+#define PACKET_MAX_PRIMS 80u
+#define CGT_GRID_MAX_RESOLUTION CGT_GRID_MAX_EDGE
+#define GRID_REFS_ARE_32_BITS(grid) false
 #define CGT_ONLY_SPHERES true
 #define CELLS_PER_RAY 1e9f /* halving packets would take stack, and changes no result */
 #define SCALAR_DIVIDE(a, b) spu_extract(spux_div(spu_splats((float)(a)), spu_splats((float)(b))), 0)
 #define SCALAR_SQRT(a) spu_extract(spux_sqrt(spu_splats((float)(a))), 0)
-#define FILTER_FOR_MODE(p, uv, call) call(((filter_mode){true, false, true, false}))
-#define FILTER_DEFER(p, i, prim) (grid_add_doubt(i, prim), true)
+#define FILTER_FOR_MODE(p, uv, call) call(((filter_mode){true, false, true, false}));
+/* A packet's u, which only FAST precision uses, holds the numbers of the rays: parts of a packet keep them. */
+#define FILTER_DEFER(p, i, prim) (grid_add_doubt((uint32_t)(p)->u[i], prim), true)
 
 #include "cell/machine/spe_program.h"
 
-#include "cell/ppe/control_block.h"
+#include "cell/image/control_block.h"
 #include "cell/programs/grid/spe_grid.h"
 #include "dispatch/kernel.h"
 
-#define CHUNK 64u /* columns of rays that one DMA brings */
+#define CHUNK 32u /* columns of rays that one DMA brings */
 
 /* DMA goes to the first part. */
 typedef struct grid_store {

@@ -5,10 +5,6 @@
 #ifndef SPE_GRID_H
 #define SPE_GRID_H
 
-#define CGT_GRID_SPHERES 2048u  /* that its store holds */
-#define CGT_GRID_CELLS 4096u    /* voxels, 16 x 16 x 16 */
-#define CGT_GRID_OVERFLOW 512u  /* references of full voxels */
-
 /* argument: the effective address of the SPE's cgt_control_block. Returns 0, or 1 after a report that says why. */
 int spe_grid(unsigned long long spe, unsigned long long argument, unsigned long long environment);
 

@@ -73,6 +73,11 @@ typedef struct cgt_camera_image {
 } cgt_camera_image;
 _Static_assert(sizeof(cgt_camera_image) == 128, "one line");
 
+#define CGT_GRID_SPHERES 2048u /* that the program's local store holds: 16 bytes each */
+#define CGT_GRID_CELLS 4096u   /* voxels of 32 bytes, 16 x 16 x 16 */
+#define CGT_GRID_OVERFLOW 256u /* references that found 16 others in a voxel: 8 bytes each */
+#define CGT_GRID_MAX_EDGE 32u  /* cells along an axis */
+
 /* A scene of spheres for a grid. Objects are quads x, y, z, radius; a radius below 0: there is none of that number. */
 typedef struct cgt_grid_image {
     uint32_t spheres; /* quads at `objects`, padded to 8 */
@@ -104,14 +109,14 @@ typedef enum cgt_report_state {
 
 typedef struct cgt_spe_report {
     uint32_t state, value;
-    uint32_t doubts;              /* all of them */
-    uint32_t rest_half, rest;     /* those that no interrupt told of: so many in that half */
-    uint32_t strips;              /* traced */
-    uint32_t packets, cells;      /* visited */
+    uint32_t doubts;               /* all of them */
+    uint32_t rest_half, rest;      /* those that no interrupt told of: so many in that half */
+    uint32_t strips;               /* traced */
+    uint32_t packets, cells;       /* visited */
     uint32_t references, overflow; /* of the grid; those in full voxels' overflow */
-    uint32_t culled, tests;       /* spheres; spheres against packets */
-    uint32_t built;               /* steps of the decrementer for the grid */
-    uint32_t traced;              /* and from there on */
+    uint32_t culled, tests;        /* spheres; spheres against packets */
+    uint32_t built;                /* steps of the decrementer for the grid */
+    uint32_t traced;               /* and from there on */
     uint32_t reserved[18];
 } cgt_spe_report;
 _Static_assert(sizeof(cgt_spe_report) == 128, "one line");
