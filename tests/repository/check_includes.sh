@@ -108,6 +108,9 @@ kernel:
 '
 # The same for the simulated Cell, as its files write their includes: from backends on.
 cell_layers='
+cell/ppe: cell/image cell/machine cell/spu
+cell/programs/grid: cell/image cell/machine
+cell/image:
 cell/machine: cell/mfc cell/spu
 cell/mfc/dma: cell/mfc
 cell/mfc: cell/spu

@@ -165,7 +165,7 @@ static cgt_result run(frame *f, uint32_t *ids, cgt_cell_frame_result *r)
         result = cgt_cell_set_signal_or(f->cell, i, 1, true);
     }
     if (result != CGT_OK) {
-        snprintf(r->message, sizeof r->message, "the machine cannot be set up: %s", cgt_result_string(result));
+        snprintf(r->message, sizeof r->message, "the machine cannot be set up: %s", cgt_get_result_string(result));
         return result;
     }
     cgt_assign(o->assignment, o->share ? o->share : CGT_HYBRID_SHARE, count_strips(width, height), o->spes, f->control,

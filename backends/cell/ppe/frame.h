@@ -6,6 +6,8 @@
 #ifndef CGT_CELL_FRAME_H
 #define CGT_CELL_FRAME_H
 
+#include <cgt/research.h>
+
 #include "cell/ppe/assignment.h"
 #include "cell/ppe/camera_tables.h"
 
