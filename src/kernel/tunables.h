@@ -58,6 +58,12 @@
 #define GRID_REFS_ARE_32_BITS(grid) ((grid)->refs_are_32_bits)
 #endif
 
+/* Whether a queue grid's fill stops before a primitive whose references the overflow list might not hold. If not, it
+ * counts what does not fit, and leaves it out. */
+#ifndef FILL_STOPS
+#define FILL_STOPS true
+#endif
+
 /* References of a packet's list in a grid. */
 #ifndef PACKET_MAX_PRIMS
 #define PACKET_MAX_PRIMS 144u

@@ -51,8 +51,11 @@ CGT_SPU_INLINE uint32_t oldest_reference(const cgt_queue_grid *grid, uint32_t ce
 static void save_oldest(const cgt_queue_grid *grid, uint32_t cell, cgt_overflow_list *overflow)
 {
     const uint32_t oldest = oldest_reference(grid, cell);
-    if (oldest != CGT_INVALID_ID)
-        overflow->entry[overflow->count++] = (cgt_overflow){cell, oldest};
+    if (oldest == CGT_INVALID_ID)
+        return;
+    if (FILL_STOPS || overflow->count < overflow->capacity)
+        overflow->entry[overflow->count] = (cgt_overflow){cell, oldest};
+    overflow->count++;
 }
 
 /* Saves the oldest reference of each different cell whose queue is full. */
@@ -172,7 +175,7 @@ static uint32_t push_vector(const cgt_queue_grid *grid, const corners *c, uint32
             touched_cells *= span[a];
         }
         const bool small = span[0] <= 2 && span[1] <= 2 && span[2] <= 2;
-        if (overflow->capacity - overflow->count < touched_cells) {
+        if (FILL_STOPS && overflow->capacity - overflow->count < touched_cells) {
             overflow->needed_entries = touched_cells;
             return lane;
         }

@@ -139,8 +139,8 @@ static void random_scenes(void **state)
     (void)state;
     test_random r = random_make(3001);
     for (unsigned k = 0; k < 8; k++) {
-        const uint32_t count = 1 + (uint32_t)random_bits(&r) % 600;
-        make_random(&r, count, k % 2 ? 0.05f : 0.15f);
+        const uint32_t count = 1 + (uint32_t)random_bits(&r) % 300;
+        make_random(&r, count, k % 2 ? 0.05f : 0.1f);
         const cgt_camera camera = make_camera(&r);
         const uint32_t width = 1 + (uint32_t)random_bits(&r) % 90, height = 1 + (uint32_t)random_bits(&r) % 60;
         const cgt_cell_frame_options o = {.spes = 1 + k,
@@ -209,6 +209,10 @@ static void odd_pictures_and_scenes(void **state)
     for (unsigned k = 0; k < TEST_COUNT(size); k++) {
         trace_exact(50, &camera, size[k][0], size[k][1]);
         check(50, &camera, size[k][0], size[k][1], &o);
+    }
+    for (uint32_t count = 1; count < 4; count++) { /* spheres much larger than a cell */
+        trace_exact(count, &camera, 16, 16);
+        check(count, &camera, 16, 16, &o);
     }
     for (unsigned i = 0; i < 64; i++)
         expected[i] = CGT_INVALID_ID;

@@ -118,7 +118,9 @@ static bool grid_build(cgt_queue_grid *g)
     cgt_fill_counts counts = {0};
     memset(s()->voxel, 0xff, g->cells * sizeof s()->voxel[0]);
     const uint32_t count = g->prims->count;
-    if (count && CGT_KERNEL(cgt_queue_grid_fill)(g, 0, count, &overflow, &counts) != count)
+    if (count)
+        CGT_KERNEL(cgt_queue_grid_fill)(g, 0, count, &overflow, &counts);
+    if (overflow.count > CGT_GRID_OVERFLOW)
         return false;
     grid_sort_overflow(s()->overflow, overflow.count);
     g->overflow = s()->overflow;
