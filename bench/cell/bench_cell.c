@@ -9,6 +9,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "cell/cell_frames.h"
 #include "cell/cell_tables.h"
 #include "cell/micro_programs.h"
 #include "cell/spu/elf.h"
@@ -17,7 +18,7 @@
 #include "common/program.h"
 #include "core/memory.h"
 
-enum { OPTION_CYCLES = 0x700 };
+enum { OPTION_CYCLES = 0x700, OPTION_FRAMES };
 #define DEFAULT_CYCLES UINT64_C(100000000000)
 #define MOST_FILE_BYTES ((size_t)16 << 20)
 
@@ -25,10 +26,12 @@ typedef struct cell_settings {
     const char *path; /* NULL: the built-in programs */
     const char *json_path;
     uint64_t cycles;
+    bool frames;
 } cell_settings;
 
 static const struct argp_option options[] = {
     {"cycles", OPTION_CYCLES, "COUNT", 0, "most cycles of a program (default 10^11)", 0},
+    {"frames", OPTION_FRAMES, NULL, 0, "FILE is spe_grid.elf: trace frames of spheres on 1 to 8 SPEs", 0},
     {"json", 'j', "FILE", 0, "write the rows as JSON, too", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -41,6 +44,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         if (program_parse_u64(argument, 1, UINT64_MAX, &settings->cycles, error, sizeof error))
             argp_error(state, "--cycles: %s", error);
         return 0;
+    case OPTION_FRAMES: settings->frames = true; return 0;
     case 'j': settings->json_path = argument; return 0;
     case ARGP_KEY_ARG:
         if (settings->path)
@@ -161,6 +165,11 @@ static int run_file(bench_table *table, const cell_settings *settings)
     unsigned char *const bytes = read_file(settings->path, &size);
     if (!bytes)
         return PROGRAM_FAILED;
+    if (settings->frames) {
+        const bool done = cell_frames_run(table, bytes, size);
+        free(bytes);
+        return done ? PROGRAM_OK : PROGRAM_FAILED;
+    }
     if (create(&spu, CGT_SPU_TIMED)) {
         free(bytes);
         return PROGRAM_FAILED;
@@ -196,6 +205,10 @@ int bench_cell(int argc, char **argv)
     cell_settings settings = {.cycles = DEFAULT_CYCLES};
     if (argp_parse(&parser, argc, argv, 0, NULL, &settings))
         return PROGRAM_USAGE;
+    if (settings.frames && !settings.path) {
+        program_error("--frames wants the program's FILE, spe_grid.elf");
+        return PROGRAM_USAGE;
+    }
     bench_table *const table = bench_table_open(settings.json_path);
     if (!table)
         return PROGRAM_FAILED;

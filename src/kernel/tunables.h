@@ -33,6 +33,48 @@
 #define LIGHT_MARGIN 0x1p-17f
 #endif
 
+/* ---- programs for an SPU ---- */
+
+/* Quotient and root of single floats. Programs that are to give an SPU's bits on a host take the words': what a
+ * compiler makes of these is its own matter. */
+#ifndef SCALAR_DIVIDE
+#define SCALAR_DIVIDE(a, b) ((a) / (b))
+#define SCALAR_SQRT(a) __builtin_sqrtf(a)
+#endif
+
+/* Whether somebody else decides if primitive `prim` is the closest hit of ray i of packet p, and has been told. The
+ * ray's best hit then is the best of those that are certain. */
+#ifndef FILTER_DEFER
+#define FILTER_DEFER(p, i, prim) false
+#endif
+
+/* Scenes have no triangles: their tests are left out. */
+#ifndef CGT_ONLY_SPHERES
+#define CGT_ONLY_SPHERES false
+#endif
+
+/* Whether a queue grid's references take 32 bits. Programs of few primitives leave that out. */
+#ifndef GRID_REFS_ARE_32_BITS
+#define GRID_REFS_ARE_32_BITS(grid) ((grid)->refs_are_32_bits)
+#endif
+
+/* Whether a queue grid's fill stops before a primitive whose references the overflow list might not hold. If not, it
+ * counts what does not fit, and leaves it out. */
+#ifndef FILL_STOPS
+#define FILL_STOPS true
+#endif
+
+/* References of a packet's list in a grid. */
+#ifndef PACKET_MAX_PRIMS
+#define PACKET_MAX_PRIMS 144u
+#endif
+
+/* A queue grid's packet that spreads over more cells of a slice than this many per ray is halved. Measured with
+ * shuffled rays; flat from half to twice as many. */
+#ifndef CELLS_PER_RAY
+#define CELLS_PER_RAY 3.f
+#endif
+
 /* ---- buffers ---- */
 
 /* Words of a stream's arena that lists may take. */

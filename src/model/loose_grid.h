@@ -29,7 +29,9 @@
 #include <stdint.h>
 
 #define CGT_LOOSE_SIZE_LEVELS 16u /* by size alone */
+#ifndef CGT_LOOSE_LEVELS          /* programs for a small local store, which have none, define 1 */
 #define CGT_LOOSE_LEVELS 32u      /* with regions */
+#endif
 
 typedef struct cgt_loose_level {
     float low[3];     /* corner of the first cell */

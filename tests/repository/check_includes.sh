@@ -99,15 +99,18 @@ kernel/stream: exact kernel kernel/bvh kernel/packet kernel/primitive
 kernel/grid: kernel/packet kernel/primitive
 kernel/kd: exact/integer kernel kernel/packet kernel/primitive
 kernel/builders/bvh: core dispatch kernel/builders kernel/bvh kernel/primitive model
-kernel/builders: dispatch exact kernel/primitive model
+kernel/builders: dispatch exact kernel kernel/primitive model
 kernel/bvh: dispatch exact kernel kernel/packet kernel/primitive model
 kernel/resolve: exact kernel/packet kernel/primitive
 kernel/primitive: dispatch exact kernel kernel/packet model
-kernel/packet: dispatch
+kernel/packet: dispatch kernel
 kernel:
 '
 # The same for the simulated Cell, as its files write their includes: from backends on.
 cell_layers='
+cell/ppe: cell/image cell/machine cell/spu
+cell/programs/grid: cell/image cell/machine
+cell/image:
 cell/machine: cell/mfc cell/spu
 cell/mfc/dma: cell/mfc
 cell/mfc: cell/spu

@@ -10,8 +10,6 @@
 #include "kernel/primitive/sphere_filter.h"
 #include "kernel/primitive/triangle_fast.h"
 
-#define PACKET_MAX_PRIMS 144u /* references of a list of both kinds */
-
 typedef struct packet_prims {
     const cgt_committed_scene *committed_scene;
     packet *p;
@@ -172,7 +170,7 @@ static void packet_test_mixed(packet_prims *v, uint32_t *reference, uint32_t len
 static void packet_test_prims(packet_prims *v, uint32_t *reference, uint32_t length)
 {
     const cgt_primitives *prims = &v->committed_scene->prims;
-    if (!prims->triangles)
+    if (CGT_ONLY_SPHERES || !prims->triangles)
         packet_test_spheres(v, reference, length);
     else if (!prims->spheres)
         packet_test_triangles(v, reference, length);
@@ -198,7 +196,7 @@ CGT_SPU_INLINE void packet_prims_init(packet_prims *v)
 {
     packet *p = v->p;
     filter_packet_init(p, v->committed_scene->scale, &v->filter);
-    if (v->committed_scene->prims.triangles && !p->common_origin)
+    if (!CGT_ONLY_SPHERES && v->committed_scene->prims.triangles && !p->common_origin)
         filter_moments_init(p, &v->filter);
     block_cones_init(p, v->cull == CGT_CULL_BLOCKS, v->frustum.w, v->space.rcell[v->frustum.w], &v->blocks);
     v->w_far = packet_max_w(v);

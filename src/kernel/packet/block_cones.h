@@ -73,7 +73,7 @@ CGT_SPU_INLINE float block_max_length(const packet *p, uint32_t block)
     vfloat lower = spux_vfloat(INFINITY);
     for (uint32_t i = block * BLOCK_RAYS; i < block_end(p, block); i += CGT_LANES)
         lower = spux_min(lower, spux_load(p->rdd + i));
-    return (1 + 0x1p-18f) / __builtin_sqrtf(spux_hmin(lower));
+    return SCALAR_DIVIDE(1 + 0x1p-18f, SCALAR_SQRT(spux_hmin(lower)));
 }
 
 CGT_SPU_INLINE void block_init_cone(const packet *p, block_cones *b, uint32_t block)
@@ -84,7 +84,7 @@ CGT_SPU_INLINE void block_init_cone(const packet *p, block_cones *b, uint32_t bl
         a[k] = p->dir[k][first] + p->dir[k][last];
         square += a[k] * a[k];
     }
-    const float scale = 1 / __builtin_sqrtf(square);
+    const float scale = SCALAR_DIVIDE(1, SCALAR_SQRT(square));
     for (int k = 0; k < 3; k++) {
         a[k] *= scale;
         b->axis[k][block] = p->to_light ? -a[k] : a[k];
@@ -92,8 +92,8 @@ CGT_SPU_INLINE void block_init_cone(const packet *p, block_cones *b, uint32_t bl
     /* comparisons that fail for what is not a number: such a block is not culled */
     const float sine2 = block_max_sine2(p, block, a) * (1 + 0x1p-18f) + 0x1p-40f;
     const bool narrow = sine2 < 0.5f && square > 0x1p-100f && square < 0x1p100f;
-    b->secant[block] = narrow ? 1 / __builtin_sqrtf(1 - sine2) * (1 + 0x1p-18f) : 1;
-    b->tangent[block] = narrow ? __builtin_sqrtf(sine2) * b->secant[block] : 0;
+    b->secant[block] = narrow ? SCALAR_DIVIDE(1, SCALAR_SQRT(1 - sine2)) * (1 + 0x1p-18f) : 1;
+    b->tangent[block] = narrow ? SCALAR_SQRT(sine2) * b->secant[block] : 0;
     b->apex_error[block] = !narrow ? INFINITY : p->to_light ? block_max_length(p, block) * 0x1p-22f : 0;
 }
 

@@ -86,7 +86,7 @@ CGT_SPU_INLINE void frustum_bound_common(const frustum_space *g, const frustum *
     for (int k = 0; k < 2; k++) {
         low[k] = spux_vfloat(INFINITY);
         high[k] = spux_vfloat(-INFINITY);
-        ratio[k] = spux_vfloat(g->rcell[axis[k]] / g->rcell[f->w]);
+        ratio[k] = spux_vfloat(SCALAR_DIVIDE(g->rcell[axis[k]], g->rcell[f->w]));
     }
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
         const vfloat rdw = frustum_rdw(f, p, i);
@@ -106,7 +106,8 @@ CGT_SPU_INLINE frustum_span frustum_bound_axis(const frustum_space *g, const fru
                                                float w1)
 {
     vfloat low[2], high[2], magnitude = spux_vfloat(0);
-    const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)}, ratio = spux_vfloat(g->rcell[axis] / g->rcell[f->w]);
+    const vfloat plane[2] = {spux_vfloat(f->w0), spux_vfloat(w1)},
+                 ratio = spux_vfloat(SCALAR_DIVIDE(g->rcell[axis], g->rcell[f->w]));
     for (int k = 0; k < 2; k++) {
         low[k] = spux_vfloat(INFINITY);
         high[k] = spux_vfloat(-INFINITY);
@@ -175,8 +176,8 @@ CGT_SPU_INLINE float frustum_max_w_from_origin(const frustum_space *g, const fru
 /* A line of bounds as a plane in world space: how far, in cells of `axis`, a sphere of radius 1 reaches over it. */
 CGT_SPU_INLINE float frustum_radius_scale(const frustum_space *g, const frustum *f, int axis, float step)
 {
-    const float k = step * g->rcell[f->w] / g->rcell[axis];
-    return g->rcell[axis] * __builtin_sqrtf(1 + k * k) * (1 + 0x1p-20f);
+    const float k = SCALAR_DIVIDE(step * g->rcell[f->w], g->rcell[axis]);
+    return g->rcell[axis] * SCALAR_SQRT(1 + k * k) * (1 + 0x1p-20f);
 }
 
 /* Drops slices at both ends in which the frustum passes outside the grid: the lower bound of k, a line over w, must not
@@ -186,7 +187,7 @@ CGT_SPU_INLINE void frustum_clip(frustum *f)
     const float limit[4] = {f->last[1] + 1, 0, f->last[2] + 1, 0};
     float from = 0, to = (float)f->end;
     for (int k = 0; k < 4; k++) {
-        const float margin = limit[k] - f->bound[k], w = f->w0 + margin / f->step[k];
+        const float margin = limit[k] - f->bound[k], w = f->w0 + SCALAR_DIVIDE(margin, f->step[k]);
         if (f->step[k] > 0 && w < to)
             to = w;
         if (f->step[k] < 0 && w > from)
@@ -227,7 +228,7 @@ CGT_SPU_INLINE bool frustum_init(const frustum_space *g, const packet *p, int w,
     if (f->first >= f->end)
         return false;
     f->w0 = (float)f->first;
-    const float w1 = (float)f->end, rlength = 1 / (w1 - f->w0);
+    const float w1 = (float)f->end, rlength = SCALAR_DIVIDE(1, w1 - f->w0);
     frustum_span span[2];
     if (p->common_origin)
         frustum_bound_common(g, f, p, w1, span);

@@ -19,6 +19,7 @@
 #include <stdbool.h>
 
 #include "dispatch/kernel.h"
+#include "kernel/tunables.h"
 #include "vector.h"
 
 /* A packet of 256 rays takes 24 KB: programs for a small local store define less, in multiples of 16, a block of rays. */

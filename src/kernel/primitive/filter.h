@@ -36,16 +36,16 @@ CGT_SPU_INLINE void filter_packet_init(const packet *p, float scale, filter_pack
         least = spux_min(least, spux_load(p->rdd + i));
         t_min = spux_min(t_min, spux_load(p->t_min + i));
     }
-    f->rlength = __builtin_sqrtf(spux_hmax(most)) * (1 + 0x1p-18f);
-    f->rlength_low = spux_hmin(t_min) < 0 ? -INFINITY : __builtin_sqrtf(spux_hmin(least)) * (1 - 0x1p-18f);
+    f->rlength = SCALAR_SQRT(spux_hmax(most)) * (1 + 0x1p-18f);
+    f->rlength_low = spux_hmin(t_min) < 0 ? -INFINITY : SCALAR_SQRT(spux_hmin(least)) * (1 - 0x1p-18f);
     f->scale = scale;
-    f->longest = (1 + 0x1p-18f) / __builtin_sqrtf(spux_hmin(least));
+    f->longest = SCALAR_DIVIDE(1 + 0x1p-18f, SCALAR_SQRT(spux_hmin(least)));
     f->org_reach = 0;
     for (int a = 0; a < 3; a++) {
         vfloat largest = spux_vfloat(0);
         for (uint32_t i = 0; i < p->lanes; i += CGT_LANES)
             largest = spux_max(largest, spux_abs(spux_load(p->dir[a] + i)));
-        f->share[a] = spux_hmax(largest) / f->longest * (1 + 0x1p-18f);
+        f->share[a] = SCALAR_DIVIDE(spux_hmax(largest), f->longest) * (1 + 0x1p-18f);
         f->reach[a] = 0;
     }
     for (int a = 0; a < 3; a++) {
@@ -167,6 +167,8 @@ __attribute__((noinline, unused)) static void filter_decide(const cgt_primitives
         return; /* it is already, or the ray is disabled */
     if (p->skips_prims && ray_skips(p, i, prim, skip_mask_of(prims, p, prim)))
         return;
+    if (FILTER_DEFER(p, i, prim))
+        return;
     if (!filter_is_closer(prims, &ray, p->any_hit ? CGT_INVALID_ID : best_prim, prim, &t, counts))
         return;
     p->prim[i] = prim;
@@ -190,7 +192,9 @@ typedef struct filter_mode {
     bool store_uv; /* FAST, triangles */
 } filter_mode;
 
-/* Calls `call` with a constant mode, so that each mode gets a loop of its own. uv: FAST stores u and v. */
+/* Calls `call` with a constant mode, so that each mode gets a loop of its own. uv: FAST stores u and v. A program that
+ * has one mode alone defines it. */
+#ifndef FILTER_FOR_MODE
 #define FILTER_FOR_MODE(p, uv, call)                                                                                   \
     switch ((p)->fast << 2 | (p)->common_origin << 1 | (p)->any_hit) {                                                 \
     case 0: call(((filter_mode){false, false, true, false})); break;                                                   \
@@ -202,6 +206,7 @@ typedef struct filter_mode {
     case 6: call(((filter_mode){true, false, false, uv})); break;                                                      \
     default: call(((filter_mode){true, true, false, false})); break;                                                   \
     }
+#endif
 
 /* Stores the certain hits of a vector of rays. */
 CGT_SPU_INLINE void filter_store(packet *p, uint32_t i, const filter_result *f, vuint prim, filter_mode mode)

@@ -70,7 +70,7 @@ CGT_SPU_INLINE void filter_spheres_bound(const filter_packet *f, filter_spheres 
                                 spu_madd(eps_c, eps_c, spux_vfloat(0x1p-120f)));
     const vfloat underflow = spux_vfloat(0x1p-62f + 0x1p-122f * f->rlength * f->rlength);
     const vfloat e0 = spu_madd(spu_add(distance, r), spux_vfloat(18 * FILTER_ROUNDOFF * f->rlength), underflow);
-    const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0.27f * f->rlength));
+    const vfloat root = spu_mul(spux_sqrt(eps), spux_vfloat(0x1.148p-2f * f->rlength));
     spux_store(s->r2, spu_madd(r, r, eps));
     spux_store(s->certain_hit, spu_mul(eps, spux_vfloat(17)));
     spux_store(s->t_error, e0);

@@ -1,0 +1,98 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * Columns and rows of canonical rays. */
+#include "cell/ppe/camera_tables.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+#define MAX_DIRECTION 0x1p20f /* of a component: docs/reports/cell_sizes.md */
+
+static cgt_result check(const cgt_camera_rays *c, char message[CGT_PPE_MESSAGE_BYTES])
+{
+    const char *wrong = NULL;
+    if (c->orthographic)
+        wrong = "an orthographic camera: the program of an SPE traces rays of one origin";
+    for (int a = 0; a < 3 && !wrong; a++) {
+        if (!(fabsf(c->eye[a]) <= CGT_SPE_MAX_COORDINATE))
+            wrong = "the eye lies beyond 2^40, where the bounds of an SPU's single precision end";
+        else if (!(fabsf(c->fwd[a]) + fabsf(c->right[a]) + fabsf(c->up[a]) <= MAX_DIRECTION))
+            wrong = "the view is so wide that rays exceed 2^20, where the bounds of an SPU's single precision end";
+    }
+    if (!wrong)
+        return CGT_OK;
+    snprintf(message, CGT_PPE_MESSAGE_BYTES, "%s", wrong);
+    return CGT_ERROR_INVALID_ARGUMENT;
+}
+
+/* An SPU takes subnormal numbers for 0; the tables have none, so that all forms of a program see the same. */
+static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
+
+/* In the order of operations of query/camera.h. */
+static void fill(cgt_camera_tables *t)
+{
+    const cgt_camera_rays *c = &t->rays;
+    const uint32_t columns = (uint32_t)(t->column_bytes / 16), rows = (uint32_t)(t->row_bytes / 16);
+    for (uint32_t k = 0; k < columns; k++) {
+        const uint32_t x = k < c->width ? k : c->width - 1;
+        const float px = ((float)x + 0.5f) * c->pixel[0] - 1;
+        for (int a = 0; a < 3; a++)
+            t->column[k][a] = normal(c->fwd[a] + px * c->right[a]);
+        t->column[k][3] = 0;
+    }
+    for (uint32_t k = 0; k < rows; k++) {
+        const uint32_t y = k < c->height ? k : c->height - 1;
+        const float py = 1 - ((float)y + 0.5f) * c->pixel[1];
+        for (int a = 0; a < 3; a++)
+            t->row[k][a] = normal(py * c->up[a]);
+        t->row[k][3] = 0;
+    }
+    for (int a = 0; a < 3; a++)
+        t->image.eye[a] = normal(c->eye[a]);
+    t->image.t_min = normal(c->t_min);
+    t->image.t_max = fminf(c->t_max, FLT_MAX); /* a t beyond is no hit */
+}
+
+cgt_result cgt_camera_tables_init(cgt_camera_tables *tables, const cgt_memory_hooks *memory, const cgt_camera *camera,
+                                  uint32_t width, uint32_t height, char message[CGT_PPE_MESSAGE_BYTES])
+{
+    char reason[CGT_CAMERA_MESSAGE_BYTES] = "";
+    *tables = (cgt_camera_tables){.memory = *memory};
+    if (width == 0 || height == 0 || width > CGT_FRAME_MAX_EDGE || height > CGT_FRAME_MAX_EDGE) {
+        snprintf(message, CGT_PPE_MESSAGE_BYTES,
+                 "a picture of %" PRIu32 " x %" PRIu32 " pixels: an edge has 1 to %u of them", width, height,
+                 CGT_FRAME_MAX_EDGE);
+        return width && height ? CGT_ERROR_TOO_LARGE : CGT_ERROR_INVALID_ARGUMENT;
+    }
+    cgt_result result = cgt_camera_prepare(camera, width, height, &tables->rays, reason);
+    if (result != CGT_OK) {
+        snprintf(message, CGT_PPE_MESSAGE_BYTES, "the camera: %s", reason);
+        return result;
+    }
+    result = check(&tables->rays, message);
+    if (result != CGT_OK)
+        return result;
+    tables->column_bytes = (size_t)(width + 3) / 4 * 64;
+    tables->row_bytes = (size_t)(height + 3) / 4 * 64;
+    tables->column = cgt_allocate(memory, tables->column_bytes);
+    tables->row = cgt_allocate(memory, tables->row_bytes);
+    if (!tables->column || !tables->row) {
+        cgt_camera_tables_release(tables);
+        snprintf(message, CGT_PPE_MESSAGE_BYTES, "out of memory for the tables of a camera");
+        return CGT_ERROR_OUT_OF_MEMORY;
+    }
+    fill(tables);
+    return CGT_OK;
+}
+
+void cgt_camera_tables_release(cgt_camera_tables *tables)
+{
+    if (tables->column)
+        cgt_free(&tables->memory, tables->column, tables->column_bytes);
+    if (tables->row)
+        cgt_free(&tables->memory, tables->row, tables->row_bytes);
+    tables->column = tables->row = NULL;
+}
