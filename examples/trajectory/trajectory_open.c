@@ -159,6 +159,8 @@ int trajectory_open_file(trajectory *t, size_t number)
         text_reader_init(&t->text, t->file);
     }
     t->text.file = t->file;
+    t->text.read_some = t->input.plain ? NULL : trajectory_input_read;
+    t->text.input = &t->input;
     t->text.why = t->input.error;
     text_reader_restart(&t->text);
     return t->format->begin(t);
