@@ -300,6 +300,16 @@ static int walk_binary(trajectory *t, text_reader *r, const ply_header *h)
     if (offset < 0 || (uint64_t)offset > t->file_size || fseeko(r->file, offset, SEEK_SET) != 0) {
         return trajectory_fail(t, 0, "%s", strerror(errno));
     }
+    /* assimp skips line feeds after the header, and takes such a byte of the data for one: all that follows shifts */
+    const int first = getc_unlocked(r->file);
+    if (first == '\n') {
+        return trajectory_fail(t, 0,
+                               "the data begin with the byte 0x0a, which assimp takes for a line feed of the header: "
+                               "move the first vertex by a little, or convert the file to text");
+    }
+    if (first != EOF && fseeko(r->file, offset, SEEK_SET) != 0) {
+        return trajectory_fail(t, 0, "%s", strerror(errno));
+    }
     walk w = {t, r->file, t->file_size - (uint64_t)offset};
     for (uint32_t k = 0; k < h->element_count; k++) {
         const ply_element *const e = &h->element[k];

@@ -100,6 +100,7 @@ int mesh_merge(trajectory *t, mesh_model *model);
 
 /* mesh_check.c: finds damage in t's file that assimp does not notice, or does not survive. */
 int mesh_check_file(trajectory *t);
-int mesh_check_ply(trajectory *t, text_reader *r); /* mesh_check_ply.c; r is at the start */
+int mesh_check_ply(trajectory *t, text_reader *r);  /* mesh_check_ply.c; r is at the start */
+int mesh_check_gltf(trajectory *t, text_reader *r); /* mesh_check_gltf.c; the same */
 
 #endif

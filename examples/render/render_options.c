@@ -78,9 +78,7 @@ static const struct argp_option table[] = {
     {"fps", OPTION_FPS, "N", 0, "Frames per second of a mesh's animation; default 30", 0},
     {"clip", OPTION_CLIP, "NAME", 0, "Animation of a mesh, by its name or its number from 0; default: the first", 0},
     {"format", OPTION_FORMAT, "NAME", 0,
-     "Format of the input whatever its name: lammps, xyz, frames, or the ending of a mesh; default: by the name's "
-     "ending",
-     0},
+     "Format of the input whatever its name: lammps, xyz or frames; default: by the name's ending", 0},
     {"follow", OPTION_FOLLOW, "SECONDS", 0,
      "At the end wait so long for more, of a run that is still being written; the automatic camera and colours are "
      "those "

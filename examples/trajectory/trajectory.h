@@ -31,7 +31,7 @@ typedef struct trajectory_options {
     double fps;         /* meshes with animation: frames per second of the clip; default (and 0) 30 */
     const char *clip;   /* meshes: name of the animation clip, or its number from 0; NULL (default): the first;
                            copied */
-    const char *format; /* "lammps", "xyz", "frames" or a mesh's ending, whatever the file's name; NULL (default): by
+    const char *format; /* "lammps", "xyz", "frames", whatever the file's name; NULL (default): by
                            the ending; used while opening */
     double follow;      /* text: seconds to wait at the end for more, of a run that is being written; default 0 */
     const volatile sig_atomic_t *stop; /* not 0: ends the waiting, as set by a signal; NULL (default): none */

@@ -214,6 +214,8 @@ static ssize_t read_cookie(void *cookie, char *bytes, size_t size)
     return got;
 }
 
+long trajectory_input_read(void *input, char *bytes, size_t size) { return (long)read_cookie(input, bytes, size); }
+
 static int open_stream(trajectory_input *in)
 {
     const cookie_io_functions_t functions = {.read = read_cookie};

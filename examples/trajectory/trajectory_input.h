@@ -43,6 +43,9 @@ typedef struct trajectory_input {
 int trajectory_input_open(trajectory_input *in, const char *path, double follow, const volatile sig_atomic_t *stop,
                           int keep, char *error, size_t error_size);
 
+/* Reads what there is now from an input that is not plain, as read(2) does; do not read stream, too. */
+long trajectory_input_read(void *input, char *bytes, size_t size);
+
 /* Goes back to the first byte: 0, or -1 with a sentence. stream may be another one afterwards. */
 int trajectory_input_rewind(trajectory_input *in, char *error, size_t error_size);
 

@@ -32,6 +32,8 @@ typedef enum trajectory_doubt {
     DOUBT_WIDE_IDS,      /* ids of more than 32 bits */
     DOUBT_FLAT,          /* no column z */
     DOUBT_MIXED_COLUMNS, /* x, y and z come from different forms of positions */
+    DOUBT_INTERPOLATION, /* glTF: keys that are no straight lines are played so */
+    DOUBT_MORPH,         /* glTF: weights of morph targets that are not zero */
     DOUBTS
 } trajectory_doubt;
 

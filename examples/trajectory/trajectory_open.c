@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define DEFAULT_MAX_COUNT ((uint64_t)1 << 31)
@@ -69,7 +70,8 @@ static const trajectory_format *find_named_format(const char *name)
 {
     char ending[32];
     const int length = snprintf(ending, sizeof ending, ".%s", strcasecmp(name, "lammps") == 0 ? "dump" : name);
-    return length > 1 && (size_t)length < sizeof ending ? find_format(ending) : NULL;
+    const trajectory_format *const found = length > 1 && (size_t)length < sizeof ending ? find_format(ending) : NULL;
+    return found != &trajectory_format_mesh ? found : NULL; /* assimp reads a path, and goes by its ending */
 }
 
 /* By the ending of a path, which may have one such as .gz after it. */
@@ -141,6 +143,11 @@ int trajectory_open_file(trajectory *t, size_t number)
     t->file = t->text.file = NULL;
     t->path_at = number;
     t->path = t->paths[number];
+    struct stat status;
+    if (t->format == &trajectory_format_mesh && stat(t->path, &status) == 0 && !S_ISREG(status.st_mode) &&
+        !S_ISDIR(status.st_mode)) {
+        return trajectory_fail(t, 0, "a mesh has to be a regular file"); /* opening a pipe would wait for its bytes */
+    }
     if (trajectory_input_open(&t->input, t->path, is_last ? t->options.follow : 0.0, t->options.stop, t->options.keep,
                               reason, sizeof reason)) {
         return trajectory_fail(t, 0, "%s", reason);
@@ -152,6 +159,8 @@ int trajectory_open_file(trajectory *t, size_t number)
         text_reader_init(&t->text, t->file);
     }
     t->text.file = t->file;
+    t->text.read_some = t->input.plain ? NULL : trajectory_input_read;
+    t->text.input = &t->input;
     t->text.why = t->input.error;
     text_reader_restart(&t->text);
     return t->format->begin(t);
@@ -215,7 +224,7 @@ trajectory *trajectory_open_series(const char *const *paths, size_t count, const
         reason = "no file is given";
     } else if (format == NULL) {
         reason = named != NULL
-                     ? "the format is not one of lammps, xyz, frames, nor that of a mesh that can be read here"
+                     ? "the format is not one of lammps, xyz, frames"
                      : "the ending is not one of .lammpstrj, .dump, .xyz, .extxyz, .frames, nor that of a mesh that "
                        "can be read here; other names need a format";
     } else {

@@ -68,9 +68,11 @@ static int read_more(text_reader *r, const char **reason)
         return -1;
     }
     errno = 0;
-    const size_t got = fread(r->data + r->end, 1, r->capacity - r->end, r->file);
+    const size_t room = r->capacity - r->end;
+    const long some = r->read_some != NULL ? r->read_some(r->input, r->data + r->end, room) : 0;
+    const size_t got = r->read_some == NULL ? fread(r->data + r->end, 1, room, r->file) : some > 0 ? (size_t)some : 0;
     if (got == 0) {
-        if (ferror(r->file)) {
+        if (r->read_some != NULL ? some < 0 : ferror(r->file)) {
             *reason = r->why != NULL && *r->why != '\0' ? r->why : strerror(errno != 0 ? errno : EIO);
             return -1;
         }

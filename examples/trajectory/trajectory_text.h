@@ -20,6 +20,9 @@ typedef struct text_span {
 
 typedef struct text_reader {
     FILE *file;
+    /* what there is now, as read(2) does; NULL: fread, which waits for all that it is asked for */
+    long (*read_some)(void *input, char *bytes, size_t size);
+    void *input;
     const char *why; /* where not "" the reason why reading the file failed; may be NULL */
     char *data;      /* capacity + 1 bytes */
     size_t capacity;
