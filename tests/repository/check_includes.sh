@@ -67,13 +67,8 @@ check simd "simd" "cgt/[a-z_]+\\.h|($standard|$intrinsics)\\.h|spu_(intrinsics|m
 check src "src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check backends "backends src simd" "cgt/[a-z_]+\\.h|($standard|$posix)\\.h"
 check examples "examples" \
-<<<<<<< HEAD
-    "cgt/(cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h"
-check bench "bench backends src simd examples tests" \
-=======
     "cgt/(cgt|research|version)\\.h|[a-z]+|($standard|$posix|argp)\\.h|OpenImageIO/[a-z]+\\.h|assimp/[a-z]+\\.h|archive(_entry)?\\.h"
-check bench "bench src simd examples tests" \
->>>>>>> c32-files
+check bench "bench backends src simd examples tests" \
     "cgt/[a-z_]+\\.h|($standard|$posix|argp)\\.h|embree3/rtcore\\.h"
 
 # The layers of src, the calls first: each folder, and the other folders that it may include.

@@ -15,9 +15,9 @@
 
 #define MOST_PIXELS (1400 * 100)
 
-static uint32_t expected[MOST_PIXELS], raw[MOST_PIXELS], found[MOST_PIXELS];
+static uint32_t expected[MOST_PIXELS], found[MOST_PIXELS];
 static cgt_sphere sphere[CGT_GRID_SPHERES + 1];
-static cgt_cell_frame_result result, other;
+static cgt_cell_frame_result result;
 
 /* ---- pictures ---- */
 
@@ -72,6 +72,8 @@ static void check(uint32_t count, const cgt_camera *camera, uint32_t width, uint
 
 #ifdef SPE_GRID_ELF
 static char elf[1 << 20];
+static uint32_t raw[MOST_PIXELS];
+static cgt_cell_frame_result other;
 
 static size_t load_elf(void)
 {
