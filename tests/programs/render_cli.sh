@@ -89,7 +89,6 @@ says out '--contact-sheet=FILE'
 run 0 --version
 says out '^cgt-render (libcgt [0-9]*\.[0-9]*\.[0-9]*)$'
 refuses 2 'no trajectory'
-refuses 2 'more than one trajectory' small.xyz one.xyz
 refuses 2 'unrecognized option' --no-such-option small.xyz
 for size in 0x0 0x5 5x0 12 x 1280x 65537x1 99999999999999999999x1 -1x5 5x5x5 1e2x5; do
     refuses 2 '--size: ' -s $size small.xyz
@@ -201,6 +200,9 @@ automatic=$(sed -n 's/^camera *-c //p' "$tmp/stdout")
 run 0 -s 64x36 -c "$automatic" -o again.png --last 0 -k type -t 1 small.xyz
 run 0 -s 64x36 --orbit 90 -o first/%d.png --last 5 -k type -t 4 small.xyz
 cmp -s "$tmp/again.png" "$tmp/first/0.png" || fail "the camera that was printed shows another picture"
+# several files are one run
+run 0 -s 64x36 -o both/%d.png small.xyz one.xyz
+count both 7
 run 0 -s 128x72 -o t1.png -t 1 -a 2 one.xyz
 run 0 -s 128x72 -o t3.png -t 3 -a 2 one.xyz
 cmp -s "$tmp/t1.png" "$tmp/t3.png" || fail "one and three threads draw different pictures"

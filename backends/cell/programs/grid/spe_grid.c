@@ -25,7 +25,12 @@ typedef struct grid_world {
     cgt_trace_settings settings;
     cgt_counts counts;
     packet packet;
+    _Alignas(CGT_ALIGNMENT) char scratch[CGT_SCRATCH_BYTES];
 } grid_world;
+
+_Static_assert(2 * sizeof(traversal) + sizeof(packet_part) + (PACKET_MAX_RAYS + 5 * 16) * sizeof(uint32_t) <=
+                   CGT_SCRATCH_BYTES,
+               "the scratch holds a packet and a part of it");
 
 /* ---- setting up ---- */
 
@@ -210,6 +215,7 @@ CGT_SPE_MAIN(spe_grid)
         return grid_report(state, state == CGT_REPORT_SPHERES ? CGT_GRID_SPHERES : CGT_GRID_CELLS);
     spu_write_decrementer(0xffffffff);
     grid_init_world(&w);
+    w.counts.scratch = cgt_scratch_init(w.scratch);
     if (!grid_build(&w.scene.grid))
         return grid_report(CGT_REPORT_OVERFLOW, CGT_GRID_OVERFLOW);
     s()->report.built = 0xffffffff - spu_read_decrementer();
