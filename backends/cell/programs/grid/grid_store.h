@@ -9,7 +9,7 @@
 #define CGT_SPU_EXACT
 #define CGT_SPE_TEXT_BYTES 37000
 #define CGT_SPE_STACK_BYTES 16000
-#define CGT_SCRATCH_BYTES ((size_t)8192) /* of the stack: a packet, and a part of it */
+#define CGT_SCRATCH_BYTES ((size_t)4864) /* of the stack: a packet, and a part of it */
 #define PACKET_MAX_RAYS 16
 #define CGT_LOOSE_LEVELS 1u
 #define FILL_STOPS false
