@@ -118,7 +118,8 @@ static void ply_data_that_begin_with_a_line_feed(void **state)
     unsigned char *const data = bytes + sizeof header - 1;
     memcpy(bytes, header, sizeof header - 1);
     data[14] = data[15] = data[30] = data[31] = 0x40;
-    memcpy(data + 36, "\3\0\1\2", 4);
+    const unsigned char face[4] = {3, 0, 1, 2};
+    memcpy(data + 36, face, sizeof face);
     assert_int_equal(scratch_read(scratch_open(scratch_bytes(".ply", bytes, sizeof bytes), NULL)).triangles, 1);
     data[0] = '\n';
     scratch_expect_error(scratch_bytes(".ply", bytes, sizeof bytes), NULL, 0, "the data begin with the byte 0x0a");

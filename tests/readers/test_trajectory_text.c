@@ -151,8 +151,8 @@ static void foreign_exponents(void **state)
     static const char *const wrong[] = {"D",   "1D",    "1D+", "D5",      "1*5",  "1*^",
                                         "1^5", "1d5d5", "1-",  "1.5-1-1", "1D5x", "--1D5"};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
-        float f;
-        double d;
+        float f = 0;
+        double d = 0;
         assert_true(text_float(span_of(pairs[i][0]), &f) && text_double(span_of(pairs[i][0]), &d));
         assert_true(f == strtof(pairs[i][1], NULL) && d == strtod(pairs[i][1], NULL));
     }

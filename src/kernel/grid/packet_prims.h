@@ -169,10 +169,9 @@ static void packet_test_mixed(packet_prims *v, uint32_t *reference, uint32_t len
 /* Tests a list of at most PACKET_MAX_PRIMS; reorders it. */
 static void packet_test_prims(packet_prims *v, uint32_t *reference, uint32_t length)
 {
-    const cgt_primitives *prims = &v->committed_scene->prims;
-    if (CGT_ONLY_SPHERES || !prims->triangles)
+    if (CGT_ONLY_SPHERES || !v->committed_scene->prims.triangles)
         packet_test_spheres(v, reference, length);
-    else if (!prims->spheres)
+    else if (!v->committed_scene->prims.spheres)
         packet_test_triangles(v, reference, length);
     else
         packet_test_mixed(v, reference, length);

@@ -12,8 +12,9 @@
 
 static void grid_add_doubt(uint32_t i, uint32_t object);
 
-#include "kernel/builders/queue_grid_fill.c"
-#include "kernel/grid/queue_grid_traverse.c"
+/* the kernels themselves: one translation unit, so that what the program does not need goes */
+#include "kernel/builders/queue_grid_fill.c" /* NOLINT(bugprone-suspicious-include) */
+#include "kernel/grid/queue_grid_traverse.c" /* NOLINT(bugprone-suspicious-include) */
 
 #include "cell/programs/grid/grid_doubts.h"
 #include "cell/programs/grid/grid_rays.h"
