@@ -181,12 +181,51 @@ static void sort_points(cgt_point_order *o, const point_view *v, uint64_t first,
     cgt_scratch_return(scratch, key);
 }
 
+#define MAGNITUDE 0x7fffffff /* the bits of a float but its sign: they order as magnitudes do */
+#define INFINITE 0x7f800000
+
+static inline int32_t magnitude_bits(float f)
+{
+    int32_t bits;
+    memcpy(&bits, &f, sizeof bits);
+    return bits & MAGNITUDE;
+}
+
+/* Whether all points of dense arrays are live, as cgt_find_point_state says it, in whole numbers: the compiler makes
+ * vectors of the loop. */
+static bool all_are_live(const cgt_rays *points, const cgt_light *light, uint64_t first, uint64_t end)
+{
+    const bool is_point = light->kind == CGT_LIGHT_POINT;
+    const float *x = points->org[0], *y = points->org[1], *z = points->org[2];
+    const float lx = is_point ? light->position[0] : 0, ly = is_point ? light->position[1] : 0,
+                lz = is_point ? light->position[2] : 0;
+    int32_t most = 0, least = MAGNITUDE;
+    if (stride_of(points) != sizeof(float) || points->t_min || points->t_max)
+        return false;
+    for (uint64_t i = first; i < end; i++) {
+        const int32_t px = magnitude_bits(x[i]), py = magnitude_bits(y[i]), pz = magnitude_bits(z[i]);
+        const int32_t dx = magnitude_bits(lx - x[i]), dy = magnitude_bits(ly - y[i]), dz = magnitude_bits(lz - z[i]);
+        most = px > most ? px : most;
+        most = py > most ? py : most;
+        most = pz > most ? pz : most;
+        most = dx > most ? dx : most;
+        most = dy > most ? dy : most;
+        most = dz > most ? dz : most;
+        least = (dx | dy | dz) < least ? dx | dy | dz : least;
+    }
+    return most < INFINITE && (!is_point || least > 0);
+}
+
 void cgt_point_order_init(cgt_point_order *o, const cgt_rays *points, const cgt_light *light, uint64_t first,
                           uint64_t end, cgt_scratch *scratch)
 {
     double middle[3];
     view_bounds bounds;
-    o->live = o->invalid = 0;
+    o->as_given = end - first <= CGT_RAYS_CHUNK && all_are_live(points, light, first, end);
+    o->live = o->as_given ? (uint32_t)(end - first) : 0;
+    o->invalid = 0;
+    if (o->as_given)
+        return;
     list_points(o, points, light, first, end, middle);
     const point_view view = view_init(points, light, middle);
     const bool coherent = o->live <= CGT_RAYS_CHUNK || find_bounds(o, &view, first, &bounds);

@@ -18,7 +18,7 @@
 typedef struct cgt_point_order {
     uint16_t number[CGT_MAX_TASK_POINTS], listed[CGT_MAX_TASK_POINTS];
     uint32_t live, invalid;
-    bool as_given; /* all are live, and chunks of them lie close together as they are */
+    bool as_given; /* all are live, and chunks of them lie close together as they are: numbers need not be set */
 } cgt_point_order;
 
 typedef struct cgt_point_batch {

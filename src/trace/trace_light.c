@@ -190,10 +190,11 @@ bool cgt_light_allows_tiles(const cgt_committed_scene *s)
     return s->loose.levels && s->valid && !s->brute_force && s->scale <= 0x1p60f && s->scale >= 0x1p-60f;
 }
 
-bool cgt_light_batch_is_coherent(const cgt_scene *s, const cgt_light *light, const cgt_point_batch *b)
+bool cgt_light_points_are_coherent(const cgt_scene *s, const cgt_light *light, const cgt_rays *points, uint64_t first,
+                                   uint64_t count)
 {
-    return s->context->kernel->light_prims(&s->committed_scene, &b->rays, light, 0, b->rays.count) <=
-           PRIMS_PER_POINT * b->rays.count;
+    return s->context->kernel->light_prims(&s->committed_scene, points, light, first, first + count) <=
+           PRIMS_PER_POINT * count;
 }
 
 /* Whether the middle batch of a task's points is coherent, unless none of them is live. */
@@ -208,8 +209,10 @@ static bool task_is_coherent(const light_job *job, uint64_t first, uint64_t end,
         return false;
     const uint32_t from = order->live / 2 / CGT_RAYS_CHUNK * CGT_RAYS_CHUNK;
     const uint32_t count = (uint32_t)chunk_end(from, order->live) - from;
+    if (order->as_given)
+        return cgt_light_points_are_coherent(job->scene, job->light, &job->points, first + from, count);
     cgt_point_batch_fill(batch, &job->points, first, order->number + from, count);
-    return cgt_light_batch_is_coherent(job->scene, job->light, batch);
+    return cgt_light_points_are_coherent(job->scene, job->light, &batch->rays, 0, count);
 }
 
 /* Whether the points of most tasks are. scratch: a block. */

@@ -25,8 +25,9 @@ cgt_result cgt_check_light(cgt_context *c, const cgt_light *light);
 /* Whether the structure and the scene's size allow for tiles at all. */
 bool cgt_light_allows_tiles(const cgt_committed_scene *s);
 
-/* Whether neighbouring points of a batch are near enough to each other for tiles, as the light sees them. */
-bool cgt_light_batch_is_coherent(const cgt_scene *s, const cgt_light *light, const cgt_point_batch *b);
+/* Whether neighbouring points, at most a chunk, are near enough to each other for tiles, as the light sees them. */
+bool cgt_light_points_are_coherent(const cgt_scene *s, const cgt_light *light, const cgt_rays *points, uint64_t first,
+                                   uint64_t count);
 
 /* Points against a light in a scene in bands, in tasks: each traces its points through *bands, and adds them to *given_up
  * where tiles gave them up. */

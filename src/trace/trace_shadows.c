@@ -153,7 +153,8 @@ static bool choose_tiles(const shadow_job *job, cgt_scratch *scratch, uint64_t *
         fill_batch(job, (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled)), b);
         live += b->live;
         with_hits += b->live > 0;
-        coherent += allowed && b->live && cgt_light_batch_is_coherent(job->scene, job->light, &b->points);
+        coherent +=
+            allowed && b->live && cgt_light_points_are_coherent(job->scene, job->light, &b->points.rays, 0, b->live);
     }
     cgt_float_environment_leave(&callers);
     cgt_scratch_return(scratch, b);
