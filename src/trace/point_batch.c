@@ -191,9 +191,8 @@ static inline int32_t magnitude_bits(float f)
     return bits & MAGNITUDE;
 }
 
-/* Whether all points of dense arrays are live, as cgt_find_point_state says it, in whole numbers: the compiler makes
- * vectors of the loop. */
-static bool all_are_live(const cgt_rays *points, const cgt_light *light, uint64_t first, uint64_t end)
+/* In whole numbers: the compiler makes vectors of the loop. */
+bool cgt_points_are_live(const cgt_rays *points, const cgt_light *light)
 {
     const bool is_point = light->kind == CGT_LIGHT_POINT;
     const float *x = points->org[0], *y = points->org[1], *z = points->org[2];
@@ -202,7 +201,7 @@ static bool all_are_live(const cgt_rays *points, const cgt_light *light, uint64_
     int32_t most = 0, least = MAGNITUDE;
     if (stride_of(points) != sizeof(float) || points->t_min || points->t_max)
         return false;
-    for (uint64_t i = first; i < end; i++) {
+    for (uint64_t i = 0; i < points->count; i++) {
         const int32_t px = magnitude_bits(x[i]), py = magnitude_bits(y[i]), pz = magnitude_bits(z[i]);
         const int32_t dx = magnitude_bits(lx - x[i]), dy = magnitude_bits(ly - y[i]), dz = magnitude_bits(lz - z[i]);
         most = px > most ? px : most;
@@ -221,11 +220,7 @@ void cgt_point_order_init(cgt_point_order *o, const cgt_rays *points, const cgt_
 {
     double middle[3];
     view_bounds bounds;
-    o->as_given = end - first <= CGT_RAYS_CHUNK && all_are_live(points, light, first, end);
-    o->live = o->as_given ? (uint32_t)(end - first) : 0;
-    o->invalid = 0;
-    if (o->as_given)
-        return;
+    o->live = o->invalid = 0;
     list_points(o, points, light, first, end, middle);
     const point_view view = view_init(points, light, middle);
     const bool coherent = o->live <= CGT_RAYS_CHUNK || find_bounds(o, &view, first, &bounds);

@@ -18,7 +18,7 @@
 typedef struct cgt_point_order {
     uint16_t number[CGT_MAX_TASK_POINTS], listed[CGT_MAX_TASK_POINTS];
     uint32_t live, invalid;
-    bool as_given; /* all are live, and chunks of them lie close together as they are: numbers need not be set */
+    bool as_given; /* all are live, and chunks of them lie close together as they are */
 } cgt_point_order;
 
 typedef struct cgt_point_batch {
@@ -44,6 +44,9 @@ static inline cgt_point_state cgt_find_point_state(const float position[3], floa
     const unsigned invalid = (finite ^ 1) | at_light | (unsigned)(t_min != t_min) | (unsigned)(t_max != t_max);
     return invalid ? CGT_POINT_INVALID : t_min > t_max ? CGT_POINT_OFF : CGT_POINT_LIVE;
 }
+
+/* Whether the arrays are dense and all points live, as cgt_find_point_state says it. */
+bool cgt_points_are_live(const cgt_rays *points, const cgt_light *light);
 
 /* Finds which of points first to end - 1, at most CGT_MAX_TASK_POINTS, are live, and orders them. */
 void cgt_point_order_init(cgt_point_order *o, const cgt_rays *points, const cgt_light *light, uint64_t first,

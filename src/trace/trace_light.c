@@ -29,6 +29,7 @@ typedef struct light_job {
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
     uint64_t task_points;
+    bool as_given;             /* a small call, whose points are dense and live */
     _Atomic uint64_t given_up; /* points of tasks that tiles gave up */
 } light_job;
 
@@ -72,6 +73,8 @@ static bool trace_batches(const light_job *job, const cgt_point_order *order, ui
 /* Traces points first to end - 1, a task. */
 static bool trace_structure_points(const light_job *job, uint64_t first, uint64_t end, cgt_counts *counts)
 {
+    if (job->as_given)
+        return trace_points(job, &job->points, first, end, job->occluded, counts);
     cgt_point_order *order = cgt_scratch_take(counts->scratch, sizeof *order);
     bool done = true;
     cgt_point_order_init(order, &job->points, job->light, first, end, counts->scratch);
@@ -233,11 +236,24 @@ static bool choose_tiles(const light_job *job, cgt_scratch *scratch)
     return 2 * coherent > live;
 }
 
+/* choose_tiles of a small call. */
+static bool choose_tiles_as_given(const light_job *job)
+{
+    cgt_float_environment callers;
+    cgt_float_environment_enter(&callers);
+    const bool tiles = cgt_light_points_are_coherent(job->scene, job->light, &job->points, 0, job->points.count);
+    cgt_float_environment_leave(&callers);
+    return tiles;
+}
+
 static cgt_result trace_structure(light_job *job)
 {
     job->task_points = choose_task_points(job);
+    job->as_given = job->points.count <= CGT_RAYS_CHUNK && cgt_points_are_live(&job->points, job->light);
     bool tiles = false;
-    if (cgt_light_allows_tiles(&job->scene->committed_scene)) {
+    if (cgt_light_allows_tiles(&job->scene->committed_scene) && job->as_given)
+        tiles = choose_tiles_as_given(job);
+    else if (cgt_light_allows_tiles(&job->scene->committed_scene)) {
         cgt_scratch *scratch = cgt_scratch_borrow(job->scene->context, 1);
         if (!scratch)
             return CGT_ERROR_OUT_OF_MEMORY;
