@@ -249,7 +249,8 @@ static bool choose_tiles_as_given(const light_job *job)
 static cgt_result trace_structure(light_job *job)
 {
     job->task_points = choose_task_points(job);
-    job->as_given = job->points.count <= CGT_RAYS_CHUNK && cgt_points_are_live(&job->points, job->light);
+    job->as_given =
+        job->points.count && job->points.count <= CGT_RAYS_CHUNK && cgt_points_are_live(&job->points, job->light);
     bool tiles = false;
     if (cgt_light_allows_tiles(&job->scene->committed_scene) && job->as_given)
         tiles = choose_tiles_as_given(job);
