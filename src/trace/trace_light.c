@@ -130,25 +130,20 @@ static uint64_t choose_task_points(const light_job *job)
     return points;
 }
 
-/* Traces all points, and those that tiles gave up once more: through the BVH, or by tiles with any work where there is
- * none yet. */
-static cgt_result trace_tasks(light_job *job)
+cgt_result cgt_light_run_structure(const cgt_light_tasks *t, cgt_trace_settings *settings)
 {
-    const cgt_scene *s = job->scene;
-    const uint32_t tasks = (uint32_t)((job->points.count + job->task_points - 1) / job->task_points);
-    cgt_trace_settings *settings = &job->settings;
-    if (settings->light_tiles && s->options.structure == CGT_STRUCTURE_AUTO)
-        settings->max_light_work = CGT_MAX_LIGHT_WORK;
-    cgt_result result = cgt_run_scratch_tasks(s->context, trace_task, job, tasks);
-    const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
+    const bool may_give_up = settings->light_tiles && t->scene->options.structure == CGT_STRUCTURE_AUTO;
+    settings->max_light_work = may_give_up ? CGT_MAX_LIGHT_WORK : 0;
+    cgt_result result = cgt_run_scratch_tasks(t->scene->context, t->trace, t->argument, t->tasks);
+    const uint64_t given_up = atomic_load_explicit(t->given_up, memory_order_relaxed);
     if (result != CGT_OK || !given_up)
         return result;
-    result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
+    result = cgt_bvh_build_on_demand(t->scene, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
     if (result != CGT_OK)
         return result;
     settings->light_tiles = !settings->use_bvh;
     settings->max_light_work = 0;
-    return cgt_run_scratch_tasks(s->context, trace_given_up_task, job, tasks);
+    return cgt_run_scratch_tasks(t->scene->context, t->trace_given_up, t->argument, t->tasks);
 }
 
 cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *settings, uint64_t points, uint32_t chunk)
@@ -174,17 +169,22 @@ cgt_result cgt_light_run_bands(const cgt_light_tasks *t, cgt_trace_settings *set
     return result;
 }
 
+static cgt_light_tasks tasks_of(light_job *job)
+{
+    return (cgt_light_tasks){.scene = job->scene,
+                             .light = job->light,
+                             .trace = trace_task,
+                             .trace_given_up = trace_given_up_task,
+                             .argument = job,
+                             .tasks = (uint32_t)((job->points.count + job->task_points - 1) / job->task_points),
+                             .given_up = &job->given_up,
+                             .bands = &job->bands};
+}
+
 static cgt_result trace_bands(light_job *job)
 {
     job->task_points = CGT_RAYS_CHUNK;
-    const cgt_light_tasks tasks = {.scene = job->scene,
-                                   .light = job->light,
-                                   .trace = trace_task,
-                                   .trace_given_up = trace_given_up_task,
-                                   .argument = job,
-                                   .tasks = (uint32_t)((job->points.count + CGT_RAYS_CHUNK - 1) / CGT_RAYS_CHUNK),
-                                   .given_up = &job->given_up,
-                                   .bands = &job->bands};
+    const cgt_light_tasks tasks = tasks_of(job);
     return cgt_light_run_bands(&tasks, &job->settings, job->points.count, CGT_RAYS_CHUNK);
 }
 
@@ -266,7 +266,8 @@ static cgt_result trace_structure(light_job *job)
     if (result != CGT_OK)
         return result;
     job->settings.light_tiles = tiles && !(job->settings.use_bvh && job->points.count < FEW_POINTS);
-    return trace_tasks(job);
+    const cgt_light_tasks tasks = tasks_of(job);
+    return cgt_light_run_structure(&tasks, &job->settings);
 }
 
 cgt_result cgt_check_light(cgt_context *c, const cgt_light *light)

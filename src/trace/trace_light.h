@@ -29,7 +29,7 @@ bool cgt_light_allows_tiles(const cgt_committed_scene *s);
 bool cgt_light_points_are_coherent(const cgt_scene *s, const cgt_light *light, const cgt_rays *points, uint64_t first,
                                    uint64_t count);
 
-/* Points against a light in a scene in bands, in tasks: each traces its points through *bands, and adds them to *given_up
+/* Points against a light, in tasks: each traces its points, in a scene in bands through *bands, and adds them to *given_up
  * where tiles gave them up. */
 typedef struct cgt_light_tasks {
     const cgt_scene *scene;
@@ -41,7 +41,11 @@ typedef struct cgt_light_tasks {
     const cgt_band_call **bands;
 } cgt_light_tasks;
 
-/* Runs them: by tiles, then what these gave up through BVHs, which are built for that. Rays of one direction go through
+/* Runs them all, and those that tiles gave up once more: through the BVH, or by tiles with any work where there is none
+ * yet. */
+cgt_result cgt_light_run_structure(const cgt_light_tasks *tasks, cgt_trace_settings *settings);
+
+/* Runs them in a scene in bands: by tiles, then what these gave up through BVHs, which are built for that. Rays of one direction go through
  * BVHs at once. points: of all tasks; chunk: the most that a task traces at once. */
 cgt_result cgt_light_run_bands(const cgt_light_tasks *tasks, cgt_trace_settings *settings, uint64_t points,
                                uint32_t chunk);

@@ -162,23 +162,27 @@ static bool choose_tiles(const shadow_job *job, cgt_scratch *scratch, uint64_t *
     return 2 * coherent > with_hits;
 }
 
+static cgt_light_tasks tasks_of(shadow_job *job)
+{
+    atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
+    return (cgt_light_tasks){.scene = job->scene,
+                             .light = job->light,
+                             .trace = trace_shadow_tile,
+                             .trace_given_up = trace_given_up_tile,
+                             .argument = job,
+                             .tasks = job->tiles,
+                             .given_up = &job->given_up,
+                             .bands = &job->bands};
+}
+
 static cgt_result trace_light_in_bands(shadow_job *job)
 {
-    const cgt_light_tasks tasks = {.scene = job->scene,
-                                   .light = job->light,
-                                   .trace = trace_shadow_tile,
-                                   .trace_given_up = trace_given_up_tile,
-                                   .argument = job,
-                                   .tasks = job->tiles,
-                                   .given_up = &job->given_up,
-                                   .bands = &job->bands};
+    const cgt_light_tasks tasks = tasks_of(job);
     const uint64_t points = (uint64_t)job->tiles * (TILE_EDGE * TILE_EDGE);
-    atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
     return cgt_light_run_bands(&tasks, &job->settings, points, TILE_EDGE * TILE_EDGE);
 }
 
-/* Traces all tiles to the light; those that the loose grid gave up once more, through the BVH, or with any work where
- * there is none yet. */
+/* Traces all tiles to the light. */
 static cgt_result trace_light(shadow_job *job)
 {
     const cgt_scene *s = job->scene;
@@ -189,22 +193,12 @@ static cgt_result trace_light(shadow_job *job)
         return CGT_ERROR_OUT_OF_MEMORY;
     const bool tiles = choose_tiles(job, scratch, &points);
     cgt_scratch_give_back(s->context, scratch);
-    cgt_result result = cgt_bvh_build_on_demand(s, tiles ? 0 : points, &settings->use_bvh);
+    const cgt_result result = cgt_bvh_build_on_demand(s, tiles ? 0 : points, &settings->use_bvh);
     if (result != CGT_OK)
         return result;
     settings->light_tiles = tiles;
-    settings->max_light_work = tiles && s->options.structure == CGT_STRUCTURE_AUTO ? CGT_MAX_LIGHT_WORK : 0;
-    atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
-    result = cgt_run_scratch_tasks(s->context, trace_shadow_tile, job, job->tiles);
-    const uint64_t given_up = atomic_load_explicit(&job->given_up, memory_order_relaxed);
-    if (result != CGT_OK || !given_up)
-        return result;
-    result = cgt_bvh_build_on_demand(s, given_up * CGT_SCATTERED_POINTS, &settings->use_bvh);
-    if (result != CGT_OK)
-        return result;
-    settings->light_tiles = !settings->use_bvh;
-    settings->max_light_work = 0;
-    return cgt_run_scratch_tasks(s->context, trace_given_up_tile, job, job->tiles);
+    const cgt_light_tasks tasks = tasks_of(job);
+    return cgt_light_run_structure(&tasks, settings);
 }
 
 /* ---- the call ---- */
