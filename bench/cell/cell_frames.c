@@ -4,24 +4,20 @@
  * Frames of the grid program, see cell_frames.h. */
 #include "cell/cell_frames.h"
 
-#include <stdint.h>
+#include <stdlib.h>
 
 #include "cell/ppe/frame.h"
 #include "cell/spu/timing/timing.h"
 #include "common/program.h"
 
-#define SPHERES 2000u
-#define WIDTH 320u
-#define HEIGHT 180u
-
 static const char *const assignments[CGT_ASSIGNMENTS] = {"interleaved", "static", "dynamic", "hybrid"};
 static const char *const culls[] = {"", "none", "frustum", "blocks"};
 
 /* Spheres of radius 0.03 in a cube of edge 2, by a generator of its own: the scene is part of the figures. */
-static void make_spheres(cgt_sphere *sphere)
+static void make_spheres(cgt_sphere *sphere, uint32_t spheres)
 {
     uint32_t bits = 1;
-    for (uint32_t i = 0; i < SPHERES; i++) {
+    for (uint32_t i = 0; i < spheres; i++) {
         float c[3];
         for (int a = 0; a < 3; a++) {
             bits = bits * 1664525u + 1013904223u;
@@ -31,98 +27,156 @@ static void make_spheres(cgt_sphere *sphere)
     }
 }
 
-typedef struct measured {
+/* What the rows have in common. */
+typedef struct session {
+    bench_table *table;
+    cgt_grid_scene scene;
+    cgt_cell_frame_options options;
+    cgt_cell_frame_result result;
     cgt_spu_counts counts; /* of SPE 0 */
-} measured;
+    bool profiles;         /* a row for each function */
+    uint32_t width, height, *ids;
+} session;
 
 static void inspect(void *user, unsigned spe, const cgt_spu *spu)
 {
-    measured *const m = user;
-    if (spe == 0)
-        m->counts = cgt_spu_timing_total(spu->timing);
+    session *const m = user;
+    if (spe)
+        return;
+    m->counts = cgt_spu_timing_total(spu->timing);
+    if (m->profiles)
+        cell_function_rows(m->table, spu->timing);
 }
 
-static bool run(const cgt_grid_scene *scene, const cgt_cell_frame_options *o, cgt_cell_frame_result *r)
+static bool run(session *m)
 {
-    static uint32_t ids[WIDTH * HEIGHT];
     cgt_camera camera;
     cgt_camera_init(&camera);
     camera.eye[2] = 3;
-    if (cgt_cell_frame_trace(scene, &camera, WIDTH, HEIGHT, o, ids, r) == CGT_OK)
+    if (cgt_cell_frame_trace(&m->scene, &camera, m->width, m->height, &m->options, m->ids, &m->result) == CGT_OK)
         return true;
-    program_error("%s", r->message);
+    program_error("%s", m->result.message);
     return false;
 }
 
-static bool run_kernels(bench_table *table, const cgt_grid_scene *scene, cgt_cell_frame_options o)
+static void kernel_row(const session *m)
 {
-    static cgt_cell_frame_result r;
-    measured m;
-    bench_table_section(table, "kernel");
-    o.spes = 1;
-    o.inspect = inspect;
-    o.user = &m;
+    bench_table *const table = m->table;
+    const cgt_spe_report *const p = &m->result.spe[0].report;
+    bench_table_text(table, "loop", m->options.flattened ? "flattened" : "nested");
+    bench_table_text(table, "cull", culls[m->options.cull]);
+    bench_table_count(table, "cycles", m->result.cycles);
+    bench_table_real(table, "cycles_ray", (double)m->result.cycles / ((double)m->width * m->height));
+    bench_table_count(table, "build", UINT64_C(40) * p->built);
+    bench_table_count(table, "cells", p->cells);
+    bench_table_count(table, "tests", p->tests);
+    bench_table_count(table, "mispredicts", m->counts.mispredicts);
+    bench_table_count(table, "waits", m->result.spe[0].waits);
+    bench_table_count(table, "doubts", m->result.doubts);
+    bench_table_count(table, "changed", m->result.changed);
+    bench_table_end_row(table);
+}
+
+static bool run_kernels(session *m)
+{
+    bench_table_section(m->table, "kernel");
+    m->options.spes = 1;
     for (int k = 0; k < 6; k++) {
-        o.flattened = k & 1;
-        o.cull = (cgt_cull)(CGT_CULL_NONE + k / 2);
-        if (!run(scene, &o, &r))
+        m->options.flattened = k & 1;
+        m->options.cull = (cgt_cull)(CGT_CULL_NONE + k / 2);
+        if (!run(m))
             return false;
-        const cgt_spe_report *const p = &r.spe[0].report;
-        bench_table_text(table, "loop", o.flattened ? "flattened" : "nested");
-        bench_table_text(table, "cull", culls[o.cull]);
-        bench_table_count(table, "cycles", r.cycles);
-        bench_table_real(table, "cycles_ray", (double)r.cycles / (WIDTH * HEIGHT));
-        bench_table_count(table, "build", UINT64_C(40) * p->built);
-        bench_table_count(table, "cells", p->cells);
-        bench_table_count(table, "tests", p->tests);
-        bench_table_count(table, "mispredicts", m.counts.mispredicts);
-        bench_table_count(table, "waits", r.spe[0].waits);
-        bench_table_count(table, "doubts", r.doubts);
-        bench_table_count(table, "changed", r.changed);
-        bench_table_end_row(table);
+        kernel_row(m);
     }
+    m->options.flattened = false;
+    m->options.cull = CGT_CULL_FRUSTUM;
     return true;
 }
 
-static bool run_assignments(bench_table *table, const cgt_grid_scene *scene, cgt_cell_frame_options o)
+static bool run_assignments(session *m)
 {
-    static cgt_cell_frame_result r;
     static const unsigned spes[] = {1, 2, 4, 6, 8};
+    bench_table *const table = m->table;
+    cgt_cell_frame_options *const o = &m->options;
+    const cgt_cell_frame_result *const r = &m->result;
     bench_table_section(table, "assignment");
     for (unsigned k = 0; k < sizeof spes / sizeof spes[0]; k++)
         for (int a = 0; a < CGT_ASSIGNMENTS; a++) {
             uint64_t idle = 0, messages = 0;
-            o.spes = spes[k];
-            o.assignment = (cgt_assignment)a;
-            if (!run(scene, &o, &r))
+            o->spes = spes[k];
+            o->assignment = (cgt_assignment)a;
+            if (!run(m))
                 return false;
-            for (unsigned i = 0; i < o.spes; i++) {
-                idle += r.spe[i].idle;
-                messages += r.spe[i].messages;
+            for (unsigned i = 0; i < o->spes; i++) {
+                idle += r->spe[i].idle;
+                messages += r->spe[i].messages;
             }
-            bench_table_count(table, "spes", o.spes);
+            bench_table_count(table, "spes", o->spes);
             bench_table_text(table, "assignment", assignments[a]);
-            bench_table_count(table, "cycles", r.cycles);
-            bench_table_real(table, "idle_percent", 100 * (double)idle / ((double)r.cycles * o.spes));
+            bench_table_count(table, "cycles", r->cycles);
+            bench_table_real(table, "idle_percent", 100 * (double)idle / ((double)r->cycles * o->spes));
             bench_table_count(table, "messages", messages);
             bench_table_end_row(table);
         }
     return true;
 }
 
-bool cell_frames_run(bench_table *table, const void *elf, size_t bytes)
+/* ---- sessions ---- */
+
+static bool begin(session *m, bench_table *table, const cell_frames *f, uint32_t spheres)
 {
-    static cgt_sphere sphere[SPHERES];
     const cgt_memory_hooks memory = cgt_memory_default();
-    const cgt_cell_frame_options o = {.elf = elf, .elf_bytes = bytes};
     char message[CGT_PPE_MESSAGE_BYTES];
-    cgt_grid_scene scene;
-    make_spheres(sphere);
-    if (cgt_grid_scene_init(&scene, &memory, sphere, SPHERES, NULL, message) != CGT_OK) {
-        program_error("%s", message);
+    *m = (session){.table = table, .width = f->width ? f->width : 320, .height = f->height ? f->height : 180};
+    m->options = (cgt_cell_frame_options){
+        .spes = 1, .elf = f->elf, .elf_bytes = f->bytes, .cull = CGT_CULL_FRUSTUM, .inspect = inspect, .user = m};
+    cgt_sphere *const sphere = malloc((size_t)spheres * sizeof *sphere);
+    m->ids = malloc((size_t)m->width * m->height * sizeof *m->ids);
+    if (!sphere || !m->ids) {
+        program_error("out of memory");
+        free(sphere);
+        free(m->ids);
         return false;
     }
-    const bool done = run_kernels(table, &scene, o) && run_assignments(table, &scene, o);
-    cgt_grid_scene_release(&scene);
+    make_spheres(sphere, spheres);
+    const cgt_result result = cgt_grid_scene_init(&m->scene, &memory, sphere, spheres, NULL, message);
+    free(sphere);
+    if (result == CGT_OK)
+        return true;
+    program_error("%s", message);
+    free(m->ids);
+    return false;
+}
+
+static void end(session *m)
+{
+    cgt_grid_scene_release(&m->scene);
+    free(m->ids);
+}
+
+static uint32_t spheres_of(const cell_frames *f) { return f->spheres ? f->spheres : 2000; }
+
+bool cell_frames_run(bench_table *table, const cell_frames *frames)
+{
+    static session m;
+    if (!begin(&m, table, frames, spheres_of(frames)))
+        return false;
+    const bool done = run_kernels(&m) && run_assignments(&m);
+    end(&m);
+    return done;
+}
+
+bool cell_frames_profile(bench_table *table, const cell_frames *frames)
+{
+    static session m;
+    if (!begin(&m, table, frames, spheres_of(frames)))
+        return false;
+    bench_table_section(table, "functions");
+    m.profiles = true;
+    const bool done = run(&m);
+    bench_table_section(table, "kernel");
+    if (done)
+        kernel_row(&m);
+    end(&m);
     return done;
 }
