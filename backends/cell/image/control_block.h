@@ -23,7 +23,7 @@
 
 #include <stdint.h>
 
-#define CGT_CONTROL_MAGIC 0x43475401u /* "CGT", version 1 */
+#define CGT_CONTROL_MAGIC 0x43475402u /* "CGT", version 2 */
 
 /* ---- addresses ---- */
 
@@ -47,7 +47,8 @@
 typedef enum cgt_control_flag {
     CGT_CONTROL_MAILBOX = 1,   /* take strips from the mailbox, after the own ones */
     CGT_CONTROL_FLATTENED = 2, /* one loop over the cells; else three */
-    CGT_CONTROL_CULL_SHIFT = 4 /* and above: a cgt_cull */
+    CGT_CONTROL_REMEMBER = 4,  /* do not test again what was tested lately (mailboxing) */
+    CGT_CONTROL_CULL_SHIFT = 4 /* and above: a cgt_cull; all but NONE are FRUSTUM */
 } cgt_control_flag;
 
 /* 128 bytes. */
@@ -69,7 +70,8 @@ _Static_assert(sizeof(cgt_control_block) == 128, "one line");
  * columns and rows are arrays of quads x, y, z, 0; subnormal numbers in them are 0. */
 typedef struct cgt_camera_image {
     float eye[3], t_min, t_max;
-    uint32_t reserved[27];
+    uint32_t tiny; /* 1: some number in columns or rows is below 2^-70, and not 0 */
+    uint32_t reserved[26];
 } cgt_camera_image;
 _Static_assert(sizeof(cgt_camera_image) == 128, "one line");
 
@@ -117,7 +119,8 @@ typedef struct cgt_spe_report {
     uint32_t culled, tests;        /* spheres; spheres against packets */
     uint32_t built;                /* steps of the decrementer for the grid */
     uint32_t traced;               /* and from there on */
-    uint32_t reserved[18];
+    uint32_t listed, remembered;   /* references that came to be tested; those of them that were not tested again */
+    uint32_t reserved[16];
 } cgt_spe_report;
 _Static_assert(sizeof(cgt_spe_report) == 128, "one line");
 

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#define TINY 0x1p-70f         /* cgt_camera_image.tiny */
 #define MAX_DIRECTION 0x1p20f /* of a component: docs/reports/cell_sizes.md */
 
 static cgt_result check(const cgt_camera_rays *c, char message[CGT_PPE_MESSAGE_BYTES])
@@ -31,6 +32,16 @@ static cgt_result check(const cgt_camera_rays *c, char message[CGT_PPE_MESSAGE_B
 /* An SPU takes subnormal numbers for 0; the tables have none, so that all forms of a program see the same. */
 static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
 
+/* Whether rows of four numbers hold one that an SPE's single precision does not add to nearest. */
+static bool has_tiny(const float (*row)[4], uint32_t rows)
+{
+    bool found = false;
+    for (uint32_t k = 0; k < rows; k++)
+        for (int a = 0; a < 3; a++)
+            found |= row[k][a] != 0 && fabsf(row[k][a]) < TINY;
+    return found;
+}
+
 /* In the order of operations of query/camera.h. */
 static void fill(cgt_camera_tables *t)
 {
@@ -50,6 +61,7 @@ static void fill(cgt_camera_tables *t)
             t->row[k][a] = normal(py * c->up[a]);
         t->row[k][3] = 0;
     }
+    t->image.tiny = has_tiny((const float(*)[4])t->column, columns) || has_tiny((const float(*)[4])t->row, rows);
     for (int a = 0; a < 3; a++)
         t->image.eye[a] = normal(c->eye[a]);
     t->image.t_min = normal(c->t_min);
