@@ -180,4 +180,51 @@ CGT_SPU_INLINE vec_float4 grid_max_w(const grid_axes *x, const grid_packet *p, b
     return spu_add(grid_greatest(spux_max(spux_max(end[0], end[1]), spux_max(end[2], end[3]))), x->w_error);
 }
 
+/* Rays that start anywhere, their t from 0 up to p->high, those that are closed from where others start: the lines'
+ * least values at two planes. Returns false where they miss the grid. */
+CGT_SPU_INLINE bool grid_frustum_of_lines(const grid_axes *x, const grid_packet *p, grid_frustum *f)
+{
+    const vec_float4 zero = spu_splats(0.f), small = spu_splats(0x1p-20f), cells = spu_splats((float)x->slices);
+    vec_float4 slope[4][2], o[3][4], near[4], least[4];
+    for (int i = 0; i < 4; i++) {
+        o[0][i] = spu_mul(spu_sub(p->org[x->u][i], x->org[0]), x->rcell[0]);
+        o[1][i] = spu_mul(spu_sub(p->org[x->v][i], x->org[1]), x->rcell[1]);
+        o[2][i] = spu_madd(spu_sub(p->org[x->w][i], x->org[2]), x->rcell[2], x->w_offset);
+        near[i] = spu_nmsub(spux_abs(o[2][i]), small, o[2][i]);
+        grid_slopes(x, p, i, slope[i]);
+    }
+    f->w_near = spu_sub(grid_least(spux_min(spux_min(near[0], near[1]), spux_min(near[2], near[3]))), x->w_error);
+    f->w_far = grid_max_w(x, p, false);
+    if (spu_extract(spu_or(spu_cmpgt(zero, f->w_far), spu_cmpgt(f->w_near, cells)), 0))
+        return false;
+    const vec_int4 end = spu_convts(spux_min(f->w_far, spu_sub(cells, spu_splats(1.f))), 0);
+    const vec_int4 first = spu_convts(spux_min(spux_max(f->w_near, zero), cells), 0);
+    f->first = (uint32_t)spu_extract(first, 0);
+    f->end = (uint32_t)spu_extract(end, 0) + 1;
+    if (f->first >= f->end)
+        return false;
+    f->w0 = spu_convtf(first, 0);
+    const vec_float4 w1 = spu_splats((float)f->end), plane[2] = {f->w0, w1};
+    vec_float4 at[2], reach[2] = {zero, zero};
+    for (int m = 0; m < 2; m++) {
+        for (int k = 0; k < 2; k++) {
+            vec_float4 most = spu_splats(-GRID_MOST);
+            least[2 * k] = spu_splats(GRID_MOST);
+            for (int i = 0; i < 4; i++) {
+                const vec_float4 value = spu_madd(spu_sub(plane[m], o[2][i]), slope[i][k], o[k][i]);
+                least[2 * k] = spux_min(least[2 * k], value);
+                most = spux_max(most, value);
+            }
+            least[2 * k + 1] = grid_negative(most);
+        }
+        at[m] = grid_least_four(least);
+    }
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 4; i++)
+            reach[k] =
+                spux_max(reach[k], spu_madd(spu_add(spux_abs(o[2][i]), w1), spux_abs(slope[i][k]), spux_abs(o[k][i])));
+    const vec_float4 magnitude = grid_pairs(grid_greatest(reach[0]), grid_greatest(reach[1]));
+    return grid_frustum_finish(x, at[0], at[1], magnitude, w1, spux_div(spu_splats(1.f), spu_sub(w1, f->w0)), f);
+}
+
 #endif

@@ -17,7 +17,10 @@ CGT_SPU_INLINE vec_uint4 grid_flush(const grid_axes *x, grid_packet *p, grid_fru
                                     grid_rays kind)
 {
     grid_end_list(bytes);
-    grid_test_list(x, p, f, spu_extract(bytes, 0), kind);
+    if (kind == GRID_CAMERA)
+        grid_test_camera(x, p, f, spu_extract(bytes, 0));
+    else
+        grid_test_light(x, p, f, spu_extract(bytes, 0));
     return spu_splats(0u);
 }
 
@@ -66,7 +69,7 @@ CGT_SPU_INLINE vec_uint4 grid_visit_flattened(const grid_axes *x, grid_packet *p
 
 CGT_SPU_INLINE void grid_march(const grid_axes *x, grid_packet *p, grid_frustum *f, grid_rays kind)
 {
-    const bool flattened = s()->control.flags & CGT_CONTROL_FLATTENED;
+    const bool flattened = kind == GRID_LIGHT || s()->control.flags & CGT_CONTROL_FLATTENED;
     vec_uint4 bytes = spu_splats(0u), visited = bytes;
     const uint32_t end = f->end;
     for (uint32_t slice = f->first; slice < end; slice += 4) {
@@ -159,12 +162,14 @@ static __attribute__((noinline)) void grid_trace_parts(grid_packet *p)
     }
 }
 
-/* The class of the first ray. */
-static uint32_t grid_class_of(const grid_packet *p)
+/* The class of a ray. */
+static uint32_t grid_class_of(const grid_packet *p, uint32_t ray)
 {
     uint32_t class = 0;
-    for (uint32_t k = 0; k < GRID_CLASSES; k++)
-        class = spu_extract(spu_gather(grid_rays_of(&s()->axes[k], p, 0, 1)), 0) & 8 ? k : class;
+    for (uint32_t k = 0; k < GRID_CLASSES; k++) {
+        const uint32_t bits = spu_extract(spu_gather(grid_rays_of(&s()->axes[k], p, (int)(ray >> 2), 1)), 0);
+        class = bits << (ray & 3) & 8 ? k : class;
+    }
     return class;
 }
 
@@ -174,7 +179,7 @@ CGT_SPU_INLINE void grid_trace_camera(grid_packet *p)
     const grid_axes *x = &s()->axes[s()->class];
     s()->counts[COUNT_PACKETS] = spu_add(s()->counts[COUNT_PACKETS], spu_splats(1u));
     if (GRID_RARELY(!grid_is_of(x, p, 1.25f))) {
-        s()->class = grid_class_of(p);
+        s()->class = grid_class_of(p, 0);
         x = &s()->axes[s()->class];
         if (!grid_is_of(x, p, 4)) {
             grid_trace_parts(p);

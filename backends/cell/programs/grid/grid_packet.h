@@ -14,10 +14,10 @@ typedef struct grid_packet {
     vec_float4 dir[3][4];
     vec_float4 rdd[4]; /* 1 / dir.dir */
     vec_float4 low[4], high[4];
-    vec_uint4 prim[4]; /* of a camera's: the best so far, CGT_INVALID_ID: none; else the one that the ray ignores */
+    vec_uint4 prim[4]; /* a camera's: the best so far, CGT_INVALID_ID: none; else the one that the ray ignores */
 } grid_packet;
 
-#define GRID_CLOSED (-GRID_MOST)
+#define GRID_CLOSED -0x1p45f /* below the t of all hits and ranges, and products with it still are numbers */
 
 /* Rays of one main axis w and direction, 2 * w + reverse: u and v are the other axes, x before y before z, and w counts
  * along the rays. */

@@ -7,6 +7,7 @@
 #ifndef GRID_RAYS_H
 #define GRID_RAYS_H
 
+#include "cell/image/light_rays.h"
 #include "cell/programs/grid/grid_nearest.h"
 #include "cell/programs/grid/grid_packet.h"
 
@@ -66,7 +67,7 @@ static __attribute__((noinline)) void grid_close_edges(uint32_t columns, uint32_
 /* Rays of four columns; the packet's origin and range are the camera's. */
 CGT_SPU_INLINE void grid_make_rays(const vec_float4 *from, uint32_t columns, uint32_t rows, grid_packet *p)
 {
-    const vec_float4 one = spu_splats(1.f), t_max = spu_splats(s()->camera.t_max);
+    const vec_float4 t_max = spu_splats(s()->camera.t_max);
     vec_float4 column[4];
     GRID_TRANSPOSE(from[0], from[1], from[2], from[3], column);
     if (GRID_RARELY(s()->camera.tiny))
@@ -76,9 +77,8 @@ CGT_SPU_INLINE void grid_make_rays(const vec_float4 *from, uint32_t columns, uin
             for (int a = 0; a < 3; a++)
                 p->dir[a][y] = grid_add_nearest(column[a], s()->row_splats[a][y]);
     for (int y = 0; y < 4; y++) {
-        const vec_float4 dd = spu_madd(p->dir[0][y], p->dir[0][y],
-                                       spu_madd(p->dir[1][y], p->dir[1][y], spu_mul(p->dir[2][y], p->dir[2][y])));
-        p->rdd[y] = spux_div(one, dd);
+        const vec_float4 d[3] = {p->dir[0][y], p->dir[1][y], p->dir[2][y]};
+        p->rdd[y] = cgt_light_rdd(d);
         p->low[y] = p->high[y] = t_max;
         p->prim[y] = spu_splats(CGT_INVALID_ID);
     }

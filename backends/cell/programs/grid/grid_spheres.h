@@ -110,8 +110,7 @@ CGT_SPU_INLINE vec_uint4 grid_take_hits(grid_packet *p, int i, const grid_sphere
 
 /* Rays that the first test leaves open: looks at their second roots, and tells the PPE of what stays open. Returns
  * lanes with hits. */
-static __attribute__((noinline)) vec_uint4 grid_settle(grid_packet *p, const grid_sphere *b, vec_float4 t_min,
-                                                       grid_rays kind)
+CGT_SPU_INLINE vec_uint4 grid_settle(grid_packet *p, const grid_sphere *b, vec_float4 t_min, grid_rays kind)
 {
     vec_uint4 taken = spu_splats(0u);
     for (int i = 0; i < 4; i++) {
@@ -121,6 +120,15 @@ static __attribute__((noinline)) vec_uint4 grid_settle(grid_packet *p, const gri
             grid_add_doubt(4 * (uint32_t)i + 3 - (uint32_t)__builtin_ctz(open), spu_extract(b->number, 0));
     }
     return taken;
+}
+
+static __attribute__((noinline)) vec_uint4 grid_settle_camera(grid_packet *p, const grid_sphere *b, vec_float4 t_min)
+{
+    return grid_settle(p, b, t_min, GRID_CAMERA);
+}
+static __attribute__((noinline)) vec_uint4 grid_settle_light(grid_packet *p, const grid_sphere *b, vec_float4 t_min)
+{
+    return grid_settle(p, b, t_min, GRID_LIGHT);
 }
 
 /* Tests one sphere against all rays; returns lanes that have got a hit. */
@@ -140,7 +148,7 @@ CGT_SPU_INLINE vec_uint4 grid_test_sphere(grid_packet *p, const grid_frustum *f,
     for (int i = 0; i < 4; i++)
         open = spu_or(open, grid_take_hits(p, i, &b, n[i], t_min, kind, false, &taken));
     if (GRID_RARELY(spu_extract(spu_gather(open), 0)))
-        taken = spu_or(taken, grid_settle(p, &b, t_min, kind));
+        taken = spu_or(taken, kind == GRID_CAMERA ? grid_settle_camera(p, &b, t_min) : grid_settle_light(p, &b, t_min));
     return taken;
 }
 
@@ -185,8 +193,7 @@ CGT_SPU_INLINE uint32_t grid_cull_eight(const grid_axes *x, const grid_frustum *
 }
 
 /* Tests the list, and takes hits into account. */
-static __attribute__((noinline)) void grid_test_list(const grid_axes *x, grid_packet *p, grid_frustum *f,
-                                                     uint32_t bytes, grid_rays kind)
+CGT_SPU_INLINE void grid_test_list(const grid_axes *x, grid_packet *p, grid_frustum *f, uint32_t bytes, grid_rays kind)
 {
     const bool culled = s()->control.flags >> CGT_CONTROL_CULL_SHIFT != CGT_CULL_NONE;
     const vec_uint4 culls = spu_splats(culled ? 0xffffffffu : 0u);
@@ -218,6 +225,17 @@ static __attribute__((noinline)) void grid_test_list(const grid_axes *x, grid_pa
     s()->counts[COUNT_LISTED] = spu_add(s()->counts[COUNT_LISTED], spu_splats(bytes / 2));
     s()->counts[COUNT_TESTS] = spu_add(s()->counts[COUNT_TESTS], spu_splats(tests));
     s()->counts[COUNT_REMEMBERED] = spu_add(s()->counts[COUNT_REMEMBERED], spu_splats(remembered));
+}
+
+static __attribute__((noinline)) void grid_test_camera(const grid_axes *x, grid_packet *p, grid_frustum *f,
+                                                       uint32_t bytes)
+{
+    grid_test_list(x, p, f, bytes, GRID_CAMERA);
+}
+static __attribute__((noinline)) void grid_test_light(const grid_axes *x, grid_packet *p, grid_frustum *f,
+                                                      uint32_t bytes)
+{
+    grid_test_list(x, p, f, bytes, GRID_LIGHT);
 }
 
 #endif

@@ -21,10 +21,11 @@
 #include "cell/programs/grid/spe_grid.h"
 #include "model/queue_grid.h"
 
-#define CHUNK 32u      /* columns of rays that one DMA brings */
-#define GRID_LIST 512u /* references of a packet's list */
+#define CHUNK 32u       /* columns of rays that one DMA brings */
+#define GRID_PIECE 320u /* columns of a strip whose ids are sent together */
+#define GRID_LIST 512u  /* references of a packet's list */
 
-enum { COUNT_PACKETS, COUNT_CELLS, COUNT_LISTED, COUNT_TESTS, COUNT_REMEMBERED, GRID_COUNTS };
+enum { COUNT_PACKETS, COUNT_CELLS, COUNT_LISTED, COUNT_TESTS, COUNT_REMEMBERED, COUNT_LIGHT, GRID_COUNTS };
 
 /* DMA goes to the first part. */
 typedef struct grid_store {
@@ -33,9 +34,11 @@ typedef struct grid_store {
     _Alignas(128) cgt_camera_image camera;
     _Alignas(128) cgt_spe_report report;
     _Alignas(128) cgt_doubt doubt[2][CGT_DOUBTS_LINE];
+    _Alignas(128) cgt_light_image light;
+    _Alignas(128) uint32_t occluded[2][CHUNK / 4 * CGT_LIGHT_SETS / 2];
     _Alignas(128) float row[CGT_STRIP_ROWS][4];
     _Alignas(128) float column[2][CHUNK][4];
-    _Alignas(128) uint32_t line[2][CGT_STRIP_ROWS][CGT_STRIP_WIDTH];
+    _Alignas(128) uint32_t line[2][CGT_STRIP_ROWS][GRID_PIECE];
     _Alignas(128) float sphere[CGT_GRID_SPHERES + 1][4]; /* the last one is none: what lists end with */
     _Alignas(128) cgt_voxel voxel[CGT_GRID_CELLS];
     cgt_overflow overflow[CGT_GRID_OVERFLOW];
@@ -43,8 +46,10 @@ typedef struct grid_store {
     uint32_t doubts, half_doubts, half, unread; /* in all; in the current half; which; halves unread, as bits */
     uint32_t x, y;                              /* the packet's first pixel */
     /* of the packet */
-    grid_packet packet, part;
-    grid_frustum frustum;
+    grid_packet packet, part, from_hits;
+    vec_float4 normal[3][4];             /* of hits */
+    _Alignas(16) uint32_t origin[4 * 4]; /* what a doubt of the packet's rays says of their set and start */
+    grid_frustum frustum, line_frustum;
     grid_axes axes[GRID_CLASSES];
     vec_float4 row_splats[3][4];                   /* of a strip: x, y, z of a row's vector, in all lanes */
     vec_int4 slice[5];                             /* grid_cells.h */
@@ -57,7 +62,7 @@ typedef struct grid_store {
 CGT_SPE_STORE(grid_store, s)
 
 /* Tags of DMA. */
-enum { TAG_SETUP, TAG_COLUMN0, TAG_COLUMN1, TAG_LINE0, TAG_LINE1, TAG_DOUBT0, TAG_DOUBT1 };
+enum { TAG_SETUP, TAG_COLUMN0, TAG_COLUMN1, TAG_LINE0, TAG_LINE1, TAG_DOUBT0, TAG_DOUBT1, TAG_LIGHT0, TAG_LIGHT1 };
 
 static inline uint64_t grid_ea(const uint32_t word[2]) { return (uint64_t)word[0] << 32 | word[1]; }
 

@@ -59,8 +59,6 @@ CGT_SPU_INLINE vec_int4 grid_multiply(vec_int4 a, vec_int4 b)
 #define GRID_RARELY(condition) __builtin_expect(!!(condition), 0)
 #define GRID_MOSTLY(condition) __builtin_expect(!!(condition), 1)
 
-/* The largest number. On an SPU no number is larger, and 0x7f7fffff is the largest one that a host takes for a number,
- * too. */
-#define GRID_MOST 0x1.fffffep127f
+#define GRID_MOST 0x1.fffffep127f /* the largest number that is one on a host, too */
 
 #endif

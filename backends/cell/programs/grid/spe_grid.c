@@ -8,7 +8,7 @@
  * Ids are final but for the doubts (grid_doubts.h): a ray's nearest sphere is the one stored or one of its doubts, since
  * any other one was certainly missed, certainly beyond a certain hit, or replaced by a hit that is certainly nearer. */
 #include "cell/programs/grid/grid_build.h"
-#include "cell/programs/grid/grid_march.h"
+#include "cell/programs/grid/grid_light.h"
 #include "cell/programs/grid/grid_rays.h"
 
 /* ---- setting up ---- */
@@ -40,6 +40,9 @@ static uint32_t grid_fetch(void)
     const cgt_control_block *c = &s()->control;
     const cgt_grid_image *g = &s()->scene;
     grid_begin_get(&s()->camera, grid_ea(c->camera), sizeof s()->camera);
+    s()->light.sets = 0;
+    if (grid_ea(c->light))
+        grid_begin_get(&s()->light, grid_ea(c->light), sizeof s()->light);
     grid_get(&s()->scene, grid_ea(c->scene), sizeof s()->scene);
     if (g->spheres > CGT_GRID_SPHERES)
         return CGT_REPORT_SPHERES;
@@ -66,6 +69,7 @@ static void grid_init(void)
     for (int a = 0; a < 3; a++)
         s()->frustum.org[a] = spu_splats(s()->camera.eye[a]);
     s()->frustum.org_reach = spu_splats(0.f);
+    memset(s()->origin, 0, sizeof s()->origin);
 }
 
 /* ---- strips ---- */
@@ -77,21 +81,47 @@ static void grid_get_columns(uint32_t x, uint32_t columns, uint32_t buffer)
             0);
 }
 
-/* The packets of CHUNK columns at most; x is the first, seen from the strip's line at `at`. */
+/* Sends the bits of a chunk's rays from hits. */
+static void grid_put_occluded(uint32_t x, uint32_t packets, uint32_t buffer)
+{
+    const cgt_control_block *c = &s()->control;
+    const uint32_t words = (s()->light.sets + 1) / 2, bytes = (4 * words * packets + 15) / 16 * 16;
+    mfc_put(s()->occluded[buffer],
+            grid_ea(c->occluded) + (uint64_t)(s()->y / CGT_STRIP_ROWS) * c->occluded_bytes + x / 4 * 4 * words, bytes,
+            TAG_LIGHT0 + buffer, 0, 0);
+}
+
+/* The packets of CHUNK columns at most; x is the first. `at`: its place in the line's buffer. */
 static void grid_trace_chunk(uint32_t x, uint32_t at, uint32_t columns, uint32_t rows, uint32_t buffer, uint32_t line)
 {
     grid_packet *const p = &s()->packet;
+    const uint32_t sets = s()->light.sets;
+    if (GRID_RARELY(sets))
+        grid_wait(TAG_LIGHT0 + buffer);
     for (uint32_t k = 0; k < columns; k += 4) {
         grid_make_rays((const vec_float4 *)(const void *)s()->column[buffer] + k, columns - k, rows, p);
         s()->x = x + k;
         grid_trace_camera(p);
         for (uint32_t y = 0; y < CGT_STRIP_ROWS; y++)
             *GRID_QUADWORD(vec_uint4, s()->line[line][y] + at + k) = p->prim[y];
+        if (GRID_RARELY(sets))
+            grid_trace_light(p, s()->occluded[buffer] + k / 4 * ((sets + 1) / 2));
     }
+    if (GRID_RARELY(sets))
+        grid_put_occluded(x, (columns + 3) / 4, buffer);
 }
 
-/* Traces a strip to the buffer `line`, and starts to send it. */
-static void grid_trace_strip(uint32_t strip, uint32_t line)
+/* Sends the ids of a piece of the strip, scanline by scanline. */
+static void grid_put_piece(uint32_t x, uint32_t columns, uint32_t rows, uint32_t line)
+{
+    const cgt_control_block *c = &s()->control;
+    for (uint32_t y = 0; y < rows; y++)
+        mfc_put(s()->line[line][y], grid_ea(c->ids) + (uint64_t)(s()->y + y) * c->row_bytes + 4 * x,
+                (columns + 3) / 4 * 16, TAG_LINE0 + line, 0, 0);
+}
+
+/* Traces a strip, piece by piece; each is sent while the next one is traced. */
+static void grid_trace_strip(uint32_t strip)
 {
     const cgt_control_block *c = &s()->control;
     const uint32_t x0 = strip % c->strip_columns * CGT_STRIP_WIDTH, y0 = strip / c->strip_columns * CGT_STRIP_ROWS;
@@ -101,36 +131,36 @@ static void grid_trace_strip(uint32_t strip, uint32_t line)
     grid_get_columns(x0, columns, 0);
     grid_wait(TAG_SETUP);
     grid_splat_rows();
-    grid_wait(TAG_LINE0 + line);
     s()->y = y0;
     for (uint32_t x = 0, buffer = 0; x < columns; x += CHUNK, buffer ^= 1) {
+        const uint32_t at = x % GRID_PIECE, line = x / GRID_PIECE & 1, end = columns - x < CHUNK ? columns : x + CHUNK;
+        if (at == 0)
+            grid_wait(TAG_LINE0 + line);
         grid_wait(TAG_COLUMN0 + buffer);
-        if (x + CHUNK < columns)
-            grid_get_columns(x0 + x + CHUNK, columns - x - CHUNK, buffer ^ 1);
-        grid_trace_chunk(x0 + x, x, columns - x < CHUNK ? columns - x : CHUNK, rows, buffer, line);
+        if (end < columns)
+            grid_get_columns(x0 + end, columns - end, buffer ^ 1);
+        grid_trace_chunk(x0 + x, at, end - x, rows, buffer, line);
+        if (end % GRID_PIECE == 0 || end == columns)
+            grid_put_piece(x0 + x - at, end - x + at, rows, line);
     }
-    for (uint32_t y = 0; y < rows; y++)
-        mfc_put(s()->line[line][y], grid_ea(c->ids) + (uint64_t)(y0 + y) * c->row_bytes + 4 * x0,
-                (columns + 3) / 4 * 16, TAG_LINE0 + line, 0, 0);
     s()->report.strips++;
 }
 
 static void grid_trace_strips(void)
 {
     const cgt_control_block *c = &s()->control;
-    uint32_t line = 0;
-    for (uint32_t k = 0; k < c->strips; k++, line ^= 1)
-        grid_trace_strip(c->first + k * c->step, line);
+    for (uint32_t k = 0; k < c->strips; k++)
+        grid_trace_strip(c->first + k * c->step);
     if (c->flags & CGT_CONTROL_MAILBOX)
-        for (;; line ^= 1) {
+        for (;;) {
             const uint32_t strip = spu_read_in_mbox();
             if (strip == CGT_STRIP_END)
                 break;
             spu_write_out_mbox(strip);
-            grid_trace_strip(strip, line);
+            grid_trace_strip(strip);
         }
-    grid_wait(TAG_LINE0);
-    grid_wait(TAG_LINE1);
+    mfc_write_tag_mask(1u << TAG_LINE0 | 1u << TAG_LINE1 | 1u << TAG_LIGHT0 | 1u << TAG_LIGHT1);
+    mfc_read_tag_status_all();
 }
 
 static void grid_report_counts(void)
@@ -141,6 +171,7 @@ static void grid_report_counts(void)
     r->tests = spu_extract(s()->counts[COUNT_TESTS], 0);
     r->remembered = spu_extract(s()->counts[COUNT_REMEMBERED], 0);
     r->listed = spu_extract(s()->counts[COUNT_LISTED], 0);
+    r->light_rays = spu_extract(s()->counts[COUNT_LIGHT], 0);
     r->culled = r->listed - r->tests - r->remembered;
 }
 
