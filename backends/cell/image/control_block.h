@@ -40,9 +40,9 @@
 #define CGT_EA_LIGHT 0x00014000u
 #define CGT_EA_COLUMNS 0x00100000u
 #define CGT_EA_ROWS 0x00200000u
-#define CGT_EA_DOUBTS 0x00300000u  /* of SPE i: + i times the bytes of a ring */
-#define CGT_EA_OBJECTS 0x01000000u /* of the scene */
-#define CGT_EA_IDS 0x40000000u     /* the id plane */
+#define CGT_EA_DOUBTS 0x00300000u   /* of SPE i: + i times the bytes of a ring */
+#define CGT_EA_OBJECTS 0x01000000u  /* of the scene */
+#define CGT_EA_IDS 0x40000000u      /* the id plane */
 #define CGT_EA_OCCLUDED 0xc0000000u /* bits of the rays from hits */
 
 /* ---- the frame ---- */
@@ -68,7 +68,7 @@ typedef struct cgt_control_block {
     uint32_t row_bytes; /* of the id plane, a multiple of 128 */
     uint32_t half;      /* doubts of half a ring, a multiple of CGT_DOUBTS_LINE */
     uint32_t scene[2], camera[2], columns[2], rows[2], ids[2], doubts[2], report[2]; /* addresses */
-    uint32_t light[2], occluded[2], occluded_bytes; /* no light: zeros */
+    uint32_t light[2], occluded[2], occluded_bytes;                                  /* no light: zeros */
     uint32_t reserved;
 } cgt_control_block;
 _Static_assert(sizeof(cgt_control_block) == 128, "one line");
@@ -122,7 +122,7 @@ typedef struct cgt_doubt {
 } cgt_doubt;
 
 #define CGT_DOUBT_ALL CGT_GRID_SPHERES
-#define CGT_DOUBT_OBJECT(word) ((word) & 0xfffu)
+#define CGT_DOUBT_OBJECT(word) ((word)&0xfffu)
 #define CGT_DOUBT_OWN(word) ((word) >> 12 & 0x7ffu)
 #define CGT_DOUBT_SET(word) ((word) >> 23)
 _Static_assert(CGT_GRID_SPHERES <= 1u << 11, "numbers of objects fit a doubt");

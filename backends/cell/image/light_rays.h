@@ -47,8 +47,7 @@ CGT_SPU_INLINE void cgt_light_find_hits(const vec_float4 eye[3], const vec_float
 /* Lanes whose normal looks away from a direction. */
 CGT_SPU_INLINE vec_uint4 cgt_light_looks_away(const vec_float4 normal[3], const vec_float4 dir[3])
 {
-    const vec_float4 dot =
-        spu_madd(normal[0], dir[0], spu_madd(normal[1], dir[1], spu_mul(normal[2], dir[2])));
+    const vec_float4 dot = spu_madd(normal[0], dir[0], spu_madd(normal[1], dir[1], spu_mul(normal[2], dir[2])));
     return spu_cmpgt(spu_splats(0.f), dot);
 }
 
