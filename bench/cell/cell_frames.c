@@ -81,7 +81,7 @@ static bool run_kernels(session *m)
 {
     bench_table_section(m->table, "kernel");
     m->options.spes = 1;
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 4; k++) {
         m->options.flattened = k & 1;
         m->options.cull = (cgt_cull)(CGT_CULL_NONE + k / 2);
         if (!run(m))
@@ -174,6 +174,9 @@ bool cell_frames_profile(bench_table *table, const cell_frames *frames)
     bench_table_section(table, "functions");
     m.profiles = true;
     const bool done = run(&m);
+    bench_table_section(table, "classes");
+    if (done)
+        cell_class_rows(table, &m.counts);
     bench_table_section(table, "kernel");
     if (done)
         kernel_row(&m);

@@ -32,6 +32,7 @@ typedef struct cgt_cell_frame_options {
     bool keep_doubts;     /* leave the SPEs' ids as they are: not exact */
     uint32_t ppe_cycles;  /* cgt_cell_options */
     uint64_t cycle_limit; /* the same */
+    const cgt_mfc_timing *timing;                                  /* the same */
     void (*inspect)(void *user, unsigned spe, const cgt_spu *spu); /* after a simulated run; NULL: nothing */
     void *user;
 } cgt_cell_frame_options;

@@ -24,9 +24,10 @@ CGT_SPU_INLINE vec_uint4 grid_flush(const grid_axes *x, grid_packet *p, grid_fru
     return spu_splats(0u);
 }
 
-/* The cells of `slices` slices in three loops. */
-CGT_SPU_INLINE vec_uint4 grid_visit_nested(const grid_axes *x, grid_packet *p, grid_frustum *f, uint32_t slices,
-                                           vec_uint4 bytes, grid_rays kind)
+/* The cells of `slices` slices in three loops, of a camera's rays. The loops are functions, so that a profile has their
+ * cycles. */
+static __attribute__((noinline)) vec_uint4 grid_visit_nested(const grid_axes *x, grid_packet *p, grid_frustum *f,
+                                                             uint32_t slices, vec_uint4 bytes)
 {
     const uint32_t stride = spu_extract((vec_uint4)x->stride[0], 0) * 32;
     uint32_t run = GRID_RUN;
@@ -41,7 +42,7 @@ CGT_SPU_INLINE vec_uint4 grid_visit_nested(const grid_axes *x, grid_packet *p, g
                 if (GRID_RARELY(!--run)) {
                     run = GRID_RUN;
                     if (spu_extract(bytes, 0) > 2 * GRID_FEW)
-                        bytes = grid_flush(x, p, f, bytes, kind);
+                        bytes = grid_flush(x, p, f, bytes, GRID_CAMERA);
                 }
             }
             voxel += jump - stride;
@@ -50,7 +51,7 @@ CGT_SPU_INLINE vec_uint4 grid_visit_nested(const grid_axes *x, grid_packet *p, g
     return bytes;
 }
 
-/* The same in one. */
+/* The same in one, of any rays. */
 CGT_SPU_INLINE vec_uint4 grid_visit_flattened(const grid_axes *x, grid_packet *p, grid_frustum *f, uint32_t slices,
                                               uint32_t cells, vec_uint4 bytes, grid_rays kind)
 {
@@ -67,9 +68,16 @@ CGT_SPU_INLINE vec_uint4 grid_visit_flattened(const grid_axes *x, grid_packet *p
     return grid_collect_flattened(&a, cells, bytes);
 }
 
+static __attribute__((noinline)) vec_uint4 grid_visit_flattened_camera(const grid_axes *x, grid_packet *p,
+                                                                       grid_frustum *f, uint32_t slices, uint32_t cells,
+                                                                       vec_uint4 bytes)
+{
+    return grid_visit_flattened(x, p, f, slices, cells, bytes, GRID_CAMERA);
+}
+
 CGT_SPU_INLINE void grid_march(const grid_axes *x, grid_packet *p, grid_frustum *f, grid_rays kind)
 {
-    const bool flattened = kind == GRID_LIGHT || s()->control.flags & CGT_CONTROL_FLATTENED;
+    const bool flattened = s()->control.flags & CGT_CONTROL_FLATTENED;
     vec_uint4 bytes = spu_splats(0u), visited = bytes;
     const uint32_t end = f->end;
     for (uint32_t slice = f->first; slice < end; slice += 4) {
@@ -77,10 +85,12 @@ CGT_SPU_INLINE void grid_march(const grid_axes *x, grid_packet *p, grid_frustum 
         const uint32_t cells = grid_find_slices(x, f, slice, &slices);
         if (cells) {
             visited = spu_add(visited, spu_splats(cells));
-            if (flattened)
+            if (kind == GRID_LIGHT)
                 bytes = grid_visit_flattened(x, p, f, slices, cells, bytes, kind);
+            else if (flattened)
+                bytes = grid_visit_flattened_camera(x, p, f, slices, cells, bytes);
             else
-                bytes = grid_visit_nested(x, p, f, slices, bytes, kind);
+                bytes = grid_visit_nested(x, p, f, slices, bytes);
         }
         if (spu_extract(bytes, 0) > 2 * GRID_FEW || slice + 4 >= end) {
             if (spu_extract(bytes, 0))
