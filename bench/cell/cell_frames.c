@@ -4,7 +4,9 @@
  * Frames of the grid program, see cell_frames.h. */
 #include "cell/cell_frames.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cell/ppe/frame.h"
 #include "cell/spu/timing/timing.h"
@@ -33,10 +35,26 @@ typedef struct session {
     cgt_grid_scene scene;
     cgt_cell_frame_options options;
     cgt_cell_frame_result result;
-    cgt_spu_counts counts; /* of SPE 0 */
-    bool profiles;         /* a row for each function */
+    cgt_spu_counts counts, visit, fill; /* of SPE 0: all, its loops over cells, the grid's fill */
+    bool profiles;                      /* a row for each function */
     uint32_t width, height, *ids;
 } session;
+
+/* Functions whose names begin with a word. */
+static cgt_spu_counts count_functions(const cgt_spu_timing *timing, const char *word)
+{
+    cgt_spu_counts sum = {0};
+    for (uint32_t i = 0; i < timing->functions; i++) {
+        const cgt_spu_function *const f = &timing->function[i];
+        if (strncmp(f->name, word, strlen(word)) != 0)
+            continue;
+        sum.instructions += f->counts.instructions;
+        sum.mispredicts += f->counts.mispredicts;
+        for (int k = 0; k < CGT_SPU_CAUSES; k++)
+            sum.cycles[k] += f->counts.cycles[k];
+    }
+    return sum;
+}
 
 static void inspect(void *user, unsigned spe, const cgt_spu *spu)
 {
@@ -44,6 +62,8 @@ static void inspect(void *user, unsigned spe, const cgt_spu *spu)
     if (spe)
         return;
     m->counts = cgt_spu_timing_total(spu->timing);
+    m->visit = count_functions(spu->timing, "grid_visit_");
+    m->fill = count_functions(spu->timing, "grid_fill");
     if (m->profiles)
         cell_function_rows(m->table, spu->timing);
 }
@@ -59,18 +79,27 @@ static bool run(session *m)
     return false;
 }
 
+static double share(uint64_t part, uint64_t all) { return all ? (double)part / (double)all : NAN; }
+
 static void kernel_row(const session *m)
 {
     bench_table *const table = m->table;
     const cgt_spe_report *const p = &m->result.spe[0].report;
-    bench_table_text(table, "loop", m->options.flattened ? "flattened" : "nested");
+    const uint64_t branches = m->counts.classes[CGT_SPU_BR];
+    bench_table_text(table, "loop", m->options.nested ? "nested" : "flattened");
     bench_table_text(table, "cull", culls[m->options.cull]);
+    bench_table_text(table, "remembers", m->options.retest ? "no" : "yes");
     bench_table_count(table, "cycles", m->result.cycles);
     bench_table_real(table, "cycles_ray", (double)m->result.cycles / ((double)m->width * m->height));
     bench_table_count(table, "build", UINT64_C(40) * p->built);
     bench_table_count(table, "cells", p->cells);
+    bench_table_real(table, "cycles_cell", share(cgt_spu_counts_cycles(&m->visit), p->cells));
+    bench_table_real(table, "mispredicts_cell", share(m->visit.mispredicts, p->cells));
+    bench_table_count(table, "listed", p->listed);
     bench_table_count(table, "tests", p->tests);
-    bench_table_count(table, "mispredicts", m->counts.mispredicts);
+    bench_table_count(table, "remembered", p->remembered);
+    bench_table_real(table, "mispredicts_branch", share(m->counts.mispredicts, branches));
+    bench_table_real(table, "mispredict_percent", 100 * share(m->counts.cycles[CGT_SPU_MISPREDICT], m->result.cycles));
     bench_table_count(table, "waits", m->result.spe[0].waits);
     bench_table_count(table, "doubts", m->result.doubts);
     bench_table_count(table, "changed", m->result.changed);
@@ -80,16 +109,32 @@ static void kernel_row(const session *m)
 static bool run_kernels(session *m)
 {
     bench_table_section(m->table, "kernel");
-    m->options.spes = 1;
-    for (int k = 0; k < 4; k++) {
-        m->options.flattened = k & 1;
-        m->options.cull = (cgt_cull)(CGT_CULL_NONE + k / 2);
+    for (int k = 0; k < 6; k++) {
+        m->options.nested = !(k & 1);
+        m->options.cull = k < 2 ? CGT_CULL_NONE : CGT_CULL_FRUSTUM;
+        m->options.retest = k < 4;
         if (!run(m))
             return false;
         kernel_row(m);
     }
-    m->options.flattened = false;
-    m->options.cull = CGT_CULL_FRUSTUM;
+    m->options.nested = m->options.retest = false;
+    return true;
+}
+
+/* What a push takes, all that finds its cell included. */
+static bool run_push(session *m)
+{
+    bench_table *const table = m->table;
+    if (!run(m))
+        return false;
+    const uint64_t pushes = UINT64_C(8) * m->scene.image.spheres, cycles = cgt_spu_counts_cycles(&m->fill);
+    bench_table_section(table, "push");
+    bench_table_count(table, "pushes", pushes);
+    bench_table_count(table, "cycles", cycles);
+    bench_table_real(table, "cycles_push", share(cycles, pushes));
+    bench_table_real(table, "instructions_push", share(m->fill.instructions, pushes));
+    bench_table_count(table, "references", m->result.spe[0].report.references);
+    bench_table_end_row(table);
     return true;
 }
 
@@ -119,6 +164,91 @@ static bool run_assignments(session *m)
             bench_table_end_row(table);
         }
     return true;
+}
+
+/* ---- rays from hits ---- */
+
+static bool run_light(session *m)
+{
+    static const cgt_cell_light lights[] = {{.shadow = true, .position = {1, 3, 4}},
+                                            {.ambient = 1},
+                                            {.ambient = 8},
+                                            {.ambient = 8, .radius = 0.25f},
+                                            {.shadow = true, .position = {1, 3, 4}, .ambient = 8}};
+    bench_table *const table = m->table;
+    uint64_t before;
+    if (!run(m))
+        return false;
+    before = m->result.cycles;
+    m->options.occluded = malloc((size_t)m->width * m->height * sizeof *m->options.occluded);
+    if (!m->options.occluded) {
+        program_error("out of memory");
+        return false;
+    }
+    bool done = true;
+    bench_table_section(table, "light");
+    for (unsigned k = 0; done && k < sizeof lights / sizeof lights[0]; k++) {
+        m->options.light = &lights[k];
+        done = run(m);
+        if (!done)
+            break;
+        const uint32_t rays = m->result.spe[0].report.light_rays;
+        bench_table_count(table, "shadow", lights[k].shadow);
+        bench_table_count(table, "ambient", lights[k].ambient);
+        bench_table_real(table, "radius", (double)lights[k].radius);
+        bench_table_count(table, "cycles", m->result.cycles);
+        bench_table_count(table, "rays", rays);
+        bench_table_real(table, "cycles_ray", share(m->result.cycles - before, rays));
+        bench_table_count(table, "doubts", m->result.light_doubts);
+        bench_table_count(table, "pixels_of_ppe", m->result.light_pixels);
+        bench_table_end_row(table);
+    }
+    m->options.light = NULL;
+    free(m->options.occluded);
+    m->options.occluded = NULL;
+    return done;
+}
+
+/* ---- memory ---- */
+
+#define CLOCK 3.2e9 /* cycles a second */
+
+/* What the frame moves, with ports of main memory from 25.6 GB/s down. */
+static bool run_memory(session *m)
+{
+    static const uint32_t ports[] = {8, 4, 2, 1};
+    cgt_mfc_timing timing = cgt_mfc_default_timing;
+    bench_table *const table = m->table;
+    bool done = true;
+    bench_table_section(table, "memory");
+    m->options.timing = &timing;
+    m->options.spes = 6;
+    for (unsigned k = 0; done && k < sizeof ports / sizeof ports[0]; k++) {
+        uint64_t in = 0, out = 0, waits = 0;
+        timing.memory_bytes_per_cycle = ports[k];
+        done = run(m);
+        if (!done)
+            break;
+        for (unsigned i = 0; i < m->options.spes; i++) {
+            in += m->result.spe[i].counts.bytes_in;
+            out += m->result.spe[i].counts.bytes_out;
+            waits += m->result.spe[i].waits;
+        }
+        const double seconds = (double)m->result.cycles / CLOCK;
+        bench_table_count(table, "spes", m->options.spes);
+        bench_table_real(table, "port_gb_s", ports[k] * CLOCK / 1e9);
+        bench_table_count(table, "cycles", m->result.cycles);
+        bench_table_real(table, "frames_s", 1 / seconds);
+        bench_table_count(table, "bytes_in", in);
+        bench_table_count(table, "bytes_out", out);
+        bench_table_real(table, "gb_s", (double)(in + out) / seconds / 1e9);
+        bench_table_real(table, "port_percent", 100 * (double)(in + out) / ((double)m->result.cycles * ports[k]));
+        bench_table_real(table, "wait_percent", 100 * share(waits, m->result.cycles * m->options.spes));
+        bench_table_end_row(table);
+    }
+    m->options.timing = NULL;
+    m->options.spes = 1;
+    return done;
 }
 
 /* ---- sessions ---- */
@@ -156,14 +286,43 @@ static void end(session *m)
 
 static uint32_t spheres_of(const cell_frames *f) { return f->spheres ? f->spheres : 2000; }
 
+/* Spheres of one size, up to as many as local store has room for. */
+static bool run_growth(bench_table *table, const cell_frames *frames)
+{
+    static const uint32_t counts[] = {125, 250, 500, 1000, 1500, CGT_GRID_SPHERES};
+    static const unsigned spes[] = {1, 6, 8};
+    static session m;
+    bench_table_section(table, "spheres");
+    for (unsigned k = 0; k < sizeof counts / sizeof counts[0]; k++)
+        for (unsigned i = 0; i < sizeof spes / sizeof spes[0]; i++) {
+            if (!begin(&m, table, frames, counts[k]))
+                return false;
+            m.options.spes = spes[i];
+            const bool done = run(&m);
+            const cgt_spe_report *const p = &m.result.spe[0].report;
+            if (done) {
+                bench_table_count(table, "spheres", counts[k]);
+                bench_table_count(table, "spes", spes[i]);
+                bench_table_count(table, "build", UINT64_C(40) * p->built);
+                bench_table_count(table, "cycles", m.result.cycles);
+                bench_table_real(table, "frames_s", CLOCK / (double)m.result.cycles);
+                bench_table_end_row(table);
+            }
+            end(&m);
+            if (!done)
+                return false;
+        }
+    return true;
+}
+
 bool cell_frames_run(bench_table *table, const cell_frames *frames)
 {
     static session m;
     if (!begin(&m, table, frames, spheres_of(frames)))
         return false;
-    const bool done = run_kernels(&m) && run_assignments(&m);
+    const bool done = run_kernels(&m) && run_push(&m) && run_light(&m) && run_memory(&m) && run_assignments(&m);
     end(&m);
-    return done;
+    return done && run_growth(table, frames);
 }
 
 bool cell_frames_profile(bench_table *table, const cell_frames *frames)

@@ -18,8 +18,9 @@ typedef struct cell_frames {
     uint32_t spheres;       /* 2,000, random, of radius 0.03 in a cube of edge 2 */
 } cell_frames;
 
-/* The sections "kernel", by loop and culling on one SPE, and "assignment", by assignment and number of SPEs. Returns
- * false after a message. */
+/* Sections, on one SPE where they do not say: "kernel", by loop, culling, and whether tests are remembered; "push";
+ * "light", rays from hits; "memory", by the bandwidth of main memory; "assignment", by assignment and number of SPEs;
+ * "spheres", by their number. Returns false after a message. */
 bool cell_frames_run(bench_table *table, const cell_frames *frames);
 
 /* One frame on one SPE: the section "functions", where its cycles go, and a row of "kernel". */

@@ -32,7 +32,7 @@ static void fill_block(const frame *f, uint32_t spe, cgt_control_block *b)
                              .strip_columns = columns_of_strips(f->tables.rays.width),
                              .row_bytes = f->row_bytes,
                              .half = f->half};
-    b->flags = (o->flattened ? CGT_CONTROL_FLATTENED : 0) | (o->remember ? CGT_CONTROL_REMEMBER : 0) |
+    b->flags = (o->nested ? 0 : CGT_CONTROL_FLATTENED) | (o->retest ? 0 : CGT_CONTROL_REMEMBER) |
                (uint32_t)(o->cull ? o->cull : CGT_CULL_FRUSTUM) << CGT_CONTROL_CULL_SHIFT;
     low_word(b->scene, CGT_EA_SCENE);
     low_word(b->camera, CGT_EA_CAMERA);

@@ -22,10 +22,11 @@ typedef struct cgt_cell_frame_options {
     bool untimed; /* simulated without the timing model: faster, cycles mean nothing */
     cgt_assignment assignment;
     uint32_t share;       /* of HYBRID: percent that is fixed; 0: CGT_HYBRID_SHARE */
-    bool flattened;       /* one loop over cells */
+    bool nested;          /* three loops over cells; else one, which is faster */
     cgt_cull cull;        /* AUTO: FRUSTUM, which is as good as BLOCKS for so few rays, and cheaper */
     uint32_t doubts_half; /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
-    bool remember;        /* SPEs do not test a sphere again that they tested against a packet lately (mailboxing) */
+    bool retest; /* SPEs test a sphere again where a packet meets it in several cells; else they remember the last
+                             eight that they tested (mailboxing) */
     const cgt_cell_light *light; /* rays from the hits; NULL: none */
     uint32_t *occluded;   /* where there is a light: occluded[y * width + x], bit k of it says whether set k of the
                                     pixel's rays meets anything but the sphere that it starts from; 0 without a hit. Not NULL then */

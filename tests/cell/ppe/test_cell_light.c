@@ -200,7 +200,7 @@ static void random_scenes(void **state)
         p.light.ambient = k % 3 == 0 ? CGT_LIGHT_SETS - p.light.shadow : k;
         p.light.radius = k % 2 ? 0.3f : 0;
         p.light.seed = k;
-        const cgt_cell_frame_options o = {.spes = 1 + k % 3, .function = spe_grid, .remember = k & 1};
+        const cgt_cell_frame_options o = {.spes = 1 + k % 3, .function = spe_grid, .retest = k & 1};
         check(&p, o);
         compare_simulated(&p, o);
     }
@@ -218,7 +218,7 @@ static void doubtful_rays(void **state)
     for (uint32_t i = 40; i < 120; i++)
         sphere[i] = sphere[i - 40];
     cgt_camera_init(&p.camera);
-    const cgt_cell_frame_options o = {.spes = 2, .function = spe_grid, .doubts_half = 16};
+    const cgt_cell_frame_options o = {.spes = 2, .function = spe_grid, .retest = true, .doubts_half = 16};
     check(&p, o);
     assert_true(result.light_doubts > 1000 && result.interrupts > 10 && result.light_pixels > 0);
     compare_simulated(&p, o);

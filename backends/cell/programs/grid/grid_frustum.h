@@ -113,7 +113,7 @@ static void grid_axes_init(uint32_t class, grid_axes *x)
 CGT_SPU_INLINE bool grid_frustum_finish(const grid_axes *x, vec_float4 at0, vec_float4 at1, vec_float4 magnitude,
                                         vec_float4 w1, vec_float4 rlength, grid_frustum *f)
 {
-    const vec_float4 one = spu_splats(1.f), roundoff = spu_splats(16 * 0x1p-23f);
+    const vec_float4 one = spu_splats(1.f), roundoff = spu_splats(16 * GRID_ROUNDOFF);
     /* 9 roundings to a line's value at a plane, 4 more on the way to a slice */
     const vec_float4 error = spu_madd(magnitude, roundoff, x->error_four);
     const vec_float4 bound = spu_sub(at0, error), end = spu_sub(at1, error);
@@ -121,7 +121,7 @@ CGT_SPU_INLINE bool grid_frustum_finish(const grid_axes *x, vec_float4 at0, vec_
     const vec_float4 reach = spu_mul(spux_sqrt(spu_madd(slope, slope, one)), x->rcell_four);
     const vec_float4 sum = spu_add(magnitude, spu_rlqwbyte(magnitude, 8));
     const vec_float4 steepest = spu_add(grid_greatest(spux_abs(step)), one);
-    f->error = spu_mul(spu_madd(steepest, spu_add(w1, one), sum), spu_splats(32 * 0x1p-23f));
+    f->error = spu_mul(spu_madd(steepest, spu_add(w1, one), sum), spu_splats(32 * GRID_ROUNDOFF));
     for (int k = 0; k < 4; k++) {
         f->bound[k] = GRID_LANE(bound, k);
         f->step[k] = GRID_LANE(step, k);

@@ -11,6 +11,10 @@
 #include "cell/programs/grid/grid_march.h"
 #include "cell/programs/grid/grid_nearest.h"
 
+#ifndef GRID_NEAR
+#define GRID_NEAR 1.f /* cells between the starts of rays that go together, along each axis */
+#endif
+
 /* Lanes of four masks as bits, the first one highest. */
 static uint32_t grid_bits16(const vec_uint4 mask[4])
 {
@@ -101,6 +105,22 @@ static void grid_bound_origins(const grid_packet *p, grid_frustum *f)
     }
 }
 
+/* Rays that start within a cell of one: a packet's hits lie at all depths, and what lies between them is crossed by no
+ * ray. */
+static void grid_find_neighbours(const grid_axes *x, const grid_packet *p, uint32_t from, vec_uint4 near[4])
+{
+    const uint32_t axis[3] = {x->u, x->v, x->w};
+    for (int i = 0; i < 4; i++)
+        near[i] = spu_splats(0xffffffffu);
+    for (int k = 0; k < 3; k++) {
+        const vec_float4 org = grid_splat_ray(p->org[axis[k]], from);
+        for (int i = 0; i < 4; i++) {
+            const vec_float4 apart = spu_mul(spu_sub(p->org[axis[k]][i], org), x->rcell[k]);
+            near[i] = spu_andc(near[i], spu_cmpgt(spux_abs(apart), spu_splats(GRID_NEAR)));
+        }
+    }
+}
+
 /* Rays of one class; others have its first ray's place and are closed. */
 static void grid_extract_class(const grid_packet *p, const vec_uint4 mine[4], uint32_t from, grid_packet *part)
 {
@@ -135,9 +155,10 @@ static uint32_t grid_trace_lines(const grid_packet *p, uint32_t rays)
         const uint32_t from = (uint32_t)__builtin_clz(rays) - 16;
         const vec_uint4 left[4] = {spu_maskw(rays >> 12), spu_maskw(rays >> 8), spu_maskw(rays >> 4), spu_maskw(rays)};
         const grid_axes *const x = &s()->axes[grid_class_of(p, from)];
-        vec_uint4 mine[4], met[4];
+        vec_uint4 mine[4], met[4], near[4];
+        grid_find_neighbours(x, p, from, near);
         for (int i = 0; i < 4; i++)
-            mine[i] = spu_and(left[i], grid_rays_of(x, p, i, 1.25f));
+            mine[i] = spu_and(spu_and(left[i], near[i]), grid_rays_of(x, p, i, 1.25f));
         grid_extract_class(p, mine, from, part);
         grid_march_lines(x, part);
         for (int i = 0; i < 4; i++)

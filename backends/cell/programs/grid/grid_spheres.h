@@ -36,10 +36,10 @@ CGT_SPU_INLINE grid_sphere grid_bound_sphere(const grid_frustum *f, vec_float4 q
         b.center[a] = kind == GRID_CAMERA ? c : center[a];
         distance = spu_add(distance, spux_abs(c));
     }
-    const vec_float4 eps_c = spu_mul(distance, spu_splats(26 * 0x1p-23f)); /* 26^2 > 640 */
+    const vec_float4 eps_c = spu_mul(distance, spu_splats(26 * GRID_ROUNDOFF)); /* 26^2 > 640 */
     const vec_float4 reach = spu_add(distance, r);
     const vec_float4 eps =
-        spu_madd(spu_mul(r, spu_splats(9 * 0x1p-23f)), reach, spu_madd(eps_c, eps_c, spu_splats(0x1p-120f)));
+        spu_madd(spu_mul(r, spu_splats(9 * GRID_ROUNDOFF)), reach, spu_madd(eps_c, eps_c, spu_splats(0x1p-120f)));
     b.r2 = spu_madd(r, r, eps);
     b.certain_hit = spu_mul(eps, spu_splats(17.f));
     b.t_error = spu_madd(reach, f->t_unit, f->t_underflow);
@@ -52,7 +52,7 @@ CGT_SPU_INLINE void grid_bound_lengths(const grid_packet *p, grid_frustum *f)
 {
     const vec_float4 most = grid_greatest(spux_max(spux_max(p->rdd[0], p->rdd[1]), spux_max(p->rdd[2], p->rdd[3])));
     const vec_float4 rlength = spu_mul(spux_sqrt(most), spu_splats(1 + 0x1p-18f));
-    f->t_unit = spu_mul(rlength, spu_splats(18 * 0x1p-23f));
+    f->t_unit = spu_mul(rlength, spu_splats(18 * GRID_ROUNDOFF));
     f->t_root = spu_mul(rlength, spu_splats(0x1.148p-2f));
     f->t_underflow = spu_madd(spu_mul(rlength, rlength), spu_splats(0x1p-122f), spu_splats(0x1p-62f));
 }

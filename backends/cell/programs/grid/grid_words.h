@@ -59,6 +59,11 @@ CGT_SPU_INLINE vec_int4 grid_multiply(vec_int4 a, vec_int4 b)
 #define GRID_RARELY(condition) __builtin_expect(!!(condition), 0)
 #define GRID_MOSTLY(condition) __builtin_expect(!!(condition), 1)
 
+/* An SPU truncates: its unit roundoff is twice that of rounding to nearest. A test makes less of it. */
+#ifndef GRID_ROUNDOFF
+#define GRID_ROUNDOFF 0x1p-23f
+#endif
+
 #define GRID_MOST 0x1.fffffep127f /* the largest number that is one on a host, too */
 
 #endif
