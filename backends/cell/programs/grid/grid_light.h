@@ -7,6 +7,8 @@
 #ifndef GRID_LIGHT_H
 #define GRID_LIGHT_H
 
+#include "cell/programs/grid/grid_store.h" /* first: it says whose arithmetic it is */
+
 #include "cell/image/light_rays.h"
 #include "cell/programs/grid/grid_march.h"
 #include "cell/programs/grid/grid_nearest.h"

@@ -7,9 +7,10 @@
 #ifndef GRID_RAYS_H
 #define GRID_RAYS_H
 
+#include "cell/programs/grid/grid_store.h" /* first: it says whose arithmetic it is */
+
 #include "cell/image/light_rays.h"
 #include "cell/programs/grid/grid_nearest.h"
-#include "cell/programs/grid/grid_packet.h"
 
 /* The host's doubles round to nearest outside the SPU's mode alone. */
 #if defined(CGT_SPU_EXACT_X86)

@@ -6,7 +6,9 @@
 #ifndef GRID_STORE_H
 #define GRID_STORE_H
 
+#ifndef CGT_SPU_EXACT
 #define CGT_SPU_EXACT
+#endif
 #define CGT_SPE_TEXT_BYTES 32000
 #define CGT_SPE_STACK_BYTES 4096
 
