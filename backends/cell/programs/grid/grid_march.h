@@ -9,7 +9,7 @@
 #include "cell/programs/grid/grid_cells.h"
 #include "cell/programs/grid/grid_spheres.h"
 
-#define GRID_FEW 16u /* references that are not tested alone while there are more cells: the fill of two vectors */
+#define GRID_FEW 8u /* references that are not tested alone while there are more cells: the fill of one quadword */
 
 /* ---- cells ---- */
 

@@ -9,8 +9,8 @@
 #ifndef CGT_SPU_EXACT
 #define CGT_SPU_EXACT
 #endif
-#define CGT_SPE_TEXT_BYTES 32000
-#define CGT_SPE_STACK_BYTES 4096
+#define CGT_SPE_TEXT_BYTES 48000
+#define CGT_SPE_STACK_BYTES 8192
 
 #include <string.h>
 

@@ -72,12 +72,12 @@ static void grid_init(void)
     memset(s()->origin, 0, sizeof s()->origin);
 }
 
-/* ---- strips ---- */
+/* ---- strips: offsets within the planes stay below 2^32 (ppe/frame_run.h, ppe/light.c) ---- */
 
 static void grid_get_columns(uint32_t x, uint32_t columns, uint32_t buffer)
 {
     const uint32_t count = columns < CHUNK ? (columns + 3) / 4 * 4 : CHUNK;
-    mfc_get(s()->column[buffer], grid_ea(s()->control.columns) + 16 * (uint64_t)x, 16 * count, TAG_COLUMN0 + buffer, 0,
+    mfc_get(s()->column[buffer], grid_ea(s()->control.columns) + 16 * x, 16 * count, TAG_COLUMN0 + buffer, 0,
             0);
 }
 
@@ -87,7 +87,7 @@ static void grid_put_occluded(uint32_t x, uint32_t packets, uint32_t buffer)
     const cgt_control_block *c = &s()->control;
     const uint32_t words = (s()->light.sets + 1) / 2, bytes = (4 * words * packets + 15) / 16 * 16;
     mfc_put(s()->occluded[buffer],
-            grid_ea(c->occluded) + (uint64_t)(s()->y / CGT_STRIP_ROWS) * c->occluded_bytes + x / 4 * 4 * words, bytes,
+            grid_ea(c->occluded) + s()->y / CGT_STRIP_ROWS * c->occluded_bytes + x / 4 * 4 * words, bytes,
             TAG_LIGHT0 + buffer, 0, 0);
 }
 
@@ -116,7 +116,7 @@ static void grid_put_piece(uint32_t x, uint32_t columns, uint32_t rows, uint32_t
 {
     const cgt_control_block *c = &s()->control;
     for (uint32_t y = 0; y < rows; y++)
-        mfc_put(s()->line[line][y], grid_ea(c->ids) + (uint64_t)(s()->y + y) * c->row_bytes + 4 * x,
+        mfc_put(s()->line[line][y], grid_ea(c->ids) + (s()->y + y) * c->row_bytes + 4 * x,
                 (columns + 3) / 4 * 16, TAG_LINE0 + line, 0, 0);
 }
 
@@ -127,7 +127,7 @@ static void grid_trace_strip(uint32_t strip)
     const uint32_t x0 = strip % c->strip_columns * CGT_STRIP_WIDTH, y0 = strip / c->strip_columns * CGT_STRIP_ROWS;
     const uint32_t columns = c->width - x0 < CGT_STRIP_WIDTH ? c->width - x0 : CGT_STRIP_WIDTH;
     const uint32_t rows = c->height - y0 < CGT_STRIP_ROWS ? c->height - y0 : CGT_STRIP_ROWS;
-    mfc_get(s()->row, grid_ea(c->rows) + 16 * (uint64_t)y0, sizeof s()->row, TAG_SETUP, 0, 0);
+    mfc_get(s()->row, grid_ea(c->rows) + 16 * y0, sizeof s()->row, TAG_SETUP, 0, 0);
     grid_get_columns(x0, columns, 0);
     grid_wait(TAG_SETUP);
     grid_splat_rows();
