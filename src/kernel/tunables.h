@@ -53,6 +53,33 @@
 #define CGT_ONLY_SPHERES false
 #endif
 
+/* Whether a packet may have FAST precision: programs of EXACT alone leave its tests out. */
+#ifndef PACKET_IS_FAST
+#define PACKET_IS_FAST(p) ((p)->fast)
+#endif
+
+/* Whether kd-trees are traversed ray by ray where the settings say so. */
+#ifndef KD_SINGLE_RAYS
+#define KD_SINGLE_RAYS true
+#endif
+
+/* The arrays of a kd-tree. Programs that keep but parts of them at hand look here whether an element is: a pointer to a
+ * node, behind which its sibling lies where it is a lower child, is good until the next one is asked for, a pointer to a
+ * leaf likewise. KD_TEST_NODE tests a vector of rays against the primitives of a leaf that is a node without ropes,
+ * KD_TEST_LEAF against those of one with ropes. */
+#ifndef KD_NODES
+#define KD_NODES(tree, i) (&(tree)->node[i])
+#define KD_LEAF(tree, i) (&(tree)->leaf[i])
+#define KD_TEST_NODE(tree, l, rays, n, i)                                                                              \
+    leaf_test_vector(l, rays, cgt_kd_references(tree, &(n)), cgt_kd_count(n), i)
+#define KD_TEST_LEAF(tree, l, rays, of, i) leaf_test_vector(l, rays, (tree)->reference + (of)->first, (of)->count, i)
+#endif
+
+/* The exact order of two times. Programs whose doubles do not round to nearest take whole numbers alone. */
+#ifndef ROPE_PLANE_ORDER
+#define ROPE_PLANE_ORDER cgt_plane_order
+#endif
+
 /* Whether a queue grid's references take 32 bits. Programs of few primitives leave that out. */
 #ifndef GRID_REFS_ARE_32_BITS
 #define GRID_REFS_ARE_32_BITS(grid) ((grid)->refs_are_32_bits)

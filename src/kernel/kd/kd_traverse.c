@@ -127,7 +127,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
     packet *p = l->p;
     kd_entry stack[CGT_KD_MAX_DEPTH];
     uint32_t top = 0, nodes = 0;
-    cgt_kd_node n = tree->node[0];
+    cgt_kd_node n = *KD_NODES(tree, 0);
     kd_rays r;
     lane_rays test_rays;
     vfloat near, far;
@@ -142,7 +142,8 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
         if (!cgt_kd_is_leaf(n)) {
             const uint32_t axis = cgt_kd_axis(n), first = r.reverse >> axis & 1;
             /* load both children before it is known which one is next: the loads overlap with the arithmetic below */
-            const cgt_kd_node lower = tree->node[n.word[1]], upper = tree->node[n.word[1] + 1];
+            const cgt_kd_node *const child = KD_NODES(tree, n.word[1]);
+            const cgt_kd_node lower = child[0], upper = child[1];
             kd_parts q;
             nodes++;
             kd_split_intervals(&r, axis, cgt_kd_split(n), near, far, &q);
@@ -161,7 +162,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
         }
         l->counts->leaves++;
         if (cgt_kd_count(n))
-            leaf_test_vector(l, &test_rays, cgt_kd_references(tree, &n), cgt_kd_count(n), i);
+            KD_TEST_NODE(tree, l, &test_rays, n, i);
         const vfloat best = spux_load(p->high + i);
         do {
             if (!top) {
@@ -285,7 +286,7 @@ void CGT_KERNEL(cgt_kd_trace)(const cgt_committed_scene *committed_scene, packet
     leaf_tests l;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
     for (uint32_t i = 0; i < p->lanes; i += CGT_LANES) {
-        if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
+        if (KD_SINGLE_RAYS && settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE)
             traverse_rays(&committed_scene->kd, &l, i);
         else
             traverse_vector(&committed_scene->kd, &l, i);
@@ -299,7 +300,7 @@ void CGT_KERNEL(cgt_kd_ropes_trace)(const cgt_committed_scene *committed_scene, 
 {
     leaf_tests l;
     leaf_tests_init(committed_scene, p, settings, counts, &l);
-    if (settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE) {
+    if (KD_SINGLE_RAYS && settings->kd_traversal == CGT_KD_TRAVERSAL_SINGLE) {
         for (uint32_t i = 0; i < p->lanes; i++)
             rope_trace_ray(&committed_scene->kd, &l, i);
         return;

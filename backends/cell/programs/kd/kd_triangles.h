@@ -1,0 +1,136 @@
+/* SPDX-FileCopyrightText: 2026 The libcgt authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The cache of triangles (thesis, section 7.6.5): those that a leaf's test lacks come by one list of DMA. A list fills
+ * consecutive places of local store, so places are taken in turn, and an index tells where a triangle went.
+ *
+ * The thesis' listing 7.7 is mended:
+ *   - it writes what it fetches over the first triangles of the cache, which the leaf may have been found to hold, and
+ *     never notes what lies there. Here the next places in turn are taken, and a triangle counts as there only while
+ *     none of the current leaf's fetches can reach its place
+ *   - it compares each primitive with each triangle of the cache; the index takes one comparison
+ *   - a leaf of more primitives than places overflows the cache, and its arrays on the stack grow with the leaf. Here a
+ *     leaf is tested in batches that fit
+ *   - where nothing is missing it gives a list of no elements. Here there is no command then
+ *   - its list is aligned to 4 bytes, not 8, and its addresses lose their carry where the array crosses 4 GB */
+#ifndef KD_TRIANGLES_H
+#define KD_TRIANGLES_H
+
+#include "cell/programs/kd/kd_caches.h"
+
+static uint32_t kd_triangles_lay_out(const cgt_kd_frame_image *f, uint32_t first)
+{
+    kd_triangle_cache *const c = &s()->triangles;
+    const uint32_t most = f->triangles.blocks / 2 ? f->triangles.blocks / 2 : 1;
+    c->slots = f->triangles.blocks;
+    c->mask = (1u << f->triangles.log2) - 1;
+    c->batch = f->batch < most ? f->batch : most;
+    c->first = first;
+    c->index = first + (c->slots * (uint32_t)sizeof(cgt_leaf_triangle) + 127) / 128 * 128;
+    return c->index + (c->mask + 1) * (uint32_t)sizeof(kd_triangle_entry);
+}
+
+static inline kd_triangle_entry *kd_triangle_index(void) { return (void *)(s()->arena + s()->triangles.index); }
+
+static void kd_triangles_start(void)
+{
+    kd_triangle_cache *const c = &s()->triangles;
+    kd_triangle_entry *const entry = kd_triangle_index();
+    for (uint32_t k = 0; k <= c->mask; k++)
+        entry[k] = (kd_triangle_entry){UINT32_MAX, 0};
+    c->next = 0;
+    c->pending = 0;
+}
+
+/* Waits for lists under way. */
+static inline void kd_triangles_wait(void)
+{
+    if (!s()->triangles.pending)
+        return;
+    kd_wait(s()->triangles.pending);
+    s()->triangles.pending = 0;
+}
+
+/* Sends the list for `count` triangles that begin at fetch `from`. */
+static __attribute__((noinline)) void kd_triangles_send(uint32_t buffer, uint32_t from, uint32_t count)
+{
+    kd_triangle_cache *const c = &s()->triangles;
+    cgt_leaf_triangle *const to = (cgt_leaf_triangle *)(void *)(s()->arena + c->first) + (from & (c->slots - 1));
+    mfc_getl(to, kd_ea(s()->control.triangles), s()->list[buffer], 8 * count, TAG_LIST0 + buffer, 0, 0);
+    c->pending |= 1u << (TAG_LIST0 + buffer);
+    c->fetches += count;
+    c->lists++;
+}
+
+/* Starts to fetch those of a batch that are not there; slot[k] becomes the place of triangle k. They stay there until
+ * the next batch. buffer: of the list, no longer under way. */
+static inline void kd_triangles_bring(const uint32_t *id, uint32_t count, uint32_t *slot, uint32_t buffer)
+{
+    kd_triangle_cache *const c = &s()->triangles;
+    kd_triangle_entry *const entry = kd_triangle_index();
+    const uint32_t last = c->slots - 1;
+    if ((c->next & last) + c->batch > c->slots) /* a list does not go round the end */
+        c->next = (c->next | last) + 1;
+    const uint32_t from = c->next, oldest = from + c->batch - c->slots;
+    for (uint32_t k = 0; k < count; k++) {
+        kd_triangle_entry *const e = &entry[id[k] & c->mask];
+        /* fetches since `oldest` keep their places; the difference is right across 2^32 */
+        if (e->id != id[k] || e->fetch - oldest > c->next - oldest - 1) {
+            uint32_t *const element = s()->list[buffer][c->next - from];
+            element[0] = sizeof(cgt_leaf_triangle);
+            element[1] = s()->control.triangles[1] + id[k] * (uint32_t)sizeof(cgt_leaf_triangle);
+            *e = (kd_triangle_entry){id[k], c->next++};
+        }
+        slot[k] = e->fetch & last;
+    }
+    if (c->next != from)
+        kd_triangles_send(buffer, from, c->next - from);
+}
+
+static inline const cgt_leaf_triangle *kd_triangle(uint32_t slot)
+{
+    return (const cgt_leaf_triangle *)(const void *)(s()->arena + s()->triangles.first) + slot;
+}
+
+/* ---- leaves ---- */
+
+/* A batch of a leaf against the rays from i on. */
+static inline void kd_test_batch(leaf_tests *l, const lane_rays *r, const uint32_t *id, uint32_t count, uint32_t i)
+{
+    uint32_t slot[KD_BATCH];
+    kd_triangles_wait(); /* of what was fetched ahead */
+    kd_triangles_bring(id, count, slot, 0);
+    kd_triangles_wait();
+    s()->tests += count;
+    for (uint32_t k = 0; k < count; k++) {
+        lane_triangles triangle;
+        lane_hits q;
+        lane_triangles_of_one(kd_triangle(slot[k]), &triangle);
+        if (lane_test_triangle(r, &triangle, &q))
+            leaf_update_vector(l, id[k], i, &q);
+    }
+}
+
+static void kd_test_list(leaf_tests *l, const lane_rays *r, uint32_t first, uint32_t count, uint32_t i)
+{
+    const uint32_t batch = s()->triangles.batch;
+    while (count) {
+        uint32_t there;
+        const uint32_t *const id = kd_get_references(first, &there);
+        const uint32_t most = there < batch ? there : batch, some = count < most ? count : most;
+        kd_test_batch(l, r, id, some, i);
+        first += some;
+        count -= some;
+    }
+}
+
+/* Of a leaf without ropes: the node itself holds a single reference. */
+static void kd_test_node(leaf_tests *l, const lane_rays *r, cgt_kd_node n, uint32_t i)
+{
+    if (cgt_kd_count(n) == 1)
+        kd_test_batch(l, r, &n.word[1], 1, i);
+    else
+        kd_test_list(l, r, n.word[1], cgt_kd_count(n), i);
+}
+
+#endif
