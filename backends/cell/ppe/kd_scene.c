@@ -28,14 +28,8 @@ static cgt_result check_scene(const cgt_scene *scene, cgt_structure structure, c
         return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "a scene is not committed");
     if (c->prims.spheres)
         return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "the kd program has triangles alone; spheres go by the grid");
-    if (c->prims.count == 0 || c->valid == 0)
+    if (!scene->in_bands && (c->prims.count == 0 || c->valid == 0))
         return CGT_OK;
-    if (scene->in_bands || c->brute_force)
-        return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
-                      "triangles of such different magnitudes are in no kd-tree");
-    if (c->structure != structure)
-        return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
-                      "a scene was not committed with a kd-tree, or some with ropes and some without");
     for (int a = 0; a < 3; a++)
         if (!(fabsf(c->low[a]) <= CGT_SPE_MAX_COORDINATE && fabsf(c->high[a]) <= CGT_SPE_MAX_COORDINATE))
             return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
@@ -43,10 +37,24 @@ static cgt_result check_scene(const cgt_scene *scene, cgt_structure structure, c
     if (c->scale > MOST_SCALE)
         return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
                       "triangles are nearer to the origin than 2^-100, where the bounds of an SPU's single precision end");
+    if (scene->in_bands || c->brute_force)
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "triangles of such different magnitudes are in no kd-tree");
+    if (c->structure != structure)
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
+                      "a scene was not committed with a kd-tree, or some with ropes and some without");
     return CGT_OK;
 }
 
 /* ---- copies ---- */
+
+/* A face of the whole tree, moved outwards where it is too near to 0: boxes round there. */
+static void move_out(float *low, float *high)
+{
+    if (fabsf(*low) < CGT_KD_MIN_COORDINATE)
+        *low = *low < 0 ? -CGT_KD_MIN_COORDINATE : 0;
+    if (fabsf(*high) < CGT_KD_MIN_COORDINATE)
+        *high = *high > 0 ? CGT_KD_MIN_COORDINATE : 0;
+}
 
 /* An SPU takes subnormal numbers for 0; the image has none, so that all forms of the program see the same. */
 static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
@@ -77,9 +85,19 @@ static bool copy_part(const cgt_memory_hooks *memory, const cgt_kd_tree *tree, c
         if (k != 1 && cgt_kd_is_leaf(p->node[k]) && cgt_kd_count(p->node[k]) == 1)
             p->node[k].word[1] += p->first;
     for (int a = 0; a < 3; a++) {
-        p->image.low[a] = normal(tree->low[a]);
-        p->image.high[a] = normal(tree->high[a]);
+        p->image.low[a] = tree->low[a];
+        p->image.high[a] = tree->high[a];
+        move_out(&p->image.low[a], &p->image.high[a]);
     }
+    for (uint32_t k = 0; k < tree->leaves && tree->leaf; k++)
+        for (int a = 0; a < 3; a++) {
+            float low = p->leaf[k].low[a], high = p->leaf[k].high[a];
+            move_out(&low, &high);
+            if (p->leaf[k].packet_rope[2 * a] == CGT_INVALID_ID)
+                p->leaf[k].low[a] = low;
+            if (p->leaf[k].packet_rope[2 * a + 1] == CGT_INVALID_ID)
+                p->leaf[k].high[a] = high;
+        }
     p->image.nodes = tree->nodes;
     p->image.references = (uint32_t)tree->references;
     p->image.leaves = tree->leaves;
