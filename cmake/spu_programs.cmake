@@ -7,7 +7,7 @@
 #   cgt_add_spu_objects(<target> <level> [ALL] <sources>...)
 #       compiles each with the row `spu` of the variant table and an optimisation level, or a list of that and further
 #       flags; objects lie in spu/<target>/
-#   cgt_add_spu_program(<name> <sources>...)
+#   cgt_add_spu_program(<name> <sources>... [FLAGS <flags>...])
 #       the same at -O2, linked to spu/<name>.elf
 # Sources are relative to the folder that calls. Warnings are errors, whatever CGT_WERROR says: the compiler is known.
 set(CGT_SPU_TOOLCHAIN "" CACHE PATH "Folder of spu-elf-gcc (scripts/spu_toolchain.sh); empty: nothing is built for an SPU")
@@ -58,9 +58,10 @@ function(cgt_add_spu_objects target level)
 endfunction()
 
 function(cgt_add_spu_program name)
+    cmake_parse_arguments(row "" "" "SOURCES;FLAGS" SOURCES ${ARGN})
     set(objects "")
-    foreach(source IN LISTS ARGN)
-        cgt_spu_object(object "${name}" -O2 "${source}")
+    foreach(source IN LISTS row_SOURCES)
+        cgt_spu_object(object "${name}" "-O2;${row_FLAGS}" "${source}")
         list(APPEND objects "${object}")
     endforeach()
     set(program "${PROJECT_BINARY_DIR}/spu/${name}.elf")

@@ -11,6 +11,7 @@
 
 #include "cell/cell_frames.h"
 #include "cell/cell_tables.h"
+#include "cell/kd_frames.h"
 #include "cell/micro_programs.h"
 #include "cell/spu/elf.h"
 #include "common/bench.h"
@@ -18,7 +19,7 @@
 #include "common/program.h"
 #include "core/memory.h"
 
-enum { OPTION_CYCLES = 0x700, OPTION_FRAMES };
+enum { OPTION_CYCLES = 0x700, OPTION_FRAMES, OPTION_KD };
 #define DEFAULT_CYCLES UINT64_C(100000000000)
 #define MOST_FILE_BYTES ((size_t)16 << 20)
 
@@ -26,12 +27,13 @@ typedef struct cell_settings {
     const char *path; /* NULL: the built-in programs */
     const char *json_path;
     uint64_t cycles;
-    bool frames;
+    bool frames, kd;
 } cell_settings;
 
 static const struct argp_option options[] = {
     {"cycles", OPTION_CYCLES, "COUNT", 0, "most cycles of a program (default 10^11)", 0},
     {"frames", OPTION_FRAMES, NULL, 0, "FILE is spe_grid.elf: trace frames of spheres on 1 to 8 SPEs", 0},
+    {"kd", OPTION_KD, NULL, 0, "FILE is spe_kd.elf: trace frames of triangles through caches", 0},
     {"json", 'j', "FILE", 0, "write the rows as JSON, too", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -45,6 +47,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             argp_error(state, "--cycles: %s", error);
         return 0;
     case OPTION_FRAMES: settings->frames = true; return 0;
+    case OPTION_KD: settings->kd = true; return 0;
     case 'j': settings->json_path = argument; return 0;
     case ARGP_KEY_ARG:
         if (settings->path)
@@ -170,6 +173,11 @@ static int run_file(bench_table *table, const cell_settings *settings)
         free(bytes);
         return done ? PROGRAM_OK : PROGRAM_FAILED;
     }
+    if (settings->kd) {
+        const bool done = kd_frames_run(table, bytes, size);
+        free(bytes);
+        return done ? PROGRAM_OK : PROGRAM_FAILED;
+    }
     if (create(&spu, CGT_SPU_TIMED)) {
         free(bytes);
         return PROGRAM_FAILED;
@@ -207,6 +215,10 @@ int bench_cell(int argc, char **argv)
         return PROGRAM_USAGE;
     if (settings.frames && !settings.path) {
         program_error("--frames wants the program's FILE, spe_grid.elf");
+        return PROGRAM_USAGE;
+    }
+    if (settings.kd && !settings.path) {
+        program_error("--kd wants the program's FILE, spe_kd.elf");
         return PROGRAM_USAGE;
     }
     bench_table *const table = bench_table_open(settings.json_path);

@@ -344,7 +344,7 @@ static const char *check_caches(const cgt_kd_frame_image *i, bool ropes)
     for (int k = 0; k < 3; k++) {
         if (!is_power(size[k]->blocks) || size[k]->blocks > CGT_KD_BLOCKS || size[k]->log2 < least[k] ||
             size[k]->log2 > most[k])
-            return "a cache has 1 to 256 blocks, a power of two, of 2 to 2,048 nodes, 4 to 4,096 references, 1 to 128 leaves";
+            return "a cache has 1 to 128 blocks, a power of two, of 2 to 2,048 nodes, 4 to 4,096 references, 1 to 128 leaves";
         if (k < 2 || ropes)
             bytes += (((uint64_t)size[k]->blocks * element[k] << size[k]->log2) + 127) / 128 * 128;
     }

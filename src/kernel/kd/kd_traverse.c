@@ -143,21 +143,21 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
             const uint32_t axis = cgt_kd_axis(n), first = r.reverse >> axis & 1;
             /* load both children before it is known which one is next: the loads overlap with the arithmetic below */
             const cgt_kd_node *const child = KD_NODES(tree, n.word[1]);
-            const cgt_kd_node lower = child[0], upper = child[1];
+            const cgt_kd_node nearer = child[first], farther = child[1 - first];
             kd_parts q;
             nodes++;
             kd_split_intervals(&r, axis, cgt_kd_split(n), near, far, &q);
             if (spux_none(spux_cmpge(q.far[0], q.near[0]))) {
                 near = q.near[1];
                 far = q.far[1];
-                n = first ? lower : upper;
+                n = farther;
                 continue;
             }
             if (spux_any(spux_cmpge(q.far[1], q.near[1])))
-                stack[top++] = (kd_entry){q.near[1], q.far[1], first ? lower : upper};
+                stack[top++] = (kd_entry){q.near[1], q.far[1], farther};
             near = q.near[0];
             far = q.far[0];
-            n = first ? upper : lower;
+            n = nearer;
             continue;
         }
         l->counts->leaves++;

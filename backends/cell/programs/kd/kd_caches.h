@@ -13,9 +13,9 @@
 /* Lays the cache out from `first` in the arena on. Returns where it ends. */
 static uint32_t kd_cache_lay_out(kd_cache *c, const cgt_kd_cache_size *size, uint32_t element, uint32_t first)
 {
-    c->first = first;
-    c->log2 = size->log2;
-    c->mask = size->blocks - 1;
+    c->first.is = first;
+    c->log2.is = size->log2;
+    c->mask.is = size->blocks - 1;
     return first + ((size->blocks * element << size->log2) + 127) / 128 * 128;
 }
 
@@ -25,17 +25,17 @@ static void kd_cache_start(kd_cache *c, const uint32_t ea[2], uint32_t total)
     c->ea[0] = ea[0];
     c->ea[1] = ea[1];
     c->total = total;
-    for (uint32_t k = 0; k <= c->mask; k++)
-        c->tag[k] = UINT32_MAX;
+    for (uint32_t k = 0; k <= c->mask.is; k++)
+        c->tag[k].is = UINT32_MAX;
 }
 
 static __attribute__((noinline)) void kd_cache_fetch(kd_cache *c, uint32_t block, uint32_t element)
 {
-    const uint32_t slot = block & c->mask, first = block << c->log2, left = c->total - first;
-    const uint32_t count = left < 1u << c->log2 ? left : 1u << c->log2;
-    mfc_get(s()->arena + c->first + (slot * element << c->log2), kd_ea(c->ea) + first * element,
+    const uint32_t log2 = c->log2.is, slot = block & c->mask.is, first = block << log2, left = c->total - first;
+    const uint32_t count = left < 1u << log2 ? left : 1u << log2;
+    mfc_get(s()->arena + c->first.is + (slot * element << log2), kd_ea(c->ea) + first * element,
             (count * element + 15) / 16 * 16, TAG_BLOCK, 0, 0);
-    c->tag[slot] = block;
+    c->tag[slot].is = block;
     c->fetches++;
     kd_wait(1u << TAG_BLOCK);
 }
@@ -43,10 +43,10 @@ static __attribute__((noinline)) void kd_cache_fetch(kd_cache *c, uint32_t block
 /* Element i; what follows it in its block is there, too. */
 static inline const void *kd_cache_get(kd_cache *c, uint32_t i, uint32_t element)
 {
-    const uint32_t block = i >> c->log2, slot = block & c->mask;
-    if (__builtin_expect(c->tag[slot] != block, 0))
+    const uint32_t log2 = c->log2.is, block = i >> log2, slot = block & c->mask.is;
+    if (__builtin_expect(c->tag[slot].is != block, 0))
         kd_cache_fetch(c, block, element);
-    return s()->arena + c->first + element * ((slot << c->log2) + (i & ((1u << c->log2) - 1)));
+    return s()->arena + c->first.is + element * ((slot << log2) + (i & ((1u << log2) - 1)));
 }
 
 static inline const cgt_kd_node *kd_get_nodes(uint32_t i) { return kd_cache_get(&s()->nodes, i, sizeof(cgt_kd_node)); }
@@ -57,7 +57,8 @@ static inline const cgt_kd_leaf *kd_get_leaf(uint32_t i) { return kd_cache_get(&
 static inline const uint32_t *kd_get_references(uint32_t i, uint32_t *count)
 {
     const uint32_t *const r = kd_cache_get(&s()->references, i, sizeof(uint32_t));
-    *count = (1u << s()->references.log2) - (i & ((1u << s()->references.log2) - 1));
+    const uint32_t block = 1u << s()->references.log2.is;
+    *count = block - (i & (block - 1));
     return r;
 }
 

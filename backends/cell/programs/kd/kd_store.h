@@ -7,8 +7,8 @@
 #define KD_STORE_H
 
 #define CGT_SPU_EXACT
-#define CGT_SPE_TEXT_BYTES 49152
-#define CGT_SPE_STACK_BYTES 16384
+#define CGT_SPE_TEXT_BYTES 46500
+#define CGT_SPE_STACK_BYTES 15600
 #define PACKET_MAX_RAYS 256
 #define PACKET_IS_FAST(p) false
 #define KD_SINGLE_RAYS false
@@ -32,12 +32,18 @@
 
 #define KD_BATCH 32u /* triangles that a leaf's test takes together, at most */
 
+/* A word where an SPU's loads have it at once: at the start of a quadword. */
+typedef struct kd_word {
+    _Alignas(16) uint32_t is;
+} kd_word;
+
 /* A cache of blocks, direct mapped; where its blocks lie in the arena. */
 typedef struct kd_cache {
-    uint32_t first, log2, mask, total; /* bytes in the arena; of elements a block; blocks - 1; elements in all */
+    kd_word first, log2, mask;  /* bytes in the arena; of elements a block; blocks - 1 */
+    kd_word tag[CGT_KD_BLOCKS]; /* the block that lies there; UINT32_MAX: none */
+    uint32_t total;             /* elements */
     uint32_t ea[2];
     uint32_t fetches;
-    uint32_t tag[CGT_KD_BLOCKS]; /* the block that lies there; UINT32_MAX: none */
 } kd_cache;
 
 /* Where a triangle went, as the number of its fetch: its slot is that modulo the slots, until that many others have

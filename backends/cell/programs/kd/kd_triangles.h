@@ -68,23 +68,28 @@ static inline void kd_triangles_bring(const uint32_t *id, uint32_t count, uint32
 {
     kd_triangle_cache *const c = &s()->triangles;
     kd_triangle_entry *const entry = kd_triangle_index();
-    const uint32_t last = c->slots - 1;
-    if ((c->next & last) + c->batch > c->slots) /* a list does not go round the end */
-        c->next = (c->next | last) + 1;
-    const uint32_t from = c->next, oldest = from + c->batch - c->slots;
+    const uint32_t last = c->slots - 1, mask = c->mask;
+    uint32_t from = c->next;
+    if ((from & last) + c->batch > c->slots) /* a list does not go round the end */
+        from = (from | last) + 1;
+    uint32_t next = from;
+    const uint32_t oldest = from + c->batch - c->slots;
     for (uint32_t k = 0; k < count; k++) {
-        kd_triangle_entry *const e = &entry[id[k] & c->mask];
+        kd_triangle_entry *const e = &entry[id[k] & mask];
+        uint32_t fetch = e->fetch;
         /* fetches since `oldest` keep their places; the difference is right across 2^32 */
-        if (e->id != id[k] || e->fetch - oldest > c->next - oldest - 1) {
-            uint32_t *const element = s()->list[buffer][c->next - from];
+        if (__builtin_expect((e->id != id[k]) | (fetch - oldest > next - oldest - 1), 0)) {
+            uint32_t *const element = s()->list[buffer][next - from];
             element[0] = sizeof(cgt_leaf_triangle);
             element[1] = s()->control.triangles[1] + id[k] * (uint32_t)sizeof(cgt_leaf_triangle);
-            *e = (kd_triangle_entry){id[k], c->next++};
+            fetch = next++;
+            *e = (kd_triangle_entry){id[k], fetch};
         }
-        slot[k] = e->fetch & last;
+        slot[k] = fetch & last;
     }
-    if (c->next != from)
-        kd_triangles_send(buffer, from, c->next - from);
+    c->next = next;
+    if (next != from)
+        kd_triangles_send(buffer, from, next - from);
 }
 
 static inline const cgt_leaf_triangle *kd_triangle(uint32_t slot)
@@ -94,21 +99,76 @@ static inline const cgt_leaf_triangle *kd_triangle(uint32_t slot)
 
 /* ---- leaves ---- */
 
-/* A batch of a leaf against the rays from i on. */
-static inline void kd_test_batch(leaf_tests *l, const lane_rays *r, const uint32_t *id, uint32_t count, uint32_t i)
+/* A triangle that some ray may hit. */
+static __attribute__((noinline)) void kd_test_triangle(leaf_tests *l, const lane_rays *r, uint32_t id, uint32_t slot,
+                                                       uint32_t i)
 {
-    uint32_t slot[KD_BATCH];
+    lane_triangles triangle;
+    lane_hits q;
+    lane_triangles_of_one(kd_triangle(slot), &triangle);
+    if (lane_test_triangle(r, &triangle, &q))
+        leaf_update_vector(l, id, i, &q);
+}
+
+/* Lane k of a quadword in every lane. */
+#if defined(__SPU__)
+#define KD_SPLAT(q, k) spu_shuffle(q, q, splat##k)
+#else
+#define KD_SPLAT(q, k) spux_vfloat((q)[k])
+#endif
+
+/* As lane_triangles_of_one, by quadwords. */
+static inline void kd_splat_triangle(const cgt_leaf_triangle *t, lane_triangles *q)
+{
+    const float *const from = t->vertex;
+    const vfloat a = spux_load(from), b = spux_load(from + 4), c = spux_load(from + 8);
+#if defined(__SPU__)
+    const vec_uchar16 splat0 = CGT_SPUX_LANES(0, 0, 0, 0), splat1 = CGT_SPUX_LANES(1, 1, 1, 1);
+    const vec_uchar16 splat2 = CGT_SPUX_LANES(2, 2, 2, 2), splat3 = CGT_SPUX_LANES(3, 3, 3, 3);
+#endif
+    q->vertex[0] = KD_SPLAT(a, 0);
+    q->vertex[1] = KD_SPLAT(a, 1);
+    q->vertex[2] = KD_SPLAT(a, 2);
+    q->edge[0][0] = KD_SPLAT(a, 3);
+    q->edge[0][1] = KD_SPLAT(b, 0);
+    q->edge[0][2] = KD_SPLAT(b, 1);
+    q->edge[1][0] = KD_SPLAT(b, 2);
+    q->edge[1][1] = KD_SPLAT(b, 3);
+    q->edge[1][2] = KD_SPLAT(c, 0);
+    q->sum[0] = KD_SPLAT(c, 1);
+    q->sum[1] = KD_SPLAT(c, 2);
+}
+
+/* Two triangles, or one of them, whose sides of the rays are computed together, so that one's instructions fill the
+ * other's latencies. rays: what r points to. */
+static inline void kd_test_two(leaf_tests *l, const lane_rays *r, const lane_rays *rays, const uint32_t *id,
+                               const uint32_t *slot, uint32_t count, uint32_t i)
+{
+    lane_triangles triangle[2];
+    lane_passes passes[2];
+    kd_splat_triangle(kd_triangle(slot[0]), &triangle[0]);
+    kd_splat_triangle(kd_triangle(slot[1]), &triangle[1]);
+    lane_pass_triangle(rays, &triangle[0], false, &passes[0]);
+    lane_pass_triangle(rays, &triangle[1], false, &passes[1]);
+    if (__builtin_expect(spux_all(spu_and(passes[0].outside, passes[1].outside)), 1))
+        return;
+    kd_test_triangle(l, r, id[0], slot[0], i);
+    if (count > 1)
+        kd_test_triangle(l, r, id[1], slot[1], i);
+}
+
+/* A batch of a leaf against the rays from i on. */
+static void kd_test_batch(leaf_tests *l, const lane_rays *r, const uint32_t *id, uint32_t count, uint32_t i)
+{
+    const lane_rays rays = *r;
+    uint32_t slot[KD_BATCH + 1];
     kd_triangles_wait(); /* of what was fetched ahead */
     kd_triangles_bring(id, count, slot, 0);
     kd_triangles_wait();
     s()->tests += count;
-    for (uint32_t k = 0; k < count; k++) {
-        lane_triangles triangle;
-        lane_hits q;
-        lane_triangles_of_one(kd_triangle(slot[k]), &triangle);
-        if (lane_test_triangle(r, &triangle, &q))
-            leaf_update_vector(l, id[k], i, &q);
-    }
+    slot[count] = slot[0];
+    for (uint32_t k = 0; k < count; k += 2)
+        kd_test_two(l, r, &rays, id + k, slot + k, count - k, i);
 }
 
 static void kd_test_list(leaf_tests *l, const lane_rays *r, uint32_t first, uint32_t count, uint32_t i)
