@@ -75,6 +75,11 @@
 #define KD_TEST_LEAF(tree, l, rays, of, i) leaf_test_vector(l, rays, (tree)->reference + (of)->first, (of)->count, i)
 #endif
 
+/* Called where the stack's traversal visits a node, with its children. */
+#ifndef KD_AHEAD
+#define KD_AHEAD(nearer, farther) ((void)0)
+#endif
+
 /* The exact order of two times. Programs whose doubles do not round to nearest take whole numbers alone. */
 #ifndef ROPE_PLANE_ORDER
 #define ROPE_PLANE_ORDER cgt_plane_order

@@ -266,6 +266,9 @@ static cgt_result write_pixel(kd_frame *f, uint32_t envelope, uint32_t tile, uin
     cgt_result result = CGT_OK;
     if (!f->options->cell.keep_doubts && cgt_kd_doubts_finish(&f->doubts, x, y, &id))
         result = cgt_kd_frame_secondary_again(f, envelope, tile, lane, id);
+    const cgt_kd_ray_tile *const ray = (const cgt_kd_ray_tile *)f->array[KD_ARRAY_RAYS] + (size_t)envelope * f->tiles + tile;
+    for (int a = 0; a < 3 && f->output->direction; a++)
+        f->output->direction[pixel][a] = ray->dir[a][lane];
     if (f->output->ids)
         f->output->ids[pixel] = id;
     write_secondary(f, envelope, tile, lane, pixel);
@@ -278,6 +281,8 @@ static cgt_result write_output(kd_frame *f)
     cgt_result result = CGT_OK;
     if (f->output->ids)
         memset(f->output->ids, 0xff, pixels * sizeof *f->output->ids);
+    if (f->output->direction)
+        memset(f->output->direction, 0, pixels * sizeof *f->output->direction);
     if (f->output->occluded)
         memset(f->output->occluded, CGT_KD_NO_RAY, pixels * f->batches);
     if (f->output->ray)

@@ -51,6 +51,7 @@ typedef struct cgt_kd_frame_result {
  * Element [(batch * height + y) * width + x]. */
 typedef struct cgt_kd_frame_output {
     uint32_t *ids;     /* of the triangle that the pixel's canonical ray hits first, or CGT_INVALID_ID */
+    float (*direction)[3]; /* of the pixel's ray, as an SPE made it: that of the library, but for subnormal components */
     float (*ray)[6];   /* secondary: origin, direction */
     uint8_t *occluded; /* secondary: 0 or 1; CGT_KD_NO_RAY: the pixel hits nothing, or there is no direction */
 } cgt_kd_frame_output;

@@ -145,6 +145,7 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
             const cgt_kd_node *const child = KD_NODES(tree, n.word[1]);
             const cgt_kd_node nearer = child[first], farther = child[1 - first];
             kd_parts q;
+            KD_AHEAD(nearer, farther);
             nodes++;
             kd_split_intervals(&r, axis, cgt_kd_split(n), near, far, &q);
             if (spux_none(spux_cmpge(q.far[0], q.near[0]))) {

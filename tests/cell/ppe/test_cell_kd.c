@@ -23,6 +23,7 @@
 static float corner[MOST_TRIANGLES][3][3];
 static uint32_t triangles;
 static uint32_t expected[MOST_PIXELS], found[MOST_PIXELS];
+static float direction[MOST_PIXELS][3];
 static float rays[MOST_BATCHES * MOST_PIXELS][6];
 static uint8_t occluded[MOST_BATCHES * MOST_PIXELS];
 static cgt_kd_frame_result result;
@@ -84,7 +85,7 @@ static cgt_result run_of(const library *q, const cgt_camera *camera, uint32_t wi
                          const cgt_kd_frame_options *o, cgt_kd_frame_result *r)
 {
     const cgt_memory_hooks memory = cgt_memory_default();
-    const cgt_kd_frame_output output = {found, rays, occluded};
+    const cgt_kd_frame_output output = {found, direction, rays, occluded};
     const cgt_scene *scene[CGT_KD_PARTS];
     cgt_kd_scene image;
     char message[CGT_PPE_MESSAGE_BYTES] = "";
@@ -108,6 +109,11 @@ static void compare_ids(const library *q, const cgt_camera *camera, uint32_t wid
     frame.primitive = expected;
     const cgt_trace_options exact = {.precision = CGT_PRECISION_EXACT};
     assert_int_equal(cgt_trace_camera(q->all, camera, &frame, &exact), CGT_OK);
+    for (uint32_t i = 0; i < width * height && result.spe[0].report.envelopes; i++) {
+        float org[3], dir[3];
+        assert_int_equal(cgt_camera_get_ray(camera, width, height, i % width, i / width, org, dir), CGT_OK);
+        assert_memory_equal(direction[i], dir, sizeof dir);
+    }
     for (uint32_t i = 0; i < width * height; i++)
         if (found[i] != expected[i])
             fail_msg("%u triangles in %u parts, %u x %u: pixel %u, %u has triangle %d, not %d", triangles, q->parts,

@@ -18,6 +18,7 @@
 #define FILTER_DEFER(p, i, prim) (kd_add_doubt(i, prim), true)
 #define KD_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define KD_LEAF(tree, i) kd_get_leaf(i)
+#define KD_AHEAD(nearer, farther) kd_fetch_ahead(nearer, farther)
 #define KD_TEST_NODE(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
 #define KD_TEST_LEAF(tree, l, rays, of, i) kd_test_list(l, rays, (of)->first, (of)->count, i)
 
@@ -56,6 +57,8 @@ typedef struct kd_triangle_cache {
     uint32_t first, index, slots, mask; /* bytes in the arena: triangles, entries; entries - 1 */
     uint32_t batch, next;               /* at most; the next fetch */
     uint32_t fetches, lists, pending;   /* pending: tags of lists under way, as bits */
+    uint32_t buffer;                    /* of the last list fetched ahead */
+    kd_word ahead;                      /* whether of leaves, where their parents are visited */
 } kd_triangle_cache;
 
 /* DMA goes to all but the last ones. */
@@ -67,7 +70,7 @@ typedef struct kd_store {
     _Alignas(128) cgt_kd_part part;
     _Alignas(128) cgt_kd_report report;
     _Alignas(128) spe_doubts doubts;
-    _Alignas(128) uint32_t list[2][KD_BATCH][2];
+    _Alignas(128) uint32_t list[3][KD_BATCH][2]; /* of a leaf at hand; of leaves ahead */
     _Alignas(128) cgt_kd_info info[2][8];
     union { /* of set-up; of secondary rays */
         struct {
@@ -94,6 +97,7 @@ enum {
     TAG_BLOCK,
     TAG_LIST0,
     TAG_LIST1,
+    TAG_LIST2,
     TAG_IN0, /* rays, columns and rows, hits of earlier parts */
     TAG_IN1,
     TAG_OUT0,

@@ -25,6 +25,8 @@ static uint32_t kd_triangles_lay_out(const cgt_kd_frame_image *f, uint32_t first
     c->slots = f->triangles.blocks;
     c->mask = (1u << f->triangles.log2) - 1;
     c->batch = f->batch < most ? f->batch : most;
+    /* lists under way, three at most, must not meet in one place */
+    c->ahead.is = s()->control.flags & CGT_KD_PREFETCH && c->slots >= 4 * c->batch;
     c->first = first;
     c->index = first + (c->slots * (uint32_t)sizeof(cgt_leaf_triangle) + 127) / 128 * 128;
     return c->index + (c->mask + 1) * (uint32_t)sizeof(kd_triangle_entry);
@@ -40,6 +42,7 @@ static void kd_triangles_start(void)
         entry[k] = (kd_triangle_entry){UINT32_MAX, 0};
     c->next = 0;
     c->pending = 0;
+    c->buffer = 1;
 }
 
 /* Waits for lists under way. */
@@ -90,6 +93,42 @@ static inline void kd_triangles_bring(const uint32_t *id, uint32_t count, uint32
     c->next = next;
     if (next != from)
         kd_triangles_send(buffer, from, next - from);
+}
+
+/* ---- ahead ---- */
+
+/* Starts to fetch the triangles of a leaf, the first batch of them, where its references are at hand. */
+static __attribute__((noinline)) void kd_fetch_leaf_ahead(cgt_kd_node n)
+{
+    kd_triangle_cache *const c = &s()->triangles;
+    kd_cache *const r = &s()->references;
+    const uint32_t *id = &n.word[1];
+    uint32_t slot[KD_BATCH], there = 1;
+    if (cgt_kd_count(n) > 1) {
+        const uint32_t block = n.word[1] >> r->log2.is;
+        if (r->tag[block & r->mask.is].is != block)
+            return;
+        id = kd_get_references(n.word[1], &there);
+    }
+    const uint32_t most = there < c->batch ? there : c->batch, buffer = 3 - c->buffer;
+    const uint32_t tag = 1u << (TAG_LIST0 + buffer);
+    if (c->pending & tag) {
+        kd_wait(tag);
+        c->pending &= ~tag;
+    }
+    c->buffer = buffer;
+    kd_triangles_bring(id, cgt_kd_count(n) < most ? cgt_kd_count(n) : most, slot, buffer);
+}
+
+/* One level above the leaves (thesis, section 7.6.5). */
+static inline void kd_fetch_ahead(cgt_kd_node nearer, cgt_kd_node farther)
+{
+    if (__builtin_expect(!s()->triangles.ahead.is, 1))
+        return;
+    if (cgt_kd_is_leaf(nearer) && cgt_kd_count(nearer))
+        kd_fetch_leaf_ahead(nearer);
+    if (cgt_kd_is_leaf(farther) && cgt_kd_count(farther))
+        kd_fetch_leaf_ahead(farther);
 }
 
 static inline const cgt_leaf_triangle *kd_triangle(uint32_t slot)
@@ -162,7 +201,6 @@ static void kd_test_batch(leaf_tests *l, const lane_rays *r, const uint32_t *id,
 {
     const lane_rays rays = *r;
     uint32_t slot[KD_BATCH + 1];
-    kd_triangles_wait(); /* of what was fetched ahead */
     kd_triangles_bring(id, count, slot, 0);
     kd_triangles_wait();
     s()->tests += count;
