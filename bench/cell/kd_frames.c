@@ -94,9 +94,9 @@ static bool run_kernel(kd_run *k)
 
 bool kd_frames_run(bench_table *table, const void *elf, size_t bytes)
 {
-    static bool (*const section[])(kd_run *) = {
-        kd_section_layouts,     kd_section_triangles, kd_section_traversals, kd_section_envelopes,
-        kd_section_assignments, kd_section_parts,     kd_section_modes};
+    static bool (*const section[])(kd_run *) = {kd_section_layouts,   kd_section_triangles,   kd_section_traversals,
+                                                kd_section_envelopes, kd_section_assignments, kd_section_parts,
+                                                kd_section_modes};
     static kd_run k;
     k = (kd_run){.table = table, .elf = elf, .elf_bytes = bytes};
     bool done = run_kernel(&k);

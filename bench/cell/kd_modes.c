@@ -62,8 +62,7 @@ static void row_of(kd_run *k, const char *mode, const directions canonical, cons
     bench_table_count(k->table, "rays_differ", differ);
 }
 
-static bool spe_row(kd_run *k, const kd_bench_scene *scene, unsigned spes, const char *mode,
-                    const directions canonical)
+static bool spe_row(kd_run *k, const kd_bench_scene *scene, unsigned spes, const char *mode, const directions canonical)
 {
     static directions found;
     static uint32_t exact[MOST_PIXELS], raw[MOST_PIXELS];

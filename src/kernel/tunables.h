@@ -70,8 +70,7 @@
 #ifndef KD_NODES
 #define KD_NODES(tree, i) (&(tree)->node[i])
 #define KD_LEAF(tree, i) (&(tree)->leaf[i])
-#define KD_TEST_NODE(tree, l, rays, n, i)                                                                              \
-    leaf_test_vector(l, rays, cgt_kd_references(tree, &(n)), cgt_kd_count(n), i)
+#define KD_TEST_NODE(tree, l, rays, n, i) leaf_test_vector(l, rays, cgt_kd_references(tree, &(n)), cgt_kd_count(n), i)
 #define KD_TEST_LEAF(tree, l, rays, of, i) leaf_test_vector(l, rays, (tree)->reference + (of)->first, (of)->count, i)
 #endif
 

@@ -46,11 +46,11 @@ enum {
 
 /* ---- limits ---- */
 
-#define CGT_KD_TILES 64u       /* of an envelope */
-#define CGT_KD_PARTS 16u       /* of a scene */
+#define CGT_KD_TILES 64u /* of an envelope */
+#define CGT_KD_PARTS 16u /* of a scene */
 #define CGT_KD_LIGHTS 4u
-#define CGT_KD_DIRECTIONS 64u  /* of ambient rays */
-#define CGT_KD_BLOCKS 128u     /* of a cache */
+#define CGT_KD_DIRECTIONS 64u      /* of ambient rays */
+#define CGT_KD_BLOCKS 128u         /* of a cache */
 #define CGT_KD_CACHE_BYTES 131072u /* of all caches */
 
 typedef enum cgt_kd_flag {

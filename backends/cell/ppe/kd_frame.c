@@ -11,8 +11,6 @@
 
 #include "cell/ppe/kd_frame_memory.h"
 
-#define MOST_SCALED 0x1p80f /* of the eye and the lights, seen from the scene */
-
 /* ---- the images ---- */
 
 /* Directions evenly spread over the sphere: latitudes in steps, longitudes by the golden angle. They are part of the
@@ -20,7 +18,8 @@
 static void fill_directions(float (*direction)[4])
 {
     for (uint32_t k = 0; k < CGT_KD_DIRECTIONS; k++) {
-        const double z = 1 - (2 * k + 1) / (double)CGT_KD_DIRECTIONS, r = sqrt(1 - z * z), angle = k * 2.399963229728653;
+        const double z = 1 - (2 * k + 1) / (double)CGT_KD_DIRECTIONS, r = sqrt(1 - z * z),
+                     angle = k * 2.399963229728653;
         direction[k][0] = (float)(r * cos(angle));
         direction[k][1] = (float)(r * sin(angle));
         direction[k][2] = (float)z;
@@ -69,8 +68,8 @@ static void fill_infos(kd_frame *f)
 {
     cgt_kd_info *const info = f->array[KD_ARRAY_INFOS];
     for (uint32_t k = 0; k < f->image.envelopes; k++)
-        info[k] = (cgt_kd_info){k, k % f->image.across * 2 * f->image.tiles_x,
-                                k / f->image.across * 2 * f->image.tiles_y, 0};
+        info[k] =
+            (cgt_kd_info){k, k % f->image.across * 2 * f->image.tiles_x, k / f->image.across * 2 * f->image.tiles_y, 0};
 }
 
 static void fill_control(kd_frame *f, uint32_t spe)
@@ -222,78 +221,6 @@ static void gather(const kd_frame *f, cgt_kd_frame_result *r)
     r->interrupts = f->interrupts;
 }
 
-/* Doubts that found a hit occlude their rays. */
-static void merge_decided(kd_frame *f)
-{
-    const uint8_t *const decided = f->array[KD_ARRAY_DECIDED];
-    for (uint32_t e = 0; e < f->image.envelopes && !f->options->cell.keep_doubts; e++)
-        for (uint32_t b = 0; b < f->batches; b++)
-            for (uint32_t k = 0; k < f->tiles; k++) {
-                const uint64_t tile = ((uint64_t)e * f->batches + b) * f->tiles + k;
-                cgt_kd_frame_occlusion(f, e, b)[k] |= decided[tile / 2] >> tile % 2 * 4 & 15u;
-            }
-}
-
-static void write_secondary(kd_frame *f, uint32_t envelope, uint32_t tile, uint32_t lane, size_t pixel)
-{
-    const size_t pixels = (size_t)f->image.width * f->image.height;
-    for (uint32_t b = 0; b < f->batches; b++) {
-        const cgt_kd_secondary_tile *const from = &cgt_kd_frame_secondary(f, envelope, b)[tile];
-        const uint32_t bits = cgt_kd_frame_occlusion(f, envelope, b)[tile];
-        const bool active = from->info.id_or_active >> lane & 1;
-        if (f->output->occluded)
-            f->output->occluded[b * pixels + pixel] = active ? bits >> lane & 1 : CGT_KD_NO_RAY;
-        for (int a = 0; a < 3 && f->output->ray; a++) {
-            f->output->ray[b * pixels + pixel][a] = from->org[a][lane];
-            f->output->ray[b * pixels + pixel][3 + a] = from->dir[a][lane];
-        }
-    }
-}
-
-/* One ray of a hit tile goes to its pixel. */
-static cgt_result write_pixel(kd_frame *f, uint32_t envelope, uint32_t tile, uint32_t lane)
-{
-    const cgt_kd_hit_tile *const hit = (const cgt_kd_hit_tile *)f->array[KD_ARRAY_HITS] + (size_t)envelope * f->tiles + tile;
-    const uint32_t x = hit->info.x + lane % 2, y = hit->info.y + lane / 2;
-    if (!(hit->info.id_or_active >> lane & 1))
-        return CGT_OK;
-    if (x >= f->image.width || y >= f->image.height) {
-        f->broken = true;
-        return CGT_OK;
-    }
-    const size_t pixel = (size_t)y * f->image.width + x;
-    uint32_t id = hit->prim[lane];
-    cgt_result result = CGT_OK;
-    if (!f->options->cell.keep_doubts && cgt_kd_doubts_finish(&f->doubts, x, y, &id))
-        result = cgt_kd_frame_secondary_again(f, envelope, tile, lane, id);
-    const cgt_kd_ray_tile *const ray = (const cgt_kd_ray_tile *)f->array[KD_ARRAY_RAYS] + (size_t)envelope * f->tiles + tile;
-    for (int a = 0; a < 3 && f->output->direction; a++)
-        f->output->direction[pixel][a] = ray->dir[a][lane];
-    if (f->output->ids)
-        f->output->ids[pixel] = id;
-    write_secondary(f, envelope, tile, lane, pixel);
-    return result;
-}
-
-static cgt_result write_output(kd_frame *f)
-{
-    const size_t pixels = (size_t)f->image.width * f->image.height;
-    cgt_result result = CGT_OK;
-    if (f->output->ids)
-        memset(f->output->ids, 0xff, pixels * sizeof *f->output->ids);
-    if (f->output->direction)
-        memset(f->output->direction, 0, pixels * sizeof *f->output->direction);
-    if (f->output->occluded)
-        memset(f->output->occluded, CGT_KD_NO_RAY, pixels * f->batches);
-    if (f->output->ray)
-        memset(f->output->ray, 0, pixels * f->batches * sizeof *f->output->ray);
-    merge_decided(f);
-    for (uint32_t e = 0; e < f->image.envelopes && f->scene->parts; e++)
-        for (uint32_t k = 0; k < 4 * f->tiles && result == CGT_OK; k++)
-            result = write_pixel(f, e, k / 4, k % 4);
-    return result;
-}
-
 /* ---- the run ---- */
 
 static cgt_result run(kd_frame *f, cgt_kd_frame_result *r)
@@ -314,7 +241,8 @@ static cgt_result run(kd_frame *f, cgt_kd_frame_result *r)
     f->share[0].reserved[0] = f->assigner.next; /* where mailboxes begin in each phase */
     for (unsigned i = 0; i < o->spes; i++)
         fill_control(f, i);
-    result = o->elf ? cgt_frame_run_simulated(&f->run, act, r->message) : cgt_frame_run_native(&f->run, act, r->message);
+    result =
+        o->elf ? cgt_frame_run_simulated(&f->run, act, r->message) : cgt_frame_run_native(&f->run, act, r->message);
     if (result == CGT_OK)
         result = check_reports(f, r);
     if (result != CGT_OK)
@@ -322,7 +250,7 @@ static cgt_result run(kd_frame *f, cgt_kd_frame_result *r)
     gather(f, r);
     for (unsigned i = 0; i < o->spes; i++)
         read_doubts(f, i, f->report[i].rest_half, f->report[i].rest);
-    result = write_output(f);
+    result = cgt_kd_frame_write(f);
     r->doubts = f->doubts.doubts;
     r->exact = f->doubts.exact;
     r->changed = f->doubts.changed;
@@ -335,79 +263,7 @@ static cgt_result run(kd_frame *f, cgt_kd_frame_result *r)
     return result;
 }
 
-/* ---- checks ---- */
-
-static bool is_power(uint32_t n) { return n && !(n & (n - 1)); }
-
-/* Blocks are whole quadwords and at most 16 KB, what one DMA takes. */
-static const char *check_caches(const cgt_kd_frame_image *i, bool ropes)
-{
-    const cgt_kd_cache_size *const size[3] = {&i->nodes, &i->references, &i->leaves};
-    static const uint32_t least[3] = {1, 2, 0}, most[3] = {11, 12, 7};
-    static const uint32_t element[3] = {sizeof(cgt_kd_node), sizeof(uint32_t), sizeof(cgt_kd_leaf)};
-    uint64_t bytes = 0;
-    for (int k = 0; k < 3; k++) {
-        if (!is_power(size[k]->blocks) || size[k]->blocks > CGT_KD_BLOCKS || size[k]->log2 < least[k] ||
-            size[k]->log2 > most[k])
-            return "a cache has 1 to 128 blocks, a power of two, of 2 to 2,048 nodes, 4 to 4,096 references, 1 to 128 leaves";
-        if (k < 2 || ropes)
-            bytes += (((uint64_t)size[k]->blocks * element[k] << size[k]->log2) + 127) / 128 * 128;
-    }
-    if (!is_power(i->triangles.blocks) || i->triangles.blocks > 4096 || i->triangles.log2 > 13)
-        return "the cache of triangles has 1 to 4,096 of them, a power of two, and up to 2^13 entries of its index";
-    bytes += (i->triangles.blocks * (uint64_t)sizeof(cgt_leaf_triangle) + 127) / 128 * 128 + (8u << i->triangles.log2);
-    return bytes > CGT_KD_CACHE_BYTES ? "the caches take more than the 131,072 bytes of local store that there are for them"
-                                      : NULL;
-}
-
-static const char *check_secondary(const kd_frame *f)
-{
-    const cgt_kd_frame_options *const o = f->options;
-    if (o->lights > CGT_KD_LIGHTS || o->ambient > CGT_KD_DIRECTIONS)
-        return "a pixel has at most 4 shadow rays and 64 ambient rays";
-    if (o->lights && !(o->light_t_min > 0 && o->light_t_min < 1))
-        return "shadow rays begin between 0 and 1 of the way to their light";
-    if (o->ambient && !(o->ambient_t_min > 0 && o->ambient_t_min < o->ambient_t_max && o->ambient_t_max <= 0x1p40f))
-        return "ambient rays begin above 0 and end behind that, within 2^40";
-    float most = f->scene->magnitude;
-    for (uint32_t k = 0; k < o->lights; k++)
-        for (int a = 0; a < 3; a++)
-            most = fabsf(o->light[k][a]) <= most ? most : fabsf(o->light[k][a]); /* NaN stays */
-    if ((o->lights || o->ambient) && !(most <= CGT_KD_SECONDARY_COORDINATE))
-        return "with secondary rays coordinates of triangles and lights are at most 2^19";
-    return NULL;
-}
-
-static const char *check_eye(const kd_frame *f)
-{
-    for (int a = 0; a < 3; a++) {
-        const float x = fabsf(f->tables.image.eye[a]);
-        if (!(x * f->scene->scale <= MOST_SCALED))
-            return "the eye is 2^80 times as far away as the scene is large, where an SPU's single precision ends";
-        if (f->scene->ropes && x != 0 && x < CGT_KD_MIN_COORDINATE)
-            return "along ropes a coordinate of the eye is 0 or at least 2^-100";
-    }
-    return NULL;
-}
-
-static const char *check_options(const cgt_kd_frame_options *o)
-{
-    const cgt_cell_frame_options *const c = &o->cell;
-    if (c->spes < 1 || c->spes > CGT_MAX_SPES)
-        return "a frame needs 1 to 16 SPEs";
-    if (!c->function == !c->elf)
-        return "a frame needs a program: a function or an ELF file, not both";
-    if ((unsigned)c->assignment >= CGT_ASSIGNMENTS || c->share > 100)
-        return "the assignment is unknown, or its share is above 100 percent";
-    if (c->doubts_half % CGT_DOUBTS_LINE || c->doubts_half > 32768)
-        return "half a ring of doubts is a multiple of 16 up to 32,768";
-    const uint64_t x = o->tiles_x ? o->tiles_x : CGT_KD_TILES_EDGE, y = o->tiles_y ? o->tiles_y : CGT_KD_TILES_EDGE;
-    if (x * y > CGT_KD_TILES)
-        return "an envelope has at most 64 tiles of 2x2 pixels";
-    if (o->batch > 32)
-        return "a leaf's test takes at most 32 triangles together";
-    return NULL;
-}
+/* ---- the call ---- */
 
 static cgt_result trace(kd_frame *f, cgt_kd_frame_result *r)
 {
@@ -415,11 +271,7 @@ static cgt_result trace(kd_frame *f, cgt_kd_frame_result *r)
     f->tiles = f->image.tiles_x * f->image.tiles_y;
     f->batches = f->image.lights + f->image.ambient;
     f->half = f->options->cell.doubts_half ? f->options->cell.doubts_half : CGT_DOUBTS_HALF;
-    const char *wrong = check_caches(&f->image, f->scene->ropes);
-    if (!wrong)
-        wrong = check_secondary(f);
-    if (!wrong)
-        wrong = check_eye(f);
+    const char *const wrong = cgt_kd_frame_check(f);
     if (wrong) {
         snprintf(r->message, sizeof r->message, "%s", wrong);
         return CGT_ERROR_INVALID_ARGUMENT;
@@ -437,7 +289,7 @@ cgt_result cgt_kd_frame_trace(const cgt_kd_scene *scene, const cgt_camera *camer
                               cgt_kd_frame_result *result)
 {
     *result = (cgt_kd_frame_result){.cycles = 0};
-    const char *const wrong = check_options(options);
+    const char *const wrong = cgt_kd_frame_check_options(options);
     if (wrong) {
         snprintf(result->message, sizeof result->message, "%s", wrong);
         return CGT_ERROR_INVALID_ARGUMENT;

@@ -22,12 +22,12 @@ typedef struct cgt_kd_frame_options {
     cgt_cell_frame_options cell; /* spes to user; loop and culling do not matter */
     uint32_t tiles_x, tiles_y;   /* of 2x2 pixels in an envelope, product at most CGT_KD_TILES; 0: 4 */
     cgt_kd_cache_size nodes, references, leaves, triangles; /* of caches; blocks 0: see above */
-    uint32_t batch;     /* triangles that a leaf's test takes together, at most 32; 0: 16 */
-    bool prefetch;      /* fetch a leaf's triangles where its parent is visited */
-    uint32_t lights;    /* shadow rays of each pixel: towards points, at most CGT_KD_LIGHTS */
+    uint32_t batch;  /* triangles that a leaf's test takes together, at most 32; 0: 16 */
+    bool prefetch;   /* fetch a leaf's triangles where its parent is visited */
+    uint32_t lights; /* shadow rays of each pixel: towards points, at most CGT_KD_LIGHTS */
     float light[CGT_KD_LIGHTS][3];
-    float light_t_min;  /* a shadow ray's range is from here to 1, in units of the way to the light; above 0 */
-    uint32_t ambient;   /* ambient rays of each pixel, at most CGT_KD_DIRECTIONS */
+    float light_t_min; /* a shadow ray's range is from here to 1, in units of the way to the light; above 0 */
+    uint32_t ambient;  /* ambient rays of each pixel, at most CGT_KD_DIRECTIONS */
     float ambient_t_min, ambient_t_max; /* their range, in world units; above 0 */
 } cgt_kd_frame_options;
 
@@ -50,10 +50,11 @@ typedef struct cgt_kd_frame_result {
 /* What a frame gives; NULL: not wanted. A batch of secondary rays is one of each pixel: lights, then ambient ones.
  * Element [(batch * height + y) * width + x]. */
 typedef struct cgt_kd_frame_output {
-    uint32_t *ids;     /* of the triangle that the pixel's canonical ray hits first, or CGT_INVALID_ID */
-    float (*direction)[3]; /* of the pixel's ray, as an SPE made it: that of the library, but for subnormal components */
-    float (*ray)[6];   /* secondary: origin, direction */
-    uint8_t *occluded; /* secondary: 0 or 1; CGT_KD_NO_RAY: the pixel hits nothing, or there is no direction */
+    uint32_t *ids; /* of the triangle that the pixel's canonical ray hits first, or CGT_INVALID_ID */
+    float (
+        *direction)[3]; /* of the pixel's ray, as an SPE made it: that of the library, but for subnormal components */
+    float (*ray)[6];    /* secondary: origin, direction */
+    uint8_t *occluded;  /* secondary: 0 or 1; CGT_KD_NO_RAY: the pixel hits nothing, or there is no direction */
 } cgt_kd_frame_output;
 
 #define CGT_KD_NO_RAY 2

@@ -42,9 +42,8 @@ cgt_result cgt_kd_frame_allocate(kd_frame *f, char message[CGT_CELL_MESSAGE_BYTE
             continue;
         f->array[k] = cgt_allocate(&f->scene->memory, f->bytes[k]);
         if (!f->array[k]) {
-            snprintf(message, CGT_CELL_MESSAGE_BYTES,
-                     "out of memory for a frame of %" PRIu32 " x %" PRIu32 " pixels", f->image.width,
-                     f->image.height);
+            snprintf(message, CGT_CELL_MESSAGE_BYTES, "out of memory for a frame of %" PRIu32 " x %" PRIu32 " pixels",
+                     f->image.width, f->image.height);
             return CGT_ERROR_OUT_OF_MEMORY;
         }
         memset(f->array[k], 0, f->bytes[k]);
@@ -93,21 +92,20 @@ cgt_result cgt_kd_frame_map(kd_frame *f)
         const void *memory;
         size_t bytes;
         bool writable;
-    } region[] = {
-        {CGT_EA_CONTROL, f->control, sizeof f->control, false},
-        {CGT_EA_REPORT, f->report, sizeof f->report, true},
-        {CGT_EA_CAMERA, &t->image, sizeof t->image, false},
-        {CGT_EA_SCENE, f->parts, sizeof f->parts, false},
-        {CGT_KD_EA_FRAME, f->image_bytes, CGT_KD_FRAME_BYTES, false},
-        {CGT_EA_COLUMNS, t->column, t->column_bytes, false},
-        {CGT_EA_ROWS, t->row, t->row_bytes, false},
-        {CGT_EA_DOUBTS, f->array[KD_ARRAY_RING], f->bytes[KD_ARRAY_RING], true},
-        {CGT_KD_EA(CGT_KD_INFOS), f->array[KD_ARRAY_INFOS], f->bytes[KD_ARRAY_INFOS], false},
-        {CGT_KD_EA(CGT_KD_RAYS), f->array[KD_ARRAY_RAYS], f->bytes[KD_ARRAY_RAYS], true},
-        {CGT_KD_EA(CGT_KD_RAY_INFOS), f->array[KD_ARRAY_RAY_INFOS], f->bytes[KD_ARRAY_RAY_INFOS], true},
-        {CGT_KD_EA(CGT_KD_HITS), f->array[KD_ARRAY_HITS], f->bytes[KD_ARRAY_HITS], true},
-        {CGT_KD_EA(CGT_KD_SECONDARY_RAYS), f->array[KD_ARRAY_SECONDARY], f->bytes[KD_ARRAY_SECONDARY], true},
-        {CGT_KD_EA(CGT_KD_OCCLUSION), f->array[KD_ARRAY_OCCLUSION], f->bytes[KD_ARRAY_OCCLUSION], true}};
+    } region[] = {{CGT_EA_CONTROL, f->control, sizeof f->control, false},
+                  {CGT_EA_REPORT, f->report, sizeof f->report, true},
+                  {CGT_EA_CAMERA, &t->image, sizeof t->image, false},
+                  {CGT_EA_SCENE, f->parts, sizeof f->parts, false},
+                  {CGT_KD_EA_FRAME, f->image_bytes, CGT_KD_FRAME_BYTES, false},
+                  {CGT_EA_COLUMNS, t->column, t->column_bytes, false},
+                  {CGT_EA_ROWS, t->row, t->row_bytes, false},
+                  {CGT_EA_DOUBTS, f->array[KD_ARRAY_RING], f->bytes[KD_ARRAY_RING], true},
+                  {CGT_KD_EA(CGT_KD_INFOS), f->array[KD_ARRAY_INFOS], f->bytes[KD_ARRAY_INFOS], false},
+                  {CGT_KD_EA(CGT_KD_RAYS), f->array[KD_ARRAY_RAYS], f->bytes[KD_ARRAY_RAYS], true},
+                  {CGT_KD_EA(CGT_KD_RAY_INFOS), f->array[KD_ARRAY_RAY_INFOS], f->bytes[KD_ARRAY_RAY_INFOS], true},
+                  {CGT_KD_EA(CGT_KD_HITS), f->array[KD_ARRAY_HITS], f->bytes[KD_ARRAY_HITS], true},
+                  {CGT_KD_EA(CGT_KD_SECONDARY_RAYS), f->array[KD_ARRAY_SECONDARY], f->bytes[KD_ARRAY_SECONDARY], true},
+                  {CGT_KD_EA(CGT_KD_OCCLUSION), f->array[KD_ARRAY_OCCLUSION], f->bytes[KD_ARRAY_OCCLUSION], true}};
     cgt_result result = map_scene(f);
     for (size_t i = 0; i < sizeof region / sizeof region[0] && result == CGT_OK; i++)
         result = add(f, region[i].ea, region[i].memory, region[i].bytes, region[i].writable);
@@ -151,12 +149,10 @@ static void ambient_direction(const kd_frame *f, const cgt_ray *ray, const cgt_t
 /* Whether anything lies in a ray's way. */
 static cgt_result trace_occlusion(const kd_frame *f, const float org[3], const float d[3], bool light, bool *occluded)
 {
-    const float t_min = light ? f->image.light_t_min : f->image.ambient_t_min, t_max = light ? 1 : f->image.ambient_t_max;
-    const cgt_rays rays = {.count = 1,
-                           .org = {&org[0], &org[1], &org[2]},
-                           .dir = {&d[0], &d[1], &d[2]},
-                           .t_min = &t_min,
-                           .t_max = &t_max};
+    const float t_min = light ? f->image.light_t_min : f->image.ambient_t_min,
+                t_max = light ? 1 : f->image.ambient_t_max;
+    const cgt_rays rays = {
+        .count = 1, .org = {&org[0], &org[1], &org[2]}, .dir = {&d[0], &d[1], &d[2]}, .t_min = &t_min, .t_max = &t_max};
     const cgt_trace_options options = {.precision = CGT_PRECISION_EXACT};
     *occluded = false;
     for (uint32_t k = 0; k < f->scene->parts && !*occluded; k++) {

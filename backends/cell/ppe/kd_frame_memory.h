@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 The libcgt authors
  * SPDX-License-Identifier: MIT
  *
- * A frame of the kd program at work: its arrays in main memory, and the secondary rays of pixels that doubts changed. */
+ * A frame of the kd program at work: its arrays in main memory, checks, the secondary rays of pixels that doubts changed,
+ * and its output. */
 #ifndef CGT_KD_FRAME_MEMORY_H
 #define CGT_KD_FRAME_MEMORY_H
 
@@ -49,6 +50,10 @@ typedef struct kd_frame {
     bool broken; /* the program does not keep the protocol */
 } kd_frame;
 
+/* What is wrong with the options; with the image that was made of them, the scene and the camera. NULL: nothing. */
+const char *cgt_kd_frame_check_options(const cgt_kd_frame_options *options);
+const char *cgt_kd_frame_check(const kd_frame *f);
+
 /* Allocates the arrays. TOO_LARGE, OUT_OF_MEMORY with a message. */
 cgt_result cgt_kd_frame_allocate(kd_frame *f, char message[CGT_CELL_MESSAGE_BYTES]);
 
@@ -63,5 +68,8 @@ uint32_t *cgt_kd_frame_occlusion(const kd_frame *f, uint32_t envelope, uint32_t 
 
 /* Makes the secondary rays of ray `lane` of a tile again, whose hit now is triangle `id`, and traces them. */
 cgt_result cgt_kd_frame_secondary_again(kd_frame *f, uint32_t envelope, uint32_t tile, uint32_t lane, uint32_t id);
+
+/* Decides what the SPEs left open, pixel by pixel, and writes the output. Fails where tracing rays again does. */
+cgt_result cgt_kd_frame_write(kd_frame *f);
 
 #endif

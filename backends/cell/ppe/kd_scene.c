@@ -27,7 +27,8 @@ static cgt_result check_scene(const cgt_scene *scene, cgt_structure structure, c
     if (!scene->is_committed)
         return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "a scene is not committed");
     if (c->prims.spheres)
-        return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "the kd program has triangles alone; spheres go by the grid");
+        return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
+                      "the kd program has triangles alone; spheres go by the grid");
     if (!scene->in_bands && (c->prims.count == 0 || c->valid == 0))
         return CGT_OK;
     for (int a = 0; a < 3; a++)
@@ -35,8 +36,9 @@ static cgt_result check_scene(const cgt_scene *scene, cgt_structure structure, c
             return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
                           "triangles reach beyond 2^40, where the bounds of an SPU's single precision end");
     if (c->scale > MOST_SCALE)
-        return refuse(message, CGT_ERROR_INVALID_ARGUMENT,
-                      "triangles are nearer to the origin than 2^-100, where the bounds of an SPU's single precision end");
+        return refuse(
+            message, CGT_ERROR_INVALID_ARGUMENT,
+            "triangles are nearer to the origin than 2^-100, where the bounds of an SPU's single precision end");
     if (scene->in_bands || c->brute_force)
         return refuse(message, CGT_ERROR_INVALID_ARGUMENT, "triangles of such different magnitudes are in no kd-tree");
     if (c->structure != structure)
@@ -73,7 +75,8 @@ static void *copy(const cgt_memory_hooks *memory, const void *from, size_t bytes
 static bool copy_part(const cgt_memory_hooks *memory, const cgt_kd_tree *tree, cgt_kd_scene_part *p)
 {
     p->node = copy(memory, tree->node, tree->nodes * sizeof *tree->node, &p->node_bytes);
-    p->reference = copy(memory, tree->reference, (size_t)tree->references * sizeof *tree->reference, &p->reference_bytes);
+    p->reference =
+        copy(memory, tree->reference, (size_t)tree->references * sizeof *tree->reference, &p->reference_bytes);
     if (tree->leaf)
         p->leaf = copy(memory, tree->leaf, tree->leaves * sizeof *tree->leaf, &p->leaf_bytes);
     if (!p->node || (!p->reference && p->reference_bytes) || (tree->leaf && !p->leaf))
@@ -193,8 +196,9 @@ cgt_result cgt_kd_scene_init(cgt_kd_scene *image, const cgt_memory_hooks *memory
         if (made)
             fill_triangles(image, &c->prims, first);
         if (made && has_tiny_planes(p))
-            result = refuse(message, CGT_ERROR_INVALID_ARGUMENT,
-                            "a plane of a tree with ropes lies within 2^-100 of 0, where differences underflow on an SPU");
+            result =
+                refuse(message, CGT_ERROR_INVALID_ARGUMENT,
+                       "a plane of a tree with ropes lies within 2^-100 of 0, where differences underflow on an SPU");
     }
     if (!made)
         result = refuse(message, CGT_ERROR_OUT_OF_MEMORY, "out of memory for the image of kd-trees");

@@ -78,8 +78,7 @@ static uint32_t kd_make_tile(const cgt_kd_hit_tile *hit, const cgt_kd_ray_tile *
     const vmask is_hit = spux_not(spu_cmpeq(spux_load_uint(hit->prim), spux_vuint(CGT_INVALID_ID)));
     vfloat org[3], d[3], most = spux_vfloat(0);
     for (uint32_t a = 0; a < 3; a++)
-        org[a] =
-            kd_without_tiny(spu_madd(t, spux_load(ray->dir[a]), spux_vfloat(ray->org[a])), TINY_COORDINATE);
+        org[a] = kd_without_tiny(spu_madd(t, spux_load(ray->dir[a]), spux_vfloat(ray->org[a])), TINY_COORDINATE);
     if (batch < f->lights)
         for (uint32_t a = 0; a < 3; a++)
             d[a] = spu_sub(spux_vfloat(f->light[batch][a]), org[a]);
@@ -89,7 +88,8 @@ static uint32_t kd_make_tile(const cgt_kd_hit_tile *hit, const cgt_kd_ray_tile *
         d[a] = kd_without_tiny(d[a], TINY_COMPONENT);
         most = spux_max(most, spux_abs(d[a]));
     }
-    const vmask usual = spu_and(spu_cmpgt(spux_vfloat(MAX_DIRECTION), most), spu_cmpgt(most, spux_vfloat(MIN_DIRECTION)));
+    const vmask usual =
+        spu_and(spu_cmpgt(spux_vfloat(MAX_DIRECTION), most), spu_cmpgt(most, spux_vfloat(MIN_DIRECTION)));
     const vmask active = spu_and(spu_and(is_hit, kd_active(&hit->info)), usual);
     for (uint32_t a = 0; a < 3; a++) { /* what is no ray has some numbers */
         spux_store(to->dir[a], spux_select(spux_vfloat(1), d[a], active));
@@ -113,8 +113,7 @@ static void kd_load_secondary(uint32_t batch, uint32_t buffer)
     s()->tile = NULL;
     for (uint32_t i = 0; i < p->lanes; i += 4) {
         const cgt_kd_secondary_tile *const ray = &s()->secondary[buffer][i / 4];
-        const vmask active =
-            spux_mask_from_bits(ray->info.id_or_active & ~s()->occlusion[buffer][i / 4]);
+        const vmask active = spux_mask_from_bits(ray->info.id_or_active & ~s()->occlusion[buffer][i / 4]);
         for (uint32_t a = 0; a < 3; a++) {
             spux_store(p->dir[a] + i, spux_load(ray->dir[a]));
             spux_store(p->org[a] + i, spux_load(ray->org[a]));
@@ -153,8 +152,8 @@ static inline uint64_t kd_occlusion_ea(uint32_t envelope, uint32_t batch)
 static void kd_begin_batch(uint32_t envelope, uint32_t batch, uint32_t from, uint32_t buffer, bool make)
 {
     const uint32_t tiles = kd_tiles(), tag = TAG_SECONDARY0 + buffer;
-    const uint64_t ea = kd_ea(s()->control.secondary) +
-                        kd_secondary_place(envelope, batch) * sizeof(cgt_kd_secondary_tile);
+    const uint64_t ea =
+        kd_ea(s()->control.secondary) + kd_secondary_place(envelope, batch) * sizeof(cgt_kd_secondary_tile);
     const uint32_t bytes = tiles * sizeof(cgt_kd_secondary_tile);
     kd_wait(1u << tag);
     if (!make) {
@@ -166,7 +165,8 @@ static void kd_begin_batch(uint32_t envelope, uint32_t batch, uint32_t from, uin
     }
     memset(s()->occlusion[buffer], 0, sizeof s()->occlusion[buffer]);
     for (uint32_t k = 0; k < tiles; k++)
-        s()->report.secondary += kd_make_tile(&s()->hit[from][k], &s()->ray[from][k], batch, &s()->secondary[buffer][k]);
+        s()->report.secondary +=
+            kd_make_tile(&s()->hit[from][k], &s()->ray[from][k], batch, &s()->secondary[buffer][k]);
     mfc_put(s()->secondary[buffer], ea, bytes, tag, 0, 0);
 }
 

@@ -86,7 +86,8 @@ typedef struct kd_store {
     kd_cache nodes, references, leaves;
     kd_triangle_cache triangles;
     packet packet;
-    const cgt_kd_info *tile; /* of the packet, where doubts are of pixels; NULL: of secondary rays from `ray_number` on */
+    const cgt_kd_info
+        *tile; /* of the packet, where doubts are of pixels; NULL: of secondary rays from `ray_number` on */
     uint32_t ray_number, tests;
 } kd_store;
 CGT_SPE_STORE(kd_store, s)

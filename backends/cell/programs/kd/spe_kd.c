@@ -41,8 +41,8 @@ typedef struct kd_world {
 static __attribute__((noinline)) void kd_add_doubt(uint32_t i, uint32_t object)
 {
     const cgt_kd_info *const tile = s()->tile;
-    const uint32_t ray = tile ? (tile[i / 4].y + i % 4 / 2) << 16 | (tile[i / 4].x + i % 2)
-                              : CGT_KD_SECONDARY | (s()->ray_number + i);
+    const uint32_t ray =
+        tile ? (tile[i / 4].y + i % 4 / 2) << 16 | (tile[i / 4].x + i % 2) : CGT_KD_SECONDARY | (s()->ray_number + i);
     if (!tile && s()->doubts.half_doubts + 1 == s()->doubts.capacity)
         kd_wait(3u << TAG_SECONDARY0); /* the PPE reads the rays of doubts that it is told of */
     spe_doubts_add(&s()->doubts, ray, object);
@@ -76,10 +76,10 @@ static void kd_init(kd_world *w)
     packet *const p = &s()->packet;
     memset(p, 0, sizeof *p);
     memset(w, 0, sizeof *w);
-    w->array = (cgt_primitive_array){
-        .kind = CGT_KIND_TRIANGLES, .mask = UINT32_MAX, .count = s()->frame.triangle_count};
-    w->scene.prims = (cgt_primitives){
-        .array = &w->array, .arrays = 1, .count = w->array.count, .triangles = w->array.count};
+    w->array =
+        (cgt_primitive_array){.kind = CGT_KIND_TRIANGLES, .mask = UINT32_MAX, .count = s()->frame.triangle_count};
+    w->scene.prims =
+        (cgt_primitives){.array = &w->array, .arrays = 1, .count = w->array.count, .triangles = w->array.count};
     w->scene.scale = s()->frame.scale;
     const cgt_kd_control *const c = &s()->control;
     s()->doubts = (spe_doubts){.ea = {c->doubts[0], c->doubts[1]}, .capacity = c->half, .tag = TAG_DOUBT0};
