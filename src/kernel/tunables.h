@@ -42,6 +42,11 @@
 #define SCALAR_SQRT(a) __builtin_sqrtf(a)
 #endif
 
+/* 1 over a power of two. A quotient of an SPU need not be exact. */
+#ifndef POWER_RECIPROCAL
+#define POWER_RECIPROCAL(power) (1 / (power))
+#endif
+
 /* Whether somebody else decides if primitive `prim` is the closest hit of ray i of packet p, and has been told. The
  * ray's best hit then is the best of those that are certain. */
 #ifndef FILTER_DEFER

@@ -9,9 +9,9 @@
 #include "cell/ppe/frame.h"
 #include "cell/ppe/kd_scene.h"
 
-/* Sizes of caches where 0 is given: nodes 16 x 2 KB, references 16 x 1 KB, leaves 16 x 640 bytes (with ropes alone),
+/* Sizes of caches where 0 is given: nodes 64 x 512 bytes, references 16 x 1 KB, leaves 16 x 640 bytes (with ropes alone),
  * 1,024 triangles and as many entries of their index. */
-#define CGT_KD_NODE_BLOCKS ((cgt_kd_cache_size){16, 8})
+#define CGT_KD_NODE_BLOCKS ((cgt_kd_cache_size){64, 6})
 #define CGT_KD_REFERENCE_BLOCKS ((cgt_kd_cache_size){16, 8})
 #define CGT_KD_LEAF_BLOCKS ((cgt_kd_cache_size){16, 3})
 #define CGT_KD_TRIANGLE_SLOTS ((cgt_kd_cache_size){1024, 10})

@@ -64,6 +64,8 @@ static float normal(float x) { return fabsf(x) < FLT_MIN ? 0 : x; }
 static void *copy(const cgt_memory_hooks *memory, const void *from, size_t bytes, size_t *allocated)
 {
     *allocated = (bytes + 127) / 128 * 128;
+    if (!bytes)
+        return NULL;
     void *const to = cgt_allocate(memory, *allocated);
     if (to) {
         memset(to, 0, *allocated);

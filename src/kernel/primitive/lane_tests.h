@@ -57,7 +57,7 @@ CGT_SPU_INLINE void lane_rays_derive(lane_rays *r, float scale)
     r->underflow = spu_madd(r->max_dir, spux_vfloat(0x1p-118f), spux_vfloat(0x1p-118f));
     for (int a = 0; a < 3; a++)
         r->scaled_org[a] = spu_mul(r->org[a], spux_vfloat(scale));
-    r->unscale = spux_vfloat(1 / scale);
+    r->unscale = spux_vfloat(POWER_RECIPROCAL(scale));
 }
 
 /* Rays i to i + CGT_LANES - 1 of a packet. */
