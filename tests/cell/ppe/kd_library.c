@@ -22,37 +22,28 @@ static uint8_t occluded[KD_MOST_BATCHES * KD_MOST_PIXELS];
 
 /* ---- scenes of the library ---- */
 
-static cgt_scene *make_scene(cgt_context *context, const cgt_research_scene_options *research, uint32_t first,
-                             uint32_t count)
+/* Triangles first to end - 1, committed. */
+static cgt_scene *make_scene(cgt_context *context, const cgt_scene_options *options, uint32_t first, uint32_t end)
 {
     cgt_scene *scene;
-    const cgt_scene_options o = {.structure = research ? CGT_STRUCTURE_KD : CGT_STRUCTURE_AUTO, .research = research};
-    const cgt_triangles t = {
-        .count = count, .vertex_count = 3 * count, .vertices = count ? &kd_corner[first][0][0] : NULL};
-    assert_int_equal(cgt_scene_create(context, &o, &scene), CGT_OK);
+    const cgt_triangles t = {.count = end - first,
+                             .vertex_count = 3 * (end - first),
+                             .vertices = end > first ? &kd_corner[first][0][0] : NULL};
+    assert_int_equal(cgt_scene_create(context, options, &scene), CGT_OK);
     assert_int_equal(cgt_scene_add_triangles(scene, &t, NULL), CGT_OK);
+    assert_int_equal(cgt_scene_commit(scene), CGT_OK);
     return scene;
 }
 
-/* The triangles in equal parts, with or without ropes; and all of them for the library. */
 kd_library kd_library_make(uint32_t parts, bool ropes, cgt_kd_layout layout)
 {
     const cgt_research_scene_options research = {.kd_layout = layout, .kd_break_level = 3};
+    const cgt_scene_options o = {.structure = ropes ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD, .research = &research};
     kd_library q = {.parts = parts};
     assert_int_equal(cgt_context_create(NULL, &q.context), CGT_OK);
-    for (uint32_t k = 0; k < parts; k++) {
-        const uint32_t first = (uint32_t)((uint64_t)kd_triangles * k / parts),
-                       end = (uint32_t)((uint64_t)kd_triangles * (k + 1) / parts);
-        cgt_scene_options o = {.structure = ropes ? CGT_STRUCTURE_KD_ROPES : CGT_STRUCTURE_KD, .research = &research};
-        const cgt_triangles t = {.count = end - first,
-                                 .vertex_count = 3 * (end - first),
-                                 .vertices = end > first ? &kd_corner[first][0][0] : NULL};
-        assert_int_equal(cgt_scene_create(q.context, &o, &q.scene[k]), CGT_OK);
-        assert_int_equal(cgt_scene_add_triangles(q.scene[k], &t, NULL), CGT_OK);
-        assert_int_equal(cgt_scene_commit(q.scene[k]), CGT_OK);
-    }
+    for (uint32_t k = 0; k < parts; k++)
+        q.scene[k] = make_scene(q.context, &o, kd_triangles * k / parts, kd_triangles * (k + 1) / parts);
     q.all = make_scene(q.context, NULL, 0, kd_triangles);
-    assert_int_equal(cgt_scene_commit(q.all), CGT_OK);
     return q;
 }
 
@@ -105,35 +96,40 @@ void kd_library_compare_ids(const kd_library *q, const cgt_camera *camera, uint3
                      width, height, i % width, i / width, (int)found[i], (int)expected[i]);
 }
 
-/* The library's answer for the same rays; a ray is there where the pixel has a hit. */
+/* A batch of secondary rays against the library's answer; a ray is there where the pixel has a hit. */
+static void compare_batch(const kd_library *q, float (*ray)[6], const uint8_t *bit, const float range[2],
+                          uint32_t pixels)
+{
+    static uint8_t right[KD_MOST_PIXELS];
+    static float limit[KD_MOST_PIXELS][6]; /* t_min and t_max, as far apart as rays */
+    const cgt_trace_options exact = {.precision = CGT_PRECISION_EXACT};
+    const cgt_rays r = {.count = pixels,
+                        .stride = sizeof ray[0],
+                        .org = {&ray[0][0], &ray[0][1], &ray[0][2]},
+                        .dir = {&ray[0][3], &ray[0][4], &ray[0][5]},
+                        .t_min = &limit[0][0],
+                        .t_max = &limit[0][1]};
+    for (uint32_t i = 0; i < pixels; i++) {
+        const bool none = bit[i] == CGT_KD_NO_RAY;
+        if (none != (found[i] == CGT_INVALID_ID))
+            fail_msg("pixel %u: a secondary ray without a hit, or none with one", i);
+        limit[i][0] = range[0];
+        limit[i][1] = none ? -1 : range[1];
+        if (none)
+            ray[i][3] = 1; /* a direction of a ray that is off */
+    }
+    assert_int_equal(cgt_occluded_rays(q->all, &r, right, &exact), CGT_OK);
+    for (uint32_t i = 0; i < pixels; i++)
+        if (bit[i] != CGT_KD_NO_RAY && bit[i] != right[i])
+            fail_msg("pixel %u: a secondary ray has %u, not %u", i, bit[i], right[i]);
+}
+
 static void compare_secondary(const kd_library *q, const cgt_kd_frame_options *o, uint32_t pixels)
 {
-    const cgt_trace_options exact = {.precision = CGT_PRECISION_EXACT};
-    static uint8_t right[KD_MOST_PIXELS];
-    for (uint32_t b = 0; b < o->lights + o->ambient; b++) {
-        const float(*from)[6] = (const float(*)[6])rays + (size_t)b * pixels;
-        const cgt_rays r = {.count = pixels,
-                            .stride = sizeof rays[0],
-                            .org = {&from[0][0], &from[0][1], &from[0][2]},
-                            .dir = {&from[0][3], &from[0][4], &from[0][5]}};
-        cgt_rays ranged = r;
-        static float range[KD_MOST_PIXELS][6];
-        for (uint32_t i = 0; i < pixels; i++) {
-            const bool none = occluded[b * pixels + i] == CGT_KD_NO_RAY;
-            range[i][0] = b < o->lights ? o->light_t_min : o->ambient_t_min;
-            range[i][1] = none ? -1 : b < o->lights ? 1 : o->ambient_t_max;
-            if (none)
-                rays[(size_t)b * pixels + i][3] = 1;
-            if (none != (found[i] == CGT_INVALID_ID))
-                fail_msg("batch %u, pixel %u: a ray without a hit, or none with one", b, i);
-        }
-        ranged.t_min = &range[0][0];
-        ranged.t_max = &range[0][1];
-        assert_int_equal(cgt_occluded_rays(q->all, &ranged, right, &exact), CGT_OK);
-        for (uint32_t i = 0; i < pixels; i++)
-            if (occluded[b * pixels + i] != CGT_KD_NO_RAY && occluded[b * pixels + i] != right[i])
-                fail_msg("batch %u, pixel %u: occluded %u, not %u", b, i, occluded[b * pixels + i], right[i]);
-    }
+    const float light[2] = {o->light_t_min, 1}, ambient[2] = {o->ambient_t_min, o->ambient_t_max};
+    for (uint32_t b = 0; b < o->lights + o->ambient; b++)
+        compare_batch(q, rays + (size_t)b * pixels, occluded + (size_t)b * pixels, b < o->lights ? light : ambient,
+                      pixels);
 }
 
 #ifdef SPE_KD_ELF
