@@ -60,7 +60,7 @@ static cgt_camera make_camera(test_random *r)
 static cgt_kd_frame_options make_options(test_random *r, unsigned k)
 {
     static const cgt_kd_cache_size nodes[] = {{0}, {1, 1}, {4, 3}}, references[] = {{0}, {1, 2}, {2, 4}},
-                                   leaves[] = {{0}, {1, 0}, {2, 1}}, slots[] = {{0}, {1, 0}, {8, 2}};
+                                   leaves[] = {{0}, {1, 0}, {2, 1}}, slots[] = {{0}, {1, 0}, {16, 8}, {8, 2}};
     cgt_kd_frame_options o = {.cell = {.spes = 1 + k % 8, .function = spe_kd}};
     o.cell.assignment = (cgt_assignment)(k % CGT_ASSIGNMENTS);
     o.cell.doubts_half = k & 2 ? 16 : 0;
@@ -69,7 +69,7 @@ static cgt_kd_frame_options make_options(test_random *r, unsigned k)
     o.nodes = nodes[random_bits(r) % 3];
     o.references = references[random_bits(r) % 3];
     o.leaves = leaves[random_bits(r) % 3];
-    o.triangles = slots[random_bits(r) % 3];
+    o.triangles = slots[random_bits(r) % 4];
     o.batch = (uint32_t)random_bits(r) % 33;
     o.prefetch = random_bits(r) & 1;
     return o;
