@@ -79,9 +79,9 @@
 #define KD_TEST_LEAF(tree, l, rays, of, i) leaf_test_vector(l, rays, (tree)->reference + (of)->first, (of)->count, i)
 #endif
 
-/* Called where the stack's traversal visits a node, with its children. */
+/* Called with each node that is pushed, to be visited after its sibling. */
 #ifndef KD_AHEAD
-#define KD_AHEAD(nearer, farther) ((void)0)
+#define KD_AHEAD(n) ((void)0)
 #endif
 
 /* The exact order of two times. Programs whose doubles do not round to nearest take whole numbers alone. */

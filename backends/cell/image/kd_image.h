@@ -56,7 +56,7 @@ enum {
 typedef enum cgt_kd_flag {
     CGT_KD_MAILBOX = 1, /* as CGT_CONTROL_MAILBOX */
     CGT_KD_ROPES = 2,
-    CGT_KD_PREFETCH = 4 /* fetch a leaf's triangles where its parent is visited */
+    CGT_KD_PREFETCH = 4 /* fetch a leaf's triangles where its sibling is visited first */
 } cgt_kd_flag;
 
 /* The control block of an SPE, 128 bytes (thesis, section 7.4). */

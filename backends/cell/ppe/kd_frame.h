@@ -23,7 +23,7 @@ typedef struct cgt_kd_frame_options {
     uint32_t tiles_x, tiles_y;   /* of 2x2 pixels in an envelope, product at most CGT_KD_TILES; 0: 4 */
     cgt_kd_cache_size nodes, references, leaves, triangles; /* of caches; blocks 0: see above */
     uint32_t batch;  /* triangles that a leaf's test takes together, at most 32; 0: 16 */
-    bool prefetch;   /* fetch a leaf's triangles where its parent is visited */
+    bool prefetch;   /* with a stack: fetch a leaf's triangles where its sibling is visited first */
     uint32_t lights; /* shadow rays of each pixel: towards points, at most CGT_KD_LIGHTS */
     float light[CGT_KD_LIGHTS][3];
     float light_t_min; /* a shadow ray's range is from here to 1, in units of the way to the light; above 0 */

@@ -145,7 +145,6 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
             const cgt_kd_node *const child = KD_NODES(tree, n.word[1]);
             const cgt_kd_node nearer = child[first], farther = child[1 - first];
             kd_parts q;
-            KD_AHEAD(nearer, farther);
             nodes++;
             kd_split_intervals(&r, axis, cgt_kd_split(n), near, far, &q);
             if (spux_none(spux_cmpge(q.far[0], q.near[0]))) {
@@ -154,8 +153,10 @@ static void traverse_vector(const cgt_kd_tree *tree, leaf_tests *l, uint32_t i)
                 n = farther;
                 continue;
             }
-            if (spux_any(spux_cmpge(q.far[1], q.near[1])))
+            if (spux_any(spux_cmpge(q.far[1], q.near[1]))) {
+                KD_AHEAD(farther);
                 stack[top++] = (kd_entry){q.near[1], q.far[1], farther};
+            }
             near = q.near[0];
             far = q.far[0];
             n = nearer;

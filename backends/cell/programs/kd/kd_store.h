@@ -19,7 +19,7 @@
 #define FILTER_DEFER(p, i, prim) (kd_add_doubt(i, prim), true)
 #define KD_NODES(tree, i) ((void)(tree), kd_get_nodes(i))
 #define KD_LEAF(tree, i) kd_get_leaf(i)
-#define KD_AHEAD(nearer, farther) kd_fetch_ahead(nearer, farther)
+#define KD_AHEAD(n) kd_fetch_ahead(n)
 #define KD_TEST_NODE(tree, l, rays, n, i) kd_test_node(l, rays, n, i)
 #define KD_TEST_LEAF(tree, l, rays, of, i) kd_test_list(l, rays, (of)->first, (of)->count, i)
 
@@ -71,7 +71,7 @@ typedef struct kd_triangle_cache {
     uint32_t batch, next;               /* at most; the next fetch */
     uint32_t fetches, lists, pending;   /* pending: tags of lists under way, as bits */
     uint32_t buffer;                    /* of the last list fetched ahead */
-    kd_word ahead;                      /* whether of leaves, where their parents are visited */
+    kd_word ahead;                      /* whether of leaves, where they are pushed */
 } kd_triangle_cache;
 
 /* DMA goes to all but the last ones. */

@@ -120,15 +120,11 @@ static __attribute__((noinline)) void kd_fetch_leaf_ahead(cgt_kd_node n)
     kd_triangles_bring(id, cgt_kd_count(n) < most ? cgt_kd_count(n) : most, slot, buffer);
 }
 
-/* One level above the leaves (thesis, section 7.6.5). */
-static inline void kd_fetch_ahead(cgt_kd_node nearer, cgt_kd_node farther)
+/* One level above a leaf (thesis, section 7.6.5), where it is pushed: the rays are tested against its sibling first. */
+static inline void kd_fetch_ahead(cgt_kd_node n)
 {
-    if (__builtin_expect(!s()->triangles.ahead.is, 1))
-        return;
-    if (cgt_kd_is_leaf(nearer) && cgt_kd_count(nearer))
-        kd_fetch_leaf_ahead(nearer);
-    if (cgt_kd_is_leaf(farther) && cgt_kd_count(farther))
-        kd_fetch_leaf_ahead(farther);
+    if (__builtin_expect(s()->triangles.ahead.is, 0) && cgt_kd_is_leaf(n) && cgt_kd_count(n))
+        kd_fetch_leaf_ahead(n);
 }
 
 static inline const cgt_leaf_triangle *kd_triangle(uint32_t slot)

@@ -17,7 +17,7 @@ static void kd_add_doubt(uint32_t i, uint32_t object);
 static inline const cgt_kd_node *kd_get_nodes(uint32_t i);
 static inline const cgt_kd_leaf *kd_get_leaf(uint32_t i);
 static void kd_test_list(struct leaf_tests *l, const struct lane_rays *r, uint32_t first, uint32_t count, uint32_t i);
-static inline void kd_fetch_ahead(cgt_kd_node nearer, cgt_kd_node farther);
+static inline void kd_fetch_ahead(cgt_kd_node n);
 static void kd_test_node(struct leaf_tests *l, const struct lane_rays *r, cgt_kd_node n, uint32_t i);
 
 /* the kernels themselves: one translation unit, so that what the program does not need goes */
