@@ -11,6 +11,7 @@
 
 #include "cell/cell_frames.h"
 #include "cell/cell_tables.h"
+#include "cell/kd_frames.h"
 #include "cell/micro_programs.h"
 #include "cell/spu/elf.h"
 #include "common/bench.h"
@@ -18,7 +19,7 @@
 #include "common/program.h"
 #include "core/memory.h"
 
-enum { OPTION_CYCLES = 0x700, OPTION_FRAMES, OPTION_PROFILE, OPTION_PIXELS, OPTION_SPHERES };
+enum { OPTION_CYCLES = 0x700, OPTION_FRAMES, OPTION_KD, OPTION_PROFILE, OPTION_PIXELS, OPTION_SPHERES };
 #define DEFAULT_CYCLES UINT64_C(100000000000)
 #define MOST_FILE_BYTES ((size_t)16 << 20)
 
@@ -26,7 +27,7 @@ typedef struct cell_settings {
     const char *path; /* NULL: the built-in programs */
     const char *json_path;
     uint64_t cycles;
-    bool frames, profile;
+    bool frames, kd, profile;
     cell_frames frame; /* its size, and spheres */
 } cell_settings;
 
@@ -36,6 +37,7 @@ static const struct argp_option options[] = {
     {"profile", OPTION_PROFILE, NULL, 0, "with --frames: one frame on one SPE, function by function", 0},
     {"pixels", OPTION_PIXELS, "WxH", 0, "of a frame (default 320x180)", 0},
     {"spheres", OPTION_SPHERES, "COUNT", 0, "of a frame's scene (default 2000)", 0},
+    {"kd", OPTION_KD, NULL, 0, "FILE is spe_kd.elf: trace frames of triangles through caches", 0},
     {"json", 'j', "FILE", 0, "write the rows as JSON, too", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
@@ -76,6 +78,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
             argp_error(state, "--spheres: %s", error);
         settings->frame.spheres = (uint32_t)count;
         return 0;
+    case OPTION_KD: settings->kd = true; return 0;
     case 'j': settings->json_path = argument; return 0;
     case ARGP_KEY_ARG:
         if (settings->path)
@@ -204,6 +207,11 @@ static int run_file(bench_table *table, const cell_settings *settings)
         free(bytes);
         return done ? PROGRAM_OK : PROGRAM_FAILED;
     }
+    if (settings->kd) {
+        const bool done = kd_frames_run(table, bytes, size);
+        free(bytes);
+        return done ? PROGRAM_OK : PROGRAM_FAILED;
+    }
     if (create(&spu, CGT_SPU_TIMED)) {
         free(bytes);
         return PROGRAM_FAILED;
@@ -241,6 +249,10 @@ int bench_cell(int argc, char **argv)
         return PROGRAM_USAGE;
     if (settings.frames && !settings.path) {
         program_error("--frames wants the program's FILE, spe_grid.elf");
+        return PROGRAM_USAGE;
+    }
+    if (settings.kd && !settings.path) {
+        program_error("--kd wants the program's FILE, spe_kd.elf");
         return PROGRAM_USAGE;
     }
     bench_table *const table = bench_table_open(settings.json_path);

@@ -109,7 +109,9 @@ kernel:
 # The same for the simulated Cell, as its files write their includes: from backends on.
 cell_layers='
 cell/ppe: cell/image cell/machine cell/spu
+cell/programs/kd: cell/image cell/machine cell/programs
 cell/programs/grid: cell/image cell/machine
+cell/programs: cell/image cell/machine
 cell/image:
 cell/machine: cell/mfc cell/spu
 cell/mfc/dma: cell/mfc

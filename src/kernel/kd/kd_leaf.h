@@ -46,7 +46,7 @@ CGT_SPU_INLINE void leaf_tests_init(const cgt_committed_scene *committed_scene, 
         memset(l->triangles.vertex, 0, sizeof l->triangles.vertex);
         memset(l->row, 0, sizeof l->row);
     }
-    if (!p->fast)
+    if (!PACKET_IS_FAST(p))
         return;
     filter_packet_init(p, committed_scene->scale, &l->filter);
     if (committed_scene->prims.triangles && !p->common_origin)
@@ -182,7 +182,7 @@ CGT_SPU_INLINE void leaf_test_vector(leaf_tests *l, const lane_rays *r, const ui
                                      uint32_t i)
 {
     l->counts->references += count;
-    if (l->p->fast) {
+    if (PACKET_IS_FAST(l->p)) {
         leaf_test_fast(l, reference, count, i);
         return;
     }
@@ -227,7 +227,7 @@ CGT_SPU_INLINE void leaf_test_ray(leaf_tests *l, const lane_rays *r, const uint3
                                   uint32_t i)
 {
     l->counts->references += count;
-    if (l->p->fast) {
+    if (PACKET_IS_FAST(l->p)) {
         leaf_test_fast(l, reference, count, i - i % CGT_LANES);
         return;
     }
