@@ -21,7 +21,8 @@
 
 /* Sums over the frames and their SPEs. */
 typedef struct cell_sums {
-    uint64_t frames, cycles, slowest, idle, dma_waits, other_waits;
+    uint64_t frames, cycles, slowest, idle;
+    cgt_spe_waits waits;
     uint64_t gets, puts, bytes_in, bytes_out, messages, strips;
     uint64_t doubts, exact, changed;
 } cell_sums;
@@ -133,7 +134,10 @@ static void add_result(cell_sums *s, const cgt_cell_frame_result *r, unsigned sp
         const cgt_cell_frame_spe *const spe = &r->spe[i];
         s->cycles += spe->cycles;
         s->idle += spe->idle;
-        s->dma_waits += spe->waits;
+        s->waits.dma += spe->waits.dma;
+        s->waits.queue += spe->waits.queue;
+        s->waits.mailbox += spe->waits.mailbox;
+        s->waits.signal += spe->waits.signal;
         s->gets += spe->counts.gets;
         s->puts += spe->counts.puts;
         s->bytes_in += spe->counts.bytes_in;
@@ -212,8 +216,11 @@ void render_cell_print(const render_cell *cell, FILE *to)
         return;
     }
     /* idle: SPEs that have ended wait for the slowest */
-    fprintf(to,
-            "  cycles a frame  %.2f million, %.1f frames per second at 3.2 GHz; SPEs wait %.3f %%, are idle %.2f %%\n",
-            (double)s->slowest / frames * 1e-6, 3.2e9 * frames / (double)s->slowest, percent(s->dma_waits, s->cycles),
+    fprintf(to, "  cycles a frame  %.2f million, %.1f frames per second at 3.2 GHz; SPEs idle %.2f %%\n",
+            (double)s->slowest / frames * 1e-6, 3.2e9 * frames / (double)s->slowest,
             percent(s->idle, s->cycles + s->idle));
+    fprintf(to,
+            "  waits of SPEs   for DMA %.3f %%, its queue %.3f %%, mailboxes %.3f %%, the PPE to read doubts %.3f %%\n",
+            percent(s->waits.dma, s->cycles), percent(s->waits.queue, s->cycles), percent(s->waits.mailbox, s->cycles),
+            percent(s->waits.signal, s->cycles));
 }

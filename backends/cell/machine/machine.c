@@ -125,6 +125,26 @@ cgt_result cgt_cell_prepare(cgt_cell *cell, const cgt_local_store *store, cgt_pp
     return CGT_OK;
 }
 
+void cgt_cell_add_wait(cgt_spe *spe, unsigned channel, uint64_t cycles)
+{
+    cgt_spe_waits *const w = &spe->result.waits;
+    uint64_t *what = &w->event;
+    switch (channel) {
+    case MFC_RdTagStat:
+    case MFC_RdAtomicStat:
+    case MFC_RdListStallStat: what = &w->dma; break;
+    case MFC_Cmd: what = &w->queue; break;
+    case SPU_RdInMbox:
+    case SPU_WrOutMbox:
+    case SPU_WrOutIntrMbox: what = &w->mailbox; break;
+    case SPU_RdSigNotify1:
+    case SPU_RdSigNotify2: what = &w->signal; break;
+    default: break;
+    }
+    *what += cycles;
+    cgt_mfc_add_wait(spe->mfc, cycles);
+}
+
 /* ---- failures ---- */
 
 void cgt_cell_fail(cgt_cell *cell, const char *format, ...)

@@ -61,6 +61,9 @@ void cgt_cell_fail(cgt_cell *cell, const char *format, ...) __attribute__((forma
 void cgt_cell_fail_mfc(cgt_cell *cell, unsigned spe); /* with the MFC's own message */
 void cgt_cell_fail_deadlock(cgt_cell *cell);          /* names who waits for what */
 
+/* Counts cycles in which the SPE waited for a channel. */
+void cgt_cell_add_wait(cgt_spe *spe, unsigned channel, uint64_t cycles);
+
 void cgt_cell_post(cgt_cell *cell, cgt_ppe_event event);
 cgt_ppe_event cgt_cell_take_event(cgt_cell *cell);
 /* Calls the PPE's function; the event's mailbox value is taken first. */

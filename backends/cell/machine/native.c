@@ -91,12 +91,13 @@ static void wait_for_others(cgt_native *native, unsigned channel)
  * what others take has no length here. */
 static void stall(cgt_native *native, unsigned channel)
 {
-    cgt_mfc *const mfc = native->cell->spe[native->spe].mfc;
+    cgt_spe *const spe = &native->cell->spe[native->spe];
+    cgt_mfc *const mfc = spe->mfc;
     const uint64_t next = cgt_mfc_next_event(mfc);
     if (next == CGT_NO_CYCLE || (channel != SPU_RdEventStat && !cgt_mfc_is_busy(mfc))) {
         wait_for_others(native, channel);
     } else if (next > native->clock) {
-        cgt_mfc_add_wait(mfc, next - native->clock);
+        cgt_cell_add_wait(spe, channel, next - native->clock);
         native->clock = next;
     }
 }

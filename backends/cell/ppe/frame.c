@@ -142,7 +142,7 @@ static void gather(frame *f, cgt_cell_frame_result *r)
         const cgt_spe_result spe = cgt_cell_get_result(f->cell, i);
         r->spe[i] = (cgt_cell_frame_spe){.report = f->report[i],
                                          .cycles = spe.cycle,
-                                         .waits = spe.counts.wait_cycles,
+                                         .waits = spe.waits,
                                          .messages = f->assigner.messages[i],
                                          .counts = spe.counts};
         r->cycles = spe.cycle > r->cycles ? spe.cycle : r->cycles;

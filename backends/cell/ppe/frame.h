@@ -35,7 +35,7 @@ typedef struct cgt_cell_frame_options {
 typedef struct cgt_cell_frame_spe {
     cgt_spe_report report;
     uint64_t cycles, idle; /* until it stopped; from there to the frame's end */
-    uint64_t waits;        /* cycles in which it waited for DMA or a mailbox */
+    cgt_spe_waits waits;   /* cycles in which it waited, by what for */
     uint32_t messages;     /* mailbox values both ways, interrupts included */
     cgt_mfc_counts counts;
 } cgt_cell_frame_spe;
