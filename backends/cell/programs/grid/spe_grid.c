@@ -16,6 +16,7 @@ static void grid_add_doubt(uint32_t i, uint32_t object);
 #include "kernel/builders/queue_grid_fill.c" /* NOLINT(bugprone-suspicious-include) */
 #include "kernel/grid/queue_grid_traverse.c" /* NOLINT(bugprone-suspicious-include) */
 
+#include "cell/programs/grid/grid_check.h"
 #include "cell/programs/grid/grid_doubts.h"
 #include "cell/programs/grid/grid_rays.h"
 
@@ -58,6 +59,8 @@ static uint32_t grid_fetch(void)
     const cgt_grid_image *g = &s()->scene;
     grid_get(&s()->camera, grid_ea(c->camera), sizeof s()->camera);
     grid_get(&s()->scene, grid_ea(c->scene), sizeof s()->scene);
+    if (!grid_check_images(g, &s()->camera))
+        return CGT_REPORT_BAD_IMAGE;
     if (g->spheres > CGT_GRID_SPHERES)
         return CGT_REPORT_SPHERES;
     for (uint32_t a = 0, cells = 1; a < 3; a++) {
@@ -188,13 +191,14 @@ static void grid_trace_strip(grid_world *w, uint32_t strip, uint32_t line)
 static void grid_trace_strips(grid_world *w)
 {
     const cgt_control_block *c = &s()->control;
+    const uint32_t strips = grid_count_strips(c);
     uint32_t line = 0;
-    for (uint32_t k = 0; k < c->strips; k++, line ^= 1)
-        grid_trace_strip(w, c->first + k * c->step, line);
+    for (uint32_t k = 0, strip = c->first; k < c->strips && strip < strips; k++, strip += c->step, line ^= 1)
+        grid_trace_strip(w, strip, line);
     if (c->flags & CGT_CONTROL_MAILBOX)
         for (;; line ^= 1) {
             const uint32_t strip = spu_read_in_mbox();
-            if (strip == CGT_STRIP_END)
+            if (strip >= strips) /* CGT_STRIP_END is */
                 break;
             spu_write_out_mbox(strip);
             grid_trace_strip(w, strip, line);
@@ -209,7 +213,7 @@ CGT_SPE_MAIN(spe_grid)
     memset(s(), 0, offsetof(grid_store, voxel));
     s()->doubts = s()->half_doubts = s()->half = s()->unread = 0;
     grid_get(&s()->control, argument, sizeof s()->control);
-    if (s()->control.magic != CGT_CONTROL_MAGIC)
+    if (!grid_check_control(&s()->control))
         return grid_report(CGT_REPORT_BAD_CONTROL, 0);
     const uint32_t state = grid_fetch();
     if (state != CGT_REPORT_DONE)
