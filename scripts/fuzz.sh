@@ -15,7 +15,7 @@ seconds=${1:-600}
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || { echo "fuzz.sh: '$seconds' is no number of seconds" >&2; exit 2; }
 shift $(($# > 0 ? 1 : 0))
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(scene cliffs trajectory mesh)
+[ ${#targets[@]} -gt 0 ] || targets=(scene cliffs cell trajectory mesh)
 for target in "${targets[@]}"; do
     [ -d "tests/fuzz/corpus/$target" ] || { echo "fuzz.sh: unknown target '$target'" >&2; exit 2; }
 done
