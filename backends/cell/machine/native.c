@@ -300,9 +300,14 @@ cgt_result cgt_cell_run_native(cgt_cell *cell, const cgt_spe_program *program, c
     /* a line's alignment, so that an address and its offset have the same low bits */
     uint8_t *const arenas = aligned_alloc(CGT_LINE_BYTES, spes * CGT_LOCAL_STORE_BYTES);
     cgt_result result = native && arenas ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
-    if (result == CGT_OK) {
+    cell->failed = false; /* of an earlier run */
+    if (result != CGT_OK) {
+        cgt_cell_fail(cell, "out of memory for %zu native SPEs", spes);
+    } else {
         memset(arenas, 0, spes * CGT_LOCAL_STORE_BYTES); /* as a simulated one begins */
         result = init_lock(cell) ? CGT_OK : CGT_ERROR_THREADS;
+        if (result != CGT_OK)
+            cgt_cell_fail(cell, "the system refused a lock for native SPEs");
     }
     if (result == CGT_OK) {
         result = run(cell, native, arenas, program, ppe, user);
