@@ -29,7 +29,7 @@ typedef struct cell_sums {
 
 struct render_cell {
     render_cell_options options;
-    unsigned char *program; /* SIM: an ELF file */
+    unsigned char *program; /* SIM, REAL: an ELF file */
     size_t program_bytes;
     cell_sums sums;
     cgt_cell_frame_result result; /* of the frame at hand */
@@ -98,7 +98,7 @@ int render_cell_create(renderer *r)
     cell->options = r->options.cell;
     if (cell->options.spes == 0)
         cell->options.spes = DEFAULT_SPES;
-    return cell->options.mode == RENDER_CELL_SIM ? find_program(cell) : 0;
+    return cell->options.mode == RENDER_CELL_NATIVE ? 0 : find_program(cell);
 }
 
 void render_cell_release(render_cell *cell)
@@ -114,7 +114,8 @@ void render_cell_release(render_cell *cell)
 static cgt_cell_frame_options options_of(const render_cell *cell)
 {
     cgt_cell_frame_options o = {.spes = cell->options.spes, .assignment = (cgt_assignment)cell->options.assignment};
-    if (cell->options.mode == RENDER_CELL_SIM) {
+    if (cell->options.mode != RENDER_CELL_NATIVE) {
+        o.real = cell->options.mode == RENDER_CELL_REAL;
         o.elf = cell->program;
         o.elf_bytes = cell->program_bytes;
     } else {
@@ -202,17 +203,18 @@ void render_cell_print(const render_cell *cell, FILE *to)
     if (!cell || !cell->sums.frames)
         return;
     const cell_sums *const s = &cell->sums;
+    static const char *const modes[] = {"", "native", "simulated", "real"};
     const int sim = cell->options.mode == RENDER_CELL_SIM;
     const double frames = (double)s->frames;
     fprintf(to, "Cell              %" PRIu32 " SPE%s, %s, strips %s, %.1f messages a frame\n", cell->options.spes,
-            cell->options.spes == 1 ? "" : "s", sim ? "simulated" : "native",
+            cell->options.spes == 1 ? "" : "s", modes[cell->options.mode],
             render_cell_assignments[cell->options.assignment], (double)s->messages / frames);
     fprintf(to, "  DMA a frame     %.0f gets of %.3f MB, %.0f puts of %.3f MB\n", (double)s->gets / frames,
             (double)s->bytes_in / frames * 1e-6, (double)s->puts / frames, (double)s->bytes_out / frames * 1e-6);
     fprintf(to, "  doubts a frame  %.1f to the PPE, %.1f of them decided in whole numbers; %.1f pixels changed\n",
             (double)s->doubts / frames, (double)s->exact / frames, (double)s->changed / frames);
     if (!sim) {
-        fprintf(to, "  cycles          none: a native program takes no time of the model but for its DMA\n");
+        fprintf(to, "  cycles          none: they are the simulator's\n");
         return;
     }
     /* idle: SPEs that have ended wait for the slowest */

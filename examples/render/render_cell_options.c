@@ -16,14 +16,15 @@ const char *const render_cell_assignments[4] = {"interleaved", "static", "dynami
 
 static const struct argp_option table[] = {
     {NULL, 0, NULL, 0, "On an emulated Cell:", 6},
-    {"cell", OPTION_CELL, "native|sim", 0,
+    {"cell", OPTION_CELL, "native|sim|real", 0,
      "Trace spheres by Chapman's program on SPEs of 256 KB each, to the same picture: native, the program compiled "
-     "for this machine, or sim, the SPU's own, by instructions and cycles, seconds a frame",
+     "for this machine, or sim, the SPU's own, by instructions and cycles, seconds a frame; real: that on SPEs of this "
+     "machine",
      0},
     {"spes", OPTION_SPES, "N", 0, "SPEs, 1 to 16; default 6. Without --cell: native", 0},
     {"cell-assignment", OPTION_CELL_ASSIGNMENT, "NAME", 0,
      "Who traces which strip: interleaved (default), static, dynamic or hybrid", 0},
-    {"cell-program", OPTION_CELL_PROGRAM, "FILE", 0, "Of sim: spe_grid.elf; default: the installed one", 0},
+    {"cell-program", OPTION_CELL_PROGRAM, "FILE", 0, "Of sim and real: spe_grid.elf; default: the installed one", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
 static void parse_mode(const char *arg, render_cell_options *o, struct argp_state *state)
@@ -32,8 +33,10 @@ static void parse_mode(const char *arg, render_cell_options *o, struct argp_stat
         o->mode = RENDER_CELL_NATIVE;
     else if (strcmp(arg, "sim") == 0)
         o->mode = RENDER_CELL_SIM;
+    else if (strcmp(arg, "real") == 0)
+        o->mode = RENDER_CELL_REAL;
     else
-        argp_error(state, "--cell: \"%s\" is neither native nor sim", arg);
+        argp_error(state, "--cell: \"%s\" is not native, sim or real", arg);
 }
 
 static void parse_assignment(const char *arg, render_cell_options *o, struct argp_state *state)

@@ -62,7 +62,8 @@ refuses 1 'edge has 1 to 32768' --cell native -s 40000x1 some.xyz
 refuses 1 'stats counts' --cell native --stats some.xyz
 refuses 1 'none.elf: No such file' --cell sim --cell-program none.elf some.xyz
 refuses 1 'no ELF file' --cell sim --cell-program some.xyz some.xyz
-refuses 2 'neither native nor sim' --cell real some.xyz
+refuses 2 'not native, sim or real' --cell ppe some.xyz
+[ "$elf" = none ] || [ -d /spu ] || refuses 1 'there are no SPEs' --cell real --cell-program "$elf" some.xyz
 refuses 2 '--spes: ' --spes 17 some.xyz
 refuses 2 '--spes: ' --spes 0 some.xyz
 refuses 2 '--cell-assignment: ' --cell native --cell-assignment best some.xyz

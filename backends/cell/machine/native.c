@@ -300,7 +300,7 @@ cgt_result cgt_cell_run_native(cgt_cell *cell, const cgt_spe_program *program, c
     /* a line's alignment, so that an address and its offset have the same low bits */
     uint8_t *const arenas = aligned_alloc(CGT_LINE_BYTES, spes * CGT_LOCAL_STORE_BYTES);
     cgt_result result = native && arenas ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
-    cell->failed = false; /* of an earlier run */
+    cgt_cell_reset(cell, ppe, user);
     if (result != CGT_OK) {
         cgt_cell_fail(cell, "out of memory for %zu native SPEs", spes);
     } else {

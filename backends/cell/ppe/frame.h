@@ -21,13 +21,15 @@ typedef struct cgt_cell_frame_options {
     size_t elf_bytes;
     bool untimed; /* simulated without the timing model: faster, cycles mean nothing */
     cgt_assignment assignment;
-    uint32_t share;       /* of HYBRID: percent that is fixed; 0: CGT_HYBRID_SHARE */
-    bool flattened;       /* one loop over cells */
-    cgt_cull cull;        /* AUTO: FRUSTUM, which is as good as BLOCKS for so few rays, and cheaper */
-    uint32_t doubts_half; /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
-    bool keep_doubts;     /* leave the SPEs' ids as they are: not exact */
-    uint32_t ppe_cycles;  /* cgt_cell_options */
-    uint64_t cycle_limit; /* the same */
+    uint32_t share;                      /* of HYBRID: percent that is fixed; 0: CGT_HYBRID_SHARE */
+    bool flattened;                      /* one loop over cells */
+    cgt_cull cull;                       /* AUTO: FRUSTUM, which is as good as BLOCKS for so few rays, and cheaper */
+    uint32_t doubts_half;                /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
+    bool keep_doubts;                    /* leave the SPEs' ids as they are: not exact */
+    uint32_t ppe_cycles;                 /* cgt_cell_options */
+    uint64_t cycle_limit;                /* the same */
+    bool real;                           /* `elf` runs on a real Cell's SPEs (cell/machine/spufs.h) */
+    const struct cgt_spufs_calls *spufs; /* of these, NULL: Linux's */
     void (*inspect)(void *user, unsigned spe, const cgt_spu *spu); /* after a simulated run; NULL: nothing */
     void *user;
 } cgt_cell_frame_options;
