@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT
  *
  * A Cell: 1 to 16 SPEs, each with its MFC and local store, main memory, and a PPE that feeds them. The SPEs run in one
- * of two ways:
+ * of two ways, or on a real Cell (spufs.h):
  *
  *   simulated   SPUs execute instructions (cell/spu), all on the calling thread in the order of simulated time: the
  *               access of a channel, the end of a DMA and an act of the PPE happen in the order of their cycles, equal
