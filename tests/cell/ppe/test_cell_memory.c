@@ -63,7 +63,10 @@ static void *allocate(void *user, size_t bytes, size_t alignment)
     memory_requests++;
     void *const memory =
         refuses() ? NULL : __real_aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    held += memory ? bytes : 0;
+    if (memory) {
+        memset(memory, 0x5a, bytes); /* what is not set before it is used shows */
+        held += bytes;
+    }
     return memory;
 }
 
