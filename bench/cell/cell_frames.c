@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "cell/ppe/frame.h"
+#include "cell/cell_waits.h"
 #include "cell/spu/timing/timing.h"
 #include "common/program.h"
 
@@ -54,22 +55,6 @@ static bool run(const cgt_grid_scene *scene, const cgt_cell_frame_options *o, cg
     return false;
 }
 
-/* Cycles that SPEs waited, all together, by what for. */
-static void put_waits(bench_table *table, const cgt_cell_frame_result *r, unsigned spes)
-{
-    cgt_spe_waits sum = {0};
-    for (unsigned i = 0; i < spes; i++) {
-        sum.dma += r->spe[i].waits.dma;
-        sum.queue += r->spe[i].waits.queue;
-        sum.mailbox += r->spe[i].waits.mailbox;
-        sum.signal += r->spe[i].waits.signal;
-    }
-    bench_table_count(table, "waits_dma", sum.dma);
-    bench_table_count(table, "waits_queue", sum.queue);
-    bench_table_count(table, "waits_mailbox", sum.mailbox);
-    bench_table_count(table, "waits_signal", sum.signal);
-}
-
 static bool run_kernels(bench_table *table, const cgt_grid_scene *scene, cgt_cell_frame_options o)
 {
     static cgt_cell_frame_result r;
@@ -92,7 +77,7 @@ static bool run_kernels(bench_table *table, const cgt_grid_scene *scene, cgt_cel
         bench_table_count(table, "cells", p->cells);
         bench_table_count(table, "tests", p->tests);
         bench_table_count(table, "mispredicts", m.counts.mispredicts);
-        put_waits(table, &r, 1);
+        bench_table_count(table, "waits", r.spe[0].waits);
         bench_table_count(table, "doubts", r.doubts);
         bench_table_count(table, "changed", r.changed);
         bench_table_end_row(table);
@@ -121,30 +106,8 @@ static bool run_assignments(bench_table *table, const cgt_grid_scene *scene, cgt
             bench_table_count(table, "cycles", r.cycles);
             bench_table_real(table, "idle_percent", 100 * (double)idle / ((double)r.cycles * o.spes));
             bench_table_count(table, "messages", messages);
-            put_waits(table, &r, o.spes);
             bench_table_end_row(table);
         }
-    return true;
-}
-
-/* A slow PPE: when the next strip's number no longer comes in time. */
-static bool run_ppes(bench_table *table, const cgt_grid_scene *scene, cgt_cell_frame_options o)
-{
-    static cgt_cell_frame_result r;
-    static const uint32_t cycles[] = {2000, 20000, 200000, 500000, 1000000};
-    bench_table_section(table, "ppe");
-    o.spes = 6;
-    for (unsigned k = 0; k < 2 * sizeof cycles / sizeof cycles[0]; k++) {
-        o.assignment = k % 2 ? CGT_ASSIGN_HYBRID : CGT_ASSIGN_DYNAMIC;
-        o.ppe_cycles = cycles[k / 2];
-        if (!run(scene, &o, &r))
-            return false;
-        bench_table_text(table, "assignment", assignments[o.assignment]);
-        bench_table_count(table, "ppe_cycles", o.ppe_cycles);
-        bench_table_count(table, "cycles", r.cycles);
-        put_waits(table, &r, o.spes);
-        bench_table_end_row(table);
-    }
     return true;
 }
 
@@ -160,7 +123,8 @@ bool cell_frames_run(bench_table *table, const void *elf, size_t bytes)
         program_error("%s", message);
         return false;
     }
-    const bool done = run_kernels(table, &scene, o) && run_assignments(table, &scene, o) && run_ppes(table, &scene, o);
+    const bool done =
+        run_kernels(table, &scene, o) && run_assignments(table, &scene, o) && cell_waits_run(table, &scene, &o);
     cgt_grid_scene_release(&scene);
     return done;
 }

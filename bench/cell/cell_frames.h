@@ -11,9 +11,8 @@
 #include "common/bench_table.h"
 
 /* Frames of 2,000 random spheres, 320 x 180 pixels, by the grid program, an ELF file in memory: the sections "kernel",
- * by loop and culling on one SPE, "assignment", by assignment and number of SPEs, and "ppe", by the
- * cycles that the PPE takes to answer. Waits are split: for DMA, a place in its queue, mailboxes, signals. Returns false
- * after a message. */
+ * by loop and culling on one SPE, "assignment", by assignment and number of SPEs, and those of
+ * cell_waits.h. Returns false after a message. */
 bool cell_frames_run(bench_table *table, const void *elf, size_t bytes);
 
 #endif

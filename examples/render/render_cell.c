@@ -135,10 +135,10 @@ static void add_result(cell_sums *s, const cgt_cell_frame_result *r, unsigned sp
         const cgt_cell_frame_spe *const spe = &r->spe[i];
         s->cycles += spe->cycles;
         s->idle += spe->idle;
-        s->waits.dma += spe->waits.dma;
-        s->waits.queue += spe->waits.queue;
-        s->waits.mailbox += spe->waits.mailbox;
-        s->waits.signal += spe->waits.signal;
+        s->waits.dma += spe->waited.dma;
+        s->waits.queue += spe->waited.queue;
+        s->waits.mailbox += spe->waited.mailbox;
+        s->waits.signal += spe->waited.signal;
         s->gets += spe->counts.gets;
         s->puts += spe->counts.puts;
         s->bytes_in += spe->counts.bytes_in;

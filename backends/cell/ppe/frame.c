@@ -143,9 +143,10 @@ static void gather(frame *f, cgt_cell_frame_result *r)
         const cgt_spe_result spe = cgt_cell_get_result(f->cell, i);
         r->spe[i] = (cgt_cell_frame_spe){.report = f->report[i],
                                          .cycles = spe.cycle,
-                                         .waits = spe.waits,
+                                         .waits = spe.counts.wait_cycles,
                                          .messages = f->assigner.messages[i],
-                                         .counts = spe.counts};
+                                         .counts = spe.counts,
+                                         .waited = spe.waits};
         r->cycles = spe.cycle > r->cycles ? spe.cycle : r->cycles;
     }
     for (unsigned i = 0; i < f->options->spes; i++)

@@ -21,25 +21,27 @@ typedef struct cgt_cell_frame_options {
     size_t elf_bytes;
     bool untimed; /* simulated without the timing model: faster, cycles mean nothing */
     cgt_assignment assignment;
-    uint32_t share;                      /* of HYBRID: percent that is fixed; 0: CGT_HYBRID_SHARE */
-    bool flattened;                      /* one loop over cells */
-    cgt_cull cull;                       /* AUTO: FRUSTUM, which is as good as BLOCKS for so few rays, and cheaper */
-    uint32_t doubts_half;                /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
-    bool keep_doubts;                    /* leave the SPEs' ids as they are: not exact */
-    uint32_t ppe_cycles;                 /* cgt_cell_options */
-    uint64_t cycle_limit;                /* the same */
-    bool real;                           /* `elf` runs on a real Cell's SPEs (cell/machine/spufs.h) */
-    const struct cgt_spufs_calls *spufs; /* of these, NULL: Linux's */
+    uint32_t share;       /* of HYBRID: percent that is fixed; 0: CGT_HYBRID_SHARE */
+    bool flattened;       /* one loop over cells */
+    cgt_cull cull;        /* AUTO: FRUSTUM, which is as good as BLOCKS for so few rays, and cheaper */
+    uint32_t doubts_half; /* doubts of half a ring, a multiple of 16; 0: CGT_DOUBTS_HALF */
+    bool keep_doubts;     /* leave the SPEs' ids as they are: not exact */
+    uint32_t ppe_cycles;  /* cgt_cell_options */
+    uint64_t cycle_limit; /* the same */
     void (*inspect)(void *user, unsigned spe, const cgt_spu *spu); /* after a simulated run; NULL: nothing */
     void *user;
+    /* `elf` runs on the SPEs of a real Cell (cell/machine/spufs.h), by these calls; NULL: Linux's */
+    bool real;
+    const struct cgt_spufs_calls *spufs;
 } cgt_cell_frame_options;
 
 typedef struct cgt_cell_frame_spe {
     cgt_spe_report report;
     uint64_t cycles, idle; /* until it stopped; from there to the frame's end */
-    cgt_spe_waits waits;   /* cycles in which it waited, by what for */
+    uint64_t waits;        /* cycles in which it waited for DMA or a mailbox */
     uint32_t messages;     /* mailbox values both ways, interrupts included */
     cgt_mfc_counts counts;
+    cgt_spe_waits waited; /* `waits` by what for */
 } cgt_cell_frame_spe;
 
 typedef struct cgt_cell_frame_result {
