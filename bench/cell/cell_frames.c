@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cell/ppe/frame.h"
+#include "cell/cell_waits.h"
 #include "cell/spu/timing/timing.h"
 #include "common/program.h"
 
@@ -320,7 +321,8 @@ bool cell_frames_run(bench_table *table, const cell_frames *frames)
     static session m;
     if (!begin(&m, table, frames, spheres_of(frames)))
         return false;
-    const bool done = run_kernels(&m) && run_push(&m) && run_light(&m) && run_memory(&m) && run_assignments(&m);
+    const bool done = run_kernels(&m) && run_push(&m) && run_light(&m) && run_memory(&m) && run_assignments(&m) &&
+                      cell_waits_run(table, &m.scene, &m.options);
     end(&m);
     return done && run_growth(table, frames);
 }

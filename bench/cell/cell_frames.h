@@ -20,7 +20,7 @@ typedef struct cell_frames {
 
 /* Sections, on one SPE where they do not say: "kernel", by loop, culling, and whether tests are remembered; "push";
  * "light", rays from hits; "memory", by the bandwidth of main memory; "assignment", by assignment and number of SPEs;
- * "spheres", by their number. Returns false after a message. */
+ * those of cell_waits.h; "spheres", by their number. Returns false after a message. */
 bool cell_frames_run(bench_table *table, const cell_frames *frames);
 
 /* One frame on one SPE: the section "functions", where its cycles go, and a row of "kernel". */
