@@ -224,7 +224,7 @@ static bool one_ray_fast_sphere(const cgt_ray *ray, cgt_sphere q, cgt_single_hit
     const vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
     const fast_sphere s = fast_sphere_prepare(r.org, sphere);
     vfloat t, n[3];
-    const vmask covered = fast_sphere_resolve(&s, r.dir, r.t_min, r.t_max, true, &t, n);
+    const vmask covered = fast_sphere_resolve(&s, r.dir, fast_inverse_square(r.dir), r.t_min, r.t_max, true, &t, n);
     hit->t = t[0];
     for (int a = 0; a < 3; a++)
         hit->normal[a] = n[a][0];

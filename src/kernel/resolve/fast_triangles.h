@@ -27,6 +27,8 @@
 #ifndef CGT_FAST_TRIANGLES_H
 #define CGT_FAST_TRIANGLES_H
 
+#include <math.h>
+
 #include "kernel/primitive/lane_vectors.h"
 #include "kernel/resolve/resolve_triangles.h"
 

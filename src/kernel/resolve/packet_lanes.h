@@ -49,7 +49,8 @@ CGT_SPU_INLINE vmask packet_spheres_fast(const packet_rays *r, const vfloat sphe
                                          vfloat *t, vfloat n[3])
 {
     const fast_sphere s = fast_sphere_prepare(r->org, sphere);
-    const vmask covered = fast_sphere_resolve(&s, r->dir, r->t_min, r->t_max, normal, t, n);
+    const vmask covered =
+        fast_sphere_resolve(&s, r->dir, fast_inverse_square(r->dir), r->t_min, r->t_max, normal, t, n);
     const vmask left = spu_andc(hit, covered);
     if (!spux_any(left))
         return covered;

@@ -110,6 +110,16 @@ CGT_SPU_INLINE void tile_resolve_row(const cgt_committed_scene *committed_scene,
         tile_store_hits(to, committed_scene->prims.array->geometry, &h);
 }
 
+/* Of the pixels of rows y and y + 1, ahead of the loop, whose chain of operations is long enough without a division. */
+CGT_SPU_INLINE void tile_compute_inverses(const tile_ray_table *ray_table, uint32_t y, float *inverse)
+{
+    for (uint32_t i = 0; i < 2 * TILE_EDGE; i += CGT_LANES) {
+        vfloat dir[3];
+        tile_load_directions(ray_table, i % TILE_EDGE, y + i / TILE_EDGE, dir);
+        spux_store(inverse + i, fast_inverse_square(dir));
+    }
+}
+
 CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_scene, const tile *t,
                                         const cgt_region *region, tile_resolve_mode mode, tile_resolve_cache cache,
                                         cgt_counts *counts)
@@ -123,6 +133,8 @@ CGT_SPU_INLINE void tile_resolve_region(const cgt_committed_scene *committed_sce
     for (uint32_t y = 0; y < r.height; y += 2) {
         if (by_rows)
             tile_begin_rows(&r, cache.seam, &rows, y);
+        if (mode.fast && cache.inverse)
+            tile_compute_inverses(cache.ray_table, y, cache.inverse);
         for (uint32_t x = 0; x < r.width; x += CGT_LANES) {
             const size_t offset = by_lines ? x % TILE_CACHE_LINE : by_rows ? x : (size_t)y * r.row_stride + x;
             const tile_store_target to = {&q, mode.nontemporal && !by_lines, x, offset};
@@ -169,7 +181,9 @@ __attribute__((noinline)) static void tile_resolve_sphere_array(const cgt_commit
                                                                 cgt_counts *counts)
 {
     tile_prepared_sphere prepared = {.number = CGT_INVALID_ID};
+    _Alignas(CGT_VECTOR_BYTES) float inverse[2 * TILE_EDGE];
     cache.sphere = &prepared;
+    cache.inverse = mode.fields ? inverse : NULL;
     mode.triangles = mode.parallel = false;
     tile_resolve_streamed(committed_scene, t, r, mode, cache, counts);
 }

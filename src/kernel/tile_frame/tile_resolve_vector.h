@@ -160,7 +160,7 @@ typedef struct tile_pixel_vector {
 typedef struct tile_prepared_sphere {
     uint32_t number;
     prepared_sphere sphere;
-    fast_sphere fast; /* in its place in precision FAST */
+    fast_same_sphere fast; /* in its place in precision FAST */
 } tile_prepared_sphere;
 
 /* Constant over a frame. Some members are compile-time constants where loops are instantiated (tile_resolve.c). */
@@ -177,6 +177,7 @@ typedef struct tile_resolve_cache {
     const tile_ray_table *ray_table;
     tile_seam *seam; /* NULL: none */
     tile_prepared_sphere *sphere;
+    float *inverse; /* of fast_inverse_square, of two rows; NULL: not needed */
     const tile_prepared_triangles *prepared;
 } tile_resolve_cache;
 
@@ -192,6 +193,27 @@ CGT_SPU_INLINE void tile_store_normals(const vfloat normal[3], vmask missed, til
         h->normal[a] = spux_select(normal[a], spux_vfloat(0), missed);
 }
 
+/* The spheres of a vector of pixels. */
+CGT_SPU_INLINE fast_sphere tile_fast_spheres(const cgt_primitive_array *array, const vfloat org[3],
+                                             const tile_pixel_vector *p, tile_resolve_cache cache)
+{
+    vfloat sphere[4];
+    if (!p->uniform) {
+        gather_spheres(array, tile_pixel_prims(p), sphere);
+        return fast_sphere_prepare(org, sphere);
+    }
+    if (p->first_prim != cache.sphere->number) {
+        const cgt_sphere q = cgt_array_sphere(array, p->first_prim);
+        const float part[4] = {q.x, q.y, q.z, q.r};
+        for (int a = 0; a < 4; a++)
+            sphere[a] = spux_vfloat(part[a]);
+        const fast_sphere s = fast_sphere_prepare(org, sphere);
+        cache.sphere->number = p->first_prim;
+        cache.sphere->fast = fast_sphere_first(&s);
+    }
+    return fast_sphere_of_same(&cache.sphere->fast);
+}
+
 /* The next functions return the lanes whose result is right. */
 CGT_SPU_INLINE vmask tile_resolve_fast_spheres(const cgt_committed_scene *committed_scene, const tile *t, bool normals,
                                                const tile_pixel_vector *p, const vfloat dir[3],
@@ -201,23 +223,10 @@ CGT_SPU_INLINE vmask tile_resolve_fast_spheres(const cgt_committed_scene *commit
     const float *eye = t->rays->eye;
     const vfloat org[3] = {spux_vfloat(eye[0]), spux_vfloat(eye[1]), spux_vfloat(eye[2])};
     const vfloat t_min = spux_vfloat(t->rays->t_min), t_max = spux_vfloat(t->rays->t_max);
-    fast_sphere gathered;
-    const fast_sphere *s = &gathered;
+    const fast_sphere s = tile_fast_spheres(array, org, p, cache);
     vfloat n[3];
-    if (p->uniform) {
-        s = &cache.sphere->fast;
-        if (p->first_prim != cache.sphere->number) {
-            const cgt_sphere q = cgt_array_sphere(array, p->first_prim);
-            const vfloat sphere[4] = {spux_vfloat(q.x), spux_vfloat(q.y), spux_vfloat(q.z), spux_vfloat(q.r)};
-            cache.sphere->number = p->first_prim;
-            cache.sphere->fast = fast_sphere_prepare(org, sphere);
-        }
-    } else {
-        vfloat sphere[4];
-        gather_spheres(array, tile_pixel_prims(p), sphere);
-        gathered = fast_sphere_prepare(org, sphere);
-    }
-    const vmask covered = fast_sphere_resolve(s, dir, t_min, t_max, normals, found, n);
+    const vfloat inverse = spux_load(cache.inverse + (p->row & 1) * TILE_EDGE + p->x);
+    const vmask covered = fast_sphere_resolve(&s, dir, inverse, t_min, t_max, normals, found, n);
     if (normals)
         tile_store_normals(n, p->missed, h);
     return covered;
@@ -323,7 +332,7 @@ CGT_SPU_INLINE vmask tile_resolve_parallel(const cgt_committed_scene *committed_
             gather_spheres(array, tile_pixel_prims(p), sphere);
         if (mode.fast) {
             const fast_sphere s = fast_sphere_prepare(org, sphere);
-            resolved = fast_sphere_resolve(&s, dir, t_min, t_max, mode.fields & CGT_FIELD_NORMAL, &found.t,
+            resolved = fast_sphere_resolve(&s, dir, fast_inverse_square(dir), t_min, t_max, mode.fields & CGT_FIELD_NORMAL, &found.t,
                                            found.normal);
         } else {
             resolve_directions(dir, half);
