@@ -51,6 +51,12 @@ static void cross(const truth_real a[3], const truth_real b[3], truth_real c[3])
 
 static double length_of(const truth_real a[3]) { return sqrt((double)dot(a, a)); }
 
+/* From 2^low on, below 2^high, evenly over the orders of magnitude: without functions that differ between machines. */
+static float magnitude(test_random *r, int low, int high)
+{
+    return ldexpf(random_float(r, 1, 2), low + (int)random_below(r, (uint32_t)(high - low)));
+}
+
 static void random_unit(test_random *r, double d[3])
 {
     double dd;
@@ -78,8 +84,8 @@ typedef struct lanes {
 static void aim_at_sphere(test_random *r, lanes *l, int k)
 {
     double d[3], side[3], along = 0, ss = 0;
-    const float radius = random_log(r, 1e-3f, 1e2f), ratio = 1 + random_log(r, 1e-2f, 4e3f);
-    const double edge = random_below(r, 2) ? 1 - (double)random_log(r, 1e-8f, 1e-1f) : (double)random_float(r, 0, 1);
+    const float radius = magnitude(r, -10, 7), ratio = 1 + magnitude(r, -6, 12);
+    const double edge = random_below(r, 2) ? 1 - (double)magnitude(r, -26, -3) : (double)random_float(r, 0, 1);
     random_unit(r, d);
     random_unit(r, side);
     for (int a = 0; a < 3; a++)
@@ -88,7 +94,7 @@ static void aim_at_sphere(test_random *r, lanes *l, int k)
         side[a] -= along * d[a];
         ss += side[a] * side[a];
     }
-    const float length = random_log(r, 1e-2f, 1e2f);
+    const float length = magnitude(r, -7, 7);
     for (int a = 0; a < 3; a++) {
         l->org[a][k] = random_float(r, -1, 1) * radius * ratio;
         l->dir[a][k] = (float)(d[a] * (double)length);
@@ -157,14 +163,14 @@ static uint64_t trace_spheres(test_random *r, uint32_t *hits, uint64_t *sum)
 static void aim_at_triangle(test_random *r, lanes *l, int k)
 {
     double e[2][3], eye[3], point[3], share[2];
-    const double size = (double)random_log(r, 1e-3f, 1e3f), far = size * (double)random_log(r, 0.1f, 1e4f);
+    const double size = (double)magnitude(r, -10, 10), far = size * (double)magnitude(r, -3, 13);
     random_unit(r, e[0]);
     random_unit(r, e[1]);
     random_unit(r, eye);
     share[0] = (double)random_float(r, 0, 1);
     share[1] = (1 - share[0]) * (double)random_float(r, 0, 1);
-    const double needle = random_below(r, 2) ? 1 : (double)random_log(r, 1e-3f, 1);
-    const float length = random_log(r, 1e-2f, 1e2f);
+    const double needle = random_below(r, 2) ? 1 : (double)magnitude(r, -10, 0);
+    const float length = magnitude(r, -7, 7);
     for (int a = 0; a < 3; a++) {
         const float v0 = random_float(r, -1, 1) * (float)size;
         l->data[a][k] = v0;
