@@ -289,7 +289,7 @@ CGT_API cgt_result cgt_scene_remove_geometry(cgt_scene *scene, uint32_t geometry
  * scene is beyond 2^40 or below 2^-36, the primitives are cut into bands of similar magnitude, and copied, times a power
  * of two, for a structure of each band: one primitive far out costs the others nothing. That takes 22 bytes a sphere and
  * 42 a triangle more, and calls that trace such a scene allocate scratch while they run: they may return OUT_OF_MEMORY.
- * Precision FAST is ROBUST there. After an error the scene counts as not committed.
+ * Precision FAST saves nothing there. After an error the scene counts as not committed.
  * Errors: INVALID_ARGUMENT (a triangle's index or a sphere's type is out of range), OUT_OF_MEMORY, TOO_LARGE (such as a BVH of more than
  * 2^26 - 1 leaves). */
 CGT_API cgt_result cgt_scene_commit(cgt_scene *scene);
