@@ -46,9 +46,10 @@ static cgt_result check_options(cgt_context *c, const cgt_trace_options *o)
                             (int)option[i].value);
     if (r->packet != 0 && r->packet != 4 && r->packet != 8 && r->packet != 16)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT, "trace options: packet %u: 4, 8, 16 or 0", r->packet);
-    if (r->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT && o->precision != CGT_PRECISION_FAST)
+    if (r->triangle_test != CGT_TRIANGLE_TEST_AUTO && o->precision != CGT_PRECISION_FAST)
         return cgt_fail(c, CGT_ERROR_INVALID_ARGUMENT,
-                        "trace options: this triangle_test has no error bound: precision must be FAST");
+                        "trace options: triangle_test %d has no error bound: precision must be FAST",
+                        (int)r->triangle_test);
     return CGT_OK;
 }
 
@@ -78,7 +79,7 @@ bool cgt_requires_packets(const cgt_trace_options *options)
 {
     const cgt_research_trace_options *r = options ? research_options(options) : &default_research;
     return r->packet || r->tile != CGT_TILE_SHAPE_AUTO || r->loop != CGT_LOOP_AUTO || r->cull != CGT_CULL_AUTO ||
-           r->mailbox != CGT_MAILBOX_AUTO || r->triangle_test != CGT_TRIANGLE_TEST_WATERTIGHT;
+           r->mailbox != CGT_MAILBOX_AUTO || r->triangle_test != CGT_TRIANGLE_TEST_AUTO;
 }
 
 cgt_result cgt_trace_prepare(const cgt_scene *scene, const cgt_trace_options *options, bool camera,

@@ -107,7 +107,7 @@ static uint32_t compare_frames(const cgt_scene *want_of, const cgt_scene *got_of
     planes want = planes_make(WIDTH, HEIGHT), got = planes_make(WIDTH, HEIGHT);
     float visible[2][WIDTH * HEIGHT];
     uint32_t hits = 0;
-    frame_trace(want_of, camera, &want, NULL);
+    frame_trace(want_of, camera, &want, &(cgt_trace_options){.precision = options->precision});
     frame_trace(got_of, camera, &got, TRACE_OPTIONS(options));
     for (size_t i = 0; i < want.elements; i++) {
         hits += want.primitive[i] != CGT_INVALID_ID;
@@ -166,8 +166,10 @@ static void hits_are_exact_at_any_magnitude(void **state)
                           got->in_bands ? got->bands->count : 0);
             banded += got->in_bands;
             apart += got->in_bands && got->bands->rest;
-            rays += compare_rays(want, got, &q, random_below(&r, 2) ? CGT_PRECISION_ROBUST : CGT_PRECISION_EXACT);
+            rays += compare_rays(want, got, &q, (cgt_precision)random_below(&r, 3));
             compare_lights(want, got, &q, &r);
+            pixels += compare_frames(want, got, &camera, &trace);
+            trace.precision = CGT_PRECISION_FAST;
             pixels += compare_frames(want, got, &camera, &trace);
             cgt_scene_release(want);
             cgt_scene_release(got);

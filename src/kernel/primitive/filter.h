@@ -112,8 +112,8 @@ CGT_SPU_INLINE void filter_moments_init(packet *p, filter_packet *f)
 
 /* The result of a test of a vector of rays. */
 typedef struct filter_result {
-    vfloat low, high;  /* the interval of t; both are t in FAST precision */
-    vfloat u, v;       /* of triangles in FAST precision */
+    vfloat low, high;  /* the interval of t; both are t where fast */
+    vfloat u, v;       /* of triangles, where fast */
     vmask certain_hit; /* a hit, certainly in the range and nearer than the best */
     vmask undecided;   /* neither a certain hit nor a certain miss */
 } filter_result;
@@ -191,11 +191,11 @@ typedef bool filter_test(const packet *p, const void *primitive, uint32_t i, boo
 typedef struct filter_mode {
     bool common_origin;
     bool any_hit;
-    bool decides;  /* not FAST */
-    bool store_uv; /* FAST, triangles */
+    bool decides;  /* not fast */
+    bool store_uv; /* fast, triangles */
 } filter_mode;
 
-/* Calls `call` with a constant mode, so that each mode gets a loop of its own. uv: FAST stores u and v. A program that
+/* Calls `call` with a constant mode, so that each mode gets a loop of its own. uv: fast packets store u and v. A program that
  * has one mode alone defines it. */
 #ifndef FILTER_FOR_MODE
 #define FILTER_FOR_MODE(p, uv, call)                                                                                   \
@@ -293,7 +293,7 @@ CGT_SPU_INLINE void filter_blocks(const cgt_primitives *prims, packet *p, filter
     }
 }
 
-/* In FAST precision: nearer than the best so far, or as near and of a lower id. t is in the ray's range, and finite. */
+/* In a fast packet: nearer than the best so far, or as near and of a lower id. t is in the ray's range, and finite. */
 CGT_SPU_INLINE vmask filter_fast_closer(const packet *p, uint32_t i, vfloat t, vuint prim)
 {
     const vfloat best = spux_load(p->high + i);
