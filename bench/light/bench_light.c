@@ -5,6 +5,7 @@
 #include "light/bench_light.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "common/bench_table.h"
@@ -70,16 +71,13 @@ static void find_bounds(light_scene *s)
 /* Traces the camera's frame, whose hits are the points. */
 static cgt_result look(light_job *job)
 {
-    static const uint32_t automatic[3];
-    light_scene *s = &job->scene;
-    bench_scene library;
+    const light_scene *s = &job->scene;
+    bench_scene library = {0};
     cgt_frame frame;
-    bench_planes_frame(&s->planes, &frame);
-    cgt_result result = bench_scene_create(&library, job->context, s->input.moving, automatic);
-    if (result != CGT_OK)
-        return result;
-    bench_scene_set_triangles(&library, s->input.index, s->input.triangles);
-    result = bench_scene_commit(&library, s->count);
+    light_scene_frame(s, &frame);
+    cgt_result result = light_scene_library(s, job->context, &library);
+    if (result == CGT_OK)
+        result = bench_scene_commit(&library, s->count);
     if (result == CGT_OK)
         result = cgt_trace_camera(library.scene, &s->camera, &frame, NULL);
     bench_scene_release(&library);
@@ -99,7 +97,8 @@ static int open_scene(light_job *job, const char *path)
     s->camera = shared->camera;
     find_bounds(s);
     bench_camera_axes_init(&s->axes, &s->camera, shared->width, shared->height);
-    if (bench_planes_create(&s->planes, shared->width, shared->height)) {
+    s->geometry = calloc((size_t)shared->width * shared->height, sizeof *s->geometry);
+    if (!s->geometry || bench_planes_create(&s->planes, shared->width, shared->height)) {
         program_error("out of memory");
         return PROGRAM_FAILED;
     }
@@ -118,6 +117,7 @@ static void close_scene(light_job *job)
     light_embree_release(job->embree);
     job->embree = NULL;
     bench_planes_release(&job->scene.planes);
+    free(job->scene.geometry);
     bench_input_release(&job->scene.input);
 }
 

@@ -27,7 +27,12 @@ typedef struct light_scene {
     cgt_camera camera;
     bench_camera_axes axes;
     bench_planes planes; /* of the camera's hits */
+    uint32_t *geometry;  /* the same */
 } light_scene;
+
+/* A scene of the library, AUTO, over the frame; and the planes of its hits. */
+cgt_result light_scene_library(const light_scene *scene, cgt_context *context, bench_scene *library);
+void light_scene_frame(const light_scene *scene, cgt_frame *frame);
 
 /* ---- lights ---- */
 

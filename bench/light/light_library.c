@@ -30,11 +30,28 @@ static cgt_result trace_frame(library_job *job, const cgt_trace_options *options
 {
     const light_scene *s = job->scene;
     cgt_frame frame;
-    bench_planes_frame(&s->planes, &frame);
+    light_scene_frame(s, &frame);
     const cgt_result result = cgt_occluded_frame(job->library.scene, &s->camera, &frame, job->place->light,
                                                  job->place->count, NULL, job->occluded, options);
     add_counts(job);
     return result;
+}
+
+cgt_result light_scene_library(const light_scene *scene, cgt_context *context, bench_scene *library)
+{
+    static const uint32_t automatic[3];
+    const bench_kd_choice kd = {0};
+    cgt_result result = bench_scene_create(library, context, scene->input.moving, automatic);
+    if (result != CGT_OK)
+        return result;
+    bench_scene_set_triangles(library, scene->input.index, scene->input.triangles);
+    return bench_scene_structure(library, CGT_STRUCTURE_AUTO, CGT_RAY_KIND_COHERENT, &kd, automatic);
+}
+
+void light_scene_frame(const light_scene *scene, cgt_frame *frame)
+{
+    bench_planes_frame(&scene->planes, frame);
+    frame->geometry = scene->geometry; /* so that no surface shadows itself */
 }
 
 /* The calls of one light after the other. */
@@ -61,7 +78,7 @@ static cgt_result run_round(library_job *job, double *ms)
     cgt_trace_options options;
     cgt_research_trace_options research;
     cgt_frame frame;
-    bench_planes_frame(&job->scene->planes, &frame);
+    light_scene_frame(job->scene, &frame);
     bench_choice_options(&choice, &job->counts, &options, &research);
     cgt_result result = bench_scene_commit(&job->library, job->scene->count);
     if (result == CGT_OK)
@@ -88,7 +105,6 @@ static void fill_result(const library_job *job, size_t bytes, light_result *resu
 cgt_result light_measure_library(cgt_context *context, const light_scene *scene, const light_place *place,
                                  const light_points *points, uint32_t rounds, light_result *result)
 {
-    static const uint32_t automatic[3];
     library_job job = {.scene = scene, .place = place, .points = points};
     const uint64_t of_light =
         points->order == LIGHT_FRAME ? (uint64_t)scene->axes.width * scene->axes.height : points->count;
@@ -97,13 +113,10 @@ cgt_result light_measure_library(cgt_context *context, const light_scene *scene,
     job.occluded = calloc(1, of_light * place->count + 1);
     cgt_result status = job.occluded && ms ? CGT_OK : CGT_ERROR_OUT_OF_MEMORY;
     if (status == CGT_OK)
-        status = bench_scene_create(&job.library, context, scene->input.moving, automatic);
-    if (status == CGT_OK) {
-        bench_scene_set_triangles(&job.library, scene->input.index, scene->input.triangles);
-        for (uint32_t k = 0; k <= rounds && status == CGT_OK; k++)
-            status = run_round(&job, &ms[k]);
-        bench_scene_release(&job.library);
-    }
+        status = light_scene_library(scene, context, &job.library);
+    for (uint32_t k = 0; k <= rounds && status == CGT_OK; k++)
+        status = run_round(&job, &ms[k]);
+    bench_scene_release(&job.library);
     if (status == CGT_OK) {
         result->ms = bench_median(ms + 1, rounds);
         fill_result(&job, of_light * place->count, result);
