@@ -135,6 +135,7 @@ static void add_row(const light_job *job, const light_place *place, const light_
     bench_table_count(t, "occluded", library->occluded);
     bench_table_real(t, "ms", library->ms);
     bench_table_real(t, "references", library->references);
+    bench_table_real(t, "tests", library->tests);
     bench_table_real(t, "tree", library->tree_share);
     bench_table_real(t, "embree_ms", is_here ? embree->ms : NAN);
     bench_table_real(t, "embree_build_ms", is_here ? embree->build_ms : NAN);

@@ -16,7 +16,7 @@ typedef struct library_job {
     bench_scene library;
     uint8_t *occluded;
     bench_counts counts;
-    uint64_t rays, tree_rays, references; /* of all calls of a round */
+    uint64_t rays, tree_rays, references, tests; /* of all calls of a round */
 } library_job;
 
 static void add_counts(library_job *job)
@@ -24,6 +24,7 @@ static void add_counts(library_job *job)
     job->rays += job->counts.trace.rays;
     job->tree_rays += job->counts.trace.bvh_rays;
     job->references += job->counts.research.references;
+    job->tests += job->counts.trace.ray_tests;
 }
 
 static cgt_result trace_frame(library_job *job, const cgt_trace_options *options)
@@ -85,7 +86,7 @@ static cgt_result run_round(library_job *job, double *ms)
         result = cgt_trace_camera(job->library.scene, &job->scene->camera, &frame, NULL);
     if (result != CGT_OK)
         return result;
-    job->rays = job->tree_rays = job->references = 0;
+    job->rays = job->tree_rays = job->references = job->tests = 0;
     const double begin = bench_now_ms();
     result = job->points->order == LIGHT_FRAME ? trace_frame(job, &options) : trace_points(job, &options);
     *ms = bench_now_ms() - begin;
@@ -99,6 +100,7 @@ static void fill_result(const library_job *job, size_t bytes, light_result *resu
     for (size_t i = 0; i < bytes; i++)
         result->occluded += job->occluded[i];
     result->references = (double)job->references / rays;
+    result->tests = (double)job->tests / rays;
     result->tree_share = (double)job->tree_rays / rays;
 }
 

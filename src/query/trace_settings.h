@@ -51,7 +51,7 @@ typedef struct cgt_trace_settings {
 typedef struct cgt_counts {
     uint64_t rays, invalid_rays, hits, bvh_rays, tiles, packets, split_packets, slices, cells, nodes, leaves,
         rope_steps, exact_steps, rope_loops, references, mailbox_skipped, cull_tests, culled, packet_tests, ray_tests,
-        double_tests, exact_tests, exact_values, early_exits, given_up;
+        double_tests, exact_tests, exact_values, early_exits, given_up, apart_work;
     struct cgt_scratch *scratch; /* core/scratch.h; of no use to kernels of one ray */
 } cgt_counts;
 

@@ -13,6 +13,11 @@
 
 #define TREE_WORK 24u    /* about what a point through a BVH takes */
 #define BUILD_WORK 3u    /* about what its building takes for each primitive */
+#define TRIAL_SHARE 8u
+#define RETRY_FACTOR 4u /* by which the budget grows from pass to pass */
+#define APART_WORK 6u  /* of what is traced outside of tiles, for a reference or a test */
+#define MOST_BUDGET 2048u
+#define RETRY_SHARE 64u /* work that each point given up must be worth at most, so that a retry is likely to help */
 #define LEAST_BUDGET 16u /* of a trial */
 /* bvh_on_demand.c counts rays: a primitive's share of the building pays for 1/32 of one. */
 #define RAY_WORK (32u * BUILD_WORK)
@@ -69,11 +74,13 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
                         bool done)
 {
     const uint64_t lanes = s->context->kernel->lanes;
-    const uint64_t work = (counts->references + counts->ray_tests / lanes) * lanes / 16;
+    const uint64_t counted = counts->references + counts->ray_tests / lanes + (APART_WORK - 1) * counts->apart_work;
+    const uint64_t work = counted * lanes / 16;
     cgt_light_experience *x = progress->experience;
     if (!progress->budget || !points)
         return;
     atomic_fetch_add_explicit(&progress->tried, points, memory_order_relaxed);
+    atomic_fetch_add_explicit(&progress->spent, work, memory_order_relaxed);
     atomic_fetch_add_explicit(&x->work, work, memory_order_relaxed);
     atomic_fetch_add_explicit(&x->points, points, memory_order_relaxed);
     if (done && work > TREE_WORK * points)
@@ -83,18 +90,25 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
 
 bool cgt_light_is_hopeless(const cgt_light_progress *progress)
 {
-    return progress->budget && 2 * atomic_load_explicit(&progress->given_up, memory_order_relaxed) >
-                                   atomic_load_explicit(&progress->tried, memory_order_relaxed);
+    if (!progress->budget)
+        return false;
+    if (atomic_load_explicit(&progress->spent, memory_order_relaxed) > progress->most_work)
+        return true;
+    return 2 * atomic_load_explicit(&progress->given_up, memory_order_relaxed) >
+           atomic_load_explicit(&progress->tried, memory_order_relaxed);
 }
 
 /* ---- choices ---- */
 
-/* The budget of a first trial. Where a tree is missing, as much may be lost as it costs. */
+/* The work that a tree's building takes. */
+static uint64_t build_work(const cgt_scene *s) { return (uint64_t)BUILD_WORK * s->committed_scene.valid; }
+
+/* The budget of a first trial: a share of what a tree would cost, where one is missing. */
 static uint32_t trial_budget(const cgt_scene *s, uint64_t points, bool has_tree)
 {
     if (has_tree)
         return TREE_WORK;
-    const uint64_t share = (uint64_t)BUILD_WORK * s->committed_scene.valid / (points ? points : 1);
+    const uint64_t share = build_work(s) / TRIAL_SHARE / (points ? points : 1);
     return share < LEAST_BUDGET ? LEAST_BUDGET : share > CGT_LIGHT_MAX_WORK ? CGT_LIGHT_MAX_WORK : (uint32_t)share;
 }
 
@@ -132,9 +146,11 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
                                 : 0;
     progress->history = history;
     progress->budget = 0;
+    progress->most_work = UINT64_MAX;
     progress->few = 2 * e->few > e->samples;
     atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
+    atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
     settings->light_tiles = false;
     settings->max_light_work = 0;
     settings->light_way = CGT_LIGHT_WAY_UNSERVED;
@@ -156,19 +172,22 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
 cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settings, cgt_light_progress *progress)
 {
     const uint64_t given_up = atomic_load_explicit(&progress->given_up, memory_order_relaxed);
-    const uint64_t tried = atomic_load_explicit(&progress->tried, memory_order_relaxed);
-    /* the points might take twice the budget: nobody knows */
-    const uint64_t rays =
-        progress->few ? given_up * SCATTERED_POINTS : given_up * (2 * progress->budget - LEAST_BUDGET) / RAY_WORK;
-    const bool most_were_done = 4 * given_up <= tried;
+    const uint64_t next = (uint64_t)progress->budget * RETRY_FACTOR;
+    /* more work for few points may cost less than a tree; it ends where it has cost as much */
+    const bool retries = !settings->use_bvh && progress->budget && next <= MOST_BUDGET && given_up <= build_work(s) / RETRY_SHARE;
+    const uint64_t rays = retries         ? given_up * progress->budget / RAY_WORK
+                          : progress->few ? given_up * SCATTERED_POINTS
+                                          : given_up;
     const cgt_result result = cgt_bvh_build_on_demand(s, rays, &settings->use_bvh);
     atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
-    if (!settings->use_bvh && most_were_done && progress->budget < CGT_LIGHT_MAX_WORK) {
-        progress->budget = settings->max_light_work = CGT_LIGHT_MAX_WORK;
+    atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
+    progress->most_work = build_work(s);
+    settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;
+    if (retries && !settings->use_bvh) {
+        progress->budget = settings->max_light_work = (uint32_t)next;
         return result;
     }
-    settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;
     settings->light_tiles = progress->few && !settings->use_bvh;
     progress->budget = settings->max_light_work = 0;
     return result;

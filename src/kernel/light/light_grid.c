@@ -295,7 +295,8 @@ static void light_trace_apart(const light_call *c, light_tile *t, uint32_t first
         return;
     }
     light_trace_packet(c, first, count, p);
-    const uint64_t extra = (LIGHT_APART_COST - 1) * (light_work(c->counts) - before);
+    const uint64_t work = light_work(c->counts) - before, extra = (LIGHT_APART_COST - 1) * work;
+    c->counts->apart_work += work;
     t->max_work -= extra < t->max_work ? extra : t->max_work;
 }
 
