@@ -79,7 +79,8 @@ typedef struct light_result {
     double ms, build_ms; /* the library builds where it traces: its time has all */
     uint64_t occluded;
     const char *way;
-    double references, tests, tree_share; /* of the library: for each point; the part of points that went through a tree */
+    double references, tests,
+        tree_share; /* of the library: for each point; the part of points that went through a tree */
 } light_result;
 
 /* By the library, after a commit and the camera's frame each time: medians. The first round warms up. */

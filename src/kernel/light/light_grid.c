@@ -300,8 +300,15 @@ static void light_trace_apart(const light_call *c, light_tile *t, uint32_t first
     t->max_work -= extra < t->max_work ? extra : t->max_work;
 }
 
-/* Traces points first to first + count - 1 of the order. */
-static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
+/* Whether the packet that has just been read is usual, but for directions that differ too much from the tile's: another
+ * tile takes it. */
+CGT_SPU_INLINE bool light_packet_begins_tile(const light_tile *t, light_packet *l)
+{
+    return t->packets && !l->rays.extreme && light_check_ranges(&l->rays, l);
+}
+
+/* Traces points first to first + count - 1 of the order, or the first of them. Returns how many. */
+static uint32_t light_trace_tile(const light_call *c, light_tile *t, uint32_t first, uint32_t count)
 {
     const cgt_rays *points = c->source.rays;
     const bool default_ranges = light_points_are_dense(c) && !points->t_min && !points->t_max;
@@ -310,8 +317,8 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
     t->given_up = false;
     t->prefetch = (prefetch_owner){t->committed_scene, &t->pending, t};
     prefetch_queues_clear(&t->pending);
-    for (uint32_t done = 0;
-         done < count && t->packets < LIGHT_TILE_PACKETS && !t->given_up && light_work(c->counts) <= t->max_work;
+    uint32_t done = 0;
+    for (; done < count && t->packets < LIGHT_TILE_PACKETS && !t->given_up && light_work(c->counts) <= t->max_work;
          done += PACKET_MAX_RAYS) {
         const uint32_t rays_left = count - done, ray_count = rays_left < PACKET_MAX_RAYS ? rays_left : PACKET_MAX_RAYS;
         const uint64_t invalid = c->counts->invalid_rays;
@@ -336,18 +343,23 @@ static void light_trace_tile(const light_call *c, light_tile *t, uint32_t first,
                 rays[t->packets++] = ray_count;
                 continue;
             }
+            if (light_packet_begins_tile(t, l)) {
+                c->counts->invalid_rays = invalid;
+                break;
+            }
         }
         c->counts->invalid_rays = invalid;
         light_trace_apart(c, t, first + done, ray_count, p);
     }
     t->given_up = t->given_up || light_work(c->counts) > t->max_work;
     if (t->given_up || !t->packets)
-        return;
+        return done;
     light_tile_finish(t);
     c->counts->tiles++;
     light_march_grid(t);
     for (uint32_t k = 0; k < LIGHT_TILE_PACKETS; k++)
         light_store_occluded(c, &t->packet[k].rays, from[k], rays[k]);
+    return done;
 }
 
 bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene, const cgt_rays *points,
@@ -375,8 +387,8 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
         c.order.from = from;
         CGT_KERNEL(cgt_light_sort_points)(&c, count, from);
     }
-    for (uint32_t i = 0; i < count; i += LIGHT_TILE_RAYS) {
-        light_trace_tile(&c, t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
+    for (uint32_t i = 0; i < count;) {
+        i += light_trace_tile(&c, t, i, count - i < LIGHT_TILE_RAYS ? count - i : LIGHT_TILE_RAYS);
         if (t->given_up) {
             counts->invalid_rays = invalid;
             cgt_scratch_return(counts->scratch, t);
