@@ -92,10 +92,9 @@ bool cgt_light_is_hopeless(const cgt_light_progress *progress)
 {
     if (!progress->budget)
         return false;
-    if (atomic_load_explicit(&progress->spent, memory_order_relaxed) > progress->most_work)
-        return true;
-    return 2 * atomic_load_explicit(&progress->given_up, memory_order_relaxed) >
-           atomic_load_explicit(&progress->tried, memory_order_relaxed);
+    const uint64_t tried = atomic_load_explicit(&progress->tried, memory_order_relaxed);
+    return atomic_load_explicit(&progress->spent, memory_order_relaxed) > progress->allowance + TREE_WORK * tried ||
+           2 * atomic_load_explicit(&progress->given_up, memory_order_relaxed) > tried;
 }
 
 /* ---- choices ---- */
@@ -133,6 +132,7 @@ static void choose_tiles(const cgt_scene *s, uint64_t points, cgt_trace_settings
                            : progress->few ? CGT_LIGHT_MAX_WORK
                                            : trial_budget(s, points, settings->use_bvh);
     }
+    progress->allowance = settings->use_bvh ? TREE_WORK * CGT_RAYS_CHUNK : build_work(s);
     settings->max_light_work = progress->budget;
 }
 
@@ -146,7 +146,6 @@ cgt_result cgt_light_choose(const cgt_scene *s, const cgt_light *light, const cg
                                 : 0;
     progress->history = history;
     progress->budget = 0;
-    progress->most_work = UINT64_MAX;
     progress->few = 2 * e->few > e->samples;
     atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
@@ -183,7 +182,6 @@ cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settin
     atomic_store_explicit(&progress->tried, 0, memory_order_relaxed);
     atomic_store_explicit(&progress->given_up, 0, memory_order_relaxed);
     atomic_store_explicit(&progress->spent, 0, memory_order_relaxed);
-    progress->most_work = build_work(s);
     settings->light_way = CGT_LIGHT_WAY_GIVEN_UP;
     if (retries && !settings->use_bvh) {
         progress->budget = settings->max_light_work = (uint32_t)next;

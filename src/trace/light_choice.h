@@ -38,8 +38,8 @@ typedef struct cgt_light_progress {
     bool few;                         /* by the estimate, tiles serve well */
     uint32_t budget;                  /* of work, for each point, while tiles may give up; else 0 */
     _Atomic uint64_t tried, given_up; /* points */
-    _Atomic uint64_t spent;           /* work of this pass, which ends where it exceeds the next number */
-    uint64_t most_work;
+    _Atomic uint64_t spent;           /* work of this pass */
+    uint64_t allowance;               /* beyond what a tree takes: tiles end where they take more */
 } cgt_light_progress;
 
 /* Chooses the way of `points` points, and builds the BVH where that pays. Sets light_tiles, max_light_work, use_bvh and
