@@ -225,10 +225,11 @@ static void light_march_grid(light_tile *t)
             light_refresh_groups(t);
             light_march_set_slopes(t, &m);
         }
-        if (t->work >= t->table_work && t->table_work != UINT64_MAX)
+        if (t->work >= t->table_work && t->table_work != UINT64_MAX && light_table_pays(t))
             light_make_table(t);
+        t->table.is_set = t->table.is_set && light_table_pays(t);
         /* queue the slice's references */
-        if (t->table.is_set) {
+        if (t->table.is_set && light_table_pays(t)) {
             light_append_slice(t, &m, &s, &light_tests);
             continue;
         }
@@ -342,6 +343,7 @@ bool CGT_KERNEL(cgt_tile_trace_light)(const cgt_committed_scene *committed_scene
     t->committed_scene = committed_scene;
     t->counts = counts;
     t->is_point = light->kind == CGT_LIGHT_POINT;
+    t->table_read = t->table_kept = 0;
     /* tiles of fewer lanes share less */
     const uint64_t max_work = (uint64_t)settings->max_light_work * count * 16 / CGT_LANES;
     t->max_work = max_work ? light_work(counts) + max_work : UINT64_MAX;

@@ -36,7 +36,8 @@ typedef struct light_tile {
     bool is_wide;                    /* some packet is */
     float lower[2], upper[2], far_w; /* over all groups: of low, high and end */
     light_table table;
-    uint64_t table_work; /* of the tile, from which on there is a table; UINT64_MAX: it was made */
+    uint64_t table_work;             /* of the tile, from which on there is a table; UINT64_MAX: it was made */
+    uint64_t table_read, table_kept; /* references of cells that a table was asked for in this chunk; still needed */
     const cgt_committed_scene *committed_scene;
     cgt_counts *counts;
     uint64_t max_work;        /* the light_work at which the chunk is given up */
@@ -279,7 +280,7 @@ static inline void light_refresh_groups(light_tile *t)
     t->changed = 0;
     t->group_tests = 0;
     light_compute_bounds(t);
-    if (t->table_work == UINT64_MAX)
+    if (t->table.is_set)
         light_make_table(t);
 }
 

@@ -16,6 +16,10 @@
 #include "kernel/light/light_groups.h"
 #include "kernel/tile/tile_march.h"
 
+/* A chunk's table is given up where, of so many references or more, it keeps a larger part than this. Measured. */
+#define LIGHT_TABLE_TRIAL 1024u
+#define LIGHT_TABLE_KEEPS 0.85f
+
 #define LIGHT_CELL_SLACK 0x1p-20f
 #define LIGHT_CELL_FACTOR (1 + 0x1p-16f)
 
@@ -144,8 +148,26 @@ CGT_SPU_INLINE void light_append_cells(light_tile *t, const tile_march *m, const
     position[m->v] = cells->position[1][k];
     const uint32_t cell = g->first + (position[2] * g->size[1] + position[1]) * g->size[0] + position[0];
     const uint32_t first = m->grid->start[cell], count = m->grid->start[cell + (end - k)] - first;
+    t->table_kept += count;
     if (count)
         prefetch_append_run(&t->prefetch, tests, m->grid->prim + first, count);
+}
+
+/* Counts the references of the slice's cells. */
+CGT_SPU_INLINE void light_count_slice(light_tile *t, const tile_march *m, const tile_slice *s)
+{
+    const uint32_t runs = tile_slice_run_count(m, s);
+    for (uint32_t k = 0; k < runs; k++) {
+        uint32_t count;
+        tile_slice_get_run(m, s, k, &count);
+        t->table_read += count;
+    }
+}
+
+/* Whether the table spares little: then asking costs more. */
+CGT_SPU_INLINE bool light_table_pays(const light_tile *t)
+{
+    return t->table_read < LIGHT_TABLE_TRIAL || (float)t->table_kept <= LIGHT_TABLE_KEEPS * (float)t->table_read;
 }
 
 /* Queues the references of the slice's cells that the tile still needs. */
@@ -154,6 +176,7 @@ CGT_SPU_INLINE void light_append_slice(light_tile *t, const tile_march *m, const
 {
     light_slice l;
     light_slice_init(m, s, &l);
+    light_count_slice(t, m, s);
     for (uint32_t first = 0; first < l.cells && !tests->is_done(t); first += CGT_LANES) {
         const uint32_t lanes = l.cells - first < CGT_LANES ? l.cells - first : CGT_LANES;
         light_cells cells;
