@@ -17,7 +17,7 @@
 #include "kernel/tile/tile_march.h"
 
 /* A chunk's table is given up where, of so many references or more, it keeps a larger part than this. Measured. */
-#define LIGHT_TABLE_TRIAL 2048u
+#define LIGHT_TABLE_TRIAL 4096u
 #define LIGHT_TABLE_KEEPS 0.87f
 
 #define LIGHT_CELL_SLACK 0x1p-20f
