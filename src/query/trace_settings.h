@@ -17,12 +17,12 @@
 
 /* Why points against a light go the way that they go (trace/light_choice.h). */
 typedef enum cgt_light_way {
-    CGT_LIGHT_WAY_NONE = 0,        /* no light, or a scene in bands */
-    CGT_LIGHT_WAY_UNSERVED,        /* no tiles: they do not serve this light or this scene */
-    CGT_LIGHT_WAY_FEW,             /* tiles: few primitives between */
-    CGT_LIGHT_WAY_MANY,            /* no tiles: many primitives between, and no BVH could take over */
-    CGT_LIGHT_WAY_TRIED,           /* tiles, on trial */
-    CGT_LIGHT_WAY_REMEMBERED,      /* tiles: they took little before */
+    CGT_LIGHT_WAY_NONE = 0,   /* no light, or a scene in bands */
+    CGT_LIGHT_WAY_UNSERVED,   /* no tiles: they do not serve this light or this scene */
+    CGT_LIGHT_WAY_FEW,        /* tiles: few primitives between */
+    CGT_LIGHT_WAY_MANY,       /* no tiles: many primitives between, and few points or no BVH that could take over */
+    CGT_LIGHT_WAY_TRIED,      /* tiles, on trial */
+    CGT_LIGHT_WAY_REMEMBERED, /* tiles: they took little before */
     CGT_LIGHT_WAY_REMEMBERED_WORK, /* no tiles: they took too much before */
     CGT_LIGHT_WAY_GIVEN_UP,        /* tiles, which gave some points up */
     CGT_LIGHT_WAYS

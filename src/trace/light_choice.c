@@ -11,14 +11,14 @@
 /* The primitives that a tile may have to test for each point so that it needs no trial. Measured. */
 #define FEW_PRIMS 16u
 
-#define TREE_WORK 24u /* about what a point through a BVH takes */
-#define BUILD_WORK 3u /* about what its building takes for each primitive */
-#define TRIAL_SHARE 8u
-#define RETRY_FACTOR 4u /* by which the budget grows from pass to pass */
-#define APART_WORK 6u   /* of what is traced outside of tiles, for a reference or a test */
-#define MOST_BUDGET 2048u
-#define RETRY_SHARE 64u  /* work that each point given up must be worth at most, so that a retry is likely to help */
-#define LEAST_BUDGET 32u /* of a trial */
+#define TREE_WORK 24u     /* about what a point through a BVH takes */
+#define BUILD_WORK 3u     /* about what its building takes for each primitive */
+#define LEAST_TRIED 1024u /* points, for a trial: fewer share little */
+#define TRIAL_SHARE 8u    /* of what a tree costs, which a trial may take at most */
+#define RETRY_FACTOR 2u   /* by which the budget grows from pass to pass */
+#define APART_WORK 6u     /* of what is traced outside of tiles, for a reference or a test */
+#define RETRY_SHARE 2u    /* of what a tree costs, which a retry may take at most */
+#define LEAST_BUDGET 32u  /* of a trial */
 /* bvh_on_demand.c counts rays: a primitive's share of the building pays for 1/32 of one. */
 #define RAY_WORK (32u * BUILD_WORK)
 #define SCATTERED_POINTS 4u /* rays that count for a point that tiles gave up although few primitives were expected */
@@ -124,13 +124,13 @@ static void choose_tiles(const cgt_scene *s, uint64_t points, cgt_trace_settings
         settings->light_way = settings->light_tiles ? CGT_LIGHT_WAY_REMEMBERED : CGT_LIGHT_WAY_REMEMBERED_WORK;
         progress->budget = settings->light_tiles ? CGT_LIGHT_MAX_WORK : 0;
     } else {
-        settings->light_tiles = progress->few || may_give_up;
-        settings->light_way = progress->few ? CGT_LIGHT_WAY_FEW
-                              : may_give_up ? CGT_LIGHT_WAY_TRIED
-                                            : CGT_LIGHT_WAY_MANY;
+        const bool tries = may_give_up && points >= LEAST_TRIED;
+        settings->light_tiles = progress->few || tries;
+        settings->light_way = progress->few ? CGT_LIGHT_WAY_FEW : tries ? CGT_LIGHT_WAY_TRIED : CGT_LIGHT_WAY_MANY;
         progress->budget = !may_give_up    ? 0
                            : progress->few ? CGT_LIGHT_MAX_WORK
-                                           : trial_budget(s, points, settings->use_bvh);
+                           : tries         ? trial_budget(s, points, settings->use_bvh)
+                                           : 0;
     }
     progress->allowance = settings->use_bvh ? TREE_WORK * CGT_RAYS_CHUNK : build_work(s);
     settings->max_light_work = progress->budget;
@@ -172,9 +172,8 @@ cgt_result cgt_light_choose_again(const cgt_scene *s, cgt_trace_settings *settin
 {
     const uint64_t given_up = atomic_load_explicit(&progress->given_up, memory_order_relaxed);
     const uint64_t next = (uint64_t)progress->budget * RETRY_FACTOR;
-    /* more work for few points may cost less than a tree; it ends where it has cost as much */
-    const bool retries =
-        !settings->use_bvh && progress->budget && next <= MOST_BUDGET && given_up <= build_work(s) / RETRY_SHARE;
+    /* more work for few points may cost less than a tree */
+    const bool retries = !settings->use_bvh && progress->budget && next * given_up <= build_work(s) / RETRY_SHARE;
     const uint64_t rays = retries         ? given_up * progress->budget / RAY_WORK
                           : progress->few ? given_up * SCATTERED_POINTS
                                           : given_up;

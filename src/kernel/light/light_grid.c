@@ -145,7 +145,7 @@ static unsigned light_tile_test_clusters(void *owner, const uint32_t *reference,
     return visible;
 }
 
-#define LIGHT_APART_COST 6u /* of work outside of tiles: 4 for each point are what a BVH takes */
+#define LIGHT_APART_COST 32u /* of work outside of tiles: 4 for each point are what a BVH takes */
 
 /* What a chunk has taken: references, and tests of groups. */
 CGT_SPU_INLINE uint64_t light_work(const cgt_counts *counts)
