@@ -82,7 +82,8 @@ void cgt_light_remember(cgt_light_progress *progress, const cgt_scene *s, const 
     atomic_fetch_add_explicit(&progress->tried, points, memory_order_relaxed);
     atomic_fetch_add_explicit(&progress->spent, work, memory_order_relaxed);
     atomic_fetch_add_explicit(&x->work, work, memory_order_relaxed);
-    atomic_fetch_add_explicit(&x->points, points, memory_order_relaxed);
+    /* a task that was given up has traced part of its points: at least the budget for each */
+    atomic_fetch_add_explicit(&x->points, done ? points : work / progress->budget, memory_order_relaxed);
     if (done && work > TREE_WORK * points)
         atomic_fetch_add_explicit(&progress->history->excess, work - TREE_WORK * points, memory_order_relaxed);
     cgt_set_flag(&progress->history->used);

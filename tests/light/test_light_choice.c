@@ -128,7 +128,7 @@ static void scattered_points_take_no_more_than_a_tree(void **state)
                       by_tree, by_tiles, first, second, given_up, s.research.light_way);
         /* a trial; at worst what a tree would have cost, three for each primitive; and some slack for what is undone */
         assert_true(first <= 2 * by_tree + 64 + 3.0 * s.prims / s.points);
-        assert_true(second <= 2 * by_tree + 40);
+        assert_true(second <= by_tree + 0.5);
         cgt_scene_release(scene);
     }
     cgt_scene_release(tiles);
