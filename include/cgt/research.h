@@ -163,9 +163,12 @@ typedef struct cgt_research_trace_statistics {
     uint64_t cull_tests;      /* primitives, and groups of triangles, tested against a packet's frustum */
     uint64_t culled;          /* of those, the ones that the test rejected */
     uint64_t early_exits;     /* packets whose hits all lay before the next slice */
-    uint32_t packet_size;     /* edge of a camera's packets, 4, 8 or 16; 0 for arrays of rays */
-    cgt_tile_shape tile;      /* that was used */
-    cgt_loop loop;            /* that was used */
+    uint64_t given_up;     /* points against a light that tiles gave up, and that went another way; each time counts */
+    const char *light_way; /* why the points of the call's last light went by tiles or not: a text that is never
+                                 freed; "" without a light */
+    uint32_t packet_size;  /* edge of a camera's packets, 4, 8 or 16; 0 for arrays of rays */
+    cgt_tile_shape tile;   /* that was used */
+    cgt_loop loop;         /* that was used */
 } cgt_research_trace_statistics;
 
 /* A camera's frame goes through a loose grid by whole tiles only where packet, tile, loop, cull, mailbox and

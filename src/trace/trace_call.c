@@ -149,6 +149,16 @@ cgt_result cgt_prepare_camera(cgt_context *c, const cgt_camera *camera, const cg
 
 /* ---- statistics ---- */
 
+static const char *const light_ways[CGT_LIGHT_WAYS] = {
+    [CGT_LIGHT_WAY_NONE] = "",
+    [CGT_LIGHT_WAY_UNSERVED] = "no tiles: they do not serve this light or this scene",
+    [CGT_LIGHT_WAY_FEW] = "tiles: few primitives between light and points",
+    [CGT_LIGHT_WAY_MANY] = "no tiles: many primitives between, and few points or no BVH that could take over",
+    [CGT_LIGHT_WAY_TRIED] = "tiles: tried, within the budget",
+    [CGT_LIGHT_WAY_REMEMBERED] = "tiles: they took little before",
+    [CGT_LIGHT_WAY_REMEMBERED_WORK] = "no tiles: they took too much before",
+    [CGT_LIGHT_WAY_GIVEN_UP] = "tiles: some points took too much and went another way"};
+
 void cgt_trace_counter_add(cgt_trace_counter *counter, const cgt_counts *counts)
 {
     uint64_t value[CGT_COUNTS];
@@ -205,6 +215,8 @@ void cgt_trace_store_statistics(const cgt_trace_options *options, const cgt_trac
                                             .cull_tests = c.cull_tests,
                                             .culled = c.culled,
                                             .early_exits = c.early_exits,
+                                            .given_up = c.given_up,
+                                            .light_way = light_ways[settings->light_way],
                                             .packet_size = settings->packet,
                                             .tile = settings->strip ? CGT_TILE_SHAPE_STRIP : CGT_TILE_SHAPE_SQUARE,
                                             .loop = settings->flattened ? CGT_LOOP_FLATTENED : CGT_LOOP_NESTED};

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "builders/bvh/bvh_on_demand.h"
 #include "core/float_environment.h"
 #include "query/camera.h"
 #include "trace/bands/band_trace.h"
@@ -30,7 +29,7 @@ typedef struct shadow_job {
     uint32_t tiles_across, tiles;
     cgt_trace_counter *counter;
     const cgt_band_call *bands; /* NULL: the scene has none */
-    _Atomic uint64_t given_up;  /* points of tiles that the loose grid gave up */
+    cgt_light_progress progress;
 } shadow_job;
 
 /* A tile's hits. */
@@ -121,9 +120,14 @@ static void trace_shadow_tile(void *argument, uint32_t index, cgt_scratch *scrat
     cgt_counts counts = {.scratch = scratch};
     tile_batch *b = cgt_scratch_take(scratch, sizeof *b);
     fill_batch(job, index, b);
-    if (b->live && !trace_batch(job, index, b, &counts)) {
+    const bool tries = b->live && !cgt_light_is_hopeless(&job->progress);
+    const bool done = !b->live || (tries && trace_batch(job, index, b, &counts));
+    if (tries)
+        cgt_light_remember(&job->progress, job->scene, &counts, b->live, done);
+    if (!done) {
+        counts.given_up = b->live;
         *tile_results(job, index) = CGT_LIGHT_GIVEN_UP;
-        atomic_fetch_add_explicit(&job->given_up, b->live, memory_order_relaxed);
+        atomic_fetch_add_explicit(&job->progress.given_up, b->live, memory_order_relaxed);
     } else {
         counts.rays += b->invalid;
         counts.invalid_rays += b->invalid;
@@ -139,44 +143,41 @@ static void trace_given_up_tile(void *argument, uint32_t index, cgt_scratch *scr
         trace_shadow_tile(argument, index, scratch);
 }
 
-/* Whether most tiles with hits are coherent. points: gets about how many points the frame has. */
-static bool choose_tiles(const shadow_job *job, cgt_scratch *scratch, uint64_t *points)
+/* Looks at some tiles. Returns about how many points the frame has. */
+static uint64_t look(const shadow_job *job, cgt_light_estimate *estimate, cgt_scratch *scratch)
 {
     const uint32_t sampled = job->tiles < SAMPLED_TILES ? job->tiles : SAMPLED_TILES;
-    uint32_t coherent = 0, with_hits = 0;
     uint64_t live = 0;
     tile_batch *b = cgt_scratch_take(scratch, sizeof *b);
     cgt_float_environment callers;
-    const bool allowed = cgt_light_allows_tiles(&job->scene->committed_scene);
+    *estimate = (cgt_light_estimate){0};
     cgt_float_environment_enter(&callers);
     for (uint32_t k = 0; k < sampled; k++) {
         fill_batch(job, (uint32_t)(((uint64_t)job->tiles * (2 * k + 1)) / (2 * sampled)), b);
         live += b->live;
-        with_hits += b->live > 0;
-        coherent +=
-            allowed && b->live && cgt_light_points_are_coherent(job->scene, job->light, &b->points.rays, 0, b->live);
+        cgt_light_estimate_add(estimate, job->scene, job->light, &b->points.rays, 0, b->live);
     }
     cgt_float_environment_leave(&callers);
     cgt_scratch_return(scratch, b);
-    *points = sampled ? live * job->tiles / sampled : 0;
-    return 2 * coherent > with_hits;
+    return sampled ? live * job->tiles / sampled : 0;
 }
 
 static cgt_light_tasks tasks_of(shadow_job *job)
 {
-    atomic_store_explicit(&job->given_up, 0, memory_order_relaxed);
     return (cgt_light_tasks){.scene = job->scene,
                              .light = job->light,
                              .trace = trace_shadow_tile,
                              .trace_given_up = trace_given_up_tile,
                              .argument = job,
                              .tasks = job->tiles,
-                             .given_up = &job->given_up,
+                             .progress = &job->progress,
                              .bands = &job->bands};
 }
 
 static cgt_result trace_light_in_bands(shadow_job *job)
 {
+    atomic_store_explicit(&job->progress.given_up, 0, memory_order_relaxed);
+    job->progress.budget = 0;
     const cgt_light_tasks tasks = tasks_of(job);
     const uint64_t points = (uint64_t)job->tiles * (TILE_EDGE * TILE_EDGE);
     return cgt_light_run_bands(&tasks, &job->settings, points, TILE_EDGE * TILE_EDGE);
@@ -187,16 +188,15 @@ static cgt_result trace_light(shadow_job *job)
 {
     const cgt_scene *s = job->scene;
     cgt_trace_settings *settings = &job->settings;
-    uint64_t points;
+    cgt_light_estimate estimate;
     cgt_scratch *scratch = cgt_scratch_borrow(s->context, 1);
     if (!scratch)
         return CGT_ERROR_OUT_OF_MEMORY;
-    const bool tiles = choose_tiles(job, scratch, &points);
+    const uint64_t points = look(job, &estimate, scratch);
     cgt_scratch_give_back(s->context, scratch);
-    const cgt_result result = cgt_bvh_build_on_demand(s, tiles ? 0 : points, &settings->use_bvh);
+    const cgt_result result = cgt_light_choose(s, job->light, &estimate, points, settings, &job->progress);
     if (result != CGT_OK)
         return result;
-    settings->light_tiles = tiles;
     const cgt_light_tasks tasks = tasks_of(job);
     return cgt_light_run_structure(&tasks, settings);
 }
