@@ -11,7 +11,7 @@
 #include "trajectory/trajectory.h"
 #include "trajectory/trajectory_columns.h"
 #include "trajectory/trajectory_input.h"
-#include "trajectory/trajectory_text.h"
+#include "trajectory/text/text_reader.h"
 
 #define DEFAULT_RADIUS 0.5f
 

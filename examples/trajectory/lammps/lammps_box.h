@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: MIT
  *
  * The box of a LAMMPS dump. */
-#ifndef TRAJECTORY_LAMMPS_BOX_H
-#define TRAJECTORY_LAMMPS_BOX_H
+#ifndef LAMMPS_BOX_H
+#define LAMMPS_BOX_H
 
 #include "trajectory/trajectory_internal.h"
 

@@ -3,8 +3,8 @@
  *
  * Rows of text: one sphere a line, its values in columns. A plan holds the meaning of each column; LAMMPS dumps and
  * extended .xyz build it from their headers. */
-#ifndef TRAJECTORY_ROW_H
-#define TRAJECTORY_ROW_H
+#ifndef TEXT_ROWS_H
+#define TEXT_ROWS_H
 
 #include "trajectory/trajectory_elements.h"
 #include "trajectory/trajectory_internal.h"

@@ -6,9 +6,9 @@
  * (Lattice=, Origin=). A name that is a whole number is a type;
  * atomic numbers are known by their property, Z or numbers. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_comment.h"
+#include "trajectory/xyz/xyz_comment.h"
 #include "trajectory/trajectory_elements.h"
-#include "trajectory/trajectory_row.h"
+#include "trajectory/text/text_rows.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,8 +4,8 @@
  * LAMMPS dump text: sections that begin with "ITEM:"; the last of a frame has the rows of atoms. Every section is
  * parsed anew: columns, count and box may change from frame to frame. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_lammps_box.h"
-#include "trajectory/trajectory_row.h"
+#include "trajectory/lammps/lammps_box.h"
+#include "trajectory/text/text_rows.h"
 
 #include <float.h>
 #include <inttypes.h>

@@ -3,7 +3,7 @@
  *
  * Rows of text into the arrays of a frame. */
 #define _POSIX_C_SOURCE 200809L
-#include "trajectory/trajectory_row.h"
+#include "trajectory/text/text_rows.h"
 
 #include <inttypes.h>
 #include <math.h>
