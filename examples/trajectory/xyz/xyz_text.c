@@ -388,10 +388,14 @@ static int xyz_skip(trajectory *t)
 
 static void xyz_end(trajectory *t) { (void)t; }
 
+static const char *const names[] = {"xyz", "extxyz", NULL};
 static const char *const endings[] = {".xyz", ".extxyz", NULL};
 
 const trajectory_format trajectory_format_xyz = {
+    .names = names,
     .endings = endings,
+    .is_series = 1,
+    .is_followed = 1,
     .state_size = sizeof(xyz_state),
     .begin = xyz_begin,
     .read = xyz_read,
