@@ -173,10 +173,10 @@ static int count_words(text_span line, unsigned *points)
 
 /* Without a name the first row must do: three more columns may be numbers of images. Ids, molecules and types are whole
  * numbers. */
-static const char *guess_style(text_span row)
+static const char *guess_style(text_span first)
 {
     unsigned points;
-    const int words = count_words(without_comment(row), &points);
+    const int words = count_words(without_comment(first), &points);
     switch (words) {
     case 5:
     case 8: return "atomic";
@@ -189,12 +189,12 @@ static const char *guess_style(text_span row)
 }
 
 /* The columns of the atoms: by the style behind the keyword, or by the first row. */
-static const char *find_columns(trajectory *t, text_span keyword, text_span row)
+static const char *find_columns(trajectory *t, text_span keyword, text_span first)
 {
     const char *const mark = memchr(keyword.begin, '#', text_length(keyword));
     text_span rest = {mark != NULL ? mark + 1 : keyword.end, keyword.end}, name;
     const int has_name = text_word(&rest, &name);
-    const char *const guess = has_name ? NULL : guess_style(row);
+    const char *const guess = has_name ? NULL : guess_style(first);
     for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
         if (has_name ? text_is(name, styles[i].name) : guess != NULL && strcmp(guess, styles[i].name) == 0) {
             if (!has_name) {
@@ -211,14 +211,14 @@ static const char *find_columns(trajectory *t, text_span keyword, text_span row)
 static int read_atoms(trajectory *t, text_span keyword)
 {
     data_state *const s = t->state;
-    text_span row = {NULL, NULL};
+    text_span first = {NULL, NULL};
     trajectory_frame unused;
     char heading[128];
     snprintf(heading, sizeof heading, "%.*s", (int)text_length(keyword), keyword.begin);
-    if (trajectory_line_inside(t, &row, "before the atoms") < 0) {
+    if (trajectory_line_inside(t, &first, "before the atoms") < 0) {
         return -1;
     }
-    const char *const columns = find_columns(t, (text_span){heading, heading + strlen(heading)}, row);
+    const char *const columns = find_columns(t, (text_span){heading, heading + strlen(heading)}, first);
     if (columns == NULL) {
         return trajectory_fail(
             t, t->text.line, "the style of the atoms is not known here: write it behind the keyword, \"Atoms # full\"");
@@ -263,7 +263,7 @@ static int read_bond(trajectory *t, text_span line)
 }
 
 /* Reads the rows of a section up to the next keyword, which *line then has: 1, 0 at the end of the file, -1. */
-static int read_rows(trajectory *t, text_span *line, int (*row)(trajectory *t, text_span line))
+static int read_rows(trajectory *t, text_span *line, int (*take)(trajectory *t, text_span line))
 {
     while (1) {
         const int status = trajectory_line(t, line);
@@ -271,7 +271,7 @@ static int read_rows(trajectory *t, text_span *line, int (*row)(trajectory *t, t
             return status;
         }
         const text_span words = without_comment(*line);
-        if (words.begin < words.end && row != NULL && row(t, words) < 0) {
+        if (words.begin < words.end && take != NULL && take(t, words) < 0) {
             return -1;
         }
     }
@@ -311,10 +311,10 @@ static int read_section(trajectory *t, text_span *line)
 {
     data_state *const s = t->state;
     const text_span keyword = *line, words = without_comment(keyword);
-    int (*row)(trajectory * t, text_span line) = NULL;
+    int (*take)(trajectory * t, text_span line) = NULL;
     const int is_atoms = text_is(words, "Atoms");
-    row = text_is(words, "Masses") ? mass_row : text_is(words, "Bonds") ? read_bond : NULL;
-    row = text_is(words, "Velocities") && s->has_atoms ? velocity_row : row;
+    take = text_is(words, "Masses") ? mass_row : text_is(words, "Bonds") ? read_bond : NULL;
+    take = text_is(words, "Velocities") && s->has_atoms ? velocity_row : take;
     char copy[128];
     snprintf(copy, sizeof copy, "%.*s", (int)text_length(keyword), keyword.begin);
     text_span blank;
@@ -333,7 +333,7 @@ static int read_section(trajectory *t, text_span *line)
         return -1;
     }
     s->has_atoms |= is_atoms;
-    return read_rows(t, line, row);
+    return read_rows(t, line, take);
 }
 
 /* ---- The format --------------------------------------------------------------------------------------------- */
