@@ -37,6 +37,7 @@ typedef enum trajectory_doubt {
     DOUBT_INTERPOLATION, /* glTF: keys that are no straight lines are played so */
     DOUBT_FRAMES,        /* the header says more frames than the file has */
     DOUBT_OLD_COLUMNS,   /* columns without names, known by their number */
+    DOUBT_NO_PLACES,     /* .trr: frames without coordinates */
     DOUBT_NO_END,        /* .pdb: no END */
     DOUBT_MORPH,         /* glTF: weights of morph targets that are not zero */
     DOUBTS
@@ -88,7 +89,12 @@ extern const trajectory_format trajectory_format_dcd;
 extern const trajectory_format trajectory_format_lammps_binary;
 extern const trajectory_format trajectory_format_lammps_data;
 extern const trajectory_format trajectory_format_pdb;
-extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
+extern const trajectory_format trajectory_format_xtc;
+extern const trajectory_format trajectory_format_trr;
+extern const trajectory_format trajectory_format_netcdf;
+extern const trajectory_format trajectory_format_vtk;
+extern const trajectory_format trajectory_format_mmcif; /* without gemmi: refuses them */
+extern const trajectory_format trajectory_format_mesh;  /* without assimp: refuses meshes */
 
 /* Opens a file of the series in place of the one that is open. Returns 1 or -1. */
 int trajectory_open_file(trajectory *t, size_t number);

@@ -47,6 +47,27 @@ int binary_bytes(binary_reader *b, void *bytes, size_t size, const char *name)
     return status == 0 ? fail_cut(b, name) : status;
 }
 
+int binary_blob(binary_reader *b, unsigned char **bytes, size_t *capacity, size_t size, const char *name)
+{
+    size_t done = 0;
+    while (done < size) {
+        const size_t part = size - done < ((size_t)1 << 20) ? size - done : (size_t)1 << 20;
+        if (*capacity - done < part) {
+            const size_t twice = 2 * *capacity < size ? 2 * *capacity : size;
+            const size_t larger = twice > done + part ? twice : done + part;
+            if (trajectory_grow(bytes, larger, 1)) {
+                return trajectory_fail(b->t, 0, "not enough memory for %s", name);
+            }
+            *capacity = larger;
+        }
+        if (binary_bytes(b, *bytes + done, part, name) < 0) {
+            return -1;
+        }
+        done += part;
+    }
+    return 1;
+}
+
 int binary_expect(binary_reader *b, uint64_t size, const char *name)
 {
     const trajectory *const t = b->t;

@@ -22,6 +22,9 @@ int binary_bytes(binary_reader *b, void *bytes, size_t size, const char *name);
 /* The same where the file may end before the first of them: then 0. */
 int binary_bytes_or_end(binary_reader *b, void *bytes, size_t size, const char *name);
 
+/* The same to an array of *capacity bytes, which grows as bytes are read, whatever the file claims. */
+int binary_blob(binary_reader *b, unsigned char **bytes, size_t *capacity, size_t size, const char *name);
+
 /* Skips bytes that must exist. Returns 1 or -1. */
 int binary_skip(binary_reader *b, uint64_t size, const char *name);
 
