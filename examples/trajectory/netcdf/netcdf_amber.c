@@ -5,6 +5,7 @@
  * restart file; time, cell_lengths, cell_angles, velocities where present. LAMMPS and others add variables of (frame, atom)
  * and (frame, atom, any), which are columns under their names. The file is read forwards, record by record. */
 #define _POSIX_C_SOURCE 200809L
+#include "trajectory/binary/atom_array.h"
 #include "trajectory/molecule/molecule_atom.h"
 #include "trajectory/netcdf/netcdf_header.h"
 
@@ -14,7 +15,6 @@
 #include <string.h>
 
 #define ATOM_RADIUS 1.0f /* Angstrom, where the options say nothing */
-#define MOST_PARTS 9u    /* columns of a variable */
 #define PART 4096u       /* atoms read at a time, so that memory grows with the file */
 
 typedef struct netcdf_state {
@@ -27,7 +27,7 @@ typedef struct netcdf_state {
     /* Of the frame. */
     double length[3], angle[3], origin[3], time;
     int cell_parts; /* bits: lengths, angles */
-    int has_id, has_type, has_velocity;
+    int has_id, has_type, has_velocity, has_radius;
 } netcdf_state;
 
 static const char data[] = "the data of a frame";
@@ -63,75 +63,24 @@ static int netcdf_begin(trajectory *t)
 
 /* ---- Variables ---------------------------------------------------------------------------------------------- */
 
-/* What the values of a variable become. */
-typedef enum variable_use { USE_NONE, USE_PLACE, USE_VELOCITY, USE_ID, USE_TYPE, USE_COLUMNS } variable_use;
-
-typedef struct variable_plan {
-    variable_use use;
-    uint32_t parts; /* values of an atom */
-    int slot[MOST_PARTS];
-    int is_wanted;
-} variable_plan;
-
-/* The columns of a variable with values for each atom, in the names that all formats have. */
-static int plan_columns(trajectory *t, const netcdf_variable *v, variable_plan *p)
-{
-    char text[NETCDF_NAME + 16];
-    for (uint32_t i = 0; i < p->parts; i++) {
-        columns_part_name(v->name, p->parts, i, text, sizeof text);
-        p->slot[i] = columns_add_named(t, text, v->type <= 4 || v->type > 6 ? TRAJECTORY_WHOLE : TRAJECTORY_NUMBER);
-        if (p->slot[i] < 0) {
-            return -1;
-        }
-        p->is_wanted |= p->slot[i] > 0;
-    }
-    return 1;
-}
-
-static int plan_variable(trajectory *t, const netcdf_variable *v, variable_plan *p)
+static int plan_variable(trajectory *t, const netcdf_variable *v, atom_array *a)
 {
     const netcdf_state *const s = t->state;
-    *p = (variable_plan){.use = USE_NONE, .parts = 1};
+    *a = (atom_array){.use = v == s->places ? ATOM_PLACE : ATOM_NONE};
     if (v->is_odd || v->is_record != s->places->is_record || s->count == 0 || length_of(s, v, 0) != s->count ||
-        v->dimension[v->is_record != 0] != s->places->dimension[s->places->is_record != 0]) {
+        v->dimension[v->is_record != 0] != s->places->dimension[s->places->is_record != 0] ||
+        v->values / s->count > ATOM_MOST_PARTS) {
         return 1;
     }
-    p->parts = v->values / s->count <= MOST_PARTS ? (uint32_t)(v->values / s->count) : 0;
-    if (v == s->places) {
-        p->use = USE_PLACE;
-    } else if (strcmp(v->name, "velocities") == 0 && p->parts == 3) {
-        p->use = USE_VELOCITY;
-    } else if (p->parts > 0) {
-        p->use = strcmp(v->name, "id") == 0 && p->parts == 1     ? USE_ID
-                 : strcmp(v->name, "type") == 0 && p->parts == 1 ? USE_TYPE
-                                                                 : USE_COLUMNS;
-        return plan_columns(t, v, p);
-    }
-    return 1;
-}
-
-static uint32_t to_whole(double value) { return value >= 0.0 && value <= (double)UINT32_MAX ? (uint32_t)value : 0; }
-
-static void store_value(trajectory *t, const variable_plan *p, size_t atom, uint32_t part, double value)
-{
-    trajectory_store *const s = &t->store;
-    switch (p->use) {
-    case USE_PLACE: s->xyzr[4 * atom + part] = (float)value; break;
-    case USE_VELOCITY: s->velocity[3 * atom + part] = (float)value; break;
-    case USE_ID: s->id[atom] = to_whole(value); break;
-    case USE_TYPE: s->type[atom] = to_whole(value); break;
-    default: break;
-    }
-    if (p->slot[part] > 0) {
-        columns_values(t, p->slot[part])[atom] = (float)value;
-    }
+    /* types 5 and 6 are float and double */
+    return atom_array_plan(t, a, v->name, (uint32_t)(v->values / s->count), v->type != 5 && v->type != 6);
 }
 
 /* Reads a variable with values for each atom. */
-static int read_atoms(trajectory *t, const netcdf_variable *v, const variable_plan *p)
+static int read_atoms(trajectory *t, const netcdf_variable *v, const atom_array *a)
 {
     netcdf_state *const s = t->state;
-    unsigned char bytes[8 * MOST_PARTS];
+    unsigned char bytes[8 * ATOM_MOST_PARTS];
     const size_t size = netcdf_size(v->type);
     if (binary_expect(&s->in, v->bytes, data) < 0) {
         return -1;
@@ -139,18 +88,19 @@ static int read_atoms(trajectory *t, const netcdf_variable *v, const variable_pl
     for (uint32_t i = 0; i < s->count; i++) {
         const uint32_t part = s->count - i < PART ? s->count - i : PART;
         if ((i % PART == 0 && trajectory_reserve(t, (size_t)i + part, s->count) < 0) ||
-            binary_bytes(&s->in, bytes, size * p->parts, data) < 0) {
+            binary_bytes(&s->in, bytes, size * a->parts, data) < 0) {
             return -1;
         }
-        for (uint32_t k = 0; k < p->parts; k++) {
+        for (uint32_t k = 0; k < a->parts; k++) {
             const double value = netcdf_value(v->type, bytes + size * k);
-            store_value(t, p, i, k, v->scale == 1.0 ? value : v->scale * value);
+            atom_array_store(t, a, i, k, v->scale == 1.0 ? value : v->scale * value);
         }
     }
-    s->has_velocity |= p->use == USE_VELOCITY;
-    s->has_id |= p->use == USE_ID;
-    s->has_type |= p->use == USE_TYPE;
-    return binary_skip(&s->in, v->bytes - (uint64_t)size * p->parts * s->count, data);
+    s->has_velocity |= a->use == ATOM_VELOCITY;
+    s->has_id |= a->use == ATOM_ID;
+    s->has_type |= a->use == ATOM_TYPE;
+    s->has_radius |= a->use == ATOM_RADIUS || a->use == ATOM_DIAMETER;
+    return binary_skip(&s->in, v->bytes - (uint64_t)size * a->parts * s->count, data);
 }
 
 /* Reads time and cell: a few numbers. */
@@ -171,7 +121,7 @@ static int read_numbers(trajectory *t, const netcdf_variable *v, double *values,
 static int read_variable(trajectory *t, const netcdf_variable *v)
 {
     netcdf_state *const s = t->state;
-    variable_plan plan;
+    atom_array plan;
     if (strcmp(v->name, "time") == 0 && v->values == 1) {
         return read_numbers(t, v, &s->time, 1);
     }
@@ -189,8 +139,7 @@ static int read_variable(trajectory *t, const netcdf_variable *v)
     if (plan_variable(t, v, &plan) < 0) {
         return -1;
     }
-    const int is_read = plan.use != USE_NONE && (plan.use != USE_COLUMNS || plan.is_wanted);
-    return is_read ? read_atoms(t, v, &plan) : binary_skip(&s->in, v->bytes, data);
+    return plan.is_wanted ? read_atoms(t, v, &plan) : binary_skip(&s->in, v->bytes, data);
 }
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
@@ -248,12 +197,12 @@ static int netcdf_read(trajectory *t, trajectory_frame *frame)
         return status;
     }
     s->time = NAN;
-    s->cell_parts = s->has_id = s->has_type = s->has_velocity = 0;
+    s->cell_parts = s->has_id = s->has_type = s->has_velocity = s->has_radius = 0;
     memset(s->origin, 0, sizeof s->origin);
     if (trajectory_reserve(t, 0, s->count) < 0 || read_record(t, 0) < 0) {
         return -1;
     }
-    for (size_t i = 0; i < s->count; i++) {
+    for (size_t i = 0; i < s->count && !s->has_radius; i++) {
         t->store.xyzr[4 * i + 3] = t->options.radius > 0.0f ? t->options.radius : ATOM_RADIUS;
     }
     trajectory_frame_fill(t, frame, s->count);
