@@ -20,8 +20,10 @@
 #include <stdint.h>
 
 /* The names of formats, and the endings that stand for them, for help and messages. */
-#define TRAJECTORY_FORMATS "lammps, lammps-binary, lammps-data, xyz, gro, pdb, dcd, frames"
-#define TRAJECTORY_ENDINGS ".lammpstrj, .dump, .bin, .data, .xyz, .extxyz, .gro, .pdb, .dcd, .frames"
+#define TRAJECTORY_FORMATS                                                                                             \
+    "lammps, lammps-binary, lammps-data, xyz, gro, xtc, trr, pdb, mmcif, dcd, netcdf, vtk, frames"
+#define TRAJECTORY_ENDINGS                                                                                             \
+    ".lammpstrj, .dump, .bin, .data, .xyz, .extxyz, .gro, .xtc, .trr, .pdb, .cif, .dcd, .nc, .vtk, .frames"
 
 typedef struct trajectory trajectory;
 

@@ -93,8 +93,8 @@ extern const trajectory_format trajectory_format_xtc;
 extern const trajectory_format trajectory_format_trr;
 extern const trajectory_format trajectory_format_netcdf;
 extern const trajectory_format trajectory_format_vtk;
-extern const trajectory_format trajectory_format_mmcif; /* without gemmi: refuses them */
-extern const trajectory_format trajectory_format_mesh;  /* without assimp: refuses meshes */
+extern const trajectory_format trajectory_format_mmcif;
+extern const trajectory_format trajectory_format_mesh; /* without assimp: refuses meshes */
 
 /* Opens a file of the series in place of the one that is open. Returns 1 or -1. */
 int trajectory_open_file(trajectory *t, size_t number);

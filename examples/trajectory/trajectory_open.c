@@ -21,7 +21,7 @@ static const trajectory_format *const formats[] = {
     &trajectory_format_lammps, &trajectory_format_xyz,           &trajectory_format_frames,      &trajectory_format_gro,
     &trajectory_format_dcd,    &trajectory_format_lammps_binary, &trajectory_format_lammps_data, &trajectory_format_pdb,
     &trajectory_format_xtc,    &trajectory_format_trr,           &trajectory_format_netcdf,      &trajectory_format_vtk,
-    &trajectory_format_mesh};
+    &trajectory_format_mmcif,  &trajectory_format_mesh};
 
 void trajectory_options_init(trajectory_options *options)
 {
