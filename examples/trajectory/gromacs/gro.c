@@ -201,6 +201,9 @@ static int read_box(trajectory *t, trajectory_frame *frame)
     if (numbers != 3 && numbers != 9) {
         return trajectory_fail(t, t->text.line, "%d numbers where the box needs 3 or 9", numbers);
     }
+    if (!t->text.has_feed) { /* 3 numbers may be the first of 9 */
+        trajectory_warn_open(t, t->text.line);
+    }
     if (edge[0][0] != 0.0 || edge[1][1] != 0.0 || edge[2][2] != 0.0) {
         trajectory_frame_set_box(frame, origin, (const double(*)[3])edge);
         memset(frame->periodic, 1, sizeof frame->periodic);

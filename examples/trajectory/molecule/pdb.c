@@ -243,6 +243,9 @@ static int read_lines(trajectory *t)
             if (s->count > 0) {
                 trajectory_warn(t, DOUBT_NO_END, t->text.line, "no END after the last atom: the file may be cut off");
             }
+            if (s->count == 0 && t->next == 0 && !s->has_models && t->text.line > 0) {
+                return trajectory_fail(t, t->text.line, "no ATOM or HETATM in the whole file: this is not PDB");
+            }
             return s->count > 0;
         }
         state = take_line(t, line);
