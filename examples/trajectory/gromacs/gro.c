@@ -142,7 +142,7 @@ static int read_atom(trajectory *t, size_t i, text_span line)
     const text_span residue = field_at(line, 5, 5);
     text_span name = field_at(line, 10, 5);
     if (text_length(name) == 0) {
-        name = (text_span){"X", "X" + 1};
+        name = MOLECULE_UNNAMED;
     }
     const uint32_t element = molecule_element(name, residue);
     s->has_element |= element != 0;

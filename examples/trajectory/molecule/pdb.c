@@ -134,7 +134,7 @@ static int read_atom(trajectory *t, text_span line)
     text_span type = {symbol, symbol + strlen(symbol)};
     type = element == 0 ? name : type;
     if (text_length(type) == 0) {
-        type = (text_span){"X", "X" + 1};
+        type = MOLECULE_UNNAMED;
     }
     s->serial = read_serial(s, field_at(line, 6, 5));
     t->store.id[i] = s->serial;
